@@ -8,11 +8,12 @@ namespace mfar {
 namespace {
 
 constexpr int kRadius = simd::kCensusRadius, kSide = 2 * kRadius + 1;
-// Upper limit of the pixels that censusAtEnd() handles: those of one end whose windows leave the
-// picture, or all of a narrow picture.
+// Upper limit of the pixels that censusAtEnd() handles: those at one end of a row whose windows
+// leave the picture, or a whole row of a narrow picture.
 constexpr int kMostAtEnd = 2 * kRadius;
 
-/// Census of `count` pixels from column `first` on, from a copy of the rows with repeated border.
+/// Computes the census of `count` pixels, from column `first` on, on a copy of the rows whose
+/// border is repeated.
 void censusAtEnd(const std::uint8_t* const (&rows)[kSide], int width, int first, int count,
                  const std::uint8_t* seen, std::uint32_t* out) {
     std::array<std::array<std::uint8_t, kMostAtEnd + 2 * kRadius>, kSide> padded{};

@@ -13,14 +13,14 @@ namespace mfar {
 namespace {
 
 constexpr float kNowhere = 1e4F;
-constexpr float kLeastWay = 0.05F;  // lower limit of a pixel's motion, where the largest is 1 [px]
-// Neighbours on one slanted surface that land on the same cell differ by this much [px].
+constexpr float kLeastWay = 0.05F;  // least motion of a pixel if the largest is 1 px [px]
+// Neighbours on one slanted surface that land on the same cell differ by up to this much [px].
 constexpr float kSlope = 1.0F;
-// Margin searched around the requested rectangle, for census windows, paths and one frame's motion.
-constexpr int kRoom = 16;  // [px]
+// Margin of the searched rectangle [px], for census windows, paths and one frame's motion.
+constexpr int kRoom = 16;
 
-/// The rectangle to search for `where`, in whole cells of 4x4 pixels except at the picture's
-/// border.
+/// Returns the rectangle that is searched for `where`: it has a margin and consists of whole cells
+/// of 4x4 pixels, except at the picture's border.
 PixelRect searchedFor(const PixelRect& where, Size video) {
     const PixelRect around = widened(where, kRoom, video);
     const auto down = [](int x) { return x / kRoom * kRoom; };
@@ -29,7 +29,7 @@ PixelRect searchedFor(const PixelRect& where, Size video) {
             up(around.y1, video.height)};
 }
 
-/// The middle two columns (or rows) of a cell, limited to the picture.
+/// The middle two columns (or rows) of a cell, clamped to the picture.
 struct Middle {
     int first, last;
     [[nodiscard]] float middle() const { return 0.5F * static_cast<float>(first + last); }
@@ -112,7 +112,8 @@ void EpipolarFlow::run(const Rows<const std::uint8_t>& video, const Pose& pose,
     unit_ = relative.unit;
     lengthError_ = relative.lengthError;
     search(relative, where);
-    // The still is drawn in the video's geometry and orientation.
+    // The search draws the still with the video's lens and in the video's orientation, so this
+    // rotation leads back to the still's own orientation.
     rotation_ = (rig_.T_still_video.rotation.conjugate() * search_.pose().rotation)
                     .toRotationMatrix()
                     .cast<float>();
@@ -126,8 +127,8 @@ void EpipolarFlow::run(const Rows<const std::uint8_t>& video, const Pose& pose,
 
 void EpipolarFlow::search(const UnitPose& relative, const PixelRect& where) {
     const PixelRect wanted = searchedFor(where, rig_.video.size);
-    // Objects that enter the picture or move by themselves are found by the search from coarse to
-    // fine.
+    // The prediction misses objects that enter the picture or move by themselves. The search from
+    // coarse to fine finds them.
     const bool isNew = around(search_.area(), wanted) != search_.area();
     const auto predicted = predictedFrames_ < mostPredicted_ && !isNew
                                ? prediction_.in(relative.T_other_frame, relative.unit)
@@ -137,7 +138,7 @@ void EpipolarFlow::search(const UnitPose& relative, const PixelRect& where) {
     search_.run(frame_, relative.T_other_frame, relative.covariance, ofArea(predicted));
 }
 
-// The cells within the search's area, out of all cells.
+// Selects the cells within the search's area from the cells of the whole picture.
 std::span<const float> EpipolarFlow::ofArea(std::span<const float> cells) {
     if (cells.empty()) return cells;
     const PixelRect& area = search_.area();
@@ -151,7 +152,7 @@ std::span<const float> EpipolarFlow::ofArea(std::span<const float> cells) {
     return predicted_;
 }
 
-// Outside the searched area, the value of the nearest searched pixel.
+// Returns s at a pixel. Outside the searched area, this is the value of the nearest searched pixel.
 float EpipolarFlow::nearnessAt(int x, int y) const {
     const PixelRect& area = search_.area();
     const int column = std::clamp(x, area.x0, area.x1 - 1) - area.x0;
@@ -159,8 +160,9 @@ float EpipolarFlow::nearnessAt(int x, int y) const {
     return search_.inverseDepth()[static_cast<std::size_t>(row) * (area.x1 - area.x0) + column];
 }
 
-// Where the still, at the video's geometry, shows a ray's point; far outside when the point lies
-// behind the camera, or so close to its image plane that its pixel is meaningless.
+// Returns where the still, drawn with the video's lens, shows a ray's point. The result is far
+// outside if the point lies behind the camera, or so close to its image plane that the pixel is
+// meaningless.
 EpipolarLens::Point EpipolarFlow::endOf(float rayX, float rayY, float s) const {
     const Eigen::Vector3f& t = search_.translation();
     const Eigen::Vector3f p = rotation_ * Eigen::Vector3f(rayX + s * (t.x() - rayX * t.z()),
@@ -195,7 +197,7 @@ simd::FlowEnds EpipolarFlow::flowEnds() const {
     return out;
 }
 
-// Rays of all cells in row j.
+// Returns the rays of all cells in row j.
 simd::CellRow EpipolarFlow::cellRow(int j, const float* raysX, const float* raysY) const {
     const std::size_t first = static_cast<std::size_t>(j) * cells_.width;
     return {raysX + first, raysY + first, middlesX_.data(), middlesY_[j],
@@ -210,7 +212,7 @@ const std::vector<float>& EpipolarFlow::inverseDepthOf(const Cells& flow) {
     workers_->forRange(cells_.height, 8, [&](int first, int last) {
         for (int j = first; j < last; ++j) {
             const std::size_t cell = static_cast<std::size_t>(j) * cells_.width;
-            // Both flows start in the middle of the cell.
+            // Rays through the centres of cells, because both flows start there.
             simd::alignCells(ends, cellRow(j, cellRays_.raysX().data(), cellRays_.raysY().data()),
                              flow.data() + cell, forward_.data() + cell, pixel, kLeastWay,
                              aligned_.data() + cell);
@@ -229,7 +231,7 @@ float EpipolarFlow::offLine(int x, int y, float flowX, float flowY) const {
     const auto pixel = static_cast<float>(1 / search_.pixelsPerUnit());
     const auto next = endOf(lens_.rayX(i), lens_.rayY(i), s + pixel);
     const float wayX = next.x - on.x, wayY = next.y - on.y, way = std::hypot(wayX, wayY);
-    // Near the epipole, depth does not move the pixel.
+    // Near the epipole, a change of depth hardly moves the pixel.
     if (!(way > kLeastWay)) return std::hypot(dx, dy);
     return std::abs(dx * wayY - dy * wayX) / way;
 }
@@ -247,7 +249,7 @@ void EpipolarFlow::fillForward() {
     });
 }
 
-// Mean of the middle two of a cell's four central values: an edge between the pixels does not
+// The mean of the middle two of a cell's four central values. An edge between these pixels does not
 // distort it.
 float EpipolarFlow::depthOf(int i, int j) const {
     const Middle x = middleOf(i, rig_.video.size.width), y = middleOf(j, rig_.video.size.height);

@@ -3,7 +3,8 @@
 namespace mfar {
 namespace {
 
-// Rays are followed beyond the picture up to this factor, unless the lens folds them back before.
+// Rays are valid up to this multiple of the radius of the picture's corners, unless the lens model
+// folds them back before.
 constexpr double kBeyondPicture = 2;
 
 }  // namespace
@@ -50,7 +51,7 @@ EpipolarLens::EpipolarLens(const CameraModel& camera, int level)
     const auto pixels = static_cast<std::size_t>(size_.width) * size_.height;
     rays_->x.reserve(pixels);
     rays_->y.reserve(pixels);
-    double rim = 0;  // largest squared radius of the picture's corners
+    double rim = 0;  // largest squared radius of a pixel's ray
     Eigen::Vector2d ray(0, 0);
     for (int y = 0; y < size_.height; ++y) {
         for (int x = 0; x < size_.width; ++x) {
@@ -75,7 +76,7 @@ void EpipolarLens::cover(const EpipolarLens& whole, const PixelRect& pixels) {
         rays_ = whole.rays_;
         return;
     }
-    // Reuses the memory of the last part, unless other copies share the table.
+    // Reuse the memory of the last part, unless other copies share the table.
     if (rays_.use_count() > 1) rays_ = std::make_shared<Rays>();
     const auto take = [&](const std::vector<float>& from, std::vector<float>& to) {
         to.clear();

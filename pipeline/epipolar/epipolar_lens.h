@@ -10,28 +10,29 @@
 
 namespace mfar {
 
-/// Largest radius of the rays (x/z, y/z) through the picture's corners.
+/// Returns the largest radius of the rays (x/z, y/z) through the picture's corners.
 [[nodiscard]] double cornerRadius(const CameraModel& camera);
 
-/// Largest radius of a ray that the lens's radial distortion does not fold back, searched from
-/// `picture`, the radius of the picture's corners, to `beyond` times that radius.
+/// Returns the largest radius up to which the lens's radial distortion does not fold rays back. It
+/// is searched between `picture`, the radius of the picture's corners, and `beyond` times that
+/// radius.
 [[nodiscard]] double rimOf(const CameraModel& camera, double picture, double beyond);
 
-/// The rays of a camera's pixels at one pyramid level, and where a translation moves them. Copies
-/// share the table of the rays.
+/// The rays of a camera's pixels at one pyramid level, and where a translation of the camera moves
+/// their points. Copies share the table of rays.
 ///
-/// The state is s [1/unit of length], the inverse depth seen from the second view. A point at ray
-/// r = (x, y) with depth Z is seen by a camera of the same orientation whose motion moves points
-/// by t. There it lies at r + s (t.xy - r t.z) with s = 1 / (Z + t.z). This is linear in s, so
-/// equal steps of s are equal steps on the epipolar line. The inverse depth in the first view is
-/// rho = s / (1 - s t.z) (Hartley and Zisserman, 9.5).
+/// The unknown is s [1/unit of length], the inverse depth of a point seen from the second view. The
+/// first view sees the point at ray r = (x, y) and depth Z. The second view has the same
+/// orientation; its motion moves points by t. It sees the point at r + s (t.xy - r t.z) with s = 1
+/// / (Z + t.z). This is linear in s, so equal steps of s are equal steps on the epipolar line. The
+/// inverse depth in the first view is rho = s / (1 - s t.z). Source: Hartley and Zisserman, 9.5.
 class EpipolarLens {
 public:
-    /// `camera`: the camera of the finest level; `level`: number of halvings, each of which rounds
+    /// `camera`: the camera at the finest level. `level`: number of halvings; each of them rounds
     /// the size up.
     EpipolarLens(const CameraModel& camera, int level);
 
-    /// Becomes a lens for these pixels of `whole` only.
+    /// Makes this a lens for a part of the pixels of `whole`.
     void cover(const EpipolarLens& whole, const PixelRect& pixels);
 
     [[nodiscard]] Size size() const { return size_; }
@@ -40,16 +41,16 @@ public:
     /// The rays of all pixels, row-major.
     [[nodiscard]] const std::vector<float>& raysX() const { return rays_->x; }
     [[nodiscard]] const std::vector<float>& raysY() const { return rays_->y; }
-    /// For kernels.
+    /// The lens in the form that SIMD kernels need.
     [[nodiscard]] const simd::Lens& lens() const { return lens_; }
 
     struct Point {
         float x, y;
     };
-    /// Ray (x / z, y / z) to pixel of this level, with the lens's distortion. Rays beyond the
-    /// lens's rim are moved to the rim, so that distortion never folds them back.
+    /// Maps a ray (x / z, y / z) to a pixel of this level, with the lens's distortion. Rays beyond
+    /// the rim of the lens are moved to the rim, so that distortion never folds them back.
     [[nodiscard]] Point project(float x, float y) const {
-        // No branch, so that the compiler vectorizes loops over pixels.
+        // No branch, so that the compiler can vectorize loops over pixels.
         const float r2 = x * x + y * y;
         const float c = std::sqrt(lens_.rim2 / std::max(r2, lens_.rim2));
         x *= c;
@@ -61,9 +62,10 @@ public:
                 lens_.fy * (y * radial + lens_.p2 * xy + lens_.p1 * (q + 2 * y * y)) + lens_.cy};
     }
 
-    /// Row-major index of the pixel that contains a point; -1 outside the picture.
+    /// Returns the row-major index of the pixel that contains a point; -1 outside the picture.
     [[nodiscard]] int pixelAt(Point p) const {
-        // Truncates, because the oldest x86 has no rounding instruction.
+        // Truncate instead of rounding, because the oldest supported x86 CPUs have no rounding
+        // instruction.
         const float u = p.x + 0.5F, v = p.y + 0.5F;
         const bool inside = u >= 0 && v >= 0 && u < static_cast<float>(size_.width) &&
                             v < static_cast<float>(size_.height);
@@ -77,7 +79,7 @@ private:
 
     Size size_;
     simd::Lens lens_;
-    std::shared_ptr<Rays> rays_;  // written only while it is not shared
+    std::shared_ptr<Rays> rays_;  // written only while no copy shares it
 };
 
 }  // namespace mfar

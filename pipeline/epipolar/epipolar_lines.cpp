@@ -1,10 +1,11 @@
-// Labels on epipolar lines: their matching costs, and sub-label positions.
+// The parts of EpipolarSearch that work on labels along epipolar lines: matching costs, and
+// positions between labels.
 #include "pipeline/epipolar/epipolar_search.h"
 
 namespace mfar {
 namespace {
 
-constexpr double kNoSlack = 0.5;  // [px of a level]
+constexpr double kNoSlack = 0.5;  // [px of a level]; see EpipolarSearch::normalError()
 
 simd::LabelRow rowOf(const EpipolarLens& lens, int y) {
     const auto width = static_cast<std::size_t>(lens.size().width), first = y * width;

@@ -11,13 +11,14 @@
 namespace mfar {
 namespace {
 
-// Lower limit of the coarsest level's short side [px].
+// Lower limit of the shorter side of the coarsest level [px].
 constexpr int kCoarsest = 60;
-// Labels beyond infinity at the finest level: room for noise and errors of the pose.
+// Number of labels beyond infinity at the finest level. Noise and errors of the pose can move the
+// match of a distant point there.
 constexpr int kBeyond = 4;
 constexpr int kSmallestCanvas = 16;
 constexpr int kMostStep = 30;
-constexpr int kPredictedLevel = 2;  // of the pyramid: cells are 4x4 pixels
+constexpr int kPredictedLevel = 2;  // pyramid level of cells of 4x4 pixels
 
 Smoothness smoothnessFor(double noise, const EpipolarOptions& options) {
     const int step = options.stepPenalty;
@@ -26,9 +27,9 @@ Smoothness smoothnessFor(double noise, const EpipolarOptions& options) {
             .noise = 2 * noise};
 }
 
-// Weight of a neighbour in the smoothing before the census: zero up to a noise of one grey level
-// (smoothing increases the bad pixels of clean pictures by a third), the full three-pixel binomial
-// above a noise of about two.
+// Returns the weight of a neighbour in the smoothing before the census. It is zero up to a noise of
+// one grey level, because smoothing increases the wrong pixels of clean pictures by a third. Above
+// a noise of about two grey levels, it is that of the three-pixel binomial filter.
 float smoothingFor(double noise) {
     return static_cast<float>(std::clamp(0.2 * (noise - 1.0), 0.0, 0.25));
 }
@@ -46,7 +47,7 @@ std::size_t pixelsOf(Size size) {
     return static_cast<std::size_t>(size.width) * size.height;
 }
 
-/// Number of label vectors of the whole picture, at the level that needs the most.
+/// Returns the number of label vectors of the whole picture at the level that needs the most.
 std::size_t mostVectors(Size size, const EpipolarOptions& options) {
     const std::size_t finest = pixelsOf(size);
     const double longest = options.longestParallax * size.width;
@@ -65,19 +66,19 @@ float soundLabel(float label, float longest) {
     return label > -kBeyond ? std::min(label, longest) : static_cast<float>(-kBeyond);
 }
 
-// With at least this many patches, the median of their distances is a better estimate than the
-// pose's covariance.
+// From this number of patches on, the median distance of the matches from their lines is a better
+// estimate of the error than the pose's covariance.
 constexpr int kEnoughPatches = 16;
 
-/// How far a pose's uncertainty shifts the lines [px]: the effect of its rotation, as on distant
-/// points.
+/// Returns how far a pose's uncertainty shifts the epipolar lines [px]. Only the uncertainty of its
+/// rotation counts, as for distant points.
 double normalErrorOf(const Matrix6& covariance, double focal) {
     constexpr double kNoLine = 1e6;  // [px]
     const double variance = covariance.topLeftCorner<3, 3>().trace() / 3;
     return variance > 0 ? std::min(focal * std::sqrt(variance), kNoLine) : 0;
 }
 
-// Index of a level's pixel that contains a pixel of the finest level.
+// Returns the index of the pixel at a coarser level that contains a pixel of the finest level.
 std::size_t coarseIndex(const Eigen::Vector2d& pixel, Size size, int level) {
     const double scale = 1 << level;
     const int x = std::min(static_cast<int>((pixel.x() + 0.5) / scale), size.width - 1);
@@ -85,7 +86,7 @@ std::size_t coarseIndex(const Eigen::Vector2d& pixel, Size size, int level) {
     return static_cast<std::size_t>(y) * size.width + x;
 }
 
-// The same camera with a sensor that has only these pixels.
+// Returns the same camera with a sensor that has only these pixels.
 CameraModel partOf(CameraModel camera, const PixelRect& pixels) {
     camera.size = {pixels.x1 - pixels.x0, pixels.y1 - pixels.y0};
     camera.cx -= pixels.x0;
@@ -115,7 +116,8 @@ EpipolarSearch::EpipolarSearch(const StereoRig& rig, std::shared_ptr<Workers> wo
 }
 
 void EpipolarSearch::setArea(const PixelRect& pixels) {
-    // One pixel of the coarsest level, so that the pixels of all levels keep their places.
+    // A pixel of the coarsest level covers this number of pixels. The area starts and ends on this
+    // grid, so that the pixels of all levels keep their places.
     const int grid = 1 << (levels_.size() - 1);
     const auto up = [&](int x, int most) { return std::min((x + grid - 1) / grid * grid, most); };
     const PixelRect area{pixels.x0 / grid * grid, pixels.y0 / grid * grid,
@@ -158,7 +160,7 @@ bool EpipolarSearch::run(const Rows<const std::uint8_t>& video, const RigidTrans
     videoNoise_ = noiseOf(levels_[0].video);
     refinement_ = {};
     normalError_ = 0;
-    // A predicted field is searched at one level only; patches need two levels.
+    // A search around a predicted field needs one level only; matching patches needs two levels.
     const int all = static_cast<int>(levels_.size());
     const int searched = predicted.empty() ? all : finestLevel() + 1;
     const int drawn = covariance ? std::min(std::max(searched, 2), all) : searched;
@@ -190,8 +192,8 @@ int EpipolarSearch::finestLevel() const {
     return std::min(options_.finest, static_cast<int>(levels_.size()) - 1);
 }
 
-// A pixel takes the value of the coarser pixel that covers it. For cells of 4x4 pixels half size
-// suffices: their four middle pixels lie in four different pixels of that level.
+// Each pixel takes the value of the coarser pixel that covers it. Half size suffices for cells of
+// 4x4 pixels: the four middle pixels of a cell lie in four different pixels of that level.
 void EpipolarSearch::readInverseDepth() {
     const int finest = finestLevel();
     const Level& level = levels_[finest];
@@ -227,8 +229,9 @@ bool EpipolarSearch::place(const RigidTransform& told, int levels) {
     return true;
 }
 
-// Without a prediction, the depths come from the coarsest level: its pixels are so large that the
-// lines of an unrefined pose still pass through the matches. Predictions come from refined poses.
+// Without a prediction, the depths for matching patches come from the coarsest level. Its pixels
+// are so large that the lines of an unrefined pose still pass through the matches. With a
+// prediction, they come from the prediction, which was computed with refined poses.
 void EpipolarSearch::refine(const Matrix6& covariance, std::span<const float> predicted) {
     const PosePrior prior{translation_.cast<double>(), covariance};
     const Level& half = levels_[std::min<std::size_t>(1, levels_.size() - 1)];
@@ -251,8 +254,8 @@ void EpipolarSearch::refine(const Matrix6& covariance, std::span<const float> pr
                                                         : refinement_.normalAfter;
 }
 
-// The still rotated into the frame's orientation: the rotation is exact for every depth. The canvas
-// holds the part of it that a parallax can reach.
+// Rotates the still into the frame's orientation, which is exact for every depth. The canvas holds
+// the part of the still that a parallax can reach.
 bool EpipolarSearch::turnStill(const Eigen::Matrix3d& R_still_video, int levels) {
     const double beyond = options_.longestParallax * whole_.size.width / video_.size.width;
     turned_.place(video_, still_, R_still_video, beyond);
@@ -276,7 +279,8 @@ bool EpipolarSearch::turnStill(const Eigen::Matrix3d& R_still_video, int levels)
     return true;
 }
 
-// One label is one pixel where a change of s moves the picture the most.
+// Chooses the size of labels: one label moves a pixel by one pixel where a change of s has the
+// largest effect.
 void EpipolarSearch::measureParallax() {
     const EpipolarLens& lens = levels_[0].lens;
     const Size size = lens.size();
@@ -366,8 +370,8 @@ void EpipolarSearch::match(int index, int vectors) {
         placeLabels(index);
 }
 
-// The window of a pixel covers the labels that the coarser level found around it, with room on both
-// sides.
+// Centres each pixel's window of labels on the labels that the coarser level found around it, with
+// some room on both sides.
 void EpipolarSearch::centreWindows(const Coarser& coarse, Level& fine) {
     constexpr int kRoom = 2;
     const Size from = coarse.size, to = fine.lens.size();

@@ -18,68 +18,68 @@
 
 namespace mfar {
 
-/// The still camera, scaled to about as many pixels per ray as the video camera, or fewer.
+/// Returns the still camera, scaled so that it has about as many pixels per ray as the video
+/// camera, but never scaled up.
 [[nodiscard]] CameraModel atScaleOf(const StereoRig& rig);
 
-/// Dense matching of a video frame with a still whose relative pose is known: a search along each
-/// pixel's epipolar line, coarse to fine, with a census cost and semi-global smoothness.
-///
-/// Runs on the CPU, without GL.
+/// Dense matching of a video frame with a still whose relative pose is known. Searches along each
+/// pixel's epipolar line, from coarse to fine, with a census cost and semi-global smoothness. Runs
+/// on the CPU, without GL.
 class EpipolarSearch {
 public:
-    /// Throws std::invalid_argument for options out of range.
+    /// Throws std::invalid_argument if an option is out of range.
     EpipolarSearch(const StereoRig& rig, std::shared_ptr<Workers> workers,
                    const EpipolarOptions& options = {});
 
-    /// See changed() in flow_options.h; takes effect with the next run. Throws
-    /// std::invalid_argument for options out of range.
+    /// Takes effect with the next run, but only for options that may change between frames, see
+    /// changed() in flow_options.h. Throws std::invalid_argument if an option is out of range.
     void setOptions(const EpipolarOptions& options) { options_ = changed(options_, options); }
 
-    /// Sets the still as its sensor took it.
+    /// Sets the still as its sensor delivered it.
     void setStill(const ImageView& still);
-    /// As above, for the still's luma.
+    /// As above, for the luma of a still.
     void setStill(const Rows<const std::uint8_t>& still);
 
-    /// From now on, searches only these pixels of the video, widened to a grid of a few pixels.
-    /// Initially the area is the whole picture.
+    /// From now on, only these pixels of the video are searched; the area is widened to a grid of a
+    /// few pixels. Initially the area is the whole picture.
     void setArea(const PixelRect& pixels);
     [[nodiscard]] const PixelRect& area() const { return area_; }
     /// The lens for the video's whole picture.
     [[nodiscard]] const EpipolarLens& videoLens() const { return lenses_.front(); }
 
-    /// `video`: the whole picture. `T_still_video`: from video camera coordinates at the frame's
-    /// time to still camera coordinates at the still's time; its unit of length is free.
-    /// `covariance`: of a small motion x with T_still_video * exp(x). If given, the pose is first
-    /// refined from the pictures; otherwise it is taken as exact. `predicted`: approximate s of
-    /// every cell of 4x4 pixels of the area, row-major; if given, the coarser levels, which would
-    /// find it, are skipped. Returns false and a field of zeros when no part of the still is in
-    /// reach or the pose is invalid (soundMotion()).
+    /// `video`: the whole frame. `T_still_video`: from video camera coordinates at the frame's time
+    /// to still camera coordinates at the still's time, in any unit of length. `covariance`: of a
+    /// small motion x in T_still_video * exp(x). If it is given, the pose is first refined from the
+    /// pictures; otherwise the pose is taken as exact. `predicted`: approximate s of every cell of
+    /// 4x4 pixels in the area, row-major. If it is given, the coarser levels are skipped, because
+    /// they would only find these values. Returns false, and a field of zeros, if the pose is
+    /// invalid (soundMotion()) or no part of the still can show the area.
     bool run(const Rows<const std::uint8_t>& video, const RigidTransform& T_still_video,
              const std::optional<Matrix6>& covariance = std::nullopt,
              std::span<const float> predicted = {});
 
-    /// The T_still_video whose lines were searched; refinement() describes how it was found.
+    /// The T_still_video whose epipolar lines were searched; refinement() tells how it was refined.
     [[nodiscard]] const RigidTransform& pose() const { return pose_; }
     [[nodiscard]] const PoseRefinement& refinement() const { return refinement_; }
-    /// Expected distance of matches from the lines [px]. Levels where it exceeds half a pixel also
-    /// search one pixel to both sides of each line.
+    /// Expected distance of matches from their epipolar lines [px]. Levels where it exceeds half a
+    /// pixel also search one pixel to both sides of each line.
     [[nodiscard]] double normalError() const { return normalError_; }
 
-    /// Per pixel of the area: s [1/unit of length], see EpipolarLens. Less than zero where noise or
-    /// errors of the pose put the best match beyond infinity.
+    /// s [1/unit of length] of each pixel of the area, see EpipolarLens. It is negative where noise
+    /// or errors of the pose move the best match beyond infinity.
     [[nodiscard]] const std::vector<float>& inverseDepth() const { return inverseDepth_; }
-    /// Largest motion of a pixel per unit of s [px]; zero: there is no parallax and nothing was
+    /// Largest motion of a pixel per unit of s [px]; zero if there is no parallax and nothing was
     /// searched.
     [[nodiscard]] double pixelsPerUnit() const { return pixelsPerUnit_; }
     /// Translation of points from the frame to the still, in the frame's orientation.
     [[nodiscard]] const Eigen::Vector3f& translation() const { return translation_; }
-    /// Labels compared at the finest level; zero when nothing was searched.
+    /// Number of labels compared at the finest level; zero if nothing was searched.
     [[nodiscard]] int labels() const { return labels_; }
 
 private:
     struct Level {
         EpipolarLens lens;
-        PixelOffset origin;  // of the still's canvas [px of the lens]
+        PixelOffset origin;  // first pixel of the still's canvas [px of the lens]
         LumaImage video, still, smoothVideo, smoothStill;
         std::vector<std::uint8_t> seen;
         std::vector<std::uint32_t> videoCensus, stillCensus;
@@ -89,7 +89,7 @@ private:
         [[nodiscard]] TurnedPair pair() const { return {lens, origin, video, still, seen}; }
     };
 
-    /// Draws the still for the first `levels` levels.
+    /// Draws the still at the first `levels` levels, as seen in the frame's orientation.
     [[nodiscard]] bool place(const RigidTransform& T_still_video, int levels);
     [[nodiscard]] bool turnStill(const Eigen::Matrix3d& R_still_video, int levels);
     [[nodiscard]] bool matchAll(const std::optional<Matrix6>& covariance,
@@ -102,7 +102,8 @@ private:
     void searchAround(std::span<const float> predicted);
     void refine(const Matrix6& covariance, std::span<const float> predicted);
     void prepare(int index);
-    /// Approximate labels from a level at `scale` of its size, each covering 2^shift pixels.
+    /// Approximate labels of a coarser level. `scale`: labels of the finer level per label of
+    /// these. Each value covers 2^shift pixels of the finer level along each axis.
     struct Coarser {
         const std::vector<float>& labels;
         Size size;
@@ -117,8 +118,7 @@ private:
     void placeLabels(int index);
 
     EpipolarOptions options_;
-    CameraModel whole_, video_, still_;  // video_: the part that is the area; still_: see
-                                         // atScaleOf()
+    CameraModel whole_, video_, still_;  // video_: the camera of the area; still_: see atScaleOf()
     PixelRect area_;
     std::vector<EpipolarLens> lenses_;  // one per level, for the whole picture
     std::shared_ptr<Workers> workers_;

@@ -8,9 +8,10 @@
 namespace mfar {
 namespace {
 
-constexpr int kCellLevel = 2;  // of the pyramid: cells are 4x4 pixels
+constexpr int kCellLevel = 2;  // pyramid level of cells of 4x4 pixels
 constexpr float kUnknown = -1e9F;
-// Widest gap that is closed at the picture's border and at depth edges [cells]: 12 px a frame.
+// Widest gap that is filled at the picture's border and at depth edges [cells]. It allows motions
+// of 12 px per frame.
 constexpr int kWidestGap = 3;
 
 }  // namespace
@@ -30,7 +31,7 @@ std::span<const float> FieldPrediction::in(const RigidTransform& T_still_frame, 
     return fillGaps() ? std::span<const float>(landed_) : std::span<const float>();
 }
 
-// Points are homogeneous, (x, y, z, s): distant points have s near zero.
+// Points are homogeneous, (x, y, z, s), so distant points have s near zero.
 void FieldPrediction::land(const RigidTransform& T_still_frame, double unit) {
     RigidTransform T_still_next = T_still_frame, T_still_last = keptPose_;
     T_still_next.translation *= unit / unit_;
@@ -61,7 +62,7 @@ void FieldPrediction::land(const RigidTransform& T_still_frame, double unit) {
     }
 }
 
-// Areas that an edge uncovers take the depth of the farthest surface next to them.
+// An area that a depth edge uncovers takes the depth of the farthest surface next to it.
 bool FieldPrediction::fillGaps() {
     const Size size = cells_.size();
     for (int round = 0; round < kWidestGap; ++round) {

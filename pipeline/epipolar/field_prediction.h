@@ -9,20 +9,21 @@
 
 namespace mfar {
 
-/// Predicts the inverse depths of the next frame: carries those of one frame over by the poses,
-/// onto cells of 4x4 pixels. Where several surfaces meet, the nearest one is kept (z-test).
+/// Predicts the inverse depths of the next frame: moves those of one frame according to the poses,
+/// onto cells of 4x4 pixels. Where several surfaces land on a cell, the nearest is kept (z-test).
 class FieldPrediction {
 public:
     explicit FieldPrediction(const CameraModel& video);
 
-    /// `nearness`: s of every cell, row-major, see EpipolarLens [1/unit]; `T_still_frame`: its
-    /// translation in units; `unit`: in the poses' unit of length.
+    /// Keeps the result of a frame. `nearness`: s of every cell [1/unit], row-major, see
+    /// EpipolarLens. The translation of `T_still_frame` is in units. `unit`: length of a unit, in
+    /// the unit of length of the poses.
     void keep(std::span<const float> nearness, const RigidTransform& T_still_frame, double unit);
-    /// Discards the kept frame: the still is new or the depths are no longer valid.
+    /// Discards the kept frame, because the still is new or the depths are no longer valid.
     void forget() { kept_.clear(); }
 
-    /// s of every cell of a frame with that pose [1/unit]. Empty when no frame is kept or the kept
-    /// frame does not show the same part of the scene. Valid until the next call.
+    /// Returns s of every cell of a frame with that pose [1/unit]. Empty if no frame is kept, or if
+    /// the kept frame does not show the same part of the scene. Valid until the next call.
     [[nodiscard]] std::span<const float> in(const RigidTransform& T_still_frame, double unit);
 
 private:
@@ -31,8 +32,8 @@ private:
 
     EpipolarLens cells_;
     std::vector<float> kept_, landed_, filled_;
-    std::vector<std::int32_t> landing_;  // cell where each cell of kept_ lands
-    std::vector<float> moved_;           // s at the landing place
+    std::vector<std::int32_t> landing_;  // cell on which each cell of kept_ lands
+    std::vector<float> moved_;           // s of each cell of kept_ after the motion
     RigidTransform keptPose_;
     double unit_ = 1;
 };

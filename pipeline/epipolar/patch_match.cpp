@@ -9,18 +9,20 @@
 namespace mfar {
 namespace {
 
-// Structure tensors are summed over blocks of this side; a patch is two by two blocks.
+// Structure tensors are summed over blocks with this side; a patch consists of two by two blocks.
 constexpr int kBlock = kPatch / 2;
-constexpr int kPlaces = 300;  // at least, if there are enough blocks
+constexpr int kPlaces = 300;  // lower limit of the number of cells, if there are enough blocks
 constexpr int kPixels = kPatch * kPatch;
-// Lower limit of a match's correlation, and by how much a distant rival must be worse.
+// Lower limit of a match's correlation. The match is ambiguous if a place farther away than
+// kRivalDistance has a correlation that is less than kRival lower.
 constexpr double kLeastScore = 0.75;
 constexpr double kRival = 0.06;
 constexpr double kRivalDistance = 2.5;  // [px]
-// Upper limits of the inverse-compositional steps and of their total length [px].
+// Upper limits of the number of inverse-compositional steps and of their total length along each
+// axis [px]. A step shorter than kShortStep ends the refinement.
 constexpr int kMatchSteps = 6;
 constexpr float kLongestWay = 1.5F, kShortStep = 0.01F;
-constexpr double kFar = 1e6;  // beyond any picture [px]
+constexpr double kFar = 1e6;  // [px]; beyond any picture
 
 const Eigen::Vector2d kHalf = Eigen::Vector2d::Constant(0.5 * (kPatch - 1));
 
@@ -42,7 +44,7 @@ struct Tensor {
 };
 
 /// Structure tensors of central differences, which are twice the gradient. Block (i, j) starts at
-/// pixel 1 + kBlock (i, j), so that differences need no pixel beyond the border.
+/// pixel 1 + kBlock (i, j), so that no difference needs a pixel beyond the border.
 struct TensorField {
     int width = 0, height = 0;
     std::vector<Tensor> blocks;
@@ -90,7 +92,7 @@ public:
         : own_(picture.row(place.y) + place.x), stride_(picture.size.width),
           self_(own_, stride_, own_, stride_) {}
 
-    /// Correlation in [-1, 1]; 0 where either patch is uniform.
+    /// Returns the correlation in [-1, 1]; 0 if either patch is uniform.
     [[nodiscard]] double with(const LumaImage& picture, int x, int y) const {
         const Sums sums(own_, stride_, picture.row(y) + x, picture.size.width);
         const double powers = self_.power() * sums.power();
@@ -109,7 +111,7 @@ struct Candidate {
     double score = -1;
 };
 
-/// Subtracts the mean and returns the norm of the rest.
+/// Subtracts the mean from the values and returns the norm of the result.
 float withoutMean(Grey& values) {
     float sum = 0, squares = 0;
     for (const float v : values)
@@ -121,7 +123,7 @@ float withoutMean(Grey& values) {
     return std::sqrt(squares);
 }
 
-/// The patch and its gradient without their means, and the inverse of the gradient's structure
+/// A patch and its gradient without their means, and the inverse of the gradient's structure
 /// tensor.
 class Template {
 public:
@@ -144,7 +146,8 @@ public:
         if (tensor.determinant() > 1) inverse_ = tensor.inverse();
     }
 
-    /// Displacement from its place [px] of a patch with its mean subtracted and with norm `norm`.
+    /// Returns the displacement [px] of a sampled patch from its true place. Its mean is already
+    /// subtracted; `norm` is its norm.
     [[nodiscard]] Eigen::Vector2f step(const Grey& seen, float norm) const {
         const float gain = norm_ / norm;
         Eigen::Vector2f sum = Eigen::Vector2f::Zero();
@@ -159,7 +162,7 @@ private:
     Eigen::Matrix2f inverse_ = Eigen::Matrix2f::Zero();
 };
 
-/// Samples the patch at a sub-pixel place, bilinearly; subtracts the mean and returns the norm.
+/// Samples a patch at a sub-pixel place, bilinearly. Subtracts the mean and returns the norm.
 float sample(const LumaImage& picture, const Eigen::Vector2f& first, Grey& out) {
     const int x = static_cast<int>(first.x()), y = static_cast<int>(first.y());
     const float u = first.x() - static_cast<float>(x), v = first.y() - static_cast<float>(y);
@@ -182,7 +185,7 @@ std::vector<PatchPlace> texturedPlaces(const LumaImage& picture, double noise) {
     if (field.width < 2 || field.height < 2) return out;
     const int right = field.width - 1, bottom = field.height - 1;
     const int cell = std::max(2, static_cast<int>(std::sqrt(1.0 * right * bottom / kPlaces)));
-    // Twice what noise contributes to the squared central differences, plus the effect of rounding.
+    // Twice the contribution of noise to the squared central differences, plus that of rounding.
     const double least = kPixels * (4 * noise * noise + 8);
     for (int j0 = 0; j0 < bottom; j0 += cell) {
         for (int i0 = 0; i0 < right; i0 += cell) {
@@ -202,8 +205,8 @@ std::vector<PatchPlace> texturedPlaces(const LumaImage& picture, double noise) {
     return out;
 }
 
-// One pixel more than the patch, for bilinear samples. The corners suffice: the seen area is nearly
-// convex.
+// Bilinear samples need one pixel more than the patch. Testing the corners suffices, because the
+// valid area is nearly convex.
 bool PatchMatcher::shows(int x, int y) const {
     const int w = to_.size.width;
     if (x < 0 || y < 0 || x + kPatch >= w || y + kPatch >= to_.size.height) return false;

@@ -17,40 +17,41 @@ inline constexpr int kPatch = 8;
 /// picture.
 struct PatchPlace {
     int x = 0, y = 0;
-    /// Its middle [px].
+    /// The patch's middle [px].
     [[nodiscard]] Eigen::Vector2d middle() const {
         return {x + 0.5 * (kPatch - 1), y + 0.5 * (kPatch - 1)};
     }
 };
 
-/// The place with the most texture in each of 300 to 700 equal cells of the picture (fewer in a
-/// small picture): where the smaller eigenvalue of the structure tensor is largest. A cell has no
-/// place if that eigenvalue could be due to noise alone. `noise`: standard deviation of a pixel
-/// [grey levels]. Source: Shi and Tomasi, CVPR 1994.
+/// Divides the picture into 300 to 700 equal cells (fewer if the picture is small) and returns the
+/// place with the most texture in each: the smaller eigenvalue of the structure tensor is largest
+/// there. Cells in which noise alone could cause this eigenvalue are skipped. `noise`: standard
+/// deviation of a pixel [grey levels]. Source: Shi and Tomasi, CVPR 1994.
 [[nodiscard]] std::vector<PatchPlace> texturedPlaces(const LumaImage& picture, double noise);
 
-/// Where to look for a patch: this number of one-pixel steps from `middle` to either side.
+/// Where a patch is searched: at this number of one-pixel steps from `middle` to either side, in
+/// both directions.
 struct PatchWindow {
-    Eigen::Vector2d middle;  ///< where the patch's middle is expected [px]
-    Eigen::Vector2d along;   ///< unit vector
+    Eigen::Vector2d middle;  ///< expected place of the patch's middle [px]
+    Eigen::Vector2d along;   ///< direction of the line, unit vector
     int alongSteps = 0, acrossSteps = 0;
 };
 
-/// Finds patches of one picture in another, independent of the gain and offset of either. Borrows
-/// both.
+/// Finds patches of one picture in another, whatever the gain and offset of each. Refers to both
+/// pictures, which must outlive this object.
 class PatchMatcher {
 public:
-    /// `seen`: one byte per pixel, 1 where `to` is valid.
+    /// `seen`: one byte per pixel of `to`, 1 where the pixel is valid.
     PatchMatcher(const LumaImage& from, const LumaImage& to, const std::vector<std::uint8_t>& seen)
         : from_(from), to_(to), seen_(seen) {}
 
-    /// The middle of the best place by zero-mean normalised correlation, to one pixel. Empty when
-    /// no place fits well, or when two places that lie apart fit equally well.
+    /// Returns the middle of the place with the highest zero-mean normalised correlation, to one
+    /// pixel. Empty if no place fits well, or if two distant places fit equally well.
     [[nodiscard]] std::optional<Eigen::Vector2d> find(PatchPlace place,
                                                       const PatchWindow& window) const;
 
-    /// Refines `near` to sub-pixels by inverse-compositional steps; empty when they lead too far
-    /// away. Source: Baker and Matthews, IJCV 2004.
+    /// Refines `near` to a fraction of a pixel by inverse-compositional steps. Empty if they lead
+    /// too far away. Source: Baker and Matthews, IJCV 2004.
     [[nodiscard]] std::optional<Eigen::Vector2d> polish(PatchPlace place,
                                                         const Eigen::Vector2d& near) const;
 

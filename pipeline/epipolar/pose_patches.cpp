@@ -9,10 +9,10 @@
 namespace mfar {
 namespace {
 
-// Upper limit of the steps across an epipolar line [px of the level that is searched].
+// Upper limit of the steps across an epipolar line [px of the searched level].
 constexpr int kMostSteps = 8;
 
-/// Searches the patches of one level.
+/// Matches single patches: searches at half size and refines at full size.
 class PatchSearch {
 public:
     PatchSearch(const TurnedPair& full, const TurnedPair& half, const PatchPrior& prior)
@@ -29,7 +29,8 @@ public:
         if (!placed) return std::nullopt;
         Eigen::Vector2d seen = toFull(*placed + originOf(half_));
         if (scale_ > 1) {
-            // The full-size patch with the same middle; it may have too little texture of its own.
+            // The patch with the same middle at full size. It may have too little texture of its
+            // own; then the match at half size is kept.
             const PatchPlace inner{2 * place.x + kPatch / 2, 2 * place.y + kPatch / 2};
             if (const auto finer = atFull_.polish(inner, seen - originOf(full_)))
                 seen = *finer + originOf(full_);
@@ -46,14 +47,14 @@ private:
         return ((pixel.array() + 0.5) * scale_ - 0.5).matrix();
     }
 
-    /// Ray of the half-size pixel that contains a point. The point must be in the picture.
+    /// Returns the ray of the half-size pixel that contains a point, which must be in the picture.
     [[nodiscard]] Eigen::Vector2d rayNear(const Eigen::Vector2d& point) const {
         const auto pixel = static_cast<std::size_t>(point.y()) * half_.lens.size().width +
                            static_cast<std::size_t>(point.x());
         return {half_.lens.rayX(pixel), half_.lens.rayY(pixel)};
     }
 
-    /// Pixel of the camera at half size.
+    /// Returns the pixel at half size that shows a point with inverse depth s.
     [[nodiscard]] Eigen::Vector2d pointAt(const Eigen::Vector2d& ray, double s) const {
         const Eigen::Vector3d& t = prior_.pose.translation;
         const Eigen::Vector2d moved = ray + s * (t.head<2>() - ray * t.z());
@@ -80,13 +81,14 @@ private:
         out.middle = expected - originOf(half_);
         const Eigen::Vector2d across(-out.along.y(), out.along.x());
         out.acrossSteps = stepsFor(across.dot(spread * across));
-        // A short search along the line does not cover the prior's error in that direction: extend
-        // it.
+        // A very short search along the line does not cover the error of the prior pose in that
+        // direction, so it is extended.
         if (out.alongSteps <= 1) out.alongSteps = stepsFor(out.along.dot(spread * out.along));
         return out;
     }
 
-    /// Three standard deviations of a variance [rays^2].
+    /// Returns the number of one-pixel steps that cover three standard deviations. `variance` is in
+    /// [rays^2].
     [[nodiscard]] int stepsFor(double variance) const {
         const double pixels = 3 * std::sqrt(variance) * prior_.camera.fx / scale_;
         return pixels < kMostSteps ? std::max(1, static_cast<int>(std::ceil(pixels))) : kMostSteps;

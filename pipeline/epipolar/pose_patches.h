@@ -9,29 +9,32 @@
 
 namespace mfar {
 
-/// A frame and the still rotated into its orientation, at one level of a pyramid; borrowed.
+/// One pyramid level of a frame, and of the still rotated into the frame's orientation. Refers to
+/// data that must outlive it.
 struct TurnedPair {
-    const EpipolarLens& lens;  ///< the frame's
-    PixelOffset origin;        ///< camera pixel of the still's first pixel
+    const EpipolarLens& lens;  ///< lens of the frame
+    PixelOffset origin;        ///< camera pixel that the still's first pixel corresponds to
     const LumaImage& video;
     const LumaImage& still;
-    const std::vector<std::uint8_t>& seen;  ///< 1 where the still is valid
+    const std::vector<std::uint8_t>& seen;  ///< 1 where a pixel of the still is valid
 };
 
-/// Prior knowledge for matching patches.
+/// What is known before patches are matched.
 struct PatchPrior {
     const CameraModel& camera;  ///< the frame's camera
     const PosePrior& pose;
-    double noise;          ///< standard deviation of a pixel, of frame and still [grey levels]
+    double noise;          ///< standard deviation of a pixel, in frame and still [grey levels]
     double pixelsPerUnit;  ///< largest motion of a pixel per unit of s; 0: no parallax
-    /// s at a pixel of the frame, correct to within kAlongSlack pixels on the epipolar line.
+    /// Returns s at a pixel of the frame. Its error is at most kAlongSlack pixels along the
+    /// epipolar line.
     std::function<double(const Eigen::Vector2d&)> nearness;
 };
 inline constexpr int kAlongSlack = 6;
 
-/// Matches the textured patches of a frame with the still. At half size, the search reaches along
-/// the epipolar lines by the slack of the nearness and across them by three standard deviations of
-/// the prior; then matches are refined at full size. `half` and `full` may be the same level.
+/// Matches the textured patches of a frame with the still. First it searches at half size: along
+/// the epipolar lines as far as the error of `nearness` allows, and across them up to three
+/// standard deviations of the prior. Then it refines the matches at full size. `half` and `full`
+/// may be the same level.
 [[nodiscard]] std::vector<RayMatch> matchPatches(const TurnedPair& full, const TurnedPair& half,
                                                  const PatchPrior& prior, Workers& workers);
 

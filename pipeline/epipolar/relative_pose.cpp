@@ -16,27 +16,28 @@ using Matrix26 = Eigen::Matrix<double, 2, 6>;
 using Matrix23 = Eigen::Matrix<double, 2, 3>;
 
 constexpr int kMostSolves = 15;
-constexpr double kSettled = 0.01;  // [px]
+constexpr double kSettled = 0.01;  // [px]; steps shorter than this end the refinement
 constexpr int kFewest = 16;
 constexpr double kFewestShare = 0.4;
-// A match beyond this many standard deviations has no weight.
+// A match has no weight if its error exceeds this number of standard deviations.
 constexpr double kTukey = 4.685;
-// Standard deviation of a good match [px]; the scale of the weights is at least half of it.
+// Standard deviation of a good match [px]. The scale of the weights is at least half of it.
 constexpr double kMatchError = 0.3;
 // Inliers lie within this distance of their epipolar lines [px].
 constexpr double kExplained = 1;
-constexpr double kNotExplained = 1e6;  // [px]
+constexpr double kNotExplained = 1e6;  // [px]; error of a match that no pose explains
 
-/// Rotation and translation of points, in the prior's orientation and unit of length.
+/// Rotation and translation of points, relative to the prior's orientation and in its unit of
+/// length.
 struct Estimate {
     Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
     Eigen::Vector3d translation;
 };
 
-/// Residual of a match under an estimate, at the inverse depth that fits best.
+/// Residual of a match under an estimated pose, at the inverse depth that fits best.
 struct Residual {
     Eigen::Vector2d error;  // [rays]
-    Matrix26 jacobian;      // with respect to rotation and translation, inverse depth eliminated
+    Matrix26 jacobian;      // by rotation and translation, with inverse depth eliminated
 };
 
 Matrix23 rayOfPoint(const Eigen::Vector2d& ray, double z) {
@@ -45,9 +46,9 @@ Matrix23 rayOfPoint(const Eigen::Vector2d& ray, double z) {
     return out / z;
 }
 
-// Near the epipole depth hardly moves the point, so that an unlimited depth could explain any
-// error. There the inverse depth is held near zero: a match's error is weighed against a parallax
-// of one.
+// Near the epipole, a change of depth hardly moves the point, so an unlimited depth could explain
+// any error. Therefore the inverse depth is held near zero there, as if it were known to be zero
+// with a standard deviation of one unit.
 std::optional<Residual> residualOf(const RayMatch& match, const Estimate& at, double focal) {
     const double held = std::pow(kMatchError / focal, 2);
     const Eigen::Vector3d turned = at.rotation * match.video.homogeneous();
@@ -75,7 +76,8 @@ double quantileOf(std::vector<double> values, double quantile) {
     return values[place];
 }
 
-/// Gauss-Newton in normalised units: radians, and the length of the prior's translation.
+/// Robust Gauss-Newton in normalised units: radians for rotation, the length of the prior's
+/// translation for translation.
 class Solver {
 public:
     Solver(std::span<const RayMatch> matches, const PosePrior& prior, double focal)
@@ -87,7 +89,7 @@ public:
         Vector6 scale = Vector6::Ones();
         scale.tail<3>().setConstant(1 / unit_);
         Matrix6 covariance = scale.asDiagonal() * prior.covariance * scale.asDiagonal();
-        // Quantities given as exact are taken as known to a millionth.
+        // Quantities that are reported as exact get a standard deviation of a millionth.
         covariance.diagonal().array() += 1e-12;
         const Eigen::LLT<Matrix6> factors(covariance);
         usable_ = covariance.allFinite() && prior.translation.allFinite() &&
@@ -116,13 +118,13 @@ public:
             const double error = r ? focal_ * r->error.norm() : kNotExplained;
             errors_.push_back(error < kNotExplained ? error : kNotExplained);
         }
-        // A quantile below one half, so that the scale stays right when more than half of the
-        // matches are outliers.
-        constexpr double kQuantile = 0.4, kNormal = 0.5244;  // of |N(0, 1)|
+        // This quantile is below one half, so that the scale remains right even if more than half
+        // of the matches are outliers.
+        constexpr double kQuantile = 0.4, kNormal = 0.5244;  // the quantile of |N(0, 1)|
         scale_ = std::clamp(quantileOf(errors_, kQuantile) / kNormal, 0.5 * kMatchError, scale_);
     }
 
-    /// Returns false when no step is possible.
+    /// Returns false if no step is possible.
     bool step() {
         Matrix6 A = information_;
         Vector6 b = -information_ * motion_;

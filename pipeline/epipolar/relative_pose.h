@@ -8,19 +8,19 @@
 
 namespace mfar {
 
-/// A point of the scene seen by the frame and the still, as rays (x / z, y / z). `video`: in the
-/// video camera's coordinates. `still`: from the still camera's centre, in the orientation that the
-/// prior gives the video camera.
+/// A point of the scene that the frame and the still show, as two rays (x / z, y / z). `video` is
+/// in the video camera's frame. `still` starts at the still camera's centre, in the orientation of
+/// the video camera according to the prior.
 struct RayMatch {
     Eigen::Vector2d video, still;
 };
 
-/// Prior of T_still_video, before matching.
+/// What is known of T_still_video before matching.
 struct PosePrior {
-    /// Moves points from the frame to the still, in the frame's orientation; its unit of length is
-    /// free.
+    /// Moves points from the frame to the still, in the frame's orientation and in any unit of
+    /// length.
     Eigen::Vector3d translation;
-    /// Covariance of a small motion x in the video camera's own frame, T_still_video * exp(x).
+    /// Covariance of a small motion x of the video camera: T_still_video * exp(x).
     Matrix6 covariance;
 };
 
@@ -29,25 +29,28 @@ struct PoseRefinement {
     RigidTransform motion;    ///< refined T_still_video = prior T_still_video * motion
     int patches = 0;          ///< number of matches
     int inliers = 0;          ///< number of matches that the solution explains
-    double normalBefore = 0;  ///< median distance from the prior's epipolar lines [video px]
-    double normalAfter = 0;   ///< the same for the final pose: refined if accepted, else the prior
+    double normalBefore = 0;  ///< median distance from the prior's lines [video px]
+    double normalAfter = 0;   ///< the same for the final pose (refined, or the prior)
 };
 
-/// Refines the relative pose by robust Gauss-Newton over matched rays; each match's inverse depth
-/// is eliminated. The prior holds the directions that the matches do not constrain, above all the
-/// length of the translation. Without a translation the matches must agree with a pure rotation.
-/// `focal`: video pixels per unit of ray.
+/// Refines the relative pose by robust Gauss-Newton over matched rays. Each match's inverse depth
+/// is eliminated. The prior determines what the matches do not, above all the length of the
+/// translation. Without a translation, the matches must agree with a pure rotation. `focal`: video
+/// pixels per unit of ray.
 ///
-/// Rejected when there are too few matches, when too many of them are outliers, or when the prior's
-/// share in their distance from the epipolar lines is below kExactEnough.
-/// Source: Hartley and Zisserman, 2nd ed., A6.3 (elimination); Beaton and Tukey 1974 (weights).
+/// The refinement is rejected if there are too few matches, if too many of them are outliers, or if
+/// it reduces their distance from the epipolar lines by too little: the root of the difference of
+/// the squared medians must exceed kExactEnough. Source: Hartley and Zisserman, 2nd ed., A6.3
+/// (elimination); Beaton and Tukey 1974 (weights).
 [[nodiscard]] PoseRefinement refineRelativePose(std::span<const RayMatch> matches,
                                                 const PosePrior& prior, double focal);
 
-/// A pose with this error needs no refinement: the matches' own errors would move it as far [px].
+/// A pose with at most this error [px] needs no refinement, because the errors of the matches would
+/// move it as far.
 inline constexpr double kExactEnough = 0.2;
 
-/// Covariance of a point's place in the still [rays^2] that results from the prior's covariance.
+/// Returns the covariance of a point's place in the still [rays^2] that results from the prior's
+/// covariance.
 [[nodiscard]] Eigen::Matrix2d spreadOf(const RayMatch& match, const PosePrior& prior);
 
 }  // namespace mfar

@@ -11,13 +11,14 @@ namespace {
 
 static_assert(TurnedPicture::kAlign == simd::kTurnedCell);
 
-// Rays with a smaller z [z of a picture's ray (x, y, 1)] are treated as outside the camera's view.
+// A picture's ray (x, y, 1) is treated as outside the camera's view if its rotated z is less than
+// this.
 constexpr double kBeside = 0.2;
-// Points along each side of the picture; the hull of their rays bounds the visible part.
+// Number of points along each side of the picture. The hull of their rays bounds the visible part.
 constexpr int kSidePoints = 16;
 
-// Rays are followed to this many times the radius of the picture's corners, unless the lens model
-// folds them back before.
+// Rays are followed up to this multiple of the radius of the picture's corners, unless the lens
+// model folds them back before.
 constexpr double kFarthestRay = 4;
 
 double rimOf(const CameraModel& camera) {
@@ -59,14 +60,15 @@ void TurnedPicture::know(const CameraModel& camera, const CameraModel& source) {
     }
 }
 
-/// Bounds of the part of the picture that the camera sees, within `whole`; empty: sees nothing.
+/// Returns the bounds of the part of the source's picture that the camera sees, within `whole`.
+/// Empty if the camera sees nothing of it.
 Eigen::AlignedBox2d TurnedPicture::boundsOf(const Eigen::Matrix3d& R_source_camera,
                                             const Eigen::AlignedBox2d& whole) const {
     Eigen::AlignedBox2d bounds;
     bool before = false;
     for (const Eigen::Vector2d& ray : known_.outline) {
         const Eigen::Vector3d turned = R_source_camera.transpose() * ray.homogeneous();
-        // Beside or behind the camera: assume that the whole canvas may be visible.
+        // A ray beside or behind the camera: assume that the whole canvas may be visible.
         if (!(turned.z() > kBeside)) {
             bounds.extend(whole);
             continue;
@@ -75,7 +77,7 @@ Eigen::AlignedBox2d TurnedPicture::boundsOf(const Eigen::Matrix3d& R_source_came
         bounds.extend(known_.camera.project(there * std::min(1.0, known_.rim / there.norm())));
         before = true;
     }
-    // All rays of the picture lie between those of its outline.
+    // All rays of the picture lie between the rays of its outline.
     return before ? bounds.intersection(whole) : Eigen::AlignedBox2d();
 }
 

@@ -13,32 +13,32 @@
 
 namespace mfar {
 
-/// A picture as another camera would show it from the same optical centre. The canvas may extend
+/// A picture as another camera with the same optical centre would show it. The canvas may extend
 /// beyond that camera's own picture.
 class TurnedPicture {
 public:
-    /// Places the canvas: it holds the part of `source`'s picture that `camera` would see, up to
-    /// `beyond` times its width outside its own frame. `R_source_camera` rotates rays. Size 0x0
-    /// when that is nothing.
+    /// Places the canvas. It holds the part of the picture of `source` that `camera` would see if
+    /// its picture were extended on each side by `beyond` times its width. `R_source_camera`
+    /// rotates rays. The size is 0x0 if there is no such part.
     void place(const CameraModel& camera, const CameraModel& source,
                const Eigen::Matrix3d& R_source_camera, double beyond);
 
     [[nodiscard]] Size size() const { return size_; }
-    /// Camera pixel of canvas pixel (0, 0); both coordinates are multiples of kAlign.
+    /// Pixel of `camera` at canvas pixel (0, 0). Both coordinates are multiples of kAlign.
     [[nodiscard]] PixelOffset origin() const { return origin_; }
     static constexpr int kAlign = RayLattice::kStep;
 
-    /// Fills the canvas from the source's picture, bilinearly. `seen`: 1 where the picture covers
-    /// the canvas, else 0.
+    /// Fills the canvas from the source's picture, bilinearly. `seen` becomes 1 where the picture
+    /// covers the canvas, else 0.
     void draw(const LumaImage& picture, Workers& workers, LumaImage& out,
               std::vector<std::uint8_t>& seen) const;
 
 private:
-    /// Properties of a pair of cameras, kept while the pair stays the same.
+    /// What is known of a pair of cameras; kept while the pair stays the same.
     struct Cameras {
         CameraModel camera, source;
-        double rim = 0, sourceRim = 0;         ///< largest radius of the rays that each can show
-        std::vector<Eigen::Vector2d> outline;  ///< rays of the source's border
+        double rim = 0, sourceRim = 0;         ///< largest radius of a valid ray of each camera
+        std::vector<Eigen::Vector2d> outline;  ///< rays through the border of the source's picture
     };
     void know(const CameraModel& camera, const CameraModel& source);
     [[nodiscard]] Eigen::AlignedBox2d boundsOf(const Eigen::Matrix3d& R_source_camera,
@@ -50,7 +50,7 @@ private:
     Cameras known_;
     RayLattice lattice_;
     int gridWidth_ = 0;
-    std::vector<float> gridX_, gridY_;  // picture pixel of every kAlign-th canvas pixel
+    std::vector<float> gridX_, gridY_;  // source pixel of every kAlign-th canvas pixel
 };
 
 }  // namespace mfar

@@ -5,8 +5,8 @@
 namespace mfar {
 namespace {
 
-// Lower limits of the error of a pose that is reported as exact, due to the calibration, the
-// exposure times and rounding [rad], [share of the translation].
+// Lower limits of the errors of rotation [rad] and translation [share of the translation]. Even a
+// pose that is reported as exact has errors from the calibration, the exposure times and rounding.
 constexpr double kLeastTurn = 2.6e-3;
 constexpr double kLeastShift = 0.01;
 constexpr double kRounding = 1e-12;

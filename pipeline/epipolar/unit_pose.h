@@ -5,18 +5,20 @@
 
 namespace mfar {
 
-/// Relative pose of a picture and a frame, in units of the distance between their cameras, so that
-/// a search is independent of the poses' unit of length (metres or millimetres).
+/// Relative pose of a picture and a frame. Its unit of length is the distance between the two
+/// cameras, so that a search does not depend on the poses' unit of length (metres or millimetres).
 struct UnitPose {
     RigidTransform T_other_frame;
-    Matrix6 covariance;  ///< of a small motion x, T_other_frame * exp(x)
-    double unit = 1;     ///< [unit of length of the poses]
-    /// Standard deviation of the distance, relative to it: matches cannot determine it.
+    Matrix6 covariance;  ///< of a small motion x: T_other_frame * exp(x)
+    double unit = 1;     ///< the distance, in the unit of length of the poses
+    /// Standard deviation of the distance, divided by the distance. It stays, because matches
+    /// cannot determine the distance.
     double lengthError = 0;
 };
 
-/// `other`, `frame`: poses of the video camera at both times. `T_camera_video`: of the camera that
-/// took the other picture. A distance within the rounding error of the positions counts as zero.
+/// `other`, `frame`: poses of the video camera at the times of both pictures. `T_camera_video`:
+/// from the video camera to the camera that took the other picture. A distance within the rounding
+/// error of the positions counts as zero.
 [[nodiscard]] UnitPose unitPose(const RigidTransform& T_camera_video, const Pose& other,
                                 const Pose& frame);
 
