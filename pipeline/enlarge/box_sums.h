@@ -8,7 +8,7 @@
 
 namespace mfar::enlarge {
 
-/// Sums of a value over squares of pixels, each in constant time.
+/// Sums of a value over squares of pixels. A sum takes the same time for every size of the square.
 class BoxSums {
 public:
     /// `valueAt(x, y)`: the value of a pixel.
@@ -23,7 +23,8 @@ public:
             }
         }
     }
-    /// Sum over the square that extends `reach` pixels from (x, y), limited to the picture.
+    /// Returns the sum over the square that reaches `reach` pixels from (x, y) to each side. Pixels
+    /// outside the picture are omitted.
     [[nodiscard]] double around(int x, int y, int reach) const {
         const int x0 = std::max(x - reach, 0), x1 = std::min(x + reach + 1, size_.width),
                   y0 = std::max(y - reach, 0), y1 = std::min(y + reach + 1, size_.height);

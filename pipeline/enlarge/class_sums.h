@@ -7,24 +7,24 @@
 #include <cstdint>
 #include <vector>
 
-// Least squares for the filters of the learned enlarger: sums over pixels, class by class, in
-// double precision and in a fixed order, so that the same pixels give the same bits.
+// Least squares for the filters of the learned enlarger. Each class sums over its pixels in double
+// precision and in a fixed order, so that the same pixels give exactly the same filters.
 
 namespace mfar::enlarge {
 
-/// Differences of the neighbours to the pixel [grey levels], in the order of kTapAt.
+/// Differences between a pixel's neighbours and the pixel [grey levels], in the order of kTapAt.
 using Taps = Eigen::Matrix<double, kTaps, 1>;
-/// Residual of the cubic at the sub-pixels, row-major [grey levels].
+/// What the cubic lacks at a pixel's sub-pixels, row-major [grey levels].
 using Phases = Eigen::Matrix<double, kPhases, 1>;
-/// Weights of a filter whose output is used alone: not halved.
+/// Weights of a filter that is used alone; they are not halved, unlike those of FilterBank::Filter.
 using ClassWeights = Eigen::Matrix<double, kTaps, kPhases>;
 
-/// A stored filter, and the symmetry that maps the picture onto it.
+/// A class whose filter is stored, and the symmetry that maps the picture onto that class.
 struct UniqueClass {
     int number;  ///< [0, kUnique)
     Symmetry same;
 };
-/// `number`: class number of simd::classRow().
+/// `number`: number of the class according to simd::classRow().
 [[nodiscard]] UniqueClass uniqueByGradient(int number);
 [[nodiscard]] UniqueClass uniqueByCurvature(int number);
 
@@ -35,21 +35,21 @@ struct UniqueClass {
 struct ClassSums {
     Eigen::Matrix<double, kTaps, kTaps> taps = Eigen::Matrix<double, kTaps, kTaps>::Zero();
     ClassWeights products = ClassWeights::Zero();
-    double squares = 0;  ///< of the targets
+    double squares = 0;  ///< sum of the squared targets
     double pixels = 0;
 
     void add(const Taps& steps, const Phases& target);
     void add(const ClassSums& other);
     /// Multiplies all sums by `share`.
     void fade(double share);
-    /// The sums, plus those of the same pictures turned by 180 degrees, which have the same
-    /// classes.
+    /// Returns these sums plus those of the same pictures rotated by 180 degrees. The rotation does
+    /// not change classes.
     [[nodiscard]] ClassSums turnedToo() const;
-    /// Sum of the squared errors that these weights leave on the pixels summed up.
+    /// Returns the sum of the squared errors that these weights leave on the summed pixels.
     [[nodiscard]] double errorOf(const ClassWeights& weights) const;
 };
 
-/// Normal equations of all classes. Pixels are summed up in groups, which is faster.
+/// Normal equations of all classes. Pixels are collected and added in groups, which is faster.
 class SumsOfClasses {
 public:
     SumsOfClasses();
@@ -69,7 +69,7 @@ private:
     };
     void finish(int unique) const;
 
-    // Mutable: reads finish groups that are not summed up yet.
+    // Mutable, because a read adds the groups that are still incomplete.
     mutable std::vector<ClassSums> sums_;
     mutable std::vector<Group> groups_;
 };

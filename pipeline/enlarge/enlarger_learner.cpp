@@ -13,25 +13,26 @@ namespace {
 
 using namespace enlarge;
 
-// Lower limit of the pixels of a class: with fewer to learn from, or to check on, nothing is
-// decided.
+// Lower limit of a class's pixels. With fewer pixels to learn from or to choose on, the class keeps
+// the shipped filter or none; with fewer pixels to check on, it is not checked.
 constexpr double kLeastPixels = 400;
-// Factor of the weight of older stills whenever a new one is learned from.
+// The weight of older stills is multiplied by this factor for every new still.
 constexpr double kForgetting = 0.95;
-// The shipped filter has the weight of this number of pixels of the class.
+// The shipped filter counts as much as this number of pixels of the class.
 constexpr double kPriorPixels = 300;
 constexpr double kRidge = 20;  // [grey levels^2]
-// Lower limit of the trusted share of the picture: below it, matching has failed.
+// Lower limit of the trusted share of the picture. If the share is smaller, matching has failed.
 constexpr double kLeastTrusted = 0.05;
 // Lower limit of TrustedPairs::sharpness().
 constexpr double kLeastSharpness = 1.03;
-// A tile is new when the mean of 4x4 of its pixels has changed by more than this [grey levels].
+// A tile is new if the mean of one of its 4x4 blocks has changed by more than this [grey levels].
 constexpr int kNewFrom = 4;
-constexpr double kLeastNew = 0.1;  // of all tiles
-// A new filter replaces the shipped one when its error is below this share of the other's.
+constexpr double kLeastNew = 0.1;  // lower limit of the share of new tiles
+// A new filter is used if its error is below this share of the error of the filter it would
+// replace.
 constexpr double kWorthwhile = 0.998;
 
-constexpr int kBlock = 4;  // side of the blocks whose means are compared to find new tiles [px]
+constexpr int kBlock = 4;  // side of the blocks that are compared to find new tiles [px]
 
 std::size_t tileOfBlock(int x, int y, Size tiles) {
     return static_cast<std::size_t>(y * kBlock / kTileSize) * tiles.width + x * kBlock / kTileSize;
@@ -45,8 +46,8 @@ EnlargerLearner::EnlargerLearner() : learned_(kUnique, false) {
     putInPlace(prior_, learned_);
 }
 
-/// Parts are fixed in the picture rather than chosen per still: when the camera rests, a part for
-/// checks shows the same scene as before.
+/// A tile always belongs to the same part. If parts were chosen for each still, a camera at rest
+/// would learn from the scene on which it checks.
 EnlargerLearner::Part EnlargerLearner::partOf(int column, int row) {
     const int number = (column + 2 * row) % 5;
     return number == 0 ? Part::Check : number == 2 ? Part::Choose : Part::Learn;
@@ -169,7 +170,8 @@ EnlargerLearner::StillSums EnlargerLearner::sumsOf(const MatchedPictures& pictur
 ClassWeights EnlargerLearner::solved(int unique) const {
     const ClassSums sums = sums_[unique].turnedToo();
     const ClassWeights& prior = prior_[static_cast<std::size_t>(unique)];
-    // Weighs the prior as if its pixels' differences were independent of each other.
+    // Weighs the prior as if the differences to a pixel's neighbours were independent of each
+    // other.
     const Taps pull =
         (sums.taps.diagonal().array() * (kPriorPixels / sums_[unique].pixels) + kRidge).matrix();
     auto taps = sums.taps;
@@ -219,7 +221,7 @@ bool EnlargerLearner::putInPlace(const std::vector<ClassWeights>& weights,
         inPlace_ = std::make_shared<const FilterBank>(filters, guidance_.guidance(),
                                                       fineMatch_.fineMatch());
     } catch (const FilterBankError&) {
-        return false;  // weights too large for the kernels: the filters in place stay
+        return false;  // the weights are too large for the kernels: keep the old filters
     }
     current_ = weights;
     learned_ = learned;

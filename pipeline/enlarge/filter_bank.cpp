@@ -21,7 +21,7 @@ constexpr std::size_t kHeaderSize = kMagicSize + 4 * kHeader.size();
 constexpr std::size_t kWeightBytes = std::size_t{2} * kUnique * kFilterSize;
 constexpr std::size_t kStoredSize = kHeaderSize + kWeightBytes + 4;
 
-/// The filters of every class, derived from those of one quadrant.
+/// Returns the filters of all classes, derived from the stored filters of one quadrant.
 AlignedRows<std::int16_t> expanded(std::span<const FilterBank::Filter> unique, int bins,
                                    int kinds) {
     AlignedRows<std::int16_t> out({kFilterSize, bins * kinds});
@@ -39,7 +39,7 @@ AlignedRows<std::int16_t> expanded(std::span<const FilterBank::Filter> unique, i
     return out;
 }
 
-/// Upper limit of the sum of a phase's absolute weights: the kernels add in 32 bits.
+/// Upper limit of the sum of absolute weights of a phase, because the kernels add in 32 bits.
 constexpr int kMostWeight = 16 * kWeightScale;
 
 bool fits(const FilterBank::Filter& filter) {
@@ -52,7 +52,8 @@ bool fits(const FilterBank::Filter& filter) {
     return true;
 }
 
-/// Keys' cubic with a = -0.75 at the four sub-pixels: weights of the pixels at -2 to 2.
+/// Keys' cubic with a = -0.75: for each of the four sub-pixels, the weights of the pixels at -2 to
+/// 2.
 std::array<std::array<double, 5>, kGrid> cubicWeights() {
     std::array<std::array<double, 5>, kGrid> out{};
     for (int phase = 0; phase < kGrid; ++phase) {

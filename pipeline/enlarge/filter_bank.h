@@ -12,14 +12,14 @@
 
 namespace mfar {
 
-/// Stored filters are unusable. The message names them and the reason.
+/// Stored filters cannot be used. The message names them and the reason.
 class FilterBankError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// How strongly a trusted still guides the finest detail of the video itself; see
-/// params::kGuideReach. Both factors 0: no guidance. Both are alike where the sensors have the same
-/// exposure.
+/// How strongly a trusted still changes the finest detail of the video itself; see
+/// params::kGuideReach. With both factors 0, there is no guidance. The factors are similar if both
+/// sensors have the same exposure.
 struct Guidance {
     float still = 0;  ///< share of the still's detail that is added, [0, 1]
     float video = 0;  ///< share of the video's own detail that is removed, [0, kMost]
@@ -33,7 +33,8 @@ struct Guidance {
 };
 
 /// The variance of the video's finest detail that a correctly matched still usually leaves
-/// unexplained, see params::kFineRoom: noise + share * that detail's variance. Noise 0: not known.
+/// unexplained: noise + share * (variance of that detail); see params::kFineRoom. If noise is 0,
+/// this is unknown.
 struct FineMatch {
     float noise = 0;  ///< [grey levels^2], [0, kMostNoise]
     float share = 0;  ///< [0, 1]
@@ -46,30 +47,32 @@ struct FineMatch {
     bool operator==(const FineMatch&) const = default;
 };
 
-/// Filters of the learned enlarger, one per class, see filter_layout.h; with the guidance and the
-/// usual match of a still. Immutable.
+/// The filters of the learned enlarger, one per class (see filter_layout.h), with the guidance and
+/// the variance that a still usually leaves unexplained. Immutable.
 class FilterBank {
 public:
-    /// Weights of a class, with 16384 as one, halved because the residuals of both classes are
-    /// added.
+    /// Weights of a class. A weight of one is stored as 16384; weights are halved, because the
+    /// residuals of the two classes of a pixel are added.
     using Filter = std::array<std::int16_t, enlarge::kFilterSize>;
 
-    /// `unique`: kUnique filters, first those of the gradient classes. Throws FilterBankError.
+    /// `unique`: kUnique filters, those of the gradient classes first. Throws FilterBankError.
     explicit FilterBank(std::span<const Filter> unique, const Guidance& guidance = {},
                         const FineMatch& fineMatch = {});
-    /// The shipped filters: learned by mfar-train-enlarger, part of the program.
+    /// The shipped filters. They were learned by mfar-train-enlarger and are part of the program.
     [[nodiscard]] static const FilterBank& prior();
 
-    /// Unique per bank: users compare it to see whether their copy is up to date.
+    /// Different for every bank, so that users can see whether their copy is up to date.
     [[nodiscard]] std::uint64_t number() const { return number_; }
-    /// A row per class.
+    /// One row per class.
     [[nodiscard]] Rows<const std::int16_t> gradient() const { return gradient_.rows(); }
     [[nodiscard]] Rows<const std::int16_t> curvature() const { return curvature_.rows(); }
-    /// None for the shipped filters: guidance depends on the noise and sharpness of both sensors.
+    /// Zero for the shipped filters, because guidance depends on the noise and sharpness of both
+    /// sensors.
     [[nodiscard]] const Guidance& guidance() const { return guidance_; }
-    /// Unknown for the shipped filters, for the same reason.
+    /// Unknown for the shipped filters, for the same reason as guidance().
     [[nodiscard]] const FineMatch& fineMatch() const { return fineMatch_; }
-    /// Keys' cubic on the same grid, minus the pixel, as a filter with 16384 as one, not halved.
+    /// Keys' cubic minus the pixel itself, as a filter on the same grid. A weight of one is stored
+    /// as 16384; weights are not halved.
     [[nodiscard]] const std::int16_t* cubic() const { return cubic_[0]; }
 
 private:
@@ -79,11 +82,12 @@ private:
     AlignedRows<std::int16_t> gradient_, curvature_, cubic_;
 };
 
-/// The stored form: "mfarfilt", then little-endian 32-bit numbers: version, number of gradient and
-/// of curvature filters, taps, phases; then the weights, 16 bits each; then the FNV-1a sum of all
-/// that.
+/// Returns the filters in their stored form: "mfarfilt", then little-endian 32-bit numbers
+/// (version, number of gradient filters, number of curvature filters, taps, phases), then the
+/// weights, 16 bits each, then the FNV-1a checksum of all of this.
 [[nodiscard]] std::vector<std::uint8_t> storedFilters(std::span<const FilterBank::Filter> unique);
-/// Reads the stored form. `name` is for messages. Throws FilterBankError for incomplete data.
+/// Reads filters from their stored form. `name` is used in messages. Throws FilterBankError if the
+/// data is incomplete.
 [[nodiscard]] std::vector<FilterBank::Filter> readFilters(std::span<const std::uint8_t> bytes,
                                                           const std::string& name);
 

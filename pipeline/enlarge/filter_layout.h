@@ -6,16 +6,16 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Definitions shared by the learned enlarger, its trainer and its tests. After RAISR (Romano,
-/// Isidoro, Milanfar, 2017): a picture's luma on a grid of 4x4 sub-pixels per pixel is Keys' cubic
-/// plus a residual. The residual is a weighted sum of the 24 neighbours' differences to the pixel;
-/// the weights depend on the pixel's class. Each pixel has a class by gradient and a class by
-/// curvature; the mean of both residuals is used.
+/// Definitions shared by the learned enlarger, its trainer and its tests. The method follows RAISR
+/// (Romano, Isidoro, Milanfar, 2017). Luma is enlarged to a grid of 4x4 sub-pixels per pixel, as
+/// the sum of Keys' cubic and a residual. The residual is a weighted sum of the differences between
+/// 24 neighbours and the pixel. The weights depend on the pixel's class. Each pixel has two
+/// classes, one by its gradient and one by its curvature; the mean of both residuals is used.
 namespace mfar::enlarge {
 
 using params::kGrid, params::kPairs, params::kLumaScale, params::kResidualScale;
 inline constexpr int kPhases = kGrid * kGrid, kTaps = 2 * kPairs;
-/// Numbers per filter: [pair of taps][phase, row-major][tap of the pair].
+/// Number of weights of a filter, stored as [pair of taps][phase, row-major][tap of the pair].
 inline constexpr int kFilterSize = kTaps * kPhases;
 [[nodiscard]] constexpr int filterIndex(int tap, int phase) {
     return (tap / 2 * kPhases + phase) * 2 + tap % 2;
@@ -25,8 +25,8 @@ struct Offset {
     int x, y;
     bool operator==(const Offset&) const = default;
 };
-/// Places of the taps [px]. Taps of a pair are horizontal neighbours, except for the last two
-/// pairs, whose taps lie one below the other.
+/// Positions of the taps [px]. The taps of a pair are horizontal neighbours; those of the last two
+/// pairs are vertical neighbours.
 inline constexpr std::array<Offset, kTaps> kTapAt{
     {{-2, -2}, {-1, -2}, {0, -2}, {1, -2}, {-2, -1}, {-1, -1}, {0, -1}, {1, -1},
      {-2, 1},  {-1, 1},  {0, 1},  {1, 1},  {-2, 2},  {-1, 2},  {0, 2},  {1, 2},
@@ -37,25 +37,25 @@ inline constexpr std::array<Offset, kTaps> kTapAt{
     return -1;
 }
 
-inline constexpr int kWeightScale = 16384;  ///< a weight of one, in the sum of both residuals
+inline constexpr int kWeightScale = 16384;  ///< stored weight of one, for the sum of both residuals
 
-/// Classes by the structure tensor, the sum of the gradient's products over 5x5 pixels: angle of
-/// its main axis, square root s1 of the larger eigenvalue [grey levels per px] (strength), and
-/// (s1 - s2) / (s1 + s2) of the roots of both eigenvalues (coherence). Class:
-/// (angle * strengths + strength) * coherences + coherence.
+/// Classes of the structure tensor, which sums the products of the gradient over 5x5 pixels. Angle:
+/// that of the tensor's main axis. Strength: s1, the square root of the larger eigenvalue [grey
+/// levels per px]. Coherence: (s1 - s2) / (s1 + s2), where s2 is the square root of the smaller
+/// eigenvalue. Number of a class: (angle * strengths + strength) * coherences + coherence.
 struct GradientClasses {
     static constexpr int kAngles = params::kGradientAngles;
     static constexpr std::array<float, 3> kStrengthFrom{params::kWeakFrom, params::kMediumFrom,
                                                         params::kStrongFrom};
     static constexpr std::array<float, 2> kCoherenceFrom{params::kPartlyCoherentFrom,
                                                          params::kCoherentFrom};
-    static constexpr int kKinds = params::kGradientKinds;  ///< kinds per angle
+    static constexpr int kKinds = params::kGradientKinds;  ///< number of classes per angle
     static_assert(kKinds == (kStrengthFrom.size() + 1) * (kCoherenceFrom.size() + 1));
     static constexpr int kCount = kAngles * kKinds;
 };
-/// Classes by the second derivatives: angle of the main axis, Laplacian, difference of the
-/// eigenvalues [grey levels per px^2]. Class: (angle * Laplacians + Laplacian) * differences +
-/// difference.
+/// Classes of the second derivatives: angle of the main axis, Laplacian, and difference of the
+/// eigenvalues [grey levels per px^2]. Number of a class: (angle * Laplacians + Laplacian) *
+/// differences + difference.
 struct CurvatureClasses {
     static constexpr int kAngles = params::kCurvatureAngles;
     static constexpr std::array<float, 6> kLaplacianFrom{
@@ -68,10 +68,10 @@ struct CurvatureClasses {
     static constexpr int kCount = kAngles * kKinds;
 };
 
-/// Angles in [-pi/2, pi/2), in equal bins. Mirroring the picture maps one quadrant of the double
-/// angle onto the others, so that only the filters of that quadrant are stored.
+/// Angles in [-pi/2, pi/2) are divided into equal bins. Mirroring the picture maps one quadrant of
+/// the double angle onto the others, so only the filters of that quadrant are stored.
 struct Symmetry {
-    int unique;                ///< bin within [0, bins / 4)
+    int unique;                ///< bin of the stored filter, in [0, bins / 4)
     bool mirrors, transposes;  ///< first turn the picture upside down, then exchange x and y
 
     [[nodiscard]] static constexpr Symmetry of(int bin, int bins) {
@@ -81,7 +81,7 @@ struct Symmetry {
         const bool ascends = lower == left;
         return {ascends ? inHalf : bins / 2 - 1 - inHalf, lower, left};
     }
-    /// Position of `v` after mapping; the centre is at `last` / 2.
+    /// Position of `v` after the mapping, which keeps `last` / 2 in place.
     [[nodiscard]] constexpr Offset map(Offset v, int last = 0) const {
         const Offset mirrored{v.x, mirrors ? last - v.y : v.y};
         return transposes ? Offset{mirrored.y, mirrored.x} : mirrored;
@@ -94,13 +94,13 @@ struct Symmetry {
         return at.y * kGrid + at.x;
     }
 };
-/// Number of stored filters, per kind of class and in total.
+/// Number of stored filters for each kind of class, and in total.
 inline constexpr int kUniqueGradient = GradientClasses::kCount / 4;
 inline constexpr int kUniqueCurvature = CurvatureClasses::kCount / 4;
 inline constexpr int kUnique = kUniqueGradient + kUniqueCurvature;
 
 /// The residual is limited so that its sum with the cubic stays within the range of the surrounding
-/// 5x5 pixels, extended at both ends by this power-of-two share of the range: a quarter.
+/// 5x5 pixels. The range is extended at both ends by a power-of-two share of its width: a quarter.
 inline constexpr int kOvershootShift = 2;
 static_assert(params::kOvershoot * (1 << kOvershootShift) == 1);
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kLeastCells = 200;
 constexpr double kMostStills = 8;
-// A cell has structure when its variance exceeds this multiple of the noise.
+// A cell has structure if its variance exceeds this multiple of the noise.
 constexpr double kStructureOverNoise = 4;
 
 /// Variances and covariance of a cell's finest detail [grey levels^2].
@@ -25,7 +25,7 @@ class Sampler {
 public:
     explicit Sampler(const MatchedPictures& pictures) : in_(pictures) {}
 
-    /// Mean of 2x2 samples within a pixel.
+    /// Mean of 2x2 samples of the still within a video pixel.
     [[nodiscard]] double pixel(int x, int y) const {
         double sum = 0;
         for (const double dy : {-0.25, 0.25})
@@ -96,7 +96,8 @@ double quantile(std::vector<double>& values, double share) {
     return *at;
 }
 
-/// Values of the cells whose neighbours may all teach.
+/// Variances at the cells that may be learned from together with all their neighbours: of the
+/// video's finest detail, and the rest that the still leaves unexplained.
 struct Unexplained {
     std::vector<double> video, rest;
 };

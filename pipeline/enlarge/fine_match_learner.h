@@ -9,17 +9,18 @@
 
 namespace mfar::enlarge {
 
-/// Learns FilterBank::fineMatch() from matched stills, as the mean of the last stills. Over all
-/// trusted cells, the noise is the 10 % quantile of the unexplained variance. Over cells with
-/// structure, the share is the median of the unexplained variance beyond the noise, relative to the
-/// variance. Quantiles, so that a wrongly matched part of the picture has no influence.
+/// Learns FilterBank::fineMatch() from matched stills, as a mean over the last stills. The noise is
+/// the 10 % quantile of the unexplained variance over all trusted cells. The share is a median over
+/// the cells with structure: of the unexplained variance beyond the noise, relative to the cell's
+/// variance. Quantiles are used so that a wrongly matched part of the picture has no influence.
 class FineMatchLearner {
 public:
-    /// False: too few cells are trusted or have structure, or a stop was requested.
+    /// Returns false if too few cells are trusted or have structure, or if a stop was requested.
     bool add(const MatchedPictures& pictures, const std::stop_token& stop = {});
     [[nodiscard]] const FineMatch& fineMatch() const { return match_; }
 
-    /// Numbers of stored(), for a later run, which restore() reads. False: numbers out of range.
+    /// stored() returns the state for a later run. restore() reads it, and returns false if a
+    /// number is out of range.
     static constexpr std::size_t kNumbers = 3;
     [[nodiscard]] std::array<double, kNumbers> stored() const;
     [[nodiscard]] bool restore(const std::array<double, kNumbers>& numbers);

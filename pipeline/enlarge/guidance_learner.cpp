@@ -13,21 +13,23 @@
 namespace mfar::enlarge {
 namespace {
 
-constexpr double kForgetting = 0.95;  // as for filters
-// Weight of zero guidance as a prior, as a number of pixels.
+constexpr double kForgetting = 0.95;  // per still, as for the filters
+// Zero guidance is the prior. It counts as much as this number of pixels.
 constexpr double kPriorPixels = 2000;
-constexpr double kLeastPixels = 0.02;  // of the picture, within the tiles for learning
-// Guidance is used when it removes at least this share of the squared error.
+constexpr double kLeastPixels = 0.02;  // least share of the picture to learn from
+// Guidance is used if it removes at least this share of the squared error.
 constexpr double kWorthwhile = 0.005;
-// New factors this close to those in place are not used: pictures would change for no gain.
+// New factors that differ less than this from those in use are ignored: pictures would change for
+// no gain.
 constexpr float kSame = 0.01F;
-// Relative to the product of both squares; below it, the two factors are not separable.
+// Lower limit of the determinant, relative to the product of both squares. If it is smaller, the
+// two factors cannot be separated.
 constexpr double kLeastDeterminant = 1e-9;
-constexpr double kMostPairs = 1e15;  // largest count that a double still increments exactly
-// Levels at which neither sensor is saturated [1/8 grey level].
+constexpr double kMostPairs = 1e15;  // largest count that a double can still increment exactly
+// Between these levels, neither sensor is saturated [1/8 grey level].
 constexpr int kDarkest = 2 * kLumaScale, kBrightest = 253 * kLumaScale;
 
-/// The parts from which a frame is drawn, at the sub-pixels of one pixel after the other.
+/// The parts that are added up when a frame is drawn, at the sub-pixels of one pixel at a time.
 class DrawnFrame {
 public:
     DrawnFrame(const MatchedPictures& pictures, const FilterBank& filters,
@@ -51,14 +53,14 @@ public:
         compare();
     }
 
-    /// True when all inputs of the pixel's detail are known.
+    /// True if all inputs of the pixel's detail are known.
     [[nodiscard]] bool knows(int x, int y) const {
         for (const int dy : {-2, 2})
             for (const int dx : {-2, 2})
                 if (!isKnown(x + dx, y + dy)) return false;
         return true;
     }
-    /// Starts row y.
+    /// Prepares row y.
     void begin(int y) {
         std::array<const std::int16_t*, 7> rows{};
         for (int k = 0; k < 7; ++k)
@@ -76,8 +78,8 @@ public:
             width, {residual_[0], residual_[1], residual_[2], residual_[3]});
     }
     struct Added {
-        Phases unguided;      ///< what is added to the cubic without guidance
-        Phases still, video;  ///< what each factor of Guidance adds to that at the value one
+        Phases unguided;      ///< added to the cubic without guidance
+        Phases still, video;  ///< added by each factor of Guidance if that factor is one
     };
     void addedTo(int x, int y, Added& out) const {
         const Phases low = cubicOf(x, y, [&](int i, int j) { return still_.mean(i, j); });
@@ -99,7 +101,8 @@ private:
     [[nodiscard]] std::size_t at(int x, int y) const {
         return static_cast<std::size_t>(y) * in_.video.width + x;
     }
-    /// Differences of the values from their local mean over known pixels; see params::kGuideReach.
+    /// Stores the differences of the values from their local mean over known pixels; see
+    /// params::kGuideReach.
     template <class Value>
     void beyondMean(const BoxSums& counts, std::vector<float>& out, const Value& value) const {
         const BoxSums sums(in_.video,
@@ -130,7 +133,7 @@ private:
     AlignedRows<std::int16_t> range_, residual_;
 };
 
-/// Sums in the order in which they are stored.
+/// The sums in the order in which they are stored.
 constexpr std::array kSums{&FactorSums::still2,       &FactorSums::video2,
                            &FactorSums::missing2,     &FactorSums::stillVideo,
                            &FactorSums::stillMissing, &FactorSums::videoMissing,
@@ -161,7 +164,7 @@ double FactorSums::gainOf(const Guidance& of) const {
 
 Guidance FactorSums::best(double prior) const {
     if (!(still2 > 0 && video2 > 0 && pixels > 0)) return {};
-    // The part of the still's detail that the video's detail does not explain by any factor.
+    // The part of the still's detail that no multiple of the video's detail explains.
     const double apart = std::max(still2 - stillVideo * stillVideo / video2, 0.0);
     const double pull = apart * prior / pixels;
     const double a2 = still2 + pull, b2 = video2 + pull;
@@ -169,7 +172,8 @@ Guidance FactorSums::best(double prior) const {
     if (!(determinant > kLeastDeterminant * a2 * b2)) return {};
     const auto stillFor = [&](double video) { return (stillMissing - video * stillVideo) / a2; };
     const auto videoFor = [&](double still) { return (videoMissing - still * stillVideo) / b2; };
-    // The unconstrained optimum, or the best point on the border that it exceeds.
+    // The unconstrained optimum, or the best point on the border of the allowed range that it
+    // exceeds.
     const double free = (stillMissing * b2 - videoMissing * stillVideo) / determinant;
     double still = std::clamp(free, 0.0, 1.0);
     const double video = std::clamp(videoFor(still), 0.0, double(Guidance::kMost));
@@ -190,7 +194,7 @@ bool GuidanceLearner::add(const TrustedPairs& truth, const MatchedPictures& olde
             if (!truth.trusts(x, y) || !frame.knows(x, y) || isSaturated(older, x, y)) continue;
             frame.addedTo(x, y, added);
             const Phases missing = truth.target(x, y) - added.unguided;
-            // Every third tile is held out; the tiles are fixed, as for filters.
+            // Every third tile is held out. As with the filters, these tiles never change.
             FactorSums& to = (x / kTileSize + y / kTileSize) % 3 == 0 ? held : learn;
             to.add({added.still.squaredNorm(), added.video.squaredNorm(), missing.squaredNorm(),
                     added.still.dot(added.video), added.still.dot(missing),
@@ -198,7 +202,7 @@ bool GuidanceLearner::add(const TrustedPairs& truth, const MatchedPictures& olde
         }
     }
     const double sum = learn.still2 + learn.video2 + learn.missing2 + held.still2 + held.video2 +
-                       held.missing2;  // the products are no larger
+                       held.missing2;  // the sums of products are no larger
     if (stop.stop_requested() || !std::isfinite(sum)) return false;
     if (!(learn.pixels >= kLeastPixels * width * height && held.pixels > 0)) return false;
     ++pairs_;

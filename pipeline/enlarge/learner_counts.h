@@ -6,15 +6,15 @@
 
 namespace mfar {
 
-/// Counts and results of EnlargerLearner so far.
+/// What EnlargerLearner has counted and reached so far.
 struct LearnerCounts {
     std::uint64_t stills = 0, repeated = 0, refused = 0;
-    int classes = 0;            ///< of enlarge::kUnique, with learned filters in place
-    double gainDb = 0;          ///< of the set in place over the cubic, in the held-out part
-    double priorDb = 0;         ///< as above, for the shipped filters
+    int classes = 0;            ///< of enlarge::kUnique, number with a learned filter in use
+    double gainDb = 0;          ///< of the filters in use over the cubic, held-out part [dB]
+    double priorDb = 0;         ///< of the shipped filters over the cubic, held-out part [dB]
     std::uint64_t pairs = 0;    ///< pairs of stills that guidance was learned from
     Guidance guidance{};        ///< FilterBank::guidance()
-    double guidanceGainDb = 0;  ///< of the guidance over no guidance, in the held-out part
+    double guidanceGainDb = 0;  ///< gain of guidance over no guidance, in the held-out part [dB]
     FineMatch fineMatch{};      ///< FilterBank::fineMatch()
 };
 

@@ -16,8 +16,8 @@ using namespace enlarge;
 constexpr char kMagic[] = "mfarlern";
 constexpr std::size_t kMagicSize = 8;
 constexpr std::array<std::uint64_t, 4> kHeader{4, kUnique, kTaps, kPhases};
-// Older versions that are still read: without guidance; with guidance of a single factor (ten
-// numbers); without the usual match.
+// Older versions that can still be read: without guidance; with one factor of guidance (ten
+// numbers); with two factors, but without the usual match.
 constexpr std::uint64_t kWithoutGuidance = 1, kOneFactor = 2, kTwoFactors = 3;
 constexpr int kOneFactorNumbers = 10;
 constexpr std::size_t kChecksumSize = 4;

@@ -9,8 +9,8 @@
 
 namespace mfar {
 
-/// A video frame and the still that was matched to it, copied for learning. take() allocates only
-/// when sizes change.
+/// A copy of a video frame and of the still that was matched to it, for learning. take() allocates
+/// memory only if sizes change.
 struct MatchedPictures {
     static constexpr int kMargin = 64;  ///< columns of `luma` on each side of the picture
 
@@ -21,18 +21,19 @@ struct MatchedPictures {
     double scaleX = 1, scaleY = 1;        ///< look-up px per video px
     double stillPerX = 1, stillPerY = 1;  ///< px of `still` per look-up px
 
-    /// The picture whose pixels are the unit of look-ups: the still camera's, possibly reduced.
+    /// The picture whose pixels are the unit of look-ups: the still, possibly reduced.
     struct LookedUp {
         Size size;
         double scaleX, scaleY;  ///< look-up px per video px
     };
     void take(const RgbPlanes& video, Rows<const std::uint8_t> still,
               Rows<const LookUpCell> lookUps, const LookedUp& lookedUp);
-    /// Row of `luma`, from the picture's first pixel on; rows beyond the border are replicated.
+    /// Returns a row of `luma`, starting at the picture's first pixel. Rows beyond the border
+    /// repeat it.
     [[nodiscard]] const std::int16_t* row(int y) const;
 };
 
-/// True when a cell is matched well enough to learn from it.
+/// True if a cell is matched well enough to learn from it.
 [[nodiscard]] inline bool mayTeach(const LookUpCell& cell) {
     constexpr float kLeastWeight = 0.25F, kLeastConfidence = 0.8F;
     return std::isfinite(cell.x) && std::isfinite(cell.y) && cell.weight >= kLeastWeight &&

@@ -12,20 +12,20 @@
 namespace mfar::enlarge {
 namespace {
 
-constexpr int kBorder = 8;  // video px
-// A pixel is trusted when the mean squared difference of both pictures is at most the noise plus
-// this share of the video's variance. A share of 0.1 costs 0.07 dB of the gain on photographs,
-// because inexact look-ups blur the still.
+constexpr int kBorder = 8;  // not used, on each side [video px]
+// A pixel is trusted if the mean squared difference of both pictures is at most the noise plus this
+// share of the video's variance. A share of 0.1 loses 0.07 dB of the gain on photographs, because
+// inexact look-ups blur the still.
 constexpr double kMostDifference = 0.03;
-constexpr double kLeastNoise = 1;  // variance [grey levels^2]
-constexpr int kTrustReach = 3;     // px: 7x7 pixels
+constexpr double kLeastNoise = 1;  // lower limit of the noise, a variance [grey levels^2]
+constexpr int kTrustReach = 3;     // [px]: 7x7 pixels
 constexpr int kMeanReach = 8;
-constexpr double kMostShift = 0.5;  // video px
-constexpr double kStructure = 36;   // variance [grey levels^2]
+constexpr double kMostShift = 0.5;  // along each axis [video px]
+constexpr double kStructure = 36;   // least variance of a pixel with structure [grey levels^2]
 
-/// Upper limit of the difference due to noise alone, from the mean squared differences over 7x7
-/// pixels: 1.5 times their 20 % quantile, where noise is the only cause. A lower limit would select
-/// pixels by their noise.
+/// Returns an upper limit of the squared difference that noise alone causes: 1.5 times the 20 %
+/// quantile of the mean squared differences over 7x7 pixels. At this quantile, noise is the only
+/// cause. With a smaller limit, a pixel's noise would decide whether it is trusted.
 double noiseOf(std::vector<double>& differences) {
     if (differences.empty()) return kLeastNoise;
     const auto fifth = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 5);
@@ -68,7 +68,8 @@ double TrustedPairs::videoAt(int x, int y) const {
     return in_.row(y)[x] / double(kLumaScale);
 }
 
-/// Fits the video's level as a function of the still's: linear between the means of 16 ranges.
+/// Fits the video's level as a function of the still's level: linear between the means of 16
+/// ranges.
 void TrustedPairs::fitTone() {
     constexpr int kRanges = 16;
     struct Range {
@@ -111,8 +112,9 @@ float TrustedPairs::toneOf(float value) const {
     return tone_[level] + (value - static_cast<float>(level)) * (tone_[level + 1] - tone_[level]);
 }
 
-/// The point spread functions of the sensors differ, uniformly over the picture: fits a symmetric
-/// kernel of 5x5 pixels, so that only wrong matches appear as differences.
+/// The sensors have different point spread functions, which are uniform over the picture. Fits a
+/// symmetric kernel of 5x5 pixels that makes the still as blurred as the video, so that only wrong
+/// matches appear as differences.
 void TrustedPairs::fitBlur() {
     constexpr int kReach = 2, kWeights = 6;
     using Weights = Eigen::Matrix<double, kWeights, 1>;
@@ -155,7 +157,7 @@ void TrustedPairs::fitBlur() {
             if (isKnown(x, y)) seen_[at(x, y)] += static_cast<float>(weights.dot(around(x, y)));
 }
 
-/// Fits the difference of the video's mean over larger areas from the still's.
+/// Fits the difference between the means of video and still over larger areas.
 void TrustedPairs::fitMean() {
     const auto isKnown = [&](int x, int y) { return known_[y / kCell][x / kCell] != 0; };
     const BoxSums counts(video_, [&](int x, int y) { return isKnown(x, y) ? 1.0 : 0.0; });
@@ -170,7 +172,7 @@ void TrustedPairs::fitMean() {
         }
 }
 
-/// Per cell: sums over its pixels from which its shift is estimated.
+/// Returns, for each cell, sums over its pixels from which its shift is estimated.
 std::vector<TrustedPairs::ShiftSums> TrustedPairs::shiftSums() const {
     const auto isKnown = [&](int x, int y) { return known_[y / kCell][x / kCell] != 0; };
     std::vector<ShiftSums> out(static_cast<std::size_t>(cells_.width) * cells_.height);
@@ -188,8 +190,8 @@ std::vector<TrustedPairs::ShiftSums> TrustedPairs::shiftSums() const {
     return out;
 }
 
-/// Moves the look-ups by the fraction of a pixel that aligns both pictures: one Lucas-Kanade step
-/// over 12x12 pixels around each cell.
+/// Shifts the look-ups by a fraction of a pixel so that both pictures are aligned: one Lucas-Kanade
+/// step over 12x12 pixels around each cell.
 void TrustedPairs::shift() {
     const std::vector<ShiftSums> sums = shiftSums();
     for (int y = 0; y < cells_.height; ++y)

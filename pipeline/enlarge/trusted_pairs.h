@@ -12,22 +12,23 @@
 namespace mfar::enlarge {
 
 /// The still at the sub-pixels of a video frame that it was matched to, as the video's sensor would
-/// show it: warped by the look-ups, shifted by their sub-pixel error, with its tone and its mean
-/// over larger areas fitted to the video's. Gain and gamma of the sensors then leave no offset;
-/// their difference in blur and noise remains and is to be learned.
+/// show it. The still is warped by the look-ups and shifted by their sub-pixel error. Its tone, and
+/// its mean over larger areas, are fitted to the video. So different gain and gamma of the sensors
+/// leave no offset. Their different blur and noise remains and is learned.
 class TrustedPairs {
 public:
-    /// `stop`: ends soon, without trusted pixels.
+    /// If `stop` is requested, the constructor returns soon and no pixel is trusted.
     explicit TrustedPairs(const MatchedPictures& pictures, std::stop_token stop = {});
 
     [[nodiscard]] Size size() const { return video_; }
-    /// Whether both pictures agree around a pixel, up to noise and blur.
+    /// True if both pictures agree around a pixel, except for noise and blur.
     [[nodiscard]] bool trusts(int x, int y) const { return trusted_[y][x] != 0; }
-    /// Residual of the video's Keys' cubic at the pixel's sub-pixels [grey levels].
+    /// What the cubic enlargement of the video lacks at the pixel's sub-pixels [grey levels].
     [[nodiscard]] Phases target(int x, int y) const;
     [[nodiscard]] double trustedShare() const { return trustedShare_; }
-    /// Variance of the still within pixels of the video with structure, relative to that of the
-    /// cubic. At most one: the still is no sharper than the video.
+    /// Variance of the still within those video pixels that have structure, divided by the variance
+    /// of the cubic enlargement there. If it is at most one, the still is no sharper than the
+    /// video.
     [[nodiscard]] double sharpness() const { return sharpness_; }
 
 private:
@@ -65,12 +66,12 @@ private:
     std::stop_token stop_;
     Size video_, cells_;
     AlignedRows<LookUpCell> lookUps_;
-    AlignedRows<std::uint8_t> known_;    // per cell: matched
-    AlignedRows<std::uint8_t> trusted_;  // per pixel
+    AlignedRows<std::uint8_t> known_;    // per cell: 1 if matched
+    AlignedRows<std::uint8_t> trusted_;  // per pixel: 1 if trusted
     WarpedGrid still_;
-    Plane seen_;               // the still's mean per pixel, in the tone and blur of the video
-    Plane mean_;               // difference of the video from seen_, mean over larger areas
-    std::vector<float> tone_;  // per grey level
+    Plane seen_;               // the still's mean per pixel, with tone and blur of the video
+    Plane mean_;               // video minus seen_, averaged over a larger area
+    std::vector<float> tone_;  // level of the video for each level of the still
     double trustedShare_ = 0, sharpness_ = 0;
 };
 

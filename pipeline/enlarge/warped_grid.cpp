@@ -9,7 +9,7 @@
 namespace mfar::enlarge {
 namespace {
 
-/// Catmull-Rom cubic: weights of the entries at -1 to 2.
+/// Weights of the Catmull-Rom cubic for the entries at -1 to 2.
 std::array<float, 4> catmullRom(float t) {
     const float t2 = t * t, t3 = t2 * t;
     return {0.5F * (-t3 + 2 * t2 - t), 0.5F * (3 * t3 - 5 * t2 + 2), 0.5F * (-3 * t3 + 4 * t2 + t),
@@ -32,7 +32,7 @@ float sample(const AlignedRows<std::uint8_t>& picture, float x, float y) {
     return out;
 }
 
-/// Interpolation between cells along one axis at `at` [video px].
+/// Interpolates between two cells along one axis. `at`: position [video px].
 struct BetweenCells {
     BetweenCells(double at, int count) {
         const double cell = std::clamp((at - 1.5) / kCell, 0.0, count - 1.0);
@@ -44,7 +44,7 @@ struct BetweenCells {
     float t;
 };
 
-/// Value at a place in the video [px].
+/// Returns the value at a position in the video [px].
 float between(const AlignedRows<LookUpCell>& cells, float LookUpCell::* part, double px,
               double py) {
     const BetweenCells u(px, cells.size().width), v(py, cells.size().height);
@@ -64,7 +64,7 @@ WarpedGrid::WarpedGrid(Size video)
 
 void WarpedGrid::warp(const MatchedPictures& pictures, const AlignedRows<LookUpCell>& lookUps,
                       const AlignedRows<std::uint8_t>& known, const std::stop_token& stop) {
-    // Where several pixels of the still fall into a sub-pixel, their mean is used.
+    // If several pixels of the still lie in a sub-pixel, their mean is used.
     const int samples =
         std::max(1, static_cast<int>(std::lround(pictures.scaleX * pictures.stillPerX / kGrid)));
     const int perPixel = kGrid * samples;

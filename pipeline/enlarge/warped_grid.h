@@ -15,8 +15,9 @@ class WarpedGrid {
 public:
     explicit WarpedGrid(Size video);
 
-    /// Reads the still of `pictures` at the look-ups of the pixels of known cells; other pixels
-    /// keep their values. `known`: cells with a valid look-up. `stop`: ends soon.
+    /// Samples the still of `pictures` at the look-ups of all pixels in known cells; other pixels
+    /// keep their values. `known`: 1 for cells with a valid look-up. If `stop` is requested, the
+    /// call returns soon.
     void warp(const MatchedPictures& pictures, const AlignedRows<LookUpCell>& lookUps,
               const AlignedRows<std::uint8_t>& known, const std::stop_token& stop);
 
@@ -36,12 +37,12 @@ private:
     std::vector<float> mean_;
 };
 
-/// Values of a member of the look-ups at the sub-pixels of a pixel: bilinear between cells, as
-/// detail is drawn.
+/// Returns one member of the look-ups at the sub-pixels of a pixel, interpolated between cells
+/// bilinearly, as for drawing detail.
 [[nodiscard]] Phases betweenCells(const AlignedRows<LookUpCell>& cells, float LookUpCell::* part,
                                   int x, int y);
 
-/// Keys' cubic at the sub-pixels of a pixel, from the values of the pixels.
+/// Returns Keys' cubic at the sub-pixels of a pixel, computed from the values of pixels.
 template <class ValueAt>
 [[nodiscard]] Phases cubicOf(int x, int y, const ValueAt& valueAt) {
     const std::int16_t* cubic = FilterBank::prior().cubic();
