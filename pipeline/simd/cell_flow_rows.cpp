@@ -3,7 +3,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/cell_flow_rows.cpp"
 #include <hwy/foreach_target.h>
-// Included once per instruction set, like this file.
+// The next header is included once per instruction set, as this file is.
 #include "pipeline/simd/depth_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -22,7 +22,7 @@ void CellDepths(const float* upper, const float* lower, std::size_t count, float
     });
 }
 
-/// Where the still shows the points of inverse depth s on the rays.
+/// Where the still shows points with inverse depth s on the rays (rx, ry).
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Points<V> endOf(D d, const FlowEnds& ends, V rx, V ry, V s) {
     const auto& move = ends.motion.move;
@@ -40,8 +40,8 @@ HWY_INLINE Points<V> endOf(D d, const FlowEnds& ends, V rx, V ry, V s) {
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Points<V> loadVectors(D d, const CellVector* from) {
-    // Not Points with an empty initialiser: its default constructor would not be compiled for this
-    // instruction set.
+    // Not a Points with an empty initialiser, because its default constructor would not be compiled
+    // for this instruction set.
     V x, y, c, e;
     hn::LoadInterleaved4(d, from->data(), x, y, c, e);
     return {x, y};
@@ -61,7 +61,8 @@ void CellFlow(const FlowEnds& ends, const CellRow& row, const float* s, CellVect
     });
 }
 
-/// Nearest cell of each point; -1 if its mask bit is not set or the point is outside the field.
+/// Stores the index of the cell nearest to each point; -1 if the point's bit in `valid` is not set
+/// or the point is outside the field.
 template <class D>
 HWY_INLINE void storeCells(D d, const Points<hn::Vec<D>>& p, hn::Mask<D> valid, Size cells,
                            std::int32_t* to) {

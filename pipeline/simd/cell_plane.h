@@ -8,13 +8,13 @@
 
 namespace mfar::simd {
 
-/// Width rounded up to whole vectors of the kernels.
+/// Returns the size with its width rounded up to whole vectors of the kernels.
 [[nodiscard]] inline Size wholeVectors(Size cells) {
     constexpr int kLongest = 16;  // [cells]
     return {(cells.width + kLongest - 1) / kLongest * kLongest, cells.height};
 }
 
-/// A value per cell; the rows repeat their border.
+/// One value per cell. Margins on both sides of a row repeat its border.
 class CellPlane {
 public:
     explicit CellPlane(Size cells)
@@ -26,20 +26,20 @@ public:
         row[-1] = row[0];
         row[cells_.width] = row[cells_.width - 1];
     }
-    /// Row y and its neighbours; at the border, row y repeats.
+    /// Returns row y and its neighbours; beyond the plane's border, row y is repeated.
     [[nodiscard]] RowsAround around(int y) {
         return {(*this)[std::max(y - 1, 0)], (*this)[y],
                 (*this)[std::min(y + 1, cells_.height - 1)]};
     }
 
 private:
-    static constexpr int kMargin = 16;  // a cache line
+    static constexpr int kMargin = 16;  // as long as a cache line
     Size cells_;
     AlignedRows<float> rows_;
 };
 
-/// Calls body(matched, first, last) for the longest runs of cells whose tiles are all matched or
-/// all not matched.
+/// Calls body(matched, first, last) for the longest runs of cells whose tiles are all matched, or
+/// all unmatched.
 template <class Body>
 void forRuns(const TileWork& work, int tileRow, int cellsPerTile, int cells, const Body& body) {
     for (int tile = 0; tile < work.tiles.width;) {

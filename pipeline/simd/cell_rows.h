@@ -8,9 +8,9 @@
 
 namespace mfar::simd {
 
-/// Rows of a field of cells, enlarged to the width of a picture: linear between cell centres,
-/// constant beyond the border. Keeps four adjacent rows. Count: numbers per cell, chosen by the
-/// caller.
+/// Rows of a field of cells, enlarged to the width of a picture: linear between the centres of
+/// cells, constant beyond the border. Keeps four adjacent rows. Count: number of channels of a
+/// cell, chosen by the caller.
 template <class Cell, std::size_t Count>
 class CellRows {
 public:
@@ -20,7 +20,7 @@ public:
     CellRows(int cells, int width)
         : planar_({cells, Count}), wide_({width, kKept * static_cast<int>(Count)}) {}
 
-    /// Starts a field; only pixels [begin, end) are computed.
+    /// Starts with a new field; only pixels [begin, end) are computed.
     void begin(Rows<const Cell> field, const RowTaps& taps, int begin, int end) {
         field_ = field;
         taps_ = &taps;
@@ -28,7 +28,7 @@ public:
         end_ = end;
         rows_.fill(-1);
     }
-    /// `channelsOf`: converts a cell to finite numbers.
+    /// Returns a row of the field, enlarged. `channelsOf` converts a cell to finite numbers.
     template <class ChannelsOf>
     [[nodiscard]] Wide row(int y, const ChannelsOf& channelsOf) {
         const int slot = y % kKept, first = slot * static_cast<int>(Count);
@@ -63,7 +63,7 @@ private:
     AlignedRows<float> planar_, wide_;
 };
 
-/// Two rows and the position between them, from a linear table for columns.
+/// Two rows and the position between them, read from a linear resampling table.
 struct BetweenRows {
     BetweenRows(const RowTaps& taps, int y)
         : rows{taps.first(y), taps.first(y) + (taps.taps() > 1 ? 1 : 0)},
@@ -73,7 +73,7 @@ struct BetweenRows {
     float t;
 };
 
-/// The value, or 0 if it is NaN or out of bounds.
+/// Returns the value, or 0 if it is NaN or out of bounds.
 [[nodiscard]] inline float boundedOr0(float value, float least, float most) {
     return value >= least && value <= most ? value : 0;
 }

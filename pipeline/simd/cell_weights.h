@@ -6,24 +6,25 @@
 
 namespace mfar::simd {
 
-/// A row of cells and its neighbours. Each repeats its border 1 cell to the left and to the right,
-/// and its memory extends to a multiple of 16 cells.
+/// A row of cells and the rows above and below. Each row repeats its border by one cell on both
+/// sides, and its memory extends to a multiple of 16 cells.
 struct RowsAround {
     const float *above, *here, *below;
 };
 
-/// Input for the weights of a row of cells. Statistics are those of PatchSums.
+/// Input for the weights of a row of cells. Covariance and variances are those of PatchSums.
 struct WeighRow {
     int count;
     RowsAround flowX, flowY;  ///< [video px]
     RowsAround covariance, varianceVideo, varianceStill;
     const float *confidence, *lookX, *lookY;
-    /// At half resolution: the row that contains the cells, and the nearer of its neighbours.
+    /// At half resolution: the row that contains the cells, and the neighbouring row nearer to
+    /// them.
     struct Half {
         const float *near, *other;
     };
     Half halfCovariance, halfVarianceStill;
-    /// Written up to a multiple of 16 cells.
+    /// Results; written up to a multiple of 16 cells.
     WeighedCell* weighed;
     LookUpCell* lookUps;
     TrustCell* trust;

@@ -3,7 +3,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/census_rows.cpp"
 #include <hwy/foreach_target.h>
-// Included once per instruction set, like this file.
+// The next header is included once per instruction set, as this file is.
 #include "pipeline/simd/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -11,7 +11,8 @@ namespace mfar::simd::HWY_NAMESPACE {
 
 constexpr int kSide = 2 * kCensusRadius + 1;
 
-/// Bits of eight neighbours from number `first`, skipping the centre; the first is the highest.
+/// Bits of eight neighbours, starting with number `first`, which gets the highest bit. Numbers skip
+/// the centre.
 template <class D>
 HWY_INLINE hn::Vec<D> bitsFrom(D d, int first, const std::uint8_t* const (&rows)[kSide],
                                std::size_t x, hn::Vec<D> centre) {
@@ -40,7 +41,7 @@ void CensusRow(const std::uint8_t* const (&rows)[kSide], std::size_t width,
             low = hn::IfThenZeroElse(unseen, low);
             none = hn::IfThenElseZero(unseen, hn::Set(d, 0x80));
         }
-        // Little-endian words.
+        // The words are little-endian.
         hn::StoreInterleaved4(low, middle, high, none, d, reinterpret_cast<std::uint8_t*>(out + x));
     });
 }

@@ -1,4 +1,4 @@
-// Shared by kernels on fields of inverse depth. Included once for each instruction set.
+// Shared by kernels for fields of inverse depth. Included once per instruction set.
 #include "base/image_view.h"
 #include "pipeline/simd/lanes-inl.h"
 
@@ -12,7 +12,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 
-/// InverseDepthField::isSound().
+/// InverseDepthField::isSound() for a vector of pixels.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE hn::Mask<D> isSound(D d, V rho, V variance) {
     const auto isDepth = hn::And(hn::Ge(rho, hn::Zero(d)), hn::Lt(rho, hn::Set(d, 1e15F)));
@@ -26,7 +26,7 @@ struct RangeOf {
     V low, high;
 };
 
-/// Smallest of `low` and largest of `high` over rows.
+/// Returns the smallest of `low` and the largest of `high` over several rows.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE RangeOf<V> rangeOver(D d, const float* low, const float* high, std::ptrdiff_t pitch,
                                 int rows) {
@@ -38,7 +38,7 @@ HWY_INLINE RangeOf<V> rangeOver(D d, const float* low, const float* high, std::p
     return out;
 }
 
-/// Rows of a rotation matrix, in lanes.
+/// The rows of a rotation matrix, for vectors of points.
 template <class D>
 struct Turn {
     HWY_INLINE Turn(D tag, const float* rowMajor) : d(tag), r(rowMajor) {}
@@ -53,8 +53,8 @@ struct Turn {
     const float* r;
 };
 
-/// The pixel that contains a point, as EpipolarLens::pixelAt(): column, row, and whether it is in
-/// the picture.
+/// The pixel that contains a point, as in EpipolarLens::pixelAt(): column, row, and whether it is
+/// in the picture.
 template <class D, class V = hn::Vec<D>>
 struct PixelOf {
     hn::Vec<hn::RebindToSigned<D>> column, row;

@@ -6,17 +6,17 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/depth_rows.cpp"
 #include <hwy/foreach_target.h>
-// Included once per instruction set, like this file.
+// The next header is included once per instruction set, as this file is.
 #include "pipeline/simd/depth_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 
-constexpr float kLeastLanding = 0.05F;  // lower limit of the depth after the rotation, for a ray of
-                                        // unit depth
+constexpr float kLeastLanding = 0.05F;  // least depth after the rotation, for a ray whose depth was
+                                        // 1
 constexpr float kUnknown = std::numeric_limits<float>::infinity();
 
-/// Row-major pixel index, -1 where the mask is not set.
+/// Stores row-major indices of pixels; -1 where the bit of `valid` is not set.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE void storePixels(D /*d*/, const PixelOf<D>& at, hn::Mask<D> valid, int width,
                             std::int32_t* to) {
@@ -44,7 +44,7 @@ void LandRow(const Lens& lens, Size size, const Motion& motion, const float* ray
     });
 }
 
-/// Smallest rectangle around pixels that are added a vector at a time.
+/// The smallest rectangle around pixels, which are added one vector at a time.
 class LaneBounds {
 public:
     HWY_INLINE explicit LaneBounds(Size size)

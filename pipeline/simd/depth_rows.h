@@ -15,54 +15,55 @@ struct Motion {
     std::array<float, 3> move;
 };
 
-/// Pixels of another camera's picture on which points of inverse depth `s` land: R (r + s (t - r
-/// t.z)), see EpipolarLens; `motion.move` is t, applied before the rotation.
+/// Pixels of another camera's picture on which points with inverse depth `s` land: R (r + s (t - r
+/// t.z)), see EpipolarLens. `motion.move` is t, which is applied before the rotation.
 void landRow(const Lens& lens, Size size, const Motion& motion, const float* raysX,
              const float* raysY, const float* s, std::size_t count, std::int32_t* landing);
 
-/// The scene's points in a row of pixels; a point is known if its variance is finite.
+/// The scene's points at a row of pixels. A point is known if its variance is finite.
 struct DepthPoints {
-    const float *raysX, *raysY;  ///< of the pixel centres
-    const float *x, *y;          ///< offset from the centre [px]
+    const float *raysX, *raysY;  ///< through the pixel centres
+    const float *x, *y;          ///< offset of the point from the pixel's centre [px]
     const float *rho, *variance;
 };
-/// The same points seen by another camera.
+/// The same points, seen by another camera.
 struct MovedPoints {
-    std::int32_t* pixel;  ///< row-major index; -1: invalid
+    std::int32_t* pixel;  ///< row-major index of the pixel that shows it; -1: invalid
     float *x, *y;         ///< offset from that pixel's centre [px]
     float *rho, *variance;
 };
 struct MoveRule {
     float pixelX, pixelY;  ///< change of the ray per pixel
-    float leastDepth;      ///< lower limit, as a share of the depth before
-    float growth;          ///< added variance as a share of the squared inverse depth
+    float leastDepth;      ///< least depth after the motion, as a share of the depth before
+    float growth;          ///< added variance, as a share of the squared inverse depth
 };
-/// Points are homogeneous, (x, y, 1, rho). Extends `bounds` to the pixels on which they land.
+/// Moves points (x, y, 1, rho) in homogeneous coordinates. Extends `bounds` to the pixels on which
+/// they land.
 void moveRow(const Lens& lens, Size size, const Motion& motion, const MoveRule& rule,
              const DepthPoints& from, std::size_t count, const MovedPoints& to, PixelRect& bounds);
 
-/// Result of a search for a row of pixels.
+/// The result of a search for a row of pixels.
 struct SearchedRow {
     const float *raysX, *raysY, *s;
-    const std::int32_t* landing;  ///< landRow()
+    const std::int32_t* landing;  ///< see landRow()
     const float* nearest;         ///< for each pixel of the other picture, the largest s that lands
                                   ///< on it
 };
 struct MeasureRule {
     std::array<float, 3> t;  ///< translation of points [units]
-    float slack;             ///< tolerance of s between neighbours on one surface
-    float leastDepth;        ///< lower limit after the move, as a share of the depth before
+    float slack;             ///< difference of s between neighbours on one surface
+    float leastDepth;        ///< least depth after the motion, as a share of the depth before
     float error;             ///< standard deviation of a match [rays]
-    float perUnit;           ///< s [1/unit] to rho [1/m]
+    float perUnit;           ///< converts s [1/unit] to rho [1/m]
 };
-/// Inverse depth rho = s / (1 - s t.z) and its variance; 0 and infinity if the other picture does
-/// not show the pixel, or if the pixel does not move.
+/// Inverse depth rho = s / (1 - s t.z) and its variance. They are 0 and infinity if the other
+/// picture does not show the pixel, or if a change of s does not move the pixel.
 void measureRow(const SearchedRow& row, const MeasureRule& rule, std::size_t count, float* rho,
                 float* variance);
 
-/// Replaces the inverse depth `own` of pixels by that of cells of 4x4 pixels, bilinear, where they
-/// differ by less than `same`. Pixels [first, first + count) of row y; `cells`: row-major, `size`
-/// of them.
+/// For pixels [first, first + count) of row y: replaces the inverse depth `own` of a pixel by that
+/// of the cells around it (of 4x4 pixels, bilinear), if the two differ by less than `same`.
+/// `cells`: row-major, `size` of them.
 struct CellField {
     const float* cells;
     Size size;

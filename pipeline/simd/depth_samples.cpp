@@ -25,7 +25,7 @@ struct Prepare {
         const V zero = hn::Zero(d);
         const V inverse = hn::LoadU(d, from.inverse + x), given = hn::LoadU(d, from.sigma + x);
         const V sigma = from.squared ? hn::Sqrt(given) : given;
-        // Written as positive tests, so that NaN is unknown.
+        // Positive tests, so that a sample with NaN is unknown.
         const auto near = hn::And(hn::Gt(inverse, hn::Set(d, params::kLeastInverseDepth)),
                                   hn::Lt(inverse, hn::Set(d, params::kMostInverseDepth)));
         const auto sharp = hn::And(hn::Gt(sigma, hn::Set(d, params::kLeastDepthSigma)),
@@ -52,7 +52,7 @@ private:
     }
 };
 
-/// Whole vectors, then one lane at a time.
+/// Processes whole vectors, then single lanes.
 template <class Body>
 HWY_INLINE void Along(int first, int last, const Body& body) {
     const hn::ScalableTag<float> d;

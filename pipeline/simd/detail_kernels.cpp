@@ -17,12 +17,12 @@ using F = hn::ScalableTag<float>;
 using I = hn::RebindToSigned<F>;
 using U = hn::RebindToUnsigned<F>;
 
-/// Loads 32-bit lanes from any byte offsets.
+/// Loads 32-bit lanes from arbitrary byte offsets.
 HWY_INLINE hn::Vec<U> GatherAnywhere(const void* base, hn::Vec<I> bytes) {
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
     return hn::GatherOffset(U(), static_cast<const std::uint32_t*>(base), bytes);
 #else
-    // Highway's emulated target does not support unaligned gathers.
+    // Other targets of Highway do not support unaligned gathers.
     HWY_ALIGN std::int32_t at[hn::MaxLanes(I())];
     HWY_ALIGN std::uint32_t out[hn::MaxLanes(U())];
     hn::Store(bytes, I(), at);
@@ -32,7 +32,7 @@ HWY_INLINE hn::Vec<U> GatherAnywhere(const void* base, hn::Vec<I> bytes) {
 #endif
 }
 
-/// Interpolates two rows; `t`: 0 is the first.
+/// Interpolates between two rows; `t` = 0 gives the first row.
 HWY_INLINE hn::Vec<F> Between(const std::array<const float*, 2>& rows, float t, int x) {
     const F df;
     const auto a = hn::LoadU(df, rows[0] + x);
@@ -44,7 +44,7 @@ struct Positions {
     hn::Vec<F> fx, fy;  // fraction towards the next pixel
 };
 
-/// Reads the look-ups of consecutive vectors.
+/// Reads the look-up positions of consecutive vectors of pixels.
 class LookUp {
 public:
     LookUp(const LookUpRows& rows, Size size, int begin)
@@ -72,12 +72,13 @@ private:
     hn::Vec<F> stepX_, startX_, startY_, lastX_, lastY_, pixels_;
 };
 
-/// Bilinear mean of four bytes, 0x(x1y1)(x1y0)(x0y1)(x0y0), times 256.
+/// Bilinear interpolation of four bytes, packed as 0x(x1y1)(x1y0)(x0y1)(x0y0). The result is
+/// multiplied by 256.
 HWY_INLINE hn::Vec<F> MeanOfFour(hn::Vec<U> texels, const Positions& at) {
     const F df;
     const I di;
     const U du;
-    // Both columns at once: 255 * 256 fits into half a lane.
+    // Both columns at once, because 255 * 256 fits into half a lane.
     const auto scaled = hn::NearestInt(hn::Mul(at.fy, hn::Set(df, 256.0F)));
     const auto lower = hn::BitCast(du, scaled);
     const auto upper = hn::Sub(hn::Set(du, 256), lower);
@@ -172,7 +173,7 @@ void FadeRow(const std::int16_t* second, const LookUpRows& secondRows, const Loo
 using I16 = hn::ScalableTag<std::int16_t>;
 using U16 = hn::RebindToUnsigned<I16>;
 
-/// A channel of one vector of pixels, in [0, 255].
+/// One channel of a vector of pixels, in [0, 255].
 class Channel {
 public:
     explicit Channel(const std::array<std::int16_t, 4>& weights) {

@@ -7,13 +7,13 @@
 namespace mfar::simd {
 namespace {
 
-constexpr int kGrain = 32;  // rows of the output per portion
+constexpr int kGrain = 32;  // rows of the output that a thread takes at a time
 // Whole frames are drawn in strips of about this width, so that intermediate rows stay in the
-// first-level cache.
+// first-level cache [px].
 constexpr int kStripWidth = 576;
 constexpr int kStripStep = 64;
 
-/// First output pixel whose centre lies in each tile, then the output's size.
+/// Returns the first output pixel whose centre lies in each tile, followed by the output's size.
 std::vector<int> tileStarts(int tiles, int video, int output) {
     std::vector<int> out;
     for (int i = 0; i < tiles; ++i) {
@@ -35,7 +35,7 @@ struct DetailStep::Frame {
     const DetailInput& in;
     DetailOptions options;
     Rows<std::uint32_t> out;
-    bool warps, blends, linear;  // how the still is used: at most one of the two
+    bool warps, blends, linear;  // how the still is used: warps and blends exclude each other
     const FilterBank* bank;      // null: no learned filters
     BlendPicture picture;
     const DetailStep& step;
@@ -71,7 +71,7 @@ DetailStep::Show DetailStep::showOf(const Frame& frame, int column, int row) con
     if (work.draw != TileWork::Draw::Whole) return upscaled ? Show::Video : Show::Detail;
     const PixelRect& in = work.detailTiles;
     if (!(column >= in.x0 && column < in.x1 && row >= in.y0 && row < in.y1)) return Show::Video;
-    // Unmatched tiles are classified as upscaled, too, but their neighbours may give them weight.
+    // Unmatched tiles are also classified as upscaled, but their neighbours may give them weight.
     const bool weightless =
         upscaled && tile.matched != 0 && frame.options.mode == SuperResMode::Detail;
     return weightless ? Show::Video : Show::Detail;
@@ -107,7 +107,8 @@ TileSummary DetailStep::draw(const DetailInput& in, const DetailOptions& options
                 *this};
     if (frame.blends) frame.picture = {in.picture.data, in.picture.pitch, in.picture.size};
     choose(frame);
-    // Captures one pointer and one reference: std::function stores them without allocating.
+    // The function captures only a pointer and a reference, so that std::function stores it without
+    // allocating.
     workers_->forRange(output_.height, kGrain, [this, &frame](int first, int last) {
         scratch_.with([&](Scratch& scratch) { drawPart(frame, scratch, first, last); });
     });

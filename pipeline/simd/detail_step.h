@@ -25,24 +25,24 @@ struct DetailOptions {
     SuperResMode mode;
     bool cubic;                      ///< see Quality
     bool upscaledTiles, plainTiles;  ///< see SkipOptions
-    /// In mode Detail, enlarges tiles with structure by these filters where the still's detail
-    /// leaves a share; then no tile is sharpened. Null: sharpening as usual.
+    /// In mode Detail, these filters enlarge tiles with structure, as far as the still's detail has
+    /// a weight below one; no tile is sharpened then. Null: tiles are sharpened as usual.
     const FilterBank* learned = nullptr;
 };
 
 struct DetailInput {
     const RgbPlanes& video;
     const TileWork& work;
-    // A still's luma, or its RGBA8 picture for mode Blend; if neither has data, the video is only
+    // The still's luma or, in mode Blend, its RGBA8 picture. If neither has data, the video is only
     // enlarged.
     StillPairs still{};
     Rows<const std::uint32_t> picture{};
-    // Only read if there is a still; one entry per 4x4 video pixels.
+    // Read only if there is a still; one entry per 4x4 video pixels.
     Rows<const WeighedCell> weighed;
     Rows<const LookUpCell> lookUps;
     Rows<const TrustCell> trust;
-    /// A second still, shown where its share is larger than the first's; only in mode Detail.
-    /// Without data: no second still.
+    /// A second still, shown where its weight is larger than the first still's; only in mode
+    /// Detail. Without data, there is no second still.
     struct Second {
         StillPairs still{};
         Rows<const WeighedCell> weighed{};
@@ -52,18 +52,19 @@ struct DetailInput {
     Second second{};
 };
 
-/// Turns video, still and flow into the high-resolution picture on the CPU: the result of
-/// SuperRes::draw() within a grey level. Allocates in the constructor. Unlike there, the sharpened
-/// neighbours of drawn tiles are this frame's, too.
+/// Turns video, still and flow into the high-resolution picture on the CPU. The result differs from
+/// that of the GLES engine's DetailPainter by at most a grey level. There, tiles next to drawn
+/// tiles may be sharpened from an older frame; here, they always belong to this frame. Allocates
+/// memory only in the constructor.
 class DetailStep {
 public:
-    /// `stillRig`: StillPreparation::rig(). `output`: size of the enlarged whole video.
+    /// `stillRig`: see StillPreparation::rig(). `output`: size of the whole enlarged video.
     DetailStep(const StereoRig& stillRig, Size output, std::shared_ptr<Workers> workers);
 
-    /// Draws the tiles that `work` lists, into RGBA8 (R in the lowest byte, alpha 255) of the
-    /// output's size; other tiles keep their pixels.
+    /// Draws the tiles of `work` into `out`, which is RGBA8 (R in the lowest byte, alpha 255) and
+    /// has the output's size. Other tiles keep their pixels.
     TileSummary draw(const DetailInput& in, const DetailOptions& options, Rows<std::uint32_t> out);
-    /// Class of every tile at the last draw(), row-major.
+    /// Class of each tile in the last draw(), row-major.
     [[nodiscard]] const std::vector<TileClass>& classes() const { return classes_.classes(); }
 
 private:
@@ -94,8 +95,8 @@ private:
     void drawStrip(const Frame& frame, Scratch& scratch, const PixelRect& strip) const;
     void cut(const Frame& frame, int row, int begin, int end, Scratch& scratch) const;
     void drawRow(const Frame& frame, Scratch& scratch, int y) const;
-    /// The detail that the stills, and the learned filters where the stills leave a share, add to
-    /// the video's pixels.
+    /// Returns what is added to the video's pixels: the detail of the stills and, where their
+    /// weights leave a share, the residual of the learned filters.
     static const std::int16_t* detailOf(Scratch& scratch, const Segment& segment,
                                         const std::int16_t* learned, int y);
 
@@ -105,8 +106,8 @@ private:
     LearnedTaps learnedTaps_;
     LookUpTaps lookUpTaps_;
     WarpedStillTaps warpedTaps_;
-    std::vector<int> columnsAt_, rowsAt_;  // first output pixel of each tile, then the output's
-                                           // size
+    std::vector<int> columnsAt_, rowsAt_;  // first output pixel of each tile, followed by the
+                                           // output's size
     TileClasses classes_;
     std::vector<Show> shows_;  // per tile
     ScratchSlots<Scratch> scratch_;

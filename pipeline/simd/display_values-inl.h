@@ -1,5 +1,5 @@
-// Conversion between display (sRGB) and linear values, in lanes. Error within half a step of a
-// byte.
+// Conversion between display (sRGB) and linear values for vectors of pixels. The error is within
+// half a step of a byte.
 #if defined(MFAR_SIMD_DISPLAY_VALUES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef MFAR_SIMD_DISPLAY_VALUES_INL_H
 #undef MFAR_SIMD_DISPLAY_VALUES_INL_H
@@ -14,7 +14,7 @@ namespace mfar::simd::HWY_NAMESPACE {
 
 namespace hw = hwy::HWY_NAMESPACE;
 
-/// Linear value of bytes [0, 255]: cubic approximation.
+/// Returns the linear value of bytes in [0, 255], by a cubic approximation.
 template <class D>
 HWY_INLINE hw::Vec<D> LinearOf(D d, hw::Vec<D> byte) {
     const auto x = hw::Mul(byte, hw::Set(d, 1.0F / 255));
@@ -22,12 +22,12 @@ HWY_INLINE hw::Vec<D> LinearOf(D d, hw::Vec<D> byte) {
     return hw::Mul(x, hw::MulAdd(x, inner, hw::Set(d, 0.012522878F)));
 }
 
-/// Display level [0, 255] of a linear value, clamped to [0, 1]; not rounded.
+/// Returns the display level [0, 255] of a linear value, which is clamped to [0, 1]. Not rounded.
 template <class D>
 HWY_INLINE hw::Vec<D> SrgbLevel(D d, hw::Vec<D> linear) {
     const auto x = hw::Min(hw::Max(linear, hw::Zero(d)), hw::Set(d, 1));
     const auto s = hw::Sqrt(x);
-    // 255 (1.055 s^(2 / 2.4) - 0.055), error below 0.09 (Remez).
+    // 255 (1.055 s^(2 / 2.4) - 0.055), with an error below 0.09 (Remez approximation).
     auto high = hw::MulAdd(s, hw::Set(d, 132.00984F), hw::Set(d, -414.30241F));
     high = hw::MulAdd(s, high, hw::Set(d, 518.32418F));
     high = hw::MulAdd(s, high, hw::Set(d, -357.82060F));

@@ -1,4 +1,4 @@
-// A lens's distortion in lanes. Included once for each instruction set.
+// A lens's distortion for vectors of rays. Included once per instruction set.
 #include <hwy/highway.h>
 
 #if defined(MFAR_SIMD_DISTORTION_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -17,8 +17,9 @@ struct Points {
     V x, y;
 };
 
-/// Radial and tangential distortion of rays (x, y) of squared radius q, in focal lengths. `Model`
-/// has k1, k2, k3, p1 and p2. Source: Brown, Close-range camera calibration, 1971.
+/// Applies radial and tangential distortion to rays (x, y), whose squared radius is q; the result
+/// is in focal lengths. `Model` has k1, k2, k3, p1 and p2. Source: Brown, Close-range camera
+/// calibration, 1971.
 template <class D, class Model, class V = hn::Vec<D>>
 HWY_INLINE Points<V> distorted(D d, const Model& lens, V x, V y, V q) {
     const auto set = [d](float v) HWY_ATTR { return hn::Set(d, v); };

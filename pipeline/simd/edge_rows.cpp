@@ -5,7 +5,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/edge_rows.cpp"
 #include <hwy/foreach_target.h>
-// Included once per instruction set, like this file.
+// The next header is included once per instruction set, as this file is.
 #include "pipeline/simd/depth_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -33,7 +33,7 @@ void OpenRow(const float* low, const float* high, std::ptrdiff_t pitch, int rows
 using DVoters = hn::CappedTag<float, 16>;
 using VVoters = hn::Vec<DVoters>;
 
-/// Calls body(mask, j, i) for vectors of the voters in columns [x0, x1), rows [y0, y1).
+/// Calls body(mask, rho, j, i) for vectors of the voters in columns [x0, x1) and rows [y0, y1).
 template <class Body>
 HWY_INLINE void forVoters(const Voters& voters, const PixelRect& window, const Body& body) {
     const DVoters d;
@@ -46,7 +46,7 @@ HWY_INLINE void forVoters(const Voters& voters, const PixelRect& window, const B
     }
 }
 
-/// The votes for one of two surfaces.
+/// Sums of the votes for one of two surfaces.
 struct Side {
     VVoters weight, rho, variance;
 
@@ -106,7 +106,7 @@ void VotePixels(const Voters& voters, const VoteRule& rule, const PixelRect& whe
     const auto first = [](int from) { return (from + kVoterStep - 1) / kVoterStep; };
     for (OpenPixel& pixel : pixels) {
         const int x = pixel.x;
-        // First voter at or after the window's begin, and first after its end.
+        // In voters: first one at or after the window's begin, first one after its end.
         const PixelRect window{first(std::max(x - rule.radius, where.x0)),
                                first(std::max(y - rule.radius, where.y0)),
                                first(std::min(x + rule.radius + 1, where.x1)),

@@ -10,25 +10,26 @@
 
 namespace mfar::simd {
 
-/// Replaces pixels that the look-up blurs, while the camera rests: EdgeRefiner on the CPU.
+/// While the camera rests, replaces pixels that the look-up blurs. CPU version of the GLES engine's
+/// EdgeRefiner.
 class EdgeSharpener {
 public:
-    static constexpr int kLevels = 64;  ///< of contrast
+    static constexpr int kLevels = 64;  ///< number of contrast levels
 
-    /// See WarpOptions. `most`: upper limit of listed pixels, unless more have the highest contrast
-    /// level.
+    /// See WarpOptions. `most`: upper limit of the listed pixels. It is exceeded only if more
+    /// pixels than that have the highest contrast level.
     EdgeSharpener(Size layer, double share, int most, int fadeFrames);
 
-    /// Lists the pixels of highest contrast within `where`, from a look-up's `colour` and `state`.
-    /// Discards the previous list and answer.
+    /// Lists the pixels with the highest contrast within `where`, given the `colour` and `state` of
+    /// a look-up. Discards the previous list and answer.
     void list(Rows<const std::uint32_t> colour, Rows<const std::uint32_t> state,
               const PixelRect& where);
-    /// The listed pixels: row-major indices, ascending. Returned once.
+    /// Returns the row-major indices of the listed pixels, ascending. Each list is returned once.
     std::optional<std::vector<std::uint32_t>> take();
-    /// Takes the answer for pixels returned by take(); other pixels are ignored.
+    /// Stores the answer for pixels that take() has returned; other pixels are ignored.
     void answer(const HoleAnswer& answer);
-    /// Blends the answered pixels into a `colour` of the same pose, with a weight that rises from
-    /// frame to frame.
+    /// Blends the answered pixels into `colour`, which must have the same pose. Their weight rises
+    /// from frame to frame.
     void show(Rows<std::uint32_t> colour);
     void drop();
 
@@ -41,9 +42,9 @@ private:
     double share_, step_;
     std::size_t most_;
     bool isListed_ = false;
-    std::vector<std::array<std::uint32_t, 2>> listed_;  // pixel, colour; ascending
+    std::vector<std::array<std::uint32_t, 2>> listed_;  // pixel index and colour; ascending
     std::vector<Entry> entries_;
-    double shown_ = 0;  // weight of the answer, 0: no answer
+    double shown_ = 0;  // weight of the answer; 0: there is none
 };
 
 }  // namespace mfar::simd

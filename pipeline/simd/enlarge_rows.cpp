@@ -27,8 +27,8 @@ using U8 = hn::Rebind<std::uint8_t, I16>;
 constexpr std::int16_t fixed15(double value) {
     return static_cast<std::int16_t>(value * 32768 + (value < 0 ? -0.5 : 0.5));
 }
-// Result [1/64 grey level] from bytes times 128. The sum is exactly a half, so that grey stays
-// grey.
+// The result is in 1/64 grey level, computed from bytes times 128. The weights' sum is exactly one
+// half, so that grey stays grey.
 constexpr std::int16_t kRed = fixed15(0.299 / 2), kBlue = fixed15(0.114 / 2);
 constexpr std::int16_t kGreen = 16384 - kRed - kBlue;
 
@@ -60,13 +60,13 @@ HWY_INLINE hn::Vec<F> Steps(const std::int16_t* plus, const std::int16_t* minus)
     return Widened(hn::Sub(hn::LoadU(d, plus), hn::LoadU(d, minus)));
 }
 
-/// `weight` where `value` is at least `from`.
+/// Returns `weight` where `value` is at least `from`, else 0.
 HWY_INLINE hn::Vec<F> Step(hn::Vec<F> value, float from, float weight = 1) {
     return hn::IfThenElseZero(hn::Ge(value, hn::Set(F(), from)), hn::Set(F(), weight));
 }
 
-/// Bin of an angle; cosine and sine of twice the angle are given up to a common factor: see
-/// Symmetry.
+/// Returns the bin of an angle, see Symmetry. Cosine and sine of twice the angle are given,
+/// multiplied by a common factor.
 template <int kBins>
 HWY_INLINE hn::Vec<F> AngleBin(hn::Vec<F> cosine, hn::Vec<F> sine) {
     static_assert(kBins == 8 || kBins == 16);
@@ -88,7 +88,7 @@ HWY_INLINE void StoreClass(hn::Vec<F> number, std::uint16_t* to) {
     hn::StoreU(hn::DemoteTo(U16Half(), hn::ConvertTo(I(), number)), U16Half(), to);
 }
 
-/// Column sums of the gradient's products over five rows.
+/// For each column, sums the products of the gradient over five rows.
 void SumColumns(const std::array<const std::int16_t*, 7>& luma, int begin, int end,
                 const std::array<float*, 3>& sums) {
     const F d;
@@ -118,8 +118,8 @@ HWY_INLINE hn::Vec<F> SumOfFive(const float* at) {
 HWY_INLINE hn::Vec<F> GradientClass(hn::Vec<F> xx, hn::Vec<F> xy, hn::Vec<F> yy) {
     using C = GradientClasses;
     const F d;
-    // Scale: differences of two pixels in 1/8 grey level, sums over 25 pixels, twice the
-    // eigenvalues.
+    // Scale of twice an eigenvalue: pixel differences in 1/8 grey level over two pixels, squared
+    // and summed over 25 pixels.
     constexpr float kScale = 2.0F * 25 * (2 * kLumaScale) * (2 * kLumaScale);
     const auto sum = hn::Add(xx, yy), cosine = hn::Sub(xx, yy), sine = hn::Add(xy, xy);
     const auto spread = hn::Sqrt(hn::MulAdd(cosine, cosine, hn::Mul(sine, sine)));
@@ -128,7 +128,7 @@ HWY_INLINE hn::Vec<F> GradientClass(hn::Vec<F> xx, hn::Vec<F> xy, hn::Vec<F> yy)
     for (const float from : C::kStrengthFrom)
         kind = hn::Add(kind, Step(twiceLargest, from * from * kScale, 3));
     for (const float from : C::kCoherenceFrom) {
-        // (s1 - s2) / (s1 + s2) >= from, expressed by the eigenvalues' sum and difference.
+        // (s1 - s2) / (s1 + s2) >= from, expressed by the sum and difference of the eigenvalues.
         const float share = 2 * from / (1 + from * from);
         kind = hn::Add(kind, Step(hn::Sub(spread, hn::Mul(sum, hn::Set(d, share))), 0));
     }
@@ -191,11 +191,11 @@ void RangeRow(const std::array<const std::int16_t*, 5>& luma, int begin, int end
     }
 }
 
-/// Shift from weight times luma to steps of the residual.
+/// Shift that converts weight times luma to steps of the residual.
 constexpr int kSumShift = 12;
 static_assert(kWeightScale * kLumaScale == kResidualScale << kSumShift);
 
-/// Two adjacent numbers as one word.
+/// Returns two adjacent numbers as one word.
 HWY_INLINE std::int32_t PairAt(const std::int16_t* at) {
     std::int32_t out = 0;
     std::memcpy(&out, at, sizeof(out));
@@ -205,7 +205,7 @@ HWY_INLINE std::int32_t PairOf(std::int16_t first, std::int16_t second) {
     const std::int16_t both[] = {first, second};
     return PairAt(both);
 }
-/// The neighbours of a pixel in the order of kTapAt.
+/// Loads the neighbours of a pixel in the order of kTapAt.
 HWY_INLINE void PairsAround(const std::array<const std::int16_t*, 5>& luma, int x,
                             std::int32_t* pairs) {
     constexpr std::size_t kRows[] = {0, 1, 3, 4};

@@ -5,7 +5,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/field_rows.cpp"
 #include <hwy/foreach_target.h>
-// Included once per instruction set, like this file.
+// The next header is included once per instruction set, as this file is.
 #include "pipeline/simd/depth_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -20,8 +20,8 @@ HWY_INLINE void order(V& a, V& b) {
     a = low;
 }
 
-/// Sorts three columns, then takes the median of (largest low, median of the middles, smallest
-/// high).
+/// Median of nine values: sorts three columns, then takes the median of (largest low value, median
+/// of the middle values, smallest high value).
 template <class V>
 HWY_INLINE V middleOfNine(V (&v)[9]) {
     for (int c = 0; c < 3; ++c) {
@@ -61,7 +61,7 @@ void MedianRow(const float* above, const float* here, const float* below, std::s
 
 void RangeAlongRow(const float* values, const float* variance, std::size_t width, int radius,
                    float* low, float* high) {
-    // A run and its neighbours; positions beyond the row hold values that no range takes.
+    // A run of values with its neighbours. Positions beyond the row hold values that never win.
     constexpr std::size_t kRun = 256, kAll = kRun + 2 * kMostRange;
     HWY_ALIGN float lows[kAll], highs[kAll];
     const auto beside = static_cast<std::size_t>(radius);

@@ -5,23 +5,24 @@
 
 namespace mfar::simd {
 
-/// Median of 3x3 values times `scale`; the border repeats. Rows have `width` values; `out` must be
-/// none of the input rows.
+/// 3x3 median, multiplied by `scale`. Values beyond the border repeat it. Rows have `width` values;
+/// `out` must not be one of the input rows.
 void medianRow(const float* above, const float* here, const float* below, std::size_t width,
                float scale, float* out);
 
-inline constexpr int kMostRange = 16;  ///< largest radius of a range
+inline constexpr int kMostRange = 16;  ///< largest radius of rangeAlongRow()
 
-/// Smallest and largest value within `radius` columns. With `variance`: only of values that are
-/// valid (InverseDepthField::isSound()); if none is, +- the largest float.
+/// Smallest and largest value within `radius` columns. If `variance` is given, only over valid
+/// values (InverseDepthField::isSound()); if none is valid, `low` is the largest float and `high`
+/// its negative.
 void rangeAlongRow(const float* values, const float* variance, std::size_t width, int radius,
                    float* low, float* high);
 
-/// Smallest of `low` and largest of `high` over `rows` rows, `pitch` apart.
+/// Smallest of `low` and largest of `high` over `rows` rows, which are `pitch` apart.
 void rangeAcrossRows(const float* low, const float* high, std::ptrdiff_t pitch, int rows,
                      std::size_t width, float* outLow, float* outHigh);
 
-/// Largest of the values and 0.
+/// Returns the largest of the values and 0.
 [[nodiscard]] float greatestOf(const float* values, std::size_t count);
 
 }  // namespace mfar::simd

@@ -13,7 +13,7 @@ namespace {
 
 using params::kFineStep;
 static_assert(kCellsPerTile % kFineStep == 0);
-constexpr int kBlock = 2;                // rows of a block
+constexpr int kBlock = 2;                // rows of a block whose mean is subtracted
 constexpr int kFirst = (kCell - 2) / 2;  // first row of a cell that is compared
 constexpr int kRoom = 64;                // pixels after a row that vectors may access
 
@@ -37,7 +37,8 @@ Rows<const float> FineCheck::run(const RgbPlanes& video, const StillPairs& still
                                  Rows<const LookUpCell> lookUps, const TileWork& work,
                                  const FineMatch& match) {
     const Frame frame{video, still, lookUps, work};
-    // Captures one pointer and one reference: std::function stores them without allocating.
+    // The function captures only a pointer and a reference, so that std::function stores it without
+    // allocating.
     workers_->forRange(work.tiles.height, 1, [this, &frame](int first, int last) {
         scratch_.with([&](Scratch& scratch) {
             for (int row = first; row < last; ++row)
@@ -95,7 +96,7 @@ void FineCheck::sum(const Frame& frame, Scratch& scratch, int row) {
         }
     }
     for (CellPlane* plane : {&ofVideo_, &ofBoth_, &ofStill_}) {
-        // Clears the gaps, because vectors write beyond the cells of each span.
+        // Clear the gaps between spans, because vectors write beyond the cells of each span.
         int done = 0;
         for (const auto& [begin, end] : scratch.cells) {
             if (!isWhole) break;

@@ -17,21 +17,22 @@
 
 namespace mfar::simd {
 
-/// Checks for each cell whether the still shows the finest detail of the video: superres_fine.comp
-/// and superres_confirm.comp on the CPU. Allocates in the constructor.
+/// Checks for each cell whether the still shows the finest detail of the video. CPU version of
+/// superres_fine.comp and superres_confirm.comp. Allocates memory only in the constructor.
 class FineCheck {
 public:
-    /// `stillRig`: StillPreparation::rig().
+    /// `stillRig`: see StillPreparation::rig().
     FineCheck(const StereoRig& stillRig, std::shared_ptr<Workers> workers);
 
-    /// Share of its weight that each cell keeps, [0, 1]; valid until the next run. Unmatched tiles
-    /// and incomplete cells contribute nothing; their neighbours decide.
+    /// Returns the share of its weight that each cell keeps, [0, 1]. It is valid until the next
+    /// run. Cells of unmatched tiles and incomplete cells are not measured; their neighbours
+    /// determine their share.
     Rows<const float> run(const RgbPlanes& video, const StillPairs& still,
                           Rows<const LookUpCell> lookUps, const TileWork& work,
                           const FineMatch& match);
 
 private:
-    static constexpr int kSamples = 2;  // samples of the still per video pixel in each direction
+    static constexpr int kSamples = 2;  // samples of the still along each axis of a video pixel
     struct Scratch {
         Scratch(const FineCheck& check);
         LookUpRowCache lookUps;
@@ -49,7 +50,7 @@ private:
     void sum(const Frame& frame, Scratch& scratch, int row);
     [[nodiscard]] FineSumsNear::Pair near(CellPlane& sums, int row) const;
 
-    Size video_, cells_, sampled_;  // sampled_: cells in rows that are sampled
+    Size video_, cells_, sampled_;  // sampled_: number of sampled cells (not every row is)
     std::shared_ptr<Workers> workers_;
     LookUpTaps taps_;
     CellPlane ofVideo_, ofBoth_, ofStill_;  // for the sampled rows

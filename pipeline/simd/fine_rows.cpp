@@ -19,7 +19,7 @@ HWY_INLINE hn::Vec<F> Wide(hn::Vec<I16> values) {
     return hn::ConvertTo(F(), hn::PromoteTo(hn::Rebind<std::int32_t, F>(), values));
 }
 
-/// Columns of the pixels of a row of cells: four pixels of each cell.
+/// Four pixels of each cell in a row of cells, by column within the cell.
 struct Quads {
     hn::Vec<I16> at[4];
 };
@@ -30,8 +30,8 @@ HWY_INLINE Quads QuadsOf(const std::int16_t* row, int cell) {
     return out;
 }
 
-/// Sums four samples to one pixel [1/128 grey level], in place of the upper row: the sum fits into
-/// 16 bits.
+/// Sums the four samples of a pixel [1/128 grey level] into the upper row. The sum fits into 16
+/// bits.
 HWY_INLINE void SumSamples(std::int16_t* upper, const std::int16_t* lower, int begin, int end) {
     const I16 d;
     const int lanes = static_cast<int>(hn::Lanes(d));
@@ -48,8 +48,8 @@ void FineSumsRow(const std::array<const std::int16_t*, 2>& video,
                  const FineSums& to) {
     const F d;
     const int lanes = static_cast<int>(hn::Lanes(d));
-    // Compacts the pixels at the front of their row: the first cells' pixels replace samples that
-    // were already summed.
+    // Stores the sums at the front of their rows. The pixels of the first cells replace samples
+    // that are already summed.
     SumSamples(still[0], still[1], 4 * begin, 4 * end);
     SumSamples(still[2], still[3], 4 * begin, 4 * end);
     constexpr float kVideo = 1.0F / 8, kStill = 1.0F / 128;
@@ -105,7 +105,7 @@ void FineShareRow(const FineSumsNear& sums, const FineMatch& match, int count, f
         const auto unexplained = hn::Sub(video, hn::Div(hn::Mul(both, both), still));
         const auto allowed = hn::MulAdd(share, video, noise);
         const auto kept = hn::Div(allowed, hn::Max(unexplained, hn::Set(d, params::kFineLeast)));
-        // NaN keeps the whole weight.
+        // A cell with NaN keeps its whole weight.
         hn::StoreU(hn::IfThenElse(hn::Lt(kept, one), kept, one), d, to + x);
     }
 }

@@ -10,7 +10,8 @@
 namespace mfar::simd {
 namespace {
 
-// The finest levels, in which cells that no tile needs are skipped; coarser levels have few cells.
+// At this number of finest levels, cells that no tile needs are skipped. Coarser levels have few
+// cells, so all of them are searched.
 constexpr int kMaskedLevels = 2;
 
 std::vector<Size> cellsOfLevels(Size video, int levels) {
@@ -49,7 +50,7 @@ void forTileRuns(int columns, int cellsPerTile, const Key& keyOf, const Run& run
     }
 }
 
-/// Takes the coarser level's vectors for cells that are not searched.
+/// Copies the vectors of the coarser level to cells that are not searched.
 void enlargeCells(const FlowPlanes& coarse, const FlowPlanes& fine, int row, int first, int end) {
     for (int column = first; column < end; ++column) {
         const std::ptrdiff_t from = row / 2 * coarse.pitch + column / 2;
@@ -89,12 +90,14 @@ void Flow2d::chooseTiles(const TileWork& work, bool keepsUnchanged, int margin) 
     }
     wantsAll_ = std::ranges::find(wanted_.flags, 0) == wanted_.flags.end();
     widen(wanted_, margin, between_, fine_);
-    // The finest level uses vectors of neighbouring cells, which used vectors of their neighbours.
+    // The finest level uses vectors of neighbouring cells of the next level, and these used vectors
+    // of their own neighbours.
     widen(fine_, 1, between_, next_);
 }
 
-// Confirmation interpolates between the cells around the end of a video vector; clean-up and
-// propagation use vectors of three more cells around those.
+// Marks the tiles in which the backward field is needed. Confirmation interpolates between the
+// backward cells around the end of a forward vector. Clean-up and propagation use the vectors of
+// three more cells on each side of those.
 void Flow2d::chooseBackward() {
     std::ranges::fill(ends_.flags, std::uint8_t{0});
     for (int y = 0; y < videoCells_.height; ++y)
@@ -107,7 +110,7 @@ void Flow2d::chooseBackward() {
             };
             ends_.at(tileAt(x, cell.x, ends_.size.width), tileAt(y, cell.y, ends_.size.height)) = 1;
         }
-    constexpr int kMargin = 3;  // tiles; each is half of four cells of that level in each direction
+    constexpr int kMargin = 3;  // [tiles]; covers these three cells and the one for interpolation
     widen(ends_, kMargin, between_, endsAround_);
 }
 
@@ -183,7 +186,7 @@ void Flow2d::propagateRow(const Way& way, int level, int toArea, int row) {
         });
 }
 
-// Begins in the area that makes the last propagation round end in area 0.
+// Begins in the area from which the last round of propagation writes to area 0.
 void Flow2d::searchLevel(Ways ways, int level) {
     const int rows =
         ways[0]->direction.stages[static_cast<std::size_t>(level)].areas[0].cells().height;
@@ -211,7 +214,7 @@ void Flow2d::run(const Luma& luma, const TileWork& work, bool usePrior) {
                        luma.words, false,      params::kBackwardPropagations};
     const Way* const ways[] = {&forward, &backward};
     const Ways both(ways), forwardAlone(ways, 1), backwardAlone(ways + 1, 1);
-    // Vectors of unchanged tiles stay valid as long as the still.
+    // Vectors of unchanged tiles stay valid as long as the still does not change.
     const bool keepsUnchanged = usePrior && !work.drawsWhole();
     const int reach = kCleanUpRadius + options_.propagations;
     chooseTiles(work, keepsUnchanged, (reach + kCellsPerTile - 1) / kCellsPerTile);
@@ -246,7 +249,8 @@ void Flow2d::refine(const Luma& luma, const TileWork& work, Cells forward, Cells
     errorsGiven_ = true;
     searched_.clear();
     if (work.matched == 0) return;
-    // Whether a tile is searched depends on its neighbours, and the clean-up on the search there.
+    // Whether a tile is searched depends on its neighbours, and the clean-up depends on the search
+    // there.
     constexpr int kMargin = 2;
     chooseTiles(work, !work.drawsWhole(), kMargin);
     const FlowPlanes field = forwards_.stages[0].areas[0].planes();
@@ -264,9 +268,9 @@ void Flow2d::refine(const Luma& luma, const TileWork& work, Cells forward, Cells
     cleanUpForward(work, false);
 }
 
-// No propagation, because the neighbours of a listed group may not be listed. The vectors of the
-// line search are candidates at every level, and remain at the finest level if no other fits
-// better.
+// Searches without propagation, because the neighbours of a listed group may not be listed. The
+// vectors found on epipolar lines are candidates at every level. At the finest level, they are kept
+// unless another vector fits better.
 void Flow2d::searchListed(const Way& way) {
     const FlowPlanes lines = forwards_.stages[0].areas[0].planes();
     for (int level = static_cast<int>(forwards_.stages.size()) - 1; level >= 0; --level) {

@@ -15,52 +15,52 @@
 
 namespace mfar::simd {
 
-/// Dense flow between video and still in both directions, without knowledge of the pose:
-/// mfar::Flow2d on the CPU, on the same pyramids.
+/// Dense flow between video and still in both directions, which does not need poses. CPU version of
+/// the GLES engine's Flow2d, with the same pyramids.
 ///
-/// Skips work whose result is not read. At the two finest levels, tiles that are not matched (and
-/// unchanged tiles, if only changed tiles are drawn) are searched only where neighbours use their
-/// vectors. Cells of the still are searched only where vectors of the video end.
+/// Skips work whose result is not read. At the two finest levels, tiles that are not matched are
+/// searched only where neighbours use their vectors; so are unchanged tiles, if only changed tiles
+/// are drawn. Cells of the still are searched only where forward vectors end.
 class Flow2d {
 public:
-    /// Throws std::invalid_argument for options out of range.
+    /// Throws std::invalid_argument if an option is out of range.
     Flow2d(Size video, const Flow2dOptions& options, std::shared_ptr<Workers> workers);
 
-    /// See changed() in flow_options.h; takes effect with the next run. Throws
-    /// std::invalid_argument for options out of range.
+    /// Takes effect with the next run, but only for options that may change between frames, see
+    /// changed() in flow_options.h. Throws std::invalid_argument if an option is out of range.
     void setOptions(const Flow2dOptions& options) { options_ = changed(options_, options); }
 
-    /// Pyramids of the video's size, laid out by luma_layout.h in `words`.
+    /// Pyramids of the video's size, stored in `words` with the layout of luma_layout.h.
     struct Luma {
         const std::vector<LumaLevel>& video;
         const std::vector<LumaLevel>& still;
         std::span<const std::uint32_t> words;
     };
-    /// Computes both fields, unless no changed tile is matched. `usePrior`: the last frame's field
-    /// is a candidate everywhere (not valid after a new still).
+    /// Computes both fields; does nothing if no changed tile is matched. `usePrior`: the last
+    /// frame's field provides a candidate for every cell (not allowed after a new still).
     void run(const Luma& luma, const TileWork& work, bool usePrior);
 
-    /// Computes the forward field from one vector per cell that is correct within a fraction of a
-    /// pixel. `errors`: known two-way errors of eq. 2, in x [px]. Tiles with wrong vectors are
-    /// searched in 2-D from coarse to fine.
+    /// Computes the forward field by refining `forward`, one vector per cell with an error of a
+    /// fraction of a pixel. `errors`: known two-way errors [px] (eq. 2 of the paper), in the first
+    /// entry. Tiles with wrong vectors are searched in two dimensions, from coarse to fine.
     using Cells = std::span<const std::array<float, 4>>;
     void refine(const Luma& luma, const TileWork& work, Cells forward, Cells errors);
 
-    /// Cells of 4x4 pixels, row by row without gaps. Video -> still.
+    /// Flow from video to still: one entry per cell of 4x4 pixels, row by row without gaps.
     [[nodiscard]] Rows<const FlowCell> forward() const { return rowsOf(forward_, videoCells_); }
-    /// Still -> video, at level backwardLevel(); valid after run().
+    /// Flow from still to video, at level backwardLevel(); valid after run().
     [[nodiscard]] Rows<const FlowCell> backward() const { return rowsOf(backward_, stillCells_); }
     [[nodiscard]] int backwardLevel() const { return backwardLevel_; }
-    /// Whether errors() holds the two-way errors of the video's cells: true after refine().
+    /// True after refine(): errors() holds the two-way errors of the video's cells.
     [[nodiscard]] bool errorsGiven() const { return errorsGiven_; }
     [[nodiscard]] Rows<const ErrorCell> errors() const { return rowsOf(errors_, videoCells_); }
 
-    /// The tiles that the last refine() searched.
+    /// Which tiles the last refine() searched.
     [[nodiscard]] const std::vector<bool>& searchedTiles() const { return searched_.tiles(); }
     [[nodiscard]] int searchedCount() const { return searched_.count(); }
 
 private:
-    /// One level of one direction: two areas, because propagation cannot work in place.
+    /// One level of one direction. It has two areas, because propagation cannot work in place.
     struct Stage {
         FlowField areas[2];
         explicit Stage(Size cells) : areas{FlowField(cells), FlowField(cells)} {}
@@ -72,7 +72,7 @@ private:
 
         Direction(const std::vector<Size>& cells, int finestLevel);
     };
-    /// One direction of the search through the levels: pictures, and parameters.
+    /// One direction of the search, with its pictures and parameters.
     struct Way {
         Direction& direction;
         const std::vector<LumaLevel>& from;
@@ -89,7 +89,7 @@ private:
 
     void chooseTiles(const TileWork& work, bool keepsUnchanged, int margin);
     void chooseBackward();
-    /// The tiles in which a level is searched; null: all.
+    /// The tiles in which a level is searched; null: all tiles.
     [[nodiscard]] const TileMask* maskOf(const Direction& direction, int level) const;
     [[nodiscard]] int roundsAt(const Way& way, int level) const;
     [[nodiscard]] SearchStep searchStep(const Way& way, int level, int area) const;
@@ -111,11 +111,11 @@ private:
     std::vector<FlowCell> forward_, backward_;
     std::vector<ErrorCell> errors_;
     bool errorsGiven_ = false;
-    bool wantsAll_ = false;       // every tile is wanted
+    bool wantsAll_ = false;       // true if every tile is wanted
     TileMask wanted_;             // tiles whose results are read
-    TileMask fine_, next_;        // searched at the finest level, and at the next
-    TileMask ends_, endsAround_;  // where vectors end, and the tiles searched for those
-    TileMask between_;            // scratch for widen()
+    TileMask fine_, next_;        // tiles searched at the finest level, and at the next
+    TileMask ends_, endsAround_;  // where vectors end, and the tiles searched around
+    TileMask between_;            // temporary memory of widen()
     TileSearch searched_;
 };
 

@@ -12,11 +12,11 @@ namespace mfar::simd::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Vectors no longer than the fields' margins.
+// Vectors are no longer than the fields' margins.
 using Cells = hn::CappedTag<float, kFieldMargin>;
 using Vec = hn::Vec<Cells>;
 
-/// Plane through one flow component: value at the cell [px] and change per cell.
+/// A plane through one component of the flow: its value at the cell [px], and its change per cell.
 struct Plane {
     Vec value, dx, dy;
 };
@@ -27,8 +27,8 @@ HWY_INLINE void order(Vec& a, Vec& b) {
     a = low;
 }
 
-/// Median of 3x3: sorts the columns, then takes the median of (largest low, median of the middles,
-/// smallest high).
+/// 3x3 median: sorts the columns, then takes the median of (largest low value, median of the middle
+/// values, smallest high value).
 HWY_INLINE Vec medianAt(const float* plane, std::ptrdiff_t pitch) {
     const Cells d;
     Vec low[3], middle[3], high[3];
@@ -51,7 +51,7 @@ HWY_INLINE Vec medianAt(const float* plane, std::ptrdiff_t pitch) {
     return centre;
 }
 
-/// Sums over the neighbours in one row: weights, and differences from the plane times weights.
+/// Sums over the neighbours in one row: weights, and weights times the differences from the plane.
 struct RowSums {
     Vec w, wi, wii, x, xi, y, yi;
 };
@@ -83,7 +83,8 @@ HWY_INLINE RowSums sumRow(const CleanUpStep& step, std::ptrdiff_t at, const Plan
     return s;
 }
 
-/// Sums over all neighbours: w; w i, w j, w i i, w i j, w j j; w d, w d i, w d j.
+/// Sums over all neighbours at offset (i, j) with weight w and difference d from the plane: w; w i,
+/// w j, w i i, w i j, w j j; w d, w d i, w d j.
 struct PlaneSums {
     Vec w, wi, wj, wii, wij, wjj, x, xi, xj, y, yi, yj;
 };
@@ -119,13 +120,13 @@ HWY_INLINE Vec crossed(Vec a, Vec b, Vec c, Vec d) {
     return hn::Sub(hn::Mul(a, b), hn::Mul(c, d));
 }
 
-/// Fits planes through the neighbours. The weights depend on how reliable each neighbour is and how
-/// close to the previous planes, so that the other side of a depth edge has no influence.
+/// Fits planes through the neighbours. A neighbour's weight depends on how reliable it is and how
+/// close to the previous planes. So the other side of a depth edge has no influence.
 HWY_INLINE void fitPlanes(const CleanUpStep& step, std::ptrdiff_t at, float reach, Plane& x,
                           Plane& y) {
     const Cells d;
     const PlaneSums s = sumNeighbours(step, at, x, y, reach);
-    // Normal equations with damped slopes: a single neighbour defines no plane.
+    // Normal equations with damped slopes, because a single neighbour does not define a plane.
     const Vec damp = hn::MulAdd(hn::Set(d, params::kSlopeDampingPerWeight), s.w,
                                 hn::Set(d, params::kSlopeDamping));
     const Vec ww = hn::Add(s.w, hn::Set(d, 1e-6F));
@@ -140,7 +141,8 @@ HWY_INLINE void fitPlanes(const CleanUpStep& step, std::ptrdiff_t at, float reac
         const auto by = [&](Vec a, Vec b, Vec c) HWY_ATTR {
             return hn::MulAdd(a, u0, hn::MulAdd(b, ui, hn::Mul(c, uj)));
         };
-        // Selects, because NaN sums of unsolvable cells stay NaN when multiplied by 0.
+        // Selects instead of multiplying by 0, because NaN sums of unsolvable cells would remain
+        // NaN.
         const auto moved = [&](Vec v, Vec change) HWY_ATTR {
             return hn::IfThenElse(solvable, hn::MulAdd(scale, change, v), v);
         };

@@ -4,7 +4,7 @@
 
 namespace mfar::simd {
 
-/// Owns the vectors of one level's cells, initially zero, with margins for the clean-up.
+/// Owns the vectors of one level's cells, with margins for the clean-up. Initially all are zero.
 class FlowField {
 public:
     explicit FlowField(Size cells)
@@ -16,7 +16,7 @@ public:
         return {first(x_),  first(y_),    first(cost_), first(texture_),
                 x_.pitch(), cells_.width, cells_.height};
     }
-    /// The first cell of another plane of this layout.
+    /// Returns the first cell of another plane with this layout.
     [[nodiscard]] static float* first(AlignedRows<float>& plane) {
         return plane[kCleanUpRadius] + kFieldMargin;
     }

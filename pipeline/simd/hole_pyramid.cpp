@@ -7,13 +7,13 @@
 namespace mfar::simd {
 namespace {
 
-/// For values >= 0. Cheaper than lround().
+/// Rounds values >= 0; faster than lround().
 std::uint32_t rounded(float value) {
     const float above = value + 0.5F;
     return static_cast<std::uint32_t>(above);
 }
 
-constexpr int kCrackLevels = 2;  // levels that filling a crack needs
+constexpr int kCrackLevels = 2;  // number of levels that filling a crack needs
 constexpr std::uint32_t kAnyObject = 254;
 constexpr int kBlockShift = HolePyramid::kLevels;  // a block is a texel of the coarsest level
 constexpr std::size_t kHolesAtATime = 32;
@@ -33,7 +33,7 @@ std::uint32_t mean(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint3
     return sum(0) | sum(8) << 8;
 }
 
-/// Weighted sum of RGBA8 colours.
+/// A weighted sum of RGBA8 colours.
 struct Mixture {
     std::array<float, 4> rgba{};
     float weight = 0;
@@ -84,8 +84,8 @@ void HolePyramid::fill(const Layer& layer, std::span<Hole> holes, bool pushPull)
         body(0, count);
 }
 
-/// Marks the blocks that holes need: at each level a hole looks up the texels around it, which are
-/// in its block and the neighbouring ones.
+/// Marks the blocks that holes need. At each level, a hole looks up the texels around it; these lie
+/// in the hole's block and the neighbouring blocks.
 void HolePyramid::markBlocks(const PixelRect& where, std::span<const Hole> holes) {
     blocks_ = {where.x0 >> kBlockShift, where.y0 >> kBlockShift,
                ((where.x1 - 1) >> kBlockShift) + 1, ((where.y1 - 1) >> kBlockShift) + 1};
@@ -101,7 +101,7 @@ void HolePyramid::markBlocks(const PixelRect& where, std::span<const Hole> holes
     }
 }
 
-/// An area of which half is known has full weight.
+/// Merges four parts of an area. An area of which half is known has the full weight.
 HolePyramid::Area HolePyramid::merged(const std::array<Area, 4>& parts) {
     Area out;
     Mixture best, catcher;
@@ -166,7 +166,7 @@ void HolePyramid::pull(const Layer& layer, int level) {
             for (int x = r.x0; x < r.x1; ++x, ++out) {
                 const int u = std::min(x >> shift, blocks_.x1 - 1) - blocks_.x0;
                 if (wanted[u] == 0) {
-                    *out = {};  // others read it as unknown
+                    *out = {};  // treated as unknown by readers
                     continue;
                 }
                 if (level == 0) {
@@ -186,7 +186,7 @@ void HolePyramid::pull(const Layer& layer, int level) {
         rows(0, r.y1 - r.y0);
 }
 
-/// Adds one level's bilinear value at a pixel, as far as the finer levels do not cover it.
+/// Adds the bilinear value of one level at a pixel, weighted by what the finer levels do not cover.
 void HolePyramid::addLevel(int level, int x, int y, std::uint32_t id, Sum& sum) const {
     const float scale = 1.0F / static_cast<float>(2 << level);
     const float u = (static_cast<float>(x) + 0.5F) * scale - 0.5F;
@@ -219,7 +219,7 @@ HolePyramid::Sum HolePyramid::gathered(int x, int y, std::uint32_t id, int last)
 
 namespace {
 
-/// Whether most of the surrounding pixels show the number.
+/// True if most of the surrounding pixels show the surface with this number.
 bool isCrack(const HolePyramid::Layer& layer, int x, int y, std::uint32_t id) {
     const PixelRect& where = layer.where;
     int same = 0;
@@ -231,8 +231,8 @@ bool isCrack(const HolePyramid::Layer& layer, int x, int y, std::uint32_t id) {
 
 }  // namespace
 
-/// An object without any known colour takes the colours of its surroundings: an object that just
-/// appears from behind others is neither a hole in them nor transparent.
+/// Fills a hole. If no colour of its object is known, it takes the colours of its surroundings. An
+/// object that has just appeared from behind others would otherwise look transparent.
 void HolePyramid::fillHole(const Layer& layer, Hole& hole, bool pushPull) const {
     const int x = static_cast<int>(hole.pixel) % width_, y = static_cast<int>(hole.pixel) / width_;
     const std::uint32_t state = layer.state[y][x], id = state & 255U;

@@ -13,34 +13,35 @@
 
 namespace mfar::simd {
 
-/// Fills holes from their surroundings by push-pull (Gortler et al. 1996, section 3.5), separately
-/// for objects and for the shadow below them, so that neither leaks into the other. HoleFiller on
-/// the CPU; the pyramid is computed only where it is read.
+/// Fills holes from their surroundings by push-pull (Gortler et al. 1996, section 3.5). Objects and
+/// the shadow below them are filled separately, so that neither leaks into the other. CPU version
+/// of the GLES engine's HoleFiller; the pyramid is computed only where it is read.
 class HolePyramid {
 public:
     static constexpr int kLevels = 6;
 
     HolePyramid(Size layer, std::shared_ptr<Workers> workers);
 
-    /// A layer as ViewLookUp writes it.
+    /// A layer as written by ViewLookUp.
     struct Layer {
         Rows<std::uint32_t> colour;  ///< modified
         Rows<const std::uint32_t> state;
         PixelRect where;
     };
-    /// `holes`: of that layer, ascending. Cracks (holes most of whose neighbours show the same
-    /// surface) are always filled and marked as edges; other holes only if `pushPull` is set.
+    /// `holes`: holes of that layer, ascending. Cracks (holes with mostly neighbours of the same
+    /// surface) are always filled and marked as edges. Other holes are filled only if `pushPull` is
+    /// set.
     void fill(const Layer& layer, std::span<Hole> holes, bool pushPull);
 
 private:
-    /// An area: its largest object with that object's colour, and the catcher's colour. RGBA8
-    /// premultiplied; weights [1/255].
+    /// An area of the layer: the number and colour of its largest object, and the colour of the
+    /// catcher. Colours are RGBA8, premultiplied; weights are in 1/255.
     struct Area {
         std::uint32_t object = 0, catcher = 0;
         std::uint8_t id = 0, objectWeight = 0, catcherWeight = 0;
     };
     struct Level {
-        PixelRect texels;  // of this level
+        PixelRect texels;  // bounds in texels of this level
         std::vector<Area> areas;
     };
     struct Sum {
@@ -61,9 +62,9 @@ private:
     std::shared_ptr<Workers> workers_;
     std::array<Level, kLevels> levels_;
     int levelCount_ = kLevels;
-    PixelRect blocks_;                       // blocks of 64 pixels in each direction, around the
-                                             // drawn part of the layer
-    std::vector<std::uint8_t> blockWanted_;  // row-major
+    PixelRect blocks_;                       // bounds of the drawn part of the layer, in blocks of
+                                             // 64x64 pixels
+    std::vector<std::uint8_t> blockWanted_;  // one entry per block, row-major
 };
 
 }  // namespace mfar::simd

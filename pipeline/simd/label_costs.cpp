@@ -6,7 +6,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/label_costs.cpp"
 #include <hwy/foreach_target.h>
-// Included once per instruction set, like this file.
+// The next header is included once per instruction set, as this file is.
 #include "pipeline/simd/label_lines-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -15,15 +15,16 @@ namespace mfar::simd::HWY_NAMESPACE {
 constexpr int kSteps = kLabels - 1;
 constexpr int kUnseenCost = kCensusBits / 2;
 constexpr float kFixed = 65536.0F;
-// Number of pixels whose segments are placed at a time.
+// Number of pixels whose segments are computed at a time.
 constexpr std::size_t kRun = 64;
 
 using DLabels = hn::CappedTag<std::int32_t, kLabels>;
 
-/// Segments of a run of pixels on the canvas [px], each of kSteps steps.
+/// Segments of epipolar lines on the canvas [px], one for each pixel of a run, each of kSteps
+/// steps.
 struct Segments {
     HWY_ALIGN float fromX[kRun], fromY[kRun], wayX[kRun], wayY[kRun];
-    /// Start and step in fixed point [1/kFixed px], measured from the pixels' edges; valid if both
+    /// Start and step in fixed point [1/kFixed px], measured from the pixels' edges. Valid if both
     /// ends are in the picture.
     HWY_ALIGN std::int32_t x[kRun], y[kRun], dx[kRun], dy[kRun], isInside[kRun];
 };
@@ -57,7 +58,7 @@ HWY_INLINE void keepSegments(D d, std::size_t i, const Points<hn::Vec<D>>& from,
     hn::StoreU(hn::BitCast(dInt, hn::VecFromMask(d, isInside)), dInt, out.isInside + i);
 }
 
-/// Segments shifted sideways by one pixel; the sign of `side` selects the side.
+/// Stores segments that are shifted sideways by one pixel. The sign of `side` selects the side.
 template <class D>
 HWY_INLINE void keepBeside(D d, std::size_t i, const Segments& of, float side, Size size,
                            Segments& out) {
@@ -70,7 +71,7 @@ HWY_INLINE void keepBeside(D d, std::size_t i, const Segments& of, float side, S
     keepSegments(d, i, from, {hn::Add(from.x, wayX), hn::Add(from.y, wayY)}, size, out);
 }
 
-/// Census differences for one vector of a pixel's labels.
+/// Stores the census differences of one vector of a pixel's labels.
 template <class V>
 HWY_INLINE void storeDifferences(DLabels d, V own, V seen, std::uint8_t* out) {
     const hn::RebindToUnsigned<DLabels> dBits;
@@ -130,7 +131,7 @@ HWY_INLINE void costsOf(const Segments& segments, std::size_t i, std::uint32_t o
         costsAcrossBorder(segments, i, own, still, out);
 }
 
-/// Lowers costs to those of these segments where they are smaller.
+/// Replaces costs by those of these segments where these are smaller.
 HWY_INLINE void takeLesser(const Segments& segments, std::size_t i, std::uint32_t own,
                            const CensusPicture& still, std::uint8_t* out) {
     const hn::CappedTag<std::uint8_t, kLabels> d;

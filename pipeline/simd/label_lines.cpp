@@ -3,7 +3,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/label_lines.cpp"
 #include <hwy/foreach_target.h>
-// Included once per instruction set, like this file.
+// The next header is included once per instruction set, as this file is.
 #include "pipeline/simd/label_lines-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -11,7 +11,7 @@ namespace mfar::simd::HWY_NAMESPACE {
 
 static_assert(sizeof(Valley) == 8);
 
-constexpr float kLeastWay = 0.1F;  // lower limit of a label's step, squared [px^2]
+constexpr float kLeastWay = 0.1F;  // least squared length of a label's step [px^2]
 
 template <class D>
 struct Valleys {
@@ -28,7 +28,7 @@ HWY_INLINE Valleys<D> loadValleys(D d, const Valley* from) {
     return {hn::ConvertTo(d, hn::BitCast(dInt, label)), rises};
 }
 
-/// Byte `kIndex` of Valley::rise.
+/// Returns byte `kIndex` of Valley::rise.
 template <int kIndex, class D>
 HWY_INLINE hn::Vec<D> riseOf(D d, const Valleys<D>& valleys) {
     const hn::RebindToUnsigned<D> dBits;
@@ -47,7 +47,7 @@ HWY_INLINE V vertices(D d, const Valleys<D>& valleys) {
     return hn::IfThenElse(isPlain, valleys.label, hn::Add(valleys.label, part));
 }
 
-/// Finds the pixels nearest to the points of labels, which are counted from the best label.
+/// Finds the pixels nearest to the points of labels. Labels are counted from the best label.
 template <class D>
 struct NearestPixels {
     using V = hn::Vec<D>;
@@ -70,8 +70,8 @@ struct NearestPixels {
         const V along = hn::Mul(hn::Sub(x, best.x), way.x);
         return {x, y, hn::Mul(hn::MulAdd(hn::Sub(y, best.y), way.y, along), perSquare)};
     }
-    /// The next different pixel on one side of the best label's; `near`, `far`: cost rises of the
-    /// labels there.
+    /// Returns the next pixel on one side that differs from `own`. `near`, `far`: how much more the
+    /// next label and the one after it cost.
     HWY_INLINE Side beside(const Pixel& own, float side, V near, V far) const {
         const Pixel one = at(side), two = at(2 * side);
         const auto isNext = [&](const Pixel& p)
@@ -82,8 +82,9 @@ struct NearestPixels {
     }
 };
 
-/// The minima of the valleys, in labels from the best. If two labels are nearest to the same pixel,
-/// they count as one, at the label of the pixel's foot on the line.
+/// Returns the minima of the valleys, counted in labels from the best label. If two labels are
+/// nearest to the same pixel, they count as one, at the point of the line that is nearest to the
+/// pixel.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V bottoms(D d, const Valleys<D>& valleys, const NearestPixels<D>& pixels) {
     const auto own = pixels.at(0);

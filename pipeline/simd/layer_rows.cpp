@@ -14,7 +14,7 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Whole vectors, then one lane at a time.
+/// Processes whole vectors, then single lanes.
 template <class Body>
 HWY_INLINE void Along(int count, const Body& body) {
     const hn::ScalableTag<float> d;
@@ -27,8 +27,8 @@ HWY_INLINE void Along(int count, const Body& body) {
         body(one, x);
 }
 
-/// Entries of a row at ascending columns. If the layer is not larger than the output, the columns
-/// of a vector lie within one vector of the row.
+/// Loads the entries of a row at ascending columns. If the layer is not larger than the output, the
+/// columns of a vector of pixels lie within one vector of the row.
 template <class D>
 HWY_INLINE hn::Vec<D> Look(D d, const hn::TFromD<D>* row, const std::int32_t* at,
                            const LayerColumns& columns) {
@@ -37,7 +37,7 @@ HWY_INLINE hn::Vec<D> Look(D d, const hn::TFromD<D>* row, const std::int32_t* at
     const int first = at[0];
     const auto column = hn::LoadU(di, at);
     if (at[lanes - 1] - first >= lanes) {
-        // Pixels beyond the part are not used.
+        // Columns beyond the part are clamped; their pixels are not used.
         const auto inside = hn::Min(column, hn::Set(di, columns.last));
         return hn::GatherIndex(d, row, hn::Sub(inside, hn::Set(di, columns.origin)));
     }
@@ -70,7 +70,7 @@ struct Depths {
             best = hn::IfThenElse(better, weight, best);
             depth = hn::IfThenElse(better, z, depth);
         };
-        // Of equals the first wins, in the order of textureGather.
+        // Of equal weights, the first wins; the order is that of textureGather.
         consider(below, columns.left, hn::Mul(toLeft, down));
         consider(below, columns.right, hn::Mul(toRight, down));
         consider(above, columns.right, hn::Mul(toRight, up));
@@ -126,7 +126,7 @@ using D16 = hn::Repartition<std::uint16_t, D32>;
 using V16 = hn::Vec<D16>;
 using V32 = hn::Vec<D32>;
 
-/// Interpolates both channels of each word.
+/// Interpolates both 16-bit channels of each word.
 HWY_INLINE V16 Between(V16 a, V16 b, V16 share) {
     const hn::RebindToSigned<D16> di;
     const auto from = hn::BitCast(di, a);
@@ -141,7 +141,7 @@ void BlendLayerRows(const std::uint32_t* above, const std::uint32_t* below, std:
     const D16 d16;
     const auto even = hn::BitCast(d16, hn::Set(d, 0x00FF00FFU));
     const auto shares = hn::BitCast(d16, hn::Set(d, share));
-    // Rows have room after their last entry.
+    // May read beyond the last entry, because rows have room there.
     for (int x = 0; x < count; x += static_cast<int>(hn::Lanes(d))) {
         const auto a = hn::BitCast(d16, hn::LoadU(d, above + x));
         const auto b = hn::BitCast(d16, hn::LoadU(d, below + x));
@@ -159,7 +159,7 @@ void EnlargeColours(const BlendedColours& part, const LayerColumns& columns, int
     const D32 d;
     const D16 d16;
     const int lanes = static_cast<int>(hn::Lanes(d));
-    // Columns beyond the last repeat it.
+    // Columns beyond the last one repeat it.
     for (int x = 0; x < count; x += lanes) {
         const V16 share = hn::BitCast(d16, hn::LoadU(d, columns.share + x));
         const auto at = [&](const std::uint32_t* row) HWY_ATTR {
@@ -197,7 +197,7 @@ HWY_INLINE V16 DividedBy255(V16 product) {
     return hn::ShiftRight<8>(hn::SaturatedAdd(rounded, hn::ShiftRight<8>(rounded)));
 }
 
-/// Composites two channels of a pixel, 16 bits each.
+/// Composites two channels of a pixel, with 16 bits each.
 HWY_INLINE V16 BlendChannels(V16 colour, V16 visible, V16 under, V16 through) {
     return DividedBy255(hn::SaturatedAdd(hn::Mul(colour, visible), hn::Mul(under, through)));
 }

@@ -4,37 +4,37 @@
 
 namespace mfar::simd {
 
-/// Entries after the last of a part of a layer's row that vectors may read.
+/// Number of entries after a part of a layer's row that vectors may read.
 inline constexpr int kLayerSpare = 64;
 
 /// Positions of output pixels between the columns of a part of a layer's row.
 struct LayerColumns {
-    const std::int32_t *left, *right;  ///< columns of the layer on either side, ascending
+    const std::int32_t *left, *right;  ///< the layer's columns on either side of a pixel, ascending
     const std::uint32_t* share;        ///< weight of the right column, 2^15 = 1, twice in 32 bits
-    int origin, last;                  ///< columns of the part's first and last entry
+    int origin, last;                  ///< columns of the first and last entry of the part
 };
 
-/// Colours interpolated between two rows of a layer, two channels per word [1/64].
+/// Colours interpolated between two rows of a layer: two channels per word [1/64].
 struct BlendedColours {
     std::uint32_t *redBlue, *greenAlpha;
 };
 
-/// A weight in 16 bits, 2^15 = 1, twice in 32 bits. `share`: [0, 1].
+/// Returns a weight as 16 bits with 2^15 = 1, twice in a word. `share` is in [0, 1].
 [[nodiscard]] std::uint32_t twiceInAWord(float share);
 
-/// Blends `count` RGBA8 colours of two rows; `share`: weight of the lower row, [0, 1].
+/// Interpolates `count` RGBA8 colours between two rows. `share`: weight of the lower row, [0, 1].
 void blendLayerRows(const std::uint32_t* above, const std::uint32_t* below, float share, int count,
                     const BlendedColours& out);
-/// Linear interpolation between the columns: `count` output pixels, RGBA8.
+/// Interpolates between the columns linearly, which gives `count` output pixels in RGBA8.
 void enlargeColours(const BlendedColours& part, const LayerColumns& columns, int count,
                     std::uint32_t* out);
-/// z of the nearest of the four surrounding pixels that has a depth (virtual_layer.glsl); 0: none
-/// has one. `share`: weight of the row `below`.
+/// For each output pixel, returns z of the nearest of the four surrounding layer pixels that has a
+/// depth (virtual_layer.glsl); 0: none of them has one. `share`: weight of the row `below`.
 void enlargeDepths(const float* above, const float* below, float share, const LayerColumns& columns,
                    int count, float* out);
 
-/// Composites premultiplied colours, each times its visibility / 255, over a row of the picture;
-/// all RGBA8, exact within a grey level.
+/// Composites premultiplied colours, each times its visibility / 255, over a row of the picture.
+/// All are RGBA8. The result is exact to within a grey level.
 void blendRow(const std::uint32_t* colours, const std::uint8_t* visibility, int count,
               std::uint32_t* picture);
 

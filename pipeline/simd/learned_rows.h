@@ -12,25 +12,27 @@
 
 namespace mfar::simd {
 
-/// Tables for resampling the residual's grid to the output's size, shared by all threads.
+/// Tables that resample the residual's grid to the output's size. All threads share them.
 struct LearnedTaps {
     LearnedTaps(Size picture, Size output);
 
     RowTaps rows, columns;
 };
 
-/// The residual that the learned enlarger adds to a picture enlarged by Keys' cubic: rows at the
-/// output's size, computed on request. Scratch of one thread.
+/// The residual that the learned enlarger adds to a picture that was enlarged by Keys' cubic. Rows
+/// at the output's size are computed on request. Each thread has its own object.
 class LearnedRows {
 public:
     LearnedRows(Size picture, int outputWidth);
 
-    /// Starts a picture; only these pixels of the output are computed. Clears the covered pixels.
+    /// Starts with a new picture. Only these pixels of the output are computed. No pixels are
+    /// covered until cover() is called.
     void begin(const RgbPlanes& picture, const LearnedTaps& taps, const FilterBank& bank,
                const PixelSpan& pixels);
-    /// Limits the computation from now on to these pixels, ascending.
+    /// From now on, only these pixels are computed; ascending.
     void cover(const PixelSpans& pixels);
-    /// Residual of a row in the covered pixels [1/32 grey level]; valid until the next call.
+    /// Returns the residual of the covered pixels of a row [1/32 grey level]. Valid until the next
+    /// call.
     [[nodiscard]] const std::int16_t* row(int y);
 
 private:
@@ -44,18 +46,18 @@ private:
     const RgbPlanes* picture_ = nullptr;
     const LearnedTaps* taps_ = nullptr;
     const FilterBank* bank_ = nullptr;
-    PixelSpan within_{}, columns_{};  // within_: of the output; columns_: the picture's columns
-                                      // that they need
+    PixelSpan within_{}, columns_{};  // within_: pixels of the output; columns_: the picture's
+                                      // columns that they need
     PixelSpans covered_;              // pixels of the output
-    PixelSpans made_;                 // columns of the picture
+    PixelSpans made_;                 // columns of the picture that they need
     std::array<int, 2> kept_{};       // rows of the picture whose residual is stored
     std::array<int, kKept> loaded_{};
     AlignedRows<std::int16_t> luma_;      // kKept rows with a margin
     AlignedRows<float> sums_, mixed_;     // sums_: three rows with a margin; mixed_: a row of the
                                           // grid
-    AlignedRows<std::uint16_t> classes_;  // a row of each kind of class
-    AlignedRows<std::int16_t> range_;     // lowest and highest
-    AlignedRows<std::int16_t> grid_;      // residual of two rows: eight of the grid
+    AlignedRows<std::uint16_t> classes_;  // two rows: by gradient, by curvature
+    AlignedRows<std::int16_t> range_;     // two rows: lowest and highest
+    AlignedRows<std::int16_t> grid_;      // residual of two rows of pixels: eight rows of the grid
     AlignedRows<std::int16_t> wide_;      // a row of the output
 };
 

@@ -2,11 +2,11 @@
 
 namespace mfar::simd {
 
-/// Projects rays (x / z, y / z) to pixels: a pinhole with radial-tangential distortion.
+/// Maps rays (x / z, y / z) to pixels: a pinhole camera with radial and tangential distortion.
 struct Lens {
     float fx = 1, fy = 1, cx = 0, cy = 0;          ///< [px]
     float k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;  ///< as CameraModel::distortion
-    float rim2 = 1;  ///< squared radius; rays beyond it are held at the rim
+    float rim2 = 1;  ///< squared radius; rays beyond it are moved onto it
 };
 
 }  // namespace mfar::simd

@@ -5,10 +5,10 @@
 namespace mfar::simd {
 namespace {
 
-// Bounds of a valid look-up: positions beyond are outside of any still.
+// Bounds of a valid look-up. Positions beyond them are outside of any still [still px].
 constexpr float kFarthest = 1e5F, kMostWeight = 4;
 
-/// Linear interpolation between cells, at the output's size.
+/// Table for linear interpolation between cells, at the output's size.
 RowTaps cellTaps(int cells, int video, int output) {
     return RowTaps::linear(cells, output, static_cast<double>(video) / output / kCell);
 }

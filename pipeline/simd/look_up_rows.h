@@ -7,10 +7,10 @@
 
 namespace mfar::simd {
 
-/// Tables for enlarging a field of look-ups to the output's size, shared by all threads.
+/// Tables that enlarge a field of look-ups to the output's size. All threads share them.
 struct LookUpTaps {
-    /// `stillRig`: with the still camera at the resolution that is looked up. `output`: size of the
-    /// enlarged whole video.
+    /// `stillRig`: its still camera has the resolution in which the still is looked up. `output`:
+    /// size of the whole enlarged video.
     LookUpTaps(const StereoRig& stillRig, Size output);
 
     RowTaps rows, columns;
@@ -18,17 +18,18 @@ struct LookUpTaps {
     float stepX, stepY;  ///< still pixels per output pixel
 };
 
-/// Look-up positions of output rows in the still, and the still's share there. Scratch of one
-/// thread.
+/// Look-up positions in the still and weights of the still for rows of the output. Each thread has
+/// its own object.
 class LookUpRowCache {
 public:
     LookUpRowCache(Size cells, int outputWidth) : cells_(cells.width, outputWidth) {}
 
-    /// Starts a field; only pixels [begin, end) of the output are computed. `confident`: the share
-    /// is the confidence instead of the weight.
+    /// Starts with a new field. Only pixels [begin, end) of the output are computed. `confident`:
+    /// LookUpRows::share is the confidence instead of the weight.
     void begin(Rows<const LookUpCell> field, const LookUpTaps& taps, bool confident, int begin,
                int end);
-    /// Valid until a row four cells away is requested.
+    /// Returns a row; valid until a row that needs other cells, four rows of cells away, is
+    /// requested.
     [[nodiscard]] LookUpRows row(int y);
 
 private:
