@@ -15,7 +15,7 @@ constexpr int kBand = 4;         // width of the undecided band on each side of 
 constexpr int kVoteRadius = 10;  // radius from which candidate surfaces are taken [px]
 constexpr int kVoters = simd::kVoterStep;
 // An edge differs from a slope: within 2 kBand + 1 pixels, the inverse depth changes by more than
-// this share of the larger value, and by more than this number of standard deviations.
+// kJump times the larger value plus kSigmas standard deviations.
 constexpr float kJump = 0.08F, kSigmas = 3;
 constexpr float kLikeness = 12;        // colour distance for a weight of one half [grey levels]
 constexpr float kLeastWeight = 0.75F;  // least sum of the weights, each at most one

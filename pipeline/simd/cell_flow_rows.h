@@ -32,7 +32,7 @@ struct CellRow {
 };
 
 /// Inverse depth of cells: the mean of the two middle values of a cell's four central pixels.
-/// `upper`, `lower`: second and third pixel row of the cells, starting at the second pixel of the
+/// `upper`, `lower`: second and third pixel row of the cells, starting at the first pixel of the
 /// first cell.
 void cellDepths(const float* upper, const float* lower, std::size_t count, float* out);
 

@@ -5,7 +5,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/luma_filters.cpp"
 #include <hwy/foreach_target.h>
-// Included once per instruction set, like this file.
+// The next header is included once per instruction set, as this file is.
 #include "pipeline/simd/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -49,7 +49,7 @@ void ThinRow(const std::uint8_t* in, std::size_t width, std::uint8_t* out) {
 
 void SmoothRow(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below,
                std::size_t width, int side, std::uint8_t* out) {
-    // Column sums [1/256], with one more at each end of a run.
+    // Sums of columns [1/256], with one more column at each end of a run.
     constexpr std::size_t kRun = 256;
     HWY_ALIGN std::uint16_t column[kRun + 2];
     const auto s = static_cast<std::uint16_t>(side), c = static_cast<std::uint16_t>(256 - 2 * side);
@@ -88,7 +88,7 @@ void NoiseColumns(const Rows<const std::uint8_t>& picture, int first, int rows, 
     forLanes(hn::ScalableTag<std::int16_t>(), width, [&](auto d, std::size_t i) HWY_ATTR {
         const hn::Rebind<std::uint8_t, decltype(d)> dByte;
         const hn::RebindToUnsigned<decltype(d)> dWord;
-        // Applies (1 -2 1) along a row.
+        // Applies the mask (1 -2 1) along a row.
         const auto bend = [&](int y) HWY_ATTR {
             const std::uint8_t* row = picture[y] + i;
             const auto at = [&](int k)

@@ -14,7 +14,7 @@ namespace mfar::simd::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Columns smoothed at once: their sums stay on the stack.
+// Number of columns that are smoothed at once; their sums stay on the stack.
 constexpr int kStrip = 256;
 constexpr int kMostLanes = 16;
 using Floats = hn::CappedTag<float, kMostLanes>;
@@ -26,7 +26,7 @@ HWY_INLINE Vec loadFloats(const std::uint8_t* from) {
     return hn::ConvertTo(d, hn::PromoteTo(hn::RebindToSigned<Floats>(), hn::LoadU(Bytes(), from)));
 }
 
-/// Grey levels, rounded and clamped to a byte.
+/// Rounds grey levels and clamps them to a byte.
 HWY_INLINE hn::Vec<Bytes> roundedBytes(Vec v) {
     const Floats d;
     const auto held =
@@ -34,7 +34,7 @@ HWY_INLINE hn::Vec<Bytes> roundedBytes(Vec v) {
     return hn::DemoteTo(Bytes(), hn::ConvertTo(hn::RebindToSigned<Floats>(), held));
 }
 
-// Rec. 601.
+// Rec. 601 luma.
 HWY_INLINE Vec lumaAt(const SmoothRows::Planes& p, int x) {
     const Floats d;
     if (p.green == nullptr) return loadFloats(p.red + x);

@@ -5,7 +5,8 @@
 
 namespace mfar::simd {
 
-/// Input rows of a smoothed row. RGB: three planes; luma: only the first, the others null.
+/// The rows that a smoothed row is computed from: three planes for RGB; for luma only the first
+/// plane, the other two are null.
 struct SmoothRows {
     struct Planes {
         const std::uint8_t *red, *green, *blue;
@@ -13,11 +14,12 @@ struct SmoothRows {
     Planes above, here, below;
 };
 
-/// A row of the finest level, as in luma_from_video.comp: 3x3 taps; `side`: weight of each
-/// neighbour. Writes `width` pixels and reads no pixels beyond.
+/// Computes a row of the finest level with 3x3 taps, as luma_from_video.comp does. `side`: weight
+/// of each neighbour. Writes `width` pixels and reads no pixels beyond them.
 void smoothLumaRow(const SmoothRows& rows, int width, float side, std::uint8_t* to);
 
-/// A row of the next coarser level: means of 2x2 pixels. Reads 2 * width pixels of both rows.
+/// Computes a row of the next coarser level as means of 2x2 pixels. Reads 2 * width pixels of both
+/// rows.
 void halveLumaRow(const std::uint8_t* upper, const std::uint8_t* lower, int width,
                   std::uint8_t* to);
 
@@ -29,8 +31,8 @@ struct StillLens {
 
     bool operator==(const StillLens&) const = default;
 };
-/// Positions in the still of a row's video pixels [still px]; far outside if the ray points away.
-/// Writes up to 15 elements more than `width`.
+/// Positions of a row's video pixels in the still [still px]; far outside if a pixel's ray points
+/// away from the still's view. Writes up to 15 entries more than `width`.
 void stillPixelRow(const StillLens& lens, int y, int width, float* stillX, float* stillY);
 
 struct StillPicture {

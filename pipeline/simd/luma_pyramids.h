@@ -15,21 +15,23 @@
 
 namespace mfar::simd {
 
-/// Luma pyramids for the flow: of the video frame, and of the still at the video's geometry
-/// (rotation and both lenses applied, no parallax), smoothed in the same way. In host memory, in
-/// the layout of the shaders (luma_layout.h), so that words() may be uploaded unchanged.
+/// Luma pyramids for the flow: of the video frame, and of the still as the video camera would see
+/// it (rotation and both lenses applied, without parallax). Both are smoothed in the same way. They
+/// are in host memory, in the shaders' layout (luma_layout.h), so that words() can be uploaded
+/// unchanged.
 class LumaPyramids {
 public:
     LumaPyramids(Size video, std::shared_ptr<Workers> workers);
 
-    /// From the video frame.
+    /// Builds the video's pyramid from a frame.
     void buildVideo(const RgbPlanes& video);
-    /// From the luma of a still of size rig.still.size, through the rig. Once per still.
+    /// Builds the still's pyramid from the luma of a still of size rig.still.size, seen through the
+    /// rig. Needed once per still.
     void buildStill(Rows<const std::uint8_t> luma, const StereoRig& rig);
-    /// Second picture, from luma that already has the video's geometry (flow between two frames);
-    /// takes the still's place.
+    /// Builds the still's pyramid from luma that already has the video's geometry, for flow between
+    /// two frames.
     void buildSecond(Rows<const std::uint8_t> luma);
-    /// First picture likewise; takes the video's place.
+    /// Builds the video's pyramid from luma.
     void buildFirst(Rows<const std::uint8_t> luma);
 
     [[nodiscard]] const std::vector<LumaLevel>& video() const { return video_; }
@@ -41,7 +43,7 @@ private:
     void smooth(Rows<const std::uint8_t> luma, const std::vector<LumaLevel>& levels);
     void buildCoarse(const std::vector<LumaLevel>& levels);
     void halve(const LumaLevel& fine, const LumaLevel& coarse, int first, int last);
-    /// The first pixel of a row.
+    /// Returns the first pixel of a row.
     [[nodiscard]] std::uint8_t* rowOf(const LumaLevel& level, int y);
     /// Repeats a row's border in its margins.
     void fillMargins(const LumaLevel& level, int y);
@@ -50,8 +52,8 @@ private:
     std::shared_ptr<Workers> workers_;
     std::vector<LumaLevel> video_, still_;
     std::vector<std::uint32_t> words_;
-    std::optional<StillLens> lens_;       // lens for which stillX_, stillY_ were computed
-    AlignedRows<float> stillX_, stillY_;  // still pixels of the video's pixels
+    std::optional<StillLens> lens_;       // the lens for which stillX_ and stillY_ were computed
+    AlignedRows<float> stillX_, stillY_;  // position in the still of each video pixel
 };
 
 }  // namespace mfar::simd

@@ -15,7 +15,8 @@ Size withMargin(Size video) {
     return {video.width + 2 * kSampleMargin, video.height};
 }
 
-/// Weights of the four samples around a pixel; `share`: its distance from the second sample.
+/// Returns the weights of the four samples around a pixel. `share`: distance from the second sample
+/// to the pixel, as a share of the samples' distance.
 std::array<float, 4> distanceWeights(float share) {
     std::array<float, 4> out{};
     for (int i = 0; i < 4; ++i) {
@@ -25,7 +26,7 @@ std::array<float, 4> distanceWeights(float share) {
     return out;
 }
 
-/// Copies border entries into the adjacent margins.
+/// Copies the entries at the border into the margins next to them.
 void repeatBorder(float* row, int width) {
     std::fill_n(row, kSampleMargin, row[kSampleMargin]);
     std::fill_n(row + kSampleMargin + width, kSampleMargin, row[kSampleMargin + width - 1]);
@@ -33,23 +34,23 @@ void repeatBorder(float* row, int width) {
 
 }  // namespace
 
-/// Parameters of a run.
+/// The parameters of a run.
 struct OcclusionStep::Task {
     const LayerRowsView& layer;
     const RealDepth& real;
     const RgbPlanes& video;
     Rows<std::uint32_t> picture;
     PixelRect bounds;  // output pixels
-    int first, last;   // columns of samples that these pixels read
+    int first, last;   // columns of samples that these pixels need
 };
 
-/// A part of the output rows that lie between two rows of samples.
+/// A part of those output rows that lie between the same two rows of samples.
 struct OcclusionStep::Strip {
     int x = 0, count = 0;
     std::array<float, kVisibilityChunk + kSpare> greatest{}, least{}, z{}, inverse{};
     std::array<std::uint32_t, kVisibilityChunk + kSpare> colours{};
-    // For an enlarged layer: its columns around the strip in the two rows, and interpolated between
-    // them.
+    // For an enlarged layer: the layer's columns around the strip in the two rows, and interpolated
+    // between these rows.
     std::array<float, kVisibilityChunk + kSpare> depthAbove{}, depthBelow{};
     std::array<std::uint32_t, kVisibilityChunk + kSpare> above{}, below{}, redBlue{}, greenAlpha{};
     std::array<std::uint8_t, kVisibilityChunk + kSpare> visibility{};
@@ -74,7 +75,7 @@ OcclusionStep::OcclusionStep(Size video, Size output, Size layer, const Composit
       greatest_({withMargin(video).width, video.height + 1}),
       least_({withMargin(video).width, video.height + 1}), visibility_(output) {
     validate(options);
-    // Limited so that the strip's columns of the layer fit, too.
+    // Short enough that the layer's columns of a strip fit, too.
     const double columnsPerPixel = static_cast<double>(layer.width) / output.width;
     longestStrip_ =
         std::clamp(static_cast<int>((kVisibilityChunk - 2) / columnsPerPixel), 1, kVisibilityChunk);
@@ -102,7 +103,8 @@ void OcclusionStep::run(const LayerRowsView& layer, const RealDepth& real, const
     assert(layer.colour.size == layer_ && layer.depth.size == layer_);
     const PixelRect bounds = layerInOutput(layer.bounds, layer_, output_);
     if (bounds.empty()) return;
-    // The four samples around each pixel; beyond the border, those around the outermost sample.
+    // The four samples around each pixel along one axis. Pixels beyond the border use those around
+    // the outermost sample.
     const auto samples = [](int firstBase, int lastBase, int count) {
         return std::pair(std::max(std::min(firstBase, count - 1) - 1, 0),
                          std::min(std::max(lastBase, 0) + 2, count - 1) + 1);
@@ -163,7 +165,7 @@ void OcclusionStep::drawRows(const Task& task, int base) {
     const auto rowAt = [&](auto place) { return static_cast<int>(place - rows_.first.begin()); };
     const int top = std::max(rowAt(found.begin()), task.bounds.y0);
     const int bottom = std::min(rowAt(found.end()), task.bounds.y1);
-    if (top >= bottom) return;  // an output smaller than the video skips rows
+    if (top >= bottom) return;  // if the output is smaller than the video, no row lies here
     FourRows nearest{}, farthest{};
     const int middle = std::clamp(base, 0, video_.height - 1);
     for (int j = 0; j < 4; ++j) {
@@ -218,7 +220,7 @@ LayerColumns OcclusionStep::layerColumns(const Strip& strip) const {
             layerRight_[first + static_cast<std::size_t>(strip.count) - 1]};
 }
 
-/// The layer's rows above and below an output row, and the weight of the lower one.
+/// Returns the layer's rows above and below an output row, and the weight of the lower one.
 OcclusionStep::TwoRows OcclusionStep::layerRowsAt(int y) const {
     const int base = layerRows_.first[static_cast<std::size_t>(y)];
     return {std::clamp(base, 0, layer_.height - 1), std::clamp(base + 1, 0, layer_.height - 1),

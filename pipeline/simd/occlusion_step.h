@@ -16,20 +16,20 @@
 
 namespace mfar::simd {
 
-/// Picture of the virtual objects alone, from the video camera's view. Borrowed. VirtualLayer on
-/// the CPU.
+/// A picture of the virtual objects alone, seen by the video camera. The counterpart of
+/// VirtualLayer in host memory; does not own it.
 struct LayerRowsView {
     Rows<const std::uint32_t> colour;  ///< RGBA8, premultiplied by coverage
     Rows<const float>
-        depth;         ///< z [m] along the camera's axis, reduced where a shadow is; 0 = nothing
-    PixelRect bounds;  ///< covered pixels, empty = nothing
+        depth;         ///< z along the camera's axis [m], reduced where a shadow is; 0: no surface
+    PixelRect bounds;  ///< bounds of the covered pixels; empty: nothing is drawn
 };
 
-/// Real depth at every video pixel. Borrowed.
+/// The real depth at every video pixel. Does not own its memory.
 struct RealDepth {
     Rows<const float> inverse;  ///< [1/m]
     Rows<const float> sigma;    ///< of `inverse` [1/m]
-    bool squared = false;       ///< `sigma` holds variances
+    bool squared = false;       ///< `sigma` holds variances instead
 
     [[nodiscard]] static RealDepth of(const InverseDepthField& field) {
         return {{field.rho.data(), field.size.width, field.size},
@@ -38,20 +38,21 @@ struct RealDepth {
     }
 };
 
-/// Composites a virtual layer over the picture of the real scene, hidden where the real scene is
-/// nearer: Composite on the CPU. Only processes the layer's bounds.
+/// Composites a virtual layer over the picture of the real scene; hides what the real scene
+/// occludes. CPU version of the GLES engine's LayerComposite. Processes only pixels within the
+/// layer's bounds.
 class OcclusionStep {
 public:
-    /// `layer`: size of the layers. Throws std::invalid_argument for an option that is not finite
-    /// or out of its range. Null workers: runs in the caller's thread.
+    /// `layer`: size of the layers. Throws std::invalid_argument if an option is not finite or out
+    /// of range. Without workers, it runs in the caller's thread.
     OcclusionStep(Size video, Size output, Size layer, const CompositeOptions& options,
                   std::shared_ptr<Workers> workers);
 
-    /// `real`: a pixel whose values are not both finite and positive is unknown and occludes
-    /// nothing. `video`: the frame that the depth belongs to. `picture`: that frame at output size,
-    /// RGBA8, modified. Layer pixels whose depth is not finite and positive are not drawn. Between
-    /// the pixels of a smaller layer, colours are interpolated linearly; depth is that of the
-    /// nearest of the four surrounding pixels that has one.
+    /// `real`: a pixel is unknown and occludes nothing unless inverse depth and sigma are finite
+    /// and positive. `video`: the frame that the depth belongs to. `picture`: that frame at output
+    /// size, RGBA8; it is modified. Layer pixels are drawn only if their depth is finite and
+    /// positive. If the layer is smaller than the output, colours are interpolated linearly between
+    /// its pixels; depth is that of the nearest of the four surrounding pixels that has one.
     void run(const LayerRowsView& layer, const RealDepth& real, const RgbPlanes& video,
              Rows<std::uint32_t> picture);
 
@@ -59,18 +60,18 @@ public:
     [[nodiscard]] bool hides(double rho, double sigma, double inverse) const {
         return options_.hides(rho, sigma, inverse);
     }
-    /// Visible share of each pixel of the layer, in 255ths; valid within the last bounds.
+    /// The layer's visible share at each output pixel, in 1/255; valid within the last bounds.
     [[nodiscard]] Rows<const std::uint8_t> visibility() const { return visibility_.rows(); }
 
 private:
-    /// Positions of output pixels along one axis, between the pixels of another picture: `first` +
-    /// share.
+    /// Positions of output pixels along one axis, relative to the pixels of another picture: first
+    /// + share.
     struct Between {
         Between(int pixels, int others);
-        std::vector<std::int32_t> first;  ///< from -1
+        std::vector<std::int32_t> first;  ///< pixel before the position, may be -1
         std::vector<float> share;         ///< [0, 1)
     };
-    /// One of the frame's planes, margins included.
+    /// One of the frame's planes, including margins.
     using Plane = AlignedRows<float>;
     struct TwoRows {
         int above, below;

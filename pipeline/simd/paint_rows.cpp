@@ -6,14 +6,14 @@
 #define HWY_TARGET_INCLUDE "pipeline/simd/paint_rows.cpp"
 
 #include <hwy/foreach_target.h>
-// Included once per instruction set, like this file.
+// The next header is included once per instruction set, as this file is.
 #include "pipeline/simd/display_values-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// At most 8 lanes: a row of quarters has only that many words of padding.
+// At most 8 lanes, because the padding of rows of quarters has only that many words.
 using D = hn::CappedTag<float, 8>;
 using DU = hn::RebindToUnsigned<D>;
 using DI = hn::RebindToSigned<D>;
@@ -22,7 +22,7 @@ using VU = hn::Vec<DU>;
 using VI = hn::Vec<DI>;
 using M = hn::Mask<D>;
 
-/// Upper left and right, lower left and right.
+/// The four quarters of a pixel: upper left and right, lower left and right.
 template <class T>
 struct Four {
     T a, b, c, d;
@@ -50,7 +50,7 @@ HWY_INLINE V HighHalf(VU word) {
     return hn::ConvertTo(D(), hn::BitCast(DI(), hn::ShiftRight<16>(word)));
 }
 
-/// A word of each lane's triangle.
+/// Loads a word of each lane's triangle.
 template <class DT>
 HWY_INLINE hn::Vec<DT> WordOf(DT d, const PaintTriangle* triangles, VU triangle, int word) {
     const auto* base = reinterpret_cast<const hn::TFromD<DT>*>(triangles) + word;
@@ -68,7 +68,7 @@ HWY_INLINE V At(const Plane& plane, V x, V y) {
     return hn::MulAdd(y, plane.perY, hn::MulAdd(x, plane.perX, plane.first));
 }
 
-/// For numbers >= 1; error below 0.01.
+/// For numbers >= 1. The error is below 0.01.
 HWY_INLINE V Log2(V x) {
     const DU du;
     const VU bits = hn::BitCast(du, x);
@@ -81,10 +81,10 @@ HWY_INLINE V Log2(V x) {
                    hn::MulAdd(hn::Mul(F(0.34F), low), hn::Sub(F(2), m), low));
 }
 
-/// One size of each lane's texture.
+/// One level of each lane's texture.
 struct Level {
     VI first, width, height;  // first texel; size in texels
-    V across, down;           // the size as floats
+    V across, down;           // width and height as floats
 };
 HWY_INLINE Level LevelAt(const PaintInput& in, VI level) {
     const DU du;
@@ -97,7 +97,7 @@ HWY_INLINE Level LevelAt(const PaintInput& in, VI level) {
             hn::BitCast(di, hn::ShiftRight<16>(size)), LowHalf(size), HighHalf(size)};
 }
 
-/// Adds the squares of a word's bytes, weighted.
+/// Adds the weighted squares of the bytes of a word.
 HWY_INLINE void AddSquares(VU word, V share, Colour& sum) {
     const VU bits = hn::Set(DU(), 0xFFU);
     const auto byte = [&](VU shifted) HWY_ATTR {
@@ -109,7 +109,7 @@ HWY_INLINE void AddSquares(VU word, V share, Colour& sum) {
     sum.b = hn::MulAdd(hn::Mul(b, b), share, sum.b);
 }
 
-/// Adds a texel, weighted.
+/// Adds a weighted texel.
 HWY_INLINE void AddTexel(const PaintInput& in, VI texel, V share, Paint& sum) {
     const DU du;
     const auto* words = reinterpret_cast<const std::uint32_t*>(in.texels);
@@ -118,7 +118,7 @@ HWY_INLINE void AddTexel(const PaintInput& in, VI texel, V share, Paint& sum) {
     AddSquares(hn::GatherIndex(du, words + 1, at), share, sum.facing);
 }
 
-/// The two texels around a repeating coordinate, and the distance from the first.
+/// The two texels around a coordinate of a repeating texture, and the distance from the first one.
 struct Around {
     VI first, second;
     V beyond;
@@ -134,7 +134,7 @@ HWY_INLINE Around TexelsAround(V coordinate, VI side, V count) {
             hn::IfThenElse(hn::Lt(next, side), next, hn::Zero(di)), hn::Sub(place, low)};
 }
 
-/// Adds a bilinear look-up times `weight`.
+/// Adds the paint at (u, v), interpolated bilinearly, times `weight`.
 HWY_INLINE void AddProbe(const PaintInput& in, const Level& level, V u, V v, float weight,
                          Paint& sum) {
     const Around x = TexelsAround(u, level.width, level.across);
@@ -149,10 +149,10 @@ HWY_INLINE void AddProbe(const PaintInput& in, const Level& level, V u, V v, flo
     AddTexel(in, hn::Add(lower, x.second), belowRight, sum);
 }
 
-/// A parallelogram of the texture.
+/// The parallelogram that a pixel covers in a texture.
 struct Footprint {
     V u, v;            // middle
-    V ux, vx, uy, vy;  // steps along its sides
+    V ux, vx, uy, vy;  // steps along its two sides
 };
 HWY_INLINE Footprint FootprintAt(const PaintTriangle* triangles, VU triangle, V x, V y,
                                  float spread) {
@@ -171,10 +171,10 @@ HWY_INLINE Footprint FootprintAt(const PaintTriangle* triangles, VU triangle, V 
             hn::Mul(hn::NegMulAdd(v, perZ.perY, vPlane.perY), step)};
 }
 
-/// Paint at a place on the grid, averaged over `spread` grid pixels in each direction: 2x2 probes,
-/// in a level whose texels are at least half as wide as the probes' distance. Compared with the
-/// mean over a pixel, one probe between two levels is 4 dB worse on the showpiece; four probes
-/// along a long footprint are no better.
+/// Returns the paint at a place on the grid, averaged over `spread` grid pixels along each axis.
+/// Four probes are taken in a level whose texels are at least half as wide as the distance of the
+/// probes. Compared with the mean over a pixel, one probe between two levels is 4 dB worse on the
+/// shipped showpiece; four probes along the longer side of the footprint are no better.
 HWY_INLINE Paint Sample(const PaintInput& in, VU triangle, V x, V y, float spread) {
     const D d;
     const DI di;
@@ -183,7 +183,7 @@ HWY_INLINE Paint Sample(const PaintInput& in, VU triangle, V x, V y, float sprea
     const VU levels = WordOf(DU(), in.triangles, triangle, 10);
     const V texels = hn::Mul(LowHalf(size), HighHalf(size));
     const V area = hn::Mul(hn::Abs(hn::NegMulAdd(f.uy, f.vx, hn::Mul(f.ux, f.vy))), texels);
-    // Probes are two steps apart in each direction.
+    // Probes are two steps apart along each side.
     const V apart = hn::Mul(area, F(4));
     const M finite = hn::Lt(apart, F(1e12F));
     const V held = hn::Max(hn::IfThenElse(finite, apart, F(1e12F)), F(1));
@@ -206,21 +206,21 @@ HWY_INLINE VU Byte(V level) {
     return hn::BitCast(DU(), hn::ConvertTo(DI(), hn::Add(held, F(0.5F))));
 }
 
-/// Linear light, 1 = 255^2, as an sRGB byte.
+/// Converts linear light, with 1 stored as 255^2, to an sRGB byte.
 HWY_INLINE VU SrgbByte(V linear) {
     return Byte(SrgbLevel(D(), hn::Mul(linear, F(1.0F / 65025))));
 }
 
 /// What each pixel shows.
 struct Shown {
-    M any;         ///< whether the pixel shows an object
-    VU triangle;   ///< of one of the object's quarters
-    V dx, dy;      ///< from the pixel's centre to the centre of those quarters [grid px]
+    M any;         ///< true if the pixel shows an object
+    VU triangle;   ///< triangle in one of the object's quarters
+    V dx, dy;      ///< from the pixel's centre to the centre of the object's quarters [grid px]
     Four<V> part;  ///< weight of each quarter
     Four<VU> triangles;
 };
 
-/// Numbers of the objects in the quarters of pixels; 0: no object.
+/// Returns the numbers of the objects in the quarters of pixels; 0: no object.
 HWY_INLINE Four<VU> ObjectsOf(const PaintRow& row, int x) {
     const DU du;
     Four<VU> s;
@@ -234,8 +234,8 @@ HWY_INLINE Four<VU> ObjectsOf(const PaintRow& row, int x) {
     return {object(s.a), object(s.b), object(s.c), object(s.d)};
 }
 
-/// Gives equal weights to the quarters of pixels that show the object `number`; there are `count`
-/// of them.
+/// Gives equal weights to those quarters of pixels that show the object `number`. `count`: how many
+/// of the quarters do.
 HWY_INLINE void Divide(const Four<VU>& s, const Four<VU>& t, VU number, VU count, Shown& out) {
     const D d;
     const DU du;
@@ -281,7 +281,7 @@ HWY_INLINE Shown Choose(const PaintRow& row, int x) {
         number = hn::IfThenElse(more, own, number);
         out.triangle = hn::IfThenElse(more, index, out.triangle);
     };
-    // In the order of mostOf().
+    // The order is that of mostOf().
     offer(s.c, ac, bc, cd, t.c);
     offer(s.d, ad, bd, cd, t.d);
     offer(s.b, ab, bc, bd, t.b);
@@ -290,7 +290,7 @@ HWY_INLINE Shown Choose(const PaintRow& row, int x) {
     return out;
 }
 
-/// Pixels whose quarters have different materials.
+/// True for pixels whose quarters have different materials.
 HWY_INLINE M Differ(const PaintInput& in, const Shown& s) {
     const D d;
     const DU du;

@@ -12,7 +12,7 @@
 namespace mfar::simd {
 namespace {
 
-constexpr int kLargestSide = 0x8000;  // texels; a side has 16 bits
+constexpr int kLargestSide = 0x8000;  // [texels]; PaintLevel stores a side in 16 bits
 constexpr float kMost = 255;
 
 using Values = std::array<float, 4>;  // linear, [0, 1]
@@ -27,7 +27,7 @@ Values linearOf(const SurfaceTexture& texture, std::size_t texel) {
     return out;
 }
 
-/// As texture_lookup.h does.
+/// Looks up a texture as texture_lookup.h does.
 Values lookedUp(const SurfaceTexture& texture, float u, float v) {
     const auto pair = [](float share, int side, int& first, int& second) {
         const float at = share * static_cast<float>(side) - 0.5F, low = std::floor(at);
@@ -63,7 +63,7 @@ std::uint32_t rootsOf(const std::array<float, 3>& linear) {
     return rootByte(linear[0]) | rootByte(linear[1]) << 8 | rootByte(linear[2]) << 16;
 }
 
-/// As TracedScene: a surface reflects at most all light.
+/// Converts as TracedScene does: a surface reflects at most all light.
 PaintWords wordsOf(const Values& base) {
     std::array<float, 3> diffuse{}, facing{};
     for (std::size_t c = 0; c < 3; ++c) {
@@ -81,13 +81,13 @@ void addSquares(std::uint32_t roots, float weight, std::array<float, 3>& sum) {
     }
 }
 
-/// Means of 2x2 texels; if a side is odd, of three texels.
+/// Halves a level: means of 2x2 texels, or of three texels along a side of odd length.
 void halve(const PaintWords* from, Size size, PaintWords* out, Size half) {
     struct Taps {
         int first, count;
         std::array<float, 3> weights;
     };
-    // Each texel of the half covers side / half texels of the whole.
+    // A texel of the half covers side / half texels of the whole.
     const auto taps = [](int i, int side, int halfSide) {
         const float step = static_cast<float>(side) / static_cast<float>(halfSide);
         const float begin = static_cast<float>(i) * step, end = begin + step;

@@ -13,28 +13,29 @@
 
 namespace mfar::simd {
 
-/// The textures of a scene's surfaces for paintRow(), all in one array. A material's base colour
-/// and metallic textures are combined to one picture, at the larger of both sizes, with all levels
-/// down to one texel. Equal materials share one.
+/// The textures of a scene's surfaces for paintRow(), all in one array. A material's textures of
+/// base colour and of metallic are combined into one picture, with the larger of both sizes and all
+/// levels down to one texel. Equal materials share one picture.
 class PaintTextures {
 public:
-    /// Paint of a part: the words of PaintTriangle.
+    /// Paint of a part: these are words of PaintTriangle.
     struct Material {
         std::uint32_t size, levels, material;
     };
 
-    /// Makes the pictures that are new with these objects; keeps the others. Copies all input.
-    /// Takes 4 ns per texel.
+    /// Prepares the pictures of materials that are new with these objects; keeps the others. Copies
+    /// all input. Takes 4 ns per texel.
     void set(std::span<const SilhouetteModels::Object> objects);
-    /// Material of a part of those objects.
+    /// Returns the material of a part of these objects.
     [[nodiscard]] const Material& of(const SilhouetteModels::Part& part) const {
         return materials_.at(&part);
     }
-    /// Input without triangles. Valid until set().
+    /// Input for paintRow(), without triangles. Valid until set().
     [[nodiscard]] PaintInput input() const { return {texels_.data(), levels_.data(), nullptr}; }
 
 private:
-    /// Textures of base colour and of metallic-roughness, and their factors: colour, metallic.
+    /// Textures of base colour and of metallic-roughness, and the factors of colour and of
+    /// metallic.
     struct Source {
         const SurfaceTexture *colour = nullptr, *metallic = nullptr;
         std::array<float, 4> factor{};
@@ -42,9 +43,9 @@ private:
         auto operator<=>(const Source&) const = default;
     };
     struct Picture {
-        std::shared_ptr<const Model> model;  // keeps the textures alive, so that their addresses
-                                             // stay unique
-        std::vector<PaintLevel> levels;      // largest first
+        std::shared_ptr<const Model> model;  // keeps the textures alive, so that no other texture
+                                             // gets their address
+        std::vector<PaintLevel> levels;      // largest level first
     };
     using Pictures = std::map<Source, Picture>;
 

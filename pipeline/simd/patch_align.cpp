@@ -3,7 +3,7 @@
 // Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/patch_align.cpp"
-// clang-format off: in this order alone
+// clang-format off: the order of these two includes matters
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 #include "pipeline/simd/patch_batch_inl.h"
@@ -14,27 +14,28 @@ namespace mfar::simd::HWY_NAMESPACE {
 namespace {
 
 constexpr float kSteepest = params::kSteepestFlow;
-// Pixels of a row that share one position: four, or all eight where the flow changes so little
-// along the row that their error is not larger than that of four at the steepest flow.
+// Number of pixels of a row that share one position: four, or all eight if the flow changes little
+// along the row. Then the error of eight is no larger than that of four at the steepest flow.
 constexpr int kHalf = 4;
 constexpr float kGentle = 1.0F / 10;
-// A patch of less bend counts as flat: its corners move by a hundredth of a pixel, less than the
-// uncertainty of the field's slope.
+// A patch with less change of the flow counts as flat. Its corners move by a hundredth of a pixel,
+// which is less than the uncertainty of the flow's slope.
 constexpr float kFlat = 1.0F / 256;
-// Weights of pixels, in 16 bits with room for the change along the row.
+// Weights of pixels have this number of bits. In 16 bits, this leaves room for the change along the
+// row.
 constexpr int kShareBits = 14;
 constexpr float kShare = 1 << kShareBits;
-// Limit of a pixel value less 128 [1/32 grey level], so that sums of squares fit into 32 bits.
-// Values beyond occur at a steep slope with high contrast.
+// Limit of (pixel value - 128) [1/32 grey level], so that sums of squares fit into 32 bits. Larger
+// values occur only where the flow is steep and the contrast high.
 constexpr std::int16_t kMostValue = 5792;
 
-/// Change of the flow per pixel along x and along y.
+/// Change of the flow per pixel, along x and along y.
 struct Bend {
     Vector2 dx, dy;
 };
 
-/// The smaller of both one-sided differences; zero if their signs differ. Over two cells, because
-/// between adjacent cells the noise is larger than the change.
+/// Returns the smaller of both one-sided differences, or zero if their signs differ. Differences
+/// are taken over two cells, because between adjacent cells the noise is larger than the change.
 HWY_INLINE float slopeOf(float before, float here, float after) {
     const float a = here - before, b = after - here;
     if (!(a * b > 0)) return 0;
@@ -42,7 +43,7 @@ HWY_INLINE float slopeOf(float before, float here, float after) {
     return bounded(least / 8, -kSteepest, kSteepest);
 }
 
-/// Replaces NaN and vectors longer than any picture by zero.
+/// Replaces NaN, and vectors longer than any picture, by zero.
 HWY_INLINE float soundOf(float v) {
     constexpr float kMost = 2e4F;
     return std::abs(v) < kMost ? v : 0;
@@ -63,12 +64,12 @@ HWY_INLINE Bend bendAt(const AlignStep& step, int column, int row, Vector2 here)
             slope(seedAt(step, column, row - 2), seedAt(step, column, row + 2))};
 }
 
-/// Positions of the parts of a patch's rows in the other picture, row by row.
+/// Positions in the other picture of the parts of a patch's rows, row by row.
 template <int kParts>
 struct BentPlaces {
     static constexpr int kCount = kPatch * kParts;
     std::int32_t upper[kCount], lower[kCount];  // of the first pixel [bytes]
-    // Weights of the next pixel, twice in 32 bits.
+    // Weights of the next pixel, each stored twice in 32 bits.
     std::int32_t shareX[kCount], shareY[kCount];
 };
 
@@ -130,8 +131,8 @@ HWY_INLINE void placeParts(const PatchPicture& p, int column, int row, Vector2 u
     }
 }
 
-/// Loads a row's parts, `next` pixels after `parts`; on the scalar target, only the pixel of column
-/// c.
+/// Loads the parts of a row, starting `next` pixels after `parts`. On the scalar target, loads only
+/// the pixel in column c.
 template <int kParts>
 HWY_INLINE Vec16 loadParts(const std::uint8_t* const* parts, int next, int c) {
     if constexpr (kParts == 1) return loadPixels(parts[0] + next + c);
@@ -145,7 +146,7 @@ HWY_INLINE Vec16 loadParts(const std::uint8_t* const* parts, int next, int c) {
 #endif
 }
 
-/// The weights of a row's parts, repeated for all pixels of the part.
+/// Loads the weights of a row's parts, repeated for all pixels of each part.
 template <int kParts>
 HWY_INLINE Vec16 loadShares(const std::int32_t* shares, int c) {
     const Row16 d16;
@@ -157,7 +158,7 @@ HWY_INLINE Vec16 loadShares(const std::int32_t* shares, int c) {
     const hn::FixedTag<std::int32_t, 2> dTwo;
     const hn::FixedTag<std::int32_t, 4> dFour;
     const auto two = hn::LoadU(dTwo, shares);
-    const auto four = hn::Combine(dFour, two, two);  // left right left right
+    const auto four = hn::Combine(dFour, two, two);  // in the order left, right, left, right
     return hn::BitCast(d16, hn::InterleaveLower(dFour, four, four));
 #endif
 }
@@ -170,7 +171,7 @@ HWY_INLINE const std::int16_t* alongPart() {
     return kAlong[kParts - 1];
 }
 
-/// Interpolates a bent patch's pixels from two rows and their right neighbours.
+/// Interpolates the pixels of a bent patch from two rows and their right neighbours.
 template <class D16>
 struct BentPixels {
     hn::Vec<D16> shareX, shareY;
@@ -180,7 +181,7 @@ struct BentPixels {
         const auto step = hn::ShiftLeft<kValueBits + 1>(hn::Sub(next, here));
         return hn::Add(hn::ShiftLeft<kValueBits>(here), hn::MulFixedPoint15(step, shareX));
     }
-    /// Interpolates between two rows; result less 128.
+    /// Interpolates between two rows and subtracts 128.
     HWY_INLINE hn::Vec<D16> down(hn::Vec<D16> upper, hn::Vec<D16> lower) const {
         const D16 d;
         const auto most = hn::Set(d, kMostValue), middle = hn::Set(d, 128 << kValueBits);
@@ -190,8 +191,8 @@ struct BentPixels {
     }
 };
 
-/// Sums the products of a patch with the other picture's pixels at its positions. `slopeX`,
-/// `slopeY`: change of the weights per half pixel along the row.
+/// Sums the products of a patch's pixels with the other picture's pixels at the given positions.
+/// `slopeX`, `slopeY`: change of the weights per half pixel along the row.
 template <int kParts>
 HWY_INLINE void addUpParts(const Patch& patch, const std::uint8_t* pixels,
                            const BentPlaces<kParts>& places, std::int16_t slopeX,
@@ -224,7 +225,7 @@ HWY_INLINE void addUpParts(const Patch& patch, const std::uint8_t* pixels,
 }
 
 #if HWY_MAX_BYTES >= 32
-/// The same for rows with a single position, two rows at once.
+/// The same as addUpParts() for rows with a single position; processes two rows at once.
 HWY_INLINE void addUpTwoRows(const Patch& patch, const std::uint8_t* pixels,
                              const BentPlaces<1>& places, std::int16_t slopeX, std::int16_t slopeY,
                              int cell, CompareSums& out) {
@@ -255,7 +256,7 @@ HWY_INLINE void addUpTwoRows(const Patch& patch, const std::uint8_t* pixels,
 }
 #endif
 
-/// comparePatch() for a flow that changes over the patch.
+/// As comparePatch(), but for a flow that changes over the patch.
 template <int kParts>
 HWY_INLINE void compareBent(const Patch& patch, const PatchPicture& p, int column, int row,
                             Vector2 u, const Bend& bend, int cell, CompareSums& out) {

@@ -1,5 +1,5 @@
-// Comparison of patches between two luma levels, invariant to offset and gain, for a batch of cells
-// at once. Included once for each instruction set.
+// Comparison of patches between two luma levels for a batch of cells. It does not depend on offset
+// and gain of either level. Included once per instruction set.
 #if defined(MFAR_PATCH_BATCH_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef MFAR_PATCH_BATCH_INL_H
 #undef MFAR_PATCH_BATCH_INL_H
@@ -13,7 +13,7 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace {
 
-/// A value for each cell of a batch.
+/// One value for each cell of a batch.
 struct alignas(64) Each {
     float of[kBatch] = {};
 
@@ -37,22 +37,22 @@ HWY_INLINE Vec squaredLength(const Lanes2& v) {
     return hn::MulAdd(v.x, v.x, hn::Mul(v.y, v.y));
 }
 
-/// Cells, their patches, and the best vector of each so far.
+/// Cells, their patches, and the best vector found so far for each cell.
 struct Batch {
     int count = 0;
     int column[kBatch], row[kBatch];
     Patch patch[kBatch];
-    Each mean, variance;  // of the patch's pixels; variance: sum of squares, not divided by the
-                          // count
+    Each mean, variance;  // of the patch's pixels; variance: sum of squared differences from the
+                          // mean
     Each2 sumG, sumAG;    // sums of the gradients, and of (pixel - mean) times gradient
-    Each inverseXx, inverseXy, inverseYy;  // Hessian
+    Each inverseXx, inverseXy, inverseYy;  // inverse of the Hessian
 
     Each2 best;
     Each cost;
     Each2 descent;  // right-hand side of the Gauss-Newton step
 
-    Each2 trial;  // the vector to be tried next
-    Each active;  // 1: trial pending, then: trial was better; else 0
+    Each2 trial;  // the vector that is tried next
+    Each active;  // 1 before a comparison: try the cell; 1 after it: the trial was better; else 0
 
     HWY_INLINE void add(int c, int r) {
         column[count] = c;
@@ -61,8 +61,8 @@ struct Batch {
     }
 };
 
-/// Loads the patches of the batch's cells and what does not depend on the position in the other
-/// picture.
+/// Loads the patches of the batch's cells, and computes what does not depend on the position in the
+/// other picture.
 HWY_INLINE void loadPatches(const PatchPicture& p, PatchSums& sums, Batch& batch) {
     for (int i = 0; i < batch.count; ++i)
         loadPatch(p, batch.column[i], batch.row[i], i, batch.patch[i], sums);
@@ -89,7 +89,8 @@ HWY_INLINE void loadPatches(const PatchPicture& p, PatchSums& sums, Batch& batch
     }
 }
 
-/// Accepts active trials that fit better than the best so far; deactivates the others.
+/// Accepts the trials of active cells that fit better than the best vector so far. Deactivates all
+/// other cells.
 HWY_INLINE void takeBetter(const CompareSums& sums, Batch& batch) {
     const Cells d;
     const auto noise = hn::Set(d, params::kPatchNoise), zero = hn::Zero(d), one = hn::Set(d, 1.0F);
@@ -120,7 +121,7 @@ HWY_INLINE void takeBetter(const CompareSums& sums, Batch& batch) {
     }
 }
 
-/// Indices of a batch's active cells, found without a branch per cell.
+/// Indices of a batch's active cells. They are found without a branch per cell.
 struct ActiveCells {
     int count = 0;
     int cell[kBatch];
@@ -133,7 +134,7 @@ struct ActiveCells {
     }
 };
 
-/// Compares the active cells' trials by compare(cell), and accepts better ones.
+/// Compares the trials of the active cells by compare(cell), and accepts those that are better.
 template <class Compare>
 HWY_INLINE void tryActive(const Compare& compare, const CompareSums& sums, Batch& batch) {
     const ActiveCells active(batch);
@@ -143,8 +144,8 @@ HWY_INLINE void tryActive(const Compare& compare, const CompareSums& sums, Batch
     takeBetter(sums, batch);
 }
 
-/// Sets the trials of the active cells to one Gauss-Newton step, at most a pixel long; deactivates
-/// cells whose step is too short.
+/// Sets the trials of the active cells to the result of one Gauss-Newton step, at most a pixel
+/// long. Deactivates cells whose step is too short.
 HWY_INLINE void stepActive(Batch& batch) {
     const Cells d;
     const auto one = hn::Set(d, 1.0F);

@@ -8,56 +8,56 @@
 
 namespace mfar::simd {
 
-/// One pyramid level as the flow kernels read it: bytes, 8 of replicated border left of each row
-/// and at least 8 right of it.
+/// One pyramid level as the flow kernels read it: bytes, with 8 bytes of replicated border to the
+/// left of each row and at least 8 to the right.
 struct PatchPicture {
-    const std::uint8_t* pixels = nullptr;  ///< of pixel (0, 0)
-    std::ptrdiff_t pitch = 0;              ///< bytes
+    const std::uint8_t* pixels = nullptr;  ///< address of pixel (0, 0)
+    std::ptrdiff_t pitch = 0;              ///< bytes from one row to the next
     int width = 0, height = 0;             ///< [px]
 };
 
 /// Vectors of one level's cells, one plane per channel: flow x, y [px of the level], cost, texture.
-/// All planes have one pitch and kFieldMargin writable elements on each side of their rows.
+/// All planes have the same pitch, and kFieldMargin writable elements on each side of their rows.
 struct FlowPlanes {
     float *x = nullptr, *y = nullptr, *cost = nullptr, *texture = nullptr;  ///< of cell (0, 0)
-    std::ptrdiff_t pitch = 0;                                               ///< elements
-    int columns = 0, rows = 0;                                              ///< cells
+    std::ptrdiff_t pitch = 0;                                               ///< elements per row
+    int columns = 0, rows = 0;                                              ///< number of cells
 };
 inline constexpr int kFieldMargin = 16;
 
-/// A field of another frame or step whose vectors are candidates at every level.
+/// A field of another frame or step. Its vectors are candidates at every level.
 struct PriorField {
     const float *x = nullptr, *y = nullptr;
-    std::ptrdiff_t step = 1, pitch = 0;         ///< elements between cells, between rows
-    float scale = 1;                            ///< this level's pixels per pixel of the field
-    float columnsPerCell = 1, rowsPerCell = 1;  ///< cells of the field per cell of the level
+    std::ptrdiff_t step = 1, pitch = 0;         ///< elements from cell to cell, from row to row
+    float scale = 1;                            ///< pixels of this level per pixel of the field
+    float columnsPerCell = 1, rowsPerCell = 1;  ///< cells of the field per cell of this level
 };
 
-/// One level of one direction of flow_search.comp.
+/// Parameters of searching one level in one direction, as flow_search.comp does.
 struct SearchStep {
     PatchPicture from, to;  ///< patches of `from` are searched in `to`
     FlowPlanes out;
-    FlowPlanes coarser;  ///< its vectors are candidates; no rows: the coarsest level
-    PriorField prior;    ///< x is null: no prior
-    int radius = 0;      ///< of the square of whole-pixel candidates at the coarsest level, <= 40
+    FlowPlanes coarser;  ///< its vectors are candidates; without rows: this is the coarsest level
+    PriorField prior;    ///< without a prior, x is null
+    int radius = 0;      ///< radius of whole-pixel candidates at the coarsest level, <= 40
     int candidates = 0;  ///< number of candidates from the coarser level
     int steps = 0;       ///< number of Gauss-Newton steps
 };
 /// Searches cells [first, end) of a row.
 void searchCells(const SearchStep& step, int row, int first, int end);
 
-/// The LISTED variant of flow_search.comp: a cell replaces its vector in `out` only if the cost is
-/// clearly smaller. `errors`: four floats per cell, of which the first is replaced; null: not the
-/// finest level, every cell takes the result.
+/// Parameters of the LISTED variant of flow_search.comp: a cell replaces its vector in `out` only
+/// if the new cost is clearly smaller. `errors`: four floats per cell, of which the first is
+/// replaced. If it is null, this is not the finest level, and every cell takes the result.
 struct ListedStep {
     SearchStep search;
     float* errors = nullptr;
-    std::ptrdiff_t errorPitch = 0;  ///< floats
+    std::ptrdiff_t errorPitch = 0;  ///< floats from one row to the next
 };
-/// Searches a group of 4x4 cells, cut at the field's border.
+/// Searches a group of 4x4 cells, or the part of it that lies in the field.
 void searchListedGroup(const ListedStep& step, int groupX, int groupY);
 
-/// flow_propagate.comp: each cell tries its neighbours' vectors of `in`.
+/// Parameters of flow_propagate.comp: each cell tries its neighbours' vectors of `in`.
 struct PropagateStep {
     PatchPicture from, to;
     FlowPlanes out, in;
@@ -65,31 +65,32 @@ struct PropagateStep {
 };
 void propagateCells(const PropagateStep& step, int row, int first, int end);
 
-/// flow_align.comp: Gauss-Newton steps from `seed`, with patches that bend with the field.
+/// Parameters of flow_align.comp: Gauss-Newton steps from `seed`, with patches that bend with the
+/// field.
 struct AlignStep {
     PatchPicture from, to;
     FlowPlanes out;
-    const float* seed = nullptr;  ///< flow x, y, -, - of each cell, row by row without gaps
+    const float* seed = nullptr;  ///< per cell: flow x, y, two unused; no gaps between rows
     int steps = 0;                ///< number of Gauss-Newton steps
 };
 void alignCells(const AlignStep& step, int row, int first, int end);
 /// Copies the seed's vectors, with cost and texture 0. Invalid vectors become zero.
 void keepSeedCells(const AlignStep& step, int row, int first, int end);
 
-/// flow_filter.comp, on fields with their margins filled. `known`: reliability of each cell, [0,
-/// 1]. `out`: four floats per cell, row by row without gaps.
+/// Parameters of flow_filter.comp. The margins of the fields must be filled. `known`: reliability
+/// of each cell, [0, 1]. `out`: four floats per cell, row by row without gaps.
 struct CleanUpStep {
     FlowPlanes in;
-    const float* known = nullptr;  ///< pitch and margins as those of `in`
+    const float* known = nullptr;  ///< has the pitch and margins of `in`
     float* out = nullptr;
     int planeFits = 0;
 };
-/// Radius in cells that plane fits read.
+/// Plane fits read cells within this radius.
 using params::kCleanUpRadius;
 void cleanUpCells(const CleanUpStep& step, int row, int first, int end);
 /// Copies the cells unchanged.
 void copyCells(const CleanUpStep& step, int row, int first, int end);
-/// Computes the reliability of the cells of a row; repeats the outermost cells of x, y and `known`
+/// Computes the reliability of the cells of a row. Repeats the outermost cells of x, y and `known`
 /// over kCleanUpRadius columns on both sides.
 void prepareCleanUpRow(const FlowPlanes& field, float* known, int row);
 

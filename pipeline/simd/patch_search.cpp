@@ -3,7 +3,7 @@
 // Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/patch_search.cpp"
-// clang-format off: in this order alone
+// clang-format off: the order of these two includes matters
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 #include "pipeline/simd/patch_batch_inl.h"
@@ -22,7 +22,7 @@ struct SearchRoom {
     PatchSums patchSums;
     CompareSums sums;
 
-    /// Begins a batch with the cells that were added.
+    /// Starts a batch with the cells that were added.
     HWY_INLINE void load(const PatchPicture& from) {
         loadPatches(from, patchSums, batch);
         for (int i = 0; i < batch.count; ++i) {
@@ -40,7 +40,7 @@ struct SearchRoom {
     }
 };
 
-/// Activates trials that differ from the best vector.
+/// Activates the cells whose trial differs from their best vector.
 HWY_INLINE void activateNew(Batch& batch) {
     const Cells d;
     for (std::size_t i = 0; i < kBatch; i += hn::Lanes(d)) {
@@ -51,7 +51,7 @@ HWY_INLINE void activateNew(Batch& batch) {
     }
 }
 
-/// Gauss-Newton steps of the active cells, as long as each improves the fit.
+/// Makes Gauss-Newton steps for the active cells, as long as each step improves the fit.
 HWY_INLINE void refine(const PatchPicture& to, int steps, SearchRoom& room) {
     for (int k = 0; k < steps; ++k) {
         stepActive(room.batch);
@@ -94,7 +94,7 @@ HWY_INLINE void sumWhole(const Patch& patch, const PatchRows& rows, std::size_t 
     out.ab[at] = sum(ab);
 }
 
-/// The costs of takeBetter() for each of `count` displacements.
+/// Computes the costs of `count` displacements, as takeBetter() does.
 HWY_INLINE void costsOf(float patchMean, float patchVariance, std::size_t count, WholeSums& sums) {
     const Cells d;
     const auto mean = hn::Set(d, patchMean), variance = hn::Set(d, patchVariance);
@@ -113,12 +113,12 @@ HWY_INLINE void costsOf(float patchMean, float patchVariance, std::size_t count,
     }
 }
 
-/// The best vector of one cell so far.
+/// The best vector found so far for one cell.
 struct WholeBest {
     float x, y, cost;
 };
 
-/// Tries all displacements of a row; of equal costs the first wins.
+/// Tries all displacements of a row. Of equal costs, the first wins.
 HWY_INLINE void searchWholeRow(const Batch& batch, int cell, const PatchPicture& to, int firstDx,
                                int endDx, int dy, WholeSums& sums, WholeBest& best) {
     const int y = std::clamp(kCellSize * batch.row[cell] - 2 + dy, -7, to.height - 2);
@@ -138,8 +138,8 @@ HWY_INLINE void searchWholeRow(const Batch& batch, int cell, const PatchPicture&
     }
 }
 
-/// Tries a square of displacements, starting with no motion, which therefore wins without texture.
-/// The best becomes the trial.
+/// Tries a square of displacements. Zero is tried first, so it wins if the patch has no texture.
+/// The best displacement becomes the trial.
 void searchWhole(Batch& batch, int cell, const PatchPicture& to, int radius) {
     WholeSums sums{};
     WholeBest best{batch.best.x.of[cell], batch.best.y.of[cell], batch.cost.of[cell]};
@@ -168,7 +168,7 @@ HWY_INLINE void tryPrior(const SearchStep& step, SearchRoom& room) {
     room.compare(step.to);
 }
 
-/// The coarser level's vectors around the cells: the k-th of four, the nearest first.
+/// Tries the coarser level's vectors around the cells: the k-th of four, the nearest of them first.
 HWY_INLINE void tryCoarser(const SearchStep& step, int k, SearchRoom& room) {
     Batch& batch = room.batch;
     for (int i = 0; i < batch.count; ++i) {
@@ -216,7 +216,7 @@ void SearchCells(const SearchStep& step, int row, int first, int end) {
 
 void SearchListedGroup(const ListedStep& step, int groupX, int groupY) {
     using params::kClearlyLess, params::kErrorPerCost, params::kGoodCost, params::kOnLine;
-    constexpr int kSide = 4;  // cells
+    constexpr int kSide = 4;  // [cells]
     static_assert(kSide * kSide == kBatch);
     const FlowPlanes& out = step.search.out;
     SearchRoom room;
@@ -246,7 +246,7 @@ struct Offset {
 };
 constexpr Offset kBeside[] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
 
-/// Whether one of the cell's neighbours has a different vector.
+/// True if one of the cell's neighbours has a different vector.
 HWY_INLINE bool differsFromNeighbours(const FlowPlanes& field, int column, int row) {
     const Vector2 own = vectorOf(field, column, row);
     bool differs = false;

@@ -15,14 +15,15 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Grey levels less 128 are kept in 1/64: a patch's sum of squares fits into four 32-bit lanes.
+// (Grey level - 128) is stored in 1/64, so that a patch's sum of squares fits into four 32-bit
+// lanes.
 constexpr float kOne = 64;
 constexpr float kPixels = params::kPatchPixels;
 constexpr int kRows = 8;
-constexpr int kChunk = 16;  // cells whose sums are kept in four lanes each until they are added
-                            // across cells
+constexpr int kChunk = 16;  // number of cells with four partial sums each, which are then added for
+                            // several cells at once
 
-/// First pixel of the still's patch of each cell.
+/// First pixel of the still's patch for each cell.
 struct Origins {
     HWY_ALIGN std::array<std::int32_t, 2 * kChunk> x, y;
     HWY_ALIGN std::array<std::int32_t, 2 * kChunk> fx, fy;  // weights in 2^-15, twice in 32 bits
@@ -99,7 +100,7 @@ void SumPatches(const std::uint8_t* const* video, const PatchLevel& still, int f
 
 #else
 
-// Each block of 16 bytes holds a row of one cell's patch.
+// A block of 16 bytes holds a row of one cell's patch.
 #if HWY_ARCH_X86
 constexpr int kBlocks = HWY_MAX_BYTES / 16;
 #else
@@ -133,7 +134,7 @@ HWY_INLINE V16 Between(V16 a, V16 b, V16 f) {
     return hn::Add(a, hn::MulFixedPoint15(hn::Sub(b, a), f));
 }
 
-/// Products are added in adjacent pairs or in halves, depending on the processor.
+/// Sums products. Depending on the CPU, it adds adjacent pairs of products, or halves of vectors.
 struct Accumulator {
     V32 first, second;
 
@@ -168,7 +169,7 @@ HWY_INLINE void SumRows(const VideoRow& videoRow, const StillRow& stillRow, int 
     Accumulator a{zero, zero}, b = a, aa = a, ab = a, bb = a;
     V16 upper = level(0);
     for (int half = 0; half < 2; ++half) {
-        // Sums of four rows fit into 16 bits.
+        // Sums over four rows fit into 16 bits.
         V16 sumA = hn::Zero(d16), sumB = hn::Zero(d16);
         for (int row = 4 * half; row < 4 * half + 4; ++row) {
             const V16 p = Pixels(
@@ -193,8 +194,8 @@ HWY_INLINE void SumRows(const VideoRow& videoRow, const StillRow& stillRow, int 
     bb.store(&out.bb[to]);
 }
 
-/// Sums the patches of kBlocks cells from `first`, out of the chunk's `count` cells; `video`: rows
-/// at the chunk's first cell.
+/// Sums the patches of kBlocks cells from `first` on; the chunk has `count` cells. `video`: rows at
+/// the chunk's first cell.
 HWY_INLINE void SumPatches(const std::uint8_t* const* video, const PatchLevel& still, int first,
                            int count, const Origins& origins, Partial& out) {
     const V16 fx = PerBlock(&origins.fx[first]), fy = PerBlock(&origins.fy[first]);
@@ -224,7 +225,7 @@ HWY_INLINE void SumPatches(const std::uint8_t* const* video, const PatchLevel& s
 
 #endif
 
-/// Adds the four lanes of each cell.
+/// Adds the four partial sums of each cell.
 template <class D>
 HWY_INLINE hn::Vec<D> Total(D d, const Partial::Sums& partial, std::size_t cell, float scale) {
     const hn::RebindToSigned<D> di;

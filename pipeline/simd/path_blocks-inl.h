@@ -1,7 +1,7 @@
-// Paths over windows of one vector of labels, in registers: a block of 16 bytes belongs to a pixel;
-// a vector holds as many pixels as blocks. Path costs are stored as their complement, so that the
-// zeros that shifts and look-ups insert outside a window never win. Included once for each
-// instruction set.
+// Path costs in registers, for windows of one vector of labels. A block of 16 bytes belongs to a
+// pixel; a vector holds several blocks, one for each of its pixels. Path costs are stored as their
+// complement, so that the zeros that shifts and look-ups insert outside a window never win.
+// Included once per instruction set.
 #include "pipeline/simd/path_costs.h"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ using DBlocks = hn::FixedTag<std::uint8_t, 16 * Blocks>;
 template <int Blocks>
 using VBlocks = hn::Vec<DBlocks<Blocks>>;
 
-/// The same sixteen bytes in every block.
+/// Returns the same sixteen bytes in every block.
 template <int Blocks>
 HWY_INLINE VBlocks<Blocks> everywhere(const std::array<std::uint8_t, 16>& bytes) {
     return hn::LoadDup128(DBlocks<Blocks>(), bytes.data());
@@ -58,7 +58,7 @@ HWY_INLINE void storeApart(VBlocks<Blocks> v, std::uint8_t* to, std::ptrdiff_t a
     }
 }
 
-/// Constants in registers for paths of single vectors.
+/// Makes steps along paths; keeps the constants for this in registers.
 template <int Blocks>
 class Stepper {
 public:
@@ -90,7 +90,7 @@ public:
     }
 
     /// Advances the complement of path costs by one step. `shifts` (motion of the window) and
-    /// `jumps` (penalties): one byte per block.
+    /// `jumps` (penalties) have one byte per block.
     HWY_INLINE V advance(V path, const std::uint8_t* shifts, const std::uint8_t* jumps,
                          V cost) const {
         std::uint32_t moved = 0;
@@ -109,7 +109,7 @@ public:
         return hn::Add(sum, hn::Not(greatest(sum)));
     }
 
-    /// Bytes of a block by index; 0 for indices outside of it.
+    /// Returns the bytes of a block at the given indices; 0 for indices outside of the block.
     HWY_INLINE V taken(V block, V place) const {
         const hn::RebindToSigned<D> dSigned;
         const auto at = hn::BitCast(dSigned, place);
@@ -118,7 +118,7 @@ public:
     }
 
 private:
-    /// The largest byte of each block, in all of its lanes.
+    /// Returns the largest byte of each block, in all lanes of the block.
     HWY_INLINE V greatest(V v) const {
         const hn::Repartition<std::uint32_t, D> words;
         v = hn::Max(v, hn::BitCast(d_, hn::Shuffle1032(hn::BitCast(words, v))));
@@ -133,7 +133,8 @@ private:
     V one_, places_, byTwo_, byOne_, block_;
 };
 
-/// Differences between neighbours: the penalty of a jump, and the motion of the window.
+/// What a step depends on at two neighbouring pixels: the penalty of a jump, and the motion of the
+/// window.
 class Neighbours {
 public:
     explicit Neighbours(const PathVolume& volume)
@@ -159,7 +160,7 @@ public:
                     hn::StoreU(jump, d, out + i);
                 });
     }
-    /// Clamped to one more than a window.
+    /// The shift is clamped to one more than a window.
     HWY_INLINE static void shifts(const std::int16_t* to, const std::int16_t* from, int count,
                                   std::uint8_t* out) {
         for (int i = 0; i < count; ++i)
@@ -187,13 +188,13 @@ private:
     int chunks_;
 };
 
-/// Penalties and shifts for a run of pixels in `Blocks` rows, interleaved.
+/// Penalties and shifts of a run of pixels in `Blocks` rows, interleaved.
 template <int Blocks>
 struct RunOfRows {
     HWY_ALIGN std::uint8_t jumps[Neighbours::kMost * 4], shifts[Neighbours::kMost * 4];
 
-    /// Pixels [x, x + count) of rows from y, each with its neighbour at offset `toFrom`; a pixel
-    /// without a neighbour takes itself.
+    /// Fills in pixels [x, x + count) of the rows from y on, each with its neighbour at offset
+    /// `toFrom`. A pixel without a neighbour uses itself.
     HWY_INLINE void fill(const Neighbours& between, const PathVolume& v, int x, int count, int y,
                          int toFrom) {
         HWY_ALIGN std::uint8_t jump[4][Neighbours::kRoom] = {}, shift[4][Neighbours::kRoom] = {};
@@ -227,8 +228,8 @@ private:
     }
 };
 
-/// Both directions at once: each step waits for the one before, so two chains keep the processor
-/// busy.
+/// Computes the paths along rows in both directions at once. A step waits for the one before, so
+/// two independent chains keep the CPU busy.
 template <int Blocks>
 HWY_INLINE void blocksAlongRows(const PathVolume& v, int y) {
     static_assert(Blocks == 1 || Blocks == 2 || Blocks == 4);
@@ -264,7 +265,7 @@ HWY_INLINE void blocksAlongRows(const PathVolume& v, int y) {
     }
 }
 
-/// The cheapest labels of sums that lack one path, which is given as its complement.
+/// Finds the cheapest labels. `sums` lack one path, which is given as its complement.
 template <int Blocks>
 HWY_INLINE void valleysOf(const Stepper<Blocks>& stepper, VBlocks<Blocks> sums,
                           VBlocks<Blocks> path, const std::int16_t* base, Valley* out) {
@@ -275,7 +276,7 @@ HWY_INLINE void valleysOf(const Stepper<Blocks>& stepper, VBlocks<Blocks> sums,
     const auto a = hn::BitCast(d16, sums), b = hn::BitCast(d16, hn::Not(path));
     const auto odds = [&](auto v) HWY_ATTR { return hn::And(hn::ShiftRight<8>(v), byte); };
     const auto even = hn::Add(hn::And(a, byte), hn::And(b, byte)), odd = hn::Add(odds(a), odds(b));
-    // The smallest sum wins; of equal sums, the smallest label.
+    // The smallest sum wins; of equal sums, that of the smallest label.
     const auto places =
         hn::BitCast(d16, everywhere<Blocks>({0, 0, 2, 0, 4, 0, 6, 0, 8, 0, 10, 0, 12, 0, 14, 0}));
     const auto evenKey = hn::Or(hn::ShiftLeft<4>(even), places);
@@ -303,7 +304,7 @@ HWY_INLINE void valleysOf(const Stepper<Blocks>& stepper, VBlocks<Blocks> sums,
     }
 }
 
-/// The path costs of a strip of columns, which advance together, down or up.
+/// The path costs of a strip of columns, which advance together, either down or up.
 class BlockColumns {
 public:
     BlockColumns(const PathVolume& volume, int first, int last)

@@ -1,5 +1,5 @@
-// Paths over windows of several vectors of labels, as at the coarsest level, in memory with margins
-// on both sides. Included once for each instruction set.
+// Path costs in memory, for windows of several vectors of labels, as used at the coarsest level.
+// The costs have margins on both sides. Included once per instruction set.
 #include "pipeline/simd/path_costs.h"
 
 #include <algorithm>
@@ -17,11 +17,12 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Value in the margins around the labels, for labels outside the last pixel's window: it never
-/// wins.
+/// Value in the margins around the labels. It never wins, so labels outside the last pixel's window
+/// are ignored.
 constexpr std::uint8_t kNever = 200;
 
-/// Size of the margin on either side: enough for a window that shares no label with the last one.
+/// Returns the size of the margin on either side. It suffices for a window that shares no label
+/// with the last one.
 HWY_INLINE std::size_t marginOf(int vectors) {
     return static_cast<std::size_t>(kLabels) * (vectors + 1);
 }
@@ -30,8 +31,9 @@ HWY_INLINE std::size_t strideOf(int vectors) {
     return static_cast<std::size_t>(kLabels) * vectors + 2 * marginOf(vectors);
 }
 
-/// One step of a path: `from`: path costs of the last pixel, `shift`: difference of the windows.
-/// The smallest path cost is subtracted, so that costs are bounded and the sums comparable.
+/// Makes one step of a path. `from`: path costs of the last pixel. `shift`: difference of the two
+/// windows' first labels. The smallest path cost is subtracted, so that costs remain bounded and
+/// the sums of paths can be compared.
 HWY_INLINE void windowStep(const std::uint8_t* from, int shift, std::uint8_t stepPenalty,
                            std::uint8_t jumpPenalty, const std::uint8_t* cost, std::uint8_t* to,
                            int labels) {
@@ -61,7 +63,7 @@ HWY_INLINE void addLabels(const std::uint8_t* path, int labels, std::uint8_t* su
         hn::StoreU(hn::Add(hn::LoadU(d, sums + k), hn::LoadU(d, path + k)), d, sums + k);
 }
 
-/// Step from pixel `from` to pixel `to`, which are adjacent or the same.
+/// Makes a step from pixel `from` to pixel `to`, which are adjacent or the same.
 HWY_INLINE void windowMove(const PathVolume& v, std::ptrdiff_t from, std::ptrdiff_t to,
                            const std::uint8_t* last, std::uint8_t* now) {
     const int labels = kLabels * v.vectors;
