@@ -13,7 +13,7 @@ namespace mfar {
 /// Decides when the surface that catches shadows (the shadow catcher) is measured again.
 struct CatcherRule {
     int settling = 12;         ///< number of frames before the measured surface replaces the plane
-    double leastKnown = 0.7;   ///< least share of pixels around the objects with known depth
+    double leastKnown = 0.7;   ///< least share of known depth around the objects
     double turn = 0.35;        ///< camera turn around the objects that causes a measurement [rad]
     double leastInterval = 4;  ///< least time between two measurements [s]
 };

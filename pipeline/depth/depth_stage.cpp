@@ -11,7 +11,7 @@ namespace {
 constexpr int kSampleStep = 5;  // distance between sampled pixels [px]
 constexpr int kPart = 160;      // largest side of a part; each part chooses a keyframe [px]
 constexpr int kSupport = 24;    // margin of searches, because neighbours influence the result [px]
-constexpr double kSameView = 0.3;  // less motion than this in the picture is the same view [px]
+constexpr double kSameView = 0.3;  // smaller motions of the picture do not give a new view [px]
 constexpr double kNearest = 0.01;  // lower limit of an assumed distance [m]
 // A keyframe is searched only if its parallax exceeds this multiple of the still's parallax.
 constexpr double kWorth = 2;

@@ -16,7 +16,7 @@ struct InverseDepthField {
     Size size;
     std::vector<float> rho;       ///< 1 / z along the video camera's axis [1/m]; 0: infinitely far
     std::vector<float> variance;  ///< of rho [1/m^2]; kUnknown where rho is invalid
-    std::vector<std::uint8_t> filled;  ///< 1: not measured, but taken from pixels around
+    std::vector<std::uint8_t> filled;  ///< 1: not measured, but derived from nearby pixels
 
     InverseDepthField() = default;
     explicit InverseDepthField(Size s)

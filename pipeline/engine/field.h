@@ -107,9 +107,9 @@ private:
     Size size_;
     Transfers* transfers_;
     // Mutable, because reading moves rows but changes no value.
-    mutable Rows<const T> host_;            // null data: older than the GPU's copy
+    mutable Rows<const T> host_;            // without data: the GPU's copy is newer
     mutable Rows<T> editable_;              // the same rows, if they may be drawn into
-    mutable DeviceCopy* device_ = nullptr;  // null: older than the host's rows
+    mutable DeviceCopy* device_ = nullptr;  // null: the host's rows are newer
     mutable AlignedRows<T> downloaded_;
     mutable std::unique_ptr<DeviceCopy> uploaded_;
     mutable Size uploadedSize_{};

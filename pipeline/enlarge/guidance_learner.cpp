@@ -13,7 +13,7 @@
 namespace mfar::enlarge {
 namespace {
 
-constexpr double kForgetting = 0.95;  // per still, as for the filters
+constexpr double kForgetting = 0.95;  // factor of older weights per still, as for filters
 // Zero guidance is the prior. It counts as much as this number of pixels.
 constexpr double kPriorPixels = 2000;
 constexpr double kLeastPixels = 0.02;  // least share of the picture to learn from

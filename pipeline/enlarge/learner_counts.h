@@ -9,7 +9,7 @@ namespace mfar {
 /// What EnlargerLearner has counted and reached so far.
 struct LearnerCounts {
     std::uint64_t stills = 0, repeated = 0, refused = 0;
-    int classes = 0;            ///< of enlarge::kUnique, number with a learned filter in use
+    int classes = 0;            ///< classes with a learned filter in use, of enlarge::kUnique
     double gainDb = 0;          ///< of the filters in use over the cubic, held-out part [dB]
     double priorDb = 0;         ///< of the shipped filters over the cubic, held-out part [dB]
     std::uint64_t pairs = 0;    ///< pairs of stills that guidance was learned from

@@ -105,7 +105,7 @@ private:
     std::vector<std::int32_t> landing_;  // still cell on which each video cell lands
     // Rays through the middle of each cell's four central pixels.
     std::vector<float> middleRaysX_, middleRaysY_;
-    std::vector<float> middlesX_, middlesY_;  // of each column and row of cells [px]
+    std::vector<float> middlesX_, middlesY_;  // middle of each column and row of cells [px]
 };
 
 }  // namespace mfar

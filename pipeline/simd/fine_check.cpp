@@ -13,7 +13,7 @@ namespace {
 
 using params::kFineStep;
 static_assert(kCellsPerTile % kFineStep == 0);
-constexpr int kBlock = 2;                // rows of a block whose mean is subtracted
+constexpr int kBlock = 2;                // rows of a block of 2x2 pixels
 constexpr int kFirst = (kCell - 2) / 2;  // first row of a cell that is compared
 constexpr int kRoom = 64;                // pixels after a row that vectors may access
 

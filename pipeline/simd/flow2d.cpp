@@ -110,7 +110,7 @@ void Flow2d::chooseBackward() {
             };
             ends_.at(tileAt(x, cell.x, ends_.size.width), tileAt(y, cell.y, ends_.size.height)) = 1;
         }
-    constexpr int kMargin = 3;  // [tiles]; covers these three cells and the one for interpolation
+    constexpr int kMargin = 3;  // [tiles]; a tile has 2x2 cells of this level
     widen(ends_, kMargin, between_, endsAround_);
 }
 

@@ -11,10 +11,11 @@ struct PixelSpan {
     bool operator==(const PixelSpan&) const = default;
 };
 
-/// Spans of a row, ascending, neither touching nor overlapping.
+/// Spans of a row, ascending; they neither touch nor overlap.
 using PixelSpans = std::vector<PixelSpan>;
 
-/// Adds a span that does not begin before the last.
+/// Adds a span that begins at or after the begin of the last one, and merges it with that one if
+/// they touch or overlap.
 inline void append(PixelSpans& spans, const PixelSpan& added) {
     if (!spans.empty() && added.begin <= spans.back().end)
         spans.back().end = std::max(spans.back().end, added.end);
@@ -22,7 +23,7 @@ inline void append(PixelSpans& spans, const PixelSpan& added) {
         spans.push_back(added);
 }
 
-/// Whether all of these pixels lie in one of the `spans`.
+/// True if each of the spans `pixels` lies in one of the `spans`.
 [[nodiscard]] inline bool contains(const PixelSpans& spans, const PixelSpans& pixels) {
     return std::ranges::all_of(pixels, [&](const PixelSpan& some) {
         return std::ranges::any_of(spans, [&](const PixelSpan& span) {

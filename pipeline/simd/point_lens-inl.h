@@ -1,4 +1,4 @@
-// Projection of points in lanes. Included once for each instruction set.
+// Projection of vectors of points. Included once per instruction set.
 #include "pipeline/simd/point_lens.h"
 
 #include <hwy/highway.h>
@@ -30,7 +30,7 @@ HWY_INLINE Triples<V> Transformed(D d, const PointTransform& T, const Triples<V>
     return {row(T.rows[0]), row(T.rows[1]), row(T.rows[2])};
 }
 
-/// Pixels (x, y) of points with z > 0.
+/// Returns the pixels (x, y) of points with z > 0.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Triples<V> PixelsOf(D d, const PointLens& lens, const Triples<V>& p) {
     const auto set = [d](float v) HWY_ATTR { return hn::Set(d, v); };

@@ -5,16 +5,16 @@
 
 namespace mfar::simd {
 
-/// LensProjection in single precision: projects points in front of the camera [m] to pixels.
+/// LensProjection in single precision: projects points [m] in front of the camera to pixels.
 struct PointLens {
     float fx = 1, fy = 1, cx = 0, cy = 0;          ///< [px]
     float k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;  ///< as CameraModel::distortion
-    float rim = 1;                                 ///< radius of the model's outermost ray
-    float rimRadial = 1;                           ///< radial distortion factor there
-    float nearest = 0.01F;                         ///< least z [m]
+    float rim = 1;                                 ///< radius of the outermost valid ray
+    float rimRadial = 1;                           ///< radial factor of the distortion at the rim
+    float nearest = 0.01F;                         ///< least z of a visible point [m]
 };
 
-/// Rows of [R | t], which maps points [m].
+/// The rows of [R | t], which transforms points [m].
 struct PointTransform {
     float rows[3][4];
 };
@@ -30,7 +30,8 @@ struct Point3 {
     return {row(T.rows[0]), row(T.rows[1]), row(T.rows[2])};
 }
 
-/// (w u, w v, w), as lens_projection.glsl: pixel (u, v), w = z of either sign.
+/// Returns (w u, w v, w) as lens_projection.glsl does, where (u, v) is the pixel and w = z, which
+/// may have any sign.
 [[nodiscard]] inline Point3 projected(const PointLens& lens, const Point3& p) {
     const float r = std::sqrt(p.x * p.x + p.y * p.y);
     const bool within = p.z * lens.rim > r;

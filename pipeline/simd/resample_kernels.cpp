@@ -14,8 +14,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 using F = hn::ScalableTag<float>;
 using I = hn::RebindToSigned<F>;
 
-/// Gathers source[index[i]] for ascending indices. They ascend slowly, so they lie in a few vectors
-/// from the first index, and permuting these is faster than a gather.
+/// Loads source[index[i]] for ascending indices. Indices ascend slowly, so all of them lie in a few
+/// vectors from the first one on. Permuting these vectors is faster than a gather.
 class Window {
 public:
     explicit Window(const std::int32_t* first)

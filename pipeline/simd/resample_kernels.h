@@ -5,7 +5,7 @@
 
 namespace mfar::simd {
 
-/// A resampling table; RowTaps makes and owns it.
+/// A resampling table. RowTaps creates and owns it.
 struct TapTable {
     const std::int32_t* first;  ///< ascending; 64 bytes after the end repeat the last entry
     const float* weights;       ///< one row per tap
@@ -13,19 +13,21 @@ struct TapTable {
     int taps;
 };
 
-// Entries [begin, end) of a resampled row. Reads up to 64 bytes beyond the source's end and writes
-// up to 64 bytes beyond `end`.
+// Compute entries [begin, end) of a resampled row. They read up to 64 bytes beyond the source's end
+// and write up to 64 bytes beyond `end`.
 void resampleRow(const float* source, const TapTable& taps, int begin, int end, float* to);
-/// Result times `scale`, rounded.
+/// The result is multiplied by `scale` and rounded.
 void resampleRow(const float* source, const TapTable& taps, int begin, int end, float scale,
                  std::int16_t* to);
-/// Result rounded and clamped.
+/// The result is rounded and clamped.
 void resampleRow(const float* source, const TapTable& taps, int begin, int end, std::uint8_t* to);
 
-/// Entries [begin, end) of a weighted sum of rows. Reads and writes up to 64 bytes beyond `end`.
+/// Computes entries [begin, end) of a weighted sum of rows. Reads and writes up to 64 bytes beyond
+/// `end`.
 void weighRows(const std::int16_t* const* rows, const float* weights, int number, int begin,
                int end, float* to);
-/// Entries [0, count) of a weighted sum of rows. Reads and writes up to 64 bytes beyond their ends.
+/// Computes entries [0, count) of a weighted sum of rows. Reads and writes up to 64 bytes beyond
+/// their ends.
 void weighRows(const std::uint8_t* const* rows, const float* weights, int number, int count,
                float* to);
 

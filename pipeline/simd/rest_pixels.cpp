@@ -21,7 +21,8 @@ float depthOf(std::uint32_t surface) {
     return std::bit_cast<float>(surface & 0xFFFFFF00U);
 }
 
-/// The object with most of the quarters; of equals the first, counted from below.
+/// Returns the object with most of the quarters. Of equal counts, the first wins, beginning with
+/// the lower quarters.
 std::uint32_t mostOf(const Quarters& s) {
     std::uint32_t out = 0;
     int most = 0;
@@ -38,7 +39,8 @@ std::uint32_t mostOf(const Quarters& s) {
     return out;
 }
 
-/// Centre of the quarters that show the number: offset [px], z [m], 0 = no quarter.
+/// Returns the mean position of the quarters that show the number: offset from the pixel's centre
+/// [px] and z [m]; z is 0 if no quarter shows it.
 Point3 middleOf(const Quarters& s, std::uint32_t number) {
     constexpr std::array<float, 4> kX{-0.25F, 0.25F, -0.25F, 0.25F};
     constexpr std::array<float, 4> kY{-0.25F, -0.25F, 0.25F, 0.25F};
@@ -58,8 +60,8 @@ Point3 scaled(float by, const Point3& p) {
     return {by * p.x, by * p.y, by * p.z};
 }
 
-/// A channel [0, 255] of a painted surface under weighted sums of light; the last channel is its
-/// coverage.
+/// Returns a channel [0, 255] of a painted surface. `light` is a sum whose weights add up to
+/// `weights`. The last channel is coverage.
 float lit(const PaintWords& paint, std::size_t channel, const UnpackedLight& light, float weights) {
     if (channel == 3) return 255;
     const auto linear = [channel](std::uint32_t word) {
@@ -76,7 +78,7 @@ std::uint32_t byteOf(float value) {
     return static_cast<std::uint32_t>(above);
 }
 
-/// Share of the pixel that objects cover.
+/// Returns the share of the pixel that objects cover.
 float coveredOf(const Quarters& quarters) {
     float out = 0;
     for (const std::uint32_t quarter : quarters)
@@ -96,7 +98,7 @@ RestPixels::RestPixels(const ViewLookUp::Input& input, const WarpReference& refe
                                                                 plain.toReference,
                                                                 &plain_.lens,
                                                                 1} {
-    // In the order of their slots, because of equal shares the first is shown.
+    // In the order of the slots, because of patches with equal shares the first one is shown.
     std::array<const PatchPictures::Patch*, PatchPictures::kPatches> bySlot{};
     for (const PatchPictures::Patch& patch : input.patches.patches())
         bySlot[static_cast<std::size_t>(patch.slot)] = &patch;
@@ -115,7 +117,8 @@ RestPixels::RestPixels(const ViewLookUp::Input& input, const WarpReference& refe
     }
 }
 
-/// Projects a point of the layer's camera into a view: pixel, z. False: not in sight.
+/// Projects a point, given in the layer's camera, into a view: pixel and z. Returns false if the
+/// view does not show it.
 bool RestPixels::inView(const View& view, const Point3& point, Point3& at) {
     const Point3 there = transformed(view.fromCamera, point);
     if (!(there.z > view.lens->nearest && there.z < 1e6F && point.z > 0)) return false;
@@ -125,9 +128,9 @@ bool RestPixels::inView(const View& view, const Point3& point, Point3& at) {
            at.y < static_cast<float>(view.size.height);
 }
 
-/// Bilinear over those of the four surrounding texels that show the same surface. False: their
-/// weight is too low. For the catcher, a texel without any surface counts as the catcher without
-/// shadow.
+/// Interpolates bilinearly between those of the four surrounding texels that show the same surface.
+/// Returns false if their weight is too low. For the catcher, a texel without any surface counts as
+/// the catcher without shadow.
 bool RestPixels::lookUp(const View& view, const Point3& at, const Wanted& wanted, Colour& found) {
     const float lowX = std::floor(at.x), lowY = std::floor(at.y);
     const float fx = at.x - lowX, fy = at.y - lowY;
@@ -159,12 +162,12 @@ bool RestPixels::lookUp(const View& view, const Point3& at, const Wanted& wanted
     return true;
 }
 
-/// Share of the surface's colour that is known.
+/// Returns the share of the surface's colour that is known.
 float RestPixels::known(const Wanted& wanted, Colour& found) const {
     Point3 at;
     const bool inReference = inView(reference_, wanted.point, at);
     if (inReference && lookUp(reference_, at, wanted, found)) return 1;
-    float share = 0;  // of the most visible patch; a patch that fades in does not reduce it
+    float share = 0;  // share of the most visible patch; others do not reduce it
     for (int i = 0; i < patchCount_; ++i) {
         const View& patch = patches_[static_cast<std::size_t>(i)];
         Colour own;
@@ -175,7 +178,7 @@ float RestPixels::known(const Wanted& wanted, Colour& found) const {
         found = own;
     }
     if (share > 0) return share;
-    // Outside the reference picture the catcher's colour is unknown, and is not needed.
+    // Outside the reference picture, the catcher's colour is unknown, but it is not needed there.
     found = {};
     return wanted.id == kCatcherId && !inView(reference_, wanted.point, at) ? 1.0F : 0.0F;
 }
@@ -212,8 +215,8 @@ RestPixel RestPixels::at(const Asked& asked) const {
     }
     const bool missed = objectKnown < 1, hole = missed || catcherKnown < 1;
     const bool nowhere = objectKnown == 0 || catcherKnown == 0;
-    // An edge rendered individually would show a mixture of surfaces: its colour comes from its
-    // neighbours, which are rendered.
+    // If an edge were rendered individually, it would show a mixture of surfaces. So it takes its
+    // colour from its neighbours, which are rendered.
     const bool edge = (missed ? covered : below) < 1;
     if (covered > 0)
         out.depth = object.z;

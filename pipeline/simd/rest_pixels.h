@@ -14,26 +14,26 @@ struct RestPixel {
     std::uint32_t colour;  ///< RGBA8 premultiplied
     float depth;
     std::uint32_t state;       ///< see WarpStep::state()
-    std::optional<Hole> hole;  ///< without its index
+    std::optional<Hole> hole;  ///< set if the pixel is a hole; its index is not set
 };
 
-/// Pixels for which lookUpRow() is not enough: edges, covered by quarters, and pixels that the
-/// reference picture does not show but the re-rendered patches may. Objects and the shadow on the
-/// real surface are two layers, the shadow below (warp_rest.comp).
+/// Looks up the pixels that lookUpRow() does not: edges, which are divided into quarters, and
+/// pixels that the reference picture does not show but re-rendered patches may. Objects and the
+/// shadow on the real surface are two layers; the shadow is the lower one (warp_rest.comp).
 class RestPixels {
 public:
     RestPixels(const ViewLookUp::Input& input, const WarpReference& reference,
                const ViewLookUpInput& plain, const LensProjection& layer,
                const RigidTransform& T_world_camera);
 
-    /// A pixel of the layer.
+    /// A pixel of the layer to be looked up.
     struct Asked {
-        const std::uint32_t *upper, *lower;  ///< two words each
+        const std::uint32_t *upper, *lower;  ///< surfaces of the quarters, two words each
         float rayX, rayY;
         PaintWords paint;
     };
     [[nodiscard]] RestPixel at(const Asked& asked) const;
-    /// Whether any picture stores light without paint.
+    /// True if any picture stores light separately from paint.
     [[nodiscard]] bool needsPaint() const;
 
 private:
@@ -44,7 +44,7 @@ private:
     struct View {
         std::span<const WarpSurface> surfaces;
         std::span<const std::array<std::uint8_t, 4>> colours;
-        std::span<const LightWords> lights;  ///< empty: only colours are known
+        std::span<const LightWords> lights;  ///< empty if only colours are known
         Size size;
         PointTransform fromCamera;
         const PointLens* lens;
@@ -52,7 +52,7 @@ private:
     };
 
     static bool inView(const View& view, const Point3& point, Point3& at);
-    /// The surface to look up.
+    /// The surface that is looked up.
     struct Wanted {
         Point3 point;
         float id;

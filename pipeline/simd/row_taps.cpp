@@ -11,7 +11,7 @@
 namespace mfar::simd {
 namespace {
 
-/// Position in the source of an entry of the result: whole part and fraction.
+/// Position in the source that belongs to an entry of the result: whole part and fraction.
 struct At {
     At(int x, double step) : At((x + 0.5) * step - 0.5) {}
     explicit At(double position)
@@ -52,7 +52,7 @@ RowTaps::RowTaps(int from, int to, const std::function<void(int, const Add&)>& s
         for (std::size_t k = 0; k < weights[x].size(); ++k)
             weights_[static_cast<int>(k) + first[x] - from0][x] = static_cast<float>(weights[x][k]);
     }
-    // Vectors that read beyond the end use the last entries.
+    // Vectors that read beyond the end use the last entry.
     std::fill(first_[0] + to, first_[0] + first_.pitch(), first_[0][to - 1]);
 }
 
@@ -66,7 +66,7 @@ ColumnTaps RowTaps::column(int y) const {
         sum += out.weights[k];
         if (out.weights[k] > out.weights[most]) most = k;
     }
-    // Makes the sum exactly one, so that even areas keep their brightness.
+    // Make the sum exactly one, so that uniform areas keep their brightness.
     out.weights[most] = static_cast<std::int16_t>(out.weights[most] + 16384 - sum);
     return out;
 }

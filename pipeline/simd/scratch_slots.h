@@ -6,8 +6,8 @@
 
 namespace mfar::simd {
 
-/// Scratch memory for the parts of a threaded loop: one slot per part that runs at a time,
-/// allocated once.
+/// Temporary memory for the parts of a threaded loop. There is one slot for each part that may run
+/// at the same time; all are allocated once.
 template <class T>
 class ScratchSlots {
 public:
@@ -22,7 +22,7 @@ public:
         for (Slot& slot : slots_)
             body(slot.scratch);
     }
-    /// Calls `body` with scratch memory that no other thread uses meanwhile.
+    /// Calls `body` with memory that no other thread uses during the call.
     template <class Body>
     void with(const Body& body) {
         for (;;) {

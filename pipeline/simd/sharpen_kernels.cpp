@@ -22,12 +22,12 @@ constexpr std::int16_t fixed15(double value) {
     return static_cast<std::int16_t>(value * 32768 + (value < 0 ? -0.5 : 0.5));
 }
 
-// Taps of superres_sharpen.frag, collected by distance. Their sum is exactly zero.
+// The taps of superres_sharpen.frag, grouped by distance. Their sum is exactly zero.
 constexpr double kNearTap = params::kSharpenNear, kFarTap = params::kSharpenFar;
 constexpr std::int16_t kNear = fixed15(kNearTap - 2 * kNearTap * kNearTap);
 constexpr std::int16_t kFar = fixed15(kFarTap), kDiagonal = fixed15(kNearTap * kNearTap);
 constexpr std::int16_t kCentre = -4 * (kNear + kFar + kDiagonal);
-// The sum of four pixels in 1/32 grey level fits into 16 bits.
+// With this shift, the sum of four pixels in 1/32 grey level fits into 16 bits.
 constexpr int kShift = 5;
 
 void StrengthRow(const TrustRows& trust, int begin, int end, std::int16_t* strength) {

@@ -5,20 +5,20 @@
 
 namespace mfar::simd {
 
-// Enlarging of one row of a colour channel, entries [begin, end); see superres_sharpen.frag. Rows
-// may be read and written up to 64 bytes beyond `end`.
+// Sharpening and enlarging a row of one colour channel, entries [begin, end); see
+// superres_sharpen.frag. Rows may be read and written up to 64 bytes beyond `end`.
 
 /// Input for the strength of the sharpening: half of the detail's weight, and the signal's share,
-/// both in [0, 1], at the video's width, in two rows with the position between them. The result is
-/// scaled by 32767.
+/// both in [0, 1] and at the video's width. Each is given as two rows and the position between
+/// them. The strength is scaled by 32767.
 struct TrustRows {
     std::array<const float*, 2> halfWeight, signal;
-    float t;  ///< 0: the first row, 1: the second
+    float t;  ///< 0: the first row, 1: the second row
 };
 void strengthRow(const TrustRows& trust, int begin, int end, std::int16_t* strength);
 
-/// Sharpens the middle of five rows, which are also read two bytes before `begin` and after `end`.
-/// Result in grey levels, clamped to [0, 255].
+/// Sharpens the middle one of five rows; they are also read two bytes before `begin` and after
+/// `end`. The result is in grey levels, clamped to [0, 255].
 void sharpenRow(const std::array<const std::uint8_t*, 5>& rows, const std::int16_t* strength,
                 int begin, int end, float* to);
 /// Copies the row without sharpening.

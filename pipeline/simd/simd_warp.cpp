@@ -45,7 +45,7 @@ public:
     void setReference(const WarpReference& reference) override {
         reference_ = &reference;
         lookUp_.setReference(reference);
-        // Readers of a layer need rows with padding.
+        // Those who read a layer need rows with padding.
         picture_ = copied<std::uint32_t>(reference.camera.size, reference.picture.data());
         depth_ = copied<float>(reference.camera.size, reference.depth.data());
     }

@@ -14,7 +14,7 @@ namespace mfar::simd::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Up to 15 elements may be written beyond a row's end.
+// Up to 15 entries may be written beyond a row's end.
 constexpr int kMostLanes = 16;
 using Floats = hn::CappedTag<float, kMostLanes>;
 using Vec = hn::Vec<Floats>;
@@ -23,7 +23,7 @@ struct Ray {
     Vec x, y;
 };
 
-/// The lens model of base/geometry.h.
+/// Applies the lens model of base/geometry.h.
 HWY_INLINE Ray distorted(const float* distortion, const Ray& p) {
     const Floats d;
     const auto k = [&](int i) HWY_ATTR { return hn::Set(d, distortion[i]); };
@@ -36,7 +36,7 @@ HWY_INLINE Ray distorted(const float* distortion, const Ray& p) {
     return {hn::MulAdd(p.x, radial, across), hn::MulAdd(p.y, radial, down)};
 }
 
-/// Fixed-point iterations, as in camera.glsl.
+/// Inverts distorted() by fixed-point iterations, as camera.glsl does.
 HWY_INLINE Ray undistorted(const float* distortion, const Ray& target) {
     const Floats d;
     const auto most = hn::Set(d, 0.5F), least = hn::Set(d, -0.5F);
@@ -50,11 +50,12 @@ HWY_INLINE Ray undistorted(const float* distortion, const Ray& target) {
 }
 
 constexpr int kTaps = params::kFootprintTaps;
-// Weights of pixels: a pixel times two of them fits into 32 bits with room for sums.
+// Weights have this number of bits. The product of a pixel and two weights fits into 32 bits, with
+// room for sums.
 constexpr int kShareBits = 14;
 constexpr float kShare = 1 << kShareBits;
 
-/// The taps of one axis: first pixels, and weights of the next pixels.
+/// The taps along one axis: first pixels, and weights of the pixels after them.
 struct Taps {
     int first[kTaps], share[kTaps];
 };
@@ -63,7 +64,7 @@ HWY_INLINE void placeTaps(float centre, float footprint, int size, Taps& out) {
     for (int i = 0; i < kTaps; ++i) {
         const float off = (static_cast<float>(i) + 0.5F) / kTaps - 0.5F;
         const float at = centre + off * footprint;
-        // Clamps positions far outside, and NaN, to the border.
+        // Clamp positions far outside, and NaN, to the border.
         const float held = at > -1 ? std::min(at, static_cast<float>(size)) : -1.0F;
         const float whole = std::floor(held);
         out.first[i] = static_cast<int>(whole);
@@ -94,16 +95,16 @@ std::uint8_t footprintMean(const StillPicture& p, const Taps& x, const Taps& y) 
 }
 
 #if HWY_TARGET != HWY_SCALAR
-// Upper limit of the pixels of a row that the taps of a footprint span.
+// Upper limit of the number of pixels of a row that the taps of a footprint span.
 constexpr int kWindow = 16;
 constexpr float kMostFootprint = 16;
-// Values between two rows are kept in 1/16 grey level.
+// Values between two rows are stored in 1/16 grey level.
 constexpr int kValueBits = 4;
 using Four = hn::FixedTag<float, kTaps>;
 using FourInt = hn::FixedTag<std::int32_t, kTaps>;
 using Taps16 = hn::FixedTag<std::int16_t, 2 * kTaps>;
 
-/// The taps of one axis in lanes.
+/// The taps along one axis, one per lane.
 struct TapLanes {
     hn::Vec<FourInt> first, share;
 
@@ -116,14 +117,14 @@ struct TapLanes {
     }
 };
 
-/// The pixels left and right of each tap in a row.
+/// Returns the pixels to the left and right of each tap in a row.
 HWY_INLINE hn::Vec<Taps16> tapsOf(const std::uint8_t* window,
                                   hn::VFromD<hn::FixedTag<std::uint8_t, 2 * kTaps>> at) {
     const hn::FixedTag<std::uint8_t, kWindow> dWindow;
     return hn::PromoteTo(Taps16(), hn::TableLookupBytes(hn::LoadU(dWindow, window), at));
 }
 
-/// Four partial sums over a footprint whose window lies within the still.
+/// Computes four partial sums over a footprint whose window lies within the still.
 HWY_INLINE void sumWindow(const StillPicture& p, const TapLanes& x, const TapLanes& y, int left,
                           std::int32_t* parts) {
     const Taps16 d16;
@@ -150,7 +151,7 @@ HWY_INLINE void sumWindow(const StillPicture& p, const TapLanes& x, const TapLan
     hn::StoreU(hn::Add(sum, sum1), dInt, parts);
 }
 
-/// Rounded means from the partial sums of `count` pixels.
+/// Stores the rounded means of `count` pixels, computed from their partial sums.
 HWY_INLINE void storeMeans(const std::int32_t (*parts)[4], int count, std::uint8_t* to) {
     const Floats d;
     const hn::RebindToSigned<Floats> dInt;

@@ -40,7 +40,7 @@ HWY_INLINE V StepTo(V target, V at) {
     return hn::Max(hn::Min(hn::Sub(target, at), Const(0.5F)), Const(-0.5F));
 }
 
-// As in camera.glsl: fixed-point iterations, here until all lanes have converged.
+// Fixed-point iterations as in camera.glsl, but only until all lanes have converged.
 HWY_INLINE Point Unproject(const LensParams& lens, V x, V y) {
     constexpr float kAtRest = 3e-7F;  // 0.001 px at a focal length of 3000 px
     const Point target{hn::Mul(hn::Sub(x, Const(lens.cx)), Const(1 / lens.fx)),
@@ -56,7 +56,7 @@ HWY_INLINE Point Unproject(const LensParams& lens, V x, V y) {
     return ray;
 }
 
-// Position in the still; far outside if the ray points away from the still's view.
+// Returns the position in the still; far outside if the ray points away from the still's view.
 HWY_INLINE Point StillPixel(const LookUpParams& lookUp, V x, V y) {
     const Point ray = Unproject(lookUp.video, x, y);
     const auto turned = [&](int row) HWY_ATTR {
@@ -75,7 +75,7 @@ HWY_INLINE Point StillPixel(const LookUpParams& lookUp, V x, V y) {
                            far)};
 }
 
-// NaN is outside.
+// NaN counts as outside.
 HWY_INLINE hn::Mask<D> Inside(const LensParams& lens, Point p) {
     const V zero = hn::Zero(D());
     const auto x = hn::And(hn::Ge(p.x, zero), hn::Le(p.x, Const(lens.width - 1)));
@@ -104,7 +104,8 @@ HWY_INLINE V Mix(V a, V b, V share) {
     return hn::MulAdd(hn::Sub(b, a), share, a);
 }
 
-/// Two-way error: the flow plus the backward field at its end `q`.
+/// Returns the two-way error: the length of the sum of the flow and of the backward field at the
+/// flow's end `q`.
 HWY_INLINE V TwoWayError(const BackwardCells& backward, Point q, V flowX, V flowY) {
     const D d;
     const hn::RebindToSigned<D> di;

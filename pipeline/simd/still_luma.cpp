@@ -12,7 +12,7 @@ namespace mfar::simd {
 namespace {
 
 constexpr std::array<float, 3> kRec601{params::kLumaRed, params::kLumaGreen, params::kLumaBlue};
-// Smaller chroma coefficients change no luma by a tenth of a grey level.
+// Chroma with smaller coefficients changes luma by less than a tenth of a grey level.
 constexpr float kLeastChroma = 1e-3F;
 
 bool isYuv(PixelFormat format) {
@@ -29,7 +29,7 @@ StillLuma::StillLuma(const ImageView& picture) : picture_(picture) {
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 4; ++j)
             by[j] += kRec601[i] * rows[i][j];
-    // Chroma is taken relative to its middle value.
+    // Chroma is used relative to its middle value.
     gain_ = {static_cast<std::int16_t>(std::lround(by[0] * 16384)),
              static_cast<std::int16_t>(std::lround(32 * (by[3] + 128 * (by[1] + by[2]))))};
     needsChroma_ = std::max(std::abs(by[1]), std::abs(by[2])) > kLeastChroma;
@@ -61,8 +61,8 @@ void StillLuma::row(int y, Scratch& scratch, std::uint8_t* luma) const {
     }
 }
 
-// Interpolates chroma between the pixels that share it: 3/4 of the nearer and 1/4 of the other, in
-// each direction.
+// Interpolates chroma between the pixels that share it: 3/4 of the nearer sample and 1/4 of the
+// other one, along each axis.
 const std::int16_t* StillLuma::chromaRow(int y, Scratch& scratch) const {
     if (!needsChroma_) return nullptr;
     const int width = picture_.size.width / 2;

@@ -8,10 +8,10 @@
 
 namespace mfar::simd {
 
-/// Rec. 601 luma of a valid picture's R G B in any format, row by row.
+/// Computes the Rec. 601 luma of a valid picture's R G B, row by row, for any format.
 class StillLuma {
 public:
-    /// Scratch of one thread for pictures of this width.
+    /// Temporary memory of one thread for pictures of this width.
     struct Scratch {
         explicit Scratch(int width) : half({width / 2 + 2, 1}), chroma({width, 1}) {}
         AlignedRows<float> half;
@@ -20,11 +20,11 @@ public:
 
     explicit StillLuma(const ImageView& picture);
 
-    /// Writes up to 64 bytes beyond the row's end.
+    /// Writes row y, and up to 64 bytes beyond its end.
     void row(int y, Scratch& scratch, std::uint8_t* luma) const;
 
 private:
-    /// Samples of U or V, `step` bytes apart.
+    /// Samples of U or V, which are step_ bytes apart.
     struct Samples {
         const std::uint8_t* data = nullptr;
         std::size_t stride = 0;

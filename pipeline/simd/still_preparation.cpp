@@ -11,7 +11,7 @@
 namespace mfar::simd {
 namespace {
 
-constexpr int kStillGrain = 16;  // rows per portion
+constexpr int kStillGrain = 16;  // rows that a thread takes at a time
 
 }  // namespace
 
@@ -77,7 +77,7 @@ void StillPreparation::keep(const ImageView& still) {
     unmade_ = to;
 }
 
-// Resamples the columns of one row of the result into scratch.wide.
+// Resamples along the columns for one row of the result, into scratch.wide.
 template <class RowAt>
 void StillPreparation::weighColumn(const RowTaps& taps, int y, Size from, const RowAt& rowAt,
                                    Scratch& scratch) {

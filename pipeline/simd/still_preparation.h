@@ -17,27 +17,27 @@
 
 namespace mfar::simd {
 
-/// The newest still, prepared once: its luma at full resolution, and reduced to what the output
-/// needs. StillReference on the CPU. Allocates in the constructor; set() allocates only to copy
-/// another pixel format, picture() only once.
+/// Prepares the newest still once: its luma at full resolution, and reduced to what the output
+/// needs. CPU version of the GLES engine's StillReference. Allocates memory in the constructor;
+/// set() allocates only to copy a picture of another pixel format, and picture() only once.
 class StillPreparation {
 public:
-    /// `output`: size of the enlarged whole video.
+    /// `output`: size of the whole enlarged video.
     StillPreparation(const StereoRig& rig, Size output, std::shared_ptr<Workers> workers);
 
-    /// A valid picture of the still camera's size in any format. `keepsPicture`: copies it for
-    /// picture(), which is grey otherwise.
+    /// Sets a valid picture of the still camera's size, in any format. `keepsPicture`: copies the
+    /// picture for picture(), which is grey otherwise.
     void set(const ImageView& still, bool keepsPicture = true);
 
-    /// The rig with the still camera of pairs(): the same lens, possibly fewer pixels.
+    /// The rig with the still camera that pairs() belongs to: the same lens, possibly fewer pixels.
     [[nodiscard]] const StereoRig& rig() const { return rig_; }
     /// Rec. 601 luma of the whole still.
     [[nodiscard]] Rows<const std::uint8_t> luma() const { return luma_.rows(); }
-    /// Luma at rig().still's size. Unless it was reduced, its finest detail is raised to compensate
-    /// for the loss in a linear look-up.
+    /// Luma at the size of rig().still. If it was not reduced, its finest detail is raised to
+    /// compensate for the loss in a linear look-up.
     [[nodiscard]] StillPairs pairs() const { return {pairs_[0], pairs_.pitch(), pairs_.size()}; }
-    /// RGBA8, R in the lowest byte, size of rig().still; 64 readable bytes after each row. Made by
-    /// the first call after set().
+    /// The picture as RGBA8 with R in the lowest byte, at the size of rig().still. 64 readable
+    /// bytes follow each row. The first call after set() computes it.
     [[nodiscard]] Rows<const std::uint32_t> picture();
 
 private:
@@ -64,11 +64,11 @@ private:
         explicit Scratch(Size still);
         StillLuma::Scratch luma;
         AlignedRows<float> wide;                // a row of the still
-        AlignedRows<std::uint8_t> raised, rgb;  // raised: two rows; rgb: three
-        std::vector<const std::uint8_t*> rows;  // rows of the weighted sum
+        AlignedRows<std::uint8_t> raised, rgb;  // raised: two rows; rgb: three rows
+        std::vector<const std::uint8_t*> rows;  // rows of a weighted sum
         std::vector<float> weights;
     };
-    /// Reduction to fewer pixels without aliasing: see still_reduce.frag.
+    /// Reduction to fewer pixels without aliasing, see still_reduce.frag.
     struct Reduction {
         RowTaps columns, rows;
         Luma luma;
@@ -94,7 +94,7 @@ private:
     AlignedRows<std::uint16_t> pairs_;
     ScratchSlots<Scratch> scratch_;
     std::vector<std::uint8_t> kept_;
-    std::optional<ImageView> unmade_;  // source of picture() until it is made
+    std::optional<ImageView> unmade_;  // source of picture() until it is computed
     std::optional<RgbPlanes> planes_;
     AlignedRows<std::uint32_t> picture_;
 };

@@ -12,12 +12,12 @@
 namespace mfar::simd {
 namespace {
 
-constexpr std::size_t kBatch = 1024;  // triangles per batch
+constexpr std::size_t kBatch = 1024;  // number of triangles in a batch
 constexpr int kCornersAtATime = 2048;
-constexpr int kLeastBand = 16;  // rows
+constexpr int kLeastBand = 16;  // [rows]
 constexpr int kBandsPerThread = 4;
-// Corners farther outside the grid are clipped [px]: for all others single precision is exact
-// within a hundredth of a pixel.
+// Triangles with corners farther outside the grid than this [px] are clipped. For all others,
+// single precision is exact to a hundredth of a pixel.
 constexpr float kGuard = 65536;
 
 }  // namespace
@@ -209,7 +209,7 @@ bool SurfaceRaster::addTriangle(Batch& batch, const RasterCorner (&c)[3],
         !(top < static_cast<float>(grid_.y1)) || !(bottom > static_cast<float>(grid_.y0)))
         return false;
     const SilhouetteModels::Part& part = *batch.placed->part->source;
-    // Clockwise, with the first row on top: the triangle faces away.
+    // Clockwise, if row 0 is on top: the triangle faces away.
     if (!part.bothSides &&
         (c[1].x - c[0].x) * (c[2].y - c[0].y) >= (c[2].x - c[0].x) * (c[1].y - c[0].y))
         return false;
@@ -228,7 +228,8 @@ bool SurfaceRaster::addTriangle(Batch& batch, const RasterCorner (&c)[3],
     return true;
 }
 
-/// From the triangle or a piece of it: their planes are the same.
+/// The corners may be those of the triangle or of a piece of it, because both lie in the same
+/// planes.
 void SurfaceRaster::setPaint(const Placed& placed, const RasterCorner (&c)[3],
                              std::uint32_t index) {
     if (placed.part->source->material == nullptr) return;  // the catcher has no paint
@@ -241,7 +242,7 @@ void SurfaceRaster::setPaint(const Placed& placed, const RasterCorner (&c)[3],
 
 namespace {
 
-/// (w x, w y, w) on the grid, and values that are linear in it.
+/// A corner (w x, w y, w) on the grid, and values that are linear in these coordinates.
 struct ClipCorner {
     float x, y, w, u, v;
 };
@@ -251,7 +252,7 @@ ClipCorner between(const ClipCorner& a, const ClipCorner& b, float share) {
     return {mix(a.x, b.x), mix(a.y, b.y), mix(a.w, b.w), mix(a.u, b.u), mix(a.v, b.v)};
 }
 
-/// Sutherland and Hodgman 1974: keeps the part where `inside` is 0 or more.
+/// Keeps the part of a polygon where `inside` is 0 or more. Source: Sutherland and Hodgman 1974.
 template <class Inside>
 std::vector<ClipCorner> clipped(const std::vector<ClipCorner>& polygon, const Inside& inside) {
     std::vector<ClipCorner> out;
@@ -260,7 +261,7 @@ std::vector<ClipCorner> clipped(const std::vector<ClipCorner>& polygon, const In
         const float from = inside(a), to = inside(b);
         if (from >= 0) out.push_back(a);
         if ((from >= 0) == (to >= 0)) continue;
-        // The same point for both triangles at the edge.
+        // Always in the same order, so that both triangles at an edge get the same point.
         out.push_back(from >= 0 ? between(b, a, to / (to - from))
                                 : between(a, b, from / (from - to)));
     }

@@ -16,31 +16,34 @@
 
 namespace mfar::simd {
 
-/// The visible surfaces of the virtual scene: the models and, below them, the real surface that
-/// catches their shadows, rasterised at twice the layer's resolution, so that a pixel has four
-/// quarters. The lens's distortion is applied to the corners. No light; paint is looked up on
-/// demand. ModelSilhouette on the CPU.
+/// Rasterises the visible surfaces of the virtual scene: the models and, below them, the real
+/// surface that catches their shadows. The grid has twice the layer's resolution, so a pixel of the
+/// layer has four quarters. The lens's distortion is applied to corners of triangles. Light is not
+/// computed; paint is looked up on request. CPU version of the GLES engine's ModelSilhouette.
 class SurfaceRaster {
 public:
-    /// `layer`: the camera at the layer's resolution. Null workers: runs in the caller's thread.
+    /// `layer`: the camera at the layer's resolution. Without workers, it runs in the caller's
+    /// thread.
     SurfaceRaster(const CameraModel& layer, std::shared_ptr<Workers> workers);
 
     void setScene(const Scene& scene);
     [[nodiscard]] const SilhouetteModels& models() const { return models_; }
 
-    /// Draws within `where` [layer px]; pixels elsewhere become invalid.
+    /// Draws within `where` [layer px]. Pixels elsewhere become invalid.
     void draw(const RigidTransform& T_world_camera, const PixelRect& where);
-    /// At twice the layer's size: z and number, packed as in warp_surface.glsl; 0 = nothing. The
-    /// catcher's number appears only where no object is, whichever is nearer.
+    /// The surfaces, at twice the layer's size: z and number, packed as in warp_surface.glsl; 0: no
+    /// surface. The catcher's number appears only where no object is, even if the catcher is
+    /// nearer.
     [[nodiscard]] Rows<const std::uint32_t> surface() const { return words_.rows(); }
-    /// The paint of layer pixels `x0` to `x1` of row `y`, within the drawn part: factor times
-    /// texture over the pixel's footprint, averaged in linear light, as sRGB bytes; 0 where no
-    /// object is. If a pixel shows several objects, the paint of the one with most quarters, as in
-    /// RestPixels. Writes up to 7 words beyond. Any thread may call it.
+    /// Writes the paint of layer pixels `x0` to `x1` of row `y`, which must be in the drawn part.
+    /// Paint is factor times texture over the pixel's footprint, averaged in linear light, as sRGB
+    /// bytes; it is 0 where no object is. If a pixel shows several objects, it is the paint of the
+    /// one with most quarters, as in RestPixels. Writes up to 7 words beyond. May be called from
+    /// any thread.
     void paintRow(int y, int x0, int x1, PaintWords* out) const;
 
 private:
-    /// A part's corners in rows: x, y, z [m].
+    /// A part's corners in three rows: x, y, z [m].
     struct Part {
         explicit Part(const SilhouetteModels::Part& from);
         const SilhouetteModels::Part* source;
@@ -48,7 +51,7 @@ private:
     };
     using Shape = SilhouetteModels::Shape;
     using Parts = std::vector<std::shared_ptr<const Part>>;
-    /// A part of one object.
+    /// A part of one object in the scene.
     struct Placed {
         const SilhouetteModels::Object* object;
         std::uint32_t word;
@@ -60,7 +63,7 @@ private:
     };
     struct Chunk {
         Placed* placed;
-        int first, count;  // corners
+        int first, count;  // first corner, number of corners
     };
     /// Triangles that are prepared together.
     struct Batch {
@@ -86,10 +89,10 @@ private:
     std::deque<Placed> placed_;
     std::vector<Chunk> chunks_;
     std::vector<Batch> batches_;
-    PixelRect grid_;  // the part that is drawn
+    PixelRect grid_;  // the part of the grid that is drawn
     AlignedRows<std::uint32_t> words_, indices_;
     PaintTextures paint_;
-    std::vector<PaintTriangle> paintTriangles_;  // of all objects
+    std::vector<PaintTriangle> paintTriangles_;  // of the triangles of all objects
 };
 
 [[nodiscard]] PointLens pointLensOf(const LensProjection& lens);

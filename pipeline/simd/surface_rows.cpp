@@ -9,7 +9,7 @@
 #define HWY_TARGET_INCLUDE "pipeline/simd/surface_rows.cpp"
 
 #include <hwy/foreach_target.h>
-// Included once per instruction set, like this file.
+// The next header is included once per instruction set, as this file is.
 #include "pipeline/simd/point_lens-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -31,13 +31,13 @@ void ProjectCorners(const MeshRows& mesh, int count, const PointTransform& view,
     }
 }
 
-/// Columns of a row whose centres lie between two positions, clamped to those of the band.
+/// The columns of a row whose centres lie between two positions, clamped to the band's columns.
 struct Columns {
     int first, last;
 };
 HWY_INLINE int FirstCentreFrom(float x, int least, int most) {
     const float centre = x - 0.5F, first = static_cast<float>(least);
-    // Written as a positive test, so that NaN gives the first column.
+    // A positive test, so that NaN gives the first column.
     const float held = centre > first ? std::min(centre, static_cast<float>(most)) : first;
     return static_cast<int>(std::ceil(held));
 }
@@ -122,7 +122,7 @@ void FinishBand(const RasterBand& band) {
     const auto none = hn::Set(d, kNoSurface), bits = hn::Set(d, ~kBehindObjects);
     for (int y = band.where.y0; y < band.where.y1; ++y) {
         std::uint32_t* words = band.words[y];
-        // Whole vectors: words beside the band's columns are padding.
+        // Whole vectors, because words after the band's columns are padding.
         for (int x = band.where.x0; x < band.where.x1; x += static_cast<int>(hn::Lanes(d))) {
             const auto word = hn::LoadU(d, words + x);
             hn::StoreU(hn::IfThenZeroElse(hn::Eq(word, none), hn::And(word, bits)), d, words + x);

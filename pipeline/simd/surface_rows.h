@@ -10,25 +10,26 @@
 
 namespace mfar::simd {
 
-// Rasterises surfaces into words of z and number, packed as in warp_surface.glsl: the upper 24 bits
-// of z [m], then the surface's number. Smaller words are nearer; the order of drawing does not
-// matter. For each word the index of its triangle is stored; of equal words, the one drawn first.
+// These functions rasterise surfaces into words of z and number, packed as in warp_surface.glsl:
+// the upper 24 bits of z [m], then the surface's number. A smaller word is nearer, so the order of
+// drawing does not matter. The index of a word's triangle is stored next to the word; of equal
+// words, the one drawn first remains.
 
 inline constexpr std::uint32_t kNoSurface = 0xFFFFFFFF;
-/// Sorts a surface behind all others: this bit is free because z has no sign.
+/// This bit sorts a surface behind all others. It is free because z has no sign.
 inline constexpr std::uint32_t kBehindObjects = 0x80000000;
 
 /// Corners of a mesh [m].
 struct MeshRows {
     const float *x, *y, *z;
 };
-/// Corners on the surface's grid, whose pixel i reaches from i to i + 1; z [m] of either sign. x
+/// Corners on the surface's grid, whose pixel i extends from i to i + 1. z [m] may have any sign; x
 /// and y are valid if z > 0.
 struct CornerRows {
     float *x, *y, *z;
 };
-/// Projects `count` corners through a lens, to a grid of twice the lens's pixels; rows need
-/// kAlignment bytes to spare.
+/// Projects `count` corners through a lens, onto a grid with twice the lens's pixels. Rows need
+/// kAlignment bytes of padding.
 void projectCorners(const MeshRows& mesh, int count, const PointTransform& view,
                     const PointLens& lens, const CornerRows& out);
 
@@ -36,68 +37,69 @@ void projectCorners(const MeshRows& mesh, int count, const PointTransform& view,
 struct RasterCorner {
     float x, y;
     float perZ;          ///< 1 / z
-    float u = 0, v = 0;  ///< of a mask's texture, over z
+    float u = 0, v = 0;  ///< texture coordinates of a mask, divided by z
 };
 
-/// A linear function on the grid: its value at the centre of pixel (0, 0), and its steps.
+/// A linear function on the grid: its value at the centre of pixel (0, 0), and its change per
+/// pixel.
 struct RasterPlane {
     float first = 0, perX = 0, perY = 0;
 };
 
-/// A prepared triangle. Its edges run from upper to lower corners, so that both triangles of an
-/// edge cross a row at the same place, and no pixel between them is left out or drawn twice.
+/// A prepared triangle. Edges always run from the upper to the lower corner. So both triangles of
+/// an edge cross a row at the same place, and no pixel between them is omitted or drawn twice.
 struct RasterTriangle {
     float top, middle, bottom;    ///< y of the corners
     float longX, upperX, lowerX;  ///< x at the upper end of each edge
     float longSlope, upperSlope, lowerSlope;
-    int firstRow, lastRow;  ///< rows whose centres it covers, last excluded
+    int firstRow, lastRow;  ///< rows whose centres it covers, without lastRow
     RasterPlane perZ;
     float leastPerZ, mostPerZ;
-    std::uint32_t word;   ///< number, kBehindObjects
+    std::uint32_t word;   ///< number, with kBehindObjects
     std::uint32_t index;  ///< stored next to the word
     bool longIsLeft;
 };
 
 /// A mask: the texture of a surface with holes.
 struct RasterMask {
-    const std::uint8_t* rgba;  ///< four bytes a texel
+    const std::uint8_t* rgba;  ///< four bytes per texel
     Size size;
-    float cutoff;  ///< alpha below it is a hole, [0, 1]
+    float cutoff;  ///< texels with smaller alpha are holes, [0, 1]
 };
 struct MaskedTriangle {
     RasterTriangle triangle;
-    RasterPlane u, v;  ///< over z
+    RasterPlane u, v;  ///< texture coordinates divided by z
     RasterMask mask;
 };
 
-/// Identifies a triangle: its word and the index stored next to it.
+/// Identifies a triangle: its word, and the index that is stored next to the word.
 struct RasterName {
     std::uint32_t word, index;  ///< see RasterTriangle
 };
 
-/// Returns false if the triangle covers no row's centre, or has no area.
+/// Returns false if the triangle covers no row's centre or has no area.
 [[nodiscard]] bool makeTriangle(const RasterCorner (&corners)[3], const RasterName& name,
                                 RasterTriangle& out);
-/// As makeTriangle(), with a mask.
+/// As makeTriangle(), but with a mask.
 [[nodiscard]] bool makeMasked(const RasterCorner (&corners)[3], const RasterName& name,
                               const RasterMask& mask, MaskedTriangle& out);
 
-/// Twice the signed area between corners on the grid; negative if it faces away.
+/// Returns twice the signed area between corners on the grid; negative if the triangle faces away.
 [[nodiscard]] float doubleArea(const RasterCorner (&corners)[3]);
-/// The plane through the values at three corners.
+/// Returns the plane through the values at three corners.
 [[nodiscard]] RasterPlane planeThrough(const RasterCorner (&corners)[3], const float (&value)[3],
                                        float doubleArea);
 
-/// Part of the grid to be drawn: rows `where.y0` to `where.y1`, the same columns in each.
+/// A part of the grid that is drawn: rows `where.y0` to `where.y1`, in the same columns.
 struct RasterBand {
-    Rows<std::uint32_t> words;    ///< of the whole grid
-    Rows<std::uint32_t> indices;  ///< of the whole grid; valid where there is a word
+    Rows<std::uint32_t> words;    ///< rows of the whole grid
+    Rows<std::uint32_t> indices;  ///< rows of the whole grid; valid where there is a word
     PixelRect where;
 };
 void drawTriangles(std::span<const RasterTriangle> triangles, const RasterBand& band);
 void drawMasked(std::span<const MaskedTriangle> triangles, const RasterBand& band);
-/// clearBand() fills the band with kNoSurface; finishBand() replaces it by 0 after drawing and
-/// removes kBehindObjects.
+/// clearBand() fills the band with kNoSurface. After drawing, finishBand() replaces kNoSurface by 0
+/// and removes kBehindObjects.
 void clearBand(const RasterBand& band);
 void finishBand(const RasterBand& band);
 

@@ -9,9 +9,9 @@
 namespace mfar::simd {
 namespace {
 
-constexpr int kCells = 4;         // per tile, along an axis
-constexpr int kWithBorder = 6;    // with one cell of border on each side
-constexpr int kTileRowGrain = 4;  // rows of tiles per portion
+constexpr int kCells = 4;         // cells of a tile along each axis
+constexpr int kWithBorder = 6;    // the same with a border of one cell on each side
+constexpr int kTileRowGrain = 4;  // rows of tiles that a thread takes at a time
 
 }  // namespace
 
@@ -29,7 +29,8 @@ struct TileClasses::Fields {
     }
     [[nodiscard]] TileClass classOf(int column, int row) const;
     [[nodiscard]] int unexplainedCells(int column, int row) const;
-    /// Includes the neighbouring cells: the tile's pixels interpolate between its cells and those.
+    /// The neighbouring cells count, too, because the tile's pixels interpolate between them and
+    /// the tile's own cells.
     [[nodiscard]] bool showsSecond(int column, int row) const;
     [[nodiscard]] bool secondExplains(int x, int y) const {
         return second.weighed.data != nullptr && at(second.trust, x, y).unexplained < 0.5F &&
@@ -38,8 +39,8 @@ struct TileClasses::Fields {
     [[nodiscard]] float confidence(int column, int row) const;
 };
 
-// A tile is plain (Trusted) if its flow is affine and its weight constant, within tolerance. NaN is
-// neither.
+// A tile is plain (Trusted) if its flow is affine and its weight constant, within tolerances.
+// Fields with NaN fulfil neither.
 TileClass TileClasses::Fields::classOf(int column, int row) const {
     const int x0 = kCells * column, y0 = kCells * row;
     std::array<WeighedCell, kWithBorder * kWithBorder> cells;
@@ -132,7 +133,7 @@ TileSummary TileClasses::classify(const TileWork& work, const Match& match, cons
         const TileWork& work;
         const Fields& fields;
     } loop{*this, work, fields};
-    // Captures one reference: std::function stores it without allocating.
+    // The function captures only a reference, so that std::function stores it without allocating.
     workers.forRange(tiles_.height, kTileRowGrain, [&loop](int first, int last) {
         for (int row = first; row < last; ++row)
             loop.self.classifyRow(loop.work, loop.fields, row);

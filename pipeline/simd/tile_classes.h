@@ -14,24 +14,25 @@ namespace mfar::simd {
 
 /// Counts for a frame, as in superres_classify.comp.
 struct TileSummary {
-    std::array<int, kTileClasses> tiles{};  ///< count per TileClass
-    int unexplained = 0;                    ///< tiles explained by no still
-    int second = 0;                         ///< tiles in which the second still is shown
-    /// Sum of eq. 2 over the cells of all tiles, in sixteenths, rounded down per tile: 256 per
-    /// fully confident tile. Zero without a still.
+    std::array<int, kTileClasses> tiles{};  ///< number of tiles of each TileClass
+    int unexplained = 0;                    ///< number of tiles that no still explains
+    int second = 0;                         ///< number of tiles that show the second still
+    /// Sum of the confidence (eq. 2 of the paper) over the cells of all tiles, in 1/16, rounded
+    /// down for each tile. A tile with full confidence counts 256. Zero without a still.
     double confidence = 0;
 };
 
-/// Class of every tile of a frame; also remembers which tiles were unexplained when last drawn.
+/// Determines the class of every tile of a frame. Remembers for each tile whether it was
+/// unexplained when it was drawn last.
 class TileClasses {
 public:
     explicit TileClasses(Size video);
 
-    /// Skipped work, see SkipOptions.
+    /// Which work is skipped, see SkipOptions.
     struct Skips {
         bool upscaledTiles, plainTiles;
     };
-    /// How a still matches; without data: no still.
+    /// How well a still matches; without data, there is no still.
     struct Match {
         Rows<const WeighedCell> weighed{};
         Rows<const TrustCell> trust{};
@@ -44,7 +45,7 @@ public:
         return classes_[static_cast<std::size_t>(row) * tiles_.width + column];
     }
 
-    /// Whether the second still's share exceeds the first's somewhere in the tile.
+    /// True if the second still's weight exceeds the first's somewhere in the tile.
     [[nodiscard]] bool showsSecond(int column, int row) const {
         return second_[static_cast<std::size_t>(row) * tiles_.width + column] != 0;
     }
@@ -55,9 +56,9 @@ private:
 
     Size tiles_;
     std::vector<TileClass> classes_;
-    std::vector<int> unexplained_;      // unexplained cells per tile
-    std::vector<std::uint8_t> second_;  // flags per tile
-    std::vector<TileSummary> rowSums_;  // per row of tiles
+    std::vector<int> unexplained_;      // number of unexplained cells of each tile
+    std::vector<std::uint8_t> second_;  // one flag per tile
+    std::vector<TileSummary> rowSums_;  // one entry per row of tiles
 };
 
 }  // namespace mfar::simd

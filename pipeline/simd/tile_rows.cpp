@@ -4,24 +4,24 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/tile_rows.cpp"
 #include <hwy/foreach_target.h>
-// Included once per instruction set, like this file.
+// The next header is included once per instruction set, as this file is.
 #include "pipeline/simd/tile_blocks-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr float kMeanToDeviation = 1.2533F;  // standard deviation / mean absolute value, for a
+constexpr float kMeanToDeviation = 1.2533F;  // standard deviation / mean absolute value of a
                                              // Gaussian
-// Threshold for mean and both slopes, each squared over its variance: 1e-8 of unchanged tiles
-// exceed it.
+// Threshold for the mean and both slopes of a tile's difference, squared and divided by their
+// variance. Of unchanged tiles, a share of 1e-8 exceeds it.
 constexpr float kSurelyChanged = 40;
-// The same for a cell's mean.
+// The same for the mean of a cell.
 constexpr float kCellSurelyChanged = 30;
-constexpr float kByteRounding = 0.17F;  // variance of the rounding of a difference of two 8-bit
-                                        // pixels
+constexpr float kByteRounding = 0.17F;  // variance of the rounding error of a difference of two
+                                        // 8-bit pixels
 
-// From here on each lane is a tile: sums are added in the same order on every processor.
+// From here on, each lane is a tile, so that sums are added in the same order on every CPU.
 using D = hn::CappedTag<float, kTileGroup>;
 using V = hn::Vec<D>;
 
@@ -29,13 +29,13 @@ HWY_INLINE V Const(float value) {
     return hn::Set(D(), value);
 }
 
-/// Loads blocks of a row of tiles: one vector per column of a tile.
+/// Loads the blocks of a row of tiles into one vector for each column of a tile.
 HWY_INLINE void Columns(const float* row, V* out) {
     const D d;
     hn::LoadInterleaved4(d, row, out[0], out[1], out[2], out[3]);
     hn::LoadInterleaved4(d, row + 4 * hn::Lanes(d), out[4], out[5], out[6], out[7]);
 #if HWY_TARGET != HWY_SCALAR
-    // The halves of tiles alternate.
+    // Left and right halves of tiles alternate.
     for (int i = 0; i < 4; ++i) {
         const V first = out[i], second = out[i + 4];
         out[i] = hn::ConcatEven(d, second, first);
@@ -44,10 +44,10 @@ HWY_INLINE void Columns(const float* row, V* out) {
 #endif
 }
 
-/// The 8x8 values of each tile.
+/// The 8x8 values of each tile, one per block.
 using Grid = V[kSide][kSide];
 
-/// Residual of a plane through 4x4 of the values.
+/// Returns the squared residual of the best plane through 4x4 of the values.
 HWY_INLINE V BesidePlane(const Grid& values, int top, int left) {
     const V zero = hn::Zero(D());
     V sum = zero, squares = zero, slopeX = zero, slopeY = zero;
@@ -74,7 +74,7 @@ HWY_INLINE V StructureOf(const Blocks& blocks, int tile) {
     return hn::Div(sum, Const(9));
 }
 
-/// Mean and slopes of the cells' means, squared, over their variance.
+/// Mean and slopes of the cells' means, squared and divided by their variance.
 class Moments {
 public:
     HWY_INLINE Moments() : sum_(hn::Zero(D())), slopeX_(sum_), slopeY_(sum_) {}
@@ -106,7 +106,7 @@ HWY_INLINE Moments MomentsOf(const Blocks::CellSums& sums, int tile) {
     return out;
 }
 
-/// Sums over the luma of the difference.
+/// Sums over the luma of the difference of both pictures.
 struct LumaDifference {
     V means, bends, noise;  // noise: sum of squared twists
     Moments moments;
@@ -148,7 +148,7 @@ HWY_INLINE V NoiseOf(const Blocks& blocks, int tile) {
     return hn::Mul(sum, Const(kMeanToDeviation / 64));
 }
 
-/// Variance of a cell's mean due to noise.
+/// Returns the variance of a cell's mean that noise causes.
 HWY_INLINE V OfCell(V variance, float grain) {
     const V rounded = hn::Add(variance, Const(kByteRounding));
     return hn::Mul(hn::Mul(rounded, Const(1.0F / 16)), Const(grain));
@@ -188,7 +188,7 @@ HWY_INLINE auto ChangedCells(const Blocks& blocks, int tile, V noisiest,
     return out;
 }
 
-/// Measurements of a vector of tiles before they are written.
+/// Measurements of a group of tiles before they are written.
 struct Measures {
     using Values = std::array<float, kTileGroup>;
     HWY_ALIGN std::array<std::int32_t, kTileGroup> cells;

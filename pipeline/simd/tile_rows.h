@@ -10,7 +10,7 @@ namespace mfar::simd {
 
 inline constexpr int kTileGroup = 16;  ///< number of tiles measured at a time
 
-/// Adjacent tiles in both pictures: 16 bytes of each row per tile.
+/// Adjacent tiles in both pictures: 16 bytes of each row for each tile.
 struct TilePixels {
     /// Rows of red, green and blue.
     using Channels = std::array<std::array<const std::uint8_t*, kTileSize>, 3>;
@@ -18,7 +18,7 @@ struct TilePixels {
     int tiles;  ///< up to kTileGroup
 };
 
-/// Measures each tile; bit-identical on every processor.
+/// Measures each tile. The result is bit-identical on every CPU.
 void measureTileGroup(const TilePixels& pixels, const ChangeBounds& bounds, TileMeasure* out);
 
 }  // namespace mfar::simd

@@ -24,13 +24,13 @@ struct TileMask {
         return flags[static_cast<std::size_t>(y) * size.width + x];
     }
 };
-/// `out` (of the same size): tiles with a flag within `margin` tiles in each direction. `between`:
-/// scratch.
+/// Sets flags in `out` (of the same size) for tiles that have a flagged tile within `margin` tiles
+/// along each axis. `between`: temporary memory.
 void widen(const TileMask& in, int margin, TileMask& between, TileMask& out);
 
-/// Finds the tiles whose motion a field along epipolar lines does not explain, and for each pyramid
-/// level the groups of 4x4 cells that their 2-D search has to cover: flow_flag.comp and
-/// flow_list.comp.
+/// Finds the tiles whose motion a field along epipolar lines does not explain. For each pyramid
+/// level, it lists the groups of 4x4 cells that have to be searched in two dimensions for this. CPU
+/// version of flow_flag.comp and flow_list.comp.
 class TileSearch {
 public:
     struct Group {
@@ -39,14 +39,15 @@ public:
 
     TileSearch(Size cells, int levels);
 
-    /// `noise`: of the video [grey levels]; `errors`: two-way errors, row by row.
+    /// `noise`: standard deviation of the video's noise [grey levels]. `errors`: two-way errors,
+    /// row by row.
     void find(const FlowPlanes& field, std::span<const ErrorCell> errors, double noise);
     void clear();
 
     [[nodiscard]] std::span<const Group> groups(int level) const {
         return groups_[static_cast<std::size_t>(level)];
     }
-    /// groups(0) as a flag per tile.
+    /// groups(0) as one flag per tile.
     [[nodiscard]] const std::vector<bool>& tiles() const { return listed_; }
     [[nodiscard]] int count() const { return static_cast<int>(groups_[0].size()); }
 

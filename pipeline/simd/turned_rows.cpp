@@ -5,14 +5,14 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/turned_rows.cpp"
 #include <hwy/foreach_target.h>
-// Included once per instruction set, like this file.
+// The next header is included once per instruction set, as this file is.
 #include "pipeline/simd/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 
 constexpr float kOutside = -1e6F;
-constexpr float kLeastDepth = 0.05F;  // lower limit of the depth of a rotated ray of unit depth
+constexpr float kLeastDepth = 0.05F;  // least depth of a rotated ray whose depth was 1
 
 void TurnedPoints(const TurnedLens& lens, const float* raysX, const float* raysY, std::size_t count,
                   float* x, float* y) {
@@ -40,7 +40,7 @@ void TurnedPoints(const TurnedLens& lens, const float* raysX, const float* raysY
 using DPixels = hn::CappedTag<float, kTurnedCell>;
 using VPixels = hn::Vec<DPixels>;
 
-/// Samples a picture bilinearly.
+/// Samples a picture, with bilinear interpolation.
 class Sampler {
 public:
     explicit Sampler(const Rows<const std::uint8_t>& source)
@@ -62,8 +62,8 @@ private:
     using DInt = hn::RebindToSigned<DPixels>;
     using DBits = hn::RebindToUnsigned<DPixels>;
 
-    /// Interpolates along a row. Loads four bytes from a pixel, or from earlier if that would read
-    /// past the end.
+    /// Interpolates along a row. Loads four bytes from the pixel on, or from before it if this
+    /// would read past the picture's end.
     HWY_INLINE VPixels between(hn::Vec<DInt> offset, VPixels share) const {
         const auto from = hn::Min(offset, hn::Set(dInt_, last_));
         const auto words =

@@ -9,27 +9,27 @@
 
 namespace mfar::simd {
 
-inline constexpr int kTurnedCell = 8;  ///< side of the cells of a grid of points [px]
+inline constexpr int kTurnedCell = 8;  ///< distance of the points of a grid [px]
 
-/// A rotated camera with the same centre, in which rays are shown.
+/// A camera with the same centre but another orientation. Rays are projected into it.
 struct TurnedLens {
-    Lens lens;                  ///< of that camera; its rim2 is ignored
+    Lens lens;                  ///< lens of that camera; its rim2 is ignored
     std::array<float, 9> turn;  ///< rotation of rays, row-major
     float rim;                  ///< radius of the outermost visible ray
 };
 
-/// Pixels of rays (x, y, 1); far outside if the ray is not visible or NaN.
+/// Returns the pixels of rays (x, y, 1); far outside if the ray is not visible or NaN.
 void turnedPoints(const TurnedLens& lens, const float* raysX, const float* raysY, std::size_t count,
                   float* x, float* y);
 
-/// Two adjacent rows of a grid of points in the source, one point each kTurnedCell pixels.
+/// Two adjacent rows of a grid of points in the source, one point for every kTurnedCell pixels.
 struct TurnedCells {
     const float *x, *y, *nextX, *nextY;
 };
 
-/// A row of a picture, `v` of a cell below the first grid row: source pixels, sampled bilinearly at
-/// points that are interpolated bilinearly in the grid; and 1 where the source has a pixel, else 0.
-/// The source must have at least two columns and two rows.
+/// Draws a row of a picture that lies `v` of a cell below the first row of the grid. Points are
+/// interpolated bilinearly in the grid; at each point, the source is sampled bilinearly. `seen` is
+/// 1 where the source has a pixel, else 0. The source must have at least two columns and two rows.
 void turnedRow(const Rows<const std::uint8_t>& source, const TurnedCells& cells, float v,
                std::size_t width, std::uint8_t* out, std::uint8_t* seen);
 

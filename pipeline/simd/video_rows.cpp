@@ -9,7 +9,7 @@
 namespace mfar::simd {
 namespace {
 
-constexpr float kFixed = 64;  // steps per grey level
+constexpr float kFixed = 64;  // number of steps per grey level
 
 }  // namespace
 
@@ -53,7 +53,7 @@ EnlargedRows VideoRows::rows(const std::array<int, 4>& videoRows) {
     return out;
 }
 
-// Loads a row's bytes with two more on each side, repeated at the picture's borders.
+// Loads a row's bytes with two more pixels on each side, which repeat the picture's border.
 void VideoRows::load(int row) {
     const int slot = row % kKept;
     if (loaded_[slot] == row) return;

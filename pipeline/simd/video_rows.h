@@ -7,7 +7,7 @@
 
 namespace mfar::simd {
 
-/// Tables for enlarging a video, shared by all threads.
+/// Tables for enlarging a video. All threads share them.
 struct VideoTaps {
     VideoTaps(Size video, Size output);
 
@@ -15,17 +15,17 @@ struct VideoTaps {
     RowTaps trustRows, trustColumns;  ///< from cells to the video's size
 };
 
-/// Rows of the video, sharpened, at the output's width; computed on request, the last four are
-/// kept. Scratch of one thread.
+/// Rows of the video, sharpened, at the output's width. They are computed on request; the last four
+/// are kept. Each thread has its own object.
 class VideoRows {
 public:
     VideoRows(Size video, int outputWidth);
 
-    /// Starts a video; only pixels [begin, end) of the output are computed. `trust` without data:
-    /// no sharpening.
+    /// Starts with a new video frame. Only pixels [begin, end) of the output are computed. If
+    /// `trust` has no data, rows are not sharpened.
     void begin(const RgbPlanes& video, Rows<const TrustCell> trust, const VideoTaps& taps,
                bool linear, int begin, int end);
-    /// Four rows, at most three apart.
+    /// Returns four rows, which must be at most three apart.
     [[nodiscard]] EnlargedRows rows(const std::array<int, 4>& videoRows);
 
 private:
@@ -42,13 +42,13 @@ private:
     const VideoTaps* taps_ = nullptr;
     bool sharpens_ = false;
     TapTable table_{};
-    int begin_ = 0, end_ = 0;    // of the output
-    int first_ = 0, last_ = 0;   // of the video
-    std::array<int, 4> made_{};  // rows
+    int begin_ = 0, end_ = 0;    // pixels of the output
+    int first_ = 0, last_ = 0;   // pixels of the video
+    std::array<int, 4> made_{};  // video row stored in each slot
     std::array<int, kKept> loaded_{};
     AlignedRows<std::uint8_t> bytes_;     // kKept rows of three channels, with a margin
-    AlignedRows<float> grey_;             // a row
-    AlignedRows<std::int16_t> strength_;  // a row
+    AlignedRows<float> grey_;             // a row of the video
+    AlignedRows<std::int16_t> strength_;  // a row of the video
     AlignedRows<std::int16_t> wide_;      // four rows of three channels
     CellRows<TrustCell, 2> trust_;
 };

@@ -24,7 +24,7 @@ class SurfaceRaster;
 struct Hole {
     std::uint32_t pixel;   ///< row-major index
     std::uint32_t colour;  ///< what is known so far, RGBA8 premultiplied
-    bool isEdge, isOpen;   ///< isOpen: known nowhere
+    bool isEdge, isOpen;   ///< isOpen: nothing is known
 };
 
 /// The pixels of all re-rendered patches.
@@ -34,7 +34,7 @@ public:
     struct Picture {
         std::vector<Rgba> colours;
         std::vector<LightWords> lights;     // empty if only colours are known
-        std::vector<WarpSurface> surfaces;  // like colours: empty until there is a pixel
+        std::vector<WarpSurface> surfaces;  // like colours, empty until a pixel is stored
     };
     explicit PatchStore(Size layer) : layer_(layer) {}
     void store(const PatchPictures::StoredRows& rows);
@@ -47,28 +47,29 @@ private:
     std::array<Picture, PatchPictures::kPatches> pictures_;
 };
 
-/// Looks up the colour of every pixel of the layer that shows a surface: in the reference, a traced
-/// picture, or, if that does not show the surface, in the re-rendered patches. ViewLookUp on the
-/// CPU: rows in threads, plain pixels in lanes; edges and other complicated pixels one by one.
+/// Looks up the colour of every pixel of the layer that shows a surface. It is taken from the
+/// reference (a traced picture) or, if that does not show the surface, from the re-rendered
+/// patches. CPU version of the GLES engine's ViewLookUp. Threads share the rows; plain pixels are
+/// processed in vectors, edges and other complicated pixels one by one.
 class ViewLookUp {
 public:
     ViewLookUp(const LensProjection& layer, std::shared_ptr<Workers> workers);
 
-    /// Borrowed until the next call.
+    /// `reference` must remain valid until the next call.
     void setReference(const WarpReference& reference);
 
     struct Input {
-        const SurfaceRaster& raster;  ///< at the current pose
+        const SurfaceRaster& raster;  ///< drawn at the current pose
         const PatchPictures& patches;
         const PatchStore& store;
         Eigen::Vector4d plane;  ///< SilhouetteModels::plane()
     };
-    /// Writes every pixel of `where`, and no other pixel.
+    /// Writes every pixel of `where`, and no others.
     void run(const Input& input, const RigidTransform& T_world_camera, const PixelRect& where);
-    /// Sets these pixels to nothing.
+    /// Makes these pixels empty.
     void clear(const PixelRect& where);
 
-    /// Holes of the last run, ascending.
+    /// The holes of the last run, ascending.
     [[nodiscard]] std::vector<Hole>& holes() { return holes_; }
     [[nodiscard]] Rows<std::uint32_t> colour() { return colour_.rows(); }  ///< RGBA8 premultiplied
     [[nodiscard]] Rows<const float> depth() const { return depth_.rows(); }
@@ -77,7 +78,7 @@ public:
 
 private:
     struct Scratch {
-        std::vector<std::uint32_t> left;  // pixels of a row that are not plain
+        std::vector<std::uint32_t> left;  // indices of a row's pixels that are not plain
         std::vector<PaintWords> paint;
     };
     void runRow(const Input& input, const ViewLookUpInput& plain, const RestPixels& rest,

@@ -6,7 +6,7 @@
 #define HWY_TARGET_INCLUDE "pipeline/simd/view_rows.cpp"
 
 #include <hwy/foreach_target.h>
-// Included once per instruction set, like this file.
+// The next two headers are included once per instruction set, as this file is.
 #include "pipeline/simd/display_values-inl.h"
 #include "pipeline/simd/point_lens-inl.h"
 
@@ -14,7 +14,7 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// At most 8 lanes: a row of quarters has only that many words of padding.
+// At most 8 lanes, because the padding of rows of quarters has only that many words.
 using D = hn::CappedTag<float, 8>;
 using DU = hn::RebindToUnsigned<D>;
 using DI = hn::RebindToSigned<D>;
@@ -23,7 +23,7 @@ using VU = hn::Vec<DU>;
 using VI = hn::Vec<DI>;
 using M = hn::Mask<D>;
 
-/// Four adjacent words: two of an upper row and two of a lower row.
+/// Four adjacent words: two of an upper row, two of a lower row.
 struct Four {
     VU a, b, c, d;
 };
@@ -35,7 +35,7 @@ HWY_INLINE M AsFloats(hn::Mask<DU> mask) {
     return hn::RebindMask(D(), mask);
 }
 
-/// Where all four show the number.
+/// True where all four words show the number.
 HWY_INLINE M AllShow(const Four& s, VU number) {
     const VU differ = hn::Or(hn::Or(hn::Xor(s.a, number), hn::Xor(s.b, number)),
                              hn::Or(hn::Xor(s.c, number), hn::Xor(s.d, number)));
@@ -47,7 +47,7 @@ HWY_INLINE M IsClose(VU word, V z, V tolerance) {
     return hn::Lt(hn::Abs(hn::Sub(DepthOf(word), z)), tolerance);
 }
 
-/// Bilinear with weights in 256ths: two channels per word.
+/// Bilinear interpolation with weights in 1/256, for two channels per word.
 HWY_INLINE VU Blend(const Four& texels, const Four& weights) {
     const DU du;
     const VU even = hn::Set(du, 0x00FF00FFU), half = hn::Set(du, 0x00800080U);
@@ -66,7 +66,7 @@ HWY_INLINE VU Blend(const Four& texels, const Four& weights) {
 /// Linear red, green and blue.
 using Light = Triples<V>;
 
-/// 2^exponent of light words, times their weights.
+/// Returns 2^exponent of light words, times their weights.
 HWY_INLINE V LightScale(VU words, VU share) {
     const DU du;
     const D d;
@@ -84,7 +84,7 @@ HWY_INLINE V LightChannel(VU words) {
     return hn::ConvertTo(D(), hn::BitCast(DI(), bits));
 }
 
-/// Bilinear interpolation of four light words.
+/// Interpolates four light words bilinearly.
 HWY_INLINE Light BlendLight(const Four& words, const Four& weights) {
     Light out{hn::Zero(D()), hn::Zero(D()), hn::Zero(D())};
     const auto add = [&](VU word, VU share) HWY_ATTR {
@@ -100,7 +100,7 @@ HWY_INLINE Light BlendLight(const Four& words, const Four& weights) {
     return out;
 }
 
-/// Bilinear interpolation of the share of specular light that the paint does not change.
+/// Interpolates the share of specular light that the paint does not change, bilinearly.
 HWY_INLINE V BlendVeil(const Four& diffuse, const Four& specular, const Four& weights) {
     const auto veil = [&](VU d, VU s, VU weight) HWY_ATTR {
         const VU bits = hn::Or(hn::ShiftLeft<3>(hn::ShiftRight<kLightFreeBit>(d)),
@@ -118,7 +118,7 @@ struct PaintOf {
     VU diffuse, facing;
 };
 
-/// The surface's radiance as display bytes.
+/// Returns the radiance of the surface as display bytes.
 template <int kShift>
 HWY_INLINE VU LitChannel(const PaintOf& paint, V diffuse, V specular, V veil) {
     const D d;
@@ -140,7 +140,7 @@ HWY_INLINE VU Lit(const PaintOf& paint, const Light& diffuse, const Light& specu
                   hn::Set(DU(), 0xFF000000U));
 }
 
-/// Weights of the four surrounding texels, for a position in a pixel.
+/// Returns the weights of the four surrounding texels for a position within a pixel.
 HWY_INLINE Four WeightsOf(V x, V y) {
     const DU du;
     const D d;
@@ -168,7 +168,7 @@ HWY_INLINE V PlaneDepth(const CatcherPlane& plane, V rayX, V rayY, float nearest
     return hn::IfThenElseZero(seen, z);
 }
 
-/// The quarters of pixels: alternate words of two rows.
+/// Loads the quarters of pixels, which are alternate words of two rows.
 HWY_INLINE Four QuartersOf(const ViewRow& row, int x) {
     Four s;
     hn::LoadInterleaved2(DU(), row.upper + 2L * x, s.a, s.b);
@@ -176,7 +176,7 @@ HWY_INLINE Four QuartersOf(const ViewRow& row, int x) {
     return s;
 }
 
-/// Result for a vector of pixels.
+/// The result for a vector of pixels.
 struct Found {
     VU colour;
     V depth;
@@ -184,15 +184,15 @@ struct Found {
     M left;
 };
 
-/// Request of a vector of pixels: the surface that each shows, and its position in the reference
-/// picture.
+/// What a vector of pixels asks for: the surface that each pixel shows, and its position in the
+/// reference picture.
 struct Asked {
-    V z;                           ///< in the layer's camera
+    V z;                           ///< in the layer's camera [m]
     VU id;                         ///< number of the surface
-    M ofCatcher;                   ///< the surface is the catcher
-    M empty;                       ///< nothing is there
-    M asked;                       ///< the reference picture is read
-    V thereZ;                      ///< z in the reference's camera
+    M ofCatcher;                   ///< true if the surface is the catcher
+    M empty;                       ///< true if the pixel shows nothing
+    M asked;                       ///< true if the reference picture is read
+    V thereZ;                      ///< z in the reference's camera [m]
     V pixelX, pixelY, lowX, lowY;  ///< in the reference picture, exact and rounded down [px]
 };
 
@@ -227,7 +227,7 @@ HWY_INLINE Asked AskFor(const ViewLookUpInput& in, const Four& s, V rayX, V rayY
     return {z, id, ofCatcher, empty, asked, there.z, pixel.x, pixel.y, lowX, lowY};
 }
 
-/// Gathers every second word.
+/// Loads every second word, for the four texels around a position.
 HWY_INLINE Four GatherLights(const std::uint32_t* from, VI at, int width) {
     const DU du;
     const VI word = hn::Add(at, at);
@@ -242,7 +242,7 @@ HWY_INLINE void ReadReference(const ViewLookUpInput& in, const Asked& a, const P
     const D d;
     const DU du;
     const V width = hn::Set(d, static_cast<float>(in.reference.width));
-    // Pictures have at most 2^24 pixels: indices are exact in single precision.
+    // Pictures have at most 2^24 pixels, so indices are exact in single precision.
     const VI row = hn::ConvertTo(DI(), hn::IfThenElseZero(a.asked, a.lowY));
     const VI at = hn::Add(hn::Mul(row, hn::ConvertTo(DI(), width)),
                           hn::ConvertTo(DI(), hn::IfThenElseZero(a.asked, a.lowX)));
@@ -310,7 +310,7 @@ int LookUpRow(const ViewRow& row, const ViewLookUpInput& in) {
                                  paint.diffuse, paint.facing);
         Found f = LookUp(in, s, hn::LoadU(d, row.rayX + x), hn::LoadU(d, row.rayY + x), paint);
         const M within = hn::FirstN(d, static_cast<std::size_t>(row.count - x));
-        // Pixels beyond the row are nothing.
+        // Pixels beyond the row become empty.
         f.colour = hn::BitCast(du, hn::IfThenElseZero(within, hn::BitCast(d, f.colour)));
         f.state = hn::BitCast(du, hn::IfThenElseZero(within, hn::BitCast(d, f.state)));
         f.depth = hn::IfThenElseZero(within, f.depth);

@@ -8,17 +8,17 @@
 
 namespace mfar::simd {
 
-/// A surface in one word, as warp_surface.glsl packs it.
-inline constexpr std::uint32_t kCatcherNumber = 255;  ///< kCatcherId
-/// Relative difference of z up to which two surfaces are the same.
+/// Number of the catcher in words that are packed as in warp_surface.glsl.
+inline constexpr std::uint32_t kCatcherNumber = 255;  ///< = kCatcherId
+/// Two surfaces are the same if z differs by at most this share of z.
 inline constexpr float kSameDepth = 0.003F;
 
-/// The catcher if it is a plane: n . point = w in the layer's camera [m]; all zero: it is not a
+/// The catcher, if it is a plane: n . point = w in the layer's camera [m]. All zero if it is not a
 /// plane.
 struct CatcherPlane {
     float x = 0, y = 0, z = 0, w = 0;
 
-    /// z [m] along a ray; 0: not in sight.
+    /// Returns z [m] along a ray; 0 if the plane is not visible there.
     [[nodiscard]] float depthAlong(float rayX, float rayY, float nearest) const {
         const float facing = x * rayX + y * rayY + z;
         const float depth = w / (facing == 0 ? 1 : facing);
@@ -26,35 +26,35 @@ struct CatcherPlane {
     }
 };
 
-/// The reference picture in which a row of the layer is looked up.
+/// The reference picture, in which the pixels of a row of the layer are looked up.
 struct ViewLookUpInput {
-    PointTransform toReference;    ///< from the layer's camera
-    PointLens lens;                ///< of the reference
+    PointTransform toReference;    ///< from the layer's camera to the reference's
+    PointLens lens;                ///< of the reference's camera
     Size reference;                ///< [px]
     const std::uint32_t* packed;   ///< surfaces of the reference, row-major; number 254: unknown
     const std::uint32_t* colours;  ///< RGBA8, row-major
-    const std::uint32_t* lights;   ///< LightWords, two words each; null: only colours are known
+    const std::uint32_t* lights;   ///< LightWords, two words each; null if only colours are known
     CatcherPlane plane;
     float shownDepth;  ///< factor of the catcher's z: 1 - kShadowLift
 };
 
-/// Pixels of a row of the layer.
+/// A row of pixels of the layer, and its results.
 struct ViewRow {
     int count;
-    const std::uint32_t *upper, *lower;  ///< surfaces at twice the resolution
-    const PaintWords* paint;             ///< SurfaceRaster::paintRow(); read only if there are
+    const std::uint32_t *upper, *lower;  ///< surfaces at twice the layer's resolution
+    const PaintWords* paint;             ///< see SurfaceRaster::paintRow(); read only if there are
                                          ///< lights
-    const float *rayX, *rayY;            ///< normalised
+    const float *rayX, *rayY;            ///< rays with z = 1
     std::uint32_t* colour;               ///< RGBA8 premultiplied
-    float* depth;                        ///< z [m], 0 = nothing
+    float* depth;                        ///< z [m]; 0: empty
     std::uint32_t* state;                ///< see WarpStep::state()
-    std::uint32_t* left;                 ///< indices of the pixels that are left over; room for
-                                         ///< all, and 16 more
+    std::uint32_t* left;                 ///< indices of the pixels that were not looked up; with
+                                         ///< room for all pixels and 16 more
 };
 
-/// Looks up plain pixels: those filled by one surface that the reference picture shows in four
-/// texels at the same depth (warp_look_up.frag). Returns how many other pixels are left over.
-/// Writes into the padding of rows, which need kPadding.
+/// Looks up plain pixels: a single surface fills the pixel, and the reference picture shows it in
+/// four texels at the same depth (warp_look_up.frag). Returns how many other pixels there are.
+/// Writes into the padding of rows, which must have kPadding.
 [[nodiscard]] int lookUpRow(const ViewRow& row, const ViewLookUpInput& input);
 
 }  // namespace mfar::simd

@@ -16,7 +16,7 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// The 4x4 samples of a pixel, one per lane.
+// The 4x4 samples around a pixel, one per lane.
 constexpr int kTaps = 16;
 using D = hn::CappedTag<float, kTaps>;
 using V = hn::Vec<D>;
@@ -48,7 +48,8 @@ bool Decide(const DecideRow& row, const VisibilityParams& params) {
     return anyOpen;
 }
 
-/// e^x for x <= 0, error below 1e-5: power of 2 whose fraction is a polynomial.
+/// Returns e^x for x <= 0, with an error below 1e-5, as a power of 2; its fraction is computed by a
+/// polynomial.
 HWY_INLINE V Exp(V x) {
     const hn::RebindToSigned<D> di;
     const V power = hn::Max(hn::Mul(x, Const(1.44269504F)), Const(-100));
@@ -67,7 +68,7 @@ HWY_INLINE V ReciprocalSqrt(V v) {
     return hn::Mul(first, hn::NegMulAdd(hn::Mul(halved, first), first, Const(1.5F)));
 }
 
-/// The samples of all pixels that lie between the same samples.
+/// The samples that all pixels between these samples share.
 struct Taps {
     using Values = std::array<float, kTaps>;
     HWY_ALIGN Values inverse, variance, red, green, blue;
@@ -85,7 +86,7 @@ void ReadTaps(const SampleWindow& samples, int column, Taps& out) {
     }
 }
 
-/// Four weights, repeated for each row of samples.
+/// Returns four weights, repeated for each row of samples.
 HWY_INLINE V ColumnWeights(const float* weights, std::size_t tap) {
 #if HWY_TARGET == HWY_SCALAR
     return hn::LoadU(D(), weights + tap % 4);
@@ -108,7 +109,7 @@ std::uint8_t WeighPixel(const Taps& taps, const float* columnWeights, std::uint3
         const V g = hn::Sub(hn::Load(d, &taps.green[i]), green);
         const V b = hn::Sub(hn::Load(d, &taps.blue[i]), blue);
         const V unlike = hn::MulAdd(r, r, hn::MulAdd(g, g, hn::Mul(b, b)));
-        // If no sample resembles the pixel, distance alone decides.
+        // If no sample's colour is similar to the pixel's, distance alone decides.
         const V like =
             hn::Add(Exp(hn::Mul(unlike, Const(-params.likeness))), Const(params::kLikenessFloor));
         const V tent = hn::Mul(hn::Load(d, &taps.rowWeights[i]), ColumnWeights(columnWeights, i));

@@ -8,8 +8,8 @@
 
 namespace mfar::simd {
 
-/// Pixels of an output row that are processed at a time; rows of this length have 64 bytes to
-/// spare.
+/// Number of pixels of an output row that are processed at a time. Rows of this length have 64
+/// bytes of padding.
 inline constexpr int kVisibilityChunk = 256;
 
 /// CompositeOptions in single precision.
@@ -21,25 +21,25 @@ struct VisibilityParams {
     float likeness;      ///< [1 / grey level^2]
 };
 
-/// Input and result of decideRow(), for a part of an output row.
+/// Input and result of decideRow() for a part of an output row.
 struct DecideRow {
     int count;
     const float* z;                 ///< of the virtual layer [m]
-    const float *greatest, *least;  ///< rangeOfSamples() at each pixel
+    const float *greatest, *least;  ///< see rangeOfSamples(), for each pixel
     std::uint8_t* visibility;       ///< 0, 255 or kOpen; written up to 16 pixels beyond the last
-    float* inverse;                 ///< inverse depth of the virtual layer [1/m]; written likewise
+    float* inverse;                 ///< inverse depth of the virtual layer [1/m]; also written beyond
 };
-inline constexpr std::uint8_t kOpen = 1;  ///< the samples have to be weighed
+inline constexpr std::uint8_t kOpen = 1;  ///< this pixel's samples have to be weighed
 
-/// Decides where a virtual pixel is surely in front of the real scene or behind it
-/// (visibility_decide.frag). Returns whether any pixel is left open.
+/// Decides which pixels of the layer are certainly in front of the real scene or behind it
+/// (visibility_decide.frag). Returns true if any pixel is left open.
 bool decideRow(const DecideRow& row, const VisibilityParams& params);
 
-/// Samples around an output row: four rows, pixel 0 in entry kSampleMargin of each.
+/// The samples around an output row: four rows. Pixel 0 is entry kSampleMargin of each.
 inline constexpr int kSampleMargin = 2;
 struct SampleWindow {
     std::array<SampleRow, 4> rows;
-    std::array<float, 4> weights;  ///< by the row's distance
+    std::array<float, 4> weights;  ///< of the rows, by their distance
 };
 
 /// A part of an output row whose open pixels are weighed.
@@ -52,8 +52,8 @@ struct OpenRow {
     std::uint8_t* visibility;
 };
 
-/// Computes the visibility of open pixels; samples are weighed by distance and by similarity of the
-/// picture to the video (visibility_sample.frag).
+/// Computes the visibility of open pixels. Samples are weighed by distance, and by how similar the
+/// picture is to the video there (visibility_sample.frag).
 void weighOpenPixels(const OpenRow& row, const SampleWindow& samples,
                      const VisibilityParams& params);
 

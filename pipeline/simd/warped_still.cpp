@@ -12,12 +12,11 @@ namespace mfar::simd {
 namespace {
 
 constexpr int kReach = params::kGuideReach;
-constexpr int kMargin = 16;  // columns on each side of a row: a cache line
+constexpr int kMargin = 16;  // columns on each side of a row; as long as a cache line
 constexpr float kMeanScale = 32;
 
 /// Taps of the mean over a video pixel along one axis. The warped still is interpolated linearly,
-/// which widens the footprint; therefore the samples lie closer together, so that the total spread
-/// is unchanged.
+/// which widens the footprint. To keep the total spread, the samples are closer together.
 RowTaps meanOf(int output, int video) {
     constexpr double kWidened = 2.0 + 2.0 / 15;  // (spread of a tent) / (spread of four samples)
     const double pitch = static_cast<double>(video) / output, seen = params::kSeen;
@@ -25,8 +24,8 @@ RowTaps meanOf(int output, int video) {
                          std::sqrt(std::max(seen * seen - kWidened * pitch * pitch, 0.0)));
 }
 
-/// Largest number of rows from a row of detail to the last row that it reads. `reach`: additional
-/// rows of the video that guidance reads.
+/// Returns the largest number of rows from a row of detail to the last row that it reads. `reach`:
+/// additional rows of the video that guidance reads.
 int rowsLookedAt(const RowTaps& mean, const RowTaps& cubic, Size video, Size output, int reach) {
     int most = mean.taps();
     for (int y = 0; y < output.height; ++y) {
@@ -112,7 +111,7 @@ void WarpedStill::warp(int y) {
     warpedRows_[slot] = y;
 }
 
-// The still as the video would show it, in one of the video's rows.
+// Computes a row of the still as the video would show it.
 void WarpedStill::makeMean(int row, float* to) {
     const RowTaps& columns = taps_->meanColumns;
     weighed_.clear();
@@ -132,7 +131,7 @@ void WarpedStill::makeMean(int row, float* to) {
         resampleRow(column_[0], taps_->meanRows.table(), span.begin, span.end, to);
 }
 
-// Computes one row of the video for guidance: differences and trust.
+// Computes differences and trust in one row of the video, for guidance.
 void WarpedStill::compare(int row) {
     const int slot = row % GuideRows::kRows;
     if (comparedRows_[slot] == row) return;
@@ -171,7 +170,8 @@ void WarpedStill::makeGuided(int row, float* to) {
         guideRow(rows, begin, end, seen_[row % GuideRows::kRows] + kMargin, to);
 }
 
-// As the video would show it, with guidance, enlarged to the output's width.
+// Computes a row of the still as the video would show it, with guidance, and enlarges it to the
+// output's width.
 void WarpedStill::makeLow(int row) {
     if (guide_ != nullptr)
         makeGuided(row, mean_[0]);

@@ -17,36 +17,36 @@
 
 namespace mfar::simd {
 
-/// Input for the weights of a frame. Borrowed for the call.
+/// Input for the weights of a frame. Must remain valid during the call.
 struct WeighInput {
-    /// Levels in `words`, at least two each; the second level is used for the photometric gain
-    /// between the sensors.
+    /// Levels of the pyramids in `words`, at least two each. The photometric gain between the
+    /// sensors is measured at the second level.
     const std::vector<LumaLevel>& videoLuma;
     const std::vector<LumaLevel>& stillLuma;
-    std::span<const std::uint32_t> words;  ///< ends with kLumaSpareWords
-    Rows<const FlowCell> forward;          ///< video to still, cells of 4x4 video px
-    /// Still to video, in pixels of level `backwardLevel`; read only if errors.data is null.
+    std::span<const std::uint32_t> words;  ///< must end with kLumaSpareWords
+    Rows<const FlowCell> forward;          ///< video to still; cells of 4x4 video pixels
+    /// Still to video, in pixels of level `backwardLevel`. Read only if errors.data is null.
     Rows<const FlowCell> backward;
     int backwardLevel = 0;
-    Rows<const ErrorCell> errors;  ///< for the cells of `forward`, or data == nullptr
+    Rows<const ErrorCell> errors;  ///< two-way errors of the cells of `forward`; or without data
     const TileWork& work;
 };
 
-/// Trust in the still, cell by cell: superres_assess.comp, superres_gain.comp and
-/// superres_weigh.comp on the CPU. Results are single precision; the GLES step rounds look-ups to
-/// 16 and trust to 8 bits.
+/// How far the still is trusted at each cell. CPU version of superres_assess.comp,
+/// superres_gain.comp and superres_weigh.comp. Results are in single precision, whereas the GLES
+/// step rounds look-ups to 16 bits and trust to 8 bits.
 class WeighStep {
 public:
-    /// `stillRig`: StillReference::rig(), whose still may have fewer pixels than the sensor's. Null
-    /// workers: runs in the caller's thread.
+    /// `stillRig`: its still may have fewer pixels than the sensor, see StillPreparation::rig().
+    /// Without workers, it runs in the caller's thread.
     WeighStep(const StereoRig& stillRig, std::shared_ptr<Workers> workers);
 
-    /// Weighs every cell; does nothing if no tile changed. If no changed tile is matched, the gain
-    /// of the last frame is kept. Unmatched tiles get no weight of their own. The results have one
-    /// entry per cell and are valid until the next run.
+    /// Weighs every cell; does nothing if no tile has changed. If no changed tile is matched, the
+    /// gain of the last frame is kept. Cells of unmatched tiles get no weight of their own. The
+    /// results have one entry per cell and are valid until the next run.
     void run(const WeighInput& in);
 
-    /// Multiplies each cell's weight by its share, one entry per cell.
+    /// Multiplies the weight of each cell by its share. `shares` has one entry per cell.
     void lower(Rows<const float> shares);
 
     [[nodiscard]] Rows<const WeighedCell> weighed() const { return shown(weighed_); }
