@@ -27,7 +27,7 @@ struct DecideRow {
     const float* z;                 ///< of the virtual layer [m]
     const float *greatest, *least;  ///< see rangeOfSamples(), for each pixel
     std::uint8_t* visibility;       ///< 0, 255 or kOpen; written up to 16 pixels beyond the last
-    float* inverse;                 ///< inverse depth of the virtual layer [1/m]; also written beyond
+    float* inverse;                 ///< inverse depth of the layer [1/m]; also written beyond
 };
 inline constexpr std::uint8_t kOpen = 1;  ///< this pixel's samples have to be weighed
 
