@@ -39,7 +39,7 @@ struct alignas(16) PreviewObject {
     Colour colours[2];                ///< of the checkerboard's squares
     float width, height, depth;       ///< of the object [m]
     float squares;                    ///< number of squares along each side
-    float lightX, lightY, lightZ;     ///< unit vector towards the light, camera frame
+    float lightX, lightY, lightZ;     ///< unit vector towards the light, in camera coordinates
     float ambient;                    ///< share of the ambient light
     float targetWidth, targetHeight;  ///< [px]
     float reach, squaredRadius;       ///< limits of the unit shape: largest coordinate, and squared

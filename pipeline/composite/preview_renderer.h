@@ -13,7 +13,7 @@ namespace mfar {
 
 /// Lighting of the preview, in display values.
 struct PreviewLight {
-    Eigen::Vector3d towards{0.4, -0.3, 0.85};  ///< to the light, world frame, z up; any length
+    Eigen::Vector3d towards{0.4, -0.3, 0.85};  ///< to the light, in the world, z up; any length
     double ambient = 0.35;                     ///< share of light from all directions, [0, 1]
 };
 

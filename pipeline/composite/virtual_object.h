@@ -10,7 +10,7 @@
 
 namespace mfar {
 
-/// Built-in shapes, centred at the origin of the object's frame.
+/// Built-in shapes, centred at the origin of the object's coordinates.
 enum class VirtualShape : unsigned {
     Box,
     Sphere,  ///< an ellipsoid if the sizes differ

@@ -47,9 +47,9 @@ public:
     [[nodiscard]] const PixelRect& region() const { return region_; }
     /// True if the real scene hides all placed objects completely. Shadows are ignored.
     [[nodiscard]] bool hidden() const { return hidden_; }
-    /// Which changes of the picture make it necessary to redraw the objects. If the objects were
-    /// changed, appeared or disappeared, none is needed. If the camera has moved, any change is
-    /// enough. Otherwise, only changes near the objects count.
+    /// Returns which changes of the picture make it necessary to redraw the objects. If the objects
+    /// were changed, appeared or disappeared, they are always redrawn. If the camera has moved,
+    /// they are redrawn with any change. Otherwise, only changes near the objects count.
     [[nodiscard]] WorkPlan::Redraw redraw() const;
     /// Tiles that have to be redrawn, if the objects are, before the next draw().
     [[nodiscard]] PixelRect staleTiles() const;

@@ -14,8 +14,8 @@ namespace {
 constexpr float kNearestShare = 0.05F;  // least depth after a motion [share of depth before]
 // Relative standard deviation of inverse depth that a second of motion without measurements adds.
 constexpr double kDrift = 0.02;
-// A motion is assumed to take at most this long [s]. In longer times without motion, the camera
-// rested.
+// A motion is assumed to take at most this long [s]. If more time has passed, the camera rested
+// before the motion.
 constexpr double kMostMoving = 0.2;
 // Smaller motions of the picture [px] are summed up first, because every motion of the points
 // rounds them to pixels.

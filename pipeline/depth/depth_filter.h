@@ -44,7 +44,7 @@ public:
     [[nodiscard]] const PixelRect& known() const { return known_; }
 
 private:
-    /// For each pixel: the offset of its point from the pixel's centre [px], and the number of
+    /// Data of each pixel: the offset of its point from the pixel's centre [px], and the number of
     /// consecutive measurements that disagreed with the known depth.
     struct Points {
         std::vector<float> x, y;
@@ -73,7 +73,7 @@ private:
     InverseDepthField field_, carried_;  // carried_ is completely unknown between two motions
     PixelRect known_;
     Points points_, carriedPoints_;
-    /// Where a motion moves the points of the pixels in known_.
+    /// Result of a motion: where it moves the points of the pixels in known_.
     struct Moved {
         std::vector<std::int32_t> pixel;
         std::vector<float> x, y, rho, variance;

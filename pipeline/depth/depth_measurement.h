@@ -26,9 +26,9 @@ public:
     /// Measures the pixels of `where`, which must lie in the search's area. Pixels that the other
     /// picture does not show become unknown: they lie outside of it, or behind other points that
     /// land on the same pixel (z-test). `R_other_video` rotates rays of the video camera into the
-    /// other camera's frame; the other picture has the video's geometry. `unit`: the search's unit
-    /// of length [m]. `cells`: s (see EpipolarLens) of every cell of 4x4 pixels from a finer
-    /// alignment, used where it agrees with the pixel's own s; may be empty.
+    /// coordinates of the other camera; the other picture has the video's geometry. `unit`: the
+    /// search's unit of length [m]. `cells`: s (see EpipolarLens) of every cell of 4x4 pixels from
+    /// a finer alignment, used where it agrees with the pixel's own s; may be empty.
     void run(const EpipolarSearch& search, const Eigen::Matrix3f& R_other_video, double unit,
              std::span<const float> cells, const PixelRect& where, InverseDepthField& out);
 

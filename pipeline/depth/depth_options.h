@@ -4,7 +4,7 @@
 
 namespace mfar {
 
-/// How the earlier frame (keyframe) that depth is measured against is chosen.
+/// Rule by which the earlier frame (keyframe) is chosen that depth is measured against.
 enum class KeyframeRule {
     Fixed,  ///< the frame `distance` frames ago
     Angle,  ///< the newest frame with a parallax of at least `angle`

@@ -23,7 +23,7 @@ public:
     /// The search that matched this frame with the still.
     struct StillSearch {
         const EpipolarSearch& search;
-        const Eigen::Matrix3f& R_still_video;  ///< rotates video rays to the still's frame
+        const Eigen::Matrix3f& R_still_video;  ///< rotates video rays to still coordinates
         double unit;                           ///< the search's unit of length [m]
         double lengthError;                    ///< relative error of `unit`, see UnitPose
         std::span<const float> cells;          ///< see DepthMeasurement::run()

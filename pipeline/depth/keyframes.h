@@ -42,7 +42,7 @@ public:
                                                const PixelRect& part, double rho) const;
 
 private:
-    /// How a keyframe sees the points of a part, if all of them are at inverse depth rho.
+    /// Describes how a keyframe sees the points of a part, if all of them are at inverse depth rho.
     struct Relation {
         double angle = 0;    ///< mean parallax [rad]
         double overlap = 0;  ///< share of the points that lie in the keyframe's picture

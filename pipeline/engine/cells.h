@@ -20,14 +20,14 @@ struct ErrorCell {
     float unused[3] = {};
 };
 
-/// How far the still is trusted at a cell.
+/// Trust in the still at a cell.
 struct WeighedCell {
     float x = 0, y = 0;    ///< flow [video px]
     float weight = 0;      ///< of the still's detail, [0, 2.31]
     float confidence = 0;  ///< eq. 2 of the paper, [0, 1]
 };
 
-/// Where output pixels in the cell read the still.
+/// Offset and weight with which output pixels in the cell read the still.
 struct LookUpCell {
     float x = 0, y = 0;  ///< end of the flow in the still minus the scaled cell centre [still px]
     float weight = 0;    ///< see WeighedCell

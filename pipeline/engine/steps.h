@@ -68,7 +68,7 @@ struct FlowCells {
     }
 };
 
-/// How far the still is trusted at each cell.
+/// Trust in the still at each cell.
 struct CellWeights {
     Field<WeighedCell> weighed;
     Field<LookUpCell> lookUps;
@@ -108,7 +108,8 @@ public:
     /// searched.
     virtual const FlowCells& refine(const LumaPyramid& luma, const TileWork& work, Cells vectors,
                                     Cells errors) = 0;
-    /// Which tiles the last refine() searched, row-major. May wait for the GPU.
+    /// Returns a flag for each tile, row-major: true if the last refine() searched it. May wait for
+    /// the GPU.
     [[nodiscard]] virtual std::vector<bool> searchedTiles() const = 0;
     [[nodiscard]] virtual int searchedCount() const = 0;
     /// searchedCount() of a frame that is certainly finished: on a CPU the last frame, on a GPU the

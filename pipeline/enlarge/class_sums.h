@@ -14,7 +14,8 @@ namespace mfar::enlarge {
 
 /// Differences between a pixel's neighbours and the pixel [grey levels], in the order of kTapAt.
 using Taps = Eigen::Matrix<double, kTaps, 1>;
-/// What the cubic lacks at a pixel's sub-pixels, row-major [grey levels].
+/// Differences of the true picture from the cubic enlargement at a pixel's sub-pixels, row-major
+/// [grey levels].
 using Phases = Eigen::Matrix<double, kPhases, 1>;
 /// Weights of a filter that is used alone; they are not halved, unlike those of FilterBank::Filter.
 using ClassWeights = Eigen::Matrix<double, kTaps, kPhases>;

@@ -59,7 +59,7 @@ public:
                                                   const std::string& key, const std::string& name);
 
 private:
-    /// What a tile of the picture is used for.
+    /// Use of a tile of the picture.
     enum class Part : std::uint8_t { Learn, Choose, Check };
     struct Errors {
         double cubic = 0, prior = 0, inPlace = 0, candidate = 0;

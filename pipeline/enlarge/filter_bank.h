@@ -17,7 +17,7 @@ class FilterBankError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// How strongly a trusted still changes the finest detail of the video itself; see
+/// Says how strongly a trusted still changes the finest detail of the video itself; see
 /// params::kGuideReach. With both factors 0, there is no guidance. The factors are similar if both
 /// sensors have the same exposure.
 struct Guidance {

@@ -10,9 +10,9 @@
 namespace mfar::enlarge {
 
 /// Learns FilterBank::fineMatch() from matched stills, as a mean over the last stills. The noise is
-/// the 10 % quantile of the unexplained variance over all trusted cells. The share is a median over
-/// the cells with structure: of the unexplained variance beyond the noise, relative to the cell's
-/// variance. Quantiles are used so that a wrongly matched part of the picture has no influence.
+/// the 10 % quantile of the unexplained variance over all trusted cells. The share is the median of
+/// (unexplained variance - noise) / variance over the cells with structure. Quantiles are used so
+/// that a wrongly matched part of the picture has no influence.
 class FineMatchLearner {
 public:
     /// Returns false if too few cells are trusted or have structure, or if a stop was requested.

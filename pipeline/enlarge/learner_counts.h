@@ -6,7 +6,7 @@
 
 namespace mfar {
 
-/// What EnlargerLearner has counted and reached so far.
+/// Counts and results of EnlargerLearner so far.
 struct LearnerCounts {
     std::uint64_t stills = 0, repeated = 0, refused = 0;
     int classes = 0;            ///< classes with a learned filter in use, of enlarge::kUnique

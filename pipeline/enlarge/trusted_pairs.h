@@ -23,7 +23,8 @@ public:
     [[nodiscard]] Size size() const { return video_; }
     /// True if both pictures agree around a pixel, except for noise and blur.
     [[nodiscard]] bool trusts(int x, int y) const { return trusted_[y][x] != 0; }
-    /// What the cubic enlargement of the video lacks at the pixel's sub-pixels [grey levels].
+    /// Returns the difference of the still from the cubic enlargement of the video at the pixel's
+    /// sub-pixels [grey levels].
     [[nodiscard]] Phases target(int x, int y) const;
     [[nodiscard]] double trustedShare() const { return trustedShare_; }
     /// Variance of the still within those video pixels that have structure, divided by the variance

@@ -146,8 +146,8 @@ public:
         if (tensor.determinant() > 1) inverse_ = tensor.inverse();
     }
 
-    /// Returns the displacement [px] of a sampled patch from its true place. Its mean is already
-    /// subtracted; `norm` is its norm.
+    /// Returns the displacement [px] of a sampled patch from its true place. The mean of `seen` is
+    /// already subtracted; `norm` is its norm.
     [[nodiscard]] Eigen::Vector2f step(const Grey& seen, float norm) const {
         const float gain = norm_ / norm;
         Eigen::Vector2f sum = Eigen::Vector2f::Zero();

@@ -29,8 +29,8 @@ struct PatchPlace {
 /// deviation of a pixel [grey levels]. Source: Shi and Tomasi, CVPR 1994.
 [[nodiscard]] std::vector<PatchPlace> texturedPlaces(const LumaImage& picture, double noise);
 
-/// Where a patch is searched: at this number of one-pixel steps from `middle` to either side, in
-/// both directions.
+/// Positions where a patch is searched: `middle`, and this number of one-pixel steps to either side
+/// of it, along the line and across it.
 struct PatchWindow {
     Eigen::Vector2d middle;  ///< expected place of the patch's middle [px]
     Eigen::Vector2d along;   ///< direction of the line, unit vector

@@ -19,7 +19,7 @@ struct TurnedPair {
     const std::vector<std::uint8_t>& seen;  ///< 1 where a pixel of the still is valid
 };
 
-/// What is known before patches are matched.
+/// Prior knowledge for matching patches.
 struct PatchPrior {
     const CameraModel& camera;  ///< the frame's camera
     const PosePrior& pose;

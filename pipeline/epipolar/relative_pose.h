@@ -9,13 +9,13 @@
 namespace mfar {
 
 /// A point of the scene that the frame and the still show, as two rays (x / z, y / z). `video` is
-/// in the video camera's frame. `still` starts at the still camera's centre, in the orientation of
-/// the video camera according to the prior.
+/// in the video camera's coordinates. `still` starts at the still camera's centre, in the
+/// orientation of the video camera according to the prior.
 struct RayMatch {
     Eigen::Vector2d video, still;
 };
 
-/// What is known of T_still_video before matching.
+/// Prior knowledge of T_still_video, before matching.
 struct PosePrior {
     /// Moves points from the frame to the still, in the frame's orientation and in any unit of
     /// length.

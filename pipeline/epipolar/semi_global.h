@@ -13,7 +13,7 @@
 
 namespace mfar {
 
-/// How strongly neighbouring pixels are coupled, in bits of the census cost.
+/// Penalties that couple neighbouring pixels, in bits of the census cost.
 struct Smoothness {
     int step = 12;     ///< penalty for a difference of one label
     int jump = 60;     ///< penalty for a larger difference in uniform areas; at most 60

@@ -18,8 +18,8 @@ namespace mfar {
 class TurnedPicture {
 public:
     /// Places the canvas. It holds the part of the picture of `source` that `camera` would see if
-    /// its picture were extended on each side by `beyond` times its width. `R_source_camera`
-    /// rotates rays. The size is 0x0 if there is no such part.
+    /// the picture of `camera` were extended on each side by `beyond` times its width.
+    /// `R_source_camera` rotates rays. The size is 0x0 if there is no such part.
     void place(const CameraModel& camera, const CameraModel& source,
                const Eigen::Matrix3d& R_source_camera, double beyond);
 
@@ -34,7 +34,7 @@ public:
               std::vector<std::uint8_t>& seen) const;
 
 private:
-    /// What is known of a pair of cameras; kept while the pair stays the same.
+    /// Properties of a pair of cameras, which are kept while the pair stays the same.
     struct Cameras {
         CameraModel camera, source;
         double rim = 0, sourceRim = 0;         ///< largest radius of a valid ray of each camera

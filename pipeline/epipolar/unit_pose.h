@@ -11,8 +11,8 @@ struct UnitPose {
     RigidTransform T_other_frame;
     Matrix6 covariance;  ///< of a small motion x: T_other_frame * exp(x)
     double unit = 1;     ///< the distance, in the unit of length of the poses
-    /// Standard deviation of the distance, divided by the distance. It stays, because matches
-    /// cannot determine the distance.
+    /// Standard deviation of the distance, divided by the distance. Refining the pose does not
+    /// reduce it, because matches cannot determine the distance.
     double lengthError = 0;
 };
 

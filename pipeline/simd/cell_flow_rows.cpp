@@ -22,7 +22,7 @@ void CellDepths(const float* upper, const float* lower, std::size_t count, float
     });
 }
 
-/// Where the still shows points with inverse depth s on the rays (rx, ry).
+/// Returns where the still shows the points with inverse depth s on the rays (rx, ry).
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Points<V> endOf(D d, const FlowEnds& ends, V rx, V ry, V s) {
     const auto& move = ends.motion.move;
@@ -40,8 +40,8 @@ HWY_INLINE Points<V> endOf(D d, const FlowEnds& ends, V rx, V ry, V s) {
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Points<V> loadVectors(D d, const CellVector* from) {
-    // Not a Points with an empty initialiser, because its default constructor would not be compiled
-    // for this instruction set.
+    // Separate variables instead of a Points, because the default constructor of Points would not
+    // be compiled for this instruction set.
     V x, y, c, e;
     hn::LoadInterleaved4(d, from->data(), x, y, c, e);
     return {x, y};
@@ -116,7 +116,7 @@ void AlignCells(const FlowEnds& ends, const CellRow& row, const CellVector* flow
         const auto moved = hn::MulAdd(ahead, hn::Div(along, square), at);
         hn::StoreU(hn::IfThenElse(tells, moved, at), d, to);
     };
-    // In place, so no value may be processed twice.
+    // This works in place, so no value may be processed twice.
     const hn::ScalableTag<float> d;
     std::size_t i = 0;
     for (; i + hn::Lanes(d) <= row.count; i += hn::Lanes(d))

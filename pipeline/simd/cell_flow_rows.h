@@ -13,8 +13,8 @@ namespace mfar::simd {
 /// A cell of 4x4 pixels: x, y [px]; the other two entries are not used.
 using CellVector = std::array<float, 4>;
 
-/// Where the still shows points of a frame. The points are first moved by s * motion.move (see
-/// EpipolarLens), then rotated. A point behind the camera, or one that would be seen farther
+/// Describes where the still shows points of a frame. The points are first moved by s * motion.move
+/// (see EpipolarLens), then rotated. A point behind the camera, or one that would be seen farther
 /// outside than `nowhere`, is placed at (nowhere, nowhere).
 struct FlowEnds {
     Lens lens;

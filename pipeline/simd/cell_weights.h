@@ -30,8 +30,8 @@ struct WeighRow {
     TrustCell* trust;
 };
 
-/// How far the still is trusted (superres_weigh.comp). `noise`: standard deviation of the video's
-/// noise [grey levels].
+/// Computes how far the still is trusted at each cell (superres_weigh.comp). `noise`: standard
+/// deviation of the video's noise [grey levels].
 void weighCells(const WeighRow& row, float noise);
 
 }  // namespace mfar::simd

@@ -61,9 +61,9 @@ struct MeasureRule {
 void measureRow(const SearchedRow& row, const MeasureRule& rule, std::size_t count, float* rho,
                 float* variance);
 
-/// For pixels [first, first + count) of row y: replaces the inverse depth `own` of a pixel by that
-/// of the cells around it (of 4x4 pixels, bilinear), if the two differ by less than `same`.
-/// `cells`: row-major, `size` of them.
+/// Replaces the inverse depth `own` of pixels [first, first + count) of row y by that of the cells
+/// around each pixel (cells of 4x4 pixels, interpolated bilinearly), if the two differ by less than
+/// `same`. `cells`: row-major, `size` of them.
 struct CellField {
     const float* cells;
     Size size;

@@ -18,8 +18,8 @@ struct SampleSource {
     const std::uint8_t *red, *green, *blue;
 };
 
-/// The same row in single precision, prepared for weighing. `inverse`: of an unknown pixel, so far
-/// away that it occludes nothing. A virtual pixel with more inverse depth than `nearest` is
+/// The same row in single precision, prepared for weighing. `inverse` of an unknown pixel is so
+/// small that the pixel occludes nothing. A virtual pixel with more inverse depth than `nearest` is
 /// certainly in front of the sample; one with less than `farthest` is certainly behind it. Both are
 /// 0 for an unknown pixel.
 struct SampleRow {

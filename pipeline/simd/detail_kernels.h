@@ -42,7 +42,7 @@ struct GuideRows {
     std::array<const float*, kRows> trusted;      ///< 1 or 0
 };
 
-/// Writes `from`, the still as the video shows it, and subtracts by how much the trusted
+/// Writes `from`, the still as the video shows it, minus the amount by which the trusted
 /// differences exceed their local mean. All values have the same unit.
 void guideRow(const GuideRows& rows, int begin, int end, const float* from, float* to);
 
@@ -55,9 +55,9 @@ struct WarpedRow {
 
 /// Computes the still's detail, which the video cannot show, times LookUpRows::share, and adds
 /// `learned` times the rest of the share; `learned` may be null. All values are in 1/32 grey level.
-/// The still's detail has priority over the learned residual: adding the whole residual everywhere,
-/// minus that of the still, lost 0.3 to 0.7 dB on synthetic scenes, because it also sharpens the
-/// sensors' differences in blur and noise.
+/// The still's detail has priority over the learned residual. Adding the whole residual everywhere,
+/// and subtracting that of the still, lost 0.3 to 0.7 dB on synthetic scenes, because the residual
+/// also sharpens the sensors' differences in blur and noise.
 void detailRow(const WarpedRow& warped, const LookUpRows& lookUp, const std::int16_t* learned,
                int begin, int end, std::int16_t* to);
 
@@ -66,8 +66,8 @@ void detailRow(const WarpedRow& warped, const LookUpRows& lookUp, const std::int
 void fadeRow(const std::int16_t* second, const LookUpRows& secondLookUp, const LookUpRows& lookUp,
              int begin, int end, std::int16_t* inOut);
 
-/// For each colour channel, four rows of the video at the output's width [1/64 grey level], from
-/// the top.
+/// Four rows of the video at the output's width, from the top, for each colour channel [1/64 grey
+/// level].
 using EnlargedRows = std::array<std::array<const std::int16_t*, 4>, 3>;
 
 /// Writes RGBA8: the weighted sum of four rows, with weights [1/16384], plus `added` [1/32 grey

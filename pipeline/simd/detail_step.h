@@ -25,8 +25,8 @@ struct DetailOptions {
     SuperResMode mode;
     bool cubic;                      ///< see Quality
     bool upscaledTiles, plainTiles;  ///< see SkipOptions
-    /// In mode Detail, these filters enlarge tiles with structure, as far as the still's detail has
-    /// a weight below one; no tile is sharpened then. Null: tiles are sharpened as usual.
+    /// Filters that enlarge tiles with structure in mode Detail, as far as the still's detail has a
+    /// weight below one; no tile is sharpened then. Null: tiles are sharpened as usual.
     const FilterBank* learned = nullptr;
 };
 

@@ -186,7 +186,8 @@ void Flow2d::propagateRow(const Way& way, int level, int toArea, int row) {
         });
 }
 
-// Begins in the area from which the last round of propagation writes to area 0.
+// The rounds of propagation alternate between both areas. The first area is chosen so that the last
+// round ends in area 0.
 void Flow2d::searchLevel(Ways ways, int level) {
     const int rows =
         ways[0]->direction.stages[static_cast<std::size_t>(level)].areas[0].cells().height;
@@ -249,8 +250,8 @@ void Flow2d::refine(const Luma& luma, const TileWork& work, Cells forward, Cells
     errorsGiven_ = true;
     searched_.clear();
     if (work.matched == 0) return;
-    // Whether a tile is searched depends on its neighbours, and the clean-up depends on the search
-    // there.
+    // The margin is needed because a tile is searched depending on its neighbours, and the clean-up
+    // depends on the search there.
     constexpr int kMargin = 2;
     chooseTiles(work, !work.drawsWhole(), kMargin);
     const FlowPlanes field = forwards_.stages[0].areas[0].planes();

@@ -55,7 +55,7 @@ public:
     [[nodiscard]] bool errorsGiven() const { return errorsGiven_; }
     [[nodiscard]] Rows<const ErrorCell> errors() const { return rowsOf(errors_, videoCells_); }
 
-    /// Which tiles the last refine() searched.
+    /// A flag for each tile: true if the last refine() searched it.
     [[nodiscard]] const std::vector<bool>& searchedTiles() const { return searched_.tiles(); }
     [[nodiscard]] int searchedCount() const { return searched_.count(); }
 

@@ -9,8 +9,8 @@
 
 namespace mfar::simd {
 
-/// Where a frame's pixels with given labels lie in the still's canvas. Inverse depth s = perLabel *
-/// label, see EpipolarLens.
+/// Describes where a frame's pixels with given labels lie in the still's canvas. Inverse depth s =
+/// perLabel * label, see EpipolarLens.
 struct LabelLines {
     Lens lens;
     float tx, ty, tz;        ///< translation of points, in the frame's orientation

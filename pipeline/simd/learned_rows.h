@@ -29,7 +29,7 @@ public:
     /// covered until cover() is called.
     void begin(const RgbPlanes& picture, const LearnedTaps& taps, const FilterBank& bank,
                const PixelSpan& pixels);
-    /// From now on, only these pixels are computed; ascending.
+    /// From now on, only these pixels are computed. `pixels` must be ascending.
     void cover(const PixelSpans& pixels);
     /// Returns the residual of the covered pixels of a row [1/32 grey level]. Valid until the next
     /// call.

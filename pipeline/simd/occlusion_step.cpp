@@ -49,8 +49,8 @@ struct OcclusionStep::Strip {
     int x = 0, count = 0;
     std::array<float, kVisibilityChunk + kSpare> greatest{}, least{}, z{}, inverse{};
     std::array<std::uint32_t, kVisibilityChunk + kSpare> colours{};
-    // For an enlarged layer: the layer's columns around the strip in the two rows, and interpolated
-    // between these rows.
+    // Used for an enlarged layer: the layer's columns around the strip in the two rows, and the
+    // result of interpolating between these rows.
     std::array<float, kVisibilityChunk + kSpare> depthAbove{}, depthBelow{};
     std::array<std::uint32_t, kVisibilityChunk + kSpare> above{}, below{}, redBlue{}, greenAlpha{};
     std::array<std::uint8_t, kVisibilityChunk + kSpare> visibility{};

@@ -68,7 +68,7 @@ HWY_INLINE V At(const Plane& plane, V x, V y) {
     return hn::MulAdd(y, plane.perY, hn::MulAdd(x, plane.perX, plane.first));
 }
 
-/// For numbers >= 1. The error is below 0.01.
+/// Returns an approximate logarithm of numbers >= 1. The error is below 0.01.
 HWY_INLINE V Log2(V x) {
     const DU du;
     const VU bits = hn::BitCast(du, x);
@@ -211,7 +211,7 @@ HWY_INLINE VU SrgbByte(V linear) {
     return Byte(SrgbLevel(D(), hn::Mul(linear, F(1.0F / 65025))));
 }
 
-/// What each pixel shows.
+/// Description of what each pixel shows.
 struct Shown {
     M any;         ///< true if the pixel shows an object
     VU triangle;   ///< triangle in one of the object's quarters
@@ -234,8 +234,8 @@ HWY_INLINE Four<VU> ObjectsOf(const PaintRow& row, int x) {
     return {object(s.a), object(s.b), object(s.c), object(s.d)};
 }
 
-/// Gives equal weights to those quarters of pixels that show the object `number`. `count`: how many
-/// of the quarters do.
+/// Gives equal weights to those quarters of pixels that show the object `number`. `count`: number
+/// of these quarters.
 HWY_INLINE void Divide(const Four<VU>& s, const Four<VU>& t, VU number, VU count, Shown& out) {
     const D d;
     const DU du;

@@ -17,7 +17,7 @@ struct PaintLevel {
     std::uint32_t size;   ///< width in the low, height in the high 16 bits
 };
 
-/// What is needed to paint a triangle. It fills one cache line, from which lanes gather words.
+/// Data for painting a triangle. It fills one cache line, from which lanes gather words.
 struct PaintTriangle {
     RasterPlane perZ, u, v;      ///< 1 / z, u / z and v / z on the grid; set only for triangles
                                  ///< that are drawn

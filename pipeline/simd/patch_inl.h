@@ -36,8 +36,8 @@ using Vec16 = hn::Vec<Row16>;
 using Vec32 = hn::Vec<Sum32>;
 constexpr int kRowLanes = HWY_TARGET == HWY_SCALAR ? 1 : kPatch;
 
-// Number of cells that are searched together. What follows a comparison is computed for all of them
-// at once, one cell per lane.
+// Number of cells that are searched together. The steps after a comparison are computed for all of
+// them at once, one cell per lane.
 constexpr int kBatch = 16;
 using Cells = hn::CappedTag<float, kBatch>;
 using CellsInt = hn::RebindToSigned<Cells>;

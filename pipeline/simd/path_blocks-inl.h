@@ -133,14 +133,14 @@ private:
     V one_, places_, byTwo_, byOne_, block_;
 };
 
-/// What a step depends on at two neighbouring pixels: the penalty of a jump, and the motion of the
-/// window.
+/// Computes what a step between two neighbouring pixels depends on: the penalty of a jump, and the
+/// motion of the window.
 class Neighbours {
 public:
     explicit Neighbours(const PathVolume& volume)
         : jumps_(volume.jumps), chunks_((volume.jumpDifferences + 15) / 16) {}
 
-    /// For `count` pixels, at most kMost, and their neighbours. Writes whole vectors.
+    /// Works on `count` pixels, at most kMost, and their neighbours. Writes whole vectors.
     static constexpr int kMost = 64, kRoom = 2 * kMost;
     HWY_INLINE void penalties(const std::uint8_t* to, const std::uint8_t* from, int count,
                               std::uint8_t* out) const {

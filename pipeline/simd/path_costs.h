@@ -15,7 +15,7 @@ struct Valley {
     static constexpr std::uint8_t kUnknown = 255;  ///< outside the window
 
     std::int32_t label = 0;
-    /// For label - 2, label - 1, label + 1 and label + 2; each at most 254, or kUnknown.
+    /// Extra costs of label - 2, label - 1, label + 1 and label + 2; each at most 254, or kUnknown.
     std::array<std::uint8_t, 4> rise{};
 };
 

@@ -98,7 +98,7 @@ RestPixels::RestPixels(const ViewLookUp::Input& input, const WarpReference& refe
                                                                 plain.toReference,
                                                                 &plain_.lens,
                                                                 1} {
-    // In the order of the slots, because of patches with equal shares the first one is shown.
+    // The patches are ordered by slot, because of patches with equal shares the first one is shown.
     std::array<const PatchPictures::Patch*, PatchPictures::kPatches> bySlot{};
     for (const PatchPictures::Patch& patch : input.patches.patches())
         bySlot[static_cast<std::size_t>(patch.slot)] = &patch;

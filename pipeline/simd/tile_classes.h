@@ -28,11 +28,11 @@ class TileClasses {
 public:
     explicit TileClasses(Size video);
 
-    /// Which work is skipped, see SkipOptions.
+    /// Says which work is skipped, see SkipOptions.
     struct Skips {
         bool upscaledTiles, plainTiles;
     };
-    /// How well a still matches; without data, there is no still.
+    /// Match of a still with the frame; without data, there is no still.
     struct Match {
         Rows<const WeighedCell> weighed{};
         Rows<const TrustCell> trust{};

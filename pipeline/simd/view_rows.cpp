@@ -184,7 +184,7 @@ struct Found {
     M left;
 };
 
-/// What a vector of pixels asks for: the surface that each pixel shows, and its position in the
+/// Request of a vector of pixels: the surface that each pixel shows, and its position in the
 /// reference picture.
 struct Asked {
     V z;                           ///< in the layer's camera [m]

@@ -43,7 +43,7 @@ public:
     void begin(const StillPairs& still, Rows<const LookUpCell> lookUps,
                const LookUpTaps& lookUpTaps, const WarpedStillTaps& taps, const PixelSpan& pixels,
                const Guide& guide);
-    /// From now on, only these pixels are computed; ascending.
+    /// From now on, only these pixels are computed. `pixels` must be ascending.
     void cover(const PixelSpans& pixels);
     /// Returns the detail of the covered pixels of a row; valid until the next call. Rows must be
     /// requested in ascending order.

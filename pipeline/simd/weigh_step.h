@@ -32,7 +32,7 @@ struct WeighInput {
     const TileWork& work;
 };
 
-/// How far the still is trusted at each cell. CPU version of superres_assess.comp,
+/// Determines how far the still is trusted at each cell. CPU version of superres_assess.comp,
 /// superres_gain.comp and superres_weigh.comp. Results are in single precision, whereas the GLES
 /// step rounds look-ups to 16 bits and trust to 8 bits.
 class WeighStep {

@@ -25,8 +25,8 @@ inline constexpr int kAlignSteps = 2;
 inline constexpr int kBackwardFinest = 1;
 inline constexpr int kBackwardPropagations = 1;
 
-/// The cost of an 8x8 patch is meaningful if its energy [grey levels^2] exceeds this multiple of
-/// the noise's variance, which is eight times the energy of the noise.
+/// The cost of an 8x8 patch is meaningful if the patch's energy [grey levels^2] exceeds this
+/// multiple of the noise's variance. That is eight times the energy of the noise in a patch.
 inline constexpr float kTexturePerVariance = 8.0F * kPatchPixels;
 inline constexpr float kUnexplainedCost = 0.4F;
 /// Two-way error [px] that marks cells outside the still, which are not searched. Occluded cells

@@ -32,8 +32,8 @@ inline constexpr float kLumaSmoothing = 0.18F;
 /// of up to 8 still px.
 inline constexpr int kFootprintTaps = 4;
 
-/// A ray of depth 1 is rotated into the still camera's frame. If its depth there is less than this,
-/// the ray points away from what the still shows.
+/// A ray of depth 1 is rotated into the coordinates of the still camera. If its depth there is less
+/// than this, the ray points away from what the still shows.
 inline constexpr float kLeastTurnedDepth = 0.05F;
 /// Coordinates in the still of a ray that points away [px]: far outside.
 inline constexpr float kFarOutside = -1e6F;

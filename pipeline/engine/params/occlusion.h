@@ -2,8 +2,9 @@
 
 #include <cstdint>
 
-// Which pixels of virtual objects the real scene hides: visibility_*.frag and the SIMD code of the
-// same steps. gles_shaders/params_to_glsl.cmake translates this header for the shaders.
+// Parameters of deciding which pixels of virtual objects the real scene hides: visibility_*.frag
+// and the SIMD code of the same steps. gles_shaders/params_to_glsl.cmake translates this header for
+// the shaders.
 namespace mfar::params {
 
 /// A real sample is known if its inverse depth and its sigma are between these limits, exclusive

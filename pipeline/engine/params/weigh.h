@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-// How far the still is trusted at each cell: superres_assess.comp, superres_gain.comp,
+// Parameters of weighing the still at each cell: superres_assess.comp, superres_gain.comp,
 // superres_weigh.comp and the SIMD code of the same steps. gles_shaders/params_to_glsl.cmake
 // translates this header for the shaders.
 namespace mfar::params {
