@@ -66,12 +66,11 @@ float soundLabel(float label, float longest) {
     return label > -kBeyond ? std::min(label, longest) : static_cast<float>(-kBeyond);
 }
 
-// From this number of patches on, the median distance of the matches from their lines is a better
+// With at least this number of patches, the median distance of matches from their lines is a better
 // estimate of the error than the pose's covariance.
 constexpr int kEnoughPatches = 16;
 
-/// Returns how far a pose's uncertainty shifts the epipolar lines [px]. Only the uncertainty of its
-/// rotation counts, as for distant points.
+/// Returns how far a pose's uncertainty shifts the lines [px]: only that of its rotation counts.
 double normalErrorOf(const Matrix6& covariance, double focal) {
     constexpr double kNoLine = 1e6;  // [px]
     const double variance = covariance.topLeftCorner<3, 3>().trace() / 3;
@@ -116,8 +115,7 @@ EpipolarSearch::EpipolarSearch(const StereoRig& rig, std::shared_ptr<Workers> wo
 }
 
 void EpipolarSearch::setArea(const PixelRect& pixels) {
-    // A pixel of the coarsest level covers this number of pixels. The area starts and ends on this
-    // grid, so that the pixels of all levels keep their places.
+    // Pixels of the coarsest level have this side. The area keeps to this grid at all levels.
     const int grid = 1 << (levels_.size() - 1);
     const auto up = [&](int x, int most) { return std::min((x + grid - 1) / grid * grid, most); };
     const PixelRect area{pixels.x0 / grid * grid, pixels.y0 / grid * grid,
@@ -229,9 +227,9 @@ bool EpipolarSearch::place(const RigidTransform& told, int levels) {
     return true;
 }
 
-// Without a prediction, the depths for matching patches come from the coarsest level. Its pixels
-// are so large that the lines of an unrefined pose still pass through the matches. With a
-// prediction, they come from the prediction, which was computed with refined poses.
+// Without a prediction, the depths for matching patches come from the coarsest level: its pixels
+// are so large that the lines of an unrefined pose still pass through the matches. A prediction was
+// computed with refined poses, so its depths are used.
 void EpipolarSearch::refine(const Matrix6& covariance, std::span<const float> predicted) {
     const PosePrior prior{translation_.cast<double>(), covariance};
     const Level& half = levels_[std::min<std::size_t>(1, levels_.size() - 1)];
