@@ -187,7 +187,7 @@ void Slices::endRound(Tile& tile, const PixelStates& states) {
     } else if (tile.handed < tile.active) {
         if (adapts && turn_ + 1 == kFirstFull && isUntouched(tile, states)) {
             kept = 0;
-            settled_ -= tile.handed * static_cast<std::uint64_t>(step(tile));  // these samples were
+            settled_ -= tile.handed * static_cast<std::uint64_t>(step(tile));  // subtract what was
                                                                                // traced
         }
     } else {
