@@ -187,8 +187,7 @@ void Slices::endRound(Tile& tile, const PixelStates& states) {
     } else if (tile.handed < tile.active) {
         if (adapts && turn_ + 1 == kFirstFull && isUntouched(tile, states)) {
             kept = 0;
-            settled_ -= tile.handed * static_cast<std::uint64_t>(step(tile));  // subtract what was
-                                                                               // traced
+            settled_ -= tile.handed * static_cast<std::uint64_t>(step(tile));  // already traced
         }
     } else {
         tile.samples += step(tile);
