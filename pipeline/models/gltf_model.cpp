@@ -15,7 +15,7 @@
 namespace mfar {
 namespace {
 
-/// Rotates glTF's y-up to z-up.
+/// Rotates glTF's y-up frame to z-up.
 Eigen::Affine3d upright() {
     Eigen::Affine3d T = Eigen::Affine3d::Identity();
     T.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;
@@ -62,7 +62,7 @@ public:
     }
 
 private:
-    /// Root nodes of the default scene; without a scene, all nodes without a parent.
+    /// Root nodes of the default scene. Without a default scene, all nodes that have no parent.
     std::vector<int> roots() const {
         const tinygltf::Model& gltf = document_.gltf;
         if (!gltf.scenes.empty())
@@ -76,7 +76,7 @@ private:
         return out;
     }
 
-    // Recursive; the depth is limited.
+    // Recursive; the depth is limited to avoid a stack overflow.
     void addNode(int index, const Eigen::Affine3d& T_model_parent, int depth) {
         const std::string place = fmt::format("nodes[{}]", index);
         const tinygltf::Node& node = document_.at(document_.gltf.nodes, index, place);
