@@ -12,7 +12,8 @@ namespace mfar {
 namespace {
 
 constexpr float kFullSphere = 4 * std::numbers::pi_v<float>;
-constexpr int kFinest = 256;  // intervals per side; 0.45 degrees each at the poles
+constexpr int kFinest = 256;  // intervals per side of the finest level; 0.45 degrees each at the
+                              // poles
 constexpr int kCoarsest = 8;  // intervals per side of the coarsest pyramid level
 constexpr int kDiffuseEdge = 16;
 constexpr int kIntegrated = 32;  // intervals per side of the level from which irradiance is summed
@@ -31,7 +32,8 @@ float signOf(float x) {
     return x < 0 ? -1.0F : 1.0F;
 }
 
-/// Weight of texel i: texels on the border occur twice in the table.
+/// Weight of texel i along one axis. It is 1/2 on the border, because border texels occur twice in
+/// the table.
 float partOfBorder(int i, int edge) {
     return i == 0 || i == edge - 1 ? 0.5F : 1.0F;
 }
@@ -39,7 +41,7 @@ float partOfBorder(int i, int edge) {
 /// Solid angle [sr] of the texel at `direction` in a table.
 float solidAngle(const Eigen::Vector3f& direction, int edge) {
     const float step = 2.0F / static_cast<float>(edge - 1);
-    const float norm1 = direction.lpNorm<1>();  // 1 / length of the octahedron's point
+    const float norm1 = direction.lpNorm<1>();  // 1 / distance of the octahedron's surface
     return step * step * norm1 * norm1 * norm1;
 }
 
@@ -163,7 +165,7 @@ void FarLight::makeMirrored(const Pyramid& light) {
     struct LobeSample {
         Eigen::Vector3f direction;  // in a frame whose z is the lobe's axis
         float weight;
-        std::size_t level;  // whose texels have about the sample's solid angle
+        std::size_t level;  // pyramid level whose texels have about the sample's solid angle
     };
     for (const MirrorLevel& level : kMirrorLevels) {
         const Ggx ggx(alphaOf(level.roughness));
@@ -205,7 +207,7 @@ Eigen::Vector3f FarLight::mirrored(const Eigen::Vector3f& direction, float rough
     const auto i = static_cast<std::size_t>(
         std::min<std::ptrdiff_t>(above - kMirrorLevels.begin(), kMirrorLevels.size() - 1));
     if (i == 0) {
-        // The widths of the lobes determine the share in the interpolation.
+        // The share in the interpolation is proportional to the width of the lobe.
         const float share =
             alphaOf(std::max(roughness, 0.0F)) / alphaOf(kMirrorLevels.front().roughness);
         const Eigen::Vector3f sharp = radiance(direction, environment_.radiance(direction));

@@ -37,8 +37,9 @@ struct SeenSurface {
 /// Result of one sample of a pixel.
 struct FilmSample {
     FirstHit hit;
-    Eigen::Vector3f radiance{0, 0, 0};       ///< of the object, or of the catcher with the objects
-    Eigen::Vector3f without{0, 0, 0};        ///< of the shadow catcher without the objects
+    Eigen::Vector3f radiance{0, 0, 0};       ///< of the hit object, or of the shadow catcher with
+                                             ///< objects
+    Eigen::Vector3f without{0, 0, 0};        ///< of the shadow catcher without objects
     SurfaceLight light{};                    ///< light on the object, if an object was hit
     SurfaceLight far{{1, 1, 1}, {1, 1, 1}};  ///< see SeenSurface::far
     Paint paint{};
@@ -79,7 +80,7 @@ public:
     /// samples that hit each kind.
     struct Means {
         Eigen::Vector3f object{0, 0, 0};
-        Eigen::Vector3f with{0, 0, 0}, without{0, 0, 0};  ///< of the shadow catcher
+        Eigen::Vector3f with{0, 0, 0}, without{0, 0, 0};  ///< catcher with and without objects
         float objectShare = 0, catcherShare = 0;
     };
     [[nodiscard]] Means means(std::size_t pixel) const;
@@ -139,7 +140,7 @@ private:
         [[nodiscard]] Eigen::Vector3f relative() const;
     };
     struct LightSums {
-        LightSum first, second;  // the two parts of KnownLight
+        LightSum first, second;  // the two parts, as in KnownLight
         std::uint32_t hits = 0;
     };
     struct Pixel {
@@ -152,7 +153,7 @@ private:
         SeenSurface seen;  // surface at the pixel's centre
         bool isSeen = false;
         FirstHit nearest, nearestCatcher;
-        KnownLight carried;         // of the surface at the centre
+        KnownLight carried;         // light from an earlier picture, at the centre
         std::uint32_t picture = 0;  // number of the picture to which these values belong
     };
     struct Shown {
@@ -170,7 +171,7 @@ private:
     /// itself is shown.
     [[nodiscard]] static SurfaceLight relativeOf(const KnownLight& light);
     [[nodiscard]] static float errorOfKnown(const Pixel& p, const Exposure& exposure);
-    /// Empty if the pixel has no object and no change of light, as most pixels do.
+    /// The result is empty if the pixel has no object and no change of light, as in most pixels.
     [[nodiscard]] static Shown shown(const Pixel& p, const Exposure& exposure);
     [[nodiscard]] static Shown shown(const Means& m, const Exposure& exposure);
     [[nodiscard]] static Resolved resolved(const Pixel& p, const Shown& shown);

@@ -10,9 +10,9 @@ namespace mfar {
 namespace {
 
 constexpr float kNearest = 1e-3F;  // [m] nearer points are ignored
-// A neighbouring pixel shows the same surface as the point if its own point is close to the tangent
-// plane there and its normal is similar. kOffPlane is the largest distance from the plane, relative
-// to depth; kSameBend is the least cosine between the normals.
+// A neighbouring pixel shows the surface of the point if the pixel's own point is close to the
+// surface's tangent plane and its normal is similar. kOffPlane is the largest distance from the
+// plane, relative to depth. kSameBend is the least cosine between the normals.
 constexpr float kOffPlane = 0.01F, kSameBend = 0.9F;
 constexpr float kLeastWeight = 0.1F;  // least sum of the interpolation weights of pixels that show
                                       // the surface

@@ -13,9 +13,10 @@ public:
 
     /// Density D(h) of microfacet normals [1/sr].
     [[nodiscard]] float density(const Eigen::Vector3f& h) const;
-    /// G2 / (4 cos_o cos_i).
+    /// Visibility term G2 / (4 cos_o cos_i).
     [[nodiscard]] float visibility(float cosO, float cosI) const;
-    /// Masking G1: the share of microfacets that is visible from a direction with cosine mu > 0.
+    /// Masking term G1: the share of microfacets that is visible from a direction. mu > 0 is the
+    /// cosine of the direction's angle from the normal.
     [[nodiscard]] float masking(float mu) const;
     /// Samples a microfacet normal among those visible from `wo`; wo.z > 0 (Dupuy and Benyoub
     /// 2023).
@@ -43,9 +44,9 @@ struct SpecularAlbedo {
 /// GGX's alpha for a perceptual roughness in [0, 1]. It is slightly above 0 even for a mirror.
 [[nodiscard]] float alphaOf(float roughness);
 
-/// specularAlbedo() is the share for light from cosine mu, and meanSpecularAlbedo() is its
-/// cosine-weighted mean over all directions. Both read tables that the first call computes; the
-/// error is below 0.01.
+/// specularAlbedo() is the share for one direction; mu is the cosine of its angle from the normal.
+/// meanSpecularAlbedo() is the cosine-weighted mean of the share over all directions. Both read
+/// tables that the first call computes; the error is below 0.01.
 [[nodiscard]] SpecularAlbedo specularAlbedo(float roughness, float mu);
 [[nodiscard]] SpecularAlbedo meanSpecularAlbedo(float roughness);
 

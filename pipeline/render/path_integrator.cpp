@@ -31,8 +31,8 @@ float powerWeight(float taken, float other) {
 
 // Lower limits of far light: relative to the mean light, and absolute for a dark scene.
 constexpr float kLeastFarShare = 0.05F, kLeastFar = 1e-6F;
-// Largest angular radius of the sun [rad] for which its light is computed as one direction and a
-// wider lobe.
+// Up to this angular radius [rad], the sun's light is computed without a ray: as light from one
+// direction, reflected by a lobe that is widened by the sun's size.
 constexpr float kWidestKnownSun = 0.05F;
 
 }  // namespace
@@ -192,8 +192,8 @@ PathIntegrator::Sent PathIntegrator::knownSun(const Vertex& vertex, const Eigen:
     if (sun_.dark()) return {};
     const SurfacePoint& point = vertex.point;
     const Eigen::Vector3f towards = vertex.frame.transpose() * sun_.towards();
-    // Seen in a lobe sharper than the sun's disc, the sun would have the disc's shape. The
-    // roughness is raised until the lobe is about as wide as the disc.
+    // A lobe sharper than the sun's disc would show the shape of the disc. The roughness is raised
+    // until the lobe is about as wide as the disc.
     SurfaceLook look = point.look;
     look.roughness = std::max(look.roughness, std::sqrt(sun_.angularRadius()));
     const ScatterValue f =
@@ -248,8 +248,8 @@ PathIntegrator::Parts PathIntegrator::walk(SurfacePoint point, Eigen::Vector3f w
         const Ray ray = point.leaving(direction);
         const bool last = depth == options_.maxDepth;
         std::optional<SurfacePoint> next;
-        // For the last surface the ray only finds out whether the lights in the sampled direction
-        // are visible. They are the other half of the multiple importance sampling.
+        // For the last surface, the ray only finds out whether the lights in the sampled direction
+        // are visible. This is the other half of the multiple importance sampling.
         const bool free = last ? !world.blocked(ray) : !(next = world.next(ray));
         if (free)
             add(first ? out.direct.light : out.rest, escaped(direction, scattered.density).light,

@@ -25,7 +25,7 @@ public:
     /// length.
     struct OfObject {
         Eigen::Vector3f radiance;
-        SurfaceLight light, far;  ///< see the function far() about `far`
+        SurfaceLight light, far;  ///< `far` is the result of far()
         Paint paint;
     };
     [[nodiscard]] OfObject ofObject(const RayHit& hit, const Eigen::Vector3f& direction,
@@ -58,8 +58,9 @@ private:
             return *this;
         }
     };
-    /// Light that arrives directly from the lights. `light` is blocked by objects; `unblocked` is
-    /// the part of known lights as it would be without objects. A wide sun is not a known light.
+    /// Light that arrives directly from the lights. `light` is the light that no object blocks.
+    /// `unblocked` is the light of the known lights as it would be without objects. A wide sun is
+    /// not a known light.
     struct Arrived {
         Sent light, unblocked;
     };
@@ -82,7 +83,8 @@ private:
     /// `far` is FarLight's radiance in the sample's direction.
     [[nodiscard]] static Arrived lit(const Vertex& vertex, Lobes lobes, const LightSample& light,
                                      const Eigen::Vector3f& far, Weight weight, World& world);
-    /// Light from a direction in which a ray hits no surface: the light itself, and FarLight's.
+    /// Light from a direction in which a ray hits no surface. `light` is the true light, and `far`
+    /// is FarLight's radiance.
     struct Escaped {
         Eigen::Vector3f light{0, 0, 0}, far{0, 0, 0};
     };

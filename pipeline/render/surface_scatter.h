@@ -17,7 +17,7 @@ struct ScatterValue {
     Eigen::Vector3f value{0, 0, 0};  ///< BRDF times the cosine of wi [1/sr]
     float white = 0;                 ///< diffuse part of `value` divided by the diffuse paint
                                      ///< [1/sr]
-    float density = 0;               ///< at which sample() returns wi [1/sr]
+    float density = 0;               ///< probability density of wi in sample() [1/sr]
 };
 
 struct ScatterSample {
@@ -33,8 +33,8 @@ enum class Lobes { Both, Broad, Mirrored };
 /// Shares of light that a surface sends to the eye, for uniform light from the hemisphere and for
 /// light in the mirrored lobe.
 struct Reflectance {
-    float white = 1;                    ///< of uniform light, divided by the diffuse paint
-    Eigen::Vector3f manyfold{0, 0, 0};  ///< of uniform light, after several reflections
+    float white = 1;                    ///< share of uniform light, without the diffuse paint
+    Eigen::Vector3f manyfold{0, 0, 0};  ///< share of uniform light, after several reflections
     Eigen::Vector3f mirrored{0, 0, 0};
 };
 
@@ -73,8 +73,8 @@ private:
     Eigen::Vector3f f0_{0, 0, 0};
     Eigen::Vector3f manyfoldFactor_{0, 0, 0}, diffuseColour_{0, 0, 0};
     float whiteFactor_ = 0;
-    // For a dielectric, the share of the light hitting further microfacets that finally leaves the
-    // surface.
+    // For a dielectric: of the light that hits further microfacets, the share that finally leaves
+    // the surface.
     float dielectricManyfold_ = 0;
     Passed passedOut_;
     Reflectance reflectance_;

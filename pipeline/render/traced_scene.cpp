@@ -12,7 +12,7 @@ namespace {
 // the last place.
 constexpr float kStartOffset = 0x1p-18F;
 constexpr float kLeastOffset = 1e-7F;  // [m] lower limit of this distance
-constexpr float kStepOver = 1e-6F;     // relative to the distance of the hit
+constexpr float kStepOver = 1e-6F;     // step behind a hit, relative to the hit's distance
 constexpr int kMostBackFaces = 64;     // back faces that one camera ray may pass
 // Lower limit of the cosine between shading normal and viewing direction. Interpolated and mapped
 // normals that point away from the viewer are turned up to this limit.

@@ -14,10 +14,10 @@ constexpr std::int64_t kFirstSamples = 64;
 // the excess.
 constexpr std::int64_t kLeastSamples = 16;
 constexpr double kPortionsPerFrame = 16;
-// Share of the budget that may be used in the next frame if the threads got too little processor
-// time in this frame.
+// Upper limit of the unused time that is carried over to the next frame (share of the budget). Time
+// remains unused if the threads get too little processor time.
 constexpr double kMostSaved = 0.08;
-// Making a displayable picture may take the budget of several frames and causes a debt, at most
+// Converting a picture may take the budget of several frames. The excess is a debt of at most
 // kMostDebt budgets. Each frame repays the share kRepaid of the budget, or of the debt if the debt
 // is larger than the budget, so that a large debt does not last.
 constexpr double kMostDebt = 10, kRepaid = 0.08;

@@ -12,13 +12,13 @@
 namespace mfar {
 namespace {
 
-// The view is predicted only as far that its change from the present view is below this limit,
+// The view is predicted only so far that its change from the present view stays below this limit,
 // because the picture must serve the present view, too.
 constexpr double kPredictedChange = 0.9;
-// Upper limit of the number of missed frames that the budget gets after one long job.
+// Upper limit of the number of missed frames whose budget is granted after one long job.
 constexpr std::uint64_t kMostMissed = 16;
 constexpr double kRateSeconds = 1;
-// Number of pixels in the first portion, when the time per pixel is still unknown.
+// Number of pixels in the first portion, while the time per pixel is unknown.
 constexpr std::int64_t kFirstResolved = 2048;
 
 double secondsBetween(Timestamp a, Timestamp b) {

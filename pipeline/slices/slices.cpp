@@ -9,8 +9,8 @@ namespace mfar {
 namespace {
 
 constexpr int kTileEdge = 8;
-// Numbers of turns in Slicing::Time: turn kLook traces a ray through each pixel's centre. The turns
-// up to kFirstFull - 1 take the first samples of some pixels. From turn kFirstFull on, all pixels
+// Turns in Slicing::Time. Turn kLook traces a ray through each pixel's centre. The turns between
+// kLook and kFirstFull take the first samples of some pixels. From turn kFirstFull on, all pixels
 // are sampled.
 constexpr int kLook = 1, kFirstFull = 4;
 constexpr int kTilePixels = kTileEdge * kTileEdge;
@@ -32,7 +32,7 @@ int gathered(std::uint32_t v) {
 }
 
 /// Morton code of the pixel with number `rank` in its tile's sampling order. Each of the first 4^n
-/// pixels lies in another square of an even grid. The function is its own inverse.
+/// pixels lies in a different square of an even grid. The function is its own inverse.
 std::uint32_t evenlySpread(std::uint32_t rank) {
     return (rank & 0x03) << 4 | (rank & 0x0c) | (rank & 0x30) >> 4;
 }

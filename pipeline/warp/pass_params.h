@@ -52,11 +52,11 @@ struct alignas(16) DispatchGroups {
 
 struct alignas(16) LookUpViews {
     View views[5];
-    Projection projections[2];  ///< of the reference; of the layer and patches
+    Projection projections[2];  ///< of the reference picture; of layer and patches
     Plane plane;
     PixelBounds bounds;
     DispatchGroups wanted[6];                      ///< for the pyramid's levels
-    std::int32_t referenceWidth, referenceHeight;  ///< size [px]
+    std::int32_t referenceWidth, referenceHeight;  ///< size of the reference picture [px]
     std::int32_t width, height;                    ///< size of the layer [px]
     std::int32_t patches, levels;
 };

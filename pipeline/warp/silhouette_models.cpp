@@ -12,13 +12,13 @@
 namespace mfar {
 namespace {
 
-// Triangle edges are cut to the diagonal of the model divided by kModelPieces, or to that of the
-// shadow catcher divided by kCatcherPieces. The catcher has more pieces, because its visible part
-// may be much smaller than the catcher. At 640 px the straight edges then differ from the curves of
-// the distorted picture by less than a third of a pixel.
+// Triangle edges are cut until they are not longer than the diagonal of the model divided by
+// kModelPieces (for the shadow catcher: its diagonal divided by kCatcherPieces). The catcher has
+// more pieces, because only a small part of it may be visible. At 640 px the straight edges then
+// differ from the curves of the distorted picture by less than a third of a pixel.
 constexpr float kModelPieces = 16, kCatcherPieces = 32;
-// A software renderer needs 0.2 us per triangle. In scenes with more triangles each mesh is
-// simplified in proportion, but kLeastTriangles are added to each mesh's number.
+// A software renderer needs 0.2 us per triangle. If a scene has more than kMostTriangles, each mesh
+// is reduced in proportion to its number of triangles, plus kLeastTriangles.
 constexpr double kMostTriangles = 20000;
 constexpr std::size_t kLeastTriangles = 2000;
 constexpr int kEdgePoints = 8;    // sample points along each edge of a box

@@ -22,9 +22,10 @@ struct SurfaceMesh {
 };
 
 /// Halves edges until no edge is longer than `longest` [m]. Two triangles with a common edge cut it
-/// at the same points, so that no gap appears. `longest` is increased if the result would have more
-/// than `mostTriangles` (or more than the mesh, if that has more). `uvs` has one entry per vertex
-/// or is empty. Triangles are omitted if a corner is not finite or its index is out of range.
+/// at the same points, so that no gap appears. `longest` is increased if the result would otherwise
+/// have more triangles than `mostTriangles` and more than the mesh. `uvs` has one entry per vertex
+/// or is empty. A triangle is omitted if a corner is not finite or a corner's index is out of
+/// range.
 [[nodiscard]] SurfaceMesh surfaceMesh(std::span<const Eigen::Vector3f> positions,
                                       std::span<const Eigen::Vector2f> uvs,
                                       std::span<const std::array<std::uint32_t, 3>> triangles,

@@ -14,11 +14,11 @@ namespace mfar {
 /// Totals since the start and values of the newest frame.
 struct WarpCounters {
     std::uint64_t warped = 0;     ///< displayed frames that were warped
-    std::uint64_t unmoved = 0;    ///< frames in which the reference is shown unchanged
+    std::uint64_t unmoved = 0;    ///< frames that show the reference picture unchanged
     std::uint64_t empty = 0;      ///< frames without anything in view
     std::uint64_t requested = 0;  ///< pixels requested for individual rendering
     std::uint64_t answered = 0;   ///< pixels that were rendered and returned
-    std::uint64_t rays = 0;       ///< samples requested for these pixels
+    std::uint64_t rays = 0;       ///< samples of the requested pixels
     int openHoles = 0;            ///< pixels that no picture shows, in the frame last read
     int cracks = 0;               ///< pixels in one-pixel-wide cracks, in the same frame
 };
