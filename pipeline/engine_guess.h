@@ -7,15 +7,15 @@
 
 namespace mfar {
 
-/// A placement is not tried if its predicted frame time exceeds the fastest prediction by this
-/// factor.
+/// A placement is given up if its frame takes longer than this factor times the frame of the
+/// fastest placement.
 inline constexpr double kHopelessFrame = 2;
 
 /// Placements of the steps that may be the fastest while the camera moves, the most promising
 /// first. Either all steps run on one engine, or matching (pyramid, flow, weigh) runs on one engine
 /// and drawing (still, detail, occlusion) on the other.
-/// Placements are excluded if `./run board-report` predicts for this GPU that they are slower than
-/// the fastest by kHopelessFrame. The predictions may be wrong by a factor of two. `driver` is
+/// Placements are excluded if `./run board-report` predicts for this GPU that they take longer than
+/// kHopelessFrame times the fastest. The predictions may be wrong by a factor of two. `driver` is
 /// GlContext::description().
 [[nodiscard]] std::vector<EngineChoice> promisingEngines(std::string_view driver);
 

@@ -22,7 +22,7 @@ struct FrameStats {
     bool usedPose = false;     ///< matched along epipolar lines, because still and frame have poses
     bool predicted = false;    ///< the search started from the last frame's result
     bool refinedPose = false;  ///< the pictures gave a better relative pose than the poses did
-    int posePatches = 0;       ///< patches used to refine the pose; 0: the following are 0
+    int posePatches = 0;       ///< patches available to refine the pose; 0: epipolarError is 0
     double epipolarError = 0;  ///< median distance of patches from their epipolar lines [px]
     /// Tiles that do not agree with the epipolar lines, because an object moves or a pose is wrong.
     /// They were searched in both dimensions instead. Without poses all changed tiles are searched
@@ -39,7 +39,7 @@ struct FrameStats {
     bool objectsInView = false;  ///< a virtual object is inside the picture
     bool objectsHidden = false;  ///< real things occlude all objects, so no object was drawn
     DepthSource depth = DepthSource::None;
-    Transfers transfers{};  ///< between host and GPU, in this frame
+    Transfers transfers{};  ///< between CPU memory and GPU, in this frame
 };
 
 /// Result of Pipeline::run(). It is valid until the next run.

@@ -38,7 +38,7 @@ struct TracedLayer::State {
     ReferenceRenderer renderer;
     int fadeFrames;
     std::shared_ptr<const Scene> scene;      // scene of the shown picture
-    const RenderedPicture* shown = nullptr;  // compared with the next picture's address only
+    const RenderedPicture* shown = nullptr;  // only its address is compared with the next picture's
     // Number of frames in which the layer still changes although the camera does not move.
     int changing = 0;
 };

@@ -22,7 +22,7 @@ struct Flow2dOptions {
 struct EpipolarOptions {
     int levels = 4;                ///< most pyramid levels; short sides are at least 60 px; [1, 4]
     double longestParallax = 0.8;  ///< upper limit of the parallax, relative to the width; (0, 1]
-    int windowRadius = 2;          ///< window radius [px of the coarser level's labels]; [0, 8]
+    int windowRadius = 2;          ///< radius in which a window covers coarser labels [px]; [0, 8]
     int stepPenalty = 12;          ///< Smoothness::step without noise; [1, 30]
     int jumpPenalty = 60;          ///< Smoothness::jump; [1, 60]
     int finest = 0;  ///< last level that is searched; 1: half size, 2: quarter size; [0, 2]

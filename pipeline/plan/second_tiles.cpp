@@ -19,8 +19,8 @@ void forCells(Size tiles, int tile, Size cells, const Body& body) {
             body(x, y);
 }
 
-/// How much the newest still lacks in a tile: 1 - weight times the share of structure in the
-/// video's signal, averaged over the cells. NaN counts as 0.
+/// How much the newest still lacks in a tile: the mean over the tile's cells of (1 - weight) *
+/// (share of structure in the video's signal). NaN counts as 0.
 float lackOf(Size tiles, int tile, const SecondTiles::Match& newest) {
     float sum = 0;
     forCells(tiles, tile, newest.weighed.size, [&](int x, int y) {
@@ -30,8 +30,8 @@ float lackOf(Size tiles, int tile, const SecondTiles::Match& newest) {
     return sum / (kCells * kCells);
 }
 
-/// How much the second still adds in a tile: as above, with the second still's weight minus the
-/// newest still's weight instead of 1 - weight.
+/// How much the second still adds in a tile: like lackOf(), but with the second still's weight
+/// minus the newest still's weight instead of 1 - weight.
 float gainOf(Size tiles, int tile, const SecondTiles::Match& newest,
              const Rows<const WeighedCell>& second) {
     float sum = 0;

@@ -24,7 +24,7 @@ constexpr double kListedShare = 0.27;
 // signal that gives detail a tenth of its weight in superres_weigh.comp: its variance is 0.44 times
 // the noise variance of a pixel, which is 4 * 0.44 times that of a mean, summed over 16 means.
 constexpr double kStructure = 13 + 16 * 4 * 0.44;
-constexpr double kRoundingVariance = 1.0 / 12;  // of a pixel [grey levels^2]
+constexpr double kRoundingVariance = 1.0 / 12;  // of 8-bit rounding [grey levels^2]
 // How fast the estimate of the grain follows the measured value (share of the difference per
 // frame).
 constexpr double kGrainFalls = 0.2, kGrainAtRest = 0.05, kGrainMoving = 1.0 / 256;

@@ -12,8 +12,7 @@ namespace mfar {
 namespace {
 
 constexpr float kFullSphere = 4 * std::numbers::pi_v<float>;
-constexpr int kFinest = 256;  // intervals per side of the finest level; 0.45 degrees each at the
-                              // poles
+constexpr int kFinest = 256;  // intervals per side; 0.45 degrees each at the poles
 constexpr int kCoarsest = 8;  // intervals per side of the coarsest pyramid level
 constexpr int kDiffuseEdge = 16;
 constexpr int kIntegrated = 32;  // intervals per side of the level from which irradiance is summed

@@ -37,8 +37,7 @@ struct SeenSurface {
 /// Result of one sample of a pixel.
 struct FilmSample {
     FirstHit hit;
-    Eigen::Vector3f radiance{0, 0, 0};       ///< of the hit object, or of the shadow catcher with
-                                             ///< objects
+    Eigen::Vector3f radiance{0, 0, 0};       ///< of the hit object, or of the catcher with objects
     Eigen::Vector3f without{0, 0, 0};        ///< of the shadow catcher without objects
     SurfaceLight light{};                    ///< light on the object, if an object was hit
     SurfaceLight far{{1, 1, 1}, {1, 1, 1}};  ///< see SeenSurface::far

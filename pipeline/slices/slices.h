@@ -134,8 +134,7 @@ private:
     std::uint32_t cursor_ = 0;  ///< first tile not yet handed out completely in this turn
     int samples_ = 0, turn_ = 0;
     std::size_t unfinished_ = 0, ofTurn_ = 0;  ///< tiles; tiles whose turn is not over
-    std::uint64_t traced_ = 0, settled_ = 0;   ///< samples that were done; samples that are not
-                                               ///< needed
+    std::uint64_t traced_ = 0, settled_ = 0;   ///< samples done; samples not needed
 };
 
 }  // namespace mfar
