@@ -4,7 +4,7 @@
 // `uv` is the position as in a texture look-up.
 float linearly(sampler2D still, vec2 uv) {
     vec2 size = vec2(textureSize(still, 0)), p = uv * size;
-    vec2 corner = floor(p + 0.5), t = p + 0.5 - corner;  // corner of all four pixels
+    vec2 corner = floor(p + 0.5), t = p + 0.5 - corner;  // corner shared by all four
     vec4 four = textureGather(still, corner / size);
     vec2 columns = mix(four.wz, four.xy, t.y);
     return mix(columns.x, columns.y, t.x);

@@ -1,12 +1,11 @@
 // Residual of the learned enlarger relative to Keys' cubic, on a grid of 4x4 sub-pixels per pixel.
-// A pixel has two classes, each with a filter. The filter weights the differences between the
-// pixel's neighbours and the pixel, and their sum is the residual of the class. The result is the
-// mean of both. It is computed for tiles that are drawn and enlarged by filters, and for the pixels
-// around these tiles.
+// A pixel has two classes, each with a filter. The residual of a class is the sum of the
+// differences between the pixel's neighbours and the pixel, weighted with the filter. The result is
+// the mean of both residuals. It is computed for tiles that are drawn and enlarged by filters, and
+// for the pixels around these tiles.
 // In: video, plan, filters of all classes. Out: residual image [1/32 grey level]. A texel holds the
 // four sub-pixels of a row; the four rows of a pixel are one below the other.
-// Source: pipeline/enlarge/filter_layout.h.
-// One workgroup per upper or lower half of a tile.
+// Source: pipeline/enlarge/filter_layout.h. One workgroup per upper or lower half of a tile.
 #include "cubic.glsl"
 #include "luma.glsl"
 #include "pipeline/engine/params/enlarge.h"

@@ -97,7 +97,8 @@ ElementView elementsIn(const GltfDocument& document, int bufferView, std::uint64
     return wanted;
 }
 
-/// Returns the accessor. Refuses another number of components and an invalid count.
+/// Returns the accessor. Throws if the accessor has another number of components or an invalid
+/// count.
 const Accessor& checkedAccessor(const GltfDocument& document, int index, int components,
                                 std::size_t most, std::string_view place) {
     const Accessor& accessor = document.at(document.gltf.accessors, index, place);

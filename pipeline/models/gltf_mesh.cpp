@@ -13,7 +13,7 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// Vectors that should have unit length are refused if they are shorter than this.
+/// Vectors up to this length have no usable direction. They are replaced by a default direction.
 constexpr float kShortestUnit = 1e-6F;
 
 std::optional<int> attribute(const tinygltf::Primitive& primitive, const std::string& name) {

@@ -62,7 +62,8 @@ public:
     }
 
 private:
-    /// Root nodes of the default scene. Without a default scene, all nodes that have no parent.
+    /// Root nodes of the default scene, or of the first scene if the document names no default. If
+    /// the document has no scenes, returns all nodes that have no parent.
     std::vector<int> roots() const {
         const tinygltf::Model& gltf = document_.gltf;
         if (!gltf.scenes.empty())

@@ -20,10 +20,10 @@ constexpr Size kMap{32, 16};
 // Constants of the spherical harmonics of degree 0 and 1.
 constexpr float kY0 = 0.282095F, kY1 = 0.488603F;
 
-/// Weights of the prior for the degrees 0, 1 and 2. A weight is a quotient of two variances. The
-/// first is the variance of the seen light about a sum of nine harmonics (objects of about 0.25 sr
-/// with half or twice the brightness). The second is the variance of the light between places
-/// (standard deviations of 3, 1.5 and 0.7 times the mean).
+/// Weights of the prior for the degrees 0, 1 and 2. Each weight is the quotient of two variances.
+/// The first is the variance of the seen light about a sum of nine harmonics (objects of about 0.25
+/// sr with half or twice the brightness). The second is the variance of the light between places
+/// (standard deviations of 3, 1.5 and 0.7 times the mean for the three degrees).
 Eigen::Vector<double, 9> priorInformation() {
     Eigen::Vector<double, 9> out;
     out << 0.007, 0.03, 0.03, 0.03, 0.13, 0.13, 0.13, 0.13, 0.13;

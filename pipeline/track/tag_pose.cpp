@@ -85,8 +85,8 @@ double cappedError(std::span<const CornerSet> sets, const RigidTransform& T_worl
     return sum;
 }
 
-/// Of the tags' own solutions, the pose that fits all tags best. Larger tags come first and are
-/// preferred if errors are equal.
+/// Returns that one of the tags' own solutions that fits all tags best. Larger tags come first and
+/// are preferred if errors are equal.
 RigidTransform bestStart(std::span<const Candidate> tags, std::span<const CornerSet> sets,
                          const CameraModel& camera) {
     RigidTransform best = tags[0].T_world_camera[0];

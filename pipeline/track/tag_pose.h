@@ -28,7 +28,7 @@ struct CameraPose {
     Matrix6 covariance = Matrix6::Zero();
     double squaredError = 0;  ///< sum over all corners of the tags used [px^2]
     int tags = 0;             ///< number of tags used
-    double edgeShift = 0;     ///< how far too far out edges appear [px]; 0 with only one tag
+    double edgeShift = 0;     ///< distance by which edges appear too far out [px]; 0 with one tag
 
     /// Root mean square of the corners' errors [px].
     [[nodiscard]] double rms() const;

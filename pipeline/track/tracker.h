@@ -33,13 +33,14 @@ struct TrackerOptions {
 
 struct TrackStats {
     std::int64_t frames = 0;
-    std::int64_t fullSearches = 0;  ///< of the whole picture: first, at intervals, without known
-                                    ///< tags
-    std::int64_t roiSearches = 0;   ///< number of frames in which the predicted regions sufficed
-    int flips = 0;                  ///< number of changes between the two planar solutions
-    int rejected = 0;               ///< number of poses that the filter rejected as outliers
-    int jumps = 0;                  ///< number of restarts of the filter after outliers that agreed
-    double lastMs = 0;              ///< time for detection and pose of the last frame
+    /// Number of searches of the whole picture: at the start, at intervals, and if no known tag was
+    /// found.
+    std::int64_t fullSearches = 0;
+    std::int64_t roiSearches = 0;  ///< number of frames in which the predicted regions sufficed
+    int flips = 0;                 ///< number of changes between the two planar solutions
+    int rejected = 0;              ///< number of poses that the filter rejected as outliers
+    int jumps = 0;                 ///< number of restarts of the filter after outliers that agreed
+    double lastMs = 0;             ///< time for detection and pose of the last frame
     double meanMs = 0;
     double worstMs = 0;
 };
