@@ -3,7 +3,7 @@
 #include "pipeline/engine/params/enlarge.h"
 
 layout(binding = 0) uniform isampler2D columns;
-layout(binding = 3) uniform isampler2D residuals;     // from superres_vertical.frag
+layout(binding = 3) uniform isampler2D residuals;     // written by superres_vertical.frag
 layout(binding = 4) uniform sampler2D learnedTiles;   // one texel per tile; above 0: enlarged by
                                                       // filters
 

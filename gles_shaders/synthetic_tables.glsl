@@ -9,7 +9,7 @@ struct Surface {
     vec4 size;        // half extents [m]; w: 0 box, 1 cylinder, 2 ellipsoid
     vec4 face;        // in the light map: corner of the first face, size of a face
     vec4 light;       // xyz: direction to the key light; w: half a light map texel / face
-    ivec4 materials;  // of the x, y, z faces; w: 1 if the solid moves
+    ivec4 materials;  // materials of the x, y, z faces; w: 1 if the solid moves
 };
 struct Material {
     vec4 mapping;  // texture repeats per metre in u and v; offset

@@ -134,8 +134,9 @@ public:
     /// need not wait.
     [[nodiscard]] FrameStats readStats() const;
     /// Flow of every video pixel (x, y interleaved), interpolated between cells. With poses, a
-    /// pixel gets the vector of its epipolar search instead if the two vectors differ by at least
-    /// half a pixel and the cells' flow has not left the epipolar lines. Empty without a still.
+    /// pixel may get the vector of its epipolar search instead. This requires that the two vectors
+    /// differ by at least half a pixel, and that the cells' flow has not left the epipolar lines.
+    /// Empty without a still.
     [[nodiscard]] std::vector<float> readFlow() const;
     /// Confidence (eq. 2) of every video pixel, [0, 1]. Empty without a still.
     [[nodiscard]] std::vector<float> readConfidence() const;

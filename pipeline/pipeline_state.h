@@ -29,7 +29,7 @@ struct Pipeline::State {
     /// Results of a frame's flow that the depth measurement needs.
     struct DepthMatches {
         EpipolarFlow::Cells vectors;
-        std::vector<bool> searched2d;  ///< for each tile
+        std::vector<bool> searched2d;  ///< one entry per tile
     };
     /// How depth is measured in one frame.
     struct DepthTask {

@@ -10,7 +10,7 @@ namespace mfar {
 
 /// Edge of the cells of flow fields [px].
 inline constexpr int kCell = 4;
-inline constexpr int kCellsPerTile = 4;  ///< in each direction; see plan/tiles.h for tiles
+inline constexpr int kCellsPerTile = 4;  ///< along each axis; tiles are those of plan/tiles.h
 
 /// Quotient of two positive numbers, rounded up.
 [[nodiscard]] constexpr int divideUp(int a, int b) {

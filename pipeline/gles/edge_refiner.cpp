@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kEdgeGroup = 8;      // workgroup size in each direction, as in the shader
 constexpr int kSharpenGroup = 64;  // workgroup size, as in the shader
-constexpr int kLeastContrast = 3;  // of kLevels; the blur of lower contrast is not visible
+constexpr int kLeastContrast = 3;  // contrast level; the blur of lower levels is not visible
 constexpr std::size_t kListedAt = EdgeRefiner::kLevels + 1;
 
 }  // namespace

@@ -57,7 +57,7 @@ private:
     Size layer_;
     std::array<Lists, 2> lists_;  // one of them may be read back to the CPU
     std::size_t current_ = 0;
-    std::optional<gpu::Fence> fence_;  // of the list that is being read back
+    std::optional<gpu::Fence> fence_;  // signals that the list can be read back
     gpu::Buffer pyramid_;
     params::FillHoles params_{};
     std::array<Command, kLevels> wanted_{};

@@ -46,7 +46,7 @@ private:
     struct Part {
         gpu::Buffer vertices, indices;
         int indexCount;
-        std::optional<gpu::Texture> alpha;  // of a masked surface
+        std::optional<gpu::Texture> alpha;  // alpha texture of a masked surface
         float cutoff;
         bool bothSides;  // whether both sides are visible
     };

@@ -60,7 +60,7 @@ private:
     LensProjection layer_;
     gpu::Texture rays_, colour_, depth_, state_;
     gpu::Framebuffer target_;
-    gpu::Buffer commands_, list_;  // of the pixels that the draw call does not process
+    gpu::Buffer commands_, list_;  // list of the pixels that the draw call does not process
     gpu::DrawPass<Params> plain_;
     gpu::ComputePass<Params> restList_, rest_;
 };

@@ -47,7 +47,7 @@ private:
     std::map<std::pair<int, bool>, int> pictures_;  ///< key: image number, and whether it is sRGB
     std::vector<Material> materials_;
     std::vector<SurfaceTexture> textures_;
-    std::optional<TextureMapping> mapping_;  ///< of the material that is being read
+    std::optional<TextureMapping> mapping_;  ///< mapping of the material that is being read
     std::size_t texels_ = 0, bytes_ = 0;
 };
 

@@ -33,7 +33,7 @@ struct TileMeasure {
 
 /// Limits above which a tile has certainly changed.
 struct ChangeBounds {
-    float mean, absolute;  ///< of the differences in a cell [grey levels]
+    float mean, absolute;  ///< limits of a cell's differences [grey levels]
     float grain;           ///< noise variance of 2x2 means / (that of a pixel / 4)
 };
 

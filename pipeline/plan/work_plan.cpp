@@ -15,16 +15,16 @@ constexpr double kMaxNoise = 4.0;
 // From this share of changed tiles on, the whole frame is drawn, because drawing tile by tile costs
 // 2.2 times as much per area as one full-screen draw (llvmpipe).
 constexpr double kWholeShare = 0.45;
-// If the whole frame is drawn and at most this share of the tiles in the detail rectangle has
-// structure, the frame is enlarged in one draw and detail is added tile by tile. Enlarging costs
-// 0.4 times as much as drawing detail.
+// Applies if the whole frame is drawn. If at most this share of the tiles in the detail rectangle
+// has structure, one draw enlarges the frame and detail is added tile by tile. Enlarging costs 0.4
+// times as much as drawing detail.
 constexpr double kListedShare = 0.27;
 // Least structure of a tile that is matched, as a multiple of the noise variance of a 2x2 mean.
 // Noise alone gives 13 (16 means minus three degrees of freedom of the plane). The rest is the
 // signal that gives detail a tenth of its weight in superres_weigh.comp: its variance is 0.44 times
 // the noise variance of a pixel, which is 4 * 0.44 times that of a mean, summed over 16 means.
 constexpr double kStructure = 13 + 16 * 4 * 0.44;
-constexpr double kRoundingVariance = 1.0 / 12;  // of 8-bit rounding [grey levels^2]
+constexpr double kRoundingVariance = 1.0 / 12;  // variance of 8-bit rounding [grey levels^2]
 // How fast the estimate of the grain follows the measured value (share of the difference per
 // frame).
 constexpr double kGrainFalls = 0.2, kGrainAtRest = 0.05, kGrainMoving = 1.0 / 256;

@@ -19,10 +19,11 @@ namespace mfar {
 /// which the tile was last drawn, on the CPU. A frame without any changed tile costs only this
 /// comparison.
 ///
-/// A tile is not drawn again as long as the difference is noise. The difference must pass the tests
-/// of the single tile, and the sums over the unchanged tiles of each block of 8x8 tiles and of the
-/// whole picture must not exceed the noise of the pixels. The mean accumulated error stays below 3
-/// % of the noise's variance, however slowly the scene changes. At rest nothing is drawn.
+/// A tile is not drawn again as long as the difference is noise. This is tested for each tile
+/// alone. In addition, the differences are summed over the unchanged tiles of each block of 8x8
+/// tiles and of the whole picture; these sums must not exceed the noise of the pixels. The mean
+/// accumulated error stays below 3 % of the noise's variance, however slowly the scene changes. At
+/// rest nothing is drawn.
 class WorkPlan {
 public:
     /// `workers` run the comparison. Null: it runs in the caller's thread.

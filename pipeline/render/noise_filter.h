@@ -17,7 +17,7 @@ struct LightPixel {
     Eigen::Array3f first{0, 0, 0}, second{0, 0, 0};
     float firstVariance = 0, secondVariance = 0;
     float firstCount = 0, secondCount = 0;
-    Eigen::Array3f normal{0, 0, 0};  ///< of the surface, unit length
+    Eigen::Array3f normal{0, 0, 0};  ///< surface normal, unit length
     float depth = 0;                 ///< [m] along the camera's axis
     std::uint8_t id = 0;             ///< surface; 0: several surfaces or no surface
     bool kept = false;               ///< unchanged, but the neighbours use its light

@@ -18,7 +18,7 @@ inline constexpr float kLeastPaint = 0.01F;
 struct Paint {
     Eigen::Vector3f diffuse{0, 0, 0};  ///< for diffuse light
     Eigen::Vector3f facing{0, 0, 0};   ///< reflectance along the normal, for specular light
-    SpecularAlbedo albedo{};           ///< for the direction towards the eye
+    SpecularAlbedo albedo{};           ///< albedo towards the eye
 
     /// Paint for specular light.
     [[nodiscard]] Eigen::Vector3f specular() const {

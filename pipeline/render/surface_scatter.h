@@ -38,12 +38,12 @@ struct Reflectance {
     Eigen::Vector3f mirrored{0, 0, 0};
 };
 
-/// Reflection of glTF's metallic-roughness material seen from one direction. It is the sum of GGX
-/// with Schlick's Fresnel term, light that is reflected by several microfacets (Kulla and Conty
-/// 2017), and Lambert's law for light that enters and leaves a dielectric; `metallic` mixes
+/// Reflection of glTF's metallic-roughness material seen from one direction. It has three parts:
+/// GGX with Schlick's Fresnel term, light that is reflected by several microfacets (Kulla and Conty
+/// 2017), and Lambert's law for light that enters and leaves a dielectric. `metallic` mixes
 /// dielectric and metal.
-/// The reflection is reciprocal and reflects all light if the base colour is white. Directions have
-/// unit length, z is the normal, and both directions are above the surface.
+/// The reflection is reciprocal, and reflects all light if the base colour is white. Directions
+/// have unit length, z is the normal, and both directions are above the surface.
 class SurfaceScatter {
 public:
     SurfaceScatter(const SurfaceLook& look, const Eigen::Vector3f& wo);

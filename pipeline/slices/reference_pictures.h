@@ -118,12 +118,12 @@ private:
         RenderView view;
         Timestamp chosen;
         std::unique_ptr<Film> film;
-        std::optional<LightHistory> history;  // of the previously shown picture
+        std::optional<LightHistory> history;  // light of the previously shown picture
         PixelRect traced;                     // the film is empty outside this rectangle
         TouchedTiles touched;
         Slices slices;
         int portions = 0;                        // number of outstanding portions
-        int shownSamples = 0, shownTurns = 0;    // at the last time it was shown
+        int shownSamples = 0, shownTurns = 0;    // values when it was last shown
         bool rests = false;                      // the camera rested when the view was chosen
         bool wasShown = false, counted = false;  // counted: included in finished()
 

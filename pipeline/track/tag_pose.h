@@ -53,9 +53,9 @@ struct TagPoseOptions {
     double grazingAngleDeg = 80;  ///< a tag seen at a larger angle from its normal is ignored
 };
 
-/// Computes the pose of the camera from the corners of one or more tags. The steps are: compute
-/// both planar solutions (IPPE) of every tag, take the solution that fits all tags best, ignore
-/// tags that contradict it, and minimise the reprojection error in distorted pixels by
+/// Computes the pose of the camera from the corners of one or more tags. It computes both planar
+/// solutions (IPPE) of every tag and takes the solution that fits all tags best. Then it ignores
+/// tags that contradict this solution, and minimises the reprojection error in distorted pixels by
 /// Levenberg-Marquardt.
 /// Empty if no tag is usable. Tags are unusable if corners are NaN, infinite or outside the
 /// picture, or if the quad is tiny, not convex, seen at a grazing angle or seen from behind.

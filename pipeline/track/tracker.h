@@ -26,8 +26,8 @@ struct TrackerOptions {
     double stillDecimation = 4;   ///< for stills; see DetectorOptions
     int threads = 1;              ///< threads of libapriltag for each sensor
     int fullSearchInterval = 15;  ///< frames between two searches of the whole picture
-    double gamma = 2;             ///< of the video; see CornerRefiner
-    double stillGamma = 2;        ///< of the stills; see CornerRefiner
+    double gamma = 2;             ///< gamma of the video; see CornerRefiner
+    double stillGamma = 2;        ///< gamma of the stills; see CornerRefiner
     PoseEstimatorOptions pose;
 };
 

@@ -52,10 +52,10 @@ struct alignas(16) DispatchGroups {
 
 struct alignas(16) LookUpViews {
     View views[5];
-    Projection projections[2];  ///< of the reference picture; of layer and patches
+    Projection projections[2];  ///< reference picture; layer and patches
     Plane plane;
     PixelBounds bounds;
-    DispatchGroups wanted[6];                      ///< for the pyramid's levels
+    DispatchGroups wanted[6];                      ///< dispatches of the pyramid's levels
     std::int32_t referenceWidth, referenceHeight;  ///< size of the reference picture [px]
     std::int32_t width, height;                    ///< size of the layer [px]
     std::int32_t patches, levels;
@@ -75,7 +75,7 @@ struct alignas(16) FillHoles {
     std::int32_t fillsAll;  ///< 1: larger holes than cracks are filled too
     std::int32_t level;     ///< level computed by this pass
     std::int32_t levelCount;
-    std::int32_t rows, rowsBelow;  ///< of the computed level; of the level below it
+    std::int32_t rows, rowsBelow;  ///< rows of the computed level and of the level below
     std::int32_t texels;           ///< number of texels of all levels
 };
 

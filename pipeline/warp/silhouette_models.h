@@ -25,7 +25,7 @@ public:
 
     struct Part {
         SurfaceMesh mesh;
-        const SurfaceTexture* alpha = nullptr;  ///< of a masked surface; null: no mask; repeats
+        const SurfaceTexture* alpha = nullptr;  ///< alpha mask, repeats; null: no mask
         float cutoff = 0;                       ///< texels with a smaller alpha are holes
         bool bothSides = true;                  ///< whether the back side is visible
         const Material* material = nullptr;     ///< null for the shadow catcher

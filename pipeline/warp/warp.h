@@ -86,7 +86,7 @@ private:
     std::uint64_t scene_ = 0;
     bool asked_ = false;  // a request was not answered yet
     HoleRequest lastRequest_;
-    RigidTransform listPose_;                 // of the frame whose holes are being read back
+    RigidTransform listPose_;                 // pose of the frame whose holes are being read back
     std::optional<RigidTransform> warpedTo_;  // pose of the displayed frame; empty: not warped
     int restFrames_ = 0;                      // frames since warpedTo_ was set
     WarpCounters counters_;
