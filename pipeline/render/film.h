@@ -37,9 +37,8 @@ struct SeenSurface {
 /// Result of one sample of a pixel.
 struct FilmSample {
     FirstHit hit;
-    Eigen::Vector3f radiance{0, 0, 0};       ///< radiance of the object, or of the catcher with
-                                             ///< objects
-    Eigen::Vector3f without{0, 0, 0};        ///< radiance of the catcher without objects
+    Eigen::Vector3f radiance{0, 0, 0};       ///< of the hit object, or of the catcher with objects
+    Eigen::Vector3f without{0, 0, 0};        ///< of the catcher without objects
     SurfaceLight light{};                    ///< light on the object, if an object was hit
     SurfaceLight far{{1, 1, 1}, {1, 1, 1}};  ///< see SeenSurface::far
     Paint paint{};

@@ -27,8 +27,7 @@ struct WarpSurface {
 struct WarpReference {
     CameraModel camera;
     RigidTransform T_world_camera;
-    std::vector<std::array<std::uint8_t, 4>> picture;  ///< colours as rendered; valid where depth
-                                                       ///< is
+    std::vector<std::array<std::uint8_t, 4>> picture;  ///< rendered colours; valid where depth is
     std::vector<float> depth;                          ///< z for display [m]; reduced at shadows
                                                        ///< (kShadowLift); 0: no surface
     /// Colour of a single surface. Pixels at an edge get the colour of the nearest pixels inside
