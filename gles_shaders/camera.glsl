@@ -1,5 +1,5 @@
-// The lens model of base/geometry.h: pinhole with radial-tangential distortion.
-// Rays are normalised (x/z, y/z); pixels have their centres at integers.
+// The lens model of base/geometry.h: a pinhole camera with radial-tangential distortion. Rays are
+// normalised (x/z, y/z). Pixel centres are at integers.
 
 #include "base/lens_params.h"
 
@@ -16,8 +16,9 @@ vec2 projectRay(Lens c, vec2 ray) {
     return vec2(c.fx, c.fy) * distortRay(c, ray) + vec2(c.cx, c.cy);
 }
 
-// Fixed-point iterations: for the lenses in use each gains a digit or more. Unlike a Newton step at the fold of the
-// lens model, they cannot leave the neighbourhood of the pixel.
+// Fixed-point iterations. For the lenses in use each iteration gains one digit or more. Unlike a
+// Newton step near a fold of the lens model, an iteration cannot leave the neighbourhood of the
+// pixel.
 vec2 unprojectPixel(Lens c, vec2 pixel) {
     vec2 target = (pixel - vec2(c.cx, c.cy)) / vec2(c.fx, c.fy);
     vec2 ray = target;

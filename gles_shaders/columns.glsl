@@ -1,4 +1,4 @@
-// The result of superres_vertical.frag.
+// Reads the result of superres_vertical.frag without LEARNED.
 layout(binding = 0) uniform sampler2D columns;
 
 vec4 columnAt(ivec2 p) {

@@ -1,4 +1,5 @@
-// The paper's method: the warped still is blended with the upscaled video by the eq. 2 confidence.
+// The paper's method (mode `blend`): blends the enlarged video with the warped still. The still's
+// share is its confidence (eq. 2).
 // Variant: #define PLAIN_TILE
 #include "tile_params.glsl"
 #include "look_up.glsl"

@@ -1,7 +1,9 @@
-// out = up(video) + weight * (still - up(its mean over each video pixel)) (design: mode `detail`).
-// With LEARNED, adds the learned enlarger's residual, times 1 - weight (at least 0): the still is the better source.
-// With SECOND, as with LEARNED, but for a second still: its share of the blend rises with the excess of its weight over
-// the first still's.
+// Mode `detail`: out = up(video) + weight * (still - up(mean of the still over each video pixel)),
+// where up() enlarges.
+// LEARNED: also adds the learned enlarger's residual times 1 - weight (at least 0), because the
+// still is the better source where its weight is large.
+// SECOND: as LEARNED, but for a second still. Its share of the blend rises with the excess of its
+// weight over the first still's weight.
 // Variant: #define PLAIN_TILE
 // Variant: #define LEARNED
 // Variant: #define SECOND

@@ -1,5 +1,5 @@
-// Output where the still adds nothing: the upscaled video, cubic or linear, or with LEARNED cubic plus the learned
-// enlarger's residual.
+// Output where the still adds nothing: the video, enlarged by the cubic or linearly. LEARNED:
+// enlarged by the cubic, plus the learned enlarger's residual.
 // Variant: #define LINEAR
 // Variant: #define LEARNED
 #include "tile_params.glsl"

@@ -1,4 +1,4 @@
-// Weights of the four samples around a position, t = its fraction. Keys' cubic.
+// Keys' cubic: weights of the four samples around a position whose fraction is t.
 #include "pipeline/engine/params/detail.h"
 
 vec4 cubicWeights(float t) {

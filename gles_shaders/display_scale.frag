@@ -1,9 +1,11 @@
-// A picture on a screen: scaled into a rectangle, black around it.
-// Each pixel is the mean of the picture over its footprint, which is at least one pixel of the picture wide: an area
-// filter for reduction (no aliasing), linear interpolation for enlargement, a copy at equal size. One fetch reads two
-// neighbours, weighted by the sampling position between them; so the sampler must be linear and clamp to the edge.
-// Values are averaged as they are stored.
-// PAIRS: upper limit of the pairs of texels per row in a footprint; a constant, so that loops unroll. 0: a copy.
+// Shows a picture on a screen, scaled into a rectangle. The rest of the screen is black.
+// Each screen pixel is the mean of the picture over the pixel's footprint, which is at least one
+// picture pixel wide. This is an area filter for reduction (no aliasing), linear interpolation for
+// enlargement, and a copy at equal size. One fetch reads two neighbouring texels, weighted by the
+// sampling position between them. The sampler must therefore be linear and clamp to the edge.
+// Stored values are averaged without decoding them.
+// PAIRS: upper limit of the texel pairs per row in a footprint. It is a constant, so that loops can
+// be unrolled. 0: a copy.
 // Variant: #define PAIRS 0
 // Variant: #define PAIRS 2
 #ifndef PAIRS
@@ -18,7 +20,7 @@ layout(std140) uniform Params {
 layout(binding = 0) uniform sampler2D picture;
 layout(location = 0) out vec4 colour;
 
-// Overlap of [lo, hi] with each of the texels `first` and `first + 1`.
+// Overlap of [lo, hi] with the texel `first` and with the texel `first + 1`.
 vec2 overlap(float first, float lo, float hi) {
     vec2 begin = vec2(first, first + 1.0);
     return max(min(vec2(hi), begin + 1.0) - max(vec2(lo), begin), 0.0);
@@ -45,7 +47,7 @@ void main() {
             float x = first.x + float(2 * i);
             vec2 wx = overlap(x, lo.x, hi.x);
             float weightX = wx.x + wx.y;
-            // Outside the footprint the weight is zero, and the position is irrelevant.
+            // Outside the footprint the weight is zero, so the position does not matter there.
             vec2 between = vec2(wx.y, wy.y) / max(vec2(weightX, weightY), 1.0e-6);
             vec2 at = (vec2(x, y) + 0.5 + between) * texel;
             sum += weightX * weightY * textureLod(picture, at, 0.0).rgb;

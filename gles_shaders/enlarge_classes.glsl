@@ -1,8 +1,8 @@
-// Classes of the learned enlarger, numbered as by GradientClasses and CurvatureClasses. Needs
-// pipeline/engine/params/enlarge.h.
+// Classes of the learned enlarger. Their numbers are those of GradientClasses and CurvatureClasses.
+// Needs pipeline/engine/params/enlarge.h.
 
-// Bin of an angle, given the cosine and sine of the double angle, up to a common factor: see Symmetry. `inQuadrant`:
-// the bin for the absolute values of both.
+// Bin of an angle; see Symmetry. `cosine` and `sine` belong to the doubled angle, up to a common
+// factor. `inQuadrant` is the bin for the absolute values of both.
 int angleBin(float cosine, float sine, int inQuadrant, int bins) {
     bool left = cosine < 0.0, lower = sine < 0.0;
     int bin = left != lower ? bins / 2 - 1 - inQuadrant : inQuadrant;
@@ -15,7 +15,8 @@ int gradientClass(vec3 sums) {
     float spread = sqrt(cosine * cosine + sine * sine);
     vec3 strengths = scale * vec3(kWeakFrom * kWeakFrom, kMediumFrom * kMediumFrom, kStrongFrom * kStrongFrom);
     vec2 roots = vec2(kPartlyCoherentFrom, kCoherentFrom);
-    // (s1 - s2) / (s1 + s2) >= threshold, in terms of the eigenvalues' sum and difference.
+    // Thresholds for (s1 - s2) / (s1 + s2), in terms of sum and difference of the eigenvalues s1^2,
+    // s2^2.
     vec2 coherences = sum * 2.0 * roots / (1.0 + roots * roots);
     int kind = int(dot(step(strengths, vec3(sum + spread)), vec3(3.0)) + dot(step(coherences, vec2(spread)), vec2(1.0)));
     float c = abs(cosine), s = abs(sine);
@@ -23,7 +24,7 @@ int gradientClass(vec3 sums) {
     return angleBin(cosine, sine, bin, kGradientAngles) * kGradientKinds + kind;
 }
 
-// From the second derivatives [1/8 grey level per px^2].
+// Class for the second derivatives [1/8 grey level per px^2].
 int curvatureClass(float xx, float yy, float fourXy) {
     float cosine = xx - yy, sine = 0.5 * fourXy, scale = float(kLumaScale);
     float square = cosine * cosine + sine * sine;

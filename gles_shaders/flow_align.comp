@@ -1,8 +1,8 @@
-// Refines the flow of every cell from a vector whose error is a fraction of a pixel: Gauss-Newton steps on a patch that
-// deforms as the flow around the cell does. On a surface that the other camera sees from another side, a rigid patch
-// would fit best at a wrong place.
-// In, out: two areas of patches[]. Out: flow (x, y) [px], cost, texture (energy of the patch). One invocation per cell.
-// Tiles that are not matched keep their vectors.
+// Refines the flow of every cell by Gauss-Newton steps. The flow at the start must have an error of
+// less than a pixel. The patch is deformed according to the flow around the cell. On a surface that
+// the other camera sees from another side, a rigid patch would fit best at a wrong place.
+// In: an area of patches[]. Out: another area of patches[] with flow (x, y) [px], cost, texture
+// (energy of the patch). Tiles that are not matched keep their vectors. One invocation per cell.
 // After: Baker and Matthews, Lucas-Kanade 20 years on, IJCV 2004, section 3.2.
 // Range: patches -2e4..2e4, -2e4..2e4, 0..2.02, 0..4.2e6
 #include "luma.glsl"
@@ -31,8 +31,9 @@ vec2 flowAt(ivec2 c) {
     return patches[params.source + c.y * params.columns + c.x].xy;
 }
 
-// Change of the flow per pixel along `step`: the smaller one-sided difference, or zero where both differ in sign. Two
-// cells wide, because between adjacent cells the noise is larger than the change.
+// Change of the flow per pixel along `step`: the smaller of the two one-sided differences, or zero
+// if they have different signs. The differences are taken over two cells, because between adjacent
+// cells the noise is larger than the change.
 vec2 slopeAt(ivec2 cell, ivec2 step) {
     vec2 here = flowAt(cell);
     vec2 before = here - flowAt(cell - 2 * step), after = flowAt(cell + 2 * step) - here;
@@ -40,7 +41,8 @@ vec2 slopeAt(ivec2 cell, ivec2 step) {
     return clamp(mix(vec2(0.0), least / 8.0, greaterThan(before * after, vec2(0.0))), -kSteepestFlow, kSteepestFlow);
 }
 
-// Row y from a word column on (margin included), shifted by `shift` bits: eight pixels minus the first shift / 8.
+// Row y from word column `wx` on (the columns include the margin), shifted by `shift` bits: eight
+// pixels minus the first shift / 8.
 uvec2 fetchShort(LumaLevel l, int wx, int y, uint shift) {
     int at = l.offset + clamp(y, 0, l.height - 1) * l.pitch + wx;
     uvec2 w = uvec2(luma[at], luma[at + 1]);
@@ -48,8 +50,8 @@ uvec2 fetchShort(LumaLevel l, int wx, int y, uint shift) {
     return uvec2((w.x >> shift) | (w.y << (32u - shift)), w.y >> shift);
 }
 
-// Four pixels of the patch, starting at `first`, at the places given by a flow that changes by dx and dy per pixel. All
-// four share a base position, from which columns deviate by less than half a pixel.
+// Four pixels of the patch, beginning at `first`. The flow changes by dx and dy per pixel. All four
+// share a base position, from which the columns differ by less than half a pixel.
 vec4 bentRow(LumaLevel l, ivec2 cell, vec2 u, vec2 dx, vec2 dy, vec2 first) {
     const vec4 along = vec4(-1.5, -0.5, 0.5, 1.5);
     vec2 middle = first - vec2(2.0, 3.5);
@@ -67,7 +69,8 @@ vec4 bentRow(LumaLevel l, ivec2 cell, vec2 u, vec2 dx, vec2 dy, vec2 first) {
     return upper + (lower - upper) * fy;
 }
 
-// Adds four pixels b of row r to the sums: the left half (side 0) or the right half (side 1).
+// Adds four pixels b of row r to the sums. They are the left half (side 0) or the right half (side
+// 1) of the row.
 void addHalf(inout Sums sums, int r, int side, vec4 b) {
     int at = 3 * r + 3;
     vec4 a = unpackPixels(templateWords[at + side]);
@@ -82,10 +85,12 @@ void addHalf(inout Sums sums, int r, int side, vec4 b) {
     sums.gb += vec2(dot(gx, b), dot(gy, b));
 }
 
-// Compares the template under a flow that changes by dx and dy per pixel over the patch.
+// Compares the template with the other picture. The flow changes by dx and dy per pixel of the
+// patch.
 Match compareBent(LumaLevel l, ivec2 cell, vec2 u, vec2 dx, vec2 dy) {
     Sums sums = Sums(0.0, 0.0, 0.0, vec2(0.0));
-    // Half a row at a time: a whole row with its gradients needs more registers than a V3D has.
+    // Each iteration processes half a row, because a whole row with its gradients needs more
+    // registers than a V3D has.
     int end = cell.y + 2 * kRows;
     for (int i = cell.y; i < end; ++i) {
         int side = (i - cell.y) & 1, r = (i - cell.y) >> 1;
@@ -107,8 +112,8 @@ void main() {
     prepareSteps(known, cell);
     vec2 u = flowAt(cell), best = u;
     float cost = 1e9;
-    // The loop has no early exit, which would cost vector processors more than the repetition: when the cost no longer
-    // falls, the same place is evaluated again.
+    // The loop has no early exit, because on vector processors an exit costs more than repeated
+    // evaluations. Once the cost stops falling, the same position is evaluated again.
     for (int k = 0; k <= params.steps; ++k) {
         Match m = compareBent(lb, cell, u, dx, dy);
         bool better = m.cost < cost;

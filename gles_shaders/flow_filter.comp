@@ -1,6 +1,9 @@
-// Robust clean-up of a cell field: the median of each component over 3x3 cells, then a plane through the vectors in 5x5
-// cells that agree with it. Larger medians measured worse on photographs: they flatten slanted and curved surfaces.
-// In, out: two areas of patches[]. One invocation per cell. Tiles that are not matched keep their vectors.
+// Robust clean-up of a field of cells. First each component is replaced by its median over 3x3
+// cells. Then a plane is fitted to those vectors in 5x5 cells that agree with the median. Larger
+// medians were worse in measurements on photographs, because they flatten slanted and curved
+// surfaces.
+// In, out: two areas of patches[]. Tiles that are not matched keep their vectors. One invocation
+// per cell.
 // Range: patches -2e4..2e4, -2e4..2e4, 0..2.02, 0..4.2e6
 #include "pipeline/engine/params/flow.h"
 
@@ -22,11 +25,11 @@ vec4 cellIn(ivec2 c) {
 }
 
 struct Plane {
-    vec2 value, dx, dy;  // flow at the cell [px], change per cell
+    vec2 value, dx, dy;  // flow at the cell [px], change of the flow per cell
 };
 
-// Fits a plane to the neighbours, weighted by their reliability and by their distance from `about`, so that the other
-// side of a depth edge has no influence.
+// Fits a plane to the neighbours. They are weighted by their reliability and by their distance from
+// `about`, so that the other side of a depth edge has no influence.
 Plane planeAt(ivec2 cell, Plane about, float reach) {
     float w0 = 0.0;
     vec2 wx = vec2(0.0), u0 = vec2(0.0), ux = vec2(0.0), uy = vec2(0.0);
@@ -46,7 +49,8 @@ Plane planeAt(ivec2 cell, Plane about, float reach) {
             uy += w * float(j) * d;
         }
     }
-    // Normal equations, damped on the slopes: a single neighbour does not determine a plane.
+    // Normal equations. The slopes are damped, because a single neighbour does not determine a
+    // plane.
     float damp = kSlopeDamping + kSlopeDampingPerWeight * w0;
     mat3 m = mat3(w0 + 1e-6, wx.x, wx.y, wx.x, wxx.x + damp, wxx.y, wx.y, wxx.y, wxx.z + damp);
     float det = determinant(m);
@@ -73,7 +77,8 @@ void main() {
     }
     vec2 v[9];
     for (int i = 0; i < 9; ++i) v[i] = cellIn(cell + ivec2(i % 3 - 1, i / 3 - 1)).xy;
-    // Sorts the columns, then takes the median of (largest minimum, median of the medians, smallest maximum).
+    // The median of 9: sorts the columns, then takes the median of the largest minimum, the median
+    // of the medians, and the smallest maximum.
     for (int c = 0; c < 3; ++c) {
         order(v[c], v[c + 3]);
         order(v[c + 3], v[c + 6]);

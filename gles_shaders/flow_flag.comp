@@ -1,6 +1,8 @@
-// Flags the tiles of 16x16 pixels that the epipolar lines do not explain: tiles with textured cells that match badly
-// although the still shows the place. Something moved or came into view there, or the pose is wrong.
-// In: refined forward field and its two-way errors in patches[]. Out: flags[] = 1 or 0. One invocation per tile.
+// Flags tiles of 16x16 pixels in which the flow along epipolar lines does not fit. These are tiles
+// with textured cells that match badly although the still shows the place. Either something moved
+// or came into view there, or the pose is wrong.
+// In: the refined forward field and its two-way errors in patches[]. Out: flags[] = 1 or 0. One
+// invocation per tile.
 // Range: flags 0..1
 #include "pipeline/engine/params/flow.h"
 

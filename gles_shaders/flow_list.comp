@@ -1,8 +1,9 @@
-// Lists the groups of 4x4 cells of one pyramid level that the 2-D search of the flagged tiles needs: groups with a
-// flagged tile in them or within a margin, from which the finer level takes its candidates. A tile with two flagged
-// neighbours counts as flagged, because moving objects have areas without texture, too.
-// In: flags[] of flow_flag.comp. Out: lists[] = packed groups of the level, commands[] = its dispatch, initially zero
-// except for the two ones. One invocation per group.
+// Lists the groups of 4x4 cells of one pyramid level that the 2-D search of the flagged tiles
+// needs. These are groups with a flagged tile in them or within a margin. The margin is needed
+// because the finer level takes its candidates from there. A tile with two flagged neighbours
+// counts as flagged, because moving objects also have areas without texture.
+// In: flags[] of flow_flag.comp. Out: lists[] = packed groups of the level; commands[] = the
+// dispatch command of the level, initially (0, 1, 1, 0). One invocation per group.
 #include "tiles.glsl"
 #include "pipeline/engine/params/flow.h"
 

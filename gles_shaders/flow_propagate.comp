@@ -1,4 +1,5 @@
-// Tries the vectors of each cell's four neighbours and refines the one that fits better.
+// Tries the vectors of each cell's four neighbours, and refines the best one if it fits better than
+// the cell's own vector.
 // In, out: two areas of patches[], in the format of flow_search.comp. One invocation per cell.
 // Range: patches -2e4..2e4, -2e4..2e4, 0..2.02, 0..4.2e6
 #include "luma.glsl"
@@ -48,7 +49,8 @@ void main() {
             moved = true;
         }
     }
-    // A branch around the call would need one more register than a V3D has.
+    // refine() is always called, because a branch around the call would need one more register than
+    // a V3D has.
     refine(known, lb, cell, moved ? params.steps : -1, best, found);
     patches[params.target + cell.y * params.columns + cell.x] = vec4(best, found, momentAt(1));
 }

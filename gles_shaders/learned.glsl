@@ -1,16 +1,17 @@
-// Second half (rows) of the learned enlarger's contribution to an output pixel, from the result of
-// superres_vertical.frag with LEARNED. Needs tile_params.glsl.
+// Second half (along rows) of the learned enlarger's contribution to an output pixel. The input is
+// the result of superres_vertical.frag with LEARNED. Needs tile_params.glsl.
 #include "pipeline/engine/params/enlarge.h"
 
 layout(binding = 0) uniform isampler2D columns;
-layout(binding = 3) uniform isampler2D residuals;     // from superres_vertical.frag
-layout(binding = 4) uniform sampler2D learnedTiles;   // one texel per tile: above zero where filters are used
+layout(binding = 3) uniform isampler2D residuals;     // written by superres_vertical.frag
+layout(binding = 4) uniform sampler2D learnedTiles;   // one texel per tile; above 0: enlarged by
+                                                      // filters
 
 vec4 columnAt(ivec2 p) {
     return vec4(texelFetch(columns, p, 0)) / (255.0 * float(kPassScale));
 }
 
-// The residual, in units of colour.
+// The residual as a colour value (white is 1).
 float learned() {
     ivec2 tile = ivec2(gl_FragCoord.xy * vec2(params.scaleX, params.scaleY)) >> 4;
     if (!(texelFetch(learnedTiles, min(tile, textureSize(learnedTiles, 0) - 1), 0).r > 0.0)) return 0.0;

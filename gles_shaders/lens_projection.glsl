@@ -1,5 +1,5 @@
-// A camera's projection, continued beyond the rim of its lens and behind it; twin of
-// pipeline/composite/lens_projection.h.
+// Projection of a camera, continued beyond the field of view of its lens and behind the camera.
+// Must equal pipeline/composite/lens_projection.h.
 #include "camera.glsl"
 #include "pipeline/composite/pass_params.h"
 
@@ -10,7 +10,7 @@ vec3 transformed(Transform t, vec3 p) {
     return to;
 }
 
-// Camera coordinates [m] to (w u, w v, w).
+// Projects a point in camera coordinates [m] to (w u, w v, w).
 vec3 projectPoint(Projection c, vec3 p) {
     float r = length(p.xy);
     bool within = p.z * c.rim > r;

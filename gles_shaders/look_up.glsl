@@ -1,12 +1,13 @@
-// Place of this output pixel in the still, and the weight there. Needs tile_params.glsl.
-// In a plain tile the look-up is one linear function over the tile; elsewhere it is the filtered field.
+// Position of this output pixel in the still, and the still's weight there. Needs tile_params.glsl.
+// In a plain tile the look-up is one linear function over the tile. In other tiles it is
+// interpolated in the field of cells.
 #ifdef PLAIN_TILE
 in vec4 plainLookUp;
 #else
 layout(binding = 2) uniform sampler2D lookupField;
 #endif
 
-// Returns offset [still px] (x, y), weight of the detail, eq. 2 confidence.
+// Returns offset (x, y) [still px], weight of the detail, confidence (eq. 2).
 vec4 lookUp(out vec2 uv) {
 #ifdef PLAIN_TILE
     vec4 l = plainLookUp;

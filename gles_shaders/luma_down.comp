@@ -1,4 +1,4 @@
-// Next coarser pyramid level: mean of 2x2 pixels. One invocation per word, margins included.
+// The next coarser pyramid level: mean of 2x2 pixels. One invocation per word, including margins.
 #include "luma.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -1,5 +1,6 @@
-// Finest pyramid level of the still, in the video's geometry and scale: luma of the still averaged over the footprint
-// of each video pixel. In: RGBA8 still. Out: luma words. One invocation per word.
+// The finest pyramid level of the still, in the geometry and scale of the video. Each value is the
+// still's luma, averaged over the area of a video pixel.
+// In: still, RGBA8. Out: words of luma. One invocation per word.
 #include "luma.glsl"
 #include "rig.glsl"
 

@@ -1,6 +1,6 @@
-// Finest pyramid level of the video frame: its luma, smoothed by 3x3 pixels.
-// Text and fabric alias at the video's resolution; without smoothing, patches lock to whole pixels there.
-// In: RGBA8 or grey picture. Out: luma words. One invocation per word, margins included.
+// The finest pyramid level of the video frame: luma, smoothed over 3x3 pixels. Text and fabric
+// alias at the video's resolution. Without smoothing, patches would lock to whole pixels there.
+// In: picture, RGBA8 or grey. Out: words of luma. One invocation per word, including margins.
 #include "luma.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

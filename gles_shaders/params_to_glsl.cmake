@@ -1,12 +1,15 @@
-# Translates headers of parameters from C++ into GLSL, so that shaders, engines and tests share one
-# definition. Reports all other constructs as errors, with file and line. Supports
-#   inline constexpr T kName = EXPR;  T: float, int, std::int32_t, std::uint32_t. EXPR: literals and
-#                                     constants of this type, + - * / and parentheses
-#   struct alignas(16) Name {         Scalars are aligned to 4 bytes, structures to 16, so std140
-#       T member, member;             and C++ have the same layout. Arrays of scalars have other
-#       Name member, member[2];       strides in std140 and are not supported.
+# Translates parameter headers from C++ to GLSL, so that shaders, engines and tests share one
+# definition. It supports only these two constructs:
+#   inline constexpr T kName = EXPR;
+#   struct alignas(16) Name {
+#       T member, member;
+#       Name member, member[2];
 #   };
-# Ignores: #pragma once, #include <...>, namespace mfar::params, static_assert, comments.
+# T is float, int, std::int32_t or std::uint32_t. EXPR contains literals and constants of type T,
+# + - * / and parentheses. Scalars are aligned to 4 bytes and structures to 16, so that std140 and
+# C++ have the same layout. Arrays of scalars have another stride in std140 and are not supported.
+# #pragma once, #include <...>, namespace mfar::params, static_assert and comments are ignored.
+# Every other construct is reported as an error, with file and line.
 cmake_policy(VERSION 3.25)
 
 function(params_fault where why statement)
@@ -19,7 +22,7 @@ function(params_glsl_type type out_var)
     set(${out_var} "${type}" PARENT_SCOPE)
 endfunction()
 
-# Translates an expression whose parts all have this GLSL type.
+# Translates an expression in which all constants have this GLSL type.
 function(params_expression where type text out_var)
     set(literal_float "([0-9]+\\.[0-9]*|[0-9]+(\\.[0-9]*)?e-?[0-9]+)F")
     set(literal_int "([0-9]+)")
@@ -54,7 +57,7 @@ function(params_expression where type text out_var)
     set(${out_var} "${glsl}" PARENT_SCOPE)
 endfunction()
 
-# Each name is defined once in all headers: GLSL has no namespaces.
+# Defines a name. Each name may be defined only once in all headers, because GLSL has no namespaces.
 function(params_define where kind name value)
     get_property(known GLOBAL PROPERTY "params_${kind}_${name}" SET)
     if(known)
@@ -105,7 +108,7 @@ function(params_outside where root statement out_var)
     endif()
 endfunction()
 
-# ROOT/NAME as GLSL; its lines #include "x.h" stay.
+# Translates ROOT/NAME to GLSL. Its lines #include "x.h" stay.
 function(params_to_glsl root name out_var)
     get_property(done GLOBAL PROPERTY "params_text_${name}" SET)
     if(done)

@@ -1,12 +1,12 @@
-// Patches of 8x8 pixels of a luma level, row by row. A cell is 4x4 pixels; its patch has the same centre, so it starts
-// 2 px left of and above the cell.
+// Patches of 8x8 pixels of a luma level, read row by row. A cell has 4x4 pixels. Its patch has the
+// same centre, so it begins 2 px to the left of the cell and 2 px above it.
 // Needs: `uint luma[]` and the functions of luma.glsl.
 
 #include "pipeline/engine/params/patch.h"
 
 const int kRows = 8;
 
-// Eight pixels of a patch.
+// Eight pixels of a patch's row.
 struct Row {
     vec4 left, right;
 };
@@ -17,7 +17,8 @@ float sumOf(Row a) {
 float product(Row a, Row b) {
     return dot(a.left, b.left) + dot(a.right, b.right);
 }
-// Index of the word in row y that is `column` words into the level, not counting the margin.
+// Index of a word in row y. `column` is counted in words from the level's left edge, without the
+// margin.
 int wordAt(LumaLevel l, int column, int y) {
     return l.offset + clamp(y, 0, l.height - 1) * l.pitch + kLumaMarginWords + column;
 }
@@ -25,27 +26,29 @@ uvec3 fetchWords(int at) {
     return uvec3(luma[at], luma[at + 1], luma[at + 2]);
 }
 
-// A cell's row of eight pixels in two words; `w` starts four pixels left of the cell, the row two.
+// A row of eight pixels of a cell's patch, in two words. `w` begins four pixels to the left of the
+// cell, and the row two pixels.
 uvec2 cellRow(uvec3 w) {
     return uvec2((w.x >> 16) | (w.y << 16), (w.y >> 16) | (w.z << 16));
 }
 
-// A patch at a position between the pixels.
+// State for reading a patch at a position between pixels.
 struct Window {
-    int first, y;   // word of the level's first row where the patch begins; row of `above`
-    uint shift;     // bits of that word to the left of the patch
-    vec2 f;         // fraction of a pixel by which the patch is to the right of and below its pixels
-    uvec3 above;    // nine pixels of the last row that was read
+    int first, y;   // index of the patch's first word in the level's first row; row of `above`
+    uint shift;     // bits of that word that are to the left of the patch
+    vec2 f;         // fraction by which the patch is to the right of and below whole pixels
+    uvec3 above;    // nine pixels of the row that was read last
 };
 
 uvec3 fetchPixels(LumaLevel l, Window w) {
     uvec3 words = fetchWords(w.first + clamp(w.y, 0, l.height - 1) * l.pitch);
-    uint up = 31u - w.shift;  // one less than the shift: a shift by 32 is undefined
+    uint up = 31u - w.shift;  // one less than needed, because a shift by 32 is undefined
     return uvec3((words.x >> w.shift) | (words.y << 1 << up), (words.y >> w.shift) | (words.z << 1 << up),
                  words.z >> w.shift);
 }
 
-// Starts a cell's patch, displaced by u pixels. Positions outside the level are clamped to its border.
+// Begins reading a cell's patch that is displaced by u pixels. Positions outside the level are
+// clamped to the level's border.
 Window windowAt(LumaLevel l, ivec2 cell, vec2 u) {
     vec2 origin = clamp(vec2(4 * cell - 2) + u, vec2(-7.0), vec2(l.width - 2, l.height - 2));
     vec2 whole = floor(origin);
@@ -55,7 +58,8 @@ Window windowAt(LumaLevel l, ivec2 cell, vec2 u) {
     return w;
 }
 
-// The patch's next row, between two rows of pixels. Interpolates along y first, so that rows are kept as words.
+// The next row of the patch, interpolated between pixels. Interpolates along y first, so that the
+// row read last can be kept as words.
 Row nextRow(inout Window w, LumaLevel l) {
     ++w.y;
     uvec3 below = fetchPixels(l, w);
@@ -66,8 +70,8 @@ Row nextRow(inout Window w, LumaLevel l) {
     return Row(q0 + (vec4(q0.yzw, q1.x) - q0) * w.f.x, q1 + (vec4(q1.yzw, q2) - q1) * w.f.x);
 }
 
-// Covariance and both variances, as sums over the pixels, of a cell's patch in level a and the patch in level b that is
-// displaced by u pixels.
+// Covariance and both variances (as sums over the pixels) of two patches: the cell's patch in level
+// a, and the patch in level b that is displaced by u pixels.
 vec3 spreadOf(LumaLevel a, LumaLevel b, ivec2 cell, vec2 u) {
     Window w = windowAt(b, cell, u);
     vec2 sum = vec2(0.0);

@@ -1,16 +1,19 @@
-// An 8x8 patch to be found in another luma level, invariant to offset and gain.
+// An 8x8 patch (the template) that is searched in another luma level. The cost is invariant to
+// offset and gain.
 #include "patch.glsl"
 
-// The template: three words for each of rows -1 to kRows: two with its eight pixels, one with those to the left and
-// right of them. After the rows nine floats: mean, variance (sum of squared deviations), sum of the gradient (x, y),
-// sum of a (minus its mean) times the gradient, inverse Hessian (xx, xy, yy); then five floats of patch_refine.glsl.
-// No GPU has enough registers for all of this plus a comparison. Variable indices keep it in memory; Mali requires more
-// than 64 words for that. Loops whose length the compiler does not know, here and in the files that include this, are
-// not unrolled and keep one row in registers.
+// The template. Each of the rows -1 to kRows has three words: two with its eight pixels, and one
+// with the pixels to the left and right of these. Nine floats follow: mean, variance (sum of
+// squared deviations), sum of the gradient (x, y), sum of a (minus its mean) times the gradient,
+// inverse Hessian (xx, xy, yy). The last five floats belong to patch_refine.glsl.
+// No GPU has enough registers for the template and a comparison. Variable indices keep the template
+// in memory; on Mali this works only with more than 64 words. Loops whose length the compiler does
+// not know are not unrolled and keep only one row in registers. Such loops are used here and in the
+// files that include this file.
 uint templateWords[72];
 
-// Sums over the pixels of a patch: of the other picture b, of b^2, of b times the template, of b times twice the
-// template's gradient.
+// Sums over a patch's pixels. b is a pixel of the other picture: sum of b, of b^2, of b times the
+// template's pixel, and of b times twice the template's gradient.
 struct Sums {
     float b, bb, ab;
     vec2 gb;
@@ -18,10 +21,10 @@ struct Sums {
 
 struct Match {
     float cost;
-    vec2 step;  // Gauss-Newton step of the displacement, at most one pixel long
+    vec2 step;  // Gauss-Newton step of the displacement [px]; length at most 1
 };
 
-// Pixels of row r of the template; r from -1 to kRows.
+// Pixels of row r of the template, -1 <= r <= kRows.
 Row templateRow(int r) {
     int at = 3 * r + 3;
     return Row(unpackPixels(templateWords[at]), unpackPixels(templateWords[at + 1]));
@@ -45,7 +48,7 @@ void setMoment(int i, float value) {
     templateWords[3 * kRows + 6 + i] = floatBitsToUint(value);
 }
 
-// Sets the rows, mean and variance; returns the latter two.
+// Stores the rows, the mean and the variance. Returns mean and variance.
 vec2 loadTemplate(LumaLevel l, ivec2 cell) {
     float sum = 0.0, sumSquares = 0.0;
     for (int r = -1; r <= kRows; ++r) {
@@ -66,7 +69,7 @@ vec2 loadTemplate(LumaLevel l, ivec2 cell) {
     return vec2(mean, variance);
 }
 
-// Sets the other floats after the rows; `known`: mean and variance.
+// Stores the other floats. `known` is mean and variance.
 void prepareSteps(vec2 known, ivec2 cell) {
     vec2 sum = vec2(0.0), sumA = vec2(0.0);
     vec3 h = vec3(0.0);
@@ -91,8 +94,9 @@ void add(inout Sums sums, Row a, Row b) {
     sums.ab += product(a, b);
 }
 
-// 0 = equal up to gain and offset, 1 = unrelated, 2 = inverted. `known`: mean and variance of the template. gain: a is
-// about gain * b + offset.
+// Cost: 0 if the patches are equal up to gain and offset, 1 if they are unrelated, 2 if one is
+// inverted. `known` is mean and variance of the template. A pixel of the template is about gain * b
+// + offset.
 float costOf(vec2 known, Sums sums, out float gain) {
     float mean = sums.b / kPatchPixels;
     float variance = max(sums.bb - sums.b * mean, 0.0);
@@ -113,7 +117,7 @@ Match matchOf(Sums sums) {
     return m;
 }
 
-// See costOf().
+// Cost of the displacement u; see costOf().
 float costAt(vec2 known, LumaLevel l, ivec2 cell, vec2 u) {
     Window w = windowAt(l, cell, u);
     Sums sums = Sums(0.0, 0.0, 0.0, vec2(0.0));

@@ -1,5 +1,6 @@
-// Vertices of a virtual object, seen through the video camera's lens. In: unit shape.
-// Out: position in the camera frame [m], squares of the checkerboard, position on the unit shape.
+// Vertices of a virtual object, seen through the video camera's lens.
+// In: unit shape. Out: position in the camera's frame [m], position on the checkerboard [squares],
+// position on the unit shape.
 #include "preview_params.glsl"
 #include "lens_projection.glsl"
 
@@ -13,7 +14,8 @@ out vec3 place;
 
 void main() {
     vec3 size = vec3(params.width, params.height, params.depth);
-    // Normals are divided by the size; multiplied by all three sizes instead, because one may be zero.
+    // Normals must be divided by the size. The products of the two other sizes have the same
+    // direction, and they exist even if one size is zero.
     vec3 n = normal * size.yzx * size.zxy;
     point = transformed(params.object, position * size);
     for (int i = 0; i < 3; ++i) {
@@ -23,7 +25,7 @@ void main() {
     square = uv * params.squares;
     place = position;
     vec3 h = projectPoint(params.projection, point);
-    // Pixel centres are at integers; infinite far plane.
+    // Pixel centres are at integers. The far plane is at infinity.
     gl_Position = vec4((2.0 * h.xy + h.z) / vec2(params.targetWidth, params.targetHeight) - h.z,
                        h.z - 2.0 * params.projection.nearPlane, h.z);
 }

@@ -1,4 +1,4 @@
-// One virtual object of the preview.
+// Parameters of one virtual object of the preview.
 #include "pipeline/composite/pass_params.h"
 
 layout(std140, binding = 0) uniform Params {

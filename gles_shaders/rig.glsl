@@ -1,8 +1,10 @@
-// Place of a video pixel at infinity in the still: rotation and both lenses, no parallax.
+// Position in the still of a video pixel at infinite distance: rotation and both lenses, no
+// parallax.
 #include "camera.glsl"
 #include "pipeline/engine/params/luma.h"
 
-// Still pixel of a video pixel; far outside if the ray points away from the still camera's view.
+// Still pixel of a video pixel. It is far outside the still if the ray points away from the still
+// camera's view.
 vec2 stillPixel(Rig r, vec2 videoPixel) {
     vec3 p = vec3(unprojectPixel(r.video, videoPixel), 1.0);
     vec3 s;

@@ -1,5 +1,5 @@
-// Luma of the still; its finest detail is raised to compensate the loss in a linear look-up.
-// In: RGBA8 still. Out: luma, clamped to 8 bits.
+// Luma of the still. Its finest detail is raised to compensate the loss in a linear look-up.
+// In: still, RGBA8. Out: luma, clamped to 8 bits.
 #include "luma.glsl"
 #include "pipeline/engine/params/still.h"
 
@@ -9,11 +9,13 @@ layout(std140, binding = 0) uniform Params {
 layout(binding = 0) uniform sampler2D still;
 layout(location = 0) out vec4 raised;
 
-// For the power spectrum of natural pictures (f^-2 to f^-3), least squares over all sub-pixel positions and over
-// frequencies beyond the video's give a share of 0.11 per neighbour. A smaller share is better, because it amplifies
-// less where matches are slightly off (measured: 0.08 gives +0.5 dB on synthetic scenes, -0.1 dB on photographs, and
-// half of the missing sharpness, LPC-SI). Not for a reduced still, whose highest frequencies are not weak (+2.5 dB on a
-// photograph at 1067 of 2304 pixels across).
+// The share per neighbour (params.neighbours) was chosen as follows. For the power spectrum of
+// natural pictures (f^-2 to f^-3), least squares over all sub-pixel positions and over frequencies
+// beyond the video's give 0.11. A smaller share is better, because it amplifies less where matches
+// are slightly off. Measured: 0.08 gives +0.5 dB on synthetic scenes, -0.1 dB on photographs, and
+// recovers half of the missing sharpness (LPC-SI). A reduced still is not raised, because its
+// highest frequencies are not weak (not raising gains 2.5 dB on a photograph at 1067 of 2304 pixels
+// across).
 vec3 stillAt(ivec2 p) {
     return texelFetch(still, clamp(p, ivec2(0), textureSize(still, 0) - 1), 0).rgb;
 }

@@ -1,7 +1,10 @@
-// The still reduced along one axis, by a tent filter as wide as two pixels of the result. In: RGBA8. Out: RGBA8.
-// Sharper kernels are worse: the frequencies that they keep are matched worst (measured on photographs, 1067 of 2304
-// pixels across: Keys' cubic 0.2 to 1.3 dB below, Mitchell's between).
-// TAPS: upper limit of the pixels under the tent; a constant, so that the loop unrolls.
+// Reduces the still along one axis by a tent filter that is two pixels of the result wide.
+// In: RGBA8. Out: RGBA8.
+// Sharper kernels are worse, because the frequencies that they keep are matched worst. Measured on
+// photographs at 1067 of 2304 pixels across: Keys' cubic is 0.2 to 1.3 dB worse, and Mitchell's
+// filter is between.
+// TAPS: upper limit of the number of pixels under the tent. It is a constant, so that the loop can
+// be unrolled.
 // Variant: #define TAPS 8
 #ifndef TAPS
 #define TAPS 3

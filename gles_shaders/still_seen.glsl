@@ -2,14 +2,15 @@
 layout(binding = 2) uniform sampler2D lookupField;
 layout(binding = 3) uniform sampler2D still;  // raised luma
 
-// Place in the still of a place in the video.
+// Position in the still of a position in the video.
 vec2 inStill(vec2 p) {
     vec2 scale = vec2(params.stillScaleX, params.stillScaleY) / vec2(params.scaleX, params.scaleY);
     return (p * scale + textureLod(lookupField, p / vec2(4 * cellCount()), 0.0).xy) *
            vec2(params.stillTexelX, params.stillTexelY);
 }
 
-// Mean over this pixel: 4x4 samples. Look-ups are interpolated bilinearly within the pixel.
+// Mean over this video pixel from 4x4 samples. Look-ups are interpolated bilinearly within the
+// pixel.
 float stillSeen() {
     const float reach = 0.375 * kSeen;
     vec2 first = inStill(gl_FragCoord.xy - reach), last = inStill(gl_FragCoord.xy + reach);

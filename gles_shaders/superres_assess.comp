@@ -1,9 +1,11 @@
-// Statistics of the match between still and video in each cell: the inputs of superres_weigh.comp.
-// In: forward field (video -> still) in patches[], with the backward field, which may be of a coarser level, or two-way
-// errors; both pictures' finest luma.
-// Out: displacement image = flow (x, y) [video px], its end in the still minus the scaled cell centre [still px];
-// statistics image = covariance, variance of the video and of the still in the patch, confidence; the first three are 0
-// in tiles that are not matched. Source: paper, eq. 2 with lambda(x) = min(x, 1).
+// Statistics of the match between still and video in each cell. They are the inputs of
+// superres_weigh.comp.
+// In: the forward field (from video to still) in patches[]; also in patches[] either the backward
+// field, which may have a coarser level, or two-way errors; the finest luma of both pictures.
+// Out: displacement image = flow (x, y) [video px], and its end in the still minus the scaled cell
+// centre (x, y) [still px]. Statistics image = covariance, variance of the video and of the still
+// in the patch, confidence; the first three are 0 in tiles that are not matched.
+// Source: paper, eq. 2 with lambda(x) = min(x, 1).
 // Range: displacement -2e4..2e4, -2e4..2e4, -4e3..4e3, -4e3..4e3
 // Range: statistics -4.2e6..4.2e6, 0..4.2e6, 0..4.2e6, 0..1
 #include "luma.glsl"
@@ -65,7 +67,8 @@ void main() {
 
     vec2 scale = vec2(params.scaleX, params.scaleY);
     vec2 offset = clamp(inStill - (centre + 0.5) * scale + 0.5, vec2(-kFarthestOffset), vec2(kFarthestOffset));
-    // Must come last: if this loop is before the rest, Mesa 22.3's compiler for V3D does not terminate.
+    // This loop must come last. If it precedes the rest, the compiler of Mesa 22.3 for V3D does not
+    // terminate.
     vec3 alike = vec3(0.0);
     if (tiles[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x].y != 0u)
         alike = spreadOf(params.video, params.still, cell, u);

@@ -1,9 +1,12 @@
-// Class of every tile and the draw lists of the frame.
-// In: change flags, cell fields of up to two stills. Out: lists[] = five lists of changed tiles: 0 all, 1 upscaled, 2
-// trusted, 3 blended, 4 showing some of the second still. The lists are empty when the whole frame is drawn at once; 0
-// and 1 are empty when it is enlarged at once. List 0 also has the neighbours of tiles that show detail or are enlarged
-// by filters, because those tiles read their neighbours. draws[] = the lists' indirect commands and the counts of the
-// frame; classes[] per tile. One invocation per tile; draws[] is initially zero.
+// Finds the class of every tile and makes the frame's draw lists.
+// In: change flags; cell fields of one or two stills.
+// Out: lists[] = five lists of changed tiles: 0 all, 1 upscaled (only enlarged), 2 trusted, 3
+// blended, 4 tiles that show some of the second still. Lists 0 to 3 are empty if the whole frame is
+// drawn at once. Only lists 0 and 1 are empty if the whole frame is enlarged at once. List 0 also
+// contains neighbours of tiles that show detail or are enlarged by filters, because such tiles read
+// their neighbours. draws[] = indirect draw commands of the lists; initially only their numbers of
+// vertices are set. counts[] = counters of the frame, initially 0. classes[] = class of each tile.
+// One invocation per tile.
 // Range: classes 0..3, 0..16
 #include "tiles.glsl"
 
@@ -12,22 +15,27 @@ layout(std140, binding = 0) uniform Params {
     ClassifyTiles params;
 };
 layout(std430, binding = 0) readonly buffer Changed {
-    uvec2 header;  // 1: whole frame drawn at once, 2: the same with detail in listed tiles; number of changed tiles
+    // How the frame is drawn (1: at once; 2: as 1, but detail only in listed tiles); number of
+    // changed tiles.
+    uvec2 header;
     uvec2 changed[];  // changed, matched
 };
 layout(std430, binding = 1) buffer Classes {
-    uvec2 classes[];  // class this frame, unexplained cells when last drawn
+    uvec2 classes[];  // class in this frame, unexplained cells when the tile was drawn last
 };
 layout(std430, binding = 2) buffer Draws {
     uvec4 draws[5];    // vertices, instances, first vertex, reserved
-    uint counts[8];    // tiles per class, -, unexplained tiles, confidence sum * 256, tiles with the second still
+    // Tiles per class (4), unused, unexplained tiles, confidence sum * 256, tiles showing the
+    // second still.
+    uint counts[8];
 };
 layout(std430, binding = 3) buffer Lists {
-    uint lists[];  // after the lists, per tile: frame in which it was last listed for a neighbour
+    // The lists; then, for each tile, the frame in which the tile was last listed as a neighbour.
+    uint lists[];
 };
 layout(binding = 0) uniform sampler2D cellField;
 layout(binding = 1) uniform sampler2D weightField;
-layout(binding = 2) uniform sampler2D secondCells;  // of the second still
+layout(binding = 2) uniform sampler2D secondCells;  // cell field of the second still
 layout(binding = 3) uniform sampler2D secondWeights;
 
 ivec2 lastCell() {
@@ -38,7 +46,8 @@ vec4 cellAt(ivec2 c) {
     return texelFetch(cellField, clamp(c, ivec2(0), lastCell()), 0);
 }
 
-// A tile is plain if one quad can show it: within tolerance, its flow is affine and its weight uniform.
+// A tile is plain if one quad can show it, because its flow is affine and its weight uniform
+// (within tolerances).
 uint classOf(ivec2 first) {
     vec4 low = vec4(1e9), high = vec4(-1e9);
     for (int i = 0; i < 36; ++i) {
@@ -59,12 +68,13 @@ uint classOf(ivec2 first) {
     return kTileTrusted;
 }
 
-// True if the second still has the larger weight.
+// Whether the second still has the larger weight.
 bool secondIsMore(ivec2 c) {
     return texelFetch(secondCells, c, 0).z > texelFetch(cellField, c, 0).z + kSecondFrom;
 }
 
-// Includes the neighbouring cells, because pixels of the tile interpolate between them and its own.
+// Also tests neighbouring cells, because the tile's pixels interpolate between these and the tile's
+// cells.
 bool showsSecond(ivec2 first) {
     ivec2 low = max(first - 1, ivec2(0)), high = min(first + 4, lastCell());
     for (int y = low.y; y <= high.y; ++y)
@@ -83,7 +93,7 @@ void append(uint list, uint packedTile) {
     lists[int(list) * params.columns * params.rows + int(at)] = packedTile;
 }
 
-// Appends each unchanged neighbour once per frame.
+// Appends unchanged neighbours; each of them only once per frame.
 void appendUnchangedAround(ivec2 tile) {
     ivec2 first = max(tile - 1, ivec2(0)), last = min(tile + 1, ivec2(params.columns, params.rows) - 1);
     for (int y = first.y; y <= last.y; ++y) {

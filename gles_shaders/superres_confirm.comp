@@ -1,4 +1,5 @@
-// Lowers the weights of cells where the still does not show the video's finest detail: see kFineRoom.
+// Lowers the weights of cells in which the still does not show the video's finest detail; see
+// kFineRoom.
 // In: sums of superres_fine.comp, fields of superres_weigh.comp. Out: new versions of these fields.
 // Range: newCells -2e4..2e4, -2e4..2e4, 0..2.31, 0..1
 // Range: newLookUps -4e3..4e3, -4e3..4e3, 0..2.31, 0..1

@@ -1,9 +1,11 @@
-// Residual of the learned enlarger relative to Keys' cubic on a grid of 4x4 sub-pixels per pixel: the mean of two
-// residuals, each a sum of the neighbours' differences to the pixel, weighted by the filter of the pixel's class.
-// Computed for the tiles that are drawn and enlarged by filters, and for the pixels around them.
-// In: video, plan, filters of all classes. Out: residual image [1/32 grey level], four sub-pixels of a row per texel,
-// the four rows of a pixel below each other. Source: pipeline/enlarge/filter_layout.h.
-// One workgroup per upper or lower half of a tile.
+// Residual of the learned enlarger relative to Keys' cubic, on a grid of 4x4 sub-pixels per pixel.
+// A pixel has two classes, each with a filter. The residual of a class is the sum of the
+// differences between the pixel's neighbours and the pixel, weighted with the filter. The result is
+// the mean of both residuals. It is computed for tiles that are drawn and enlarged by filters, and
+// for the pixels around these tiles.
+// In: video, plan, filters of all classes. Out: residual image [1/32 grey level]. A texel holds the
+// four sub-pixels of a row; the four rows of a pixel are one below the other.
+// Source: pipeline/enlarge/filter_layout.h. One workgroup per upper or lower half of a tile.
 #include "cubic.glsl"
 #include "luma.glsl"
 #include "pipeline/engine/params/enlarge.h"
@@ -11,7 +13,7 @@
 #include "enlarge_filters.glsl"
 
 const int kGroupWidth = 16, kGroupHeight = 8, kGroupSize = kGroupWidth * kGroupHeight;
-const int kReach = 3;  // reach of a pixel's class and residual [px]
+const int kReach = 3;  // reach of the pixels that determine class and residual [px]
 const int kPitch = kGroupWidth + 2 * kReach;
 const int kLumas = kPitch * (kGroupHeight + 2 * kReach);
 const int kSumPitch = kGroupWidth + 4;
@@ -33,7 +35,7 @@ shared float sumsXx[kSums];  // sums of products of the gradient over five rows
 shared float sumsXy[kSums];
 shared float sumsYy[kSums];
 
-// True if a tile is drawn and enlarged by filters.
+// Whether a tile is drawn and enlarged by filters.
 bool learns(ivec2 tile) {
     if (any(lessThan(tile, ivec2(0))) || any(greaterThanEqual(tile, ivec2(params.columns, params.rows))))
         return false;
@@ -41,7 +43,7 @@ bool learns(ivec2 tile) {
     return (header.x != 0u || flags.x != 0u) && flags.y != 0u;
 }
 
-// True if a tile that learns touches these pixels.
+// Whether a tile that learns() touches these pixels.
 bool learnsAround(ivec2 first, ivec2 last) {
     ivec2 low = (first - 1) >> 4, high = (last + 1) >> 4;
     bool any = false;
@@ -99,12 +101,12 @@ vec3 sumsAround() {
     return sums;
 }
 
-// `at`: index of the pixel in luma[].
+// `at` is the index of the pixel in luma[].
 void enlarge(ivec2 pixel, int at) {
     float here = luma[at];
     int up = at - kPitch, down = at + kPitch;
     int gradient = gradientClass(sumsAround());
-    // Differences to the pixel in the order of kTapAt.
+    // Differences between the neighbours and the pixel, in the order of kTapAt.
     vec4 above2 = rowFrom(up - kPitch - 2) - here, above = rowFrom(up - 2) - here;
     vec4 below = rowFrom(down - 2) - here, below2 = rowFrom(down + kPitch - 2) - here;
     vec4 beside = vec4(luma[at - 2], luma[at - 1], luma[at + 1], luma[at + 2]) - here;

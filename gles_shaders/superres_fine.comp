@@ -1,7 +1,8 @@
-// Covariance of the finest detail of the video and of the still in each cell: see kFineRoom.
-// In: tiles, look-ups, raised luma of the still, video. Out: mean products of the differences of pixels from the mean
-// of their 2x2 block, over the middle two rows: video, both, still [grey levels^2]. Zero in tiles that are not matched
-// and in incomplete cells.
+// Covariance of the finest detail of the video and of the still in each cell; see kFineRoom.
+// In: tiles, look-ups, raised luma of the still, video.
+// Out: mean products of the differences between pixels and the mean of their 2x2 block, over the
+// middle two rows of the cell: video * video, video * still, still * still [grey levels^2]. Zero in
+// tiles that are not matched and in incomplete cells.
 // One workgroup per tile, one invocation per cell of a sampled row.
 // Range: fineField 0..65025, -65025..65025, 0..65025, 0
 #include "luma.glsl"
@@ -21,7 +22,7 @@ layout(binding = 1) uniform sampler2D lookupField;
 layout(binding = 2) uniform sampler2D still;  // raised luma
 layout(rgba32f, binding = 0) uniform writeonly highp image2D fineField;
 
-// Mean of 2x2 samples of a video pixel.
+// Mean of the still over a video pixel, from 2x2 samples.
 float stillAt(ivec2 pixel) {
     float sum = 0.0;
     for (int i = 0; i < 4; ++i) {

@@ -1,6 +1,8 @@
-// Photometric gain between the sensors, measured at half resolution, where their difference in blur is negligible. In:
-// forward field, both pictures' second luma level. Out: covariance, variance of the video and of the still per
-// half-resolution cell (8x8 video pixels); zero in tiles that are not matched.
+// Photometric gain between the sensors. It is measured at half resolution, where the difference of
+// the sensors' blur is negligible.
+// In: forward field, second luma level of both pictures. Out: covariance, variance of the video and
+// of the still for each half-resolution cell (8x8 video pixels); zero in tiles that are not
+// matched.
 // Range: statistics -4.2e6..4.2e6, 0..4.2e6, 0..4.2e6, 0..0
 #include "luma.glsl"
 #include "pipeline/engine/params/weigh.h"

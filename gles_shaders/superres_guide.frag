@@ -1,5 +1,6 @@
-// Mean of the still over each video pixel (result of superres_seen.frag), minus the guidance signal beyond its local
-// mean: see kGuideReach. In and out: luma [1/64 grey level].
+// Subtracts the guidance signal from the still's mean over each video pixel (result of
+// superres_seen.frag). The guidance signal is taken relative to its local mean; see kGuideReach.
+// In and out: luma [1/64 grey level].
 #include "tile_params.glsl"
 
 layout(binding = 1) uniform isampler2D seen;

@@ -1,7 +1,8 @@
-// Compensates the loss of high frequencies by the area of a sensor pixel and the bicubic kernel together, where the
-// still does not supply them: each axis, and the product of the axes' nearest taps.
-// In: video, weights, look-ups, raised luma of the still. Out: video, prefiltered for the upscaling; alpha: mean luma
-// of the still over the pixel, which composite_detail.frag subtracts.
+// Compensates the high frequencies that are lost by the area of a sensor pixel together with the
+// bicubic kernel, where the still does not supply them. The filter is the sum of both axes' filters
+// and the product of their nearest taps.
+// In: video, weights, look-ups, raised luma of the still. Out: video, prefiltered for the
+// enlargement; alpha: mean luma of the still over the pixel, which composite_detail.frag subtracts.
 
 #include "tile_params.glsl"
 #include "still_seen.glsl"

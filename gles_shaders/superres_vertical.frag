@@ -1,6 +1,8 @@
-// First half of the upscaling: columns of four channels. In: prefiltered video. Out: video width x output height.
-// With LEARNED, the output is integer: the video without prefilter and the mean of the still over video pixels [1/64
-// grey level], and the residual of superres_enlarge.comp, four sub-pixels per texel [1/64 grey level].
+// First half of the enlargement: along columns, four channels.
+// In: prefiltered video. Out: a picture with the video's width and the output's height.
+// LEARNED: the output is integer. The first output is the video without prefilter and the mean of
+// the still over each video pixel [1/64 grey level]. The second output is the residual of
+// superres_enlarge.comp [1/64 grey level], four sub-pixels per texel.
 // Variant: #define LINEAR
 // Variant: #define LEARNED
 #include "cubic.glsl"

@@ -1,13 +1,18 @@
-// How far the still is trusted at each cell, from the statistics of 3x3 cells.
-// In: images of superres_assess.comp. Out: cells image = flow (x, y) [video px], weight of the detail, eq. 2
-// confidence; look-up image = the same, but the flow as its end in the still minus the scaled cell centre [still px];
-// weights image = weight / 2, confidence, signal share (for the sharpening), unexplained.
-// Weight of the detail: the sensors' photometric gain a = cov / (var + eps), measured at half resolution where contrast
-// suffices, times a trust in the match. Where the flow is uniform, both sensors see the surface from the same side.
-// Their correlation at the video's resolution then says little about detail that aliases there: a match that is
-// probably correct is trusted fully. Where the flow varies, the surface is seen from another side, and trust falls with
-// the squared share of the video's variance that the still explains. Where the flow is discontinuous, look-ups between
-// cells are invalid, and nothing is trusted.
+// Computes how far the still is trusted in each cell, from the statistics of 3x3 cells.
+// In: images of superres_assess.comp.
+// Out: cells image = flow (x, y) [video px], weight of the detail, confidence (eq. 2). Look-up
+// image = the flow's end in the still minus the scaled cell centre (x, y) [still px], weight,
+// confidence. Weights image = weight / 2, confidence, share of signal (for the sharpening),
+// unexplained.
+// The weight of the detail is the photometric gain of the sensors times a trust in the match. The
+// gain a = cov / (var + eps) is measured at half resolution where contrast suffices.
+// The trust depends on the flow:
+// Where the flow is uniform, both sensors see the surface from the same side. Their correlation at
+// the video's resolution says little about detail that aliases in the video. A match that is
+// probably correct is therefore trusted fully.
+// Where the flow varies, the still shows the surface from another side. Trust falls with the
+// squared share of the video's variance that the still explains.
+// Where the flow is discontinuous, look-ups between cells are invalid, and nothing is trusted.
 // Range: cellField -2e4..2e4, -2e4..2e4, 0..2.31, 0..1
 // Range: lookupField -4e3..4e3, -4e3..4e3, 0..2.31, 0..1
 #include "pipeline/engine/params/weigh.h"
@@ -38,7 +43,8 @@ float bendAt(ivec2 c) {
     return sqrt(dot(dx, dx) + dot(dy, dy)) / 8.0;
 }
 
-// Second difference of the flow at the cell [px]. Rotations and zooms change the flow, but not its first difference.
+// Second difference of the flow at the cell [px]. Rotations and zooms change the flow, but not its
+// first difference.
 float tearAt(ivec2 c) {
     vec2 here = 2.0 * flowAt(c);
     vec2 dx = flowAt(c + ivec2(1, 0)) + flowAt(c - ivec2(1, 0)) - here;
@@ -50,7 +56,7 @@ vec4 statisticsAt(ivec2 c) {
     return texelFetch(statistics, clamp(c, ivec2(0), lastCell()), 0);
 }
 
-// Sum over the 2x2 half-resolution cells nearest to the cell.
+// Mean over the 2x2 half-resolution cells that are nearest to the cell.
 vec3 halfAround(ivec2 cell) {
     vec3 sum = vec3(0.0);
     ivec2 last = ivec2(params.halfColumns, params.halfRows) - 1;

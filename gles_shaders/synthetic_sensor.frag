@@ -1,4 +1,4 @@
-// Converts light on the sensor to a picture: blur, gain, noise, gamma.
+// Converts the light on a sensor to a picture: blur, gain, noise, gamma.
 // In: linear radiance. Out: RGBA8, alpha 1.
 #include "hal/virtual/synthetic_params.h"
 
@@ -18,7 +18,7 @@ uint mixed(uint h) {
     return h ^ (h >> 16);
 }
 
-// The sum of four bytes: close to a normal distribution of variance 1.
+// Sum of the four bytes of a hash: approximately normally distributed with variance 1.
 float bell(uint h) {
     float sum = float(h & 255u) + float((h >> 8) & 255u) + float((h >> 16) & 255u) + float(h >> 24);
     return (sum - 510.0) / 147.8;

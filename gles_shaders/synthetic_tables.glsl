@@ -1,19 +1,20 @@
-// Tables of the synthetic world, and ray queries on them. A solid is a box, cylinder or ellipsoid; rays are transformed
-// into its frame, scaled such that it becomes a unit cube, unit cylinder or unit sphere.
+// Tables of the synthetic world, and functions that intersect rays with it. A solid is a box, a
+// cylinder or an ellipsoid. Rays are transformed to the solid's frame, which is scaled so that the
+// solid becomes a unit cube, unit cylinder or unit sphere.
 
 struct Solid {
-    vec4 x, y, z;  // rows: camera direction -> scaled frame; w: camera position there
+    vec4 x, y, z;  // rows: camera direction to scaled frame; w: camera position there
 };
 struct Surface {
     vec4 size;        // half extents [m]; w: 0 box, 1 cylinder, 2 ellipsoid
-    vec4 face;        // light map: corner of the first face, size of a face
-    vec4 light;       // xyz: towards the key light, solid's frame; w: half a light map texel / face
-    ivec4 materials;  // of the x, y, z faces; w: 1 if it moves
+    vec4 face;        // in the light map: corner of the first face, size of a face
+    vec4 light;       // xyz: direction to the key light; w: half a light map texel / face
+    ivec4 materials;  // materials of the x, y, z faces; w: 1 if the solid moves
 };
 struct Material {
-    vec4 mapping;  // texture repeats per metre in u and v, offset
-    vec4 tint;     // rgb, strength of the slow variation
-    vec4 look;     // layer, gloss
+    vec4 mapping;  // texture repeats per metre in u and v; offset
+    vec4 tint;     // rgb; strength of the slow variation
+    vec4 look;     // texture layer, gloss
 };
 layout(std140, binding = 1) uniform Solids { Solid solids[128]; };
 layout(std140, binding = 2) uniform Surfaces { Surface surfaces[128]; };
@@ -60,7 +61,7 @@ void castRound(int index, vec2 rays[4], inout vec4 t, inout ivec4 hit) {
         vec3 d = local(s, rays[k]);
         vec3 dk = d * keep, ok = o * keep;
         float a = dot(dk, dk), b = dot(ok, dk);
-        // Uses the nearest point of the ray instead of b*b - a*c, which loses precision at a distance.
+        // Uses the nearest point of the ray. b*b - a*c would lose precision at a large distance.
         vec3 nearest = ok - dk * (b / a);
         float disc = (1.0 - dot(nearest, nearest)) / a;
         if (!(disc > 0.0)) continue;
@@ -89,7 +90,7 @@ struct Chart {
     vec2 at;       // texture position [m]
     vec3 u, v;     // directions of texture axes on the surface
     vec3 normal;
-    vec2 light;    // position on the face's light map, 0..1
+    vec2 light;    // position in the face's light map, 0..1
     float positive;
 };
 
@@ -122,7 +123,8 @@ Chart chart(Surface f, int axis, vec3 p) {
     return c;
 }
 
-// Factor of the light behind a moving, roughly spherical object; the light map contains only static objects.
+// Factor for the light in the shadow of a moving, roughly spherical object. The light map contains
+// only the shadows of static objects.
 float moverShade(vec3 point, vec3 middle, vec4 light) {
     vec3 v = point - middle;
     float along = dot(v, light.xyz), off = length(v - along * light.xyz);

@@ -1,7 +1,7 @@
-// The synthetic world as light on a sensor: every pixel inverts its lens distortion, casts four rays at the solids of
-// its tile and shades the hits.
-// In: tables of solids, surfaces and materials; bit mask of solids per tile; textures; light map.
-// Out: linear radiance, 1 = white paper in full light.
+// Light on a sensor that looks at the synthetic world. Every pixel inverts the lens distortion,
+// intersects four rays with the solids of its tile, and shades the hits.
+// In: tables of solids, surfaces and materials; a bit mask of solids per tile; textures; light map.
+// Out: linear radiance; 1 is white paper in full light.
 #include "synthetic_tables.glsl"
 #include "hal/virtual/synthetic_params.h"
 
@@ -31,7 +31,8 @@ vec2 distort(vec2 p, out mat2 jacobian) {
                              t.x * (r2 + 2.0 * p.y * p.y) + 2.0 * t.y * p.x * p.y);
 }
 
-// Normalised ray of a pixel; the columns of `perPixel` are its derivatives with respect to x and y of the pixel.
+// Normalised ray of a pixel. The columns of `perPixel` are the ray's derivatives by x and y of the
+// pixel.
 vec2 unproject(vec2 pixel, out mat2 perPixel) {
     Lens lens = params.lens;
     vec2 target = (pixel - vec2(lens.cx, lens.cy)) / vec2(lens.fx, lens.fy);
@@ -70,7 +71,7 @@ vec3 shade(Group g, vec4 t, vec2 rays[4], mat2 perPixel) {
     vec3 d = turn * vec3(ray / count, 1.0);
     Chart c = chart(f, g.axis, middle);
 
-    // Footprint of a pixel on the surface [m], then in texels of the layer.
+    // Footprint of a pixel on the surface, first [m], then in texels of the layer.
     Material m = materials[f.materials[g.axis]];
     vec3 across = turn * vec3(perPixel[0], 0.0), down = turn * vec3(perPixel[1], 0.0);
     float facing = dot(c.normal, d);
@@ -80,7 +81,7 @@ vec3 shade(Group g, vec4 t, vec2 rays[4], mat2 perPixel) {
     vec2 scale = abs(m.mapping.xy);
     float a2 = dot(pow2(vec2(dot(across, c.u), dot(across, c.v)) * scale), vec2(1.0));
     float b2 = dot(pow2(vec2(dot(down, c.u), dot(down, c.v)) * scale), vec2(1.0));
-    // Four samples half a pixel apart: each covers half the footprint.
+    // There are four samples, half a pixel apart. Each covers half the footprint.
     float texels2 = 0.25 * kLayerTexels * kLayerTexels * max(min(a2, b2), 0.5 * max(a2, b2));
     float lod = max(0.0, 0.5 * log2(texels2));
 

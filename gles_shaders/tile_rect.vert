@@ -1,6 +1,8 @@
-// One rectangle per listed tile, at any resolution. In: packed tile (instanced). Six vertices.
-// With PLAIN_TILE, also the look-up at the tile's corners, from the cells that meet there.
-// With AROUND, the rectangle includes a margin of kTileAround.
+// Draws one rectangle of six vertices per listed tile, at any resolution. In: packed tile
+// (instanced).
+// PLAIN_TILE: also outputs the look-up at the tile's corners, averaged over the cells that meet
+// there.
+// AROUND: the rectangle includes a margin of kTileAround.
 // Variant: #define PLAIN_TILE
 // Variant: #define AROUND
 #include "tile_params.glsl"

@@ -1,4 +1,4 @@
-// Tiles are 16x16 video pixels = 4x4 cells.
+// A tile has 16x16 video pixels or 4x4 cells.
 #include "pipeline/engine/params/detail.h"
 
 uint packTile(ivec2 tile) {

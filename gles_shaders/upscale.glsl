@@ -1,5 +1,5 @@
-// Second half of the bicubic upscaling: rows; alpha as in superres_vertical.frag. Needs tile_params.glsl, and
-// columns.glsl or learned.glsl.
+// Second half of the bicubic enlargement: along rows. Alpha is that of superres_vertical.frag.
+// Needs tile_params.glsl, and columns.glsl or learned.glsl.
 #include "cubic.glsl"
 
 vec4 upscaled() {

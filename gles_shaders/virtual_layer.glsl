@@ -1,5 +1,6 @@
-// The virtual layer at an output pixel. Needs visibility.glsl. SCALED_LAYER: the layer's size differs from the
-// output's; colours are interpolated linearly, and depth is that of the nearest valid pixel of the surrounding four.
+// Reads the virtual layer at an output pixel. Needs visibility.glsl.
+// SCALED_LAYER: the layer's size differs from the output's. Colours are interpolated linearly, and
+// depth is that of the nearest valid pixel of the surrounding four.
 // Variant: #define SCALED_LAYER 1
 
 bool isVirtual(float z) {
@@ -29,7 +30,7 @@ float layerDepth(highp sampler2D depths) {
     vec2 f = layerAt(base);
     vec4 z = textureGather(depths, vec2(base + 1) / vec2(params.layerWidth, params.layerHeight));
     vec4 left = vec4(1.0 - f.x, f.x, f.x, 1.0 - f.x), w = left * vec4(f.y, f.y, 1.0 - f.y, 1.0 - f.y);
-    // In the order of textureGather: the lower row first, the left one last.
+    // textureGather returns the texels (0, 1), (1, 1), (1, 0), (0, 0).
     float best = 0.0, depth = 0.0;
     for (int i = 0; i < 4; ++i) {
         bool better = w[i] > best && isVirtual(z[i]);

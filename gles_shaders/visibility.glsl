@@ -1,4 +1,4 @@
-// Parameters of the occlusion passes, and the test for known samples.
+// Parameters of the occlusion passes, and the test for valid depth samples.
 #include "pipeline/engine/params/occlusion.h"
 
 layout(std140, binding = 0) uniform Params {
@@ -11,12 +11,13 @@ ivec2 lastVideoPixel() {
 ivec2 outputSize() {
     return ivec2(params.outputWidth, params.outputHeight);
 }
-// Video pixel at the fragment; pixel centres are at integers.
+// Position of the fragment in the video; pixel centres are at integers.
 vec2 inVideo() {
     return gl_FragCoord.xy * vec2(params.scaleX, params.scaleY) - 0.5;
 }
 
-// Tests a real sample: inverse depth [1/m], sigma [1/m]. False for NaN, infinity, zero and negative values.
+// Whether a sample of real depth (inverse depth [1/m], sigma [1/m]) is valid. False for NaN,
+// infinity, zero and negative values.
 bool known(vec2 real) {
     return real.x > kLeastInverseDepth && real.x < kMostInverseDepth && real.y > kLeastDepthSigma &&
            real.y < kMostInverseDepth;

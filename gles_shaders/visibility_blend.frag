@@ -1,5 +1,5 @@
-// The visible part of the virtual layer, to be blended over the picture. In: RGBA8 premultiplied by
-// coverage, R8 visibility. Out: the product, premultiplied.
+// The visible part of the virtual layer, which is then blended over the picture.
+// In: RGBA8 premultiplied by coverage; R8 visibility. Out: their product, premultiplied.
 #include "visibility.glsl"
 #include "virtual_layer.glsl"
 

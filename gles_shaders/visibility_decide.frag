@@ -1,12 +1,14 @@
-// Decides virtual pixels that are certainly in front of or behind the real scene. In: virtual z [m], range
-// (visibility_range.frag). Out: R8, 1 or 0; fragment depth 1 where visibility_sample.frag has to decide, otherwise 0.
-// The depth test then skips decided pixels, which a branch would not do on a software renderer.
+// Decides for virtual pixels that are certainly in front of or certainly behind the real scene.
+// In: virtual z [m]; range (visibility_range.frag). Out: visibility, R8, 1 or 0; fragment depth: 1
+// if visibility_sample.frag must decide, otherwise 0. The depth test then skips decided pixels. A
+// branch would not skip them on a software renderer.
 #include "visibility.glsl"
 #include "virtual_layer.glsl"
 
 layout(binding = 0) uniform sampler2D virtualDepth;
 layout(binding = 1) uniform sampler2D rangeField;
-// A vec4, because Mesa 22.3 for Mali crashes when a shader that writes depth has a single output channel.
+// The output is a vec4, because Mesa 22.3 for Mali crashes if a shader that writes depth has a
+// single output channel.
 layout(location = 0) out vec4 visibility;
 
 void main() {

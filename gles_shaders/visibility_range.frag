@@ -1,7 +1,8 @@
-// Limits of the virtual inverse depths that visibility_sample.frag has to weigh, over the 4x4 samples around a position
-// whose lower sample this is. In: Rg32F real inverse depth, sigma [1/m].
-// Out: x: at or above it, a surface is in front of every sample; y: up to it, every sample hides the surface, 0 =
-// never.
+// Range of virtual inverse depths for which visibility_sample.frag must weigh samples. The samples
+// are the 4x4 pixels around a position between this pixel and the next ones to the right and below.
+// In: Rg32F real inverse depth and sigma [1/m].
+// Out: x: surfaces with at least this inverse depth are in front of every sample. y: surfaces with
+// at most this inverse depth are occluded by every sample; 0: never.
 // Range: range 0..1e6, 0..1e6
 #include "visibility.glsl"
 

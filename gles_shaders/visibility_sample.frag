@@ -1,6 +1,7 @@
-// Visible share of a virtual pixel, [0, 1], where visibility_decide.frag has not decided: the mean of the visibility
-// over the 4x4 nearest depth samples, weighted by distance and by likeness of the picture at the pixel to the video at
-// the sample, so that depth edges follow image edges (joint bilateral upsampling, Kopf et al. 2007).
+// Visible share of a virtual pixel, [0, 1], where visibility_decide.frag has not decided. It is the
+// mean visibility over the 4x4 nearest depth samples. A sample's weight depends on its distance and
+// on how similar the video's colour at the sample is to the picture's colour at the pixel. Depth
+// edges therefore follow image edges (joint bilateral upsampling, Kopf et al. 2007).
 // In: virtual z [m], real depth, video, picture. Out: R8.
 #include "visibility.glsl"
 #include "virtual_layer.glsl"
@@ -30,7 +31,7 @@ void main() {
         vec2 tent = 2.0 - abs(vec2(q) - at);
         q = clamp(q, ivec2(0), lastVideoPixel());
         vec3 unlike = texelFetch(videoPicture, q, 0).rgb - here;
-        // Where no colour is alike, distance decides.
+        // If no colour is similar, the distance alone decides.
         float w = tent.x * tent.x * tent.y * tent.y *
                   (exp(-params.likeness * dot(unlike, unlike)) + kLikenessFloor);
         sum += w * visibleOver(texelFetch(realDepth, q, 0).rg, inverse);

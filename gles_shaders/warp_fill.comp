@@ -1,8 +1,11 @@
-// Fills listed holes from the pyramid: from fine to coarse, each level fills the share that the finer levels leave. An
-// object without any known colour takes the colour of the objects around it: when it emerges from behind them, it is
-// neither a hole in them nor transparent. A hole is a crack if it is at an edge or if most of its neighbours show the
-// same surface. Cracks are always filled, from nearby pixels. In: list[] and state of warp_rest.comp, pyramid. Out: the
-// pixels, RGBA8 premultiplied; bit 30 of list[] = crack.
+// Fills listed holes from the pyramid. From fine to coarse, each level fills the share that the
+// finer levels leave.
+// An object without any known colour gets the colour of the objects around it. When such an object
+// emerges from behind others, it is then neither a hole nor transparent.
+// A hole is a crack if it is at an edge, or if most of its neighbours show the same surface. Cracks
+// are always filled, from nearby pixels.
+// In: list[] and state of warp_rest.comp; pyramid. Out: the pixels, RGBA8 premultiplied; bit 30 in
+// list[] marks a crack.
 #include "warp_hole_params.glsl"
 #include "warp_pyramid.glsl"
 
@@ -21,7 +24,7 @@ layout(std430, binding = 2) readonly buffer Pyramid {
 
 const uint kAnyObject = kAnyObjectNumber;
 
-// Bilinear sample of a level at a pixel: colour times weight, weight.
+// Bilinear sample of a level at a pixel: colour times weight, and weight.
 void sampleLevel(int l, ivec2 p, uint id, out vec4 sum, out float weights) {
     HoleLevel level = params.levels[l - 1];
     int count = (l < params.levelCount ? params.levels[l].first : params.texels) - level.first;
@@ -54,7 +57,7 @@ bool isCrack(ivec2 p, float id) {
     return same >= 5;
 }
 
-// Combined samples of the levels up to `last`: colour times weight, weight.
+// Combined samples of the levels up to `last`: colour times weight, and weight.
 void gather(ivec2 p, uint id, int last, out vec4 sum, out float weight) {
     sum = vec4(0.0);
     weight = 0.0;

@@ -1,4 +1,4 @@
-// Parameters shared by the passes that fill holes of a warp.
+// Parameters of the passes that fill holes of a warp.
 #include "pipeline/warp/pass_params.h"
 
 layout(std140, binding = 0) uniform Params {

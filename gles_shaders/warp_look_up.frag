@@ -1,7 +1,9 @@
-// The second pass of the warp for plain pixels: those that one surface fills and that the reference shows at four
-// texels at the same depth. All others are left to warp_rest.comp. Branches would save nothing: a software renderer
-// executes both sides. In: silhouette at twice the resolution. Out: RGBA8 premultiplied; z [m], 0 = no surface; state:
-// 0, 1 if the pixel is left to warp_rest.comp, 0, number of the surface that fills it.
+// The second pass of the warp, for plain pixels. In a plain pixel one surface fills the whole
+// pixel, and the reference picture shows the surface in four texels at the same depth. All other
+// pixels are left to warp_rest.comp. There are no branches, because a software renderer executes
+// both sides anyway.
+// In: silhouette at twice the resolution. Out: RGBA8 premultiplied; z [m], 0 = no surface; state:
+// 0, 1 if the pixel is left to warp_rest.comp, 0, number of the surface that fills the pixel.
 // Source: paper, eq. 5.
 // Range: depth 0..1e6
 #include "warp_view_params.glsl"
@@ -9,7 +11,7 @@
 #include "warp_surface.glsl"
 
 layout(binding = 0) uniform usampler2D silhouette;
-layout(binding = 1) uniform sampler2D rays;  // normalised, of each pixel of the layer
+layout(binding = 1) uniform sampler2D rays;  // normalised ray of each layer pixel
 layout(binding = 2) uniform sampler2D colours;
 layout(binding = 3) uniform usampler2D surfaces;  // packed by packSurface(); number 254: unknown
 layout(location = 0) out vec4 colour;
@@ -28,7 +30,8 @@ void main() {
     id = open ? kCatcher : id;
     bool empty = open && z == 0.0;
     vec3 at = inView(0, z * vec3(ray, 1.0));
-    // The corner shared by the four texels: the filter's own rounding must not select others.
+    // The corner that the four texels share. At this position, rounding in the filter cannot select
+    // other texels.
     vec2 corner = floor(at.xy) + 1.0;
     uvec4 t = textureGather(surfaces, corner / vec2(referenceSize()));
     vec4 off = abs(uintBitsToFloat(t & 0xffffff00u) - at.z);

@@ -1,4 +1,5 @@
-// The quarters of a pixel, four packed surfaces in the order of textureGather. Needs warp_surface.glsl.
+// Functions on the four quarters of a pixel: packed surfaces in the order of textureGather. Needs
+// warp_surface.glsl.
 
 // The object that covers the most quarters.
 uint mostOf(uvec4 s) {
@@ -15,7 +16,7 @@ uint mostOf(uvec4 s) {
     return id;
 }
 
-// Centre of the quarters that show `id`: offset [px], z [m], 0 = there are none.
+// Centre of the quarters that show `id`: offset [px], z [m]; z is 0 if no quarter shows it.
 vec3 middleOf(uvec4 s, uint id) {
     vec4 own = vec4(equal(s & 0xffu, uvec4(id)));
     float count = dot(own, vec4(1.0));

@@ -1,10 +1,15 @@
-// The second pass of the warp for the pixels that warp_look_up.frag cannot handle: edges, covered by quarters, and
-// pixels that the reference does not show but the patches may. Objects and the shadow on the real surface are two
-// layers; the shadow is below. In: list[] of warp_rest_list.comp. Out: colour, z and state of the pixels. State: number
-// of the missing surface, its share of the pixel, 1 if it fills the pixel and no picture shows it, number of the
-// surface that fills the pixel alone. holes[] = pixel, with bit 31: no picture shows it, as in state, bit 30: edge;
-// colour so far (RGBA8). holeCommands[0] = groups of 64, count; holeCommands[l] = the pyramid's levels, as soon as
-// there is a hole.
+// The second pass of the warp, for pixels that warp_look_up.frag cannot process. These are edges,
+// whose coverage is given in quarters, and pixels that the reference picture does not show but
+// patches may show. Objects and the shadow on the real surface are two layers, with the shadow
+// below.
+// In: list[] of warp_rest_list.comp. Out: colour, z and state of the pixels; holes[];
+// holeCommands[].
+// State: number of the missing surface; its share of the pixel; 1 if it fills the pixel and no
+// picture shows it; number of the surface that fills the whole pixel.
+// holes[] = pixel index, colour so far (RGBA8). Bit 31 of the index: no picture shows the surface
+// (as in state). Bit 30: edge.
+// holeCommands[0] = number of groups of 64 entries, number of entries. holeCommands[l] = dispatch
+// of the pyramid's level l, set when the first hole is found.
 // Range: depth 0..1e6
 #include "warp_view_params.glsl"
 #include "warp_view.glsl"
@@ -34,9 +39,10 @@ layout(std430, binding = 3) writeonly buffer Holes {
     uvec2 holes[];
 };
 
-// Bilinear look-up in those of the four texels around `at` (pixel, z) that show the same surface; rows of the picture
-// begin at `firstRow`. Premultiplied colour; the returned weight is 0 if too little of the surface is there. For the
-// catcher, texels without a surface count as the catcher without shadow.
+// Bilinear look-up in those of the four texels around `at` (pixel, z) that show the same surface.
+// The rows of the picture begin at `firstRow`. Returns the weight, and in `found` the premultiplied
+// colour. The weight is 0 if too little of the surface is there. For the shadow catcher, texels
+// without a surface count as catcher without shadow.
 float lookUp(sampler2D from, sampler2D shown, ivec2 size, int firstRow, vec3 at, float id, out vec4 found) {
     vec2 low = floor(at.xy), f = at.xy - low;
     vec4 sum = vec4(0.0);
@@ -57,10 +63,10 @@ float lookUp(sampler2D from, sampler2D shown, ivec2 size, int firstRow, vec3 at,
     return weights > kLeastLookUpWeight ? weights : 0.0;
 }
 
-// Known share of the colour of the surface at `point`.
+// Share of the colour that is known for the surface at `point`.
 float known(vec3 point, float id, out vec4 found) {
     if (lookUp(colours, surfaces, referenceSize(), 0, inView(0, point), id, found) > 0.0) return 1.0;
-    float share_ = 0.0;  // share of the most visible patch: a patch that fades in does not reduce it
+    float share_ = 0.0;  // share of the most visible patch; patches that fade in do not reduce it
     for (int i = 0; i < params.patches; ++i) {
         vec4 own;
         vec3 at = inView(i + 1, point);
@@ -69,7 +75,8 @@ float known(vec3 point, float id, out vec4 found) {
         found = own;
     }
     if (share_ > 0.0) return share_;
-    // Outside the reference, the catcher's colour is unknown, but it is not reported as missing.
+    // Outside the reference picture the catcher's colour is unknown, but it is not reported as
+    // missing.
     found = vec4(0.0);
     return id == float(kCatcher) && !(inView(0, point).z > 0.0) ? 1.0 : 0.0;
 }
@@ -101,7 +108,8 @@ void main() {
     if (below > 0.0) shown += below * catcherKnown * ofCatcher;
     bool missed = objectKnown < 1.0, hole = missed || catcherKnown < 1.0;
     bool nowhere = objectKnown == 0.0 || catcherKnown == 0.0;
-    // An edge is not rendered individually, because it would show a mixture: it is filled from its neighbours.
+    // An edge is filled from its neighbours. It is not rendered individually, because the result
+    // would be a mixture of surfaces.
     bool edge = (missed ? covered : below) < 1.0;
     float z = covered > 0.0 ? object.z : shown.a > 0.0 || hole ? (1.0 - kShadowLift) * catcher.z : 0.0;
     float plain = hole ? 0.0 : covered == 1.0 ? float(id) : below == 1.0 ? float(kCatcher) : 0.0;

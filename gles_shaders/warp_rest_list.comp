@@ -1,6 +1,7 @@
-// Lists the pixels that warp_look_up.frag left. One invocation per 2x2 pixels, because most squares have none.
-// In: state of warp_look_up.frag. Out: list[] = row-major index, commands[0] = groups of 64, count. The order varies,
-// but no result depends on it.
+// Lists the pixels that warp_look_up.frag left to warp_rest.comp. One invocation processes 2x2
+// pixels, because most squares have no such pixel.
+// In: state of warp_look_up.frag. Out: list[] = row-major index; commands[0] = number of groups of
+// 64 entries, number of entries. The order of the list varies, but no result depends on it.
 #include "warp_view_params.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -16,14 +17,14 @@ void main() {
     ivec2 p = 2 * ivec2(gl_GlobalInvocationID.xy) + ivec2(params.bounds.x0, params.bounds.y0);
     vec4 left = textureGather(state, vec2(p + 1) / vec2(layerSize()), 1);
     ivec2 end = ivec2(params.bounds.x1, params.bounds.y1);
-    // In the order of textureGather.
+    // Same order as textureGather.
     bvec4 within = bvec4(all(lessThan(p + ivec2(0, 1), end)), all(lessThan(p + 1, end)),
                          all(lessThan(p + ivec2(1, 0), end)), all(lessThan(p, end)));
     uvec4 some = uvec4(greaterThan(left, vec4(0.5))) & uvec4(within);
     uint count = some.x + some.y + some.z + some.w;
     if (count == 0u) return;
     uint i = atomicAdd(commands[0].w, count);
-    // Number of groups that start with one of these entries.
+    // Number of groups whose first entry is one of these entries.
     uint groups = (i + count + 63u) / 64u - (i + 63u) / 64u;
     if (groups > 0u) atomicAdd(commands[0].x, groups);
     uint first = uint(p.y * params.width + p.x), row = uint(params.width);

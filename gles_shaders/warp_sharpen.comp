@@ -1,5 +1,6 @@
-// Fades individually rendered pixels in over the looked-up ones. In: list[] = row-major index, colour before, rendered
-// colour (RGBA8 premultiplied). Out: the pixels.
+// Fades individually rendered pixels in over the looked-up pixels.
+// In: list[] = row-major index, looked-up colour, rendered colour (RGBA8 premultiplied). Out: the
+// pixels.
 #include "warp_edge_params.glsl"
 
 layout(local_size_x = 64) in;

@@ -1,10 +1,11 @@
-// Number and depth of the visible object. Out: R32UI packed by warp_surface.glsl.
+// Number and depth of the visible object.
+// Out: R32UI, packed by warp_surface.glsl.
 // Variant: #define ALPHA_MASK
 #include "warp_silhouette_params.glsl"
 #include "warp_surface.glsl"
 
 #ifdef ALPHA_MASK
-layout(binding = 0) uniform sampler2D alpha;  // multiplied by its factor; repeats
+layout(binding = 0) uniform sampler2D alpha;  // multiplied by its factor; the texture repeats
 in vec2 texel;
 #endif
 layout(location = 0) out uint surface;

@@ -1,4 +1,4 @@
-// Vertices of the virtual scene at the current pose. In: the model's frame [m].
+// Vertices of the virtual scene at the current pose. In: positions in the model's frame [m].
 // Variant: #define ALPHA_MASK
 #include "warp_silhouette_params.glsl"
 #include "lens_projection.glsl"
@@ -15,7 +15,7 @@ void main() {
     texel = uv;
 #endif
     vec3 h = projectPoint(params.layer, point);
-    // Pixel centres are at integers; infinite far plane.
+    // Pixel centres are at integers. The far plane is at infinity.
     gl_Position = vec4((2.0 * h.xy + h.z) / vec2(params.width, params.height) - h.z,
                        h.z - 2.0 * params.layer.nearPlane, h.z);
 }

@@ -1,7 +1,8 @@
-// Place of a point in a finished picture. Needs warp_view_params.glsl.
+// Position of a point in a finished picture. Needs warp_view_params.glsl.
 #include "lens_projection.glsl"
 
-// `point` [m, the layer's camera] in view `v`: pixel, z; z = 0 if it cannot be looked up.
+// `point` [m] is in the frame of the layer's camera. Returns its pixel in view `v` and z there; z =
+// 0 if the point cannot be looked up.
 vec3 inView(int v, vec3 point) {
     vec3 there = transformed(params.views[v].toView, point);
     int c = min(v, 1);

@@ -12,7 +12,7 @@ ivec2 layerSize() {
     return ivec2(params.width, params.height);
 }
 
-// z [m] of the catcher's plane along a ray, 0 = not visible.
+// z [m] of the catcher's plane along a ray; 0: the plane is not visible.
 float planeDepth(vec2 ray) {
     float facing = dot(vec3(params.plane.x, params.plane.y, params.plane.z), vec3(ray, 1.0));
     float z = params.plane.offset / (facing == 0.0 ? 1.0 : facing);

@@ -6,7 +6,7 @@
 namespace mfar {
 namespace {
 
-/// Predicted time of a moving frame on a board for each placement [ms].
+/// Predicted time of a frame while the camera moves [ms], for each placement on one board.
 struct Prediction {
     std::string_view gpu;  ///< substring of the driver's description
     double simd, matchSimdDrawGles, matchGlesDrawSimd, gles;
@@ -27,7 +27,7 @@ struct Candidate {
     double Prediction::* frame;
 };
 
-/// The order for most boards: the SIMD engine needs no shader compilation.
+/// All placements, ordered for most boards: SIMD first, because it needs no shader compilation.
 std::array<Candidate, 4> candidates() {
     constexpr auto kSimd = EngineKind::Simd, kGles = EngineKind::Gles;
     return {{{placed(kSimd, kSimd), &Prediction::simd},

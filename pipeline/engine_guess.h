@@ -7,14 +7,16 @@
 
 namespace mfar {
 
-/// A placement is hopeless if its frame takes longer than this factor times the fastest one's.
+/// A placement is given up if its frame takes longer than this factor times the frame of the
+/// fastest placement.
 inline constexpr double kHopelessFrame = 2;
 
-/// Placements that may be the fastest for moving pictures, the most promising first: all steps on
-/// one engine, or matching (pyramid, flow, weigh) on one engine and drawing (still, detail,
-/// occlusion) on the other. Excludes those that `./run board-report` predicts to be hopeless on
-/// this GPU; its predictions may be off by a factor of two. `driver`: GlContext::description().
-/// predictions may be off by a factor of two. `driver`: GlContext::description().
+/// Placements of the steps that may be the fastest while the camera moves, the most promising
+/// first. Either all steps run on one engine, or matching (pyramid, flow, weigh) runs on one engine
+/// and drawing (still, detail, occlusion) on the other.
+/// Placements are excluded if `./run board-report` predicts for this GPU that they take longer than
+/// kHopelessFrame times the fastest. The predictions may be wrong by a factor of two. `driver` is
+/// GlContext::description().
 [[nodiscard]] std::vector<EngineChoice> promisingEngines(std::string_view driver);
 
 }  // namespace mfar

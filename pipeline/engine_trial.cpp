@@ -11,9 +11,10 @@ namespace mfar {
 namespace {
 
 constexpr int kWarmUp = 2, kFrames = 5;
-constexpr int kShift = 3;  // px from frame to frame
+constexpr int kShift = 3;  // motion per frame [px]
 
-/// A texture of cells of three sizes, so that every pyramid level has structure.
+/// Grey value of a texture of random squares in three sizes, so that every pyramid level has
+/// structure.
 std::uint8_t greyAt(int x, int y) {
     unsigned sum = 0;
     for (const int side : {2, 9, 40}) {
@@ -25,7 +26,7 @@ std::uint8_t greyAt(int x, int y) {
     return static_cast<std::uint8_t>(sum);
 }
 
-/// The texture as a picture of this size, with pixels `scale` texels wide.
+/// A picture of the texture. Each pixel is `scale` texels wide; `shift` moves the picture [texels].
 std::vector<std::uint8_t> pictureOf(Size size, double scale, int shift) {
     std::vector<std::uint8_t> rgba;
     rgba.reserve(4UL * size.width * size.height);
@@ -42,7 +43,8 @@ ImageView viewOf(const std::vector<std::uint8_t>& rgba, Size size) {
     return {rgba.data(), size, 4UL * size.width, PixelFormat::Rgba8};
 }
 
-/// Median time of a frame [ms]; the first frame's time if that exceeds `most` [ms].
+/// Median time of a frame [ms]. If the first measured frame takes longer than `most` [ms], returns
+/// that time at once.
 double medianFrame(const EngineChoice& engines, const StereoRig& rig, Size output,
                    EngineKind shownFrom, double most) {
     using Clock = std::chrono::steady_clock;

@@ -9,14 +9,14 @@
 
 namespace mfar {
 
-/// Matches a frame with a still outside of the frame path: on the host, only in the caller's
-/// thread, in both dimensions, without predictions from earlier frames. Allocates in the
-/// constructor.
+/// Matches a video frame with a still, independently of the frames that the daemon processes. It
+/// runs on the CPU in the caller's thread, searches in both dimensions, and uses no predictions
+/// from earlier frames. Allocates its memory in the constructor.
 class FrameMatcher {
 public:
     explicit FrameMatcher(const StereoRig& rig);
 
-    /// `still`: luma of the rig's still picture.
+    /// `still` is the luma of a picture of the rig's still camera.
     void match(const RgbPlanes& video, Rows<const std::uint8_t> still, MatchedPictures& out);
 
 private:

@@ -263,7 +263,7 @@ const CellWeights* Pipeline::State::matchSecond(const VideoFrame& frame, const T
     const TileWork& missed = secondTiles.choose(work, plan.measured(), shown, most);
     newest.count(secondTiles.matched(), secondTiles.shownByNewest());
     if (missed.matched == 0) {
-        second.lastFlow = nullptr;  // too old to start a search from
+        second.lastFlow = nullptr;  // the flow is too old to start a search from
         return nullptr;
     }
     const LumaPyramid& pyramids = second.pyramid->video(frame, missed);
@@ -352,7 +352,7 @@ void Pipeline::State::publish(const TileWork& work, bool usedStill, bool usedPos
         result.picture = picture.host();
     keepDrawn(work);
     redraw = false;
-    if (gles) gles->finishReading();  // finished long ago
+    if (gles) gles->finishReading();  // does not wait: the GPU finished this long ago
 }
 
 void Pipeline::State::lap(const char* stage) {
@@ -360,7 +360,7 @@ void Pipeline::State::lap(const char* stage) {
     clock.lap(stage);
 }
 
-// The video pixels of these tiles.
+// Rectangle of the video pixels in these tiles.
 PixelRect Pipeline::State::pixelsOf(const PixelRect& tiles) const {
     const auto [width, height] = rig.video.size;
     return common(

@@ -1,4 +1,4 @@
-// The parts of Pipeline for real depth and virtual objects.
+// The parts of Pipeline that handle real depth and virtual objects.
 
 #include "pipeline/flow/cell_field.h"
 #include "pipeline/pipeline_state.h"
@@ -90,8 +90,8 @@ PixelRect Pipeline::State::placeObjects(const std::optional<Pose>& pose, Timesta
     if (objects) {
         where = objects->place(pose ? std::optional(pose->T_world_video) : std::nullopt, time,
                                depth->stage.field());
-        // With two engines there are two pictures: when one engine draws, the other engine's
-        // drawing over the picture is lost.
+        // With two engines there are two copies of the picture. If the engine of the detail step
+        // draws a tile, the other engine's copy is replaced and the object drawn there is lost.
         const bool apart = options.engines.detail != options.engines.occlusion;
         const WorkPlan::Redraw redrawn = objects->redraw();
         plan.drawnOver(objects->staleTiles(), apart && redrawn == WorkPlan::Redraw::WithThem
@@ -142,7 +142,7 @@ void Pipeline::State::measureDepth(const VideoFrame& frame, const Pose& pose,
     lap("depth");
 }
 
-// Where the flow leaves the epipolar lines, objects move: their depth is discarded.
+// Where the flow leaves the epipolar lines, real things move. Their depth is discarded.
 void Pipeline::State::forgetMoving(const DepthMatches& matches) {
     const Size tiles = plan.tileCount();
     for (int t = 0; t < tiles.width * tiles.height; ++t) {
@@ -153,7 +153,7 @@ void Pipeline::State::forgetMoving(const DepthMatches& matches) {
     }
 }
 
-// True if at least a quarter of the tile's cells are off their lines.
+// Whether at least a quarter of the tile's cells are away from their epipolar lines.
 bool Pipeline::State::leavesLines(const PixelRect& tile, const EpipolarFlow::Cells& vectors) const {
     const int columns = cellsOf(rig.video.size).width;
     int off = 0, all = 0;

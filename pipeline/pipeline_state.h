@@ -16,26 +16,27 @@
 
 namespace mfar {
 
-/// A flow vector at least this far from its pixel's epipolar line cannot belong to a static point
-/// [px].
+/// Distance from its epipolar line [px] from which on a flow vector cannot belong to a static
+/// point.
 inline constexpr float kOffLine = 3;
 
-/// State that Pipeline keeps between frames; shared by pipeline.cpp (the frame path),
-/// pipeline_objects.cpp and readback.cpp. Data of a single frame is passed and returned instead.
+/// State that Pipeline keeps between frames. It is used by pipeline.cpp (the processing of frames),
+/// pipeline_objects.cpp and readback.cpp. Data that belongs to one frame is passed and returned
+/// instead.
 struct Pipeline::State {
     State(const StereoRig& rig, const PipelineOptions& options);
 
-    /// Data of a frame's flow that depth needs.
+    /// Results of a frame's flow that the depth measurement needs.
     struct DepthMatches {
         EpipolarFlow::Cells vectors;
-        std::vector<bool> searched2d;  ///< by tile
+        std::vector<bool> searched2d;  ///< one entry per tile
     };
-    /// Depth measurement of one frame.
+    /// How depth is measured in one frame.
     struct DepthTask {
-        PixelRect where;  ///< where it is needed [video px]
+        PixelRect where;  ///< where depth is needed [video px]
         bool measures = false;
-        std::optional<DepthMatches> matches;  ///< found along epipolar lines
-        bool isDue = false;                   ///< measured again instead of carried on
+        std::optional<DepthMatches> matches;  ///< present if the flow followed epipolar lines
+        bool isDue = false;                   ///< measure depth anew; false: carry it on
     };
     struct RealDepth {
         RealDepth(const CameraModel& video, const std::shared_ptr<Workers>& workers,
@@ -46,46 +47,49 @@ struct Pipeline::State {
         EdgeSnap snap;
         LumaImage luma;  // luma of frames without an epipolar search
     };
-    /// A frame's match with the still.
+    /// Match of a frame with the newest still.
     struct Match {
         const FlowCells& flow;
         const CellWeights& weights;
-        const CellWeights* second = nullptr;  ///< for the second still, if used
+        const CellWeights* second = nullptr;  ///< match with the second still; null: not used
     };
 
-    /// Starts creating the epipolar search in a thread, so that the first picture does not wait for
-    /// it; the still that needs it comes later.
+    /// Starts a thread that creates the epipolar search, so that the first picture does not wait
+    /// for it. The search is needed later, by a still with a pose.
     void beginEpipolar();
-    /// Creates the epipolar search, or waits for the thread that creates it.
+    /// Returns the epipolar search. Creates it, or waits for the thread that creates it.
     EpipolarFlow& needEpipolar();
-    /// Allocates depth measurement.
+    /// Allocates memory for depth measurement unless this was done before.
     void needDepth();
-    /// Where real depth is needed in this frame [video px].
+    /// Places the objects. Returns where real depth is needed in this frame [video px].
     PixelRect placeObjects(const std::optional<Pose>& pose, Timestamp time);
     const TileWork& planFrame(const VideoFrame& frame);
     /// Searches along epipolar lines if a pose is given, otherwise in both dimensions.
     Match matchStill(const VideoFrame& frame, const TileWork& work, const std::optional<Pose>& pose,
                      const PixelRect& forDepth);
-    /// The weight of each cell of a still.
+    /// Computes the weight of each cell of the match with a still.
     const CellWeights& weighed(const Reference& still, const VideoFrame& frame,
                                const LumaPyramid& pyramids, const FlowCells& flow,
                                const TileWork& work);
-    /// Called before a new still is taken: keeps the newest as the second if it is worth more.
+    /// Called before a new still is taken. Keeps the newest still as the second one if it is worth
+    /// more than the present second one.
     void retireNewest();
-    /// Matches the second still in the tiles that the newest does not show; null without such
-    /// tiles. Call after matchStill().
+    /// Matches the second still in the tiles that the newest still does not show. Returns null if
+    /// there are no such tiles. Must be called after matchStill().
     const CellWeights* matchSecond(const VideoFrame& frame, const TileWork& work);
-    /// Decides whether depth is measured, and reads what it needs from the flow: a read after the
-    /// frame's drawing has begun would wait for the drawing.
+    /// Decides whether depth is measured, and copies the flow results that the measurement needs.
+    /// Copying them after the frame's drawing has begun would wait for the drawing.
     DepthTask prepareDepth(const PixelRect& where, bool hasPose, const FlowCells* alongLines);
     void listen(const CellWeights& weights);
-    /// Called before a new still is taken: reports to the listener how the newest was matched.
+    /// Called before a new still is taken. Reports to the listener how the newest still was
+    /// matched.
     void tellReplaced();
     [[nodiscard]] MatchedPictures::LookedUp lookedUp() const;
     void drawDetail(const VideoFrame& frame, const TileWork& work, const Match* match);
     void measureDepth(const VideoFrame& frame, const Pose& pose, const DepthTask& task);
     void showObjects(const VideoFrame& frame);
-    /// For the next frame: records what this frame shows of the real scene around the objects.
+    /// Records what this frame shows of the real scene around the objects, for use in the next
+    /// frame.
     void followScene(const VideoFrame& frame, const std::optional<Pose>& pose, Timestamp time);
     void publish(const TileWork& work, bool usedStill, bool usedPose);
 
@@ -102,11 +106,11 @@ struct Pipeline::State {
     [[nodiscard]] const FilterBank* filterBank() const {
         return filters ? filters.get() : &FilterBank::prior();
     }
-    /// Ends a stage of the frame.
+    /// Ends a stage of the frame and records its duration.
     void lap(const char* stage);
 
     [[nodiscard]] Reference makeReference();
-    /// The wanted size, or the full size for 0x0.
+    /// `wanted`, or the full size if `wanted` is 0x0.
     static Size outputSize(const StereoRig& rig, Size wanted);
 
     StereoRig rig;
@@ -114,24 +118,24 @@ struct Pipeline::State {
     Size output;
     std::shared_ptr<Workers> workers;
     Transfers transfers, transfersBefore;  // running totals
-    std::unique_ptr<Engine> gles, simd;    // only those that the choice needs
+    std::unique_ptr<Engine> gles, simd;    // null if no step uses the engine
     Reference newest, second;
     std::unique_ptr<DetailStep> detail;
-    RgbPlanes now, drawn;  // the current frame, and the video that each tile was last drawn from
+    RgbPlanes now, drawn;  // the current frame; the video that each tile was last drawn from
     WorkPlan plan;
     SecondTiles secondTiles;
-    std::unique_ptr<EpipolarFlow> epipolar;  // set from the first still with a pose on
+    std::unique_ptr<EpipolarFlow> epipolar;  // created for the first still with a pose
     std::future<std::unique_ptr<EpipolarFlow>> comingEpipolar;
     std::optional<RealDepth> depth;  // set when first needed
     std::optional<VirtualView> objects;
-    TracedLayerOptions traced;  // for path traced objects
+    TracedLayerOptions traced;  // options of path-traced objects
     std::optional<SceneFollower> sceneFollower;
     std::optional<LightFollower> lightFollower;
     Quality quality;
     std::shared_ptr<const FilterBank> filters, nextFilters;  // null: the built-in filters
     MatchListener* matchListener = nullptr;
-    bool isNewStill = false;  // no frame has been matched to it
-    bool redraw = true;       // no tile of the last output may be kept
+    bool isNewStill = false;  // no frame was matched with the still yet
+    bool redraw = true;       // all tiles must be drawn in the next frame
     int depthAge = 0;         // frames since depth was last measured
     std::uint64_t frames = 0;
     StageClock clock;

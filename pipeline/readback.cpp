@@ -7,9 +7,9 @@
 namespace mfar {
 namespace {
 
-constexpr float kSameSurface = 0.5F;  // [px]
+constexpr float kSameSurface = 0.5F;  // [px]: two vectors closer than this show the same surface
 
-/// Interpolates one channel of the weighed cells at every video pixel.
+/// Interpolates one channel of the weighed cells for every video pixel.
 void channelInto(std::vector<float>& out, int stride, int at, const CellWeights& weights,
                  int channel, Size video) {
     const Rows<const WeighedCell> rows = weights.weighed.host();
@@ -50,8 +50,8 @@ std::vector<float> Pipeline::readFlow() const {
     for (int channel = 0; channel < 2; ++channel)
         channelInto(out, 2, channel, *s.newest.lastWeights, channel, video);
     if (!s.newest.lastFlow->errorsGiven) return out;
-    // Cells' vectors are accurate to a fraction of a pixel; the lines' vectors belong to single
-    // pixels and show on which side of an edge a pixel lies.
+    // A cell's vector is accurate to a fraction of a pixel. The vector of the epipolar search
+    // belongs to a single pixel, and shows on which side of an edge the pixel lies.
     const std::vector<bool> searched = readSearchedTiles();
     const std::vector<float> alongLines = s.epipolar->flow();
     for (int y = 0; y < video.height; ++y)

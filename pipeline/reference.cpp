@@ -7,9 +7,9 @@
 namespace mfar {
 namespace {
 
-constexpr double kFollows = 1.0 / 8;  // weight of a new frame in Reference::shows
-// Half a tile: views closer than this have the same occlusions and the same borders, except for
-// parts of a tile.
+constexpr double kFollows = 1.0 / 8;  // weight of a new frame in the average Reference::shows
+// Half a tile [video px]. Views that differ by less have the same occlusions and borders, except
+// for parts of a tile.
 constexpr double kSameView = 0.5 * kTileSize;  // [video px]
 
 }  // namespace

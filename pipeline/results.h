@@ -10,41 +10,42 @@
 
 namespace mfar {
 
-/// Numbers of one frame for status, trigger and summary. Zero before the second frame.
+/// Numbers of one frame for the status, the trigger and the summary. They are 0 before the second
+/// frame.
 struct FrameStats {
-    std::array<int, kTileClasses> tiles{};  ///< count per TileClass
-    double meanConfidence = 0;              ///< mean of eq. 2 over the frame, [0, 1]
-    double explained = 0;  ///< share of tiles that are flat or explained by a still, [0, 1]
-    /// Share of tiles whose video differs from the video they were last drawn from.
+    std::array<int, kTileClasses> tiles{};  ///< number of tiles of each TileClass
+    double meanConfidence = 0;              ///< mean confidence (eq. 2) over the frame, [0, 1]
+    double explained = 0;  ///< share of tiles that are flat or agree with a still, [0, 1]
+    /// Share of tiles whose video differs from the video from which they were last drawn.
     double changed = 0;
     bool usedStill = false;
-    bool usedPose = false;     ///< matched along epipolar lines, because both poses were known
-    bool predicted = false;    ///< search started from the last frame's result
-    bool refinedPose = false;  ///< the pictures gave a better relative pose than the two poses
-    int posePatches = 0;       ///< patches available for that; without any, the following are zero
-    double epipolarError = 0;  ///< the patches' median distance from the searched lines [px]
-    /// Tiles that the epipolar lines did not explain (a moving object, or a wrong pose) and that
-    /// were therefore searched in both dimensions. Without poses all changed tiles are searched so,
-    /// and 0 is reported.
+    bool usedPose = false;     ///< matched along epipolar lines, because still and frame have poses
+    bool predicted = false;    ///< the search started from the last frame's result
+    bool refinedPose = false;  ///< the pictures gave a better relative pose than the poses did
+    int posePatches = 0;       ///< patches available to refine the pose; 0: epipolarError is 0
+    double epipolarError = 0;  ///< median distance of patches from their epipolar lines [px]
+    /// Tiles that do not agree with the epipolar lines, because an object moves or a pose is wrong.
+    /// They were searched in both dimensions instead. Without poses all changed tiles are searched
+    /// in both dimensions, and 0 is reported.
     int searched2d = 0;
-    /// Tiles matched with a second still because the newest does not show them; and those of them
-    /// and next to them that show some of the second still.
+    /// matchedSecond: tiles matched with a second still, because the newest does not show them.
+    /// showSecond: tiles, including their neighbours, that show some of the second still.
     int matchedSecond = 0, showSecond = 0;
     /// Tiles in which real depth was measured, because a virtual object may be occluded there.
     int depthTiles = 0;
-    /// Tiles under a virtual object in which real depth was not measured, because the surface is
-    /// known to lie behind the object.
+    /// Tiles under a virtual object in which real depth was not measured, because the real surface
+    /// is known to lie behind the object.
     int depthTilesSkipped = 0;
-    bool objectsInView = false;  ///< a virtual object is within the picture's borders
-    bool objectsHidden = false;  ///< all of them are occluded by real things: nothing was drawn
+    bool objectsInView = false;  ///< a virtual object is inside the picture
+    bool objectsHidden = false;  ///< real things occlude all objects, so no object was drawn
     DepthSource depth = DepthSource::None;
-    Transfers transfers{};  ///< between host and GPU, in this frame
+    Transfers transfers{};  ///< between CPU memory and GPU, in this frame
 };
 
-/// Result of Pipeline::run. Valid until the next run.
+/// Result of Pipeline::run(). It is valid until the next run.
 struct FrameResult {
-    Picture picture;         ///< stored where the engine left it, alpha 255
-    bool unchanged = false;  ///< the picture is identical to that of the last run
+    Picture picture;         ///< stored where the engine left it; alpha is 255
+    bool unchanged = false;  ///< the picture is identical to the last run's
     FrameStats stats;
 };
 

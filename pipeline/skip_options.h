@@ -2,20 +2,20 @@
 
 namespace mfar {
 
-/// Work that a frame skips because it would not be visible. All are on; benchmarks turn one off to
-/// measure the time that it saves and the error that it adds. Others are settings of their own:
-/// PipelineOptions::skipUnchanged and depthEverywhere, EpipolarOptions::mostPredicted,
-/// KeyframeOptions and DepthOptions.
+/// Kinds of work that a frame skips because the result would not be visible. All are on by default.
+/// Benchmarks turn one off to measure the time that it saves and the error that it adds. Other
+/// options of this kind are elsewhere: PipelineOptions::skipUnchanged and depthEverywhere,
+/// EpipolarOptions::mostPredicted, KeyframeOptions and DepthOptions.
 struct SkipOptions {
-    bool upscaledTiles = true;  ///< tiles to which the still adds nothing are only enlarged
-    bool smoothTiles = true;    ///< tiles without structure are not matched, but only enlarged
-    /// Tiles with nearly constant flow and weight are drawn as one quad.
+    bool upscaledTiles = true;  ///< a tile to which the still adds nothing is only enlarged
+    bool smoothTiles = true;    ///< a tile without structure is not matched but only enlarged
+    /// A tile with nearly constant flow and weight is drawn as one quad.
     bool plainTiles = true;
     bool tileLists = true;      ///< the whole picture is drawn only if most tiles changed
     bool knownFlow = true;      ///< the 2-D flow search starts from the last frame's flow
-    bool knownBehind = true;    ///< no depth measurement in tiles known to lie behind an object
+    bool knownBehind = true;    ///< depth is not measured where it is known to lie behind objects
     bool objectsAtRest = true;  ///< objects over unchanged tiles are not drawn again
-    bool hiddenObjects = true;  ///< objects completely behind real things are not drawn
+    bool hiddenObjects = true;  ///< objects completely occluded by real things are not drawn
     bool objectBounds = true;   ///< objects are composited only within their bounds
 };
 

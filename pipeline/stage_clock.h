@@ -5,13 +5,13 @@
 
 namespace mfar {
 
-/// Time of one stage of the last frame.
+/// Duration of one stage of the last frame.
 struct StageTime {
     const char* stage;
     double ms;
 };
 
-/// Times of a frame's consecutive stages.
+/// Measures the durations of a frame's consecutive stages.
 class StageClock {
 public:
     StageClock() { times_.reserve(kMostStages); }
@@ -20,7 +20,7 @@ public:
         times_.clear();
         last_ = Clock::now();
     }
-    /// Assigns the time since the last call to this stage.
+    /// Assigns the time since the last call to the stage of this name.
     void lap(const char* stage) {
         const auto now = Clock::now();
         times_.push_back({stage, std::chrono::duration<double, std::milli>(now - last_).count()});
@@ -28,11 +28,11 @@ public:
     }
     [[nodiscard]] const std::vector<StageTime>& times() const { return times_; }
 
-    bool measures = false;  ///< each stage waits until its work is done
+    bool measures = false;  ///< whether each stage waits until its work is done
 
 private:
     using Clock = std::chrono::steady_clock;
-    static constexpr std::size_t kMostStages = 12;  // reserved, so that no frame allocates
+    static constexpr std::size_t kMostStages = 12;  // reserved, so that frames do not allocate
 
     std::vector<StageTime> times_;
     Clock::time_point last_;

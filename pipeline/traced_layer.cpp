@@ -13,19 +13,20 @@ struct TracedLayer::State {
         : camera(video.scaledTo(options.size)), warp(camera, options.size, warps, options.warp),
           renderer(referenceOptions(options, warp)), fadeFrames(options.warp.fadeFrames) {}
 
-    // What shows colours of references would show each other one's noise.
+    // Policy `soon` is used only if the warp takes light. If the warp takes colours, a new picture
+    // with few samples would be shown with its own noise.
     static ReferenceOptions referenceOptions(const TracedLayerOptions& options, const Warp& warp) {
         ReferenceOptions out = options.reference;
         out.policy.soon = out.policy.soon && warp.takesLight();
         return out;
     }
 
-    /// If the picture shows another scene, the warp gets the scene's models, too.
+    /// Takes a new picture. If it shows another scene, the warp gets the models of that scene.
     void take(const RenderedPicture& picture) {
         if (picture.scene != scene) {
             const bool sameModels = scene && sameObjects(*scene, *picture.scene);
             scene = picture.scene;
-            if (!sameModels) warp.setScene(*scene);  // another light does not change silhouettes
+            if (!sameModels) warp.setScene(*scene);  // other light does not change silhouettes
         }
         warp.setReference(warpReference(picture));
         shown = &picture;
@@ -37,8 +38,8 @@ struct TracedLayer::State {
     ReferenceRenderer renderer;
     int fadeFrames;
     std::shared_ptr<const Scene> scene;      // scene of the shown picture
-    const RenderedPicture* shown = nullptr;  // only compared with the next picture's address
-    // Frames for which the layer still changes without camera motion.
+    const RenderedPicture* shown = nullptr;  // only its address is compared with the next picture's
+    // Number of frames in which the layer still changes although the camera does not move.
     int changing = 0;
 };
 

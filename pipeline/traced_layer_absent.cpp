@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-// For builds without Embree.
+// This file is used in builds without Embree.
 namespace mfar {
 
 struct TracedLayer::State {};
@@ -17,7 +17,7 @@ TracedLayer::TracedLayer(const CameraModel&, Engine&, const TracedLayerOptions&)
 }
 TracedLayer::~TracedLayer() = default;
 
-// Never called: no TracedLayer can be constructed.
+// These functions are never called, because no TracedLayer can be constructed.
 void TracedLayer::setScene(std::shared_ptr<const Scene>) {}
 void TracedLayer::update(const RigidTransform&, Timestamp) {}
 bool TracedLayer::isStale() const {

@@ -6,15 +6,17 @@
 namespace mfar {
 namespace {
 
-// Lower limit of the coarsest level's short side [px]: a smaller level would not hold a patch.
+// Lower limit of the short side of the coarsest level [px]. A smaller level would not contain a
+// patch.
 constexpr int kShortestSide = 26;
 constexpr std::size_t kMaxLevels = 6;
-// The gain between the sensors is measured at the second level.
+// The second level always exists, because the gain between the sensors is measured there.
 constexpr std::size_t kMinLevels = 2;
 
 }  // namespace
 
-// A pixel has a variance of 1/12; the three taps have twice the weight of a neighbour.
+// A box of one pixel has a variance of 1/12 px^2. The three-tap smoothing adds twice the weight of
+// a neighbour.
 double lumaBoxWidening() {
     return std::sqrt(1 + 12 * 2 * kLumaSmoothing);
 }

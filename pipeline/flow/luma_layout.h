@@ -12,14 +12,16 @@ using params::kLumaMarginWords;
 using params::kLumaSmoothing;
 using params::LumaLevel;
 
-/// Words after the last level: a row of a patch reads three words from any column on.
+/// Words after the last level. They are needed because a row of a patch reads three words from any
+/// column on.
 inline constexpr int kLumaSpareWords = 2;
 
-/// Width of a box [video px] with the same variance as a pixel plus the smoothing.
+/// Width of a box [video px] that has the same variance as a pixel and the smoothing together.
 [[nodiscard]] double lumaBoxWidening();
 
-/// The levels of a picture of `size`, finest first; each is half of the one before, rounded up.
-/// They begin at `words`, which is advanced past them.
+/// Layout of the pyramid levels for a picture of `size`, finest first. Each level has half the size
+/// of the level before, rounded up. The first level begins at offset `words`, which is advanced to
+/// the end of the last level.
 [[nodiscard]] std::vector<LumaLevel> lumaLayout(Size size, std::int32_t& words);
 
 }  // namespace mfar

@@ -9,19 +9,19 @@
 
 namespace mfar {
 
-/// Flow and luma on the GPU, the inputs of weighing.
+/// Flow and luma on the GPU, the inputs of CellWeigher.
 struct WeighInput {
     const std::vector<LumaLevel>&video, &still;
     const gpu::Buffer& words;
     const gpu::Buffer& patches;
-    int first;               ///< entry of the forward field in `patches`; backward follows
+    int first;               ///< forward field's index in `patches`; the backward field follows
     Size forward, backward;  ///< [cells]
-    int backwardLevel;       ///< level of the pyramid
-    bool errorsGiven;        ///< two-way errors take the place of the backward field
+    int backwardLevel;       ///< pyramid level of the backward field
+    bool errorsGiven;        ///< the backward field is replaced by two-way errors
 };
 
-/// Computes, cell by cell, the weight of the still from its match, and the sensors' photometric
-/// gain.
+/// Computes the weight of the still in each cell from the match, and the photometric gain between
+/// the sensors.
 class CellWeigher {
 public:
     explicit CellWeigher(const StereoRig& rig);

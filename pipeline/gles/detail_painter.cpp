@@ -83,8 +83,8 @@ DetailPainter::TileParams DetailPainter::tileParams() const {
     return p;
 }
 
-// Draws read sharpened pixels of neighbouring tiles, too. So after frames without sharpening, all
-// tiles are sharpened.
+// Drawing a tile also reads sharpened pixels of neighbouring tiles. Therefore all tiles are
+// sharpened after frames without sharpening.
 void DetailPainter::sharpen(const TileParams& params, const gpu::Texture& video,
                             const Matched& matched, const TileWork& work) {
     sharpen_.run(work.drawsWhole() || sharpenedIsOld_, params,
@@ -105,7 +105,7 @@ void DetailPainter::enlargeLearned(const TileParams& params, const gpu::Texture&
     learned_->run(video, &seen, tiles, filters, params, list(List::All));
 }
 
-// First half of the enlargement: columns, which the composites read.
+// First half of the enlargement: enlarges along columns. The composites read the result.
 void DetailPainter::enlargeColumns(const TileParams& params, const gpu::Texture& video,
                                    const Matched* matched, const TileBuffer& tiles,
                                    const DetailOptions& options) {
@@ -147,7 +147,7 @@ void DetailPainter::drawDetail(Composites passes, const TileParams& params, gpu:
     passes.whole.run(params, bindings, outputTarget_);
 }
 
-// The output pixels that show at least a part of these tiles.
+// Rectangle of the output pixels that show any part of these tiles.
 PixelRect DetailPainter::outputOf(const PixelRect& tiles) const {
     const auto [width, height] = output_.size();
     const auto at = [](int tile, int video, int out, int rest) {
@@ -161,10 +161,10 @@ PixelRect DetailPainter::outputOf(const PixelRect& tiles) const {
 void DetailPainter::draw(const gpu::Texture& video, const Matched* matched, const TileBuffer& tiles,
                          const DetailOptions& options) {
     const TileWork& work = tiles.work();
-    // After two frames at rest, both buffers of counts are those of a frame at rest.
+    // After two frames at rest, both buffers of counters hold the values of a frame at rest.
     restingFrames_ = work.changed == 0 ? restingFrames_ + 1 : 0;
     if (restingFrames_ <= 2) classify(matched, tiles, options);
-    // An empty draw would still compile its shader.
+    // Even an empty draw would compile its shader.
     if (restingFrames_ > 0) return;
 
     const TileParams p = tileParams();
@@ -172,7 +172,7 @@ void DetailPainter::draw(const gpu::Texture& video, const Matched* matched, cons
     const Composites passes = compositesFor(options);
     const bool learns = filtersOf(options) != nullptr;
     const gpu::Texture& columns = learns ? learned_->columns() : columns_;
-    // Without a still, the shaders do not read these textures.
+    // Without a still the shaders do not read these textures.
     const gpu::Texture& still = matched != nullptr ? matched->still : blank_;
     const gpu::Texture& lookUps = matched != nullptr ? matched->lookUps : blank_;
     if (learns)
@@ -188,7 +188,8 @@ void DetailPainter::draw(const gpu::Texture& video, const Matched* matched, cons
         drawSecond(p, video, *matched, *filtersOf(options));
 }
 
-// Drawn over the first still's detail, which fades where the second has more weight.
+// Draws over the detail of the first still. The first still's detail fades where the second still
+// has more weight.
 void DetailPainter::drawSecond(const TileParams& params, const gpu::Texture& video,
                                const Matched& matched, const FilterBank& filters) {
     const Matched& second = *matched.second;

@@ -14,37 +14,38 @@
 
 namespace mfar {
 
-/// Combines video, still and weights into the high-resolution picture. Draws only the tiles that
-/// the plan marks as changed; the others keep their pixels from earlier frames.
+/// Combines the video, a still and weights into the high-resolution picture. It draws only tiles
+/// that the plan marks as changed. Other tiles keep their pixels from earlier frames.
 class DetailPainter {
 public:
-    /// `stillRig`: the rig with the still camera at the resolution of the still's detail and
+    /// `stillRig` is the rig whose still camera has the resolution of the still's detail and
     /// picture.
     DetailPainter(const StereoRig& stillRig, Size output);
 
-    /// A still on the GPU and its match.
+    /// A still on the GPU and its match with the video.
     struct Matched {
-        const gpu::Texture& still;    ///< raised luma, or the picture in mode Blend; linear filter
-        const gpu::Texture& weighed;  ///< Rgba32F; like the other two, one texel per cell
+        const gpu::Texture& still;    ///< raised luma, or in mode Blend the picture; linear filter
+        const gpu::Texture& weighed;  ///< Rgba32F; one texel per cell, as the next two
         const gpu::Texture& lookUps;  ///< Rgba16F, linear filter
         const gpu::Texture& trust;    ///< Rgba8, linear filter
-        /// A second still, shown where its weight is larger; may be null. Only in mode Detail with
-        /// filters.
+        /// A second still, shown where its weight is larger than the first still's. May be null. It
+        /// is used only in mode Detail with filters.
         const Matched* second = nullptr;
     };
-    /// Classifies the changed tiles and draws them. `matched` null: only enlarges.
+    /// Classifies the changed tiles and draws them. If `matched` is null, the tiles are only
+    /// enlarged.
     void draw(const gpu::Texture& video, const Matched* matched, const TileBuffer& tiles,
               const DetailOptions& options);
 
     [[nodiscard]] const gpu::Texture& output() const { return output_; }
-    /// Target that draws into output(), for overlays.
+    /// Framebuffer that draws into output(), for overlays.
     [[nodiscard]] const gpu::Framebuffer& target() const { return outputTarget_; }
 
-    /// Statistics of the frame before the last one drawn. Does not wait for the GPU.
+    /// Counters of the frame before the last drawn frame. Does not wait for the GPU.
     [[nodiscard]] TileSummary summaryBefore() const { return summary(1 - current_); }
-    /// Statistics of the last frame. Waits for the GPU.
+    /// Counters of the last frame. Waits for the GPU.
     [[nodiscard]] TileSummary summaryNow() const { return summary(current_); }
-    /// Class of every tile in the last frame, row-major. Waits for the GPU.
+    /// Class of each tile in the last frame, row-major. Waits for the GPU.
     [[nodiscard]] std::vector<TileClass> readClasses() const;
 
 private:
@@ -57,14 +58,14 @@ private:
 
         TilePass columns, rows;
     };
-    /// Programs that draw tiles of one kind, or the detail of a whole frame.
+    /// Programs that draw tiles of one class, or the detail of a whole frame.
     struct Composites {
         TilePass& enlarged;
         gpu::DrawPass<TileParams>& whole;
         gpu::DrawPass<TileParams>& tiles;
         gpu::DrawPass<TileParams>& plain;
     };
-    /// draws[] of superres_classify.comp.
+    /// The buffer that superres_classify.comp writes: draws[] and the counters after it.
     struct DrawBlock {
         std::array<std::array<std::uint32_t, 4>, 5> commands;
         std::array<std::uint32_t, 8> counts;
@@ -98,12 +99,12 @@ private:
     std::array<gpu::Buffer, 2> draws_;
     int current_ = 0, restingFrames_ = 0;
     std::uint32_t classified_ = 0;  // number of frames classified
-    bool sharpenedIsOld_ = true;    // sharpened_ lacks the last frame
+    bool sharpenedIsOld_ = true;    // sharpened_ was not updated in the last frame
     gpu::ComputePass<params::ClassifyTiles> classify_;
     TilePass sharpen_, columnsPass_;
     DetailPasses detailPasses_;
     gpu::DrawPass<TileParams> wholeBlend_, blend_, plainBlend_;
-    // Created for the first frame that needs it.
+    // These are created for the first frame that needs them.
     std::optional<Linear> linear_;
     std::optional<LearnedEnlarger> learned_;
 };

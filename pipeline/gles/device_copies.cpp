@@ -12,10 +12,10 @@
 namespace mfar {
 namespace {
 
-/// How texels of a format are stored on the host and passed to the GL.
+/// How texels of a format are stored in CPU memory and passed to GL.
 struct Layout {
     GLenum channels, type;
-    int bytes;  ///< per texel
+    int bytes;  ///< bytes per texel
 };
 
 Layout layoutOf(gpu::TexelFormat format) {
@@ -73,7 +73,7 @@ void TextureCopy::upload(const void* data, std::ptrdiff_t pitch) {
     glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
 }
 
-// Every driver can read four channels.
+// Four channels are read, because every driver can do this.
 void TextureCopy::download(void* data, std::ptrdiff_t pitch) {
     const auto [width, height] = texture_->size();
     const Layout layout = layoutOf(texture_->format());
@@ -83,7 +83,7 @@ void TextureCopy::download(void* data, std::ptrdiff_t pitch) {
         glPixelStorei(GL_PACK_ROW_LENGTH, static_cast<GLint>(pitch / layout.bytes));
         glReadPixels(0, 0, width, height, layout.channels, layout.type, data);
         glPixelStorei(GL_PACK_ROW_LENGTH, 0);
-        gpu::checkErrors("TextureCopy");  // if the context is lost, the values stay unchanged
+        gpu::checkErrors("TextureCopy");  // after the loss of the context the values stay unchanged
         return;
     }
     const auto row = [&](int y) { return static_cast<std::byte*>(data) + y * pitch; };

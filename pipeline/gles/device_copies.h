@@ -10,20 +10,21 @@
 
 namespace mfar {
 
-/// Entries of a storage buffer as a field of one row.
+/// Entries of a storage buffer, as the GPU copy of a field with one row.
 class BufferCopy final : public DeviceCopy {
 public:
-    /// A part of a step's buffer: `count` entries of `entryBytes`, starting at the entry `first`.
+    /// Refers to a part of a step's buffer: `count` entries of `entryBytes` bytes, starting with
+    /// entry `first`.
     BufferCopy(const gpu::Buffer& buffer, int first, std::size_t count, std::size_t entryBytes)
         : buffer_(&buffer), first_(first), count_(count), entryBytes_(entryBytes) {}
-    /// Creates its own buffer.
+    /// Allocates a buffer of its own.
     BufferCopy(std::size_t count, std::size_t entryBytes)
         : own_(count * entryBytes), buffer_(&*own_), count_(count), entryBytes_(entryBytes) {}
 
     [[nodiscard]] const gpu::Buffer& buffer() const { return *buffer_; }
     [[nodiscard]] int first() const { return first_; }  ///< index of the first entry
 
-    /// Only for a copy with its own buffer.
+    /// May be called only if the copy has its own buffer.
     void upload(const void* data, std::ptrdiff_t pitch) override;
     void download(void* data, std::ptrdiff_t pitch) override;
 
@@ -34,20 +35,20 @@ private:
     std::size_t count_, entryBytes_;
 };
 
-/// A texture as a field. Texels on the host: R8 one byte, Rg8 two bytes, Rgba8 four bytes, R32F one
-/// float, other formats with four channels four floats. With `floats`, Rgba8 is four floats in
-/// [0, 1].
+/// A texture, as the GPU copy of a field. Texels in CPU memory have one byte for R8, two bytes for
+/// Rg8, four bytes for Rgba8, one float for R32F, and four floats for other formats with four
+/// channels. With `floats`, Rgba8 is four floats in [0, 1].
 class TextureCopy final : public DeviceCopy {
 public:
-    /// Borrows a step's texture.
+    /// Refers to a step's texture, which must outlive this object.
     explicit TextureCopy(const gpu::Texture& texture, bool floats = false)
         : texture_(&texture), floats_(floats) {}
-    /// Creates its own texture.
+    /// Creates a texture of its own.
     TextureCopy(Size size, gpu::TexelFormat format, gpu::Filter filter, bool floats = false)
         : own_(std::in_place, size, format, filter), texture_(&*own_), floats_(floats) {}
 
     [[nodiscard]] const gpu::Texture& texture() const { return *texture_; }
-    /// A target that draws into the texture.
+    /// Framebuffer that draws into the texture.
     [[nodiscard]] const gpu::Framebuffer& target();
 
     void upload(const void* data, std::ptrdiff_t pitch) override;
@@ -60,7 +61,7 @@ private:
     bool floats_;
 };
 
-/// A field's copy in a storage buffer.
+/// The field's copy in a storage buffer, which is created if necessary.
 template <class T>
 [[nodiscard]] const BufferCopy& bufferOf(const Field<T>& field) {
     DeviceCopy& copy = field.device([&] {
@@ -70,7 +71,7 @@ template <class T>
     return static_cast<const BufferCopy&>(copy);
 }
 
-/// A field's copy in a texture, which is created with this format and filter if necessary.
+/// The field's copy in a texture. If necessary, the texture is created with this format and filter.
 template <class T>
 [[nodiscard]] TextureCopy& textureOf(const Field<T>& field, gpu::TexelFormat format,
                                      gpu::Filter filter = gpu::Filter::Nearest,

@@ -9,9 +9,9 @@
 namespace mfar {
 namespace {
 
-constexpr int kEdgeGroup = 8;      // in each direction, as in the shader
-constexpr int kSharpenGroup = 64;  // as in the shader
-constexpr int kLeastContrast = 3;  // of kLevels: blur of a lower contrast is not visible
+constexpr int kEdgeGroup = 8;      // workgroup size in each direction, as in the shader
+constexpr int kSharpenGroup = 64;  // workgroup size, as in the shader
+constexpr int kLeastContrast = 3;  // contrast level; the blur of lower levels is not visible
 constexpr std::size_t kListedAt = EdgeRefiner::kLevels + 1;
 
 }  // namespace

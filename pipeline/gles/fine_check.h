@@ -8,17 +8,17 @@
 
 namespace mfar {
 
-/// Lowers the weights of cells where the still does not show the video's finest detail.
+/// Lowers the weights of cells in which the still does not show the video's finest detail.
 class FineCheck {
 public:
-    /// `stillRig`: the rig with the still camera at the resolution of its detail.
+    /// `stillRig` is the rig whose still camera has the resolution of the still's detail.
     explicit FineCheck(const StereoRig& stillRig);
 
-    /// Fields of CellWeigher.
+    /// The fields that CellWeigher computes.
     struct Weights {
         const gpu::Texture &weighed, &lookUps, &trust;
     };
-    /// `still`: raised luma, linear filter.
+    /// `still` is the raised luma with a linear filter.
     void run(const gpu::Texture& video, const gpu::Texture& still, const Weights& weights,
              const TileBuffer& tiles, const FineMatch& match);
 

@@ -11,64 +11,65 @@
 
 namespace mfar {
 
-/// Dense flow between video and still, in both directions, without knowledge of the pose:
-/// coarse-to-fine inverse search with a gain-invariant cost on 8x8 patches every 4 pixels,
-/// propagation, Gauss-Newton refinement, robust clean-up.
+/// Dense flow between video and still in both directions, computed without the pose. The steps are
+/// a coarse-to-fine inverse search with a gain-invariant cost on 8x8 patches every 4 pixels,
+/// propagation, Gauss-Newton refinement, and a robust clean-up.
 /// Sources: Kroeger et al., ECCV 2016 (inverse search); Barnes et al., 2009 (propagation).
 class Flow2d {
 public:
-    /// A field of flow vectors, one per cell of 4x4 video pixels, in patches().
+    /// A field of flow vectors in patches(), with one vector per cell of 4x4 pixels.
     struct Field {
-        int offset = 0;  ///< first vec4 (flow x, y [px of its level], cost, texture)
+        int offset = 0;  ///< index of the first vec4 (flow x, y [px of the level], cost, texture)
         Size cells;      ///< columns, rows
-        int level = 0;   ///< level of the pyramid
+        int level = 0;   ///< pyramid level
     };
 
-    /// Throws std::invalid_argument for options out of range.
+    /// Throws std::invalid_argument if an option is out of range.
     explicit Flow2d(Size video, const Flow2dOptions& options = {});
 
-    /// See changed() in flow_options.h; takes effect with the next run. Throws
-    /// std::invalid_argument for options out of range.
+    /// Takes effect with the next run; see changed() in flow_options.h. Throws
+    /// std::invalid_argument if an option is out of range.
     void setOptions(const Flow2dOptions& options) { options_ = changed(options_, options); }
 
-    /// Computes both fields; does nothing if no tile is matched. `usePrior`: the last frame's field
-    /// is a candidate everywhere (not after a new still).
+    /// Computes both fields. Does nothing if no tile is matched. If `usePrior` is true, the last
+    /// frame's vectors are candidates in all cells; this is wrong after a new still.
     void run(const LumaOnGpu& luma, const TileBuffer& tiles, bool usePrior);
 
-    /// Computes the forward field from one vector per cell whose error is a fraction of a pixel;
-    /// `errors`: the known two-way error of eq. 2, in x [px]. Tiles that their vectors do not
-    /// explain are searched in 2-D from coarse to fine.
+    /// Computes the forward field from one vector per cell whose error is less than a pixel.
+    /// `errors` holds the known two-way error of each cell (eq. 2) in x [px]. Tiles whose vectors
+    /// do not fit are searched in 2-D from coarse to fine.
     using Cells = std::span<const std::array<float, 4>>;
     void refine(const LumaOnGpu& luma, const TileBuffer& tiles, Cells forward, Cells errors);
 
-    /// The tiles that the last refine() searched.
+    /// Lists of the tiles that the last refine() searched.
     [[nodiscard]] const TileLists& searched() const { return searched_; }
 
     [[nodiscard]] const gpu::Buffer& patches() const { return patches_; }
-    [[nodiscard]] const Field& forward() const { return forward_; }  ///< video -> still
-    /// The forward vectors, x, y [px], -, -. Waits for the GPU.
+    [[nodiscard]] const Field& forward() const { return forward_; }  ///< from video to still
+    /// The forward vectors: x, y [px], unused, unused. Waits for the GPU.
     [[nodiscard]] std::vector<std::array<float, 4>> readForward() const {
         return patches_.read<std::array<float, 4>>(static_cast<std::size_t>(forward_.cells.width) *
                                                        forward_.cells.height,
                                                    16UL * forward_.offset);
     }
-    /// True after refine(): backward() then holds the two-way errors of the video's cells.
+    /// True after refine(). Then backward() holds the two-way errors of the video's cells.
     [[nodiscard]] bool errorsGiven() const { return errorsGiven_; }
-    [[nodiscard]] const Field& backward() const { return backward_; }  ///< still -> video
+    [[nodiscard]] const Field& backward() const { return backward_; }  ///< from still to video
 
 private:
-    /// One level of one direction: two areas, because propagation cannot work in place.
+    /// The cells of one level in one direction. There are two areas, because propagation cannot
+    /// work in place.
     struct Stage {
         Size cells;
         int area[2];
         gpu::Groups groups;
     };
-    /// A pass through the levels, from coarse to fine.
+    /// Input of a pass through the levels, from coarse to fine.
     struct Direction {
-        const std::vector<LumaLevel>& from;  ///< source of the patches
-        const std::vector<LumaLevel>& to;    ///< searched picture
+        const std::vector<LumaLevel>& from;  ///< picture that the patches are taken from
+        const std::vector<LumaLevel>& to;    ///< picture in which the patches are searched
         const std::vector<Stage>& stages;
-        int finest;  // last level
+        int finest;  // the last level
         int finestPropagations;
         bool usePrior;
     };
@@ -79,7 +80,7 @@ private:
     [[nodiscard]] params::SearchFlow searchParams(const Direction& way, int level, int area,
                                                   int radius, int prior) const;
     void propagate(const Direction& way, int level, int toArea, const LumaOnGpu& luma);
-    /// Refines the vectors from `in` on by Gauss-Newton steps.
+    /// Refines the vectors that start at index `in` by Gauss-Newton steps.
     void align(int in, const LumaOnGpu& luma, const TileBuffer& tiles);
     void filter(const Stage& stage, const Field& out, const TileBuffer& tiles);
 
@@ -87,7 +88,7 @@ private:
     std::vector<Stage> forwardStages_, backwardStages_;
     Field forward_, backward_;
     bool errorsGiven_ = false;
-    int seed_;  // first vec4 of refine()'s forward vectors
+    int seed_;  // index of the first vec4 of refine()'s input vectors
     gpu::Buffer patches_;
     TileLists searched_;
     gpu::ComputePass<params::SearchFlow> search_, searchListed_;

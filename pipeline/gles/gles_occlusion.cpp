@@ -37,7 +37,8 @@ public:
     }
 
 private:
-    // Uploads the rows with known depths, and the rows of the last upload.
+    // Uploads the rows with known depths. Also uploads the rows of the last upload, because they
+    // hold old values.
     void upload(const InverseDepthField& real, const PixelRect& where) {
         const PixelRect rows = around(uploaded_, where);
         uploaded_ = where;

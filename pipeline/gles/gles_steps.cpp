@@ -15,14 +15,14 @@
 namespace mfar::gles {
 namespace {
 
-/// Raised luma. From the SIMD engine it has the pixel below in the second channel.
+/// The still's raised luma. If the SIMD engine made it, the second channel holds the pixel below.
 const gpu::Texture& raisedOf(const StillPictures& still) {
     const auto linear = gpu::Filter::Linear;
     return still.raised.isEmpty() ? textureOf(still.pairs, gpu::TexelFormat::Rg8, linear).texture()
                                   : textureOf(still.raised, gpu::TexelFormat::R8, linear).texture();
 }
 
-/// A still's texture; its host rows are the luma.
+/// The GPU copy of a still is the picture; its copy in CPU memory is the luma.
 class StillLumaCopy final : public DeviceCopy {
 public:
     explicit StillLumaCopy(const gpu::PictureTexture& picture) : picture_(picture) {}
@@ -65,7 +65,7 @@ private:
     StillReference still_;
     StillLumaCopy lumaCopy_;
     TextureCopy raisedCopy_;
-    std::optional<TextureCopy> pictureCopy_;  // the texture changes with the still's format
+    std::optional<TextureCopy> pictureCopy_;  // new for each still, because the texture may change
     StillPictures pictures_;
 };
 
@@ -88,7 +88,7 @@ public:
     }
 
 private:
-    // Stills of the SIMD engine are luma, which samples as grey.
+    // Stills from the SIMD engine are luma textures, which the shaders read as grey.
     static const gpu::Texture& lumaTexture(const StillPictures& still) {
         DeviceCopy& copy = still.luma.device([&] {
             return std::make_unique<TextureCopy>(still.luma.size(), gpu::TexelFormat::R8,
@@ -214,7 +214,7 @@ public:
     void draw(const VideoFrame& frame, const Matched* matched, const TileWork& work,
               const DetailOptions& options) override {
         const TileBuffer& tiles = frame_.tiles(work);
-        // While nothing changes, the video is not read.
+        // The shaders do not read the video if nothing has changed.
         const gpu::Texture& video = work.changed > 0 ? frame_.video(frame) : painter_.output();
         if (matched == nullptr) {
             painter_.draw(video, nullptr, tiles, options);

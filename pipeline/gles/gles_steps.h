@@ -14,16 +14,16 @@
 
 namespace mfar::gles {
 
-/// The frame and its plan on the GPU, uploaded when the first step of a frame needs them. Shared by
-/// the engine's steps; needs a current context for its whole lifetime.
+/// The frame and its plan on the GPU. Both are uploaded when the first step of a frame needs them.
+/// All steps of the engine share this object. It needs a current GL context for its whole lifetime.
 class FrameOnGpu {
 public:
     explicit FrameOnGpu(Size video) : tiles_{TileBuffer(video), TileBuffer(video)} {}
 
     [[nodiscard]] const gpu::Texture& video(const VideoFrame& frame);
-    /// Keeps two plans of a frame, one for each still.
+    /// The plan on the GPU. Two plans of a frame are kept, one for each still.
     [[nodiscard]] const TileBuffer& tiles(const TileWork& work);
-    /// The last still. See gpu::PictureTexture.
+    /// The newest still; see gpu::PictureTexture.
     [[nodiscard]] gpu::PictureTexture& stillPicture() { return still_; }
     void setImporter(PlaneImporter* importer);
     [[nodiscard]] std::optional<std::string> takeImportFault();
@@ -31,16 +31,16 @@ public:
 
 private:
     gpu::PictureTexture video_, still_{gpu::Filter::Linear};
-    std::optional<std::uint64_t> number_;  // of the frame in video_
+    std::optional<std::uint64_t> number_;  // number of the frame in video_
     std::array<TileBuffer, 2> tiles_;
-    std::size_t used_ = 0;  // index in tiles_ of the last one used
+    std::size_t used_ = 0;  // index in tiles_ of the plan used last
 };
 
 [[nodiscard]] std::unique_ptr<StillStep> makeStillStep(const StepSetup& setup, FrameOnGpu& frame);
 [[nodiscard]] std::unique_ptr<PyramidStep> makePyramidStep(const StepSetup& setup,
                                                            FrameOnGpu& frame);
 [[nodiscard]] std::unique_ptr<FlowStep> makeFlowStep(const StepSetup& setup, FrameOnGpu& frame);
-/// `stillRig`: the rig with the still camera at the resolution of the still's detail and picture.
+/// `stillRig` is the rig whose still camera has the resolution of the still's detail and picture.
 [[nodiscard]] std::unique_ptr<WeighStep>
 makeWeighStep(const StepSetup& setup, const StereoRig& stillRig, FrameOnGpu& frame);
 [[nodiscard]] std::unique_ptr<DetailStep>

@@ -102,7 +102,7 @@ private:
     PatchTextures patchTextures_;
     std::optional<EdgeRefiner> refiner_;
     const WarpReference* reference_ = nullptr;
-    PixelRect drawn_;  // where the look-up's pictures are not empty
+    PixelRect drawn_;  // outside, the look-up's pictures are empty
     TextureCopy stateCopy_;
     Field<std::uint32_t> state_;
     TextureLayer warped_, rendered_;

@@ -8,7 +8,7 @@
 namespace mfar {
 namespace {
 
-constexpr int kPullGroup = 8;  // in each direction, as in the shaders
+constexpr int kPullGroup = 8;  // workgroup size in each direction, as in the shaders
 constexpr std::uint32_t kOpen = 1U << 31, kCrack = 1U << 30;
 
 using Command = HoleFiller::Command;
@@ -20,7 +20,8 @@ int halved(int pixels) {
 std::size_t mostTexels(Size size) {
     std::size_t sum = 0;
     for (int l = 0; l < HoleFiller::kLevels; ++l) {
-        // A rectangle at odd coordinates needs one texel more than half its size.
+        // One more texel than half the size is needed for a rectangle that begins at an odd
+        // coordinate.
         size = {halved(size.width) + 1, halved(size.height) + 1};
         sum += static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
     }

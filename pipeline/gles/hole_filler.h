@@ -14,34 +14,36 @@
 
 namespace mfar {
 
-/// Lists the pixels that the look-up left at least partly open, fills them from their surroundings,
-/// and lets the host read the list a frame or two later. Cracks (most neighbours show the same
-/// surface) are always filled; other holes are filled by push-pull on request.
+/// Lists the pixels that the look-up left open, at least partly, and fills them from their
+/// surroundings. The CPU can read the list one or two frames later. Cracks (most neighbours show
+/// the same surface) are always filled. Larger holes are filled by push-pull if requested.
 class HoleFiller {
 public:
     static constexpr int kLevels = 6;
 
     explicit HoleFiller(Size layer);
 
-    /// Starts an empty list for the layer's pixels `where`.
+    /// Begins an empty list for the layer's pixels in `where`.
     void begin(const PixelRect& where, bool pushPull);
-    /// Dispatch commands and count of the list: see warp_rest.comp.
+    /// Dispatch commands and length of the list; see warp_rest.comp.
     [[nodiscard]] const gpu::Buffer& commands() const { return lists_[current_].commands; }
     [[nodiscard]] const gpu::Buffer& entries() const { return lists_[current_].entries; }
-    /// Group counts of the pyramid's dispatches, which take effect with the list's first entry.
+    /// Workgroup counts of the pyramid's dispatches. They take effect when the list gets its first
+    /// entry.
     using Command = params::DispatchGroups;
     [[nodiscard]] const std::array<Command, kLevels>& wanted() const { return wanted_; }
     [[nodiscard]] int levels() const { return params_.levelCount; }
 
-    /// Fills `colour` (RGBA8 premultiplied); `colour` and `state` are the results of ViewLookUp.
-    /// `wantList`: this frame's list will be read, unless another one is in transfer.
+    /// Fills holes in `colour` (RGBA8 premultiplied). `colour` and `state` are the results of
+    /// ViewLookUp. If `wantList` is true, this frame's list is read back, unless another list is
+    /// being read back.
     void fill(const gpu::Texture& colour, const gpu::Texture& state, bool wantList);
 
-    /// The holes of the frame with `wantList`, once the GPU has finished it. Never waits.
+    /// The holes of the frame with `wantList`, once the GPU has finished that frame. Never waits.
     std::optional<WarpHoles> poll();
-    /// True while a list is in transfer to the host.
+    /// Whether a list is being read back.
     [[nodiscard]] bool isPending() const { return fence_.has_value(); }
-    /// Discards a list that is in transfer.
+    /// Discards a list that is being read back.
     void drop() { fence_.reset(); }
 
 private:
@@ -53,9 +55,9 @@ private:
     void pull(const gpu::Texture& colour, const gpu::Texture& state);
 
     Size layer_;
-    std::array<Lists, 2> lists_;  // one may be in transfer to the host
+    std::array<Lists, 2> lists_;  // one of them may be read back to the CPU
     std::size_t current_ = 0;
-    std::optional<gpu::Fence> fence_;  // of the list that is in transfer
+    std::optional<gpu::Fence> fence_;  // signals that the list can be read back
     gpu::Buffer pyramid_;
     params::FillHoles params_{};
     std::array<Command, kLevels> wanted_{};

@@ -11,33 +11,33 @@
 
 namespace mfar {
 
-/// Enlarges the video by learned filters, except for the final composite. Needs a current context
-/// for its whole lifetime.
+/// Enlarges the video with learned filters, except for the final composite. It needs a current GL
+/// context for its whole lifetime.
 class LearnedEnlarger {
 public:
     LearnedEnlarger(Size video, Size output);
 
-    /// A still on the GPU, and its look-ups.
+    /// A still on the GPU and the look-ups into it.
     struct Seen {
         const gpu::Texture &still, &lookUps;
     };
-    /// Computes the composites' inputs in the tiles of `list`, or in all tiles if the plan requires
-    /// it. `seen` may be null.
+    /// Computes the inputs of the composites in the tiles of `list`, or in all tiles if the plan
+    /// requires it. `seen` may be null.
     void run(const gpu::Texture& video, const Seen* seen, const TileBuffer& tiles,
              const FilterBank& filters, params::DrawTiles params, const gpu::InstanceList& list);
-    /// Replaces the composites' inputs by those of another still, in these tiles and around them;
-    /// the next run() computes the first still's again.
+    /// Replaces the composites' inputs by those of another still in the listed tiles and around
+    /// them. The next run() computes the first still's inputs again.
     void seeSecond(const gpu::Texture& video, const Seen& seen, const FilterBank& filters,
                    params::DrawTiles params, const gpu::InstanceList& list);
-    /// Reports a frame drawn by other passes: the next run() computes all tiles.
+    /// Must be called for a frame that other passes drew. The next run() then computes all tiles.
     void skip() { columnsAreOld_ = seenIsOld_ = guidedIsOld_ = true; }
 
-    // Inputs of composites with LEARNED: at bindings 0, 3 and 4.
+    // Inputs of composites with LEARNED, for bindings 0, 3 and 4.
     [[nodiscard]] const gpu::Texture& columns() const { return columns_; }
     [[nodiscard]] const gpu::Texture& residuals() const { return residuals_; }
     [[nodiscard]] const gpu::Texture& tiles() const { return learned_; }
     [[nodiscard]] DetailPasses& passes() { return passes_; }
-    /// Draws a second still over the first one; the first one's look-ups are at binding 5.
+    /// Draws a second still over the first one. Binding 5 takes the first still's look-ups.
     [[nodiscard]] gpu::DrawPass<params::DrawTiles>& second() { return second_; }
 
 private:
@@ -46,9 +46,9 @@ private:
     void fillGrid(const gpu::Texture& video, const TileBuffer& tiles);
 
     Size video_, tiles_;
-    std::uint64_t number_ = 0;                      // of the filters on the GPU
-    std::vector<std::uint8_t> mask_;                // of the tiles on the GPU
-    bool columnsAreOld_ = true, seenIsOld_ = true;  // the last frame is missing
+    std::uint64_t number_ = 0;                      // number of the filters on the GPU
+    std::vector<std::uint8_t> mask_;                // flags of the tiles on the GPU
+    bool columnsAreOld_ = true, seenIsOld_ = true;  // not computed in the last frame
     bool guidedIsOld_ = true;
     gpu::Texture filters_, learned_, grid_, seen_, guided_, columns_, residuals_;
     gpu::Framebuffer seenTarget_, guidedTarget_, columnsTarget_;

@@ -27,7 +27,7 @@ LumaPyramids::LumaPyramids(Size video)
     std::int32_t words = 0;
     video_ = lumaLayout(video, words);
     still_ = lumaLayout(video, words);
-    // A row of a patch reads three words from any column on, hence two spare words at the end.
+    // Two spare words at the end, because a row of a patch reads three words from any column on.
     words_ = gpu::Buffer((static_cast<std::size_t>(words) + 2) * sizeof(std::uint32_t));
 }
 

@@ -12,24 +12,27 @@ namespace mfar {
 
 [[nodiscard]] params::Rig rigParams(const StereoRig& rig);
 
-/// Luma pyramids on the GPU, from either engine.
+/// Luma pyramids on the GPU, made by either engine.
 struct LumaOnGpu {
     const std::vector<LumaLevel>&video, &still;
     const gpu::Buffer& words;
 };
 
-/// Luma pyramids of the video frame and of the still in the video's geometry (rotation and both
-/// lenses applied, no parallax), smoothed alike: 8 bits per pixel, four pixels per word, in one
-/// storage buffer. They are the inputs of flow.
+/// Luma pyramids of the video frame and of the still, both smoothed in the same way; the inputs of
+/// flow. The still is resampled to the video's geometry (rotation and both lenses, but no
+/// parallax). The pyramids are in one storage buffer with 8 bits per pixel and four pixels per
+/// word.
 class LumaPyramids {
 public:
     explicit LumaPyramids(Size video);
 
-    /// From the video frame (RGBA8 texture of the video's size).
+    /// Builds the pyramid from a video frame (RGBA8 texture of the video's size).
     void buildVideo(const gpu::Texture& video);
-    /// From a still (RGBA8 texture, linear filter), through the rig. Called once per still.
+    /// Builds the pyramid from a still (RGBA8 texture with a linear filter) using the rig. Called
+    /// once per still.
     void buildStill(const gpu::Texture& still, const StereoRig& rig);
-    /// From a picture that already has the video's geometry (flow between two frames).
+    /// Builds the still's pyramid from a picture that already has the video's geometry (flow
+    /// between two frames).
     void buildSecond(const gpu::Texture& picture);
 
     [[nodiscard]] const std::vector<LumaLevel>& video() const { return video_; }

@@ -29,7 +29,8 @@ PixelRect doubled(const PixelRect& r) {
     return {2 * r.x0, 2 * r.y0, 2 * r.x1, 2 * r.y1};
 }
 
-/// Culls back faces. Winding is clockwise, because the picture's first row is the lowest to GL.
+/// Culls back faces. Front faces are clockwise, because the picture's first row is the lowest row
+/// for GL.
 class FrontFaces {
 public:
     FrontFaces() {
@@ -44,7 +45,7 @@ public:
     }
 };
 
-/// Depth ranges that put all objects in front of the catcher.
+/// Sets the depth range. Different ranges put all objects in front of the shadow catcher.
 class DepthRange {
 public:
     DepthRange(float nearest, float farthest) { glDepthRangef(nearest, farthest); }

@@ -12,29 +12,32 @@
 
 namespace mfar {
 
-/// The visible part of the virtual scene: the models and, below them, the real surface that catches
-/// their shadows. Rasterised at twice the layer's resolution, so that a pixel is covered in
-/// quarters. The lens's distortion acts on the vertices. No light, no colours.
+/// The visible part of the virtual scene: the models, and below them the real surface that catches
+/// their shadows. It is rasterised at twice the layer's resolution, so that each layer pixel has
+/// four quarters. The lens distortion is applied to the vertices. There is no light and no colour.
 class ModelSilhouette {
 public:
-    /// `layer`: the camera at the layer's resolution. Throws GlError without R32UI targets.
+    /// `layer` is the camera at the layer's resolution. Throws GlError if the GL implementation
+    /// cannot draw into R32UI.
     explicit ModelSilhouette(const CameraModel& layer);
 
-    /// Uploads the meshes, simplified if the scene has more than 20000 triangles. Masked surfaces
-    /// have holes according to their alpha.
+    /// Uploads the meshes. Meshes are simplified if the scene has more than 20000 triangles. Masked
+    /// surfaces have holes where their alpha is too small.
     void setScene(const Scene& scene);
 
-    /// Bounds of all objects [layer px]; the whole layer for an object that crosses the near plane.
+    /// Bounds of all objects [layer px]. If an object crosses the near plane, the bounds are the
+    /// whole layer.
     [[nodiscard]] PixelRect bounds(const RigidTransform& T_world_camera) const {
         return models_.bounds(T_world_camera);
     }
 
-    /// Draws within `where` [layer px]; the surface is empty elsewhere.
+    /// Draws in `where` [layer px]. The surface is empty elsewhere.
     void draw(const RigidTransform& T_world_camera, const PixelRect& where);
 
     [[nodiscard]] const SilhouetteModels& models() const { return models_; }
-    /// R32UI, twice the layer's size: z and number, packed as in warp_surface.glsl; 0 = nothing.
-    /// The catcher's number appears only where there is no object, whichever is nearer.
+    /// R32UI, twice the layer's size: z and number of the surface, packed as in warp_surface.glsl;
+    /// 0: no surface. The shadow catcher appears only where there is no object, whichever is
+    /// nearer.
     [[nodiscard]] const gpu::Texture& surface() const { return surface_; }
     [[nodiscard]] std::size_t triangles() const { return models_.triangles(); }
 
@@ -43,9 +46,9 @@ private:
     struct Part {
         gpu::Buffer vertices, indices;
         int indexCount;
-        std::optional<gpu::Texture> alpha;  // for masked surfaces
+        std::optional<gpu::Texture> alpha;  // alpha texture of a masked surface
         float cutoff;
-        bool bothSides;  // both sides are visible
+        bool bothSides;  // whether both sides are visible
     };
     using ShapePointer = std::shared_ptr<const Models::Shape>;
     using PartsOfShapes = std::map<ShapePointer, std::shared_ptr<std::vector<Part>>>;

@@ -5,8 +5,8 @@
 
 namespace mfar {
 
-/// The pixels of all patches on the GPU, one patch below the other: slot i begins at row i * layer
-/// height.
+/// The pixels of all patches on the GPU, one patch below the other. Slot i begins at row i *
+/// (height of the layer).
 class PatchTextures {
 public:
     explicit PatchTextures(Size layer);
@@ -15,7 +15,7 @@ public:
     [[nodiscard]] const gpu::Texture& colour() const { return colour_; }  ///< RGBA8
     [[nodiscard]] const gpu::Texture& surface() const {
         return surface_;
-    }  ///< Rgba32F, WarpSurface
+    }  ///< Rgba32F with the members of WarpSurface
 
 private:
     Size layer_;

@@ -13,36 +13,37 @@
 
 namespace mfar::gpu {
 
-/// A picture that is uploaded repeatedly, in any pixel format: grey and RGBA unchanged, BGRA by the
-/// texture's swizzle, Y U V as planes that one draw converts to RGBA8. Allocates when size or
-/// format change. Needs a current context for its whole lifetime.
+/// A picture that is uploaded repeatedly, in any pixel format. Grey and RGBA are uploaded
+/// unchanged, BGRA by swizzling the texture's channels. Y U V pictures are uploaded as planes, and
+/// one draw converts them to RGBA8. Memory is allocated when size or format change. The object
+/// needs a current GL context for its whole lifetime.
 class PictureTexture {
 public:
-    /// `filter`: of texture().
+    /// `filter` is the filter of texture().
     explicit PictureTexture(Filter filter = Filter::Nearest) : filter_(filter) {}
 
     PictureTexture(const PictureTexture&) = delete;
     PictureTexture& operator=(const PictureTexture&) = delete;
     ~PictureTexture();
 
-    /// With an importer, Y U V planes in memory that the GPU can access are read without a copy;
-    /// null: always copied. The importer must outlive this.
+    /// With an importer, Y U V planes are read without a copy if the GPU can access their memory.
+    /// Null: the planes are always copied. The importer must outlive this object.
     void setImporter(PlaneImporter* importer);
 
-    /// The view must be valid (requireSound()). Changes the bound framebuffer.
+    /// The view must be valid (requireSound()). Changes the GL framebuffer binding.
     void upload(const ImageView& view);
-    /// Waits until the memory of the last uploaded view is no longer read.
+    /// Waits until the GPU no longer reads the memory of the last uploaded view.
     void finishReading();
-    /// Why zero-copy import failed; returned once.
+    /// The reason why zero-copy import failed. It is returned once.
     [[nodiscard]] std::optional<std::string> takeImportFault();
 
-    /// The last upload: R8 for grey, otherwise RGBA8. Samples as R G B.
+    /// The last upload: R8 for grey, otherwise RGBA8. Sampling it returns R G B.
     [[nodiscard]] const Texture& texture() const { return picture_; }
 
 private:
-    /// Resources for converting Y U V pictures.
+    /// Resources for the conversion of Y U V pictures.
     struct Planes {
-        std::array<Texture, 3> textures;  // one per plane of the format
+        std::array<Texture, 3> textures;  // one for each plane of the format
         Framebuffer target;
         DrawPass<params::YuvPicture> pass;
     };
@@ -65,7 +66,7 @@ private:
     Texture picture_;
     std::optional<Planes> planes_;
     PlaneImporter* importer_ = nullptr;
-    std::vector<Imported> imported_;  // most recently used last
+    std::vector<Imported> imported_;  // the most recently used is last
     GLsync reading_ = nullptr;
     std::optional<std::string> importFault_;
 };

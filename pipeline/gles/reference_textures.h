@@ -8,13 +8,13 @@
 
 namespace mfar {
 
-/// Normalised ray (x/z, y/z) of every pixel, Rg32F.
+/// Rg32F texture with the normalised ray (x/z, y/z) of each pixel.
 [[nodiscard]] gpu::Texture rayTexture(const CameraModel& camera);
 
-/// A warp's reference on the GPU.
+/// The reference picture of a warp on the GPU.
 class ReferenceTextures {
 public:
-    /// Allocates when the size changes.
+    /// Uploads the picture. Allocates textures when the size changes.
     void upload(const WarpReference& reference);
 
     /// Valid after the first upload.

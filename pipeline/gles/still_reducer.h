@@ -8,19 +8,19 @@
 
 namespace mfar {
 
-/// Reduces stills without aliasing. Needs a current context for its whole lifetime.
+/// Reduces stills without aliasing. It needs a current GL context for its whole lifetime.
 class StillReducer {
 public:
-    /// `to` has at least one pixel and at most `from` in each direction.
+    /// `to` must have at least one pixel, and at most as many pixels as `from`, in each direction.
     StillReducer(Size from, Size to);
 
-    /// A picture of `from` pixels.
+    /// `picture` must have the size `from`.
     void run(const gpu::Texture& picture);
     /// The result of the last run. RGBA8, linear filter.
     [[nodiscard]] const gpu::Texture& picture() const { return reduced_; }
 
 private:
-    std::array<float, 2> scale_;  // pixels of the picture per pixel of the result
+    std::array<float, 2> scale_;  // pixels of the input per pixel of the result
     gpu::Texture narrow_, reduced_;
     gpu::Framebuffer narrowTarget_, reducedTarget_;
     gpu::DrawPass<params::ReduceStill> across_, down_;

@@ -11,28 +11,28 @@
 
 namespace mfar {
 
-/// The newest still and everything that is computed once from it: its picture and its luma. If the
-/// output shows the still's pixels smaller than its own, both are reduced to the output's
-/// resolution.
+/// The newest still and everything that is computed from it once: its picture and its luma. If the
+/// output has a lower resolution than the still, both are reduced to the output's resolution.
 class StillReference {
 public:
-    /// `output`: size of the output for the video's whole picture. `picture` holds the stills; it
-    /// has a linear filter and must outlive this.
+    /// `output` is the output size for the whole video picture. `picture` holds the uploaded
+    /// stills. It must have a linear filter and must outlive this object.
     StillReference(const StereoRig& rig, Size output, gpu::PictureTexture& picture);
 
-    /// Size must be the still camera's; the pixel format may change from one still to the next.
+    /// The still must have the still camera's size. Its pixel format may change from one still to
+    /// the next.
     void set(const ImageView& still);
 
-    /// The rig with the still camera at picture()'s resolution: the same lens, possibly fewer
-    /// pixels.
+    /// The rig whose still camera has picture()'s resolution. The lens is the same, but there may
+    /// be fewer pixels.
     [[nodiscard]] const StereoRig& rig() const { return rig_; }
-    /// The picture as delivered.
+    /// The still as the camera delivered it.
     [[nodiscard]] const gpu::Texture& whole() const { return picture_.texture(); }
     [[nodiscard]] const gpu::Texture& picture() const {
         return reducer_ ? reducer_->picture() : picture_.texture();
     }
-    /// Luma of rig().still's size. Unless it was reduced, its finest detail is raised to compensate
-    /// the loss in a linear look-up. R8, linear filter.
+    /// Luma with the size of rig().still; R8, linear filter. Unless the still was reduced, its
+    /// finest detail is raised, which compensates the loss of detail in a linear look-up.
     [[nodiscard]] const gpu::Texture& raised() const { return raised_; }
 
 private:

@@ -7,13 +7,14 @@
 
 namespace mfar {
 
-/// Presents two textures as a layer.
+/// Provides two textures as a layer.
 class TextureLayer {
 public:
     explicit TextureLayer(Transfers* transfers = nullptr)
         : layer_{Field<std::uint32_t>({}, transfers), Field<float>({}, transfers), {}} {}
 
-    /// Borrows the textures: RGBA8, R32F. Valid until the next call.
+    /// The textures (RGBA8 and R32F) must stay valid as long as the result, which is valid until
+    /// the next call.
     LayerPicture& show(const gpu::Texture& colour, const gpu::Texture& depth,
                        const PixelRect& bounds) {
         layer_.colour.writtenOnDevice(colour_.emplace(colour), colour.size());

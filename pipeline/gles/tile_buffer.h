@@ -9,10 +9,10 @@
 
 namespace mfar {
 
-/// The plan of a frame on the GPU. Needs a current context for its whole lifetime.
+/// The plan of a frame on the GPU. It needs a current GL context for its whole lifetime.
 class TileBuffer {
 public:
-    /// Every tile is changed and matched until the first set().
+    /// Until the first set(), every tile counts as changed and matched.
     explicit TileBuffer(Size video);
 
     /// Uploads the plan if it differs from the last one.
@@ -20,9 +20,10 @@ public:
     [[nodiscard]] bool holds(const TileWork& work) const;
 
     [[nodiscard]] const TileWork& work() const { return work_; }
-    /// uvec2 header: how the frame is drawn (0: only changed tiles; 1: whole; 2: enlarged as a
-    /// whole, with detail in a list of tiles), number of changed tiles; then uvec2 per tile,
-    /// row-major: changed, matched.
+    /// Layout: a uvec2 header, then one uvec2 per tile, row-major.
+    /// Header: how the frame is drawn (0: only changed tiles; 1: the whole frame; 2: the whole
+    /// frame is enlarged, and detail is drawn in a list of tiles), and the number of changed tiles.
+    /// Tile: changed, matched.
     [[nodiscard]] const gpu::Buffer& buffer() const { return buffer_; }
 
 private:

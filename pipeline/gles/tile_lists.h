@@ -9,34 +9,36 @@
 
 namespace mfar {
 
-/// Finds on the GPU the tiles that a flow field along epipolar lines does not explain. For each
-/// pyramid level, lists the groups of cells that the 2-D search has to cover.
+/// Finds on the GPU the tiles whose flow along epipolar lines does not fit the pictures. Lists for
+/// each pyramid level the groups of cells that the 2-D search must cover.
 class TileLists {
 public:
-    /// A field of cells and its two-way errors, each given by its first vec4 in `patches`.
+    /// A field of flow vectors and their two-way errors. Each is given by the index of its first
+    /// vec4 in `patches`.
     struct Field {
         const gpu::Buffer& patches;
         int vectors, errors;
     };
 
-    /// `cells`: of the finest level.
+    /// `cells` is the number of cells at the finest level.
     TileLists(Size cells, int levels);
 
     void find(const Field& field, const TileBuffer& tiles);
     /// Empties the lists.
     void clear();
 
-    /// Packed groups of 4x4 cells; a level's list starts at first(level).
+    /// Packed indices of groups of 4x4 cells. The list of a level begins at first(level).
     [[nodiscard]] const gpu::Buffer& lists() const { return lists_; }
     [[nodiscard]] int first(int level) const { return levels_[level].first; }
-    /// Group counts of the dispatches, one every 16 bytes, finest level first.
+    /// Workgroup counts of the indirect dispatches, 16 bytes for each level, finest level first.
     [[nodiscard]] const gpu::Buffer& commands() const { return commands_; }
 
-    /// Number of listed tiles before the last find() or clear(). Does not wait for the GPU.
+    /// Number of tiles that were listed before the last find() or clear(). Does not wait for the
+    /// GPU.
     [[nodiscard]] int countBefore() const { return countBefore_; }
     /// Number of listed tiles. Waits for the GPU.
     [[nodiscard]] int count() const;
-    /// Per tile, row-major: whether it is listed. Waits for the GPU.
+    /// For each tile, row-major, whether it is listed. Waits for the GPU.
     [[nodiscard]] std::vector<bool> read() const;
 
 private:

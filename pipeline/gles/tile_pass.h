@@ -8,7 +8,7 @@
 
 namespace mfar {
 
-/// A shader for the whole target and the same for a list of tiles.
+/// The same shader in two programs: one for the whole target, one for a list of tiles.
 struct TilePass {
     explicit TilePass(const char* fragment, const char* defines = "")
         : whole(fragment, defines), tiles("tile_rect.vert", fragment, defines) {}
@@ -24,8 +24,8 @@ struct TilePass {
     gpu::DrawPass<params::DrawTiles> whole, tiles;
 };
 
-/// Composites of mode Detail: enlarged video, without and with the still's detail. `define`: one
-/// line, or empty.
+/// Composites of mode Detail, without (`enlarged`) and with the still's detail. `define` is one
+/// line of GLSL, or empty.
 struct DetailPasses {
     explicit DetailPasses(const std::string& define = "")
         : enlarged("composite_upscale.frag", define.c_str()),

@@ -16,10 +16,10 @@
 
 namespace mfar {
 
-/// The look-up of the warp (paper, eq. 5), with the depth of the models rasterised at the current
-/// pose: every layer pixel that shows a surface looks its colour up in the reference or, if the
-/// reference does not show the surface, in the patches. A draw handles plain pixels; a compute
-/// shader handles a list of edges and other complex pixels.
+/// The look-up of the warp (paper, eq. 5). The models' depth is rasterised at the current pose.
+/// Each layer pixel that shows a surface looks up its colour in the reference picture or, if that
+/// does not show the surface, in the patches. A draw call processes the simple pixels. A compute
+/// shader processes the list of the others, for example edges.
 class ViewLookUp {
 public:
     explicit ViewLookUp(const LensProjection& layer);
@@ -30,20 +30,22 @@ public:
         const RigidTransform& T_world_reference;
         const PatchPictures& patches;
         const PatchTextures& patchTextures;
-        /// The catcher, if it is one plane: n . point = w in the world [m]; zero: the catcher is in
-        /// the silhouette, or there is none.
+        /// Plane of the shadow catcher: n . point = w in the world [m]. Zero: the catcher is drawn
+        /// in the silhouette, or there is no catcher.
         Eigen::Vector4d plane = Eigen::Vector4d::Zero();
     };
-    /// Writes exactly the pixels of `where`; appends to the list that `holes` has started.
+    /// Writes exactly the pixels in `where`. Appends open pixels to the list that `holes` has
+    /// begun.
     void run(const Input& input, const RigidTransform& T_world_camera, const PixelRect& where,
              const HoleFiller& holes);
-    /// Empties these pixels.
+    /// Makes these pixels empty.
     void clear(const PixelRect& where) const;
 
     [[nodiscard]] const gpu::Texture& colour() const { return colour_; }  ///< RGBA8 premultiplied
     [[nodiscard]] const gpu::Texture& depth() const { return depth_; }    ///< R32F
-    /// RGBA8: number of the missing surface, its share of the pixel, 1 where no picture shows it,
-    /// number of the surface that fills the pixel alone.
+    /// State of each pixel as RGBA8. R: number of the missing surface. G: its share of the pixel.
+    /// B: 1 if no picture shows the missing surface. A: number of the surface that fills the whole
+    /// pixel.
     [[nodiscard]] const gpu::Texture& state() const { return state_; }
 
 private:
@@ -58,7 +60,7 @@ private:
     LensProjection layer_;
     gpu::Texture rays_, colour_, depth_, state_;
     gpu::Framebuffer target_;
-    gpu::Buffer commands_, list_;  // of the pixels that are not plain
+    gpu::Buffer commands_, list_;  // list of the pixels that the draw call does not process
     gpu::DrawPass<Params> plain_;
     gpu::ComputePass<Params> restList_, rest_;
 };

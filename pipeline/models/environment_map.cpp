@@ -29,7 +29,8 @@ void requireLatLong(Size size, int mostWidth) {
                                              size.width, size.height));
 }
 
-/// Throws if the decoded picture and the resulting environment need more memory.
+/// Throws if the decoded picture and the resulting environment together need more memory than
+/// `memory`.
 void requireMemory(Size size, std::size_t memory) {
     const std::size_t pixels = static_cast<std::size_t>(size.width) * size.height;
     const std::size_t kept =
@@ -41,7 +42,7 @@ void requireMemory(Size size, std::size_t memory) {
                                              memory >> 20U));
 }
 
-/// Averages rows as they arrive, so that a large picture is never completely in memory.
+/// Averages rows as they are read, so that a large picture is never in memory as a whole.
 class RowAverage {
 public:
     explicit RowAverage(Size from) : from_(from) {
@@ -144,7 +145,7 @@ Environment loadEnvironment(const std::filesystem::path& file, std::size_t memor
 
 Eigen::Vector3f environmentDirection(float u, float v) {
     constexpr float kPi = std::numbers::pi_v<float>;
-    // u = 0 is -x, u = 3/4 is +y.
+    // Column u = 0 is at -x, and u = 3/4 is at +y.
     const float longitude = 2 * kPi * u + kPi, fromUp = kPi * v;
     return {std::cos(longitude) * std::sin(fromUp), std::sin(longitude) * std::sin(fromUp),
             std::cos(fromUp)};

@@ -11,31 +11,33 @@
 
 namespace mfar {
 
-/// Memory limit for reading an environment [byte]; half of it is for the file.
+/// Memory limit for reading an environment [bytes]; half of it is for the file.
 inline constexpr std::size_t kEnvironmentMemory = std::size_t{1} << 30U;
 
-/// Reads a latitude-longitude picture: Radiance RGBE (.hdr), PNG or JPEG (sRGB, white is radiance
-/// 1). Its width must be twice its height, to 1 %, and at most 16384 (PNG, JPEG: 8192); more than
-/// 2048x1024 pixels are averaged down to this size. Throws ModelError "file: fault".
+/// Reads a latitude-longitude picture: Radiance RGBE (.hdr), PNG or JPEG (sRGB; white has radiance
+/// 1). The width must be twice the height, to within 1 %, and at most 16384 (PNG and JPEG: 8192). A
+/// picture larger than 2048x1024 is reduced to this size by averaging. Throws ModelError "file:
+/// fault".
 [[nodiscard]] Environment loadEnvironment(const std::filesystem::path& file,
                                           std::size_t memory = kEnvironmentMemory);
-/// As loadEnvironment(), for a file's bytes. `name` is for messages.
+/// Like loadEnvironment(), for the bytes of a file. `name` is used in messages.
 [[nodiscard]] Environment parseEnvironment(std::span<const std::uint8_t> bytes,
                                            const std::string& name,
                                            std::size_t memory = kEnvironmentMemory);
 
 /// A photographer's studio: a dim room with a large soft box at the upper left in front (-x, -y), a
-/// strip light on the right and a cold one behind. A white surface that faces up has radiance near
-/// 1.
+/// strip light on the right, and a strip light of cold colour behind. A white surface that faces up
+/// has a radiance near 1.
 [[nodiscard]] Environment studioEnvironment();
 
-/// Clear sky, without its sun, over grey ground. `towardsSun` is a unit vector above the horizon.
-/// A white surface that faces up has radiance near 1. Source: CIE S 011/E:2003, sky type 12.
+/// A clear sky without the sun's disc, over grey ground. `towardsSun` is a unit vector above the
+/// horizon. A white surface that faces up has a radiance near 1. Source: CIE S 011/E:2003, sky type
+/// 12.
 [[nodiscard]] Environment skyEnvironment(const Eigen::Vector3f& towardsSun);
 
-/// World direction of a point in an environment, u and v in [0, 1]; see Environment.
+/// World direction of a point in an environment; u and v are in [0, 1]. See Environment.
 [[nodiscard]] Eigen::Vector3f environmentDirection(float u, float v);
-/// An environment of this size, from a function that gives the radiance at each pixel's centre.
+/// Makes an environment of this size. The function gives the radiance at the centre of each pixel.
 [[nodiscard]] Environment
 environmentOf(Size size, const std::function<Eigen::Vector3f(const Eigen::Vector3f&)>& radiance);
 

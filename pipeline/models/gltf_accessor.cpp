@@ -13,7 +13,7 @@ namespace {
 
 using Accessor = tinygltf::Accessor;
 
-/// Elements in a bufferView: their position and type.
+/// Position and type of elements in a bufferView.
 struct ElementView {
     std::span<const std::uint8_t> bytes;
     std::size_t stride = 0, count = 0;
@@ -61,7 +61,7 @@ std::uint32_t unsignedAt(const std::uint8_t* p, int componentType) {
     }
 }
 
-/// Converts normalised integers (glTF 2.0, 3.6.2.2).
+/// Reads a number as float and converts normalised integers (glTF 2.0, 3.6.2.2).
 float floatAt(const std::uint8_t* p, int componentType, bool normalized) {
     const auto scaled = [&](auto value) {
         constexpr auto kMost = static_cast<float>(std::numeric_limits<decltype(value)>::max());
@@ -78,7 +78,8 @@ float floatAt(const std::uint8_t* p, int componentType, bool normalized) {
     }
 }
 
-/// `wanted` contains type and count; bytes and stride are added. `stride` 0: tightly packed.
+/// Completes `wanted`, which contains type and count, with the bytes and the stride. If `stride` is
+/// 0, the elements are tightly packed.
 ElementView elementsIn(const GltfDocument& document, int bufferView, std::uint64_t offset,
                        std::size_t stride, ElementView wanted, std::string_view place) {
     const std::size_t one = bytesOf(wanted.componentType) * wanted.components;
@@ -87,7 +88,7 @@ ElementView elementsIn(const GltfDocument& document, int bufferView, std::uint64
     if (wanted.stride < one)
         document.refuse(place, fmt::format("stride {} of elements of {} bytes", stride, one));
     const std::uint64_t left = offset > view.size() ? 0 : view.size() - offset;
-    // Counts and sizes are below 2^32 and 2^8: the product cannot overflow.
+    // Counts are below 2^32 and element sizes below 2^8, so the product cannot overflow.
     const std::uint64_t needed = std::uint64_t{wanted.count - 1} * wanted.stride + one;
     if (needed > left)
         document.refuse(place, fmt::format("needs {} bytes from {} of bufferView {}, which has {}",
@@ -96,7 +97,8 @@ ElementView elementsIn(const GltfDocument& document, int bufferView, std::uint64
     return wanted;
 }
 
-/// The accessor; refused unless it has this number of components and a valid count.
+/// Returns the accessor. Throws if the accessor has another number of components or an invalid
+/// count.
 const Accessor& checkedAccessor(const GltfDocument& document, int index, int components,
                                 std::size_t most, std::string_view place) {
     const Accessor& accessor = document.at(document.gltf.accessors, index, place);

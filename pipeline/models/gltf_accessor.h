@@ -8,14 +8,15 @@
 
 namespace mfar {
 
-/// Reads an accessor's numbers, `components` (1 to 4) per element, one element after the other.
+/// Reads the numbers of an accessor, element by element, with `components` (1 to 4) numbers each.
 /// Normalised integers become [0, 1] or [-1, 1]. Sparse elements are replaced. Refuses an invalid
 /// index, type or range, more than `most` elements, and numbers that are not finite.
 [[nodiscard]] std::vector<float> accessorFloats(const GltfDocument& document, int accessor,
                                                 int components, std::size_t most,
                                                 std::string_view place);
 
-/// Reads an accessor's unsigned integers, one per element. Refuses the same faults.
+/// Reads the unsigned integers of an accessor, one per element. Refuses the same faults as
+/// accessorFloats().
 [[nodiscard]] std::vector<std::uint32_t> accessorIndices(const GltfDocument& document, int accessor,
                                                          std::size_t most, std::string_view place);
 

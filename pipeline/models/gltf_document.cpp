@@ -24,7 +24,7 @@ bool isBinary(std::span<const std::uint8_t> bytes) {
     return bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
 }
 
-/// The JSON of a file; in a .glb it is the first chunk.
+/// The JSON text of a file. In a .glb file it is the first chunk.
 std::string_view jsonOf(std::span<const std::uint8_t> bytes) {
     const auto* text = reinterpret_cast<const char*>(bytes.data());
     if (!isBinary(bytes)) return {text, bytes.size()};
@@ -39,7 +39,7 @@ std::string_view jsonOf(std::span<const std::uint8_t> bytes) {
     return {text + kGlbHeader + kChunkHeader, length};
 }
 
-/// tinygltf's callbacks get this to read buffer files.
+/// User data of tinygltf's callbacks that read buffer files.
 struct FolderAccess {
     const std::filesystem::path& folder;
     std::size_t left;  ///< bytes that may still be read
@@ -58,8 +58,8 @@ bool readFile(std::vector<unsigned char>* out, std::string* error, const std::st
     }
 }
 
-/// Sets all callbacks: if one is missing, tinygltf uses its own. The first path that it tries, the
-/// URI itself, counts as existing.
+/// Sets all callbacks, because tinygltf uses its own for missing ones. FileExists accepts every
+/// path, so that tinygltf takes the first one, which is the URI itself.
 template <typename Callbacks>
 Callbacks callbacksFor(FolderAccess& access) {
     Callbacks out{};
@@ -68,7 +68,8 @@ Callbacks callbacksFor(FolderAccess& access) {
     out.ReadWholeFile = readFile;
     out.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&,
                             void*) { return false; };
-    // Exists in newer releases. Size 0, as readFile() limits the bytes itself.
+    // This callback exists only in newer releases. It reports size 0, because readFile() limits the
+    // bytes itself.
     if constexpr (requires { out.GetFileSizeInBytes; })
         out.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string&, void*) {
             *size = 0;
@@ -78,7 +79,7 @@ Callbacks callbacksFor(FolderAccess& access) {
     return out;
 }
 
-/// Keeps the bytes of a picture in a data URI; pictures in a bufferView stay there.
+/// Copies the bytes of a picture from a data URI. Pictures in a bufferView stay in the buffer.
 bool keepImage(tinygltf::Image* image, int /*index*/, std::string* /*error*/,
                std::string* /*warning*/, int /*width*/, int /*height*/, const unsigned char* bytes,
                int size, void* /*user*/) {
@@ -127,7 +128,7 @@ void GltfDocument::refuse(std::string_view place, std::string_view what) const {
 std::span<const std::uint8_t> GltfDocument::view(int bufferView, std::string_view place) const {
     const tinygltf::BufferView& view = at(gltf.bufferViews, bufferView, place);
     const std::span<const std::uint8_t> buffer = at(gltf.buffers, view.buffer, place).data;
-    // The JSON was validated, but the buffer is the one that tinygltf built from it.
+    // The JSON was validated, but tinygltf made the buffer, which may be smaller.
     if (view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset)
         refuse(place, fmt::format("bufferView {} is not in its buffer", bufferView));
     return buffer.subspan(view.byteOffset, view.byteLength);

@@ -11,18 +11,19 @@
 
 namespace mfar {
 
-/// The content of a glTF file. All bufferViews are inside their buffers; other indices and numbers
-/// are not validated.
+/// The content of a glTF file. All bufferViews are known to be inside their buffers. Other indices
+/// and numbers are not validated.
 struct GltfDocument {
     tinygltf::Model gltf;
-    std::string name;  ///< for messages
-    /// Folder of files that it refers to; empty: it may not refer to files.
+    std::string name;  ///< file name, for messages
+    /// Folder of the files to which the document refers. If empty, the document must not refer to
+    /// files.
     std::filesystem::path folder;
     ModelLimits limits;
 
     /// Throws ModelError "name: place: fault".
     [[noreturn]] void refuse(std::string_view place, std::string_view what) const;
-    /// The list's element at an index. Refuses an index out of range.
+    /// The element of a list at an index. Refuses an index out of range.
     template <class T>
     [[nodiscard]] const T& at(const std::vector<T>& list, int index, std::string_view place) const {
         if (index < 0 || static_cast<std::size_t>(index) >= list.size())
@@ -39,9 +40,9 @@ struct GltfDocument {
                                         const std::filesystem::path& folder,
                                         const ModelLimits& limits);
 
-/// Validates the JSON of a document before tinygltf reads it: tinygltf trusts the ranges of images,
-/// copies a buffer's bytes for each reference, and follows `extras` to any depth. Throws
-/// std::runtime_error "place: fault".
+/// Validates the JSON of a document before tinygltf reads it. This is necessary because tinygltf
+/// trusts the ranges of images, copies the bytes of a buffer for each reference to it, and follows
+/// `extras` to any depth. Throws std::runtime_error "place: fault".
 void requireSoundJson(std::string_view text, const ModelLimits& limits);
 
 }  // namespace mfar

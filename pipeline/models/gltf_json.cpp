@@ -34,8 +34,8 @@ json parseBounded(std::string_view text, std::size_t most) {
     }
 }
 
-/// A number of bytes, or `missing` without such a key. Refuses floating-point numbers, which could
-/// be too large.
+/// A number of bytes, or `missing` if the key is absent. Refuses floating-point numbers, because
+/// they could be too large.
 std::uint64_t bytesAt(const json& object, const char* key, std::uint64_t missing,
                       std::string_view place) {
     const auto it = object.find(key);
@@ -94,7 +94,8 @@ void checkViews(const json& views, const json& buffers) {
     }
 }
 
-/// Checks a sparse accessor's offsets: tinygltf's releases treat negative ones differently.
+/// Checks the offsets of sparse accessors, because tinygltf's releases treat negative offsets
+/// differently.
 void checkSparse(const json& accessors) {
     for (std::size_t i = 0; i < accessors.size(); ++i) {
         const auto sparse = accessors[i].find("sparse");

@@ -13,7 +13,7 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// Lower limit of the length of a vector that should be a unit vector.
+/// Vectors up to this length have no usable direction. They are replaced by a default direction.
 constexpr float kShortestUnit = 1e-6F;
 
 std::optional<int> attribute(const tinygltf::Primitive& primitive, const std::string& name) {
@@ -35,12 +35,12 @@ vectorsOf(const GltfDocument& document, const PrimitiveSource& source, const std
     return out;
 }
 
-/// Triangles of lists, strips and fans (glTF 2.0, 3.7.2.1).
+/// Triangles of a list, a strip or a fan (glTF 2.0, 3.7.2.1).
 std::vector<Triangle> trianglesOf(int mode, const std::vector<std::uint32_t>& indices) {
     std::vector<Triangle> out;
     const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
         const Triangle t{indices[a], indices[b], indices[c]};
-        // Triangles without area only connect strips.
+        // Triangles without area are skipped; they only connect strips.
         if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) out.push_back(t);
     };
     const std::size_t count = indices.size();
@@ -107,7 +107,7 @@ void readCoordinates(const GltfDocument& document, const PrimitiveSource& source
         if (!(uv.cwiseAbs().maxCoeff() < kFarthestUv))
             document.refuse(source.place, "texture coordinates out of range");
     }
-    // Textures without coordinates show their first texel.
+    // Without texture coordinates, textures show their first texel.
     if (mesh.uvs.empty()) mesh.uvs.assign(mesh.positions.size(), Eigen::Vector2f::Zero());
 }
 
@@ -116,7 +116,7 @@ void readFrames(const GltfDocument& document, const PrimitiveSource& source, Mes
     requireSameCount(document, source, mesh.normals.size(), mesh.positions.size(), "normals");
     normalize(mesh.normals);
     if (!source.bumpy) return;
-    // Without normals, tangents must be ignored (glTF 2.0, 3.7.2.1).
+    // Without normals, glTF requires tangents to be ignored (glTF 2.0, 3.7.2.1).
     if (!mesh.normals.empty()) mesh.tangents = vectorsOf<4>(document, source, "TANGENT");
     requireSameCount(document, source, mesh.tangents.size(), mesh.positions.size(), "tangents");
     normalize(mesh.tangents, mesh.normals);
@@ -148,12 +148,14 @@ Mesh transformed(const Mesh& mesh, const Eigen::Affine3d& T_model_mesh) {
     const bool mirrors = linear.determinant() < 0;
     for (Eigen::Vector3f& p : out.positions)
         p = (T_model_mesh * p.cast<double>()).cast<float>();
-    // Normals are transformed by the cofactor matrix, which exists even if the inverse does not.
+    // Normals are transformed with the cofactor matrix, because it exists even if the inverse does
+    // not.
     Eigen::Matrix3d cofactors;
     for (int i = 0; i < 3; ++i)
         cofactors.col(i) = linear.col((i + 1) % 3).cross(linear.col((i + 2) % 3));
     if (mirrors) cofactors = -cofactors;
-    // Normalised, because the entries are squares of the scale: too small for float at micrometres.
+    // The matrix is normalised, because its entries are squares of the scale. With a scale of
+    // micrometres they would be too small for float.
     const double scale = cofactors.cwiseAbs().maxCoeff();
     if (scale > 0) cofactors /= scale;
     for (Eigen::Vector3f& n : out.normals)

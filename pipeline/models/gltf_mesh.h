@@ -7,19 +7,20 @@
 
 namespace mfar {
 
-/// One primitive of a mesh in glTF's own frame, with normals, and with tangents if its material has
-/// a normal texture. Mesh::material is left at 0. Empty for points and lines. Refuses invalid data
-/// and more than the given numbers of vertices or triangles.
+/// A primitive of a mesh in glTF's frame. readPrimitive() adds normals if there are none, and
+/// tangents if the material has a normal texture. Mesh::material stays 0. Points and lines give an
+/// empty result. Refuses invalid data and more vertices or triangles than the limits allow.
 struct PrimitiveSource {
     const tinygltf::Primitive& primitive;
     TextureMapping mapping;
-    bool textured = false, bumpy = false;  ///< the material has any texture, a normal texture
+    bool textured = false, bumpy = false;  ///< has any texture; a normal texture
     std::string place;
 };
 [[nodiscard]] std::optional<Mesh> readPrimitive(const GltfDocument& document,
                                                 const PrimitiveSource& source);
 
-/// The mesh transformed by a node. A mirroring transform reverses its triangles.
+/// The mesh after the transform of a node. A mirroring transform reverses the order of the
+/// triangles' corners.
 [[nodiscard]] Mesh transformed(const Mesh& mesh, const Eigen::Affine3d& T_model_mesh);
 
 }  // namespace mfar

@@ -15,7 +15,7 @@
 namespace mfar {
 namespace {
 
-/// Rotates glTF's y-up to z-up.
+/// Rotates glTF's y-up frame to z-up.
 Eigen::Affine3d upright() {
     Eigen::Affine3d T = Eigen::Affine3d::Identity();
     T.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;
@@ -62,7 +62,8 @@ public:
     }
 
 private:
-    /// Root nodes of the default scene; without a scene, all nodes without a parent.
+    /// Root nodes of the default scene, or of the first scene if the document names no default. If
+    /// the document has no scenes, returns all nodes that have no parent.
     std::vector<int> roots() const {
         const tinygltf::Model& gltf = document_.gltf;
         if (!gltf.scenes.empty())
@@ -76,7 +77,7 @@ private:
         return out;
     }
 
-    // Recursive; the depth is limited.
+    // Recursive; the depth is limited to avoid a stack overflow.
     void addNode(int index, const Eigen::Affine3d& T_model_parent, int depth) {
         const std::string place = fmt::format("nodes[{}]", index);
         const tinygltf::Node& node = document_.at(document_.gltf.nodes, index, place);

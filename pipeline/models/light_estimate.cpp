@@ -17,20 +17,21 @@ namespace {
 
 constexpr Size kMap{32, 16};
 
-// Constants of harmonics of degree 0 and 1.
+// Constants of the spherical harmonics of degree 0 and 1.
 constexpr float kY0 = 0.282095F, kY1 = 0.488603F;
 
-/// Weight of the prior per degree: variance of seen light around nine harmonics (objects of about
-/// 0.25 sr with half or twice the brightness), divided by the variance of light between places
-/// (standard deviations of 3, 1.5 and 0.7 times the mean).
+/// Weights of the prior for the degrees 0, 1 and 2. Each weight is the quotient of two variances.
+/// The first is the variance of the seen light about a sum of nine harmonics (objects of about 0.25
+/// sr with half or twice the brightness). The second is the variance of the light between places
+/// (standard deviations of 3, 1.5 and 0.7 times the mean for the three degrees).
 Eigen::Vector<double, 9> priorInformation() {
     Eigen::Vector<double, 9> out;
     out << 0.007, 0.03, 0.03, 0.03, 0.13, 0.13, 0.13, 0.13, 0.13;
     return out;
 }
 
-/// Prior: a surface of this mean radiance below, and above it the light that gives it this
-/// radiance.
+/// The prior: a surface of this mean radiance below, and light from above that gives the surface
+/// this radiance.
 Eigen::Matrix<double, 9, 3> priorLight(const Eigen::Vector3d& mean, double albedo) {
     constexpr double kPi = std::numbers::pi;
     Eigen::Matrix<double, 9, 3> out = Eigen::Matrix<double, 9, 3>::Zero();
@@ -43,7 +44,7 @@ float luminanceOf(const Eigen::Vector3f& rgb) {
     return rgb.dot(Eigen::Vector3f(0.2126F, 0.7152F, 0.0722F));
 }
 
-/// Texel of a direction in a map with Environment's layout.
+/// Index of a direction's texel in a map with the layout of Environment.
 std::size_t texelOf(const Eigen::Vector3f& direction) {
     constexpr float kTurn = 2 * std::numbers::pi_v<float>;
     const float u = std::atan2(direction.y(), direction.x()) / kTurn + 0.5F,
@@ -81,22 +82,22 @@ LightEstimate estimateOf(const SphericalLight& radiance) {
                                  luminanceOf(radiance.row(2)));
     const float length = linear.norm(), level = luminanceOf(radiance.row(0));
     if (length > 0) out.mainDirection = linear / length;
-    // For light from a single direction, the linear coefficients are sqrt(3) times the constant
+    // If all light comes from one direction, the linear coefficients are sqrt(3) times the constant
     // one.
     if (level > 0) out.directionality = std::min(length / level * kY0 / kY1, 1.0F);
     return out;
 }
 
-/// The part of the light that a sun represents: all light if it comes from one direction, little if
-/// the direction is weak.
+/// The part of the light that is represented by a sun: all light if it comes from one direction,
+/// and little if the main direction is weak.
 std::optional<Sun> sunOf(const LightEstimate& estimate) {
     constexpr float kLeastDirectionality = 0.12F, kLeastElevation = 0.2F, kSoftness = 0.12F;
     if (!(estimate.directionality > kLeastDirectionality) ||
         !(estimate.mainDirection.z() > kLeastElevation))
         return std::nullopt;
     const Eigen::Vector3f& d = estimate.mainDirection;
-    // Linear coefficients along that direction, per channel: a sun of irradiance E contributes E
-    // Y(d).
+    // Linear coefficients along the main direction, for each channel. A sun of irradiance E
+    // contributes E * Y(d).
     const Eigen::Vector3f along =
         (estimate.radiance.row(3) * d.x() + estimate.radiance.row(1) * d.y() +
          estimate.radiance.row(2) * d.z())
@@ -126,7 +127,8 @@ void LightEstimator::add(const ImageView& frame, const CameraModel& camera,
         sums[texelOf(seen.direction)] += part;
         all += part;
     }
-    // A black picture means a covered lens: it contains no information about the light.
+    // A black picture is ignored: the lens is covered, and the picture contains no information
+    // about the light.
     constexpr float kBlack = 0.002F;
     if (!(all.head<3>().maxCoeff() > kBlack * all.w())) return;
     for (std::size_t i = 0; i < map_.size(); ++i) {
@@ -167,7 +169,7 @@ Lighting lightingOf(const LightEstimate& estimate) {
     SphericalLight rest = estimate.radiance;
     if (sun) rest -= harmonicsAt(sun->towards) * sun->irradiance.transpose();
     const auto radiance = [&](const Eigen::Vector3f& direction) -> Eigen::Vector3f {
-        // The nine harmonics become negative opposite to a lamp.
+        // The sum of nine harmonics may be negative in the direction opposite to a lamp.
         return radianceOf(rest, direction).cwiseMax(0.0F);
     };
     return {std::make_shared<const Environment>(environmentOf(kMap, radiance)), sun};

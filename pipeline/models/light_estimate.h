@@ -9,38 +9,40 @@
 
 namespace mfar {
 
-/// The light at a place, as estimated from the camera.
+/// The light at a place, estimated from the camera's pictures.
 struct LightEstimate {
-    SphericalLight radiance;  ///< in world axes; 1 is the video's white
-    /// Unit vector to where most light comes from, world: direction of the luminance's linear part.
+    SphericalLight radiance;  ///< in world axes; a radiance of 1 is the video's white
+    /// Unit vector in the world towards the direction from which most light comes: the direction of
+    /// the linear part of the luminance.
     Eigen::Vector3f mainDirection{0, 0, 1};
-    /// [0, 1]: 0 all directions are equally bright, 1 light from one direction only.
+    /// 0: all directions are equally bright; 1: all light comes from one direction.
     float directionality = 0;
 };
 
 struct LightEstimatorOptions {
-    /// [s], above 0: in this time, 1 - 1/e of a change of light is followed.
+    /// After this time [s], above 0, the estimate has followed 1 - 1/e of a change of light.
     double smoothingS = 3;
-    /// [s], above 0: after this time, the weight of light out of view has fallen to 1/e.
+    /// After this time [s], above 0, the weight of light that is out of view has fallen to 1/e.
     double memoryS = 120;
-    float surfaceAlbedo = 0.5F;  ///< mean albedo of seen surfaces: how much brighter their light is
+    float surfaceAlbedo = 0.5F;  ///< mean albedo of the surfaces that the camera sees
 };
 
-/// Estimates the surrounding light from the camera's pictures. Seen radiance is kept in a coarse
-/// map of all directions, smoothed over time, so that a flash or a hand in front of the lens has
-/// little effect. A camera mostly sees lit surfaces, seldom lamps. So the prior for unseen
-/// directions is light from above that gives the seen surfaces their brightness. The nine
-/// coefficients are a ridge regression of the map towards this prior, weighted by solid angle and
-/// age. Lamps that the video clips are underestimated.
-/// Source: Ramamoorthi, Hanrahan 2001 (nine coefficients); Sloan, Stupid Spherical Harmonics
+/// Estimates the surrounding light from the camera's pictures.
+/// The radiance that the camera sees is stored in a coarse map of all directions. It is smoothed
+/// over time, so that a flash or a hand in front of the lens has little effect. A camera mostly
+/// sees lit surfaces and rarely lamps. The prior for directions that were not seen is therefore
+/// light from above that gives the seen surfaces their brightness. The nine coefficients are a
+/// ridge regression of the map towards this prior, weighted by solid angle and age. Lamps that are
+/// clipped in the video are underestimated.
+/// Sources: Ramamoorthi, Hanrahan 2001 (nine coefficients); Sloan, Stupid Spherical Harmonics
 /// Tricks, GDC 2008 (main direction).
 class LightEstimator {
 public:
-    /// Throws std::invalid_argument for options out of range.
+    /// Throws std::invalid_argument if an option is out of range.
     explicit LightEstimator(const LightEstimatorOptions& options = {});
 
-    /// Adds a video frame. Ignores a frame that is black, whose pose is not finite, or that is not
-    /// newer than the last. Throws std::invalid_argument for an invalid view.
+    /// Adds a video frame. Ignores a frame that is black, has a pose that is not finite, or is not
+    /// newer than the last frame. Throws std::invalid_argument if the view is invalid.
     void add(const ImageView& frame, const CameraModel& camera,
              const RigidTransform& T_world_camera, Timestamp time);
 
@@ -55,12 +57,12 @@ private:
 
     LightEstimatorOptions options_;
     std::optional<Timestamp> last_;
-    std::vector<Seen> map_;            ///< in Environment's layout
+    std::vector<Seen> map_;            ///< has Environment's layout
     std::vector<SeenRadiance> frame_;  ///< radiance of the newest frame
 };
 
-/// Converts the estimate to a scene's lighting: a sun with soft shadows if one direction above the
-/// horizon stands out, and the rest as a low-resolution environment.
+/// Converts the estimate to a scene's lighting. If one direction above the horizon is much brighter
+/// than others, it becomes a sun with soft shadows. The rest is a low-resolution environment.
 [[nodiscard]] Lighting lightingOf(const LightEstimate& estimate);
 
 }  // namespace mfar

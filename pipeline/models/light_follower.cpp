@@ -3,7 +3,7 @@
 namespace mfar {
 namespace {
 
-constexpr double kInterval = 0.5;  // [s]
+constexpr double kInterval = 0.5;  // [s] between two updates
 
 }  // namespace
 

@@ -6,13 +6,13 @@
 
 namespace mfar {
 
-/// Updates a scene's light from the camera's pictures, twice a second.
+/// Updates the light of a scene from the camera's pictures, twice a second.
 class LightFollower {
 public:
-    /// `sun`: if set, it is always used instead of an estimated one.
+    /// If `sun` is set, it is always used instead of an estimated sun.
     explicit LightFollower(const std::optional<Sun>& sun) : sun_(sun) {}
 
-    /// Adds a frame as LightEstimator::add() does. Returns the light if it has changed.
+    /// Adds a frame like LightEstimator::add(). Returns the light if it has changed.
     std::optional<Lighting> follow(const ImageView& frame, const CameraModel& camera,
                                    const RigidTransform& T_world_camera, Timestamp time);
 

@@ -5,7 +5,7 @@
 namespace mfar {
 namespace {
 
-// While a model is read, each of its four parts may take a quarter of the memory.
+// Reading a model needs memory for files, JSON, textures and meshes. Each may take a quarter.
 constexpr std::size_t kParts = 4;
 constexpr std::size_t kBytesPerJsonValue = 500;  // in nlohmann's tree, then in tinygltf's tree
 constexpr std::size_t kBytesPerTexel = 4;
@@ -23,7 +23,7 @@ std::size_t bytesOf(const std::vector<T>& list) {
 ModelLimits limitsWithin(std::size_t bytes) {
     const std::size_t part = bytes / kParts;
     ModelLimits out;
-    out.bytes = std::min(out.bytes, part / 2);  // tinygltf copies the buffers
+    out.bytes = std::min(out.bytes, part / 2);  // half, because tinygltf copies the buffers
     out.jsonValues = std::min(out.jsonValues, part / kBytesPerJsonValue);
     out.texels = std::min(out.texels, part / kBytesPerTexel);
     out.vertices = std::min(out.vertices, part / 2 / kBytesPerVertex);

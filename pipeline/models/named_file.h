@@ -6,11 +6,11 @@
 
 namespace mfar {
 
-/// Decodes a relative URI to a file name: %20 is a space. Throws std::runtime_error.
+/// Decodes a relative URI to a file name; %20 becomes a space. Throws std::runtime_error.
 [[nodiscard]] std::string percentDecoded(std::string_view uri);
 
-/// The file in this folder or below that a document refers to; symbolic links are followed and must
-/// not lead outside. Throws std::runtime_error with the fault.
+/// The file to which a document refers. It must be in this folder or below. Symbolic links are
+/// followed and must not lead outside. Throws std::runtime_error with the fault.
 [[nodiscard]] std::filesystem::path fileInFolder(const std::filesystem::path& folder,
                                                  const std::string& name);
 

@@ -40,7 +40,7 @@ public:
         left_ = left_.subspan(length + 1);
         return text;
     }
-    /// The next four bytes, without consuming them.
+    /// The next four bytes. The read position stays the same.
     [[nodiscard]] std::optional<Rgbe> peek() const {
         if (left_.size() < 4) return std::nullopt;
         return Rgbe{left_[0], left_[1], left_[2], left_[3]};
@@ -59,7 +59,7 @@ std::optional<double> numberIn(std::string_view text) {
     return value;
 }
 
-/// Reads up to the empty line. Returns the product of all EXPOSUREs.
+/// Reads the header up to the empty line. Returns the product of all EXPOSURE values.
 double readHeader(HdrBytes& in) {
     double exposure = 1;
     for (std::string_view line = in.line(); !line.empty(); line = in.line()) {
@@ -85,7 +85,7 @@ Size readResolution(std::string_view line) {
     return size;
 }
 
-/// Reads a row stored as one component after the other, each run-length coded.
+/// Reads a row in which the four components follow one another, each run-length coded.
 void readSplitRow(HdrBytes& in, std::span<Rgbe> row) {
     constexpr int kRun = 128;
     for (int channel = 0; channel < 4; ++channel) {
@@ -100,8 +100,8 @@ void readSplitRow(HdrBytes& in, std::span<Rgbe> row) {
     }
 }
 
-/// Reads a row stored pixel by pixel; (1, 1, 1, n) repeats the last pixel n times; each directly
-/// following code adds a byte of higher order to n.
+/// Reads a row that is stored pixel by pixel. The code (1, 1, 1, n) repeats the last pixel n times.
+/// Each code that directly follows adds a byte of higher order to n.
 void readOldRow(HdrBytes& in, std::span<Rgbe> row) {
     unsigned shift = 0;
     for (std::size_t x = 0; x < row.size();) {
@@ -133,7 +133,7 @@ void readRow(HdrBytes& in, std::span<Rgbe> row) {
 }
 
 Eigen::Vector3f valueOf(const Rgbe& pixel, float scale) {
-    constexpr float kBrightest = 1e7F;  // A thousand times the sun in units of a studio's light.
+    constexpr float kBrightest = 1e7F;  // 1000 times the sun, in the unit of a studio's light
     if (pixel[3] == 0) return Eigen::Vector3f::Zero();
     const float unit = std::ldexp(scale, pixel[3] - 136);
     const Eigen::Vector3f mantissa(pixel[0], pixel[1], pixel[2]);

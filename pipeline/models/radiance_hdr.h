@@ -10,13 +10,13 @@
 
 namespace mfar {
 
-/// True if the bytes begin like a Radiance picture.
+/// Whether the bytes begin like a Radiance picture.
 [[nodiscard]] bool isRadianceHdr(std::span<const std::uint8_t> bytes);
 
-/// Reads a Radiance picture (RGBE, plain or with either run-length coding, -Y +X order): calls
-/// first `size`, which may throw, then `row` for each row from the top. Values are finite and not
-/// negative; the header's EXPOSURE is undone. Throws std::runtime_error with the fault.
-/// Source: Ward, Real Pixels, Graphics Gems II, 1991; Radiance's color.c.
+/// Reads a Radiance picture (RGBE, uncompressed or with either kind of run-length coding, -Y +X
+/// order). Calls `size` first, which may throw, and then `row` for each row from the top. Values
+/// are finite and not negative. The header's EXPOSURE is undone. Throws std::runtime_error with the
+/// fault. Source: Ward, Real Pixels, Graphics Gems II, 1991; Radiance's color.c.
 void readRadianceHdr(std::span<const std::uint8_t> bytes, const std::function<void(Size)>& size,
                      const std::function<void(int, std::span<const Eigen::Vector3f>)>& row);
 

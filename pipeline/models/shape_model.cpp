@@ -14,7 +14,8 @@ std::uint8_t displayByte(float value) {
     return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0F, 1.0F) * 255));
 }
 
-/// The texture of a whole side, with many texels a square, so that squares have sharp edges.
+/// The texture of a whole side. It has many texels per square, so that the squares have sharp
+/// edges.
 SurfaceTexture checkerboard(const VirtualObject& object) {
     constexpr int kMostTexels = 1024, kMostASquare = 32, kLeastASquare = 4;
     const int each = std::clamp(kMostTexels / object.squares, kLeastASquare, kMostASquare);
@@ -53,7 +54,8 @@ Model shapeModel(const VirtualObject& object) {
     const Eigen::Vector3f size = object.size.cast<float>();
     Mesh& mesh = model.meshes.emplace_back();
     mesh.triangles = shape.triangles;
-    // Inset by half a texel: textures repeat, and the opposite border must not be blended in.
+    // Texture coordinates are inset by half a texel. Textures repeat, so the opposite border would
+    // otherwise be interpolated at the edges.
     const float texels = plain ? 1 : static_cast<float>(model.textures[0].size.width);
     for (const ShapeMesh::Vertex& v : shape.vertices) {
         mesh.positions.push_back(v.position.cwiseProduct(size));

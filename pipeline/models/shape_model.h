@@ -5,8 +5,8 @@
 
 namespace mfar {
 
-/// A simple shape as a model, in metres: medium roughness, its checkerboard as a texture. A quad is
-/// visible from both sides. Sizes along axes that a shape does not have are ignored.
+/// A simple shape as a model in metres, with medium roughness and its checkerboard as a texture. A
+/// quad is visible from both sides. Sizes along axes that the shape does not have are ignored.
 [[nodiscard]] Model shapeModel(const VirtualObject& object);
 
 }  // namespace mfar

@@ -12,7 +12,7 @@
 namespace mfar {
 namespace {
 
-constexpr int kGlaze = 0, kBrass = 1, kWalnut = 2;  ///< materials
+constexpr int kGlaze = 0, kBrass = 1, kWalnut = 2;  ///< numbers of the materials
 
 float lengthOf(const LatheProfile& profile) {
     float length = 0;
@@ -21,7 +21,7 @@ float lengthOf(const LatheProfile& profile) {
     return length;
 }
 
-/// Points of a profile at the centres of a texture's rows, which run from top to bottom.
+/// Points of a profile at the centres of a texture's rows. The rows run from top to bottom.
 LatheProfile rowsOf(const LatheProfile& profile, int count) {
     LatheProfile out;
     const float whole = lengthOf(profile);
@@ -41,7 +41,7 @@ LatheProfile rowsOf(const LatheProfile& profile, int count) {
 
 LatheProfile ring(float radius, float height, float tube, int count) {
     LatheProfile out;
-    // From the lowest point outwards, upwards and back.
+    // The ring's cross-section begins at the lowest point and runs outwards and upwards.
     for (int i = 0; i <= count; ++i) {
         const float turn = 2 * std::numbers::pi_v<float> * static_cast<float>(i) / count;
         out.emplace_back(radius + tube * std::sin(turn), height - tube * std::cos(turn));
@@ -66,7 +66,7 @@ void addJar(Mesh& mesh) {
     addTurned(mesh, body(), {.around = 176, .shape = [](float angle, float height) {
                                  return 1 - kDepth * fluteAt(angle, height);
                              }});
-    // The lid uses the texture of the body's foot, which has no ornament.
+    // The lid uses the part of the texture at the body's foot, which has no ornament.
     const LatheProfile lid = smoothProfile({{0.0212F, 0.1108F},
                                             {0.0226F, 0.1122F},
                                             {0.0205F, 0.1170F},
@@ -104,7 +104,7 @@ void addBrass(Mesh& mesh) {
     }
 }
 
-/// The stand's profile, split at its edges.
+/// The profile of the stand, split at its edges.
 std::vector<LatheProfile> standPieces() {
     return {
         {{0.0F, 0.0F}, {0.0400F, 0.0F}},
@@ -121,7 +121,7 @@ std::vector<LatheProfile> standPieces() {
         {{0.0338F, 0.0200F}, {0.0280F, 0.0204F}, {0.0F, 0.0204F}}};
 }
 
-/// All pieces as one profile, for texture coordinates.
+/// All pieces of the stand as one profile, for texture coordinates.
 LatheProfile standProfile() {
     LatheProfile whole;
     for (const LatheProfile& piece : standPieces())
@@ -135,7 +135,7 @@ void addStand(Mesh& mesh) {
     const Eigen::Vector2f* end = nullptr;
     const std::vector<LatheProfile> pieces = standPieces();
     for (const LatheProfile& piece : pieces) {
-        // A step between two pieces has a length, too.
+        // The step between two pieces also belongs to the profile.
         if (end != nullptr) {
             const LatheProfile step = {*end, piece.front()};
             if (lengthOf(step) > 0)

@@ -4,9 +4,9 @@
 
 namespace mfar {
 
-/// The default object: a lidded jar of blue glaze with twisted flutes and a gilded shoulder, brass
-/// fittings, on a turned stand of walnut. 0.145 m high, stands on z = 0 about the z axis. About
-/// 45,000 triangles; always the same.
+/// The default object: a lidded jar with blue glaze, twisted flutes, a gilded shoulder and brass
+/// fittings, on a turned stand of walnut. It is 0.145 m high and stands at z = 0 around the z axis.
+/// It has about 45,000 triangles and is always the same.
 [[nodiscard]] Model showpiece();
 
 }  // namespace mfar

@@ -10,7 +10,7 @@ namespace mfar {
 namespace {
 
 constexpr float kCircle = 2 * std::numbers::pi_v<float>;
-constexpr float kBandLow = 0.0872F, kBandHigh = 0.1000F;  ///< gilded shoulder [m]
+constexpr float kBandLow = 0.0872F, kBandHigh = 0.1000F;  ///< edges of the gilded shoulder [m]
 constexpr int kScalesAround = 26, kFlutes = 22;
 
 float step(float from, float to, float x) {
@@ -18,13 +18,13 @@ float step(float from, float to, float x) {
     return t * t * (3 - 2 * t);
 }
 
-/// 1 at distance zero, falling smoothly to 0 at about this half width.
+/// Profile of a line: 1 at distance zero, falling smoothly to 0 at about the half width.
 float line(float distance, float half) {
     return 1 - step(0.6F * half, 1.4F * half, std::abs(distance));
 }
 
-/// Overlapping scales with arcs inside (seigaiha): 1 on an arc's line. A scale is 1 wide, rows are
-/// 1/4 apart; a lower row covers the one above it.
+/// A pattern of overlapping scales with arcs inside (seigaiha). Returns 1 on the line of an arc. A
+/// scale is 1 wide, and rows are 1/4 apart. A lower row covers the row above.
 float scales(float x, float y) {
     constexpr float kRadius = 0.5F, kRow = 0.25F;
     const int lowest = static_cast<int>(std::floor((y - kRadius) / kRow)) + 1;
@@ -40,7 +40,7 @@ float scales(float x, float y) {
 }
 
 float gildingAt(float u, float height) {
-    constexpr float kHeightOfScale = 0.0098F;  // makes scales as high as wide at the shoulder
+    constexpr float kHeightOfScale = 0.0098F;  // scales at the shoulder are then as high as wide
     const float edges =
         std::max({line(height - kBandLow, 0.00042F), line(height - kBandHigh, 0.00042F),
                   line(height - 0.0864F, 0.00016F), line(height - 0.1009F, 0.00016F),
@@ -52,10 +52,10 @@ float gildingAt(float u, float height) {
 }  // namespace
 
 float fluteAt(float angle, float height) {
-    constexpr float kTwist = 16;  // rad/m
+    constexpr float kTwist = 16;  // [rad/m]
     const float inside = step(0.029F, 0.045F, height) * (1 - step(0.072F, 0.0845F, height));
     const float wave = std::cos(kFlutes * 0.5F * (angle + kTwist * height));
-    // Round lobes, narrow grooves.
+    // The lobes are round and the grooves narrow.
     return inside * (1 - std::sqrt(wave * wave + 0.03F));
 }
 
@@ -65,7 +65,8 @@ PaintedPoint glazeAt(float u, float height) {
     const float angle = u * kCircle;
     const Eigen::Vector3f place(std::cos(angle), std::sin(angle), height * 22);
     const float cloud = fractalNoise(place * 2.2F, 4);
-    // Glaze runs down and collects: dark at the foot, the shoulder and in the grooves.
+    // Glaze runs down and collects in places. It is dark at the foot, at the shoulder and in the
+    // grooves.
     const float belly = step(0.03F, 0.058F, height + 0.006F * cloud) *
                         (1 - step(0.066F, 0.086F, height + 0.004F * cloud));
     const float thin =
@@ -90,7 +91,7 @@ PaintedPoint walnutAt(const Eigen::Vector3f& place) {
     // Wood is light in spring, gets darker towards autumn, and stops growing in winter.
     const float season = ring - std::floor(ring);
     const float late = season * season * (1 - step(0.93F, 1, season));
-    // Fibres and pores run along the log.
+    // Fibres and pores run along the log's axis.
     const float fibre = fractalNoise(place.cwiseProduct(Eigen::Vector3f(120, 1900, 1900)), 2);
     const float pore =
         step(0.42F, 0.75F, valueNoise(place.cwiseProduct(Eigen::Vector3f(260, 2600, 2600))));

@@ -6,21 +6,23 @@
 
 namespace mfar {
 
-/// A painted surface's properties at one point.
+/// Properties of a painted surface at one point.
 struct PaintedPoint {
     Eigen::Vector3f colour;  ///< linear base colour, [0, 1]
     float roughness = 1, metallic = 0;
-    float height = 0;  ///< relief [m]
+    float height = 0;  ///< height of the relief [m]
 };
 
-/// The painted area: extent of the texture in the world [m], u to the right, v downwards.
+/// Size of the texture in texels and of the painted area in the world [m]. u points to the right
+/// and v down.
 struct PaintedArea {
     Size texels;
     float width = 1, height = 1;
 };
 
-/// Paints base colour, metallic-roughness and normal textures, appends them to the model's textures
-/// and refers to them in the material. The relief is continuous across the borders in u, not in v.
+/// Paints textures for base colour, metallic-roughness and normals. Appends them to the model's
+/// textures, and makes the material refer to them. The relief continues across the borders in u but
+/// not in v.
 void paint(Model& model, Material& material, const PaintedArea& area,
            const std::function<PaintedPoint(float u, float v)>& look);
 

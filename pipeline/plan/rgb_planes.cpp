@@ -23,7 +23,7 @@ void splitRow(const std::uint8_t* from, int width, bool blueFirst, const Channel
     }
 }
 
-/// A plane's samples: `step` bytes from one to the next.
+/// The samples of a plane. `step` is the distance between two samples [bytes].
 struct Samples {
     const std::uint8_t* data;
     std::size_t stride;
@@ -42,7 +42,8 @@ std::array<Samples, 3> samplesOf(const ImageView& p) {
     return {luma, {u.data, u.stride, 1}, {v.data, v.stride, 1}};
 }
 
-/// Y U V to R G B in 16-bit integers: every processor multiplies eight of them at once.
+/// Converts Y U V to R G B with 16-bit integers, because every supported processor multiplies eight
+/// of them at once.
 class YuvRows {
 public:
     explicit YuvRows(const ImageView& picture)
@@ -54,7 +55,7 @@ public:
         for (std::size_t i = 0; i < 3; ++i) {
             for (std::size_t j = 0; j < 3; ++j)
                 factors_[i][j] = static_cast<std::int16_t>(std::lround(rows[i][j] * kOne));
-            // 128 is subtracted from chroma.
+            // The offset accounts for the 128 that is subtracted from chroma.
             const float offset = rows[i][3] + 128 * (rows[i][1] + rows[i][2]);
             offsets_[i] = static_cast<std::int16_t>(std::lround(16 * offset) + 8);
         }
@@ -74,8 +75,8 @@ public:
 private:
     static constexpr float kOne = 8192;
 
-    /// Chroma in 1/128 around the middle. A sample lies between the pixels that share it: 3/4 of
-    /// the nearer and 1/4 of the farther sample in each direction.
+    /// Reads chroma minus 128, multiplied by 128. A chroma sample lies between the pixels that
+    /// share it. In each direction a pixel gets 3/4 of the nearer and 1/4 of the farther sample.
     void readChroma(const Samples& plane, int y, std::int16_t* to) {
         const int width = size_.width / 2;
         const int row = sharedRows_ ? y / 2 : y;
@@ -97,7 +98,7 @@ private:
     void combine(const std::array<std::int16_t, 3>& factors, std::int16_t offset,
                  std::uint8_t* to) const {
         const auto times = [](std::int16_t a, std::int16_t b) {
-            return static_cast<std::int16_t>((std::int32_t{a} * b) >> 16);  // 1/16 grey level
+            return static_cast<std::int16_t>((std::int32_t{a} * b) >> 16);  // in 1/16 grey levels
         };
         const std::int16_t *luma = luma_.data(), *u = chroma_[0].data(), *v = chroma_[1].data();
         for (int x = 0; x < size_.width; ++x) {

@@ -9,22 +9,22 @@
 
 namespace mfar {
 
-/// Red, green and blue of a picture in main memory, one plane of bytes each, padded to whole tiles
-/// by repeating the border pixels. Picture coordinates. Owns its pixels.
+/// Red, green and blue of a picture in main memory, as one plane of bytes per channel. The planes
+/// are padded to whole tiles by repeating the border pixels. The object owns its pixels.
 class RgbPlanes {
 public:
-    /// Black.
+    /// Creates a black picture.
     explicit RgbPlanes(Size size);
 
-    /// Copies a valid picture of this size, in any format; colours equal those of
-    /// picture_from_yuv.frag to a grey level.
+    /// Copies a valid picture of this size in any format. Colours differ from those of
+    /// picture_from_yuv.frag by at most one grey level.
     void take(const ImageView& picture);
-    /// Copies one tile of planes of the same size.
+    /// Copies one tile from planes of the same size.
     void takeTile(const RgbPlanes& from, int column, int row);
 
     [[nodiscard]] Size size() const { return size_; }
     [[nodiscard]] Size tiles() const { return tiles_; }
-    /// Bytes of a row, padding to whole tiles included.
+    /// Bytes of a row, including the padding to whole tiles.
     [[nodiscard]] int pitch() const { return pitch_; }
     /// `channel`: 0 red, 1 green, 2 blue.
     [[nodiscard]] const std::uint8_t* row(int channel, int y) const {

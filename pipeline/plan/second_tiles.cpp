@@ -5,11 +5,12 @@
 namespace mfar {
 namespace {
 
-constexpr int kCells = 4;  // of a tile, along an axis
-// Tiles must not come and go with the noise of what they miss.
+constexpr int kCells = 4;  // cells along the edge of a tile
+// Factor by which tiles that the second still showed before are preferred. Without it, noise would
+// change the choice of tiles in every frame.
 constexpr float kRather = 1.5F;
 
-/// Calls body(cell index x, y) for the cells of a tile that the field has.
+/// Calls body(x, y) with the indices of a tile's cells that exist in the field.
 template <class Body>
 void forCells(Size tiles, int tile, Size cells, const Body& body) {
     const int x0 = kCells * (tile % tiles.width), y0 = kCells * (tile / tiles.width);
@@ -18,8 +19,8 @@ void forCells(Size tiles, int tile, Size cells, const Body& body) {
             body(x, y);
 }
 
-/// Mean over a tile's cells of 1 - weight, times the share of structure in the video's signal. NaN
-/// counts as 0.
+/// How much the newest still lacks in a tile: the mean over the tile's cells of (1 - weight) *
+/// (share of structure in the video's signal). NaN counts as 0.
 float lackOf(Size tiles, int tile, const SecondTiles::Match& newest) {
     float sum = 0;
     forCells(tiles, tile, newest.weighed.size, [&](int x, int y) {
@@ -29,7 +30,8 @@ float lackOf(Size tiles, int tile, const SecondTiles::Match& newest) {
     return sum / (kCells * kCells);
 }
 
-/// As above, for the second still's weight minus the newest's.
+/// How much the second still adds in a tile: like lackOf(), but with the second still's weight
+/// minus the newest still's weight instead of 1 - weight.
 float gainOf(Size tiles, int tile, const SecondTiles::Match& newest,
              const Rows<const WeighedCell>& second) {
     float sum = 0;
@@ -48,7 +50,7 @@ SecondTiles::SecondTiles(Size tiles) : work_(TileWork::everything(tiles)) {
     candidates_.reserve(count);
     showed_.resize(count);
     rest_.resize(count);
-    // All tiles are set again, because each frame matches other tiles.
+    // All tiles are updated in each frame, because each frame matches other tiles.
     work_.draw = TileWork::Draw::WholeEnlarged;
 }
 

@@ -11,20 +11,21 @@
 
 namespace mfar {
 
-/// Chooses the tiles of a frame that are also matched with a second still: those that lie outside
-/// the newest still's view or are occluded in it.
+/// Chooses the tiles of a frame that are also matched with a second still. These tiles are outside
+/// the newest still's view or occluded in the newest still.
 class SecondTiles {
 public:
-    /// A still does not show a tile whose cells' mean weight is below 1 by this much. On the
-    /// synthetic office, 0.2, 0.1 and 0.05 gained 0.14, 0.18 and 0.19 dB; 0.05 matches half as many
-    /// tiles again as 0.1.
+    /// The newest still does not show a tile if the mean weight of the tile's cells is below 1 by
+    /// this much. In the synthetic office scene, 0.2, 0.1 and 0.05 gained 0.14, 0.18 and 0.19 dB;
+    /// 0.05 matches 1.5 times as many tiles as 0.1.
     static constexpr float kLack = 0.1F;
-    /// Mean weight that a second still has to add to be worth its time.
+    /// Gain in mean weight from which on matching a tile with the second still is worth its time.
     static constexpr float kGain = 0.05F;
-    /// A tile that the second still does not show either is not tried again for this many frames.
+    /// If the second still does not show a tile either, the tile is not tried again for this number
+    /// of frames.
     static constexpr int kRest = 8;
 
-    /// How the newest still matches, cell by cell.
+    /// How the newest still matches the frame, for each cell.
     struct Match {
         Rows<const WeighedCell> weighed;
         Rows<const TrustCell> trust;
@@ -32,17 +33,18 @@ public:
 
     explicit SecondTiles(Size tiles);
 
-    /// Chooses at most `most` tiles that the frame draws and matches and that the newest still does
-    /// not show. Tiles that lack the most structure come first; tiles that the second still showed
-    /// before are preferred. `measured`: of the same frame. Valid until the next call.
+    /// Chooses at most `most` tiles that the frame draws and matches but the newest still does not
+    /// show. Tiles that lack the most structure come first, and tiles that the second still showed
+    /// before are preferred. `measured` must belong to the same frame. The result is valid until
+    /// the next call.
     const TileWork& choose(const TileWork& work, std::span<const TileMeasure> measured,
                            const Match& newest, int most);
-    /// Remembers which of the chosen tiles the second still shows.
+    /// Records which of the chosen tiles the second still shows.
     void judge(const Match& newest, Rows<const WeighedCell> second);
-    /// To be called when the second or the newest still changes.
+    /// Must be called when the second or the newest still changes.
     void forget();
 
-    /// Number of tiles that are matched in the frame of the last choose().
+    /// Number of tiles that the frame of the last choose() matches.
     [[nodiscard]] int matched() const { return matched_; }
     /// Number of the matched tiles that the newest still shows.
     [[nodiscard]] int shownByNewest() const { return shownByNewest_; }
@@ -57,8 +59,8 @@ private:
 
     TileWork work_;
     std::vector<Candidate> candidates_;
-    std::vector<bool> showed_;        // the second still did, when it was matched last
-    std::vector<std::uint8_t> rest_;  // frames
+    std::vector<bool> showed_;        // second still showed the tile at its last match
+    std::vector<std::uint8_t> rest_;  // frames in which the tile is not tried
     int matched_ = 0, shownByNewest_ = 0, gained_ = 0;
 };
 

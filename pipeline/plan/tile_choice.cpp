@@ -7,15 +7,16 @@
 namespace mfar {
 namespace {
 
-constexpr int kTileBlock = 8;  // tiles
-// Standard deviation of a tile's sum of squares over its mean, and the number of them that counts
-// as significant.
+constexpr int kTileBlock = 8;  // edge of a block [tiles]
+// kSpread: relative standard deviation of a tile's sum of squares. kSignificant: number of standard
+// deviations from which on a difference is significant.
 constexpr double kSpread = 0.27;
 constexpr double kSignificant = 5;
-// Share of the noise within which a change is not detected: 8-bit rounding is not white noise.
+// Changes below this share of the noise are not detected, because the 8-bit rounding error is not
+// white noise.
 constexpr double kLeast = 0.03;
 
-constexpr int kStructureBins = 84;  // a quarter of an octave
+constexpr int kStructureBins = 84;  // a bin is a quarter of an octave
 constexpr float kKept = 1.19F;
 
 int structureBin(float structure) {

@@ -10,8 +10,8 @@
 namespace mfar {
 namespace {
 
-/// A row of tiles in both pictures. Beyond the border there is no difference: repeated noise would
-/// look like a change.
+/// Reads a row of tiles from both pictures. Pixels beyond the picture's border are made equal in
+/// both, because differences of repeated border pixels would look like a change.
 class TileRow {
 public:
     TileRow(const RgbPlanes& now, const RgbPlanes& drawn, int row)
@@ -31,7 +31,8 @@ public:
         return out;
     }
 
-    /// The last tile, which the picture covers only in part. Valid as long as this row.
+    /// The last tile of the row, which is only partly inside the picture. Valid as long as this
+    /// object.
     [[nodiscard]] simd::TilePixels cut(int column) {
         simd::TilePixels out = whole(column, 1);
         const auto inside = static_cast<std::size_t>(now_.size().width - kTileSize * column);

@@ -8,35 +8,38 @@
 
 namespace mfar {
 
-/// Measurements that decide whether a tile of the video differs from the picture that it was last
-/// drawn from.
+/// Measurements of a tile. They decide whether the video differs from the video from which the tile
+/// was last drawn.
 struct TileMeasure {
-    /// A cell's mean difference exceeds its noise, or its mean absolute difference does (fine
-    /// structure that moved), or the tile's mean and slopes do. The channel that differs most
-    /// counts. Changes that are too weak for one tile are found over many, by markDrifted().
+    /// True in three cases: the mean difference of a cell exceeds its noise, a cell's mean absolute
+    /// difference does (fine structure moved), or the mean and the slopes of the tile do. The
+    /// channel with the largest difference counts. markDrifted() finds changes that are too weak
+    /// for one tile.
     bool changed = false;
-    /// The cells of 4x4 pixels whose own differences exceed the thresholds, one bit each,
-    /// row-major.
+    /// A bit for each cell of 4x4 pixels, row-major: 1 if the cell's own differences exceed the
+    /// thresholds.
     std::uint16_t changedCells = 0;
     float noise = 0;  ///< standard deviation of the video's noise [grey levels]
-    /// Sum of squares of the luma's 2x2 means after a plane is fitted to 8x8 pixels and subtracted;
-    /// mean over 9 positions in the tile. A plane alone cannot be matched.
+    /// Structure of the luma: a plane is fitted to 8x8 pixels and subtracted from the 2x2 means,
+    /// and the squares of the rest are summed. The result is the mean over 9 positions in the tile.
+    /// The plane is subtracted because a plane alone cannot be matched.
     float structure = 0;
-    /// Mean squares of the luma's difference, each scaled to the noise's variance if the noise is
-    /// white: of the pixels' twist, of 2x2 means, of the means' twist. The twist of 2x2 values is
-    /// (a - b - c + d) / 2 and blind to slopes (after Immerkaer, Fast noise variance estimation,
-    /// 1996).
+    /// Mean squares of three measures of the luma's difference: the twist of pixels, the 2x2 means,
+    /// and the twist of 2x2 means. They are scaled so that white noise gives the same value in
+    /// each. The twist of 2x2 values is (a - b - c + d) / 2; slopes do not affect it (after
+    /// Immerkaer, Fast noise variance estimation, 1996).
     float pixels = 0, means = 0, bends = 0;
 };
 
-/// Thresholds above which a tile certainly changed.
+/// Limits above which a tile has certainly changed.
 struct ChangeBounds {
-    float mean, absolute;  ///< of a cell's differences [grey levels]
-    float grain;           ///< noise variance of 2x2 means in quarters of a pixel's
+    float mean, absolute;  ///< limits of a cell's differences [grey levels]
+    float grain;           ///< noise variance of 2x2 means / (that of a pixel / 4)
 };
 
-/// Measures every tile, row-major, values 0..1.1e6. Both pictures have the same size. Null
-/// `workers`: in this thread; the result does not depend on their number.
+/// Measures every tile, row-major. Values are in 0..1.1e6. Both pictures must have the same size.
+/// If `workers` is null, everything runs in the caller's thread. The result does not depend on the
+/// number of threads.
 void measureTiles(const RgbPlanes& now, const RgbPlanes& drawn, const ChangeBounds& bounds,
                   Workers* workers, std::vector<TileMeasure>& out);
 

@@ -9,17 +9,18 @@
 
 namespace mfar {
 
-/// The work of a frame, tile by tile: plain host data, made by WorkPlan, read by every step.
+/// What a frame has to do in each tile. It is plain data in CPU memory, which WorkPlan writes and
+/// every step reads.
 struct TileWork {
     enum class Draw : std::uint8_t {
-        Tiles,         ///< changed tiles alone; the others keep their pixels of earlier frames
-        Whole,         ///< the whole frame: detail inside detailTiles, enlarged video around it
-        WholeEnlarged  ///< the whole frame enlarged, detail in the matched tiles alone
+        Tiles,         ///< only changed tiles; the others keep the pixels of earlier frames
+        Whole,         ///< the whole frame: detail in detailTiles, enlarged video elsewhere
+        WholeEnlarged  ///< the whole frame is enlarged; detail only in matched tiles
     };
-    /// Flags are 1 or 0, row-major, one per tile.
+    /// Flags of a tile, 1 or 0. `flags` is row-major.
     struct Tile {
-        std::uint8_t changed = 0;  ///< the video differs from what was drawn there
-        std::uint8_t matched = 0;  ///< has structure to match with the still
+        std::uint8_t changed = 0;  ///< the video differs from the video drawn there
+        std::uint8_t matched = 0;  ///< the tile has structure and is matched with the still
     };
 
     Size tiles;
@@ -27,10 +28,10 @@ struct TileWork {
     int changed = 0;  ///< number of changed tiles
     int matched = 0;  ///< number of changed tiles that are matched
     Draw draw = Draw::Whole;
-    PixelRect detailTiles;  ///< [tiles]; the least rectangle that holds all matched tiles
+    PixelRect detailTiles;  ///< [tiles]; the smallest rectangle around all matched tiles
     double noise = 0;       ///< standard deviation of the video's noise [grey levels]
 
-    /// Every tile changed and matched.
+    /// Work in which every tile is changed and matched.
     [[nodiscard]] static TileWork everything(Size tiles) {
         const int count = tiles.width * tiles.height;
         return {tiles,
@@ -44,7 +45,8 @@ struct TileWork {
     [[nodiscard]] const Tile& at(int column, int row) const {
         return flags[static_cast<std::size_t>(row) * tiles.width + column];
     }
-    /// Is this tile drawn: because it changed, or because the whole frame is?
+    /// Whether this tile is drawn, either because the tile changed or because the whole frame is
+    /// drawn.
     [[nodiscard]] bool draws(std::size_t tile) const {
         return drawsWhole() || flags[tile].changed != 0;
     }

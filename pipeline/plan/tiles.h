@@ -7,21 +7,21 @@
 
 namespace mfar {
 
-inline constexpr int kTileSize = 16;  ///< video pixels
+inline constexpr int kTileSize = 16;  ///< edge of a tile [video px]
 
-/// Columns and rows of the tiles that cover a picture.
+/// Numbers of tile columns and rows that cover a picture.
 [[nodiscard]] constexpr Size tilesOf(Size pixels) {
     return {(pixels.width + kTileSize - 1) / kTileSize,
             (pixels.height + kTileSize - 1) / kTileSize};
 }
 
-/// What the super-resolution does with a tile of 16x16 video pixels, cheapest first.
+/// What super-resolution does with a tile of 16x16 video pixels, in ascending order of cost.
 enum class TileClass : unsigned {
-    Unchanged = params::kTileUnchanged,  ///< neither video nor still changed: the last output stays
-    Upscaled = params::kTileUpscaled,    ///< the still has no detail to add, or none that fits
-    Trusted = params::kTileTrusted,  ///< detail added everywhere in the tile with one smooth flow
-    Blended = params::kTileBlended,  ///< detail added with a weight and flow that vary per pixel
-    Hidden,                          ///< behind an opaque virtual object
+    Unchanged = params::kTileUnchanged,  ///< video and still did not change: the last output stays
+    Upscaled = params::kTileUpscaled,    ///< only enlarged: the still has no detail that fits
+    Trusted = params::kTileTrusted,      ///< detail in the whole tile, with one smooth flow
+    Blended = params::kTileBlended,      ///< detail with weight and flow that vary per pixel
+    Hidden,                              ///< an opaque virtual object covers the tile
 };
 inline constexpr std::size_t kTileClasses = 5;
 

@@ -10,25 +10,30 @@ namespace mfar {
 namespace {
 
 constexpr double kInitialNoise = 0.29;
-// Upper limit of the estimate: a picture without any smooth tile looks noisy.
+// Upper limit of the noise estimate, which is too high for a picture without any smooth tile.
 constexpr double kMaxNoise = 4.0;
-// Drawing by tiles costs 2.2 times as much an area as one full-screen draw (llvmpipe).
+// From this share of changed tiles on, the whole frame is drawn, because drawing tile by tile costs
+// 2.2 times as much per area as one full-screen draw (llvmpipe).
 constexpr double kWholeShare = 0.45;
-// Threshold for detail, as a share of the tiles in the detail rectangle, where the rest of the
-// frame is enlarged at once, at 0.4 of the cost.
+// Applies if the whole frame is drawn. If at most this share of the tiles in the detail rectangle
+// has structure, one draw enlarges the frame and detail is added tile by tile. Enlarging costs 0.4
+// times as much as drawing detail.
 constexpr double kListedShare = 0.27;
-// Least structure to match, in variances of a mean: 13 come from noise alone (16 means less three
-// of the plane); the rest is the signal that gives detail a tenth of its weight in
-// superres_weigh.comp (0.44 of the noise; 16 / 4 as much in the variance of a mean).
+// Least structure of a tile that is matched, as a multiple of the noise variance of a 2x2 mean.
+// Noise alone gives 13 (16 means minus three degrees of freedom of the plane). The rest is the
+// signal that gives detail a tenth of its weight in superres_weigh.comp: its variance is 0.44 times
+// the noise variance of a pixel, which is 4 * 0.44 times that of a mean, summed over 16 means.
 constexpr double kStructure = 13 + 16 * 4 * 0.44;
-constexpr double kRoundingVariance = 1.0 / 12;  // of a pixel [grey levels^2]
-// How fast the estimate of the grain follows, per frame.
+constexpr double kRoundingVariance = 1.0 / 12;  // variance of 8-bit rounding [grey levels^2]
+// How fast the estimate of the grain follows the measured value (share of the difference per
+// frame).
 constexpr double kGrainFalls = 0.2, kGrainAtRest = 0.05, kGrainMoving = 1.0 / 256;
-constexpr double kRestingShare = 0.75;  // of the tiles: the others may be misjudged
+// From this share of unchanged tiles on, the picture is at rest. The other tiles may be misjudged.
+constexpr double kRestingShare = 0.75;
 constexpr double kMaxGrain = 8;
-// Upper limit of one frame's grain: without noise the divisor is almost 0.
+// Upper limit of one frame's grain, because the divisor is almost 0 without noise.
 constexpr double kMostRatio = 64;
-constexpr int kNoiseBins = 64;  // of 1/16 grey level
+constexpr int kNoiseBins = 64;  // bins of 1/16 grey level
 
 }  // namespace
 
@@ -49,9 +54,10 @@ void WorkPlan::drawnOver(const PixelRect& tiles, Redraw redraw) {
 }
 
 void WorkPlan::update(const RgbPlanes& now, const RgbPlanes& drawn, bool force) {
-    // A cell's mean of 16 differences has a deviation of 0.35 s, its mean absolute difference 0.21
-    // s around 1.13 s; both bounds leave room for brighter, noisier regions and for single colours,
-    // whose noise is up to 1.5 times the luma's.
+    // Thresholds for noise of standard deviation s. The mean of 16 differences in a cell has a
+    // standard deviation of 0.35 s. Their mean absolute value is 1.13 s with a standard deviation
+    // of 0.21 s. Both thresholds are higher, because noise is stronger in bright regions and, for
+    // single colours, up to 1.5 times that of luma.
     const double noise = noise_ * std::sqrt(grain_);
     measureTiles(now, drawn,
                  {static_cast<float>(1.0 + 2.0 * noise), static_cast<float>(1.5 + 4.0 * noise),
@@ -127,7 +133,8 @@ void WorkPlan::followNoise(const TileEnergy& unchanged) {
     noise_ = std::min(0.8 * noise_ + 0.2 * quietestDecile(), kMaxNoise);
     if (unchanged.tiles == 0) return;
     const double now = std::min(unchanged.bends / std::max(unchanged.pixels, 1e-3), kMostRatio);
-    // Moving structure looks like noise: a higher estimate is adopted slowly unless all is at rest.
+    // Moving structure looks like noise, so a higher estimate is adopted slowly unless the picture
+    // is at rest.
     const bool atRest = unchanged.tiles > kRestingShare * static_cast<double>(measured_.size());
     const double risen = atRest ? kGrainAtRest : kGrainMoving;
     grain_ += (now - grain_) * (now < grain_ ? kGrainFalls : risen);

@@ -12,66 +12,71 @@
 
 namespace mfar {
 
-/// The tiles that video pixels lie in.
+/// Rectangle of the tiles that contain these video pixels.
 [[nodiscard]] PixelRect tilesAround(const PixelRect& videoPixels);
 
-/// Decides what a frame has to compute: compares the video with what was last drawn, tile by tile,
-/// on the host. A frame without any changed tile costs that comparison alone.
+/// Decides what a frame has to compute. It compares the video of each tile with the video from
+/// which the tile was last drawn, on the CPU. A frame without any changed tile costs only this
+/// comparison.
 ///
-/// A tile is not drawn again as long as its difference to the drawn picture is noise: it passes
-/// the tests of one tile, and the sums over all such tiles and each block of 8x8 tiles do not
-/// exceed the pixels' noise. The mean accumulated error stays below 3 % of the noise's variance,
-/// however slowly the scene changes; at rest nothing is drawn.
+/// A tile is not drawn again as long as the difference is noise. This is tested for each tile
+/// alone. In addition, the differences are summed over the unchanged tiles of each block of 8x8
+/// tiles and of the whole picture; these sums must not exceed the noise of the pixels. The mean
+/// accumulated error stays below 3 % of the noise's variance, however slowly the scene changes. At
+/// rest nothing is drawn.
 class WorkPlan {
 public:
-    /// The comparison runs on `workers`.
+    /// `workers` run the comparison. Null: it runs in the caller's thread.
     explicit WorkPlan(Size video, std::shared_ptr<Workers> workers = nullptr);
 
-    /// Compares `now` with `drawn` (both video size). `force` counts every tile as changed.
+    /// Compares `now` with `drawn`, both of the video's size. If `force` is true, every tile counts
+    /// as changed.
     void update(const RgbPlanes& now, const RgbPlanes& drawn, bool force);
-    /// Which changes make it necessary to draw an overlay again.
+    /// The changes after which an overlay must be drawn again.
     enum class Redraw : std::uint8_t {
-        WithThem,    ///< if one of the tiles or a neighbour changed
-        WithOthers,  ///< if any tile changed
-        Always,      ///< even without a change
+        WithThem,    ///< a change of one of the overlay's tiles or an adjacent tile
+        WithOthers,  ///< a change of any tile
+        Always,      ///< the overlay is drawn again even without a change
     };
-    /// An overlay was drawn on these tiles of the output. If the next update() finds that it has
-    /// to be drawn again, all of these tiles count as changed. update() resets to WithThem.
+    /// Reports that an overlay was drawn on these tiles of the output. If the next update() finds
+    /// that the overlay must be drawn again, all of these tiles count as changed. update() resets
+    /// `redraw` to WithThem.
     void drawnOver(const PixelRect& tiles, Redraw redraw);
-    /// Share of changed tiles, [0, 1], at or above which the whole frame is drawn at once; 0: if
-    /// any tile changed.
+    /// Share of changed tiles, [0, 1], from which on the whole frame is drawn at once. 0: if any
+    /// tile changed.
     void drawWholeFrom(double share) { wholeShare_ = share; }
-    /// Tiles with structure above the noise, and their neighbours, are matched with the still, but
-    /// at most this share of all tiles, (0, 1]: those with the most structure. The others are only
-    /// enlarged. The default matches all.
+    /// Matches only tiles with structure above the noise, and their neighbours, with the still.
+    /// `mostShare` limits their share of all tiles, (0, 1]; tiles with the most structure are
+    /// preferred. Other tiles are only enlarged. By default all tiles are matched.
     void matchStructured(double mostShare) { matchedShare_ = mostShare; }
     void matchEverything() { matchedShare_ = 0; }
     /// Result of the last update().
     [[nodiscard]] const TileWork& work() const { return work_; }
-    /// Did the last update() find that the overlay has to be drawn again?
+    /// Whether the last update() found that the overlay must be drawn again.
     [[nodiscard]] bool redraws() const { return redraws_; }
     [[nodiscard]] const std::vector<TileMeasure>& measured() const { return measured_; }
     [[nodiscard]] Size tileCount() const { return work_.tiles; }
-    /// Standard deviation of the video's noise [grey levels], from the quietest tiles of earlier
-    /// frames; that of 8-bit rounding before the first frame.
+    /// Standard deviation of the video's noise [grey levels], measured in the quietest tiles of
+    /// earlier frames. Before the first frame it is that of 8-bit rounding.
     [[nodiscard]] double noise() const { return noise_; }
-    /// Noise variance of 2x2 means, relative to a quarter of a pixel's: 1 for white noise, more
-    /// where a sensor's processing has smoothed it. From the differences of unchanged tiles of
-    /// earlier frames.
+    /// Ratio of the noise variance of 2x2 means to a quarter of a pixel's noise variance. It is 1
+    /// for white noise, and larger if the sensor's processing has smoothed the noise. It is
+    /// measured from the differences in unchanged tiles of earlier frames.
     [[nodiscard]] double grain() const { return grain_; }
 
 private:
-    /// If frames are always drawn whole, so is detail.
+    /// Whether detail may be drawn tile by tile. It is drawn whole if frames are always drawn
+    /// whole.
     [[nodiscard]] bool mayList() const { return matchedShare_ > 0 && wholeShare_ > 0; }
     void chooseMatched();
-    /// Decides from the measurements of update() which tiles changed.
+    /// Decides which tiles changed, from the measurements of update().
     void chooseChanged(Redraw redraw);
     [[nodiscard]] double quietestDecile() const;
     void followNoise(const TileEnergy& unchanged);
 
     std::shared_ptr<Workers> workers_;
     double noise_, grain_ = 1, wholeShare_, matchedShare_ = 0;
-    PixelRect drawnOver_;  // tiles
+    PixelRect drawnOver_;  // [tiles]
     Redraw redraw_ = Redraw::WithThem;
     std::vector<TileMeasure> measured_;
     StructuredTiles structured_;

@@ -8,10 +8,11 @@
 namespace mfar {
 namespace {
 
-constexpr double kEvenLight = 1e-3;  // rounding error of an even picture's mean
+constexpr double kEvenLight = 1e-3;  // relative rounding error of the mean of a uniform picture
 constexpr float kTurn = 2 * std::numbers::pi_v<float>;
 
-/// Turns weights into cumulative shares, from 0 to 1, and returns the sum of the weights.
+/// Writes the cumulative distribution of the weights, from 0 to 1, to `shares`. Returns the sum of
+/// the weights.
 double accumulate(std::span<const double> weights, float* shares) {
     double sum = 0;
     for (const double w : weights)
@@ -25,7 +26,8 @@ double accumulate(std::span<const double> weights, float* shares) {
     return sum;
 }
 
-/// Interval of the cumulative shares that contains u, and u's place in it, [0, 1).
+/// The interval of a cumulative distribution that contains u, and the relative position of u in
+/// this interval, in [0, 1).
 struct Drawn {
     int index;
     float rest;
@@ -55,7 +57,8 @@ EnvironmentLight::EnvironmentLight(std::shared_ptr<const Environment> environmen
             std::cos(kTurn / 2 * static_cast<float>(row) / static_cast<float>(size_.height)));
     rows_.resize(static_cast<std::size_t>(size_.height) + 1);
     texels_.resize((width + 1) * static_cast<std::size_t>(size_.height));
-    // Smoothed: interpolation spreads a texel's light over half of each neighbour.
+    // Brightness of the interpolated picture: interpolation spreads the light of a texel over half
+    // of each neighbouring texel.
     std::vector<double> brightnesses;
     double sum = 0;
     for (int row = 0; row < size_.height; ++row)
@@ -65,7 +68,7 @@ EnvironmentLight::EnvironmentLight(std::shared_ptr<const Environment> environmen
         }
     const double mean = sum / (2.0 * size_.width);
     dark_ = !(sum > 0);
-    // Light up to about the mean is left to the surface's own samples (see the class).
+    // Light up to about the mean is found by sampling the surface's reflection (see the class).
     for (double& b : brightnesses)
         b = std::max(0.0, b - (1 + kEvenLight) * mean);
     std::vector<double> rowWeights;

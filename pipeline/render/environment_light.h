@@ -8,26 +8,28 @@
 
 namespace mfar {
 
-/// Light from an environment picture, interpolated between its texels. Directions are sampled from
-/// a density that is constant on each texel (Pharr, Jakob, Humphreys, Physically Based Rendering,
-/// 12.5) and proportional to the part of its luminance above the mean over all directions: the
-/// surface's own samples find the rest better, because they follow its reflection (MIS
-/// compensation, Karlik et al. 2019). An even picture is not sampled at all.
+/// Light from an environment picture, interpolated between texels.
+/// The probability density of a sampled direction is constant on each texel (Pharr, Jakob,
+/// Humphreys, Physically Based Rendering, 12.5). It is proportional to the excess of the texel's
+/// luminance over the mean over all directions. Light up to the mean is found better by sampling
+/// the surface's reflection (MIS compensation, Karlik et al. 2019). A uniform picture is not
+/// sampled at all.
 class EnvironmentLight {
 public:
-    /// Null: no light.
+    /// If `environment` is null, this light is dark.
     explicit EnvironmentLight(std::shared_ptr<const Environment> environment);
 
     [[nodiscard]] bool dark() const { return dark_; }
-    /// Whether sample() returns any light.
+    /// Whether sample() may be called. Dark and uniform pictures are not sampled.
     [[nodiscard]] bool sampled() const { return sampled_; }
     [[nodiscard]] LightSample sample(const Eigen::Vector2f& u) const;
-    /// `direction` of unit length.
+    /// `direction` must have unit length.
     [[nodiscard]] Eigen::Vector3f radiance(const Eigen::Vector3f& direction) const;
     [[nodiscard]] float density(const Eigen::Vector3f& direction) const;
 
 private:
-    /// Position of a direction in the picture [texels]; the first texel's corner is at 0.
+    /// Position of a direction in the picture [texels]. The outer corner of the first texel is at
+    /// (0, 0).
     [[nodiscard]] Eigen::Vector2f place(const Eigen::Vector3f& direction) const;
     [[nodiscard]] Eigen::Vector3f interpolated(const Eigen::Vector2f& at) const;
     [[nodiscard]] float density(int column, int row) const;
@@ -38,9 +40,9 @@ private:
     Size size_;
     std::vector<float> tops_;    // world z of each row's upper edge, then of the last row's lower
                                  // edge
-    std::vector<float> rows_;    // cumulative share of the rows above, 0 first, 1 last
-    std::vector<float> texels_;  // in each row, cumulative share of the texels to the left: width +
-                                 // 1 values
+    std::vector<float> rows_;    // cumulative distribution over the rows, from 0 to 1
+    std::vector<float> texels_;  // for each row, the cumulative distribution over its texels: width
+                                 // + 1 values
     bool dark_ = true, sampled_ = false;
 };
 

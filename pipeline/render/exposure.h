@@ -8,11 +8,11 @@ namespace mfar {
 
 /// Conversion of radiance to display values.
 struct Exposure {
-    float scale = 1;  ///< 1 / (radiance that becomes white); finite, above 0
+    float scale = 1;  ///< 1 / (radiance that is displayed as white); finite, above 0
     bool operator==(const Exposure&) const = default;
 };
 
-/// Radiance to display values in [0, 1], sRGB encoded.
+/// Converts radiance to sRGB-encoded display values in [0, 1].
 [[nodiscard]] Eigen::Vector3f displayed(const Eigen::Vector3f& radiance, const Exposure& exposure);
 
 }  // namespace mfar

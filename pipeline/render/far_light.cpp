@@ -12,14 +12,14 @@ namespace mfar {
 namespace {
 
 constexpr float kFullSphere = 4 * std::numbers::pi_v<float>;
-constexpr int kFinest = 256;  // texels a side, 0.9 degrees at the poles
-constexpr int kCoarsest = 8;  // edge of the pyramid's coarsest level
+constexpr int kFinest = 256;  // intervals per side; 0.45 degrees each at the poles
+constexpr int kCoarsest = 8;  // intervals per side of the coarsest pyramid level
 constexpr int kDiffuseEdge = 16;
-constexpr int kIntegrated = 32;  // edge of the level that irradiance is summed over
-constexpr int kSamples = 64;     // per lobe
+constexpr int kIntegrated = 32;  // intervals per side of the level from which irradiance is summed
+constexpr int kSamples = 64;     // samples per lobe
 
-/// Tables of mirrored light: their roughness and resolution. Sharper lobes are interpolated between
-/// the first table and the environment itself.
+/// Roughness and resolution of a table of mirrored light. Lobes sharper than those of the first
+/// table are interpolated between the first table and the environment itself.
 struct MirrorLevel {
     float roughness;
     int edge;
@@ -31,15 +31,16 @@ float signOf(float x) {
     return x < 0 ? -1.0F : 1.0F;
 }
 
-/// Weight: border texels occur twice.
+/// Weight of texel i along one axis. It is 1/2 on the border, because border texels occur twice in
+/// the table.
 float partOfBorder(int i, int edge) {
     return i == 0 || i == edge - 1 ? 0.5F : 1.0F;
 }
 
-/// Solid angle of a texel at `direction` of a table [sr].
+/// Solid angle [sr] of the texel at `direction` in a table.
 float solidAngle(const Eigen::Vector3f& direction, int edge) {
     const float step = 2.0F / static_cast<float>(edge - 1);
-    const float norm1 = direction.lpNorm<1>();  // of the unit vector: 1 / |point on the octahedron|
+    const float norm1 = direction.lpNorm<1>();  // 1 / distance of the octahedron's surface
     return step * step * norm1 * norm1 * norm1;
 }
 
@@ -49,7 +50,7 @@ DirectionTable::DirectionTable(int edge)
     : edge_(edge), values_(static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge),
                            Eigen::Vector3f::Zero()) {}
 
-// Texels lie on the square's border, too, where the map repeats itself.
+// The outermost texels lie exactly on the square's border, where the octahedral map repeats itself.
 Eigen::Vector3f DirectionTable::direction(int column, int row) const {
     const float scale = 2.0F / static_cast<float>(edge_ - 1);
     const float x = scale * static_cast<float>(column) - 1;
@@ -95,7 +96,8 @@ FarLight::FarLight(const EnvironmentLight& environment, const Lighting& lighting
     Pyramid light = pyramid();
     makeDiffuse(light);
     if (hasGround_) {
-        // The ground does not light itself: no part of it is above its own horizon.
+        // The ground does not light itself, because no part of the ground is above the ground's
+        // horizon.
         ground_ = sunlit + catcher.albedo.cwiseProduct(diffuse_({0, 0, 1}));
         light = pyramid();
         makeDiffuse(light);
@@ -118,7 +120,7 @@ FarLight::Pyramid FarLight::pyramid() const {
     while (out.back().edge() > kCoarsest + 1) {
         const DirectionTable& fine = out.back();
         DirectionTable coarse((fine.edge() - 1) / 2 + 1);
-        // A tent over 3x3 texels, mirrored at the border.
+        // Downsamples with a tent filter of 3x3 texels, mirrored at the border.
         const int last = fine.edge() - 1;
         const auto inside = [last](int i) { return i < 0 ? -i : (i > last ? 2 * last - i : i); };
         for (int row = 0; row < coarse.edge(); ++row)
@@ -160,9 +162,9 @@ void FarLight::makeDiffuse(const Pyramid& light) {
 
 void FarLight::makeMirrored(const Pyramid& light) {
     struct LobeSample {
-        Eigen::Vector3f direction;  // in a frame with z along the lobe's middle
+        Eigen::Vector3f direction;  // in a frame whose z is the lobe's axis
         float weight;
-        std::size_t level;  // whose texels are about as large as the sample's part of the lobe
+        std::size_t level;  // pyramid level whose texels have about the sample's solid angle
     };
     for (const MirrorLevel& level : kMirrorLevels) {
         const Ggx ggx(alphaOf(level.roughness));
@@ -204,7 +206,7 @@ Eigen::Vector3f FarLight::mirrored(const Eigen::Vector3f& direction, float rough
     const auto i = static_cast<std::size_t>(
         std::min<std::ptrdiff_t>(above - kMirrorLevels.begin(), kMirrorLevels.size() - 1));
     if (i == 0) {
-        // Interpolates by the lobes' widths.
+        // The share in the interpolation is proportional to the width of the lobe.
         const float share =
             alphaOf(std::max(roughness, 0.0F)) / alphaOf(kMirrorLevels.front().roughness);
         const Eigen::Vector3f sharp = radiance(direction, environment_.radiance(direction));

@@ -10,15 +10,15 @@
 
 namespace mfar {
 
-/// A function of the direction: a row-major table on the octahedral map (Cigolle et al. 2014) that
-/// repeats its border, interpolated.
+/// An interpolated function of a direction, stored as a row-major table on the octahedral map
+/// (Cigolle et al. 2014). Texels on the border of the table occur twice.
 class DirectionTable {
 public:
-    /// `edge` texels a side, at least 2.
+    /// `edge`: texels per side, at least 2.
     explicit DirectionTable(int edge);
 
     [[nodiscard]] int edge() const { return edge_; }
-    /// The direction at a texel, unit length.
+    /// Direction of a texel, of unit length.
     [[nodiscard]] Eigen::Vector3f direction(int column, int row) const;
     [[nodiscard]] Eigen::Vector3f& at(int column, int row) {
         return values_[static_cast<std::size_t>(row) * static_cast<std::size_t>(edge_) +
@@ -35,10 +35,11 @@ private:
     std::vector<Eigen::Vector3f> values_;
 };
 
-/// The light that would reach a point if there were no objects: the environment above the horizon
-/// and, if there is a real surface, a ground of its mean radiance below (world z is up). Does not
-/// include the sun. Integrals over it are precomputed in tables: they give a surface's light
-/// without a ray, and rays only measure how the objects change it.
+/// Light that would reach a point if there were no objects. Above the horizon it comes from the
+/// environment. Below the horizon it comes from a ground of uniform radiance if there is a real
+/// surface (world z is up). The sun's direct light is not included.
+/// Integrals over this light are precomputed in tables, so that a surface's light is known without
+/// tracing a ray. Rays are traced only to measure how the objects change the light.
 class FarLight {
 public:
     FarLight(const EnvironmentLight& environment, const Lighting& lighting,
@@ -47,21 +48,23 @@ public:
     [[nodiscard]] bool dark() const { return dark_; }
     /// Mean radiance over all directions and channels.
     [[nodiscard]] float brightness() const { return brightness_; }
-    /// Radiance from a direction, given the environment's radiance there.
+    /// Radiance from a direction. `environment` is the environment's radiance from there.
     [[nodiscard]] Eigen::Vector3f radiance(const Eigen::Vector3f& direction,
                                            const Eigen::Vector3f& environment) const {
         return hasGround_ && direction.z() < 0 ? ground_ : environment;
     }
-    /// Irradiance on a surface of this normal, divided by pi.
+    /// Irradiance on a surface with this normal, divided by pi.
     [[nodiscard]] Eigen::Vector3f diffuse(const Eigen::Vector3f& normal) const {
         return diffuse_(normal);
     }
-    /// Mean about `direction` over the lobe that a surface of this roughness reflects, seen along
-    /// its normal (Karis 2013). Off the normal the lobe is longer, so this is an approximation.
+    /// Mean radiance about `direction`, weighted with the lobe that a surface of this roughness
+    /// reflects when seen along its normal (Karis 2013). At other angles the true lobe is longer,
+    /// so the result is an approximation.
     [[nodiscard]] Eigen::Vector3f mirrored(const Eigen::Vector3f& direction, float roughness) const;
 
 private:
-    /// Light by direction, at decreasing resolution; the tables are computed from it.
+    /// Light by direction, at decreasing resolution. The other tables are computed from the
+    /// pyramid.
     using Pyramid = std::vector<DirectionTable>;
     [[nodiscard]] Pyramid pyramid() const;
     void makeDiffuse(const Pyramid& light);
@@ -72,7 +75,7 @@ private:
     float brightness_ = 0;
     Eigen::Vector3f ground_{0, 0, 0};
     DirectionTable diffuse_;
-    std::vector<DirectionTable> mirrored_;  // one for each of kMirrorLevels
+    std::vector<DirectionTable> mirrored_;  // one table for each of kMirrorLevels
 };
 
 }  // namespace mfar

@@ -10,8 +10,8 @@ namespace mfar {
 namespace {
 
 constexpr float kGreyLevels = 255;
-constexpr float kEnough = 16;  // samples after which "no change" is trusted
-// Assumed contrast of the unknown background to an object: half the range.
+constexpr float kEnough = 16;  // samples that suffice to conclude that the light is unchanged
+// Contrast [grey levels] assumed between an object and the unknown background: half the range.
 constexpr float kEdgeContrast = 0.5F * kGreyLevels;
 
 bool isLight(const Eigen::Vector3f& rgb) {
@@ -22,7 +22,8 @@ void keepNearest(FirstHit& kept, const FirstHit& hit) {
     if (kept.id == 0 || hit.depth < kept.depth) kept = hit;
 }
 
-/// Variance of the mean of n samples, from their sum and the sum of their squares.
+/// Variance of the mean of n samples, computed from the sum of the samples and the sum of their
+/// squares.
 double varianceOfMean(double sum, double squares, double n) {
     if (n < 2) return 0;
     return std::max(0.0, squares - sum * sum / n) / (n * (n - 1));
@@ -33,8 +34,8 @@ Number squared(Number value) {
     return value * value;
 }
 
-/// Standard deviation of the mean of `count` samples, from their mean and their mean squared
-/// luminance.
+/// Standard deviation of the mean of `count` samples, computed from the mean of the samples and the
+/// mean of their squared luminances.
 float deviationOf(const Eigen::Vector3f& mean, float square, float count) {
     if (count < 2) return 0;
     return std::sqrt(std::max(0.0F, square - squared(luminanceOf(mean))) / (count - 1));
@@ -61,12 +62,12 @@ namespace {
 
 const Eigen::Vector3f kNoFar{1, 1, 1};
 
-/// Weights of the light that falls on a paint: the share of it that leaves the surface.
+/// Weights of a sample's diffuse and specular light: the shares that the paint reflects.
 struct PaintWeights {
     double diffuse, specular;
 };
 PaintWeights weightsOf(const Paint& paint) {
-    constexpr double kLeast = 1e-3;  // for black
+    constexpr double kLeast = 1e-3;  // keeps the weights of black paint above 0
     return {kLeast + luminanceOf<float>(paint.diffuse),
             kLeast + luminanceOf<float>(paint.specular())};
 }
@@ -143,7 +144,7 @@ void Film::add(std::size_t pixel, const FilmSample& sample) {
     p.albedoOffset += sample.paint.albedo.offset;
 }
 
-// Whether all samples so far met the same surface.
+// Whether all samples so far hit the same surface.
 bool Film::isWhole(const Pixel& p) {
     const std::uint32_t n = p.taken - p.lost;
     if (p.seen.hit.id == 0) return n > 0 && (p.object.hits == n || p.catcher.hits == n);
@@ -224,7 +225,8 @@ float Film::error(std::size_t pixel, const Exposure& exposure) const {
     return static_cast<float>(std::sqrt(variance + edge / (n * std::sqrt(n))));
 }
 
-// An object's two parts of light come from the same paths, so their errors add up.
+// The diffuse and the specular light of an object come from the same paths, so their errors are
+// added.
 float Film::errorOfKnown(const Pixel& p, const Exposure& exposure) {
     if (p.seen.hit.id == kCatcherId) {
         const KnownLight known = knownOf(p.catcher, p.carried);
@@ -275,7 +277,7 @@ void Film::remember(std::size_t pixel, const LightPixel& light) {
     if (p.picture != picture_ || light.id == 0 || p.taken > 0 || p.carried.firstCount > 0) return;
     if (!(light.firstCount > 0 && light.secondCount > 0)) return;
     const Eigen::Vector3f first = light.first.matrix(), second = light.second.matrix();
-    // If the neighbourhood shows no change, the pixel has none.
+    // If the filter found no change in the neighbourhood, this pixel is treated as unchanged.
     const bool untouched = light.id == kCatcherId && first.isZero(0);
     p.carried = {first,
                  second,
@@ -287,9 +289,9 @@ void Film::remember(std::size_t pixel, const LightPixel& light) {
 }
 
 LightPixel Film::light(std::size_t pixel, const Exposure& exposure) const {
-    // With fewer samples the spread is unknown.
+    // With fewer samples the variance is reported as unknown.
     constexpr float kFew = 4;
-    // Noise of at most this many grey levels is invisible.
+    // Noise up to this limit [grey levels] is invisible.
     constexpr float kUnseen = 0.3F;
     const Pixel& p = at(pixel);
     LightPixel out;
@@ -312,7 +314,7 @@ LightPixel Film::light(std::size_t pixel, const Exposure& exposure) const {
     out.normal = p.seen.normal.array();
     out.depth = hit.depth;
     out.id = hit.id;
-    // Keeps pixels with little noise, among them real surfaces without change.
+    // The filter leaves pixels with little noise unchanged, for example unchanged real surfaces.
     out.kept = std::min(known.firstCount, known.secondCount) >= kEnough &&
                error(pixel, exposure) < kUnseen;
     return out;

@@ -1,4 +1,4 @@
-// The part of Film that makes pictures.
+// The part of Film that makes pictures from the samples.
 #include "pipeline/render/film.h"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ FirstHit Film::firstHit(const Pixel& p, bool changed) {
     if (!changed) return {};
     const bool objects = p.object.hits > 0;
     if (p.seen.hit.id != 0 && p.seen.hit.id != kCatcherId) return p.seen.hit;
-    // A catcher that the objects do not change shows nothing.
+    // A shadow catcher whose light the objects do not change is not shown.
     const bool catches = p.catcher.first.squares > 0 || p.carried.firstSquare > 0;
     if (p.seen.hit.id == kCatcherId && (catches || !objects)) return p.seen.hit;
     if (catches && !objects) return p.nearestCatcher;

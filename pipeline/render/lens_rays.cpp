@@ -6,8 +6,8 @@
 namespace mfar {
 namespace {
 
-constexpr int kCell = 4;     // [px]
-constexpr int kOutside = 1;  // [px]: the table's first node is this far before the first pixel
+constexpr int kCell = 4;     // distance of the table's nodes [px]
+constexpr int kOutside = 1;  // distance of the table's first node from the first pixel [px]
 constexpr int kLongestSide = 16384;
 
 int nodesFor(int pixels) {

@@ -8,18 +8,19 @@
 
 namespace mfar {
 
-/// CameraModel::unproject() from a table with a node every few pixels. Error inside the picture:
-/// below 0.05 px for lenses that do not fold there (0.01 px at 60 degrees).
+/// CameraModel::unproject() from a table with a node every few pixels. The error inside the picture
+/// is below 0.05 px if the lens model is one-to-one there (0.01 px at a field of view of 60
+/// degrees).
 class LensRays {
 public:
     explicit LensRays(const CameraModel& camera);
 
     [[nodiscard]] const CameraModel& camera() const { return camera_; }
-    /// Normalised ray (x/z, y/z) of a point of the picture [px], which may be up to a pixel
+    /// Normalised ray (x/z, y/z) of a point in the picture [px]. The point may be up to a pixel
     /// outside.
     [[nodiscard]] Eigen::Vector2f at(float x, float y) const;
-    /// The smallest rectangle of whole table cells that contains all pixels whose ray is in the
-    /// box.
+    /// The smallest rectangle of whole table cells that contains all pixels whose ray is in the box
+    /// from `least` to `most`.
     [[nodiscard]] PixelRect pixelsIn(const Eigen::Vector2f& least,
                                      const Eigen::Vector2f& most) const;
 
@@ -34,10 +35,10 @@ private:
     std::vector<Eigen::Vector2f> nodes_;
 };
 
-/// Whether two cameras give the same rays.
+/// Whether the two cameras have the same ray for every pixel.
 [[nodiscard]] bool sameLens(const CameraModel& a, const CameraModel& b);
-/// Whether the numbers are finite, the focal lengths above 0, and the size from 1 to 16384 pixels a
-/// side.
+/// Whether all numbers are finite, the focal lengths are above 0, and the size is 1 to 16384 pixels
+/// per side.
 [[nodiscard]] bool isSound(const CameraModel& camera);
 
 }  // namespace mfar

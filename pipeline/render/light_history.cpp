@@ -9,14 +9,15 @@
 namespace mfar {
 namespace {
 
-constexpr float kNearest = 1e-3F;  // [m]
-// A neighbouring pixel shows the point's surface if it lies in the point's plane, within this share
-// of its distance, and its normal is similar.
+constexpr float kNearest = 1e-3F;  // [m] nearer points are ignored
+// A neighbouring pixel shows the surface of the point if the pixel's own point is close to the
+// surface's tangent plane and its normal is similar. kOffPlane is the largest distance from the
+// plane, relative to depth. kSameBend is the least cosine between the normals.
 constexpr float kOffPlane = 0.01F, kSameBend = 0.9F;
-constexpr float kLeastWeight = 0.1F;  // lower limit of the weight of the neighbouring pixels that
-                                      // show the surface
-// Weight of a specular lobe of width alpha falls to 1/e when the eye has turned by this many alphas
-// about a point: the reflection turns by twice the eye's angle.
+constexpr float kLeastWeight = 0.1F;  // least sum of the interpolation weights of pixels that show
+                                      // the surface
+// The weight of a specular lobe of width alpha falls to 1/e when the eye has moved by the angle
+// kLobeTurn * alpha, seen from the surface point: the reflection turns by twice that angle.
 constexpr float kLobeTurn = 0.5F;
 
 void addShare(KnownLight& sum, float share, const KnownLight& light) {

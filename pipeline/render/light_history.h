@@ -10,18 +10,18 @@
 
 namespace mfar {
 
-/// Light that an earlier picture found on surfaces that another view sees, too. Calls may run at
-/// the same time; the film must not change meanwhile and must outlive this object.
+/// Finds light that an earlier picture measured on surfaces that are also visible in another view.
+/// Threads may call it at the same time. The film must not change meanwhile and must outlive this
+/// object.
 class LightHistory {
 public:
-    /// `mostSamples`: upper limit of the weight of a point's light, in samples. `lens`: of the
-    /// view.
+    /// `mostSamples` is the upper limit of a point's weight [samples]. `lens` belongs to `view`.
     LightHistory(const Film& film, const RenderView& view, std::shared_ptr<const LensRays> lens,
                  float mostSamples);
 
-    /// Light of the surface at `point` in the world, seen from `eye`: interpolated between the
-    /// pixels that show the same surface there. The weight of specular light falls as its lobe
-    /// turns. Empty if no pixel shows the surface.
+    /// Light of the surface at `point` (in the world) seen from `eye`, interpolated between the
+    /// pixels of the earlier picture that show the same surface. The weight of specular light falls
+    /// with the angle between the two directions of view. Empty if no pixel shows the surface.
     [[nodiscard]] KnownLight at(const SeenSurface& seen, const Eigen::Vector3f& point,
                                 const Eigen::Vector3f& eye) const;
 
@@ -32,7 +32,7 @@ private:
     const Film& film_;
     CameraModel camera_;
     std::shared_ptr<const LensRays> lens_;
-    Eigen::Matrix3f rotation_;  // camera to world
+    Eigen::Matrix3f rotation_;  // from camera to world
     Eigen::Vector3f eye_;
     float mostSamples_;
 };

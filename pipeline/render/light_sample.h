@@ -8,10 +8,11 @@ namespace mfar {
 struct LightSample {
     Eigen::Vector3f direction{0, 0, 1};  ///< in the world, unit length
     Eigen::Vector3f radiance{0, 0, 0};
-    float density = 0;  ///< [1/sr]; 0: there is no light
+    float density = 0;  ///< [1/sr]; 0: no light was found
 };
 
-/// A frame whose z is `normal`, of unit length; columns x, y, z (Duff et al. 2017).
+/// Rotation whose columns x, y, z are an orthonormal frame with z = `normal` (Duff et al. 2017).
+/// `normal` must have unit length.
 [[nodiscard]] inline Eigen::Matrix3f frameAround(const Eigen::Vector3f& normal) {
     const float sign = normal.z() < 0 ? -1.0F : 1.0F;
     const float a = -1 / (sign + normal.z()), b = normal.x() * normal.y() * a;

@@ -15,7 +15,8 @@ constexpr float kLeastAlpha = 1e-3F;
 constexpr int kAngles = 32, kRoughnesses = 32;
 constexpr std::uint32_t kAlbedoSamples = 256;
 
-/// Tables over roughness and sqrt(mu); the root puts more nodes where the albedo bends.
+/// Tables over roughness and sqrt(mu). The square root puts more nodes where the albedo changes
+/// fast.
 struct AlbedoTables {
     std::array<std::array<SpecularAlbedo, kAngles>, kRoughnesses> at;
     std::array<SpecularAlbedo, kRoughnesses> mean;
@@ -52,7 +53,7 @@ AlbedoTables::AlbedoTables() {
             const float root = static_cast<float>(a) / (kAngles - 1);
             const float mu = std::max(root * root, 1e-4F);
             at[r][a] = albedoBySampling(roughness, mu);
-            // Trapezoidal rule with 2 mu dmu = 4 root^3 droot.
+            // Trapezoidal rule over root = sqrt(mu): 2 mu dmu = 4 root^3 droot.
             const float weight = root * root * root * (a + 1 == kAngles ? 0.5F : 1.0F);
             sum.scale += weight * at[r][a].scale;
             sum.offset += weight * at[r][a].offset;
@@ -67,7 +68,7 @@ const AlbedoTables& albedoTables() {
     return tables;
 }
 
-/// Position in a table of a share in [0, 1].
+/// Position in a table of a value in [0, 1].
 struct Place {
     std::size_t index;
     float rest;
@@ -86,7 +87,8 @@ SpecularAlbedo between(const SpecularAlbedo& a, const SpecularAlbedo& b, float s
 }  // namespace
 
 float Ggx::density(const Eigen::Vector3f& h) const {
-    // A sum of squares: 1 - z^2 would cancel where a narrow lobe peaks.
+    // This sum of squares is used because 1 - z^2 would lose its digits at the peak of a narrow
+    // lobe.
     const float slope = (h.x() * h.x() + h.y() * h.y()) / alpha2_ + h.z() * h.z();
     return 1 / (kPi * alpha2_ * slope * slope);
 }

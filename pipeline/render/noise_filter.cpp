@@ -7,32 +7,33 @@
 namespace mfar {
 namespace {
 
-constexpr std::array<float, 2> kSpline = {0.5F, 0.25F};  // half of the B1 spline
-// Radius of the kernel in steps. Two, as in the paper, take twice the time and are no better
-// (measured at 1 to 64 samples).
+constexpr std::array<float, 2> kSpline = {0.5F, 0.25F};  // centre and one side of the B1 spline
+// Radius of the kernel [steps]. A radius of two, as in the paper, takes twice the time and is not
+// better (measured at 1 to 64 samples).
 constexpr int kReach = 1;
-// Neighbours from which an unknown variance is estimated: where one pixel in 16 is sampled, the
-// nearest samples are four pixels away. kSurely neighbours are enough.
+// An unknown variance is estimated from neighbours kSpreadStep pixels apart, up to kSpreadReach
+// steps away. If one pixel in 16 is sampled, the nearest samples are four pixels apart. kSurely
+// neighbours suffice for an estimate.
 constexpr int kSpreadReach = 2, kSpreadStep = 4;
 constexpr float kSurely = 4;
-// Differences above this many standard errors of both pixels are not noise.
+// Differences above this many standard errors of the two pixels are not noise.
 constexpr float kTolerance = 2.5F;
-constexpr float kLeastVariance = 1e-7F;  // a tenth of a grey level, for white
-// Upper limit of the relative change of depth per pixel on a surface not seen edge on.
+constexpr float kLeastVariance = 1e-7F;  // (a tenth of a grey level)^2 at white
+// Upper limit of the relative change of depth per pixel on a surface that is not seen edge-on.
 constexpr float kDepthSlope = 0.01F;
 
 float luminanceOf(const Eigen::Array3f& rgb) {
     return 0.2126F * rgb.x() + 0.7152F * rgb.y() + 0.0722F * rgb.z();
 }
 
-/// The eighth power of the cosine: a half at 24 degrees.
+/// Eighth power of the cosine between two normals: 1/2 at 24 degrees.
 float bendWeight(const Eigen::Array3f& a, const Eigen::Array3f& b) {
     const float cosine = std::max(0.0F, (a * b).sum());
     const float second = cosine * cosine, fourth = second * second;
     return fourth * fourth;
 }
 
-/// A weighted mean of one part of the light.
+/// A weighted mean of one of the two parts of the light.
 class LightMean {
 public:
     LightMean(const Eigen::Array3f& centre, float variance, float count)
@@ -66,7 +67,7 @@ private:
     float variances_ = 0, weights_ = 0;
 };
 
-/// Mean and spread of a luminance.
+/// Mean and variance of a luminance.
 struct Spread {
     float sum = 0, squares = 0, count = 0;
 
@@ -77,8 +78,9 @@ struct Spread {
         squares += y * y;
         ++count;
     }
-    /// Variance of a pixel's light among these values; it may be a rare sample. With few values the
-    /// variance is at least the square of their mean.
+    /// Variance of a pixel's light, estimated from these values. It includes the pixel's own
+    /// distance from the mean, because the pixel may hold a rare bright sample. With fewer than
+    /// kSurely values the variance is at least the square of their mean.
     [[nodiscard]] float varianceOf(const Eigen::Array3f& light) const {
         if (!(count > 0)) return 0;
         const float mean = sum / count, off = luminanceOf(light) - mean;
@@ -134,7 +136,7 @@ void NoiseFilter::forNeighbours(std::span<const LightPixel> pixels, int x, int y
     }
 }
 
-// An unknown variance is estimated from the differences of the neighbours.
+// Estimates an unknown variance from the differences between the neighbours.
 void NoiseFilter::spreadVariance(int x, int y) {
     const std::size_t i = static_cast<std::size_t>(y) * size_.width + x;
     const LightPixel& pixel = pixels_[i];
@@ -153,7 +155,7 @@ void NoiseFilter::spreadVariance(int x, int y) {
         variances_[i].second = found(second, pixel.second, pixel.secondCount);
 }
 
-// Takes the mean of the neighbours, because estimates from few samples vary strongly.
+// Averages the variance over the neighbours, because estimates from few samples vary strongly.
 void NoiseFilter::meanVariance(int x, int y) {
     LightPixel& pixel = pixels_[static_cast<std::size_t>(y) * size_.width + x];
     if (pixel.id == 0) return;

@@ -9,16 +9,16 @@
 
 namespace mfar {
 
-/// Lower limit of the paint by which specular light is divided: a metal's channel that reflects
-/// nothing does not show its light.
+/// Lower limit of the divisor when specular light is divided by its paint. A metal may have a
+/// channel that reflects nothing, from which the light on the metal cannot be computed.
 inline constexpr float kLeastPaint = 0.01F;
 
-/// The colours by which a surface's light is multiplied, as in glTF's metallic-roughness material;
-/// linear, shares in [0, 1].
+/// The colours with which a surface multiplies light, as in glTF's metallic-roughness material.
+/// Linear shares in [0, 1].
 struct Paint {
     Eigen::Vector3f diffuse{0, 0, 0};  ///< for diffuse light
-    Eigen::Vector3f facing{0, 0, 0};   ///< for specular light along the normal
-    SpecularAlbedo albedo{};           ///< towards the eye
+    Eigen::Vector3f facing{0, 0, 0};   ///< reflectance along the normal, for specular light
+    SpecularAlbedo albedo{};           ///< albedo towards the eye
 
     /// Paint for specular light.
     [[nodiscard]] Eigen::Vector3f specular() const {
@@ -34,7 +34,7 @@ struct Paint {
             albedo};
 }
 
-/// Light that a surface sends to the eye, without its paint.
+/// Light that a surface sends to the eye, divided by the surface's paint.
 struct SurfaceLight {
     Eigen::Vector3f diffuse{0, 0, 0};   ///< radiance of the surface if it were white
     Eigen::Vector3f specular{0, 0, 0};  ///< radiance if it reflected all light
@@ -44,12 +44,13 @@ struct SurfaceLight {
     }
 };
 
-/// Channel-wise product, for light stored as a multiple of other light.
+/// Channel-wise product. It is used for light that is stored as a multiple of other light.
 [[nodiscard]] inline SurfaceLight product(const SurfaceLight& a, const SurfaceLight& b) {
     return {a.diffuse.cwiseProduct(b.diffuse), a.specular.cwiseProduct(b.specular)};
 }
 
-/// Packs light for a surface whose paint is known only by its reflectance along the normal.
+/// Packs light for a surface. The receiver knows the paint only by its reflectance along the
+/// normal.
 [[nodiscard]] inline LightWords packed(const SurfaceLight& light, const Paint& paint,
                                        float exposure) {
     const float full = paint.albedo.full();
@@ -60,7 +61,8 @@ struct SurfaceLight {
                         full > 0 ? paint.albedo.offset / full : 0});
 }
 
-/// Splits `radiance` into diffuse and specular light; `white`: its diffuse part before the paint.
+/// Splits `radiance` into diffuse and specular light. `white` is the diffuse light before the
+/// paint.
 [[nodiscard]] inline SurfaceLight lightOf(const Eigen::Vector3f& radiance,
                                           const Eigen::Vector3f& white, const Paint& paint) {
     const Eigen::Vector3f rest = radiance - paint.diffuse.cwiseProduct(white);

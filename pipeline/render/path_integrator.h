@@ -10,31 +10,33 @@
 
 namespace mfar {
 
-/// Pairs of random numbers that a sample uses before its path: for the place in the pixel.
+/// Number of random pairs that a sample uses before its path begins: one, for the position in the
+/// pixel.
 inline constexpr std::uint32_t kCameraPairs = 1;
 
-/// Computes the light that a path brings back from the surface that it meets first.
+/// Computes the light that a path returns from the first surface that it hits.
 class PathIntegrator {
 public:
     /// Both arguments must outlive the integrator.
     PathIntegrator(const TracedScene& scene, const PathTracerOptions& options);
 
-    /// Radiance that an object's point sends against `direction` (of any length), the direction of
-    /// the ray that hit it; also the point's paint and the light on it.
+    /// Radiance that a point of an object sends towards the camera, the point's paint, and the
+    /// light on the point. `direction` is the direction of the ray that hit the point, of any
+    /// length.
     struct OfObject {
         Eigen::Vector3f radiance;
-        SurfaceLight light, far;  ///< `far`: see far()
+        SurfaceLight light, far;  ///< `far` is the result of far()
         Paint paint;
     };
     [[nodiscard]] OfObject ofObject(const RayHit& hit, const Eigen::Vector3f& direction,
                                     const PixelSampler& sampler) const;
 
-    /// Light on a point of an object if nothing blocked it, above 0.
+    /// Light that a point of an object would receive if nothing blocked it; always above 0.
     [[nodiscard]] SurfaceLight far(const SurfacePoint& point,
                                    const Eigen::Vector3f& direction) const;
 
-    /// Radiance of the catcher with and without the objects, from the same random numbers:
-    /// bit-identical if no object was met.
+    /// Radiance of the shadow catcher with and without the objects, computed from the same random
+    /// numbers. Both are bit-identical if the path did not hit an object.
     struct OfCatcher {
         Eigen::Vector3f with, without;
     };
@@ -45,7 +47,7 @@ private:
     struct World;
     struct Vertex;
     struct Carried;
-    /// Radiance that leaves the first point of a path, and its diffuse part before the point's
+    /// Radiance that leaves the first point of a path, and its diffuse part divided by the point's
     /// paint.
     struct Sent {
         Eigen::Vector3f radiance{0, 0, 0}, white{0, 0, 0};
@@ -56,43 +58,47 @@ private:
             return *this;
         }
     };
-    /// Light directly from the lights: as the objects let it through, and that of the known lights
-    /// as it would be without objects. A wide sun is not a known light.
+    /// Light that arrives directly from the lights. `light` is the light that no object blocks.
+    /// `unblocked` is the light of the known lights as it would be without objects. A wide sun is
+    /// not a known light.
     struct Arrived {
         Sent light, unblocked;
     };
-    /// Light that some lobes of the first surface send to the eye, in parts.
+    /// The parts of the light that some lobes of the first surface send to the eye.
     struct Parts {
-        Arrived direct;  ///< directly from the lights
-        Sent known;      ///< approximate mean of direct.unblocked, without a ray
-        Sent rest;       ///< via other surfaces
+        Arrived direct;  ///< light that comes directly from the lights
+        Sent known;      ///< mean of direct.unblocked, approximated without a ray
+        Sent rest;       ///< light that comes via other surfaces
     };
-    /// Light from `point` to `wo`, by these lobes.
+    /// Light that `point` sends towards `wo` through these lobes.
     [[nodiscard]] Parts walk(SurfacePoint point, Eigen::Vector3f wo, Lobes lobes,
                              const PixelSampler& sampler, World& world) const;
-    /// Total for sample `number` of a pixel.
+    /// Sums the parts for sample `number` of a pixel.
     [[nodiscard]] static Sent sum(const Parts& parts, std::uint32_t number);
     [[nodiscard]] Arrived direct(const Vertex& vertex, Lobes lobes, const PixelSampler& sampler,
                                  std::uint32_t pair, World& world) const;
-    /// Weight of one strategy's sample, from its density and the other strategy's.
+    /// Weight of a sample in multiple importance sampling. `taken` is the density of the strategy
+    /// that drew the sample, `other` that of the other strategy.
     using Weight = float (*)(float taken, float other);
-    /// `far`: FarLight's radiance in the sample's direction.
+    /// `far` is FarLight's radiance in the sample's direction.
     [[nodiscard]] static Arrived lit(const Vertex& vertex, Lobes lobes, const LightSample& light,
                                      const Eigen::Vector3f& far, Weight weight, World& world);
-    /// Light from a direction in which no surface is: the light itself, and FarLight's.
+    /// Light from a direction in which a ray hits no surface. `light` is the true light, and `far`
+    /// is FarLight's radiance.
     struct Escaped {
         Eigen::Vector3f light{0, 0, 0}, far{0, 0, 0};
     };
-    /// Light without objects, computed without a ray.
+    /// Direct light as it would be without objects, computed without a ray.
     [[nodiscard]] Sent known(const Vertex& vertex, const Eigen::Vector3f& wo, Lobes lobes,
                              bool withSun) const;
     [[nodiscard]] Sent knownSky(const Vertex& vertex, const Eigen::Vector3f& wo, Lobes lobes) const;
-    /// Computed for a narrow sun: the wider the sun, the larger the error.
+    /// Computed as for a narrow sun: the wider the sun, the larger the error.
     [[nodiscard]] Sent knownSun(const Vertex& vertex, const Eigen::Vector3f& wo, Lobes lobes) const;
     [[nodiscard]] Escaped escaped(const Eigen::Vector3f& direction, float density) const;
-    /// Factor that limits light from surface number `depth` of a path to the firefly clamp.
+    /// Factor (at most 1) that limits `light` to the firefly clamp. Light is limited if it comes
+    /// from the second surface of the path or later ones; `depth` is the number of the surface.
     [[nodiscard]] float kept(const Eigen::Vector3f& light, int depth) const;
-    /// That light as the path carries it, limited by kept().
+    /// `light` multiplied with the carried reflectances and limited by kept().
     [[nodiscard]] Sent sent(const Carried& carried, const Eigen::Vector3f& light, int depth) const;
 
     const TracedScene& scene_;
@@ -101,7 +107,7 @@ private:
     bool sunIsKnown_;
     EnvironmentLight environment_;
     FarLight far_;
-    float leastFar_;  // lower limit, because light is divided by it
+    float leastFar_;  // above 0, because light is divided by far light
 };
 
 }  // namespace mfar

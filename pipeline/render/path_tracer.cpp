@@ -17,9 +17,9 @@
 namespace mfar {
 namespace {
 
-constexpr std::size_t kBatch = 64;  // rays that go through Embree together
+constexpr std::size_t kBatch = 64;  // rays that Embree traces in one call
 
-/// A sample of a pixel, or the ray through its centre that precedes the samples.
+/// A sample of a pixel, or the ray through the pixel's centre that is traced before the samples.
 struct CameraSample {
     std::uint32_t pixel = 0, number = 0;
     bool centre = false;
@@ -52,7 +52,7 @@ struct PathTracer::Parts {
     Parts(std::shared_ptr<const Scene> sound, const PathTracerOptions& o)
         : options(o), scene(std::move(sound), o.buildThreads), integrator(scene, options) {}
 
-    /// The lens's table, kept until the camera changes.
+    /// Ray table of the lens. It is kept until the camera changes.
     [[nodiscard]] std::shared_ptr<const LensRays> lensOf(const CameraModel& camera) const {
         const std::scoped_lock lock(lensMutex);
         if (!lens || !sameLens(lens->camera(), camera))
@@ -97,7 +97,8 @@ private:
                 parts_.options.independentSamples};
     }
 
-    /// The direction has z = 1 in the camera's frame, so that distances along it are depths.
+    /// The direction has z = 1 in the camera's frame, so that a distance along the ray equals the
+    /// depth.
     [[nodiscard]] Ray rayOf(const CameraSample& sample) const {
         Eigen::Vector2f at{sample.pixel % width_, sample.pixel / width_};
         if (!sample.centre) at += filtered(parts_.options.filter, samplerOf(sample).pair(0));
@@ -131,7 +132,7 @@ private:
         film_.add(sample.pixel, out);
     }
 
-    /// Through a pixel's centre.
+    /// Stores what the ray through a pixel's centre hit.
     void look(std::uint32_t pixel, const Ray& ray, const RayHit& object, const RayHit& real) {
         const TracedScene& scene = parts_.scene;
         SeenSurface seen;

@@ -32,7 +32,8 @@ void PictureResolver::begin(const Film& film, const RenderView& view, const Pixe
     rowsOut_ = 0;
 }
 
-// Pixels outside the traced part are written as well, because the memory holds another picture.
+// The last stage also writes the pixels outside the traced part, because the memory still holds an
+// earlier picture.
 int PictureResolver::rowsBegin() const {
     return stage_ == kLastStage ? 0 : traced_.y0;
 }
@@ -116,8 +117,8 @@ Film::Resolved PictureResolver::filtered(int x, int y) {
     return film_->resolvedFrom(light, i, exposure_);
 }
 
-// Mean of the real surface's pixels of even column and row around; empty if none of them was looked
-// at.
+// Mean of the real surface's pixels with even column and even row next to (x, y). Empty if none of
+// them was traced.
 LightPixel PictureResolver::between(int x, int y) const {
     LightPixel out;
     float count = 0, perDepth = 0;

@@ -11,17 +11,19 @@
 
 namespace mfar {
 
-/// Makes the picture of a film in portions of rows, so that it fits into the time left in a frame;
-/// optionally smooths the noise. Portions of one stage may run at the same time; the next stage
-/// begins when all of them are done. One caller at a time, except for run().
+/// Converts a film to a picture in portions of rows, so that a portion fits into the time left in a
+/// frame. Optionally smooths the noise.
+/// Threads may run portions of the same stage at the same time. The next stage begins when all
+/// portions of the stage are done. All functions except run() are for one thread at a time.
 class PictureResolver {
 public:
     static constexpr int kStages = NoiseFilter::kStages + 2;
 
-    /// Pixels outside `traced` are empty. Film and picture must outlive the work; the picture keeps
-    /// its memory. `memory` is null or the film: pixels without samples or carried light then carry
-    /// the filter's result, and pixels of the real surface that were not looked at take the mean of
-    /// those of even column and row around them.
+    /// Begins a picture. Pixels outside `traced` become empty. Film and picture must outlive the
+    /// work; the picture keeps its allocated memory.
+    /// `memory` is null or the film. If it is the film, two kinds of pixels are stored in it.
+    /// Pixels without sampled or carried light store the filter's result. Pixels of the real
+    /// surface that were not traced store the mean of the neighbours with even column and even row.
     void begin(const Film& film, const RenderView& view, const PixelRect& traced,
                const Exposure& exposure, bool filter, RenderedPicture& out, Film* memory = nullptr);
 
@@ -29,9 +31,10 @@ public:
         int stage = 0, firstRow = 0, lastRow = 0;
         [[nodiscard]] bool empty() const { return firstRow >= lastRow; }
     };
-    /// Rows with about `pixels` pixels, at least one row. Empty: wait for outstanding portions.
+    /// A portion of about `pixels` pixels, but at least one row. Empty if the caller must wait for
+    /// outstanding portions.
     [[nodiscard]] Portion next(std::int64_t pixels);
-    /// Stage of the portion that next() returns, below kStages.
+    /// Stage of the portion that next() returns, less than kStages.
     [[nodiscard]] int stage() const { return std::min(stage_, kLastStage); }
     [[nodiscard]] bool hasNext() const { return nextRow_ < rowsEnd(); }
     void run(const Portion& portion);
@@ -57,7 +60,7 @@ private:
     RenderedPicture* out_ = nullptr;
     NoiseFilter filter_;
     int stage_ = kLastStage + 1, nextRow_ = 0, rowsOut_ = 0;
-    std::vector<double> taken_, seen_;  // per row: samples, and pixels that show something
+    std::vector<double> taken_, seen_;  // for each row: samples, and pixels with a surface
 };
 
 /// Resolves the whole picture at once.

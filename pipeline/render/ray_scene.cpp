@@ -14,7 +14,7 @@
 namespace mfar {
 namespace {
 
-// Functions whose signatures differ between Embree 3 and 4.
+// These functions have different signatures in Embree 3 and 4.
 #if MFAR_EMBREE_MAJOR >= 4
 void intersectOne(RTCScene scene, RTCRayHit& query) {
     rtcIntersect1(scene, &query);
@@ -60,8 +60,9 @@ void occludedOne(RTCScene scene, RTCRay& query) {
 }
 #endif
 
-// Tolerance of a corner's weight: rounding over the size of a triangle whose width is a thousandth
-// of its distance.
+// A hit counts as on an edge if one of its barycentric weights is below this limit. The limit is
+// the rounding error relative to the size of a triangle whose width is a thousandth of its
+// distance.
 constexpr float kEdge = 4e-3F;
 
 RTCRay embreeRay(const Ray& ray) {
@@ -103,8 +104,9 @@ RayHit laneHit(const Packet& query, std::size_t i) {
             query.hit.v[i]};
 }
 
-/// On an edge the next triangle may be hit at the same distance, and the first one tested wins: a
-/// packet and a single ray may test in different order.
+/// Whether the hit is on a triangle's edge. There the adjacent triangle may be hit at the same
+/// distance, and the triangle that is tested first wins. A packet and a single ray may test the
+/// triangles in different order.
 bool onEdge(const RayHit& hit) {
     return hit.found() && !(std::min({hit.u, hit.v, 1 - hit.u - hit.v}) > kEdge);
 }
@@ -125,7 +127,7 @@ void intersectInPackets(RTCScene scene, std::span<const Ray> rays, std::span<Ray
     }
 }
 
-/// The widest packet that the processor handles as a whole.
+/// Number of rays in the widest packet that the processor handles as a whole.
 std::size_t packetWidthOf(RTCDevice device) {
     if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0) return 16;
     return rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) != 0 ? 8 : 4;
@@ -175,7 +177,7 @@ std::uint32_t RayScene::add(std::span<const Eigen::Vector3f> positions,
                             std::span<const std::array<std::uint32_t, 3>> triangles,
                             const HoleTest& holes) {
     RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    // Embree's own buffers, because it reads past the end of the last vertex.
+    // Embree allocates the vertices, because Embree reads past the end of the last vertex.
     auto* vertices = static_cast<float*>(
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                 3 * sizeof(float), positions.size()));

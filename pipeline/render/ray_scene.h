@@ -15,7 +15,7 @@ struct RTCSceneTy;
 
 namespace mfar {
 
-/// Points origin + t direction, least <= t <= most. The direction need not be of unit length.
+/// The points origin + t * direction with least <= t <= most. The direction may have any length.
 struct Ray {
     Eigen::Vector3f origin, direction;
     float least = 0, most = std::numeric_limits<float>::infinity();
@@ -25,40 +25,41 @@ struct RayHit {
     static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
     float t = std::numeric_limits<float>::infinity();
-    std::uint32_t mesh = kNone, triangle = 0;  ///< numbered in the order of addition
+    std::uint32_t mesh = kNone, triangle = 0;  ///< numbers in the order in which they were added
     float u = 0, v = 0;  ///< weights of the triangle's second and third corners
 
     [[nodiscard]] bool found() const { return mesh != kNone; }
 };
 
-/// Decides whether a point of a triangle is a hole. May be called by any thread.
+/// Decides whether a point of a triangle is a hole. Any thread may call it.
 struct HoleTest {
     bool (*isHole)(const void* context, std::uint32_t triangle, float u, float v) = nullptr;
     const void* context = nullptr;  ///< must outlive the scene
 };
 
-/// Triangle meshes in one frame, searched along rays by Embree. After commit(), const calls may
-/// run at the same time.
+/// Triangle meshes in a common frame; Embree searches them along rays. After commit(), threads may
+/// call const functions at the same time.
 class RayScene {
 public:
-    /// Throws std::runtime_error if Embree is unavailable; `buildThreads` >= 1.
+    /// Throws std::runtime_error if Embree is unavailable. `buildThreads` must be at least 1.
     explicit RayScene(int buildThreads = 1);
 
-    /// Copies the mesh; returns its number. Numbers must be finite, indices in range.
+    /// Copies the mesh and returns the mesh's number. Coordinates must be finite and indices in
+    /// range.
     std::uint32_t add(std::span<const Eigen::Vector3f> positions,
                       std::span<const std::array<std::uint32_t, 3>> triangles,
                       const HoleTest& holes = {});
-    /// Builds the search structure over all meshes; throws std::runtime_error if that fails.
+    /// Builds the search structure over all meshes. Throws std::runtime_error if this fails.
     void commit();
 
     [[nodiscard]] bool empty() const { return meshes_ == 0; }
-    /// Around all triangles; empty if the scene is.
+    /// Bounding box of all triangles; empty if the scene is empty.
     [[nodiscard]] const Eigen::AlignedBox3f& box() const { return box_; }
 
     [[nodiscard]] RayHit first(const Ray& ray) const;
     [[nodiscard]] bool blocked(const Ray& ray) const;
-    /// Bit-identical to first() for each ray; fast for neighbouring rays. `hits` is as long as
-    /// `rays`.
+    /// Gives results that are bit-identical to first() for each ray. It is fast for coherent
+    /// (similar) rays. `hits` must be as long as `rays`.
     void firstOfEach(std::span<const Ray> rays, std::span<RayHit> hits) const;
 
 private:

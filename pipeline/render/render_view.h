@@ -4,9 +4,9 @@
 
 namespace mfar {
 
-/// The view from which a picture of the scene is taken.
+/// The camera and its pose for one picture of the scene.
 struct RenderView {
-    CameraModel camera;  ///< with its lens; size at least 1x1
+    CameraModel camera;  ///< includes the lens; size at least 1x1
     RigidTransform T_world_camera;
 };
 

@@ -11,23 +11,25 @@
 
 namespace mfar {
 
-/// id of a pixel that shows a real surface on which virtual objects change the light.
+/// id of a pixel that shows a real surface whose light is changed by virtual objects.
 inline constexpr std::uint8_t kCatcherId = 255;
 
-/// A finished picture of the virtual layer. Row-major, camera.size pixels in each array.
+/// A finished picture of the virtual layer. Each array is row-major and has camera.size pixels.
 struct RenderedPicture {
-    CameraModel camera;  ///< of the video sensor, at the picture's resolution, with its lens
+    CameraModel camera;  ///< of the video sensor with its lens, scaled to this picture's size
     RigidTransform T_world_camera;
-    /// Display values (sRGB), premultiplied by coverage. A shadow is black of that coverage.
+    /// Display values (sRGB), premultiplied by coverage. The last byte is the coverage. A shadow is
+    /// black.
     std::vector<std::array<std::uint8_t, 4>> colour;
-    /// z [m] along the camera's axis of the first surface through the pixel's centre, or of the
-    /// nearest surface that a sample hit if the centre's ray hits none; 0: nothing.
+    /// z [m] along the camera's optical axis of the first surface on the ray through the pixel's
+    /// centre. If that ray hits nothing, z of the nearest surface that a sample hit; 0: no surface.
     std::vector<float> depth;
-    std::vector<std::uint8_t> id;  ///< owner of `depth`: SceneObject's number, 0: nothing
-    /// Light on an object's pixels, without their paint; empty if the renderer does not provide it.
+    std::vector<std::uint8_t> id;  ///< surface at `depth`: SceneObject's number, kCatcherId, or 0
+    /// Light on the object in each pixel, without the object's paint. Empty if the renderer does
+    /// not provide it.
     std::vector<LightWords> light;
-    std::shared_ptr<const Scene> scene;  ///< the scene that it shows, if the renderer provides it
-    double samples = 0;                  ///< mean over the pixels with an id
+    std::shared_ptr<const Scene> scene;  ///< the scene in this picture; may be null
+    double samples = 0;                  ///< samples per pixel, averaged over the pixels with an id
 };
 
 }  // namespace mfar

@@ -4,8 +4,8 @@
 
 namespace mfar {
 
-/// Throws std::invalid_argument that names the first violation of the scene's documented limits:
-/// null models, numbers that are not finite, indices out of range.
+/// Checks the scene's documented limits: null models, numbers that are not finite, indices out of
+/// range. Throws std::invalid_argument that names the first violation.
 void validate(const Scene& scene);
 
 }  // namespace mfar

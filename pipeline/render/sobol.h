@@ -8,7 +8,7 @@
 
 namespace mfar {
 
-/// Integer hash of full avalanche (Wellons, "lowbias32").
+/// Integer hash in which each input bit affects all output bits (Wellons, "lowbias32").
 [[nodiscard]] constexpr std::uint32_t mixedBits(std::uint32_t x) {
     x ^= x >> 16;
     x *= 0x7FEB352DU;
@@ -25,9 +25,8 @@ namespace mfar {
     return ((x & 0xAAAAAAAAU) >> 1) | ((x & 0x55555555U) << 1);
 }
 
-/// Nested uniform (Owen) scrambling of a number whose bits are reversed: each bit is flipped by a
-/// hash of the bits below it and of the seed (Laine and Karras 2011, Burley 2020; multipliers by
-/// Vegdahl).
+/// Nested uniform (Owen) scrambling of a number with reversed bits. Each bit is flipped by a hash
+/// of the seed and the bits below it (Laine and Karras 2011, Burley 2020; multipliers by Vegdahl).
 [[nodiscard]] constexpr std::uint32_t scrambledReversed(std::uint32_t x, std::uint32_t seed) {
     x ^= x * 0x3D20ADEAU;
     x += seed;
@@ -36,14 +35,15 @@ namespace mfar {
     return x ^ (x * 0x53A22864U);
 }
 
-/// Index of sample `index` after an Owen scramble of the indices: aligned blocks of 2^k indices
-/// stay blocks.
+/// Position of sample `index` after an Owen scramble of the indices. Aligned blocks of 2^k indices
+/// stay together.
 [[nodiscard]] constexpr std::uint32_t shuffledIndex(std::uint32_t index, std::uint32_t seed) {
     return reversedBits(scrambledReversed(reversedBits(index), seed));
 }
 
-/// Coordinates of the first two Sobol dimensions in 32 bits, bits reversed. The matrix of the
-/// second is Pascal's triangle modulo 2, in five steps (Ahmed 2024).
+/// Coordinates of a point of the first two Sobol dimensions: 32 bits each, in reversed order. The
+/// generator matrix of the second dimension is Pascal's triangle modulo 2, applied in five steps
+/// (Ahmed 2024).
 [[nodiscard]] constexpr std::array<std::uint32_t, 2> sobolReversed(std::uint32_t index) {
     std::uint32_t y = index;
     y ^= (y & 0xAAAAAAAAU) >> 1;
@@ -54,17 +54,18 @@ namespace mfar {
     return {index, y};
 }
 
-/// The random numbers of one sample of a pixel: pairs of a (0, 2)-sequence in base 2,
-/// Owen-scrambled and shuffled separately for each pair (padding, Kollig and Keller 2002; Burley
-/// 2020, section 5). They depend only on seed, pixel, sample and place on the path.
+/// The random numbers of one sample of a pixel. They are pairs of a (0, 2)-sequence in base 2. Each
+/// pair is Owen-scrambled and shuffled separately (padding, Kollig and Keller 2002; Burley 2020,
+/// section 5). The numbers depend only on the seed, the pixel, the sample and the number of the
+/// pair.
 class PixelSampler {
 public:
-    /// `independent`: independent uniform numbers instead.
+    /// If `independent` is true, the pairs are independent uniform numbers instead.
     PixelSampler(std::uint32_t seed, std::uint32_t pixel, std::uint32_t sample, bool independent)
         : seed_(mixedBits(pixel ^ mixedBits(seed + 0x9E3779B9U))), sample_(sample),
           independent_(independent) {}
 
-    /// The sample's number in its pixel, from 0.
+    /// Number of the sample in its pixel, from 0.
     [[nodiscard]] std::uint32_t number() const { return sample_; }
     /// Pair number `dimension`, in [0, 1)^2.
     [[nodiscard]] Eigen::Vector2f pair(std::uint32_t dimension) const {
@@ -80,7 +81,7 @@ public:
     }
 
 private:
-    /// At most the greatest float below 1.
+    /// The result is always less than 1: 24 bits fit a float exactly.
     static float unit(std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24F; }
 
     std::uint32_t seed_, sample_;

@@ -15,11 +15,11 @@ SunLight::SunLight(const std::optional<Sun>& sun) {
     irradiance_ = sun->irradiance;
     radiance_ = sun->irradiance / (kPi * sine * sine);
     chord2_ = 4 * half * half;
-    density_ = 1 / (kPi * chord2_);  // 1 / solid angle of a cap with that chord
+    density_ = 1 / (kPi * chord2_);  // 1 / solid angle of a spherical cap
 }
 
 LightSample SunLight::sample(const Eigen::Vector2f& u) const {
-    // Area-preserving projection of a disc onto the cap (Lambert's azimuthal).
+    // Lambert's azimuthal projection maps a disc onto the spherical cap and preserves area.
     const Eigen::Vector2f p = discPoint(u);
     const float d2 = chord2_ * p.squaredNorm();
     const Eigen::Vector2f side = p * std::sqrt(chord2_ * (1 - d2 / 4));

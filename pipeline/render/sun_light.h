@@ -11,17 +11,18 @@ namespace mfar {
 /// The sun as a disc of constant radiance, sampled uniformly in solid angle.
 class SunLight {
 public:
-    /// Dark if there is no sun.
+    /// The light is dark if `sun` is empty.
     explicit SunLight(const std::optional<Sun>& sun);
 
     [[nodiscard]] bool dark() const { return density_ == 0; }
     [[nodiscard]] Eigen::Vector3f towards() const { return frame_.col(2); }
-    /// On a surface that faces the sun.
+    /// Irradiance on a surface that faces the sun.
     [[nodiscard]] const Eigen::Vector3f& irradiance() const { return irradiance_; }
-    /// [rad]
+    /// Angular radius of the disc [rad].
     [[nodiscard]] float angularRadius() const { return std::sqrt(chord2_); }
     [[nodiscard]] LightSample sample(const Eigen::Vector2f& u) const;
-    /// Both 0 outside the disc. `direction` of unit length.
+    /// Radiance and probability density of sampling in `direction`, of unit length. Both are 0
+    /// outside the disc.
     [[nodiscard]] Eigen::Vector3f radiance(const Eigen::Vector3f& direction) const;
     [[nodiscard]] float density(const Eigen::Vector3f& direction) const;
 
@@ -30,7 +31,7 @@ private:
 
     Eigen::Matrix3f frame_ = Eigen::Matrix3f::Identity();
     Eigen::Vector3f irradiance_{0, 0, 0}, radiance_{0, 0, 0};
-    float chord2_ = 0;  // squared distance on the unit sphere from its centre to its rim
+    float chord2_ = 0;  // squared distance on the unit sphere from the disc's centre to its rim
     float density_ = 0;
 };
 

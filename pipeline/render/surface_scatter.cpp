@@ -10,7 +10,7 @@ namespace mfar {
 namespace {
 
 constexpr float kInversePi = std::numbers::inv_pi_v<float>;
-constexpr float kMostSpecular = 0.98F;  // upper limit of the share of the samples
+constexpr float kMostSpecular = 0.98F;  // upper limit of the share of samples for the mirrored lobe
 constexpr float kLeastPassed = 1e-4F;   // lower limit of a divisor
 constexpr float kLeastCosine = 1e-5F;
 
@@ -19,7 +19,8 @@ float fifthPower(float x) {
     return x2 * x2 * x;
 }
 
-/// Share of the light that hits the facets again and finally leaves them (Kulla and Conty 2017).
+/// Share of the light that hits the microfacets more than once and finally leaves the surface
+/// (Kulla and Conty 2017).
 float manyfoldShare(float f0, const SpecularAlbedo& mean) {
     const float fresnel = f0 + (1 - f0) / 21;  // mean of Schlick's Fresnel term
     return fresnel * fresnel * mean.full() / (1 - fresnel * std::max(1 - mean.full(), 0.0F));
@@ -54,8 +55,8 @@ SurfaceScatter::SurfaceScatter(const SurfaceLook& look, const Eigen::Vector3f& w
     const float specular = reflectance_.mirrored.mean();
     const float wide = manyfold.mean() * passedOut_.manyfold +
                        (1 - metallic) * look.baseColour.mean() * passedOut_.diffuse;
-    // A lobe hardly higher than the broad ones around it needs no samples of its own: they would be
-    // few, and few samples are not well distributed.
+    // A mirrored lobe that is hardly higher than the broad ones gets no samples of its own. It
+    // would get only few, and a few samples are not evenly distributed.
     const float height = fresnel(wo_.z()).mean() / (4 * alphaOf(roughness_) * alphaOf(roughness_));
     specularShare_ =
         std::min(specular / (specular + wide) * std::min(1.0F, height / wide), kMostSpecular);

@@ -8,13 +8,14 @@
 namespace mfar {
 namespace {
 
-// Share of the largest coordinate: about 30 units in the last place.
+// Distance of a ray's start from the surface, relative to the largest coordinate: about 30 units in
+// the last place.
 constexpr float kStartOffset = 0x1p-18F;
-constexpr float kLeastOffset = 1e-7F;  // [m]
-constexpr float kStepOver = 1e-6F;     // share of the distance
-constexpr int kMostBackFaces = 64;     // per camera ray
-// Lower limit of the cosine: interpolated and mapped normals that point away from the viewer are
-// turned until they face it.
+constexpr float kLeastOffset = 1e-7F;  // [m] lower limit of this distance
+constexpr float kStepOver = 1e-6F;     // step behind a hit, relative to the hit's distance
+constexpr int kMostBackFaces = 64;     // back faces that one camera ray may pass
+// Lower limit of the cosine between shading normal and viewing direction. Interpolated and mapped
+// normals that point away from the viewer are turned up to this limit.
 constexpr float kLeastShown = 1e-3F;
 
 template <typename T>
@@ -24,7 +25,7 @@ T interpolated(const std::vector<T>& values, const std::array<std::uint32_t, 3>&
            values[corners[2]] * hit.v;
 }
 
-/// Normal whose length is twice the triangle's area.
+/// Normal of a triangle; its length is twice the triangle's area.
 Eigen::Vector3f crossed(const std::vector<Eigen::Vector3f>& positions,
                         const std::array<std::uint32_t, 3>& corners) {
     const Eigen::Vector3f& a = positions[corners[0]];
@@ -126,7 +127,7 @@ void TracedScene::setLook(const TracedMesh& mesh, const RayHit& hit, SurfacePoin
     }
     if (const SurfaceTexture* t = mesh.texture(m.emissionTexture))
         point.emission = point.emission.cwiseProduct(lookUp(*t, uv).head<3>());
-    // A surface reflects at most all light, whatever a vertex colour or factor says.
+    // Colours above 1 are clamped, because no surface reflects more light than it receives.
     point.look.baseColour = point.look.baseColour.cwiseMin(1.0F);
 }
 
@@ -143,7 +144,7 @@ Eigen::Vector3f TracedScene::mapped(const TracedMesh& mesh, const RayHit& hit,
         tangent = mesh.R_world_object * t.head<3>();
         sign = t.w() < 0 ? -1.0F : 1.0F;
     } else {
-        // The direction in which u grows on the triangle.
+        // The tangent is the direction in which u grows on the triangle.
         const Eigen::Vector2f a = mesh.mesh->uvs[corners[0]];
         const Eigen::Vector2f b = mesh.mesh->uvs[corners[1]] - a,
                               c = mesh.mesh->uvs[corners[2]] - a;
@@ -152,7 +153,7 @@ Eigen::Vector3f TracedScene::mapped(const TracedMesh& mesh, const RayHit& hit,
         tangent =
             (mesh.positions[corners[1]] - p) * c.y() - (mesh.positions[corners[2]] - p) * b.y();
         if (area < 0) tangent = -tangent;
-        // Green means up in the texture, the direction in which v falls.
+        // A larger green value means up in the texture. In this direction v decreases.
         sign = area < 0 ? 1.0F : -1.0F;
     }
     tangent = unitOr(tangent - normal * normal.dot(tangent), Eigen::Vector3f::Zero());

@@ -10,7 +10,7 @@
 
 namespace mfar {
 
-/// A point of a surface seen from one side. Normals are of unit length and point to the viewer's
+/// A point of a surface seen from one side. Normals have unit length and point to the viewer's
 /// side.
 struct SurfacePoint {
     Eigen::Vector3f position{0, 0, 0};  ///< in the world
@@ -19,16 +19,17 @@ struct SurfacePoint {
     SurfaceLook look;
     Eigen::Vector3f emission{0, 0, 0};
 
-    /// Paint seen along `direction`, of any length.
+    /// Paint for a view along `direction`, which may have any length.
     [[nodiscard]] Paint paint(const Eigen::Vector3f& direction) const;
-    /// Ray from the point towards `direction`; starts off the surface by more than rounding errors.
+    /// Ray from the point in `direction`. It starts off the surface, so that rounding errors cannot
+    /// cause a hit of the same surface.
     [[nodiscard]] Ray leaving(const Eigen::Vector3f& direction) const;
 };
 
-/// A valid scene in world coordinates, ready to be searched. Keeps the models alive.
+/// A valid scene in world coordinates with a search structure. It keeps the models alive.
 class TracedScene {
 public:
-    /// Throws std::runtime_error if the search structure cannot be made.
+    /// Throws std::runtime_error if the search structure cannot be built.
     TracedScene(std::shared_ptr<const Scene> scene, int buildThreads);
     TracedScene(const TracedScene&) = delete;
     TracedScene& operator=(const TracedScene&) = delete;
@@ -37,12 +38,12 @@ public:
     [[nodiscard]] const RayScene& objects() const { return objects_; }
     [[nodiscard]] const RayScene& catcher() const { return catcher_; }
 
-    /// The first hit of an object that is visible from the ray's side: single-sided surfaces are
-    /// invisible from behind. `hit` is the first hit of all.
+    /// The first hit on a surface that is visible from this side: single-sided surfaces are
+    /// invisible from behind. `hit` is the first hit on any surface.
     [[nodiscard]] RayHit shown(const Ray& ray, RayHit hit) const;
     [[nodiscard]] std::uint8_t idOf(const RayHit& hit) const { return meshes_[hit.mesh]->id; }
 
-    /// `direction` is the ray's, of any length.
+    /// `direction` is the direction of the ray, of any length.
     [[nodiscard]] SurfacePoint objectPoint(const RayHit& hit,
                                            const Eigen::Vector3f& direction) const;
     [[nodiscard]] SurfacePoint catcherPoint(const RayHit& hit,
@@ -76,8 +77,8 @@ private:
                                   const Eigen::Vector3f& normal);
 
     std::shared_ptr<const Scene> scene_;
-    std::vector<std::unique_ptr<const TracedMesh>> meshes_;  // at fixed addresses: hole tests point
-                                                             // to them
+    std::vector<std::unique_ptr<const TracedMesh>> meshes_;  // addresses stay fixed, because hole
+                                                             // tests hold pointers
     RayScene objects_, catcher_;
 };
 

@@ -6,7 +6,7 @@
 namespace mfar {
 namespace {
 
-constexpr double kNearest = 1e-4;  // [m], near plane at which a box is cut
+constexpr double kNearest = 1e-4;  // [m] distance of the near plane at which a box is cut
 
 struct RayRange {
     Eigen::Vector2f least = Eigen::Vector2f::Constant(std::numeric_limits<float>::infinity());

@@ -7,8 +7,8 @@
 
 namespace mfar {
 
-/// Rectangle around the pixels that see a point of a world box; may be larger. Points behind the
-/// camera are not seen. `rays` are those of the view.
+/// Rectangle around the pixels that see a point of a box in the world. It may be larger than
+/// necessary. Points behind the camera are not visible. `rays` must belong to `view`.
 [[nodiscard]] PixelRect pixelsOfBox(const Eigen::AlignedBox3f& box, const RenderView& view,
                                     const LensRays& rays);
 

@@ -12,73 +12,76 @@
 
 namespace mfar {
 
-/// A picture mapped onto a surface. Row 0 is v = 0, texel centres at half-integers; it repeats in u
-/// and v. Values as in glTF: colours are sRGB, data linear.
+/// A picture that is mapped onto a surface and repeats in u and v. Row 0 is at v = 0, and texel
+/// centres are at half-integers. Values are as in glTF: colours are sRGB, other data is linear.
 struct SurfaceTexture {
     Size size;  ///< at least 1x1
     bool srgb = true;
     std::vector<std::array<std::uint8_t, 4>> texels;  ///< RGBA, row-major
 };
 
-/// Metallic-roughness material of glTF 2.0. Factors are linear. A texture index refers to
-/// Model::textures, whose values multiply the factor; -1: no texture.
+/// Metallic-roughness material of glTF 2.0 with linear factors. A texture index refers to
+/// Model::textures; the texture's values are multiplied with the factor. -1: no texture.
 struct Material {
     Eigen::Vector4f baseColour{1, 1, 1, 1};
     float metallic = 1, roughness = 1;  ///< [0, 1]
-    Eigen::Vector3f emission{0, 0, 0};  ///< radiance, finite, not negative
+    Eigen::Vector3f emission{0, 0, 0};  ///< radiance; finite and not negative
     float normalScale = 1;
-    /// The surface has a hole where the base colour's alpha is below this limit; 0: opaque.
+    /// The surface has holes where the base colour's alpha is below this limit. 0: the surface is
+    /// opaque.
     float alphaCutoff = 0;
     bool doubleSided = false;
-    int baseColourTexture = -1, metallicRoughnessTexture = -1;  ///< the latter: G rough, B metallic
+    int baseColourTexture = -1, metallicRoughnessTexture = -1;  ///< roughness in G, metallic in B
     int normalTexture = -1, emissionTexture = -1;
 };
 
-/// Triangles of one material. All vertex arrays have the same length or are empty (absent).
+/// Triangles with the same material. All vertex arrays have the same length, or are empty if the
+/// attribute is absent.
 struct Mesh {
     std::vector<Eigen::Vector3f> positions;  ///< [m], in the model's frame
-    std::vector<Eigen::Vector3f> normals;    ///< unit length; empty: the triangles' normals
+    std::vector<Eigen::Vector3f> normals;    ///< unit length; empty: normals of the triangles
     std::vector<Eigen::Vector2f> uvs;
-    std::vector<Eigen::Vector4f> tangents;  ///< xyz unit length, w = +-1: the bitangent's sign
+    std::vector<Eigen::Vector4f> tangents;  ///< xyz unit length; w = +-1 is the bitangent's sign
     std::vector<std::array<std::uint32_t, 3>> triangles;
     int material = 0;
 };
 
-/// An object at rest in its own frame: z up, metres, nodes' transforms applied. Validated: all
-/// numbers finite, all indices in range.
+/// A rigid object in its own frame (z up, metres) with the transforms of all glTF nodes applied. It
+/// is validated: all numbers are finite and all indices are in range.
 struct Model {
     std::vector<Mesh> meshes;
     std::vector<Material> materials;  ///< at least one
     std::vector<SurfaceTexture> textures;
 };
 
-/// Distant light from all directions. Latitude-longitude: row 0 is up (world +z), column 0 is world
-/// -x, longitude grows towards +y at three quarters of the width. Linear RGB radiance.
+/// Distant light from all directions, as a latitude-longitude picture of linear RGB radiance. Row 0
+/// is up (world +z). Column 0 is world -x, and the column at three quarters of the width is world
+/// +y.
 struct Environment {
     Size size;
-    std::vector<Eigen::Vector3f> radiance;  ///< row-major, finite, not negative
+    std::vector<Eigen::Vector3f> radiance;  ///< row-major; finite and not negative
 };
 
-/// A distant disc of light.
+/// A distant light source that looks like a disc.
 struct Sun {
-    /// World direction to the sun, unit length.
+    /// Direction to the sun in the world, of unit length.
     Eigen::Vector3f towards{0.40562F, -0.30421F, 0.86194F};
     Eigen::Vector3f irradiance{1, 1, 1};  ///< on a surface that faces the sun
     float angularRadius = 0.02F;          ///< [rad], above 0
 };
 
 struct Lighting {
-    std::shared_ptr<const Environment> environment;  ///< may be null: dark
+    std::shared_ptr<const Environment> environment;  ///< null: dark
     std::optional<Sun> sun;
 };
 
-/// A model in the world. Its number in rendered pictures is its index in Scene::objects + 1.
+/// A model placed in the world. In rendered pictures its number is its index in Scene::objects + 1.
 struct SceneObject {
     std::shared_ptr<const Model> model;
     RigidTransform T_world_object;
     float scale = 1;  ///< above 0
 
-    /// True for the same model with an identical placement.
+    /// Whether both have the same model with identical placement.
     friend bool operator==(const SceneObject& a, const SceneObject& b) {
         return a.model == b.model && a.scale == b.scale &&
                a.T_world_object.rotation == b.T_world_object.rotation &&
@@ -86,8 +89,8 @@ struct SceneObject {
     }
 };
 
-/// The real surface that receives shadows and bounced light: triangles in the world, diffuse.
-/// Invisible itself: only the objects' change of its light is shown.
+/// The real surface that receives shadows and bounced light, as diffuse triangles in the world. The
+/// surface itself is not drawn. Only the change of its light by the objects is shown.
 struct ShadowCatcher {
     std::vector<Eigen::Vector3f> positions;
     std::vector<std::array<std::uint32_t, 3>> triangles;

@@ -12,16 +12,17 @@
 
 namespace mfar {
 
-/// An object from the configuration.
+/// An object from the configuration file.
 struct PlacedObject {
-    /// The model. Null: use the simple shape.
+    /// The model. Null: the simple shape is used.
     std::shared_ptr<const Model> model;
-    std::string modelName;  ///< "showpiece" or a file, for messages; empty for a shape
-    VirtualObject shape;    ///< its T_world_object is ignored
-    float scale = 1;        ///< of a model only, above 0
+    std::string modelName;  ///< "showpiece" or a file name, for messages; empty for a shape
+    VirtualObject shape;    ///< the shape's T_world_object is ignored
+    float scale = 1;        ///< scale of a model, above 0; unused for a shape
     RigidTransform T_anchor_object;
-    /// The frame it is placed in. Empty: the tag map's world. A tag: origin in the tag's centre, x
-    /// to the right and y up in its print, z out of it.
+    /// The frame in which the object is placed. Empty: the world of the tag map. If a tag is given,
+    /// the origin is the tag's centre; x points to the right and y up in the tag's print, and z
+    /// points out of the print.
     std::optional<TagKey> tag;
 };
 
@@ -29,16 +30,16 @@ enum class LightSource : unsigned char {
     Studio,  ///< studioEnvironment()
     Sky,     ///< skyEnvironment()
     File,    ///< a latitude-longitude picture
-    Camera,  ///< estimated from the video, LightEstimator
+    Camera,  ///< estimated from the video by LightEstimator
 };
 
 struct LightOptions {
     LightSource source = LightSource::Studio;
-    std::shared_ptr<const Environment> environment;  ///< for File; null for other sources
-    std::string file;                                ///< for messages
-    /// Light in addition to the environment; replaces the camera's own estimate of a sun.
+    std::shared_ptr<const Environment> environment;  ///< only for File, else null
+    std::string file;                                ///< file name, for messages
+    /// A sun in addition to the environment. It replaces the sun that is estimated from the camera.
     std::optional<Sun> sun;
-    float exposure = 1;  ///< white has radiance 1 / exposure; above 0
+    float exposure = 1;  ///< radiance 1 / exposure is displayed as white; above 0
 };
 
 enum class VirtualRendering : unsigned char { PathTraced, Preview };
@@ -46,14 +47,14 @@ enum class VirtualRendering : unsigned char { PathTraced, Preview };
 /// Settings of the virtual layer.
 struct VirtualOptions {
     VirtualRendering rendering = VirtualRendering::PathTraced;
-    double budgetMs = 8;  ///< path tracing time per frame [ms]
+    double budgetMs = 8;  ///< path tracing per frame [ms of processor time]
     Slicing slicing = Slicing::Time;
-    int samples = 64;          ///< samples per pixel of a finished picture
-    double resolution = 0.28;  ///< side of a path-traced picture as a fraction of the still's
+    int samples = 64;          ///< samples of each pixel of a finished picture
+    double resolution = 0.28;  ///< width of a path-traced picture relative to the still's
     HoleFilling holes = HoleFilling::Both;
     int threads = 1;     ///< threads of the path tracer
-    bool filter = true;  ///< smooths the noise of pictures with few samples
-    /// [degrees]: upper limit of the view angle between two reference pictures.
+    bool filter = true;  ///< whether the noise of pictures with few samples is smoothed
+    /// Upper limit of the angle between the views of two consecutive reference pictures [degrees].
     double turnDeg = 4;
 
     bool operator==(const VirtualOptions&) const = default;

@@ -8,15 +8,18 @@
 namespace mfar {
 namespace {
 
-// While the cost of a sample is unknown: few enough for any scene.
+// First portion, while the cost of a sample is unknown. It is small enough for any scene.
 constexpr std::int64_t kFirstSamples = 64;
-// Fewer are not worth a call; an overrun is repaid.
+// Smaller portions are not worth a call. If the portion exceeds the budget, the next frame repays
+// the excess.
 constexpr std::int64_t kLeastSamples = 16;
 constexpr double kPortionsPerFrame = 16;
-// Share of the budget that was unused for want of processor time and may be used later, once.
+// Upper limit of the unused time that is carried over to the next frame (share of the budget). Time
+// remains unused if the threads get too little processor time.
 constexpr double kMostSaved = 0.08;
-// Converting a picture may take the budget of a few frames. A frame repays this share of the
-// budget, or of the debt if that is larger, so that a large debt does not last.
+// Converting a picture may take the budget of several frames. The excess is a debt of at most
+// kMostDebt budgets. Each frame repays the share kRepaid of the budget, or of the debt if the debt
+// is larger than the budget, so that a large debt does not last.
 constexpr double kMostDebt = 10, kRepaid = 0.08;
 
 double valid(double ms) {
@@ -55,7 +58,7 @@ BudgetGrant BudgetController::grant() {
     BudgetGrant out{kFirstSamples, 0};
     if (msPerSample_ > 0) {
         const double ms = std::min(left, portionMs());
-        // Keeps the conversion in the integer's range, however cheap a sample is.
+        // The limit prevents an integer overflow if samples are very cheap.
         out.samples = static_cast<std::int64_t>(std::min(ms / msPerSample_, 1e9));
         out.samples = std::max(out.samples, kLeastSamples);
     }

@@ -11,20 +11,19 @@
 
 namespace mfar {
 
-/// Pixels of a view that no older picture shows, or shows blurred; they are to be rendered
-/// individually.
+/// Pixels to render individually, because older pictures do not show them or show them blurred.
 struct HoleRequest {
     RenderView view;
     std::vector<std::uint32_t> pixels;  ///< row-major indices, in any order
-    int samples = 4;                    ///< per pixel
-    std::uint64_t scene = 0;            ///< caller's number, returned with the answer
-    bool edges = false;                 ///< the pixels are the blurred ones
-    /// Scene of the picture that has the holes; if the pictures of another scene have replaced it,
-    /// the request is dropped. Null: the scene of the current pictures.
+    int samples = 4;                    ///< samples per pixel
+    std::uint64_t scene = 0;            ///< chosen by the caller, copied to the answer
+    bool edges = false;                 ///< true: older pictures show these pixels blurred
+    /// Scene of the picture that has the holes. The request is dropped if pictures of another scene
+    /// have replaced that picture. Null: the scene of the newest pictures.
     std::shared_ptr<const Scene> source{};
 };
 
-/// The rendered pixels: the same values as in RenderedPicture, one for each of `pixels`.
+/// The rendered pixels. Values are as in RenderedPicture, one for each entry of `pixels`.
 struct HoleAnswer {
     RenderView view;
     std::vector<std::uint32_t> pixels;  ///< in ascending order
@@ -32,9 +31,9 @@ struct HoleAnswer {
     std::vector<float> depth;
     std::vector<std::uint8_t> id;
     std::vector<LightWords> light;
-    int samples = 0;          ///< per pixel
-    std::uint64_t scene = 0;  ///< from the request
-    bool edges = false;       ///< from the request
+    int samples = 0;          ///< samples per pixel
+    std::uint64_t scene = 0;  ///< copied from the request
+    bool edges = false;       ///< copied from the request
 };
 
 }  // namespace mfar

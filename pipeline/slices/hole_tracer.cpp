@@ -8,8 +8,8 @@
 namespace mfar {
 namespace {
 
-/// The smallest rectangle with all pixels; they are indices into a picture of this width, in
-/// ascending order.
+/// The smallest rectangle that contains all pixels. `pixels` are ascending indices into a picture
+/// with this width.
 PixelRect around(const std::vector<std::uint32_t>& pixels, int width) {
     const auto rowOf = [width](std::uint32_t p) { return static_cast<int>(p) / width; };
     PixelRect out{width, rowOf(pixels.front()), 0, rowOf(pixels.back()) + 1};

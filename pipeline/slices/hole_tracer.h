@@ -10,25 +10,25 @@
 
 namespace mfar {
 
-/// Cuts one request after the other into portions. One caller at a time, except for prepare() and
-/// answer(): while one of them runs, no other function may be called.
+/// Divides requests into portions, one request after the other. Only one thread at a time may call
+/// it. While prepare() or answer() runs, no other function may be called.
 class HoleTracer {
 public:
     static constexpr int kMostSamples = 256;
 
-    /// `mostPixels`: upper limit of a request's pixels; the rest is dropped.
+    /// `mostPixels`: upper limit of the number of pixels of a request. Further pixels are dropped.
     explicit HoleTracer(std::size_t mostPixels) : mostPixels_(mostPixels) {}
 
     [[nodiscard]] bool idle() const { return stage_ == Stage::Idle; }
-    /// Takes a request while idle. Swaps memory with an older request.
+    /// Takes a request; only allowed while idle(). `request` gets the memory of an older request.
     void take(HoleRequest& request);
     [[nodiscard]] bool taken() const { return stage_ == Stage::Taken; }
-    /// Sorts the pixels. Drops duplicates and pixels outside the picture, and all pixels if the
+    /// Sorts the pixels. Drops duplicates and pixels outside the picture. Drops all pixels if the
     /// view is invalid.
     void prepare();
 
-    /// Pixels to be traced now, with request().samples each, at most about `mostSamples` in all.
-    /// Empty: all were handed out.
+    /// Pixels to trace now, with request().samples samples each: about `mostSamples` samples in
+    /// total, or fewer. Empty if all pixels were handed out.
     [[nodiscard]] std::span<const std::uint32_t> next(std::int64_t mostSamples);
     void done(std::span<const std::uint32_t> pixels) { done_ += pixels.size(); }
     [[nodiscard]] bool tracing() const {
@@ -41,7 +41,7 @@ public:
 
     [[nodiscard]] const HoleRequest& request() const { return request_; }
     [[nodiscard]] Film& film() { return *film_; }
-    /// Pixels answered so far.
+    /// Number of pixels answered since the start.
     [[nodiscard]] std::uint64_t answered() const { return answered_; }
 
 private:
@@ -51,7 +51,7 @@ private:
     Stage stage_ = Stage::Idle;
     HoleRequest request_;
     std::size_t handed_ = 0, done_ = 0;
-    std::optional<Film> film_;  // has the size of the request's picture
+    std::optional<Film> film_;  // has the size of the requested view
     std::uint64_t answered_ = 0;
 };
 

@@ -6,21 +6,25 @@
 namespace mfar {
 namespace {
 
-// With policy `soon`, a moving camera gets a new picture at this share of the limit: it inherits
-// the light.
+// With ReferencePolicy::soon, a moving camera gets a new picture at this share of the limits. The
+// new picture inherits the light of the previous one.
 constexpr double kSoon = 0.25;
-// The next picture is discarded when the camera has come back half of the way.
+// The next picture is discarded if the camera returns to within this share of the change that
+// started the picture.
 constexpr double kBack = 0.5;
-// At this multiple of the limits a noisy picture is better than the one shown.
+// If the view has changed by this multiple of the limits, a noisy new picture is better than the
+// shown picture.
 constexpr double kHopeless = 3;
-// A refined picture is worth a conversion when its error has halved.
+// Refining the shown picture is worth a new conversion if the number of samples has grown by this
+// factor, because the error is then halved.
 constexpr int kSamplesRatio = 4;
-// A camera rests if it moves less than kRestPixels in so many looks; then a picture that is farther
-// off than kElsewherePixels would be warped needlessly.
+// The camera rests if it moves by less than kRestPixels in kRestLooks calls of look(). The picture
+// of a camera at rest should not be warped: if the shown picture is off by more than
+// kElsewherePixels, a new picture is begun.
 constexpr double kRestPixels = 0.1, kElsewherePixels = 0.2;
 constexpr int kRestLooks = 10;
-// Upper limit of the weight, in samples, of an earlier picture's light; in other light it is low,
-// so that new samples soon outweigh it.
+// Upper limits of the weight [samples] of an earlier picture's light. The second limit is used if
+// the lighting has changed; it is low, so that new samples soon outweigh the old light.
 constexpr float kMostCarried = 64, kMostCarriedElsewhere = 4;
 constexpr int kLookTurn = 1;
 
@@ -30,7 +34,8 @@ ReferenceStep nextStep(std::optional<double> sinceShown, std::optional<double> s
                        double renewed) {
     if (!sinceNext)
         return sinceShown && *sinceShown < renewed ? ReferenceStep::Refine : ReferenceStep::Start;
-    // The very first picture is finished wherever the camera moves: it is better than no picture.
+    // The first picture is always finished, even if the camera moves away: it is better than no
+    // picture.
     if (!sinceShown) return ReferenceStep::Continue;
     if (*sinceShown < kBack * renewed) return ReferenceStep::Drop;
     return *sinceNext >= 1 && *sinceNext > *sinceShown ? ReferenceStep::Start
@@ -40,8 +45,9 @@ ReferenceStep nextStep(std::optional<double> sinceShown, std::optional<double> s
 ReferencePictures::ReferencePictures(const SliceOptions& slices, const ReferencePolicy& policy)
     : slices_(slices), policy_(policy), pictures_{Picture(slices), Picture(slices)} {}
 
-// For the picture in progress, a change of the light does not count until it is shown: if the light
-// changes all the time, no picture would ever be finished.
+// The change of the view since a picture's view. Empty if the picture is out of date, because the
+// objects or the lighting changed. For a picture in progress a change of the lighting is ignored:
+// if the lighting changed all the time, no picture would ever be finished.
 std::optional<double> ReferencePictures::changeSince(const Picture& picture) const {
     const bool isShown = &picture == &pictures_[shown_];
     if (!picture.scene || picture.scene->objects != scene_->objects ||
@@ -72,7 +78,8 @@ ReferenceStep ReferencePictures::chosenStep() const {
     const ReferenceStep step =
         nextStep(sinceShown, hasBegun ? changeSince(pictures_[1 - shown_]) : std::nullopt,
                  policy_.soon ? kSoon : 1);
-    // If the picture shown still serves and has few samples, there is nothing to inherit from it.
+    // If the shown picture still serves but has few samples, a new picture could not inherit light
+    // from it.
     const bool serves = sinceShown && *sinceShown < 1;
     if (step == ReferenceStep::Start && !hasBegun && serves && shown.slices.samples() == 0)
         return ReferenceStep::Refine;
@@ -97,8 +104,8 @@ void ReferencePictures::look(const RenderView& now, const RenderView& predicted,
     }
 }
 
-// Away from objects the light on the real surface is smooth: while the camera moves, a quarter of
-// the pixels is enough.
+// Away from objects the light on the real surface is smooth. While the camera moves, samples in a
+// quarter of the pixels suffice there.
 Slices::Density ReferencePictures::densityOf(const PixelRect& tile, const Picture& picture,
                                              const PixelRect& objects) const {
     if (!common(tile, objects).empty()) return Slices::Density::Full;
@@ -108,7 +115,7 @@ Slices::Density ReferencePictures::densityOf(const PixelRect& tile, const Pictur
     return picture.rests || !policy_.filter ? Slices::Density::Full : Slices::Density::Quarter;
 }
 
-// By the picture that is shown.
+// Whether the shown picture shows neither objects nor changed light around this tile.
 bool ReferencePictures::showsNothing(const PixelRect& tile, const RenderView& view) const {
     const Eigen::Vector2f middle(0.5F * static_cast<float>(tile.x0 + tile.x1 - 1),
                                  0.5F * static_cast<float>(tile.y0 + tile.y1 - 1));
@@ -163,7 +170,8 @@ void ReferencePictures::trace(const Portion& portion) {
                                  *picture.film, picture.history ? &*picture.history : nullptr);
 }
 
-// At rest only a pixel's own samples count: carried light lacks edges and textures.
+// While the camera rests, only samples of the pixel itself count, because carried light lacks edges
+// and textures.
 PixelState ReferencePictures::Picture::state(std::uint32_t pixel, const Exposure& exposure) const {
     const KnownLight known = rests ? KnownLight{} : film->known(pixel);
     return {film->error(pixel, exposure),
@@ -185,7 +193,7 @@ int ReferencePictures::leastSamples(const Picture& picture) const {
     if (!shown.scene || shown.scene->objects != picture.scene->objects ||
         viewChange(shown.view, now_, scene_->balls, policy_.limits) >= kHopeless)
         return 1;
-    // At rest the new picture must not be worse than the one shown.
+    // While the camera rests, the new picture must have at least as many samples as the shown one.
     return nextRests_ ? std::max(policy_.samplesToReplace, shown.shownSamples)
                       : policy_.samplesToReplace;
 }
@@ -193,15 +201,15 @@ int ReferencePictures::leastSamples(const Picture& picture) const {
 bool ReferencePictures::toShow() const {
     const Picture& picture = pictures_[working()];
     if (toBegin_ || !picture.scene || !picture.slices.turnComplete()) return false;
-    // Portions of the picture that will be replaced are outstanding.
+    // The picture that will be replaced must not have outstanding portions.
     if (pictures_[1 - working()].portions > 0) return false;
     if (picture.slices.finished()) return !picture.counted;
     if (isSparse(picture)) return picture.slices.turns() > std::max(picture.shownTurns, kLookTurn);
     return picture.slices.samples() >= leastSamples(picture);
 }
 
-// While the camera moves, a picture with few samples, whose light is filtered, is better than a
-// picture of another view or no picture.
+// While the camera moves, a picture with few samples and filtered light is better than a picture of
+// another view or no picture.
 bool ReferencePictures::isSparse(const Picture& picture) const {
     if (picture.rests || !policy_.filter || picture.slices.samples() > 0) return false;
     const Picture& shown = pictures_[shown_];

@@ -14,95 +14,100 @@
 
 namespace mfar {
 
-/// The next action for the reference pictures.
+/// The next action for the reference pictures. A reference picture is a rendering that the warp
+/// shows from nearby poses.
 enum class ReferenceStep : unsigned char {
-    Refine,    ///< the picture shown gets more samples
+    Refine,    ///< the shown picture gets more samples
     Continue,  ///< the next picture gets more samples
     Start,     ///< a new next picture is begun; an unfinished one is discarded
-    Drop,      ///< the next picture is discarded: the one shown serves again
+    Drop,      ///< the next picture is discarded, because the shown picture serves again
 };
 
-/// `sinceShown`, `sinceNext`: viewChange() since the views of the two pictures; empty if the
-/// picture does not exist or is of another scene. A next picture is begun at a change of `renewed`.
+/// `sinceShown` and `sinceNext` are the results of viewChange() since the views of the shown and
+/// the next picture. They are empty if the picture does not exist or shows another scene. A next
+/// picture is begun if the change reaches `renewed`.
 [[nodiscard]] ReferenceStep nextStep(std::optional<double> sinceShown,
                                      std::optional<double> sinceNext, double renewed);
 
 struct ReferencePolicy {
     ViewLimits limits;
-    /// Samples per pixel that a picture of another view must have to replace the one shown; fewer
-    /// are enough if that one is of other objects or too far off. Four filtered samples are as good
-    /// as 16 unfiltered ones (root mean square error 3.2 and 4.4 against 3.3 and 3.1 of 255 on two
-    /// scenes).
+    /// Samples per pixel that a picture of another view must have before it replaces the shown
+    /// picture. Fewer samples suffice if the shown picture has other objects or its view is too far
+    /// off. Four filtered samples are about as good as 16 unfiltered ones (root mean square errors
+    /// on two scenes: 3.2 and 4.4 against 3.3 and 3.1 of 255).
     int samplesToReplace = 4;
     bool filter = true;   ///< smooth the noise
-    bool history = true;  ///< carry light from the previous picture over to the next
-    /// While the camera moves, begin the next picture long before the one shown has reached its
-    /// limits, and show it before every pixel has a sample. For callers that use only the light of
-    /// the picture.
+    bool history = true;  ///< use the previous picture's light for the next picture
+    /// While the camera moves, begin the next picture long before the shown picture reaches its
+    /// limits, and show the next picture before every pixel has a sample. For callers that use only
+    /// the light of the picture.
     bool soon = true;
     bool operator==(const ReferencePolicy&) const = default;
 };
 
-/// The scene of a picture.
+/// The scene of a picture with a search structure.
 struct ReferenceScene {
     std::shared_ptr<const PathTracer> tracer;
     std::shared_ptr<const Scene> source;
     std::vector<ObjectBall> balls;
-    std::uint64_t objects = 0, light = 0;  ///< version numbers of the objects and of the light
+    std::uint64_t objects = 0, light = 0;  ///< versions of the objects and of the light
 };
 
-/// The two reference pictures: the one shown, which is refined while it serves, and the next one,
-/// which will replace it. One caller at a time. Exceptions: any number of threads may call trace(),
-/// and trace() and done() may run during begin() and between beginShow() and endShow().
+/// The two reference pictures: the shown picture, which gets more samples while it serves, and the
+/// next picture, which will replace it.
+/// Only one thread at a time may call it, with two exceptions. Any number of threads may call
+/// trace() at once. trace() and done() may run during begin() and between beginShow() and
+/// endShow().
 class ReferencePictures {
 public:
-    /// Throws std::invalid_argument for slices out of range.
+    /// Throws std::invalid_argument if a slice option is out of range.
     ReferencePictures(const SliceOptions& slices, const ReferencePolicy& policy);
 
     void setScene(std::shared_ptr<const ReferenceScene> scene) { scene_ = std::move(scene); }
     [[nodiscard]] const ReferenceScene* scene() const { return scene_.get(); }
-    /// Scene of the picture shown; null if there is none.
+    /// Scene of the shown picture; null if there is no picture.
     [[nodiscard]] const std::shared_ptr<const ReferenceScene>& shownScene() const {
         return pictures_[shown_].scene;
     }
 
-    /// Reports the camera's view `now`. If a picture is begun, it is for the view `predicted`; once
-    /// the camera rests, a picture of exactly its view is begun.
+    /// Reports the camera's view `now`. A picture that is begun has the view `predicted`, or
+    /// exactly the view `now` if the camera rests.
     void look(const RenderView& now, const RenderView& predicted, Timestamp time);
 
-    /// Whether begin() is due. Until then there is nothing to trace.
+    /// Whether begin() must be called. Until then next() returns no pixels.
     [[nodiscard]] bool toBegin() const;
     void begin();
 
-    /// The next portion of the picture in progress; done() needs the index `picture`. No pixels:
-    /// nothing to trace now.
+    /// The next portion of the picture in progress. `picture` is needed by done(). If there are no
+    /// pixels, there is nothing to trace now.
     struct Portion {
         Slice slice;
         std::size_t picture = 0;
     };
     [[nodiscard]] Portion next(std::int64_t mostSamples);
-    /// May be called by any number of threads at once.
+    /// Any number of threads may call it at once.
     void trace(const Portion& portion);
     void done(const Portion& portion, const Exposure& exposure);
 
-    /// Whether the picture in progress is complete and should be shown.
+    /// Whether the picture in progress is complete enough to be shown now.
     [[nodiscard]] bool toShow() const;
-    /// Begins to make that picture, in portions of resolver(), until resolver().complete();
-    /// meanwhile none of its samples are traced.
+    /// Begins to convert the picture in progress to `out`, in portions of resolver(). None of the
+    /// picture's samples are traced until resolver().complete() and endShow().
     void beginShow(const Exposure& exposure, RenderedPicture& out);
     [[nodiscard]] PictureResolver& resolver() { return resolver_; }
     void endShow(RenderedPicture& out);
 
-    /// No portion of the picture in progress is outstanding, and every pixel has the same samples.
+    /// Whether no portion of the picture in progress is outstanding and every pixel has the same
+    /// number of samples.
     [[nodiscard]] bool turnComplete() const { return pictures_[working()].slices.turnComplete(); }
-    /// Nothing is left to do while the camera rests.
+    /// Whether there is nothing left to do while the camera rests.
     [[nodiscard]] bool settled() const;
-    /// Progress of the picture in progress, see Slices; 1 if there is none.
+    /// Progress of the picture in progress (see Slices); 1 if there is no picture in progress.
     [[nodiscard]] double progress() const;
-    /// Number of pixels to trace in the current picture.
+    /// Number of pixels that are traced in the picture in progress.
     [[nodiscard]] std::size_t pixels() const;
     [[nodiscard]] std::uint64_t finished() const { return finished_; }
-    /// When the view of the picture shown was chosen.
+    /// Time when the view of the shown picture was chosen.
     [[nodiscard]] std::optional<Timestamp> shownSince() const;
 
 private:
@@ -113,14 +118,14 @@ private:
         RenderView view;
         Timestamp chosen;
         std::unique_ptr<Film> film;
-        std::optional<LightHistory> history;  // from the picture shown before
-        PixelRect traced;                     // the film is empty elsewhere
+        std::optional<LightHistory> history;  // light of the previously shown picture
+        PixelRect traced;                     // the film is empty outside this rectangle
         TouchedTiles touched;
         Slices slices;
-        int portions = 0;                        // outstanding
-        int shownSamples = 0, shownTurns = 0;    // when it was shown last
-        bool rests = false;                      // the camera rested when it was chosen
-        bool wasShown = false, counted = false;  // counted: among the finished
+        int portions = 0;                        // number of outstanding portions
+        int shownSamples = 0, shownTurns = 0;    // values when it was last shown
+        bool rests = false;                      // the camera rested when the view was chosen
+        bool wasShown = false, counted = false;  // counted: included in finished()
 
         [[nodiscard]] PixelState state(std::uint32_t pixel, const Exposure& exposure) const;
     };
@@ -142,9 +147,9 @@ private:
     PictureResolver resolver_;
     std::size_t shown_ = 0;
     bool hasNext_ = false, toBegin_ = false;
-    bool nextRests_ = false;  // the next picture is of a camera at rest
+    bool nextRests_ = false;  // the next picture is for a camera at rest
     RenderView now_, wanted_, restsAt_;
-    int restLooks_ = 0;  // looks since the camera came to rest
+    int restLooks_ = 0;  // calls of look() since the camera came to rest
     Timestamp chosen_;
     std::uint64_t finished_ = 0;
 };

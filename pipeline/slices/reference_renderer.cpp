@@ -21,7 +21,7 @@ ReferenceRenderer::~ReferenceRenderer() {
 }
 
 void ReferenceRenderer::wakeOne() {
-    // A thread that wakes up wakes the others if there is work for them.
+    // One wake-up suffices: a thread that wakes up wakes the others if there is work for them.
     ++mail_.wakes;
     mail_.wakes.notify_one();
 }

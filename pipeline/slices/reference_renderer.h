@@ -10,47 +10,49 @@
 
 namespace mfar {
 
-/// Makes reference pictures of a scene in its own low-priority threads, within a budget of
-/// processor time per call of update(); when it is used up or nothing is left to do, they sleep.
-/// Building a scene's search structure is not part of the budget. All functions are for one thread,
-/// the frame's: none waits or takes a lock, and none allocates after the first pictures.
+/// Makes reference pictures of a scene in its own low-priority threads. The threads have a budget
+/// of processor time for each call of update(). They sleep if the budget is used up or nothing is
+/// left to do. Building a scene's search structure is not part of the budget.
+/// All functions are for one thread, which handles the frames. No function waits or takes a lock,
+/// and none allocates memory after the first pictures.
 class ReferenceRenderer {
 public:
-    /// Throws std::invalid_argument for options out of range.
+    /// Throws std::invalid_argument if an option is out of range.
     explicit ReferenceRenderer(const ReferenceOptions& options);
-    /// Waits for running portions of work (each a fraction of the budget), for the conversion of a
-    /// picture, or for a scene that is being built.
+    /// Waits until running portions of work (each takes a fraction of the budget), the conversion
+    /// of a picture, and the building of a scene are finished.
     ~ReferenceRenderer();
     ReferenceRenderer(const ReferenceRenderer&) = delete;
     ReferenceRenderer& operator=(const ReferenceRenderer&) = delete;
 
-    /// Null: an empty scene. The newest scene wins; pictures of the old one are shown until the new
-    /// one has a picture. An invalid scene is ignored, see takeError().
+    /// Sets a new scene; null is an empty scene. If several scenes were set, only the newest is
+    /// used. Pictures of the old scene are shown until the new scene has a picture. An invalid
+    /// scene is ignored; see takeError().
     void setScene(std::shared_ptr<const Scene> scene);
 
-    /// Begins a frame with the camera's pose at `time`. An invalid view is replaced by the last
-    /// valid one. Call once per frame.
+    /// Begins a frame with the camera's pose at `time`. If the view is invalid, the last valid view
+    /// is used. Must be called once per frame.
     void update(const RenderView& now, Timestamp time);
 
-    /// The newest complete picture, null before the first. It stays valid until the next call;
-    /// another picture has another address.
+    /// The newest complete picture; null before the first. It stays valid until the next call. A
+    /// different picture has a different address.
     [[nodiscard]] const RenderedPicture* newest();
 
-    /// The newest request wins; a request that is already being traced is still answered. Swaps
-    /// memory with `request`.
+    /// Only the newest request is used, but a request that is already being traced is still
+    /// answered. `request` gets the memory of an older request.
     void requestHoles(HoleRequest& request);
-    /// The newest answer since the last call, or null. It stays valid until the next call.
+    /// The newest answer since the last call, or null. It is valid until the next call.
     [[nodiscard]] const HoleAnswer* takeHoles();
 
-    /// Whether the threads have finished the work that the last update() allows. For measurements:
-    /// it takes a lock.
+    /// Whether the threads have finished the work that the last update() allows. It takes a lock,
+    /// so it is only for measurements.
     [[nodiscard]] bool rests() const {
         return workers_.rest(updates_, static_cast<int>(threads_.size()));
     }
 
-    /// State at the last frame or picture.
+    /// State at the last frame or picture, whichever is newer.
     [[nodiscard]] const RenderCounters& counters();
-    /// Why a scene was rejected; returned once.
+    /// The reason why a scene was rejected. It is returned once.
     [[nodiscard]] std::optional<std::string> takeError();
 
 private:
@@ -61,7 +63,7 @@ private:
     std::optional<RenderView> view_;
     std::uint64_t updates_ = 0;
     bool hasPicture_ = false;
-    std::vector<std::jthread> threads_;  // last member: the threads use those above
+    std::vector<std::jthread> threads_;  // last member: the threads use the others
 };
 
 }  // namespace mfar

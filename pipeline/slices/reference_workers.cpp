@@ -12,12 +12,13 @@
 namespace mfar {
 namespace {
 
-// Upper limit of the predicted change: the picture must serve the present view, too.
+// The view is predicted only so far that its change from the present view stays below this limit,
+// because the picture must serve the present view, too.
 constexpr double kPredictedChange = 0.9;
-// Upper limit of the frames reported to the budget after one long job.
+// Upper limit of the number of missed frames whose budget is granted after one long job.
 constexpr std::uint64_t kMostMissed = 16;
 constexpr double kRateSeconds = 1;
-// Pixels of the first portion, while the time per pixel is unknown.
+// Number of pixels in the first portion, while the time per pixel is unknown.
 constexpr std::int64_t kFirstResolved = 2048;
 
 double secondsBetween(Timestamp a, Timestamp b) {
@@ -48,7 +49,7 @@ void ReferenceWorkers::work() {
     std::unique_lock lock(mutex_);
     counters_.lowPriority = counters_.lowPriority && lowered;
     while (!mail_.stop) {
-        const std::uint32_t wakes = mail_.wakes;  // before the mail is read
+        const std::uint32_t wakes = mail_.wakes;  // must be read before the mail
         readMail();
         Job job = chosenJob();
         if (job.kind == Job::Kind::None) {
@@ -80,7 +81,8 @@ void ReferenceWorkers::readMail() {
     if (mail_.ticks.fetch()) takeTick();
 }
 
-// Drops a request for a picture whose scene was replaced; the next picture brings a new request.
+// Drops a request for a picture whose scene was replaced. The next picture will cause a new
+// request.
 void ReferenceWorkers::takeHoles(HoleRequest& request) {
     const std::shared_ptr<const Scene> source = std::exchange(request.source, nullptr);
     const std::shared_ptr<const ReferenceScene>& scene =

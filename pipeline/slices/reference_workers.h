@@ -15,14 +15,14 @@
 
 namespace mfar {
 
-/// The beginning of a frame.
+/// Message that a frame has begun.
 struct RenderTick {
-    std::optional<RenderView> view;  ///< the camera's last view
+    std::optional<RenderView> view;  ///< the camera's last valid view
     Timestamp time;
     std::uint64_t number = 0;
 };
 
-/// Messages between the frame's thread and the workers.
+/// Messages between the thread that handles frames and the workers.
 struct RenderMail {
     TripleBuffer<RenderTick> ticks;
     TripleBuffer<std::shared_ptr<const Scene>> scenes;
@@ -35,25 +35,25 @@ struct RenderMail {
     std::atomic<bool> stop{false};
 };
 
-/// State and work of the threads of a ReferenceRenderer.
+/// State and work of the threads that belong to a ReferenceRenderer.
 class ReferenceWorkers {
 public:
-    /// Throws std::invalid_argument for options out of range. `mail` must outlive it.
+    /// Throws std::invalid_argument if an option is out of range. `mail` must outlive this object.
     ReferenceWorkers(const ReferenceOptions& options, RenderMail& mail);
 
-    /// Main function of a thread; returns after mail.stop.
+    /// Main function of a thread. It returns when mail.stop is set.
     void work();
 
-    /// Whether frame `number` has begun and `threads` threads sleep, because its budget is used up
-    /// or nothing is left to do. Waits for a lock.
+    /// Whether frame `number` has begun and `threads` threads sleep, because the budget is used up
+    /// or nothing is left to do. Takes a lock.
     [[nodiscard]] bool rest(std::uint64_t number, int threads) const;
 
 private:
     struct Job {
         enum class Kind : unsigned char {
             None,
-            Build,  // one Build at a time; one of PrepareHoles and AnswerHoles at a time
-            Begin,  // one at a time, and not while a picture is resolved
+            Build,  // one at a time; likewise one of PrepareHoles and AnswerHoles at a time
+            Begin,  // only one runs at a time, and not while a picture is resolved
             Resolve,
             PrepareHoles,
             AnswerHoles,
@@ -65,16 +65,16 @@ private:
         ReferencePictures::Portion portion;
         PictureResolver::Portion rows;
         std::span<const std::uint32_t> holes;
-        int holeSamples = 0;  // per pixel
+        int holeSamples = 0;  // samples per pixel
         std::shared_ptr<const Scene> source, previousSource;
-        std::shared_ptr<const ReferenceScene> scene;  // Build: first the previous scene, then the
-                                                      // new one
+        std::shared_ptr<const ReferenceScene> scene;  // Build: before the job the previous scene,
+                                                      // after it the new one
         std::string error;
 
         [[nodiscard]] std::int64_t samples() const;
     };
 
-    // With the mutex locked:
+    // Called with the mutex locked:
     void readMail();
     void takeHoles(HoleRequest& request);
     void takeTick();
@@ -90,7 +90,7 @@ private:
     [[nodiscard]] bool hasWork() const { return toBuild_ || building_ || tracing(); }
     void publishCounters();
     void wakeOthers();
-    // With the mutex unlocked:
+    // Called with the mutex unlocked:
     void perform(Job& job);
     void build(Job& job) const;
 
@@ -105,18 +105,18 @@ private:
     RenderTick tick_;
     std::shared_ptr<const Scene> toBuild_, source_;
     std::shared_ptr<const ReferenceScene> scene_, shownScene_, holeScene_;
-    bool building_ = false;   // a Build job is outstanding
-    bool exclusive_ = false;  // a Begin job is outstanding, or a picture is resolved
+    bool building_ = false;   // a Build job is running
+    bool exclusive_ = false;  // a Begin job is running or a picture is being resolved
     bool resolves_ = false;
-    std::array<double, PictureResolver::kStages> resolveMs_{};  // time per pixel in each stage
-    bool holesExclusive_ = false;                               // PrepareHoles or AnswerHoles is
-                                                                // outstanding
+    std::array<double, PictureResolver::kStages> resolveMs_{};  // [ms] per pixel
+    bool holesExclusive_ = false;                               // a PrepareHoles or AnswerHoles job
+                                                                // is running
     bool toLook_ = false, workAtBegin_ = false;
     double tickSeconds_ = 1.0 / 30;
-    double holeMs_ = 0;  // time for holes in the current frame
+    double holeMs_ = 0;  // time spent on holes in the current frame
     int asleep_ = 0;
     RenderCounters counters_;
-    std::uint64_t samplesThen_ = 0;  // counters_.samples when the rate was computed last
+    std::uint64_t samplesThen_ = 0;  // counters_.samples at the last computation of the rate
     Timestamp rateTime_;
 };
 

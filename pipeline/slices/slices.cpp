@@ -9,12 +9,13 @@ namespace mfar {
 namespace {
 
 constexpr int kTileEdge = 8;
-// Turns of Slicing::Time: a ray through the centres, two sparse turns of the first samples, then
-// all pixels.
+// Turns in Slicing::Time. Turn kLook traces a ray through each pixel's centre. The turns between
+// kLook and kFirstFull take the first samples of some pixels. From turn kFirstFull on, all pixels
+// are sampled.
 constexpr int kLook = 1, kFirstFull = 4;
 constexpr int kTilePixels = kTileEdge * kTileEdge;
 
-/// Puts a zero bit between all of the lower 16.
+/// Puts a zero bit between adjacent bits of the lower 16 bits.
 std::uint32_t spread(std::uint32_t v) {
     v = (v | v << 8) & 0x00ff00ff;
     v = (v | v << 4) & 0x0f0f0f0f;
@@ -22,7 +23,7 @@ std::uint32_t spread(std::uint32_t v) {
     return (v | v << 1) & 0x55555555;
 }
 
-/// Moves every other bit of the lower 16 next to each other.
+/// Collects every other bit of the lower 16 bits; the inverse of spread().
 int gathered(std::uint32_t v) {
     v &= 0x55555555;
     v = (v | v >> 1) & 0x33333333;
@@ -30,8 +31,8 @@ int gathered(std::uint32_t v) {
     return static_cast<int>((v | v >> 4) & 0x000000ff);
 }
 
-/// Place in Morton order of the tile's pixel with number `rank` in sampling order: the first 4^n
-/// pixels each fill a square of their own. The function is its own inverse.
+/// Morton code of the pixel with number `rank` in its tile's sampling order. Each of the first 4^n
+/// pixels lies in a different square of an even grid. The function is its own inverse.
 std::uint32_t evenlySpread(std::uint32_t rank) {
     return (rank & 0x03) << 4 | (rank & 0x0c) | (rank & 0x30) >> 4;
 }
@@ -40,7 +41,7 @@ std::uint32_t mortonCode(int x, int y) {
     return spread(static_cast<std::uint32_t>(x)) | spread(static_cast<std::uint32_t>(y)) << 1;
 }
 
-/// Number, in sampling order within its tile, of a pixel of a picture of this width.
+/// Number of a pixel in its tile's sampling order. `width` is the picture's width.
 std::uint32_t rankOf(std::uint32_t pixel, int width) {
     const auto x = static_cast<int>(pixel) % width, y = static_cast<int>(pixel) / width;
     return evenlySpread(mortonCode(x % kTileEdge, y % kTileEdge));
@@ -84,7 +85,7 @@ void Slices::addTile(const PixelRect& pixels, Density density) {
     Tile tile;
     tile.first = static_cast<std::uint32_t>(pixels_.size());
     const int left = pixels.x0 - pixels.x0 % kTileEdge, top = pixels.y0 - pixels.y0 % kTileEdge;
-    // Pixels of even column and row come first.
+    // The first quarter of the ranks are the pixels with even column and even row.
     const std::uint32_t ranks = density == Density::Full ? kTilePixels : kTilePixels / 4;
     for (std::uint32_t rank = 0; rank < ranks; ++rank) {
         const std::uint32_t code = evenlySpread(rank);
@@ -115,7 +116,8 @@ void Slices::beginTurn() {
     for (Tile& tile : tiles_) {
         if (tile.active == 0) continue;
         tile.most = mostOfTurn(tile);
-        // The tile has no pixels in this sparse turn: they are known already.
+        // The tile has no pixels for this sparse turn: none was active or all were handed out
+        // before.
         if (tile.handed >= tile.most) --ofTurn_;
     }
     if (ofTurn_ == 0) samples_ = samplesOfTurn();
@@ -185,7 +187,7 @@ void Slices::endRound(Tile& tile, const PixelStates& states) {
     } else if (tile.handed < tile.active) {
         if (adapts && turn_ + 1 == kFirstFull && isUntouched(tile, states)) {
             kept = 0;
-            settled_ -= tile.handed * static_cast<std::uint64_t>(step(tile));  // they were traced
+            settled_ -= tile.handed * static_cast<std::uint64_t>(step(tile));  // already traced
         }
     } else {
         tile.samples += step(tile);
@@ -196,7 +198,7 @@ void Slices::endRound(Tile& tile, const PixelStates& states) {
             kept = keepNoisy(tile, states);
     }
     dropActive(tile, kept);
-    // Spatial slices: the tile goes on independently of the others.
+    // In Slicing::Spatial a tile continues independently of the others.
     if (!time && tile.active > 0) {
         tile.most = tile.active;
         return;
@@ -220,7 +222,7 @@ bool Slices::isUntouched(const Tile& tile, const PixelStates& states) const {
 }
 
 std::uint32_t Slices::keepNoisy(Tile& tile, const PixelStates& states) {
-    constexpr int kRow = kTileEdge + 2;  // with a border that is not noisy
+    constexpr int kRow = kTileEdge + 2;  // a tile's row with a border, which is never noisy
     std::array<bool, kRow * kRow> noisy{};
     const auto placeOf = [&](std::uint32_t pixel) {
         const std::uint32_t x = pixel % static_cast<std::uint32_t>(width_);

@@ -11,102 +11,104 @@
 
 namespace mfar {
 
-/// Order in which the samples of a picture are taken.
+/// The order in which a picture's samples are taken.
 enum class Slicing {
-    Time,     ///< a few samples of every pixel per turn: complete soon, then less noisy with every
+    Time,     ///< a few samples of every pixel per turn: soon complete, then less noisy with every
               ///< turn
-    Spatial,  ///< tile after tile with all its samples: complete only at the end
+    Spatial,  ///< all samples of one tile after the other: complete only at the end
 };
 
 struct SliceOptions {
     Slicing slicing = Slicing::Time;
-    int samples = 64;        ///< per pixel, at most
+    int samples = 64;        ///< largest number per pixel
     int samplesPerTurn = 2;  ///< per pixel in one portion, in both orders
-    /// Standard error [grey levels] below which a pixel gets no more samples, if its neighbours in
-    /// the tile are below it as well: the estimate of a single pixel may be low by chance. 0: every
-    /// pixel gets all samples.
+    /// A pixel gets no more samples if its standard error [grey levels] and those of the adjacent
+    /// pixels in the tile are below this limit. The neighbours count, because the estimate of a
+    /// single pixel may be low by chance. 0: every pixel gets all samples.
     float threshold = 1;
-    int leastSamples = 16;  ///< before an estimated error is trusted
+    int leastSamples = 16;  ///< samples before an estimated error is trusted
     bool operator==(const SliceOptions&) const = default;
 };
 
-/// A portion of work: `samples` more for each pixel; 0: only a ray through its centre. The span is
-/// valid until done().
+/// A portion of work: `samples` further samples for each pixel, or only a ray through the centre of
+/// each pixel if `samples` is 0. The span is valid until done().
 struct Slice {
     std::span<const std::uint32_t> pixels;  ///< row-major indices
     int samples = 0;
-    std::uint32_t tile = 0;  ///< index of its tile in Morton order
+    std::uint32_t tile = 0;  ///< index of the tile in Morton order
 };
 
 /// State of a pixel.
 struct PixelState {
-    float error = 0;         ///< standard error [grey levels], infinity if unknown
-    float samples = 0;       ///< that the error was estimated from
-    bool untouched = false;  ///< nothing was seen in it so far
+    float error = 0;         ///< standard error [grey levels]; infinite if unknown
+    float samples = 0;       ///< number of samples behind the error
+    bool untouched = false;  ///< the pixel has shown no object and no changed light so far
 };
 using PixelStates = std::function<PixelState(std::uint32_t)>;
 
-/// Cuts the rendering of a picture into portions for several threads. Tiles are 8x8 pixels in
-/// Morton order (G. M. Morton, "A computer oriented geodetic data base", 1966), and so are the
-/// pixels in them: rays that are traced together meet the same objects. The number of samples of a
-/// pixel depends only on the errors in its tile, so it is the same in both orders and for any
-/// distribution of the work.
+/// Divides the rendering of a picture into portions for several threads. Tiles have 8x8 pixels.
+/// Tiles, and the pixels in a tile, are in Morton order (G. M. Morton, "A computer oriented
+/// geodetic data base", 1966), so that rays that are traced together hit the same objects.
+/// The number of samples of a pixel depends only on the errors in its tile. It is therefore the
+/// same in both orders and does not depend on how the work is distributed.
 ///
-/// Slicing::Time begins with a ray through every pixel's centre, after which pixels with a small
-/// error are left out. The first samples come in three turns: one pixel in 16, one in 4, and all,
-/// spread evenly. Tiles that are untouched after the first of these turns are left out of the last.
+/// Slicing::Time begins with a ray through every pixel's centre. After this turn, pixels with a
+/// small error get no samples. The first samples are taken in three turns: in one pixel of 16, in
+/// one of 4, and in all pixels, evenly spread. Tiles that are untouched after the first two of
+/// these turns are left out of the third.
 ///
-/// One caller at a time; only begin() allocates.
+/// Only one thread at a time may call it. Only begin() allocates memory.
 class Slices {
 public:
-    /// Throws std::invalid_argument for numbers out of range.
+    /// Throws std::invalid_argument if a number is out of range.
     explicit Slices(const SliceOptions& options);
 
-    /// Density of the samples in a tile.
+    /// Which pixels of a tile are sampled.
     enum class Density : unsigned char {
         None,
-        Quarter,  ///< pixels of even column and row
+        Quarter,  ///< the pixels with even column and even row
         Full,
     };
-    /// Begins a picture. `densityOf` returns the density of each tile in `bounds`; without it,
-    /// Full. All portions handed out before must be done.
+    /// Begins a picture. `densityOf` returns the density of each tile in `bounds`; without it the
+    /// density is Full. All portions of the previous picture must be done.
     void begin(const PixelRect& bounds, Size picture,
                const std::function<Density(const PixelRect& tile)>& densityOf = {});
 
-    /// The next portion, at most about `mostSamples` (pixels times samples, at least one pixel). No
-    /// pixels: all is done, or the rest waits for outstanding portions.
+    /// The next portion, with at most about `mostSamples` samples (number of pixels times samples)
+    /// but at least one pixel. If there are no pixels, all work is done or the rest must wait for
+    /// outstanding portions.
     [[nodiscard]] Slice next(std::int64_t mostSamples);
 
-    /// Reports that the portion was traced.
+    /// Reports that a portion was traced.
     void done(const Slice& slice, const PixelStates& states);
 
-    /// Whether no portion is outstanding and every pixel has samples() samples, or needs no more.
-    /// The picture may be shown then. Also true before the first turn.
+    /// Whether no portion is outstanding and every pixel either has samples() samples or needs no
+    /// more. Then the picture may be shown. Also true before the first turn.
     [[nodiscard]] bool turnComplete() const;
-    /// Samples that every pixel had, or did not need, after the last complete turn. Spatial slices
-    /// have one turn.
+    /// Number of samples that every pixel had, or did not need, after the last complete turn.
+    /// Slicing::Spatial has only one turn.
     [[nodiscard]] int samples() const { return samples_; }
-    /// Complete turns. Slicing::Time: turn 1 is the ray through the centres, 2 to 4 take the first
-    /// samples.
+    /// Number of complete turns. In Slicing::Time, turn 1 is the ray through the centres, and turns
+    /// 2 to 4 take the first samples.
     [[nodiscard]] int turns() const { return turnComplete() ? turn_ : std::max(turn_ - 1, 0); }
     [[nodiscard]] bool finished() const { return unfinished_ == 0; }
 
     [[nodiscard]] std::size_t pixels() const { return pixels_.size(); }
-    /// Pixels times samples done, since begin().
+    /// Number of samples (pixels times samples) done since begin().
     [[nodiscard]] std::uint64_t traced() const { return traced_; }
-    /// Share of the samples that may have to be traced, [0, 1]; 1 when finished.
+    /// Share of the samples that are done or not needed, in [0, 1]; 1 when finished.
     [[nodiscard]] double progress() const;
 
 private:
     struct Tile {
-        std::uint32_t first = 0, count = 0;  ///< in pixels_
-        std::uint32_t active = 0;            ///< number of pixels, moved to the front, that get
-                                             ///< more samples
-        std::uint32_t handed = 0;            ///< number of active pixels handed out for their next
-                                             ///< samples
+        std::uint32_t first = 0, count = 0;  ///< range in pixels_
+        std::uint32_t active = 0;            ///< number of pixels that get more samples; they are
+                                             ///< in front
+        std::uint32_t handed = 0;            ///< number of active pixels that were handed out in
+                                             ///< this round
         std::uint32_t most = 0;              ///< upper limit of `handed` in this turn
-        std::uint32_t out = 0;               ///< portions that are outstanding
-        int samples = 0;                     ///< of each active pixel
+        std::uint32_t out = 0;               ///< number of outstanding portions
+        int samples = 0;                     ///< samples taken of each active pixel
     };
 
     void addTile(const PixelRect& tile, Density density);
@@ -126,13 +128,13 @@ private:
     const SliceOptions options_;
     std::vector<std::uint32_t> pixels_;
     std::vector<Tile> tiles_;
-    std::vector<std::uint32_t> open_;   ///< spatial: tiles that are begun and not finished
-    std::vector<std::uint64_t> order_;  ///< Morton code and place of the tiles
+    std::vector<std::uint32_t> open_;   ///< Slicing::Spatial: tiles begun but not finished
+    std::vector<std::uint64_t> order_;  ///< sorted Morton codes of the tiles
     int width_ = 1;
-    std::uint32_t cursor_ = 0;  ///< the first tile that was not handed out in this turn
+    std::uint32_t cursor_ = 0;  ///< first tile not yet handed out completely in this turn
     int samples_ = 0, turn_ = 0;
     std::size_t unfinished_ = 0, ofTurn_ = 0;  ///< tiles; tiles whose turn is not over
-    std::uint64_t traced_ = 0, settled_ = 0;   ///< settled: samples that pixels do not need
+    std::uint64_t traced_ = 0, settled_ = 0;   ///< samples done; samples not needed
 };
 
 }  // namespace mfar

@@ -6,18 +6,18 @@
 
 namespace mfar {
 
-/// Tiles of 8x8 pixels in which a picture shows anything.
+/// The tiles of 8x8 pixels in which a picture shows an object or changed light.
 class TouchedTiles {
 public:
-    /// Forgets the picture: nothing is known.
+    /// Discards the picture. Nothing is known then.
     void clear() { tiles_.clear(); }
     void set(const RenderedPicture& picture);
 
-    /// Whether the pixel is known to be farther than a tile from anything shown.
+    /// Whether it is known that neither the pixel's tile nor an adjacent tile shows anything.
     [[nodiscard]] bool isFarFrom(const Eigen::Vector2d& pixel) const;
 
 private:
-    Size size_;  // in tiles
+    Size size_;  // size in tiles
     std::vector<bool> tiles_;
 };
 

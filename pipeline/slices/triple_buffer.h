@@ -6,33 +6,35 @@
 
 namespace mfar {
 
-/// Passes the newest value from one thread to another without locks or waiting: one slot belongs to
-/// the writer, one to the reader, the third lies between. Overtaken values are reused, never freed.
-/// Several threads may share an end if something else keeps them from using it at once.
+/// Passes the newest value from one thread to another without locks and without waiting. One slot
+/// belongs to the writer, one to the reader, and the third is exchanged between them. Values that
+/// were never read are overwritten; their memory is reused. Several threads may share an end if
+/// other means prevent them from using it at the same time.
 template <class T>
 class TripleBuffer {
 public:
-    /// Writer: the slot that will be published next; it holds an older value until overwritten.
+    /// For the writer: the slot that publish() will publish next. It holds an older value until it
+    /// is overwritten.
     [[nodiscard]] T& back() { return slots_[back_]; }
     void publish() {
         back_ = static_cast<std::uint8_t>(
             between_.exchange(back_ | kFresh, std::memory_order_acq_rel) & ~kFresh);
     }
 
-    /// Reader: takes the newest published value; false if nothing was published since the last
-    /// call.
+    /// For the reader: takes the newest published value. Returns false if nothing was published
+    /// since the last call.
     bool fetch() {
         if ((between_.load(std::memory_order_relaxed) & kFresh) == 0) return false;
         front_ = static_cast<std::uint8_t>(between_.exchange(front_, std::memory_order_acq_rel) &
                                            ~kFresh);
         return true;
     }
-    /// Reader: the last value fetched; its address stays the same until the next fetch().
+    /// For the reader: the last value taken. Its address stays the same until the next fetch().
     [[nodiscard]] T& front() { return slots_[front_]; }
     [[nodiscard]] const T& front() const { return slots_[front_]; }
 
 private:
-    static constexpr std::uint8_t kFresh = 4;  // flag next to the slot's number
+    static constexpr std::uint8_t kFresh = 4;  // flag that is stored next to the slot's number
 
     std::array<T, 3> slots_{};
     std::uint8_t back_ = 0, front_ = 1;

@@ -17,7 +17,8 @@ double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-/// Cones about the optical axis: one inside the field of view, one around it.
+/// Two cones around the optical axis: the largest one inside the field of view, and the smallest
+/// one that contains it.
 struct ViewCones {
     double inner = std::numbers::pi, outer = 0;  // half angles [rad]
 
@@ -33,7 +34,7 @@ struct ViewCones {
     }
 };
 
-/// A ball as seen by a camera.
+/// Direction and size of a ball as seen by a camera.
 struct BallSight {
     Eigen::Vector3d towards;  // in the camera's frame [m]
     double fromAxis = 0, halfAngle = 0;
@@ -52,7 +53,8 @@ struct BallSight {
     }
 };
 
-/// Degree 0 and 1 of the light's spherical harmonics, up to constant factors: rows mean, x, y, z.
+/// Spherical harmonics of the light of degree 0 and 1, up to constant factors. The rows are the
+/// mean and the x, y and z components; the columns are the colour channels.
 using LightMoments = Eigen::Matrix<double, 4, 3>;
 
 LightMoments momentsOf(const Environment& environment) {
@@ -63,7 +65,8 @@ LightMoments momentsOf(const Environment& environment) {
         const double solidAngle = std::sin(polar) * 2 * std::numbers::pi * std::numbers::pi /
                                   (static_cast<double>(width) * height);
         for (int column = 0; column < width; ++column) {
-            // Column 0 is -x, the column at three quarters of the width is +y.
+            // Azimuth in the world: column 0 is at -x, and the column at three quarters of the
+            // width is at +y.
             const double around = 2 * std::numbers::pi * (column + 0.5) / width - std::numbers::pi;
             const Eigen::Vector4d basis{1, std::sin(polar) * std::cos(around),
                                         std::sin(polar) * std::sin(around), std::cos(polar)};

@@ -10,42 +10,43 @@
 
 namespace mfar {
 
-/// Bounding ball of an object, in the world [m].
+/// Bounding ball of an object; world coordinates [m].
 struct ObjectBall {
     Eigen::Vector3d centre;
     double radius;
 };
 
-/// One for each of the scene's objects that has vertices.
+/// One ball for each object that has vertices.
 [[nodiscard]] std::vector<ObjectBall> objectBalls(const Scene& scene);
 
-/// Limits of a view change up to which a warped picture serves as well as a new one.
+/// Up to these changes of the view a warped picture serves as well as a new one.
 struct ViewLimits {
     double turnDegrees = 4;  ///< turn of the line of sight about an object's centre, above 0
-    double zoom = 0.2;       ///< change of the distance to it as a share, above 0
+    double zoom = 0.2;       ///< relative change of the distance to the centre, above 0
     bool operator==(const ViewLimits&) const = default;
 };
 
-/// How differently two views show the objects, in units of the limits: from 1 on too differently. A
-/// warp can undo the camera's rotation on the spot, so its angle counts only for objects that
-/// `from` does not show whole. Objects that `to` does not show do not count. Infinity for different
-/// cameras, and for an object that `to` shows and `from` does not.
+/// How much two views of the objects differ, as a multiple of the limits; from 1 on, `from` does
+/// not serve any more. A rotation of the camera on the spot can be undone by a warp. The angle of
+/// rotation counts only for objects that `from` does not show completely. Objects that are not
+/// visible in `to` do not count. Infinite if the cameras differ, or if an object is visible in `to`
+/// but not in `from`.
 [[nodiscard]] double viewChange(const RenderView& from, const RenderView& to,
                                 std::span<const ObjectBall> objects, const ViewLimits& limits);
 
-/// Largest motion of the objects from one view to the other, without distortion [px]. Points that
-/// are not in front of both cameras do not count. Infinity for different cameras.
+/// Largest motion of the objects from one view to the other [px], computed without lens distortion.
+/// Points that are not in front of both cameras do not count. Infinite if the cameras differ.
 [[nodiscard]] double pixelChange(const RenderView& from, const RenderView& to,
                                  std::span<const ObjectBall> objects);
 
-/// Difference of the light as a share of the stronger: the largest difference of the mean radiance
-/// and of its first moment over all directions (spherical harmonics of degree 0 and 1).
+/// Difference of two lightings relative to the stronger one: the largest difference of the mean
+/// radiance and of its first moments over all directions (spherical harmonics of degree 0 and 1).
 [[nodiscard]] double lightChange(const Lighting& a, const Lighting& b);
 
-/// Whether the scenes differ in their light alone.
+/// Whether the scenes have the same objects. Their light may differ.
 [[nodiscard]] bool sameObjects(const Scene& a, const Scene& b);
 
-/// Whether the view is valid: camera parameters sound, pose finite and its rotation valid.
+/// Whether the camera's parameters are valid and the pose is finite with a valid rotation.
 [[nodiscard]] bool isUsable(const RenderView& view);
 
 }  // namespace mfar

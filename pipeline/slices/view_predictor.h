@@ -9,25 +9,26 @@
 namespace mfar {
 
 struct PredictionLimits {
-    double seconds = 0.5;    ///< prediction time, at most; 0: no prediction
-    double turnDegrees = 4;  ///< rotation of the camera, and angle of its translation as seen from
-                             ///< the objects, at most
+    double seconds = 0.5;    ///< longest prediction time; 0: no prediction
+    double turnDegrees = 4;  ///< upper limit of the camera's rotation, and of the angle of its
+                             ///< translation as seen from the objects
     bool operator==(const PredictionLimits&) const = default;
 };
 
-/// Predicts the pose of a camera that keeps its angular and linear velocity in its own frame, as
-/// measured over the last tenth of a second. One thread at a time; no allocation.
+/// Predicts the pose of a camera that keeps its angular and linear velocity, both measured in the
+/// camera's own frame over the last tenth of a second. One thread at a time may call it. It
+/// allocates no memory.
 class ViewPredictor {
 public:
-    /// Throws std::invalid_argument for limits that are negative or not finite.
+    /// Throws std::invalid_argument if a limit is negative or not finite.
     explicit ViewPredictor(const PredictionLimits& limits = {});
 
-    /// Adds the pose at `time`, later than the last one. An earlier time or a gap above half a
-    /// second restarts the measurement.
+    /// Adds the pose at `time`. If `time` is not later than the last time, or more than half a
+    /// second later, the measurement restarts.
     void add(const RigidTransform& T_world_camera, Timestamp time);
 
-    /// Pose `seconds` after the last one, as far as the limits allow. `distance`: to the objects
-    /// [m]. The identity before the first pose.
+    /// Pose `seconds` after the last pose, as far as the limits allow. `distance` is the distance
+    /// of the objects [m]. Returns the identity before the first pose.
     [[nodiscard]] RigidTransform predict(double seconds, double distance) const;
 
 private:
@@ -39,7 +40,7 @@ private:
     [[nodiscard]] Vector6 rate() const;
 
     const PredictionLimits limits_;
-    std::array<Entry, 16> entries_{};  // a ring
+    std::array<Entry, 16> entries_{};  // ring buffer
     std::size_t added_ = 0;
 };
 

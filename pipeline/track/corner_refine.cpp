@@ -14,13 +14,13 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kStep = 0.25;       // px, along the normal
-constexpr double kMostReach = 2.5;   // px to both sides of an edge, enough for a blur of about 1 px
-constexpr double kEnds = 0.08;       // ignored share at each end of an edge: corners are round
-constexpr double kFarthestMove = 2;  // px
-constexpr double kLeastContrast = 0.006;  // linear light, 1 at grey level 255
+constexpr double kStep = 0.25;       // [px] along the edge's normal
+constexpr double kMostReach = 2.5;   // [px] on both sides of an edge; suffices for a blur of 1 px
+constexpr double kEnds = 0.08;       // share of an edge ignored at each end: corners are round
+constexpr double kFarthestMove = 2;  // [px] largest shift of a corner or an edge point
+constexpr double kLeastContrast = 0.006;  // [linear light; grey level 255 is 1]
 
-/// Bilinear look-up of linear light; empty outside the picture.
+/// Bilinear look-up of linear light. Returns nothing outside the picture.
 class Light {
 public:
     Light(const ImageView& luma, const std::array<double, 256>& table)
@@ -44,11 +44,12 @@ private:
 
 struct EdgePoint {
     Vector2d pixel;
-    double weight;  ///< contrast of the edge [light]
+    double weight;  ///< contrast of the edge [linear light]
 };
 
-/// Finds where light rises along `normal` (dark to bright) near `middle`: the mean position of the
-/// profile's rise. A second pass centres the window on the result of the first.
+/// Finds the position near `middle` where light rises along `normal` (from dark to bright). The
+/// result is the mean position of the rise. A second pass centres the search window on the result
+/// of the first pass.
 std::optional<EdgePoint> findStep(const Light& light, const Vector2d& middle,
                                   const Vector2d& normal, double reach) {
     double centre = 0, contrast = 0;
@@ -71,13 +72,13 @@ std::optional<EdgePoint> findStep(const Light& light, const Vector2d& middle,
     return EdgePoint{middle + centre * normal, contrast};
 }
 
-/// n . p = d with |n| = 1.
+/// The line n . p = d with |n| = 1.
 struct Line {
     Vector2d n;
     double d;
 };
 
-/// Total least squares through the points, repeated without the outliers.
+/// Fits a line by total least squares. Repeats the fit without the outliers of the first fit.
 std::optional<Line> fitLine(std::vector<EdgePoint> points) {
     Line line{};
     for (int turn = 0; turn < 2; ++turn) {
@@ -109,8 +110,8 @@ std::optional<Vector2d> intersect(const Line& a, const Line& b) {
     return Vector2d{(a.d * b.n.y() - b.d * a.n.y()) / det, (b.d * a.n.x() - a.d * b.n.x()) / det};
 }
 
-/// The edge from corner a to corner b as a line of normalised rays. In the picture, the inside of
-/// the quad is to the left of the direction from a to b.
+/// The edge from corner a to corner b as a line of normalised rays. In the picture, seen from a
+/// towards b, the inside of the quad is to the left.
 std::optional<Line> measureEdge(const Light& light, const CameraModel& camera, const Vector2d& a,
                                 const Vector2d& b, const TagFamilyInfo& family) {
     const double length = (b - a).norm();

@@ -14,7 +14,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Homography from the square's corners to the rays; its last entry is 1.
+/// Homography from the square's corners to the rays. Its last entry is 1.
 std::optional<Matrix3d> homography(const std::array<Vector2d, 4>& rays) {
     Eigen::Matrix<double, 8, 8> A = Eigen::Matrix<double, 8, 8>::Zero();
     Eigen::Matrix<double, 8, 1> b;
@@ -34,13 +34,13 @@ std::optional<Matrix3d> homography(const std::array<Vector2d, 4>& rays) {
     return H;
 }
 
-/// The rotation that turns +z to the direction of ray (p, 1).
+/// The rotation that turns the z axis to the direction of the ray (p, 1).
 Matrix3d towards(const Vector2d& p) {
     return Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), p.homogeneous())
         .toRotationMatrix();
 }
 
-/// Least squares over u (r3 . X + tz) = r1 . X + tx and the same for v.
+/// Least-squares solution of u (r3 . X + tz) = r1 . X + tx and of the same equation for v.
 Vector3d translationOf(const Matrix3d& R, const std::array<Vector2d, 4>& rays) {
     Eigen::Matrix<double, 8, 3> A;
     Eigen::Matrix<double, 8, 1> b;
@@ -67,7 +67,7 @@ double errorOf(const RigidTransform& T, const std::array<Vector2d, 4>& rays) {
 std::optional<std::array<RigidTransform, 2>> planarPoses(const std::array<Vector2d, 4>& rays) {
     const auto H = homography(rays);
     if (!H) return std::nullopt;
-    // All results follow from the image p of the square's middle and the Jacobian J there.
+    // Everything follows from the image p of the square's centre and the Jacobian J at the centre.
     const Vector2d p = H->topRightCorner<2, 1>();
     const Matrix2d J = H->topLeftCorner<2, 2>() - p * H->bottomLeftCorner<1, 2>();
     const Matrix3d V = towards(p);

@@ -18,9 +18,9 @@ Pose poseOf(const CameraPose& solved, const Matrix6& ambiguous,
     return out;
 }
 
-/// Covariance due to the choice between the two solutions: each is the true one with the
-/// probability that its error implies, so the filter must expect an error along the way from one to
-/// the other.
+/// Covariance that results from the choice between the two solutions. Each solution is the true one
+/// with a probability that follows from its error. The filter must therefore expect an error along
+/// the way from one solution to the other.
 Matrix6 ambiguity(const CameraPoses& poses, const CameraPose& chosen, double sigma) {
     if (!poses.other) return Matrix6::Zero();
     const bool isBest = &chosen == &poses.best;
@@ -31,7 +31,7 @@ Matrix6 ambiguity(const CameraPoses& poses, const CameraPose& chosen, double sig
     return share * (1 - share) * way * way.transpose();
 }
 
-/// Mean distance of the camera to the tags that are used.
+/// Mean distance of the camera from the tags in use.
 double distanceTo(std::span<const TagObservation> tags, const std::vector<bool>& used,
                   const RigidTransform& T_world_camera) {
     double sum = 0;

@@ -9,31 +9,33 @@
 namespace mfar {
 
 struct PlanarChoiceOptions {
-    double errorSigma = 0.25;  ///< assumed noise of a corner's coordinates for evidence [px]
-    /// Evidence at which the choice changes to the other solution: log likelihood ratio of the
-    /// corners, summed over frames.
+    double errorSigma = 0.25;  ///< noise of a corner's coordinates that the evidence assumes [px]
+    /// Evidence from which on the other solution is chosen: log likelihood ratio of the corners,
+    /// summed over frames.
     double threshold = 12;
-    double memory = 0.95;  ///< factor of the evidence from one frame to the next, [0, 1)
+    double memory = 0.95;  ///< factor that reduces the evidence from frame to frame, [0, 1)
 };
 
-/// Decides between the two poses from which a plane of tags looks nearly the same. The pose nearer
-/// to the predicted motion is kept until the other explains the corners, in one frame or over many,
-/// better than chance permits. So noise does not flip the pose when the plane is seen from straight
-/// ahead, where both errors are equal, and a wrong initial choice is corrected.
+/// Chooses one of the two poses from which a plane of tags looks nearly the same.
+/// The pose nearer to the predicted motion is kept until the other pose explains the corners
+/// significantly better, in one frame or over many frames. Noise therefore does not flip the pose
+/// when the plane is seen from straight ahead, where both errors are equal. A wrong first choice is
+/// corrected.
 class PlanarChoice {
 public:
-    /// Throws std::invalid_argument for options out of their range.
+    /// Throws std::invalid_argument if an option is out of range.
     explicit PlanarChoice(const PlanarChoiceOptions& options = {});
 
-    /// Returns a reference into `poses`. Without a prediction: the pose with the smaller error.
+    /// Returns a reference into `poses`. Without a prediction, returns the pose with the smaller
+    /// error.
     [[nodiscard]] const CameraPose& choose(const CameraPoses& poses,
                                            const std::optional<RigidTransform>& predicted);
-    /// True when the last choice changed to the pose farther from the prediction.
+    /// Whether the last call changed to the pose that is farther from the prediction.
     [[nodiscard]] bool flipped() const { return flipped_; }
 
 private:
     PlanarChoiceOptions options_;
-    double evidence_ = 0;  ///< for the solution that is not chosen
+    double evidence_ = 0;  ///< evidence for the solution that is not chosen
     bool flipped_ = false;
 };
 
@@ -43,22 +45,22 @@ struct PoseEstimatorOptions {
     PoseFilterOptions filter;
 };
 
-/// Estimates the camera's motion from the tags of each video frame: solve, choose, filter. One
-/// thread at a time.
+/// Estimates the camera's motion from the tags in each video frame: solves for the pose, chooses a
+/// solution, and filters it. One thread at a time may use it.
 class PoseEstimator {
 public:
     explicit PoseEstimator(const PoseEstimatorOptions& options = {});
 
-    /// The filtered pose at the frame's time. When no tag is visible or the measured pose is an
-    /// outlier, the prediction (tags = 0), until the filter's limit is reached.
+    /// Returns the filtered pose at the frame's time. If no tag is visible or the measured pose is
+    /// an outlier, returns the predicted pose (tags = 0) until the filter's limit is reached.
     std::optional<Pose> update(std::span<const TagObservation> tags, const CameraModel& camera,
                                Timestamp time);
     /// The unfiltered pose from the last frame's tags.
     [[nodiscard]] const std::optional<Pose>& raw() const { return raw_; }
     [[nodiscard]] std::optional<Pose> predict(Timestamp t) const { return filter_.predict(t); }
-    /// The pose of a picture other than a video frame: measured, chosen by the prediction, not
-    /// filtered and without effect on the filter. `T_camera_video`: video camera -> the picture's
-    /// camera.
+    /// Measures the pose in a picture that is not a video frame. The solution is chosen with the
+    /// filter's prediction. The pose is not filtered, and the filter does not change.
+    /// `T_camera_video` transforms from the video camera to the picture's camera.
     [[nodiscard]] std::optional<Pose> measure(std::span<const TagObservation> tags,
                                               const CameraModel& camera,
                                               const RigidTransform& T_camera_video,

@@ -8,8 +8,8 @@
 namespace mfar {
 namespace {
 
-// A tracked camera mostly turns by less than a radian and moves by less than its distance per
-// second.
+// Standard deviation of the initial rates. A tracked camera mostly turns by less than one radian,
+// and moves by less than its distance from the tags, per second.
 constexpr double kStartRate = 1;
 
 double secondsBetween(Timestamp a, Timestamp b) {
@@ -133,7 +133,7 @@ void PoseFilter::reset() {
 std::optional<Pose> PoseFilter::predict(Timestamp t) const {
     if (!state_ || missed_ > options_.bridgeFrames || !reaches(*state_, t)) return std::nullopt;
     const State at = propagated(*state_, t);
-    // Numeric failure: the covariance spans more than double precision.
+    // Numeric failure: the covariance has values too different for double precision.
     if (!isFinite(at.T_world_video) || !at.P.allFinite() || !(at.P.diagonal().minCoeff() >= 0))
         return std::nullopt;
     Pose out;

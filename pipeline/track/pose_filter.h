@@ -11,41 +11,43 @@
 namespace mfar {
 
 struct PoseFilterOptions {
-    /// White-noise acceleration of the constant-velocity model. Lengths are in distances to the
-    /// tags, because a pose's errors are proportional to these; the unit of length is irrelevant.
+    /// Accelerations are white noise in the constant-velocity model. Lengths are relative to the
+    /// distance from the tags, because a pose's errors are proportional to this distance. The unit
+    /// of length is therefore irrelevant.
     double angularAcceleration = 0.4;  ///< [rad/s^2 per root Hz]
     double linearAcceleration = 0.4;   ///< [distances/s^2 per root Hz]
-    double gate = 50;  ///< squared Mahalanobis distance above which a pose is an outlier, 6 degrees
-                       ///< of freedom
-    int jumpFrames = 3;  ///< consecutive consistent outliers that restart the filter
+    double gate = 50;  ///< a pose with a larger squared Mahalanobis distance (6 degrees of freedom)
+                       ///< is an outlier
+    int jumpFrames = 3;  ///< consecutive outliers that agree and so restart the filter
     std::chrono::nanoseconds bridge = std::chrono::milliseconds(400);  ///< longest prediction
-    int bridgeFrames = 12;  ///< frames without an accepted pose after which predictions end
+    int bridgeFrames = 12;  ///< frames without an accepted pose until predictions end
 };
 
-/// Constant-velocity Kalman filter on SE(3): the camera keeps its rates of rotation and translation
-/// in its own frame. Error state of 12: motion of the pose (rotation, translation) and of the
-/// twist, both in the camera's frame. One thread at a time.
+/// Constant-velocity Kalman filter on SE(3). The camera is assumed to keep its rates of rotation
+/// and translation in its own frame. The error state has 12 dimensions: motion of the pose
+/// (rotation, translation) and of the twist, both in the camera's frame. One thread at a time may
+/// use it.
 class PoseFilter {
 public:
-    /// Throws std::invalid_argument for options that are not positive or not finite.
+    /// Throws std::invalid_argument if an option is not positive or not finite.
     explicit PoseFilter(const PoseFilterOptions& options = {});
 
     enum class Outcome {
-        Started,   ///< the first pose, or the first after too long a gap or after time went back
-        Accepted,  ///< blended with the prediction
-        Rejected,  ///< an outlier: the prediction is kept
-        Jumped     ///< consistent outliers: the filter restarts from them
+        Started,   ///< first pose, also after too long a gap or a step back in time
+        Accepted,  ///< the pose was combined with the prediction
+        Rejected,  ///< the pose is an outlier, and the prediction is kept
+        Jumped     ///< several outliers agreed, and the filter restarted from them
     };
-    /// Adds a measured pose with its time and covariance. `distance`: from the camera to the
-    /// measured tags, same unit as the translation.
+    /// Adds a measured pose with its time and covariance. `distance` is the distance from the
+    /// camera to the measured tags in the unit of the translation.
     Outcome update(const Pose& measured, double distance);
     /// Reports a frame without a measured pose.
     void missed();
     void reset();
 
-    /// Pose and covariance at t, tags = 0; t may lie `bridge` before or after the last accepted
-    /// pose. Empty beyond that, after bridgeFrames frames without an accepted pose, or before the
-    /// first.
+    /// Pose and covariance at time t with tags = 0. t may be up to `bridge` before or after the
+    /// last accepted pose. Empty outside this range, after bridgeFrames frames without an accepted
+    /// pose, or before the first pose.
     [[nodiscard]] std::optional<Pose> predict(Timestamp t) const;
 
 private:
@@ -61,13 +63,13 @@ private:
 
     [[nodiscard]] State started(const Pose& measured, double distance) const;
     [[nodiscard]] State propagated(const State& from, Timestamp to) const;
-    /// Returns false and changes nothing when the pose is an outlier.
+    /// Returns false and changes nothing if the pose is an outlier.
     [[nodiscard]] bool correct(State& state, const Pose& measured, double distance) const;
     [[nodiscard]] bool reaches(const State& state, Timestamp t) const;
 
     PoseFilterOptions options_;
     std::optional<State> state_;
-    std::optional<State> rival_;  ///< a second state, updated by the outliers
+    std::optional<State> rival_;  ///< a second state that follows the outliers
     int missed_ = 0;
 };
 

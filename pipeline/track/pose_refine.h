@@ -12,44 +12,48 @@ namespace mfar {
 /// The corners of one tag in the world and in the picture.
 struct CornerSet {
     std::array<Eigen::Vector3d, 4> world;     ///< [m]
-    std::array<Eigen::Vector2d, 4> pixels;    ///< [px], distorted
-    std::array<Eigen::Vector2d, 4> outwards;  ///< motion of a corner when the edges move out by 1
-    double weight = 1;                        ///< of its squared error; 0: ignored
+    std::array<Eigen::Vector2d, 4> pixels;    ///< [px] in the distorted picture
+    std::array<Eigen::Vector2d, 4> outwards;  ///< motion of each corner per px of edge shift
+    double weight = 1;                        ///< weight of the squared error; 0: ignored
 };
 
-/// For four corners in the order of TagDetection::corners, a convex quad.
+/// Computes CornerSet::outwards. The corners must be a convex quad in the order of
+/// TagDetection::corners.
 [[nodiscard]] std::array<Eigen::Vector2d, 4>
 outwardsOf(const std::array<Eigen::Vector2d, 4>& corners);
 
-/// Sum of the squared reprojection errors of one set [px^2]; infinite when a corner is not in front
-/// of the camera. `edgeShift` [px]: how far out all edges of the tags appear, see refinePose.
+/// Sum of the squared reprojection errors of one tag [px^2]. Infinite if a corner is not in front
+/// of the camera. `edgeShift` [px] is the distance by which all edges of the tags appear too far
+/// out; see refinePose().
 [[nodiscard]] double squaredError(const CornerSet& set, const RigidTransform& T_camera_world,
                                   const CameraModel& camera, double edgeShift = 0);
 
 struct RefinedPose {
     RigidTransform T_world_camera;
-    Matrix6 information;      ///< J^T J of a motion in the camera's own frame [px^2], reduced by
-                              ///< the part that the edge shift explains
-    double squaredError = 0;  ///< weighted [px^2]
+    Matrix6 information;      ///< J^T J for a motion in the camera's own frame [px^2], without the
+                              ///< part that an edge shift explains
+    double squaredError = 0;  ///< weighted sum [px^2]
     double edgeShift = 0;     ///< [px]
 };
 
-/// Weight of the edge shift's square, relative to a corner's, that keeps it at zero.
+/// Weight of the squared edge shift, relative to that of a corner, that keeps the edge shift at
+/// zero.
 inline constexpr double kNoEdgeShift = 1e12;
 
-/// Levenberg-Marquardt from `start` to the next minimum of the weighted squared reprojection error.
-/// Marquardt's scaling makes it independent of the unit of length. Empty when a corner is behind
-/// the camera at the start or the corners do not determine the pose.
+/// Minimises the weighted squared reprojection error from `start` to the next local minimum by
+/// Levenberg-Marquardt. Marquardt's scaling makes the result independent of the unit of length.
+/// Empty if a corner is behind the camera at the start or if the corners do not determine the pose.
 ///
-/// The edges of all tags of a picture appear slightly too far out or in, due to blur, gamma and the
-/// printer's ink. With one tag, this cannot be distinguished from another distance; with several
-/// tags it can, and it is estimated unless `shiftWeight` prevents it.
+/// The edges of all tags in a picture appear slightly too far out or in, because of blur, gamma and
+/// the printer's ink. With one tag, this edge shift cannot be distinguished from a different
+/// distance. With several tags it can, and it is estimated unless `shiftWeight` prevents it.
 [[nodiscard]] std::optional<RefinedPose> refinePose(std::span<const CornerSet> sets,
                                                     const RigidTransform& start,
                                                     const CameraModel& camera,
                                                     double shiftWeight = kNoEdgeShift);
 
-/// Inverse of an information matrix whose rows may have any units; empty when it is singular.
+/// Inverse of an information matrix whose rows may have different units. Empty if the matrix is
+/// singular.
 [[nodiscard]] std::optional<Matrix6> inverseOf(const Matrix6& information);
 
 }  // namespace mfar

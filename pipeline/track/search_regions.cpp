@@ -7,16 +7,16 @@
 namespace mfar {
 namespace {
 
-constexpr double kRoom = 10;         // px, for errors that the prediction does not model
-constexpr double kQuietZone = 0.3;   // share of the tag's extent; its white border is 1/8 to 1/5
-constexpr double kMostRoom = 80;     // px; a less certain prediction is not used
-constexpr double kSmallestTag = 10;  // px
+constexpr double kRoom = 10;         // [px] for errors that the prediction does not model
+constexpr double kQuietZone = 0.3;   // share of the tag's size; its white border is 1/8 to 1/5
+constexpr double kMostRoom = 80;     // [px] predictions with a larger uncertainty are not used
+constexpr double kSmallestTag = 10;  // [px]
 
 bool overlap(const PixelRect& a, const PixelRect& b) {
     return a.x0 < b.x1 && b.x0 < a.x1 && a.y0 < b.y1 && b.y0 < a.y1;
 }
 
-/// Three standard deviations of a point's position at this distance [px].
+/// Three standard deviations [px] of the position of a point at this distance.
 double uncertainty(const Matrix6& covariance, double distance, const CameraModel& camera) {
     const double turn = covariance.diagonal().head<3>().maxCoeff();
     const double move = covariance.diagonal().tail<3>().maxCoeff() / (distance * distance);
@@ -65,7 +65,8 @@ std::vector<PixelRect> searchRegions(const TagMap& map, const CameraModel& camer
     for (const auto& [key, tag] : map.tags()) {
         std::optional<PixelRect> region = regionOf(tag, camera, T_camera_world, covariance);
         if (!region) continue;
-        // Merges overlapping regions, and regions that overlap the merged one.
+        // Merges the region with all regions that overlap it. The search starts again after each
+        // merge, because the merged region may overlap others.
         for (auto it = out.begin(); it != out.end();) {
             if (!overlap(*it, *region)) {
                 ++it;

@@ -9,15 +9,15 @@
 
 namespace mfar {
 
-/// Where in the picture to search for the tags of the map: a rectangle around every tag that faces
-/// the camera and whose middle is in the picture, with a margin for its quiet zone, for motion and
-/// for three standard deviations of the predicted pose. Overlapping rectangles are merged.
-/// `covariance`: of T_world_camera, in the camera's own frame.
+/// The parts of the picture in which the tags of the map are searched. There is a rectangle around
+/// every tag that faces the camera and whose centre is in the picture. Its margin covers the tag's
+/// quiet zone, motion, and three standard deviations of the predicted pose. Overlapping rectangles
+/// are merged. `covariance` is that of T_world_camera, in the camera's own frame.
 [[nodiscard]] std::vector<PixelRect> searchRegions(const TagMap& map, const CameraModel& camera,
                                                    const RigidTransform& T_world_camera,
                                                    const Matrix6& covariance);
 
-/// Total area [px].
+/// Total area [px^2].
 [[nodiscard]] double areaOf(const std::vector<PixelRect>& regions);
 
 }  // namespace mfar

@@ -18,10 +18,10 @@ namespace mfar {
 namespace {
 
 constexpr int kLargestSide = 32767;  // the library stores half pixels in 16 bits
-constexpr int kSmallestSide = 16;    // decimated pixels; smaller tags are not readable
-constexpr int kTile = 4;             // side of the library's threshold tiles, decimated pixels
+constexpr int kSmallestSide = 16;    // [decimated px]; smaller tags cannot be read
+constexpr int kTile = 4;             // edge of the library's threshold tiles [decimated px]
 
-/// A family with the function that frees it.
+/// Functions that create and free a family.
 struct FamilyMaker {
     apriltag_family_t* (*create)();
     void (*destroy)(apriltag_family_t*);
@@ -44,7 +44,7 @@ FamilyHandle makeFamily(TagFamily family) {
     return {maker.create(), maker.destroy};
 }
 
-/// Widens the border of the family's tags by one cell; the codes stay the same.
+/// Widens the border of the family's tags by one cell. The codes stay the same.
 void widenBorder(apriltag_family_t& family) {
     family.width_at_border += 2;
     family.total_width += 2;
@@ -61,7 +61,7 @@ struct DetectionsDeleter {
     void operator()(zarray_t* d) const { apriltag_detections_destroy(d); }
 };
 
-// On Debian, image_u8_destroy is in another library; these are its operations.
+// On Debian, image_u8_destroy() is in another library. This does the same.
 struct ImageDeleter {
     void operator()(image_u8_t* image) const {
         std::free(image->buf);
@@ -85,7 +85,8 @@ void check(const DetectorOptions& o) {
     require(o.minMargin >= 0 && o.minMargin <= 255, "minMargin must be from 0 to 255");
 }
 
-/// The part of the picture to search, aligned to the grid of threshold tiles of the whole picture.
+/// The part of the picture that is searched. It is aligned to the grid of threshold tiles of the
+/// whole picture.
 PixelRect searched(Size size, const std::optional<PixelRect>& region, double decimation) {
     if (!region) return {0, 0, size.width, size.height};
     const int grid = static_cast<int>(kTile * decimation);
@@ -105,7 +106,7 @@ bool trusted(const TagDetection& d, const DetectorOptions& o) {
 }  // namespace
 
 struct TagDetector::Library {
-    std::vector<FamilyHandle> families;  // outlive the detector, which borrows them
+    std::vector<FamilyHandle> families;  // must outlive the detector, which refers to them
     std::unique_ptr<apriltag_detector_t, DetectorDeleter> detector;
 
     [[nodiscard]] TagDetection translate(const apriltag_detection_t& found, PixelRect from) const {
@@ -113,7 +114,7 @@ struct TagDetector::Library {
         out.tag = {tagFamilyNamed(found.family->name).value(), found.id};
         out.hamming = found.hamming;
         out.margin = found.decision_margin;
-        // The library puts the centre of the first pixel at (0.5, 0.5).
+        // For the library, the centre of the first pixel is at (0.5, 0.5).
         for (int k = 0; k < 4; ++k)
             out.corners[k] = {found.p[k][0] - 0.5 + from.x0, found.p[k][1] - 0.5 + from.y0};
         return out;
@@ -136,7 +137,8 @@ TagDetector::TagDetector(const DetectorOptions& options)
     for (const TagFamily family : families) {
         library_->families.push_back(makeFamily(family));
         if (options.borderCells == 2) widenBorder(*library_->families.back());
-        // Tables for two bits take 90 MB for tagStandard41h12 and double the false detections.
+        // One bit is corrected. Tables for two bits would take 90 MB for tagStandard41h12 and
+        // double the number of false detections.
         apriltag_detector_add_family_bits(&detector, library_->families.back().get(), 1);
     }
 }
@@ -155,8 +157,8 @@ std::vector<TagDetection> TagDetector::detect(const ImageView& luma,
     const double least = kSmallestSide * options_.decimation;
     if (!(width >= least && height >= least)) return {};
     const std::uint8_t* first = luma.data + part.y0 * luma.stride + part.x0;
-    // The library writes to its input only for the blur, and only without decimation; then it gets
-    // a copy.
+    // The library writes to its input only to blur it without decimation. In this case it gets a
+    // copy.
     auto* pixels = const_cast<std::uint8_t*>(first);
     auto stride = static_cast<int>(luma.stride);
     if (options_.blur > 0 && options_.decimation == 1) {
@@ -177,7 +179,7 @@ std::vector<TagDetection> TagDetector::detect(const ImageView& luma,
         const TagDetection detection = library_->translate(*one, part);
         if (trusted(detection, options_)) out.push_back(detection);
     }
-    // The library's order depends on the number of threads.
+    // The library's order depends on the number of threads, so the detections are sorted.
     std::sort(out.begin(), out.end(), [](const TagDetection& a, const TagDetection& b) {
         return std::tuple(a.tag, a.corners[0].x(), a.corners[0].y()) <
                std::tuple(b.tag, b.corners[0].x(), b.corners[0].y());

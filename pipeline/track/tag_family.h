@@ -8,15 +8,15 @@
 
 namespace mfar {
 
-/// Supported families of AprilTags.
+/// Supported AprilTag families.
 enum class TagFamily : unsigned char { Tag36h11, Tag25h9, Tag16h5, TagStandard41h12 };
 
 struct TagFamilyInfo {
     TagFamily family;
-    std::string_view name;  ///< as in tags.toml and in libapriltag
-    int count;              ///< ids are 0 .. count - 1
-    int cells;              ///< data cells along the edge between two corners
-    bool brightInside;      ///< just inside the corners is a white ring, outside a black one
+    std::string_view name;  ///< name in tags.toml and in libapriltag
+    int count;              ///< ids are 0 to count - 1
+    int cells;              ///< number of cells along the edge between two corners
+    bool brightInside;      ///< the ring inside the corners is white, the one outside black
 };
 
 inline constexpr std::array<TagFamilyInfo, 4> kTagFamilies{{

@@ -12,8 +12,8 @@
 
 namespace mfar {
 
-/// A tag map is invalid. One line that begins with "file:line: " (or "file: " when the fault is not
-/// in one line).
+/// Thrown if a tag map is invalid. The message is one line that begins with "file:line: " (or with
+/// "file: " if the fault is not in a single line).
 class TagMapError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -24,21 +24,21 @@ struct MappedTag {
     RigidTransform T_world_tag;  ///< tag frame: x right, y down, z into the surface
 };
 
-/// From the frame of objects that stand on a tag (x to the right and y up in its print, z out of
-/// it) to the tag's frame.
+/// Transform from the frame of objects on a tag (x to the right and y up in the tag's print, z out
+/// of the print) to the tag's frame.
 [[nodiscard]] inline RigidTransform standOnTag() {
     return {Eigen::Quaterniond(0, 1, 0, 0), Eigen::Vector3d::Zero()};
 }
 
-/// The poses of the tags in the world. Its frame is the world frame of all poses.
+/// The poses of the tags in the world. The map's frame is the world frame of all poses.
 class TagMap {
 public:
     TagMap() = default;
-    /// Throws std::invalid_argument for a duplicate tag, a size that is not positive or a pose that
-    /// is not finite.
+    /// Throws std::invalid_argument if a tag occurs twice, a size is not positive or a pose is not
+    /// finite.
     explicit TagMap(const std::vector<MappedTag>& tags);
 
-    /// nullptr when the tag is not in the map. Valid as long as the map.
+    /// Returns nullptr if the tag is not in the map. The result is valid as long as the map.
     [[nodiscard]] const MappedTag* find(TagKey tag) const;
     [[nodiscard]] bool empty() const { return tags_.empty(); }
     /// Sorted by family and id.
@@ -50,23 +50,24 @@ private:
     std::map<TagKey, MappedTag> tags_;
 };
 
-/// Reads tags.toml: `family` for all tags, and a list `[[tags]]` with `id`, `size` [m], `position`
-/// [x, y, z] [m], `orientation` [w, x, y, z] and, where it differs, `family`. Files that end in
-/// .yaml or .yml are read as the tags.yaml of apriltag_ros, see tagMapFromRosYaml. Throws
-/// TagMapError.
+/// Reads tags.toml. The file has `family` for all tags, and a list `[[tags]]` with `id`, `size`
+/// [m], `position` [x, y, z] [m], `orientation` [w, x, y, z] and, if it differs, `family`. Files
+/// whose name ends in .yaml or .yml are read as the tags.yaml of apriltag_ros, see
+/// tagMapFromRosYaml(). Throws TagMapError.
 [[nodiscard]] TagMap loadTagMap(const std::filesystem::path& file);
 
-/// `file` is for messages. Throws TagMapError.
+/// `file` is used in messages. Throws TagMapError.
 [[nodiscard]] TagMap tagMapFromToml(std::string_view text, const std::string& file);
 
 /// The map in the format of tags.toml.
 [[nodiscard]] std::string tomlOf(const TagMap& map);
 
-/// Reads the tags.yaml of apriltag_ros (ROS 1). The frame of the only `tag_bundles` entry becomes
-/// the world; its `layout` has `id`, `size` and x, y, z, qw, qx, qy, qz (identity by default). Tags
-/// in `standalone_tags` have no pose in that world and are only checked. Without a bundle, the only
-/// standalone tag is the world. The file's tag frame has y up and z out of the surface and is
-/// converted to ours. The file does not name the family. Throws TagMapError.
+/// Reads the tags.yaml of apriltag_ros (ROS 1). The file may have one `tag_bundles` entry, whose
+/// frame becomes the world. The entry's `layout` has `id`, `size` and x, y, z, qw, qx, qy, qz
+/// (default: identity). Tags in `standalone_tags` have no pose in this world, so they are only
+/// checked. Without a bundle, the only standalone tag is the world.
+/// In the file's tag frame y points up and z out of the surface; poses are converted to this
+/// project's tag frame. The file does not name the family. Throws TagMapError.
 [[nodiscard]] TagMap tagMapFromRosYaml(std::string_view text, const std::string& file,
                                        TagFamily family = TagFamily::Tag36h11);
 

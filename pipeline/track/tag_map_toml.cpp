@@ -61,7 +61,7 @@ private:
     }
 
     [[nodiscard]] double number(const toml::node& node, std::string_view key) const {
-        // TOML++ returns no double for an integer above 2^53.
+        // toml++ does not return an integer above 2^53 as double.
         const auto whole = node.value_exact<std::int64_t>();
         const auto value = whole ? static_cast<double>(*whole) : node.value_exact<double>();
         if (!value || !std::isfinite(*value))

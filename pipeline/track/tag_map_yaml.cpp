@@ -10,7 +10,8 @@
 namespace mfar {
 namespace {
 
-/// The tag frame of apriltag_ros has x right, y up, z out of the surface: half a turn about x.
+/// Rotation between the two tag frames. In apriltag_ros, x points right, y up and z out of the
+/// surface, which is half a turn about x.
 const Eigen::Quaterniond kRosTagOfTag(0, 1, 0, 0);
 
 class BundleReader {

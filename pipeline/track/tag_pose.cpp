@@ -15,13 +15,13 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr std::size_t kStarts = 8;   // tags, largest first, whose two solutions are tried as start
-constexpr double kStartCutoff = 10;  // px; from one tag's pose, distant tags are off by up to this
+constexpr std::size_t kStarts = 8;   // largest tags whose two solutions are tried as start
+constexpr double kStartCutoff = 10;  // [px] distant tags may be off by this with one tag's pose
 constexpr double kSameMinimum = 0.1 * kDegree;
 
-/// A usable tag, with its own two poses of the camera.
+/// A usable tag with the two poses of the camera that follow from this tag alone.
 struct Candidate {
-    std::size_t index;  ///< of the observation
+    std::size_t index;  ///< index of the observation
     double area;        ///< [px^2]
     CornerSet corners;
     std::array<RigidTransform, 2> T_world_camera;
@@ -31,7 +31,8 @@ double cross(const Vector2d& a, const Vector2d& b) {
     return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Area of the quad [px^2]; 0 when it is not a tag seen from its front or is too small to be used.
+/// Area of a tag's quad [px^2]. Returns 0 if the quad is not a tag seen from its front, or is too
+/// small.
 double usableArea(const TagObservation& tag, const CameraModel& camera, double smallestEdge) {
     const auto& c = tag.corners;
     double area = 0;
@@ -40,7 +41,7 @@ double usableArea(const TagObservation& tag, const CameraModel& camera, double s
               c[k].y() <= camera.size.height - 0.5))
             return 0;
         const Vector2d edge = c[(k + 1) % 4] - c[k], next = c[(k + 2) % 4] - c[(k + 1) % 4];
-        // y points down, so the corners of a convex quad turn by negative angles.
+        // Because y points down, the edges of a convex quad turn by negative angles.
         if (!(cross(edge, next) < 0) || !(edge.norm() >= smallestEdge)) return 0;
         area -= cross(c[k], c[(k + 1) % 4]) / 2;
     }
@@ -84,8 +85,8 @@ double cappedError(std::span<const CornerSet> sets, const RigidTransform& T_worl
     return sum;
 }
 
-/// The pose, among the tags' own solutions, that fits all tags best; larger tags come first and win
-/// a tie.
+/// Returns that one of the tags' own solutions that fits all tags best. Larger tags come first and
+/// are preferred if errors are equal.
 RigidTransform bestStart(std::span<const Candidate> tags, std::span<const CornerSet> sets,
                          const CameraModel& camera) {
     RigidTransform best = tags[0].T_world_camera[0];
@@ -101,7 +102,7 @@ RigidTransform bestStart(std::span<const Candidate> tags, std::span<const Corner
     return best;
 }
 
-/// Sets the weights to 1 or 0 by the tags' errors; false when all are 0.
+/// Sets each tag's weight to 1 or 0 depending on its error. Returns false if all weights are 0.
 bool keepFitting(std::span<CornerSet> sets, const RigidTransform& T_world_camera,
                  const CameraModel& camera, double cutoff) {
     const RigidTransform inverse = T_world_camera.inverse();
@@ -113,9 +114,9 @@ bool keepFitting(std::span<CornerSet> sets, const RigidTransform& T_world_camera
     return any;
 }
 
-/// Refines a start that comes from one tag to the minimum over all tags that agree. First with
-/// weights that fall with a tag's error (Geman-McClure) at a decreasing scale, then with weights of
-/// 1 and 0.
+/// Refines a pose that comes from one tag to the minimum over all tags that agree. At first a tag's
+/// weight falls with its error (Geman-McClure), with a scale that gets smaller. Then the weights
+/// are 1 or 0.
 std::optional<RefinedPose> refineRobustly(std::span<CornerSet> sets, RigidTransform T,
                                           const CameraModel& camera, double farthest) {
     for (const double scale : {kStartCutoff, 0.5 * (kStartCutoff + farthest), farthest}) {
@@ -139,7 +140,7 @@ std::optional<RefinedPose> refineRobustly(std::span<CornerSet> sets, RigidTransf
     return refined;
 }
 
-/// Final step: with several tags, the edge shift is estimated as well.
+/// The final step. If there are several tags, the edge shift is estimated too.
 std::optional<CameraPose> finish(RefinedPose refined, std::span<const CornerSet> sets, int tags,
                                  const CameraModel& camera, const TagPoseOptions& options) {
     if (tags > 1) {
@@ -164,7 +165,8 @@ bool sameMinimum(const RigidTransform& a, const RigidTransform& b) {
     return a.rotation.angularDistance(b.rotation) < kSameMinimum;
 }
 
-/// The second minimum over the tags in use, started from the other solution of the largest one.
+/// The second local minimum over the tags in use. The search starts from the other solution of the
+/// largest tag.
 std::optional<RefinedPose> otherMinimum(std::span<const Candidate> tags,
                                         std::span<const CornerSet> sets, const RefinedPose& best,
                                         const CameraModel& camera) {

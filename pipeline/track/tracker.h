@@ -14,65 +14,71 @@
 namespace mfar {
 
 struct TrackerOptions {
-    /// The poses of the tags; their frame is the world, and only their families are searched. If
-    /// empty, `families` are searched, and the largest tag of the first picture with a tag becomes
-    /// the map. The world then stands on that tag: x to the right and y up in its print, z out of
-    /// it.
+    /// The poses of the tags. The map's frame is the world, and only the families of the map are
+    /// searched.
+    /// If the map is empty, `families` are searched. Then the largest tag of the first picture with
+    /// a tag becomes the map. In this case the world's origin is in this tag: x points to the right
+    /// and y up in the tag's print, and z points out of the print.
     TagMap map;
     std::vector<TagFamily> families{TagFamily::Tag36h11};
-    double tagSize = 0.1;         ///< of the tag that becomes the world when there is no map [m]
-    double decimation = 2;        ///< for the video, see DetectorOptions
-    double stillDecimation = 4;   ///< for stills
-    int threads = 1;              ///< of libapriltag, per sensor
-    int fullSearchInterval = 15;  ///< frames from one search of the whole picture to the next
-    double gamma = 2;             ///< of the video, see CornerRefiner
-    double stillGamma = 2;        ///< of the stills
+    double tagSize = 0.1;         ///< size of the tag that becomes the world if there is no map [m]
+    double decimation = 2;        ///< for the video; see DetectorOptions
+    double stillDecimation = 4;   ///< for stills; see DetectorOptions
+    int threads = 1;              ///< threads of libapriltag for each sensor
+    int fullSearchInterval = 15;  ///< frames between two searches of the whole picture
+    double gamma = 2;             ///< gamma of the video; see CornerRefiner
+    double stillGamma = 2;        ///< gamma of the stills; see CornerRefiner
     PoseEstimatorOptions pose;
 };
 
 struct TrackStats {
     std::int64_t frames = 0;
-    std::int64_t fullSearches = 0;  ///< of the whole picture: at start, at intervals, when lost
-    std::int64_t roiSearches = 0;   ///< frames in which the predicted regions sufficed
-    int flips = 0;                  ///< changes between the two planar solutions
-    int rejected = 0;               ///< poses that the filter rejected as outliers
-    int jumps = 0;                  ///< restarts of the filter after consistent outliers
-    double lastMs = 0;              ///< time of detection and pose for the last frame
+    /// Number of searches of the whole picture: at the start, at intervals, and if no known tag was
+    /// found.
+    std::int64_t fullSearches = 0;
+    std::int64_t roiSearches = 0;  ///< number of frames in which the predicted regions sufficed
+    int flips = 0;                 ///< number of changes between the two planar solutions
+    int rejected = 0;              ///< number of poses that the filter rejected as outliers
+    int jumps = 0;                 ///< number of restarts of the filter after outliers that agreed
+    double lastMs = 0;             ///< time for detection and pose of the last frame
     double meanMs = 0;
     double worstMs = 0;
 };
 
-/// Tracks the video camera's pose, frame by frame, from AprilTags.
+/// Tracks the pose of the video camera from AprilTags, frame by frame.
 ///
-/// track() runs on one thread, which may differ from the GL thread; trackStill() may run on another
-/// one at the same time; all other functions may be called from any thread.
+/// track() must be called from one thread, which need not be the GL thread. trackStill() may be
+/// called from another thread at the same time. All other functions may be called from any thread.
 class Tracker {
 public:
-    /// Throws std::invalid_argument for options out of their range.
+    /// Throws std::invalid_argument if an option is out of range.
     Tracker(const StereoRig& rig, TrackerOptions options);
 
-    /// Processes one video frame of the rig's video size, Gray8 or Rgba8; times must rise, and a
-    /// step back restarts the filter. Returns the filtered pose at `time`. Without a tag, returns
-    /// the predicted pose (tags = 0) as long as the filter bridges the gap, then nothing. Throws
-    /// std::invalid_argument for another size.
+    /// Processes a video frame of the rig's video size, Gray8 or Rgba8. Times must increase; a step
+    /// back in time restarts the filter.
+    /// Returns the filtered pose at `time`. Without a tag, returns the predicted pose (tags = 0) as
+    /// long as the filter bridges the gap, then nothing. Throws std::invalid_argument if the size
+    /// is wrong.
     std::optional<Pose> track(const ImageView& picture, Timestamp time);
     /// The unfiltered pose from the tags of the last frame.
     [[nodiscard]] std::optional<Pose> raw() const;
-    /// The video camera's pose at another time, for example when the picture will be displayed.
+    /// The video camera's pose at another time, for example at the time when the picture will be
+    /// displayed.
     [[nodiscard]] std::optional<Pose> predict(Timestamp time) const;
-    /// The video camera's pose at the time of a still, measured in the still itself with the still
-    /// camera and T_still_video; not filtered. Empty when the still shows no usable tag.
+    /// The video camera's pose at the time of a still. It is measured in the still itself, with the
+    /// still camera and T_still_video, and is not filtered. Empty if the still shows no usable tag.
     [[nodiscard]] std::optional<Pose> trackStill(const ImageView& still, Timestamp time);
 
-    /// Tags of the last frame with refined corners, including tags that are not in the map. For the
-    /// thread of track(), until its next call.
+    /// Tags of the last frame with refined corners, including tags that are not in the map. May
+    /// only be called from track()'s thread; valid until the next call of track().
     [[nodiscard]] const std::vector<TagDetection>& detections() const { return detections_; }
     [[nodiscard]] TrackStats stats() const;
-    /// The given map, or the one with the tag that became the world; empty before that.
+    /// The given map, or the map with the tag that became the world. Empty if there is no world
+    /// yet.
     [[nodiscard]] TagMap map() const;
 
 private:
-    /// Everything needed to get from one sensor's pictures to detections.
+    /// Everything that is needed to detect tags in the pictures of one sensor.
     struct Eye {
         CameraModel camera;
         double decimation;

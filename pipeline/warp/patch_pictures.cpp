@@ -47,7 +47,7 @@ void PatchPictures::add(const HoleAnswer& answer,
         surfaces_[i].tolerance = toleranceAt(
             surfaces_, layer_, static_cast<int>(i % static_cast<unsigned>(layer_.width)),
             static_cast<int>(i / static_cast<unsigned>(layer_.width)));
-    const PixelRect rows = around(bounds, patch.bounds);  // clears old rows, too
+    const PixelRect rows = around(bounds, patch.bounds);  // the slot's old rows are cleared too
     store(rowsOf(patch.slot, rows.y0, rows.y1));
     for (const std::uint32_t i : pixels) {
         surfaces_[i] = {};

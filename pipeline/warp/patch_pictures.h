@@ -10,34 +10,38 @@
 
 namespace mfar {
 
-/// Individually rendered pixels, kept as points in space: sparse pictures, each with its own pose,
-/// used for look-ups like the reference. The newest replaces the oldest.
+/// Individually rendered pixels, stored with their depths as sparse pictures (patches). Each patch
+/// has its own pose, and colours are looked up in it like in the reference picture. The newest
+/// patch replaces the oldest.
 class PatchPictures {
 public:
     static constexpr int kPatches = 4;
 
-    /// `fadeFrames`: number of frames until an answer is fully visible; 0: at once.
+    /// `fadeFrames`: number of frames until a patch is fully visible; 0: it is fully visible at
+    /// once.
     PatchPictures(Size layer, int fadeFrames);
 
-    /// Whole rows from `firstRow` on, to be stored as the patch `slot` until it is replaced.
+    /// Whole rows [firstRow, lastRow) of the patch in `slot`. `store` must keep them until other
+    /// rows replace them.
     struct StoredRows {
         int slot, firstRow, lastRow;
         std::span<const std::array<std::uint8_t, 4>> colours;  ///< RGBA8
-        std::span<const LightWords> lights;  ///< of objects; empty: colours alone are known
+        std::span<const LightWords> lights;  ///< light on objects; empty if only colours are known
         std::span<const WarpSurface> surfaces;
     };
-    /// Adds an answer of at least one pixel, all within the layer. Passes all rows that change to
-    /// `store`: initially, a slot is empty.
+    /// Adds an answer as the newest patch. The answer must have at least one pixel, and all pixels
+    /// must be in the layer. Passes all rows that change to `store`; a slot that was never stored
+    /// counts as empty.
     void add(const HoleAnswer& answer, const std::function<void(const StoredRows&)>& store);
     void clear();
-    /// Call once per displayed frame.
+    /// Must be called once per displayed frame; advances the fading.
     void age();
 
-    /// A patch's pose and its share in the displayed colour; share 0: there is no patch.
+    /// Pose and share of a patch in the displayed colour. If the share is 0, there is no patch.
     struct Patch {
-        int slot = 0;  ///< where its pixels are stored
+        int slot = 0;  ///< slot that stores the patch's pixels
         RigidTransform T_world_camera;
-        PixelRect bounds;  ///< bounds of its pixels; valid even if its share is 0
+        PixelRect bounds;  ///< bounds of the patch's pixels; valid even if the share is 0
         double share = 0;
     };
     [[nodiscard]] const std::array<Patch, kPatches>& patches() const { return patches_; }
@@ -49,8 +53,8 @@ private:
     int fadeFrames_;
     std::array<Patch, kPatches> patches_;  // newest first
     std::vector<std::array<std::uint8_t, 4>> colours_;
-    std::vector<LightWords> lights_;     // empty before the first that is known
-    std::vector<WarpSurface> surfaces_;  // all unknown between two calls
+    std::vector<LightWords> lights_;     // empty until an answer with light
+    std::vector<WarpSurface> surfaces_;  // all unknown between two calls of add()
 };
 
 }  // namespace mfar

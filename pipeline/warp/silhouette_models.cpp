@@ -12,17 +12,19 @@
 namespace mfar {
 namespace {
 
-// Pieces along the diagonal of a model, and of the catcher, whose visible part may be much smaller
-// than itself: at 640 px the edges of pieces are within a third of a pixel of the lens's curves.
+// Triangle edges are cut until they are not longer than the diagonal of the model divided by
+// kModelPieces (for the shadow catcher: its diagonal divided by kCatcherPieces). The catcher has
+// more pieces, because only a small part of it may be visible. At 640 px the straight edges then
+// differ from the curves of the distorted picture by less than a third of a pixel.
 constexpr float kModelPieces = 16, kCatcherPieces = 32;
-// A triangle costs a software renderer 0.2 us. Scenes with more triangles are simplified, each mesh
-// in proportion plus kLeastTriangles.
+// A software renderer needs 0.2 us per triangle. If a scene has more than kMostTriangles, each mesh
+// is reduced in proportion to its number of triangles, plus kLeastTriangles.
 constexpr double kMostTriangles = 20000;
 constexpr std::size_t kLeastTriangles = 2000;
-constexpr int kEdgePoints = 8;    // along each edge of a box
+constexpr int kEdgePoints = 8;    // sample points along each edge of a box
 constexpr int kBoundsMargin = 2;  // [px]
 constexpr double kFlat =
-    1e-4;  // [m]: corners of a planar catcher are within this distance of the plane
+    1e-4;  // [m]: largest distance of a planar catcher's corners from its plane
 
 bool isDistorted(const CameraModel& camera) {
     return std::ranges::any_of(camera.distortion, [](double k) { return k != 0; });
@@ -45,7 +47,8 @@ float diagonalOf(std::span<const Eigen::Vector3f> positions) {
     return box.isEmpty() ? 0 : box.diagonal().norm();
 }
 
-/// n . point = w for all corners of triangles; zero if they are not in one plane or there are none.
+/// Plane n . point = w through all corners of the triangles. Zero if the corners are not in one
+/// plane or there are no triangles.
 Eigen::Vector4d planeOf(const ShadowCatcher& catcher) {
     Eigen::Vector4d plane = Eigen::Vector4d::Zero();
     std::vector<Eigen::Vector3d> corners;
@@ -121,7 +124,8 @@ SilhouetteModels::shapeOf(const std::shared_ptr<const Model>& model) const {
         };
         const SurfaceTexture* baseColour = texture(material.baseColourTexture);
         const bool masked = material.alphaCutoff > 0 && baseColour != nullptr;
-        if (!masked && cutoff > 1) continue;  // the factor alone makes a hole of it
+        // All points are holes, because the colour factor's alpha is below the cutoff.
+        if (!masked && cutoff > 1) continue;
         SurfaceMesh surface = surfaceMesh(mesh.positions, mesh.uvs, mesh.triangles,
                                           bent ? diagonal / kModelPieces : 0);
         if (share_ < 1)
@@ -131,7 +135,8 @@ SilhouetteModels::shapeOf(const std::shared_ptr<const Model>& model) const {
                     kLeastTriangles);
         if (surface.triangles.empty()) continue;
         shape->box.extend(boxOf(surface));
-        // Simplified, a triangle may face another way than the surface does.
+        // Simplified surfaces are drawn on both sides, because a simplified triangle may be turned
+        // away from the viewer where the surface is not.
         shape->parts.push_back({std::move(surface), masked ? baseColour : nullptr, cutoff,
                                 material.doubleSided || share_ < 1, &material, baseColour,
                                 texture(material.metallicRoughnessTexture)});

@@ -13,11 +13,11 @@
 
 namespace mfar {
 
-/// The models of a scene and, below them, the real surface that catches their shadows, as the
-/// silhouette draws them through a lens: triangles and what they are painted with, no light.
+/// The models of a scene, and the real surface that catches their shadows, prepared for drawing
+/// silhouettes through a lens. It holds triangles and paint, but no light.
 class SilhouetteModels {
 public:
-    /// `layer`: the camera at the layer's resolution.
+    /// `layer` is the camera, scaled to the layer's resolution.
     explicit SilhouetteModels(const CameraModel& layer);
 
     /// Simplifies the models if the scene has more than 20000 triangles.
@@ -25,35 +25,36 @@ public:
 
     struct Part {
         SurfaceMesh mesh;
-        const SurfaceTexture* alpha = nullptr;  ///< of a masked surface; repeats
-        float cutoff = 0;                       ///< a texel's alpha below it is a hole
-        bool bothSides = true;                  ///< are seen
-        const Material* material = nullptr;     ///< none: the catcher
-        /// Of the material; none where the mesh has no uvs.
+        const SurfaceTexture* alpha = nullptr;  ///< alpha mask, repeats; null: no mask
+        float cutoff = 0;                       ///< texels with a smaller alpha are holes
+        bool bothSides = true;                  ///< whether the back side is visible
+        const Material* material = nullptr;     ///< null for the shadow catcher
+        /// Textures of the material; null if the mesh has no uvs.
         const SurfaceTexture *baseColour = nullptr, *metallicRoughness = nullptr;
     };
     struct Shape {
         std::vector<Part> parts;
         Eigen::AlignedBox3d box;
-        std::shared_ptr<const Model> model;  ///< owns materials and textures; none: the catcher
+        std::shared_ptr<const Model> model;  ///< owns materials and textures; null: the catcher
     };
     struct Object {
-        std::shared_ptr<const Shape> shape;  ///< shared by scenes with the same model
+        std::shared_ptr<const Shape> shape;  ///< scenes with the same model share it
         RigidTransform T_world_object;
         double scale;
     };
     [[nodiscard]] const std::vector<Object>& objects() const { return objects_; }
-    /// The catcher, if it has to be drawn.
+    /// The shadow catcher. Empty if it need not be drawn.
     [[nodiscard]] const std::optional<Object>& catcher() const { return catcher_; }
-    /// The catcher, if it is planar and therefore not drawn: n . point = w in the world [m].
-    /// Otherwise zero.
+    /// Plane of a planar shadow catcher, which is not drawn: n . point = w in the world [m]. Zero
+    /// if the catcher is not planar.
     [[nodiscard]] const Eigen::Vector4d& plane() const { return plane_; }
     [[nodiscard]] std::size_t triangles() const { return triangles_; }
     [[nodiscard]] const LensProjection& lens() const { return lens_; }
 
-    /// Bounds of all objects [layer px]; the whole layer for an object that crosses the near plane.
+    /// Bounds of all objects [layer px]. If an object crosses the near plane, the bounds are the
+    /// whole layer.
     [[nodiscard]] PixelRect bounds(const RigidTransform& T_world_camera) const;
-    /// As above, for one object.
+    /// The same bounds for one object.
     [[nodiscard]] PixelRect boundsOf(const Object& object,
                                      const RigidTransform& T_camera_world) const;
 
@@ -67,7 +68,7 @@ private:
     std::optional<Object> catcher_;
     Eigen::Vector4d plane_ = Eigen::Vector4d::Zero();
     std::size_t triangles_ = 0;
-    double share_ = 1;  // share of the models' triangles that are drawn
+    double share_ = 1;  // share of the models' triangles that is kept
 };
 
 }  // namespace mfar

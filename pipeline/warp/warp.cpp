@@ -10,25 +10,25 @@
 namespace mfar {
 namespace {
 
-constexpr int kRestFrames = 5;      // frames without motion after which the camera is at rest
-constexpr double kSamePose = 1e-3;  // [px]: rounding of a repeated pose
+constexpr int kRestFrames = 5;      // frames without motion until the camera is at rest
+constexpr double kSamePose = 1e-3;  // [px]: a repeated pose may differ by rounding errors
 
 WarpOptions validated(const WarpOptions& options) {
     validate(options);
     return options;
 }
 
-/// Rank of a pixel in a pattern that fills a 4x4 square evenly (Bayer 1973).
+/// Rank of a pixel in a 4x4 pattern whose lowest ranks are evenly spread (Bayer 1973).
 unsigned orderOf(std::uint32_t pixel, unsigned width) {
     const unsigned x = pixel % width, y = pixel / width, d = x ^ y;
     return (d & 1) << 3 | (x & 1) << 2 | (d & 2) | (x & 2) >> 1;
 }
 
-/// Keeps at most `most` of the pixels, evenly spread, ascending.
+/// Keeps at most `most` pixels, evenly spread. Sorts them in ascending order.
 void thinOut(std::vector<std::uint32_t>& pixels, std::size_t most, unsigned width) {
     if (pixels.size() <= most) return;
     std::ranges::sort(pixels, {}, [&](std::uint32_t p) { return std::pair(orderOf(p, width), p); });
-    // The pixels of the last, incomplete rank are spread evenly, too.
+    // Only some pixels of the last rank are kept. They are spread evenly, too.
     std::size_t whole = most;
     while (whole > 0 && orderOf(pixels[whole - 1], width) == orderOf(pixels[most], width))
         --whole;
@@ -60,7 +60,7 @@ void Warp::setReference(WarpReference reference) {
     step_->setReference(*reference_);
 }
 
-// Keeps the patches: they belong to the scene, not to a reference.
+// The patches are kept, because they belong to the scene and not to a reference picture.
 void Warp::dropReference() {
     reference_.reset();
     lastRequest_ = {};
@@ -136,7 +136,7 @@ std::optional<HoleRequest> Warp::request(std::vector<std::uint32_t> pixels, bool
     return out;
 }
 
-/// True when no point of the reference moves by leastMotion or more.
+/// Whether no point of the reference picture moves by leastMotion or more.
 bool Warp::isUnmoved(const RigidTransform& from, const RigidTransform& to) const {
     const RigidTransform T = from.inverse() * to;
     float nearest = kFarthestSurface;
@@ -147,8 +147,8 @@ bool Warp::isUnmoved(const RigidTransform& from, const RigidTransform& to) const
            std::max(options_.leastMotion, kSamePose);
 }
 
-// Pixels that are still open after they were rendered for this view would stay open: do not ask
-// again.
+// Removes pixels that are still holes although they were already rendered for this view. Rendering
+// them again would not fill them.
 void Warp::dropRefused(std::vector<std::uint32_t>& pixels) const {
     if (!isUnmoved(lastRequest_.view.T_world_camera, listPose_)) return;
     std::erase_if(pixels, [&](std::uint32_t p) {

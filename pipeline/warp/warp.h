@@ -11,58 +11,61 @@
 
 namespace mfar {
 
-/// Totals since the start, and the most recent counts.
+/// Totals since the start and values of the newest frame.
 struct WarpCounters {
-    std::uint64_t warped = 0;     ///< frames
-    std::uint64_t unmoved = 0;    ///< frames that show the reference unchanged
-    std::uint64_t empty = 0;      ///< frames with nothing in view
+    std::uint64_t warped = 0;     ///< displayed frames that were warped
+    std::uint64_t unmoved = 0;    ///< frames that show the reference picture unchanged
+    std::uint64_t empty = 0;      ///< frames without anything in view
     std::uint64_t requested = 0;  ///< pixels requested for individual rendering
-    std::uint64_t answered = 0;   ///< pixels that came back
+    std::uint64_t answered = 0;   ///< pixels that were rendered and returned
     std::uint64_t rays = 0;       ///< samples of the requested pixels
     int openHoles = 0;            ///< pixels that no picture shows, in the frame last read
-    int cracks = 0;               ///< in the same frame
+    int cracks = 0;               ///< pixels in one-pixel-wide cracks, in the same frame
 };
 
-/// Image-based rendering of the virtual layer: shows a finished picture as the camera sees it from
-/// its current pose, in two passes (paper, eq. 5; depth, then inverse look-up of colour). The
-/// result is clipped to the silhouette of the models at the current pose. An engine's step
-/// processes the pixels; this class decides what is shown and which pixels are rendered
-/// individually.
+/// Image-based rendering of the virtual layer. It shows a finished picture, the reference picture,
+/// from the camera's current pose. This takes two passes (paper, eq. 5): one for depth, and one in
+/// which each pixel looks up its colour. The result is clipped to the silhouette of the models at
+/// the current pose.
+/// An engine's WarpStep processes the pixels. This class decides which pictures are shown and which
+/// pixels are rendered individually.
 class Warp {
 public:
-    /// `video`: any resolution of the camera; the layer has size `output`. `engine` must outlive
-    /// this. Throws std::invalid_argument for an option out of range, and GlError for a GL that
-    /// does not draw into R32F.
+    /// `video` is the camera at any resolution; the layer has size `output`. `engine` must outlive
+    /// this object. Throws std::invalid_argument if an option is out of range, and GlError if the
+    /// GL implementation cannot draw into R32F.
     Warp(const CameraModel& video, Size output, Engine& engine, const WarpOptions& options = {});
     Warp(const Warp&) = delete;
     Warp& operator=(const Warp&) = delete;
 
-    /// Sets the models. Drops the reference and all rendered holes, which belong to another scene.
+    /// Sets the models. Discards the reference picture and all rendered holes, because they belong
+    /// to another scene.
     void setScene(const Scene& scene);
-    /// Takes effect with the next run(); replaces the previous reference and the holes rendered for
-    /// it.
+    /// Takes effect with the next run(). Replaces the reference picture. Rendered pixels (patches)
+    /// stay valid, but a list of holes that is still being read back is discarded.
     void setReference(WarpReference reference);
     void dropReference();
 
-    /// As of WarpStep.
+    /// See WarpStep::takesLight().
     [[nodiscard]] bool takesLight() const { return step_->takesLight(); }
 
-    /// Nothing is shown without a scene, a reference, or at a pose that is not finite. Valid until
-    /// the next call of any member.
+    /// Returns an empty picture without a scene, without a reference picture, or if the pose is not
+    /// finite. The result is valid until the next call of any member.
     LayerPicture& run(const RigidTransform& T_world_camera);
 
-    /// Call once per frame, including frames that are not drawn because the camera rests.
-    /// Returns the pixels to render individually: the holes of a recent frame, or edges once the
-    /// camera rests. At most mostRequested pixels, evenly spread if there are more. Empty if none
-    /// are known. After a request, returns nothing until that request is answered or a new
-    /// reference is set. Never waits.
+    /// Must be called once per frame, including frames that are not drawn because the camera rests.
+    /// Never waits.
+    /// Returns the pixels to render individually: the holes of a recent frame, or edge pixels if
+    /// the camera rests. If there are more than mostRequested pixels, an evenly spread selection is
+    /// returned. Empty if no pixels are known, or if an earlier request for the same scene was not
+    /// answered yet.
     [[nodiscard]] std::optional<HoleRequest> takeRequest();
     /// Takes effect with the next run(). Answers for another scene are ignored. Throws
-    /// std::invalid_argument for fields of unequal length or a pixel outside the layer.
+    /// std::invalid_argument if the fields have different lengths or a pixel is outside the layer.
     void answer(const HoleAnswer& answer);
 
     [[nodiscard]] const WarpCounters& counters() const { return counters_; }
-    /// The layer's camera at the layer's resolution.
+    /// The camera, scaled to the layer's resolution.
     [[nodiscard]] const CameraModel& camera() const { return lens_.camera; }
     /// For tests: see WarpStep::state().
     [[nodiscard]] const Field<std::uint32_t>& state() const { return step_->state(); }
@@ -81,11 +84,11 @@ private:
     std::unique_ptr<WarpStep> step_;
     std::optional<WarpReference> reference_;
     std::uint64_t scene_ = 0;
-    bool asked_ = false;  // a request is not answered yet
+    bool asked_ = false;  // a request was not answered yet
     HoleRequest lastRequest_;
-    RigidTransform listPose_;                 // of the frame whose holes are in transfer
-    std::optional<RigidTransform> warpedTo_;  // of the displayed frame; empty: not warped
-    int restFrames_ = 0;                      // since warpedTo_ was set
+    RigidTransform listPose_;                 // pose of the frame whose holes are being read back
+    std::optional<RigidTransform> warpedTo_;  // pose of the displayed frame; empty: not warped
+    int restFrames_ = 0;                      // frames since warpedTo_ was set
     WarpCounters counters_;
     LayerPicture nothing_;
 };

@@ -2,28 +2,29 @@
 
 namespace mfar {
 
-/// What to do with pixels of a model that no picture shows. Cracks one pixel wide are always
+/// How to fill pixels of a model that no picture shows. Cracks that are one pixel wide are always
 /// closed.
 enum class HoleFilling {
-    None,      ///< they remain empty
-    PushPull,  ///< filled from their surroundings
-    Rerender,  ///< rendered individually, empty until then
-    Both,      ///< rendered individually, filled from their surroundings until then
+    None,      ///< the pixels remain empty
+    PushPull,  ///< the pixels are interpolated from their surroundings
+    Rerender,  ///< the pixels are rendered individually and stay empty until then
+    Both,      ///< the pixels are rendered individually and interpolated until then
 };
 
 struct WarpOptions {
     HoleFilling filling = HoleFilling::Both;
-    /// Upper limit of the pixels in one request, at least 1: 5 % of 640x480.
+    /// Upper limit of the number of pixels in one request, at least 1. The default is 5 % of
+    /// 640x480.
     int mostRequested = 15360;
-    int holeSamples = 4;  ///< per pixel, [1, 4096]
-    /// Share of the objects' pixels that is rendered individually while the camera rests: those at
-    /// edges, which the warp blurs; [0, 1], 0: none.
+    int holeSamples = 4;  ///< samples per pixel, [1, 4096]
+    /// While the camera rests, this share of the objects' pixels is rendered individually, because
+    /// the warp blurs edges. Pixels at edges are chosen. Range [0, 1]; 0: no pixels.
     double sharpenShare = 0.4;
-    int sharpenSamples = 40;  ///< per pixel, [1, 4096]
-    /// Number of frames over which rendered pixels fade in, [0, 100].
+    int sharpenSamples = 40;  ///< samples per pixel, [1, 4096]
+    /// Number of frames in which rendered pixels fade in, [0, 100].
     int fadeFrames = 4;
-    /// The reference is shown unchanged when the pose moves all of its points by less than this
-    /// [px], [0, 10].
+    /// The reference picture is shown unchanged if the new pose moves all of its points by less
+    /// than this distance [px], [0, 10].
     double leastMotion = 0.1;
     bool operator==(const WarpOptions&) const = default;
 };
@@ -37,7 +38,7 @@ struct WarpOptions {
     return filling == HoleFilling::PushPull || filling == HoleFilling::Both;
 }
 
-/// Throws std::invalid_argument that names the first option out of its range.
+/// Throws std::invalid_argument whose message names the first option that is out of range.
 void validate(const WarpOptions& options);
 
 }  // namespace mfar

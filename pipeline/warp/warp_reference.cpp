@@ -16,12 +16,13 @@ namespace {
 using Rgba = std::array<std::uint8_t, 4>;
 
 constexpr int kMostSide = 16384;
-constexpr int kReferenceTile = 16;  // [px]
-// Lower limit of the alpha of a fully covered object pixel: a few missing samples are not visible.
+constexpr int kReferenceTile = 16;  // edge of a tile [px]
+// An object pixel with at least this alpha counts as fully covered; a few missing samples are not
+// visible.
 constexpr int kWhole = 250;
-// Tolerances, relative to z. Two hits on one smooth surface differ by at most kDepthShare of z plus
-// kSlopes times the steps of z to neighbours (kUnknownSlope without neighbours), and at most by
-// kMostShare.
+// Tolerances relative to z. Two hits on one smooth surface differ by at most kDepthShare * z +
+// kSlopes * (steps of z to neighbouring pixels), and by at most kMostShare * z. A step is
+// kUnknownSlope * z if there is no neighbour on the surface.
 constexpr float kDepthShare = 0.002F, kSlopes = 1.5F, kUnknownSlope = 0.01F, kMostShare = 0.05F;
 
 void requireFiniteCamera(const CameraModel& c, const RigidTransform& T) {
@@ -54,7 +55,7 @@ public:
         const int own = id(x, y);
         return own != 0 && own != kCatcherId;
     }
-    /// True when the pixel's colour comes from its own surface only.
+    /// Whether the pixel's colour comes only from the pixel's own surface.
     [[nodiscard]] bool isPlain(int x, int y) const {
         const int own = id(x, y);
         if (own == 0) return true;
@@ -73,7 +74,8 @@ private:
     Size size_;
 };
 
-/// Takes the means of the plain pixels beside it that show the same; false: there are none.
+/// Sets the pixel's colour and light to the mean of adjacent plain pixels on the same surface.
+/// Returns false if there are no such pixels.
 bool takeFromNeighbours(const PictureGrid& grid, std::span<const LightWords> light,
                         WarpReference& r, int x, int y) {
     const int own = grid.id(x, y);
@@ -104,7 +106,7 @@ bool takeFromNeighbours(const PictureGrid& grid, std::span<const LightWords> lig
     return true;
 }
 
-/// The smaller step of z to a neighbour on the same surface along one axis.
+/// The smaller of the two steps of z to neighbours on the same surface along one axis.
 float slopeAlong(std::span<const WarpSurface> surface, Size size, int x, int y, int dx, int dy) {
     const auto at = [&](int i, int j) -> const WarpSurface& {
         return surface[static_cast<std::size_t>(j) * static_cast<std::size_t>(size.width) +
@@ -124,7 +126,7 @@ float slopeAlong(std::span<const WarpSurface> surface, Size size, int x, int y, 
     return least;
 }
 
-// Packed as in warp_surface.glsl.
+// Same format as in warp_surface.glsl.
 std::uint32_t packedSurface(const WarpSurface& s) {
     if (!(s.known > 0)) return kUnknownId;
     if (s.id == 0) return 0;

@@ -10,60 +10,64 @@
 
 namespace mfar {
 
-inline constexpr float kFarthestSurface = 1e6F;  ///< [m]: anything farther away is ignored
+inline constexpr float kFarthestSurface = 1e6F;  ///< [m]: surfaces farther away are ignored
 
-inline constexpr std::uint32_t kUnknownId = 254;  ///< not used by any object
+inline constexpr std::uint32_t kUnknownId = 254;  ///< number that no object has
 
-/// Data of a pixel for the look-ups of a warp; the shaders' texel.
+/// Data of a pixel for look-ups during a warp; the texel that the shaders read.
 struct WarpSurface {
-    float z = 0;          ///< [m], 0 = no surface
-    float id = 0;         ///< number of the surface, 0 = no surface
-    float tolerance = 0;  ///< difference of z up to which a point is on the same surface [m]
-    float known = 0;      ///< 1: the pixel was rendered, and its colour comes from one surface
+    float z = 0;          ///< [m]; 0: no surface
+    float id = 0;         ///< number of the surface; 0: no surface
+    float tolerance = 0;  ///< points whose z differs by less [m] are on the same surface
+    float known = 0;      ///< 1: the pixel was rendered, and its colour is that of one surface
 };
 
-/// A finished picture prepared for warping, on the host; any thread may do that. Row-major,
-/// view.camera.size pixels each.
+/// A finished picture that was prepared on the CPU for warping. Any thread may prepare it. Each
+/// array is row-major and has camera.size pixels.
 struct WarpReference {
     CameraModel camera;
     RigidTransform T_world_camera;
-    std::vector<std::array<std::uint8_t, 4>> picture;  ///< as rendered, where depth is valid
-    std::vector<float> depth;                          ///< as displayed: z [m], reduced for shadows
-                                                       ///< (kShadowLift); 0 = no surface
-    /// Colours of single surfaces: at an edge, the colour of the nearest pixels within the surface.
-    /// Opaque for objects, premultiplied for the catcher.
+    std::vector<std::array<std::uint8_t, 4>> picture;  ///< rendered colours; valid where depth is
+    std::vector<float> depth;                          ///< z for display [m]; reduced at shadows
+                                                       ///< (kShadowLift); 0: no surface
+    /// Colour of a single surface. Pixels at an edge get the colour of the nearest pixels inside
+    /// the surface. Objects are opaque; the shadow catcher is premultiplied.
     std::vector<std::array<std::uint8_t, 4>> colour;
-    /// Of the same pixels, where an object is; empty: colours alone are known.
+    /// Light on objects in the same pixels. Empty if only colours are known.
     std::vector<LightWords> light;
     std::vector<WarpSurface> surface;
-    /// z and number in a word, packed as in warp_surface.glsl; kUnknownId where nothing is known.
+    /// z and number of the surface in one word, in the format of warp_surface.glsl. Unknown pixels
+    /// have kUnknownId.
     std::vector<std::uint32_t> packed;
-    /// A part of the picture that is not empty; bounds the motion of its points.
+    /// A part of the picture that is not empty. Tiles are used to bound the motion of the picture's
+    /// points.
     struct Tile {
         PixelRect pixels;
-        std::array<Eigen::Vector2d, 4> rays;  ///< normalised, of the part's outer corners
+        std::array<Eigen::Vector2d, 4> rays;  ///< normalised rays of the tile's outer corners
         float nearest, farthest;              ///< z [m]
     };
     std::vector<Tile> tiles;
-    PixelRect bounds;  ///< bounds of all tiles' pixels, empty = no surface
+    PixelRect bounds;  ///< bounds of all tiles; empty: there is no surface
 };
 
-/// Throws std::invalid_argument for a camera or pose that is not finite, a size beyond 16384, or
-/// fields of another size. Where z is not finite, not beyond the near plane or above 1000 km, there
-/// is no surface.
+/// Throws std::invalid_argument if the camera or the pose is not finite, a side is longer than
+/// 16384, or an array has the wrong size. A pixel has no surface if z is not finite, not beyond the
+/// near plane, or above 1000 km.
 [[nodiscard]] WarpReference warpReference(const RenderedPicture& picture);
 
-/// Colour of one surface from a pixel at an edge: the covered part is extended to the whole pixel.
+/// Colour of a surface, computed from a partly covered pixel at an edge: the colour is divided by
+/// the coverage, and alpha becomes opaque.
 [[nodiscard]] std::array<std::uint8_t, 4> filled(const std::array<std::uint8_t, 4>& premultiplied);
 
-/// WarpSurface::tolerance of a pixel, from the steps of z to neighbours on the same surface.
-/// `surface`: row-major, `size` pixels.
+/// WarpSurface::tolerance of a pixel, computed from the steps of z to neighbours on the same
+/// surface. `surface` is row-major and has `size` pixels.
 [[nodiscard]] float toleranceAt(std::span<const WarpSurface> surface, Size size, int x, int y);
 
-/// Motion of a reference's points from its own view to another one of the layer.
+/// How the points of a reference picture move if the view changes from the picture's own view to
+/// another view of the layer.
 struct WarpMotion {
-    double greatest = 0;  ///< [px], infinite if a point moves behind the near plane
-    PixelRect bounds;     ///< pixels of the other view that show any point
+    double greatest = 0;  ///< [px]; infinite if a point moves behind the near plane
+    PixelRect bounds;     ///< pixels of the other view that show a point
 };
 [[nodiscard]] WarpMotion motionOf(const WarpReference& reference, const LensProjection& layer,
                                   const RigidTransform& T_world_camera);

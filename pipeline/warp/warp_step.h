@@ -11,59 +11,63 @@
 
 namespace mfar {
 
-/// Pixels that a frame's look-up did not find in the reference.
+/// Pixels whose colour a frame did not find in the reference picture.
 struct WarpHoles {
-    std::vector<std::uint32_t> open;  ///< row-major indices; no picture shows them; ascending
-    int cracks = 0;                   ///< number of pixels, not listed
-    int fading = 0;                   ///< pixels from patches not yet fully visible
+    std::vector<std::uint32_t> open;  ///< pixels that no picture shows; row-major, ascending
+    int cracks = 0;                   ///< number of pixels in cracks; they are not listed
+    int fading = 0;                   ///< number of pixels from partly faded-in patches
 };
 
-/// The pixel processing of a warp, implemented by each engine; Warp decides when it runs. The
-/// picture depends only on the inputs, whatever the number of threads.
+/// Processes the pixels of a warp. Each engine implements it, and Warp decides when it runs. The
+/// picture depends only on the inputs and not on the number of threads.
 class WarpStep {
 public:
     virtual ~WarpStep() = default;
 
-    /// Sets the models. Forgets all patches, which belong to another scene.
+    /// Sets the models. Discards all patches, because they belong to another scene.
     virtual void setScene(const Scene& scene) = 0;
-    /// Bounds of all models [layer px]; the whole layer for a model that crosses the near plane.
+    /// Bounds of all models [layer px]. If a model crosses the near plane, the bounds are the whole
+    /// layer.
     [[nodiscard]] virtual PixelRect bounds(const RigidTransform& T_world_camera) const = 0;
 
-    /// Borrowed until the next call. Must be called before run().
+    /// Must be called before run(). `reference` must stay valid until the next call.
     virtual void setReference(const WarpReference& reference) = 0;
-    /// Whether run() takes the light of objects alone from references, and looks their paint up;
-    /// otherwise it takes colours.
+    /// If true, run() takes only the light of objects from the pictures and looks up the objects'
+    /// paint in their textures. If false, run() takes colours from the pictures.
     [[nodiscard]] virtual bool takesLight() const = 0;
-    /// The reference as it was rendered.
+    /// The reference picture as it was rendered.
     [[nodiscard]] virtual LayerPicture& reference() = 0;
 
     struct Frame {
         RigidTransform T_world_camera;
         PixelRect bounds;   ///< layer pixels, not empty
-        bool lists = true;  ///< this frame's holes will be read
+        bool lists = true;  ///< whether the caller will read this frame's holes
     };
-    /// Valid until the next run().
+    /// The result is valid until the next run().
     [[nodiscard]] virtual LayerPicture& run(const Frame& frame) = 0;
 
-    /// The holes of the listed frame, once it is finished. Never waits.
+    /// The holes of the frame with `lists`, once that frame is finished. Never waits.
     [[nodiscard]] virtual std::optional<WarpHoles> takeHoles() = 0;
     [[nodiscard]] virtual bool holesPending() const = 0;
     virtual void dropHoles() = 0;
-    /// Adds individually rendered pixels, visible from the next run() on. Must be valid and not
-    /// empty.
+    /// Adds individually rendered pixels; they are visible from the next run() on. `answer` must be
+    /// valid and not empty.
     virtual void addPatch(const HoleAnswer& answer) = 0;
 
-    /// Discards the previous list and answer, then lists the pixels with the most contrast in the
-    /// last run()'s picture, which the look-up has blurred.
+    /// Discards the previous list and its answer. Then lists the pixels with the most contrast in
+    /// the last run()'s picture, because the look-up blurred them.
     virtual void listEdges() = 0;
-    /// Row-major pixel indices, ascending, once they are known. Never waits.
+    /// Row-major indices of the listed pixels, ascending. Empty until the list is known. Never
+    /// waits.
     [[nodiscard]] virtual std::optional<std::vector<std::uint32_t>> takeEdges() = 0;
-    /// Replaces pixels of that list, with a share that grows with each run() of the same pose.
+    /// Replaces the colours of listed pixels. The share of the new colours grows with each run() at
+    /// the same pose.
     virtual void answerEdges(const HoleAnswer& answer) = 0;
     virtual void dropEdges() = 0;
 
-    /// For tests: RGBA8: number of the missing surface, its share of the pixel, 255 where no
-    /// picture shows it, number of the surface that fills the pixel alone.
+    /// State of each pixel as RGBA8, for tests. R: number of the missing surface. G: its share of
+    /// the pixel. B: 255 if no picture shows the missing surface. A: number of the surface that
+    /// fills the whole pixel.
     [[nodiscard]] virtual const Field<std::uint32_t>& state() const = 0;
 };
 
