@@ -45,7 +45,7 @@ public:
         std::chrono::nanoseconds since{0};
     };
     /// Returns the thread that has waited longest in restFor(), which names what it waits for.
-    /// Empty if no thread waits there.
+    /// Returns nothing if no thread waits there.
     [[nodiscard]] std::optional<Waiting> waiting() const;
 
 private:

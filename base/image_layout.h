@@ -38,10 +38,10 @@ struct PlaneSize {
 /// row.
 void requireSound(const ImageView& picture, std::string_view what);
 
-/// Returns a Gray8 view of a valid picture's luma plane, without a copy. Empty if the format has no
-/// separate luma plane. The range is not converted. Limited luma is full luma times 219/255
-/// plus 16. This does not affect census, patch cost and tag detection, because they use the order
-/// of values or normalised contrast.
+/// Returns a Gray8 view of a valid picture's luma plane, without a copy, or nothing if the format
+/// has no separate luma plane. The range is not converted: limited luma is full luma * 219/255
+/// + 16. This does not affect census, patch cost and tag detection, because they use the order of
+/// values or normalised contrast.
 [[nodiscard]] std::optional<ImageView> lumaPlane(const ImageView& picture);
 
 /// Conversion from Y U V to R G B, all in [0, 255]: channel = row[0..2] . (Y, U, V) + row[3]. The
