@@ -31,13 +31,13 @@ struct Words {
     std::string size;
 };
 
-/// An option that overrides a key of the configuration.
+/// Adds an option that overrides a key of the configuration.
 template <class T>
 CLI::Option* addKey(CLI::App& app, const char* name, T& out, const char* value) {
     return app.add_option(name, out, helpFor(name))->type_name(value);
 }
 
-/// The same for a key whose value is one of several words.
+/// Adds an option that overrides a key whose value is one of several words.
 template <class E>
 void addWord(CLI::App& app, const char* name, std::string& out, const char* value,
              std::optional<E> (*meaning)(std::string_view)) {
