@@ -82,7 +82,7 @@ nlohmann::ordered_json quantiles(const Histogram& times) {
     return {{"median", times.quantile(0.5)}, {"p99", times.quantile(0.99)}};
 }
 
-// Without poses all numbers are zero.
+// If there are no poses, all numbers are zero.
 nlohmann::ordered_json poseSummary(const Counted& counted, const std::string& from) {
     const PoseCounts& poses = counted.poses;
     return {

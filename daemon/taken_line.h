@@ -7,16 +7,18 @@
 
 namespace mfar {
 
-/// File in which the service notes the line it has taken, until it ends or, after a crash, its hook
-/// has released the line ($RUNTIME_DIRECTORY); empty where no service manager has created the
+/// Returns the path of the file in which the service notes the GPIO line that it has requested.
+/// After a crash, the service's stop hook reads it to release the line. The file is in
+/// $RUNTIME_DIRECTORY, which systemd deletes when the service has ended. Empty if there is no such
 /// folder.
 [[nodiscard]] std::filesystem::path takenLineFile();
 
-/// Writes the note: three lines "chip=", "line=" and "active_low=". Throws std::runtime_error.
+/// Writes the file. It has three lines: "chip=", "line=" and "active_low=". Throws
+/// std::runtime_error.
 void noteTakenLine(const std::filesystem::path& file, const TriggerLineConfig& line);
 
-/// The noted line; nothing without a note. Reads only a short regular file of this user with
-/// exactly these three keys, and follows no link. Throws Failure(BadData).
+/// Returns the line in the file; nothing if there is no file. The file must be short, regular, not
+/// a symbolic link, owned by this user, and have exactly these three keys. Throws Failure(BadData).
 [[nodiscard]] std::optional<TriggerLineConfig> takenLine(const std::filesystem::path& file);
 
 }  // namespace mfar
