@@ -9,8 +9,8 @@ namespace mfar {
 
 /// Returns the path of the file in which the service notes the GPIO line that it has requested.
 /// After a crash, the service's stop hook reads it to release the line. The file is in
-/// $RUNTIME_DIRECTORY, which systemd deletes when the service has ended. Empty if there is no such
-/// folder.
+/// $RUNTIME_DIRECTORY, which systemd deletes when the service has ended. Returns an empty path if
+/// this variable is not an absolute path.
 [[nodiscard]] std::filesystem::path takenLineFile();
 
 /// Writes the file. It has three lines: "chip=", "line=" and "active_low=". Throws

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kMostFaults = 50;
 constexpr std::size_t kLongestKey = 200;
 
-/// Removes "section." or "section[0]." from the key; false when the key is not in the section.
+/// Removes "section." or "section[0]." from the key. Returns whether the key is in the section.
 bool takeSection(const OptionSection& section, std::string_view& key) {
     if (section.name.empty()) return true;
     if (!key.starts_with(section.name)) return false;
