@@ -23,7 +23,7 @@ enum class FileTrust {
     OwnFile,
 };
 
-/// As boundedFile(), returned as text.
+/// Like boundedFile(), but returns the content as text.
 [[nodiscard]] std::string boundedText(const std::filesystem::path& file, std::size_t most,
                                       FileTrust trust = FileTrust::Any);
 

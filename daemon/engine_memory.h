@@ -9,7 +9,8 @@
 namespace mfar {
 
 /// Returns the path of the file that stores measured choices: engines.json in the service's state
-/// folder ($STATE_DIRECTORY). Empty if there is no such folder; each start measures again then.
+/// folder ($STATE_DIRECTORY). If there is no such folder, returns an empty path, and each start
+/// measures again.
 [[nodiscard]] std::filesystem::path engineMemoryFile();
 
 /// Returns the choice that is stored for `key`, which names the driver and the picture sizes.

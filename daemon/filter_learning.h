@@ -105,8 +105,7 @@ private:
 };
 
 /// Returns the path of the file for the learned filters of these sensors, in the service's state
-/// folder
-/// ($STATE_DIRECTORY). Empty if there is no such folder.
+/// folder ($STATE_DIRECTORY). Returns an empty path if there is no such folder.
 [[nodiscard]] std::filesystem::path learnedFiltersFile(const std::string& sensors);
 
 }  // namespace mfar

@@ -17,8 +17,8 @@ constexpr std::size_t kMostLate = 1;
 constexpr std::uint64_t kLateWindow = 40;  // [frames]
 constexpr std::uint64_t kSettle = 8;       // [frames] before a better level is tried
 constexpr std::uint64_t kFirstWait = 20, kLongestWait = 960;  // [frames] until a level is retried
-// If a level that kept the deadline for so many frames misses it, the scene has changed, and the
-// wait for a retry begins with kFirstWait again.
+// If a level misses the deadline after it kept it for at least kHeld frames, the scene has changed.
+// The wait for a retry then begins with kFirstWait again.
 constexpr std::uint64_t kHeld = 100;       // [frames]
 constexpr int kAtRest = 3;                 // unchanged frames after which the picture is at rest
 constexpr std::uint64_t kStillEvery = 40;  // [frames] between late frames that bring in a still

@@ -9,7 +9,7 @@
 
 namespace mfar {
 
-/// Returns the range of an option, e.g. "0.001 to 10000 ms"; empty: there is no range.
+/// Returns the range of an option, e.g. "0.001 to 10000 ms", or an empty text if it has no range.
 [[nodiscard]] std::string rangeText(const Option& option);
 
 /// Describes an option in one paragraph: its meaning, its words if the meaning does not mention all

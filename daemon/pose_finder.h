@@ -48,7 +48,7 @@ public:
 
     /// Returns whether a pose was measured or recorded, not only predicted.
     [[nodiscard]] bool isMeasured(const Pose& pose) const { return recorded_ || pose.tags > 0; }
-    /// Returns the tag map that is known at the start; empty: unknown.
+    /// Returns the tag map that is known at the start. If none is known, the map is empty.
     [[nodiscard]] const TagMap& tags() const { return tags_; }
     /// If there was no tag map at the start: returns, once, the map with the tag that defines the
     /// world frame. Thread-safe.

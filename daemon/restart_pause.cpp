@@ -29,7 +29,7 @@ constexpr std::chrono::seconds kInARow{60};
 constexpr int kMostCounted = 1000;
 constexpr std::size_t kMostBytes = 64;  // size limit of the file
 
-/// Returns the content of a file; empty if it cannot be read.
+/// Returns the content of a file, or an empty text if it cannot be read.
 std::string textOf(const std::filesystem::path& file) {
     try {
         return boundedText(file, kMostBytes);

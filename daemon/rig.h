@@ -66,7 +66,7 @@ public:
     [[nodiscard]] std::string description() const;
     /// Returns the counters of matching stills to pulses, if this rig has a trigger line.
     [[nodiscard]] std::optional<StillCounters> matching() const;
-    /// Returns the fault of a device that the rig waits for, as text; nothing without a fault.
+    /// Returns the fault of a device that the rig waits for, or nothing if there is no fault.
     [[nodiscard]] std::optional<std::string> fault() const;
     /// Returns the exit code for a camera that fails.
     [[nodiscard]] ExitCode inputFailure() const;
@@ -80,7 +80,7 @@ public:
     void recordTags(const TagMap& tags);
     /// Returns how many frames and stills are missing in recordings. Thread-safe.
     [[nodiscard]] std::uint64_t notRecorded() const;
-    /// Returns the folder of the recording; empty: there is no recording. Thread-safe.
+    /// Returns the folder of the recording, or an empty path if there is no recording. Thread-safe.
     [[nodiscard]] std::filesystem::path recordingFolder() const;
     /// If the recording cannot be written any more, ends it and returns the reason. The part that
     /// is on the disk can be played. Thread-safe; never waits.

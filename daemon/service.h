@@ -14,7 +14,8 @@ public:
 
     /// Returns whether a service manager listens.
     [[nodiscard]] bool listening() const { return listening_; }
-    /// Returns the longest allowed time between calls of alive(); nothing without a watchdog.
+    /// Returns the longest allowed time between calls of alive(), or nothing if there is no
+    /// watchdog.
     [[nodiscard]] std::optional<std::chrono::duration<double>> watchdogPeriod() const {
         return watchdogPeriod_;
     }

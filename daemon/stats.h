@@ -147,7 +147,7 @@ public:
 
     void picture(const FinishedPicture& picture);
     void firstPicture(const ProcessUse& use);
-    /// Sets the current fault of a device, as in the banner; nothing: there is no fault.
+    /// Sets the current fault of a device, as in the banner. Nothing means that there is no fault.
     void fault(const std::optional<std::string>& fault);
     /// Queues a warning for the log.
     void warn(std::string text, Subject subject = {});
@@ -165,7 +165,7 @@ public:
     void bannerShown(Timestamp shown);
     /// Sets the totals so far.
     void validation(const ValidationCounts& counts);
-    /// Sets the counters of filter learning; nothing: filters are not learned.
+    /// Sets the counters of filter learning. Nothing means that filters are not learned.
     void learning(const std::optional<LearningCounts>& counts);
     /// Sets the counters of the path tracer at the time of a frame.
     void traced(const TracedLayerCounters& counters, Timestamp frame);
@@ -173,7 +173,7 @@ public:
     void stillReceived();
     void stillUsed();
     void stillsSuperseded(std::uint64_t stills);
-    /// Count the pose of a frame or still, see PoseCounts.
+    /// Both functions count the pose of a frame or still, see PoseCounts.
     void framePose(const std::optional<Pose>& pose, const std::optional<TrackStats>& tracker);
     void stillPose(const std::optional<Pose>& pose, const std::optional<double>& ms);
     /// Sets the level and the deadline [ms] of the following pictures; 0: there is no deadline.
@@ -182,7 +182,7 @@ public:
     void matching(const StillCounters& counters);
     void mailboxDropped(std::uint64_t total);
     void recorderDropped(std::uint64_t total);
-    /// Sets the folder of the recording; empty: there is no recording.
+    /// Sets the folder of the recording. An empty path means that there is no recording.
     void recording(const std::filesystem::path& folder);
 
     [[nodiscard]] Counted count(Timestamp now = Timestamp::now());

@@ -12,7 +12,7 @@ namespace {
 constexpr std::array<const char*, kTileClasses> kTileNames = {"unchanged", "upscaled", "trusted",
                                                               "blended", "hidden"};
 
-// Returns the share of the run that is done; nothing if no end is planned.
+// Returns the share of the run that is done, or nothing if no end is planned.
 std::optional<double> progress(const Counted& counted, const RunDescription& run, double elapsedS) {
     std::optional<double> done;
     if (run.plannedFrames && *run.plannedFrames > 0) {
@@ -43,7 +43,7 @@ std::array<double, kTileClasses> shares(const Tiles& tiles) {
     return out;
 }
 
-// Returns "tracked 98% (6 tags, 0.12 px, 2.1 ms)"; empty if no poses are searched.
+// Returns "tracked 98% (6 tags, 0.12 px, 2.1 ms)", or an empty text if no poses are searched.
 std::string tracking(const PoseCounts& poses) {
     if (poses.frames == 0) return "";
     std::string out = fmt::format(", tracked {:.0f}%", poses.trackedShare() * 100);
@@ -55,7 +55,7 @@ std::string tracking(const PoseCounts& poses) {
     return out + fmt::format(", {:.1f} ms)", poses.tracker.lastMs);
 }
 
-// Returns ", quality lines-2 (3% late)"; empty without a governor.
+// Returns ", quality lines-2 (3% late)", or an empty text if there is no governor.
 std::string quality(const QualityCounts& counts) {
     if (counts.level.empty()) return "";
     std::string out = ", quality " + counts.level;
@@ -135,7 +135,7 @@ nlohmann::ordered_json virtualSummary(const Counted& counted) {
     return out;
 }
 
-// Returns "path traced 83%, 1.2 M samples/s, 120 holes"; empty without path tracing.
+// Returns "path traced 83%, 1.2 M samples/s, 120 holes", or an empty text without path tracing.
 std::string tracing(const Counted& counted) {
     if (!counted.traced || !counted.last.objectsInView) return "";
     if (counted.last.objectsHidden) return ", objects hidden";

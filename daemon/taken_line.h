@@ -17,8 +17,9 @@ namespace mfar {
 /// std::runtime_error.
 void noteTakenLine(const std::filesystem::path& file, const TriggerLineConfig& line);
 
-/// Returns the line in the file; nothing if there is no file. The file must be short, regular, not
-/// a symbolic link, owned by this user, and have exactly these three keys. Throws Failure(BadData).
+/// Returns the line in the file, or nothing if there is no file. Throws Failure(BadData) if the
+/// file is too long, not a regular file, a symbolic link or owned by another user, or if it does
+/// not have exactly these three keys.
 [[nodiscard]] std::optional<TriggerLineConfig> takenLine(const std::filesystem::path& file);
 
 }  // namespace mfar

@@ -21,7 +21,8 @@ public:
     /// Returns whether previews are shown. They are drawn with OpenGL ES, even if all steps run on
     /// the SIMD engine.
     [[nodiscard]] static bool drawsPreviews(const VirtualOptions& options);
-    /// Returns why models are not shown, so that only simple shapes are; empty: models are shown.
+    /// Returns why only simple shapes and no models are shown, or an empty text if models are
+    /// shown.
     [[nodiscard]] std::string_view shapesAlone() const;
 
 private:

@@ -49,8 +49,8 @@ public:
     /// Returns the size of the screen [px], or nothing without a screen. Looks for a screen if
     /// necessary.
     [[nodiscard]] virtual std::optional<Size> screenSize() { return std::nullopt; }
-    /// Returns why pictures are currently not shown or not written; nothing if there is no fault.
-    /// Must be called on the thread of show().
+    /// Returns why pictures are currently not shown or not written, or nothing if there is no
+    /// fault. Must be called on the thread of show().
     [[nodiscard]] virtual std::optional<std::string> fault() const { return std::nullopt; }
     /// Returns the number of pictures that were skipped because they came too fast.
     [[nodiscard]] virtual std::uint64_t leftOut() const { return 0; }

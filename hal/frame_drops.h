@@ -29,7 +29,7 @@ public:
     void pause();
 
     [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
-    /// Returns the frame period; nothing while it is unknown.
+    /// Returns the frame period, or nothing while it is unknown.
     [[nodiscard]] std::optional<std::chrono::nanoseconds> period() const;
 
 private:

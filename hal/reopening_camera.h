@@ -60,7 +60,7 @@ public:
     void stop() override;
     [[nodiscard]] bool ended() const override { return false; }
 
-    /// Returns why there are no frames; nothing while there are frames.
+    /// Returns why there are no frames, or nothing while there are frames.
     [[nodiscard]] std::optional<std::string> fault() const;
     /// Returns whether no device is open.
     [[nodiscard]] bool absent() const;

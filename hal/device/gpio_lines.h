@@ -34,7 +34,8 @@ struct GpioAddress {
     unsigned offset = 0;
     bool activeLow = false;
     std::string text;  ///< for messages: "line 7 'TRIGGER' of gpiochip0 (9030000.pl061)"
-    /// The program or driver that used the line when it was looked up; empty: not in use.
+    /// The program or driver that used the line when it was looked up. Empty if nobody used the
+    /// line.
     std::string consumer;
 };
 

@@ -14,7 +14,8 @@ struct TriggerOptions {
     bool activeLow = false;
     std::chrono::microseconds pulse{1000};  ///< length of a pulse, 1 us to 10 s
     std::string loopbackChip;               ///< GPIO chip of `loopback`; empty: `chip`
-    /// Number or name of an input line that is wired to `line` and reports the edges; empty: none.
+    /// Number or name of an input line that is wired to `line` and reports the edges. If this is
+    /// empty, there is no such line.
     std::string loopback;
 };
 
