@@ -98,8 +98,8 @@ public:
 /// "source, display". Empty: no restart is needed.
 [[nodiscard]] std::string needRestart(const Config& running, const Config& wanted);
 
-/// Convert between values and the words of configuration and command line. For an unknown word, the
-/// result is empty.
+/// These functions convert between values and the words of configuration and command line. For an
+/// unknown word, they return nothing.
 [[nodiscard]] std::optional<SuperResMode> superResMode(std::string_view word);
 [[nodiscard]] std::optional<SourcePace> sourcePace(std::string_view word);
 [[nodiscard]] std::string_view name(SuperResMode mode);

@@ -30,8 +30,8 @@ struct QualityLevel {
 /// Returns a text that parseQualityLevels() reads.
 [[nodiscard]] std::string toToml(std::span<const QualityLevel> levels);
 
-/// Returns the levels with no mode better than `best`. If several levels become equal, only the
-/// fastest is kept.
+/// Returns the levels without modes that are better than `best`: such modes are replaced by `best`.
+/// If several levels become equal, only the fastest is kept.
 [[nodiscard]] std::vector<QualityLevel> limitedTo(std::span<const QualityLevel> levels,
                                                   SuperResMode best);
 

@@ -65,7 +65,7 @@ public:
     /// Returns the line that is logged at the start: renderer, sensors, display, output size.
     [[nodiscard]] std::string startLine() const;
 
-    /// Is called with the reason why the pictures ended, or with the error.
+    /// A function that is called with the reason why the pictures ended, or with the error.
     using Over = std::function<void(const std::string& reason, const std::exception_ptr& error)>;
     /// Processes frames until the source ends, a stop is requested or `maxFrames` are shown. Waits
     /// until they are written, then calls `over`. After that, only the devices must be closed,

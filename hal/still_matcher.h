@@ -43,9 +43,9 @@ struct StillCounters {
 /// out of order or missing. Does not use any device. Only one thread at a time may use it.
 ///
 /// A still is expected a constant time after its pulse. This constant is `guess` at first, then the
-/// median over the first `learnFrom` matched pulses. A still matches the nearest pulse if it lies
-/// within the window, which is never larger than half the distance to the neighbouring pulses. If
-/// five stills in a row miss the learned window by about the same time, the camera's clock has
+/// median over the first `learnFrom` matched pulses. A still matches the nearest pulse if its time
+/// is within the window, which is never larger than half the distance to the neighbouring pulses.
+/// If five stills in a row miss the learned window by about the same time, the camera's clock has
 /// stepped. The median of the five then becomes the constant.
 class StillMatcher {
 public:
@@ -59,7 +59,7 @@ public:
 
     struct Due {
         int lost = 0;  ///< number of pulses that this call counted as lost
-        /// Whether a repetition must be fired now. Stays true until pulseFired(.., Repetition).
+        /// True if a repetition must be fired now. It stays true until pulseFired(.., Repetition).
         bool repeat = false;
     };
 

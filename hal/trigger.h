@@ -24,7 +24,7 @@ public:
     /// the still camera delivers later. Throws TriggerBusy during a pulse, and std::runtime_error
     /// if the line cannot be driven.
     virtual Timestamp fire() = 0;
-    /// Requests the line at its inactive level, unless this object holds it already. Is called
+    /// Requests the line at its inactive level, unless this object holds it already. May be called
     /// repeatedly while the camera runs. Never throws.
     virtual void rest() {}
     /// Ends an active pulse at once: the line is inactive when this call returns. Does nothing if

@@ -67,7 +67,7 @@ private:
     Timestamp begun_;                   ///< time just before the leading edge was driven
     Timestamp due_;                     ///< end of the pulse
     std::optional<Timestamp> leading_;  ///< leading edge as the loopback line reported it
-    /// Why a pulse could not be ended. The next fire() throws this.
+    /// The error because of which a pulse could not be ended. The next fire() throws it.
     std::optional<std::string> failure_;
     std::optional<MeasuredPulse> measured_;
     std::uint64_t missed_ = 0;

@@ -35,7 +35,7 @@ public:
     virtual void start() = 0;
     /// Queues a request. Returns 0 or a negative error number of errno.h. Never waits.
     [[nodiscard]] virtual int queue(std::size_t request) = 0;
-    /// Is called before stop(), while the driver may still complete requests.
+    /// This function is called before stop(), while the driver may still complete requests.
     virtual void prepareStop() = 0;
     /// Stops the stream and completes all queued requests. May wait.
     virtual void stop() = 0;

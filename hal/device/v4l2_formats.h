@@ -57,8 +57,8 @@ struct V4l2Layout {
         std::size_t stride = 0;  ///< bytes from one row to the next
     };
     std::array<Plane, 3> planes{};
-    /// How many bytes of each memory piece the driver must fill for a complete picture. 0 for JPEG,
-    /// whose size varies.
+    /// Number of bytes of each memory piece that the driver must fill for a complete picture. The
+    /// number is 0 for JPEG, whose size varies.
     std::array<std::size_t, 3> bytes{};
 
     /// Returns a view of the picture in these memory pieces.

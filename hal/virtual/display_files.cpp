@@ -82,10 +82,10 @@ public:
     }
 
 protected:
-    /// Throws if the size is not supported. Is called on the thread of show() before the first
-    /// picture of a size.
+    /// Throws if the size is not supported. This function is called on the thread of show() before
+    /// the first picture of a size.
     virtual void checkSize(Size size) = 0;
-    /// Writes a picture. Is called on a writer thread.
+    /// Writes a picture. This function is called on a writer thread.
     virtual void write(const Frame& picture) = 0;
     /// Returns what show() waits for, e.g. "the disk", for messages.
     [[nodiscard]] virtual const char* consumer() const = 0;

@@ -19,8 +19,8 @@ namespace mfar::synthetic {
 enum class Scene { Office, Shelf, Outdoor, Flat, Moving, Still, Calibration };
 enum class Path { Handheld, Pan, Orbit, Forward, Rotate, Rest, Survey };
 
-/// Convert a scene or path to its name on the command line, and back. For an unknown name, the
-/// result is empty.
+/// These functions convert a scene or path to its name on the command line, and back. For an
+/// unknown name, they return nothing.
 [[nodiscard]] std::string_view name(Scene scene);
 [[nodiscard]] std::string_view name(Path path);
 [[nodiscard]] std::optional<Scene> sceneNamed(std::string_view name);
