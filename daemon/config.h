@@ -95,7 +95,7 @@ public:
 [[nodiscard]] std::string readConfigText(const std::filesystem::path& file);
 
 /// Returns the names of the keys that differ between two configurations and need a restart, e.g.
-/// "source, display". Empty: no restart is needed.
+/// "source, display". If no restart is needed, the text is empty.
 [[nodiscard]] std::string needRestart(const Config& running, const Config& wanted);
 
 /// These functions convert between values and the words of configuration and command line. For an

@@ -7,7 +7,7 @@
 
 namespace mfar {
 
-/// Which requests a client of the control socket may send.
+/// The role of a client of the control socket. It decides which requests the client may send.
 enum class ControlRole {
     Observer,  ///< status and stats only
     Operator,  ///< all requests

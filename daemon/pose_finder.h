@@ -19,7 +19,7 @@ struct PoseInputs {
     StereoRig rig;
     double rateHz = 0;  ///< frame rate of the video
     TagMap tags;        ///< empty: unknown
-    /// Returns the recorded pose at a time. Not set if there are no recorded poses.
+    /// Returns the recorded pose at a time. The function is not set if there are no recorded poses.
     std::function<std::optional<Pose>(Timestamp)> recorded;
 };
 

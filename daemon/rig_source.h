@@ -33,11 +33,13 @@ public:
     std::optional<std::uint64_t> videoFrames{};
     std::chrono::nanoseconds stillTimeOffset{0};  ///< still's time + offset = time on video's clock
     TagMap tags{};                                ///< empty: unknown
-    /// Returns the recorded pose at a time. Not set if there are no recorded poses.
+    /// Returns the recorded pose at a time. The function is not set if there are no recorded poses.
     std::function<std::optional<Pose>(Timestamp)> recordedPoses{};
-    /// Returns the counters of matching stills to pulses. Not set if stills are not matched.
+    /// Returns the counters of matching stills to pulses. The function is not set if stills are not
+    /// matched.
     std::function<StillCounters()> matching{};
-    /// Returns the current fault of a device as text. Not set if this source cannot have faults.
+    /// Returns the current fault of a device, or nothing if there is none. The function is not set
+    /// if this source cannot have faults.
     std::function<std::optional<std::string>()> fault{};
 };
 

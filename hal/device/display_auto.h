@@ -26,8 +26,8 @@ public:
     using Events = std::function<bool()>;
 
     /// `scaler` draws the pictures of all screens. `screens` are in order of preference. `changed`
-    /// returns whether a device was added, removed or changed since its last call. If it always
-    /// returns false, only changes of the mode are not noticed.
+    /// returns whether a device was added, removed or changed since its last call. Lost and new
+    /// screens are noticed even if it always returns false, but changes of the mode are not.
     ScreenDisplay(std::unique_ptr<ScreenScaler> scaler,
                   std::vector<std::unique_ptr<Screen>> screens, Clock clock, Events changed);
     ScreenDisplay(const ScreenDisplay&) = delete;
