@@ -21,14 +21,14 @@ namespace {
 
 template <class Bytes>
 Bytes read(const std::filesystem::path& file, std::size_t most, FileTrust trust) {
-    // O_NONBLOCK: opening a named pipe without a writer would block.
+    // Without O_NONBLOCK, open() would block on a named pipe that has no writer.
     const int links = trust == FileTrust::OwnFile ? O_NOFOLLOW : 0;
     const OwnedFd fd(open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY | links));
     if (fd.get() < 0 && errno == ELOOP && links != 0)
         throw std::runtime_error("is a symbolic link");
     if (fd.get() < 0 && (errno == ENOENT || errno == ENOTDIR))
         throw std::runtime_error("is missing");
-    // ENXIO, ENODEV: a socket, or a device without a driver.
+    // open() fails with ENXIO or ENODEV for a socket and for a device without a driver.
     if (fd.get() < 0 && (errno == ENXIO || errno == ENODEV))
         throw std::runtime_error("is not a regular file");
     if (fd.get() < 0) fail("cannot be opened");
@@ -50,7 +50,7 @@ Bytes read(const std::filesystem::path& file, std::size_t most, FileTrust trust)
         if (got == 0) throw std::runtime_error("has become shorter while it was read");
         at += static_cast<std::size_t>(got);
     }
-    // Files of the kernel say that they are empty.
+    // One more read(): files in /proc and /sys report a size of 0 but have content.
     char more = 0;
     const ssize_t got = ::read(fd.get(), &more, 1);
     if (got < 0) fail("cannot be read");

@@ -8,20 +8,22 @@
 
 namespace mfar {
 
-/// All bytes of a regular file. A device or a named pipe is refused without being waited for, and a
-/// file that is too large before memory is taken for it. Throws std::runtime_error whose message
-/// says what is wrong without naming the file: "is missing", "is not a regular file", "cannot be
-/// opened: reason", "has 9 bytes, at most 8 are read", "has become longer while it was read".
+/// Returns all bytes of a regular file. Devices and named pipes are refused at once, without
+/// waiting. A file of more than `most` bytes is refused before memory is allocated. Throws
+/// std::runtime_error. The message names the fault but not the file: "is missing", "is not a
+/// regular file", "cannot be opened: reason", "has 9 bytes, at most 8 are read", "has become longer
+/// while it was read".
 [[nodiscard]] std::vector<std::uint8_t> boundedFile(const std::filesystem::path& file,
                                                     std::size_t most);
 
 enum class FileTrust {
     Any,
-    OwnFile,  ///< owned by this user and not a symbolic link, or throws "is a symbolic link" or "is
-              ///< another user's"
+    /// The file must belong to this user and must not be a symbolic link. Otherwise the call throws
+    /// "is another user's" or "is a symbolic link".
+    OwnFile,
 };
 
-/// As boundedFile(), returned as text.
+/// Like boundedFile(), but returns the content as text.
 [[nodiscard]] std::string boundedText(const std::filesystem::path& file, std::size_t most,
                                       FileTrust trust = FileTrust::Any);
 

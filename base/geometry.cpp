@@ -6,7 +6,7 @@
 namespace mfar {
 namespace {
 
-// The lens model counts as folded where the determinant of its derivative is at most this.
+// Where the determinant of the lens model's Jacobian is at most kFold, the model counts as folded.
 constexpr double kFold = 0.05;
 constexpr double kSquaredError = 1e-24;
 
@@ -30,7 +30,7 @@ Distorted distort(const Eigen::Vector2d& ray, const std::array<double, 5>& d) {
     return out;
 }
 
-/// The ray of the pixel if the lens had no distortion.
+/// Returns the ray that the pixel would have if the lens had no distortion.
 Eigen::Vector2d pinholeRay(const CameraModel& c, const Eigen::Vector2d& pixel) {
     return {(pixel.x() - c.cx) / c.fx, (pixel.y() - c.cy) / c.fy};
 }
@@ -40,7 +40,7 @@ struct Undistorted {
     bool isExact;
 };
 
-/// Newton iterations from `start`, at most `most`.
+/// Inverts distort() with at most `most` Newton iterations that begin at `start`.
 Undistorted undistorted(const Eigen::Vector2d& target, const Eigen::Vector2d& start,
                         const std::array<double, 5>& distortion, int most) {
     if (distortion == std::array<double, 5>{}) return {target, true};
@@ -49,7 +49,7 @@ Undistorted undistorted(const Eigen::Vector2d& target, const Eigen::Vector2d& st
         const Distorted d = distort(ray, distortion);
         const Eigen::Vector2d error = target - d.point;
         const double det = d.jacobian.determinant();
-        // The model folds where the determinant reaches zero: never step across the fold.
+        // The model folds where the determinant is zero. The iteration must not cross the fold.
         if (!(det > kFold)) break;
         if (!(error.squaredNorm() > kSquaredError)) return {ray, true};
         Eigen::Vector2d step = d.jacobian.inverse() * error;

@@ -52,7 +52,7 @@ Heartbeat::~Heartbeat() {
     all_->slots_.erase(slot_);
 }
 
-// The time is stored first: a reader that sees the new state also sees when it began.
+// The time is stored before the state: a reader that sees the new state must see the new time, too.
 void Heartbeat::beat() {
     if (all_ == nullptr) return;
     slot_->at.store(all_->clock_().ns, std::memory_order_relaxed);

@@ -16,11 +16,11 @@ namespace mfar {
 
 /// A thread's role decides what happens when it hangs.
 enum class ThreadRole {
-    Vital,   ///< the picture or the output needs it: the process has to be restarted
-    Helper,  ///< files, configuration: the picture continues, and the fault is reported
+    Vital,   ///< the picture or the output needs this thread: the process must be restarted
+    Helper,  ///< e.g. a writer of files: the picture continues, and the fault is reported
 };
 
-/// The heartbeats of all threads; one thread checks them. Thread-safe. See Heartbeat.
+/// The heartbeats of all threads. One thread checks them. Thread-safe. See Heartbeat.
 class Heartbeats {
 public:
     using Clock = std::function<Timestamp()>;
@@ -32,10 +32,10 @@ public:
     struct Late {
         std::string thread;
         ThreadRole role = ThreadRole::Vital;
-        std::chrono::nanoseconds since{0};  ///< time of its last beat
+        std::chrono::nanoseconds since{0};  ///< time since the thread's last beat
     };
-    /// The working threads whose last beat is older than `patience` times their budget, longest
-    /// silence first.
+    /// Returns the working threads whose last beat is older than `patience` times their budget. The
+    /// thread with the oldest beat comes first.
     [[nodiscard]] std::vector<Late> late(int patience = 1) const;
 
     struct Waiting {
@@ -44,8 +44,8 @@ public:
         std::string what;
         std::chrono::nanoseconds since{0};
     };
-    /// The thread that has waited longest for something that it has named with restFor(); empty if
-    /// no thread has.
+    /// Returns the thread that has waited longest in restFor(), which names what it waits for.
+    /// Returns nothing if no thread waits there.
     [[nodiscard]] std::optional<Waiting> waiting() const;
 
 private:
@@ -63,7 +63,7 @@ private:
     std::list<Slot> slots_;
 };
 
-/// Registers the threads that a class starts. The class uses `all` as long as it lives.
+/// Describes the thread that a class starts and registers. `all` must outlive the object.
 struct WatchedThread {
     Heartbeats* all = nullptr;  ///< null: the thread is not watched
     std::string name{};
@@ -71,26 +71,26 @@ struct WatchedThread {
     ThreadRole role = ThreadRole::Vital;
 };
 
-/// The heartbeat of one thread. The thread calls beat() in each round of its loop, before anything
-/// that may hang, and rest() before it waits for work, as waiting is not a fault. The thread counts
-/// as working from construction on and is no longer watched after destruction. Costs one clock
-/// reading and two stores; used by one thread.
+/// The heartbeat of one thread; only this thread may use it. The thread calls beat() in each
+/// iteration of its loop, before any operation that may hang. It calls rest() before it waits for
+/// work, because waiting is not a fault. The thread counts as working from construction on and is
+/// not watched after destruction. A call costs one clock reading and two stores.
 class Heartbeat {
 public:
-    /// `budget`: upper limit of the time from one beat to the next. `all` must outlive this.
+    /// `budget`: the longest allowed time between two beats. `all` must outlive this object.
     Heartbeat(Heartbeats& all, std::string thread, std::chrono::nanoseconds budget,
               ThreadRole role = ThreadRole::Vital);
-    /// Without `as.all`, does nothing.
+    /// If `as.all` is null, the object does nothing.
     explicit Heartbeat(const WatchedThread& as);
     Heartbeat(const Heartbeat&) = delete;
     Heartbeat& operator=(const Heartbeat&) = delete;
     ~Heartbeat();
 
     void beat();
-    /// The thread waits for work until the next beat().
+    /// Marks the thread as waiting for work until the next beat().
     void rest() { restFor(""); }
-    /// As rest(), but the thread waits for a named party whose absence is worth reporting: "the
-    /// reader of the pipe". The text must outlive this.
+    /// Works like rest(), but names what the thread waits for, e.g. "the reader of the pipe", so
+    /// that waiting() can report it. The text must outlive this object.
     void restFor(const char* what);
 
 private:

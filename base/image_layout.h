@@ -10,41 +10,43 @@
 
 namespace mfar {
 
-inline constexpr int kMaxPictureSide = 16384;  ///< [px]; a larger picture counts as a fault
+inline constexpr int kMaxPictureSide = 16384;  ///< [px]; larger pictures are refused
 
-/// The format's usual name: "NV12".
+/// Returns the format's usual name, such as "NV12".
 [[nodiscard]] std::string_view nameOf(PixelFormat format);
 
 [[nodiscard]] int planeCount(PixelFormat format);
 
-/// Size of one plane in pixels, without padding. Plane 0 is ImageView::data, plane 1 chroma[0].
+/// Size of one plane without padding. Plane 0 is ImageView::data, plane 1 is ImageView::chroma[0].
 struct PlaneSize {
     std::size_t rowBytes = 0;
     int rows = 0;
 };
-/// 0 x 0 from planeCount() on.
+/// Returns the size of a plane; 0 x 0 if the format does not have the plane.
 [[nodiscard]] PlaneSize planeSize(PixelFormat format, Size size, int plane);
 
-/// Size of all planes, one after the other, rows without padding.
+/// Returns the size of a picture whose planes follow each other and whose rows have no padding.
 [[nodiscard]] std::size_t packedBytes(PixelFormat format, Size size);
-/// A view of packedBytes() bytes in the order of packedBytes().
+/// Returns a view of packedBytes() bytes that have this layout.
 [[nodiscard]] ImageView packedView(const std::uint8_t* data, Size size, PixelFormat format);
-/// Copies a valid picture into packedBytes() bytes and returns their view; matrix and range stay.
+/// Copies a valid picture into packedBytes() bytes at `data` and returns a view of the copy, with
+/// the same YUV matrix and range.
 [[nodiscard]] ImageView packInto(std::uint8_t* data, const ImageView& picture);
 
-/// Throws std::invalid_argument "WHAT: reason" unless the view can be read as its format requires:
-/// all planes exist, sides from 1 to kMaxPictureSide, even where chroma is shared, and strides that
-/// hold a row.
+/// Throws std::invalid_argument "WHAT: reason" unless all planes exist, width and height are from 1
+/// to kMaxPictureSide, the sides along which pixels share chroma are even, and each stride holds a
+/// row.
 void requireSound(const ImageView& picture, std::string_view what);
 
-/// The luma of a valid picture that has it in a plane of its own, as Gray8, without a copy; empty
-/// for packed formats. The range is not converted: limited luma is full luma times 219/255 plus 16,
-/// which does not affect census, patch cost and tag detection (they use order and normalised
-/// contrast).
+/// Returns a Gray8 view of a valid picture's luma plane, without a copy, or nothing if the format
+/// has no separate luma plane. The range is not converted: limited luma is full luma * 219/255
+/// + 16. This does not affect census, patch cost and tag detection, because they use the order of
+/// values or normalised contrast.
 [[nodiscard]] std::optional<ImageView> lumaPlane(const ImageView& picture);
 
-/// Conversion from Y U V to R G B, all in [0, 255]: channel = row[0..2] . (Y, U, V) + row[3], to be
-/// clamped. Rows in the order R, G, B. Source: ITU-R BT.601-7, BT.709-6, and JFIF for full range.
+/// Conversion from Y U V to R G B, all in [0, 255]: channel = row[0..2] . (Y, U, V) + row[3]. The
+/// result must be clamped. The rows are in the order R, G, B. Source: ITU-R BT.601-7, BT.709-6, and
+/// JFIF for full range.
 using YuvToRgb = std::array<std::array<float, 4>, 3>;
 [[nodiscard]] YuvToRgb yuvToRgb(YuvMatrix matrix, YuvRange range);
 

@@ -12,7 +12,7 @@ struct Size {
     bool operator==(const Size&) const = default;
 };
 
-/// Layout of the pixels in memory. Rows may be padded, see ImageView::stride.
+/// How pixels lie in memory. Rows may be padded, see ImageView::stride.
 enum class PixelFormat : std::uint8_t {
     Gray8,   ///< one byte of luma
     Rgba8,   ///< four bytes R G B A, alpha ignored
@@ -35,18 +35,18 @@ enum class PixelFormat : std::uint8_t {
     return 1;
 }
 
-/// Conversion from Y U V to R G B: ITU-R BT.601 or BT.709.
+/// The standard that defines the conversion from Y U V to R G B: ITU-R BT.601 or BT.709.
 enum class YuvMatrix : std::uint8_t { Bt601, Bt709 };
-/// Y in 16..235 and U, V in 16..240 (limited), or all three in 0..255 (full, as in JPEG).
+/// Limited: Y is in 16..235, U and V in 16..240. Full, as in JPEG: all three are in 0..255.
 enum class YuvRange : std::uint8_t { Limited, Full };
 
-/// A further plane of a planar picture.
+/// A plane of a picture that has several planes.
 struct PlaneView {
     const std::uint8_t* data = nullptr;
     std::size_t stride = 0;  ///< bytes from one row to the next
 };
 
-/// Where the planes of a picture lie in memory that other devices can read as well (dma-buf).
+/// Location of a picture's planes in memory that other devices can read, too (dma-buf).
 struct SharedMemory {
     std::uint64_t id = 0;  ///< identifies this memory; never reused
     struct Plane {
@@ -55,10 +55,11 @@ struct SharedMemory {
     };
     std::array<Plane, 3> planes{};
 };
-/// An id that is new in this process. Callable from any thread.
+/// Returns an id that this process has not used before. Thread-safe.
 [[nodiscard]] std::uint64_t newSharedMemoryId();
 
-/// Borrowed, read-only pixels. Origin top left, row 0 first. Never owns.
+/// A read-only view of a picture; it does not own the pixels. The origin is top left, row 0 is
+/// first.
 struct ImageView {
     const std::uint8_t* data = nullptr;
     Size size;
@@ -67,7 +68,7 @@ struct ImageView {
     std::array<PlaneView, 2> chroma{};  ///< Nv12: U V in [0]; Yuv420: U in [0], V in [1]
     YuvMatrix matrix = YuvMatrix::Bt601;
     YuvRange range = YuvRange::Limited;
-    const SharedMemory* shared = nullptr;  ///< where the same planes are shared; null: not shared
+    const SharedMemory* shared = nullptr;  ///< dma-bufs of the same planes; null: there are none
 };
 
 }  // namespace mfar

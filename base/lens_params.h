@@ -1,15 +1,15 @@
 #pragma once
 
-// Shaders read this header, too: gles_shaders/params_to_glsl.cmake.
+// gles_shaders/params_to_glsl.cmake translates this header to GLSL for the shaders.
 namespace mfar::params {
 
-/// CameraModel without its size: pinhole [px] and radial-tangential distortion.
+/// A CameraModel without its picture size: fx, fy, cx, cy [px] and the distortion.
 struct alignas(16) Lens {
     float fx, fy, cx, cy;
     float k1, k2, p1, p2, k3;
 };
 
-/// Rows of matrices.
+/// A row of a matrix.
 struct alignas(16) Row3 {
     float x, y, z;
 };

@@ -8,12 +8,13 @@
 
 namespace mfar {
 
-// Three linear values that are not negative in a word with one exponent, as OpenGL's RGB9_E5, but
-// with 8 bits each from bit 0 on. The exponent has the next 5; the upper 3 are free.
+// A light word stores three linear, non-negative values with one common exponent in 32 bits,
+// similar to OpenGL's RGB9_E5. Bits 0 to 23 hold three mantissas of 8 bits, bits 24 to 28 the
+// exponent, and bits 29 to 31 are free.
 
 inline constexpr int kLightBits = 8, kLightBias = 15, kLightFreeBit = 29;
 inline constexpr std::uint32_t kLightExponent = 0x1F;
-inline constexpr float kMostLight = 65280;  ///< what is more, is this; NaN is 0
+inline constexpr float kMostLight = 65280;  ///< larger values are clamped to this; NaN becomes 0
 
 [[nodiscard]] inline std::uint32_t packedLight(const std::array<float, 3>& rgb) {
     std::array<float, 3> held{};
@@ -32,7 +33,8 @@ inline constexpr float kMostLight = 65280;  ///< what is more, is this; NaN is 0
 }
 
 [[nodiscard]] inline std::array<float, 3> unpackedLight(std::uint32_t word) {
-    // 2^(exponent - bias - bits) as a float's own exponent.
+    // The scale is 2^(exponent - bias - bits), written into the exponent of a float, whose bias
+    // is 127.
     const std::uint32_t exponent =
         (word >> 3 * kLightBits & kLightExponent) + 127 - kLightBias - kLightBits;
     const float scale = std::bit_cast<float>(exponent << 23);
@@ -42,19 +44,20 @@ inline constexpr float kMostLight = 65280;  ///< what is more, is this; NaN is 0
     return {value(0), value(1), value(2)};
 }
 
-/// Of what is no metal, along its normal, as of glTF's metallic-roughness material.
+/// Reflectance of non-metals at normal incidence, as in glTF's metallic-roughness material.
 inline constexpr float kDielectricReflectance = 0.04F;
 
-/// Light on a surface without its paint, times the exposure; two light words. `veil` is the share
-/// of the specular light that the surface sends whatever its paint is, as it is seen edge on; its 6
-/// bits are the words' free ones.
+/// Two light words that describe the light on a surface, times the exposure. The surface's own
+/// colour is not included. UnpackedLight::veil is stored in the 6 free bits of the two words.
 struct LightWords {
     std::uint32_t diffuse = 0, specular = 0;
     bool operator==(const LightWords&) const = default;
 };
 struct UnpackedLight {
     std::array<float, 3> diffuse{}, specular{};
-    float veil = 0;  ///< [0, 1]
+    /// Share of the specular light that does not depend on the surface's colour, [0, 1]. It grows
+    /// towards grazing angles.
+    float veil = 0;
 };
 inline constexpr float kMostVeil = 63;
 
@@ -71,7 +74,7 @@ inline constexpr float kMostVeil = 63;
             static_cast<float>(veil) / kMostVeil};
 }
 
-/// Adds `share` of other light.
+/// Adds `share` times `other` to `sum`.
 inline void addShare(UnpackedLight& sum, float share, const UnpackedLight& other) {
     for (std::size_t c = 0; c < 3; ++c) {
         sum.diffuse[c] += share * other.diffuse[c];

@@ -8,7 +8,7 @@
 
 namespace mfar {
 
-/// An open file descriptor, closed at destruction; negative: no file. Move-only.
+/// Owns an open file descriptor and closes it at destruction. Negative: no file. Move-only.
 class OwnedFd {
 public:
     OwnedFd() = default;
@@ -31,8 +31,8 @@ private:
     int fd_ = -1;
 };
 
-/// The owner of what a system call has opened. Throws std::system_error with `what` when `fd` is
-/// negative; errno is the cause.
+/// Returns the owner of a file descriptor that a system call has returned. If `fd` is negative,
+/// throws std::system_error with errno as the cause and `what` in the message.
 [[nodiscard]] inline OwnedFd opened(int fd, const char* what) {
     if (fd < 0) throw std::system_error(errno, std::generic_category(), what);
     return OwnedFd(fd);

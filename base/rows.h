@@ -10,15 +10,15 @@
 
 namespace mfar {
 
-/// Borrowed rows of a picture or a field in host memory. Never owns.
+/// A view of the rows of a picture or a field in host memory. It does not own them.
 template <class T>
 struct Rows {
     T* data = nullptr;
     std::ptrdiff_t pitch = 0;  ///< elements from one row to the next
-    Size size;                 ///< elements in a row, rows
+    Size size;                 ///< number of elements in a row, and of rows
 
     [[nodiscard]] T* operator[](int y) const { return data + y * pitch; }
-    /// Read-only rows.
+    /// Converts to a read-only view.
     // NOLINTNEXTLINE(google-explicit-constructor): as T* converts to const T*
     operator Rows<const T>() const
         requires(!std::is_const_v<T>)
@@ -27,8 +27,8 @@ struct Rows {
     }
 };
 
-/// Rows that own their memory, see ZeroedArray: each begins on a cache line and is followed by at
-/// least kPadding bytes that may be read and written, so that SIMD loops need no scalar tail.
+/// Rows that own their memory, see ZeroedArray. Each row begins on a cache line. At least kPadding
+/// bytes after each row may be read and written, so that SIMD loops need no scalar tail.
 template <class T>
 class AlignedRows {
 public:
@@ -58,7 +58,7 @@ private:
     static std::ptrdiff_t pitchFor(int width) {
         const std::size_t bytes = static_cast<std::size_t>(width) * sizeof(T) + kPadding;
         const std::size_t lines = (bytes + kAlignment - 1) / kAlignment;
-        // If sizeof(T) does not divide a cache line, later rows are not aligned.
+        // Only row 0 is aligned if the size of a cache line is not a multiple of sizeof(T).
         return static_cast<std::ptrdiff_t>((lines * kAlignment + sizeof(T) - 1) / sizeof(T));
     }
 

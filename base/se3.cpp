@@ -5,8 +5,8 @@
 namespace mfar {
 namespace {
 
-/// The coefficients of V = I + a [w] + b [w]^2 at angle t; below 1e-4 their series are exact to the
-/// last bit.
+/// The coefficients of V = I + a [w] + b [w]^2, where w has the norm t [rad] and [w] is skew(w).
+/// Below 1e-4 rad, series are used; their error is less than a double's rounding.
 struct VCoefficients {
     double a, b;
 };

@@ -8,24 +8,24 @@
 
 namespace mfar {
 
-/// Rotation [rad] first, translation second, as in Pose::covariance.
+/// A small motion: elements 0 to 2 are the rotation [rad], elements 3 to 5 the translation.
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/// The matrix of the cross product: skew(a) b = a x b.
+/// Returns the matrix of the cross product: skew(a) b = a x b.
 [[nodiscard]] Eigen::Matrix3d skew(const Eigen::Vector3d& a);
 
-/// The motion after unit time of a body that rotates and translates at a constant rate in its own
-/// frame.
+/// Returns the exponential map of SE(3): the motion in unit time of a body that rotates and
+/// translates at constant rates, given in its own frame.
 [[nodiscard]] RigidTransform exponential(const Vector6& twist);
 
-/// The inverse of exponential() for rotations below pi.
+/// Returns the inverse of exponential(). The rotation must be less than pi.
 [[nodiscard]] Vector6 logarithm(const RigidTransform& motion);
 
-/// T exp(x) = exp(adjoint(T) x) T.
+/// Returns the adjoint of T, which satisfies T exp(x) = exp(adjoint(T) x) T.
 [[nodiscard]] Matrix6 adjoint(const RigidTransform& T);
 
-/// T exp(x) T^-1 to first order: transforms the covariance of a pose from frame b to frame a.
+/// Transforms the covariance of a pose from frame b to frame a, to first order.
 [[nodiscard]] inline Matrix6 moved(const Matrix6& covariance, const RigidTransform& T_a_b) {
     const Matrix6 a = adjoint(T_a_b);
     return a * covariance * a.transpose();
@@ -33,9 +33,9 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 [[nodiscard]] bool isFinite(const RigidTransform& T);
 
-/// The motion with its rotation as a unit quaternion; empty when it is not finite or the
-/// quaternion's norm differs from one by more than a tenth, the limit for rounding and careless
-/// files.
+/// Returns T with its rotation normalised to a unit quaternion. Returns nothing if T is not finite
+/// or the quaternion's norm differs from 1 by more than 0.1. Smaller errors are accepted, because
+/// files round their numbers.
 [[nodiscard]] std::optional<RigidTransform> soundMotion(const RigidTransform& T);
 
 }  // namespace mfar

@@ -4,14 +4,15 @@
 
 namespace mfar {
 
-/// Linear value to sRGB's encoding (IEC 61966-2-1), both cut to [0, 1]; NaN gives 0.
+/// Converts a linear value to sRGB's encoding (IEC 61966-2-1). The value is clamped to [0, 1]; NaN
+/// gives 0.
 [[nodiscard]] float srgbEncoded(float linear);
-/// The derivative of srgbEncoded() inside (0, 1), that at the end beyond.
+/// Returns the derivative of srgbEncoded(). Outside [0, 1], it is the derivative at the nearer end.
 [[nodiscard]] float srgbSlope(float linear);
-/// The inverse of srgbEncoded() on [0, 1].
+/// Returns the inverse of srgbEncoded() for a value in [0, 1].
 [[nodiscard]] float srgbDecoded(float encoded);
 
-/// What an sRGB byte stands for, [0, 1] linear.
+/// Returns a table with the linear value, in [0, 1], of each sRGB byte.
 [[nodiscard]] const std::array<float, 256>& linearOfSrgbByte();
 
 }  // namespace mfar

@@ -2,11 +2,11 @@
 
 namespace mfar {
 
-/// Lowers the calling thread's priority: SCHED_BATCH, whose threads do not preempt waking threads,
-/// and nice +10. False if the system refuses either.
+/// Lowers the calling thread's priority to SCHED_BATCH and nice +10. With SCHED_BATCH, a thread
+/// that wakes up does not preempt others. Returns false if the system refuses either.
 bool lowerThreadPriority();
 
-/// Processor time of the calling thread [ms].
+/// Returns the CPU time that the calling thread has used [ms].
 [[nodiscard]] double threadCpuMs();
 
 }  // namespace mfar

@@ -7,8 +7,8 @@
 
 namespace mfar {
 
-/// A point in time on CLOCK_MONOTONIC, in nanoseconds. Recordings keep their own epoch: times in
-/// their files are used unchanged, and only differences are interpreted.
+/// A point in time on CLOCK_MONOTONIC, in nanoseconds. Times from a recording are used unchanged:
+/// they count from the recording's own epoch, and only their differences have a meaning.
 struct Timestamp {
     std::int64_t ns = 0;
 

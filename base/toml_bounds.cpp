@@ -35,7 +35,8 @@ private:
     void take(char c) {
         if (c == '[' || c == '{') ++depth_;
         if ((c == ']' || c == '}') && depth_ > 0) --depth_;
-        if (c == ',' || c == '=' || c == '[' || c == '{' || c == '.') ++values_;  // a dot: a table
+        // A dot counts, too, because each part of a dotted key creates a table.
+        if (c == ',' || c == '=' || c == '[' || c == '{' || c == '.') ++values_;
         if (c == '.')
             ++dots_;
         else if (c == ',' || c == '=' || c == '\n' || c == '[' || c == '{')
@@ -43,7 +44,7 @@ private:
         ++at_;
     }
 
-    /// Moves behind the string's end, or to the end of the line for an unterminated short string.
+    /// Skips a string. A single-line string without a closing quote ends at the end of its line.
     void skipString() {
         const char quote = text_[at_];
         const bool isLong = text_.substr(at_, 3) == std::string(3, quote);
@@ -59,7 +60,7 @@ private:
                 return;
             } else if (c == quote && text_.substr(at_, 3) == std::string(3, quote)) {
                 at_ += 3;
-                // Up to two quotes before the closing three belong to the string.
+                // A string may end with one or two quotes before the three closing ones.
                 for (int i = 0; i < 2 && at_ < text_.size() && text_[at_] == quote; ++i)
                     ++at_;
                 return;

@@ -7,19 +7,19 @@
 
 namespace mfar {
 
-/// Limits that no file of this project exceeds. A parser's recursion and memory grow with the depth
-/// and length of its text.
-inline constexpr std::size_t kDeepestToml = 32;  ///< nested brackets, or parts of a key
+/// Limits for TOML files. A parser's recursion and memory grow with the depth and length of a text.
+/// No file of this project reaches these limits.
+inline constexpr std::size_t kDeepestToml = 32;  ///< levels of brackets, or parts of a dotted key
 inline constexpr std::size_t kMostTomlValues = 100'000;
 
-/// A place in a text, counted from 1, and the fault there.
+/// The place where a text exceeds a limit, and a message. Lines and columns count from 1.
 struct TomlExcess {
     std::size_t line, column;
     std::string what;
 };
 
-/// The first place at which a TOML text exceeds the limits; empty when it does not. To be called
-/// before parsing. Does not check whether the text is valid TOML.
+/// Returns the first place at which a TOML text exceeds a limit, or nothing. Must be called before
+/// the text is parsed. Does not check whether the text is valid TOML.
 [[nodiscard]] std::optional<TomlExcess> tomlExcess(std::string_view text);
 
 }  // namespace mfar

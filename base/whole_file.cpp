@@ -32,8 +32,8 @@ void check(const std::filesystem::path& file, int error) {
             fmt::format("{}: {}", file.string(), std::generic_category().message(error)));
 }
 
-/// Writes the folder's names to the disk. File systems that do not support this keep names in
-/// order.
+/// Makes the folder's entries safe from a power cut. Errors are ignored: file systems that cannot
+/// sync a folder write its entries in order anyway.
 void syncFolder(const std::filesystem::path& folder) {
     const OwnedFd fd(
         open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
@@ -44,7 +44,7 @@ void syncFolder(const std::filesystem::path& folder) {
 
 void writeWholeFile(const std::filesystem::path& file, std::span<const std::uint8_t> bytes,
                     Durability durability) {
-    // The thread id separates two writers of the same file.
+    // The thread id gives two threads that write the same file different temporary files.
     const std::string part = fmt::format("{}.{}.part", file.string(), gettid());
     int error = 0;
     const int fd = open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
@@ -52,7 +52,8 @@ void writeWholeFile(const std::filesystem::path& file, std::span<const std::uint
         error = errno;
     } else {
         error = writeAll(fd, bytes);
-        // If the name reached the disk before the bytes, a power cut would leave an empty file.
+        // The bytes must reach the disk before the new name: otherwise a power cut could leave an
+        // empty file.
         if (error == 0 && durability == Durability::OnReturn && fsync(fd) != 0) error = errno;
         if (close(fd) != 0 && error == 0) error = errno;
         if (error == 0 && std::rename(part.c_str(), file.c_str()) != 0) error = errno;
@@ -72,8 +73,8 @@ void appendToFile(const std::filesystem::path& file, std::string_view text) {
     if (fd < 0) check(file, errno);
     const off_t before = lseek(fd, 0, SEEK_END);
     int error = writeAll(fd, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-    // Remove the part that was written: half a line would make the whole list unreadable. If this
-    // fails, too, nothing can be done.
+    // Remove the part that was written, because half a line would make the whole file unreadable.
+    // If ftruncate() fails as well, nothing more can be done.
     if (error != 0) [[maybe_unused]]
         const int ignored = ftruncate(fd, before);
     if (close(fd) != 0 && error == 0) error = errno;

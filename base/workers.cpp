@@ -6,7 +6,8 @@ namespace mfar {
 namespace {
 
 constexpr int kMostThreads = 4;
-// Parts per thread: enough that an interrupted thread does not delay the others for long.
+// A loop is cut into this many parts per thread. If a thread is interrupted, the others take the
+// remaining parts.
 constexpr int kPartsPerThread = 4;
 
 }  // namespace

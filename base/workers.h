@@ -8,11 +8,11 @@
 
 namespace mfar {
 
-/// A few threads that execute one loop at a time together with the caller. Created once, idle
-/// between loops.
+/// A few threads that execute a loop together with the caller, one loop at a time. The threads are
+/// created once and wait between loops.
 class Workers {
 public:
-    /// `threads`: number including the caller; 0 = one per processor, at most four.
+    /// `threads`: number of threads, including the caller; 0: one per CPU, at most four.
     explicit Workers(int threads = 0);
     ~Workers();
     Workers(const Workers&) = delete;
@@ -20,8 +20,9 @@ public:
 
     [[nodiscard]] int count() const { return static_cast<int>(threads_.size()) + 1; }
 
-    /// Calls body(first, last) on consecutive parts of [0, end), each but the last at least `grain`
-    /// long, and returns when all are done. One caller at a time; body must not throw.
+    /// Calls body(first, last) for consecutive parts of [0, end) and returns when all are done.
+    /// Each part except the last has at least `grain` elements. Only one thread at a time may call
+    /// this; body must not throw.
     void forRange(int end, int grain, const std::function<void(int, int)>& body);
 
 private:
@@ -33,7 +34,7 @@ private:
     std::condition_variable done_;
     const std::function<void(int, int)>* body_ = nullptr;
     int next_ = 0, end_ = 0, step_ = 1, running_ = 0;
-    std::vector<std::jthread> threads_;  // last member: the threads use the members above
+    std::vector<std::jthread> threads_;  // must be the last member: threads use the members above
 };
 
 }  // namespace mfar

@@ -10,9 +10,9 @@
 
 namespace mfar {
 
-/// An array of fixed size that owns its memory, initially zero and aligned to a cache line. The
-/// kernel hands out zeroed pages of a large array when they are first touched: an unused part takes
-/// neither time nor memory. Throws std::bad_alloc.
+/// An array of fixed size that owns its memory. It is initially zero and aligned to a cache line.
+/// The kernel provides the zeroed pages of a large array when they are first used, so that an
+/// unused part costs neither time nor memory. Throws std::bad_alloc.
 template <class T>
 class ZeroedArray {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -22,8 +22,7 @@ public:
 
     ZeroedArray() = default;
     explicit ZeroedArray(std::size_t size) : size_(size) {
-        // calloc(), because memory of aligned_alloc() would have to be zeroed by writing to every
-        // page.
+        // aligned_alloc() does not zero its memory, and zeroing it would write to every page.
         std::size_t bytes = std::max<std::size_t>(size, 1) * sizeof(T) + kAlignment;
         memory_.reset(std::calloc(bytes, 1));
         if (!memory_) throw std::bad_alloc();
@@ -49,7 +48,7 @@ private:
         void operator()(void* memory) const { std::free(memory); }
     };
     std::unique_ptr<void, Free> memory_;
-    T* data_ = nullptr;  // points into memory_
+    T* data_ = nullptr;  // first aligned element in memory_
     std::size_t size_ = 0;
 };
 

@@ -21,7 +21,7 @@ namespace {
 using Seconds = std::chrono::duration<double>;
 
 constexpr Seconds kLookTime{1};               ///< longest interval between checks of the threads
-constexpr std::uint64_t kFirstPictures = 10;  ///< see kFirstPatience
+constexpr std::uint64_t kFirstPictures = 10;  ///< number of pictures that have kFirstPatience
 
 std::ofstream openSummary(const Options& options, const Config& config) {
     std::ofstream file;
@@ -31,7 +31,7 @@ std::ofstream openSummary(const Options& options, const Config& config) {
             throw Failure(ExitCode::Usage, "standard output cannot take both video and summary");
         return file;
     }
-    // Opened now: a failure after a long run would lose the summary.
+    // The file is opened now, because a failure after a long run would lose the summary.
     file.open(*options.summary);
     if (!file)
         throw Failure(ExitCode::OutputFailed,
@@ -44,7 +44,7 @@ std::ofstream openSummary(const Options& options, const Config& config) {
 App::App(const Options& options, Log& log)
     : options_(options), log_(log), config_(effectiveConfig(options)),
       summary_(openSummary(options, config_)) {
-    // With SIGPIPE ignored, writing to a closed display pipe returns an error and does not end the
+    // SIGPIPE is ignored, so that writing to a closed pipe returns an error and does not end the
     // process.
     signal(SIGPIPE, SIG_IGN);
     if (options_.control)
@@ -77,7 +77,7 @@ ExitCode App::run() {
         }
         return finish(end);
     } catch (const std::exception& error) {
-        // The destructor of glThread waits for it, so it has to be told to stop.
+        // glThread's destructor waits for the thread, so the thread must be stopped.
         input_.request_stop();
         cancel_.request_stop();
         if (isReading()) {
@@ -139,7 +139,7 @@ void App::onReady() {
 
 void App::onHangUp() {
     if (options_.config)
-        (void)reload();  // the result is in the log
+        (void)reload();  // the log reports the result
     else
         log_.warning("SIGHUP: started without --config, nothing to read again");
 }
@@ -186,7 +186,7 @@ void App::onRead() {
     if (reload_) readAgain();
 }
 
-// Returns a message that says what has changed.
+// Applies the settings that can change while mfard runs. Returns a message about it.
 std::string App::take(const Config& wanted) {
     const std::string restart = needRestart(config_, wanted);
     config_.superres = wanted.superres;
@@ -216,7 +216,7 @@ void App::onTick() {
     feedWatchdog(now);
     log_.sayKept();
     leaveIfHanging();
-    // The watchdog may need more ticks than the status line.
+    // The watchdog may need more frequent ticks than the status line.
     const Timestamp time = Timestamp::now();
     if (time.seconds() - statusShown_.seconds() < 0.9 * config_.status.intervalS) return;
     statusShown_ = time;
@@ -243,7 +243,7 @@ Health App::health(const Counted& counted) {
     return health_.judge(seen);
 }
 
-// Fed only while pictures are made: systemd has limits of its own for start and stop.
+// The watchdog is fed only between start and stop, for which systemd has separate limits.
 void App::feedWatchdog(const Health& health) {
     if (!running_ || !service_.watchdogPeriod()) return;
     if (isProven_ && !std::exchange(patienceEnded_, true)) service_.watchdogPatience(1);
@@ -252,7 +252,7 @@ void App::feedWatchdog(const Health& health) {
 
 void App::logHealth(const Health& health) {
     if (health.state == told_.state && health.cause == told_.cause) return;
-    // During shutdown threads and pictures stop as well; that is no fault.
+    // During a shutdown, threads and pictures stop, too. That is not a fault.
     if (stopReason_ && health.state == HealthState::Stalled) return;
     if (health.state != HealthState::Ok)
         log_.warning(sentence(health), health.cause, subjectOf(health));
@@ -264,7 +264,7 @@ void App::logHealth(const Health& health) {
     told_ = health;
 }
 
-// Updates the run's description, which was made at the start.
+// Updates the description of the run, which was made at the start.
 void App::takeChanges(const Counted& counted) {
     RunDescription& run = running_->description;
     if (counted.rendering) {

@@ -29,43 +29,46 @@
 
 namespace mfar {
 
-/// The main thread: signals, timers, status, shutdown. It waits for nothing but its events, so that
-/// it can end the program even when a device or a driver hangs.
-/// After a signal no more frames are taken and the trigger line is set inactive. Frames in process
-/// are still shown and written. When this takes longer than
-///   0.2 s, and nothing is being written: the process ends, even in the middle of a picture
-///   0.4 s, otherwise: writing to slow readers of the display's pipe is given up; 0.5 s later the
-///          process ends
-/// A run that ends by itself waits for its output without a limit, and then at most 2.5 s for its
-/// devices.
-/// A second signal ends the process at once. If the main thread itself hangs during shutdown (in a
-/// driver, on a disk that does not answer), LastResort ends the process 2.5 s after the signal.
+/// The main thread, which handles signals, timers, status and shutdown. It waits for its events
+/// only, so that it can end the program even if a device or a driver hangs.
+///
+/// After a signal, no more frames are fetched and the trigger line is set inactive. Frames that are
+/// being processed are still shown and written. This time is limited:
+///   - If nothing is being written, the process ends after 0.2 s, even in the middle of a picture.
+///   - Otherwise, writing to slow readers of the display's pipe is cancelled after 0.4 s, and the
+///     process ends 0.5 s later.
+/// A second signal ends the process at once. If the main thread itself hangs during the shutdown,
+/// in a driver or on a disk, LastResort ends the process 2.5 s after the signal.
+///
+/// A run that ends without a signal waits for its output without a limit, and then at most 2.5 s
+/// for its devices.
 class App {
 public:
     /// Throws ConfigError, Failure.
     App(const Options& options, Log& log);
 
-    /// Runs until the end and writes the summary, even if the run fails. Throws the error that
-    /// ended the run.
+    /// Runs until the end. Writes the summary, even if the run fails. Throws the error that ended
+    /// the run.
     [[nodiscard]] ExitCode run();
 
 private:
-    /// The GL thread's report after set-up.
+    /// What the GL thread reports when it is set up.
     struct Ready {
         RunDescription description;
         std::string startLine;
         Timestamp time;
     };
-    /// The GL thread reports this once all output is written.
+    /// What the GL thread reports when all output is written.
     struct Over {
         std::string reason;
-        std::exception_ptr error;  ///< null: no error
+        std::exception_ptr error;  ///< null: there was no error
     };
-    /// A reload of the configuration. A thread of its own does it, as reading models may take long.
+    /// A reload of the configuration. A separate thread does it, because reading models may take
+    /// long.
     struct Reload {
         Reload() : answer(said.get_future().share()) {}
 
-        std::promise<std::string> said;  ///< what has changed, or why the reload was refused
+        std::promise<std::string> said;  ///< message about the changes, or the error
         std::shared_future<std::string> answer;
         std::future<Config> config;
         std::jthread reader;
@@ -84,8 +87,8 @@ private:
     void removeControl() const;
     [[noreturn]] void leaveFailed(const std::exception_ptr& error);
     void onHangUp();
-    /// The future is ready once the configuration has been read. Throws std::runtime_error without
-    /// a file.
+    /// Starts a reload of the configuration. The future is ready when it has been read. Throws
+    /// std::runtime_error if there is no configuration file.
     std::shared_future<std::string> reload();
     void readAgain();
     [[nodiscard]] bool isReading() const;
@@ -107,7 +110,7 @@ private:
     [[nodiscard]] bool writeSummary(const std::string& reason, ExitCode code);
 
     const Timestamp started_ = Timestamp::now();
-    LastResort lastResort_;  ///< first: it watches the others' destruction, too
+    LastResort lastResort_;  ///< first member: it also watches the destruction of the others
     const Options options_;
     Log& log_;
     Config config_;
@@ -118,30 +121,30 @@ private:
     Mailbox<Tunables> changes_{HandOver::NewestWins};
     CallQueue<App> calls_{[this] { events_.wake(); }};
     CallQueue<Session> sessionCalls_;
-    std::atomic<bool> finishesRecording_{false};  ///< after mfarctl ended a recording
+    std::atomic<bool> finishesRecording_{false};  ///< a recording that mfarctl ended is written
     std::stop_source input_;
     std::stop_source cancel_;
-    std::jthread stopper_;  ///< stops the devices, which may take long
+    std::jthread stopper_;  ///< stops the devices; this may take long
     std::optional<std::string> stopReason_;
     std::optional<int> stopSignal_;
     std::optional<Ready> running_;
     std::optional<Over> ended_;
-    bool isProven_ = false;  ///< all shaders are compiled: time limits apply without kFirstPatience
-    bool patienceEnded_ = false;  ///< the watchdog's limit no longer has kFirstPatience either
+    bool isProven_ = false;       ///< all shaders are compiled: kFirstPatience is not used any more
+    bool patienceEnded_ = false;  ///< whether systemd's watchdog has its normal limit again
     HealthRecord health_;
     Timestamp statusShown_;
-    /// `nextReload_` was requested during `reload_` and follows it: the file may have changed
-    /// meanwhile.
+    /// `nextReload_` was requested while `reload_` was running. It follows, because the file may
+    /// have changed in the meantime.
     std::optional<Reload> reload_, nextReload_;
     Health told_;                     ///< the health that was last written to the log
-    bool firstPictureShown_ = false;  ///< the log has the line about it
+    bool firstPictureShown_ = false;  ///< whether the log has the line about the first picture
 
     std::mutex mutex_;
-    // Guarded by the mutex; they move to running_ and ended_.
+    // The mutex guards these two. The main thread moves them to running_ and ended_.
     std::optional<Ready> ready_;
     std::optional<Over> over_;
 
-    std::optional<ControlSocket> control_;  ///< last: its thread uses all of the above
+    std::optional<ControlSocket> control_;  ///< last member: its thread uses the members above
 };
 
 }  // namespace mfar

@@ -1,4 +1,4 @@
-// The commands of mfarctl. Each part of a command runs on the thread that owns its data.
+// The commands of mfarctl. Each part of a command runs on the thread that owns the data it uses.
 
 #include "daemon/app.h"
 
@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Longer than one picture takes on the slowest board.
+/// Time limit of an answer. It is longer than one picture takes on the slowest board.
 constexpr std::chrono::milliseconds kAnswerTime{10'000};
 
 }  // namespace
@@ -79,7 +79,7 @@ ordered_json App::statsNow() {
     return out;
 }
 
-// The session goes on while the disk makes the recording's folder.
+// This thread creates the recording's folder, so that the session does not wait for the disk.
 void App::startRecording(const std::string& name) {
     const auto make =
         sessionCalls_.call([name](Session& s) { return s.makeRecording(name); }, kAnswerTime);
@@ -87,7 +87,7 @@ void App::startRecording(const std::string& name) {
                        kAnswerTime);
 }
 
-// The session goes on while the recording is being finished.
+// This thread finishes the recording, so that the session does not wait for the disk.
 ordered_json App::stopRecording() {
     const auto finish =
         sessionCalls_.call([](Session& s) { return s.stopRecording(); }, kAnswerTime);

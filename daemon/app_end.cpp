@@ -1,4 +1,5 @@
-// The ways in which a run ends: by a signal, by itself, or by force because a device hangs.
+// The three ways in which a run ends: after a signal, by itself, or by force because a device
+// hangs.
 
 #include "daemon/app.h"
 #include "daemon/budgets.h"
@@ -18,9 +19,10 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-constexpr Seconds kLeaveTime{0.2};   ///< after a signal: to finish the current picture
-constexpr Seconds kFlushTime{0.4};   ///< the same while pictures are written: to finish writing
-constexpr Seconds kCancelTime{0.5};  ///< then: for the threads to react to the cancel request
+// Times after a signal. kFlushTime is used if pictures are written; kCancelTime follows it.
+constexpr Seconds kLeaveTime{0.2};   ///< for finishing the current picture
+constexpr Seconds kFlushTime{0.4};   ///< for finishing to write
+constexpr Seconds kCancelTime{0.5};  ///< for the threads' reaction to the request to cancel
 constexpr std::chrono::milliseconds kLastResort{2500};
 
 const char* signalName(int signal) {
@@ -38,7 +40,7 @@ void App::onSignal(int signal) {
         std::_Exit(128 + signal);
     }
     stopSignal_ = signal;
-    // Logs nothing: writing the log may be what hangs.
+    // No message is logged here, because writing the log may be what hangs.
     lastResort_.arm(kLastResort, [] { std::_Exit(static_cast<int>(ExitCode::Ok)); });
     stop(signalName(signal));
     events_.deadlineIn(writes() ? kFlushTime : kLeaveTime);
@@ -62,8 +64,8 @@ void App::onOver() {
     if (!stopSignal_) events_.deadlineIn(kLastResort);
 }
 
-// After --seconds, a GPU that hangs would keep the run from ending. Waiting for the output alone
-// has no limit here.
+// Ends the process if the run is ending and the picture thread hangs, e.g. in a driver of the GPU.
+// There is no limit for a run that only waits for its output.
 void App::leaveIfHanging() {
     if (!stopReason_ || stopSignal_ || ended_) return;
     for (const Heartbeats::Late& late : stats_.heartbeats().late(isProven_ ? 1 : kFirstPatience))
@@ -87,13 +89,13 @@ void App::leave(const std::string& why) {
     std::_Exit(static_cast<int>(code));
 }
 
-// The socket is removed here, as its destructor does not run.
+// The socket's file must be removed here, because its destructor does not run.
 void App::removeControl() const {
     std::error_code ignored;
     if (options_.control) std::filesystem::remove(*options_.control, ignored);
 }
 
-// main() handles failures the same way, but a thread that hangs keeps run() from returning to it.
+// Handles a failure like main(), to which run() cannot return while a thread hangs.
 void App::leaveFailed(const std::exception_ptr& error) {
     try {
         std::rethrow_exception(error);
@@ -120,7 +122,7 @@ ExitCode App::finish(std::future<std::string>& end) {
         if (*one)
             (*one)->said.set_exception(
                 std::make_exception_ptr(std::runtime_error("mfard is ending")));
-    control_.reset();  // its destructor may wait for these answers
+    control_.reset();  // not earlier: its destructor may wait for these answers
     onReady();
     const Counted counted = stats_.count();
     const Health last = health(counted);
@@ -132,11 +134,12 @@ ExitCode App::finish(std::future<std::string>& end) {
         const ExitCode code = writeSummary(stopReason_.value_or(reason), ExitCode::Ok)
                                   ? ExitCode::Ok
                                   : ExitCode::OutputFailed;
-        // Reading cannot be interrupted; everything else is done, so the process ends without it.
+        // Reading a configuration cannot be interrupted. The process ends without waiting for it,
+        // because all other work is done.
         if (isReading()) std::_Exit(static_cast<int>(code));
         return code;
     } catch (const std::exception& error) {
-        // A display reader that took nothing before the signal does not count as a failure.
+        // It is not a failure of mfard if the display's reader read nothing before the signal.
         if (cancel_.stop_requested() || (stopSignal_ && counted.displayFault)) {
             log_.warning(fmt::format("not everything was written: {}", error.what()), {},
                          {message::kEnded});
@@ -145,7 +148,7 @@ ExitCode App::finish(std::future<std::string>& end) {
         }
         (void)writeSummary(fmt::format("error: {}", error.what()), exitCode(error));
         if (!stopSignal_) throw;
-        // After a signal mfard is not restarted, so there is no pause before a restart.
+        // There is no pause before the end: after a signal, mfard is not restarted.
         log_.error(error.what());
         return exitCode(error);
     }

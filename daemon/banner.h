@@ -9,16 +9,17 @@
 
 namespace mfar {
 
-/// Draws a fault's text over a picture. Used by one thread; for pictures in textures, by the GL
-/// thread with its context current. Allocates nothing before the first fault. Throws GlError.
+/// Draws the text of a fault over a picture. Only one thread may use it. For pictures in textures,
+/// the GL context must be current on this thread. Memory is allocated for the first fault only.
+/// Throws GlError.
 class Banner {
 public:
-    /// `size`: of the pictures.
+    /// `size`: size of the pictures [px].
     explicit Banner(Size size) : size_(size) {}
 
-    /// A copy of the picture with the text across its lower edge, in a texture or on the host, as
-    /// the picture itself. An empty picture gives the text over black, on the host. Valid until the
-    /// next call.
+    /// Returns a copy of the picture with the text at its lower edge. The copy is a texture if the
+    /// picture is one, otherwise it is on the host. For an empty picture, returns the text on
+    /// black, on the host. The result is valid until the next call.
     [[nodiscard]] Picture over(const Picture& picture, const std::string& text);
 
 private:

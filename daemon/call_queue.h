@@ -12,30 +12,31 @@
 
 namespace mfar {
 
-/// Calls that one thread asks another thread, the Target's, to execute. All functions may be called
-/// from any thread.
+/// A queue of functions that other threads want to be called on the thread of a Target object.
+/// Thread-safe.
 template <class Target>
 class CallQueue {
 public:
-    /// `wake` notifies the other thread of a new call; empty: that thread polls.
+    /// `wake` notifies the Target's thread of a new call. If it is empty, that thread must poll.
     explicit CallQueue(std::function<void()> wake = {}) : wake_(std::move(wake)) {}
 
-    /// The result or exception of `work`, executed by the other thread. Throws std::runtime_error
-    /// after `limit` (the call may still be executed later) or when it will never be executed.
+    /// Waits until the Target's thread has called `work`, and returns its result or throws its
+    /// exception. Throws std::runtime_error after `limit` (`work` may still be called later), or if
+    /// `work` will not be called.
     template <class Work>
     std::invoke_result_t<Work, Target&> call(Work work, std::chrono::milliseconds limit) {
         using Result = std::invoke_result_t<Work, Target&>;
         auto task = std::make_shared<std::packaged_task<Result(Target&)>>(std::move(work));
         std::future<Result> result = task->get_future();
-        // The queue holds the only reference: when it drops the call, the promise breaks and the
-        // caller wakes.
+        // The queue holds the only reference. If it discards the call, the promise is broken, and
+        // the caller's wait ends.
         put([task = std::move(task)](Target& target) { (*task)(target); });
         if (result.wait_for(limit) != std::future_status::ready)
             throw std::runtime_error("mfard is too busy to answer");
         return result.get();
     }
 
-    /// Executes the queued calls.
+    /// Calls all queued functions. The Target's thread must call this.
     void runAll(Target& target) {
         for (;;) {
             std::function<void(Target&)> next;
@@ -49,7 +50,7 @@ public:
         }
     }
 
-    /// Refuses all further calls.
+    /// Discards the queued calls and refuses further ones.
     void close() {
         std::deque<std::function<void(Target&)>> left;
         const std::lock_guard lock(mutex_);

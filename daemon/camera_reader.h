@@ -13,22 +13,23 @@
 
 namespace mfar {
 
-/// Longest wait for a frame, after which a camera's fault is reported. Stopping the camera ends the
-/// wait at once.
+/// Longest wait for a frame. After each wait, faults of the camera are reported. Stopping the
+/// camera ends a wait at once.
 inline constexpr std::chrono::milliseconds kFrameWait{50};
 
-/// Fetches the frames of one camera of a rig, refuses frames with a wrong size and reports the
-/// camera's state to `stats`. Used by one thread.
+/// Fetches the frames of one camera of a rig, refuses frames of a wrong size, and reports the
+/// camera's state to `stats`. Only one thread may use it.
 class CameraReader {
 public:
-    /// Both must outlive this.
+    /// `rig` and `stats` must outlive this object.
     CameraReader(Rig& rig, CameraRole role, Stats& stats);
 
-    /// See Camera. Throws Failure for a camera that fails and a frame of another size.
+    /// Returns the next frame, see Camera::next(). Throws Failure if the camera fails or a frame
+    /// has another size.
     [[nodiscard]] std::optional<Frame> next(std::chrono::milliseconds timeout);
     [[nodiscard]] bool ended() const { return camera_.ended(); }
 
-    /// True while next() waits for the camera. Any thread.
+    /// Returns whether next() waits for the camera. Thread-safe.
     [[nodiscard]] bool isWaiting() const { return waiting_; }
 
 private:
@@ -37,7 +38,7 @@ private:
     Camera& camera_;
     CameraRole role_;
     Size expected_;
-    ExitCode failure_;  ///< exit code when the camera fails
+    ExitCode failure_;  ///< exit code if the camera fails
     CameraWatch watch_;
     Stats& stats_;
     std::atomic<bool> waiting_{false};

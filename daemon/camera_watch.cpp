@@ -26,8 +26,7 @@ std::uint64_t sparseChecksum(const ImageView& picture) {
         for (std::size_t x = 0; x < plane.rowBytes; x += sizeof sum) {
             std::uint64_t word = 0;
             std::memcpy(&word, row + x, std::min(sizeof word, plane.rowBytes - x));
-            // The factor is odd, so the multiplication is invertible and keeps every word's
-            // contribution.
+            // The factor is odd, so the multiplication is invertible and no bit of a word is lost.
             sum = (sum ^ word) * 0x2545f4914f6cdd1d;
             sum ^= sum >> 29;
         }
@@ -55,7 +54,7 @@ void CameraWatch::add(const CameraCounters& counters) {
     state_.counters = counters;
     if (counters.missed) return;
     state_.counters.delivered = frames_;
-    // Without a configured rate, intervals do not show missing frames.
+    // If no frame rate is configured, intervals do not show missing frames.
     if (kind_ != CameraKind::Stored && state_.configuredHz > 0)
         state_.counters.missed = drops_.dropped();
 }
@@ -78,7 +77,7 @@ void CameraWatch::checkRate(Timestamp now) {
 void CameraWatch::checkRepeats(const Frame& frame, Timestamp now) {
     const std::uint64_t checksum = sparseChecksum(frame.view());
     if (std::exchange(checksum_, checksum) != checksum) {
-        // The frame's own time: it may have waited in the driver.
+        // The frame's own time is used, because the frame may have waited in the driver.
         state_.lastDistinct = std::min(now, frame.time());
         state_.repeats = false;
         repeats_ = 0;

@@ -13,46 +13,46 @@
 
 namespace mfar {
 
-/// State of a running camera, as status shows it.
+/// State of a running camera, as `mfarctl status` shows it.
 struct CameraState {
-    double configuredHz = 0;               ///< 0: triggered or free-running
-    double rateHz = 0;                     ///< measured over the last frames; 0: unknown
-    CameraCounters counters{};             ///< reported by the camera, else derived from its frames
-    std::uint64_t repeated = 0;            ///< pictures equal to the one before
-    std::optional<Timestamp> lastFrame{};  ///< arrival time
-    std::optional<Timestamp>
-        lastDistinct{};  ///< last picture unlike the one before; nothing: not watched
-    std::optional<double> distinctAgeS{};  ///< age of lastDistinct at the time of the query
-    bool repeats = false;  ///< the same picture has come for longer than kRepeatTime
+    double configuredHz = 0;     ///< configured frame rate; 0: triggered or free-running
+    double rateHz = 0;           ///< frame rate measured over the last frames; 0: unknown
+    CameraCounters counters{};   ///< reported by the camera, otherwise counted from its frames
+    std::uint64_t repeated = 0;  ///< number of pictures that were equal to the previous one
+    std::optional<Timestamp> lastFrame{};  ///< arrival time of the last frame
+    /// Time of the last picture that differed from the previous one. Not set: not checked.
+    std::optional<Timestamp> lastDistinct{};
+    std::optional<double> distinctAgeS{};  ///< age of lastDistinct when the state was queried [s]
+    bool repeats = false;  ///< whether the same picture has been sent for more than kRepeatTime
 };
 
-/// Which checks apply to a camera's frames.
+/// The kind of a camera. It decides which checks apply to its frames.
 enum class CameraKind {
-    Stored,  ///< none: no frame is ever dropped
-    Live,    ///< frames may be dropped
-    Sensor,  ///< also has a rate to keep, and noise, so that no two pictures are equal
+    Stored,  ///< a recording, of which no frame is dropped: no checks
+    Live,    ///< frames may be dropped: missing frames are counted
+    Sensor,  ///< also has a configured rate, and noise, so that no two pictures are equal
 };
 
-/// Checks the frames of one camera: their rate, the number of missing frames where the camera does
-/// not count them itself, and whether it repeats one picture. Used by one thread.
+/// Checks the frames of one camera: the frame rate, missing frames if the camera does not count
+/// them, and whether the camera repeats one picture. Only one thread may use it.
 class CameraWatch {
 public:
-    /// A rate that is off by more than this share for longer than this time causes a warning.
+    /// A warning is given if the frame rate differs by more than this share for longer than this
+    /// time.
     static constexpr double kRateTolerance = 0.1;
     static constexpr std::chrono::seconds kRateTime{3};
-    /// A picture that repeats for longer than this time and at least this many times causes a
-    /// warning.
+    /// A warning is given if a picture repeats for longer than this time and at least this often.
     static constexpr std::chrono::seconds kRepeatTime{2};
     static constexpr int kRepeats = 3;
 
     CameraWatch(const CameraInfo& info, CameraKind kind);
 
     void add(const Frame& frame, Timestamp now);
-    /// The camera's own counters since its start.
+    /// Takes the camera's own counters since its start.
     void add(const CameraCounters& counters);
 
     [[nodiscard]] const CameraState& state() const { return state_; }
-    /// Returns the new warnings about the camera, each only once.
+    /// Returns the new warnings about the camera. Each is returned once.
     [[nodiscard]] std::vector<std::string> takeWarnings();
 
 private:
@@ -64,15 +64,15 @@ private:
     CameraState state_;
     FrameDrops drops_;
     std::uint64_t frames_ = 0;
-    std::optional<Timestamp> wrongSince_;  ///< since when the rate is wrong
+    std::optional<Timestamp> wrongSince_;  ///< time since which the frame rate is wrong
     bool rateTold_ = false;
     std::optional<std::uint64_t> checksum_;
-    int repeats_ = 0;  ///< consecutive repetitions of the last picture
+    int repeats_ = 0;  ///< number of consecutive repetitions of the last picture
     std::vector<std::string> warnings_;
 };
 
-/// Checksum of at most sixteen rows of the first plane, spread over the picture. A sensor's noise
-/// makes it differ from picture to picture.
+/// Returns a checksum of at most sixteen rows of the first plane, spread over the picture. Because
+/// of a sensor's noise, it differs between any two pictures.
 [[nodiscard]] std::uint64_t sparseChecksum(const ImageView& picture);
 
 }  // namespace mfar

@@ -12,52 +12,52 @@ namespace mfar {
 
 class TomlReader;
 
-/// Which library drives a camera.
+/// The library that drives a camera.
 enum class CameraDriver {
     Libcamera,
     V4l2,
 };
 
-/// One sensor, section [cameras.video] or [cameras.still].
+/// Section [cameras.video] or [cameras.still] of the configuration: one camera.
 struct CameraConfig {
     CameraDriver driver = CameraDriver::Libcamera;
-    /// libcamera: id, model or location; V4L2: device or card name; empty: any camera but the other
-    /// one
+    /// With libcamera: the camera's id, model or location. With V4L2: path of the device or name of
+    /// the card. Empty: any camera except the other sensor's.
     std::string camera{};
     Size size{};
-    double rateHz = 0;            ///< 0: triggered only
-    std::string format = "auto";  ///< or the driver's name of a format
-    bool allowCrop = false;       ///< libcamera: cropping the field of view is allowed
-    /// Control names and values, as the camera defines them.
+    double rateHz = 0;            ///< frame rate; 0: the camera is triggered
+    std::string format = "auto";  ///< "auto" or the driver's name of a format
+    bool allowCrop = false;       ///< libcamera only: the field of view may be cropped
+    /// Names and values of controls, as the camera defines them.
     std::vector<std::pair<std::string, std::string>> controls{};
     bool operator==(const CameraConfig&) const = default;
 };
 
-/// The line that triggers the still sensor, section [cameras.trigger].
+/// Section [cameras.trigger] of the configuration: the GPIO line that triggers the still sensor.
 struct TriggerLineConfig {
-    std::string chip;  ///< label, name or path; empty: the chip that has the named line
-    std::string line;  ///< number or name; empty: the still sensor is free-running
+    std::string chip;  ///< label, name or path of the GPIO chip; empty: the chip with the line
+    std::string line;  ///< number or name of the line; empty: the still sensor is free-running
     bool activeLow = false;
     double pulseMs = 1;
-    bool pulseIsExposure = false;  ///< the pulse length sets the exposure time
-    std::string loopbackChip;      ///< empty: `chip`
-    std::string loopback;          ///< input wired to the trigger line; empty: no loopback
-    double delayMs = 0;            ///< from the edge to the start of exposure, initial estimate
-    double jitterMs = 1;           ///< error bound of stills' times
-    double arrivalMs = 500;        ///< a still that has not come after this time is lost
+    bool pulseIsExposure = false;  ///< whether the sensor exposes as long as the pulse lasts
+    std::string loopbackChip;      ///< GPIO chip of `loopback`; empty: `chip`
+    std::string loopback;          ///< input that is wired to the line; empty: there is none
+    double delayMs = 0;            ///< first estimate of the time from the pulse to the exposure
+    double jitterMs = 1;           ///< largest error of the camera's timestamps
+    double arrivalMs = 500;        ///< a still that does not arrive within this time is lost
     bool operator==(const TriggerLineConfig&) const = default;
 };
 
-/// Section [cameras]: what `source = "cameras"` opens.
+/// Section [cameras] of the configuration: the cameras that `source = "cameras"` opens.
 struct CamerasConfig {
-    std::filesystem::path calibration;  ///< empty: nominal lenses, see nominalRig()
+    std::filesystem::path calibration;  ///< path; empty: nominal lenses, see nominalRig()
     CameraConfig video{.size = {640, 480}, .rateHz = 30};
     CameraConfig still{.size = {2304, 1728}};
     TriggerLineConfig trigger;
     bool operator==(const CamerasConfig&) const = default;
 };
 
-/// Reads the section; faults are added to `file`.
+/// Reads section [cameras]. Faults are collected in `file`.
 void readCameras(TomlReader& file, CamerasConfig& cameras);
 
 }  // namespace mfar

@@ -9,8 +9,8 @@
 namespace mfar {
 namespace {
 
-/// A camera that works reacts to stop() in this time; one that does not hangs, and a process that
-/// is ending must not wait much longer.
+/// A camera that works reacts to stop() within this time. A camera that hangs must not delay the
+/// end of the process much longer.
 constexpr std::chrono::milliseconds kStopTime{100};
 
 }  // namespace
@@ -47,7 +47,7 @@ CaptureThread::~CaptureThread() {
 void CaptureThread::stop() {
     stopped_ = true;
     if (stills_) stills_->stop();
-    rig_.still().stop();  // also sets the trigger line to its safe level
+    rig_.still().stop();  // this also sets the trigger line to its inactive level
     rig_.video().stop();
     out_.close();
 }
@@ -55,7 +55,7 @@ void CaptureThread::stop() {
 void CaptureThread::join() {
     if (!thread_.joinable()) return;
     while (isOver_.wait_for(kStopTime) != std::future_status::ready)
-        // The thread finishes the recording when it ends, but it hangs.
+        // The capture thread hangs in its camera and cannot finish the recording.
         if (rig_.handOver() == HandOver::NewestWins && video_.isWaiting())
             return rig_.finishRecording();
     thread_.join();
@@ -73,8 +73,8 @@ void CaptureThread::run() {
     }
     if (stills_) stills_->stop();
     out_.finish();
-    // While the last picture is processed. A shutdown after a signal does not wait for that
-    // picture.
+    // The recording is finished here, while the GL thread processes the last picture. After a
+    // signal, the shutdown does not wait for that picture.
     try {
         rig_.finishRecording();
     } catch (...) {
@@ -90,7 +90,7 @@ FramePairer::NextStill CaptureThread::stillSource() {
 
 bool CaptureThread::captureOne(FramePairer& pairer, Heartbeat& heart) {
     std::optional<Frame> video = video_.next(kFrameWait);
-    // Reported by this thread, as the GL thread may be busy with a picture for a while.
+    // This thread reports faults, because the GL thread may work on a picture for a while.
     stats_.fault(rig_.fault());
     if (stills_) stills_->check();
     if (!video) return !stopped_ && !video_.ended();
@@ -103,10 +103,10 @@ bool CaptureThread::captureOne(FramePairer& pairer, Heartbeat& heart) {
         if (!still.measured) still.measured = poses_.measure(still.frame);
         still.pose = poses_.place(*still.measured, still.frame.time());
     }
-    // A predicted pose is not recorded, as a replay predicts it as well; nor is a still's, which is
-    // interpolated between those of frames.
+    // Predicted poses and poses of stills are not recorded: when the recording is played, the
+    // former are predicted again, and the latter are interpolated between frames.
     if (captured.pose && poses_.isMeasured(*captured.pose)) rig_.recordPose(*captured.pose);
-    // put() waits until the previous picture is finished.
+    // With a lossless source, put() waits until the picture is processed. That is not a fault.
     if (rig_.handOver() == HandOver::Lossless) heart.rest();
     const auto put = out_.put(std::move(captured));
     if (put == Mailbox<CapturedFrame>::Put::Replaced) stats_.mailboxDropped(out_.dropped());

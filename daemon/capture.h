@@ -19,16 +19,15 @@
 
 namespace mfar {
 
-/// A video frame, together with the newest still that is not younger than it and has not been
-/// handed over.
+/// A video frame, and the newest still that was exposed before it and has not been delivered yet.
 struct CapturedFrame {
     Frame video;
     std::optional<CapturedStill> still;
-    Timestamp arrived;                   ///< in the daemon, CLOCK_MONOTONIC
-    std::optional<Pose> pose{};          ///< of the video frame
-    std::uint64_t stillsSuperseded = 0;  ///< superseded by `still`, which is newer
+    Timestamp arrived;                   ///< time of the frame's arrival, CLOCK_MONOTONIC
+    std::optional<Pose> pose{};          ///< pose of the video frame
+    std::uint64_t stillsSuperseded = 0;  ///< number of stills discarded because `still` is newer
 
-    /// When this frame replaces a dropped one, it takes over the dropped frame's still.
+    /// Takes the still of a dropped frame that this frame replaces, unless this frame has a still.
     void supersede(CapturedFrame&& older) {
         stillsSuperseded += older.stillsSuperseded;
         if (!still)
@@ -38,42 +37,43 @@ struct CapturedFrame {
     }
 };
 
-/// Joins stills to video frames by their times. Used by one thread.
+/// Assigns stills to video frames by their times. Only one thread may use it.
 class FramePairer {
 public:
-    /// Returns the next still that has come, or nothing; must not wait.
+    /// Returns the next still that has arrived, or nothing. Must not wait.
     using NextStill = std::function<std::optional<CapturedStill>()>;
 
     explicit FramePairer(NextStill nextStill) : nextStill_(std::move(nextStill)) {}
 
-    /// Takes all stills that are not younger than the frame and hands over the newest of them.
+    /// Takes all stills that are not later than the frame. Returns the frame with the newest of
+    /// them.
     [[nodiscard]] CapturedFrame pair(Frame video, Timestamp arrived);
 
 private:
     NextStill nextStill_;
-    std::optional<CapturedStill> upcoming_;  ///< a still younger than the last video frame
+    std::optional<CapturedStill> upcoming_;  ///< a still that is later than the last video frame
 };
 
-/// The thread that fetches frames from the rig's video camera, has their poses found and hands them
-/// to the mailbox. The search for tags thus runs in parallel with the GL thread's work on the
-/// previous frame.
+/// The thread that fetches frames from the rig's video camera, finds their poses and puts them into
+/// the mailbox. So the search for tags runs in parallel with the GL thread's work on the previous
+/// frame.
 ///
-/// Each live camera has a thread of its own, so that the video goes on while the still camera
-/// hangs. A lossless source is read by this one thread, in a reproducible order.
+/// Each live camera has its own thread, so that the video continues if the still camera hangs. Of a
+/// lossless source, this thread also reads the stills, in a reproducible order.
 class CaptureThread {
 public:
-    /// Starts the cameras and the thread. All arguments must outlive this. Throws Failure.
+    /// Starts the cameras and the thread. All arguments must outlive this object. Throws Failure.
     CaptureThread(Rig& rig, PoseFinder& poses, Stats& stats, Mailbox<CapturedFrame>& out);
     CaptureThread(const CaptureThread&) = delete;
     CaptureThread& operator=(const CaptureThread&) = delete;
-    /// Waits for the threads, even for a camera that hangs.
+    /// Waits for the threads, even if a camera hangs.
     ~CaptureThread();
 
-    /// Stops the cameras and the mailbox. Any thread, idempotent.
+    /// Stops the cameras and closes the mailbox. Thread-safe and idempotent.
     void stop();
-    /// Waits for the end of the thread, after stop(), but not for a live camera that does not
-    /// answer. Throws the error that ended the thread: Failure for a camera that failed or a frame
-    /// of a wrong size.
+    /// Waits for the end of the thread, but not for a live camera that hangs. Must be called after
+    /// stop(). Throws the error that ended the thread: Failure if a camera failed or a frame had a
+    /// wrong size.
     void join();
 
 private:
@@ -86,10 +86,10 @@ private:
     Stats& stats_;
     Mailbox<CapturedFrame>& out_;
     CameraReader video_;
-    CameraReader still_;  ///< for a lossless source
+    CameraReader still_;  ///< used for a lossless source
     std::atomic<bool> stopped_{false};
     std::exception_ptr failure_;
-    std::optional<StillThread> stills_;  ///< for a live source
+    std::optional<StillThread> stills_;  ///< used for a live source
     std::promise<void> over_;
     std::future<void> isOver_;  ///< the future of over_
     std::thread thread_;

@@ -33,7 +33,7 @@ std::optional<E> meaning(std::span<const Word<E>> words, std::string_view word) 
     return std::nullopt;
 }
 
-/// A path in a configuration file is relative to that file.
+/// Returns the path that a text in a configuration file means. It is relative to the file's folder.
 std::filesystem::path besides(const std::string& file, const std::filesystem::path& path) {
     return std::filesystem::path(file).parent_path() / path;
 }
@@ -122,8 +122,8 @@ std::string needRestart(const Config& running, const Config& wanted) {
     compare(running.seed == wanted.seed, "seed");
     compare(running.record == wanted.record, "record");
     compare(running.limits == wanted.limits, "limits");
-    // Another tag map is another world frame, and a tracker that starts again has no pose for a
-    // while.
+    // A change of [pose] needs a restart: another tag map defines another world frame, and a new
+    // tracker has no pose for a while.
     compare(running.pose == wanted.pose, "pose");
     compare(running.engine == wanted.engine, "engine");
     compare(running.virtualLayer == wanted.virtualLayer, "virtual");

@@ -21,11 +21,11 @@
 
 namespace mfar {
 
-/// Clock of a virtual source.
+/// How fast a recording or the simulated board delivers frames.
 enum class SourcePace {
     Auto,      ///< Consumer for recordings, Realtime for every other source
-    Realtime,  ///< the source's own timestamps; frames that are not taken in time are dropped
-    Consumer,  ///< as fast as frames are taken; no frame is dropped
+    Realtime,  ///< as the frames' times say; frames that are not fetched in time are dropped
+    Consumer,  ///< as fast as frames are fetched; no frame is dropped
 };
 
 struct SuperResConfig {
@@ -42,11 +42,11 @@ struct StatusConfig {
 };
 
 struct RecordConfig {
-    /// All frames and stills are recorded in a new folder inside this one, named by the start's
-    /// time. Empty: no recording.
+    /// Each start records all frames and stills into a new folder inside this one. The new folder's
+    /// name is the time. Empty: nothing is recorded.
     std::filesystem::path directory;
-    double leastFreeMb = 512;  ///< disk space that stays free
-    double mostMb = 0;         ///< size limit of one recording; 0: no limit
+    double leastFreeMb = 512;  ///< disk space that must stay free
+    double mostMb = 0;         ///< largest size of one recording; 0: no limit
     bool operator==(const RecordConfig&) const = default;
 };
 
@@ -54,15 +54,15 @@ struct RecordConfig {
 /// are those of option_table.h; a test compares both.
 struct Config {
     std::string source = "cameras";   ///< not used when `recording` is set
-    std::filesystem::path recording;  ///< empty: none
+    std::filesystem::path recording;  ///< recording to play; empty: none
     std::string display = "auto";
     PictureSize size;
     SourcePace pace = SourcePace::Auto;
-    std::uint64_t seed = 1;          ///< seed of the synthetic board
-    std::filesystem::path recordTo;  ///< a new folder; empty: no recording
+    std::uint64_t seed = 1;          ///< seed of the simulated board
+    std::filesystem::path recordTo;  ///< new folder to record into (--record); empty: none
     RecordConfig record;
     LimitsConfig limits;
-    CamerasConfig cameras;  ///< used when source is "cameras"
+    CamerasConfig cameras;  ///< used if source is "cameras"
     SuperResConfig superres;
     TriggerConfig trigger;
     PoseConfig pose;
@@ -72,33 +72,34 @@ struct Config {
     VirtualOptions virtualLayer;
     LightOptions light;
     std::vector<PlacedObject> objects;
-    bool validate = false;  ///< check every pass's output; slow, so not in the file
+    bool validate = false;  ///< check the output of every pass; slow, so only on the command line
 };
 
-/// The configuration file is invalid. The message has one line per fault, each "file:line:column:
-/// fault".
+/// Reports that a configuration file is invalid. The message has one line per fault:
+/// "file:line:column: fault".
 class ConfigError : public Failure {
 public:
     explicit ConfigError(const std::string& message) : Failure(ExitCode::BadConfig, message) {}
 };
 
-/// Parses configuration text; keys that are absent keep their defaults. `file` is for messages, and
-/// a relative path of a tag map is relative to its folder. Throws ConfigError with every fault
-/// found.
+/// Parses the text of a configuration file. Absent keys keep their defaults. `file` is the file's
+/// path: messages name it, and relative paths in the text are relative to its folder. Throws
+/// ConfigError with all faults.
 [[nodiscard]] Config parseConfig(std::string_view toml, const std::string& file);
 
-/// Reads a file. Throws ConfigError, or Failure(NoInput) when it cannot be read.
+/// Reads a configuration file. Throws ConfigError, or Failure(NoInput) if the file cannot be read.
 [[nodiscard]] Config loadConfig(const std::filesystem::path& file);
 
-/// The text of a configuration file: a regular file of at most 1 MiB. Throws Failure(NoInput) when
-/// it cannot be read.
+/// Returns the text of a configuration file, which must be a regular file of at most 1 MiB. Throws
+/// Failure(NoInput) if it cannot be read.
 [[nodiscard]] std::string readConfigText(const std::filesystem::path& file);
 
-/// Names of the keys that differ between two configurations and need a restart, as in "source,
-/// display"; empty when there are none.
+/// Returns the names of the keys that differ between two configurations and need a restart, e.g.
+/// "source, display". If no restart is needed, the text is empty.
 [[nodiscard]] std::string needRestart(const Config& running, const Config& wanted);
 
-/// Words of the configuration and the command line. Returns nothing for an unknown word.
+/// These functions convert between values and the words of configuration and command line. For an
+/// unknown word, they return nothing.
 [[nodiscard]] std::optional<SuperResMode> superResMode(std::string_view word);
 [[nodiscard]] std::optional<SourcePace> sourcePace(std::string_view word);
 [[nodiscard]] std::string_view name(SuperResMode mode);

@@ -56,7 +56,7 @@ ordered_json with(const ordered_json& more = ordered_json::object()) {
 }
 
 ControlAnswer line(const ordered_json& body) {
-    // Text that is not UTF-8 (a device's name may have any bytes) must not make the answer fail.
+    // Bytes that are not UTF-8 are replaced, because a device's name may contain any bytes.
     return {body.dump(-1, ' ', false, ordered_json::error_handler_t::replace)};
 }
 

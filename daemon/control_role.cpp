@@ -12,7 +12,8 @@
 namespace mfar {
 namespace {
 
-/// Supplementary groups of the connected process; nothing where the kernel does not report them.
+/// Returns the supplementary groups of the process at the other end of a socket. The list is empty
+/// if the kernel does not report them.
 std::vector<gid_t> groupsOfPeer(int socket) {
     constexpr std::size_t kMost = 65536;
     std::vector<gid_t> groups(32);

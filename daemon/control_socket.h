@@ -20,43 +20,46 @@
 
 namespace mfar {
 
-/// An answer: a line, and the data that the line announces.
+/// An answer to a request: a line, and the data that follow the line.
 struct ControlAnswer {
-    std::string line;  ///< without the line end
+    std::string line;  ///< without the end of the line
     std::vector<std::uint8_t> data{};
 };
 
-/// A Unix stream socket for requests of one line each. A connection carries one request and its
-/// answer. Requests are read concurrently; up to four are answered at once, each by a thread of its
-/// own, as an answer may wait for a disk. A client may take 2 s to send its request and 5 s to take
-/// the answer, then it is dropped. The owner and the group of this process may connect;
-/// roleOfPeer() decides which of them is an operator.
+/// A Unix stream socket for requests of one line. Each connection carries one request and its
+/// answer. Several requests are read at the same time. Up to four are answered at the same time,
+/// each by its own thread, because an answer may wait for a disk. A client must send its request
+/// within 2 s and read the answer within 5 s; otherwise it is disconnected. The file's permissions
+/// let the user and the group of this process connect. roleOfPeer() decides which of them are
+/// operators.
 class ControlSocket {
 public:
-    static constexpr std::size_t kLongestRequest = 4096;  ///< [byte], line end included
+    static constexpr std::size_t kLongestRequest =
+        4096;  ///< [bytes], including the end of the line
 
-    /// Called with a request without its line end, by several threads at once. Must not throw.
+    /// Answers a request, which has no end of the line. Several threads may call it at the same
+    /// time. Must not throw.
     using Handler = std::function<ControlAnswer(std::string_view request, ControlRole role)>;
 
-    /// Creates the socket and begins to listen. A socket file that a dead process has left is
-    /// replaced. Throws Failure(Unavailable) when a process listens there, or the path cannot be
-    /// used. The threads register with `hearts`, which must outlive this.
+    /// Creates the socket and begins to listen. The socket file of a process that has died is
+    /// replaced. Throws Failure(Unavailable) if another process listens there or the path cannot be
+    /// used. The threads register at `hearts`, which must outlive this object.
     ControlSocket(std::filesystem::path path, Handler handler, Heartbeats* hearts = nullptr);
     ControlSocket(const ControlSocket&) = delete;
     ControlSocket& operator=(const ControlSocket&) = delete;
-    /// Drops the requests in progress.
+    /// Disconnects all clients.
     ~ControlSocket();
 
 private:
     struct Client {
         OwnedFd fd;
-        Timestamp end;  ///< when the client's time for the request is over
+        Timestamp end;  ///< time until which the client must have sent its request
         ControlRole role = ControlRole::Observer;
         std::string request{};
         bool isReady = false, isComplete = false, isGone = false;
     };
 
-    /// A request in progress.
+    /// A request that is being answered.
     struct Answering {
         Client client;
         std::atomic<bool> isOver{false};
@@ -78,8 +81,8 @@ private:
     std::optional<gid_t> operators_;
     OwnedFd listening_;
     OwnedFd stop_;
-    OwnedFd answered_;              ///< readable when an answer is finished
-    std::list<Answering> answers_;  ///< used by thread_ only
+    OwnedFd answered_;              ///< eventfd, readable after an answer is finished
+    std::list<Answering> answers_;  ///< only thread_ uses this
     std::thread thread_;
 };
 

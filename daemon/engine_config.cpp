@@ -14,7 +14,7 @@ namespace {
 constexpr std::array<std::pair<std::string_view, EngineWish>, 3> kWishes = {
     {{"auto", EngineWish::Auto}, {"gles", EngineWish::Gles}, {"simd", EngineWish::Simd}}};
 
-/// A step's name, its member in the wishes and its member in the choice.
+/// A step: its name, its member in EngineConfig and its member in EngineChoice.
 struct Step {
     std::string_view name;
     EngineWish EngineConfig::* wish;
@@ -79,7 +79,7 @@ std::string describe(const EngineChoice& choice) {
     return out;
 }
 
-// The choices are few: compares the text with each of them.
+// Compares the text with the descriptions of all choices, of which there are only 64.
 std::optional<EngineChoice> parseEngineChoice(std::string_view text) {
     for (unsigned bits = 0; bits < 1U << kSteps.size(); ++bits) {
         EngineChoice choice;

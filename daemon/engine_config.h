@@ -11,9 +11,9 @@ namespace mfar {
 
 class TomlReader;
 
-/// Which engine a step is configured to run on.
+/// The configured engine of a step.
 enum class EngineWish : std::uint8_t {
-    Auto,  ///< mfard decides
+    Auto,  ///< mfard chooses the engine
     Gles,
     Simd
 };
@@ -21,13 +21,13 @@ enum class EngineWish : std::uint8_t {
 
 /// Section [engine] of the configuration.
 struct EngineConfig {
-    EngineWish use = EngineWish::Auto;  ///< for every step that is not set below
+    EngineWish use = EngineWish::Auto;  ///< used for steps whose own value is Auto
     EngineWish still = EngineWish::Auto, pyramid = EngineWish::Auto, flow = EngineWish::Auto,
                weigh = EngineWish::Auto, detail = EngineWish::Auto, occlusion = EngineWish::Auto;
 
-    /// True when every step is set to SIMD, so that GLES is not needed.
+    /// Returns whether every step is set to SIMD, so that GLES is not needed.
     [[nodiscard]] bool isSimdAlone() const;
-    /// True when a step is set to GLES, so that GLES is required.
+    /// Returns whether a step is set to GLES, so that GLES is required.
     [[nodiscard]] bool needsGles() const;
     bool operator==(const EngineConfig&) const = default;
 };
@@ -35,12 +35,13 @@ struct EngineConfig {
 /// Reads section [engine].
 void readEngine(TomlReader& file, EngineConfig& engine);
 
-/// `decided`, with the configured steps replaced.
+/// Returns `decided`, in which the configured engines replace those of the same steps.
 [[nodiscard]] EngineChoice withWishes(const EngineConfig& engine, EngineChoice decided);
 
-/// "simd" where all steps run there, else every step: "still gles, flow simd, ...".
+/// Returns "simd" or "gles" if all steps run on that engine, otherwise a list of all steps: "still
+/// gles, flow simd, ...".
 [[nodiscard]] std::string describe(const EngineChoice& choice);
-/// The inverse of describe(); nothing for any other text.
+/// Returns the choice that describe() describes by this text, or nothing for any other text.
 [[nodiscard]] std::optional<EngineChoice> parseEngineChoice(std::string_view text);
 
 }  // namespace mfar

@@ -16,7 +16,7 @@
 namespace mfar {
 namespace {
 
-// A file of this size holds hundreds of drivers; a longer one was not written by mfard.
+// Size limit of the file. Hundreds of drivers fit into it, so mfard did not write a larger file.
 constexpr std::uintmax_t kMostBytes = 65536;
 
 nlohmann::json kept(const std::filesystem::path& file) {

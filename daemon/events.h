@@ -10,16 +10,16 @@ struct Event {
     enum class Kind {
         Signal,    ///< SIGINT, SIGTERM or SIGHUP arrived
         Tick,      ///< a period of tickEvery() has passed
-        Deadline,  ///< the time set by deadlineIn() has come
+        Deadline,  ///< the time of deadlineIn() has passed
         Wake,      ///< wake() was called
     };
     Kind kind;
     int signal = 0;
 };
 
-/// The events that the main thread waits for. Once this is constructed, SIGINT, SIGTERM and SIGHUP
-/// arrive only here: they are blocked in the constructing thread and in all threads that it starts
-/// later.
+/// The events for which the main thread waits. The constructor blocks SIGINT, SIGTERM and SIGHUP in
+/// its thread, and so in all threads that this thread starts later. From then on, these signals are
+/// reported only here.
 class Events {
 public:
     /// Throws std::system_error.
@@ -28,9 +28,9 @@ public:
     /// Waits for the next event. Signals come before all others.
     [[nodiscard]] Event wait();
     void tickEvery(std::chrono::duration<double> period);
-    /// Replaces an earlier deadline.
+    /// Sets a deadline. An earlier deadline is replaced.
     void deadlineIn(std::chrono::duration<double> time);
-    /// May be called from any thread.
+    /// Causes an event Wake. Thread-safe.
     void wake();
 
 private:

@@ -7,7 +7,8 @@
 
 namespace mfar {
 
-/// Exit codes of the programs, from sysexits.h, so that a service manager can distinguish them.
+/// Exit codes of the programs. They have the values of sysexits.h, so that a service manager can
+/// distinguish failures.
 enum class ExitCode {
     Ok = 0,
     Usage = 64,         ///< wrong command line
@@ -15,11 +16,11 @@ enum class ExitCode {
     NoInput = 66,       ///< an input is missing or unreadable
     Unavailable = 69,   ///< a device or the GL renderer is not available
     Internal = 70,      ///< a bug
-    OutputFailed = 74,  ///< display or recording cannot be written
+    OutputFailed = 74,  ///< the output of the display or the recording cannot be written
     BadConfig = 78,     ///< the configuration is invalid
 };
 
-/// An error that ends the program: a message of one line, and the exit code.
+/// An error that ends the program. It has a message of one line and an exit code.
 class Failure : public std::runtime_error {
 public:
     Failure(ExitCode exitCode, const std::string& message)
@@ -28,7 +29,8 @@ public:
     const ExitCode code;
 };
 
-/// Returns the result of `action`. An Error becomes a Failure with this code and the same message.
+/// Calls `action` and returns its result. If it throws an Error, throws a Failure with `code` and
+/// the same message instead.
 template <class Error = std::runtime_error, class Action>
 decltype(auto) orFail(ExitCode code, Action&& action) {
     try {
@@ -38,7 +40,7 @@ decltype(auto) orFail(ExitCode code, Action&& action) {
     }
 }
 
-/// The exit code for this error; Internal for errors other than Failure.
+/// Returns the exit code of an error. It is Internal if the error is not a Failure.
 [[nodiscard]] inline ExitCode exitCode(const std::exception& error) {
     const auto* failure = dynamic_cast<const Failure*>(&error);
     return failure != nullptr ? failure->code : ExitCode::Internal;

@@ -16,13 +16,13 @@
 namespace mfar {
 namespace {
 
-// Learning uses at most this share of a processor.
+// Learning uses at most this share of a CPU.
 constexpr double kShare = 0.1;
 constexpr std::chrono::minutes kStoreEvery{1};
-// A state has 1.2 MB; a longer file was not written by mfard.
+// Size limit of the file. A state has 1.2 MB, so mfard did not write a larger file.
 constexpr std::size_t kMostFilterBytes = 4 << 20;
 
-/// Throws FilterBankError.
+/// Reads the file. Throws FilterBankError.
 std::vector<std::uint8_t> bytesOf(const std::filesystem::path& file) {
     try {
         return boundedFile(file, kMostFilterBytes);

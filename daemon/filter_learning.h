@@ -22,49 +22,50 @@
 namespace mfar {
 
 struct FilterLearningOptions {
-    /// File of the learned state; empty: the state is lost with this object.
+    /// File that stores the learned state. Empty: the state is lost with this object.
     std::filesystem::path file;
-    std::string sensors;  ///< both sensors' names and sizes, for which filters are learned
-    /// Learn from every still; finish() waits until it is done, so that the same pictures give the
-    /// same filters. Otherwise stills are skipped that come during learning, or so early that
-    /// learning would use more than a tenth of a processor.
+    std::string sensors;  ///< names and sizes of the sensors for which filters are learned
+    /// True: learn from every still; finish() waits for it, so that the same pictures give the same
+    /// filters. False: skip stills that come while learning runs, or so early that learning would
+    /// use more than a tenth of a CPU.
     bool waits = false;
-    /// Where this is set, guidance is learned, too: see enlarge::GuidanceLearner.
+    /// If this is set, guidance is learned, too, see enlarge::GuidanceLearner.
     std::optional<StereoRig> rig = std::nullopt;
-    WatchedThread watched{};  ///< its time budget is for one still
+    WatchedThread watched{};  ///< the learning thread; its budget is for one still
 };
 
-/// Learns the enlarger's filters from matched stills, in a low-priority thread that stores the
-/// state every minute and at the end. Stills are copied on the frame's thread, one at a time.
+/// Learns the enlarger's filters from matched stills, in a thread of low priority. This thread
+/// stores the state every minute and at the end. The thread that processes frames copies the
+/// stills, one at a time.
 class FilterLearning final : public MatchListener {
 public:
-    /// Loads the state from the file where that can be read; see takeWarnings().
+    /// Reads the state from the file. If that fails, learning starts again, with a warning.
     explicit FilterLearning(FilterLearningOptions options);
     FilterLearning(const FilterLearning&) = delete;
     FilterLearning& operator=(const FilterLearning&) = delete;
-    /// Like stop(), but errors are ignored.
+    /// Calls stop().
     ~FilterLearning() override;
 
-    /// Aborts learning from the current still, and stores the state, which may wait for the disk.
+    /// Cancels learning from the current still and stores the state. This may wait for the disk.
     void stop();
 
-    // For the frame's thread; only finish() waits for the learning.
+    // The thread that processes frames calls these functions. Only finish() waits for the learning.
     void matched(const RgbPlanes& video, Rows<const std::uint8_t> still,
                  Rows<const LookUpCell> lookUps,
                  const MatchedPictures::LookedUp& lookedUp) override;
     void replaced(const RgbPlanes& video, Rows<const std::uint8_t> still,
                   Rows<const LookUpCell> lookUps,
                   const MatchedPictures::LookedUp& lookedUp) override;
-    /// The current filters, if they have changed since the last call.
+    /// Returns the current filters if they have changed since the last call, otherwise null.
     [[nodiscard]] std::shared_ptr<const FilterBank> takeFilters();
-    /// With FilterLearningOptions::waits: waits until the last still has been learned from.
+    /// Waits until learning from the last still has ended, if FilterLearningOptions::waits is set.
     void finish();
 
-    // For any thread.
-    /// Forgets everything, the file too.
+    // The following functions are thread-safe.
+    /// Deletes all that was learned, and the file.
     void reset();
     [[nodiscard]] LearningCounts counts() const;
-    /// Errors of the file since the last call.
+    /// Returns the errors of reading and writing the file since the last call.
     [[nodiscard]] std::vector<std::string> takeWarnings();
 
 private:
@@ -79,15 +80,15 @@ private:
     void store(const std::vector<std::uint8_t>& bytes);
 
     const FilterLearningOptions options_;
-    EnlargerLearner learner_;  // used by thread_, and by constructor and destructor
-    // The new still, and the previous one with the last frame that was drawn with it. They belong
-    // to the frame's thread, and to the learner's thread while isFull_ is set.
+    EnlargerLearner learner_;  // only thread_, constructor and stop() use this
+    // The new still, and the previous one with the last frame that was drawn with it. The thread
+    // that processes frames owns them; while isFull_ is set, thread_ owns them.
     MatchedPictures pictures_, older_;
     std::optional<RgbPlanes> olderVideo_;
-    bool hasOlder_ = false;    // `older_` holds the still before the one in `pictures_`
-    bool olderTaken_ = false;  // used by the frame's thread: `older_` was set since the last still
-    MatchedPictures truth_;    // used by thread_, as is matcher_
-    std::unique_ptr<FrameMatcher> matcher_;  // created at first use
+    bool hasOlder_ = false;    // whether `older_` is the still before the one in `pictures_`
+    bool olderTaken_ = false;  // frames' thread only: whether `older_` was set since the last still
+    MatchedPictures truth_;    // only thread_ uses this and matcher_
+    std::unique_ptr<FrameMatcher> matcher_;  // created when it is first needed
 
     mutable std::mutex mutex_;
     std::condition_variable_any begun_;
@@ -98,13 +99,13 @@ private:
     std::vector<std::string> warnings_;
     Clock::time_point mayLearn_{};
     Clock::time_point stored_ = Clock::now();
-    bool isStored_ = true;  // used by thread_
+    bool isStored_ = true;  // only thread_ and stop() use this
 
-    std::jthread thread_;  // last: it uses all of the above
+    std::jthread thread_;  // last member: it uses the members above
 };
 
-/// Where the learned filters of these sensors are stored: in the service's state folder
-/// ($STATE_DIRECTORY); empty where there is none.
+/// Returns the path of the file for the learned filters of these sensors, in the service's state
+/// folder ($STATE_DIRECTORY). Returns an empty path if there is no such folder.
 [[nodiscard]] std::filesystem::path learnedFiltersFile(const std::string& sensors);
 
 }  // namespace mfar

@@ -8,17 +8,20 @@
 namespace mfar {
 namespace {
 
-constexpr double kRoom = 0.85;      // share of the deadline, when going up
-constexpr double kDownRoom = 0.95;  // share of the deadline, when going down
-// One late frame in kLateWindow, and one more that brings in a still: one in twenty.
+// A level may be chosen if it is expected to need at most this share of the deadline.
+constexpr double kRoom = 0.85;      // for a change to a better level
+constexpr double kDownRoom = 0.95;  // for a change to a faster level
+// Among kLateWindow frames, kMostLate may be late, and one more that brings in a still. This is one
+// frame in twenty.
 constexpr std::size_t kMostLate = 1;
-constexpr std::uint64_t kLateWindow = 40;  // frames
-constexpr std::uint64_t kSettle = 8;       // frames before a better level is tried
-constexpr std::uint64_t kFirstWait = 20, kLongestWait = 960;  // frames until a retry
-// A level that kept the deadline for this long was a good choice; the scene has changed.
-constexpr std::uint64_t kHeld = 100;       // frames
-constexpr int kAtRest = 3;                 // consecutive frames without a change
-constexpr std::uint64_t kStillEvery = 40;  // frames
+constexpr std::uint64_t kLateWindow = 40;  // [frames]
+constexpr std::uint64_t kSettle = 8;       // [frames] before a better level is tried
+constexpr std::uint64_t kFirstWait = 20, kLongestWait = 960;  // [frames] until a level is retried
+// If a level misses the deadline after it kept it for at least kHeld frames, the scene has changed.
+// The wait for a retry then begins with kFirstWait again.
+constexpr std::uint64_t kHeld = 100;       // [frames]
+constexpr int kAtRest = 3;                 // unchanged frames after which the picture is at rest
+constexpr std::uint64_t kStillEvery = 40;  // [frames] between late frames that bring in a still
 
 }  // namespace
 
@@ -87,7 +90,7 @@ void Governor::goTo(std::size_t level) {
     ++changes_;
 }
 
-// The best level that is expected to need at most `ms`, among those that may be tried now.
+// Returns the best level that may be tried now and is expected to need at most `ms`.
 std::size_t Governor::bestWithin(double ms) const {
     std::size_t best = 0;
     for (std::size_t i = 1; i < levels_.size(); ++i)

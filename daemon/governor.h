@@ -10,22 +10,23 @@
 
 namespace mfar {
 
-/// Picks the most accurate level of a quality table whose frames keep a deadline, frame by frame.
-/// Pure logic on the frames' times; used by one thread.
+/// Chooses, for each frame, the most accurate level of a quality table that keeps a deadline. It
+/// only uses the times of frames. Only one thread may use it.
 ///
-/// The expected time of a level is its time in the table, times a factor for this machine and
-/// scene: the second largest ratio of measured to table time among the last 20 frames that changed
-/// anything. Two late frames within 40 (one more may bring in a still) make the level go down, to
-/// the best that is expected to keep the deadline. It goes up when a better level is expected to
-/// need at most 85 % of the deadline. A level that missed the deadline is not tried again for a
-/// while, which doubles each time.
+/// The expected time of a level is its time in the table, multiplied by a factor for this machine
+/// and scene. The factor is the second largest ratio of measured time to table time among the last
+/// 20 counted frames. If two of 40 counted frames are late, a faster level is chosen: the best that
+/// is expected to keep the deadline. If a better level is expected to need at most 85 % of the
+/// deadline, that one is chosen. A level that missed the deadline is not tried again for some
+/// frames; their number doubles each time.
 ///
-/// Not counted are frames in which nothing changed, frames that bring in a still, and frames
-/// without a still at a level that uses one. When the picture comes to rest it is drawn once more
-/// at the best level: late, but nothing moves.
+/// Three kinds of frames are not counted: frames in which nothing changed, frames that bring in a
+/// still, and frames without a still at a level that uses one. When the picture comes to rest, it
+/// is drawn once more at the best level. That frame may be late, but nothing moves.
 class Governor {
 public:
-    /// At least one level, in rising order of time. `deadlineMs` above zero.
+    /// `levels` must not be empty and must be sorted by time. `deadlineMs` must be greater than
+    /// zero.
     Governor(std::vector<QualityLevel> levels, double deadlineMs);
 
     /// The settings for the next frame.
@@ -38,25 +39,25 @@ public:
     [[nodiscard]] const Choice& next() const { return next_; }
     [[nodiscard]] const QualityLevel& level() const { return levels_[next_.level]; }
 
-    /// To be called for every frame. Negative or non-finite times are ignored.
     struct Frame {
-        double ms = 0;          ///< from the begin of its processing to its picture shown
-        bool newStill = false;  ///< a still became the reference just before this frame
+        double ms = 0;          ///< time from the start of processing to the shown picture
+        bool newStill = false;  ///< whether a still became the reference just before this frame
         bool usedStill = true;
         double changedBefore = 1;  ///< share of the picture that changed in the previous frame
     };
+    /// Must be called for every frame. Frames whose time is negative or not finite are ignored.
     void add(const Frame& frame);
 
-    /// False while a still must not be triggered: the level uses none, or a frame that brings in a
-    /// still would be late too often.
+    /// Returns whether a still may be triggered. Returns false if the level uses no still, or if
+    /// the late frames that bring in stills would be too frequent.
     [[nodiscard]] bool mayTakeStill() const;
 
     [[nodiscard]] double deadlineMs() const { return deadline_; }
-    /// Number of level changes, without those for frames at rest.
+    /// Returns the number of changes of the level, without those for pictures at rest.
     [[nodiscard]] std::uint64_t changes() const { return changes_; }
 
 private:
-    static constexpr std::size_t kWindow = 20;  // frames
+    static constexpr std::size_t kWindow = 20;  // number of counted frames
 
     struct Pending {
         double ms;
@@ -73,16 +74,18 @@ private:
 
     std::vector<QualityLevel> levels_;
     double deadline_;
-    std::size_t level_ = 0;  // for frames that change something
+    std::size_t level_ = 0;  // level of frames in which something changes
     Choice next_;
-    std::optional<Pending> pending_;        // the previous frame, until it is known what changed
+    std::optional<Pending> pending_;        // the previous frame, until its changes are known
     std::array<double, kWindow> ratios_{};  // measured time / table time, ring buffer
     std::size_t ratioCount_ = 0;
-    std::uint64_t frame_ = 0;            // number of frames counted
-    std::uint64_t changedAt_ = 0;        // value of frame_ at the last change of level
-    std::vector<std::uint64_t> lateAt_;  // values of frame_ for late frames since the level changed
+    std::uint64_t frame_ = 0;            // number of counted frames
+    std::uint64_t changedAt_ = 0;        // value of frame_ at the last change of the level
+    std::vector<std::uint64_t> lateAt_;  // values of frame_ at late frames since that change
     struct Trial {
-        std::uint64_t notBefore = 0, wait = 0;  // value of frame_; number of frames
+        // The value of frame_ before which a level is not tried, and the length of that wait
+        // [frames].
+        std::uint64_t notBefore = 0, wait = 0;
     };
     std::vector<Trial> trials_;
     int restFrames_ = 0;

@@ -12,9 +12,9 @@ class TomlReader;
 
 /// Section [governor] of the configuration.
 struct GovernorConfig {
-    double deadlineMs = 0;        ///< of a frame; 0: no governor
-    std::string pin;              ///< name of the level to use always; empty: no pin
-    std::filesystem::path table;  ///< file of levels; empty: the built-in table
+    double deadlineMs = 0;        ///< deadline of a frame; 0: there is no governor
+    std::string pin;              ///< name of a level that is always used; empty: none
+    std::filesystem::path table;  ///< file with the levels; empty: the built-in table
 
     [[nodiscard]] bool governs() const { return pin.empty() && deadlineMs > 0; }
     bool operator==(const GovernorConfig&) const = default;
@@ -23,9 +23,9 @@ struct GovernorConfig {
 /// Reads section [governor].
 void readGovernor(TomlReader& file, GovernorConfig& governor);
 
-/// The levels to choose from: the pinned level, if one is configured; empty without pin and
-/// deadline. Throws ConfigError for an invalid table or a pin that is not in it, Failure(NoInput)
-/// when the table cannot be read.
+/// Returns the levels to choose from. If a level is pinned, only that one is returned. The list is
+/// empty if there is neither a pinned level nor a deadline. Throws ConfigError if the table is
+/// invalid or does not contain the pinned level, Failure(NoInput) if the table cannot be read.
 [[nodiscard]] std::vector<QualityLevel> governedLevels(const GovernorConfig& governor);
 
 }  // namespace mfar

@@ -9,23 +9,23 @@
 
 namespace mfar {
 
-/// Everything on the GPU is lost and has to be created again on another context.
+/// Reports that all objects on the GPU are lost. They must be created again in another context.
 class GpuLost : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Counts losses of the GPU and decides when to stop using it. Used by one thread.
+/// Counts losses of the GPU and decides when to stop using it. Only one thread may use it.
 class GpuFailures {
 public:
     static constexpr std::chrono::seconds kWindow{60};
-    static constexpr std::size_t kMost = 3;  ///< within kWindow
+    static constexpr std::size_t kMost = 3;  ///< number of losses within kWindow
 
-    /// Returns true when the GPU must not be used any more.
+    /// Counts a loss. Returns whether the GPU must not be used any more.
     [[nodiscard]] bool add(Timestamp now, std::string why);
-    /// The fault in words; nothing without a fault. A loss is reported for kWindow, a GPU that is
-    /// no longer used for ever.
+    /// Returns a message about the fault, or nothing. A loss is reported for kWindow. If the GPU is
+    /// not used any more, that is reported for ever.
     [[nodiscard]] std::optional<std::string> fault(Timestamp now);
-    /// Text of the banner: fault() of a GPU that is no longer used, for kWindow.
+    /// Returns the text of the banner: fault(), for kWindow after the GPU was used last.
     [[nodiscard]] std::optional<std::string> banner(Timestamp now);
 
 private:

@@ -5,7 +5,7 @@
 namespace mfar {
 namespace {
 
-// The processor may be this many pictures ahead of the GPU: as many as a display has buffers.
+// The CPU may be this number of pictures ahead of the GPU. It is the number of a display's buffers.
 constexpr std::size_t kMostInWork = 3;
 constexpr const char* kLate = "the GPU does not finish a picture";
 
@@ -36,7 +36,7 @@ void GpuWatch::drawn() {
     if (context_) inWork_.push_back({gpu::Fence(), Timestamp::now()});
 }
 
-// A loss may cause an exception of any type.
+// The type of the exception is not sufficient, because a lost GPU may cause any exception.
 std::optional<std::string> GpuWatch::lossBehind(const std::exception& error) const {
     if (!context_) return std::nullopt;
     if (const auto* lost = dynamic_cast<const GpuLost*>(&error)) return lost->what();

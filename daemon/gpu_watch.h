@@ -12,28 +12,29 @@
 
 namespace mfar {
 
-/// Checks that the GPU finishes pictures and has lost nothing. Lives on the thread of the context.
+/// Checks that the GPU finishes its pictures and was not reset. Only the GL context's thread may
+/// use it.
 ///
-/// The wait for a GPU is limited to half a second. A software renderer may take longer, but its
-/// thread does not wait longer than half a second at a time, either.
+/// The wait for a GPU is limited to half a second; then the GPU counts as lost. A software renderer
+/// may take longer, but a single wait for it is limited to half a second, too.
 class GpuWatch {
 public:
-    /// `context` may be null, now or later; then nothing is checked. It must outlive this.
+    /// `context` must outlive this object. While it is null, nothing is checked.
     explicit GpuWatch(const std::unique_ptr<GlContext>& context) : context_(context) {}
 
-    /// To be called before each picture. Waits, half a second at most, while the GPU has not
-    /// finished the third last picture, or has worked on one for half a second. False when a
-    /// software renderer has still not finished: nothing may be drawn then. Throws GpuLost.
+    /// Must be called before each picture. Waits, half a second at most, if the GPU has three
+    /// unfinished pictures or has worked on one for half a second. Returns false if a software
+    /// renderer has not finished then; nothing may be drawn. Throws GpuLost.
     [[nodiscard]] bool isReady();
-    /// Throws GpuLost when what was drawn so far may be wrong.
+    /// Throws GpuLost if the pictures drawn so far may be wrong.
     void requireSound() const;
-    /// To be called after the commands of a picture, before the display's. Throws GpuLost when the
-    /// commands failed.
+    /// Must be called after the GL commands of a picture, before those of the display. Throws
+    /// GpuLost if the commands failed.
     void drawn();
-    /// The reason why everything on the GPU has to be created again after `error`; nothing when the
-    /// GPU did not cause the error.
+    /// Returns why all objects on the GPU must be created again after `error`. Returns nothing if
+    /// the GPU did not cause the error.
     [[nodiscard]] std::optional<std::string> lossBehind(const std::exception& error) const;
-    /// In words; nothing without a fault.
+    /// Returns a message about the fault, or nothing.
     [[nodiscard]] std::optional<std::string> fault() const;
 
 private:

@@ -11,12 +11,11 @@
 namespace mfar {
 namespace {
 
-/// Shorter waits are not reported.
+/// Waits that are shorter than this are not reported.
 constexpr std::chrono::seconds kWorthTelling{1};
 constexpr double kStalePeriods = 5;
 
-/// A state with its cause. `since`: when it began, where that is known; otherwise since it was
-/// first seen.
+/// A state with its cause. `since` is the time when it began, if that is known.
 struct Judged {
     HealthState state = HealthState::Ok;
     std::string cause{};
@@ -37,7 +36,8 @@ std::optional<Judged> hanging(const Observed& seen, ThreadRole role, HealthState
     return std::nullopt;
 }
 
-// Pictures of a slow camera may be older: a low rate is no fault.
+// Returns whether the last picture is recent. With a slow camera, it may be older, because a low
+// frame rate is not a fault.
 bool isFresh(std::optional<Timestamp> shown, const Observed& seen) {
     if (!shown) return false;
     const double period = seen.rateHz > 0 ? 1 / seen.rateHz : 0;
@@ -45,7 +45,8 @@ bool isFresh(std::optional<Timestamp> shown, const Observed& seen) {
     return inSeconds(seen.now - *shown) <= seen.patience * limit;
 }
 
-// No new pictures, although no thread hangs and no device has a fault.
+// Returns the state Stalled if there are no new pictures, although no thread hangs and no device
+// has a fault.
 std::optional<Judged> standingStill(const Observed& seen) {
     if (isFresh(seen.lastPicture, seen) || (seen.fault && isFresh(seen.lastBanner, seen)))
         return std::nullopt;
@@ -57,7 +58,7 @@ std::optional<Judged> standingStill(const Observed& seen) {
     return Judged{HealthState::Stalled, std::move(cause), *begin};
 }
 
-// All that is missing, joined: no cause hides another.
+// Returns the state Degraded with all its causes, or Ok.
 Judged missing(const Observed& seen) {
     std::vector<Judged> all;
     if (seen.fault) all.push_back({HealthState::Degraded, *seen.fault, std::nullopt, "", true});

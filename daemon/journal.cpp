@@ -8,7 +8,8 @@
 #include <sys/un.h>
 
 #include <cstring>
-// Without the fields CODE_FILE, CODE_LINE and CODE_FUNC, which help nobody who reads the journal.
+// Suppresses the fields CODE_FILE, CODE_LINE and CODE_FUNC, which do not help readers of the
+// journal.
 #define SD_JOURNAL_SUPPRESS_LOCATION
 #include <systemd/sd-journal.h>
 
@@ -19,8 +20,8 @@ constexpr int kRoomMs = 500;
 
 }  // namespace
 
-// The library's own socket blocks while the journal takes nothing, and cannot be polled. A socket
-// of our own, connected to the same address, can.
+// Returns whether the journal accepts a message. libsystemd's socket would block and cannot be
+// polled, so another socket is connected to the same address and polled.
 bool Journal::hasRoom() const {
     const OwnedFd probe(socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
     sockaddr_un address{};

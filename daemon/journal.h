@@ -6,16 +6,17 @@
 
 namespace mfar {
 
-/// Sends messages to the journal of systemd, see sd_journal_sendv(3). When the journal is full, the
-/// first message waits for half a second; further ones do not wait until there is room again. Used
-/// by one thread at a time.
+/// Sends messages to systemd's journal, see sd_journal_sendv(3). If the journal is full, the first
+/// message waits for half a second. Further messages do not wait, until the journal has room again.
+/// Only one thread at a time may use it.
 class Journal {
 public:
-    /// `socket`: the journal's address.
+    /// `socket`: path of the journal's socket.
     explicit Journal(std::string socket = "/run/systemd/journal/socket")
         : socket_(std::move(socket)) {}
 
-    /// `fields`: "NAME=value". False when there is no journal or it is full.
+    /// Sends a message, whose fields are "NAME=value". Returns false if there is no journal or it
+    /// is full.
     bool operator()(const std::vector<std::string>& fields);
 
 private:

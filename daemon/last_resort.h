@@ -10,11 +10,11 @@
 
 namespace mfar {
 
-/// Ends a shutdown that hangs: a thread of its own calls `act` after a time limit, unless this
-/// object has been destroyed by then. Used by one thread.
+/// Ends a shutdown that hangs: a separate thread calls a function after a time limit, unless this
+/// object was destroyed before. Only one thread may use it.
 class LastResort {
 public:
-    /// `act` is called on that thread. A second call is ignored.
+    /// Calls `act` on a new thread after `limit`. A second call of arm() is ignored.
     void arm(std::chrono::milliseconds limit, std::function<void()> act) {
         if (thread_.joinable()) return;
         thread_ = std::jthread([limit, act = std::move(act)](const std::stop_token& stop) {

@@ -16,10 +16,11 @@ namespace {
 
 constexpr double kMegabyte = 1 << 20;
 constexpr double kLeastMb = 64;
-/// Share of the machine's memory; the rest is for the system, drivers and the program itself.
+/// The default budget is this share of the machine's memory, but at most kMostByMachine. The rest
+/// is for the system, drivers and the program itself.
 constexpr double kShareOfMachine = 0.75, kMostByMachine = 4096 * kMegabyte;
 constexpr double kShareOfFrames = 2.0 / 3, kShareOfFiles = 1.0 / 6;
-/// For all buffers and textures, measured as the growth of a run with larger pictures [byte/px].
+/// Memory of all buffers and textures [bytes per pixel], measured with pictures of several sizes.
 constexpr double kBytesPerStillPixel = 36, kBytesPerVideoPixel = 150;
 
 std::uint64_t physicalMemory() {
@@ -27,7 +28,8 @@ std::uint64_t physicalMemory() {
     return pages > 0 && bytes > 0 ? static_cast<std::uint64_t>(pages) * bytes : 0;
 }
 
-/// The smallest limit of this process's control group and its parents; 0: no limit.
+/// Returns the smallest memory limit of this process's control group and its parents [bytes]; 0:
+/// there is no limit.
 std::uint64_t controlGroupMemory() {
     std::ifstream groups("/proc/self/cgroup");
     std::uint64_t least = 0;
@@ -36,7 +38,7 @@ std::uint64_t controlGroupMemory() {
         const std::filesystem::path top = "/sys/fs/cgroup";
         for (auto group = std::filesystem::path(line.substr(4)); !group.empty();
              group = group.parent_path()) {
-            std::uint64_t bytes = 0;  // stays 0 for "max"
+            std::uint64_t bytes = 0;  // stays 0 if the file contains "max"
             std::ifstream limit(top / group / "memory.max");
             if (limit >> bytes && bytes > 0) least = least == 0 ? bytes : std::min(least, bytes);
         }

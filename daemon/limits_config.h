@@ -10,30 +10,31 @@ namespace mfar {
 
 class TomlReader;
 
-/// Section [limits]: memory that the daemon may use for its input.
+/// Section [limits] of the configuration: the memory that the daemon may use for its input.
 struct LimitsConfig {
-    double memoryMb = 0;  ///< 0: three quarters of machineMemory(), at most 4096
+    double memoryMb = 0;  ///< budget; 0: three quarters of machineMemory(), at most 4096
 
     bool operator==(const LimitsConfig&) const = default;
-    /// The whole budget.
+    /// Returns the whole budget [bytes].
     [[nodiscard]] std::uint64_t memoryBytes() const;
-    /// The share for the frame path and a recording: two thirds of the budget.
+    /// Returns the part for pictures and a recording's lists: two thirds of the budget [bytes].
     [[nodiscard]] std::uint64_t pictureBytes() const;
 };
 
 void readLimits(TomlReader& file, LimitsConfig& limits);
 
-/// The machine's memory, or this process's control group limit where that is less [byte].
+/// Returns the machine's memory, or the limit of this process's control group if that is less
+/// [bytes].
 [[nodiscard]] std::uint64_t machineMemory();
 
-/// Refuses picture sizes that need more than pictureBytes(), before any memory is allocated;
-/// `lists` is what a recording's lists need of it. `place` is for the message. Throws
+/// Refuses picture sizes that need more memory than pictureBytes(), before memory is allocated.
+/// `lists`: memory of a recording's lists [bytes]. `place` names the source in the message. Throws
 /// Failure(BadData).
 void requireMemory(const LimitsConfig& limits, Size video, Size still, std::string_view place,
                    std::size_t lists = 0);
 
-/// Budget of one configuration's models and environments: a sixth of the whole, as those in use are
-/// released only after new ones have been read. Reduced as files are read.
+/// The memory that is left for a configuration's models and environment pictures. It begins with a
+/// sixth of the whole budget, because old files are released only after new ones have been read.
 class FileMemory {
 public:
     explicit FileMemory(const LimitsConfig& limits);

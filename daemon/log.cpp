@@ -50,7 +50,8 @@ Log::Style Log::styleOf(int fd) {
 void Log::status(std::string_view text) {
     if (style_ != Style::Terminal) return;
     const std::lock_guard lock(mutex_);
-    // A line longer than the terminal's width would wrap and could not be redrawn in place.
+    // The line is cut to the terminal's width, because a line that wraps cannot be redrawn in
+    // place.
     status_ = text.substr(0, static_cast<std::size_t>(columns(fd_) - 1));
     put("\r\x1b[K" + status_);
 }
@@ -82,7 +83,7 @@ void Log::line(int priority, std::string_view word, std::string_view text, const
     say({priority, std::string(text), word, subject});
 }
 
-/// The mutex is held.
+/// mutex_ must be locked.
 void Log::say(const RepeatLimit::Message& message) {
     if (style_ == Style::Journal && send_ && send_(fieldsOf(message))) return;
     std::string out = status_.empty() ? "" : "\r\x1b[K";
@@ -95,7 +96,7 @@ void Log::say(const RepeatLimit::Message& message) {
     put(out + status_);
 }
 
-// The first message that cannot be written waits; further ones do not.
+// Returns whether a message can be written. After a message was dropped, further ones do not wait.
 bool Log::isWritable() {
     pollfd out{fd_, POLLOUT, 0};
     const int patience = dropped_ == 0 ? kPatienceMs : 0;
@@ -103,7 +104,7 @@ bool Log::isWritable() {
 }
 
 void Log::put(std::string_view bytes) {
-    // Errors of standard error itself are ignored: there is nowhere to report them.
+    // Errors of writing are ignored, because they cannot be reported anywhere.
     std::string all;
     if (dropped_ > 0) all = fmt::format("mfard: {} messages were dropped\n", dropped_);
     all += bytes;
@@ -113,7 +114,7 @@ void Log::put(std::string_view bytes) {
             ++dropped_;
             return;
         }
-        // A pipe that polls as writable takes this much without blocking.
+        // After poll() reports a pipe as writable, PIPE_BUF bytes can be written without blocking.
         const ssize_t n = write(fd_, left.data(), std::min<std::size_t>(left.size(), PIPE_BUF));
         if (n <= 0) return;
         left.remove_prefix(static_cast<std::size_t>(n));

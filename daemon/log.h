@@ -11,47 +11,49 @@
 
 namespace mfar {
 
-/// Messages on standard error. A message that cannot be written within half a second is dropped,
-/// and the next one reports the drop: no thread hangs because of its messages. On a terminal the
-/// last line may be a status line, which is redrawn in place. Under systemd messages go to its
-/// journal, with fields (MESSAGE_ID, MFAR_CAMERA, MFAR_THREAD, MFAR_COUNT: see message_ids.h; the
-/// last is the number of events that the message stands for). When the journal is full they go to
-/// standard error with a "<priority>" prefix. Thread-safe.
+/// Writes messages to standard error. So that no thread hangs because of its messages, a message
+/// that cannot be written within half a second is dropped; the next message reports the drop. On a
+/// terminal, the last line may be a status line, which is redrawn in place. Thread-safe.
+///
+/// Under systemd, messages go to the journal, with the fields MESSAGE_ID, MFAR_CAMERA, MFAR_THREAD
+/// (see message_ids.h) and MFAR_COUNT, the number of events that the message reports. If the
+/// journal is full, messages go to standard error with a prefix "<priority>".
 class Log {
 public:
     enum class Style { Terminal, Journal, Plain };
 
-    /// The style for standard error as it is now (JOURNAL_STREAM names the journal's socket).
+    /// Returns the style for a file descriptor. It is Journal if the environment's JOURNAL_STREAM
+    /// names the same file.
     [[nodiscard]] static Style styleOf(int fd);
 
     using Clock = std::function<Timestamp()>;
-    /// Sends the fields of a message, "NAME=value"; false on failure.
+    /// Sends a message whose fields are "NAME=value". Returns false if that fails.
     using Send = std::function<bool(const std::vector<std::string>& fields)>;
-    /// `send`: for Style::Journal; empty: no journal.
+    /// `send` is used for Style::Journal. It may be empty.
     Log(int fd, Style style, Clock clock = &Timestamp::now, Send send = {})
         : fd_(fd), style_(style), clock_(std::move(clock)), send_(std::move(send)) {}
 
     void error(std::string_view text, const Subject& subject = {}) {
         line(3, "error: ", text, subject);
     }
-    /// For events that can repeat, as those of devices: each event is logged at most once in ten
-    /// seconds, see RepeatLimit. `event` names the event where its texts differ, for instance in a
-    /// number.
+    /// Logs an event that may repeat, such as an event of a device. Each event is logged at most
+    /// once in ten seconds, see RepeatLimit. `event` identifies the event if its texts differ, for
+    /// example in a number.
     void warning(std::string_view text, std::string_view event = {}, const Subject& subject = {}) {
         limited(4, "warning: ", text, event, subject);
     }
-    /// The same for changes that are no fault.
+    /// Logs a change that is not a fault, with the same limit.
     void change(std::string_view text, std::string_view event = {}, const Subject& subject = {}) {
         limited(5, "", text, event, subject);
     }
-    /// For messages that come once or on demand: start, reload.
+    /// Logs a message that comes once or on request, e.g. at the start or after a reload.
     void notice(std::string_view text, const Subject& subject = {}) { line(5, "", text, subject); }
-    /// Logs the messages that were held back and are due; to be called regularly.
+    /// Logs the delayed messages that are due. Must be called regularly.
     void sayKept();
 
-    /// Replaces the status line; does nothing without a terminal.
+    /// Replaces the status line. Does nothing without a terminal.
     void status(std::string_view text);
-    /// Ends the status line with a line break and logs the messages that were held back.
+    /// Logs all delayed messages and ends the status line with a line break.
     void endStatus();
 
     [[nodiscard]] Style style() const { return style_; }
@@ -70,8 +72,8 @@ private:
     const Send send_;
     std::mutex mutex_;
     RepeatLimit limit_;
-    int dropped_ = 0;     ///< messages since the last one that was written
-    std::string status_;  ///< visible now, without line end
+    int dropped_ = 0;     ///< number of messages dropped since the last one that was written
+    std::string status_;  ///< the visible status line, without its end
 };
 
 }  // namespace mfar

@@ -9,17 +9,18 @@
 
 namespace mfar {
 
-/// Policy for a sender that is faster than the receiver.
+/// What happens if the sender is faster than the receiver.
 enum class HandOver {
     NewestWins,  ///< the waiting item is replaced and counted as dropped (live sources)
-    /// The sender waits until the receiver has taken the item and asks for the next one: nothing is
-    /// lost, and as both work in turn a run can be repeated exactly (recordings, consumer pace).
+    /// The sender waits until the receiver has taken the item and asks for the next one. So no item
+    /// is lost, and a run can be repeated exactly, because both work alternately (recordings,
+    /// consumer pace).
     Lossless,
 };
 
-/// A slot for one item between one sending and one receiving thread. When an item is replaced,
-/// `void supersede(T&& older)` of the newer one is called, if T has that member, and may keep parts
-/// of the older one. All functions may be called from any thread.
+/// A slot for one item between a sending and a receiving thread. If an item is replaced and T has
+/// the member `void supersede(T&& older)`, it is called on the newer item, which may keep parts of
+/// the older one. Thread-safe.
 template <class T>
 class Mailbox {
 public:
@@ -27,7 +28,8 @@ public:
 
     explicit Mailbox(HandOver handOver) : handOver_(handOver) {}
 
-    /// Closed: the mailbox is closed; the item is destroyed, unless it was taken before.
+    /// Puts an item into the slot. Returns Closed if the mailbox is closed; the item is destroyed
+    /// then, unless it was taken before.
     Put put(T item) {
         std::unique_lock lock(mutex_);
         if (closed_) return Put::Closed;
@@ -45,34 +47,34 @@ public:
         return older ? Put::Replaced : Put::Stored;
     }
 
-    /// Waits for an item; nothing once the mailbox is over().
+    /// Waits for an item and returns it. Returns nothing if the mailbox is over().
     [[nodiscard]] std::optional<T> take() {
         return take([&](std::unique_lock<std::mutex>& lock) {
             stored_.wait(lock, [&] { return closed_ || finished_ || slot_; });
         });
     }
 
-    /// The same, but waits for at most `timeout`.
+    /// Does the same, but waits at most `timeout`.
     [[nodiscard]] std::optional<T> takeWithin(std::chrono::milliseconds timeout) {
         return take([&](std::unique_lock<std::mutex>& lock) {
             stored_.wait_for(lock, timeout, [&] { return closed_ || finished_ || slot_; });
         });
     }
 
-    /// Closed, or finished and empty: no further item will come.
+    /// Returns whether no further item will come: the mailbox is closed, or finished and empty.
     [[nodiscard]] bool over() const {
         const std::lock_guard lock(mutex_);
         return closed_ || (finished_ && !slot_);
     }
 
-    /// The item if there is one; never waits.
+    /// Returns the item if there is one. Never waits.
     [[nodiscard]] std::optional<T> tryTake() {
         const std::lock_guard lock(mutex_);
         return std::exchange(slot_, std::nullopt);
     }
 
-    /// No further item will be put: the item in the slot is still handed out, then take() returns
-    /// nothing.
+    /// Announces that the sender will put no further item. take() still returns the item in the
+    /// slot, then nothing.
     void finish() {
         {
             const std::lock_guard lock(mutex_);
@@ -81,7 +83,8 @@ public:
         stored_.notify_all();
     }
 
-    /// Wakes both sides at once; an item in the slot is destroyed. Idempotent.
+    /// Closes the mailbox. Both threads wake up at once, and an item in the slot is destroyed.
+    /// Idempotent.
     void close() {
         std::optional<T> left;
         {
@@ -93,7 +96,7 @@ public:
         asked_.notify_all();
     }
 
-    /// Number of items that were replaced before they were taken.
+    /// Returns the number of items that were replaced before they were taken.
     [[nodiscard]] std::uint64_t dropped() const {
         const std::lock_guard lock(mutex_);
         return dropped_;
@@ -115,7 +118,7 @@ private:
     std::condition_variable stored_;
     std::condition_variable asked_;
     std::optional<T> slot_;
-    bool asking_ = false;  ///< the receiver waits in take()
+    bool asking_ = false;  ///< whether the receiver waits in take()
     bool finished_ = false;
     bool closed_ = false;
     std::uint64_t dropped_ = 0;

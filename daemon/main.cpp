@@ -18,8 +18,9 @@
 namespace mfar {
 namespace {
 
-/// Within the service's unit: the line that the service had taken, even if the configuration has
-/// changed since. Otherwise: the configured line.
+/// Returns the trigger line that must be released. In the service's unit, this is the line that the
+/// service had requested, even if the configuration has changed since. Otherwise, it is the
+/// configured line.
 TriggerLineConfig lineToRelease(const Options& options) {
     const std::filesystem::path note = takenLineFile();
     if (note.empty()) return effectiveConfig(options).cameras.trigger;
@@ -33,7 +34,7 @@ int main(int argc, char** argv) {
     using namespace mfar;
     const Timestamp started = Timestamp::now();
     Log log(STDERR_FILENO, Log::styleOf(STDERR_FILENO), &Timestamp::now, Journal());
-    // libcamera logs to standard error by itself; keep its errors only.
+    // libcamera itself logs to standard error. Only its errors are wanted.
     setenv("LIBCAMERA_LOG_LEVELS", "*:ERROR", 0);
     try {
         const CommandLine line = parseCommandLine(argc, argv);

@@ -15,23 +15,25 @@ class TomlReader;
 
 inline constexpr std::size_t kMostObjects = 64;
 
-/// Reads the sections [[objects]]: what is shown, and where. Models are read here, so that a fault
-/// (missing, invalid, `memory` too small) is reported with its place in the file. File names are
-/// relative to `folder`.
+/// Reads the sections [[objects]], which say what is shown and where. Models are read here, so that
+/// a fault of a model (missing, invalid, larger than `memory`) is reported with its place in the
+/// configuration file. Names of files are relative to `folder`.
 void readObjects(TomlReader& file, const std::filesystem::path& folder, FileMemory& memory,
                  std::vector<PlacedObject>& objects);
 
-/// Pose of an object in the world. Empty if it stands on a tag that is not in the map.
+/// Returns the pose of an object in the world, or nothing if it stands on a tag that is not in the
+/// map.
 [[nodiscard]] std::optional<RigidTransform> worldPlace(const PlacedObject& object,
                                                        const TagMap& tags);
 
-/// The reasons why objects are not shown, a line each: the object stands on a tag that is not in
-/// the map, or it is a model and `shapesAlone` gives the reason why no models are shown ("": models
-/// are shown).
+/// Returns one line for each object that is not shown, with the reason: the object stands on a tag
+/// that is not in the map, or it is a model and models are not shown. `shapesAlone` is the reason
+/// why models are not shown; empty: they are shown.
 [[nodiscard]] std::vector<std::string> leftOut(const std::vector<PlacedObject>& objects,
                                                const TagMap& tags, std::string_view shapesAlone);
 
-/// The simple shapes among them that have a place, each there.
+/// Returns the simple shapes among the objects, with their poses in the world. Shapes on a tag that
+/// is not in the map are skipped.
 [[nodiscard]] std::vector<VirtualObject> placedShapes(const std::vector<PlacedObject>& objects,
                                                       const TagMap& tags);
 

@@ -48,7 +48,7 @@ std::string sectionText(const OptionSection& section) {
     std::string out = heading(section);
     bool isFirst = true;
     for (const Option& option : section.options) {
-        // Keys without a meaning of their own need no empty line between them.
+        // There is no empty line before a key that has no text.
         if (!isFirst && !option.meaning.empty()) out += "\n";
         out += comment(describe(option)) + fmt::format("{} = {}\n", option.name, option.byDefault);
         isFirst = false;
@@ -56,7 +56,7 @@ std::string sectionText(const OptionSection& section) {
     return out;
 }
 
-/// The same lines as comments in TOML.
+/// Turns all lines into TOML comments.
 std::string commented(std::string_view text) {
     std::string out;
     while (!text.empty()) {

@@ -9,27 +9,27 @@
 
 namespace mfar {
 
-/// "0.001 to 10000 ms"; empty for a value without a range.
+/// Returns the range of an option, e.g. "0.001 to 10000 ms", or an empty text if it has no range.
 [[nodiscard]] std::string rangeText(const Option& option);
 
-/// Meaning, the words that the meaning does not mention, and the range, in one paragraph; empty for
-/// an option without a meaning of its own.
+/// Describes an option in one paragraph: its meaning, its words if the meaning does not mention all
+/// of them, and its range. Returns an empty text if the option has no meaning of its own.
 [[nodiscard]] std::string describe(const Option& option);
 
-/// Breaks text into lines of at most `width` characters; a longer word has a line of its own.
+/// Breaks a text into lines of at most `width` characters. A longer word gets its own line.
 [[nodiscard]] std::vector<std::string> wrapped(std::string_view text, std::size_t width);
 
-/// The configuration file with all defaults: systemd/mfard.toml.
+/// Returns the text of the configuration file with all defaults, systemd/mfard.toml.
 [[nodiscard]] std::string defaultConfigText();
 
-/// The key of the configuration that a command line option overrides. Throws std::logic_error when
+/// Returns the configuration key that a command line option overrides. Throws std::logic_error if
 /// there is none.
 [[nodiscard]] const Option& overriddenBy(std::string_view argument);
 
-/// The description of a command line option, for --help.
+/// Returns the description of a command line option for --help.
 [[nodiscard]] std::string helpFor(std::string_view argument);
 
-/// The words that it takes, "auto, gles, simd".
+/// Returns the words that a command line option accepts, e.g. "auto, gles, simd".
 [[nodiscard]] std::string wordsFor(std::string_view argument);
 
 }  // namespace mfar

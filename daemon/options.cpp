@@ -31,13 +31,13 @@ struct Words {
     std::string size;
 };
 
-/// An option that overrides a key of the configuration.
+/// Adds an option that overrides a key of the configuration.
 template <class T>
 CLI::Option* addKey(CLI::App& app, const char* name, T& out, const char* value) {
     return app.add_option(name, out, helpFor(name))->type_name(value);
 }
 
-/// The same for a key whose value is one of several words.
+/// Adds an option that overrides a key whose value is one of several words.
 template <class E>
 void addWord(CLI::App& app, const char* name, std::string& out, const char* value,
              std::optional<E> (*meaning)(std::string_view)) {
@@ -108,7 +108,7 @@ std::vector<ArgumentText> argumentTexts() {
     std::vector<ArgumentText> out;
     for (const CLI::Option* option : parser.app.get_options()) {
         const bool isFlag = option->get_items_expected_max() == 0;
-        // CLI11 appends the checks after a colon.
+        // CLI11 appends the names of the checks after a colon.
         const std::string value = option->get_type_name();
         out.push_back({option->get_name(false, true),
                        isFlag ? "" : value.substr(0, value.find(':')), option->get_description()});
@@ -131,7 +131,7 @@ CommandLine parseCommandLine(int argc, const char* const* argv) {
     if (parser.printConfig) line.print = defaultConfigText();
     line.options = parser.options;
     const Words& words = parser.words;
-    // The test is positive so that "nan" is refused.
+    // The condition is written so that "nan" is refused.
     const double seconds = line.options.seconds.value_or(1);
     if (!(seconds > 0 && seconds <= 1e7))
         throw Failure(ExitCode::Usage, "--seconds must be more than 0 and at most 1e7");

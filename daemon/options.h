@@ -10,7 +10,7 @@
 
 namespace mfar {
 
-/// The command line of mfard. Absent values are taken from the configuration file.
+/// The options of mfard's command line. If a value is not set, the configuration file's is used.
 struct Options {
     std::optional<std::filesystem::path> config;
     bool checkConfig = false;
@@ -25,34 +25,35 @@ struct Options {
     std::optional<SourcePace> pace;
     std::optional<PoseOrigin> pose;
     std::optional<std::uint64_t> seed;
-    std::optional<std::uint64_t> frames;           ///< end after this number of pictures
-    std::optional<double> seconds;                 ///< end after this time
-    std::optional<std::filesystem::path> summary;  ///< "-" = standard output
-    std::optional<std::filesystem::path> control;  ///< socket for mfarctl
+    std::optional<std::uint64_t> frames;           ///< number of pictures after which the run ends
+    std::optional<double> seconds;                 ///< time after which the run ends
+    std::optional<std::filesystem::path> summary;  ///< file for the summary; "-": standard output
+    std::optional<std::filesystem::path> control;  ///< path of the socket for mfarctl
     bool measure = false;
     bool validate = false;
 };
 
-/// The parsed command line: options of a run, or a text to be printed.
+/// The parsed command line: the options of a run, or a text to be printed.
 struct CommandLine {
     Options options;
-    std::optional<std::string> print;  ///< --help, --version, --print-config
+    std::optional<std::string> print;  ///< set for --help, --version and --print-config
 };
 
-/// One option, for the manual page and shell completion.
+/// The texts of one option, for the manual page and shell completion.
 struct ArgumentText {
-    std::string names;  ///< "-h,--help"
-    std::string value;  ///< "FILE"; empty: a flag
+    std::string names;  ///< e.g. "-h,--help"
+    std::string value;  ///< e.g. "FILE"; empty: the option is a flag
     std::string meaning;
 };
 [[nodiscard]] std::vector<ArgumentText> argumentTexts();
 
-/// Throws Failure(Usage).
+/// Parses the command line. Throws Failure(Usage).
 [[nodiscard]] CommandLine parseCommandLine(int argc, const char* const* argv);
 
-/// The configuration of the file named by --config, if any, overridden by the command line. Throws
-/// ConfigError, Failure(NoInput) for a missing file or tag map, Failure(BadData) for an invalid tag
-/// map and Failure(BadConfig) for options that contradict each other.
+/// Returns the configuration of a run: the defaults or the file of --config, overridden by the
+/// command line. Throws ConfigError, Failure(NoInput) if the file or the tag map is missing,
+/// Failure(BadData) if the tag map is invalid, and Failure(BadConfig) if options contradict each
+/// other.
 [[nodiscard]] Config effectiveConfig(const Options& options);
 
 }  // namespace mfar

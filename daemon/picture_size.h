@@ -8,25 +8,25 @@
 
 namespace mfar {
 
-/// Size of the finished pictures.
+/// The configured size of the finished pictures.
 struct PictureSize {
     enum class Fits {
-        Screen,  ///< the screen that is connected at the start; without a screen: Still
+        Screen,  ///< fit to the screen that is connected at the start; without a screen: Still
         Still,   ///< the still's resolution
         Given,
     };
     Fits fits = Fits::Screen;
-    Size given{};  ///< finished pictures fit into it
+    Size given{};  ///< for Fits::Given: pictures fit into this size [px]
     bool operator==(const PictureSize&) const = default;
 };
 
-/// Parses "screen", "still" or "1280x720". Nothing for other words.
+/// Parses "screen", "still" or a size such as "1280x720". Returns nothing for other words.
 [[nodiscard]] std::optional<PictureSize> pictureSize(std::string_view words);
-/// The fault of such words; nothing when they are valid.
+/// Returns what is wrong with such words, or nothing if they are valid.
 [[nodiscard]] std::optional<std::string> pictureSizeFault(std::string_view words);
 
-/// The pipeline's output size: the largest of the video's aspect ratio that fits, at most the
-/// still's resolution and at least the video's.
+/// Returns the pipeline's output size. It is the largest size with the video's aspect ratio that
+/// fits, but at most the still's size and at least the video's.
 [[nodiscard]] Size outputSizeFor(const PictureSize& wanted, const StereoRig& rig,
                                  const std::optional<Size>& screen);
 

@@ -79,8 +79,8 @@ TrackerOptions trackerOptions(const PoseConfig& pose, TagMap map, double rateHz)
     out.fullSearchInterval = pose.fullSearchInterval;
     PoseFilterOptions& filter = out.pose.filter;
     filter.bridgeFrames = pose.bridgeFrames;
-    // Frames are the limit, so the time limit must be longer; stills can be up to a frame older,
-    // hence the half frame more.
+    // The number of frames is the limit that shall apply, so the limit of time must be longer. Half
+    // a frame is added for stills, which may be older than the frame.
     if (rateHz > 0) {
         const std::chrono::duration<double> frames((pose.bridgeFrames + 0.5) / rateHz);
         filter.bridge =

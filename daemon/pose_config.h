@@ -13,25 +13,26 @@ namespace mfar {
 
 class TomlReader;
 
-/// Where the camera's pose comes from.
+/// The origin of the camera's poses.
 enum class PoseOrigin {
     Tags,      ///< AprilTags in video and stills
-    Recorded,  ///< the recording's poses
-    None,      ///< no pose: every frame is matched in both dimensions
+    Recorded,  ///< the recording
+    None,      ///< there are no poses: every frame is matched in both dimensions
 };
 
 /// Section [pose] of the configuration.
 struct PoseConfig {
     PoseOrigin source = PoseOrigin::Tags;
-    /// Tag map. Empty: that of the source; if it has none, the largest tag of the first picture
-    /// with tags defines the world frame, and `families` and `tagSize` describe the tags to detect.
+    /// Path of the tag map. If it is empty, the source's map is used. If the source has none, the
+    /// largest tag of the first picture with tags defines the world frame, and `families` and
+    /// `tagSize` describe the tags to detect.
     std::filesystem::path tags;
     std::vector<TagFamily> families{TagFamily::Tag36h11};
-    double tagSize = 0.1;         ///< [m]
-    double decimation = 2;        ///< of the video: 1, 1.5 or a whole number up to 8
-    int threads = 1;              ///< detector threads per sensor
-    int fullSearchInterval = 15;  ///< frames
-    int bridgeFrames = 12;        ///< frames without a tag after which there is no pose
+    double tagSize = 0.1;         ///< edge of the tag that defines the world frame [m]
+    double decimation = 2;        ///< reduction of the video before the search: 1, 1.5, 2 to 8
+    int threads = 1;              ///< number of detector threads per sensor
+    int fullSearchInterval = 15;  ///< interval of searches in the whole picture [frames]
+    int bridgeFrames = 12;        ///< longest prediction of the pose without a tag [frames]
 
     bool operator==(const PoseConfig&) const = default;
 };
@@ -41,14 +42,15 @@ void readPose(TomlReader& file, PoseConfig& pose);
 
 [[nodiscard]] std::optional<PoseOrigin> poseOrigin(std::string_view word);
 
-/// The configured tag map; empty when none is configured, or when poses have another source. Throws
-/// Failure(NoInput) when the file does not exist, Failure(BadData) when it is invalid.
+/// Returns the configured tag map. It is empty if none is configured or poses do not come from
+/// tags. Throws like readTagMap().
 [[nodiscard]] TagMap configuredTags(const PoseConfig& pose);
 
-/// The same for a file. Throws Failure as above.
+/// Reads a tag map. Throws Failure(NoInput) if the file does not exist, Failure(BadData) if it is
+/// invalid.
 [[nodiscard]] TagMap readTagMap(const std::filesystem::path& file);
 
-/// Options of the tracker for this map and for video of this rate [Hz].
+/// Returns the tracker's options for this map and a video of this frame rate [Hz].
 [[nodiscard]] TrackerOptions trackerOptions(const PoseConfig& pose, TagMap map, double rateHz);
 
 }  // namespace mfar

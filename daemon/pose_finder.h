@@ -13,48 +13,49 @@
 
 namespace mfar {
 
-/// Pose information of a picture source.
+/// What a picture source knows about poses.
 struct PoseInputs {
-    std::string source;  ///< its name, for messages
+    std::string source;  ///< name of the source, for messages
     StereoRig rig;
-    double rateHz = 0;  ///< of the video
+    double rateHz = 0;  ///< frame rate of the video
     TagMap tags;        ///< empty: unknown
-    /// The pose at a time; empty without recorded poses.
+    /// Returns the recorded pose at a time. The function is not set if there are no recorded poses.
     std::function<std::optional<Pose>(Timestamp)> recorded;
 };
 
-/// The video camera's pose measured from a still itself, at the still's time.
+/// The pose of the video camera at a still's time, measured from tags in the still.
 struct StillMeasurement {
     std::optional<Pose> pose{};
-    std::optional<double> ms{};  ///< time of the tag search, if there was one
+    std::optional<double> ms{};  ///< time of the search for tags [ms], if there was one
 };
 
-/// Finds the video camera's pose for frames and stills at their times, from the configured origin.
-/// Used by one thread, not the GL thread, unless stated otherwise.
+/// Finds the pose of the video camera at the times of frames and stills, from the configured
+/// origin. Only one thread may use it, unless stated otherwise. This is not the GL thread.
 class PoseFinder {
 public:
-    /// `stats` must outlive this. Throws Failure when the configured origin is not available.
+    /// `stats` must outlive this object. Throws Failure if the configured origin is not available.
     PoseFinder(const PoseConfig& config, PoseInputs inputs, Stats& stats);
 
-    /// Frames must come in the order of their times. Nothing when the pose is unknown.
+    /// Returns the pose of a frame, or nothing if it is unknown. Frames must come in the order of
+    /// their times.
     [[nodiscard]] std::optional<Pose> ofVideo(const Frame& video);
-    /// Searches tags in a still, which takes long. Called by one thread, which need not be the one
-    /// of the other functions.
+    /// Searches tags in a still. This takes long, so another thread than that of the other
+    /// functions may call it.
     [[nodiscard]] StillMeasurement measure(const Frame& still);
-    /// The pose of a still that is not younger than the last frame. Without usable tags of its own
-    /// it is interpolated between the frames around it, where PoseHistory can.
+    /// Returns the pose of a still that is not later than the last frame. If none was measured from
+    /// the still's own tags, the pose is interpolated between frames, if PoseHistory can do that.
     [[nodiscard]] std::optional<Pose> place(const StillMeasurement& measured, Timestamp time);
 
-    /// False for a pose that is only predicted.
+    /// Returns whether a pose was measured or recorded, not only predicted.
     [[nodiscard]] bool isMeasured(const Pose& pose) const { return recorded_ || pose.tags > 0; }
-    /// The tag map known at the start; empty: unknown.
+    /// Returns the tag map that is known at the start. If none is known, the map is empty.
     [[nodiscard]] const TagMap& tags() const { return tags_; }
-    /// Without a tag map at the start: the map with the tag that has become the world frame,
-    /// returned once. Any thread.
+    /// If there was no tag map at the start: returns, once, the map with the tag that defines the
+    /// world frame. Thread-safe.
     [[nodiscard]] std::optional<TagMap> takeFoundTags() { return found_.tryTake(); }
-    /// True while takeFoundTags() may still return a map.
+    /// Returns whether there was no tag map at the start, so that takeFoundTags() may return one.
     [[nodiscard]] bool mayFindTags() const { return tracker_ && tags_.empty(); }
-    /// "poses from 12 tags"
+    /// Returns a description, such as "poses from 12 tags".
     [[nodiscard]] const std::string& description() const { return description_; }
 
 private:
@@ -65,7 +66,7 @@ private:
     std::optional<Tracker> tracker_;
     bool foundTags_ = false;
     Mailbox<TagMap> found_{HandOver::NewestWins};
-    PoseHistory history_;  ///< poses of frames with tags of their own
+    PoseHistory history_;  ///< poses that were measured from tags in the frames themselves
 };
 
 }  // namespace mfar

@@ -8,25 +8,26 @@
 
 namespace mfar {
 
-/// The poses of the last video frames, to interpolate between two of them. A still arrives tens of
-/// milliseconds after its exposure, when the frames on both sides of it are known; a pose
-/// interpolated between them is far more precise than a prediction. One thread.
+/// Keeps the poses of the last video frames and interpolates between them. A still arrives tens of
+/// milliseconds after its exposure, when the poses of the frames before and after it are known. An
+/// interpolated pose is far more precise than a predicted one. Only one thread may use it.
 class PoseHistory {
 public:
-    /// Times must rise; a step back clears the history.
+    /// Adds a pose. Times must increase; if one does not, the history is cleared first.
     void add(const Pose& pose);
 
-    /// The pose at t, at a constant rate of motion between its neighbours. The difference between
-    /// that rate and the rate before or after is added to the covariance, as nothing better is
-    /// known about the motion in between. tags = 0. Nothing when t is not between two poses at most
-    /// kLongestGap apart, or when there is no third pose to estimate the change of rate from.
+    /// Returns the pose at t. Between the neighbouring poses, the rate of motion is assumed to be
+    /// constant. The possible error of this, estimated from the change of the rate to the interval
+    /// before or after, is added to the covariance. Pose::tags is 0. Returns nothing if t is not
+    /// between two poses at most kLongestGap apart, or if there is no third pose from which the
+    /// change of the rate can be estimated.
     [[nodiscard]] std::optional<Pose> at(Timestamp t) const;
 
     static constexpr std::chrono::milliseconds kLongestGap{100};
     static constexpr std::size_t kLength = 32;  ///< one second of video
 
 private:
-    [[nodiscard]] const Pose& pose(std::size_t i) const;  ///< 0 = oldest
+    [[nodiscard]] const Pose& pose(std::size_t i) const;  ///< i = 0: the oldest
 
     std::array<Pose, kLength> ring_{};
     std::size_t first_ = 0;

@@ -10,13 +10,14 @@
 
 namespace mfar {
 
-/// Counts of met and missed deadlines, and the levels used. `level` is empty without a governor.
+/// Counts met and missed deadlines, and the frames of each level.
 struct QualityCounts {
-    std::string level;      ///< of the latest frame
-    double deadlineMs = 0;  ///< 0: the level is pinned
-    Histogram frameMs;      ///< from the begin of a frame to its picture shown
+    std::string level;      ///< level of the latest frame; empty: there is no governor
+    double deadlineMs = 0;  ///< 0: there is no deadline, because the level is pinned
+    Histogram frameMs;      ///< times from the start of processing to the shown picture [ms]
     std::uint64_t frames = 0, late = 0;
-    std::vector<std::pair<std::string, std::uint64_t>> framesOf;  ///< frames of each level
+    std::vector<std::pair<std::string, std::uint64_t>>
+        framesOf;  ///< number of frames of each level
 
     void add(double ms) {
         frameMs.add(ms);

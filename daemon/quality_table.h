@@ -9,27 +9,29 @@
 
 namespace mfar {
 
-/// One trade-off between speed and accuracy, as measured.
+/// One setting between fast and accurate, with its measured time and accuracy.
 struct QualityLevel {
     std::string name;
-    double ms = 0;      ///< of a whole frame in which everything moves, on the measuring machine
-    double psnrDb = 0;  ///< of its pictures against ground truth
+    double ms = 0;      ///< time of a frame in which everything moves, on the measuring machine
+    double psnrDb = 0;  ///< PSNR of the pictures against ground truth
     Quality quality;
 };
 
-/// The Pareto front that `mfar-bench pareto --table FILE` measured on two x86-64 cores without a
-/// GPU, from fast to accurate. The command writes the front of the machine that it runs on.
+/// Returns the Pareto front that `mfar-bench pareto --table FILE` measured on two x86-64 cores
+/// without a GPU, from fast to accurate. The command writes the front of the machine that it runs
+/// on.
 [[nodiscard]] const std::vector<QualityLevel>& builtInQualityLevels();
 
-/// Parses the text of a table with sections [[level]], whose keys levelOptions() lists; sorts the
-/// levels by time. Throws ConfigError with every fault; `file` is for messages.
+/// Parses the text of a table with sections [[level]], whose keys levelOptions() lists. Returns the
+/// levels, sorted by time. `file` names the file in messages. Throws ConfigError with all faults.
 [[nodiscard]] std::vector<QualityLevel> parseQualityLevels(std::string_view toml,
                                                            const std::string& file);
 
-/// Text that parseQualityLevels() reads.
+/// Returns a text that parseQualityLevels() reads.
 [[nodiscard]] std::string toToml(std::span<const QualityLevel> levels);
 
-/// The levels with their modes limited to `best`. Of levels that become equal, the fastest stays.
+/// Returns the levels without modes that are better than `best`: such modes are replaced by `best`.
+/// If several levels become equal, only the fastest is kept.
 [[nodiscard]] std::vector<QualityLevel> limitedTo(std::span<const QualityLevel> levels,
                                                   SuperResMode best);
 

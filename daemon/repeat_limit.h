@@ -12,10 +12,10 @@
 
 namespace mfar {
 
-/// Limits repeated messages: an event's first message passes at once, then each event passes at
-/// most once in ten seconds, with the number of repetitions. A loose plug cannot fill the disk, and
-/// the last message of an event always passes. Bounded memory: beyond 64 events at a time, all
-/// others are treated as one. Used by one thread at a time.
+/// Limits repeated messages, so that a loose plug cannot fill the disk. The first message of an
+/// event passes at once. After that, one message of the event passes in ten seconds, with the
+/// number of repetitions. The last message of an event always passes. To limit the memory, all
+/// events beyond 64 at a time are treated as one. Only one thread at a time may use it.
 class RepeatLimit {
 public:
     static constexpr std::chrono::seconds kInterval{10};
@@ -24,17 +24,18 @@ public:
     struct Message {
         int priority = 0;
         std::string text;
-        std::string_view word{};  ///< prefix of each line: "warning: "; must outlive this
+        std::string_view word{};  ///< prefix, e.g. "warning: "; must outlive this object
         Subject subject{};
-        std::uint64_t count = 1;  ///< number of events that the message stands for
+        std::uint64_t count = 1;  ///< number of events that the message reports
     };
 
-    /// True: log it now. Otherwise it is held back and replaces an earlier message of its event.
+    /// Returns whether the message must be logged now. If not, it is kept and replaces the kept
+    /// message of the same event.
     [[nodiscard]] bool mayPass(std::string_view event, const Message& message, Timestamp now);
-    /// The messages that were held back and may be logged now, sorted by the time of their last
-    /// event, each with its count: "... (7 more times in 28 s)".
+    /// Returns the kept messages that may be logged now, sorted by the time of their last event.
+    /// Each has the number of its repetitions: "... (7 more times in 28 s)".
     [[nodiscard]] std::vector<Message> due(Timestamp now);
-    /// All messages that were held back, for the end of the log.
+    /// Returns all kept messages, for the end of the log.
     [[nodiscard]] std::vector<Message> rest(Timestamp now);
 
 private:

@@ -31,18 +31,18 @@ namespace mfar {
 
 class RigSource;
 
-/// Numbers of pictures in a finished recording.
+/// Numbers of pictures of a finished recording.
 struct Recorded {
     std::uint64_t video = 0;
     std::uint64_t stills = 0;
     std::uint64_t dropped = 0;
 };
 
-/// The devices of one run. Only this class knows which kinds exist.
+/// The devices of one run. Only this class knows which kinds of devices exist.
 class Rig {
 public:
-    /// Opens the configured source. `hearts` watches its threads and must outlive this. Throws
-    /// Failure.
+    /// Opens the configured source. Its threads register at `hearts`, which must outlive this
+    /// object. Throws Failure.
     Rig(const Config& config, Heartbeats& hearts);
     /// Uses the given devices.
     explicit Rig(std::unique_ptr<RigSource> source);
@@ -51,52 +51,53 @@ public:
     [[nodiscard]] const StereoRig& geometry() const;
     [[nodiscard]] Camera& video();
     [[nodiscard]] Camera& still();
-    /// nullptr where stills are not triggered.
+    /// Returns the trigger; null if stills are not triggered.
     [[nodiscard]] Trigger* trigger();
     [[nodiscard]] HandOver handOver() const;
     [[nodiscard]] CameraKind cameraKind() const;
-    /// Add this to a still's time to get the time on the video's clock.
+    /// Returns the offset that is added to a still's time to get the time on the video's clock.
     [[nodiscard]] std::chrono::nanoseconds stillTimeOffset() const;
-    /// Upper limit of the number of video frames, where it is known.
+    /// Returns the largest possible number of video frames, if it is known.
     [[nodiscard]] std::optional<std::uint64_t> videoFrames() const;
-    /// Pose information: a recording's tags.toml and poses, or the synthetic board's tags. Valid as
-    /// long as the rig. Throws Failure for an invalid tags.toml.
+    /// Returns what the source knows about poses: a recording's tags.toml and poses, or the tags of
+    /// the simulated board. The result is valid as long as the rig lives.
     [[nodiscard]] PoseInputs poseInputs() const;
-    /// "synthetic office: video 640x480 at 30 Hz, still 2304x1728"
+    /// Returns a description: "synthetic office: video 640x480 at 30 Hz, still 2304x1728".
     [[nodiscard]] std::string description() const;
-    /// Counters of the matching of stills to pulses, with a trigger line of our own.
+    /// Returns the counters of matching stills to pulses, if this rig has a trigger line.
     [[nodiscard]] std::optional<StillCounters> matching() const;
-    /// Fault of a device that the rig waits for, in words; nothing without a fault.
+    /// Returns the fault of a device that the rig waits for, or nothing if there is no fault.
     [[nodiscard]] std::optional<std::string> fault() const;
-    /// Exit code when a camera fails.
+    /// Returns the exit code for a camera that fails.
     [[nodiscard]] ExitCode inputFailure() const;
 
-    /// Copies a frame into the recording, if there is one; never waits. Each function is called
-    /// from one thread only.
+    /// Copies a frame into the recording, if there is one. Never waits. Only one thread may call
+    /// recordVideo(), and only one may call recordStill().
     void recordVideo(const Frame& frame);
     void recordStill(const Frame& frame);
-    /// The same for the pose of a frame.
+    /// Copies the pose of a frame into the recording, if there is one. Never waits.
     void recordPose(const Pose& pose);
     void recordTags(const TagMap& tags);
-    /// Number of frames and stills missing in the recording. Any thread.
+    /// Returns how many frames and stills are missing in recordings. Thread-safe.
     [[nodiscard]] std::uint64_t notRecorded() const;
-    /// Folder of the recording; empty: no recording. Any thread.
+    /// Returns the folder of the recording, or an empty path if there is no recording. Thread-safe.
     [[nodiscard]] std::filesystem::path recordingFolder() const;
-    /// When the recording can no longer be written: ends it and returns the reason; the part on
-    /// disk stays readable. Any thread, never waits.
+    /// If the recording cannot be written any more, ends it and returns the reason. The part that
+    /// is on the disk can be played. Thread-safe; never waits.
     [[nodiscard]] std::optional<std::string> endBrokenRecording();
-    /// Waits until everything is written. Throws Failure when a recording that --record asked for
-    /// cannot be written; endBrokenRecording() reports failures of others.
+    /// Waits until the whole recording is written. Throws Failure if a recording of --record cannot
+    /// be written. Failures of other recordings are reported by endBrokenRecording().
     void finishRecording();
     /// Returns a function that creates a recording in this new folder. The function may wait for
-    /// the disk, throws Failure, and may outlive this. Throws Failure while a recording is running.
-    /// Any thread, as the next two.
+    /// the disk, throws Failure, and may outlive this object. makeRecording() itself throws Failure
+    /// while a recording is running. This and the next two functions are thread-safe.
     [[nodiscard]] std::function<std::shared_ptr<Recorder>()>
     makeRecording(const std::filesystem::path& folder) const;
-    /// Records into it from now on. Throws Failure as makeRecording() does.
+    /// Records into `recorder` from now on. Throws Failure while a recording is running.
     void startRecording(std::shared_ptr<Recorder> recorder);
-    /// Ends the recording. Returns a function that waits until it is complete on disk, throws
-    /// Failure when that fails, and may outlive this. Throws Failure without a recording.
+    /// Ends the recording. Returns a function that waits until the recording is complete on the
+    /// disk. This function throws Failure if that fails, and it may outlive this object.
+    /// stopRecording() itself throws Failure if there is no recording.
     [[nodiscard]] std::function<Recorded()> stopRecording();
 
 private:
@@ -110,22 +111,22 @@ private:
     std::shared_ptr<Recorder> recorder_;
     std::uint64_t lostBefore_ = 0;      ///< pictures missing in recordings that have ended
     std::optional<std::string> broke_;  ///< error that ended the last recording
-    std::vector<std::jthread> ending_;  ///< closing broken recordings may wait for the disk
+    std::vector<std::jthread> ending_;  ///< threads that close broken recordings
 };
 
-/// A folder in `directory` for a recording that begins now, named by the time (UTC), that does not
-/// exist yet.
+/// Returns the path of a new folder in `directory`, which does not exist yet. Its name is the
+/// current time (UTC).
 [[nodiscard]] std::filesystem::path newRecordingIn(const std::filesystem::path& directory);
 
-/// Drives a trigger line to its safe level. Throws Failure.
+/// Drives a trigger line to its inactive level. Throws Failure.
 void releaseTrigger(const TriggerLineConfig& line);
 
-/// Opens the configured display. A stop request on `cancel` ends its waiting. Throws Failure.
+/// Opens the configured display. A request on `cancel` ends its waits. Throws Failure.
 [[nodiscard]] std::unique_ptr<Display> openDisplay(const Config& config, double rateHz,
                                                    std::stop_token cancel,
                                                    const FileDisplayPolicy& policy = {});
 
-/// A copy of a picture, see copyPicture().
+/// Returns a copy of a picture, see copyPicture().
 [[nodiscard]] ScreenPicture copyOf(const Picture& picture);
 
 }  // namespace mfar

@@ -23,19 +23,19 @@ namespace mfar {
 namespace {
 
 constexpr double kNominalView = std::numbers::pi / 3;  // horizontal field of view [rad]
-constexpr double kNominalBaseline = 0.014;             // [m]
-// Number of frame periods without a frame after which a camera is reported as silent, and after
-// which it is reopened.
+constexpr double kNominalBaseline = 0.014;             // distance of the sensors [m]
+// A camera that sends no frame for these numbers of frame periods is reported as silent, or
+// reopened.
 constexpr double kSilentPeriods = 4.5, kStalledPeriods = 20;
-// Assumed period of a free-running camera without a configured rate.
+// Assumed frame period of a free-running camera without a configured rate.
 constexpr double kUnknownPeriodMs = 500;
 
 std::chrono::nanoseconds nanoseconds(double ms) {
     return std::chrono::nanoseconds(static_cast<std::int64_t>(ms * 1e6));
 }
 
-/// A trigger whose line may not exist yet: every pulse tries to open it, and without pulses rest()
-/// does so once a second.
+/// A trigger whose GPIO line may not exist yet. Every pulse tries to open the line; without pulses,
+/// rest() tries it once a second.
 class WaitingTrigger final : public Trigger {
 public:
     explicit WaitingTrigger(const TriggerLineConfig& line)
@@ -85,11 +85,11 @@ public:
     }
 
 private:
-    /// The mutex is held. Throws std::runtime_error.
+    /// Opens the line if it is not open. mutex_ must be locked. Throws std::runtime_error.
     void open() {
         if (open_) return;
         tried_ = Timestamp::now();
-        // Before the line is opened, so that after a crash the note of it is there.
+        // The note is written before the line is opened, so that it exists after a crash.
         if (const auto file = takenLineFile(); !file.empty()) noteTakenLine(file, line_);
         open_ = openGpioTrigger(options_);
     }
@@ -98,13 +98,13 @@ private:
     const TriggerOptions options_;
     mutable std::mutex mutex_;
     std::unique_ptr<PulseTrigger> open_;
-    std::uint64_t missedBefore_ = 0;  ///< missed edges of lines that have been closed
+    std::uint64_t missedBefore_ = 0;  ///< missedEdges() of lines that were closed
     std::optional<Timestamp> tried_;
     std::optional<std::string> fault_;
 };
 
-/// A camera without a name is any camera except the one that the other sensor's configuration
-/// names.
+/// Returns which camera is wanted. If none is configured, it is any camera except the one that is
+/// configured for the other sensor.
 CameraWish wishFor(const CameraConfig& config, const CameraConfig& other, bool largest) {
     return {config.camera, config.driver == other.driver ? other.camera : "", largest};
 }
@@ -141,7 +141,7 @@ std::unique_ptr<ReopeningCamera> waitingCamera(const CameraConfig& config, const
     const auto periods = [&](double count) {
         return std::chrono::milliseconds(std::lround(count * periodMs));
     };
-    // A triggered camera may be silent for any time.
+    // A triggered camera may send nothing for any time.
     options.silent = onTrigger ? std::chrono::milliseconds(0)
                                : std::max(options.silent, periods(kSilentPeriods));
     if (!onTrigger) options.stalled = std::max(options.stalled, periods(kStalledPeriods));
@@ -150,7 +150,7 @@ std::unique_ptr<ReopeningCamera> waitingCamera(const CameraConfig& config, const
         [config, wish] { return openCamera(config, wish); }, options);
 }
 
-// No repetition here: StillPolicy asks once more for a lost still.
+// Lost pulses are not repeated here, because StillPolicy requests a lost still once more.
 TriggeredStillOptions stillOptions(const TriggerLineConfig& line) {
     TriggeredStillOptions out;
     out.matching.guess = nanoseconds(line.delayMs);

@@ -14,19 +14,19 @@
 
 namespace mfar {
 
-/// The geometry of two cameras without a calibration: pinholes with a field of view of 60 degrees,
-/// the still sensor 14 mm next to the video sensor. Enough to enlarge the video by matching in both
-/// dimensions; poses and depth need a calibration.
+/// Returns a geometry for two cameras without a calibration: pinhole cameras with a field of view
+/// of 60 degrees, 14 mm apart. It is sufficient for enlarging the video by matching in two
+/// dimensions. Poses and depth need a calibration.
 [[nodiscard]] StereoRig nominalRig(Size video, Size still);
 
 [[nodiscard]] TriggerOptions triggerOptions(const TriggerLineConfig& line);
 
-/// Two cameras of this board and the line that triggers the second. A camera that is not connected
-/// is waited for.
+/// Two cameras of this board and the line that triggers the second. If a camera is not connected,
+/// this object waits for it.
 class CamerasSource final : public RigSource {
 public:
-    /// `hearts` watches the threads that open the cameras, and must outlive this. Throws Failure
-    /// for an invalid calibration and a missing trigger line.
+    /// The threads that open the cameras register at `hearts`, which must outlive this object.
+    /// Throws Failure if the calibration is missing or invalid.
     CamerasSource(const CamerasConfig& config, Heartbeats& hearts);
 
     [[nodiscard]] const StereoRig& geometry() const override { return geometry_; }
@@ -41,9 +41,10 @@ private:
     CamerasConfig config_;
     StereoRig geometry_;
     std::unique_ptr<ReopeningCamera> video_;
-    std::unique_ptr<ReopeningCamera> freeStill_;       ///< set without a trigger line
-    std::unique_ptr<TriggeredStillCamera> triggered_;  ///< set with a trigger line
-    const ReopeningCamera* still_ = nullptr;           ///< the camera in one of the two
+    std::unique_ptr<ReopeningCamera> freeStill_;       ///< set if there is no trigger line
+    std::unique_ptr<TriggeredStillCamera> triggered_;  ///< set if there is a trigger line
+    const ReopeningCamera* still_ =
+        nullptr;  ///< the still camera: freeStill_ or part of triggered_
     std::function<std::optional<std::string>()> triggerFault_{};
 };
 

@@ -16,28 +16,30 @@
 
 namespace mfar {
 
-/// A set of devices that belong together; Rig wraps it.
+/// A set of devices that belong together. Rig uses it.
 class RigSource {
 public:
     virtual ~RigSource() = default;
     [[nodiscard]] virtual const StereoRig& geometry() const = 0;
     [[nodiscard]] virtual Camera& video() = 0;
     [[nodiscard]] virtual Camera& still() = 0;
-    /// nullptr where stills are not triggered.
+    /// Returns the trigger; null if stills are not triggered.
     [[nodiscard]] virtual Trigger* trigger() = 0;
     [[nodiscard]] virtual std::string name() const = 0;
 
     HandOver handOver = HandOver::NewestWins;
-    bool hasSensors = false;  ///< pictures have noise, and a rate to keep
+    bool hasSensors = false;  ///< whether the cameras are real sensors, see CameraKind::Sensor
     ExitCode failure = ExitCode::Unavailable;
     std::optional<std::uint64_t> videoFrames{};
-    std::chrono::nanoseconds stillTimeOffset{0};  ///< still's time + offset = video's time
+    std::chrono::nanoseconds stillTimeOffset{0};  ///< still's time + offset = time on video's clock
     TagMap tags{};                                ///< empty: unknown
-    /// Empty without recorded poses.
+    /// Returns the recorded pose at a time. The function is not set if there are no recorded poses.
     std::function<std::optional<Pose>(Timestamp)> recordedPoses{};
-    /// Counters of the matching of stills to pulses; empty: no matching.
+    /// Returns the counters of matching stills to pulses. The function is not set if stills are not
+    /// matched.
     std::function<StillCounters()> matching{};
-    /// Present fault of a device, in words; empty: this source has no faults.
+    /// Returns the current fault of a device, or nothing if there is none. The function is not set
+    /// if this source cannot have faults.
     std::function<std::optional<std::string>()> fault{};
 };
 

@@ -6,7 +6,7 @@
 
 namespace mfar {
 
-/// Name of the source for this board's cameras.
+/// The name of the source that uses this board's cameras.
 inline constexpr std::string_view kCameras = "cameras";
 
 /// The parts of a source's name, "kind[:scene[,path]]".
@@ -17,15 +17,14 @@ struct SourceWords {
 };
 [[nodiscard]] SourceWords sourceWords(std::string_view source);
 
-/// The fault in the name of a source or display, with the list of valid names; nothing for a valid
-/// name. Opens nothing.
+/// Both return what is wrong with the name of a source or display, with a list of valid names, or
+/// nothing if the name is valid. They do not open a device.
 [[nodiscard]] std::optional<std::string> sourceFault(std::string_view source);
 [[nodiscard]] std::optional<std::string> displayFault(std::string_view display);
 
-/// True for a screen of this machine, see openScreen().
+/// Returns whether a display's name means a screen of this machine, see openScreen().
 [[nodiscard]] bool isScreen(std::string_view display);
-/// True when the display writes every picture that show() took, so that finish() is worth waiting
-/// for.
+/// Returns whether the display writes its pictures, so that a shutdown should wait for finish().
 [[nodiscard]] bool keepsPictures(std::string_view display);
 
 }  // namespace mfar

@@ -13,12 +13,13 @@
 namespace mfar {
 namespace {
 
-// Errors are ignored: a failed notification must not stop the pictures.
+// Sends a notification. Errors are ignored, because a failed notification must not stop the
+// pictures.
 void tell(const std::string& state) {
     (void)sd_notify(0, state.c_str());
 }
 
-// A line break would begin another assignment of sd_notify(3).
+// Replaces line breaks, because in sd_notify(3) each line is a separate assignment.
 std::string oneLine(std::string text) {
     std::replace(text.begin(), text.end(), '\n', ' ');
     return text;
@@ -28,7 +29,7 @@ std::string oneLine(std::string text) {
 
 Service::Service() : listening_(std::getenv("NOTIFY_SOCKET") != nullptr) {
     std::uint64_t us = 0;
-    // Twice as often as required, so that one late call does no harm.
+    // The period is half of the watchdog's, so that one late call does no harm.
     if (listening_ && sd_watchdog_enabled(0, &us) > 0)
         watchdogPeriod_ = std::chrono::duration<double>(static_cast<double>(us) * 1e-6 / 2);
 }

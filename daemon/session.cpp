@@ -14,7 +14,7 @@
 namespace mfar {
 namespace {
 
-/// Identifies the two sensors, as far as they are known.
+/// Returns a text that identifies the two sensors, as far as they are known.
 std::string sensorsOf(const Config& config, Rig& rig) {
     const auto [video, still] = std::pair(rig.geometry().video.size, rig.geometry().still.size);
     return fmt::format("{} {} {}x{}, {} {} {}x{}", rig.video().info().name,
@@ -23,13 +23,13 @@ std::string sensorsOf(const Config& config, Rig& rig) {
                        still.height);
 }
 
-/// Interval between checks for a fault while no frames come.
+/// Interval of the checks for faults while no frames come.
 constexpr std::chrono::milliseconds kFaultInterval{30};
 
 }  // namespace
 
-// The context is created after the rig: a synthetic source has its own context, and the session's
-// must be current on this thread at the end.
+// The GL context is created after the rig. The simulated board creates its own context, and the
+// session's must be the one that is current on this thread in the end.
 Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
                  CallQueue<Session>& calls, StopTokens stop)
     : stats_(stats), changes_(changes), calls_(calls), stop_(std::move(stop)), config_(config),
@@ -60,7 +60,7 @@ Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
                     poses_.description(),
                     how.engine,
                     rig_.video().info().rateHz};
-    beginRecording(config);  // last: if anything before fails, there is no wait for the disk
+    beginRecording(config);  // the last step, because it may wait for the disk
 }
 
 Session::~Session() = default;
@@ -109,7 +109,7 @@ std::string Session::showFrames(Mailbox<CapturedFrame>& mailbox, CaptureThread& 
     Heartbeat heart(stats_.heartbeats(), std::string(kPictureThread), budget::kPicture);
     heart_ = &heart;
     const std::shared_ptr<void> atEnd(nullptr, [this](void*) { heart_ = nullptr; });
-    std::optional<CapturedFrame> captured;  // not shown yet
+    std::optional<CapturedFrame> captured;  // a frame that is not shown yet
     bool enough = false;
     while (!enough) {
         heart.beat();
@@ -145,7 +145,7 @@ void Session::showNext(std::optional<CapturedFrame>& captured) {
     calls_.runAll(*this);
     checkRecording();
     if (!captured) return showFault();
-    // A lossless source waits for us, so latency is measured from here.
+    // A lossless source waits for this thread, so its latency is measured from here.
     if (rig_.handOver() == HandOver::Lossless) captured->arrived = Timestamp::now();
     process(*captured);
     captured.reset();
@@ -155,8 +155,8 @@ void Session::finishDisplay() {
     orFail(ExitCode::OutputFailed, [&] { display_->finish(); });
 }
 
-// For recordings every picture is kept; waiting for a slow writer is then reported, not counted as
-// a hang.
+// With a lossless source, every picture is written. While this thread waits for a slow writer, it
+// reports the wait, so that it does not count as hanging.
 FileDisplayPolicy Session::displayPolicy() {
     FileDisplayPolicy policy;
     policy.isLive = rig_.handOver() == HandOver::NewestWins;
@@ -200,7 +200,7 @@ double Session::deadlineMs() const {
     return config_.governor.governs() ? config_.governor.deadlineMs : 0;
 }
 
-// Previews of virtual objects are drawn with GL, whichever engine executes the steps.
+// Previews of virtual objects are drawn with GL, even if all steps run on the SIMD engine.
 bool Session::canShowObjects() {
     if (gl_.context || config_.objects.empty() ||
         !VirtualWorld::drawsPreviews(config_.virtualLayer))
@@ -239,7 +239,7 @@ void Session::process(CapturedFrame& captured) {
     const Timestamp time = captured.video.time();
     const FrameResult& result = drawing_->pipeline.run(captured.video.view(), time, captured.pose);
     drawing_->gpu.requireSound();
-    // Before show(), which may wait: the still is exposed meanwhile.
+    // The trigger fires before show(), so that the still is exposed while show() waits.
     fireIfNeeded(time, result.stats);
     previous_ = time;
     drawing_->last = result.picture;
@@ -272,7 +272,7 @@ void Session::tell(Timestamp time) {
         stats_.warn(*error + "; video frames are copied instead");
     stats_.recorderDropped(rig_.notRecorded());
     if (auto matching = rig_.matching()) {
-        // Repetitions are counted by the policy, not by the matching.
+        // StillPolicy, not StillMatcher, repeats and counts lost stills.
         matching->repeated = static_cast<std::uint64_t>(policy_.repetitions());
         stats_.matching(*matching);
     }
@@ -303,7 +303,7 @@ void Session::takeStill(CapturedStill still) {
     useStill();
 }
 
-// Mode Off uses no still; the newest one is kept for a later change of mode.
+// Gives the newest still to the pipeline. In mode Off it is not used, but kept for a later mode.
 void Session::useStill() {
     if (!newestStill_ || config_.superres.mode == SuperResMode::Off) return;
     const CapturedStill still = *std::exchange(newestStill_, std::nullopt);
@@ -340,7 +340,8 @@ void Session::fireIfNeeded(Timestamp frame, const FrameStats& stats) {
         } catch (const TriggerBusy&) {
             policy_.busy();
         } catch (const std::runtime_error& error) {
-            // A trigger that is waited for is reported in the picture and does not end the session.
+            // If the rig waits for the trigger line, the banner reports that, and the session goes
+            // on.
             if (!rig_.fault())
                 throw Failure(ExitCode::Unavailable, trigger->name() + ": " + error.what());
         }
@@ -352,18 +353,18 @@ void Session::fireIfNeeded(Timestamp frame, const FrameStats& stats) {
     stats_.triggers(static_cast<std::uint64_t>(policy_.fired()), lost);
 }
 
-// Each frame's picture shows the fault in a banner. If no frames arrive, the last picture is shown
-// again with the banner.
+// While no frames arrive, shows the last picture again, with the fault in a banner. (If frames
+// arrive, their pictures have the banner.)
 void Session::showFault() {
     const std::optional<std::string> fault = rig_.fault();
-    // Reported here as well, as the capture thread may wait for the faulty device.
+    // The fault is reported here, too, because the capture thread may wait for the faulty device.
     stats_.fault(fault);
     if (!fault) return;
     show(Timestamp::now(), true);
     stats_.bannerShown(Timestamp::now());
 }
 
-// Shows the pipeline's last picture, with the fault as a banner.
+// Shows the pipeline's last picture, with the fault, if any, in a banner.
 void Session::show(Timestamp time, bool unchanged) {
     const std::string fault = bannerText();
     try {

@@ -32,7 +32,7 @@ namespace mfar {
 
 class FilterLearning;
 
-/// The settings that can be changed while running.
+/// The settings that can change while mfard runs.
 struct Tunables {
     SuperResConfig superres;
     TriggerConfig trigger;
@@ -45,40 +45,42 @@ struct Tunables {
     return {config.superres, config.trigger, config.status.measure, config.objects, config.light};
 }
 
-/// Two ways to end a session from outside.
+/// Two ways in which other threads can end a session.
 struct StopTokens {
-    std::stop_token input;   ///< no more frames; what has been processed is still shown and written
-    std::stop_token cancel;  ///< also stop waiting for a slow display
+    std::stop_token
+        input;  ///< fetch no more frames; processed pictures are still shown and written
+    std::stop_token cancel;  ///< do not wait for a slow display any more
 };
 
-/// One run from devices to display: everything that lives on the GL thread. Created, run and
-/// destroyed by that thread.
+/// One run, from the devices to the display. It owns all objects of the GL thread. The GL thread
+/// creates, runs and destroys it.
 class Session {
 public:
-    /// Opens devices, GL and display. All references must outlive this. Throws Failure.
+    /// Opens devices, GL and display. All references must outlive this object. Throws Failure.
     Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
             CallQueue<Session>& calls, StopTokens stop);
     ~Session();
 
     [[nodiscard]] const RunDescription& description() const { return description_; }
-    /// The line logged at the start: renderer, sensors, display, output size.
+    /// Returns the line that is logged at the start: renderer, sensors, display, output size.
     [[nodiscard]] std::string startLine() const;
 
-    /// Receives the reason why the pictures ended, or the error.
+    /// A function that is called with the reason why the pictures ended, or with the error.
     using Over = std::function<void(const std::string& reason, const std::exception_ptr& error)>;
-    /// Processes frames until the source ends, a stop is requested or `maxFrames` are shown, and
-    /// waits until they are written. Then calls `over`: all that is left is closing the devices,
+    /// Processes frames until the source ends, a stop is requested or `maxFrames` are shown. Waits
+    /// until they are written, then calls `over`. After that, only the devices must be closed,
     /// which may hang. Returns the reason of the end. Throws Failure.
     [[nodiscard]] std::string run(std::optional<std::uint64_t> maxFrames, const Over& over);
 
-    // To be called through the CallQueue, between two pictures. All throw std::runtime_error.
-    /// The last picture: as it went to the display, or as the display's screen shows it.
+    // The following functions must be called through the CallQueue, which calls them between two
+    // pictures. All throw std::runtime_error.
+    /// Returns the last picture as the display got it; with `ofScreen`, as the screen shows it.
     [[nodiscard]] ScreenPicture snapshot(bool ofScreen) const;
-    /// Requests one still, whatever the trigger configuration is.
+    /// Requests one still, in any mode of the trigger.
     void askForStill();
     /// Deletes the learned filters.
     void resetLearning();
-    /// See Rig.
+    /// These three functions call those of Rig.
     [[nodiscard]] std::function<std::shared_ptr<Recorder>()>
     makeRecording(const std::filesystem::path& folder) const {
         return rig_.makeRecording(folder);
@@ -95,33 +97,35 @@ private:
         std::optional<Pose> pose;
     };
     void beginRecording(const Config& config);
-    /// Starts the recording requested by beginRecording(), once its folder has been created.
+    /// Starts the recording that beginRecording() requested, if its folder has been created by now.
     void takeFirstRecording();
     void checkRecording();
     [[nodiscard]] std::string showFrames(Mailbox<CapturedFrame>& mailbox, CaptureThread& capture,
                                          std::optional<std::uint64_t> maxFrames);
     void apply(const Tunables& wanted);
-    /// Applies pending changes and calls, then shows the frame; without a frame, shows a fault.
+    /// Applies pending changes and calls, then processes and shows the frame. Without a frame,
+    /// shows the fault, if there is one.
     void showNext(std::optional<CapturedFrame>& captured);
-    /// Deadline of a picture [ms]; 0: no deadline.
+    /// Returns the deadline of a picture [ms]; 0: there is no deadline.
     [[nodiscard]] double deadlineMs() const;
-    /// Opens GL for the objects if it is not open yet; reports a failure.
+    /// Returns whether objects can be shown. Opens GL if they need it; reports a failure.
     bool canShowObjects();
     void placeObjects();
-    /// Creates drawing_ on the open context, or without one, with all settings and the stills in
-    /// use.
+    /// Creates drawing_ with the open GL context, or without GL. All settings and the stills in use
+    /// are applied to it.
     void makeDrawing();
-    /// Creates drawing_ on a new context after the GPU has lost everything. Throws Failure when
-    /// that fails.
+    /// Creates drawing_ in a new GL context after the GPU lost all objects. Throws Failure if that
+    /// fails.
     void makeDrawingAnew(std::string why);
     [[nodiscard]] std::optional<std::string> gpuFault();
     [[nodiscard]] std::string bannerText();
     [[nodiscard]] Rendering rendering() const;
     void keepUsedStill(const CapturedStill& still);
-    /// To be called after the pipeline has taken the still.
+    /// Keeps the copy of the pipeline's second still. Must be called after Pipeline::setStill().
     void keepSecondStill();
     [[nodiscard]] bool mayDraw();
-    /// Keeps the parts of `captured` that are needed to process it again after a GPU loss.
+    /// Processes and shows a frame. If it throws because the GPU is lost, `captured` can be
+    /// processed again.
     void process(CapturedFrame& captured);
     void takeStill(CapturedStill still);
     void useStill();
@@ -142,37 +146,38 @@ private:
     void show(Timestamp time, bool unchanged);
 
     Stats& stats_;
-    Heartbeat* heart_ = nullptr;  ///< the GL thread's, while pictures are made
+    Heartbeat* heart_ = nullptr;  ///< the GL thread's heartbeat; null: no pictures are made now
     Mailbox<Tunables>& changes_;
     CallQueue<Session>& calls_;
     StopTokens stop_;
-    Config config_;  ///< with the changes so far
+    Config config_;  ///< the configuration, with the changes since the start
     Rig rig_;
-    std::future<std::shared_ptr<Recorder>> firstRecording_;  ///< valid: its folder is being created
+    std::future<std::shared_ptr<Recorder>> firstRecording_;  ///< valid while its folder is created
     PoseFinder poses_;
     GlDevice device_ = GlDevice::Preferred;
     OpenedGl gl_;
     std::unique_ptr<Display> display_;
     Size output_;
     GpuFailures failures_;
-    std::unique_ptr<FilterLearning> learning_;   ///< null: no learning
-    std::shared_ptr<const FilterBank> filters_;  ///< learned; null: none yet, or the shipped ones
-    std::optional<Quality> quality_;    ///< current, in the pipeline; nothing: as configured
-    std::unique_ptr<Drawing> drawing_;  ///< reports to learning_, so it is destroyed first
+    std::unique_ptr<FilterLearning> learning_;  ///< null: filters are not learned
+    std::shared_ptr<const FilterBank>
+        filters_;                       ///< learned filters; null: the shipped ones are used
+    std::optional<Quality> quality_;    ///< quality of the pipeline; not set: as configured
+    std::unique_ptr<Drawing> drawing_;  ///< uses learning_, so it is declared after it
     StillPolicy policy_;
-    std::optional<CapturedStill> newestStill_;  ///< not used yet
-    // Set where steps run on GLES: the newest still in use, the one that the pipeline keeps next to
-    // it, and the previous one, whose memory is reused.
+    std::optional<CapturedStill> newestStill_;  ///< a still that the pipeline has not got yet
+    // Copies of stills, for a loss of the GPU; set if steps run on GLES. They are the newest still
+    // in use, the pipeline's second still, and the previous one, whose memory is reused.
     std::optional<UsedStill> usedStill_, secondStill_, formerStill_;
     TriggerReports triggerReports_;
     std::vector<QualityLevel> levels_;  ///< empty: the quality is as configured
     std::optional<Governor> governor_;
-    Governor::Choice choice_{};          ///< current, in the pipeline
-    std::vector<StageTime> stages_;      ///< of the last picture
-    std::optional<Timestamp> previous_;  ///< the frame that the pipeline's statistics are about
+    Governor::Choice choice_{};          ///< the choice that the pipeline uses now
+    std::vector<StageTime> stages_;      ///< times of the last picture's stages
+    std::optional<Timestamp> previous_;  ///< time of the frame of the pipeline's statistics
     std::optional<Timestamp> stillTime_;
     TagMap tags_;
-    std::string sensors_;  ///< the sensors that filters are learned for
+    std::string sensors_;  ///< names the sensors for which filters are learned
     std::uint64_t pictures_ = 0;
     ValidationCounts validated_{};
     RunDescription description_;

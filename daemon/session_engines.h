@@ -12,17 +12,18 @@ namespace mfar {
 /// The GL context of a session, if it needs one.
 struct OpenedGl {
     std::unique_ptr<GlContext> context;  ///< current on this thread; null: GL is not used
-    std::string without;  ///< why there is none, in words; empty where none is needed
+    std::string without;  ///< why GL could not be opened; empty: it was opened or is not needed
 };
 
-/// Opens GL unless every step runs on SIMD and nothing else draws with it; with engine "auto" a
-/// software renderer is closed again. Throws Failure where the configuration needs GLES and there
-/// is none.
+/// Opens GL, unless all steps run on SIMD and nothing else needs GL. If the engine is "auto" and
+/// the renderer is a software renderer, GL is closed again. Throws Failure if the configuration
+/// needs GLES and GL cannot be opened.
 [[nodiscard]] OpenedGl openGl(const Config& config, GlDevice device);
 
-/// Chooses the engine of each step: as configured; for auto, SIMD without GL and on a software
-/// renderer, otherwise the one that was measured to be faster on this GPU, now or at an earlier
-/// start. With validation, which checks shaders, auto means GLES.
+/// Chooses the engine of each step. A configured engine is used. For "auto", SIMD is used if there
+/// is no GL or only a software renderer. Otherwise the engine is used that was measured to be
+/// faster on this GPU, now or at an earlier start. With validation, which checks shaders, "auto"
+/// means GLES.
 [[nodiscard]] EngineChoice chooseEngines(const Config& config, const GlContext* gl,
                                          const StereoRig& rig, Size output);
 

@@ -1,4 +1,4 @@
-// Builds everything that draws on the GL context of a session, and rebuilds it after a loss.
+// Creates the objects that use the GL context of a session, also after a loss of the GPU.
 
 #include "base/image_layout.h"
 #include "daemon/exit_code.h"
@@ -35,8 +35,8 @@ void Session::makeDrawingAnew(std::string why) {
         drawing_.reset();
         display_->releaseGl();
         gl_ = {};
-        // Returns free pages to the system: almost everything on the heap is free by now, but glibc
-        // keeps its pages (45 MB of 157 measured).
+        // Free pages are returned to the system. Almost the whole heap is free now, but glibc keeps
+        // its pages (45 of 157 MB were measured).
         malloc_trim(0);
         if (isLast) {
             config_.engine = {.use = EngineWish::Simd};
@@ -64,7 +64,7 @@ std::optional<std::string> Session::gpuFault() {
     return now ? now : failures_.fault(Timestamp::now());
 }
 
-// A missing device ranks before a GPU that has been replaced.
+// Returns the text of the banner. A missing device is more important than a GPU that was replaced.
 std::string Session::bannerText() {
     if (const std::optional<std::string> fault = rig_.fault()) return *fault;
     return failures_.banner(Timestamp::now()).value_or("");
@@ -80,7 +80,7 @@ Rendering Session::rendering() const {
     return out;
 }
 
-// Keeps a copy for a loss of the GPU: the next still may come late or never.
+// Keeps a copy of the still for a loss of the GPU, because the next still may come late or never.
 void Session::keepUsedStill(const CapturedStill& still) {
     if (!gl_.context || !drawing_->engines.uses(EngineKind::Gles)) return;
     std::swap(usedStill_, formerStill_);

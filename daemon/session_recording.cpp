@@ -9,9 +9,9 @@
 
 namespace mfar {
 
-// When the folder given on the command line cannot be written, the start fails. A service goes on
-// without its recording and does not wait for a disk that hangs. With a lossless source it waits,
-// so that all pictures are recorded.
+// If the folder of --record cannot be written, the start fails. For [record] in the configuration,
+// mfard goes on without a recording then, and does not wait for a disk that hangs. With a lossless
+// source it waits, so that all pictures are recorded.
 void Session::beginRecording(const Config& config) {
     if (!config.recordTo.empty()) return startRecording(makeRecording(config.recordTo)());
     if (config.record.directory.empty()) return;

@@ -11,7 +11,7 @@ double milliseconds(std::chrono::nanoseconds d) {
     return static_cast<double>(d.count()) * 1e-6;
 }
 
-// Frame intervals per second between two moments; 0 when the time between them is not positive.
+// Returns the number of frame intervals per second between two times; 0 if the second is not later.
 double rate(std::uint64_t intervals, Timestamp from, Timestamp to) {
     const double s = to.seconds() - from.seconds();
     return s > 0 ? static_cast<double>(intervals) / s : 0;

@@ -24,114 +24,116 @@
 
 namespace mfar {
 
-/// Frames that never became a picture, by cause.
+/// Numbers of lost frames, by the place where they were lost.
 struct Drops {
-    std::uint64_t sensor = 0;    ///< missed by the video camera
-    std::uint64_t mailbox = 0;   ///< replaced by a newer frame before processing
-    std::uint64_t recorder = 0;  ///< shown, but not recorded
-    std::uint64_t display = 0;   ///< finished, but not written because the display was slower
+    std::uint64_t sensor = 0;    ///< frames that the video camera lost
+    std::uint64_t mailbox = 0;   ///< frames replaced by a newer frame before they were processed
+    std::uint64_t recorder = 0;  ///< pictures that were not recorded
+    std::uint64_t display = 0;   ///< pictures not written because the display was too slow
 };
 
+/// Numbers of stills.
 struct StillCounts {
     std::uint64_t triggered = 0;
     std::uint64_t received = 0;
-    std::uint64_t used = 0;        ///< became the reference of a frame
-    std::uint64_t superseded = 0;  ///< replaced by a newer still before a frame could use it
-    std::uint64_t lost = 0;        ///< triggered and not received in time
+    std::uint64_t used = 0;        ///< stills that became the reference of a frame
+    std::uint64_t superseded = 0;  ///< stills replaced by a newer one before a frame could use them
+    std::uint64_t lost = 0;        ///< stills that were triggered but did not arrive in time
 };
 
 enum class CameraRole : std::uint8_t { Video, Still };
 
-/// Description of the rendering, for people.
+/// Describes the rendering for people.
 struct Rendering {
     std::string engine;    ///< see describe() in engine_config.h
-    std::string renderer;  ///< of GL
-    std::string source;    ///< with the way that its pictures take to the GPU
+    std::string renderer;  ///< GlContext::description()
+    std::string source;    ///< the source, and how its pictures get to the GPU
 };
 
-/// Numbers of values that the validation checked.
+/// Counts what the validation checked.
 struct ValidationCounts {
     std::uint64_t values = 0;
-    std::uint64_t faults = 0;  ///< outputs with a bad value
+    std::uint64_t faults = 0;  ///< number of outputs with a wrong value
 };
 
-/// All counters since the start, and the latest frame's. A copy, read without locks.
+/// All counters since the start, and values of the latest frame.
 struct Counted {
     std::uint64_t frames = 0;
-    double seconds = 0;  ///< from the first to the last picture
+    double seconds = 0;  ///< time from the first to the last picture
     double fps = 0;
-    double recentFps = 0;  ///< over the last second, see PictureRate
-    Histogram latencyMs;   ///< from the frame's arrival to its picture shown
+    double recentFps = 0;  ///< rate over the last second, see PictureRate
+    Histogram latencyMs;   ///< times from the arrival of a frame to its shown picture [ms]
     std::vector<std::pair<std::string, Histogram>> stageMs;
     std::array<std::uint64_t, kTileClasses> tiles{};
-    std::uint64_t tilesMatchedSecond = 0;  ///< also matched with the second still
+    std::uint64_t tilesMatchedSecond = 0;  ///< tiles also matched with the second still
     std::uint64_t tilesShowSecond = 0;
     double meanConfidence = 0;  ///< mean over the frames that used a still
     Drops drops;
     StillCounts stills;
     std::array<CameraState, 2> cameras{};  ///< indexed by CameraRole
-    StillCounters matching;                ///< zero without a trigger line of our own
+    StillCounters matching;                ///< zero if there is no trigger line
     PoseCounts poses;
     QualityCounts quality;
-    std::uint64_t epipolarFrames = 0;     ///< pictures that were matched along epipolar lines
-    std::uint64_t predictedFrames = 0;    ///< epipolar frames searched around the previous result
+    std::uint64_t epipolarFrames = 0;     ///< frames that were matched along epipolar lines
+    std::uint64_t predictedFrames = 0;    ///< epipolar frames searched near the previous result
     std::uint64_t refinedFrames = 0;      ///< epipolar frames with a pose refined from the pictures
-    double meanEpipolarError = 0;         ///< [video px], mean over frames with enough patches
-    std::uint64_t depthTiles = 0;         ///< over all frames: tiles with measured depth
-    std::uint64_t depthTilesSkipped = 0;  ///< skipped, as known to lie behind virtual objects
+    double meanEpipolarError = 0;         ///< mean over frames with enough patches [video px]
+    std::uint64_t depthTiles = 0;         ///< tiles with measured depth, over all frames
+    std::uint64_t depthTilesSkipped = 0;  ///< tiles skipped because they are behind virtual objects
     std::uint64_t keyframeSearches = 0;   ///< frames whose depth was measured against a keyframe
-    std::uint64_t tilesSearched2d = 0;    ///< not explained by the search along lines
+    std::uint64_t tilesSearched2d = 0;    ///< tiles that the search along lines did not explain
     std::uint64_t objectFrames = 0;       ///< frames with virtual objects in view
-    std::uint64_t hiddenFrames = 0;       ///< object frames with all objects behind real things
-    std::optional<TracedLayerCounters> traced;  ///< the path tracer's, if there is one
-    std::optional<double> referenceAgeS;  ///< of the path traced picture shown, at the last frame
+    std::uint64_t hiddenFrames = 0;       ///< object frames in which all objects were occluded
+    std::optional<TracedLayerCounters> traced;  ///< set if there is a path tracer
+    std::optional<double> referenceAgeS;  ///< age of the path-traced picture in the last frame
     FrameStats last;
     std::vector<StageTime> lastStages;
-    std::optional<double> stillAgeS;         ///< at the last frame
-    std::optional<std::string> fault;        ///< of a device, as in the banner
-    std::string display;                     ///< display and what it shows, see Display::name()
-    std::uint64_t faults = 0;                ///< number of times that a fault began
-    std::optional<Timestamp> lastPicture{};  ///< see FinishedPicture::since
-    std::optional<Timestamp> lastBanner{};   ///< when a banner was last shown without a new frame
+    std::optional<double> stillAgeS;            ///< age of the still in the last frame
+    std::optional<std::string> fault;           ///< fault of a device, as in the banner
+    std::string display;                        ///< display and what it shows, see Display::name()
+    std::uint64_t faults = 0;                   ///< number of times that a fault began
+    std::optional<Timestamp> lastPicture{};     ///< see FinishedPicture::since
+    std::optional<Timestamp> lastBanner{};      ///< time of the last banner without a new frame
     std::optional<std::string> displayFault{};  ///< see Display::fault()
     std::optional<std::string> gpuFault{};      ///< see GpuWatch, GpuFailures
     std::uint64_t gpuFailures = 0;              ///< number of losses of the GPU
-    std::optional<Rendering> rendering{};       ///< set when it has changed since the start
+    std::optional<Rendering> rendering{};       ///< set if it has changed since the start
     ValidationCounts validation{};              ///< zero without validation
-    std::optional<ProcessUse> atFirstPicture;   ///< at the time of the first picture
-    std::optional<LearningCounts> learning{};   ///< set where filters are learned
-    std::filesystem::path recording;            ///< folder; empty: no recording
+    std::optional<ProcessUse> atFirstPicture;   ///< resources used before the first picture
+    std::optional<LearningCounts> learning{};   ///< set if filters are learned
+    std::filesystem::path recording;            ///< folder of the recording; empty: none
 };
 
 /// One finished picture.
 struct FinishedPicture {
     FrameStats stats;
     const std::vector<StageTime>& stages;
-    Timestamp arrived;  ///< arrival of the video frame in the daemon, CLOCK_MONOTONIC
-    Timestamp shown;    ///< CLOCK_MONOTONIC
+    Timestamp arrived;  ///< time of the video frame's arrival, CLOCK_MONOTONIC
+    Timestamp shown;    ///< time when the picture was shown, CLOCK_MONOTONIC
     std::optional<double> stillAgeS;
-    double ms = 0;  ///< from the begin of processing to `shown`, including the work for a new still
-    /// Time from which its age counts, CLOCK_MONOTONIC: a sensor's frame may have waited in a
-    /// driver.
-    std::optional<Timestamp> since{};  ///< nothing: `shown`
+    double ms =
+        0;  ///< time from the start of processing, including that of a new still, to `shown`
+    /// Time from which the picture's age counts, CLOCK_MONOTONIC. It may be before `arrived`,
+    /// because a sensor's frame may have waited in the driver. Not set: `shown`.
+    std::optional<Timestamp> since{};
 };
 
-/// Rate of pictures over the last second. It does not depend on when it is queried.
+/// The rate of pictures over the last second. It does not depend on when it is queried.
 class PictureRate {
 public:
     void add(Timestamp shown);
-    /// Mean rate over the second before the newest picture, at least over the last two pictures.
-    /// When the next picture is overdue: one picture per time since the last, which falls until one
-    /// comes.
+    /// Returns the mean rate over the second before the newest picture, or over the last two
+    /// pictures if they are farther apart. While the next picture is overdue, returns 1 / (time
+    /// since the newest picture).
     [[nodiscard]] double at(Timestamp now) const;
 
 private:
     static constexpr std::size_t kMost = 128;  // more than a screen shows in a second
     std::array<Timestamp, kMost> times_{};     // ring buffer
-    std::size_t count_ = 0;                    // of all pictures
+    std::size_t count_ = 0;                    // number of all pictures
 };
 
-/// A message for the log, to be logged once.
+/// A message that is logged once.
 struct Warning {
     std::string text;
     Subject subject{};
@@ -140,56 +142,56 @@ struct Warning {
 /// Collects what the threads report. Thread-safe.
 class Stats {
 public:
-    /// Heartbeats of all threads.
+    /// Returns the heartbeats of all threads.
     [[nodiscard]] Heartbeats& heartbeats() { return heartbeats_; }
 
     void picture(const FinishedPicture& picture);
     void firstPicture(const ProcessUse& use);
-    /// Current fault of a device, as in the banner; nothing without a fault.
+    /// Sets the current fault of a device, as in the banner. Nothing means that there is no fault.
     void fault(const std::optional<std::string>& fault);
     /// Queues a warning for the log.
     void warn(std::string text, Subject subject = {});
     [[nodiscard]] std::vector<Warning> takeWarnings();
-    /// Display::name() now.
+    /// Sets the current Display::name().
     void display(const std::string& name);
-    /// See Display::fault(), leftOut().
+    /// Sets the current Display::fault() and Display::leftOut().
     void displayed(const std::optional<std::string>& fault, std::uint64_t leftOut);
-    /// See GpuWatch::fault(), GpuFailures::fault().
+    /// Sets the current fault of the GPU, see GpuWatch::fault(), GpuFailures::fault().
     void gpu(const std::optional<std::string>& fault);
-    /// The same, after one more loss of the GPU.
+    /// Counts a loss of the GPU and sets the fault.
     void gpuFailed(const std::optional<std::string>& fault);
     void rendering(const Rendering& changed);
-    /// The last picture was shown again with a banner, as no frames came.
+    /// Reports that the last picture was shown again with a banner, because no frames came.
     void bannerShown(Timestamp shown);
-    /// Totals so far.
+    /// Sets the totals so far.
     void validation(const ValidationCounts& counts);
-    /// Nothing where no filters are learned.
+    /// Sets the counters of filter learning. Nothing means that filters are not learned.
     void learning(const std::optional<LearningCounts>& counts);
-    /// Counters of the path tracer, at a frame's time.
+    /// Sets the counters of the path tracer at the time of a frame.
     void traced(const TracedLayerCounters& counters, Timestamp frame);
     void camera(CameraRole role, const CameraState& state);
     void stillReceived();
     void stillUsed();
     void stillsSuperseded(std::uint64_t stills);
-    /// See PoseCounts.
+    /// Both functions count the pose of a frame or still, see PoseCounts.
     void framePose(const std::optional<Pose>& pose, const std::optional<TrackStats>& tracker);
     void stillPose(const std::optional<Pose>& pose, const std::optional<double>& ms);
-    /// Level of the following pictures, and their deadline [ms], 0: no deadline.
+    /// Sets the level and the deadline [ms] of the following pictures; 0: there is no deadline.
     void quality(const std::string& level, double deadlineMs);
     void triggers(std::uint64_t fired, std::uint64_t lost);
     void matching(const StillCounters& counters);
     void mailboxDropped(std::uint64_t total);
     void recorderDropped(std::uint64_t total);
-    /// Folder of the recording; empty: no recording.
+    /// Sets the folder of the recording. An empty path means that there is no recording.
     void recording(const std::filesystem::path& folder);
 
     [[nodiscard]] Counted count(Timestamp now = Timestamp::now());
 
 private:
     void total(Timestamp now);
-    /// Updates the ages of what the cameras sent.
+    /// Updates CameraState::distinctAgeS.
     void age(Timestamp now);
-    /// Adds the counters of virtual objects. The mutex is held.
+    /// Adds the counters of virtual objects. mutex_ must be locked.
     void objects(const FrameStats& frame);
 
     std::mutex mutex_;

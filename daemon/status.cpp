@@ -12,7 +12,7 @@ namespace {
 constexpr std::array<const char*, kTileClasses> kTileNames = {"unchanged", "upscaled", "trusted",
                                                               "blended", "hidden"};
 
-// Share of the run that is done; nothing without a planned end.
+// Returns the share of the run that is done, or nothing if no end is planned.
 std::optional<double> progress(const Counted& counted, const RunDescription& run, double elapsedS) {
     std::optional<double> done;
     if (run.plannedFrames && *run.plannedFrames > 0) {
@@ -43,7 +43,7 @@ std::array<double, kTileClasses> shares(const Tiles& tiles) {
     return out;
 }
 
-// "tracked 98% (6 tags, 0.12 px, 2.1 ms)"; nothing without a search for poses.
+// Returns "tracked 98% (6 tags, 0.12 px, 2.1 ms)", or an empty text if no poses are searched.
 std::string tracking(const PoseCounts& poses) {
     if (poses.frames == 0) return "";
     std::string out = fmt::format(", tracked {:.0f}%", poses.trackedShare() * 100);
@@ -55,7 +55,7 @@ std::string tracking(const PoseCounts& poses) {
     return out + fmt::format(", {:.1f} ms)", poses.tracker.lastMs);
 }
 
-// ", quality lines-2 (3% late)"; nothing without a governor.
+// Returns ", quality lines-2 (3% late)", or an empty text if there is no governor.
 std::string quality(const QualityCounts& counts) {
     if (counts.level.empty()) return "";
     std::string out = ", quality " + counts.level;
@@ -82,7 +82,7 @@ nlohmann::ordered_json quantiles(const Histogram& times) {
     return {{"median", times.quantile(0.5)}, {"p99", times.quantile(0.99)}};
 }
 
-// Without poses all numbers are zero.
+// If there are no poses, all numbers are zero.
 nlohmann::ordered_json poseSummary(const Counted& counted, const std::string& from) {
     const PoseCounts& poses = counted.poses;
     return {
@@ -135,7 +135,7 @@ nlohmann::ordered_json virtualSummary(const Counted& counted) {
     return out;
 }
 
-// "path traced 83%, 1.2 M samples/s, 120 holes"; nothing without path tracing.
+// Returns "path traced 83%, 1.2 M samples/s, 120 holes", or an empty text without path tracing.
 std::string tracing(const Counted& counted) {
     if (!counted.traced || !counted.last.objectsInView) return "";
     if (counted.last.objectsHidden) return ", objects hidden";
@@ -160,7 +160,7 @@ nlohmann::ordered_json lineSummary(const StillCounters& line) {
             {"missed_edges", line.missedEdges}};
 }
 
-// Counters that this camera does not have are absent.
+// The result lacks counters that this camera does not have.
 nlohmann::ordered_json cameraSummary(const CameraState& camera) {
     const CameraCounters& c = camera.counters;
     nlohmann::ordered_json out = {{"configured_hz", camera.configuredHz},
@@ -229,7 +229,7 @@ nlohmann::ordered_json dropSummary(const Drops& drops) {
 
 }  // namespace
 
-// In order of importance: a terminal cuts off the end of the line.
+// The parts are in order of importance, because a terminal cuts off the end of the line.
 std::string statusLine(const Counted& counted, const RunDescription& run, double elapsedS,
                        const Health& health) {
     std::string line;

@@ -18,7 +18,8 @@ std::optional<CapturedStill> nextStill(CameraReader& reader, Rig& rig, Stats& st
 }
 
 bool StillBox::put(CapturedStill still) {
-    std::optional<CapturedStill> oldest;  // destroyed after the lock is released
+    std::optional<CapturedStill>
+        oldest;  // declared first: it is destroyed after the mutex is unlocked
     const std::lock_guard lock(mutex_);
     if (stills_.size() == kCapacity) {
         oldest = std::move(stills_.front());
@@ -51,7 +52,7 @@ void StillThread::check() const {
 
 void StillThread::run() {
     try {
-        // The pictures go on without new stills.
+        // The role is Helper, because pictures can be made without new stills.
         Heartbeat heart(stats_.heartbeats(), "still capture", budget::kCapture, ThreadRole::Helper);
         while (!stopped_ && !reader_.ended()) {
             heart.beat();

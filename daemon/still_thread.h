@@ -16,25 +16,25 @@
 
 namespace mfar {
 
-/// A still and the video camera's pose at its time, where that is known.
+/// A still, and the pose of the video camera at its time, if that is known.
 struct CapturedStill {
     Frame frame;
     std::optional<Pose> pose{};
-    std::optional<StillMeasurement> measured{};  ///< nothing: not measured yet
+    std::optional<StillMeasurement> measured{};  ///< not set: tags were not searched yet
 };
 
-/// The next still of a rig as FramePairer expects it: its time converted to the video's clock,
-/// counted and recorded. Nothing when none has come within `timeout`. Throws Failure.
+/// Returns the next still of a rig, or nothing if none comes within `timeout`. Its time is
+/// converted to the video's clock, and it is counted and recorded. Throws Failure.
 [[nodiscard]] std::optional<CapturedStill> nextStill(CameraReader& reader, Rig& rig, Stats& stats,
                                                      std::chrono::milliseconds timeout);
 
-/// Stills on their way from the still camera's thread to the video's, oldest first. The capacity is
-/// small, as each still holds a buffer of the camera. Thread-safe, never waits.
+/// A queue of stills from the still camera's thread to the video camera's, oldest first. Its
+/// capacity is small, because each still holds a buffer of the camera. Thread-safe; never waits.
 class StillBox {
 public:
     static constexpr std::size_t kCapacity = 2;
 
-    /// False: the oldest still was dropped to make room.
+    /// Adds a still. If the queue is full, discards the oldest still and returns false.
     bool put(CapturedStill still);
     [[nodiscard]] std::optional<CapturedStill> take();
 
@@ -43,23 +43,24 @@ private:
     std::deque<CapturedStill> stills_;
 };
 
-/// The thread of a live still camera, so that neither a camera that hangs nor the search for tags
-/// in a still delays the video.
+/// The thread that fetches stills from a live camera. It is separate, so that neither a still
+/// camera that hangs nor the search for tags in a still delays the video.
 class StillThread {
 public:
-    /// The camera has been started; the owner stops it. All arguments must outlive this.
+    /// Starts the thread. The caller must start the camera before and stop it afterwards. All
+    /// arguments must outlive this object.
     StillThread(Rig& rig, PoseFinder& poses, Stats& stats);
     StillThread(const StillThread&) = delete;
     StillThread& operator=(const StillThread&) = delete;
-    /// Waits for the thread, which ends with the camera's next answer.
+    /// Waits for the thread, which ends when the camera returns from its current call.
     ~StillThread();
 
-    /// Ends the thread with the camera's next answer. Any thread, never waits.
+    /// Requests the end of the thread. Thread-safe; never waits.
     void stop() { stopped_ = true; }
-    /// Throws the error that ended the thread: Failure for a camera that failed or a still of a
-    /// wrong size.
+    /// Throws the error that ended the thread, if there is one: Failure if the camera failed or a
+    /// still had a wrong size.
     void check() const;
-    /// The next still, if one has come. Never waits.
+    /// Returns the next still, if one has arrived. Never waits.
     [[nodiscard]] std::optional<CapturedStill> take() { return box_.take(); }
 
 private:
@@ -72,7 +73,7 @@ private:
     StillBox box_;
     std::atomic<bool> stopped_{false};
     std::atomic<bool> failed_{false};
-    std::exception_ptr failure_;  ///< written before failed_
+    std::exception_ptr failure_;  ///< set before failed_ is
     std::thread thread_;
 };
 

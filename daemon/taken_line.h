@@ -7,16 +7,19 @@
 
 namespace mfar {
 
-/// File in which the service notes the line it has taken, until it ends or, after a crash, its hook
-/// has released the line ($RUNTIME_DIRECTORY); empty where no service manager has created the
-/// folder.
+/// Returns the path of the file in which the service notes the GPIO line that it has requested.
+/// After a crash, the service's stop hook reads it to release the line. The file is in
+/// $RUNTIME_DIRECTORY, which systemd deletes when the service has ended. Returns an empty path if
+/// this variable is not an absolute path.
 [[nodiscard]] std::filesystem::path takenLineFile();
 
-/// Writes the note: three lines "chip=", "line=" and "active_low=". Throws std::runtime_error.
+/// Writes the file. It has three lines: "chip=", "line=" and "active_low=". Throws
+/// std::runtime_error.
 void noteTakenLine(const std::filesystem::path& file, const TriggerLineConfig& line);
 
-/// The noted line; nothing without a note. Reads only a short regular file of this user with
-/// exactly these three keys, and follows no link. Throws Failure(BadData).
+/// Returns the line in the file, or nothing if there is no file. Throws Failure(BadData) if the
+/// file is too long, not a regular file, a symbolic link or owned by another user, or if it does
+/// not have exactly these three keys.
 [[nodiscard]] std::optional<TriggerLineConfig> takenLine(const std::filesystem::path& file);
 
 }  // namespace mfar

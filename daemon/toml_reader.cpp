@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kMostFaults = 50;
 constexpr std::size_t kLongestKey = 200;
 
-/// Removes "section." or "section[0]." from the key; false when the key is not in the section.
+/// Removes "section." or "section[0]." from the key. Returns whether the key is in the section.
 bool takeSection(const OptionSection& section, std::string_view& key) {
     if (section.name.empty()) return true;
     if (!key.starts_with(section.name)) return false;
@@ -58,13 +58,14 @@ std::string_view lastPart(std::string_view key) {
     return key.substr(key.rfind('.') + 1);
 }
 
-// A key in the wrong section is as likely as a typing error, so the last part of the names is
-// compared as well.
+// Returns how different two keys are. A key in the wrong section is as likely as a typing error, so
+// the last parts of the keys are compared, too.
 std::size_t distance(std::string_view given, std::string_view known) {
     return std::min(editDistance(given, known), editDistance(lastPart(given), lastPart(known)) + 1);
 }
 
-/// In the order of the file, which may matter; TOML++ sorts by name.
+/// Returns the entries of a table in the order of the file, which may matter. TOML++ sorts them by
+/// name.
 std::vector<std::pair<std::string, const toml::node*>> asWritten(const toml::table& table) {
     std::vector<std::pair<std::string, const toml::node*>> out;
     for (const auto& [name, value] : table)

@@ -15,47 +15,49 @@
 
 namespace mfar {
 
-/// Reads typed values from TOML text and collects every fault with its place, so that all faults of
-/// a file are reported at once. Keys that have been read are known; finish() refuses all others.
+/// Reads typed values from a TOML text. Collects all faults with their places, so that all faults
+/// of a file are reported at once. finish() reports keys that were not read as unknown.
 class TomlReader {
 public:
-    /// Returns the fault of a text, nothing for a valid one.
+    /// Returns what is wrong with a text, or nothing if it is valid.
     using Check = std::function<std::optional<std::string>(std::string_view)>;
 
-    /// The same for a number within its range.
+    /// Returns what is wrong with a number that is within its range, or nothing if it is valid.
     using NumberCheck = std::function<std::optional<std::string>(double)>;
 
     using NumbersCheck = std::function<std::optional<std::string>(std::span<const double>)>;
 
-    /// `table` has the types and ranges of all keys that may be read; reading another key throws
-    /// std::logic_error. `file` is for messages. Throws ConfigError on invalid syntax.
+    /// `table` contains the types and ranges of all keys. Reading another key throws
+    /// std::logic_error. `file` names the file in messages. Throws ConfigError if the syntax is
+    /// invalid.
     TomlReader(std::string_view text, std::string file, std::span<const OptionSection> table);
 
-    /// Each takes a key "name", "section.name" or, in a list of sections, "section[0].name", and
-    /// leaves `out` unchanged when it is absent or invalid.
+    /// The following functions read the value of a key: "name", "section.name" or, in a list of
+    /// sections, "section[0].name". If the value is absent or invalid, `out` is not changed.
     void number(std::string_view key, double& out, const NumberCheck& check = nullptr);
     void integer(std::string_view key, std::uint64_t& out);
     void integer(std::string_view key, int& out);
-    /// As above, with an upper limit lower than the table's.
+    /// Reads an integer with an upper limit that is lower than the table's.
     void integer(std::string_view key, int& out, int most);
     void boolean(std::string_view key, bool& out);
-    /// The text is valid when `check` returns nothing.
+    /// Reads a text. It is valid if `check` returns nothing.
     void text(std::string_view key, std::string& out, const Check& check = nullptr);
-    /// A list of at least one text, each checked by `check`.
+    /// Reads a list of at least one text, each of which is checked by `check`.
     void texts(std::string_view key, std::vector<std::string>& out, const Check& check = nullptr);
-    /// A list of exactly as many numbers as `out` has.
+    /// Reads a list of numbers, which must have the size of `out`.
     void numbers(std::string_view key, std::span<double> out, const NumbersCheck& check = nullptr);
-    /// A table with any keys and texts, numbers and booleans as values, each returned as text: "1",
-    /// "0.5", "true"; in the order of the file.
+    /// Reads a table with any keys. Its values are texts, numbers and booleans and are returned as
+    /// text: "1", "0.5", "true". They are in the order of the file.
     void values(std::string_view key, std::vector<std::pair<std::string, std::string>>& out);
     template <class E>
     void choice(std::string_view key, E& out,
                 std::span<const std::pair<std::string_view, E>> words);
-    /// The prefixes of the keys in each section [[key]], "key[0].". More than `most` sections are a
-    /// fault.
+    /// Returns the prefix of the keys of each section [[key]]: "key[0].", "key[1]." and so on. More
+    /// than `most` sections are a fault.
     [[nodiscard]] std::vector<std::string> sections(std::string_view key, std::size_t most);
 
-    /// Call when all keys have been read. Throws ConfigError with every fault, in file order.
+    /// Must be called after all keys have been read. If there are faults, throws ConfigError with
+    /// all of them, in the order of the file.
     void finish();
 
 private:
@@ -64,11 +66,12 @@ private:
         std::string message;
     };
 
-    /// The table's entry of this key. Throws std::logic_error when there is none of this type.
+    /// Returns the table's entry of this key. Throws std::logic_error if there is none of this
+    /// type.
     [[nodiscard]] const Option& option(std::string_view key, OptionType type) const;
     void word(std::string_view key, OptionType type, std::string& out, const Check& check);
     const toml::node* find(std::string_view key);
-    /// The node if it is of the `wanted` kind; another kind is a fault.
+    /// Returns the node of a key if it is of the `wanted` kind. Another kind is a fault.
     const toml::node* find(std::string_view key, std::string_view wanted,
                            bool (toml::node::*is)() const);
     void fault(const toml::source_region& at, std::string message);
@@ -79,7 +82,7 @@ private:
     std::span<const OptionSection> table_;
     toml::table root_;
     std::vector<std::string> known_;
-    std::vector<Fault> faults_;  ///< in file order
+    std::vector<Fault> faults_;  ///< in the order of the file
 };
 
 template <class E>

@@ -6,15 +6,16 @@
 
 namespace mfar {
 
-/// Finds new faults of the trigger line for the log. Used by one thread.
+/// Finds new faults of the trigger line for the log. Only one thread may use it.
 class TriggerReports {
 public:
     struct Seen {
-        std::uint64_t lost = 0;         ///< pulses without a still
-        std::uint64_t missedEdges = 0;  ///< pulses with an edge that the loopback missed
-        bool repeats = false;           ///< a lost still is requested again
+        std::uint64_t lost = 0;         ///< number of pulses without a still
+        std::uint64_t missedEdges = 0;  ///< see Trigger::missedEdges()
+        bool repeats = false;           ///< whether a lost still is requested again
     };
-    /// One sentence for each kind of event that is new since the last call. Allocates only then.
+    /// Returns one sentence for each kind of fault that is new since the last call. Allocates
+    /// memory only if there is one.
     [[nodiscard]] std::vector<std::string_view> newSince(const Seen& seen);
 
 private:

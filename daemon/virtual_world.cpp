@@ -11,8 +11,8 @@
 namespace mfar {
 namespace {
 
-// Brighter caustics of shiny objects would stay noisy for very many samples; 1 is white in the
-// shown picture.
+// Caustics of shiny objects are clamped to this brightness, because brighter ones would need very
+// many samples to be free of noise. 1 is white in the shown picture.
 constexpr float kBrightestCaustic = 1;
 
 std::shared_ptr<const Environment> environmentOf(const LightOptions& light) {
@@ -45,7 +45,7 @@ TracedLayerOptions tracedLayerOptions(const VirtualOptions& options, float expos
     TracedLayerOptions out;
     out.reference.slices.slicing = options.slicing;
     out.reference.slices.samples = options.samples;
-    out.reference.slices.samplesPerTurn = 1;  // a first picture is needed soon
+    out.reference.slices.samplesPerTurn = 1;  // so that the first picture is finished soon
     out.reference.tracer.shadowReach = kShadowReach;
     out.reference.tracer.fireflyClamp = kBrightestCaustic / exposure;
     out.reference.budgetMs = options.budgetMs;

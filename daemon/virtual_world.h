@@ -9,36 +9,37 @@
 
 namespace mfar {
 
-/// The virtual objects, their light and the real surface below them, as given to the pipeline.
-/// Lives on the GL thread.
+/// Gives virtual objects and their light to the pipeline. Only the GL thread may use it.
 class VirtualWorld {
 public:
     VirtualWorld(const VirtualOptions& options, const StereoRig& rig, Pipeline& pipeline);
 
-    /// Shows these objects, placed by the tag map, without those that leftOut() names.
+    /// Shows these objects at their poses in the tag map. Objects that leftOut() lists are not
+    /// shown.
     void set(const std::vector<PlacedObject>& objects, const LightOptions& light,
              const TagMap& tags);
-    /// True when `options` show previews, which are drawn with OpenGL ES, whichever engine executes
-    /// the steps.
+    /// Returns whether previews are shown. They are drawn with OpenGL ES, even if all steps run on
+    /// the SIMD engine.
     [[nodiscard]] static bool drawsPreviews(const VirtualOptions& options);
-    /// Why models are not shown; empty when they are shown.
+    /// Returns why only simple shapes and no models are shown, or an empty text if models are
+    /// shown.
     [[nodiscard]] std::string_view shapesAlone() const;
 
 private:
     [[nodiscard]] TracedLayerOptions layerOptions() const;
 
     VirtualOptions options_;
-    Size fullSize_;  // of the still's resolution
+    Size fullSize_;  // output size at the still's resolution
     Pipeline& pipeline_;
     bool traced_;
     float exposure_ = 1;
 };
 
-/// Options of the traced layer except its size, which the caller sets.
+/// Returns the options of the traced layer, except its size, which the caller must set.
 [[nodiscard]] TracedLayerOptions tracedLayerOptions(const VirtualOptions& options, float exposure);
 
-/// A scene of these objects, placed by the tag map, in this light. Light estimated from the camera
-/// begins as a dim studio's.
+/// Returns a scene with these objects at their poses in the tag map, in this light. If the light is
+/// estimated from the camera, the scene begins with the light of a studio.
 [[nodiscard]] Scene sceneOf(const std::vector<PlacedObject>& objects, const LightOptions& light,
                             const TagMap& tags);
 

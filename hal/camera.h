@@ -12,24 +12,26 @@
 namespace mfar {
 
 struct CameraInfo {
-    std::string name;  ///< for messages: the name a technician would use
+    std::string name;  ///< the name that messages use
     Size size;
     PixelFormat format = PixelFormat::Rgba8;
-    double rateHz = 0;  ///< 0: on trigger only
+    double rateHz = 0;  ///< frame rate; 0: the camera takes pictures on trigger only
 };
 
-/// Counts a camera's frames since its start. Each frame is counted in one place.
+/// Counts a camera's frames since its start. No frame is counted twice.
 struct CameraCounters {
     std::uint64_t delivered = 0;
-    /// Frames that the driver lost because it had no free buffer. Empty: the camera does not count.
+    /// Frames that the driver lost because it had no free buffer. Not set if the camera does not
+    /// count them.
     std::optional<std::uint64_t> missed{};
-    std::uint64_t broken = 0;  ///< marked as broken by the driver, or incomplete; never delivered
-    /// In the future, in the distant past or out of order; never delivered.
+    /// Frames that are incomplete or that the driver marked as broken. They are not delivered.
+    std::uint64_t broken = 0;
+    /// Frames whose timestamp is in the future, too old or out of order. They are not delivered.
     std::uint64_t badTimes = 0;
-    std::uint64_t startup = 0;   ///< frames from before the sensor had settled; never delivered
-    std::uint64_t untimed = 0;   ///< frames without a driver timestamp; their arrival time is used
-    std::uint64_t restarts = 0;  ///< restarts of a stream that had given up waiting for its sensor
-    std::uint64_t reopened = 0;  ///< times that the device was lost
+    std::uint64_t startup = 0;   ///< frames taken before the sensor had settled; not delivered
+    std::uint64_t untimed = 0;   ///< frames without a timestamp; their arrival time is used
+    std::uint64_t restarts = 0;  ///< restarts after the driver cancelled all requests
+    std::uint64_t reopened = 0;  ///< number of times that the device was lost
 
     CameraCounters& operator+=(const CameraCounters& other) {
         delivered += other.delivered;
@@ -44,14 +46,14 @@ struct CameraCounters {
     }
 };
 
-/// The device is gone and does not return by itself: it has to be opened again.
+/// Reports that the device was unplugged or failed. It must be opened again.
 class DeviceLost : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
 
-/// One image sensor that delivers frames. Constructors throw std::runtime_error when the device
-/// cannot be opened. `next` is called from one thread; `stop` may be called from any.
+/// One image sensor that delivers frames. Constructors throw std::runtime_error if the device
+/// cannot be opened. Only one thread calls next(); any thread may call stop().
 class Camera {
 public:
     virtual ~Camera() = default;
@@ -59,17 +61,18 @@ public:
     [[nodiscard]] virtual CameraInfo info() const = 0;
     /// Begins delivery. Throws std::runtime_error.
     virtual void start() = 0;
-    /// The next frame, waiting up to `timeout`; empty when none came or after stop(). Throws
-    /// DeviceLost when the device was unplugged or failed.
+    /// Waits up to `timeout` for the next frame and returns it. Returns nothing if no frame came or
+    /// after stop(). Throws DeviceLost if the device was unplugged or failed.
     [[nodiscard]] virtual std::optional<Frame> next(std::chrono::milliseconds timeout) = 0;
     /// Ends delivery and wakes a waiting next(). Idempotent.
     virtual void stop() = 0;
-    /// True when no further frame will come (end of a recording). Live cameras: false.
+    /// Returns whether no further frame will come, because a recording has ended. Always false for
+    /// live cameras.
     [[nodiscard]] virtual bool ended() const = 0;
 
-    /// All zero for a camera that cannot lose frames. Callable from any thread.
+    /// Returns the counters. They are all zero for a camera that cannot lose frames. Thread-safe.
     [[nodiscard]] virtual CameraCounters cameraCounters() const { return {}; }
-    /// Problems of a working device that users should know; each is returned once. Any thread.
+    /// Returns the new warnings about a device that works. Each is returned once. Thread-safe.
     [[nodiscard]] virtual std::vector<std::string> takeWarnings() { return {}; }
 };
 

@@ -12,10 +12,10 @@
 
 namespace mfar {
 
-/// A copy of a shown picture, rows without padding, row 0 on top.
+/// A copy of a picture that was shown. Rows have no padding; row 0 is the top row.
 struct ScreenPicture {
     Size size;
-    PixelFormat format = PixelFormat::Rgba8;  ///< or Bgra8
+    PixelFormat format = PixelFormat::Rgba8;  ///< Rgba8 or Bgra8
     std::vector<std::uint8_t> pixels;
 
     [[nodiscard]] ImageView view() const {
@@ -23,34 +23,36 @@ struct ScreenPicture {
     }
 };
 
-/// The target of finished pictures. Called on one thread. If pictures are textures or the display
-/// draws with GL, this is the GL thread with the pipeline's context current. Pictures on the host
-/// for a display that the CPU writes need no GL context.
+/// Shows or writes finished pictures. All calls come from one thread. If pictures are textures or
+/// the display draws with GL, the pipeline's GL context must be current on this thread. A display
+/// that the CPU writes needs no GL context for pictures on the host.
 class Display {
 public:
     virtual ~Display() = default;
 
-    /// Shows the picture or queues it. May wait for the device's rate; must not keep a texture
-    /// after returning. Throws std::runtime_error when the device is lost, GlError when the GPU is
+    /// Shows the picture or queues it. May wait as the device's rate requires. A texture is not
+    /// used after the call. Throws std::runtime_error if the device is lost, GlError if the GPU is
     /// lost.
     virtual void show(const Picture& picture, Timestamp time) = 0;
-    /// As show(), for a picture identical to the last one: a screen that already shows it need not
+    /// Shows a picture that is identical to the last one. A screen that shows it already need not
     /// do anything.
     virtual void showAgain(const Picture& picture, Timestamp time) { show(picture, time); }
-    /// Releases everything in the GL context, which ends afterwards: the next picture uses another
-    /// context or lies on the host.
+    /// Releases all GL objects. Must be called before the GL context is destroyed. The next picture
+    /// uses another context or is on the host.
     virtual void releaseGl() {}
-    /// Waits until everything shown has been output (files written). Throws like show().
+    /// Waits until all pictures have been output, e.g. written to files. Throws like show().
     virtual void finish() = 0;
-    /// The picture that the last show() sent to a screen, screen-sized. Empty without a screen.
-    /// Waits for the GPU. Pixels on the host passed to show() must still be valid.
+    /// Returns the picture that the last show() sent to a screen, in the screen's size, or nothing
+    /// without a screen. Waits for the GPU. If show() got pixels on the host, they must still be
+    /// valid.
     [[nodiscard]] virtual std::optional<ScreenPicture> lastShown() const { return std::nullopt; }
-    /// Size of the current screen, looked for if necessary; empty without a screen.
+    /// Returns the size of the screen [px], or nothing without a screen. Looks for a screen if
+    /// necessary.
     [[nodiscard]] virtual std::optional<Size> screenSize() { return std::nullopt; }
-    /// Message why some pictures are currently not shown or written; empty when there is no fault.
-    /// Call on the thread of show().
+    /// Returns why pictures are currently not shown or not written, or nothing if there is no
+    /// fault. Must be called on the thread of show().
     [[nodiscard]] virtual std::optional<std::string> fault() const { return std::nullopt; }
-    /// Number of pictures skipped because they came too fast.
+    /// Returns the number of pictures that were skipped because they came too fast.
     [[nodiscard]] virtual std::uint64_t leftOut() const { return 0; }
     [[nodiscard]] virtual std::string name() const = 0;
 };

@@ -17,8 +17,8 @@
 
 namespace mfar {
 
-/// A picture lent by a camera: move-only, returns its buffer when destroyed. May be moved from the
-/// capture thread to another; at most one thread uses it at a time.
+/// A picture in a buffer that belongs to a camera. The destructor returns the buffer to the camera.
+/// Move-only. A frame may be moved to another thread, but only one thread at a time may use it.
 class Frame {
 public:
     Frame(ImageView view, Timestamp time, std::function<void()> giveBack)
@@ -41,13 +41,14 @@ public:
     }
 
     [[nodiscard]] const ImageView& view() const { return view_; }
-    /// Middle of the exposure, CLOCK_MONOTONIC (recordings: the file's own epoch).
+    /// Returns the time of the middle of the exposure, on CLOCK_MONOTONIC. A recording's frame has
+    /// the time from the recording's file.
     [[nodiscard]] Timestamp time() const { return time_; }
 
-    /// Converts the time to another clock.
+    /// Adds `by` to the time, to convert it to another clock.
     void shift(std::chrono::nanoseconds by) { time_ = time_ + by; }
 
-    std::chrono::nanoseconds exposure{0};  ///< 0 = unknown
+    std::chrono::nanoseconds exposure{0};  ///< length of the exposure; 0: unknown
 
 private:
     ImageView view_;
@@ -55,26 +56,27 @@ private:
     std::function<void()> giveBack_;
 };
 
-/// A fixed set of equal buffers, allocated once and lent as Frames; a buffer that is never lent
-/// takes no memory. Thread-safe. The pool may be destroyed before its frames: the memory lives
-/// until the last frame is returned. Planes follow each other and rows have no padding
-/// (packedView() in image_layout.h).
+/// A fixed set of equal buffers that are allocated once and used by Frames. A buffer that is never
+/// used takes no memory. Thread-safe. The pool may be destroyed before its frames: the memory lives
+/// until the last frame is destroyed. In a buffer, planes follow each other and rows have no
+/// padding (packedView() in image_layout.h).
 class FramePool {
 public:
     FramePool(Size size, PixelFormat format, int count);
 
-    /// A buffer to be filled and then lent; empty when all are lent after `timeout`.
+    /// A buffer that the caller fills. It must then be passed to lend() or giveBack().
     struct Slot {
         std::uint8_t* data;
         std::size_t stride;
         int index;
     };
+    /// Returns a free buffer. Waits for one up to `timeout`, then returns nothing.
     [[nodiscard]] std::optional<Slot> acquire(std::chrono::milliseconds timeout);
-    /// Turns a filled slot into a frame whose destruction returns the buffer.
+    /// Turns a filled slot into a frame. The frame's destructor returns the buffer.
     [[nodiscard]] Frame lend(const Slot& slot, Timestamp time) const;
-    /// As above, with another view of the slot's memory, in which it must fit.
+    /// Does the same with another view, which must lie in the slot's memory.
     [[nodiscard]] Frame lend(const Slot& slot, const ImageView& view, Timestamp time) const;
-    /// Returns a slot that was acquired but will not be lent.
+    /// Returns a slot that does not become a frame.
     void giveBack(const Slot& slot) const;
 
     [[nodiscard]] Size size() const { return size_; }

@@ -10,24 +10,26 @@
 
 namespace mfar {
 
-/// Counts frames that a camera has not delivered: from the driver's frame numbers if there are any,
-/// otherwise from the times of delivered frames. Numbers may wrap at 32 bits, restart, stand still
-/// or be missing; times are used then. The period is the mean of the last intervals near their
-/// median, so that gaps, jitter and rate changes have only a short effect.
+/// Counts frames that a camera did not deliver. They are counted from gaps in the driver's frame
+/// numbers. If numbers are missing, restart or do not increase, drops are counted from the times of
+/// the delivered frames. Numbers may wrap at 32 bits. The frame period is the mean of those recent
+/// intervals that are near their median, so that gaps, jitter and rate changes have only a short
+/// effect.
 class FrameDrops {
 public:
-    /// Adds a frame. Returns the number of frames missing since the previous one. From times: 0
-    /// while the period is unknown (the first eight intervals) or when the time does not increase.
+    /// Adds a frame and returns the number of frames missing since the previous one. If drops are
+    /// counted from times, this is 0 while the period is unknown (the first eight intervals) and if
+    /// the time does not increase.
     int add(Timestamp time, std::optional<std::uint32_t> number = std::nullopt);
-    /// Adds a frame whose time is meaningless: it is broken, or was triggered.
+    /// Adds a frame whose time must not be used, because the frame is broken or was triggered.
     int addUntimed(std::optional<std::uint32_t> number);
-    /// Counts a delivered frame as dropped after all.
+    /// Counts the last frame as dropped, because it could not be delivered.
     void lose() { ++dropped_; }
-    /// Ignores the next interval: the camera has been stopped.
+    /// Ignores the next interval, because the camera was stopped.
     void pause();
 
     [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
-    /// Empty while unknown.
+    /// Returns the frame period, or nothing while it is unknown.
     [[nodiscard]] std::optional<std::chrono::nanoseconds> period() const;
 
 private:
@@ -37,13 +39,13 @@ private:
 
     static constexpr std::size_t kKept = 31;
 
-    std::array<std::int64_t, kKept> intervals_{};  ///< [ns], a ring buffer
+    std::array<std::int64_t, kKept> intervals_{};  ///< ring buffer of intervals [ns]
     std::size_t known_ = 0;
     std::size_t next_ = 0;
     std::optional<Timestamp> last_;
     std::optional<std::uint32_t> lastNumber_;
-    int untimed_ = 0;  ///< frames since the last time
-    int counted_ = 0;  ///< missing frames counted since the last time
+    int untimed_ = 0;  ///< number of frames since the last frame with a time
+    int counted_ = 0;  ///< number of drops counted since the last frame with a time
     std::uint64_t dropped_ = 0;
 };
 

@@ -10,8 +10,8 @@
 
 namespace mfar {
 
-/// Target of a decoded picture: a callback gets the size and returns the first row and the stride
-/// in bytes, for pixels R G B A. May throw.
+/// Where a decoded picture is written: the first row and the stride [bytes], for pixels with bytes
+/// R G B A. TargetOf gets the picture's size and returns this. It may throw.
 struct PixelTarget {
     std::uint8_t* rgba;
     std::size_t stride;
@@ -19,21 +19,22 @@ struct PixelTarget {
 using TargetOf = std::function<PixelTarget(Size size)>;
 
 enum class ImageAlpha : std::uint8_t {
-    Opaque,  ///< 255 everywhere
-    Kept,    ///< the file's alpha; 255 if it has none
+    Opaque,  ///< alpha is 255 everywhere
+    Kept,    ///< alpha comes from the file; it is 255 if the file has no alpha
 };
 
-/// Decodes a PNG (any colour type and depth; of 16 bits the upper 8) or a JPEG (grey or colour) as
-/// RGBA. Throws std::runtime_error with the reason, also for a truncated file and for a progressive
-/// JPEG of more than 2^24 pixels, whose decoding takes more memory than the picture.
+/// Decodes a PNG (any colour type and depth) or a JPEG (grey or colour) as RGBA. 16-bit values are
+/// reduced to their upper 8 bits. Throws std::runtime_error with the reason, also for a truncated
+/// file. A progressive JPEG of more than 2^24 pixels is refused, because its decoding needs more
+/// memory than the picture.
 void decodeImage(std::span<const std::uint8_t> file, const TargetOf& targetOf,
                  ImageAlpha alpha = ImageAlpha::Opaque);
 
-/// Bytes of a pixel in memory; X is ignored.
+/// The order of a pixel's bytes in memory; X is ignored.
 enum class PngPixels : std::uint8_t { Grey, Bgr, Rgbx, Bgrx };
 
-/// Encodes a picture as PNG, in grey or in colour without alpha; optimised for speed, not size.
-/// `out` is replaced. Throws std::runtime_error.
+/// Encodes a picture as PNG, in grey or in colour without alpha. The encoder is optimised for
+/// speed, not for size. `out` is replaced. Throws std::runtime_error.
 void encodePng(const std::uint8_t* pixels, std::size_t stride, Size size, PngPixels format,
                std::vector<std::uint8_t>& out);
 

@@ -6,21 +6,22 @@
 
 namespace mfar {
 
-/// A plane of texels in memory shared between devices (dma-buf).
+/// A plane of texels in memory that devices share (dma-buf).
 struct SharedPlane {
     int fd = -1;
     std::size_t offset = 0, stride = 0;  ///< bytes
-    Size size;                           ///< texels
-    int channels = 1;                    ///< 8-bit channels: 1, 2 or 4
+    Size size;                           ///< [texels]
+    int channels = 1;                    ///< number of 8-bit channels: 1, 2 or 4
 };
 
-/// Creates textures from camera memory without a copy. GL thread, context current.
+/// Creates textures from camera memory without a copy. The GL context must be current on the
+/// calling thread.
 class PlaneImporter {
 public:
     virtual ~PlaneImporter() = default;
 
-    /// Creates a texture that always shows the plane's current content and returns its name. Throws
-    /// std::runtime_error when the driver refuses the memory or layout.
+    /// Creates a texture and returns its name. The texture always shows the plane's current
+    /// content. Throws std::runtime_error if the driver refuses the memory or the layout.
     [[nodiscard]] virtual unsigned import(const SharedPlane& plane) = 0;
     /// Deletes the texture. Never throws.
     virtual void forget(unsigned texture) = 0;

@@ -26,8 +26,8 @@ void ReopeningCamera::start() {
     opener_ = std::thread([this] { keepOpen(); });
 }
 
-// A device can be opened only once at a time: the lost one is closed before it is opened again.
-// Both may take long and are done in this thread, so that nobody who waits for pictures is blocked.
+// A lost device must be closed before it can be opened again. Closing and opening may take long, so
+// this thread does both; a thread that waits for pictures is not blocked.
 void ReopeningCamera::keepOpen() {
     Heartbeat heart(options_.opener);
     heart.rest();
@@ -63,11 +63,11 @@ void ReopeningCamera::keepOpen() {
             rest();
         changed_.wait(lock, [&] { return stopped_ || !camera_; });
     }
-    // Stopped here, because stop() must not wait for the driver.
+    // This thread stops the camera, because ReopeningCamera::stop() must not wait for the driver.
     if (const std::shared_ptr<Camera> camera = camera_) work([&] { camera->stop(); });
 }
 
-/// Call with the mutex held.
+/// mutex_ must be locked.
 void ReopeningCamera::take(std::shared_ptr<Camera> camera) {
     for (std::string& text : camera->takeWarnings())
         warnings_.push_back(std::move(text));
@@ -130,12 +130,13 @@ void ReopeningCamera::sent() {
 }
 
 bool ReopeningCamera::hasStalled() {
-    // Called before locking the mutex, because the other camera may call this one.
+    // This is called before mutex_ is locked: busyElsewhere() may call the other camera, which may
+    // in turn call this one.
     const bool isExcused = options_.busyElsewhere && options_.busyElsewhere();
     const std::lock_guard lock(mutex_);
     answer_.reset();
     if (options_.silent.count() == 0) {
-        fault_.reset();  // the device is present; more cannot be known
+        fault_.reset();  // a triggered camera may be silent: the device is open, and that is enough
         return false;
     }
     return Timestamp::now() - lastFrame_ >= (isExcused ? options_.excused : options_.stalled);
@@ -162,7 +163,7 @@ void ReopeningCamera::stop() {
     changed_.notify_all();
 }
 
-/// Call with the mutex held.
+/// mutex_ must be locked.
 bool ReopeningCamera::hangs() const {
     const Timestamp now = Timestamp::now();
     return (answer_ && now - *answer_ >= options_.stalled) ||

@@ -9,9 +9,10 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-/// Far more than can be waiting; a still that arrives after this number of later pulses is ignored.
+/// Number of pulses that are remembered, far more than can wait for their stills. A still that
+/// arrives after this number of later pulses is ignored.
 constexpr std::size_t kRemembered = 64;
-/// This number of misses that agree with each other indicates a clock step, not jitter.
+/// If this number of stills in a row miss the window by about the same time, the clock has stepped.
 constexpr std::size_t kStepEvidence = 5;
 constexpr nanoseconds kLongest = std::chrono::hours(1);
 
@@ -65,7 +66,8 @@ nanoseconds StillMatcher::constant() const {
     return nanoseconds{median(samples_)};
 }
 
-/// Empty when the time is too far off to be a still's time.
+/// Returns the pulse whose expected time is nearest. Returns nothing if the time is more than three
+/// hours away from every pulse.
 std::optional<StillMatcher::Nearest> StillMatcher::nearest(Timestamp exposed) const {
     std::optional<Nearest> best;
     for (std::size_t i = 0; i < pulses_.size(); ++i) {

@@ -8,7 +8,8 @@
 
 namespace mfar {
 
-/// The trigger cannot fire because its last pulse is still active; it can a moment later.
+/// Reports that the trigger cannot fire now because its last pulse is not over or the still camera
+/// is stopped.
 class TriggerBusy : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
@@ -19,20 +20,20 @@ class Trigger {
 public:
     virtual ~Trigger() = default;
 
-    /// Fires one pulse and returns the time of its leading edge. Never waits for the still, which
-    /// the still camera delivers later. Throws TriggerBusy during a pulse, std::runtime_error when
-    /// the line cannot be driven.
+    /// Fires one pulse and returns the time of its leading edge. Does not wait for the still, which
+    /// the still camera delivers later. Throws TriggerBusy during a pulse, and std::runtime_error
+    /// if the line cannot be driven.
     virtual Timestamp fire() = 0;
-    /// Requests the line at its inactive level if it is not held yet; called repeatedly while the
-    /// camera runs. Never throws.
+    /// Requests the line at its inactive level, unless this object holds it already. May be called
+    /// repeatedly while the camera runs. Never throws.
     virtual void rest() {}
-    /// Ends an active pulse at once: the line is inactive when this returns. Does nothing without a
-    /// line. Callable from any thread. Never throws; the next fire() reports a line that cannot be
-    /// driven.
+    /// Ends an active pulse at once: the line is inactive when this call returns. Does nothing if
+    /// there is no line. Thread-safe. Never throws; if the line cannot be driven, the next fire()
+    /// throws.
     virtual void endPulse() {}
     [[nodiscard]] virtual std::string name() const = 0;
-    /// Pulses for which not both edges were seen on the line: time and length of the exposure are
-    /// not verified. Any thread.
+    /// Returns the number of pulses of which the loopback line did not report both edges. The times
+    /// of such pulses are not measured. Thread-safe.
     [[nodiscard]] virtual std::uint64_t missedEdges() const { return 0; }
 };
 

@@ -17,30 +17,31 @@ namespace mfar {
 
 struct TriggeredStillOptions {
     StillMatcherOptions matching;
-    /// Exposure of stills for which the camera does not report it: the pulse length, if that sets
-    /// the exposure. 0: unknown.
+    /// The exposure of stills, used if the camera does not report it. It is the length of the pulse
+    /// if the sensor exposes during the pulse. 0: unknown.
     std::chrono::nanoseconds exposure{0};
 };
 
-/// Combines the still camera and its trigger: delivers only stills that match a pulse, each once
-/// and in the order of their times, and fires again once for a pulse without a still.
+/// Combines the still camera and its trigger. Delivers only stills that match a pulse, each once
+/// and in the order of their times. Repeats a pulse once if its still does not arrive.
 ///
-/// A still's time is its pulse + the learned constant + half the exposure. The constant is the
-/// median over twenty of the camera's times, which removes their jitter; the pulse is timed to
-/// microseconds. `fire` and `counters` may be called from any thread.
+/// The time of a still is the time of its pulse + the learned constant + half the exposure. The
+/// constant is a median over twenty pulses, which removes the jitter of the camera's times; the
+/// time of a pulse is known to microseconds. fire() and counters() are thread-safe.
 class TriggeredStillCamera final : public Camera, public Trigger {
 public:
-    /// Throws std::invalid_argument, see StillMatcher.
+    /// Throws std::invalid_argument if StillMatcher refuses the options.
     TriggeredStillCamera(std::unique_ptr<Camera> camera, std::unique_ptr<Trigger> trigger,
                          const TriggeredStillOptions& options);
 
-    /// The camera's info with rate 0.
+    /// Returns the camera's info with a frame rate of 0, because it is triggered.
     [[nodiscard]] CameraInfo info() const override;
     void start() override;
-    /// Throws what the camera throws, and what the trigger throws for a repetition. Also finds and
-    /// repeats lost pulses, so it must be called regularly, e.g. with timeout 0.
+    /// Returns the next still. This call also repeats lost pulses, so it must be called regularly,
+    /// e.g. with timeout 0. Throws what the camera throws, and what the trigger throws when a pulse
+    /// is repeated.
     [[nodiscard]] std::optional<Frame> next(std::chrono::milliseconds timeout) override;
-    /// Stops both: the line becomes inactive first, and fire() throws TriggerBusy until start().
+    /// Ends an active pulse, then stops the camera. fire() throws TriggerBusy until start().
     void stop() override;
     [[nodiscard]] bool ended() const override { return camera_->ended(); }
 
@@ -67,8 +68,9 @@ private:
     std::chrono::nanoseconds exposure_;
     std::atomic<bool> stopped_{false};
 
-    mutable std::mutex
-        mutex_;  ///< also keeps a still from being matched before its pulse is registered
+    /// Guards the members below. It is locked while a pulse is fired and registered, so that its
+    /// still is not matched before.
+    mutable std::mutex mutex_;
     StillMatcher matcher_;
     std::optional<Timestamp> newest_;
     std::uint64_t overtaken_ = 0;

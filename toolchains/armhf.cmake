@@ -1,7 +1,7 @@
-# Debian armhf: 32-bit ARMv7 with a floating-point unit.
+# Debian armhf, for 32-bit ARMv7 processors with a floating-point unit.
 set(CMAKE_SYSTEM_PROCESSOR armhf)
 set(MFAR_TRIPLE arm-linux-gnueabihf)
 set(MFAR_EMULATOR qemu-arm-static)
 include(${CMAKE_CURRENT_LIST_DIR}/debian.cmake)
-# Without GCC's warning about its ABI change: no code built by GCC 6 is linked.
+# GCC warns where its ABI differs from that of GCC 6. No code built by GCC 6 is linked.
 string(APPEND CMAKE_CXX_FLAGS_INIT " -Wno-psabi")

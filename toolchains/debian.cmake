@@ -1,6 +1,6 @@
-# Common part of the toolchain files. Set before: MFAR_TRIPLE, MFAR_EMULATOR,
-# CMAKE_SYSTEM_PROCESSOR.
-# The sysroot is the link that `./run cross` creates, .build/sysroot-<processor>.
+# Common part of the toolchain files. They set MFAR_TRIPLE, MFAR_EMULATOR and
+# CMAKE_SYSTEM_PROCESSOR before they include it.
+# The sysroot is .build/sysroot-<processor>, a symbolic link that `./run cross` creates.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_LIBRARY_ARCHITECTURE ${MFAR_TRIPLE})
 set(CMAKE_CXX_COMPILER ${MFAR_TRIPLE}-g++)

@@ -1,5 +1,5 @@
-# Under an emulator the start of a program takes seconds: all tests of a program become one test.
-# Programs that are worth their time in an emulator have the label "emulated".
+# Under an emulator, each start of a program takes seconds. So CTest runs all tests of a program in
+# one process. Programs that are worth the time under an emulator have the label "emulated".
 set(mfar_emulated
     mfar-composite-tests
     mfar-daemon-tests
@@ -19,15 +19,15 @@ set(mfar_emulated
 
 function(gtest_discover_tests target)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "TEST_FILTER;TEST_LIST" "PROPERTIES")
-    # Two parts of one program's tests are distinguished by their lists.
+    # If the tests of a program are registered in two parts, TEST_LIST is the name of each part.
     set(name ${target})
     if(arg_TEST_LIST)
         set(name ${arg_TEST_LIST})
     endif()
     set(filter)
     if(target STREQUAL "mfar-engine-tests-egl")
-        # Tests of shaders alone are left out: llvmpipe on ARM has errors of up to 1.83 grey levels
-        # in the still's luma (limit 1.5), for unknown reasons.
+        # Tests that use only shaders are skipped: for unknown reasons, llvmpipe on ARM has errors
+        # of up to 1.83 grey levels in the still's luma (limit 1.5).
         set(arg_TEST_FILTER -*/gles)
     endif()
     if(arg_TEST_FILTER)

@@ -10,14 +10,13 @@
 
 namespace mfar {
 
-/// Reads a ROS camera_info file as camera_calibration_parsers writes it: model plumb_bob, or
-/// rational_polynomial whose denominator is 1. `wanted`: the only size that is accepted. Throws
-/// CalibrationError.
+/// Reads a ROS camera_info file as camera_calibration_parsers writes it. The lens model must be
+/// plumb_bob, or rational_polynomial with a denominator of 1. If `wanted` is set, another picture
+/// size is refused. Throws CalibrationError.
 [[nodiscard]] CameraModel readCameraInfo(const std::filesystem::path& file,
                                          std::optional<Size> wanted = {});
 
-/// The text of a camera_info file from which readCameraInfo() gets the same numbers to the last
-/// bit.
+/// Returns the text of a camera_info file. readCameraInfo() reads exactly the same numbers from it.
 [[nodiscard]] std::string cameraInfoText(const CameraModel& camera, std::string_view name);
 
 }  // namespace mfar

@@ -40,7 +40,7 @@ RigidTransform readTransform(const YamlReader& in, const YAML::Node& map, const 
     return plausible::transform(in, node, in.matrix(node, 4, 4, key), key);
 }
 
-/// T_still_video, from T_cn_cnm1 or from both cameras' T_cam_imu.
+/// Returns T_still_video. It is read from T_cn_cnm1 or computed from both cameras' T_cam_imu.
 RigidTransform readExtrinsics(const YamlReader& in, const YAML::Node& video,
                               const YAML::Node& still) {
     const bool direct = still["T_cn_cnm1"].IsDefined();
@@ -53,8 +53,8 @@ RigidTransform readExtrinsics(const YamlReader& in, const YAML::Node& video,
     return T;
 }
 
-/// Offset of the still's clock [s]. Kalibr defines t_imu = t_camera + timeshift_cam_imu for each
-/// camera.
+/// Returns RigCalibration::stillTimeOffset [s]. Kalibr defines t_imu = t_camera + timeshift_cam_imu
+/// for each camera.
 double readOffset(const YamlReader& in, const YAML::Node& video, const YAML::Node& still) {
     const char* key = "timeshift_cam_imu";
     const YAML::Node ofVideo = video[key], ofStill = still[key];

@@ -10,8 +10,8 @@
 namespace mfar::rig_formats {
 namespace {
 
-// Key names in use: those of OpenCV's samples (M1 D1), of its interactive tools, and common ones.
-// {} is 1 for the video camera, 2 for the still camera.
+// Key names used by OpenCV's samples (M1 D1), by its interactive tools and by other programs.
+// {} stands for 1 (video camera) or 2 (still camera).
 constexpr std::array kMatrixKeys{"M{}", "K{}", "camera_matrix{}", "camera_matrix_{}",
                                  "cameraMatrix{}"};
 constexpr std::array kDistortionKeys{"D{}",
@@ -39,7 +39,8 @@ YAML::Node need(const YamlReader& in, const std::array<const char*, N>& keys, in
     in.fail("has no " + fmt::format(fmt::runtime(keys[0]), camera));
 }
 
-/// From one key for both cameras or one key each; empty where the file has no size.
+/// Reads the picture size. A file has one key for both cameras or one key for each. Returns nothing
+/// if the file states no size.
 std::optional<Size> readSize(const YamlReader& in, int camera, std::optional<Size> wanted) {
     std::optional<YAML::Node> node = find(in, kSizeKeys, camera);
     for (const char* const key : {"image_size", "imageSize", "size"})
@@ -55,7 +56,8 @@ std::optional<Size> readSize(const YamlReader& in, int camera, std::optional<Siz
                            in.number(height, "image_height"), wanted);
 }
 
-/// In a matrix made for another picture size, the principal point is far from the centre.
+/// Refuses a camera matrix whose principal point is far from the picture's centre: the matrix was
+/// probably made for another picture size.
 void checkGuessedSize(const YamlReader& in, const YAML::Node& node, const CameraModel& c) {
     const auto central = [](double at, int side) { return at > 0.3 * side && at < 0.7 * side; };
     if (!central(c.cx, c.size.width) || !central(c.cy, c.size.height))

@@ -13,17 +13,18 @@
 namespace mfar::plausible {
 namespace {
 
-constexpr double kRotationTolerance = 1e-3;  // some files print only four digits
+constexpr double kRotationTolerance = 1e-3;  // some files round elements to four digits
 constexpr double kMaxFoldError = 0.5;        // [px]
 
-/// The range as messages print it.
+/// Formats the range for a message.
 std::string text(const Range& range) {
     const bool hasUnit = std::string_view(range.unit) != "1";
     return fmt::format("{} to {}{}{}", range.least, range.most, hasUnit ? " " : "",
                        hasUnit ? range.unit : "");
 }
 
-/// True when the lens model folds over inside the picture: several rays would map to one pixel.
+/// Returns whether the lens model folds over inside the picture, so that several rays map to one
+/// pixel.
 bool foldsInside(const CameraModel& c) {
     const double right = c.size.width - 1, bottom = c.size.height - 1;
     const std::array<Eigen::Vector2d, 4> edges{
@@ -33,8 +34,8 @@ bool foldsInside(const CameraModel& c) {
     return false;
 }
 
-/// Ratio of the radius with distortion to the radius without, at the corner where it is farthest
-/// from 1.
+/// Computes, for each corner, its distance from the principal point with distortion divided by that
+/// without distortion. Returns the ratio that differs most from 1.
 double mostUnlikelyCorner(const CameraModel& c) {
     const double right = c.size.width - 1, bottom = c.size.height - 1;
     const Eigen::Vector2d centre(c.cx, c.cy);

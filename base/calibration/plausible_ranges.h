@@ -4,30 +4,30 @@
 
 namespace mfar::plausible {
 
-/// The range of a number in a calibration or tag map. docs/calibration.md shows the same
-/// table; a test compares both.
+/// The allowed range of a number in a calibration or tag map, bounds included. docs/calibration.md
+/// shows the same table; a test compares the two.
 struct Range {
     const char *what, *unit;
     double least, most;
 
-    /// False for NaN.
+    /// Returns whether the range contains the value; false for NaN.
     [[nodiscard]] constexpr bool holds(double value) const {
         return value >= least && value <= most;
     }
 };
 
-/// Textures cannot be larger.
+/// 16384 px is the size limit of textures.
 inline constexpr Range kSide{"width and height", "px", 1, 16384};
-/// Fields of view from 169 down to half a degree.
+/// The limits correspond to horizontal fields of view of 169 degrees and of half a degree.
 inline constexpr Range kFocal{"focal length", "picture widths", 0.05, 100};
 inline constexpr Range kPrincipal{"principal point", "picture widths and heights", -1, 2};
 inline constexpr Range kCoefficient{"distortion coefficient", "1", -1000, 1000};
-/// Barrel distortion at 150 degrees reaches 0.35.
+/// A lens with barrel distortion and a field of view of 150 degrees reaches 0.35.
 inline constexpr Range kCorner{"radius of a corner with distortion to that without", "1", 0.25,
                                1.5};
 inline constexpr Range kBaseline{"distance of the sensors", "m", 0, 2};
 inline constexpr Range kTimeOffset{"time offset of the stills", "s", -10, 10};
-/// Does not hold for a sensor that takes pictures on trigger only, whose rate is 0.
+/// A sensor that takes pictures on trigger only has rate 0, which is accepted as well.
 inline constexpr Range kRate{"rate", "Hz", 0.01, 10000};
 
 inline constexpr Range kTagSize{"edge of a tag", "m", 0.001, 100};

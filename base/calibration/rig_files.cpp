@@ -16,8 +16,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kRigFile = "rig.yaml";
 
-/// Path of a file that rig.yaml names. It must be in the same folder: a calibration must not refer
-/// to files outside of its folder.
+/// Returns the path of a file that rig.yaml names. The name must not contain a folder, because a
+/// calibration must not refer to files outside its own folder.
 fs::path neighbour(const YamlReader& in, const char* key) {
     const YAML::Node node = in.at(key);
     const fs::path name = in.word(node, key);
@@ -84,7 +84,7 @@ RigCalibration readTwo(const fs::path& first, const fs::path& second, const Want
     return euroc ? readEuroc(first, second, wanted) : out;
 }
 
-/// Refuses XML with a message of its own: the YAML parser's message would not help.
+/// Refuses an XML file with its own message, because the YAML parser's message would not help.
 void refuseXml(const fs::path& file) {
     std::ifstream in(file);
     if (in.peek() == '<')

@@ -13,30 +13,33 @@ namespace mfar {
 /// The calibration of a board.
 struct RigCalibration {
     StereoRig rig;
-    double stillTimeOffset = 0;  ///< [s] time of a still + offset = time on the video's clock
+    double stillTimeOffset = 0;  ///< [s] time of a still + offset = same time on the video's clock
 };
 
-/// Picture sizes of the sensors; a calibration of another size is refused. Empty: any size.
+/// The picture sizes that the sensors deliver. A calibration for another size is refused. If a size
+/// is not set, any size is accepted.
 struct WantedSizes {
     std::optional<Size> video, still;
 };
 
-/// Reads a calibration, usually from one path; its content determines the format:
-///   - rig.yaml as saveRig() writes it, or a folder with one;
-///   - a Kalibr camchain, cam0 = video, cam1 = still;
-///   - OpenCV FileStorage (YAML): M1 D1 M2 D2 R T and their long names, camera 1 = video, in one
-///     file or in two (intrinsics, extrinsics). Where it has no size, the wanted one is taken;
-///   - EuRoC sensor.yaml: those of video and still, or the folder with cam0/ and cam1/.
-/// Throws CalibrationError ("file:line: fault"): a file is missing, the size differs, values are
-/// NaN, singular or implausible, or the lens model is not supported.
+/// Reads a calibration from one or two paths. The content of the files determines the format:
+///   - rig.yaml as saveRig() writes it, or a folder that contains one;
+///   - a Kalibr camchain; cam0 is the video camera, cam1 the still camera;
+///   - OpenCV FileStorage (YAML) with the keys M1 D1 M2 D2 R T or their long names, in one file or
+///     in two (intrinsics, extrinsics). Camera 1 is the video camera. If the file states no picture
+///     size, the wanted size is used;
+///   - two sensor.yaml of EuRoC (video, still), or the folder that contains cam0/ and cam1/.
+/// Throws CalibrationError ("file:line: fault") if a file is missing, the picture size differs from
+/// the wanted one, a value is NaN or implausible, a matrix is singular, or the lens model is not
+/// supported.
 [[nodiscard]] RigCalibration loadRig(std::span<const std::filesystem::path> paths,
                                      const WantedSizes& wanted = {});
 [[nodiscard]] RigCalibration loadRig(const std::filesystem::path& path,
                                      const WantedSizes& wanted = {});
 
-/// Writes video.yaml and still.yaml (ROS camera_info) and rig.yaml, which names both and holds the
-/// transform between the sensors; each file completely or not at all. Creates a missing folder.
-/// Throws std::runtime_error.
+/// Writes video.yaml and still.yaml (ROS camera_info) and rig.yaml. rig.yaml names the other two
+/// and contains the transform between the sensors. Each file is written completely or not at all. A
+/// missing folder is created. Throws std::runtime_error.
 void saveRig(const std::filesystem::path& folder, const RigCalibration& calibration);
 
 }  // namespace mfar

@@ -3,13 +3,13 @@
 #include "base/calibration/rig_files.h"
 #include "base/calibration/yaml_reader.h"
 
-/// Readers of the formats that loadRig() distinguishes. All throw CalibrationError.
+/// Functions that read the file formats of loadRig(). All throw CalibrationError.
 namespace mfar::rig_formats {
 
 [[nodiscard]] RigCalibration kalibr(const YamlReader& in, const WantedSizes& wanted);
 
 [[nodiscard]] bool isOpenCv(const YamlReader& in);
-/// `extrinsics` may be the same file.
+/// `intrinsics` and `extrinsics` may be the same file.
 [[nodiscard]] RigCalibration openCv(const YamlReader& intrinsics, const YamlReader& extrinsics,
                                     const WantedSizes& wanted);
 

@@ -10,19 +10,19 @@
 
 namespace mfar {
 
-/// Content of one EuRoC sensor.yaml of a camera.
+/// Content of a camera's sensor.yaml in EuRoC's format.
 struct SensorYaml {
     CameraModel camera;
     RigidTransform T_body_sensor;  ///< T_BS: sensor coordinates -> body coordinates
-    double rateHz = 0;             ///< 0: on trigger only
+    double rateHz = 0;             ///< frame rate; 0: the sensor takes pictures on trigger only
 };
 
-/// Reads and validates: pinhole model, finite and plausible numbers, T_BS a rotation and a
-/// translation, `wanted` size if given. Throws CalibrationError.
+/// Reads a sensor.yaml. Throws CalibrationError if the model is not a pinhole camera, a number is
+/// not finite or not plausible, T_BS is not a rigid transform, or the size differs from `wanted`.
 [[nodiscard]] SensorYaml readSensorYaml(const std::filesystem::path& file,
                                         std::optional<Size> wanted = {});
 
-/// The text of a sensor.yaml from which readSensorYaml() gets the same numbers to the last bit,
+/// Returns the text of a sensor.yaml. readSensorYaml() reads exactly the same numbers from it,
 /// except for rounding of the rotation.
 [[nodiscard]] std::string sensorYamlText(const SensorYaml& sensor, std::string_view comment);
 

@@ -6,9 +6,9 @@
 
 namespace mfar {
 
-/// Parses a YAML text. Throws YAML::Exception for errors that the library finds and for aliases,
-/// nesting deeper than 16 or more than 100000 values, which no file of this project has. All limits
-/// are checked before the tree is built.
+/// Parses a YAML text. Throws YAML::Exception if the text is not valid, has aliases, is nested
+/// deeper than 16 levels or has more than 50000 values. No calibration file reaches these limits.
+/// They are checked before the tree is built.
 [[nodiscard]] YAML::Node boundedYaml(const std::string& text);
 
 }  // namespace mfar

@@ -12,23 +12,24 @@
 
 namespace mfar {
 
-/// Reads values of one YAML file; every failure is a CalibrationError with the line of the value.
-/// Also reads YAML that OpenCV's FileStorage wrote.
+/// Reads values of one YAML file, also of one that OpenCV's FileStorage wrote. Every failure throws
+/// a CalibrationError with the line of the value.
 class YamlReader {
 public:
     [[nodiscard]] const YAML::Node& root() const { return root_; }
     [[nodiscard]] const std::filesystem::path& file() const { return file_; }
     [[nodiscard]] bool has(const char* key) const { return root_[key].IsDefined(); }
-    /// A required value.
+    /// Returns the value of a key. Throws if the key is missing.
     [[nodiscard]] YAML::Node at(const char* key) const { return at(root_, key); }
     [[nodiscard]] YAML::Node at(const YAML::Node& map, const char* key) const;
-    /// Finite numbers; `what` names the value in messages.
+    /// Reads finite numbers; throws for NaN and infinity. `what` names the value in messages.
     [[nodiscard]] double number(const YAML::Node& node, const char* what) const;
     [[nodiscard]] std::vector<double> numbers(const YAML::Node& node, const char* what) const;
     [[nodiscard]] std::string word(const YAML::Node& node, const char* what) const;
-    /// The `data` of a matrix that is written as a map, or the node itself.
+    /// Returns the entry `data` of a matrix that is written as a map, otherwise `node` itself.
     [[nodiscard]] YAML::Node data(const YAML::Node& node, const char* what) const;
-    /// A list of rows, one flat list row by row, or a map with either as its `data`.
+    /// Reads a matrix that is written as a list of rows, as one flat list in row-major order, or as
+    /// a map whose entry `data` is such a list.
     [[nodiscard]] Eigen::MatrixXd matrix(const YAML::Node& node, int rows, int columns,
                                          const char* what) const;
     [[noreturn]] void fail(const YAML::Node& node, const std::string& what) const;
@@ -44,8 +45,8 @@ private:
     YAML::Node root_;
 };
 
-/// Opens a file and calls `read` with its reader. Throws CalibrationError, also for errors that the
-/// YAML library finds.
+/// Opens a file and calls `read` with a reader for it. Throws CalibrationError, also in place of
+/// the YAML library's own exceptions.
 void readYaml(const std::filesystem::path& file,
               const std::function<void(const YamlReader&)>& read);
 

@@ -9,8 +9,8 @@
 
 namespace mfar::gpu {
 
-/// A GL buffer object of fixed size in bytes: shader storage, draw commands, vertex data.
-/// Move-only. Needs a current context for its whole life.
+/// A GL buffer object of fixed size in bytes, for shader storage, draw commands or vertex data.
+/// Move-only. Its GL context must be current whenever the object is used or destroyed.
 class Buffer {
 public:
     Buffer() = default;
@@ -30,8 +30,8 @@ public:
         static_assert(std::is_trivially_copyable_v<T>);
         writeBytes(values.data(), values.size_bytes(), offsetBytes);
     }
-    /// Waits for the GPU: do not use in the frame path unless the pass that writes the buffer
-    /// finished a frame ago.
+    /// Waits until the GPU has written the buffer. Do not call this in the frame path, unless the
+    /// pass that writes the buffer ran at least one frame earlier.
     template <class T>
     [[nodiscard]] std::vector<T> read(std::size_t count, std::size_t offsetBytes = 0) const {
         static_assert(std::is_trivially_copyable_v<T>);

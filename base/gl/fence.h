@@ -7,10 +7,11 @@
 
 namespace mfar::gpu {
 
-/// A working GPU never needs this long: the kernel resets it earlier.
+/// A wait that takes longer means that the GPU hangs: the kernel resets a busy GPU before this
+/// time.
 inline constexpr std::chrono::milliseconds kLongestGpuWait{500};
 
-/// A point in the stream of GL commands. Move-only.
+/// Marks a point in the stream of GL commands. Move-only.
 class Fence {
 public:
     Fence() : sync_(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0)) {}
@@ -25,8 +26,8 @@ public:
         if (sync_ != nullptr) glDeleteSync(sync_);
     }
 
-    /// True when the GPU has passed the fence. Waits at most `limit`. Always false once the context
-    /// is lost.
+    /// Waits at most `limit` and returns whether the GPU has executed all commands before the
+    /// fence. Returns false if the context is lost.
     [[nodiscard]] bool passed(std::chrono::nanoseconds limit = std::chrono::nanoseconds{0}) const {
         const GLenum status = glClientWaitSync(sync_, GL_SYNC_FLUSH_COMMANDS_BIT,
                                                static_cast<GLuint64>(limit.count()));
@@ -37,7 +38,8 @@ private:
     GLsync sync_;
 };
 
-/// As glFinish(), but bounded: false when the GPU hangs or the context is lost.
+/// Waits like glFinish(), but at most `limit`. Returns false if the GPU did not finish in that time
+/// or if the context is lost.
 [[nodiscard]] inline bool finishWithin(std::chrono::nanoseconds limit = kLongestGpuWait) {
     return Fence().passed(limit);
 }

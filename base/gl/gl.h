@@ -9,7 +9,7 @@
 
 namespace mfar::gpu {
 
-/// A GL call failed or a shader did not compile or link.
+/// Reports that a GL call failed or that a shader did not compile or link.
 class GlError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -17,22 +17,23 @@ class GlError : public std::runtime_error {
 /// GL_CONTEXT_LOST of OpenGL ES 3.2 and GL_KHR_robustness.
 inline constexpr GLenum kContextLost = 0x0507;
 
-/// The first error that the context has recorded since the last call, or GL_NO_ERROR. A lost
-/// context may report kContextLost on every call.
+/// Returns the first error that the context has recorded since the last call, or GL_NO_ERROR. If
+/// the context is lost, every call may return kContextLost.
 [[nodiscard]] inline GLenum takeError() {
     const GLenum first = glGetError();
     for (GLenum next = first; next != GL_NO_ERROR && next != kContextLost;)
         next = glGetError();
     return first;
 }
-/// As hexadecimal text: "0x0502".
+/// Formats an error as a hexadecimal number, such as "0x0502".
 [[nodiscard]] inline std::string errorCode(GLenum error) {
     std::array<char, 16> code{};
     std::snprintf(code.data(), code.size(), "0x%04x", error);
     return code.data();
 }
 
-/// Throws GlError naming `where` when the context has recorded an error. Not for the frame path.
+/// Throws GlError if the context has recorded an error; `where` names the place in the message. Too
+/// slow for the frame path.
 void checkErrors(const char* where);
 
 }  // namespace mfar::gpu

@@ -67,7 +67,7 @@ void finishLink(GLuint program, const std::string& name, std::size_t paramsBytes
         throw GlError("shader " + name + " has no active uniform block Params");
     GLint bytes = 0;
     glGetActiveUniformBlockiv(program, block, GL_UNIFORM_BLOCK_DATA_SIZE, &bytes);
-    // Drivers report the size with or without the trailing padding of the last vec4.
+    // Some drivers include the padding after the block's last member in its size, others do not.
     if ((static_cast<std::size_t>(bytes) + 15) / 16 * 16 != paramsBytes)
         throw GlError("shader " + name + ": block Params has " + std::to_string(bytes) +
                       " bytes, the program expects " + std::to_string(paramsBytes));

@@ -40,18 +40,18 @@ class Program;
 class ProgramCache;
 class Validation;
 namespace detail {
-/// The cache that this thread uses; null: its programs are not shared.
+/// The cache that this thread uses; null: the thread does not share programs.
 inline constinit thread_local ProgramCache* programs = nullptr;
-/// The Validation that this thread uses; null: none.
+/// The Validation that this thread uses; null: the thread's passes are not validated.
 inline constinit thread_local Validation* validation = nullptr;
 void validate(const Program& program, Bindings bindings, const Framebuffer* target);
-/// Called after each pass.
+/// Validates the outputs of a pass if this thread has a Validation. Called after each pass.
 inline void ran(const Program& program, Bindings bindings, const Framebuffer* target = nullptr) {
     if (validation != nullptr) validate(program, bindings, target);
 }
 }  // namespace detail
 
-/// Workgroup counts of a dispatch.
+/// The numbers of workgroups of a dispatch.
 struct Groups {
     GLuint x = 1, y = 1, z = 1;
 };
@@ -59,14 +59,15 @@ struct Groups {
     return static_cast<GLuint>((items + perGroup - 1) / perGroup);
 }
 
-/// The text placed in front of every shader: version, `defines`, highp as default precision.
+/// Returns the text that precedes every shader: the version, `defines`, and highp as the default
+/// precision.
 [[nodiscard]] std::string shaderPreamble(std::string_view defines);
 
 class LinkedProgram;
 
-/// Programs that several passes share. While a Use exists, passes of its thread with the same
-/// shader text share one program, which is compiled once. Belongs to one context, which must be
-/// current at destruction.
+/// Compiled programs that several passes share. While a Use object exists, passes that its thread
+/// creates with the same shader text share one program, which is compiled once. A cache belongs to
+/// one GL context, which must be current when the cache is destroyed.
 class ProgramCache {
 public:
     ProgramCache() = default;
@@ -87,19 +88,19 @@ private:
     std::map<std::string, std::shared_ptr<const LinkedProgram>> linked_;
 };
 
-/// A linked program and the uniform block `Params` (binding 0) that it declares. Untyped base of
-/// ComputePass and DrawPass. Throws GlError with the shader's name and the compiler's message.
+/// A linked program with its uniform block `Params` (binding 0). ComputePass and DrawPass are typed
+/// wrappers of it. Throws GlError with the shader's name and the compiler's message.
 class Program {
 public:
-    /// `defines`: lines placed below #version, e.g. "#define TWO_WAY 1\n".
+    /// `defines`: lines that are inserted after #version, e.g. "#define TWO_WAY 1\n".
     Program(std::string_view computeShader, std::string_view defines, std::size_t paramsBytes);
     Program(std::string_view vertexShader, std::string_view fragmentShader,
             std::string_view defines, std::size_t paramsBytes);
 
-    /// Activates the program with its parameters and bindings.
+    /// Makes the program current, uploads its parameters and binds its resources.
     void use(const void* params, std::size_t bytes, Bindings bindings);
     [[nodiscard]] GLuint id() const;
-    /// File name of the compute or fragment shader.
+    /// Returns the file name of the compute or fragment shader.
     [[nodiscard]] const std::string& name() const { return name_; }
 
 private:
@@ -112,15 +113,15 @@ private:
     Buffer params_;
 };
 
-/// The tiles of an instanced draw, written by a compute pass.
+/// The list of tiles that an instanced draw covers. A compute pass writes the list.
 struct InstanceList {
     const Buffer& commands;  ///< contains one DrawArraysIndirect command at `commandOffset`
     std::size_t commandOffset;
-    const Buffer& instances;  ///< one uint per instance, attribute location 0
+    const Buffer& instances;  ///< one uint per instance, read as vertex attribute 0
     std::size_t instanceOffset = 0;
 };
 
-/// Indexed triangles.
+/// A mesh of indexed triangles.
 struct Mesh {
     const Buffer& vertices;  ///< MeshVertex, attribute locations 0 (position), 1 (normal), 2 (uv)
     const Buffer& indices;   ///< three uints per triangle
@@ -136,9 +137,9 @@ void drawFullScreen();
 void drawTiles(const InstanceList& tiles);
 }  // namespace detail
 
-/// A compute shader with its parameter block. `P` mirrors the std140 block `Params`; the
-/// constructor checks its size against the program. run() issues the barriers that readers of its
-/// outputs need.
+/// A compute shader with its parameter block. `P` has the layout of the shader's std140 block
+/// `Params`; the constructor checks that both have the same size. run() and runIndirect() issue the
+/// memory barriers that later readers of the outputs need.
 template <class P>
 class ComputePass {
     static_assert(std::is_trivially_copyable_v<P> && sizeof(P) % 16 == 0, "std140 block");
@@ -153,7 +154,7 @@ public:
         glMemoryBarrier(kBarriers);
         detail::ran(program_, bindings);
     }
-    /// The group counts are three uints in `commands` at `offset` [bytes].
+    /// Reads the numbers of workgroups from `commands`: three uints at `offset` [bytes].
     void runIndirect(const P& params, Bindings bindings, const Buffer& commands,
                      std::size_t offset) {
         program_.use(&params, sizeof(P), bindings);
@@ -177,7 +178,7 @@ class DrawPass {
     static_assert(std::is_trivially_copyable_v<P> && sizeof(P) % 16 == 0, "std140 block");
 
 public:
-    /// `fragment` runs on a full-screen triangle.
+    /// The fragment shader is combined with the vertex shader of a full-screen triangle.
     explicit DrawPass(std::string_view fragment, std::string_view defines = {})
         : DrawPass("fullscreen.vert", fragment, defines) {}
     DrawPass(std::string_view vertex, std::string_view fragment, std::string_view defines)
@@ -189,7 +190,7 @@ public:
         detail::drawFullScreen();
         detail::ran(program_, bindings, &target);
     }
-    /// Draws one quad per instance of the list; the vertex shader places it.
+    /// Draws one quad for each tile of the list. The vertex shader computes its position.
     void runTiles(const P& params, Bindings bindings, const Framebuffer& target,
                   const InstanceList& tiles) {
         target.bind();
@@ -197,7 +198,7 @@ public:
         detail::drawTiles(tiles);
         detail::ran(program_, bindings, &target);
     }
-    /// Draws triangles; the vertex shader places them.
+    /// Draws the triangles of a mesh. The vertex shader computes their positions.
     void runMesh(const P& params, Bindings bindings, const Framebuffer& target, const Mesh& mesh) {
         target.bind();
         program_.use(&params, sizeof(P), bindings);

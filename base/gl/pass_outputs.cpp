@@ -9,7 +9,7 @@ namespace {
 
 struct ValueType {
     bool isFloat;
-    int components;  // 0: the type is not checked
+    int components;  // 0: values of this type are not checked
 };
 
 ValueType valueTypeOf(GLint type) {
@@ -40,7 +40,8 @@ std::array<GLint, N> propertiesOf(GLuint program, GLenum interface, GLuint index
     return out;
 }
 
-/// The variable's name without block name, array index and other additions of the driver.
+/// Returns a variable's name without the block name, the array index and other parts that drivers
+/// add.
 std::string nameOf(GLuint program, GLenum interface, GLuint index) {
     std::array<char, 128> raw{};
     glGetProgramResourceName(program, interface, index, raw.size(), nullptr, raw.data());

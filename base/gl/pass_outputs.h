@@ -9,7 +9,7 @@
 
 namespace mfar::gpu {
 
-/// Allowed range of a value, bounds included.
+/// The allowed range of a value, bounds included.
 struct ValueRange {
     double low, high;
 };
@@ -18,24 +18,24 @@ struct ValueRange {
 struct PassOutput {
     enum class Kind { Storage, Image, Colour };
     Kind kind;
-    std::string name;  ///< as in the shader's text
-    GLuint index;      ///< storage block's binding, image unit or colour attachment
-    /// One range per component, read from the line in the shader's header
-    /// "// Range: name low..high, low..high"; the last holds for all further components. Empty: any
-    /// finite value.
+    std::string name;  ///< the variable's name in the shader
+    GLuint index;      ///< binding of the storage block, image unit, or colour attachment
+    /// One range per component. They come from the line "// Range: name low..high, low..high" in
+    /// the shader's header. The last range applies to all further components. If the list is empty,
+    /// any finite value is allowed.
     std::vector<ValueRange> ranges;
-    // Position in the storage block.
+    // Type and position of the variable in its storage block.
     bool isFloat = true;
     int components = 4;
     std::size_t offset = 0, stride = 0;  ///< [bytes]
-    std::size_t count = 0;               ///< elements; 0: to the end of the buffer
+    std::size_t count = 0;               ///< elements; 0: as many as the buffer holds
 };
 
-/// The outputs of a linked program with this compute or fragment shader text. Storage blocks that
-/// the text declares readonly are excluded.
+/// Returns the outputs of a linked program; `text` is the source of its compute or fragment shader.
+/// Storage blocks that the shader declares readonly are excluded.
 [[nodiscard]] std::vector<PassOutput> outputsOf(GLuint program, std::string_view text);
 
-/// The ranges that the shader's text states for the variable.
+/// Returns the ranges that the shader's source states for the variable `name`.
 [[nodiscard]] std::vector<ValueRange> statedRanges(std::string_view text, std::string_view name);
 
 }  // namespace mfar::gpu

@@ -5,7 +5,7 @@
 
 namespace mfar::gpu {
 
-/// Enables a capability of the context while the object exists.
+/// Enables a capability of the GL context while the object exists.
 template <GLenum Capability>
 class Enabled {
 public:
@@ -15,7 +15,8 @@ public:
     ~Enabled() { glDisable(Capability); }
 };
 
-/// Limits draws and clears to these pixels of the target. The rectangle must not be empty.
+/// Restricts draws and clears to a rectangle of the target, which must not be empty, while the
+/// object exists.
 class Scissor {
 public:
     explicit Scissor(const PixelRect& r) { glScissor(r.x0, r.y0, r.x1 - r.x0, r.y1 - r.y0); }
@@ -24,7 +25,7 @@ private:
     Enabled<GL_SCISSOR_TEST> test_;
 };
 
-/// Keeps the nearest surface, by window depth.
+/// Enables the depth test, which keeps the surface with the smallest window depth.
 class DepthTest {
 public:
     DepthTest() { glDepthFunc(GL_LESS); }
@@ -33,7 +34,7 @@ private:
     Enabled<GL_DEPTH_TEST> test_;
 };
 
-/// Every fragment drawn writes its depth, without a test.
+/// Lets every fragment pass the depth test and write its depth.
 class DepthWritten {
 public:
     DepthWritten() { glDepthFunc(GL_ALWAYS); }
@@ -42,8 +43,8 @@ private:
     Enabled<GL_DEPTH_TEST> test_;
 };
 
-/// Triangles whose corners run counter-clockwise in a picture with row 0 on top are not drawn: a
-/// solid's faces seen from the inside.
+/// Skips triangles whose corners run counter-clockwise in a picture with row 0 on top. These are
+/// the faces of a solid that are seen from the inside.
 class InsidesCulled {
 public:
     InsidesCulled() {

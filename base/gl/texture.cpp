@@ -26,7 +26,7 @@ Texture::Texture(Size size, TexelFormat format, Filter filter, int levels)
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, mag);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    // Sample as grey, so that one shader serves grey and colour pictures.
+    // R8 textures are sampled as grey, so that one shader serves grey and colour pictures.
     if (format == TexelFormat::R8) {
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_G, GL_RED);
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_B, GL_RED);

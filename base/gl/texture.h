@@ -9,8 +9,8 @@
 
 namespace mfar::gpu {
 
-/// Storage formats in use, each allowed as an image or a texture by the portable floor. Drawing
-/// into a float format needs EXT_color_buffer_float or OpenGL ES 3.2, or Framebuffer throws.
+/// The storage formats in use. OpenGL ES 3.1 allows each of them as a texture. Drawing into a float
+/// format needs EXT_color_buffer_float or OpenGL ES 3.2; without them, Framebuffer throws.
 enum class TexelFormat : GLenum {
     R8 = GL_R8,
     Rg8 = GL_RG8,
@@ -30,8 +30,9 @@ enum class TexelFormat : GLenum {
 
 enum class Filter { Nearest, Linear };
 
-/// An immutable 2-D texture, R8 samples as grey. Move-only. Needs a current context for its whole
-/// life. Throws GlError when the driver refuses the size or format.
+/// A 2-D texture of fixed size and format. R8 textures are sampled as grey. Move-only. Its GL
+/// context must be current whenever the object is used or destroyed. Throws GlError if the driver
+/// refuses the size or format.
 class Texture {
 public:
     Texture() = default;
@@ -46,19 +47,21 @@ public:
     [[nodiscard]] Size size() const { return size_; }
     [[nodiscard]] TexelFormat format() const { return format_; }
 
-    /// Replaces level 0 of an R8, Rg8 or Rgba8 texture; `rows` has the texture's size. Slow where
-    /// the stride is not a multiple of the texel's size. Asserts the format.
+    /// Replaces level 0 of an R8, Rg8 or Rgba8 texture (asserted). `rows` has the texture's size.
+    /// The upload is slow if the stride is not a multiple of the texel's size.
     void upload(const PlaneView& rows);
-    /// Replaces rows of level 0 of an R32F, Rg32F or Rgba32F texture, beginning at `firstRow`: one,
-    /// two or four floats a texel, rows without padding. Asserts the format and whole rows.
+    /// Replaces rows of level 0 of an R32F, Rg32F or Rgba32F texture (asserted), beginning at
+    /// `firstRow`. `values` has one, two or four floats per texel, rows without padding, and whole
+    /// rows only (asserted).
     void upload(std::span<const float> values, int firstRow = 0);
-    /// As above, for an Rgba8 texture.
+    /// Replaces rows of level 0 of an Rgba8 texture in the same way.
     void uploadRows(std::span<const std::array<std::uint8_t, 4>> texels, int firstRow = 0);
-    /// Replaces level 0 of an R32Ui or Rgba32Ui texture: one or four numbers a texel.
+    /// Replaces level 0 of an R32Ui or Rgba32Ui texture. `values` has one or four numbers per
+    /// texel.
     void upload(std::span<const std::uint32_t> values);
-    /// Reads level 0 back as RGBA8, row 0 first. Waits for the GPU: not for the frame path.
+    /// Reads level 0 back as RGBA8, row 0 first. Waits for the GPU; too slow for the frame path.
     [[nodiscard]] std::vector<std::uint8_t> readRgba8() const;
-    /// Reads level 0 back as four floats a texel. Waits for the GPU: not for the frame path.
+    /// Reads level 0 back, four floats per texel. Waits for the GPU; too slow for the frame path.
     [[nodiscard]] std::vector<float> readRgba32F() const;
 
 private:
@@ -79,7 +82,7 @@ public:
     Framebuffer& operator=(const Framebuffer&) = delete;
     ~Framebuffer();
 
-    /// Makes it the target of the following draws and sets the viewport to all of it.
+    /// Makes this framebuffer the target of the following draws. The viewport covers all of it.
     void bind() const;
     [[nodiscard]] GLuint id() const { return id_; }
     [[nodiscard]] Size size() const { return size_; }

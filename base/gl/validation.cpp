@@ -13,7 +13,7 @@
 namespace mfar::gpu {
 namespace {
 
-/// Binds the framebuffer to read pixels from; restores the previous binding.
+/// Binds a framebuffer for reading pixels. The destructor restores the previous binding.
 class ReadFrom {
 public:
     explicit ReadFrom(GLuint framebuffer) {
@@ -163,7 +163,7 @@ void Validation::checkImage(const std::string& pass, const PassOutput& output, G
     glDeleteFramebuffers(1, &framebuffer);
 }
 
-// Checks only pixels inside the scissor: this pass did not write the others.
+// Only pixels inside the scissor rectangle are checked, because the pass wrote no others.
 void Validation::checkColour(const std::string& pass, const PassOutput& output,
                              const Framebuffer& target) {
     std::array<GLint, 4> box{0, 0, target.size().width, target.size().height};

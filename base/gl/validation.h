@@ -14,23 +14,24 @@ class Framebuffer;
 class Program;
 struct Binding;
 
-/// A value that a pass must not write: NaN, infinite, or outside of the range that its shader
-/// states.
+/// Reports that a pass wrote a wrong value: NaN, infinity, or a value outside the range that its
+/// shader states.
 struct ValidationFault {
-    std::string pass;    ///< shader, e.g. "flow_search.comp"
-    std::string output;  ///< the shader's variable, or "guard": a write beyond the end of a buffer
-    int x = 0, y = 0;    ///< texel; in a buffer, x is the element
+    std::string pass;    ///< name of the shader, e.g. "flow_search.comp"
+    std::string output;  ///< variable in the shader; "guard": a write beyond the end of a buffer
+    int x = 0, y = 0;    ///< texel; for a buffer, x is the index of the element
     int component = 0;
     double value = 0;
-    ValueRange range{};  ///< zero where only finite values are required
-    long frame = 0;      ///< number that nextFrame() counts
+    ValueRange range{};  ///< the allowed range; {0, 0}: any finite value is allowed
+    long frame = 0;      ///< frame number, see nextFrame()
 };
 [[nodiscard]] std::string describe(const ValidationFault& fault);
 
-/// While an object exists, everything that passes of its thread write is read back and checked, and
-/// every Buffer created in that time is followed by guard bytes (NaN as floats) that must not
-/// change. Without an object, a pass tests one pointer; with one, it is ten times as slow. Needs
-/// the passes' context. One object a thread at a time; restores the GL state.
+/// While a Validation object exists, all outputs of its thread's passes are read back and checked.
+/// Every Buffer that is created in that time is followed by guard bytes (NaN as floats), which must
+/// not change. A pass is then ten times as slow; without a Validation, it only tests one pointer.
+/// The passes' GL context must be current; its state is restored. A thread has at most one such
+/// object.
 ///
 ///     gpu::Validation validation;     // before the Pipeline is made
 ///     ... frames ...
@@ -42,25 +43,25 @@ public:
     Validation& operator=(const Validation&) = delete;
     ~Validation();
 
-    /// The first bad value of each output since the last call; each output of a pass is reported
-    /// once.
+    /// Returns the faults since the last call. Only the first wrong value of each output of a pass
+    /// is ever reported.
     [[nodiscard]] std::vector<ValidationFault> takeFaults();
-    /// Increments the frame number that faults carry.
+    /// Increments the frame number that ValidationFault::frame reports.
     void nextFrame() { ++frame_; }
 
     struct Count {
         long runs = 0;
-        long values = 0;  ///< checked texels and elements of buffers
-        long pixels = 0;  ///< pixels drawn or written to images
+        long values = 0;  ///< number of checked texels and buffer elements
+        long pixels = 0;  ///< number of pixels that were drawn or written to images
     };
-    /// Keyed by the shader's name.
+    /// Returns the counts of each pass; the key is the shader's name.
     [[nodiscard]] const std::map<std::string, Count>& counts() const { return counts_; }
 
     static constexpr std::size_t kGuardBytes = 256;
 
-    // Called by Buffer and the passes.
+    // The following functions are called by Buffer and the passes.
     static Validation* active();
-    /// Registers a buffer of this size, which guard bytes follow.
+    /// Registers a buffer whose first `bytes` bytes are followed by guard bytes.
     void guard(GLuint buffer, std::size_t bytes) { guarded_[buffer] = bytes; }
     void check(const Program& program, std::initializer_list<Binding> bindings,
                const Framebuffer* target);
@@ -75,15 +76,15 @@ private:
     void checkImage(const std::string& pass, const PassOutput& output, GLuint texture);
     void checkColour(const std::string& pass, const PassOutput& output, const Framebuffer& target);
     void checkPixels(const std::string& pass, const PassOutput& output, const Area& area);
-    /// Reports the first of `count` elements that is invalid.
+    /// Checks `count` elements and reports the first invalid one.
     void checkValues(const std::string& pass, const PassOutput& output, const std::uint8_t* first,
                      std::size_t count, const Area& area);
     void report(ValidationFault fault);
 
     std::map<std::string, Count> counts_;
-    std::map<std::string, std::vector<PassOutput>> outputs_;  // key: shader
+    std::map<std::string, std::vector<PassOutput>> outputs_;  // key: name of the shader
     std::map<GLuint, std::size_t> guarded_;
-    std::map<std::string, bool> reported_;  // key: pass and output
+    std::map<std::string, bool> reported_;  // key: names of the pass and the output
     std::vector<ValidationFault> faults_;
     long frame_ = 0;
 };

@@ -9,13 +9,13 @@
 
 namespace mfar {
 
-/// No mfard listens at the socket.
+/// Reports that no mfard listens at the socket.
 class NotReachable : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
 
-/// mfard has refused the request or failed; the message is mfard's.
+/// Reports that mfard refused the request or failed. The message comes from mfard.
 class Refused : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
@@ -24,7 +24,7 @@ public:
 /// mfard's answer to a request, see answerControl().
 struct Reply {
     nlohmann::ordered_json body;
-    std::vector<std::uint8_t> data;  ///< body's "bytes" is its size
+    std::vector<std::uint8_t> data;  ///< "bytes" in `body` is its size
 };
 
 /// Sends a request to the mfard that listens at this socket and waits up to 15 s for its answer.

@@ -51,7 +51,8 @@ Target targetOf(const Arguments& a) {
                              "--square 0.025");
 }
 
-/// Redraws the map in place on a terminal; elsewhere it is printed only at the end.
+/// Searches for the target in all pictures. On a terminal, the coverage map is redrawn after each
+/// picture; otherwise it is printed once at the end.
 SensorViews look(const std::vector<RecordedImage>& pictures, Size size, const Target& target,
                  const char* name) {
     const bool terminal = isatty(STDOUT_FILENO) == 1;

@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 using View = SyntheticBoard::View;
 
-/// Includes moving tags, at their initial places.
+/// Returns the map of all tags. It includes moving tags, at their initial poses.
 TagMap mapOf(const std::vector<synthetic::Tag>& tags) {
     std::vector<MappedTag> out;
     for (const synthetic::Tag& tag : tags)
@@ -83,7 +83,8 @@ private:
         ++counts_.flows;
     }
 
-    /// The recorder never waits and refuses a picture instead; a simulation must not lose one.
+    /// Throws if the recorder has refused a picture. It refuses pictures instead of waiting for the
+    /// disk, but a simulation must not lose one.
     void checked(bool taken) const {
         if (!taken)
             throw std::runtime_error(

@@ -15,48 +15,50 @@ namespace mfar {
 
 struct LibcameraOptions {
     CameraWish camera;
-    Size size;  ///< exact size
-    /// Frames per second, requested where the camera supports it (FrameDurationLimits), otherwise
-    /// the driver's rate. 0: on trigger only; then no drops are counted.
+    Size size;  ///< the exact picture size
+    /// Frame rate [Hz]. It is requested if the camera has the control FrameDurationLimits;
+    /// otherwise the driver chooses the rate. 0: the camera takes pictures on trigger only, and
+    /// drops are not counted.
     double rateHz = 30;
-    std::optional<double> exposureUs;     ///< fixed exposure; empty: automatic
-    std::optional<double> gain;           ///< fixed gain, 1 = no gain; empty: automatic
-    std::optional<double> focusDioptres;  ///< fixed focus, 0 = infinity
-    /// Further controls by their names in libcamera, including vendors' controls; see
+    std::optional<double> exposureUs;     ///< fixed exposure; not set: automatic
+    std::optional<double> gain;           ///< fixed gain, 1 = no gain; not set: automatic
+    std::optional<double> focusDioptres;  ///< fixed focus, 0 = infinity; not set: camera's default
+    /// Further controls: libcamera's or the vendor's name of each, and its value. See
     /// parseControls().
     std::vector<std::pair<std::string, std::string>> controls;
-    bool still = false;      ///< configure for single pictures instead of video
-    bool allowCrop = false;  ///< accept a sensor mode that shows only a part of the field of view
-    unsigned buffers = 6;    ///< number requested; the driver may grant another
+    bool still = false;      ///< configure the camera for single pictures instead of video
+    bool allowCrop = false;  ///< accept pictures that show only a part of the field of view
+    unsigned buffers = 6;    ///< requested number; the driver may choose another
 };
 
 struct LibcameraCounters {
-    std::uint64_t frames = 0;   ///< delivered or ready to be delivered
+    std::uint64_t frames = 0;   ///< frames that were delivered or are ready to be delivered
     std::uint64_t dropped = 0;  ///< see FrameDrops
-    std::uint64_t broken = 0;   ///< marked as broken or with too few bytes; never delivered
-    std::uint64_t startup = 0;  ///< from before the sensor had settled; never delivered
-    /// In the future, in the distant past, or not after the previous frame.
+    std::uint64_t broken = 0;   ///< frames marked as broken or with too few bytes; not delivered
+    std::uint64_t startup = 0;  ///< frames taken before the sensor had settled; not delivered
+    /// Frames whose timestamp is in the future, too old, or not later than the previous frame's.
     std::uint64_t badTimes = 0;
-    std::uint64_t untimed = 0;    ///< without a timestamp; their arrival time is used
-    std::uint64_t restarted = 0;  ///< restarts after the stream had given up waiting for its sensor
-    SensorClock::Kind clock = SensorClock::Kind::Monotonic;  ///< the clock that the driver has used
+    std::uint64_t untimed = 0;    ///< frames without a timestamp; their arrival time is used
+    std::uint64_t restarted = 0;  ///< restarts after the driver cancelled all requests
+    SensorClock::Kind clock = SensorClock::Kind::Monotonic;  ///< the clock of the timestamps
 };
 
-/// A camera of libcamera 0.0.3 to 0.7. Several cameras share one libcamera in the process. Picture
-/// formats in order of preference, fewest bytes per pixel first: NV12, YUV420, YUYV, XRGB8888,
-/// XBGR8888. MJPEG needs the V4L2 camera.
+/// A camera that is driven through libcamera (0.0.3 to 0.7). All cameras of the process share one
+/// libcamera manager. The picture formats are, in order of preference: NV12, YUV420, YUYV,
+/// XRGB8888, XBGR8888; the first have the fewest bytes per pixel. For MJPEG, use CameraV4l2.
 ///
-/// Chooses the sensor's smallest mode that shows its whole field of view, is not below the size and
-/// reaches the rate, if libcamera supports the choice (since 0.2). A picture that shows only a part
-/// of the field makes the constructor throw, or next() if only the frames report it.
+/// Since libcamera 0.2, the sensor's mode can be chosen. The camera then uses the smallest mode
+/// that shows the whole field of view, is at least as large as the picture and reaches the frame
+/// rate. If pictures show only a part of the field of view, the constructor throws; next() throws
+/// if only the frames report this.
 ///
-/// A frame's time is libcamera's SensorTimestamp (documented as the start of the first row's
-/// exposure) + half the exposure where the camera reports it. A driver that takes the timestamp
-/// elsewhere causes a constant offset, which calibration finds. Frames with an implausible time are
-/// never delivered. Frames may outlive the camera.
+/// The time of a frame is libcamera's SensorTimestamp (documented as the start of the first row's
+/// exposure) plus half the exposure, if the camera reports the exposure. If a driver takes the
+/// timestamp at another moment, the result is a constant offset, which calibration finds. Frames
+/// with an implausible time are not delivered. Frames may outlive the camera.
 class LibcameraCamera final : public Camera {
 public:
-    /// Throws std::runtime_error; the message lists the available cameras or formats.
+    /// Throws std::runtime_error whose message lists the available cameras or formats.
     explicit LibcameraCamera(const LibcameraOptions& options);
     LibcameraCamera(const LibcameraCamera&) = delete;
     LibcameraCamera& operator=(const LibcameraCamera&) = delete;
@@ -68,7 +70,7 @@ public:
     void stop() override;
     [[nodiscard]] bool ended() const override { return false; }
 
-    /// Callable from any thread.
+    /// Returns the counters. Thread-safe.
     [[nodiscard]] LibcameraCounters counters() const;
     [[nodiscard]] CameraCounters cameraCounters() const override;
 
@@ -77,7 +79,7 @@ private:
     std::shared_ptr<Stream> stream_;
 };
 
-/// The cameras that libcamera currently finds. Throws std::runtime_error.
+/// Returns the cameras that libcamera currently finds. Throws std::runtime_error.
 [[nodiscard]] std::vector<ListedCamera> listLibcameras();
 
 }  // namespace mfar

@@ -6,29 +6,30 @@
 
 namespace mfar {
 
-/// A camera's names, as a library reports them.
+/// A camera as the camera library lists it.
 struct ListedCamera {
-    std::string id;           ///< unique, stable over restarts
-    std::string model;        ///< not unique
+    std::string id;           ///< unique and the same after a restart
+    std::string model;        ///< several cameras may have the same
     std::string location;     ///< "front", "back", "external" or empty
-    std::int64_t pixels = 0;  ///< number of pixels of its largest picture
+    std::int64_t pixels = 0;  ///< number of pixels of the camera's largest picture
 };
 
-/// Selects one of several cameras.
+/// The user's choice of one among several cameras.
 struct CameraWish {
-    std::string name{};    ///< id, else location, else model; empty: any camera
-    std::string except{};  ///< never choose the camera of this name
-    /// If `name` is empty: choose the largest pictures instead of the smallest.
+    std::string name{};    ///< an id, a location or a model; empty: any camera
+    std::string except{};  ///< the name of a camera that must not be chosen
+    /// If `name` is empty: choose the camera with the largest instead of the smallest pictures.
     bool largest = false;
 };
 
-/// One line for messages: "'ID' (model M, location L)" of each camera, separated by commas.
+/// Returns a list for messages: "'ID' (model M, location L)" for each camera, separated by commas.
 [[nodiscard]] std::string describe(const std::vector<ListedCamera>& cameras);
 
-/// Index of the chosen camera. An empty name orders the cameras by picture size, then id; `largest`
-/// takes the last, otherwise the first is taken, so that of two cameras each choice gets another
-/// one. Throws std::runtime_error that lists the cameras when no camera or several have the name,
-/// or when no camera is left: `except` is the only one, or `largest` would take the only camera.
+/// Returns the index of the chosen camera. If the name is empty, the cameras are ordered by picture
+/// size, then by id; `largest` chooses the last camera, otherwise the first is chosen. So the video
+/// and the still camera of a board are different cameras. Throws std::runtime_error that lists the
+/// cameras if none or several have the name, if `except` is the only camera, or if `largest` is set
+/// and there is only one camera.
 [[nodiscard]] std::size_t chooseCamera(const std::vector<ListedCamera>& cameras,
                                        const CameraWish& wish);
 

@@ -21,15 +21,16 @@ namespace {
 using std::chrono::nanoseconds;
 using std::chrono::steady_clock;
 
-// Plausible timestamps: at most kAhead in the future (its clock was read on another core) and at
-// most kOldest in the past (nobody called next()).
+// A timestamp is plausible if it is at most kAhead in the future and at most kOldest in the past.
+// It may be in the future because clocks of CPU cores differ, and old because next() was not
+// called.
 constexpr nanoseconds kAhead = std::chrono::milliseconds(50), kOldest = std::chrono::seconds(10);
 constexpr std::chrono::milliseconds kTroublePause{5};
 
-/// With fewer buffers, a driver may have no free buffer while pictures are lent.
+/// With fewer buffers, the driver may have no free buffer while pictures are in use.
 constexpr int kEnoughBuffers = 4;
 
-/// A filled buffer, returned when its last holder releases it.
+/// Holds a filled buffer and returns it to the stream at destruction.
 class Loan {
 public:
     Loan(std::shared_ptr<V4l2Stream> stream, int index)
@@ -94,7 +95,7 @@ void CameraV4l2::start() {
 void CameraV4l2::stop() {
     running_ = false;
     constexpr std::uint64_t kOne = 1;
-    // Before the stream ends: a thread that wakes must find the stop request.
+    // wake_ is written before the stream stops: a thread that the stop wakes must find the request.
     static_cast<void>(!write(wake_.get(), &kOne, sizeof kOne));
     stream_->stop();
 }
@@ -110,12 +111,12 @@ std::optional<Frame> CameraV4l2::next(std::chrono::milliseconds timeout) {
         const auto filled = stream_->take();
         if (filled) {
             if (auto frame = frameOf(*filled)) return frame;
-            // All waiting buffers are tried, but a driver may deliver broken pictures as fast as
-            // they are taken: stop at the timeout.
+            // Try each waiting buffer once. After that, the timeout ends the loop, because a driver
+            // may deliver broken pictures as fast as they are read.
             if (++broken >= stream_->buffers() && steady_clock::now() >= until) return std::nullopt;
         } else if (waited == Wait::Trouble) {
-            // A lost device would have made take() throw. POLLERR is also set while all buffers
-            // have been lent since the start.
+            // The device is not lost, or take() would have thrown. Drivers also set POLLERR if no
+            // buffer was queued since the start, because all pictures are in use.
             if (steady_clock::now() >= until) return std::nullopt;
             std::this_thread::sleep_for(kTroublePause);
         }
@@ -124,15 +125,15 @@ std::optional<Frame> CameraV4l2::next(std::chrono::milliseconds timeout) {
 }
 
 CameraV4l2::Wait CameraV4l2::wait(steady_clock::time_point until) const {
-    // The device comes first: after stop() it reports an error, but then wake_ already ends the
-    // wait.
+    // After stop(), the device reports an error. wake_ is readable by then, and it is checked
+    // first.
     std::array<pollfd, 3> fds{pollfd{stream_->device().fd(), POLLIN, 0},
                               pollfd{wake_.get(), POLLIN, 0},
                               pollfd{stream_->givenBack(), POLLIN, 0}};
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - steady_clock::now());
     const int ready =
         poll(fds.data(), fds.size(), static_cast<int>(std::max<std::int64_t>(left.count(), 0)));
-    // take() finds out whether there is a picture.
+    // After an interrupted poll(), take() checks whether there is a picture.
     if (ready < 0 && errno == EINTR) return Wait::Picture;
     if (ready <= 0 || fds[1].revents != 0) return Wait::Nothing;
     if (fds[0].revents == 0) return Wait::Buffer;
@@ -143,7 +144,7 @@ std::optional<Frame> CameraV4l2::frameOf(const V4l2Filled& filled) {
     const auto loan = std::make_shared<Loan>(stream_, filled.index);
     const bool whole = isWhole(filled);
     const auto time = timeOf(filled);
-    // A triggered camera has no rate from which times could show drops.
+    // A triggered camera has no frame rate, so its times cannot show drops.
     if (whole && time && options_.wish.rateHz > 0)
         drops_.add(*time, filled.sequence);
     else
@@ -165,7 +166,7 @@ std::optional<Frame> CameraV4l2::frameOf(const V4l2Filled& filled) {
         else
             out.emplace(view, *time, [loan] {});
     }
-    if (!out && copies_) {  // all buffers for copies are lent
+    if (!out && copies_) {  // all buffers for copies are in use
         drops_.lose();
         return refuse(nullptr);
     }
@@ -188,7 +189,7 @@ bool CameraV4l2::isWhole(const V4l2Filled& filled) const {
     if ((filled.flags & V4L2_BUF_FLAG_ERROR) != 0) return false;
     for (int p = 0; p < layout_.memoryPlanes; ++p) {
         const auto i = static_cast<std::size_t>(p);
-        // V4L2's bytesused includes the data offset.
+        // `bytes` is V4L2's bytesused, which includes the data offset.
         const std::size_t room = stream_->memoryBytes(filled.index, p);
         if (filled.bytes[i] > room || filled.offset[i] >= filled.bytes[i] ||
             filled.bytes[i] - filled.offset[i] < layout_.bytes[i])
@@ -212,7 +213,8 @@ std::optional<Timestamp> CameraV4l2::timeOf(const V4l2Filled& filled) {
     return out;
 }
 
-// V4L2 uses units of 100 us, and two names for the exposure and its automatic mode.
+// V4L2's unit of exposure is 100 us. Drivers use one of two names for the exposure and one of two
+// for the automatic mode.
 nanoseconds CameraV4l2::manualExposure() const {
     constexpr std::int64_t kMost = 100'000;
     for (const char* automatic : {"auto_exposure", "exposure_auto"})

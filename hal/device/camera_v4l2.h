@@ -19,35 +19,39 @@
 namespace mfar {
 
 struct CameraV4l2Options {
-    CameraWish device;  ///< by path ("/dev/video0"), card name or bus
-    V4l2Wish wish;      ///< exactly this size; format and rate if given
-    /// Number of driver buffers, 2 to 32; one more than the pictures held at a time.
+    CameraWish device;  ///< path ("/dev/video0"), card name or bus
+    V4l2Wish wish;      ///< the exact picture size; format and frame rate if wanted
+    /// Number of driver buffers, 2 to 32. At least one more than the pictures in use at a time.
     int buffers = 6;
-    /// Added to the driver's timestamps, e.g. minus the sensor's readout time where the driver
-    /// stamps the end of the frame.
+    /// This is added to the driver's timestamps. Example: if the driver stamps the end of a frame,
+    /// use minus the sensor's readout time.
     std::chrono::nanoseconds timeOffset{0};
-    /// Name and value, set in this order before streaming, see V4l2Controls::set().
+    /// Names and values of controls. They are set in this order before streaming, see
+    /// V4l2Controls::set().
     std::vector<std::pair<std::string, std::string>> controls{};
 };
 
-/// A camera driven through V4L2 directly: USB cameras, vivid, and boards without libcamera support.
+/// A camera that is driven through V4L2 directly: a USB camera, vivid, or the camera of a board
+/// that libcamera does not support.
 ///
 ///     CameraV4l2 camera({.device = {"/dev/video0"}, .wish = {{640, 480}, 30}});
 ///     camera.start();
 ///     while (auto frame = camera.next(500ms)) ...
 ///
-/// Pictures are lent from the driver's buffers without a copy and may outlive the camera.
-/// Exceptions: JPEG is decoded into separate buffers, and with fewer than four driver buffers each
-/// picture is copied. A returned buffer goes back to the driver with the next call of next().
-/// Frame::time() is the driver's timestamp, moved by half the exposure if known (a manual
-/// exposure_time_absolute): later if the driver stamps the start of the exposure, earlier if it
-/// stamps the end of the frame; plus timeOffset. Buffers that the driver marks as broken, that are
-/// not full, or that have an implausible timestamp are counted and never delivered.
+/// Frames use the driver's buffers without a copy and may outlive the camera. There are two
+/// exceptions: JPEG is decoded into separate buffers, and pictures are copied if the driver grants
+/// fewer buffers than requested and fewer than four. The next call of next() gives returned buffers
+/// back to the driver.
 ///
-/// The constructor throws std::runtime_error with one sentence (camera not found, busy, size not
-/// offered and the offered ones, a control refused); next() throws DeviceLost when the device is
-/// gone: create a new camera then.
-/// a new camera then.
+/// Frame::time() is the driver's timestamp plus timeOffset, moved to the middle of the exposure if
+/// the exposure is known (a manual exposure_time_absolute): half the exposure is added if the
+/// driver stamps the start of the exposure, and subtracted if it stamps the end of the frame.
+/// Buffers that the driver marks as broken, that are not full, or that have an implausible
+/// timestamp are counted and not delivered.
+///
+/// The constructor throws std::runtime_error if the camera is not found or busy, if it does not
+/// offer the size (the message lists the offered ones), or if a control is refused. next() throws
+/// DeviceLost if the device is lost; a new CameraV4l2 must be created then.
 class CameraV4l2 final : public Camera {
 public:
     explicit CameraV4l2(const CameraV4l2Options& options, V4l2Api& api = kernelV4l2());
@@ -61,7 +65,7 @@ public:
     void stop() override;
     [[nodiscard]] bool ended() const override { return false; }
 
-    /// Valid while the camera lives.
+    /// Returns the camera's controls. The reference is valid while the camera lives.
     [[nodiscard]] const V4l2Controls& controls() const { return *controls_; }
     [[nodiscard]] CameraCounters cameraCounters() const override;
     [[nodiscard]] std::vector<std::string> takeWarnings() override;
@@ -82,8 +86,8 @@ private:
     CameraInfo info_;
     std::shared_ptr<V4l2Stream> stream_;
     std::unique_ptr<V4l2Controls> controls_;
-    std::unique_ptr<JpegDecoder> decoder_;  // if pictures arrive as JPEG
-    std::optional<FramePool> copies_;       // if the driver grants too few buffers
+    std::unique_ptr<JpegDecoder> decoder_;  // set if pictures arrive as JPEG
+    std::optional<FramePool> copies_;       // set if the driver grants too few buffers
     OwnedFd wake_;                          // eventfd, readable after stop()
     std::atomic<bool> running_{false};
     std::chrono::nanoseconds exposure_{0};

@@ -13,10 +13,10 @@
 namespace mfar {
 namespace {
 
-// A device that appears between two checks is in use after this time and one frame.
+// Interval of the checks for devices. A new device is in use at most this time and one frame later.
 constexpr std::chrono::milliseconds kLookEvery{500};
-// The first picture sets the mode; the third waits until the second is shown: only then the screen
-// has been seen to change.
+// A screen counts as working after this number of pictures. The first sets the mode, and the third
+// waits until the second is on the screen, which proves that the screen shows new pictures.
 constexpr int kProven = 3;
 
 }  // namespace
@@ -50,7 +50,7 @@ void ScreenDisplay::show(const Picture& picture, Timestamp) {
     if (active_ == nullptr) {
         if (picture.isOnHost()) return;
         if (scaler_) scaler_->warmUp(picture.image());
-        // Without a screen nothing else would limit the renderer.
+        // Without a screen, only this wait limits the number of frames that are queued for the GPU.
         (void)gpu::finishWithin();
         return;
     }
@@ -60,13 +60,13 @@ void ScreenDisplay::show(const Picture& picture, Timestamp) {
         failed_ = nullptr;
         if (shown_ == kProven) fault_.clear();
     } catch (const gpu::GlError&) {
-        throw;  // not a fault of the screen
+        throw;  // the GPU is at fault, not the screen
     } catch (const std::runtime_error& error) {
         lose(error.what());
     }
 }
 
-// A repeated picture is still shown until kProven pictures have proved the screen.
+// The picture is shown again until the screen has shown kProven pictures and counts as working.
 void ScreenDisplay::showAgain(const Picture& picture, Timestamp time) {
     refresh();
     if (active_ == nullptr || shown_ < kProven) show(picture, time);
@@ -86,8 +86,8 @@ void ScreenDisplay::lose(const std::string& why) {
     active_ = nullptr;
 }
 
-// While a screen works and nothing has changed, only this screen is checked: checking others opens
-// their devices.
+// While a screen works and no device has changed, only this screen is checked, because a check of
+// another screen opens its device.
 Screen* ScreenDisplay::look(bool changed) {
     if (active_ != nullptr && !changed && active_->look(false) == Screen::Presence::Ready)
         return active_;
@@ -99,8 +99,8 @@ Screen* ScreenDisplay::look(bool changed) {
         if (presence != Screen::Presence::Absent) holder = &screen;
         if (presence == Screen::Presence::Ready) ready = &screen;
     };
-    // A device that waits for its monitor is held open; the devices after it are not checked: they
-    // would show pictures unnoticed.
+    // A device without a connected monitor is held open until one is connected. The devices after
+    // it in the list are not checked: nobody would notice pictures there.
     for (const auto& screen : screens_)
         if (holder == nullptr && screen.get() != failed_) ask(*screen);
     if (holder == nullptr && failed_ != nullptr) ask(*failed_);
@@ -130,8 +130,8 @@ std::optional<ScreenPicture> ScreenDisplay::lastShown() const {
 
 std::unique_ptr<ScreenDisplay> openScreen(std::string_view spec) {
     const ScreenSpec words = parseScreenSpec(spec);
-    // Created once for all screens, because compiling its shader is slow: a new screen should show
-    // at once.
+    // One scaler for all screens, because compiling its shader is slow and a new screen should show
+    // a picture at once.
     auto scaler = std::make_unique<ScreenScaler>();
     std::vector<std::unique_ptr<Screen>> screens;
     if (words.kind != ScreenSpec::Kind::Fbdev)

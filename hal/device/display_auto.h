@@ -12,12 +12,12 @@
 
 namespace mfar {
 
-/// A display that may appear, disappear and change at any time. Without a screen, show() waits for
-/// the GPU and shows nothing; when a screen appears, the picture is on it within a second. Devices
-/// are tried in a fixed order; those that failed with their first picture come last.
+/// A display whose screen may be connected, disconnected or changed at any time. Without a screen,
+/// show() only waits for the GPU. A new screen shows the picture within a second. Devices are tried
+/// in a fixed order; a device that could not show its first pictures is tried last.
 ///
-/// A missing screen never ends a run. A missing device, missing permission or old driver is
-/// reported by name(), whose text changes over time:
+/// A missing screen never ends a run. name() reports a missing device, a missing permission or a
+/// driver that is too old. Its text changes over time, for example:
 ///   "kms:card0,HDMI-A-1,1280x720@60, GBM with fences"
 ///   "no screen yet (kms: there is no /dev/dri/card0; fbdev: there is no /dev/fb0)"
 class ScreenDisplay final : public Display {
@@ -25,9 +25,9 @@ public:
     using Clock = std::function<Timestamp()>;
     using Events = std::function<bool()>;
 
-    /// `scaler` draws for the screens and is kept until they are gone. `screens` are in order of
-    /// preference. `changed` reports whether devices came, went or changed since the last call; if
-    /// it always returns false, only mode changes go unnoticed.
+    /// `scaler` draws the pictures of all screens. `screens` are in order of preference. `changed`
+    /// returns whether a device was added, removed or changed since its last call. Lost and new
+    /// screens are noticed even if it always returns false, but changes of the mode are not.
     ScreenDisplay(std::unique_ptr<ScreenScaler> scaler,
                   std::vector<std::unique_ptr<Screen>> screens, Clock clock, Events changed);
     ScreenDisplay(const ScreenDisplay&) = delete;
@@ -40,13 +40,14 @@ public:
     [[nodiscard]] std::optional<Size> screenSize() override;
     void showAgain(const Picture& picture, Timestamp time) override;
     [[nodiscard]] std::string name() const override;
-    /// The text of name() while there is no screen; after a lost screen, its fault until pictures
-    /// have been shown again.
+    /// Returns name() while there is no screen. After a screen was lost, returns the reason until
+    /// a screen has shown pictures again.
     [[nodiscard]] std::optional<std::string> fault() const override;
 
-    /// The picture that the last show() sent to the screen, screen-sized, including black bars. A
-    /// screenshot of a 24- or 32-bit screen is identical; with 16 bits it has the upper 5, 6 and 5
-    /// bits. Empty without a screen. Waits for the GPU.
+    /// Returns the picture that the last show() sent to the screen, in the screen's size and with
+    /// its black borders, or nothing without a screen. It equals a screenshot of a screen with 24
+    /// or 32 bits per pixel; a screen with 16 bits shows only the upper 5, 6 and 5 bits of its
+    /// colours. Waits for the GPU.
     [[nodiscard]] std::optional<ScreenPicture> lastShown() const override;
 
 private:
@@ -55,19 +56,20 @@ private:
     void lose(const std::string& why);
 
     std::unique_ptr<ScreenScaler> scaler_;
-    std::vector<std::unique_ptr<Screen>> screens_;  // destroyed before the scaler
+    std::vector<std::unique_ptr<Screen>> screens_;  // they use scaler_
     Clock clock_;
     Events changed_;
     Screen* active_ = nullptr;
     Screen* failed_ = nullptr;  // the screen that could not show its first pictures
-    int shown_ = 0;             // pictures shown by active_, at most kProven
+    int shown_ = 0;             // number of pictures that active_ has shown, at most kProven
     std::optional<Timestamp> lookedAt_;
-    std::string fault_;  // of the last lost screen, until another one is proven
+    std::string fault_;  // why the last screen was lost; cleared after kProven new pictures
 };
 
-/// Opens a screen: "auto" (KMS, else a framebuffer), "kms[:cardN][,CONNECTOR][,WxH[@Hz]]" or
-/// "fbdev[:/dev/fbN]". After its first texture it needs the GL context for its whole life. Throws
-/// std::runtime_error for malformed text only, never for a missing device.
+/// Opens a screen. `spec` is "auto" (KMS, otherwise a framebuffer),
+/// "kms[:cardN][,CONNECTOR][,WxH[@Hz]]" or "fbdev[:/dev/fbN]". Once the display has shown a
+/// texture, the GL context must exist until releaseGl() or destruction. Throws std::runtime_error
+/// if `spec` is malformed, but never for a missing device.
 [[nodiscard]] std::unique_ptr<ScreenDisplay> openScreen(std::string_view spec);
 
 }  // namespace mfar

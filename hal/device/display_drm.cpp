@@ -56,7 +56,7 @@ Connector connectorOf(int fd, std::uint32_t id, bool probe) {
     return Connector(probe ? drmModeGetConnector(fd, id) : drmModeGetConnectorCurrent(fd, id));
 }
 
-// The CRTC that already drives the connector (e.g. for a console); 0: none.
+// Returns the CRTC that already drives the connector, e.g. for a console; 0: there is none.
 std::uint32_t currentCrtc(int fd, const drmModeConnector& connector) {
     if (connector.encoder_id == 0) return 0;
     const Encoder encoder(drmModeGetEncoder(fd, connector.encoder_id));
@@ -77,9 +77,9 @@ bool isMaster(int fd) {
     return drmIsMaster(fd) != 0 || drmSetMaster(fd) == 0;
 }
 
-// Mesa's software renderer opens the card when it may not open a render node. If it is the first to
-// open the card, it becomes DRM master, which it does not need. Returns true when its master role
-// was dropped.
+// Mesa's software renderer opens the card if it may not open a render node. If it opens the card
+// first, the kernel makes it DRM master, which it does not need. This function drops that role and
+// returns whether there was one.
 bool dropMasterOfThisProcess(const std::string& path) {
     struct stat card{};
     bool dropped = false;
@@ -152,7 +152,7 @@ bool waitForFlip(int fd, bool& pending, std::chrono::milliseconds limit) {
         if (count < 0 && errno == EINTR) continue;
         const bool told = count > 0 && (waiting.revents & POLLIN) != 0;
         if (!told || drmHandleEvent(fd, &events) != 0) return false;
-        // Other events must not extend the wait.
+        // Events of other commits must not extend the wait.
         if (pending && left.count() <= 0) return false;
     }
     return true;
@@ -174,8 +174,8 @@ std::uint32_t DrmProperties::id(std::string_view name) const {
 }
 
 DrmCard::DrmCard(const std::string& path) : path_(path), fd_(openCard(path)) {
-    // The first process to open a card without a master becomes master: the only way without
-    // privileges.
+    // Without privileges, a process becomes DRM master only if it opens a card that has no master.
+    // So the card is opened again after the role was dropped.
     if (!isMaster(fd()) && dropMasterOfThisProcess(path)) fd_ = openCard(path);
     const Resources all = resources(fd());
     if (!all || all->count_connectors == 0)

@@ -17,27 +17,29 @@
 
 namespace mfar {
 
-/// Refresh rate [Hz], from the mode's timing instead of its rounded number. 0: invalid timing.
+/// Returns the refresh rate [Hz]. It is computed from the mode's timing, because the mode's own
+/// number is rounded. 0: the mode has no rate.
 [[nodiscard]] double refreshHz(const drmModeModeInfo& mode);
 
-/// Chooses a connector's mode. The wanted mode if offered (rate to 0.5 Hz; without a wanted rate
-/// the highest; progressive before interlaced); otherwise the preferred mode, or the first. Empty
-/// when no mode has sides of 1 to 16384 pixels and a rate.
+/// Chooses a connector's mode. If a mode fulfils the wish, that mode is chosen: progressive before
+/// interlaced, then the nearest rate (at most 0.5 Hz away), or the highest if the wish has no rate.
+/// Otherwise the preferred mode is chosen, or the first. Modes need a rate, and a width and height
+/// from 1 to 16384 pixels. Returns nothing if no mode is left.
 [[nodiscard]] std::optional<drmModeModeInfo> chooseMode(std::span<const drmModeModeInfo> modes,
                                                         const std::optional<ModeWish>& wish);
 [[nodiscard]] bool fulfils(const drmModeModeInfo& mode, const ModeWish& wish);
 
-/// Waits until the picture of the last commit is on the screen; the event of that commit, which got
-/// the address of `pending`, sets it to false. False when this takes longer than `limit` or the
-/// device is lost.
+/// Waits until the picture of the last commit is on the screen. The commit must have got the
+/// address of `pending`; its event sets `pending` to false. Returns false if this takes longer than
+/// `limit` or if the device is lost.
 [[nodiscard]] bool waitForFlip(int fd, bool& pending, std::chrono::milliseconds limit);
 
-/// The properties of one KMS object, by name.
+/// The ids of one KMS object's properties, found by name.
 class DrmProperties {
 public:
     DrmProperties() = default;
     DrmProperties(int fd, std::uint32_t object, std::uint32_t type);
-    /// Throws std::runtime_error when the driver lacks it.
+    /// Returns a property's id. Throws std::runtime_error if the driver does not have the property.
     [[nodiscard]] std::uint32_t id(std::string_view name) const;
     [[nodiscard]] bool has(std::string_view name) const { return ids_.find(name) != ids_.end(); }
 
@@ -45,7 +47,7 @@ private:
     std::map<std::string, std::uint32_t, std::less<>> ids_;
 };
 
-/// A complete path from a plane to a monitor that nobody else uses.
+/// A connected monitor with its mode, and the CRTC and primary plane that can drive it.
 struct DrmOutput {
     std::string connectorName;
     drmModeModeInfo mode{};
@@ -54,19 +56,20 @@ struct DrmOutput {
     [[nodiscard]] Size size() const { return {mode.hdisplay, mode.vdisplay}; }
 };
 
-/// A DRM device with connectors and atomic mode setting, of which this process is DRM master.
+/// A DRM device with connectors and atomic mode setting. This process is its DRM master.
 class DrmCard {
 public:
-    /// Throws std::runtime_error with the reason when this device cannot be used.
+    /// Throws std::runtime_error with the reason if this device cannot be used.
     explicit DrmCard(const std::string& path);
 
     [[nodiscard]] int fd() const { return fd_.get(); }
     [[nodiscard]] const std::string& path() const { return path_; }
-    /// The wanted connector, or the first connected one, with its mode. `probe`: the driver queries
-    /// the monitor, which may take tens of milliseconds; otherwise the driver's last knowledge is
-    /// used. Empty when no screen is connected; throws std::runtime_error when the device is gone.
+    /// Returns the wanted connector, or the first connected one, with its mode. Returns nothing if
+    /// no screen is connected. If `probe` is true, the driver queries the monitor, which may take
+    /// tens of milliseconds; otherwise the driver reports its last known state. Throws
+    /// std::runtime_error if the device is lost.
     [[nodiscard]] std::optional<DrmOutput> findOutput(const ScreenSpec& spec, bool probe) const;
-    /// The connectors and their states: "HDMI-A-1 disconnected, ..."
+    /// Returns the connectors and their states, e.g. "HDMI-A-1 disconnected, ...".
     [[nodiscard]] std::string connectors() const;
 
 private:

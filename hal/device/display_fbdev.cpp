@@ -27,7 +27,8 @@ bool readInfo(int fd, fb_var_screeninfo& var, fb_fix_screeninfo& fix) {
 }
 
 PixelChannel channel(const fb_bitfield& field) {
-    // Values above a byte are never valid(); narrowing must not make them valid.
+    // Numbers of bits above 255 are invalid. They are clamped, because plain narrowing to int could
+    // turn them into valid ones.
     const auto bounded = [](std::uint32_t bits) { return static_cast<int>(std::min(bits, 255U)); };
     return {field.msb_right == 0 ? bounded(field.offset) : -1, bounded(field.length)};
 }
@@ -66,7 +67,7 @@ FbGeometry checkedGeometry(const fb_var_screeninfo& var, const fb_fix_screeninfo
     const auto holds = [&](std::size_t rows) {
         return rows <= var.yres_virtual && rows * g.stride <= g.bytes;
     };
-    // Panning between two pages needs whole pan steps.
+    // A page can be shown by panning only if its height is a multiple of the pan step.
     if (fix.ypanstep > 0 && var.yres % fix.ypanstep == 0 && holds(std::size_t{2} * var.yres))
         g.pages = 2;
     g.visible = var.yoffset * g.stride + var.xoffset * layout.bytes();
@@ -112,14 +113,14 @@ void FbdevScreen::open(const std::string& path) {
     }
     fd_ = std::move(fd);
     path_ = path;
-    // Some drivers report panning but refuse it.
+    // Some drivers report that they can pan, but refuse to.
     pans_ = geometry_.pages == 2 && ioctl(fd_.get(), FBIOPAN_DISPLAY, &var_) == 0;
     page_ = 0;
     blankTold_ = true;
     shown_ = false;
 }
 
-// True when the name still belongs to the same device with the same geometry.
+// Returns whether the path still names the same device and its geometry is the same.
 bool FbdevScreen::unchanged() const {
     struct stat byName{}, byFd{};
     if (stat(path_.c_str(), &byName) != 0 || fstat(fd_.get(), &byFd) != 0 ||
@@ -128,12 +129,12 @@ bool FbdevScreen::unchanged() const {
     fb_var_screeninfo var{};
     fb_fix_screeninfo fix{};
     if (!readInfo(fd_.get(), var, fix)) return false;
-    // Ignore the pan offset: this object changes it.
+    // The pan offset is ignored, because this object changes it.
     var.yoffset = var_.yoffset;
     try {
         return checkedGeometry(var, fix) == geometry_;
     } catch (const std::runtime_error&) {
-        return false;  // look() opens the device again and reports the fault
+        return false;  // look() will open the device again and report the fault
     }
 }
 
@@ -166,7 +167,7 @@ void FbdevScreen::show(const Picture& picture) {
     if (!shown_) before_.assign(mapping_->data(), mapping_->data() + geometry_.bytes);
     shown_ = true;
     reader_->begin(picture);
-    // With panning: the last pan has taken effect, so the other page is hidden now.
+    // If the device pans, the last pan has taken effect after the blank: the other page is hidden.
     waitForBlank();
     page_ = 1 - page_;
     const std::size_t page = geometry_.page0 + static_cast<std::size_t>(page_) * geometry_.stride *

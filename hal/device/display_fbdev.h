@@ -12,32 +12,32 @@
 
 namespace mfar {
 
-/// Validated layout of a framebuffer device's memory: every row of every page lies inside.
+/// The validated layout of a framebuffer device's memory. All rows of all pages lie inside it.
 struct FbGeometry {
     Size size;
     PixelLayout layout;
     std::size_t stride = 0;   ///< bytes from one row to the next
     std::size_t bytes = 0;    ///< size of the whole memory
     std::size_t visible = 0;  ///< bytes from the memory's start to the first visible pixel
-    /// Bytes from the memory's start to the first pixel after panning to the top.
+    /// Bytes from the memory's start to the first pixel that is visible after panning to the top.
     std::size_t page0 = 0;
     int pages = 1;  ///< 2: a second page lies below the first
     bool operator==(const FbGeometry&) const = default;
 };
 
-/// Validates the driver's description of its memory. Throws std::runtime_error for a format other
-/// than 16, 24 or 32 bit true colour and for contradictory numbers.
+/// Validates the driver's description of its memory. Throws std::runtime_error if the format is not
+/// true colour with 16, 24 or 32 bits, or if the numbers contradict each other.
 [[nodiscard]] FbGeometry checkedGeometry(const fb_var_screeninfo& var,
                                          const fb_fix_screeninfo& fix);
 
-/// A Linux framebuffer, /dev/fbN. The picture is scaled by GPU or host, depending on where it is,
-/// and copied by the CPU: into the hidden page if the driver can pan, after the vertical blank if
-/// the driver reports it. close() restores the previous content. A console's text cursor on the
-/// same screen is not hidden: that needs privileges which this program does not ask for (kernel
-/// option vt.global_cursor_default=0).
+/// A Linux framebuffer device, /dev/fbN. A texture is scaled by the GPU, a picture on the host by
+/// the CPU. The CPU then copies it to the screen: after the vertical blank if the driver reports
+/// that, and into the hidden page if the driver can pan. close() restores the screen's previous
+/// content. A console's text cursor stays visible on the screen, because hiding it needs privileges
+/// that this program does not have; the kernel option vt.global_cursor_default=0 hides it.
 class FbdevScreen final : public Screen {
 public:
-    /// `path`: "/dev/fb0"; empty: the first usable device. `scaler` must outlive it.
+    /// `path`: e.g. "/dev/fb0"; empty: the first usable device. `scaler` must outlive this object.
     FbdevScreen(std::string path, ScreenScaler& scaler);
     ~FbdevScreen() override;
 
@@ -76,7 +76,7 @@ private:
     fb_var_screeninfo var_{};
     FbGeometry geometry_;
     std::unique_ptr<Mapping> mapping_;
-    std::vector<std::uint8_t> before_;  // the previous content of the memory
+    std::vector<std::uint8_t> before_;  // content of the memory before the first picture
     std::unique_ptr<ScreenReader> reader_;
     int page_ = 0;
     bool pans_ = false;

@@ -19,8 +19,9 @@ namespace {
 using GbmDevice = std::unique_ptr<gbm_device, FreedBy<gbm_device_destroy>>;
 using GbmBuffer = std::unique_ptr<gbm_bo, FreedBy<gbm_bo_destroy>>;
 
-// A software renderer is fastest in its own memory. Mesa's crashes if it cannot map the imported
-// buffer, e.g. on the render node of a card without a GPU.
+// GBM buffers are not used with a software renderer, which is fastest in its own memory. Mesa's
+// software renderer also crashes if it cannot map an imported buffer, e.g. on the render node of a
+// card without a GPU.
 bool isSoftware(std::string_view renderer) {
     return renderer.find("llvmpipe") != renderer.npos ||
            renderer.find("softpipe") != renderer.npos || renderer.find("swrast") != renderer.npos;
@@ -35,7 +36,7 @@ const char* eglExtensions(EGLDisplay display) {
     return display != EGL_NO_DISPLAY ? eglQueryString(display, EGL_EXTENSIONS) : nullptr;
 }
 
-/// EGL and GL functions that GBM buffers need. Throws if one is missing.
+/// The EGL and GL functions that GBM buffers need. The constructor throws if one is missing.
 struct Importer {
     EGLDisplay display = eglGetCurrentDisplay();
     bool modifiers = false;
@@ -63,7 +64,8 @@ struct Importer {
     }
 };
 
-/// Fences that signal when the GPU has drawn. Throws if EGL does not support them.
+/// Creates fences that are signalled when the GPU has drawn. The constructor throws if EGL does not
+/// support them.
 class NativeFences {
 public:
     explicit NativeFences(EGLDisplay display) : display_(display) {
@@ -73,11 +75,11 @@ public:
         Importer::load(destroy_, "eglDestroySyncKHR");
         Importer::load(dup_, "eglDupNativeFenceFDANDROID");
     }
-    /// A fence that is signalled after everything drawn so far.
+    /// Returns a fence that is signalled when the GPU has executed all commands so far.
     [[nodiscard]] OwnedFd insert() const {
         const EGLSyncKHR sync = create_(display_, EGL_SYNC_NATIVE_FENCE_ANDROID, nullptr);
         if (sync == EGL_NO_SYNC_KHR) throw std::runtime_error("EGL makes no fence");
-        glFlush();  // a fence has a descriptor only after its commands were flushed
+        glFlush();  // a fence has a file descriptor only after a flush
         OwnedFd fd(dup_(display_, sync));
         destroy_(display_, sync);
         if (!fd) throw std::runtime_error("EGL exports no fence");
@@ -91,7 +93,7 @@ private:
     PFNEGLDUPNATIVEFENCEFDANDROIDPROC dup_ = nullptr;
 };
 
-/// Linear, so that the card and a separate GPU agree without negotiation.
+/// Allocates a buffer with linear layout, which the card and a separate GPU both support.
 GbmBuffer allocate(gbm_device* device, Size size) {
     GbmBuffer buffer(gbm_bo_create(device, static_cast<std::uint32_t>(size.width),
                                    static_cast<std::uint32_t>(size.height), GBM_FORMAT_XRGB8888,
@@ -100,7 +102,7 @@ GbmBuffer allocate(gbm_device* device, Size size) {
     return buffer;
 }
 
-/// A screen's buffer that the GPU draws into.
+/// A buffer that the GPU draws into and the screen shows.
 class GbmTarget {
 public:
     GbmTarget(const Importer& importer, gbm_device* device, int fd, Size size)
@@ -146,7 +148,7 @@ private:
             static_cast<EGLint>(DRM_FORMAT_XRGB8888), EGL_DMA_BUF_PLANE0_FD_EXT, dmaBuf.get(),
             EGL_DMA_BUF_PLANE0_OFFSET_EXT, 0, EGL_DMA_BUF_PLANE0_PITCH_EXT,
             static_cast<EGLint>(gbm_bo_get_stride(buffer_.get())),
-            // If EGL has no attributes for modifiers, the list ends here.
+            // If EGL does not support modifiers, EGL_NONE ends the list here.
             importer_.modifiers ? EGL_DMA_BUF_PLANE0_MODIFIER_LO_EXT : EGL_NONE,
             static_cast<EGLint>(DRM_FORMAT_MOD_LINEAR & 0xffffffffU),
             EGL_DMA_BUF_PLANE0_MODIFIER_HI_EXT, static_cast<EGLint>(DRM_FORMAT_MOD_LINEAR >> 32),
@@ -171,7 +173,8 @@ public:
         if (fences) fences_.emplace(importer_.display);
     }
 
-    // One buffer is on the screen and one may be queued for it: the third is free.
+    // One buffer is on the screen, and another one may wait for the vertical blank. The third is
+    // free.
     void begin(const Picture& picture) override {
         const KeptTarget kept;
         current_ = (current_ + 1) % targets_.size();

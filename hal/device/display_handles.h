@@ -2,7 +2,8 @@
 
 namespace mfar {
 
-/// Deleter of a C handle: std::unique_ptr<drmModeRes, FreedBy<drmModeFreeResources>>.
+/// A deleter that calls a C function, e.g. std::unique_ptr<drmModeRes,
+/// FreedBy<drmModeFreeResources>>.
 template <auto Free>
 struct FreedBy {
     template <class T>

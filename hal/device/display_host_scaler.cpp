@@ -8,13 +8,15 @@
 namespace mfar {
 namespace {
 
-constexpr std::uint32_t kBlack = 0xff000000;  // bytes 0 0 0 255
+constexpr std::uint32_t kBlack = 0xff000000;  // bytes R G B A: 0 0 0 255
 constexpr int kFixedOne = 65535;
-// More strips than threads, so that an interrupted thread does not delay the others for long.
+// The picture has more strips than threads. If a thread is interrupted, the others take the
+// remaining strips.
 constexpr int kStripsPerThread = 2;
 
-// sum += pixel * weight in 8.8 fixed point. The pixel is in the upper byte of a 16-bit factor, and
-// the upper half of the product is kept: one 16-bit SIMD multiplication.
+// Computes sum += pixel * weight in 8.8 fixed point. The pixel is the upper byte of a 16-bit
+// factor, and the upper 16 bits of the product are kept. SIMD units compute this with one
+// instruction.
 void addRow(const std::uint8_t* __restrict pixels, std::uint16_t weight,
             std::uint16_t* __restrict sum, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
@@ -31,7 +33,8 @@ void toReal(const std::uint16_t* __restrict sum, float* __restrict real, std::si
 
 }  // namespace
 
-// Pixels outside the picture repeat the edge: their weight is added to the edge pixel's.
+// Pixels outside the picture count as copies of the edge pixel: their weight is added to its
+// weight.
 HostScaler::Axis::Axis(int from, int to) {
     const double scale = static_cast<double>(from) / to, width = std::max(scale, 1.0);
     footprints.reserve(static_cast<std::size_t>(to));
@@ -44,7 +47,8 @@ HostScaler::Axis::Axis(int from, int to) {
         for (int p = first; p <= last; ++p) {
             const double begin = p == first ? lo : p, end = p == last ? hi : p + 1.0;
             weights.push_back(static_cast<float>((end - begin) / width));
-            // The running sums are rounded, so that the weights add up to exactly kFixedOne.
+            // Not the weights but their running sums are rounded, so that the weights add up to
+            // exactly kFixedOne.
             const int upTo = static_cast<int>(std::lround((end - lo) / width * kFixedOne));
             fixed.push_back(static_cast<std::uint16_t>(upTo - before));
             before = upTo;
@@ -81,11 +85,12 @@ Rows<const std::uint32_t> HostScaler::scaled(const Rows<const std::uint32_t>& pi
     return out_.rows();
 }
 
-// The vertical pass comes first: its few result rows stay in the cache.
+// The columns are averaged first. This gives a single row, which stays in the cache for the second
+// step, the average along the row.
 void HostScaler::scaleRow(const Rows<const std::uint32_t>& picture, int row, Line& line) {
     const Footprint& down = rows_.footprints[static_cast<std::size_t>(row)];
-    // Compensates for addRow()'s truncation of each product, on average; limited so that no sum
-    // overflows.
+    // addRow() truncates each product, which loses half a unit on average. The sums begin with the
+    // expected loss, but with 255 at most, so that they do not overflow.
     std::ranges::fill(line.fixed, static_cast<std::uint16_t>(std::min(down.taps / 2, 255)));
     for (int tap = 0; tap < down.taps; ++tap)
         addRow(reinterpret_cast<const std::uint8_t*>(picture[down.first + tap]),
@@ -97,7 +102,7 @@ void HostScaler::scaleRow(const Rows<const std::uint32_t>& picture, int row, Lin
         const Footprint& across = columns_.footprints[static_cast<std::size_t>(x)];
         const float* pixel = &line.real[static_cast<std::size_t>(across.first) * 4];
         const float* weight = &columns_.weights[across.begin];
-        std::array<float, 4> sum{128, 128, 128, 128};  // half a level, for rounding
+        std::array<float, 4> sum{128, 128, 128, 128};  // half a grey level in 8.8, for rounding
         for (int tap = 0; tap < across.taps; ++tap, pixel += 4)
             for (std::size_t k = 0; k < 4; ++k)
                 sum[k] += weight[tap] * pixel[k];

@@ -10,33 +10,34 @@
 
 namespace mfar {
 
-/// Scales pictures on the host as ScreenScaler does on the GPU: keeps the aspect (letterbox()),
-/// black borders; area average when shrinking, linear interpolation when enlarging, exact at equal
-/// size. Starts threads at the first scaling.
+/// Scales pictures on the CPU, as ScreenScaler does on the GPU. The aspect ratio is kept, with
+/// black borders (letterbox()). A picture is shrunk by averaging areas and enlarged by linear
+/// interpolation; at equal size it is unchanged. The first scaling starts threads.
 class HostScaler {
 public:
     explicit HostScaler(Size screen) : screen_(screen) {}
 
-    /// Rows of the screen's size, alpha undefined; valid until the next call. A picture of the
-    /// screen's size is returned as it is. Sizes must be positive.
+    /// Returns rows of the screen's size, which are valid until the next call. Alpha is undefined.
+    /// A picture of the screen's size is returned unchanged. Width and height must be positive.
     [[nodiscard]] Rows<const std::uint32_t> scaled(const Rows<const std::uint32_t>& picture);
 
 private:
-    /// The pixels of the picture that one row or column of the screen averages.
+    /// The rows (or columns) of the picture whose average is one row (or column) of the screen.
     struct Footprint {
-        int first = 0;        ///< first pixel
-        int taps = 0;         ///< number of pixels, all inside the picture
-        std::size_t begin{};  ///< index of their first weight
+        int first = 0;        ///< index of the first row or column
+        int taps = 0;         ///< number of rows or columns, all inside the picture
+        std::size_t begin{};  ///< index of the first weight
     };
     struct Axis {
         Axis() = default;
         Axis(int from, int to);
         std::vector<Footprint> footprints;
-        /// Weights of all footprints, one after the other; those of each footprint add up to 1.
+        /// The weights of all footprints, one after the other. Each footprint's weights add up
+        /// to 1.
         std::vector<float> weights;
-        std::vector<std::uint16_t> fixed;  ///< the weights as integers, sum 65535
+        std::vector<std::uint16_t> fixed;  ///< the same weights as integers that add up to 65535
     };
-    /// Scratch memory of one thread for a row.
+    /// Temporary memory that a thread uses for one row.
     struct Line {
         explicit Line(int width)
             : fixed(static_cast<std::size_t>(width) * 4),

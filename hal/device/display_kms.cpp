@@ -15,7 +15,7 @@ namespace {
 
 using Request = std::unique_ptr<drmModeAtomicReq, FreedBy<drmModeAtomicFree>>;
 
-constexpr std::chrono::milliseconds kFlipTimeout{500};  // the slowest mode in use has 24 Hz
+constexpr std::chrono::milliseconds kFlipTimeout{500};  // 12 periods of the slowest mode, 24 Hz
 
 std::vector<std::string> cardPaths() {
     std::vector<std::string> paths;
@@ -27,7 +27,7 @@ std::vector<std::string> cardPaths() {
     return paths;
 }
 
-/// A mode as a property blob, as the kernel requires it.
+/// Owns a property blob that contains a mode, the form that the kernel requires.
 class ModeBlob {
 public:
     ModeBlob(int fd, const drmModeModeInfo& mode) : fd_(fd) {
@@ -44,7 +44,7 @@ private:
     std::uint32_t id_ = 0;
 };
 
-// drmModeAtomicAddProperty fails only when memory is exhausted.
+// drmModeAtomicAddProperty() fails only if memory is exhausted.
 void add(drmModeAtomicReq& request, std::uint32_t object, std::uint32_t property,
          std::uint64_t value) {
     if (drmModeAtomicAddProperty(&request, object, property, value) < 0)
@@ -64,7 +64,7 @@ KmsScreen::~KmsScreen() {
     close();
 }
 
-// A card with a connected screen wins over a card that waits for one.
+// Prefers a card with a connected screen. Without one, keeps the first usable card.
 void KmsScreen::openCard() {
     const std::vector<std::string> paths =
         spec_.device.empty() ? cardPaths() : std::vector{spec_.device};
@@ -87,7 +87,7 @@ Screen::Presence KmsScreen::look(bool thorough) {
         if (!card_) return Presence::Absent;
         auto found = card_->findOutput(spec_, thorough);
         if (!found && thorough && spec_.device.empty() && cardPaths().size() > 1) {
-            close();  // the next monitor may be connected to another card
+            close();  // a monitor may have been connected to another card
             openCard();
             if (!card_) return Presence::Absent;
             found = card_->findOutput(spec_, thorough);
@@ -125,7 +125,7 @@ void KmsScreen::startOutput(const Picture& picture) {
     std::string faults;
     for (const ScanoutMethod method :
          {ScanoutMethod::GbmFenced, ScanoutMethod::Gbm, ScanoutMethod::Dumb}) {
-        // A picture on the host is written directly into a dumb buffer.
+        // A picture on the host needs a dumb buffer, into which the CPU writes.
         if (picture.isOnHost() && method != ScanoutMethod::Dumb) continue;
         try {
             if (method == ScanoutMethod::GbmFenced) (void)properties_.plane.id("IN_FENCE_FD");
@@ -185,7 +185,7 @@ void KmsScreen::commit(ScanoutBuffers::Ready ready, Commit kind) {
 
 void KmsScreen::waitForLastFlip() {
     if (waitForFlip(card_->fd(), flipPending_, kFlipTimeout)) return;
-    flipPending_ = false;  // do not wait for it again
+    flipPending_ = false;  // the event may never come: do not wait for it again
     throw std::runtime_error(
         fmt::format("{}, {}: shows no new picture", card_->path(), output_->connectorName));
 }
@@ -196,14 +196,14 @@ void KmsScreen::releaseGl() {
     left_ = std::move(buffers_);
 }
 
-// Restores the console's picture before our buffers are freed: freeing a visible buffer turns the
-// screen off. There may be no picture to restore, and a lost device accepts no requests.
+// The console's picture is restored before the buffers are freed, because freeing a visible buffer
+// turns the screen off. Errors are ignored: a lost device refuses all requests.
 void KmsScreen::leaveOutput() {
     if ((buffers_ || left_) && output_) {
         try {
             waitForLastFlip();
         } catch (const std::runtime_error&) {
-            // Device lost: do not wait.
+            // The device is lost, so there is nothing to wait for.
         }
         if (saved_ && saved_->mode_valid != 0 && saved_->buffer_id != 0)
             drmModeSetCrtc(card_->fd(), saved_->crtc_id, saved_->buffer_id, saved_->x, saved_->y,

@@ -5,13 +5,13 @@
 
 namespace mfar {
 
-/// A monitor on an atomic DRM/KMS driver. One picture in flight: show() waits until the previous
-/// picture is on the screen, so its pace is the vertical blank. Uses the first ScanoutMethod that
-/// the driver accepts. close() restores the screen's previous picture.
+/// A monitor on a DRM/KMS driver with atomic mode setting. show() waits until the previous picture
+/// is on the screen, so the monitor's refresh rate limits it. The first ScanoutMethod that the
+/// driver accepts is used. close() restores the picture that the screen showed before.
 class KmsScreen final : public Screen {
 public:
-    /// Empty `spec.device`: the first usable card, cards with a connected screen first. `scaler`
-    /// must outlive it.
+    /// If `spec.device` is empty, uses the first card with a connected screen, otherwise the first
+    /// usable card. `scaler` must outlive this object.
     KmsScreen(ScreenSpec spec, ScreenScaler& scaler);
     KmsScreen(const KmsScreen&) = delete;
     KmsScreen& operator=(const KmsScreen&) = delete;
@@ -47,7 +47,8 @@ private:
     Properties properties_;
     SavedCrtc saved_;
     std::unique_ptr<ScanoutBuffers> buffers_;
-    /// Shown until buffers_ have their first picture on the screen.
+    /// After releaseGl(): the old buffers. One of them is on the screen until buffers_ show a
+    /// picture.
     std::unique_ptr<ScanoutBuffers> left_;
     ScanoutMethod method_ = ScanoutMethod::Dumb;
     bool flipPending_ = false;

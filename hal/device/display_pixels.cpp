@@ -10,9 +10,9 @@ constexpr std::uint32_t ones(int bits) {
     return bits >= 32 ? ~0U : (1U << bits) - 1;
 }
 
-/// Moves one colour from an 8-bit-per-colour pixel into the screen's word.
+/// Moves one colour from a pixel with 8 bits per colour into the word of the screen's pixel.
 struct Move {
-    int from, drop, to;  ///< bits: shift right, drop from the colour, shift left
+    int from, drop, to;  ///< numbers of bits: shift right, lower bits to drop, shift left
 
     Move(int offset, PixelChannel channel)
         : from(offset), drop(8 - channel.length), to(channel.offset) {}
@@ -21,7 +21,7 @@ struct Move {
     }
 };
 
-/// Writes the lower `Bytes` of a word. For 2 or 4 bytes, compilers vectorise loops over it.
+/// Writes the lower `Bytes` bytes of a word. Compilers vectorise loops over this for 2 or 4 bytes.
 template <std::size_t Bytes>
 void store(std::uint32_t word, std::uint8_t* out) {
     if constexpr (Bytes == 2) {
@@ -46,7 +46,7 @@ void packRow(const std::uint8_t* __restrict pixels, int width, const PixelLayout
     }
 }
 
-// Writes bytes B G R 255 from pixels R G B X.
+// Converts a row of pixels with bytes R G B X to bytes B G R 255.
 void swapRow(const std::uint8_t* __restrict rgba, int width, std::uint8_t* __restrict out) {
     for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x) {
         std::uint32_t pixel = 0;
@@ -56,7 +56,7 @@ void swapRow(const std::uint8_t* __restrict rgba, int width, std::uint8_t* __res
     }
 }
 
-// True for the layout in which the GPU writes pixels.
+// Returns whether a screen's pixels have the bytes B G R X, the order in which the GPU writes.
 bool isBgra(const PixelLayout& layout) {
     return layout.bits == 32 && layout.red == PixelChannel{16, 8} &&
            layout.green == PixelChannel{8, 8} && layout.blue == PixelChannel{0, 8};

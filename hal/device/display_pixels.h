@@ -7,26 +7,27 @@
 
 namespace mfar {
 
-/// Position of one colour in a pixel's little-endian word.
+/// The position of one colour in the little-endian word of a pixel.
 struct PixelChannel {
-    int offset = 0, length = 0;  ///< [bit]
+    int offset = 0, length = 0;  ///< lowest bit, and number of bits
     bool operator==(const PixelChannel&) const = default;
 };
 
-/// Pixel layout of a memory-mapped screen: 16, 24 or 32 bits, each colour 1 to 8 bits. An alpha
-/// channel, if any, is filled with ones (opaque).
+/// The pixel layout of a memory-mapped screen: 16, 24 or 32 bits per pixel, 1 to 8 bits per colour.
+/// If there is an alpha channel, it is filled with ones (opaque).
 struct PixelLayout {
     int bits = 32;
     PixelChannel red{16, 8}, green{8, 8}, blue{0, 8}, alpha{24, 0};
     bool operator==(const PixelLayout&) const = default;
 
     [[nodiscard]] std::size_t bytes() const { return static_cast<std::size_t>(bits) / 8; }
-    /// True when every channel fits into the word.
+    /// Returns whether the numbers of bits are allowed and every channel lies inside the word.
     [[nodiscard]] bool valid() const;
 };
 
-/// Converts a picture (Rgba8 or Bgra8 with alpha 255) to another layout, keeping each colour's
-/// upper bits; output rows are `stride` bytes apart. `layout` must be valid(). Not in place.
+/// Converts a picture (Rgba8 or Bgra8) to another pixel layout. Each colour keeps its upper bits.
+/// The rows of `out` are `stride` bytes apart. `layout` must be valid(). `out` must not overlap the
+/// picture.
 void packPixels(const ImageView& picture, const PixelLayout& layout, std::uint8_t* out,
                 std::size_t stride);
 

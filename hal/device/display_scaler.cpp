@@ -36,8 +36,8 @@ ScalePicture scaleParams(Size picture, Size screen, ScreenScaler::Order order) {
             .blueFirst = order == ScreenScaler::Order::Bgra ? 1 : 0};
 }
 
-// Pairs of texels per footprint: a fractional footprint begins and ends inside a texel. 0 for a
-// picture of the screen's size, which is copied.
+// Returns the number of texel pairs that cover a footprint. A footprint that begins and ends inside
+// a texel touches one texel more. 0: the picture has the size it is shown in and is copied.
 int pairsFor(const ScalePicture& p) {
     if (p.width == p.pictureWidth && p.height == p.pictureHeight) return 0;
     const float footprint = std::max(p.footprintX, p.footprintY);
@@ -130,7 +130,7 @@ GlImage ScreenScaler::uploaded(const Rows<const std::uint32_t>& rows) {
     return {upload_.id(), rows.size};
 }
 
-// Mesa compiles at the first use, for which a few pixels suffice.
+// Mesa compiles a shader when it is first used, so the shaders draw a few pixels.
 void ScreenScaler::warmUp(const GlImage& picture) {
     if (copy_ || picture.size.width < 1 || picture.size.height < 1) return;
     const KeptTarget kept;

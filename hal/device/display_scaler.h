@@ -11,8 +11,8 @@
 
 namespace mfar {
 
-/// Restores the caller's framebuffers, viewport and pack buffer. Other bindings are not restored:
-/// every pass of the pipeline sets them.
+/// Saves the bound framebuffers, pixel pack buffer and viewport, and restores them at destruction.
+/// Other bindings are not restored, because every pass of the pipeline sets its own.
 class KeptTarget {
 public:
     KeptTarget();
@@ -25,10 +25,10 @@ private:
     std::array<GLint, 4> viewport_{};
 };
 
-/// Draws pictures screen-sized: keeps the aspect (letterbox()), black borders; area filter when
-/// shrinking, linear interpolation when enlarging, exact at equal size. The result depends only on
-/// the picture and the two sizes. A picture on the host is uploaded first. Needs the context from
-/// the first picture on.
+/// Draws pictures in the screen's size. The aspect ratio is kept, with black borders (letterbox()).
+/// A picture is shrunk by averaging areas and enlarged by linear interpolation; at equal size it is
+/// unchanged. The result depends only on the picture and the two sizes. A picture on the host is
+/// uploaded first. From the first picture on, the GL context must exist until releaseGl().
 class ScreenScaler {
 public:
     enum class Order { Rgba, Bgra };
@@ -38,13 +38,13 @@ public:
     ScreenScaler& operator=(const ScreenScaler&) = delete;
     ~ScreenScaler();
 
-    /// Draws the picture over all of `framebuffer` (row 0 = top row; size `screen`) and leaves it
-    /// bound. Throws std::runtime_error for an empty picture.
+    /// Draws the picture over all of `framebuffer`, which has the size `screen` and whose row 0 is
+    /// the top row. The framebuffer stays bound. Throws std::runtime_error for an empty picture.
     void draw(const Picture& picture, GLuint framebuffer, Size screen, Order order);
-    /// See Display::releaseGl().
+    /// Deletes all GL objects, see Display::releaseGl().
     void releaseGl();
-    /// Compiles the most likely shaders for screens of 1280x720 to 1920x1080 unless one has been
-    /// compiled already, so that the first picture is not delayed.
+    /// Compiles the shaders that screens from 1280x720 to 1920x1080 will probably need, so that the
+    /// first picture is not delayed. Does nothing if the shaders are compiled already.
     void warmUp(const GlImage& picture);
 
 private:
@@ -52,30 +52,31 @@ private:
     void render(const GlImage& picture, Size screen, Order order);
     [[nodiscard]] gpu::Program& programFor(int pairs);
 
-    // copy_: for pictures of the screen's size; scale_: for footprints of up to `pairs_` pairs of
-    // texels in a row.
+    // copy_ draws pictures that need no scaling. scale_ draws pictures whose footprints have up to
+    // pairs_ pairs of texels per row.
     std::optional<gpu::Program> copy_, scale_;
     int pairs_ = 0;
     GLuint sampler_ = 0;
     gpu::Texture upload_;
 };
 
-/// Scales pictures for a screen that the CPU writes: a texture is scaled on the GPU and read back;
-/// rows on the host are scaled on the host, without GL. Restores the caller's targets. Needs the
-/// context from the first texture on.
+/// Scales pictures for a screen whose memory the CPU writes. A texture is scaled by the GPU and
+/// read back. A picture on the host is scaled by the CPU, without GL. The caller's framebuffers are
+/// restored. From the first texture on, the GL context must exist until releaseGl().
 class ScreenReader {
 public:
-    /// `scaler` must outlive it.
+    /// `scaler` must outlive this object.
     ScreenReader(Size screen, ScreenScaler& scaler);
     ScreenReader(const ScreenReader&) = delete;
     ScreenReader& operator=(const ScreenReader&) = delete;
     ~ScreenReader();
 
-    /// Starts drawing and reading back a texture without waiting; scales rows on the host. Throws
-    /// std::runtime_error for an empty picture.
+    /// Starts to draw a texture and to read it back, without waiting. A picture on the host is
+    /// scaled at once. Throws std::runtime_error for an empty picture.
     void begin(const Picture& picture);
-    /// Waits for the GPU and calls `take(const ImageView&)` with the pixels of the last begin(),
-    /// Bgra8 with alpha 255 or Rgba8. They are valid only during the call. `take` must not throw.
+    /// Waits for the GPU and calls `take(const ImageView&)` with the pixels of the last begin().
+    /// They are Bgra8 with alpha 255, or Rgba8 for a picture on the host, and valid only during the
+    /// call. `take` must not throw.
     template <class Take>
     void finish(Take take) {
         if (onHost_) {
@@ -86,9 +87,10 @@ public:
         take(map());
         unmap();
     }
-    /// See Display::releaseGl(). Afterwards there is no last picture unless it is on the host.
+    /// Deletes all GL objects, see Display::releaseGl(). Afterwards, last() must not be called
+    /// unless the last picture is on the host.
     void releaseGl() { target_.reset(); }
-    /// A copy of the last picture begun, alpha 255.
+    /// Returns a copy of the scaled picture of the last begin(), with alpha 255.
     [[nodiscard]] ScreenPicture last() const;
 
 private:
@@ -107,12 +109,12 @@ private:
 
     Size screen_;
     ScreenScaler& scaler_;
-    std::optional<Target> target_;  ///< after the first texture
+    std::optional<Target> target_;  ///< created for the first texture
     HostScaler hostScaler_;
-    std::optional<Rows<const std::uint32_t>> onHost_;  ///< the picture begun if it is on the host
+    std::optional<Rows<const std::uint32_t>> onHost_;  ///< the last picture if it is on the host
 };
 
-/// The pixels of a framebuffer as stored. Waits for the GPU.
+/// Returns the stored pixels of a framebuffer. Waits for the GPU.
 [[nodiscard]] ScreenPicture readFramebuffer(GLuint framebuffer, Size size, PixelFormat format);
 
 }  // namespace mfar

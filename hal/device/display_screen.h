@@ -7,8 +7,8 @@
 
 namespace mfar {
 
-/// One kind of screen device, which may be absent, without a screen, or lost at any time. Used from
-/// the thread of Display::show().
+/// A device that drives a screen, such as KMS or fbdev. It may be absent, have no screen connected,
+/// or be lost at any time. All calls come from the thread of Display::show().
 class Screen {
 public:
     enum class Presence {
@@ -19,22 +19,24 @@ public:
 
     virtual ~Screen() = default;
 
-    /// Looks for the device or, once it is held, for changes of it. `thorough`: includes slow
-    /// queries (reading a monitor's data), to be used only after a change. Never throws for a
-    /// missing device: status() reports it.
+    /// Looks for the device; if it is open already, checks whether it has changed. With `thorough`,
+    /// this includes slow queries such as reading the monitor's data; use it only after a change.
+    /// A missing device does not throw: status() reports it.
     virtual Presence look(bool thorough) = 0;
-    /// [px]. Only after look() returned Ready.
+    /// Returns the screen's size [px]. May be called only after look() returned Ready.
     [[nodiscard]] virtual Size size() const = 0;
-    /// Shows a picture at the screen's rate. Only after look() returned Ready. Throws
-    /// std::runtime_error when the screen is lost; call close() then.
+    /// Shows a picture; waits as the screen's refresh rate requires. May be called only after
+    /// look() returned Ready. Throws std::runtime_error if the screen is lost; call close() then.
     virtual void show(const Picture& picture) = 0;
-    /// See Display::releaseGl(). The screen keeps its picture.
+    /// Releases all GL objects, see Display::releaseGl(). The screen keeps its picture.
     virtual void releaseGl() = 0;
     /// Restores the device's previous state and releases it. Idempotent.
     virtual void close() = 0;
-    /// "kms:card0,HDMI-A-1,1280x720@60 ..." when ready, otherwise the reason why not.
+    /// Returns "kms:card0,HDMI-A-1,1280x720@60 ..." if the screen is ready, otherwise the reason
+    /// why it is not.
     [[nodiscard]] virtual std::string status() const = 0;
-    /// The picture that the last show() sent to the screen, before packing into fewer bits.
+    /// Returns the picture that the last show() sent to the screen, before its bits were reduced to
+    /// the screen's pixel layout.
     [[nodiscard]] virtual std::optional<ScreenPicture> lastShown() const = 0;
 };
 

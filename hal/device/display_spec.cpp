@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kMaxRateHz = 1000;
 
-// The whole text as a number; empty if it is not a number.
+// Parses the whole text as a number. Returns nothing if it is not a number.
 template <class T>
 std::optional<T> number(std::string_view text) {
     T value{};
@@ -42,7 +42,7 @@ std::optional<ModeWish> parseMode(std::string_view word) {
     return wish;
 }
 
-// "HDMI-A-1", "DSI-1", "Virtual-1": a type and a number.
+// Returns whether a word names a connector: a type and a number, such as "HDMI-A-1" or "Virtual-1".
 bool isConnector(std::string_view word) {
     const std::size_t dash = word.rfind('-');
     const auto nameChar = [](char c) {

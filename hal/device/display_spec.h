@@ -8,41 +8,42 @@
 
 namespace mfar {
 
-inline constexpr int kMaxScreenSide = 16384;  ///< [px]; a larger screen counts as a fault
+inline constexpr int kMaxScreenSide = 16384;  ///< [px]; larger screens are refused
 
 /// A wanted screen mode.
 struct ModeWish {
     Size size;
-    std::optional<double> rateHz;  ///< empty: the highest rate of that size
+    std::optional<double> rateHz;  ///< not set: the highest rate of that size
     bool operator==(const ModeWish&) const = default;
 };
 
-/// Selects a screen: the parsed text of openScreen().
+/// The parsed text of openScreen(), which selects a screen.
 struct ScreenSpec {
     enum class Kind { Auto, Kms, Fbdev };
     Kind kind = Kind::Auto;
-    std::string device;  ///< "/dev/dri/card0", "/dev/fb0"; empty: the first usable device
-    std::string
-        connector;  ///< kms only: "HDMI-A-1" as in /sys/class/drm; empty: the first connected
-    std::optional<ModeWish> mode;  ///< kms only; empty: the preferred mode
+    std::string device;  ///< e.g. "/dev/dri/card0", "/dev/fb0"; empty: the first usable device
+    /// For KMS only: the connector's name as in /sys/class/drm, e.g. "HDMI-A-1"; empty: the first
+    /// one with a screen.
+    std::string connector;
+    std::optional<ModeWish> mode;  ///< for KMS only; not set: the screen's preferred mode
     bool operator==(const ScreenSpec&) const = default;
 };
 
-/// Parses "auto", "kms[:cardN][,CONNECTOR][,WxH[@Hz]]" or "fbdev[:/dev/fbN]". Throws
-/// std::runtime_error that names the faulty part.
+/// Parses "auto", "kms[:cardN][,CONNECTOR][,WxH[@Hz]]" or "fbdev[:/dev/fbN]". Throws a
+/// std::runtime_error that names the wrong part.
 [[nodiscard]] ScreenSpec parseScreenSpec(std::string_view spec);
-/// The fault in such a text; empty if parseScreenSpec() accepts it.
+/// Returns what is wrong with such a text, or nothing if parseScreenSpec() accepts it.
 [[nodiscard]] std::optional<std::string> screenFault(std::string_view spec);
 
-/// Position of a picture on a screen.
+/// The position and size of a picture on a screen.
 struct ScreenRect {
     int x = 0, y = 0;  ///< [px], top left pixel
     Size size;
     bool operator==(const ScreenRect&) const = default;
 };
 
-/// The largest centred rectangle with the aspect of `picture`, to the nearest pixel and at least
-/// one pixel wide and high. Both sizes must be positive.
+/// Returns the largest centred rectangle on the screen that has the picture's aspect ratio. Width
+/// and height are rounded and at least 1. All sides must be positive.
 [[nodiscard]] ScreenRect letterbox(Size picture, Size screen);
 
 }  // namespace mfar

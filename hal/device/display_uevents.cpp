@@ -10,10 +10,10 @@
 namespace mfar {
 namespace {
 
-// The kernel reports a device first, udev when this process may open it.
+// The kernel reports a new device at once. udev reports it when its permissions are set.
 constexpr unsigned kKernelGroup = 1, kUdevGroup = 2;
 
-// "ACTION=change\0SUBSYSTEM=drm\0..."
+// Returns whether a message, such as "ACTION=change\0SUBSYSTEM=drm\0...", is about a display.
 bool concernsDisplays(std::string_view message) {
     constexpr std::string_view kDrm{"\0SUBSYSTEM=drm\0", 15};
     constexpr std::string_view kFb{"\0SUBSYSTEM=graphics\0", 20};
@@ -37,7 +37,7 @@ bool DisplayEvents::changed() {
     std::array<char, 8192> message{};
     while (socket_) {
         const ssize_t bytes = recv(socket_.get(), message.data(), message.size(), 0);
-        // A lost message may have concerned a display.
+        // A message that was lost may have been about a display.
         const bool lost = bytes < 0 && errno == ENOBUFS;
         if (bytes <= 0 && !lost) break;
         if (lost || concernsDisplays({message.data(), static_cast<std::size_t>(bytes)})) any = true;

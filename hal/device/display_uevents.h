@@ -4,12 +4,12 @@
 
 namespace mfar {
 
-/// Reports displays that appear, disappear or change, from the kernel's uevent socket. Without
-/// permission for such a socket (AF_NETLINK) it never reports anything.
+/// Listens to the kernel's uevents (AF_NETLINK) for displays that are added, removed or changed. If
+/// the process has no permission for such a socket, nothing is ever reported.
 class DisplayEvents {
 public:
     DisplayEvents();
-    /// True when a display appeared, disappeared or changed since the last call. Never waits.
+    /// Returns whether a display was added, removed or changed since the last call. Never waits.
     [[nodiscard]] bool changed();
 
 private:

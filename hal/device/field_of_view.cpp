@@ -5,7 +5,8 @@
 namespace mfar {
 namespace {
 
-/// Tolerance: full sensor modes leave out a few pixels for alignment.
+/// The needed share of the pixels along each side. Even full sensor modes leave out a few pixels,
+/// because sizes must be multiples of some number.
 constexpr double kAlike = 0.98;
 
 bool isPositive(Size size) {

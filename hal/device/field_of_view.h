@@ -4,9 +4,9 @@
 
 namespace mfar {
 
-/// True when a picture of the shape of `output` cannot show more of the sensor's `active` pixels
-/// than `crop` does, to 2 %: cropped only left and right, or only above and below, to get the
-/// shape. False when a size is not positive.
+/// Returns whether `crop` is the largest part of the sensor's `active` pixels that has the aspect
+/// ratio of `output`, with a tolerance of 2 %. Such a crop removes pixels only left and right, or
+/// only above and below. Returns false if a width or height is not positive.
 [[nodiscard]] bool showsWholeField(Size crop, Size active, Size output);
 
 }  // namespace mfar

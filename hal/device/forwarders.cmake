@@ -2,14 +2,15 @@ cmake_minimum_required(VERSION 3.25)
 
 # cmake -DHEADER=/usr/include/GLES3/gl31.h -DINCLUDE=GLES3/gl31.h -DMACRO=GL_APICALL -DNAME=Gles
 #       -DOUT=file.cpp [-DVISIBILITY=default] -P forwarders.cmake
-# Writes C++ that defines every function which a Khronos header declares, each as a jump through a
-# table, and connectNAME(), which fills the table. The header is the one that the sources are
-# compiled with (host or sysroot). Khronos generates it with one prototype a line:
+# Writes a C++ file that defines every function that a Khronos header declares. Each function jumps
+# through a table, which connectNAME() fills. HEADER must be the header that the sources are
+# compiled with (host or sysroot). Khronos' headers have one prototype per line:
 #   GL_APICALL void GL_APIENTRY glUniform1fv (GLint location, GLsizei count, const GLfloat *value);
 
 cmake_policy(VERSION 3.25)
 
-# "GLint location, const GLchar *const*string" -> "location, string"
+# Reduces a parameter list to names: "GLint location, const GLchar *const*string" becomes
+# "location, string".
 function(parameter_names parameters out_var)
     set(names "")
     if(NOT parameters STREQUAL "void")

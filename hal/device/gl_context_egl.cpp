@@ -36,7 +36,7 @@ struct OpenedDisplay {
     const char* how;
 };
 
-// Values of GL_KHR_robustness, equal to GL_EXT_robustness.
+// GL_KHR_robustness and GL_EXT_robustness define the same values.
 constexpr GLenum kGuiltyReset = 0x8253, kInnocentReset = 0x8254;
 using ResetStatus = GLenum(GL_APIENTRYP)();
 
@@ -50,7 +50,8 @@ ResetStatus resetStatusOf(std::string_view version, const char* glExtensions) {
     return nullptr;
 }
 
-// Message for boards whose GPU is older than OpenGL ES 3.1: lima, vc4, etnaviv.
+// Returns the message for GPUs whose driver does not support OpenGL ES 3.1, such as lima, vc4 and
+// etnaviv.
 std::string tooOld(EGLDisplay display) {
     const char* name = nullptr;
     if (hasExtension(eglQueryString(display, EGL_EXTENSIONS), "EGL_MESA_query_driver"))
@@ -60,8 +61,8 @@ std::string tooOld(EGLDisplay display) {
            " has no OpenGL ES 3.1; use the SIMD engine (engine.use = \"simd\")";
 }
 
-// A context that reports GPU resets, if the driver supports it. For OpenGL ES the extension's
-// attribute is older than EGL 1.5's, and some drivers know only one of them.
+// Creates a context, which reports GPU resets if the driver supports that. The extension and
+// EGL 1.5 define different attributes for this, and some drivers know only one of them.
 EGLContext createContext(EGLDisplay display, EGLConfig config) {
     const auto create = [&](EGLint attribute, EGLint value) {
         const std::array<EGLint, 7> wanted{
@@ -78,8 +79,9 @@ EGLContext createContext(EGLDisplay display, EGLConfig config) {
     return context != EGL_NO_CONTEXT ? context : create(EGL_NONE, EGL_NONE);
 }
 
-// A device without EGL_MESA_device_software is a GPU. The surfaceless platform is the software
-// fallback (it may still choose a GPU if the device extensions are missing).
+// Opens the first EGL device that is a GPU: it does not have EGL_MESA_device_software. Otherwise
+// opens the surfaceless platform, which uses the software renderer, or possibly a GPU if EGL does
+// not support devices.
 OpenedDisplay openDisplay(bool software) {
     const char* client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     const auto platformDisplay =
@@ -111,8 +113,8 @@ OpenedDisplay openDisplay(bool software) {
         "installed, and may this user read and write /dev/dri/renderD*?");
 }
 
-// All contexts of the process share the EGL displays, which are never terminated: another thread
-// may still use a display while a context is created.
+// All contexts of the process share the EGL displays. The displays are never terminated, because
+// another thread may use them.
 OpenedDisplay sharedDisplay(GlDevice device) {
     static std::mutex mutex;
     static std::array<OpenedDisplay, 2> all{{{EGL_NO_DISPLAY, ""}, {EGL_NO_DISPLAY, ""}}};
@@ -149,7 +151,7 @@ public:
         description_ = std::string(opened.how) + ": " + renderer + ", " + text(GL_VERSION) +
                        (software_ ? ", software" : ", hardware");
         if (!software_) importer_ = createPlaneImporter(display_);
-        // ES 3.1 refuses indirect draws without a vertex array object.
+        // OpenGL ES 3.1 refuses indirect draws while no vertex array object is bound.
         glGenVertexArrays(1, &vertexArray_);
         glBindVertexArray(vertexArray_);
     }

@@ -13,7 +13,7 @@ constexpr const char* kAdvice = "; install libegl1 and libgles2, or use the SIMD
 
 using gl_libraries::Function;
 
-// Never closed: drivers leave threads and thread-local data behind.
+// Loads a library. It is never closed, because drivers leave threads and thread-local data behind.
 void* opened(const std::string& name) {
     void* library = dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (library != nullptr) return library;
@@ -32,13 +32,13 @@ Function findIn(void* library, const char* name) {
 void loadGlLibraries(const GlLibraryNames& names) {
     void* egl = opened(names.egl);
     void* gles = opened(names.gles);
-    // Old versions lack functions that are never called; eglGetProcAddress, which finds all others,
-    // is required.
+    // Missing EGL functions are accepted, because old versions lack some that are never called.
+    // Only eglGetProcAddress is required.
     gl_libraries::connectEgl([egl](const char* name) { return findIn(egl, name); });
     if (findIn(egl, "eglGetProcAddress") == nullptr)
         throw std::runtime_error(names.egl + " has no eglGetProcAddress" + kAdvice);
-    // eglGetProcAddress before EGL 1.5 need not find GLES functions, and some vendors' GLES
-    // libraries export only those of 2.0: both are asked.
+    // Functions are looked up in two ways: before EGL 1.5, eglGetProcAddress need not find GLES
+    // functions, and some vendors' GLES libraries export only the functions of version 2.0.
     const std::string missing = gl_libraries::connectGles([gles](const char* name) {
         const Function function = findIn(gles, name);
         return function != nullptr ? function : eglGetProcAddress(name);

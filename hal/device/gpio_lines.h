@@ -8,37 +8,38 @@
 #include <string>
 #include <vector>
 
-/// The subset of a GPIO library that the trigger needs. Implemented for libgpiod 1.6, for 2.x, and
-/// in the tests without lines.
+/// The subset of a GPIO library that the trigger needs. It is implemented with libgpiod 1.6, with
+/// libgpiod 2.x, and in the tests without hardware.
 
 namespace mfar {
 
 struct GpioLine {
     unsigned offset = 0;
-    std::string name;      ///< empty: the board gives it no name
-    std::string consumer;  ///< its user, if the kernel knows it
+    std::string name;      ///< empty: the line has no name on this board
+    std::string consumer;  ///< the program or driver that uses the line; empty: unknown
     bool used = false;
 };
 
 struct GpioChip {
-    std::string path;   ///< "/dev/gpiochip0"
-    std::string name;   ///< "gpiochip0"
-    std::string label;  ///< "pinctrl-bcm2711"
+    std::string path;   ///< e.g. "/dev/gpiochip0"
+    std::string name;   ///< e.g. "gpiochip0"
+    std::string label;  ///< e.g. "pinctrl-bcm2711"
     std::vector<GpioLine> lines;
-    int error = 0;  ///< errno when the chip could not be opened; label and lines are then empty
+    int error = 0;  ///< errno if the chip or a line could not be opened; 0: no error
 };
 
-/// Address of a line, and its name in messages.
+/// Identifies a line, and names it in messages.
 struct GpioAddress {
     std::string path;
     unsigned offset = 0;
     bool activeLow = false;
-    std::string text;  ///< "line 7 'TRIGGER' of gpiochip0 (9030000.pl061)"
-    /// Its user when it was looked up; empty: unused, or the user has no name.
+    std::string text;  ///< for messages: "line 7 'TRIGGER' of gpiochip0 (9030000.pl061)"
+    /// The program or driver that used the line when it was looked up. Empty if nobody used the
+    /// line.
     std::string consumer;
 };
 
-/// An output line. Levels are logical: the implementation handles active-low lines.
+/// An output line. `active` is the logical level: the implementation inverts active-low lines.
 class OutputLine {
 public:
     virtual ~OutputLine() = default;
@@ -46,19 +47,19 @@ public:
     virtual void set(bool active) = 0;
 };
 
-/// A line whose edges the kernel timestamps.
+/// An input line. The kernel takes the times of its edges.
 class EdgeInput {
 public:
     virtual ~EdgeInput() = default;
-    /// Time (CLOCK_MONOTONIC) of the oldest unread edge, waiting for one up to `timeout`. Throws
-    /// std::runtime_error.
+    /// Returns the time (CLOCK_MONOTONIC) of the oldest edge that was not read yet. Waits for an
+    /// edge up to `timeout`, then returns nothing. Throws std::runtime_error.
     [[nodiscard]] virtual std::optional<Timestamp> next(std::chrono::microseconds timeout) = 0;
 };
 
-/// All chips of this machine, ordered by number.
+/// Returns all GPIO chips of this machine, ordered by number.
 [[nodiscard]] std::vector<GpioChip> listGpioChips();
-/// Requests the line as an output at its inactive level. The line keeps its level when this object
-/// is destroyed. Throws std::runtime_error.
+/// Requests the line as an output at its inactive level. When the returned object is destroyed, the
+/// line keeps its level. Throws std::runtime_error.
 [[nodiscard]] std::unique_ptr<OutputLine> requestOutput(const GpioAddress& line);
 /// Requests the line as an input with events on both edges. Throws std::runtime_error.
 [[nodiscard]] std::unique_ptr<EdgeInput> requestEdges(const GpioAddress& line);

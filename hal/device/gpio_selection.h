@@ -8,16 +8,17 @@
 
 namespace mfar {
 
-/// Finds a line. `chip` is a path, name or label; empty: the only chip with a line of that name.
-/// `line` is a number if it consists of digits, otherwise a name. Throws std::runtime_error: chip
-/// not found (lists the chips), line not found (lists the named lines), ambiguous, no permission.
+/// Finds a line. `chip` is the path, name or label of a chip. If it is empty, all chips are
+/// searched. `line` is a number if it consists of digits, otherwise a name. Throws
+/// std::runtime_error if the chip is not found (the message lists the chips), the line is not found
+/// (the message lists the named lines), several lines match, or the process has no permission.
 [[nodiscard]] GpioAddress findGpioLine(const std::vector<GpioChip>& chips, std::string_view chip,
                                        std::string_view line);
 
-/// Message why a line could not be requested, from the request's errno.
+/// Returns the message for a line that could not be requested. `error` is the errno of the request.
 [[nodiscard]] std::string gpioRequestFault(const GpioAddress& line, int error);
 
-/// Paths of the GPIO character devices in `folder`, ordered by number.
+/// Returns the paths of the GPIO character devices in `folder`, ordered by number.
 [[nodiscard]] std::vector<std::string> gpioChipPaths(const std::string& folder = "/dev");
 
 }  // namespace mfar

@@ -11,15 +11,16 @@
 
 namespace mfar {
 
-/// Decodes the pictures of a JPEG camera into planes, without converting to RGB. One thread at a
-/// time; any thread may use the frames.
+/// Decodes the pictures of a JPEG camera into planes of Y, U and V. Only one thread at a time may
+/// call the decoder. Any thread may use the frames.
 class JpegDecoder {
 public:
-    /// `size` must be even. Throws std::invalid_argument, std::runtime_error.
+    /// Width and height must be even. Throws std::invalid_argument, std::runtime_error.
     JpegDecoder(Size size, int buffers);
 
-    /// YUV420, full range BT.601 (JFIF), chroma of 4:2:2 averaged over two rows; or grey. Empty for
-    /// a damaged picture, another size or subsampling, and when all buffers are lent.
+    /// Returns the picture as Yuv420 (BT.601, full range, as JFIF defines) or Gray8. The chroma of
+    /// a 4:2:2 picture is averaged over two rows. Returns nothing if the picture is damaged or has
+    /// another size or subsampling, or if all buffers are in use.
     [[nodiscard]] std::optional<Frame> decode(std::span<const std::uint8_t> jpeg, Timestamp time);
 
 private:
@@ -32,7 +33,7 @@ private:
         void operator()(void* handle) const;
     };
     std::unique_ptr<void, Close> handle_;
-    FramePool pool_;  // 2 bytes a pixel, as 4:2:2 needs
+    FramePool pool_;  // 2 bytes per pixel, because 4:2:2 needs them during decoding
 };
 
 }  // namespace mfar

@@ -54,8 +54,8 @@ void MappedPicture::map(const libcamera::FrameBuffer& buffer) {
     }
 }
 
-// Planes may begin anywhere in the camera's files: the picture's planes are found by their
-// addresses.
+// A plane may begin anywhere in one of the camera's dma-bufs. Its file and offset are found from
+// its address.
 void MappedPicture::share() {
     shared_.id = newSharedMemoryId();
     const std::array<const std::uint8_t*, 3> begins{view_.data, view_.chroma[0].data,
@@ -85,7 +85,7 @@ void MappedPicture::endRead() const {
 
 void MappedPicture::synchronize(std::uint64_t flags) const {
     const dma_buf_sync sync{flags};
-    // Fails for memory that is not a dma-buf; such memory is coherent.
+    // The call fails for memory that is not a dma-buf. Such memory needs no synchronisation.
     for (const File& file : files_)
         ioctl(file.fd.get(), DMA_BUF_IOCTL_SYNC, &sync);
 }

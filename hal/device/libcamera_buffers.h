@@ -8,18 +8,19 @@
 
 namespace mfar {
 
-/// One of a camera's buffers, mapped once into this process's memory. May outlive the camera.
-/// Planes may share a file with different offsets.
+/// One of a camera's buffers. It is mapped once into this process's memory and may outlive the
+/// camera. Several planes may lie in one file.
 class MappedPicture {
 public:
-    /// Throws std::runtime_error when the memory cannot be mapped or does not hold the picture.
+    /// Throws std::runtime_error if the memory cannot be mapped or is too small for the picture.
     MappedPicture(const libcamera::FrameBuffer& buffer, const PictureLayout& layout);
     MappedPicture(const MappedPicture&) = delete;
     MappedPicture& operator=(const MappedPicture&) = delete;
     ~MappedPicture();
 
     [[nodiscard]] const ImageView& view() const { return view_; }
-    /// To be called before and after each read: devices need not be coherent with the CPU's caches.
+    /// Must be called before and after each read, because the CPU's caches may not be coherent with
+    /// the device.
     void beginRead() const;
     void endRead() const;
 

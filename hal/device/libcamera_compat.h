@@ -7,10 +7,11 @@
 #include <string_view>
 
 /// All differences between libcamera 0.0.3 (Debian 12), 0.4.0 (Debian 13) and 0.7. They are
-/// detected from its types, in templates, because a failing `requires` is allowed only there.
+/// detected from libcamera's types. All functions are templates, because outside of a template an
+/// unsatisfied `requires` is an error.
 namespace mfar::libcamera_compat {
 
-/// The sensor's mode can be chosen (since 0.2.0).
+/// Returns whether libcamera lets its caller choose the sensor's mode (since 0.2.0).
 template <typename Configuration = libcamera::CameraConfiguration>
 [[nodiscard]] constexpr bool hasSensorConfiguration() {
     return requires(Configuration& c) { c.sensorConfig; };
@@ -25,7 +26,8 @@ void setSensorMode(Configuration& configuration, libcamera::Size size, unsigned 
     }
 }
 
-/// True for frames of a sensor that has not settled; marked since 0.5.2.
+/// Returns whether a frame was taken before the sensor had settled. libcamera marks such frames
+/// since 0.5.2.
 template <typename Metadata>
 [[nodiscard]] bool isStartup(const Metadata& metadata) {
     if constexpr (requires { Metadata::FrameStartup; })
@@ -34,7 +36,7 @@ template <typename Metadata>
         return false;
 }
 
-/// Looks up a value's name; controls have named values since 0.4.0.
+/// Returns the number of a control's named value. Controls have named values since 0.4.0.
 template <typename Id>
 [[nodiscard]] std::optional<std::int32_t> enumerator(const Id& control, std::string_view name) {
     if constexpr (requires { control.enumerators(); }) {
@@ -44,8 +46,8 @@ template <typename Id>
     return std::nullopt;
 }
 
-/// True for a control with several values. Reported since 0.4.0; before, only one such control is
-/// known.
+/// Returns whether a control has several values. libcamera reports this since 0.4.0; for older
+/// versions, FrameDurationLimits is the only such control.
 template <typename Id>
 [[nodiscard]] bool isArray(const Id& control) {
     if constexpr (requires { control.isArray(); })
@@ -54,13 +56,14 @@ template <typename Id>
         return control.name() == "FrameDurationLimits";
 }
 
-/// True if libcamera has controls of this C++ type: 16 and 32 bit unsigned ones since 0.4.0.
+/// Returns whether libcamera has controls of this C++ type. Unsigned ones of 16 and 32 bits exist
+/// since 0.4.0.
 template <typename T>
 [[nodiscard]] constexpr bool hasControlType() {
     return requires { libcamera::details::control_type<T>::value; };
 }
 
-/// A text property; a string view since 0.6.0.
+/// Converts a text property to a string. Since 0.6.0, such properties are string views.
 template <typename Text>
 [[nodiscard]] std::string text(const std::optional<Text>& property) {
     return property ? std::string(*property) : std::string();

@@ -57,7 +57,7 @@ std::optional<T> element(const ControlId& id, std::string_view text) {
 template <typename T>
 std::optional<ControlValue> several(const ControlId& id, std::string_view text) {
     const auto count = static_cast<std::size_t>(std::ranges::count(text, ',')) + 1;
-    // Not std::vector, as vector<bool> contains no array of bool.
+    // std::vector cannot be used, because vector<bool> does not store an array of bool.
     const auto values = std::make_unique<T[]>(count);
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t comma = text.find(',');
@@ -69,7 +69,8 @@ std::optional<ControlValue> several(const ControlId& id, std::string_view text) 
     return ControlValue(libcamera::Span<const T>(values.get(), count));
 }
 
-/// False for a value outside the camera's range; only for single values of this type.
+/// Returns whether the value is in the camera's range. True if the range has another type or is an
+/// array.
 template <typename T>
 bool isWithin(const ControlInfo& info, T value) {
     const auto type = libcamera::details::control_type<T>::value;
@@ -89,7 +90,7 @@ std::optional<ControlValue> parseAs(const ControlId& id, const ControlInfo& info
     return ControlValue(*value);
 }
 
-/// Tries each C++ type for which the installed libcamera has controls.
+/// Parses a value with the control's type, which is one of the C++ types in the template's list.
 template <typename T, typename... Others>
 std::optional<ControlValue> parse(const ControlId& id, const ControlInfo& info,
                                   std::string_view text) {

@@ -12,7 +12,8 @@ namespace {
 using libcamera::Camera;
 using libcamera::CameraManager;
 
-/// A second manager would end the process, so a new one waits until the last one is destroyed.
+/// libcamera ends the process if a second manager is created. So a new manager is created only
+/// after the last one was destroyed.
 struct OnlyOne {
     std::mutex mutex;
     std::condition_variable gone;
@@ -36,7 +37,7 @@ void end(CameraManager* manager) {
     one.gone.notify_all();
 }
 
-/// Number of pixels of the camera's largest picture; 0 if it does not report sizes.
+/// Returns the number of pixels of the camera's largest picture; 0 if the camera reports no sizes.
 std::int64_t largestPicture(Camera& camera) {
     std::int64_t most = 0;
     const auto configuration = camera.generateConfiguration({libcamera::StreamRole::StillCapture});
@@ -88,7 +89,7 @@ std::vector<ListedCamera> listCameras(const std::vector<std::shared_ptr<Camera>>
 std::shared_ptr<Camera> findLibcamera(const CameraManager& manager, const CameraWish& wish) {
     const std::vector<std::shared_ptr<Camera>> cameras = manager.cameras();
     std::vector<ListedCamera> listed = listCameras(cameras);
-    // Asking a camera takes time: only if the size decides.
+    // A query of the sizes takes time, so they are queried only if they decide the choice.
     for (std::size_t i = 0; i < cameras.size() && wish.name.empty() && cameras.size() > 1; ++i)
         listed[i].pixels = largestPicture(*cameras[i]);
     return cameras[chooseCamera(listed, wish)];

@@ -8,15 +8,15 @@
 
 namespace mfar {
 
-/// The process's only libcamera manager (libcamera allows just one). It lives while somebody holds
-/// it and updates its list of cameras itself. Throws std::runtime_error.
+/// Returns the process's libcamera manager; libcamera allows only one. It lives as long as somebody
+/// holds the pointer. It updates its list of cameras itself. Throws std::runtime_error.
 [[nodiscard]] std::shared_ptr<libcamera::CameraManager> libcameraManager();
 
-/// The manager's cameras as ListedCamera, in its order.
+/// Describes libcamera's cameras as ListedCamera, in the same order.
 [[nodiscard]] std::vector<ListedCamera>
 listCameras(const std::vector<std::shared_ptr<libcamera::Camera>>& cameras);
 
-/// See chooseCamera().
+/// Returns the camera that chooseCamera() chooses.
 [[nodiscard]] std::shared_ptr<libcamera::Camera>
 findLibcamera(const libcamera::CameraManager& manager, const CameraWish& wish);
 

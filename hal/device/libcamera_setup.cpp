@@ -22,7 +22,7 @@ struct Offer {
     PixelFormat ours;
 };
 
-// libcamera names the bytes of RGB formats from last to first.
+// libcamera names the colours of RGB formats from the last byte to the first.
 const std::array<Offer, 5> kPreferred{{{libcamera::formats::NV12, PixelFormat::Nv12},
                                        {libcamera::formats::YUV420, PixelFormat::Yuv420},
                                        {libcamera::formats::YUYV, PixelFormat::Yuyv},
@@ -71,8 +71,8 @@ struct Chosen {
     PixelFormat format = PixelFormat::Nv12;
 };
 
-/// A valid configuration of exactly this size in the most preferred format. If there is none: empty
-/// with a sensor mode, otherwise throws.
+/// Returns a valid configuration of exactly the wanted size, in the most preferred format that
+/// works. If none works, returns nothing if `mode` is set, otherwise throws.
 std::optional<Chosen> choose(libcamera::Camera& camera, const LibcameraOptions& options,
                              const std::optional<SensorMode>& mode) {
     Chosen chosen{generate(camera, options), {}};
@@ -100,7 +100,8 @@ std::optional<Chosen> choose(libcamera::Camera& camera, const LibcameraOptions& 
     failOnFormat(camera, options, configuration.at(0), became);
 }
 
-/// Bit depth of a raw format: 10 for "SRGGB10_CSI2P" or "R10"; 0 for other formats.
+/// Returns the bit depth of a raw format, e.g. 10 for "SRGGB10_CSI2P" and "R10"; 0 for other
+/// formats.
 unsigned bitDepth(const std::string& format) {
     const auto isDigit = [](char c) { return c >= '0' && c <= '9'; };
     const bool bayer = format.starts_with('S');
@@ -112,7 +113,8 @@ unsigned bitDepth(const std::string& format) {
     return depth;
 }
 
-/// Sensor modes not below the size, smallest first. Empty where modes cannot be chosen.
+/// Returns the sensor modes that are at least as large as `size`, smallest first. The list is empty
+/// if modes cannot be chosen.
 std::vector<SensorMode> sensorModes(libcamera::Camera& camera, Size size) {
     std::vector<SensorMode> modes;
     if constexpr (!libcamera_compat::hasSensorConfiguration()) return modes;
@@ -126,7 +128,8 @@ std::vector<SensorMode> sensorModes(libcamera::Camera& camera, Size size) {
                 mode.height >= static_cast<unsigned>(size.height))
                 modes.push_back({mode, depth});
     }
-    // Of equal sizes, the greatest bit depth (the slowest) first.
+    // Among modes of equal size, the one with the greatest bit depth, which is the slowest, is
+    // first.
     std::ranges::sort(modes, {}, [](const SensorMode& mode) {
         return std::pair(std::uint64_t{mode.size.width} * mode.size.height, 64 - mode.bitDepth);
     });
@@ -154,8 +157,8 @@ void apply(libcamera::Camera& camera, CameraConfiguration& configuration) {
             fmt::format("camera '{}' cannot be configured (error {})", camera.id(), -error));
 }
 
-/// Uses the first sensor mode that shows the whole field and reaches the rate; otherwise
-/// libcamera's choice.
+/// Configures the first sensor mode that shows the whole field of view and reaches the frame rate.
+/// If there is none, lets libcamera choose the mode.
 Chosen chooseMode(libcamera::Camera& camera, const LibcameraOptions& options) {
     for (const SensorMode& mode : sensorModes(camera, options.size)) {
         auto chosen = choose(camera, options, mode);
@@ -200,8 +203,8 @@ ControlValues controlsFor(const libcamera::Camera& camera, const LibcameraOption
         wanted.emplace_back("FrameDurationLimits", fmt::format("{},{}", us, us));
     }
     if (options.exposureUs) {
-        // libcamera 0.5 splits the automatic exposure into two controls; AeEnable is for older
-        // versions.
+        // Since libcamera 0.5, exposure and gain have separate automatic modes. Older versions have
+        // AeEnable for both.
         if (hasControl(known, "ExposureTimeMode"))
             manual("ExposureTimeMode", "1");
         else

@@ -11,23 +11,24 @@
 namespace mfar {
 
 struct ConfiguredCamera {
-    std::unique_ptr<libcamera::CameraConfiguration> configuration;  ///< has one stream
+    std::unique_ptr<libcamera::CameraConfiguration> configuration;  ///< with one stream
     PictureLayout layout;
 };
 
-/// Configures an acquired camera for one stream. Throws std::runtime_error.
+/// Configures a camera, which must be acquired, for one stream. Throws std::runtime_error.
 [[nodiscard]] ConfiguredCamera configureLibcamera(libcamera::Camera& camera,
                                                   const LibcameraOptions& options);
 
-/// The options as control values for this camera. Throws std::runtime_error.
+/// Converts the options to control values of this camera. Throws std::runtime_error.
 [[nodiscard]] ControlValues controlsFor(const libcamera::Camera& camera,
                                         const LibcameraOptions& options);
 
-/// The sensor's active pixels; empty when the camera does not report them.
+/// Returns the size of the sensor's active area [px], or nothing if the camera does not report it.
 [[nodiscard]] std::optional<Size> activePixels(const libcamera::Camera& camera);
 
-/// Message that `crop` shows only a part of the sensor's field in pictures of size `output`; empty
-/// for the whole field, if the camera does not report it, or if the options allow it.
+/// Returns a message if `crop`, the used part of the sensor, shows only a part of the field of
+/// view. Returns nothing if it shows the whole field, if the camera does not report the areas, or
+/// if the options allow a crop.
 [[nodiscard]] std::optional<std::string> cropFault(const libcamera::Camera& camera,
                                                    const std::optional<libcamera::Rectangle>& crop,
                                                    const LibcameraOptions& options);

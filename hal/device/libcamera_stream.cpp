@@ -14,11 +14,11 @@
 namespace mfar {
 namespace {
 
-/// One for the camera, one for the user.
+/// The camera fills one buffer while the user reads the other.
 constexpr std::size_t kLeastBuffers = 2;
-/// Upper limit until libcamera learns from udev, on a busy board, that a device is gone.
+/// On a busy board, libcamera learns from udev within this time that a device was unplugged.
 constexpr std::chrono::seconds kUdevTime{30};
-/// Interval between two checks of the nodes meanwhile.
+/// Interval of the checks for a lost device node during this time.
 constexpr std::chrono::milliseconds kNodeLook{100};
 
 void check(const LibcameraOptions& options) {
@@ -37,11 +37,11 @@ void check(const LibcameraOptions& options) {
         throw std::runtime_error("a camera takes 2 to 64 buffers");
 }
 
-/// True if this process holds a video device whose node is gone. The kernel removes the node with
-/// the device, before anybody is notified.
+/// Returns whether this process has opened a video device whose node is deleted. The kernel deletes
+/// the node of an unplugged device before it notifies anybody.
 bool hasLostVideoNode() {
     namespace fs = std::filesystem;
-    // Error codes, because a destructor calls this: nothing may throw.
+    // A destructor calls this function, so it uses the overloads that do not throw.
     std::error_code ended, closed;
     for (fs::directory_iterator fd("/proc/self/fd", ended);
          !ended && fd != fs::directory_iterator(); fd.increment(ended)) {
@@ -104,8 +104,7 @@ void LibcameraCamera::Stream::close() {
     camera_->requestCompleted.disconnect(this);
     camera_->disconnected.disconnect(this);
     cycle_.close();
-    // Requests belong to the camera and buffers to the allocator: both are destroyed before their
-    // owners.
+    // Requests must be destroyed before the camera, and buffers before the allocator.
     slots_.clear();
     allocator_.reset();
     configured_.configuration.reset();
@@ -135,16 +134,16 @@ void LibcameraCamera::Stream::start() {
 int LibcameraCamera::Stream::queue(std::size_t slot) {
     libcamera::Request& request = *slots_[slot].request;
     request.reuse(libcamera::Request::ReuseBuffers);
-    // Some drivers (uvcvideo) read controls only from requests.
+    // Some drivers (uvcvideo) ignore the controls of start() and read only those of requests.
     for (const auto& [id, value] : controlsDue_ ? controls_ : ControlValues{})
         request.controls().set(id, value);
     controlsDue_ = false;
     return camera_->queueRequest(&request);
 }
 
-// libcamera learns late, from udev, that a running device was unplugged. Stopping it before, with
-// requests queued, ends the process; afterwards stopping is harmless. The lost node may belong to
-// another camera; this one then waits as well.
+// libcamera learns from udev, with a delay, that a running device was unplugged. If the camera is
+// stopped before that while requests are queued, libcamera ends the process. So this function waits
+// while a device node is lost. The node may belong to another camera; the wait is then unnecessary.
 void LibcameraCamera::Stream::prepareStop() {
     const auto end = std::chrono::steady_clock::now() + kUdevTime;
     while (hasLostVideoNode() && std::chrono::steady_clock::now() < end)
@@ -155,13 +154,13 @@ void LibcameraCamera::Stream::stop() {
     camera_->stop();
 }
 
-/// Called in libcamera's thread.
+/// libcamera's thread calls this.
 void LibcameraCamera::Stream::disconnected() {
     unplugged_ = true;
     cycle_.lose(fmt::format("camera '{}' has been unplugged", id_));
 }
 
-/// Called in libcamera's thread.
+/// libcamera's thread calls this.
 void LibcameraCamera::Stream::completed(libcamera::Request* request) {
     const auto slot = static_cast<std::size_t>(request->cookie());
     if (request->status() == libcamera::Request::RequestCancelled) return cycle_.cancelled(slot);
@@ -191,7 +190,7 @@ bool LibcameraCamera::Stream::isSound(const libcamera::FrameMetadata& metadata) 
     return sound;
 }
 
-/// Empty for a frame with an implausible time.
+/// Returns the frame's time and exposure, or nothing if the time is implausible.
 std::optional<RequestCycle::Done>
 LibcameraCamera::Stream::describe(std::size_t slot, libcamera::Request& request,
                                   const libcamera::FrameMetadata& metadata) {

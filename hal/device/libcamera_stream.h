@@ -15,16 +15,16 @@
 
 namespace mfar {
 
-/// The stream of a LibcameraCamera: owns the requests and their memory, and checks completed
-/// pictures. Frames hold a weak reference to the stream and a strong one to its memory.
+/// The stream of a LibcameraCamera. It owns the requests and their memory, and it checks completed
+/// pictures. A frame keeps the memory of its picture alive, but not the stream.
 class LibcameraCamera::Stream : public std::enable_shared_from_this<Stream>, private RequestDriver {
 public:
     explicit Stream(const LibcameraOptions& options);
     Stream(const Stream&) = delete;
     Stream& operator=(const Stream&) = delete;
     ~Stream() override = default;
-    /// Releases the device, once. A frame that is returned at this moment may keep the object alive
-    /// a little longer; the destructor must not release the device then, so close() does.
+    /// Releases the device. Must be called once. The destructor does not do this, because a frame
+    /// that another thread returns at this moment may delay the destructor.
     void close();
 
     [[nodiscard]] CameraInfo info() const;
@@ -58,19 +58,19 @@ private:
     LibcameraOptions options_;
     std::shared_ptr<libcamera::CameraManager> manager_;
     std::shared_ptr<libcamera::Camera> camera_;
-    std::string id_;  ///< the camera's id
+    std::string id_;  ///< libcamera's id of the camera
     ConfiguredCamera configured_;
     ControlValues controls_;
     std::unique_ptr<libcamera::FrameBufferAllocator> allocator_;
     libcamera::Stream* stream_ = nullptr;
     std::vector<Slot> slots_;
     RequestCycle cycle_{*this};
-    bool controlsDue_ = false;  ///< controls are sent with the next request
+    bool controlsDue_ = false;  ///< the next request must set the controls
     std::atomic<bool> unplugged_{false};
 
-    mutable std::mutex mutex_;  ///< locked after the cycle's mutex
+    mutable std::mutex mutex_;  ///< lock order: cycle_'s mutex, then this one
     bool viewChecked_ = false;
-    std::string viewFault_;  ///< set when frames show only a part of the field
+    std::string viewFault_;  ///< message if frames show only a part of the field of view
     LibcameraCounters counters_;
     FrameDrops drops_;
     SensorClock clock_;

@@ -8,11 +8,11 @@
 
 namespace mfar {
 
-/// A driver's description of its pictures.
+/// How a driver lays out its pictures in memory.
 struct PictureLayout {
     Size size;
     PixelFormat format = PixelFormat::Nv12;
-    std::size_t stride = 0;  ///< bytes, first plane
+    std::size_t stride = 0;  ///< bytes per row of the first plane, with padding
     YuvMatrix matrix = YuvMatrix::Bt601;
     YuvRange range = YuvRange::Limited;
 };
@@ -22,13 +22,13 @@ struct PlaneBytes {
     std::size_t length = 0;
 };
 
-/// Minimum number of bytes of a picture: its last row need not be padded.
+/// Returns the minimum number of bytes of a picture. Its last row need not be padded.
 [[nodiscard]] std::size_t leastBytes(const PictureLayout& layout);
 
-/// The picture in a driver's buffer: one memory plane for each plane of the format, or one for all
-/// planes, one after the other. Chroma rows have the stride of luma (Nv12) or half of it (Yuv420).
-/// Throws std::runtime_error when a plane is missing or too short, or the stride is shorter than a
-/// row.
+/// Returns a view of the picture in a driver's buffer. `planes` has one element for each plane of
+/// the format, or one element that holds all planes one after the other. Chroma rows have the
+/// stride of luma rows (Nv12) or half of it (Yuv420). Throws std::runtime_error if a plane is
+/// missing or too short, or if the stride is shorter than a row.
 [[nodiscard]] ImageView layOut(const PictureLayout& layout, std::span<const PlaneBytes> planes);
 
 }  // namespace mfar

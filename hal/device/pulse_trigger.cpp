@@ -11,11 +11,12 @@ namespace {
 using std::chrono::microseconds;
 
 constexpr microseconds kLongest{10'000'000};
-/// For pulses up to this length the caller waits: waking another thread would cost accuracy.
+/// The caller of fire() ends pulses up to this length itself, because the time at which another
+/// thread wakes up is less accurate.
 constexpr microseconds kInCaller{1000};
-/// Upper limit of a sleeping thread's wake-up delay on a machine that is not overloaded.
+/// A sleeping thread wakes up at most this late, unless the machine is overloaded.
 constexpr microseconds kWakeUp{100};
-/// An edge is reported within microseconds or not at all.
+/// Longest wait for the report of an edge. The kernel reports an edge within microseconds or never.
 constexpr microseconds kEdgeWait{1000};
 
 std::chrono::steady_clock::time_point steady(Timestamp time) {
@@ -47,7 +48,7 @@ PulseTrigger::~PulseTrigger() {
     try {
         line_->set(false);
     } catch (const std::runtime_error&) {
-        // The chip is gone: there is no line to drive and nobody to report to.
+        // The GPIO chip is lost, so the line cannot be driven. A destructor cannot report errors.
     }
 }
 
@@ -85,7 +86,7 @@ void PulseTrigger::endPulse() {
 void PulseTrigger::endLater(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
     while (wake_.wait(lock, stop, [this] { return running_; })) {
-        // The pulse may be ended early by endPulse() and followed by one with another end.
+        // During this wait, endPulse() may end the pulse, and a new pulse may begin.
         const Timestamp due = due_;
         const auto isOver = [&] { return !running_ || due_ != due; };
         if (wake_.wait_until(lock, stop, steady(due - kWakeUp), isOver)) continue;
@@ -108,18 +109,19 @@ void PulseTrigger::end() {
 std::optional<Timestamp> PulseTrigger::edgeSince(Timestamp earliest) {
     while (loopback_) {
         const std::optional<Timestamp> edge = loopback_->next(kEdgeWait);
-        // Timestamps of a clock other than CLOCK_MONOTONIC (kernels before 5.7) lie in the future.
+        // Kernels before 5.7 use another clock than CLOCK_MONOTONIC. Such times lie in the future
+        // and are ignored.
         if (!edge || *edge > Timestamp::now()) return std::nullopt;
         if (*edge >= earliest) return edge;
     }
     return std::nullopt;
 }
 
-/// Distinguishes the edges by time, not by kind: the kernel reads the level to report the kind, and
-/// a short pulse is over by then.
+/// Tells the two edges apart by their times. The reported kinds (rising, falling) may be wrong,
+/// because the kernel reads the level after the edge, when a short pulse is over.
 void PulseTrigger::measure(Timestamp endDriven) {
     if (!leading_) leading_ = edgeSince(begun_);
-    if (leading_ && *leading_ >= endDriven) leading_.reset();  // it was the trailing edge
+    if (leading_ && *leading_ >= endDriven) leading_.reset();  // this is the trailing edge
     const std::optional<Timestamp> trailing =
         leading_ ? edgeSince(endDriven) : std::optional<Timestamp>{};
     if (trailing)

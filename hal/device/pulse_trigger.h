@@ -14,39 +14,40 @@
 
 namespace mfar {
 
-/// A pulse as measured by the loopback line.
+/// The times of a pulse's edges on the loopback line, an input that is wired to the trigger's line.
 struct MeasuredPulse {
     Timestamp start;  ///< leading edge
-    Timestamp end;    ///< trailing edge; end - start is the exposure if the pulse length sets it
+    Timestamp end;    ///< trailing edge; many sensors expose from start to end
 };
 
-/// Pulses on one line. The line is inactive from the constructor to the destructor, except during
-/// a pulse. Thread-safe.
+/// Drives pulses on one GPIO line. The line is inactive from the constructor to the destructor,
+/// except during a pulse. Thread-safe.
 ///
-/// The caller of fire() drives a pulse of up to 1 ms completely; a longer one is ended by a thread
-/// of this object, which sleeps until 0.1 ms before its end and then polls the clock, because many
-/// sensors expose for the pulse's length.
+/// The length of a pulse must be accurate, because many sensors expose as long as the pulse lasts.
+/// If it is at most 1 ms, fire() waits and ends the pulse itself. Otherwise a thread of this object
+/// ends it: the thread sleeps until 0.1 ms before the end and then polls the clock.
 class PulseTrigger final : public Trigger {
 public:
-    /// `loopback` may be null. Throws std::runtime_error unless the pulse is 1 us to 10 s.
+    /// `loopback` may be null. Throws std::runtime_error unless `pulse` is from 1 us to 10 s.
     PulseTrigger(std::string name, std::unique_ptr<OutputLine> line,
                  std::unique_ptr<EdgeInput> loopback, std::chrono::microseconds pulse);
     PulseTrigger(const PulseTrigger&) = delete;
     PulseTrigger& operator=(const PulseTrigger&) = delete;
-    /// Ends a running pulse at once.
+    /// Ends an active pulse at once.
     ~PulseTrigger() override;
 
-    /// Returns the time of the leading edge: from the loopback if it reported one, otherwise the
-    /// mean of the clock before and after driving the line. Throws TriggerBusy during a pulse: a
-    /// second pulse is refused, not queued, because its edge would come at an unwanted time. Throws
-    /// std::runtime_error when the line cannot be driven or an earlier pulse could not be ended.
+    /// Starts a pulse and returns the time of its leading edge. The time comes from the loopback
+    /// line; if that reports no edge, it is the mean of the times before and after the line was
+    /// driven. Throws TriggerBusy if a pulse is active: a second pulse is not queued, because its
+    /// edge would come too late. Throws std::runtime_error if the line cannot be driven or an
+    /// earlier pulse could not be ended.
     Timestamp fire() override;
     void endPulse() override;
     [[nodiscard]] std::string name() const override { return name_; }
 
-    /// The last pulse whose edges were both reported by the loopback.
+    /// Returns the last pulse of which the loopback line reported both edges.
     [[nodiscard]] std::optional<MeasuredPulse> measured() const;
-    /// Pulses of which the loopback missed an edge.
+    /// Returns the number of pulses of which the loopback line did not report both edges.
     [[nodiscard]] std::uint64_t missedEdges() const override;
 
 private:
@@ -65,12 +66,12 @@ private:
     bool running_ = false;              ///< a pulse is active
     Timestamp begun_;                   ///< time just before the leading edge was driven
     Timestamp due_;                     ///< end of the pulse
-    std::optional<Timestamp> leading_;  ///< leading edge, as the loopback reported it
-    /// A pulse could not be ended; reported by the next fire().
+    std::optional<Timestamp> leading_;  ///< leading edge as the loopback line reported it
+    /// The error because of which a pulse could not be ended. The next fire() throws it.
     std::optional<std::string> failure_;
     std::optional<MeasuredPulse> measured_;
     std::uint64_t missed_ = 0;
-    std::jthread ender_;  ///< last member: joins before the others are destroyed
+    std::jthread ender_;  ///< must be the last member: the thread uses the members above
 };
 
 }  // namespace mfar

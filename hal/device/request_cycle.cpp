@@ -30,7 +30,8 @@ void RequestCycle::close() {
     requests_.clear();
 }
 
-/// Called in the thread of next(), because the driver's thread serves other cameras, too.
+/// The thread of next() calls this. The driver's thread must not wait here, because it serves other
+/// cameras, too.
 void RequestCycle::restart() {
     const std::lock_guard life(lifecycle_);
     {
@@ -42,7 +43,7 @@ void RequestCycle::restart() {
     begin();
 }
 
-/// Call with lifecycle_ held.
+/// lifecycle_ must be locked.
 void RequestCycle::begin() {
     {
         const std::lock_guard lock(mutex_);
@@ -57,7 +58,7 @@ void RequestCycle::begin() {
     queueIdle();
 }
 
-/// Call with lifecycle_ held.
+/// lifecycle_ must be locked.
 void RequestCycle::halt() {
     driver_.prepareStop();
     {
@@ -66,7 +67,7 @@ void RequestCycle::halt() {
         running_ = false;
     }
     changed_.notify_all();
-    driver_.stop();  // completes queued requests, whose callbacks lock the mutex
+    driver_.stop();  // this completes queued requests, and the callbacks lock mutex_
     const std::lock_guard lock(mutex_);
     ready_.clear();
     for (State& state : requests_)
@@ -77,7 +78,7 @@ bool RequestCycle::anyQueued() const {
     return std::ranges::find(requests_, State::Queued) != requests_.end();
 }
 
-/// Call with the mutex held.
+/// mutex_ must be locked.
 void RequestCycle::queue(std::size_t request) {
     requests_[request] = State::Queued;
     const int error = driver_.queue(request);
@@ -86,7 +87,7 @@ void RequestCycle::queue(std::size_t request) {
     loseLocked(fmt::format("{} takes no more requests (error {})", name_, -error));
 }
 
-/// Call with the mutex held.
+/// mutex_ must be locked.
 void RequestCycle::queueIdle() {
     for (std::size_t i = 0; i < requests_.size() && lost_.empty(); ++i)
         if (requests_[i] == State::Idle) queue(i);
@@ -120,7 +121,7 @@ void RequestCycle::completed(std::size_t request, const Judge& judge) {
         ready_.push_back(*done);
         ++delivered_;
     }
-    // The stream runs: queue requests again that were cancelled singly.
+    // The driver fills requests, so those that it cancelled can be queued again.
     queueIdle();
 }
 
@@ -132,7 +133,8 @@ void RequestCycle::cancelled(std::size_t request) {
     if (running_ && !anyQueued()) planRestart();
 }
 
-/// Call with the mutex held. Requests that users return before the restart are cancelled, too.
+/// mutex_ must be locked. If restartAt_ is set already, a request that was returned in the meantime
+/// has been cancelled as well.
 void RequestCycle::planRestart() {
     if (restartAt_) return;
     const Timestamp now = clock_();

@@ -16,34 +16,34 @@
 
 namespace mfar {
 
-/// A driver that cancels all queued requests needs a restart of its stream. Raspberry Pi's driver
-/// does this after a second without a trigger pulse, which is not a fault.
+/// Limits for restarts of the stream, which are needed if a driver cancels all queued requests.
+/// Raspberry Pi's driver cancels them after a second without a trigger pulse. This is not a fault.
 struct RestartLimits {
-    /// A stream that ends within this time after its start has ended early.
+    /// If a driver cancels all requests within this time after the start, the stream ended early.
     std::chrono::milliseconds early{500};
-    /// Pause before the restart after the second early end in a row; doubles with each further one.
+    /// Pause before the restart after two early ends in a row. It doubles with each further one.
     std::chrono::milliseconds firstPause{50};
     /// After this many early ends in a row the device counts as lost.
     int most = 5;
 };
 
-/// Fills requests, identified by number, in any order.
+/// A camera driver that fills requests, in any order. Requests are identified by number.
 class RequestDriver {
 public:
     virtual ~RequestDriver() = default;
-    /// Throws DeviceLost, std::runtime_error.
+    /// Starts the stream. Throws DeviceLost, std::runtime_error.
     virtual void start() = 0;
-    /// Returns 0 or a negative error of errno.h. Never waits.
+    /// Queues a request. Returns 0 or a negative error number of errno.h. Never waits.
     [[nodiscard]] virtual int queue(std::size_t request) = 0;
-    /// Called before stop(), while requests may still be completed.
+    /// This function is called before stop(), while the driver may still complete requests.
     virtual void prepareStop() = 0;
-    /// Completes all queued requests. May wait.
+    /// Stops the stream and completes all queued requests. May wait.
     virtual void stop() = 0;
 };
 
-/// Circulates the requests of a camera: the driver completes a request, a user holds its picture,
-/// and returning the picture queues the request again. Thread-safe; next() is called from one
-/// thread and also calls the driver's start() and stop().
+/// Manages the requests of a camera. The driver completes a request, a user holds its picture, and
+/// when the user returns the picture, the request is queued again. Thread-safe, but only one thread
+/// may call next(). next() may call the driver's start() and stop().
 class RequestCycle {
 public:
     struct Done {
@@ -51,43 +51,43 @@ public:
         Timestamp time;
         std::chrono::nanoseconds exposure{0};
     };
-    /// Inspects a completed request; empty: its picture must not be used.
+    /// Checks a completed request. Returns nothing if its picture must not be used.
     using Judge = std::function<std::optional<Done>()>;
 
     using Clock = std::function<Timestamp()>;
 
-    /// `driver` must outlive this.
+    /// `driver` must outlive this object.
     explicit RequestCycle(RequestDriver& driver, const RestartLimits& limits = {},
                           Clock clock = &Timestamp::now);
 
-    /// Adds a request, before the start. Requests are numbered from 0.
+    /// Adds a request. Must not be called after start(). Requests are numbered from 0.
     void add();
-    /// Queues all requests. Throws what the driver throws.
+    /// Starts the driver and queues all requests. Throws what the driver throws.
     void start();
     void stop();
-    /// Forgets all requests: a request that is returned later is ignored.
+    /// Removes all requests. A request that is returned later is ignored.
     void close();
 
-    /// The oldest picture, which the caller owns until giveBack(); empty when none comes within
-    /// `timeout` or after stop(). Throws DeviceLost.
+    /// Returns the oldest picture, which the caller holds until giveBack(). Returns nothing if no
+    /// picture comes within `timeout` or after stop(). Throws DeviceLost.
     [[nodiscard]] std::optional<Done> next(std::chrono::milliseconds timeout);
     void giveBack(std::size_t request);
 
-    // Called from the driver's thread.
+    // The driver's thread calls the following functions.
     void completed(std::size_t request, const Judge& judge);
-    /// The driver returns a request unfilled.
+    /// Reports that the driver returned a request without a picture.
     void cancelled(std::size_t request);
-    /// Reports that the device is gone; next() throws.
+    /// Reports that the device is lost; next() will throw.
     void lose(const std::string& why);
 
-    /// Waits until a picture comes, no request is queued or the cycle is stopped; false when none
-    /// of these happens within this time.
+    /// Waits until a picture comes, no request is queued or the cycle is stopped. Returns false if
+    /// none of these happens within this time.
     [[nodiscard]] bool awaitSign(std::chrono::milliseconds within);
 
     void setName(std::string camera) { name_ = std::move(camera); }
-    /// Number of usable pictures.
+    /// Returns the number of pictures that passed the Judge.
     [[nodiscard]] std::uint64_t delivered() const;
-    /// Number of restarts after the driver had cancelled all requests.
+    /// Returns the number of restarts after the driver had cancelled all requests.
     [[nodiscard]] std::uint64_t restarts() const;
 
 private:
@@ -106,15 +106,15 @@ private:
     const RestartLimits limits_;
     const Clock clock_;
     std::string name_ = "camera";
-    std::mutex lifecycle_;  ///< one start() or stop() at a time; locked before mutex_
+    std::mutex lifecycle_;  ///< allows one start() or stop() at a time; locked before mutex_
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     std::vector<State> requests_;
     std::deque<Done> ready_;
     bool running_ = false;
-    std::string lost_;  ///< why the device is gone; empty: it is not gone
+    std::string lost_;  ///< why the device is lost; empty: it is not lost
     Timestamp begun_;
-    int earlyEnds_ = 0;  ///< early ends in a row
+    int earlyEnds_ = 0;  ///< number of early ends in a row
     std::optional<Timestamp> restartAt_;
     std::uint64_t delivered_ = 0, restarts_ = 0;
 };

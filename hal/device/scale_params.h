@@ -2,16 +2,16 @@
 
 #include <cstdint>
 
-// Parameters of display_scale.frag, which draws a picture on a screen. Shaders read this header,
-// too: gles_shaders/params_to_glsl.cmake.
+// Parameters of display_scale.frag, which draws a picture on a screen.
+// gles_shaders/params_to_glsl.cmake translates this header to GLSL.
 namespace mfar::params {
 
 struct alignas(16) ScalePicture {
-    std::int32_t left, top, width, height;     ///< picture's rectangle [px of the screen]
-    float scaleX, scaleY;                      ///< pixels of the picture per pixel of the screen
-    float footprintX, footprintY;              ///< [px of the picture], at least 1
+    std::int32_t left, top, width, height;     ///< rectangle of the picture on the screen [px]
+    float scaleX, scaleY;                      ///< picture pixels per screen pixel
+    float footprintX, footprintY;              ///< averaged area: scaleX and scaleY, at least 1
     std::int32_t pictureWidth, pictureHeight;  ///< [px]
-    std::int32_t blueFirst;                    ///< 1: blue is written first
+    std::int32_t blueFirst;                    ///< 1: the output's bytes are B G R; 0: R G B
 };
 
 }  // namespace mfar::params

@@ -32,7 +32,7 @@ std::unique_ptr<PulseTrigger> openGpioTrigger(const TriggerOptions& options) {
 }
 
 void driveSafe(const TriggerOptions& options) {
-    // Requesting the line drives it to its inactive level.
+    // The request of the line already drives it to its inactive level.
     requestOutput(outputOf(options, listGpioChips()))->set(false);
 }
 

@@ -9,16 +9,19 @@
 namespace mfar {
 
 struct TriggerOptions {
-    std::string chip;  ///< label, name or path of the GPIO chip; empty: found by the line's name
-    std::string line;  ///< number or name
+    std::string chip;  ///< label, name or path of the GPIO chip; empty: any chip with the line
+    std::string line;  ///< number or name of the trigger's line
     bool activeLow = false;
-    std::chrono::microseconds pulse{1000};  ///< 1 us to 10 s
-    std::string loopbackChip;               ///< empty: `chip`
-    std::string loopback;  ///< input wired to `line`, number or name; empty: no loopback
+    std::chrono::microseconds pulse{1000};  ///< length of a pulse, 1 us to 10 s
+    std::string loopbackChip;               ///< GPIO chip of `loopback`; empty: `chip`
+    /// Number or name of an input line that is wired to `line` and reports the edges. If this is
+    /// empty, there is no such line.
+    std::string loopback;
 };
 
-/// Requests the line, at its inactive level, and the loopback. Throws std::runtime_error that lists
-/// what is available, or names the line's user or the missing group.
+/// Requests the trigger's line at its inactive level, and the loopback line. Throws a
+/// std::runtime_error that lists the available chips or lines, or names the program that uses the
+/// line or the group that the user must join.
 [[nodiscard]] std::unique_ptr<PulseTrigger> openGpioTrigger(const TriggerOptions& options);
 
 }  // namespace mfar

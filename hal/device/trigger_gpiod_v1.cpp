@@ -27,7 +27,7 @@ std::string text(const char* nullable) {
     return nullable ? nullable : "";
 }
 
-/// A line requested from its chip, which must stay open. Closing the chip releases the line.
+/// A requested line. Its chip must stay open, because closing the chip releases the line.
 struct Requested {
     Chip chip;
     gpiod_line* line = nullptr;
@@ -68,7 +68,7 @@ public:
         : text_(address.text), taken_(request(address, GPIOD_LINE_REQUEST_EVENT_BOTH_EDGES)) {}
 
     std::optional<Timestamp> next(std::chrono::microseconds timeout) override {
-        // Both fields are narrower on 32-bit systems.
+        // The casts are needed for 32-bit systems, on which both fields are narrower.
         timespec wait{};
         wait.tv_sec = static_cast<time_t>(timeout.count() / 1'000'000);
         wait.tv_nsec = static_cast<decltype(wait.tv_nsec)>(timeout.count() % 1'000'000 * 1000);
@@ -98,7 +98,7 @@ GpioChip describe(const std::string& path) {
     for (unsigned i = 0; i < gpiod_chip_num_lines(chip.get()); ++i) {
         gpiod_line* line = gpiod_chip_get_line(chip.get(), i);
         if (!line) {
-            found.error = errno;  // later kernels may support only the newer interface
+            found.error = errno;  // newer kernels may not support the interface of libgpiod 1.x
             continue;
         }
         found.lines.push_back({i, text(gpiod_line_name(line)), text(gpiod_line_consumer(line)),

@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kConsumer = "mfar-trigger";
 
-/// One deleter for the library's handles.
+/// A deleter that calls one of the library's functions.
 template <auto Free>
 struct Freed {
     template <typename T>

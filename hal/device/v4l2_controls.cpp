@@ -20,12 +20,12 @@ namespace {
 
 using Kind = V4l2Control::Kind;
 
-constexpr int kMostControls = 4096;  // limit for a driver whose list does not end
+constexpr int kMostControls = 4096;  // protects from a driver whose list never ends
 constexpr std::int64_t kMostEntries = 1024;
 constexpr int kTries = 3;
 constexpr std::chrono::milliseconds kBetweenTries{20};
 
-// True for errors after which a retry may succeed: the device was busy, or its bus failed.
+// Returns whether a retry may succeed after this error: the device was busy, or its bus failed.
 bool mayPassLater(int error) {
     return error == EBUSY || error == EIO || error == EAGAIN || error == ETIMEDOUT ||
            error == EPROTO || error == EPIPE;
@@ -147,7 +147,7 @@ V4l2Controls::V4l2Controls(const V4l2Device& device) : device_(&device) {
     }
 }
 
-// Menus may have missing entries.
+// Returns a menu's entries. Indices without an entry are skipped.
 std::vector<V4l2Control::Entry> V4l2Controls::entriesOf(const V4l2Control& control,
                                                         bool numbers) const {
     std::vector<V4l2Control::Entry> out;

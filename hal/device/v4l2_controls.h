@@ -9,56 +9,57 @@
 
 namespace mfar {
 
-/// One control of a device.
+/// A control of a device.
 struct V4l2Control {
     enum class Kind { Integer, Boolean, Menu, Button, Other };
 
-    /// A menu entry; a menu of numbers has the number as its text.
+    /// A menu entry. In a menu of numbers, `text` is the number.
     struct Entry {
         std::int64_t index;
         std::string text;
     };
 
     std::uint32_t id = 0;
-    std::string name;    ///< the driver's name: "Trigger Mode"
-    std::string folded;  ///< the name in settings: "trigger_mode"
+    std::string name;    ///< the driver's name, e.g. "Trigger Mode"
+    std::string folded;  ///< the name in settings, e.g. "trigger_mode"
     Kind kind = Kind::Other;
     std::int64_t minimum = 0, maximum = 0, step = 1, standard = 0;
     bool readOnly = false, writeOnly = false;
-    bool inactive = false;  ///< can be set, but has no effect because of another control
-    bool wide = false;      ///< 64-bit value
+    bool inactive = false;  ///< has no effect at present, because of another control's value
+    bool wide = false;      ///< the value has 64 bits
     std::vector<Entry> entries;
 };
 
-/// A control's name in settings: letters and digits in lower case, one underscore for everything
-/// between them. "White Balance, Automatic" is white_balance_automatic.
+/// Returns a control's name in settings. Letters become lower case, and each run of other
+/// characters becomes one underscore: "White Balance, Automatic" becomes white_balance_automatic.
 [[nodiscard]] std::string foldedName(std::string_view name);
 
-/// One line for users: "exposure_time_absolute: 3 to 2047 in steps of 1, default 250".
+/// Describes a control in one line: "exposure_time_absolute: 3 to 2047 in steps of 1, default 250".
 [[nodiscard]] std::string describe(const V4l2Control& control);
 
-/// The controls of a device, by name. Vendors use colliding ids (0x981901 is one vendor's trigger
-/// mode and another's flash), so settings rely on names.
+/// The controls of a device. They are found by name, because vendors use the same id for different
+/// controls: 0x981901 is one vendor's trigger mode and another vendor's flash. Names are compared
+/// after foldedName().
 ///
-/// Names are compared in folded form. Busy controls and bus errors are tried three times. All calls
-/// throw std::runtime_error with one sentence: unknown control (lists the known ones), value out of
-/// range (reports the range), read-only, busy, refused; and DeviceLost. The device must outlive
-/// this.
+/// If a control is busy or the bus fails, setting it is tried three times. All calls throw
+/// std::runtime_error if the control is unknown (the message lists the known ones), the value is
+/// out of range (the message states the range), or the control is read-only, busy or refuses the
+/// value. They throw DeviceLost if the device is lost. The device must outlive this object.
 class V4l2Controls {
 public:
     /// Queries all controls of the device.
     explicit V4l2Controls(const V4l2Device& device);
 
     [[nodiscard]] const std::vector<V4l2Control>& list() const { return controls_; }
-    /// Null if there is no control of this name.
+    /// Returns the control of this name; null if it does not exist.
     [[nodiscard]] const V4l2Control* find(std::string_view name) const;
 
     [[nodiscard]] std::int64_t get(std::string_view name) const;
-    /// Sets an integer, a boolean, or a menu by entry number. Returns the value that the device
-    /// adopted.
+    /// Sets an integer, a boolean, or a menu (by its entry's index). Returns the value that the
+    /// device uses.
     std::int64_t set(std::string_view name, std::int64_t value) const;
-    /// As above, from a text: a number; true, on, false, off; or a menu entry's text. A button
-    /// accepts any text.
+    /// Sets a control to a value given as text: a number; true, on, yes, false, off or no; or a
+    /// menu entry's text. For a button, any text presses it.
     std::int64_t set(std::string_view name, std::string_view text) const;
     void press(std::string_view name) const;
 

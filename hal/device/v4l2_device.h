@@ -14,24 +14,25 @@
 
 namespace mfar {
 
-/// The kernel calls to the driver; tests replace them with a driver of their own. All return as the
-/// system calls do, with errno.
+/// The system calls to a V4L2 driver. Tests replace them with a simulated driver. All functions
+/// return what the system calls return and set errno.
 class V4l2Api {
 public:
     virtual ~V4l2Api() = default;
 
-    /// Sorted paths of this machine's video device nodes.
+    /// Returns the sorted paths of this machine's video device nodes.
     [[nodiscard]] virtual std::vector<std::string> nodes() = 0;
     [[nodiscard]] virtual int open(const char* path) = 0;
     virtual int ioctl(int fd, unsigned long request, void* argument) = 0;
-    /// Maps shared, readable and writable memory, to be unmapped with munmap().
+    /// Maps shared memory for reading and writing. The caller must call munmap().
     [[nodiscard]] virtual void* map(int fd, std::size_t length, std::int64_t offset) = 0;
 };
 
-/// The kernel's V4L2 calls.
+/// Returns the real system calls.
 [[nodiscard]] V4l2Api& kernelV4l2();
 
-/// A device call failed. The message names the device, the action and the reason.
+/// Reports that a system call to the device failed. The message names the device, the action and
+/// the reason.
 class V4l2Error : public std::runtime_error {
 public:
     V4l2Error(const std::string& message, int errorNumber)
@@ -45,14 +46,15 @@ private:
 /// An open V4L2 device node. Thread-safe.
 class V4l2Device {
 public:
-    /// Throws V4l2Error when the node cannot be opened or is not a V4L2 node.
+    /// Throws V4l2Error if the node cannot be opened or is not a V4L2 node.
     V4l2Device(V4l2Api& api, const std::string& path);
 
-    /// Returns 0 or the error number. Interrupted calls are repeated.
+    /// Calls ioctl() and returns 0 or the error number. Interrupted calls are repeated.
     [[nodiscard]] int tryCall(unsigned long request, void* argument) const;
-    /// Throws DeviceLost when the device is gone, otherwise V4l2Error "PATH: WHAT: reason".
+    /// Calls ioctl(). If it fails, throws DeviceLost if the device is lost, otherwise a V4l2Error
+    /// "PATH: WHAT: reason".
     void call(unsigned long request, void* argument, std::string_view what) const;
-    /// Throws the error as call() does.
+    /// Throws the same exception that call() throws for this error number.
     [[noreturn]] void fail(std::string_view what, int errorNumber) const;
 
     struct Unmap {
@@ -64,13 +66,16 @@ public:
 
     [[nodiscard]] int fd() const { return fd_.get(); }
     [[nodiscard]] const std::string& path() const { return path_; }
-    /// The driver's name for the device.
+    /// Returns the driver's name of the device.
     [[nodiscard]] const std::string& card() const { return card_; }
-    /// Where the device is plugged in.
+    /// Returns the driver's name of the place where the device is plugged in.
     [[nodiscard]] const std::string& bus() const { return bus_; }
-    [[nodiscard]] std::uint32_t capabilities() const { return capabilities_; }  ///< of this node
-    [[nodiscard]] bool captures() const;     ///< delivers pictures through buffers
-    [[nodiscard]] bool multiPlanar() const;  ///< only through the multi-planar API
+    /// Returns V4L2_CAP_... of this node.
+    [[nodiscard]] std::uint32_t capabilities() const { return capabilities_; }
+    /// Returns whether the node delivers pictures through buffers.
+    [[nodiscard]] bool captures() const;
+    /// Returns whether the node must be used through the multi-planar API.
+    [[nodiscard]] bool multiPlanar() const;
 
 private:
     V4l2Api* api_;
@@ -79,7 +84,7 @@ private:
     OwnedFd fd_;
 };
 
-/// The text of a driver's fixed-size field, which need not end with a zero.
+/// Returns the text in a driver's field of fixed size, which need not end with a zero.
 [[nodiscard]] std::string fieldText(const void* field, std::size_t bytes);
 
 }  // namespace mfar

@@ -9,10 +9,10 @@
 namespace mfar {
 namespace {
 
-// [bytes]; a larger value is a driver fault.
+// Longest plausible stride [bytes]. A larger one is a fault of the driver.
 constexpr std::size_t kMostStride = std::size_t{1} << 20;
 
-/// A format as both APIs report it.
+/// The format that the driver reports through the single-planar or the multi-planar API.
 struct Answer {
     std::uint32_t fourcc = 0, colorspace = 0, matrix = 0, range = 0;
     Size size;
@@ -82,8 +82,8 @@ void setColours(const Answer& answer, V4l2Layout& out) {
                     : YuvRange::Limited;
 }
 
-/// Places all planes in one piece of memory, one after the other: the stride of chroma follows from
-/// the stride of luma.
+/// Places all planes one after the other in one piece of memory. The stride of chroma is computed
+/// from the stride of luma.
 void placeInOnePiece(std::size_t stride, V4l2Layout& out) {
     std::size_t offset = 0;
     for (int i = 0; i < planeCount(out.format.picture); ++i) {

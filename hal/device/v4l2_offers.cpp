@@ -10,8 +10,8 @@
 namespace mfar {
 namespace {
 
-constexpr std::uint32_t kMostSide = 65535;  // [px]; upper limit for reported sides
-constexpr int kMostOffers = 512;            // limit for a driver whose list does not end
+constexpr std::uint32_t kMostSide = 65535;  // reported widths and heights are clamped to this [px]
+constexpr int kMostOffers = 512;            // protects from a driver whose list never ends
 
 constexpr std::array kUsable{
     V4l2PixelFormat{V4L2_PIX_FMT_NV12, PixelFormat::Nv12},
@@ -27,12 +27,12 @@ constexpr std::array kUsable{
     V4l2PixelFormat{V4L2_PIX_FMT_GREY, PixelFormat::Gray8},
 };
 
-/// The driver's offer of one format.
+/// What the driver offers in one format.
 struct Offer {
     std::uint32_t fourcc = 0;
-    bool hasSize = false;  ///< offers the wanted size
-    double fastest = 0;    ///< highest rate at that size [Hz]; 0: unknown
-    std::string sizes;     ///< list for messages
+    bool hasSize = false;  ///< whether the wanted size is offered
+    double fastest = 0;    ///< highest frame rate at that size [Hz]; 0: unknown
+    std::string sizes;     ///< list of the offered sizes, for messages
 };
 
 double rateOf(const v4l2_fract& interval) {
@@ -65,7 +65,8 @@ bool contains(const v4l2_frmsize_stepwise& s, Size size) {
            fits(static_cast<std::uint32_t>(size.height), s.min_height, s.max_height, s.step_height);
 }
 
-// Drivers that list no sizes count as offering every size; setFormat() finds out.
+// A driver that lists no sizes counts as offering every size. setFormat() finds out whether it
+// does.
 void askSizes(const V4l2Device& device, Size wanted, Offer& offer) {
     for (int i = 0; i < kMostOffers; ++i) {
         v4l2_frmsizeenum query{};
@@ -141,7 +142,7 @@ std::string fourccText(std::uint32_t fourcc) {
 
 V4l2PixelFormat chooseFormat(const V4l2Device& device, const V4l2Wish& wish) {
     const std::vector<Offer> offers = offersOf(device, wish.size);
-    // Drivers round intervals to microseconds or coarser.
+    // The tolerance is needed because drivers round frame intervals, some to microseconds.
     const double enough = wish.rateHz * 0.999;
     for (const bool inTime : {true, false})
         for (const V4l2PixelFormat& format : kUsable) {

@@ -56,7 +56,7 @@ void V4l2Stream::allocate(int buffers) {
     v4l2_requestbuffers request{};
     auto count = static_cast<std::uint32_t>(std::clamp(buffers, 2, 32));
     int error = ENOMEM;
-    // The driver may have memory for fewer buffers.
+    // The driver may have memory for fewer buffers, so smaller numbers are tried after ENOMEM.
     for (; error == ENOMEM && count > 0; --count) {
         request = {};
         request.type = type_;
@@ -88,7 +88,8 @@ void V4l2Stream::mapBuffer(int index) {
     }
 }
 
-// A driver need not support exporting; pictures are then copied.
+// Exports the buffer as dma-bufs. If the driver does not support this, pictures are uploaded
+// instead.
 void V4l2Stream::exportBuffer(int index, const V4l2Layout& layout) {
     if (layout.format.jpeg) return;
     Buffer& buffer = buffers_[static_cast<std::size_t>(index)];
@@ -147,8 +148,8 @@ void V4l2Stream::close() noexcept {
     stop();
     const std::scoped_lock lock(mutex_);
     if (!device_) return;
-    // Mapped memory keeps the device's file open: without this call the buffers would stay in use
-    // until the last picture is returned.
+    // This call frees the buffers. Without it, the mapped memory would keep the device in use until
+    // the last picture is returned.
     v4l2_requestbuffers none{};
     none.type = type_;
     none.memory = V4L2_MEMORY_MMAP;
@@ -165,7 +166,8 @@ std::optional<V4l2Filled> V4l2Stream::take() {
     const v4l2_buffer& buffer = argument.buffer;
     if (const int error = device_->tryCall(VIDIOC_DQBUF, &argument.buffer)) {
         if (error == EAGAIN) return std::nullopt;
-        // EIO, too: recoverable errors are reported as a buffer with an error flag.
+        // EIO also means that the device is lost: drivers report recoverable errors with a flag of
+        // the buffer.
         throw DeviceLost(fmt::format("{}: no more pictures ({})", device_->path(),
                                      std::generic_category().message(error)));
     }
@@ -195,7 +197,7 @@ std::vector<int> V4l2Stream::takeReturned() noexcept {
     std::uint64_t drained = 0;
     static_cast<void>(!read(wake_.get(), &drained, sizeof drained));
     std::vector<int> out = returned_;
-    returned_.clear();  // keeps its capacity
+    returned_.clear();  // its capacity is kept, so giveBack() need not allocate
     return out;
 }
 
@@ -203,7 +205,7 @@ void V4l2Stream::takeBack() noexcept {
     const std::scoped_lock lock(mutex_);
     for (const int index : takeReturned()) {
         if (running_)
-            // If the device is gone, the next take() throws.
+            // An error is ignored here: if the device is lost, the next take() throws.
             static_cast<void>(queue(index));
         else
             buffers_[static_cast<std::size_t>(index)].holder = Holder::Nobody;

@@ -52,8 +52,8 @@ std::optional<std::string> BackgroundWriter::error() const {
 }
 
 void BackgroundWriter::work(const WatchedThread& watched) {
-    // With SIGPIPE blocked in this thread, a pipe without a reader makes write() fail instead of
-    // ending the process.
+    // SIGPIPE is blocked in this thread, so that write() to a pipe without a reader fails and does
+    // not end the process.
     sigset_t brokenPipe;
     sigemptyset(&brokenPipe);
     sigaddset(&brokenPipe, SIGPIPE);
@@ -77,7 +77,7 @@ void BackgroundWriter::work(const WatchedThread& watched) {
         } catch (const std::exception& e) {
             failure = e.what();
         }
-        // Destroys the job, which returns its buffer, before the queue may look idle.
+        // The job is destroyed, which returns its buffer, before the queue is reported as idle.
         job = nullptr;
         lock.lock();
         if (failure && !error_) error_ = std::move(failure);

@@ -15,25 +15,25 @@
 namespace mfar {
 
 /// Threads that write files for a caller that must not wait for the disk. Jobs start in the order
-/// in which they were posted. The queue is not limited by itself: the buffers that jobs hold limit
-/// it. After the first job that throws, all others are dropped: a full disk gives one error, not
-/// thousands.
+/// in which they were posted. The queue itself has no limit; the number of buffers that jobs hold
+/// limits it. After a job has thrown, all further jobs are discarded, so that a full disk gives one
+/// error and not thousands.
 class BackgroundWriter {
 public:
-    /// Heartbeats of each thread use `watched`, whose budget is for one job.
+    /// `watched`: how each thread is registered at Heartbeats; the budget is for one job.
     explicit BackgroundWriter(int threads, const WatchedThread& watched = {});
     BackgroundWriter(const BackgroundWriter&) = delete;
     BackgroundWriter& operator=(const BackgroundWriter&) = delete;
-    /// Waits for the posted jobs; ignores their errors, see drain().
+    /// Waits for all posted jobs. Their errors are ignored; drain() reports errors.
     ~BackgroundWriter();
 
-    /// Thread-safe, never waits for a job.
+    /// Adds a job to the queue. Thread-safe; never waits for a job.
     void post(std::function<void()> job);
     /// Waits until every posted job is done. Throws std::runtime_error with the first failure.
     void drain();
-    /// As drain(), for at most `limit`; false at the limit.
+    /// Does the same, but waits at most `limit`. Returns false if jobs are left then.
     [[nodiscard]] bool drainWithin(std::chrono::milliseconds limit);
-    /// The first failure, without waiting. Thread-safe.
+    /// Returns the first failure so far. Thread-safe; never waits.
     [[nodiscard]] std::optional<std::string> error() const;
 
 private:

@@ -9,7 +9,7 @@
 namespace mfar {
 namespace {
 
-// cv::Mat needs a non-const pointer only by its type: the pixels are not changed.
+// cv::Mat takes a non-const pointer, but the pixels are not changed.
 cv::Mat matOf(const PlaneView& plane, Size size, int type) {
     return {size.height, size.width, type, const_cast<std::uint8_t*>(plane.data), plane.stride};
 }
@@ -20,7 +20,7 @@ cv::Mat channelOf(const cv::Mat& picture, int channel) {
     return out;
 }
 
-/// Y, U and V as planes, chroma in its own resolution.
+/// Returns Y, U and V as separate planes. The chroma planes keep their lower resolution.
 std::vector<cv::Mat> planesOf(const ImageView& picture) {
     const PlaneView first{picture.data, picture.stride};
     const Size size = picture.size, half{size.width / 2, size.height / 2};

@@ -32,9 +32,10 @@ constexpr std::chrono::milliseconds kErrorPoll{100};
 
 class NoDisplay final : public Display {
 public:
-    // Without this wait a renderer may queue any number of frames, and no frame rate would be true.
+    // Without this wait, the CPU could queue any number of frames, and the measured frame rate
+    // would be wrong.
     void show(const Picture& picture, Timestamp) override {
-        // A GPU that hangs is detected before the next picture.
+        // The result is ignored, because a hanging GPU is detected before the next picture.
         if (!picture.isOnHost()) (void)gpu::finishWithin();
     }
     void finish() override {}
@@ -58,7 +59,7 @@ public:
         if (!slot) return;
         auto loan = std::make_shared<Frame>(pool_->lend(*slot, time));
         copyPicture(picture, slot->data, slot->stride);
-        // A lost context leaves the pixels unchanged.
+        // If the GL context is lost, the read-back leaves the pixels unchanged.
         if (!picture.isOnHost() && gpu::takeError() != GL_NO_ERROR)
             throw gpu::GlError("the picture cannot be read back from GL");
         {
@@ -81,23 +82,24 @@ public:
     }
 
 protected:
-    /// Called on the thread of show() before the first picture of a size. Throws when the size is
-    /// not supported.
+    /// Throws if the size is not supported. This function is called on the thread of show() before
+    /// the first picture of a size.
     virtual void checkSize(Size size) = 0;
-    /// Called on a writer thread.
+    /// Writes a picture. This function is called on a writer thread.
     virtual void write(const Frame& picture) = 0;
-    /// Who is waited for, for messages.
+    /// Returns what show() waits for, e.g. "the disk", for messages.
     [[nodiscard]] virtual const char* consumer() const = 0;
-    /// Requests the end of waiting for a reader.
+    /// Returns the token that ends a wait for a pipe's reader.
     [[nodiscard]] std::stop_token cancelled() const { return cancel_.get_token(); }
-    /// Destructors of derived classes must call this: the writer's jobs use those classes.
+    /// Waits until all pictures are written. Destructors of derived classes must call this, because
+    /// the writer's jobs call functions of these classes.
     void finishQuietly() noexcept {
         try {
-            // Pictures that take longer than policy_.finish are given up, as far as possible.
+            // If writing a picture takes longer than policy_.finish, the wait for the reader ends.
             if (policy_.isLive && !drainWhileWriting()) cancel_.request_stop();
             writer_.drain();
         } catch (const std::exception&) {
-            // finish() reports errors; here nobody can receive them.
+            // A destructor cannot report errors; finish() does.
         }
     }
 
@@ -122,13 +124,14 @@ private:
         return fmt::format("{}: {} takes nothing", name(), consumer());
     }
 
-    // True when one picture has been writing for longer than this.
+    // Returns whether writing one picture has taken longer than `time` so far.
     [[nodiscard]] bool writesFor(std::chrono::milliseconds time) const {
         const std::lock_guard lock(mutex_);
         return !writing_.empty() && Timestamp::now() - *writing_.begin() > time;
     }
 
-    // False when a write does not end in time.
+    // Waits until all pictures are written. Returns false if writing one takes longer than
+    // policy_.finish.
     [[nodiscard]] bool drainWhileWriting() {
         while (!writer_.drainWithin(kErrorPoll))
             if (writesFor(policy_.finish)) return false;
@@ -150,7 +153,8 @@ private:
         }
     }
 
-    // Empty when all buffers are being written: the picture is skipped.
+    // Returns a free buffer. If there is none, skips the oldest picture that is not being written
+    // and returns its buffer. Returns nothing if all buffers are being written.
     std::optional<FramePool::Slot> freeBuffer() {
         throwError();
         if (const auto slot = pool_->acquire(std::chrono::milliseconds(0))) return slot;
@@ -188,10 +192,10 @@ private:
     std::optional<FramePool> pool_;
     std::atomic<std::uint64_t> leftOut_{0};
     mutable std::mutex mutex_;
-    std::deque<std::shared_ptr<Frame>> waiting_;  ///< not yet written
+    std::deque<std::shared_ptr<Frame>> waiting_;  ///< pictures whose writing has not begun
     std::multiset<Timestamp> writing_;            ///< start times of the writes in progress
     std::stop_callback<std::function<void()>> onCancel_;
-    BackgroundWriter writer_;  // last member: its threads use all others
+    BackgroundWriter writer_;  // must be the last member: its threads use the members above
 };
 
 class PngDisplay final : public FileDisplay {

@@ -11,32 +11,33 @@
 
 namespace mfar {
 
-/// Behaviour of a display that writes more slowly than pictures arrive.
+/// What a file display does if it writes more slowly than pictures arrive.
 struct FileDisplayPolicy {
-    /// For a live source: show() never waits. The newest pictures are written; others are skipped
-    /// and counted, see Display::leftOut(), and fault() reports when nothing is written any more.
-    /// Otherwise every picture is written, and show() waits.
+    /// True for a live source: show() never waits. Pictures are skipped if they come too fast, the
+    /// oldest first, and counted, see Display::leftOut(). fault() reports if writing stops.
+    /// False: every picture is written, and show() waits.
     bool isLive = false;
-    /// Called on the thread of show() and finish() when they begin to wait, with the name of the
-    /// consumer, and with nullptr when the wait is over.
+    /// show() and finish() call this when they begin to wait, with what they wait for, e.g. "the
+    /// disk", and with null when the wait is over.
     std::function<void(const char* what)> waiting{};
-    /// Writing one picture for longer than this is a fault.
+    /// fault() reports a fault if writing one picture takes longer than this.
     std::chrono::milliseconds stalled{2000};
-    /// With a live source, finish() gives up after a picture has been writing for longer than this.
+    /// With a live source, finish() throws if writing one picture takes longer than this.
     std::chrono::milliseconds finish{5000};
     WatchedThread writer{};  ///< the writing thread; its budget is for one picture
 };
 
-/// Opens a display that needs no screen:
-///   "none"      shows nothing; show() waits until the picture is drawn, as a screen would
-///   "png:DIR"   one file <ns>.png per picture in DIR (created); a repeated time replaces its file
-///   "y4m:FILE"  YUV4MPEG2, 4:2:0, BT.601 limited range, `rateHz` in its header; FILE may be a FIFO
-///               (a reader is waited for, up to 5 s) or "-" for standard output
-/// Every picture is written unless the policy says otherwise: show() waits while all buffers wait
-/// for the disk or the reader. show() and finish() throw std::runtime_error after a write has
-/// failed; a pipe whose reader is gone counts as a failure. A request on `cancel` ends all waiting
-/// for a pipe's reader and counts as such a failure. Throws std::runtime_error for an unknown kind,
-/// or a folder, file or pipe that cannot be written.
+/// Opens a display that needs no screen. `spec` is one of:
+///   "none"      shows nothing; show() only waits until the GPU has drawn the picture
+///   "png:DIR"   writes a file TIME.png [ns] per picture to DIR, which is created; a picture with
+///               the same time replaces the file
+///   "y4m:FILE"  writes YUV4MPEG2, 4:2:0, BT.601 limited range, with `rateHz` in the header. FILE
+///               may be "-" (standard output) or a FIFO, for whose reader the call waits up to 5 s
+/// Unless policy.isLive is set, every picture is written, and show() waits while all buffers are in
+/// use. After a write has failed, show() and finish() throw std::runtime_error. It is also a
+/// failure if a pipe's reader closes the pipe, or if `cancel` is requested while a write waits for
+/// a pipe's reader. Throws std::runtime_error if `spec` is unknown, or if the folder, file or pipe
+/// cannot be written.
 [[nodiscard]] std::unique_ptr<Display> openFileDisplay(std::string_view spec, double rateHz,
                                                        std::stop_token cancel = {},
                                                        const FileDisplayPolicy& policy = {});

@@ -50,7 +50,7 @@ std::size_t pixelCount(Size size) {
     return static_cast<std::size_t>(size.width) * size.height;
 }
 
-/// Parses the header of a PFM file: magic, width, height, scale, then one white space.
+/// Parses the header of a PFM file: magic, width, height and scale, followed by one white space.
 class PfmHeader {
 public:
     PfmHeader(const fs::path& file, std::string_view text) : file_(file), text_(text) {
@@ -70,7 +70,7 @@ public:
     }
 
     Size size;
-    double scale = 0;  ///< negative: little-endian data
+    double scale = 0;  ///< negative: the data are little-endian
 
 private:
     static bool isSpace(char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; }

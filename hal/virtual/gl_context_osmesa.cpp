@@ -39,7 +39,8 @@ public:
     ~OsMesaContext() override { OSMesaDestroyContext(context_); }
 
     void makeCurrent() override {
-        // OSMesa requires a window buffer; all drawing goes to framebuffer objects.
+        // OSMesa needs a window buffer, but nothing is drawn into it: all passes draw into
+        // framebuffer objects.
         if (OSMesaMakeCurrent(context_, window_.data(), GL_UNSIGNED_BYTE, 4, 4) != GL_TRUE)
             throw std::runtime_error("OSMesa: the context cannot be made current");
     }

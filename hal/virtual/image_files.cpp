@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Upper limit of a file's size: a larger file cannot be a picture of that size.
+/// Returns the largest plausible number of bytes of a file with a picture of this size.
 std::size_t mostBytes(Size size) {
     constexpr std::size_t kBytesPerPixel = 8, kHeader = 1 << 20;
     return kBytesPerPixel * size.width * size.height + kHeader;

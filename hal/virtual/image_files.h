@@ -12,7 +12,7 @@
 
 namespace mfar {
 
-/// An image file cannot be read or written. The message is "file: fault".
+/// Reports that an image file cannot be read or written. The message is "file: fault".
 class ImageFileError : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
@@ -22,7 +22,7 @@ public:
 
 inline constexpr int kMaxImageSide = 16384;  ///< [px]; larger pictures are refused
 
-/// A picture in memory, rows without padding, row 0 on top.
+/// A picture in memory. Rows have no padding; row 0 is the top row.
 struct StoredImage {
     Size size;
     PixelFormat format = PixelFormat::Rgba8;
@@ -34,21 +34,23 @@ struct StoredImage {
     }
 };
 
-/// Reads a PNG or JPEG file (colour or grey, 8 or 16 bits) as RGBA8, alpha 255, pixels in storage
-/// order (a camera's orientation tag is ignored). Throws ImageFileError.
+/// Reads a PNG or JPEG file (colour or grey, 8 or 16 bits) as RGBA8 with alpha 255. A camera's
+/// orientation tag is ignored: the pixels stay in the order of the file. Throws ImageFileError.
 [[nodiscard]] StoredImage loadImage(const std::filesystem::path& file);
-/// As loadImage(), into the caller's buffer; throws for a picture of another size.
+/// Reads a file as loadImage() does, but into the caller's buffer. Also throws if the picture does
+/// not have the size `expected`.
 void loadImageInto(const std::filesystem::path& file, Size expected, std::uint8_t* rgba,
                    std::size_t stride);
 
-/// Encodes a picture of any format as PNG (RGB without alpha, or grey); optimised for speed, not
-/// size. `out` is reused. Throws std::invalid_argument for an invalid view (requireSound()).
+/// Encodes a picture of any format as PNG (RGB without alpha, or grey). The encoder is optimised
+/// for speed, not for size. `out` is replaced. Throws std::invalid_argument if the view is invalid
+/// (requireSound()).
 void encodePng(const ImageView& image, std::vector<std::uint8_t>& out);
 /// Writes a PNG file completely or not at all (Durability::WithSync). Throws ImageFileError, and
-/// like encodePng().
+/// what encodePng() throws.
 void savePng(const std::filesystem::path& file, const ImageView& image);
 
-/// One number per pixel, row 0 on top, rows without padding. NaN = unknown.
+/// One number per pixel; NaN: unknown. Rows have no padding; row 0 is the top row.
 struct FloatImage {
     Size size;
     std::vector<float> values;
@@ -62,13 +64,14 @@ private:
     }
 };
 
-/// Portable float map, one channel ("Pf"), either byte order. Infinities, which some sources use
-/// for unknown, are read as NaN. Throws ImageFileError.
+/// Reads a portable float map with one channel ("Pf") of either byte order. Infinities become NaN,
+/// because some programs write them for unknown values. Throws ImageFileError.
 [[nodiscard]] FloatImage loadPfm(const std::filesystem::path& file);
-/// Written as little endian; non-finite values become NaN. Throws ImageFileError.
+/// Writes a portable float map with little-endian values. Infinities become NaN. Throws
+/// ImageFileError.
 void savePfm(const std::filesystem::path& file, const FloatImage& image);
 
-/// One vector (x, y) [px] per pixel, row 0 on top, rows without padding. NaN = unknown.
+/// One vector (x, y) [px] per pixel; NaN: unknown. Rows have no padding; row 0 is the top row.
 struct FlowImage {
     Size size;
     std::vector<std::array<float, 2>> vectors;
@@ -84,10 +87,10 @@ private:
     }
 };
 
-/// Middlebury .flo. A vector with a component that is not finite or above 1e9 is unknown and read
-/// as (NaN, NaN). Throws ImageFileError.
+/// Reads a Middlebury .flo file. A vector is unknown if one of its components is not finite or is
+/// greater than 1e9; it becomes (NaN, NaN). Throws ImageFileError.
 [[nodiscard]] FlowImage loadFlo(const std::filesystem::path& file);
-/// Unknown vectors are written as (1e10, 1e10). Throws ImageFileError.
+/// Writes a .flo file. Unknown vectors are written as (1e10, 1e10). Throws ImageFileError.
 void saveFlo(const std::filesystem::path& file, const FlowImage& image);
 
 }  // namespace mfar

@@ -6,9 +6,9 @@
 
 namespace mfar {
 
-/// Reads the size of a PNG file from its header without decoding it. Also checks the end of the
-/// file, so two small reads detect a truncated file. Throws std::runtime_error whose message states
-/// the fault without naming the file.
+/// Reads a picture's size from the header of a PNG file, without decoding the file. Also reads the
+/// last bytes of the file, to detect a truncated file. Throws a std::runtime_error whose message
+/// names the fault but not the file.
 [[nodiscard]] Size pngSize(const std::filesystem::path& file);
 
 }  // namespace mfar

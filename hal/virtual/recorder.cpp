@@ -68,7 +68,8 @@ bool Recorder::picture(PictureStream& stream, const ImageView& image, Timestamp 
         return false;
     }
     stream.last = time;
-    // An RGBA buffer is large enough for every format; the writer's thread converts to RGB.
+    // The buffers have four bytes per pixel, enough for every format. The writer's thread converts
+    // the picture to RGB.
     const ImageView copy = packInto(slot->data, image);
     const auto loan = std::make_shared<Frame>(stream.pool.lend(*slot, time));
     writer_.post([this, &stream, loan, copy] { writePicture(stream, copy, loan->time()); });
@@ -82,7 +83,7 @@ void Recorder::writePicture(PictureStream& stream, const ImageView& picture, Tim
         checkSpace(picture.stride * picture.size.height);
         savePng(file, picture);
     } catch (const std::runtime_error&) {
-        sync();  // nothing more will be written; list the pictures written so far
+        sync();  // no more pictures will be written: list those that were
         throw;
     }
     std::error_code ignored;
@@ -99,7 +100,8 @@ void Recorder::syncWhenDue() {
     if (!isSyncing_ && isDue()) sync();
 }
 
-// Runs in a thread of its own: a slow disk would exhaust the picture buffers.
+// A separate thread synchronises the file system. If the writer's thread waited for a slow disk,
+// the picture buffers would run out.
 void Recorder::sync() {
     synced_ = std::chrono::steady_clock::now();
     isSyncing_ = true;
@@ -113,7 +115,7 @@ void Recorder::sync() {
         if (rows.empty()) return;
         for (const auto& [file, text] : rows)
             appendToFile(file, text);
-        syncFileSystem(root_);  // or the list entries could be lost until the next sync
+        syncFileSystem(root_);  // makes the new rows of the lists safe, too
     });
 }
 

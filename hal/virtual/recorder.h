@@ -16,31 +16,32 @@
 namespace mfar {
 
 struct RecorderOptions {
-    int videoBuffers = 16;  ///< upper limit of video pictures copied and not yet written
-    int stillBuffers = 3;   ///< upper limit of stills copied and not yet written
-    int poses = 256;        ///< upper limit of poses not yet written
-    /// Disk space that stays free: a recording that would need it ends with an error.
+    int videoBuffers = 16;  ///< how many video frames may wait to be written
+    int stillBuffers = 3;   ///< how many stills may wait to be written
+    int poses = 256;        ///< how many poses may wait to be written
+    /// Disk space that must stay free. If less is free, the recording ends with an error.
     std::uint64_t leastFreeBytes = 64U << 20;
-    std::uint64_t mostBytes = 0;  ///< upper limit of a recording's size; 0: no limit
+    std::uint64_t mostBytes = 0;  ///< largest size of a recording; 0: no limit
     WatchedThread writer{};       ///< the writing thread; its budget is for one picture
-    /// Interval between syncs to the disk, which protect against a power cut: the first picture
-    /// triggers one, later the first picture or pose after this time.
+    /// Interval of the syncs to the disk, which protect against a power cut. The first picture
+    /// starts a sync. After this interval, the next picture or pose starts the next sync.
     std::chrono::milliseconds syncEvery{1000};
 };
 
-/// Writes a recording while its frames are in use. video(), still() and pose() copy and return at
-/// once, regardless of the disk: when their buffers are full the picture is dropped and counted.
-/// data.csv lists a picture only after its file is on the disk: at finish() and every `syncEvery`
-/// the file system is synchronised, the new pictures are listed, and the lists are synchronised,
-/// too. So a recording that was interrupted at any moment, also by a power cut, can be loaded and
-/// lacks at most what came after the last sync. The recording's body frame B is the video camera.
-/// B of the recording is the video camera.
+/// Writes a recording. video(), still() and pose() copy their argument and return at once; they
+/// never wait for the disk. If all buffers are in use, the picture is dropped and counted.
 ///
-/// video() is called from one thread, still() and pose() likewise; these may be three threads. They
-/// return false for what is not recorded: buffers full, time not after the previous picture's, size
-/// different from the rig's, a pose that is not finite, or an earlier write error. Pictures of any
-/// format are accepted and converted to RGB in the writer's thread. An invalid view
-/// (requireSound()) throws std::invalid_argument.
+/// data.csv lists a picture only after its file is on the disk. At finish() and every `syncEvery`,
+/// the file system is synchronised, the new pictures are listed, and the lists are synchronised,
+/// too. So a recording can be loaded even if a power cut interrupted it at any moment; only the
+/// pictures after the last sync may be missing. The recording's body frame B is the frame of the
+/// video camera.
+///
+/// Each of video(), still() and pose() must be called from one thread only, but these may be three
+/// threads. The functions return false if something is not recorded: all buffers are in use, the
+/// time is not later than the previous one, the size differs from the rig's, a pose is not finite,
+/// or a write has failed before. Pictures may have any format; the writer's thread converts them to
+/// RGB. An invalid view (requireSound()) throws std::invalid_argument.
 class Recorder {
 public:
     struct Counts {
@@ -48,23 +49,23 @@ public:
         std::uint64_t dropped = 0;
     };
 
-    /// Creates the folder (or uses an empty one) and writes the calibration. Throws
-    /// std::runtime_error when the folder is not empty or cannot be written.
+    /// Creates the folder, or uses an empty one, and writes the calibration. Throws
+    /// std::runtime_error if the folder is not empty or cannot be written.
     Recorder(const std::filesystem::path& root, const StereoRig& rig, double videoRateHz,
              const RecorderOptions& options = {});
-    /// Like finish(), but ignores errors.
+    /// Finishes the recording like finish(), but ignores errors.
     ~Recorder();
 
     bool video(const ImageView& image, Timestamp time) { return picture(video_, image, time); }
     bool still(const ImageView& image, Timestamp time) { return picture(still_, image, time); }
     bool pose(const Pose& pose);
-    /// Writes a further file of the recording, replacing its content.
+    /// Writes another file to the recording. An existing file is replaced.
     void addFile(std::string_view name, std::string_view text);
 
-    /// Waits until everything accepted is written. Throws std::runtime_error with the first write
-    /// error of the recording (disk full, folder gone). May be called more than once.
+    /// Waits until all accepted pictures and poses are written. Throws std::runtime_error with the
+    /// first write error, e.g. that the disk is full. May be called several times.
     void finish();
-    /// The first write error so far. Thread-safe, never waits.
+    /// Returns the first write error so far. Thread-safe; never waits.
     [[nodiscard]] std::optional<std::string> error() const;
 
     [[nodiscard]] Counts videoCounts() const { return video_.counts(); }
@@ -78,7 +79,7 @@ private:
         std::optional<Timestamp> last{};
         std::atomic<std::uint64_t> written{0};
         std::atomic<std::uint64_t> dropped{0};
-        std::string rows{};  ///< rows not yet in data.csv; used by the writer's thread
+        std::string rows{};  ///< rows that data.csv lacks; only the writer's thread uses them
 
         [[nodiscard]] Counts counts() const { return {written.load(), dropped.load()}; }
     };
@@ -95,20 +96,21 @@ private:
     void syncWhenDue();
     /// Synchronises all files, lists them, and synchronises the lists.
     void sync();
-    /// Throws std::runtime_error when no further picture may be written.
+    /// Throws std::runtime_error if a picture of this size may not be written any more.
     void checkSpace(std::uintmax_t bytes);
 
     std::filesystem::path root_;
     RecorderOptions options_;
-    std::uintmax_t bytes_ = 0;  // sum over all pictures; used by the writer's thread, as synced_
-    std::optional<std::chrono::steady_clock::time_point> synced_;  // empty: not yet
+    // Only the writer's thread uses these two.
+    std::uintmax_t bytes_ = 0;                                     // size of all pictures
+    std::optional<std::chrono::steady_clock::time_point> synced_;  // start of the last sync
     PictureStream video_;
     PictureStream still_;
     Stream poses_;
     std::atomic<int> pendingPoses_{0};
     std::atomic<bool> isSyncing_{false};
-    BackgroundWriter syncer_;  // declared before writer_, whose thread posts to it
-    BackgroundWriter writer_;  // last member: its thread uses all others
+    BackgroundWriter syncer_;  // must be declared before writer_, whose thread posts jobs to it
+    BackgroundWriter writer_;  // must be the last member: its thread uses the members above
 };
 
 }  // namespace mfar

@@ -16,14 +16,15 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::int64_t kLongestPoseGap =
-    250'000'000;                         // [ns]: in longer gaps a hand-held camera may have turned
-constexpr double kUnitTolerance = 1e-3;  // some ground truth is printed with only four digits
+    250'000'000;                         // [ns]; in a longer gap, a hand-held camera may turn far
+constexpr double kUnitTolerance = 1e-3;  // some ground truth is rounded to four digits
 
-/// Of a vector that has just grown, and of a file's name and its parts.
+/// Estimated memory of one list entry [bytes]. The factor 2 is for a vector while it grows; 400 is
+/// for the file's path and for temporary strings.
 constexpr std::size_t kBytesPerPicture = 2 * sizeof(RecordedImage) + 400,
                       kBytesPerPose = 2 * sizeof(Pose);
 
-/// What lists may still take.
+/// Counts the memory that the lists may still use.
 class ListMemory {
 public:
     explicit ListMemory(std::size_t most) : most_(most), left_(most) {}
@@ -44,8 +45,8 @@ void checkIncreasing(const CsvRow& row, Timestamp previous, Timestamp t) {
         row.fail(fmt::format("timestamp {} comes after {}: not sorted", t.ns, previous.ns));
 }
 
-// Only files next to the list may be named: a foreign recording must not refer to files outside of
-// its folder.
+// Returns whether a file name contains no folder. A recording from elsewhere must not refer to
+// files outside its own folders.
 bool isPlainName(std::string_view name) {
     return !name.empty() && name != "." && name != ".." && name.find('/') == name.npos &&
            name.find('\\') == name.npos && name.find('\0') == name.npos;
@@ -70,7 +71,7 @@ RecordedImage readImageRow(const CsvRow& row, const fs::path& folder, Size expec
     return image;
 }
 
-/// Ignores an invalid last row that is torn: power was cut while it was written.
+/// Visits all rows. An invalid last row is ignored if a power cut may have truncated it.
 void forEachWholeRow(const fs::path& file, const std::function<void(const CsvRow&)>& visit) {
     forEachCsvRow(file, [&](const CsvRow& row) {
         try {
@@ -110,7 +111,7 @@ std::vector<Pose> readPoses(const fs::path& folder, const RigidTransform& T_body
     std::vector<Pose> poses;
     if (!fs::exists(folder)) return poses;
     forEachWholeRow(folder / "data.csv", [&](const CsvRow& row) {
-        if (row.isTorn()) return;  // a truncated number would still be a valid number
+        if (row.isTorn()) return;  // its last number may be truncated and would still be valid
         const Pose pose = readPoseRow(row, T_body_video);
         if (!poses.empty()) checkIncreasing(row, poses.back().time, pose.time);
         memory.take(kBytesPerPose, row);

@@ -13,8 +13,8 @@
 
 namespace mfar {
 
-/// A recording is invalid. The message begins with "file:line: " (or "file: " where no line is at
-/// fault) and states the fault in one line.
+/// Reports that a recording is invalid. The message states the fault in one line. It begins with
+/// "file:line: ", or with "file: " if the fault has no line.
 class RecordingError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -24,8 +24,9 @@ struct RecordedImage {
     std::filesystem::path file;
 };
 
-/// A recording in the EuRoC layout: cam0 = video, cam1 = stills, both with sensor.yaml and
-/// data.csv. All fields are validated; pixels are read later, one picture at a time.
+/// A recording in the EuRoC layout. Folder cam0 holds the video, cam1 the stills; both have a
+/// sensor.yaml and a data.csv. All fields are validated. Pixels are not read here, but later, one
+/// picture at a time.
 struct Recording {
     std::filesystem::path root;
     StereoRig rig;
@@ -34,23 +35,23 @@ struct Recording {
     std::vector<RecordedImage> stills;  ///< strictly increasing in time, may be empty
     std::vector<Pose> poses;            ///< strictly increasing in time, may be empty
 
-    /// Pose at exactly t or interpolated between its neighbours; empty outside the covered span and
-    /// in gaps of more than a quarter of a second.
+    /// Returns the pose at t, interpolated if necessary. Returns nothing before the first pose,
+    /// after the last one, and in gaps of more than a quarter of a second.
     [[nodiscard]] std::optional<Pose> poseAt(Timestamp t) const;
-    /// Files in truth/; empty when missing.
+    /// The following functions return the path of a file in truth/, or nothing if it is missing.
     [[nodiscard]] std::optional<std::filesystem::path> truthHighRes(Timestamp t) const;
     [[nodiscard]] std::optional<std::filesystem::path> truthInverseDepth(Timestamp t) const;
     [[nodiscard]] std::optional<std::filesystem::path> truthFlow(Timestamp from,
                                                                  Timestamp to) const;
 };
 
-/// Reads and validates a recording: files exist, sizes agree with sensor.yaml (from the image
-/// headers), times are sorted and unique, poses are finite. Throws RecordingError, also when the
-/// lists take more than so many bytes of memory.
+/// Reads and validates a recording. The files must exist, the sizes in their headers must agree
+/// with sensor.yaml, the times must be sorted and unique, and the poses must be finite. Otherwise
+/// throws RecordingError. Also throws if the lists need more than `most` bytes of memory.
 [[nodiscard]] Recording loadRecording(const std::filesystem::path& root,
                                       std::size_t most = std::numeric_limits<std::size_t>::max());
 
-/// What the lists of a recording take, while they are read as well [byte].
+/// Returns how much memory the lists of a recording need at most, even while they are read [bytes].
 [[nodiscard]] std::size_t memoryOf(const Recording& recording);
 
 }  // namespace mfar

@@ -13,7 +13,7 @@ namespace mfar {
 namespace {
 
 constexpr std::size_t kLongestLine = 4096;
-constexpr int kMostLines = 1'000'000;  // equals nine hours of video
+constexpr int kMostLines = 1'000'000;  // nine hours of video at 30 Hz
 constexpr std::int64_t kTimeLimit = std::int64_t{1} << 62;
 
 std::string_view trimmed(std::string_view s) {
@@ -23,11 +23,12 @@ std::string_view trimmed(std::string_view s) {
     return s.substr(first, s.find_last_not_of(kSpace) - first + 1);
 }
 
-// Keeps the message on one printable line: broken files may contain anything.
+// Quotes a text for a message. Broken files may contain any bytes, so control characters are
+// replaced and the text is cut to 60 characters.
 std::string quoted(std::string_view s) {
     std::string out = "'";
     for (const char c : s.substr(0, 60)) {
-        const auto byte = static_cast<unsigned char>(c);  // char is unsigned on ARM
+        const auto byte = static_cast<unsigned char>(c);  // char is signed on some machines only
         out += byte < 32 || byte == 127 ? '?' : c;
     }
     return out + (s.size() > 60 ? "...'" : "'");
@@ -78,7 +79,7 @@ void CsvRow::fail(std::string_view what) const {
 
 void forEachCsvRow(const std::filesystem::path& file,
                    const std::function<void(const CsvRow&)>& visit) {
-    // Opening a pipe would block.
+    // Only regular files are opened, because opening a pipe would block.
     if (!std::filesystem::is_regular_file(file)) recordingFault(file, 0, "is missing");
     std::ifstream in(file);
     if (!in) recordingFault(file, 0, "cannot be read");

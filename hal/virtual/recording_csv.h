@@ -15,22 +15,23 @@ namespace mfar {
 [[noreturn]] void recordingFault(const std::filesystem::path& file, int line,
                                  std::string_view what);
 
-/// One data row of a CSV file. The fields are trimmed and valid only while the row is visited.
+/// A data row of a CSV file. The fields have no surrounding spaces. They are valid only while the
+/// row is visited.
 class CsvRow {
 public:
     CsvRow(const std::filesystem::path& file, int line, std::string_view text, bool isTorn);
 
-    /// True for a last row without a line end or with zeros in it: a power cut may have truncated
-    /// it.
+    /// Returns whether this is the last row and has no line end or contains zeros. A power cut may
+    /// have truncated such a row.
     [[nodiscard]] bool isTorn() const { return isTorn_; }
     [[nodiscard]] std::size_t size() const { return fields_.size(); }
     [[nodiscard]] std::string_view text(std::size_t i) const { return fields_.at(i); }
-    /// Field i as a timestamp in nanoseconds, 0 <= t < 2^62, so that differences and loops cannot
-    /// overflow. Throws RecordingError.
+    /// Returns field i as a timestamp [ns]. It must be in 0 <= t < 2^62, so that later sums and
+    /// differences cannot overflow. Throws RecordingError.
     [[nodiscard]] Timestamp time(std::size_t i) const;
-    /// Field i as a finite number. Throws RecordingError.
+    /// Returns field i as a finite number. Throws RecordingError.
     [[nodiscard]] double number(std::size_t i) const;
-    /// Throws RecordingError that names this row.
+    /// Throws a RecordingError that names this row.
     [[noreturn]] void fail(std::string_view what) const;
 
 private:
@@ -40,8 +41,8 @@ private:
     std::vector<std::string_view> fields_;
 };
 
-/// Visits the rows of a CSV file in order; skips blank lines, lines that begin with '#', a byte
-/// order mark and carriage returns. Throws RecordingError when the file cannot be read.
+/// Visits the rows of a CSV file in order. Skips blank lines, lines that begin with '#', a byte
+/// order mark and carriage returns. Throws RecordingError if the file cannot be read.
 void forEachCsvRow(const std::filesystem::path& file,
                    const std::function<void(const CsvRow&)>& visit);
 

@@ -14,20 +14,19 @@
 namespace mfar {
 
 enum class Pace {
-    /// A picture is due as long after start() as it came after the recording's first picture.
-    Realtime,
+    Realtime,  ///< pictures are delivered in the intervals in which they were recorded
     Consumer,  ///< a picture is delivered as soon as it is requested; none is skipped
 };
 
 struct PlayerOptions {
     Pace pace = Pace::Realtime;
-    bool loop = false;            ///< restart at the end; times keep increasing, see recordedTime()
-    int videoBuffers = 8;         ///< pictures lent and decoded ahead together, at least 2
-    int stillBuffers = 4;         ///< as videoBuffers, for stills
-    bool asksVideoFirst = false;  ///< only for Pace::Consumer
+    bool loop = false;     ///< restart at the end; times keep increasing, see recordedTime()
+    int videoBuffers = 8;  ///< number of buffers for frames in use or decoded ahead, at least 2
+    int stillBuffers = 4;  ///< number of buffers for stills in use or decoded ahead, at least 2
+    bool asksVideoFirst = false;  ///< for Pace::Consumer only, see RecordingPlayer
 };
 
-/// Trigger of a recording, whose stills were triggered when it was made: only counts.
+/// The trigger of a recording. It only counts calls, because the stills are recorded already.
 class RecordedTrigger final : public Trigger {
 public:
     explicit RecordedTrigger(std::function<Timestamp()> now) : now_(std::move(now)) {}
@@ -46,25 +45,26 @@ private:
     std::atomic<std::uint64_t> fired_{0};
 };
 
-/// Plays a recording through two cameras, each with a thread that decodes a few pictures ahead.
-/// Frames carry the recording's times. The cameras live as long as the player and each can be
-/// started once; frames may outlive the player. next() throws RecordingError for a picture that
-/// cannot be decoded; the next call continues with the following picture.
+/// Plays a recording as two cameras. Each has a thread that decodes a few pictures ahead. Frames
+/// have the times of the recording. Each camera can be started once and lives as long as the
+/// player; frames may outlive the player. If a picture cannot be decoded, next() throws
+/// RecordingError, and the next call continues with the following picture.
 ///
-/// Pace::Realtime: both cameras share one clock, which begins with the first start(). When decoding
-/// or the consumer is so late that a later video picture is already due, the older one is skipped
-/// and counted, as a sensor overwrites unread pictures. Stills are never skipped.
+/// Pace::Realtime: both cameras share one clock, which begins with the first start(). If decoder or
+/// consumer are so slow that the following video frame is already due, the older frame is skipped
+/// and counted, as a sensor overwrites frames that are not read. Stills are never skipped.
 ///
-/// Pace::Consumer: stills().next() returns a still exactly when its time is at or before that of
-/// the video picture that video().next() returns next (any still once the video has ended). So a
-/// thread that alternately requests a still and a video picture gets all pictures in the order of
-/// their times, stills first at equal times, in every run. With `asksVideoFirst`, a still is
-/// returned at or before the last picture that video().next() returned: for a thread that requests
-/// a video picture and then its stills, without waiting for later ones. Waiting for the decoder
-/// does not count for the timeout; waiting for a buffer that the consumer holds does.
+/// Pace::Consumer: stills().next() returns a still only if its time is not later than the time of
+/// the frame that video().next() will return next; after the end of the video, it returns any
+/// still. So a thread that requests stills and frames alternately gets all pictures in the order of
+/// their times, in every run. At equal times, the still comes first. With `asksVideoFirst`, a still
+/// is returned only if its time is not later than that of the last frame that video().next()
+/// returned. This suits a thread that requests a frame and then the stills up to it. While next()
+/// waits for the decoder, the timeout does not apply; it applies while the consumer holds all
+/// buffers.
 class RecordingPlayer {
 public:
-    /// Throws std::invalid_argument when the options are impossible.
+    /// Throws std::invalid_argument if the options are impossible.
     RecordingPlayer(Recording recording, const PlayerOptions& options);
     RecordingPlayer(const RecordingPlayer&) = delete;
     RecordingPlayer& operator=(const RecordingPlayer&) = delete;
@@ -75,11 +75,13 @@ public:
     [[nodiscard]] RecordedTrigger& trigger() { return trigger_; }
     [[nodiscard]] const Recording& recording() const { return recording_; }
 
-    /// Converts a played time to the time in the recording's files; they differ only in a loop.
+    /// Converts the time of a delivered frame to the time in the recording's files. The two differ
+    /// from the second loop on.
     [[nodiscard]] Timestamp recordedTime(Timestamp played) const;
-    /// Current played time: from the clock or from the newest delivered video frame.
+    /// Returns the current time of the cameras: with Pace::Realtime from the clock, otherwise the
+    /// time of the last delivered video frame.
     [[nodiscard]] Timestamp now() const;
-    /// Number of late video pictures that were skipped.
+    /// Returns the number of late video frames that were skipped.
     [[nodiscard]] std::uint64_t skipped() const;
 
 private:

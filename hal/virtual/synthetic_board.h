@@ -16,53 +16,57 @@ namespace mfar {
 
 struct SyntheticOptions {
     synthetic::Scene scene = synthetic::Scene::Office;
-    /// Empty: at rest in `still`, survey in `calibration`, hand-held in the others.
+    /// The camera's path. Not set: Rest in scene Still, Survey in Calibration, otherwise Handheld.
     std::optional<synthetic::Path> path{};
     std::uint64_t seed = 1;
     Pace pace = Pace::Realtime;
-    int frames = 0;        ///< video frames until the camera ends, 0: unlimited
-    double rateHz = 30;    ///< of the video camera
-    double noise = 1;      ///< scales the standard deviation of both sensors' noise
-    int videoBuffers = 8;  ///< frames that exist at once, lent or waiting
-    int stillBuffers = 4;
-    std::chrono::nanoseconds stillDelay = std::chrono::milliseconds(1);  ///< pulse to exposure
+    int frames = 0;        ///< number of video frames before the camera ends; 0: unlimited
+    double rateHz = 30;    ///< frame rate of the video camera
+    double noise = 1;      ///< factor of the standard deviation of both sensors' noise
+    int videoBuffers = 8;  ///< number of buffers for frames in use or ready
+    int stillBuffers = 4;  ///< number of buffers for stills in use or ready
+    /// Time from a pulse to the start of the exposure.
+    std::chrono::nanoseconds stillDelay = std::chrono::milliseconds(1);
     std::chrono::nanoseconds stillExposure = std::chrono::milliseconds(8);
-    std::chrono::nanoseconds stillLatency = std::chrono::milliseconds(60);  ///< pulse to picture
+    /// Time from a pulse to the delivery of its still.
+    std::chrono::nanoseconds stillLatency = std::chrono::milliseconds(60);
 };
 
 class SyntheticStudio;
 
-/// A dual-sensor board in a generated world: 640x480 video, 2304x1728 stills on trigger, 14 mm
-/// apart, each with its own lens, gain, gamma, blur and noise. The world exists for any time and
-/// provides ground truth. The same options and pulses give the same bytes (Pace::Consumer) or the
-/// same pictures for the same times (Pace::Realtime, whose clock is Timestamp::now()). There is no
-/// motion blur: the world stands still during an exposure; the shutter is global.
+/// A simulated board in a generated world: a video camera of 640x480 and a triggered still camera
+/// of 2304x1728 pixels, 14 mm apart. Each has its own lens, gain, gamma, blur and noise. The world
+/// is defined for any time and has exact ground truth. There is no motion blur and no rolling
+/// shutter.
 ///
-/// Pace::Realtime: frames at rateHz; frames for which the renderer or the consumer is too slow are
-/// skipped. Stills are rendered in steps between video frames.
+/// Pace::Realtime: the clock is Timestamp::now(), and frames come at rateHz. If renderer or
+/// consumer are too slow, frames are skipped. Stills are rendered in steps between video frames.
+/// The same options give the same pictures for the same times.
 ///
-/// Pace::Consumer: a frame is delivered as soon as it is requested; none is skipped. The current
-/// time is that of the last frame that video().next() returned (the epoch before the first): a
-/// pulse is fired at that time, and its still is available when a video frame at least stillLatency
-/// later has been returned, or, for a next() with a timeout above zero, when the video has ended.
-/// next() waits for the renderer regardless of its timeout; the timeout applies while the consumer
-/// holds all buffers, and to stills.
+/// Pace::Consumer: a frame is delivered as soon as it is requested; none is skipped. The same
+/// options and pulses give the same bytes. The current time is the time of the last frame that
+/// video().next() returned, or epoch() before the first. A pulse is fired at the current time. Its
+/// still can be requested after a frame at least stillLatency later was returned. After the end of
+/// the video, a next() with a timeout above zero returns the remaining stills. The wait for the
+/// renderer does not count for the timeout of video().next(); the timeout applies while the
+/// consumer holds all buffers.
 ///
-/// A pulse is lost, as on a real sensor, during the last exposure, while stillBuffers - 1 stills
-/// are pending, and while the still camera is not started.
+/// As with a real sensor, a pulse is lost if it comes during the previous exposure, while
+/// stillBuffers - 1 stills are pending, or while the still camera is not started.
 ///
-/// Needs a linked createGlContext(); its thread has its own context. The cameras and the trigger
-/// live as long as the board; frames may outlive it. All functions are thread-safe.
+/// The program must link a createGlContext(); the board's thread has its own GL context. The
+/// cameras and the trigger live as long as the board; frames may outlive it. All functions are
+/// thread-safe.
 class SyntheticBoard {
 public:
-    /// The picture plane of ground truth.
+    /// The camera for which ground truth is computed.
     enum class View {
-        Video,         ///< the video sensor
-        Still,         ///< the still sensor
+        Video,         ///< the video camera
+        Still,         ///< the still camera
         StillAtVideo,  ///< the still's position with the video's orientation, lens and resolution
     };
 
-    /// Throws std::runtime_error when there is no GL context.
+    /// Throws std::runtime_error if no GL context can be created.
     explicit SyntheticBoard(const SyntheticOptions& options);
     ~SyntheticBoard();
     SyntheticBoard(const SyntheticBoard&) = delete;
@@ -73,20 +77,20 @@ public:
     [[nodiscard]] Camera& video() { return *video_; }
     [[nodiscard]] Camera& stills() { return *stills_; }
     [[nodiscard]] Trigger& trigger() { return *trigger_; }
-    /// Start time of the world, which exists before, too.
+    /// Returns the time that is 0 in the world. Earlier times are defined, too.
     [[nodiscard]] Timestamp epoch() const;
 
-    /// Exact pose of the video camera.
+    /// Returns the exact pose of the video camera.
     [[nodiscard]] Pose pose(Timestamp t) const;
-    /// 1 / z [1/m] per video pixel; 0 = background.
+    /// Returns the inverse depth 1 / z [1/m] of each video pixel; 0: background.
     [[nodiscard]] FloatImage inverseDepth(Timestamp t) const;
-    /// Offset [px] from each pixel of one view to the same point in another; NaN = occluded or
-    /// outside there.
+    /// Returns, for each pixel of `from`, the offset [px] to the same point in `to`; NaN: the point
+    /// is occluded in `to` or outside the picture.
     [[nodiscard]] FlowImage flow(View from, Timestamp fromTime, View to, Timestamp toTime) const;
-    /// The video sensor's view at the still's resolution: same lens, gain and gamma, no noise and
-    /// no blur. Takes as long as a still.
+    /// Returns what the video camera would see with the still's resolution: same lens, gain and
+    /// gamma, without noise and blur. Takes as long as rendering a still.
     [[nodiscard]] StoredImage highRes(Timestamp t);
-    /// The video frame without its noise.
+    /// Returns the video frame without noise.
     [[nodiscard]] StoredImage cleanVideo(Timestamp t);
 
 private:

@@ -7,14 +7,14 @@
 namespace mfar::synthetic {
 namespace {
 
-constexpr double kPlateCells = kTagCells + 2;  // with a white rim of one cell
+constexpr double kPlateCells = kTagCells + 2;  // includes a white rim of one cell
 constexpr double kPlateThickness = 0.004;
 
 Eigen::Quaterniond aboutZ(double yaw) {
     return Eigen::Quaterniond(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()));
 }
 
-/// Rotation whose columns are the tag's x, y, z axes in the plate's frame.
+/// Returns the rotation whose columns are the tag's x, y and z axes in the plate's frame.
 Eigen::Quaterniond axes(const Eigen::Vector3d& x, const Eigen::Vector3d& y) {
     Eigen::Matrix3d m;
     m << x, y, x.cross(y);

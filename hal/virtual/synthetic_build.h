@@ -7,17 +7,19 @@
 
 namespace mfar::synthetic {
 
-/// Assembles a world. Positions [m] in the world, angles [rad] about the world's z axis.
+/// Assembles a world. Positions and sizes are in metres in the world's frame. Yaw angles [rad] are
+/// about the world's z axis.
 class Builder {
 public:
     World world;
 
     /// Adds a material and returns its index.
     int material(const Material& m);
-    /// Material whose texture fills a face of this size once, for +x, -y and +z faces.
+    /// Adds a material whose texture fills a face of this size once. Use it for +x, -y and +z
+    /// faces.
     int sheet(Layer layer, double width, double height, const Eigen::Vector3d& tint,
               double gloss = 0);
-    /// A material that repeats `perMetre` times.
+    /// Adds a material whose texture repeats `perMetre` times per metre.
     int tiled(Layer layer, double perMetre, const Eigen::Vector3d& tint, double variation = 0.15,
               double gloss = 0);
 
@@ -26,18 +28,18 @@ public:
     Primitive& box(const Eigen::Vector3d& centre, const Eigen::Vector3d& size, double yaw, int m) {
         return box(centre, size, yaw, {m, m, m});
     }
-    /// Upright cylinder.
+    /// Adds an upright cylinder; `side` and `caps` are materials.
     Primitive& cylinder(const Eigen::Vector3d& centre, double radius, double height, int side,
                         int caps);
-    /// Cylinder between two points.
+    /// Adds a cylinder between two points.
     Primitive& rod(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius, int m);
     Primitive& ellipsoid(const Eigen::Vector3d& centre, const Eigen::Vector3d& radii, double yaw,
                          int m);
-    /// A plate with tag `id` (0..3), its black square `size` wide, standing and facing -y (turned
-    /// by yaw), or lying and facing up.
+    /// Add a plate with tag `id` (0..3), whose black square has the edge `size`. A standing tag
+    /// faces -y, rotated by yaw; a lying tag faces up.
     void standingTag(int id, const Eigen::Vector3d& centre, double size, double yaw);
     void lyingTag(int id, const Eigen::Vector3d& centre, double size, double yaw);
-    /// A lying book with its cover on top, or a standing one with its spine to -y.
+    /// Add a book. A lying book has its cover on top; a standing one has its spine towards -y.
     void lyingBook(const Eigen::Vector3d& bottom, const Eigen::Vector3d& size, double yaw,
                    const Eigen::Vector3d& tint);
     void standingBook(const Eigen::Vector3d& bottom, const Eigen::Vector3d& size, double yaw,

@@ -8,7 +8,8 @@ namespace {
 
 using V = Eigen::Vector3d;
 
-/// Family 36h11, ids 0..35: 36 bits from the most significant down, in the family's order.
+/// The codes of tags 0 to 35 of family 36h11. The bits are in the family's order, the first bit is
+/// the most significant.
 constexpr std::array<std::uint64_t, 36> kTagCodes{
     0xd7e00984bULL, 0xdda664ca7ULL, 0xdc4a1c821ULL, 0xe17b470e9ULL, 0xef91d01b1ULL, 0xf429cdd73ULL,
     0x05da29225ULL, 0x1106cba43ULL, 0x223bed79dULL, 0x21f51213cULL, 0x33eb19ca6ULL, 0x3f76eb0f8ULL,
@@ -18,8 +19,8 @@ constexpr std::array<std::uint64_t, 36> kTagCodes{
     0xe2cfda160ULL, 0x2ff497c63ULL, 0x47240671bULL, 0x5047a2e55ULL, 0x635ca87c7ULL, 0x691254166ULL};
 static_assert(kTagCodes.size() == static_cast<std::size_t>(kGridTags) * kGridTags);
 
-// The layer is a grid of cells that are whole texels down to the fourth mipmap, so that edges are
-// exactly placed: a white rim, then squares and tags alternately.
+// The layer is a grid of cells: a white rim, then black squares and tags alternately. The size of a
+// cell is a whole number of texels down to the fourth mipmap, so that edges are at exact positions.
 constexpr int kGapCells = 2, kPitch = kTagCells + kGapCells;
 constexpr int kRim = 1;
 constexpr int kLayerCells = 2 * kRim + kGridTags * kPitch + kGapCells;
@@ -28,10 +29,10 @@ static_assert(kGapCells == kTagCells * kGridSpacing);
 
 constexpr double kCell = kGridTagSize / kTagCells;  // [m]
 constexpr double kPlate = kLayerCells * kCell;      // [m]
-const V kMiddle{0, 0.3, 0.46};                      // centre of the plate's front
+const V kMiddle{0, 0.3, 0.46};                      // centre of the plate's front face [m]
 constexpr double kThickness = 0.01;
 
-/// True for a white cell; cells are counted from the outermost squares.
+/// Returns whether a cell is white. Column 0 and row 0 are those of the outermost squares.
 bool isWhite(int column, int row) {
     const int right = column % kPitch - kGapCells, down = row % kPitch - kGapCells;
     if (right < 0 || down < 0) return !(right < 0 && down < 0);
@@ -39,10 +40,10 @@ bool isWhite(int column, int row) {
     return tagCells(id)[down][right];
 }
 
-/// Tag in a column (from the left) and a row (from below).
+/// Returns the tag in a column (from the left) and a row (from the bottom), from 0.
 Tag gridTag(int column, int row) {
     const auto place = [](int i) { return (i - 0.5 * (kGridTags - 1)) * kPitch * kCell; };
-    Eigen::Matrix3d turn;  // columns: tag x, y, z
+    Eigen::Matrix3d turn;  // its columns are the tag's x, y and z axes
     turn << 1, 0, 0, 0, 0, 1, 0, -1, 0;
     return {row * kGridTags + column,
             kGridTagSize,
@@ -51,7 +52,8 @@ Tag gridTag(int column, int row) {
 
 }  // namespace
 
-// The 36 bits fill four quarters, nine bits each, turned by 90 degrees.
+// The 36 bits fill four quarters of the tag with nine bits each. Each quarter's positions are those
+// of the previous one, rotated by 90 degrees.
 TagCells tagCells(int id) {
     constexpr std::array<std::array<int, 2>, 9> kFirst{
         {{1, 1}, {2, 1}, {3, 1}, {4, 1}, {5, 1}, {2, 2}, {3, 2}, {4, 2}, {3, 3}}};
@@ -69,7 +71,7 @@ TagCells tagCells(int id) {
 }
 
 cv::Mat4b aprilGrid(std::uint64_t seed) {
-    constexpr int kTexels = kLayerSize / kLayerCells;  // texels per cell
+    constexpr int kTexels = kLayerSize / kLayerCells;  // side of a cell
     const cv::Mat1f grain = fractal(seed, 200, 200, 2, 0.7F);
     cv::Mat1b white(kLayerCells, kLayerCells, 255);
     for (int y = kRim; y < kLayerCells - kRim; ++y)

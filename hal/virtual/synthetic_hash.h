@@ -4,7 +4,8 @@
 
 namespace mfar::synthetic {
 
-/// Integer mixing, equal on every machine (constants: splitmix64, Steele et al. 2014).
+/// Mixes the bits of an integer; the result is the same on every machine. The constants are those
+/// of splitmix64 (Steele et al. 2014).
 [[nodiscard]] constexpr std::uint64_t mix(std::uint64_t x) {
     x += 0x9e3779b97f4a7c15ULL;
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
@@ -16,7 +17,7 @@ namespace mfar::synthetic {
     return mix(mix(seed ^ mix(static_cast<std::uint64_t>(a))) ^ static_cast<std::uint64_t>(b));
 }
 
-/// Maps to [0, 1).
+/// Maps a hash to [0, 1).
 [[nodiscard]] constexpr double hashUnit(std::uint64_t h) {
     return static_cast<double>(h >> 11) * 0x1p-53;
 }

@@ -15,16 +15,17 @@
 namespace mfar::synthetic {
 namespace {
 
-constexpr int kAtlas = 1024;     // texels
-constexpr double kSlack = 1e-3;  // margin around bounding spheres, for rounding [m]
-// Rays per texel; neighbours use different ones and are smoothed.
+constexpr int kAtlas = 1024;     // side of the light map's texture [texels]
+constexpr double kSlack = 1e-3;  // margin around bounding spheres, for rounding errors [m]
+// Rays per texel. Neighbouring texels use different rays and are smoothed afterwards.
 constexpr int kKeyRays = 12, kSkyRays = 16;
 
 struct SurfacePoint {
-    Eigen::Vector3d position, normal;  ///< primitive's frame
+    Eigen::Vector3d position, normal;  ///< in the primitive's frame [m]
 };
 
-/// Point of a face at (s, t) in [-1, 1]^2; the renderer's chart() is the inverse.
+/// Returns the point of a face at the coordinates (s, t) in [-1, 1]^2. The shader's function
+/// chart() computes the inverse.
 SurfacePoint surfacePoint(const Primitive& p, int axis, double sign, double s, double t) {
     Eigen::Vector3d unit, normal;
     if (p.shape == Shape::Cylinder && axis < 2) {
@@ -63,7 +64,7 @@ public:
                 light(j, i) = cv::Vec3f(cv::Vec3d(e.x(), e.y(), e.z()));
             }
         }
-        // Removes sampling noise, but not the shadows.
+        // This blur removes sampling noise and hardly changes the shadows.
         if (n >= 12) cv::GaussianBlur(light, light, {0, 0}, 0.9, 0.9, cv::BORDER_REPLICATE);
         cv::Mat4b out = map_.texels(area);
         eachPixel(out, [&](cv::Vec4b& o, const int* q) {
@@ -73,7 +74,8 @@ public:
     }
 
 private:
-    /// The world without its moving objects: they neither cast shadows nor reflect light.
+    /// Returns the world without its moving objects, which neither cast shadows nor reflect light
+    /// in the light map.
     static World still(const World& world) {
         World out = world;
         for (Primitive& p : out.primitives)
@@ -102,7 +104,8 @@ private:
         return light.key * key + skyAt(index, origin, normal, turn, shift);
     }
 
-    /// Cosine-weighted light from the surroundings; near solids reflect a part of their colour.
+    /// Returns the cosine-weighted light from the surroundings: the sky's light, and light that
+    /// solids within reach() reflect in their colours.
     Eigen::Vector3d skyAt(int index, const Eigen::Vector3d& origin, const Eigen::Vector3d& normal,
                           double turn, double shift) const {
         const Eigen::Vector3d side = normal.unitOrthogonal(), up = normal.cross(side);
@@ -126,8 +129,8 @@ private:
         return sum / kSkyRays;
     }
 
-    /// Solids that may hide a part of the light from a point: their bounding spheres meet the cone
-    /// of rays towards the light.
+    /// Returns the solids that may hide a part of the key light from a point. Their bounding
+    /// spheres touch the cone of rays towards the light.
     std::vector<int> towardsLight(const Eigen::Vector3d& point) const {
         std::vector<int> out;
         for (int i = 0; i < solids_.size(); ++i) {
@@ -140,7 +143,7 @@ private:
         return out;
     }
 
-    /// Solids that rays from a surface point to the sky may hit.
+    /// Returns the solids that rays from a surface point may hit within reach().
     std::vector<int> withinReach(const Eigen::Vector3d& point,
                                  const Eigen::Vector3d& normal) const {
         std::vector<int> out;
@@ -152,7 +155,8 @@ private:
         return out;
     }
 
-    /// Upper limit of distance; farther solids count as sky, or closed rooms would be dark.
+    /// Returns the greatest distance at which a solid hides the sky [m]. Without this limit, closed
+    /// rooms would be dark.
     double reach() const { return 0.45 * (world_.target - world_.eye).norm(); }
 
     const World& world_;
@@ -161,7 +165,8 @@ private:
     Eigen::Vector3d side_, up_;
 };
 
-/// Rectangles of the 3 x 2 faces of every primitive, placed in rows.
+/// Places the 3 x 2 faces of every primitive in the light map, row after row. Returns one rectangle
+/// per primitive.
 std::vector<cv::Rect> layOut(const World& world) {
     std::vector<cv::Rect> out;
     int x = 0, y = 0, rowHeight = 0;

@@ -9,17 +9,19 @@
 
 namespace mfar::synthetic {
 
-/// Light that arrives at every surface: soft shadow of the key light, ambient occlusion and one
-/// bounce, ray traced once for the world at time 0.
+/// The light that arrives at every surface: the key light with soft shadows, the ambient light with
+/// occlusion, and one bounce. It is ray traced once, for the world at time 0.
 struct LightMap {
-    /// Irradiance / kFullScale per channel. Each primitive has 3 x 2 faces (axis, sign) side by
-    /// side; moving objects cast no shadow here.
+    /// Irradiance / kFullScale, times 255, per channel. The 3 x 2 faces (axis, sign) of a primitive
+    /// are side by side. Moving objects cast no shadow here.
     cv::Mat4b texels;
-    /// Per primitive, in texture coordinates: x, y of its first face, width and height of a face.
+    /// For each primitive, in texture coordinates: x and y of its first face, width and height of a
+    /// face.
     std::vector<Eigen::Vector4f> faces;
 
     static constexpr double kFullScale = 1.6;
-    /// Half a texel as a fraction of a face: keeps bilinear look-ups inside the face.
+    /// Returns half a texel as a fraction of a face. With this margin, bilinear look-ups stay
+    /// inside the face.
     [[nodiscard]] static double inset(int lightTexels) { return 0.5 / lightTexels; }
 };
 

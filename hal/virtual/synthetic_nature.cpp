@@ -15,7 +15,7 @@ int wrap(int i) {
 }
 
 cv::Mat4b wood(std::uint64_t seed) {
-    const cv::Mat1f bend = fractal(seed, 2, 6, 3);  // long waves in the wood grain
+    const cv::Mat1f bend = fractal(seed, 2, 6, 3);  // long waves of the growth rings
     const cv::Mat1f fibre = fractal(seed + 1, 16, 256, 2, 0.8F);
     const cv::Mat1f pores = noise(seed + 2, 40, 512);
     const cv::Mat1f tone = fractal(seed + 3, 2, 24, 3);
@@ -55,7 +55,7 @@ cv::Mat4b bark(std::uint64_t seed) {
     return toBytes(colour, cv::Mat1f(colour.size(), 0.F));
 }
 
-/// One leaf at (x, y) [texels], wrapped around the layer's edges.
+/// Paints a leaf at (x, y) [texels]. It continues at the opposite edge of the layer.
 void paintLeaf(cv::Mat3f& canvas, Random& random, double x, double y, float depth) {
     const double angle = random.range(0, 2 * std::numbers::pi);
     const double length = random.range(20, 46), width = length * random.range(0.28, 0.45);
@@ -90,7 +90,7 @@ cv::Mat4b foliage(std::uint64_t seed) {
     for (int i = 0; i < kLeaves; ++i) {
         const float depth = 0.16F + 0.95F * std::pow(static_cast<float>(i) / kLeaves, 2.F);
         const double x = random.range(0, kLayerSize), y = random.range(0, kLayerSize);
-        // Clumping leaves gaps in which the deeper, darker leaves stay visible.
+        // Leaves are painted in clumps, so that deeper, darker leaves stay visible in the gaps.
         const double clump = std::sin(x * 0.0368155) * std::sin(y * 0.0429515 + 1) +
                              std::sin(x * 0.0122718 + y * 0.0184078);
         if (i > kLeaves / 3 && clump < random.range(-1.6, 0.6)) continue;
@@ -99,7 +99,8 @@ cv::Mat4b foliage(std::uint64_t seed) {
     return toBytes(colour, cv::Mat1f(colour.size(), 0.25F));
 }
 
-/// Distances to the nearest and second nearest jittered point of a wrapped cell grid.
+/// Distances to the nearest and second nearest of a set of random points, one in each cell of a
+/// grid that wraps around.
 struct Cell {
     float nearest, second;
     std::uint64_t id;

@@ -4,37 +4,37 @@
 
 #include <cstdint>
 
-// Parameters of synthetic_world.frag and synthetic_sensor.frag. Shaders read this header, too:
-// gles_shaders/params_to_glsl.cmake.
+// Parameters of synthetic_world.frag and synthetic_sensor.frag.
+// gles_shaders/params_to_glsl.cmake translates this header to GLSL.
 namespace mfar::params {
 
-/// Side of the tiles for which solids are listed [px].
+/// Side of a tile [px]. The renderer lists the solids that each tile may show.
 inline constexpr int kSyntheticTile = 16;
 
-/// One bit for each of 128 solids.
+/// A set of solids, with one bit for each of 128.
 struct alignas(16) SolidMask {
     std::uint32_t first, second, third, fourth;
 };
 
 struct alignas(16) SyntheticWorld {
     Lens lens;
-    SolidMask boxes;               ///< which solids are boxes
-    float lightX, lightY, lightZ;  ///< unit vector towards the key light, camera frame
-    float moverX, moverY, moverZ;  ///< centre of the moving object, camera frame [m]
-    float moverRadius;             ///< [m]
+    SolidMask boxes;               ///< the solids that are boxes
+    float lightX, lightY, lightZ;  ///< unit vector towards the key light, in the camera's frame
+    float moverX, moverY, moverZ;  ///< centre of the moving object, in the camera's frame [m]
+    float moverRadius;             ///< [m]; 0: there is no moving object
     float red, green, blue;        ///< radiance of the background
     std::uint32_t tileColumns;
-    std::uint32_t variationLayer;  ///< texture layer of the slow variation
+    std::uint32_t variationLayer;  ///< index of the texture with the low-frequency variation
 };
 
 struct alignas(16) SyntheticSensor {
     float redGain, greenGain, blueGain;
     float inverseGamma;  ///< 1 / gamma
-    std::int32_t blurs;  ///< 1: 3x3 blur with weights for the centre, sides and corners
+    std::int32_t blurs;  ///< 1: blur with 3x3 weights: centre, side and corner
     float centreWeight, sideWeight, cornerWeight;
-    /// 1: add noise of variance noisePerSignal x + noiseConstant.
+    /// 1: add noise to a linear value x, with the variance noisePerSignal * x + noiseConstant.
     std::int32_t noisy;
-    float noisePerSignal, noiseConstant;  ///< linear units
+    float noisePerSignal, noiseConstant;
     std::uint32_t seed, channelSeed;
 };
 

@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// Smooth zero-mean wobble of about unit amplitude: sines whose frequencies [Hz] share no period.
-/// The fast ones are weak, as in a tremor.
+/// Returns a smooth random movement with zero mean and an amplitude of about 1. It is a sum of
+/// sines with different frequencies [Hz]; the fast ones are weak, as in the tremor of a hand.
 double wobble(std::uint64_t seed, int channel, double t) {
     constexpr std::array<double, 5> kFrequency{0.31, 0.73, 1.57, 3.13, 5.71};
     constexpr std::array<double, 5> kWeight{0.55, 0.30, 0.20, 0.07, 0.03};
@@ -24,7 +24,8 @@ double wobble(std::uint64_t seed, int channel, double t) {
     return sum;
 }
 
-/// Camera at `eye` looking at `target`, world z upwards in the picture.
+/// Returns the pose of a camera at `eye` that looks at `target`. The world's z axis points up in
+/// the picture.
 RigidTransform lookAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& target) {
     const Eigen::Vector3d z = (target - eye).normalized();
     const Eigen::Vector3d x = z.cross(Eigen::Vector3d::UnitZ()).normalized();
@@ -39,7 +40,7 @@ Eigen::Quaterniond tilt(double pitch, double yaw, double roll) {
            Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitZ());
 }
 
-/// Hand shake; `amount` 1 = a person who tries to hold still.
+/// Returns the motion of a hand. `amount` is 1 for a person who tries to hold the camera still.
 RigidTransform shake(std::uint64_t seed, double t, double amount) {
     const double metres = 0.005 * amount, angle = 1.1 * kDegree * amount;
     return {
@@ -48,8 +49,8 @@ RigidTransform shake(std::uint64_t seed, double t, double amount) {
         {metres * wobble(seed, 0, t), metres * wobble(seed, 1, t), metres * wobble(seed, 2, t)}};
 }
 
-/// Moves around a target in front of `eye`, as a person does for a calibration: near and far, from
-/// all sides, rotated, and with the target in every part of the picture.
+/// Returns a pose of a path around the world's target, as a person moves a board for a calibration:
+/// near and far, from all sides, rotated, and with the target in every part of the picture.
 RigidTransform survey(const World& world, double t) {
     const auto swing = [t](double amplitude, double period, double phase) {
         return amplitude * std::sin(2 * std::numbers::pi * (t / period + phase));

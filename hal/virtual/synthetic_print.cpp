@@ -12,8 +12,8 @@
 namespace mfar::synthetic {
 namespace {
 
-// A printed sheet is drawn as ink coverage at more than twice the layer's resolution and in the
-// proportions of A4, then reduced to the square layer.
+// A printed sheet is drawn as a picture of ink with the aspect ratio of A4 and more than twice the
+// layer's resolution. It is then reduced to the square layer.
 constexpr int kInkWidth = 2100, kInkHeight = 2970;  // ten pixels per millimetre
 constexpr unsigned char kNoInk = 0;
 
@@ -29,8 +29,8 @@ std::string word(Random& random) {
 
 struct Column {
     int left, right, top, bottom;  ///< [ink pixels]
-    double scale;                  ///< scale of the stroke font
-    int pitch;                     ///< distance of lines
+    double scale;                  ///< OpenCV's scale of the font
+    int pitch;                     ///< distance of the lines [ink pixels]
 };
 
 /// Fills a column with words in paragraphs.
@@ -87,7 +87,7 @@ void drawDiagram(cv::Mat1b& ink, Random& random, cv::Rect box) {
     }
 }
 
-/// Ink on paper, reduced to the layer's size.
+/// Returns the layer of a sheet with ink on paper.
 cv::Mat4b pressed(const cv::Mat1b& ink, std::uint64_t seed, cv::Vec3f inkColour) {
     cv::Mat1b small;
     cv::resize(ink, small, {kLayerSize, kLayerSize}, 0, 0, cv::INTER_AREA);
@@ -123,7 +123,7 @@ cv::Mat4b article(std::uint64_t seed) {
     return pressed(ink, seed, {0.04F, 0.04F, 0.06F});
 }
 
-/// Gold print on linen; the linen takes the material's tint.
+/// Returns the layer of a book cover: gold print on linen. The material's tint colours the linen.
 cv::Mat4b bound(const cv::Mat1b& ink, std::uint64_t seed) {
     cv::Mat1b small;
     cv::resize(ink, small, {kLayerSize, kLayerSize}, 0, 0, cv::INTER_AREA);
@@ -192,7 +192,7 @@ cv::Mat4b edges(std::uint64_t seed) {
 }
 
 cv::Mat4b tags(std::uint64_t seed) {
-    constexpr int kHalf = kLayerSize / 2;  // texels per tag
+    constexpr int kHalf = kLayerSize / 2;  // side of a tag with its rim [texels]
     const cv::Mat1f grain = fractal(seed, 200, 200, 2, 0.7F);
     cv::Mat3f colour(kLayerSize, kLayerSize);
     std::array<TagCells, 4> cells{};

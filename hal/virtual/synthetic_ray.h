@@ -10,25 +10,25 @@ namespace mfar::synthetic {
 
 struct Ray {
     Eigen::Vector3d origin;
-    Eigen::Vector3d direction;  ///< any length; distances are in units of it
+    Eigen::Vector3d direction;  ///< of any length; distances are multiples of this length
 };
 
-/// The solids of a world at one instant, for ray queries in double precision. Immutable after
-/// construction, so any number of threads may use it.
+/// The solids of a world at one time, for ray casting in double precision. Thread-safe, because it
+/// does not change after construction.
 class Snapshot {
 public:
     Snapshot(const World& world, double t);
 
-    /// Nearest hit with distance in (0, limit).
+    /// Returns the nearest hit with a distance in (0, limit), or nothing.
     [[nodiscard]] std::optional<Hit> cast(const Ray& ray, double limit) const;
-    /// True when any solid but `except` is on the ray before `limit`.
+    /// Returns whether any solid except `except` is on the ray before `limit`.
     [[nodiscard]] bool blocked(const Ray& ray, double limit, int except) const;
-    /// As cast() above, restricted to some primitives, in ascending order.
+    /// These two functions do the same, but only with the solids `among`, in ascending order.
     [[nodiscard]] std::optional<Hit> cast(const Ray& ray, double limit,
                                           std::span<const int> among) const;
     [[nodiscard]] bool blocked(const Ray& ray, double limit, int except,
                                std::span<const int> among) const;
-    /// Radius of the bounding sphere around pose(primitive).translation.
+    /// Returns the radius of a primitive's bounding sphere, whose centre is pose().translation [m].
     [[nodiscard]] double radius(int primitive) const { return solids_[primitive].radius; }
     [[nodiscard]] const RigidTransform& pose(int primitive) const {
         return solids_[primitive].T_world_prim;
@@ -39,12 +39,12 @@ private:
     struct Solid {
         Shape shape;
         RigidTransform T_world_prim;
-        Eigen::Matrix3d toUnit;  ///< world direction -> primitive frame scaled to half extents 1
+        Eigen::Matrix3d toUnit;  ///< world direction -> primitive's frame, scaled to half extents 1
         Eigen::Vector3d half;
-        double radius;  ///< radius of the bounding sphere
+        double radius;  ///< radius of the bounding sphere [m]
     };
     std::vector<Solid> solids_;
-    std::vector<int> all_;  ///< indices
+    std::vector<int> all_;  ///< indices of all solids
 };
 
 }  // namespace mfar::synthetic

@@ -12,7 +12,7 @@ namespace mfar::synthetic {
 namespace {
 
 constexpr int kTile = params::kSyntheticTile;
-constexpr int kStepPixels = 640 * 480;  // a video frame is one step
+constexpr int kStepPixels = 640 * 480;  // so that a video frame is rendered in one step
 
 using Four = std::array<float, 4>;
 
@@ -21,7 +21,7 @@ Four four(const Eigen::Vector3d& v, double w) {
             static_cast<float>(w)};
 }
 
-// Mirror the structures in synthetic_tables.glsl.
+// These structures have the layout of those in synthetic_tables.glsl.
 struct SolidEntry {
     std::array<Four, 3> rows;
 };
@@ -34,8 +34,8 @@ gpu::Binding uniform(GLuint index, const gpu::Buffer& b) {
     return {gpu::Binding::Kind::Uniform, index, b.id()};
 }
 
-/// Visible range of a solid: bounds of its box, cut at a near plane, in normalised coordinates. An
-/// empty range (left > right) if it is not visible.
+/// Returns the bounds of a solid's bounding box in normalised ray coordinates. The part of the box
+/// behind the near plane is cut off. The bounds are empty (left > right) if the box is not visible.
 template <class Rect>
 Rect boundsOf(const RigidTransform& T_camera_prim, const Eigen::Vector3d& half) {
     constexpr double kNear = 0.01;
@@ -77,7 +77,8 @@ SensorView::SensorView(WorldGl& world, const CameraModel& camera, const SensorLo
 }
 
 void SensorView::findTiles() {
-    // [px]; covers sub-pixel rays and lens distortion between the samples.
+    // Margin around a tile [px], for rays inside a pixel and for lens distortion between the
+    // samples.
     constexpr double kMargin = 2;
     constexpr int kSamples = 4;
     for (int ty = 0; ty < tilesY_; ++ty) {
@@ -181,7 +182,8 @@ bool SensorView::step() {
                            gpu::storage(0, tiles_)},
                           radianceTarget_);
     glDisable(GL_SCISSOR_TEST);
-    // Limits the queued work: stopping the board waits for one step, not for a whole picture.
+    // This wait limits the work that is queued for the GPU. So stopping the board waits for one
+    // step at most, not for a whole picture.
     glFinish();
     row_ = until;
     return complete();

@@ -16,17 +16,17 @@
 
 namespace mfar::synthetic {
 
-/// A sensor's response, blur and noise.
+/// The response, blur and noise of a sensor.
 struct SensorLook {
     Eigen::Vector3f gain{1, 1, 1};
     float gamma = 2.2F;
-    float blurSigma = 0;  ///< [px], 0: no blur
-    float shotNoise = 0;  ///< variance per unit of signal (linear, 1 = white)
-    float readNoise = 0;  ///< constant variance (linear)
+    float blurSigma = 0;  ///< standard deviation of the blur [px]; 0: no blur
+    float shotNoise = 0;  ///< variance per unit of the signal (linear, 1 = white)
+    float readNoise = 0;  ///< constant part of the variance (linear)
 };
 
-/// Resources shared by all views of a world: textures, light map, materials and programs. Needs a
-/// current GL context for its whole life. Throws GlError.
+/// The GL resources that all views of a world share: textures, light map, materials and programs.
+/// The GL context must be current whenever this object is used or destroyed. Throws GlError.
 class WorldGl {
 public:
     WorldGl(const World& world, std::uint64_t seed);
@@ -42,7 +42,7 @@ private:
 
     World world_;
     LightMap light_;
-    std::array<int, static_cast<std::size_t>(Layer::Count)> slots_{};  ///< layer -> array slice
+    std::array<int, static_cast<std::size_t>(Layer::Count)> slots_{};  ///< Layer -> array index
     GLuint layers_ = 0;
     gpu::Texture lightMap_;
     gpu::Buffer materials_;
@@ -50,19 +50,19 @@ private:
     gpu::DrawPass<params::SyntheticSensor> sensorPass_;
 };
 
-/// One sensor's pictures of a world. The WorldGl and this object use the same GL context. A picture
-/// is rendered in steps of at most one video frame's pixels, so that other work of the same thread
-/// need not wait for a large picture.
+/// Renders one sensor's pictures of a world. The WorldGl and this object must use the same GL
+/// context. A picture is rendered in steps of at most as many pixels as a video frame has, so that
+/// other work of the thread need not wait for a large picture.
 class SensorView {
 public:
     SensorView(WorldGl& world, const CameraModel& camera, const SensorLook& look);
 
-    /// Begins a picture at time t [s] from a pose; `noiseSeed` 0: without noise.
+    /// Begins a picture of the world at time t [s]. `noiseSeed` 0: the picture has no noise.
     void begin(const RigidTransform& T_world_camera, double t, std::uint64_t noiseSeed);
-    /// Renders the next step; true when the picture is complete.
+    /// Renders the next step. Returns whether the picture is complete.
     bool step();
     [[nodiscard]] bool complete() const { return row_ == camera_.size.height; }
-    /// Writes the complete picture, RGBA8, row 0 first, rows without padding.
+    /// Writes the complete picture to `out` as RGBA8, row 0 first, rows without padding.
     void read(std::uint8_t* out);
 
     [[nodiscard]] Size size() const { return camera_.size; }

@@ -11,15 +11,16 @@
 #include <string_view>
 #include <vector>
 
-/// The world of the synthetic board: a few convex solids with procedural materials. World frame =
-/// tag-map frame, metres, z up; times in seconds since the world's epoch. Everything is a pure
-/// function of scene, seed and time.
+/// The world of the simulated board: a few convex solids with procedural materials. The world frame
+/// is the frame of the tag map, in metres, with z up. Times are in seconds since the world's epoch.
+/// The world depends only on scene, seed and time.
 namespace mfar::synthetic {
 
 enum class Scene { Office, Shelf, Outdoor, Flat, Moving, Still, Calibration };
 enum class Path { Handheld, Pan, Orbit, Forward, Rotate, Rest, Survey };
 
-/// Conversion to and from the command line's name. Unknown names give an empty result.
+/// These functions convert a scene or path to its name on the command line, and back. For an
+/// unknown name, they return nothing.
 [[nodiscard]] std::string_view name(Scene scene);
 [[nodiscard]] std::string_view name(Path path);
 [[nodiscard]] std::optional<Scene> sceneNamed(std::string_view name);
@@ -27,12 +28,12 @@ enum class Path { Handheld, Pan, Orbit, Forward, Rotate, Rest, Survey };
 
 /// Procedural texture layers, see synthetic_textures.h.
 enum class Layer : std::uint8_t {
-    Paper,    ///< page of running text
-    Article,  ///< page with two columns, a heading and a diagram
-    Cover,    ///< book cover: printed title on linen
-    Spine,    ///< spine of a book: lettering that runs downwards
-    Label,    ///< bottle label
-    Edges,    ///< stacked sheets seen from the side
+    Paper,    ///< a page of text
+    Article,  ///< a page with two columns, a heading and diagrams
+    Cover,    ///< a book cover: a printed title on linen
+    Spine,    ///< the spine of a book, with letters that run downwards
+    Label,    ///< the label of a bottle
+    Edges,    ///< stacked sheets of paper, seen from the side
     Wood,
     Plaster,
     Weave,
@@ -40,37 +41,37 @@ enum class Layer : std::uint8_t {
     Foliage,
     Brick,
     Gravel,
-    Forest,     ///< distant tree line under a sky
-    Enamel,     ///< smooth surface with fine specks
-    Clouds,     ///< low-frequency variation that hides the other layers' repetition
+    Forest,     ///< distant trees under a sky
+    Enamel,     ///< a smooth surface with fine specks
+    Clouds,     ///< low-frequency variation, which hides that other layers repeat
     Tags,       ///< 2 x 2 AprilTags 36h11, see kTagIds
-    AprilGrid,  ///< calibration target, see kGridTags
+    AprilGrid,  ///< a calibration target, see kGridTags
     Count
 };
 
 struct Material {
     Layer layer = Layer::Enamel;
-    Eigen::Vector2d repeats{4, 4};     ///< texture repeats per metre; negative mirrors
-    Eigen::Vector2d offset{0.5, 0.5};  ///< texture coordinate at the middle of the face
-    Eigen::Vector3d tint{1, 1, 1};     ///< linear reflectance, multiplies the texture
+    Eigen::Vector2d repeats{4, 4};     ///< repeats of the texture per metre; negative: mirrored
+    Eigen::Vector2d offset{0.5, 0.5};  ///< texture coordinates of the face's centre
+    Eigen::Vector3d tint{1, 1, 1};     ///< linear reflectance; the texture is multiplied by it
     double variation = 0.15;           ///< strength of the low-frequency variation, 0..1
     double gloss = 0;                  ///< strength of the highlight, 0..1
 };
 
 enum class Shape : std::uint8_t { Box, Cylinder, Ellipsoid };
 
-/// A convex solid centred on its own origin. A cylinder's axis is z.
+/// A convex solid. Its centre is the origin of its frame; the axis of a cylinder is z.
 struct Primitive {
     Shape shape = Shape::Box;
-    RigidTransform T_world_prim;     ///< at time 0
-    Eigen::Vector3d half;            ///< half extents [m]
-    std::array<int, 3> materials{};  ///< for the +-x, +-y and +-z faces; cylinder side: x
-    int lightTexels = 12;            ///< light map resolution of one face
-    bool moves = false;              ///< follows World::moverPose
+    RigidTransform T_world_prim;     ///< pose at time 0
+    Eigen::Vector3d half;            ///< half of the extent along each axis [m]
+    std::array<int, 3> materials{};  ///< of the +-x, +-y and +-z faces; a cylinder's side uses x
+    int lightTexels = 12;            ///< side of each face in the light map [texels]
+    bool moves = false;              ///< whether the solid moves, see World::moverPose()
 };
 
-/// A tag of family 36h11 in the world. Tag frame as in libapriltag: origin in the centre, x right,
-/// y down, z into the surface, seen from the front.
+/// A tag of family 36h11 in the world. Its frame is that of libapriltag: the origin is the centre,
+/// and seen from the front, x is right, y is down and z points into the surface.
 struct Tag {
     int id = 0;
     double size = 0;  ///< edge of the black square [m]
@@ -78,20 +79,20 @@ struct Tag {
     bool moves = false;
 };
 
-/// First intersection of a ray. `distance` is in units of the ray's direction.
+/// The first intersection of a ray with a solid.
 struct Hit {
-    double distance = 0;
+    double distance = 0;  ///< in multiples of the length of Ray::direction
     int primitive = 0;
-    int axis = 0;  ///< axis of the hit face; ellipsoid: dominant axis
-    bool positive = false;
-    Eigen::Vector3d local;  ///< point in the primitive's frame [m]
+    int axis = 0;           ///< axis of the face that was hit; ellipsoid: the nearest axis
+    bool positive = false;  ///< whether the face is on the positive side of the axis
+    Eigen::Vector3d local;  ///< the point in the primitive's frame [m]
 };
 
-/// A directed light of finite angular size plus the sky's ambient light.
+/// A directed light (key light) of finite angular size, and the sky's ambient light.
 struct Lighting {
-    Eigen::Vector3d towards{0.3, -0.3, 0.9};  ///< unit, towards the light
-    double spread = 0.1;                      ///< radius of the light [tan of angle]
-    Eigen::Vector3d key{1, 1, 1};             ///< linear colour
+    Eigen::Vector3d towards{0.3, -0.3, 0.9};  ///< unit vector towards the key light
+    double spread = 0.1;                      ///< tangent of the key light's angular radius
+    Eigen::Vector3d key{1, 1, 1};             ///< linear colour of the key light
     Eigen::Vector3d ambient{0.4, 0.4, 0.4};
     Eigen::Vector3d background{0.6, 0.7, 0.85};  ///< radiance where no solid is hit
 };
@@ -101,37 +102,39 @@ struct World {
     std::vector<Primitive> primitives;
     std::vector<Tag> tags;
     Lighting light;
-    Eigen::Vector3d eye;     ///< nominal camera position
-    Eigen::Vector3d target;  ///< nominal look-at point
-    /// Centre of the moving object at time 0.
+    Eigen::Vector3d eye;     ///< middle of the camera's path [m]
+    Eigen::Vector3d target;  ///< point that the camera looks at [m]
+    /// Centre of the moving object at time 0 [m].
     Eigen::Vector3d moverPivot = Eigen::Vector3d::Zero();
-    /// Radius of the moving object [m]; 0: no moving object.
+    /// Radius of the moving object [m]; 0: there is no moving object.
     double moverRadius = 0;
 
-    /// Pose of a primitive at time t.
+    /// Returns the pose of a primitive at time t [s].
     [[nodiscard]] RigidTransform primitivePose(int index, double t) const;
-    /// Motion of the moving object at time t, to be multiplied in front of T_world_prim.
+    /// Returns the motion of the moving object from time 0 to time t [s]. The pose at time t is
+    /// moverPose(t) * T_world_prim.
     [[nodiscard]] RigidTransform moverPose(double t) const;
 };
 
-/// Upper limit of a world's primitives; the renderer's tables have this size.
+/// The largest number of primitives in a world. The renderer's tables have this size.
 inline constexpr int kMaxPrimitives = 128;
-/// Tags on the Tags layer, row by row.
+/// The tags on the layer Tags, row by row.
 inline constexpr std::array<int, 4> kTagIds{0, 1, 2, 3};
 
-/// The target of scene Calibration as Kalibr describes it: 6 x 6 tags of family 36h11, id 0 at the
-/// bottom left, ids rising to the right and then upwards, a black square at every corner.
-inline constexpr int kGridTags = 6;            ///< tags per side
-inline constexpr double kGridTagSize = 0.064;  ///< edge of a black square with its tag [m]
-inline constexpr double kGridSpacing = 0.25;   ///< gap between tags / kGridTagSize
+/// The target of scene Calibration, as Kalibr describes it: 6 x 6 tags of family 36h11 with a black
+/// square at each corner of a tag. Id 0 is at the bottom left; ids increase to the right, then
+/// upwards.
+inline constexpr int kGridTags = 6;            ///< number of tags per row and column
+inline constexpr double kGridTagSize = 0.064;  ///< edge of a tag's black border [m]
+inline constexpr double kGridSpacing = 0.25;   ///< gap between tags, divided by kGridTagSize
 
 [[nodiscard]] World makeWorld(Scene scene, std::uint64_t seed);
 
-/// Pose of the video camera at time t.
+/// Returns the pose of the video camera at time t [s].
 [[nodiscard]] RigidTransform cameraPose(const World& world, Path path, std::uint64_t seed,
                                         double t);
 
-/// The board's sensors: 640x480 video, 2304x1728 still, 14 mm apart.
+/// Returns the board's cameras: video of 640x480 and stills of 2304x1728 pixels, 14 mm apart.
 [[nodiscard]] StereoRig boardRig();
 
 }  // namespace mfar::synthetic

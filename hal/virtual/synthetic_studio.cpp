@@ -95,7 +95,8 @@ void SyntheticStudio::startVideo() {
     const std::lock_guard lock(mutex_);
     if (videoOn_) return;
     videoOn_ = true;
-    // Real time: frame times start at the first start(); a stopped camera leaves a gap.
+    // In real time, the first start() sets the time of frame 0. If the camera is stopped and
+    // started again, the times have a gap.
     if (options_.pace == Pace::Realtime && nextIndex_ == 0) start_ = Timestamp::now();
     changed_.notify_all();
 }
@@ -160,7 +161,8 @@ std::optional<Frame> SyntheticStudio::nextVideo(std::chrono::milliseconds timeou
     std::unique_lock lock(mutex_);
     const auto ready = [&] {
         if (video_.empty()) return false;
-        // Stills due before this frame must be complete first, in every run.
+        // All stills that are available at this frame's time must be complete before the frame is
+        // delivered, so that every run gives the same result.
         const Timestamp time = video_.front().time();
         return options_.pace == Pace::Realtime || std::ranges::all_of(stills_, [&](const Still& s) {
                    return s.frame || s.available > time;
@@ -181,8 +183,9 @@ std::optional<Frame> SyntheticStudio::nextVideo(std::chrono::milliseconds timeou
     return frame;
 }
 
-// After the video's end, only a caller with a timeout skips the remaining latency: otherwise the
-// result of polling would depend on the renderer's speed.
+// After the end of the video, a still is delivered without its remaining latency, but only to a
+// caller that may wait. If a caller that only polls got it, its result would depend on the
+// renderer's speed.
 bool SyntheticStudio::stillReady(bool mayWait) const {
     if (stills_.empty() || !stills_.front().frame) return false;
     return now() >= stills_.front().available ||
@@ -197,7 +200,7 @@ std::optional<Frame> SyntheticStudio::nextStill(std::chrono::milliseconds timeou
         if (!stillsOn_ || (videoDone() && stills_.empty())) return std::nullopt;
         const auto left = deadline - std::chrono::steady_clock::now();
         if (left <= 0ns) return std::nullopt;
-        // A finished still waits for its latency, whose end is not signalled.
+        // The end of a finished still's latency is not signalled, so it is checked every 2 ms.
         const bool latent = !stills_.empty() && stills_.front().frame;
         changed_.wait_for(lock, latent ? std::min<std::chrono::nanoseconds>(left, 2ms) : left);
     }

@@ -16,8 +16,8 @@
 
 namespace mfar {
 
-/// The thread behind a SyntheticBoard: owns a GL context, renders the pictures of both cameras and
-/// keeps the simulated time. Thread-safe.
+/// The thread of a SyntheticBoard. It owns a GL context, renders the pictures of both cameras and
+/// controls the simulated time. Thread-safe.
 class SyntheticStudio {
 public:
     SyntheticStudio(const SyntheticOptions& options, const synthetic::World& world,
@@ -36,8 +36,9 @@ public:
     [[nodiscard]] bool stillsEnded() const;
     Timestamp fire();
 
-    /// The video sensor's view without noise: at its own resolution with blur, or at the still's
-    /// resolution without blur. Waits for the studio's thread.
+    /// Both return what the video camera sees, without noise. cleanVideo() has the video's
+    /// resolution and blur; highRes() has the still's resolution and no blur. They wait for the
+    /// studio's thread.
     [[nodiscard]] StoredImage cleanVideo(Timestamp t);
     [[nodiscard]] StoredImage highRes(Timestamp t);
 
@@ -46,10 +47,10 @@ public:
     [[nodiscard]] Pose pose(Timestamp t) const;
 
 private:
-    struct Views;  ///< all objects of the GL context
+    struct Views;  ///< all objects in the GL context
     struct Still {
         Timestamp time;       ///< middle of the exposure
-        Timestamp available;  ///< when the sensor delivers it
+        Timestamp available;  ///< time at which the camera delivers the still
         std::optional<Frame> frame{};
     };
     enum class Work { Request, Video, Still, Quit };
@@ -79,19 +80,20 @@ private:
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     bool quit_ = false, videoOn_ = false, stillsOn_ = false;
-    bool starved_ = false;  ///< the consumer holds every buffer
-    /// Real time: a still's steps and video frames alternate when both are due.
+    bool starved_ = false;  ///< whether the consumer holds all buffers
+    /// Whether a still's step is rendered next. In real time, steps and video frames alternate if
+    /// both are due.
     bool stillsTurn_ = false;
-    Timestamp start_;          ///< time of video index 0
-    long long nextIndex_ = 0;  ///< index of the next video frame on the rate's time grid
+    Timestamp start_;          ///< time of the video frame with index 0
+    long long nextIndex_ = 0;  ///< index of the next video frame; skipped frames count, too
     int videoMade_ = 0;
-    std::optional<Timestamp> handed_;  ///< newest delivered video frame
+    std::optional<Timestamp> handed_;  ///< time of the last delivered video frame
     std::optional<Timestamp> lastFire_;
-    std::deque<Frame> video_;   ///< finished, oldest first
-    std::deque<Still> stills_;  ///< exposed and not yet delivered, oldest first
+    std::deque<Frame> video_;   ///< frames that are ready, oldest first
+    std::deque<Still> stills_;  ///< triggered stills that are not delivered yet, oldest first
     std::deque<std::packaged_task<StoredImage(Views&)>> requests_;
     std::exception_ptr failure_;
-    std::optional<Timestamp> rendering_;  ///< still that is being rendered; studio thread only
+    std::optional<Timestamp> rendering_;  ///< time of the still in work; only thread_ uses it
     std::thread thread_;
 };
 

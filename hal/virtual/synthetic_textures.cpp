@@ -23,7 +23,7 @@ cv::Mat4b plaster(std::uint64_t seed) {
 }
 
 cv::Mat4b weave(std::uint64_t seed) {
-    constexpr int kThread = 16;  // texels from one thread to the next
+    constexpr int kThread = 16;  // width of a thread [texels]
     constexpr int kThreads = kLayerSize / kThread;
     const cv::Mat1f fuzz = fractal(seed, 128, 128, 3, 0.7F);
     cv::Mat3f colour(kLayerSize, kLayerSize);
@@ -101,7 +101,8 @@ cv::Mat1f noise(std::uint64_t seed, int cellsX, int cellsY) {
             grid(y, x) = static_cast<float>(hashUnit(hash(seed, x, y)));
     cv::Mat1f padded;
     cv::copyMakeBorder(grid, padded, kPad, kPad, kPad, kPad, cv::BORDER_WRAP);
-    // warpAffine instead of cv::resize: the cells need not divide the layer evenly.
+    // warpAffine() is used instead of cv::resize(), because kLayerSize need not be a multiple of
+    // the number of cells.
     const double sx = 1. * cellsX / kLayerSize, sy = 1. * cellsY / kLayerSize;
     const cv::Matx23d toGrid{sx, 0, kPad + 0.5 * sx - 0.5, 0, sy, kPad + 0.5 * sy - 0.5};
     cv::Mat1f out;
@@ -120,7 +121,7 @@ cv::Mat1f fractal(std::uint64_t seed, int cellsX, int cellsY, int octaves, float
         eachPixel(sum, [&](float& v, const int* at) { v += weight * (octave(at) - 0.5F); });
         total += weight;
     }
-    // A sum of independent octaves has a smaller spread than each octave: stretch it back.
+    // The weighted mean of independent octaves varies less than each octave, so it is scaled up.
     eachPixel(sum, [&](float& v, const int*) { v = v * 1.5F / total + 0.5F; });
     return sum;
 }

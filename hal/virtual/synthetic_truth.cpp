@@ -13,7 +13,7 @@ namespace {
 constexpr double kFar = 1e6;  // [m]
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
-/// Calls row(y) for every row, on two threads.
+/// Calls row(y) for every row. Two threads share the rows.
 template <class Row>
 void eachRow(int rows, const Row& row) {
     const auto half = [&](int first) {
@@ -24,7 +24,8 @@ void eachRow(int rows, const Row& row) {
     half(0);
 }
 
-/// Ray through a pixel with z = 1 in the camera's frame: distances along it are depths.
+/// Returns the ray through a pixel. Its direction has z = 1 in the camera's frame, so distances
+/// along the ray are depths [m].
 Ray pixelRay(const Viewpoint& view, int x, int y) {
     const Eigen::Vector2d ray =
         view.camera.unproject({static_cast<double>(x), static_cast<double>(y)});
@@ -32,11 +33,12 @@ Ray pixelRay(const Viewpoint& view, int x, int y) {
             view.T_world_camera.rotation * Eigen::Vector3d(ray.x(), ray.y(), 1)};
 }
 
-/// Pixel of a world point; empty when it is behind the camera, outside the picture or occluded.
+/// Returns the pixel of a world point, or nothing if the point is behind the camera, outside the
+/// picture or occluded.
 std::optional<Eigen::Vector2d> visiblePixel(const Snapshot& solids, const Viewpoint& view,
                                             const RigidTransform& T_camera_world,
                                             const Eigen::Vector3d& point) {
-    constexpr double kReach = 1 - 1e-4;  // ends just before the point itself
+    constexpr double kReach = 1 - 1e-4;  // the ray ends just before the point itself
     const Eigen::Vector3d inCamera = T_camera_world * point;
     if (!(inCamera.z() > 1e-6)) return std::nullopt;
     Eigen::Vector2d pixel =

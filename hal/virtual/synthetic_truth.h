@@ -4,22 +4,23 @@
 #include "hal/virtual/image_files.h"
 #include "hal/virtual/synthetic_scene.h"
 
-/// Exact ground truth of a view of the world: rays cast in double precision through the exact lens,
-/// not rendered pictures.
+/// Exact ground truth of the world. It is computed by casting rays in double precision through the
+/// exact lens model, not from rendered pictures.
 namespace mfar::synthetic {
 
-/// A camera's pose and lens at one instant.
+/// A camera's pose and lens at one time.
 struct Viewpoint {
     CameraModel camera;
     RigidTransform T_world_camera;
-    double t = 0;  ///< [s]
+    double t = 0;  ///< time since the world's epoch [s]
 };
 
-/// 1 / z per pixel [1/m], z along the optical axis. 0 where the ray hits nothing.
+/// Returns the inverse depth 1 / z of each pixel [1/m], with z along the optical axis. 0: the ray
+/// hits nothing.
 [[nodiscard]] FloatImage inverseDepth(const World& world, const Viewpoint& view);
 
-/// Position in `to` of the point seen by each pixel of `from`, as an offset [px]; follows moving
-/// objects. NaN where the point is occluded or outside the picture in `to`.
+/// Returns, for each pixel of `from`, the offset [px] to the same point in `to`. The motion of
+/// objects is included. NaN: the point is occluded in `to` or outside the picture.
 [[nodiscard]] FlowImage flowBetween(const World& world, const Viewpoint& from, const Viewpoint& to);
 
 }  // namespace mfar::synthetic

@@ -8,7 +8,8 @@
 
 namespace mfar {
 
-/// All objects of a studio in its GL context; created and used only on its thread.
+/// All objects of a studio that belong to its GL context. Only the studio's thread creates and uses
+/// them.
 struct SyntheticStudio::Views {
     Views(const SyntheticOptions& options, const synthetic::World& world, const StereoRig& rig);
 

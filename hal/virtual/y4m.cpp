@@ -83,8 +83,8 @@ int ByteSink::open(const char* path) const {
 void ByteSink::write(std::span<const std::uint8_t> bytes) {
     while (!bytes.empty()) {
         if (isPipe_) waitForReader();
-        // A pipe that polls as writable accepts this number of bytes without blocking, even if the
-        // pipe is shared and must not be made non-blocking (standard output).
+        // After poll() reports a pipe as writable, PIPE_BUF bytes can be written without blocking.
+        // O_NONBLOCK is not used, because it would affect other users of standard output.
         const std::size_t chunk =
             isPipe_ ? std::min<std::size_t>(bytes.size(), PIPE_BUF) : bytes.size();
         const ssize_t n = ::write(fd_.get(), bytes.data(), chunk);

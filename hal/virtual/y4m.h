@@ -13,24 +13,25 @@
 
 namespace mfar {
 
-/// The line "YUV4MPEG2 ..." with its newline. Rates are written as a fraction with a denominator of
-/// at most 1001.
+/// Returns the line "YUV4MPEG2 ..." with its newline. The frame rate is written as a fraction with
+/// a denominator of at most 1001.
 [[nodiscard]] std::string y4mHeader(Size size, double rateHz);
 
-/// Appends "FRAME" and the three planes of an RGBA8 picture (4:2:0, chroma in the centre, BT.601
-/// limited range). At an odd side, the last chroma sample repeats the last row or column.
+/// Appends "FRAME" and the three planes of an RGBA8 picture: 4:2:0, BT.601 limited range, with each
+/// chroma sample in the centre of its four pixels. If width or height is odd, the last column or
+/// row is repeated for the last chroma samples.
 void appendY4mFrame(const ImageView& rgba, std::vector<std::uint8_t>& out);
 
-/// A file, FIFO or standard output ("-") to which bytes are streamed. Used by one thread at a time.
-/// The calling thread must have SIGPIPE blocked or ignored.
+/// Writes bytes to a file, a FIFO or standard output ("-"). Only one thread at a time may use it.
+/// This thread must block or ignore SIGPIPE.
 class ByteSink {
 public:
-    /// Waits up to 5 s for the reader of a FIFO. Throws std::runtime_error.
+    /// Opens the target. Waits up to 5 s for the reader of a FIFO. Throws std::runtime_error.
     ByteSink(std::string_view target, std::stop_token cancel);
     ByteSink(const ByteSink&) = delete;
     ByteSink& operator=(const ByteSink&) = delete;
 
-    /// Writes all bytes, waiting for a pipe's reader until `cancel` is requested. Throws
+    /// Writes all bytes. Waits for a pipe's reader until `cancel` is requested. Throws
     /// std::runtime_error "target: reason".
     void write(std::span<const std::uint8_t> bytes);
     [[nodiscard]] const std::string& name() const { return name_; }

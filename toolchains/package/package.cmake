@@ -1,5 +1,5 @@
-# The Debian package: `cpack` in the build folder, or ./run package. One per distribution and
-# architecture, as libcamera's and OpenCV's sonames differ.
+# The Debian package. `cpack` in the build folder or `./run package` builds it. Each distribution
+# and architecture needs its own package, because the sonames of libcamera and OpenCV differ.
 set(architectures x86_64 amd64 aarch64 arm64 armhf armhf armv7l armhf)
 list(FIND architectures ${CMAKE_SYSTEM_PROCESSOR} known)
 if(known EQUAL -1)
@@ -26,14 +26,14 @@ set(CPACK_DEBIAN_PACKAGE_SECTION video)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_STRIP_FILES ON)
-# The configuration is installed outside the prefix.
+# The configuration is installed in /etc, outside the prefix.
 set(CPACK_SET_DESTDIR ON)
 set(CPACK_INSTALL_PREFIX /usr)
 
-# The shared libraries' packages are put before these. procps has the kill command that reloads the
-# service.
+# depends.cmake adds the packages of the shared libraries. procps contains the kill command that
+# reloads the service.
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "init-system-helpers, procps, systemd, udev")
-# OpenGL ES is loaded at run time: programs start without it.
+# Programs load OpenGL ES at run time and also start without it.
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libegl1, libgl1-mesa-dri, libgles2")
 set(CPACK_MFAR_SYSROOT ${CMAKE_SYSROOT})
 set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_CURRENT_LIST_DIR}/depends.cmake)

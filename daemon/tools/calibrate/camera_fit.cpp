@@ -11,10 +11,10 @@ namespace mfar::calibration {
 namespace {
 
 constexpr int kLeastCorners = 6;
-constexpr int kRounds = 4;            // of removing bad corners and views
-constexpr double kCornerLimit = 6;    // [sigma], length of a residual
-constexpr double kLeastSigma = 0.01;  // [px]; lower limit of sigma
-constexpr double kMaxViewError = 20;  // [px] rms; above it the corners are not the target's
+constexpr int kRounds = 4;            // rounds of fitting and removing bad corners and views
+constexpr double kCornerLimit = 6;    // longest residual of a corner [sigma]
+constexpr double kLeastSigma = 0.01;  // lower limit of sigma [px]
+constexpr double kMaxViewError = 20;  // RMS [px]; a view with more does not show the target
 
 struct Points {
     std::vector<cv::Point3f> target;
@@ -44,7 +44,8 @@ RigidTransform transformOf(const cv::Vec3d& rotation, const cv::Vec3d& translati
             {translation[0], translation[1], translation[2]}};
 }
 
-/// Features that distinguish views: position in the picture, distance, tilt and turn of the target.
+/// Features that distinguish views: the target's position in the picture, distance, tilt and
+/// rotation.
 using Features = Eigen::Matrix<double, 6, 1>;
 
 Features featuresOf(const TargetView& view, const RigidTransform& T, Size picture) {
@@ -58,8 +59,8 @@ Features featuresOf(const TargetView& view, const RigidTransform& T, Size pictur
     return out;
 }
 
-/// Starts with the view with the most corners, then repeatedly adds the view least like those
-/// chosen.
+/// Chooses views that differ as much as possible. Starts with the view that has the most corners,
+/// then repeatedly adds the view that differs most from all chosen ones.
 std::vector<int> mostDifferent(const std::vector<TargetView>& views,
                                const std::vector<std::optional<RigidTransform>>& poses,
                                Size picture, int most) {
@@ -116,7 +117,8 @@ double median(std::vector<double> v) {
     return *middle;
 }
 
-/// Robust standard deviation of a coordinate over all views that have a pose.
+/// Returns the robust standard deviation of a corner's coordinate over all views that have a pose
+/// [px].
 double spreadOf(const Target& target, const std::vector<TargetView>& views, const CameraFit& fit) {
     std::vector<double> components;
     for (std::size_t i = 0; i < views.size(); ++i) {
@@ -129,8 +131,8 @@ double spreadOf(const Target& target, const std::vector<TargetView>& views, cons
     return std::max(kLeastSigma, 1.4826 * median(std::move(components)));
 }
 
-/// Removes corners with large residuals: they belong to other corners of the target, or to none.
-/// True when any was removed.
+/// Removes corners with large residuals, which are not where the target's corner is. Returns
+/// whether any corner was removed.
 bool dropCorners(const Target& target, TargetView& view, const CameraFit& fit,
                  const RigidTransform& pose) {
     const auto residuals = residualsOf(target, view, fit.camera, pose);
@@ -142,8 +144,8 @@ bool dropCorners(const Target& target, TargetView& view, const CameraFit& fit,
     return true;
 }
 
-/// Computes the poses of all views with the camera. Removes corners and views that fit badly; true
-/// when there were any.
+/// Computes the poses of all views with the camera. Removes corners and views that do not fit, and
+/// returns whether there were any.
 bool placeViews(const Target& target, std::vector<TargetView>& views, CameraFit& fit) {
     for (std::size_t i = 0; i < views.size(); ++i)
         if (fit.poses[i]) fit.poses[i] = targetPose(target, views[i], fit.camera);
@@ -182,7 +184,7 @@ std::optional<RigidTransform> targetPose(const Target& target, const TargetView&
                           rotation, translation))
             return std::nullopt;
     } catch (const cv::Exception&) {
-        return std::nullopt;  // all corners on one line
+        return std::nullopt;  // OpenCV throws if all corners are on one line
     }
     RigidTransform T = transformOf(rotation, translation);
     if (!(T.translation.z() > 0) || !(rms(residualsOf(target, view, camera, T)) < kMaxViewError))

@@ -10,48 +10,50 @@
 
 namespace mfar::calibration {
 
-/// The views are not sufficient to calibrate the board. The message is one sentence about what is
-/// missing.
+/// Reports that the views are not sufficient for a calibration. The message is one sentence that
+/// says what is missing.
 class Unsuitable : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Pose of the target in one view with a given camera, T_camera_target; nothing for fewer than six
-/// corners or when they do not fit a plane.
+/// Returns the pose T_camera_target of the target in one view, for a given camera. Returns nothing
+/// if the view has fewer than six corners or they do not fit a plane.
 [[nodiscard]] std::optional<RigidTransform> targetPose(const Target& target, const TargetView& view,
                                                        const CameraModel& camera);
 
-/// measured - expected pixel per corner of a view.
+/// Returns the residual of each corner of a view: measured minus expected position [px].
 [[nodiscard]] std::vector<Eigen::Vector2d> residualsOf(const Target& target, const TargetView& view,
                                                        const CameraModel& camera,
                                                        const RigidTransform& T_camera_target);
-/// Root mean square length.
+/// Returns the root mean square of the residuals' lengths.
 [[nodiscard]] double rms(const std::vector<Eigen::Vector2d>& residuals);
 
-/// Initial guess of a camera from its picture size alone: a field of view of 50 degrees.
+/// Returns a first estimate of a camera, with a field of view of 50 degrees.
 [[nodiscard]] CameraModel guessedCamera(Size picture);
 
-/// Throws Unsuitable unless there are enough views that cover the picture and show the target from
-/// different directions and at different depths. `sensor` is its name in the message.
+/// Throws Unsuitable unless there are at least `leastViews` views, and the views cover the picture
+/// and show the target from different directions and at different depths. `sensor` names the sensor
+/// in the message.
 void checkViews(const Target& target, const std::vector<TargetView>& views, Size picture,
                 const std::string& sensor, int leastViews);
 
-/// Calibration of one camera on its own.
+/// The calibration of a single camera.
 struct CameraFit {
     CameraModel camera;
-    std::vector<std::optional<RigidTransform>> poses;  ///< T_camera_target of views; nothing: bad
-    std::vector<int> chosen;                           ///< views used for the fit
-    double sigma = 0;  ///< robust standard deviation of a corner's coordinate [px]
+    /// T_camera_target of each view. Not set: the view does not fit.
+    std::vector<std::optional<RigidTransform>> poses;
+    std::vector<int> chosen;  ///< indices of the views that were used for the fit
+    double sigma = 0;         ///< robust standard deviation of a corner's coordinate [px]
 };
 
-/// Fits intrinsics and distortion (k3 stays 0) to up to `most` views that differ the most. Views
-/// that do not fit are ignored, corners that do not fit are removed from `views`. Throws
-/// Unsuitable.
+/// Fits intrinsics and distortion (k3 stays 0) to at most `most` views, those that differ most from
+/// each other. Views that do not fit are ignored. Corners that do not fit are removed from `views`.
+/// Throws Unsuitable.
 [[nodiscard]] CameraFit fitCamera(const Target& target, std::vector<TargetView>& views,
                                   Size picture, const std::string& sensor, int most);
 
-/// Marks values far above the others: above the median by 4 robust deviations, and twice the
-/// median.
+/// Returns, for each value, whether it is an outlier: more than twice the median, and more than 4
+/// robust standard deviations above the median.
 [[nodiscard]] std::vector<bool> outliers(const std::vector<double>& values);
 
 }  // namespace mfar::calibration

@@ -8,14 +8,14 @@
 
 namespace mfar::calibration {
 
-/// Progress of the search in a sensor's pictures.
+/// The progress of the search for the target in a sensor's pictures.
 struct Progress {
     const Coverage& coverage;
     int done = 0, of = 0, found = 0;  ///< numbers of pictures
 };
 
-/// Searches the target in all pictures of one sensor. `progress` is called after each. Throws
-/// ImageFileError.
+/// Searches for the target in all pictures of one sensor. `progress` is called after each picture.
+/// Throws ImageFileError.
 [[nodiscard]] SensorViews collect(const std::vector<RecordedImage>& pictures, Size picture,
                                   const Target& target,
                                   const std::function<void(const Progress&)>& progress);

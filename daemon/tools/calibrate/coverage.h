@@ -8,7 +8,7 @@
 
 namespace mfar::calibration {
 
-/// Distribution of found corners over the picture, in a grid of cells.
+/// The distribution of the found corners over the picture, counted in a grid of cells.
 class Coverage {
 public:
     static constexpr int kColumns = 16, kRows = 12;
@@ -16,11 +16,11 @@ public:
     explicit Coverage(Size picture);
     void add(const std::vector<Corner>& corners);
 
-    /// Share of the cells with a corner, [0, 1].
+    /// Returns the share of the cells that have a corner, [0, 1].
     [[nodiscard]] double share() const;
-    /// The part of the picture with the fewest corners, in words: "the top left".
+    /// Returns a text for the part of the picture with the fewest corners, such as "the top left".
     [[nodiscard]] std::string emptiest() const;
-    /// kRows lines of kColumns characters, from ' ' (none) to '#' (many).
+    /// Returns kRows lines of kColumns characters, from ' ' (no corners) to '#' (many).
     [[nodiscard]] std::vector<std::string> map() const;
 
 private:

@@ -7,13 +7,13 @@
 
 namespace mfar::calibration {
 
-/// The coverage map in a frame, with the title above it.
+/// Returns the coverage map with a border and a title.
 [[nodiscard]] std::string mapText(const Coverage& coverage, const std::string& title);
 
-/// The reprojection error of every view, with a mark at views that were left out.
+/// Returns a list of the reprojection errors of all views. Views that were not used are marked.
 [[nodiscard]] std::string viewsText(const Calibration& calibration);
 
-/// Parameters with their standard deviations and the remaining errors.
+/// Returns a list of the parameters, their standard deviations and the remaining errors.
 [[nodiscard]] std::string resultText(const Calibration& calibration);
 
 }  // namespace mfar::calibration

@@ -14,17 +14,17 @@
 namespace mfar::calibration {
 namespace {
 
-// Drawn at twice the size and reduced, which smooths Hershey letters and thin lines.
+// The picture is drawn at twice its size and then reduced, which smooths letters and thin lines.
 constexpr int kFine = 2;
 constexpr int kWidth = 1320, kRow = 620, kMargin = 40, kTop = 64, kBottom = 40;
 constexpr int kArea = kRow - kTop - kBottom;  // height of a panel
 constexpr int kColumns = 16, kRows = 12;
-constexpr int kLeastCount = 4;         // an arrow needs this number of corners in its cell
-constexpr double kLongestArrow = 1.3;  // [cells]
+constexpr int kLeastCount = 4;         // a cell with fewer corners has no arrow
+constexpr double kLongestArrow = 1.3;  // longer arrows are shortened to this [cell widths]
 const cv::Scalar kPaper(255, 255, 255), kInk(40, 40, 40), kFaint(190, 190, 190),
     kPanel(248, 248, 248);
 
-/// A canvas with the coordinates of the final, reduced picture.
+/// A canvas. Its functions take coordinates in the final, reduced picture.
 class Canvas {
 public:
     Canvas(int width, int height) : image_(height * kFine, width * kFine, CV_8UC3, kPaper) {}
@@ -48,7 +48,7 @@ public:
         cv::circle(image_, fine(at), static_cast<int>(std::lround(radius * kFine)), colour, 2,
                    cv::LINE_AA);
     }
-    /// A translucent dot: many of them show the density.
+    /// Draws a translucent dot. Many dots at one place become darker.
     void dot(cv::Point2d at, const cv::Vec3b& colour, double strength) {
         const cv::Point p = fine(at);
         for (int y = p.y - 1; y <= p.y + 1; ++y)
@@ -75,7 +75,7 @@ private:
     cv::Mat image_;
 };
 
-/// The smallest of 1, 2, 5 times a power of ten that is at least `value`.
+/// Returns the smallest number of the form 1, 2 or 5 times a power of ten that is at least `value`.
 double roundedUp(double value) {
     const double power = std::pow(10, std::floor(std::log10(value)));
     for (const double step : {1., 2., 5.})
@@ -110,7 +110,8 @@ Cells cellsOf(const SensorResult& sensor) {
     return out;
 }
 
-/// Scale of the arrows, so that nine of ten fit into their cells.
+/// Returns the residual [px] that is drawn as an arrow of one cell width. Nine of ten arrows are
+/// not longer.
 double arrowUnit(const Cells& cells) {
     std::vector<double> lengths{1e-4};
     for (const auto& row : cells)
@@ -121,7 +122,7 @@ double arrowUnit(const Cells& cells) {
     return roundedUp(*at);
 }
 
-/// A colour from blue (0) to red (1).
+/// Returns a colour from blue (0) to red (1).
 cv::Scalar heat(double share) {
     const double s = std::clamp(share, 0., 1.);
     return {40 + 180 * s, 90 - 30 * s, 170 - 130 * s};
@@ -138,7 +139,7 @@ void drawArea(Canvas& canvas, cv::Rect2d area, const SensorResult& sensor) {
     });
     const double cell = area.width / kColumns;
     const Cells cells = cellsOf(sensor);
-    const double unit = arrowUnit(cells);  // residual of an arrow as long as a cell is wide
+    const double unit = arrowUnit(cells);  // residual of an arrow of one cell width [px]
     for (int y = 0; y < kRows; ++y) {
         for (int x = 0; x < kColumns; ++x) {
             const Cell& c = cells[y][x];

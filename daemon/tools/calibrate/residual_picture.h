@@ -6,10 +6,10 @@
 
 namespace mfar::calibration {
 
-/// A PNG of the calibration's residuals, a row for each sensor. Left: the picture's area, a dot for
-/// every corner and an arrow for the mean residual of each cell, enlarged as the scale shows; where
-/// the lens model fits, the arrows are short and without a pattern. Right: all residuals around
-/// zero. Throws ImageFileError.
+/// Writes a PNG file that shows the calibration's residuals, with one row for each sensor. The left
+/// part is the picture's area. It has a dot for each corner and an arrow for the mean residual of
+/// each cell, enlarged as the scale shows. Where the lens model fits, the arrows are short and have
+/// no pattern. The right part shows all residuals around zero. Throws ImageFileError.
 void saveResidualPicture(const std::filesystem::path& file, const Calibration& calibration);
 
 }  // namespace mfar::calibration

@@ -12,10 +12,10 @@
 namespace mfar::calibration {
 namespace {
 
-constexpr double kHuber = 2.5;  // [sigma]; above it a corner's cost grows linearly
+constexpr double kHuber = 2.5;  // residual above which a corner's cost grows linearly [sigma]
 constexpr int kIterations = 40;
-constexpr double kConverged = 1e-9;  // relative decrease of the cost that ends the iteration
-constexpr double kStep = 1e-6;       // step of the numeric derivative of a tied pose [rad, m, s]
+constexpr double kConverged = 1e-9;  // a smaller relative decrease of the cost ends the iteration
+constexpr double kStep = 1e-6;  // step of numeric derivatives of interpolated poses [rad, m, s]
 
 using Vector9 = Eigen::Matrix<double, 9, 1>;
 
@@ -101,8 +101,8 @@ double RigBundle::cost(const std::array<double, 2>& sigma) const {
     return sum;
 }
 
-/// Derivative of the view's pose, in its own frame, with respect to the parameters that it depends
-/// on: its own pose, or extrinsics, offset and four poses.
+/// Returns the derivative of a view's pose, in its own frame, with respect to its parameters. These
+/// are the pose itself or, for an interpolated pose, extrinsics, clock offset and four poses.
 Eigen::MatrixXd RigBundle::poseJacobian(const View& view) const {
     if (!view.tied) return Matrix6::Identity();
     Eigen::MatrixXd out(6, 31);

@@ -10,41 +10,42 @@
 
 namespace mfar::calibration {
 
-/// The shared parameters, in this order: video camera (fx fy cx cy k1 k2 p1 p2 k3), still camera
-/// (the same), T_still_video (rotation [rad], translation [m], in the still's frame), offset of the
-/// still's clock [s].
+/// Indices of the parameters that all views share. Their order is: video camera (fx fy cx cy k1 k2
+/// p1 p2 k3), still camera (the same), T_still_video (rotation [rad], translation [m], in the
+/// still's frame), offset of the still's clock [s].
 inline constexpr int kStillAt = 9, kExtrinsicAt = 18, kOffsetAt = 24, kShared = 25;
 
-/// Joint adjustment of all views of both sensors: cameras, extrinsics, offset of the still's clock
-/// and the target's pose in every video frame, from the corners in both sensors' pictures. A
-/// still's pose is interpolated between the four video frames around it, so that stills determine
-/// the baseline and the clock offset without a video frame at exactly their time.
-/// Levenberg-Marquardt with a robust cost.
+/// Adjusts all parameters together to the corners in all views of both sensors: the cameras, the
+/// extrinsics, the offset of the still's clock, and the target's pose in each video frame. A
+/// still's pose is interpolated between the four video frames around it. So stills determine the
+/// baseline and the clock offset, although no video frame was taken at exactly the same time. The
+/// method is Levenberg-Marquardt with a robust cost.
 class RigBundle {
 public:
     RigBundle(const Target& target, const StereoRig& rig, double offset);
 
-    /// Adds an unknown pose T_camera_target; returns its index.
+    /// Adds an unknown pose T_camera_target, with its start value. Returns the pose's index.
     int addPose(const RigidTransform& start);
-    /// Adds a view with a pose of its own. The corners must outlive this. Returns the view's index.
+    /// Adds a view with its own pose. The corners must outlive this object. Returns the view's
+    /// index.
     int addView(bool still, const std::vector<Corner>& corners, int pose);
-    /// Adds a still between four video poses. `times` [s]: of the poses minus the still's time,
-    /// each by its own clock.
+    /// Adds a still whose pose is interpolated between four video poses. `times` are the times of
+    /// these poses minus the still's time [s], each by its own clock. Returns the view's index.
     int addTied(const std::vector<Corner>& corners, const std::array<int, 4>& poses,
                 const std::array<double, 4>& times);
 
-    /// sigma: of a corner's coordinate [px] per sensor, video first. `fixed`: shared parameters
-    /// that keep their values. Throws Unsuitable when the views do not determine the other
-    /// parameters.
+    /// Solves for all parameters. `sigma`: standard deviation of a corner's coordinate [px] for
+    /// each sensor, video first. `fixed`: the shared parameters that keep their values. Throws
+    /// Unsuitable if the views do not determine the other parameters.
     void solve(const std::array<double, 2>& sigma, const std::array<bool, kShared>& fixed);
 
     [[nodiscard]] const StereoRig& rig() const { return rig_; }
     [[nodiscard]] double offset() const { return offset_; }
-    /// Standard deviations of the shared parameters after solve(), 0 for fixed ones.
+    /// Returns the standard deviations of the shared parameters after solve(); 0 for fixed ones.
     [[nodiscard]] const Eigen::Matrix<double, kShared, 1>& deviations() const {
         return deviations_;
     }
-    /// measured - expected [px] per corner of a view.
+    /// Returns the residual of each corner of a view: measured minus expected position [px].
     [[nodiscard]] std::vector<Eigen::Vector2d> residuals(int view) const;
 
 private:

@@ -14,13 +14,13 @@ Timestamp later(Timestamp t, double seconds) {
 }
 
 struct Agreement {
-    double spread = std::numeric_limits<double>::infinity();  ///< [rad]
+    double spread = std::numeric_limits<double>::infinity();  ///< median difference of stills [rad]
     RigidTransform T_still_video;
     int stills = 0;
 };
 
-/// Chooses the candidate with the smallest median distance to all others, which is robust against
-/// outliers.
+/// Computes T_still_video from each still, for one clock offset. Chooses the one with the smallest
+/// median distance to all others, which is robust against outliers.
 Agreement agreementAt(const PoseTrack& video, const std::vector<StillPose>& stills, double offset) {
     std::vector<RigidTransform> candidates;
     double distance = 0;
@@ -55,12 +55,12 @@ RigStart startOfRig(const PoseTrack& video, const std::vector<StillPose>& stills
     RigStart out;
     Agreement best;
     const double step = std::max(1e-3, video.interval() / 8);
-    // From zero outwards: without motion every offset agrees equally well, and zero is kept.
+    // The search begins at zero. Without motion, all offsets agree equally well, and zero is kept.
     for (int i = 0; i * step <= maxOffset; ++i) {
         for (const double offset : {i * step, -i * step}) {
             const Agreement now = agreementAt(video, stills, offset);
-            // Offsets that leave stills outside the video are refused: fewer stills agree more
-            // easily.
+            // An offset at which many stills are outside the video's time is refused, because fewer
+            // stills agree more easily.
             if (now.stills * 4 < best.stills * 3 || !(now.spread < best.spread)) continue;
             best = now;
             out = {now.T_still_video, offset, now.stills};

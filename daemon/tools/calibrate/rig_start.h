@@ -6,7 +6,7 @@
 
 namespace mfar::calibration {
 
-/// Pose of the target in one still, T_still_target.
+/// The pose T_still_target of the target in one still.
 struct StillPose {
     Timestamp time;
     RigidTransform T_still_target;
@@ -14,12 +14,13 @@ struct StillPose {
 
 struct RigStart {
     RigidTransform T_still_video;
-    double offset = 0;  ///< [s] still's time + offset = video's time
+    double offset = 0;  ///< [s] still's time + offset = time on the video's clock
     int stills = 0;     ///< number of stills within the video's time
 };
 
-/// Initial extrinsics, and the offset of the clocks within +-maxOffset [s] at which the stills
-/// agree best about the extrinsics: at a wrong offset the camera's motion spreads them.
+/// Returns first estimates of the extrinsics and of the clock offset, which is within +-maxOffset
+/// [s]. The offset is the one at which the extrinsics from different stills agree best: at a wrong
+/// offset, the motion of the camera makes them differ.
 [[nodiscard]] RigStart startOfRig(const PoseTrack& video, const std::vector<StillPose>& stills,
                                   double maxOffset);
 

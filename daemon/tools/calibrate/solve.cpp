@@ -14,19 +14,19 @@ namespace mfar::calibration {
 namespace {
 
 constexpr int kLeastVideoViews = 12, kLeastStillViews = 6, kLeastPairs = 5;
-constexpr double kMaxOffsetDeviation = 0.002;  // [s]; above it the offset is unknown
-constexpr double kLeastMotion = 1;             // [video px] over three frame intervals
-constexpr int kLeastMoving = 3;                // moving stills needed to estimate the clock offset
-constexpr double kMaxFocalDeviation = 0.005;   // relative to the focal length
+constexpr double kMaxOffsetDeviation = 0.002;  // with more, the clock offset is unknown [s]
+constexpr double kLeastMotion = 1;             // motion over three frame intervals [video px]
+constexpr int kLeastMoving = 3;               // number of moving stills that the clock offset needs
+constexpr double kMaxFocalDeviation = 0.005;  // share of the focal length
 constexpr double kMaxBaselineDeviation = 0.002;  // [m]
 
-/// Maps a view of the bundle to a view of a sensor.
+/// A view of a sensor that is in the bundle.
 struct Member {
-    int view = 0;
-    int index = 0;  ///< of the view in the bundle
+    int view = 0;   ///< index of the view in the sensor's views
+    int index = 0;  ///< index of the view in the bundle
 };
 
-/// The joint adjustment of two cameras, which are first calibrated on their own.
+/// Calibrates each camera alone, then adjusts both together.
 class Assembly {
 public:
     Assembly(const Target& target, const SensorViews& video, const SensorViews& still,
@@ -54,7 +54,7 @@ public:
         Calibration out;
         std::optional<RigBundle> bundle = adjusted(start_.offset, true, out);
         if (!out.offsetKnown) bundle = adjusted(0, false, out);
-        // Stills that contradict the video's motion can only be found after the joint adjustment.
+        // Stills that contradict the video's motion are found only after the joint adjustment.
         if (leaveOut(*bundle)) bundle = adjusted(bundle->offset(), out.offsetKnown, out);
         out.rig = {bundle->rig(), bundle->offset()};
         out.extrinsicDeviations = bundle->deviations().segment<6>(kExtrinsicAt);
@@ -66,8 +66,9 @@ public:
     }
 
 private:
-    /// Number of stills around which the video's motion exceeds noise. At rest, noise would be
-    /// taken for motion and yield a wrong offset with a small deviation.
+    /// Returns the number of stills during which the video's motion is larger than noise. If the
+    /// camera were at rest, noise would look like motion and give a wrong offset with a small
+    /// deviation.
     [[nodiscard]] int movingStills() const {
         const CameraModel& camera = videoFit_.camera;
         const auto seen = [&](const RigidTransform& T, const Eigen::Vector3d& point) {
@@ -147,8 +148,8 @@ private:
     }
 
     bool leaveOut(const RigBundle& bundle) {
-        // Uses poses from the video alone: a still is more precise than the video and would pull
-        // the bundle's video poses towards itself.
+        // The poses are those of the video alone. In the bundle, a still changes the video poses
+        // around it, because it is more precise, and so hides its own error.
         const auto shift = static_cast<std::int64_t>(std::llround(bundle.offset() * 1e9));
         std::vector<double> errors;
         for (const Member& m : stillMembers_) {
@@ -198,13 +199,13 @@ private:
     }
 
     const Target& target_;
-    SensorViews video_, still_;  ///< without the corners that do not fit
+    SensorViews video_, still_;  ///< corners that do not fit are removed
     SolveOptions options_;
     CameraFit videoFit_, stillFit_;
     PoseTrack track_;
-    std::vector<int> trackViews_;  ///< view of the video for each pose of the track
+    std::vector<int> trackViews_;  ///< index of the video's view for each pose of track_
     RigStart start_;
-    std::map<int, int> videoPoses_;  ///< maps a view of the video to a pose of the bundle
+    std::map<int, int> videoPoses_;  ///< index of a video's view -> index of the bundle's pose
     std::vector<Member> videoMembers_, stillMembers_;
     int pairs_ = 0;
 };

@@ -11,29 +11,31 @@
 
 namespace mfar::calibration {
 
-/// Finds the corners of a target in pictures of one size. All corners of both kinds of target are
-/// places where black and white squares meet crosswise. Such corners have a symmetry of 180
-/// degrees, so neither blur nor gamma moves them.
+/// Finds the corners of a target in pictures of one size. In both kinds of targets, a corner is a
+/// point where two black and two white squares meet. Such a corner is symmetric under a rotation by
+/// 180 degrees, so that blur and gamma do not move it.
 class TargetFinder {
 public:
-    /// The target must outlive this.
+    /// `target` must outlive this object.
     TargetFinder(const Target& target, Size picture);
 
-    /// Corners, precise to about 0.05 px; empty when the target is not found. `luma`: Gray8.
+    /// Returns the corners in a Gray8 picture, with an error of about 0.05 px. The list is empty if
+    /// the target is not found.
     [[nodiscard]] std::vector<Corner> find(const ImageView& luma);
 
 private:
     [[nodiscard]] std::vector<Corner> findTags(const ImageView& luma);
     [[nodiscard]] std::vector<Corner> findBoard(const ImageView& luma) const;
     [[nodiscard]] std::vector<TagDetection> detect(const cv::Mat& picture);
-    [[nodiscard]] int leastTags() const;  ///< needed in one picture to determine their orientation
+    /// Returns the number of tags in one picture that determine the orientation of the print.
+    [[nodiscard]] int leastTags() const;
     void learnTurn(const std::vector<TagDetection>& tags);
 
     const Target& target_;
-    std::array<TagDetector, 2> detectors_;  ///< for borders of one and of two cells
-    int border_ = -1;  ///< index of the detector that finds this target, -1: unknown
+    std::array<TagDetector, 2> detectors_;  ///< for tags with borders of one and of two cells
+    int border_ = -1;  ///< index of the detector that finds this target's tags; -1: unknown
     cv::Mat thinned_;
-    int turn_ = -1;  ///< quarter turns of the printed tags against the grid, -1: unknown
+    int turn_ = -1;  ///< orientation of the printed tags in quarter turns; -1: unknown
 };
 
 }  // namespace mfar::calibration

@@ -11,11 +11,11 @@ namespace mfar::calibration {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-// Below these limits, focal length and distance cannot be separated.
+// With less tilt or depth, the focal length cannot be separated from the target's distance.
 constexpr double kLeastTilt = 12 * kDegree;
-constexpr double kLeastDepth = 1.2;     // farthest corner / nearest corner
-constexpr double kLeastCoverage = 0.6;  // share of the cells
-constexpr double kMostlyAt = 0.9;       // quantile that single views hardly change
+constexpr double kLeastDepth = 1.2;     // distance of the farthest / of the nearest corner
+constexpr double kLeastCoverage = 0.6;  // share of the cells that have a corner
+constexpr double kMostlyAt = 0.9;       // quantile, on which single views have little influence
 
 double quantile(std::vector<double> values, double q) {
     const auto at =
@@ -25,8 +25,8 @@ double quantile(std::vector<double> values, double q) {
 }
 
 struct Spread {
-    double tilt = 0;   ///< of the target's normals around their mean [rad]
-    double depth = 1;  ///< farthest corner / nearest corner
+    double tilt = 0;   ///< angles of the target's normals to their mean [rad]
+    double depth = 1;  ///< distance of the farthest / of the nearest corner
 };
 
 Spread spreadOf(const Target& target, const std::vector<TargetView>& views, Size picture) {
