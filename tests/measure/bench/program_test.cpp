@@ -107,7 +107,7 @@ TEST(MfarBench, CurvesHaveEveryValueOfEveryKnob) {
     }
 }
 
-/// For each stage of a table, the number of points of each kind.
+/// Counts the points of a table by stage and by kind.
 std::map<std::string, std::map<std::string, int>> paretoKinds(const std::filesystem::path& csv) {
     std::istringstream lines(mfar::test::readFile(csv));
     std::string line;

@@ -53,7 +53,7 @@ TEST(AtRest, FramesAreEqualOrDifferByNoiseOnly) {
     const Workload moving = syntheticWorkload({160, 120}, {576, 432}, 3);
     const Workload still = atRest(moving, 0), noisy = atRest(moving, 2);
     EXPECT_EQ(meanDifference(still.frames[2], still.frames[0]), 0);
-    // Mean absolute difference of two normal values of sigma 2: 2 * 2 / sqrt(pi).
+    // Mean absolute difference of two values with normal noise of sigma 2: 2 * 2 / sqrt(pi).
     EXPECT_NEAR(meanDifference(noisy.frames[2], noisy.frames[0]), 2.257, 0.15);
 }
 

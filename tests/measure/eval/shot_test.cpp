@@ -44,7 +44,7 @@ TEST(Turned, TurnsTheRelativePoseByExactlyTheAngle) {
         EXPECT_NEAR((off.translation - exact.translation).norm(), 0, 1e-12);
         sum += (exact.rotation.conjugate() * off.rotation).vec().normalized();
     }
-    EXPECT_LT(sum.norm() / 200, 0.2);  // no direction is preferred
+    EXPECT_LT(sum.norm() / 200, 0.2);  // all directions are equally probable, so the sum is small
 }
 
 TEST(Turned, EveryRecordingFrameAndSeedHasItsOwnAxis) {

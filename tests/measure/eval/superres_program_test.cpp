@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-/// `mfar-eval superres` as a user runs it, on tiny pictures.
+/// Runs `mfar-eval superres` as a user does, on tiny pictures.
 namespace mfar::eval {
 namespace {
 

@@ -62,7 +62,8 @@ TEST(EnlargerTraining, ClassesWithoutPixelsToCheckGetNoFilter) {
 }
 
 TEST(EnlargerTraining, FiltersThatMakeHeldOutPicturesWorseAreLeftOut) {
-    // Learned without noise and checked on pure noise: there sharpening only amplifies noise.
+    // The filters are learned without noise but checked on pure noise, where sharpening only
+    // amplifies the noise.
     EnlargerTraining training;
     training.add({discs(1), {}}, false);
     training.add({twin::greyOf({320, 256}, [](int, int) { return 128.0; }), {12, 0, 5}}, true);

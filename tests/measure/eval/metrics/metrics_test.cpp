@@ -67,9 +67,9 @@ TEST(HarmRate, CountsPixelsWorseThanBicubicByMoreThanTwo) {
     const cv::Mat truth = constant(100, {10, 10}), bicubic = constant(104, {10, 10});
     cv::Mat picture = truth.clone();
     EXPECT_EQ(harmRate(picture, bicubic, truth), 0);
-    picture.at<double>(0, 0) = 106;  // two levels above the bicubic error: still allowed
+    picture.at<double>(0, 0) = 106;  // two levels above bicubic's error: within the tolerance
     picture.at<double>(0, 1) = 106.5;
-    picture.at<double>(0, 2) = 93;  // the error's sign does not matter
+    picture.at<double>(0, 2) = 93;  // the sign of the error does not matter
     EXPECT_DOUBLE_EQ(harmRate(picture, bicubic, truth), 0.02);
 }
 
@@ -78,7 +78,7 @@ TEST(TilesBelow, CountsWholeTilesThatAreWorseByMoreThanAQuarter) {
     cv::Mat picture = truth - 3.2;  // within the tolerance
     EXPECT_EQ(tilesBelow(picture, bicubic, truth), 0);
     picture(cv::Rect(64, 64, 64, 64)) = 96;
-    picture(cv::Rect(5 * 64, 0, 63, 129)) = 0;  // part of a tile
+    picture(cv::Rect(5 * 64, 0, 63, 129)) = 0;  // the rest of an incomplete tile
     picture(cv::Rect(0, 2 * 64, 64, 1)) = 0;
     EXPECT_DOUBLE_EQ(tilesBelow(picture, bicubic, truth), 0.1);
     EXPECT_EQ(tilesBelow(picture, bicubic, truth, 2), 0);

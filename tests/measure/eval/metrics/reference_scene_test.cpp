@@ -17,7 +17,7 @@ double differenceFrom(const std::string& name, const cv::Mat& picture) {
     return cv::norm(referencePicture(name), cv::Mat_<double>(picture), cv::NORM_INF);
 }
 
-// The tests at full size rely on this.
+// The tests at full size rely on this agreement.
 TEST(ReferenceScene, IsTheOneOfThePictures) {
     if (referenceTable("lpc_si.csv").empty())
         GTEST_SKIP() << referenceFolder().string() << " is not there";
@@ -27,7 +27,7 @@ TEST(ReferenceScene, IsTheOneOfThePictures) {
     EXPECT_EQ(differenceFrom("blur2", blurred(scene, 2)), 0);
 }
 
-// 2304x1728: the size of a still.
+// The picture has the size of a still, 2304x1728.
 TEST(FullSize, QualityAndSharpnessMatchTheTable) {
     const auto table = referenceTable("fullsize_2304x1728.csv");
     if (table.empty()) GTEST_SKIP() << referenceFolder().string() << " is not there";

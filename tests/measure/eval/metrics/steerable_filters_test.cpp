@@ -14,7 +14,7 @@ TEST(SteerableFilters, SumToWhatAPyramidNeeds) {
         EXPECT_NEAR(cv::sum(taps)[0], 0, 1e-12);
 }
 
-/// The definition, sample by sample.
+/// Correlation by its definition, for one sample.
 double correlatedAt(const cv::Mat& picture, const cv::Mat& taps, int y, int x) {
     double sum = 0;
     for (int j = 0; j < taps.rows; ++j)
