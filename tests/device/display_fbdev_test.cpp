@@ -13,7 +13,7 @@ struct Info {
     fb_fix_screeninfo fix{};
 };
 
-// 800x480, 16 bits, rows of 1664 bytes, memory for two screens.
+// A valid description: 800x480, 16 bits per pixel, rows of 1664 bytes, memory for two screens.
 Info good() {
     Info i;
     i.var.xres = i.var.xres_virtual = 800;
@@ -69,11 +69,11 @@ TEST(FbGeometry, NumbersThatLeaveTheMemoryAreRefused) {
         [](Info& i) { i.var.xres = 0; },
         [](Info& i) { i.var.yres = 0; },
         [](Info& i) { i.var.xres = 20000; },
-        [](Info& i) { i.var.xres = i.var.xres_virtual = 833; },  // 1666 bytes
+        [](Info& i) { i.var.xres = i.var.xres_virtual = 833; },  // a row would need 1666 bytes
         [](Info& i) { i.var.xoffset = 1; },
         [](Info& i) { i.var.xoffset = 0xffffffff; },
         [](Info& i) { i.var.yoffset = 481; },
-        [](Info& i) { i.var.yoffset = 0xfffffe20; },  // + 480 overflows to 0
+        [](Info& i) { i.var.yoffset = 0xfffffe20; },  // adding 480 overflows to 0
         [](Info& i) { i.var.yres_virtual = 479; },
         [](Info& i) { i.fix.smem_len = 1664 * 480 - 1; },
         [](Info& i) { i.fix.smem_len = 0; },

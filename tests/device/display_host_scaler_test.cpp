@@ -27,7 +27,7 @@ std::array<int, 3> colourOf(std::uint32_t pixel) {
             static_cast<int>(pixel >> 16 & 255)};
 }
 
-/// The largest error of a pixel inside the rectangle [grey levels]; pixels outside must be black.
+/// Largest error of a pixel inside the rectangle [grey levels]. Pixels outside it must be black.
 double worstError(HostScaler& scaler, const Pixels& picture, Size screen) {
     const Rows<const std::uint32_t> shown = scaler.scaled(picture.rows());
     EXPECT_EQ(shown.size, screen);
@@ -65,7 +65,7 @@ TEST(HostScaler, EveryPixelIsTheMeanOfItsFootprint) {
                                       {{700, 500}, {1, 1}},
                                       {{17, 400}, {31, 23}}}) {
         HostScaler scaler(screen);
-        // Half a level of rounding, plus truncated products.
+        // Tolerance: rounding by half a level, and products that are truncated.
         EXPECT_LE(worstError(scaler, noisy(from), screen), 0.55)
             << from.width << "x" << from.height;
     }
