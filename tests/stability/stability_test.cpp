@@ -1,4 +1,4 @@
-// A few seeds of every case, and tests that do not depend on a seed.
+// Runs a few seeds of every case, and tests that do not depend on a seed.
 #include "pipeline/depth/depth_filter.h"
 #include "tests/stability/cases.h"
 
@@ -46,7 +46,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Group{"tracer", tracerCases, 12}, Group{"warp", warpCases, 6}),
     [](const testing::TestParamInfo<Group>& one) { return std::string(one.param.name); });
 
-// Found by long runs: triangles seen edge-on, whose depth was extrapolated far beyond them.
+// Long runs found these: the depth of triangles seen edge-on was extrapolated far beyond the
+// triangles.
 TEST(HostileInput, SeedsThatFailedOnceBreakNothing) {
     GlWatch gl;
     Checks checks;
@@ -67,7 +68,7 @@ TEST(HostileInput, IsAFunctionOfItsSeed) {
     EXPECT_NE(one.integer(0, 1 << 30), other.integer(0, 1 << 30));
 }
 
-// The filter's recursion in double precision.
+// The recursion of the depth filter in double precision.
 struct DoubleFilter {
     double rho, variance;
     void fuse(double measured, double error, double leastShare) {

@@ -16,7 +16,7 @@ namespace {
 
 constexpr Size kCells{5, 3};
 
-/// superres_weigh.comp copies its displacement to its output.
+/// superres_weigh.comp copies its input, the displacement, to its output.
 void weigh(const std::vector<float>& displacement) {
     using gpu::TexelFormat;
     const std::vector<float> zeros(4UL * 15);
@@ -83,7 +83,7 @@ TEST_F(ValidationTest, ValuesOutOfTheStatedRangeAreFaults) {
     }
 }
 
-// A picture of 16x8 pixels: eight words per row.
+// Parameters for a picture of 16x8 pixels, whose rows have eight words.
 constexpr params::LumaFromVideo kLuma{.target = {0, 8, 16, 8}, .smoothing = 0.25F};
 constexpr std::size_t kLumaBytes = std::size_t{4} * 8 * 8;
 
@@ -140,7 +140,7 @@ TEST(StatedRanges, AreReadFromTheShadersText) {
     EXPECT_TRUE(gpu::statedRanges("// Range: other 0..1\n", "out").empty());
 }
 
-// The outputs that a shader writes as floats of 32 or 16 bits.
+// Every output that a shader writes as floats of 32 or 16 bits must have a stated range.
 TEST(StatedRanges, EveryFloatImageAndBufferHasOne) {
     for (const shaders::Source& shader : shaders::all()) {
         const std::string text(shader.text);
