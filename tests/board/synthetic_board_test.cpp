@@ -55,7 +55,7 @@ Delivery runBoard(SyntheticBoard& board, const std::vector<std::size_t>& pulses)
     return out;
 }
 
-TEST(SyntheticBoard, SameSeedSameBytesOtherSeedOtherBytes) {
+TEST(SyntheticBoard, EqualSeedsGiveEqualBytesAndOtherSeedsGiveOthers) {
     SyntheticBoard a(flat(Pace::Consumer, 5, 4)), b(flat(Pace::Consumer, 5, 4)),
         c(flat(Pace::Consumer, 5, 5));
     const Delivery first = runBoard(a, {1}), second = runBoard(b, {1}), other = runBoard(c, {1});
@@ -78,7 +78,7 @@ TEST(SyntheticBoard, AStillComesOnlyAfterAPulseAndItsLatency) {
         EXPECT_NEAR((run.videoTimes[i] - run.videoTimes[i - 1]).count(), 1e9 / 30, 1);
 }
 
-TEST(SyntheticBoard, NoPulseNoStill) {
+TEST(SyntheticBoard, WithoutAPulseNoStillArrives) {
     SyntheticBoard board(flat(Pace::Consumer, 4));
     EXPECT_TRUE(runBoard(board, {}).stillTimes.empty());
 }
@@ -122,7 +122,7 @@ TEST(SyntheticBoard, HoldingEveryFrameTimesOutInsteadOfBlocking) {
     EXPECT_TRUE(board.video().next(10s));
 }
 
-TEST(SyntheticBoard, RealtimeTimesAreRecentAndRising) {
+TEST(SyntheticBoard, RealtimeTimesAreRecentAndIncrease) {
     SyntheticBoard board(flat(Pace::Realtime));
     const Timestamp before = Timestamp::now();
     board.video().start();

@@ -49,7 +49,7 @@ void expectTags(const SyntheticBoard& board, const ImageView& picture, const Cam
     }
 }
 
-TEST_P(EveryScene, BothSensorsSeeTheTagsWhereTheyAre) {
+TEST_P(EveryScene, BothSensorsShowTheTagsAtTheirTruePositions) {
     SyntheticBoard& board = sharedBoard(GetParam());
     const Pair pair = takePair(board);
     ASSERT_TRUE(pair.video && pair.still);
@@ -114,7 +114,7 @@ TEST(SyntheticPicture, TheStillShowsDetailThatTheVideoLacks) {
     EXPECT_GT(lostInVideo(synthetic::Scene::Flat), office + 6);
 }
 
-TEST(SyntheticPicture, NoiseIsThereAndSmall) {
+TEST(SyntheticPicture, PicturesHaveSmallNoise) {
     SyntheticBoard& board = sharedBoard(synthetic::Scene::Flat);
     board.video().start();
     const auto frame = board.video().next(10s);

@@ -35,7 +35,7 @@ TEST(SyntheticRig, SensorsStandFourteenMillimetresApartAndAlmostParallel) {
     EXPECT_LT(angle, 0.7);
 }
 
-TEST(SyntheticRig, LensesCanBeUndoneOverTheWholePicture) {
+TEST(SyntheticRig, LensesCanBeInvertedOverTheWholePicture) {
     const StereoRig rig = boardRig();
     for (const CameraModel& camera : {rig.video, rig.still}) {
         for (const double u : {-0.01, 0.25, 0.6, 1.01}) {
@@ -68,7 +68,7 @@ TEST(SyntheticPath, HandHeldShakeIsSmallAndSmooth) {
     EXPECT_GT(widest, 0.8 * kDegree);
 }
 
-TEST(SyntheticPath, RestRestsAndRotationOnlyRotates) {
+TEST(SyntheticPath, RestPathStaysAndRotationPathOnlyRotates) {
     const World world = makeWorld(Scene::Office, 1);
     const RigidTransform rest = cameraPose(world, Path::Rest, 1, 0);
     for (const double t : {0.5, 3.0, 7.7}) {
@@ -81,7 +81,7 @@ TEST(SyntheticPath, RestRestsAndRotationOnlyRotates) {
               2 * kDegree);
 }
 
-TEST(SyntheticWorld, EveryTagLiesInTheFirstViewUnhidden) {
+TEST(SyntheticWorld, FirstViewShowsEveryTagUnoccluded) {
     for (const Scene scene : kAllScenes) {
         const World world = makeWorld(scene, 1);
         ASSERT_FALSE(world.tags.empty());
@@ -144,7 +144,7 @@ TEST(SyntheticTruth, FlowUnderPureRotationDoesNotDependOnDepth) {
     EXPECT_GT(compared, 10000);
 }
 
-TEST(SyntheticTruth, OccludedAndOutsidePixelsAreUnknown) {
+TEST(SyntheticTruth, FlowOfOccludedAndOutsidePixelsIsUnknown) {
     const World world = makeWorld(Scene::Shelf, 1);
     const Viewpoint a = small(world, Path::Rest, 0);
     Viewpoint b = a;
@@ -181,7 +181,7 @@ TEST(SyntheticTruth, OccludedAndOutsidePixelsAreUnknown) {
     EXPECT_GT(hidden, 100);
 }
 
-TEST(SyntheticTruth, AMovingThingIsFollowed) {
+TEST(SyntheticTruth, FlowFollowsAMovingObject) {
     const World world = makeWorld(Scene::Moving, 1);
     const Viewpoint a = small(world, Path::Rest, 0);
     Viewpoint b = a;

@@ -61,7 +61,7 @@ TEST(MfarCalibrate, RecoversTheRigFromARecording) {
         EXPECT_NE(ran.text.find(words), std::string::npos) << words << " in\n" << ran.text;
 }
 
-TEST(MfarCalibrate, OneMomentIsNotEnoughAndNothingIsWritten) {
+TEST(MfarCalibrate, ARecordingOfOneViewIsRefusedAndNothingIsWritten) {
     const TempFolder folder;
     const std::string recording = (folder / "recording").string(), out = (folder / "out").string();
     const Outcome made = execute(folder, fmt::format("{} --scene calibration --path rest --seconds "

@@ -144,7 +144,7 @@ TEST(RigFiles, DeepOrEndlessFilesAreRefusedBeforeParsing) {
     }
 }
 
-TEST(RigFiles, ADeviceOrAPipeIsNoCalibration) {
+TEST(RigFiles, DevicesAndPipesAreRefused) {
     const TempFolder folder;
     ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
     for (const fs::path& file : {folder / "pipe", fs::path("/dev/zero")})

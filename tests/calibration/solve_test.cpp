@@ -53,7 +53,7 @@ TEST(Calibrate, FindsLensesBaselineAndClockOffsetInNoise) {
     EXPECT_NEAR(found.still.rms, motion.noise * std::sqrt(2), 0.02);
 }
 
-TEST(Calibrate, OffsetsOfManyFramesAreFound) {
+TEST(Calibrate, ClockOffsetsOfManyFramesAreFound) {
     Motion motion;
     motion.offset = -0.187;
     const BothViews views = makeViews(kGrid, motion);
@@ -62,7 +62,7 @@ TEST(Calibrate, OffsetsOfManyFramesAreFound) {
     expectRig(found);
 }
 
-TEST(Calibrate, WrongCornersAndWrongViewsAreLeftOut) {
+TEST(Calibrate, WrongCornersAndWrongViewsAreExcluded) {
     BothViews views = makeViews(kGrid, {});
     for (std::size_t i = 0; i < views.video.views.size(); i += 3)
         views.video.views[i].corners[i % 20].pixel.x() += 3 + static_cast<double>(i % 5);
@@ -88,7 +88,7 @@ void expectNoOffset(const Calibration& found) {
     expectRig(found);
 }
 
-TEST(Calibrate, AnUnobservableOffsetIsZeroAndReported) {
+TEST(Calibrate, AnUnobservableClockOffsetIsZeroAndReported) {
     Motion motion;
     motion.rests = true;
     motion.stillsHz = 1;
@@ -97,7 +97,7 @@ TEST(Calibrate, AnUnobservableOffsetIsZeroAndReported) {
     expectNoOffset(calibrate(kGrid, views.video, views.still, {}));
 }
 
-TEST(Calibrate, WithoutASearchTheOffsetIsZero) {
+TEST(Calibrate, ClockOffsetThatIsNotSearchedIsZero) {
     const BothViews views = makeViews(kGrid, {});
     SolveOptions options;
     options.maxOffset = 0;
@@ -129,7 +129,7 @@ TEST(Calibrate, AllViewsFromOneDirectionAreRefused) {
               std::string::npos);
 }
 
-TEST(Calibrate, OneDistanceIsRefused) {
+TEST(Calibrate, AllViewsFromOneDistanceAreRefused) {
     // The target is small and only tilted about its own centre, so that depths hardly differ.
     const Target small = aprilGrid(6, 6, 0.008, 0.25);
     Motion motion;
@@ -144,7 +144,7 @@ TEST(Calibrate, OneDistanceIsRefused) {
     }
 }
 
-TEST(Calibrate, APictureThatIsNotCoveredIsRefusedAndThePlaceNamed) {
+TEST(Calibrate, AnUncoveredPartOfThePictureIsRefusedAndNamed) {
     BothViews views = makeViews(kGrid, {});
     for (TargetView& view : views.video.views)
         std::erase_if(view.corners, [](const Corner& c) { return c.pixel.x() > 330; });
@@ -162,7 +162,7 @@ TEST(Calibrate, StillsWithoutVideoAreRefused) {
               std::string::npos);
 }
 
-TEST(Calibrate, TheReportHasEveryViewAndThePictureIsWritten) {
+TEST(Calibrate, TheReportListsEveryViewAndItsPictureIsWritten) {
     const BothViews views = makeViews(kGrid, {});
     const Calibration found = calibrate(kGrid, views.video, views.still, {});
     const std::string text = viewsText(found);

@@ -29,7 +29,7 @@ TEST(Target, KalibrsDescriptionIsRead) {
     EXPECT_TRUE(grid.points[30].isApprox(Eigen::Vector3d(expected, expected, 0), 1e-12));
 }
 
-TEST(Target, DescriptionsThatCannotBeAreRefusedWithTheLine) {
+TEST(Target, ImpossibleDescriptionsAreRefusedWithTheirLine) {
     struct Fault {
         const char *from, *to, *where, *what;
     };
@@ -168,7 +168,7 @@ void expectGridFound(int turn, int border) {
     expectCorners(grid, scene, corners, 64);
 }
 
-TEST(TargetFinder, AprilGridCornersAreWhereTheyAreHoweverItsTagsAreTurned) {
+TEST(TargetFinder, AprilGridCornersAreFoundForAnyRotationOfItsTags) {
     for (const int turn : {0, 1, 2, 3})
         expectGridFound(turn, 1);
 }

@@ -47,7 +47,7 @@ int coveredTiles(const std::vector<SurfaceRange>& tiles) {
         std::count_if(tiles.begin(), tiles.end(), [](const auto& t) { return t.farthest > 0; }));
 }
 
-TEST(SceneBoxes, EveryVertexInThePictureHasItsTile) {
+TEST(SceneBoxes, BoxesCoverTheTileOfEveryVisibleVertex) {
     const Scene scene = sceneAt({0.05, -0.02, 0.9});
     SceneBoxes boxes(scene);
     Silhouette silhouette(kWide, 0);
@@ -72,7 +72,7 @@ TEST(SceneBoxes, EveryVertexInThePictureHasItsTile) {
     EXPECT_GT(seen, 1000);
 }
 
-TEST(SceneBoxes, AreFewAndTight) {
+TEST(SceneBoxes, BoxesAreFewAndTight) {
     const Scene scene = sceneAt({0, 0, 3});
     SceneBoxes boxes(scene);
     EXPECT_LT(boxes.world().size(), 217U);
@@ -81,7 +81,7 @@ TEST(SceneBoxes, AreFewAndTight) {
     EXPECT_LE(coveredTiles(silhouette.run(boxes, kEye)), 16);
 }
 
-TEST(SceneBoxes, ShadowCatcherHasItsOwn) {
+TEST(SceneBoxes, ShadowCatcherHasBoxesOfItsOwn) {
     Scene scene;
     EXPECT_TRUE(SceneBoxes(scene.catcher).world().empty());
     scene.catcher.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
@@ -106,7 +106,7 @@ TEST(SceneBoxes, ObjectsOutOfViewOrWithoutAPoseCoverNothing) {
     EXPECT_EQ(coveredTiles(silhouette.run(before, nowhere)), 0);
 }
 
-TEST(SceneBoxes, SurfacesAroundTheCameraCoverAll) {
+TEST(SceneBoxes, SurfacesAroundTheCameraCoverTheWholePicture) {
     Scene scene = sceneAt({0, 0, 0.1});
     auto room = std::make_shared<Model>();
     room->meshes.resize(1);

@@ -82,7 +82,7 @@ TEST(SceneFollower, CatcherIsRebuiltLaterWhenTheViewChanges) {
     EXPECT_NE(follow(0, 105), nullptr);
 }
 
-TEST(SceneFollower, NothingToFollowChangesNothing) {
+TEST(SceneFollower, WithoutObjectsInThePictureNothingChanges) {
     SceneFollower follower({.settling = 0});
     EXPECT_EQ(follower.follow(table(0), kFollowing, downAt(0), kPicture, atSecond(1)), nullptr);
     EXPECT_TRUE(follower.set({})->catcher.positions.empty());

@@ -76,7 +76,7 @@ TEST_F(BannerText, HostPicturesGetTheSameBanner) {
 }
 
 // There may be no GL context.
-TEST_F(BannerText, WithoutAPictureItIsBlackOnTheHost) {
+TEST_F(BannerText, WithoutAPictureTheHostBannerIsOnBlack) {
     Banner banner(kPictureSize);
     ASSERT_TRUE(banner.over({}, "no picture yet").isOnHost());
     const auto shown = pixelsOf(banner.over({}, "no picture yet"));

@@ -84,7 +84,7 @@ TEST(CaptureThread, TheVideoGoesOnWhileTheStillCameraHangs) {
     capture.still().hang(false);
 }
 
-TEST(CaptureThread, TheEndDoesNotWaitForAVideoCameraThatHangs) {
+TEST(CaptureThread, ShutdownDoesNotWaitForAHangingVideoCamera) {
     Capture capture(HandOver::NewestWins);
     capture.video().hang(true);
     ASSERT_TRUE(capture.video().isHung());
@@ -211,7 +211,7 @@ TEST(CaptureThread, RepeatedPicturesAreDetectedOnlyForSensors) {
     }
 }
 
-TEST(CaptureThread, ASourceThatLosesNothingIsReadByOneThreadInOrder) {
+TEST(CaptureThread, ALosslessSourceIsReadByOneThreadInOrder) {
     Capture capture(HandOver::Lossless);
     // All waiting stills are delivered with the frame, as no other thread fetches them.
     for (int i = 1; i <= 4; ++i)

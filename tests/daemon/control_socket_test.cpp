@@ -70,7 +70,7 @@ TEST_F(ControlSocketTest, AnswersWithALineAndItsData) {
     EXPECT_EQ(reply.data, data);
 }
 
-TEST_F(ControlSocketTest, OwnerAndGroupMayUseItAlone) {
+TEST_F(ControlSocketTest, OnlyOwnerAndGroupMayUseTheSocket) {
     const ControlSocket socket(path, echo);
     struct stat there{};
     ASSERT_EQ(stat(path.c_str(), &there), 0);
@@ -192,7 +192,7 @@ TEST(ControlRole, MembersOfTheGroupAreOperators) {
 }
 
 // A thread that retries continuously would occupy a whole processor.
-TEST_F(ControlSocketTest, WithoutAFreeDescriptorItWaits) {
+TEST_F(ControlSocketTest, WithoutAFreeDescriptorClientsWait) {
     const ControlSocket socket(path, echo);
     std::vector<int> all{connected()};
     std::this_thread::sleep_for(std::chrono::milliseconds(50));

@@ -109,7 +109,7 @@ TEST(Limits, AModelThatDoesNotFitIsReportedWithItsPlace) {
 }
 
 // Eight objects of one model take the memory of one model.
-TEST(Limits, AModelIsReadOnceWhateverItsNames) {
+TEST(Limits, AModelWithSeveralNamesIsReadOnce) {
     const test::TempFolder folder;
     const std::vector<std::uint8_t> glb = test::oneTriangle().glb();
     test::writeFile(folder / "a/thing.glb",

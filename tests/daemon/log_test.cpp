@@ -43,7 +43,7 @@ void talkMuch(Log& log) {
     log.endStatus();
 }
 
-TEST(Log, PlainHasOnlyMessages) {
+TEST(Log, PlainStyleWritesOnlyMessages) {
     EXPECT_EQ(written(Log::Style::Plain, talkMuch),
               "mfard: error: broken\nmfard: error: really\nmfard: warning: late\n"
               "mfard: started\n");
@@ -55,7 +55,7 @@ TEST(Log, JournalLinesCarryTheirPriority) {
               "<5>mfard: started\n");
 }
 
-TEST(Log, TerminalKeepsTheStatusLineBelowMessages) {
+TEST(Log, TerminalStyleKeepsTheStatusLineBelowMessages) {
     EXPECT_EQ(written(Log::Style::Terminal,
                       [](Log& log) {
                           log.status("12 fps");
@@ -110,7 +110,7 @@ TEST(Log, RepeatedEventsAreLoggedWithTheirCount) {
                               "<4>mfard: warning: hangs for 2 s (once more in 1 s)\n");
 }
 
-TEST(Log, TheJournalGetsFields) {
+TEST(Log, TheJournalGetsStructuredFields) {
     std::vector<std::string> sent;
     Timestamp now = Timestamp::fromSeconds(100);
     Log log(

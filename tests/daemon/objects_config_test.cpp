@@ -101,7 +101,7 @@ model = "thing.glb"
     EXPECT_TRUE(placedShapes(config.objects, {}).empty());
 }
 
-TEST(ObjectsConfig, AFileIsReadOnceWhateverItIsCalled) {
+TEST(ObjectsConfig, AFileWithSeveralNamesIsReadOnce) {
     const test::TempFolder folder;
     const std::vector<std::uint8_t> glb = test::oneTriangle().glb();
     test::writeFile(folder / "thing.glb", {reinterpret_cast<const char*>(glb.data()), glb.size()});
@@ -117,7 +117,7 @@ TEST(ObjectsConfig, AFileIsReadOnceWhateverItIsCalled) {
         EXPECT_EQ(one.model, config.objects[0].model) << one.modelName;
 }
 
-TEST(ObjectsConfig, ModelsThatCannotBeReadHaveTheirPlace) {
+TEST(ObjectsConfig, UnreadableModelsAreReportedWithTheirPlace) {
     EXPECT_THAT(configFaults("[[objects]]\nmodel = \"none.glb\"\n"),
                 StartsWith("test.toml:2:9: objects[0].model = \"none.glb\": none.glb: is missing"));
     EXPECT_THAT(configFaults("[[objects]]\nscale = 0\n"), HasSubstr("objects[0].scale must be"));

@@ -117,7 +117,7 @@ void theParserTakesTheDefault(const Key& key) {
     EXPECT_THAT(faults(key, key.option->byDefault), IsEmpty());
 }
 
-TEST(OptionTable, TheParserTakesTheDefault) {
+TEST(OptionTable, TheParserUsesTheTablesDefault) {
     for (const Key& key : allKeys()) {
         SCOPED_TRACE(key.name());
         theParserTakesTheDefault(key);
@@ -140,7 +140,7 @@ void theParserHasTheRange(const Key& key) {
                 HasSubstr(fmt::format("Range: {} to {}", range.least, range.most)));
 }
 
-TEST(OptionTable, TheParserHasTheRange) {
+TEST(OptionTable, TheParserEnforcesTheTablesRange) {
     for (const Key& key : allKeys()) {
         SCOPED_TRACE(key.name());
         theParserHasTheRange(key);
@@ -270,7 +270,7 @@ TEST(OptionText, ADefaultFileHasEveryKeyOnce) {
         EXPECT_LE(line.size(), 100U) << line;
 }
 
-TEST(OptionText, SectionsThatAreCommentedOutAreSoundWhenTheyAreNot) {
+TEST(OptionText, CommentedOutSectionsAreValidOnceUncommented) {
     std::string text = defaultConfigText(), all;
     std::istringstream in(text.substr(text.find("# [light.sun]")));
     for (std::string line; std::getline(in, line);)

@@ -44,7 +44,7 @@ TEST(PoseConfig, TheTagMapIsCheckedWithTheConfiguration) {
     EXPECT_EQ(fault(folder).code, ExitCode::Ok);
 }
 
-TEST(PoseConfig, AMapThatIsNotUsedNeedNotBeThere) {
+TEST(PoseConfig, AnUnusedTagMapMayBeMissing) {
     const PoseConfig none{PoseOrigin::None, "/nonexistent/tags.toml"};
     EXPECT_TRUE(configuredTags(none).empty());
 }
@@ -56,7 +56,7 @@ TEST(PoseConfig, RecordedPosesNeedARecording) {
     EXPECT_THAT(fault(folder).what(), HasSubstr("needs a recording"));
 }
 
-TEST(PoseConfig, TheTrackerDoesWhatIsConfigured) {
+TEST(PoseConfig, TheTrackerUsesTheConfiguration) {
     PoseConfig pose;
     pose.families = {TagFamily::Tag25h9};
     pose.tagSize = 0.25;

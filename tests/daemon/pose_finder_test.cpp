@@ -122,7 +122,7 @@ TEST(PoseFinder, WithoutAMapTheFirstTagIsTheWorld) {
     EXPECT_FALSE(finder.takeFoundTags()) << "once";
 }
 
-TEST(PoseFinder, RecordedPosesAreTakenAsTheyAre) {
+TEST(PoseFinder, RecordedPosesAreUsedUnchanged) {
     Stats stats;
     PoseConfig config;
     config.source = PoseOrigin::Recorded;

@@ -28,7 +28,7 @@ struct RepeatLimitTest : testing::Test {
     std::vector<std::string> said;
 };
 
-TEST_F(RepeatLimitTest, FirstIsLoggedAtOnceAndTheOthersWithTheirCount) {
+TEST_F(RepeatLimitTest, FirstEventIsLoggedAtOnceAndRepetitionsWithTheirCount) {
     for (int i = 0; i < 8; ++i)
         happen("plug", "gone");
     EXPECT_THAT(said, ElementsAre("gone"));
@@ -73,7 +73,7 @@ TEST_F(RepeatLimitTest, NewestTextOfAnEventIsKept) {
     EXPECT_EQ(said.back(), "gone from /dev/video4 (2 more times in 10 s)");
 }
 
-TEST_F(RepeatLimitTest, AStormIsLoggedEveryTenSeconds) {
+TEST_F(RepeatLimitTest, AStormOfEventsIsLoggedEveryTenSeconds) {
     for (int ms = 0; ms < 3'600'000; ms += 50) {
         happen("storm", "error");
         pass(milliseconds(50));
@@ -92,7 +92,7 @@ TEST_F(RepeatLimitTest, StormOfDifferentEventsIsBounded) {
     EXPECT_EQ(said.back(), "later") << "old events are forgotten";
 }
 
-TEST_F(RepeatLimitTest, NothingIsLostAtTheEnd) {
+TEST_F(RepeatLimitTest, PendingRepetitionsAreLoggedAtTheEnd) {
     happen("plug", "gone");
     happen("plug", "gone");
     happen("plug", "gone");

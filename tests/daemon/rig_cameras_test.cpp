@@ -92,7 +92,7 @@ struct Used {
     std::size_t bytes = mallinfo2().uordblks;
 };
 
-TEST_F(RigOfCameras, AHundredLossesLeaveNothingBehind) {
+TEST_F(RigOfCameras, AHundredCameraLossesLeakNothing) {
     says("video90", "rate 200");
     Heartbeats hearts;
     Rig rig(config_, hearts);
@@ -115,7 +115,7 @@ TEST_F(RigOfCameras, AHundredLossesLeaveNothingBehind) {
     EXPECT_LT(after.bytes, before->bytes + 32'768);
 }
 
-TEST_F(RigOfCameras, DriverWithoutBuffersIsNamedUntilItHasSome) {
+TEST_F(RigOfCameras, DriverWithoutBuffersIsReportedUntilItHasSome) {
     says("video90", "buffers 0");
     says("video91", "rate 100");
     Heartbeats hearts;

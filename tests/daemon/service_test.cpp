@@ -60,7 +60,7 @@ TEST(Service, SendsValidNotifications) {
     EXPECT_EQ(manager.heard(), "STOPPING=1\nSTATUS=ending");
 }
 
-TEST(Service, FeedsTheWatchdogTwiceAsOftenAsAsked) {
+TEST(Service, NotifiesTheWatchdogTwiceAsOftenAsRequired) {
     const Manager manager;
     EXPECT_EQ(Service().watchdogPeriod(), std::nullopt);
     setenv("WATCHDOG_USEC", "3000000", 1);

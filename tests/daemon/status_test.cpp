@@ -42,7 +42,7 @@ TEST(Stats, RatesLatencyAndSharesMatchThePictures) {
     EXPECT_NEAR(counted.meanConfidence, 0.8, 1e-9) << "frames without still do not count";
 }
 
-TEST(Stats, NothingShownIsAllZero) {
+TEST(Stats, WithoutShownPicturesAllValuesAreZero) {
     Stats stats;
     const Counted counted = stats.count();
     EXPECT_EQ(counted.fps, 0);
@@ -61,7 +61,7 @@ TEST(Stats, RecentRateFallsWhenPicturesStop) {
 }
 
 // Regression: the rate was 0 when it was queried more often than pictures were made.
-TEST(Stats, RecentRateOfSlowPicturesIsTrueWheneverItIsAsked) {
+TEST(Stats, RecentRateOfSlowPicturesIsRightAtAnyTime) {
     Stats stats;
     for (int i = 0; i < 4; ++i) {
         const Timestamp shown = Timestamp::fromSeconds(10 + 2.5 * i);
@@ -162,7 +162,7 @@ TEST(Status, ReportsTheStateOfTheCameras) {
     EXPECT_EQ(json["drops"]["sensor"], 5);
 }
 
-TEST(Status, ACameraThatHasFallenSilentHasNoRate) {
+TEST(Status, ASilentCameraHasNoRate) {
     Stats stats;
     CameraState video;
     video.rateHz = 30;
@@ -292,7 +292,7 @@ TEST(Status, LineReportsTheSourceOfTheLastPose) {
     EXPECT_THAT(statusLine(recorded.count(), {}, 1), HasSubstr(", tracked 100% |"));
 }
 
-TEST(Status, SummaryOfAnEmptyRunHasNoHoles) {
+TEST(Status, SummaryOfAnEmptyRunIsComplete) {
     Stats stats;
     const auto json = summary(stats.count(), {}, "error", 70);
     EXPECT_EQ(json.dump().find("null"), std::string::npos) << json.dump();
@@ -323,7 +323,7 @@ TEST(Status, LineReportsThatNoFrameHasArrived) {
     EXPECT_EQ(statusLine(stats.count(), {}, 1), "waiting for the first picture");
 }
 
-TEST(Status, LineHasABarWhereTheEndIsKnown) {
+TEST(Status, LineHasAProgressBarIfTheEndIsKnown) {
     Stats stats;
     showPictures(stats, 20);
     RunDescription run;
@@ -334,7 +334,7 @@ TEST(Status, LineHasABarWhereTheEndIsKnown) {
     EXPECT_THAT(statusLine(stats.count(), run, 1), testing::StartsWith("[####............]  25%"));
 }
 
-TEST(Summary, VirtualLayerIsCountedWhereThereIsOne) {
+TEST(Summary, VirtualLayerIsCountedIfItExists) {
     Stats stats;
     EXPECT_FALSE(summary(stats.count(), {}, "", 0)["virtual"].contains("path_tracer"));
     TracedLayerCounters counters;

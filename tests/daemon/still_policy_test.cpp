@@ -72,7 +72,7 @@ TEST(StillPolicy, CameraAtRestFiresOnceOnly) {
     EXPECT_EQ(board.run(3600, kRest), 1);
 }
 
-TEST(StillPolicy, CameraAtRestFiresOnceEvenWhereTheStillExplainsNothing) {
+TEST(StillPolicy, CameraAtRestFiresOnceEvenIfTheStillExplainsNothing) {
     Simulation board({});
     EXPECT_EQ(board.run(600, frame(0, 0.01)), 1);
 }
@@ -86,7 +86,7 @@ TEST(StillPolicy, StatsOlderThanTheTriggerAreNotMotion) {
 }
 
 // The pipeline draws every tile again for a new still, even if nothing moves.
-TEST(StillPolicy, TheRedrawForANewStillIsNoMotion) {
+TEST(StillPolicy, TheRedrawForANewStillDoesNotCountAsMotion) {
     TriggerConfig config;
     config.maxAgeS = 0.5;
     Simulation board(config);
@@ -166,7 +166,7 @@ TEST(StillPolicy, NeverFiresWhileAStillIsPending) {
     EXPECT_GE(board.firedAt.size(), 9U);
 }
 
-TEST(StillPolicy, KeepsTheShortestInterval) {
+TEST(StillPolicy, KeepsTheMinimumIntervalBetweenStills) {
     TriggerConfig config;
     config.minIntervalS = 0.5;
     Simulation board(config);
@@ -215,7 +215,7 @@ TEST(StillPolicy, ALateStillDoesNotAnswerTheRepetition) {
     EXPECT_FALSE(board.policy.pending());
 }
 
-TEST(StillPolicy, RateHoldsOnTheFrameClock) {
+TEST(StillPolicy, FixedRateFollowsTheTimesOfFrames) {
     TriggerConfig config;
     config.mode = TriggerMode::Rate;
     config.rateHz = 4;
@@ -224,14 +224,14 @@ TEST(StillPolicy, RateHoldsOnTheFrameClock) {
     EXPECT_NEAR(fired, 120, 1);
 }
 
-TEST(StillPolicy, OffNeverFires) {
+TEST(StillPolicy, ModeOffNeverFires) {
     TriggerConfig config;
     config.mode = TriggerMode::Off;
     Simulation board(config);
     EXPECT_EQ(board.run(30, kMovingUnexplained), 0);
 }
 
-TEST(StillPolicy, OffRepeatsAStillThatWasAskedForAndLost) {
+TEST(StillPolicy, ModeOffRepeatsARequestedStillThatWasLost) {
     TriggerConfig config;
     config.mode = TriggerMode::Off;
     Simulation board(config);

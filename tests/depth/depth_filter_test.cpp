@@ -62,7 +62,7 @@ TEST(DepthFilter, OneOutlierIsIgnoredAndAChangeIsFollowed) {
     EXPECT_NEAR(filter.field().rho[middle()], 3, 1e-5);
 }
 
-TEST(DepthFilter, TheNearerSurfaceHidesTheOther) {
+TEST(DepthFilter, TheNearerSurfaceOccludesTheOther) {
     DepthFilter filter = filterOf();
     filter.predict({}, 0);
     InverseDepthField measured = evenField(0.5F, 0.01F);
@@ -79,7 +79,7 @@ TEST(DepthFilter, TheNearerSurfaceHidesTheOther) {
     EXPECT_FALSE(filter.field().isKnown(45UL * 120 + 45)) << "came to light";
 }
 
-TEST(DepthFilter, MovesAndGrowsWithTheCamera) {
+TEST(DepthFilter, DepthMovesAndScalesWithTheCamera) {
     DepthFilter filter = filterOf();
     filter.predict({}, 0);
     filter.fuse(evenField(1, 0.02F), kWhole);
@@ -94,7 +94,7 @@ TEST(DepthFilter, MovesAndGrowsWithTheCamera) {
     EXPECT_FALSE(filter.field().isKnown(middle()));
 }
 
-TEST(DepthFilter, ForgetsOnlyWhenTheCameraMoves) {
+TEST(DepthFilter, DepthIsForgottenOnlyWhenTheCameraMoves) {
     DepthFilter filter = filterOf();
     filter.predict({}, 0);
     filter.fuse(evenField(1, 0.02F), kWhole);

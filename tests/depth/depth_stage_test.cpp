@@ -120,7 +120,7 @@ TEST(DepthStage, AStopAndATurnKeepTheDepth) {
     EXPECT_GT(walk.errors().complete, 0.85);
 }
 
-TEST(DepthStage, MeasuresOnTheWayToTheScene) {
+TEST(DepthStage, DepthIsMeasuredWhileTheCameraMovesForwards) {
     Walk walk;
     for (int i = 0; i < 14; ++i)
         walk.go(motion({0, 0, 0}, {0.002 * i, 0, 0.03 * i}));
@@ -129,7 +129,7 @@ TEST(DepthStage, MeasuresOnTheWayToTheScene) {
     EXPECT_GT(errors.complete, 0.8);
 }
 
-TEST(DepthStage, MeasuresOnlyWhereItIsNeeded) {
+TEST(DepthStage, DepthIsMeasuredOnlyInRequestedTiles) {
     const PixelRect where{70, 50, 150, 120};
     Walk walk({}, where);
     walk.goSideways(10, 0.01);
@@ -146,7 +146,7 @@ TEST(DepthStage, MeasuresOnlyWhereItIsNeeded) {
     }
 }
 
-TEST(DepthStage, ForgetsOnRequest) {
+TEST(DepthStage, DepthIsForgottenOnRequest) {
     Walk walk;
     walk.goSideways(6, 0.012);
     walk.stage().forget(PixelRect{100, 80, 120, 90});

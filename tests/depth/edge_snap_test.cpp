@@ -139,7 +139,7 @@ TEST(EdgeSnap, YuvAndItsRgbGiveTheSameField) {
     }
 }
 
-TEST(EdgeSnap, ASlopeStaysAsItIs) {
+TEST(EdgeSnap, ASlopeStaysUnchanged) {
     InverseDepthField in(kPicture);
     for (std::size_t i = 0; i < in.rho.size(); ++i) {
         in.rho[i] = 1 + 0.004F * static_cast<float>(i % 64);
@@ -162,7 +162,7 @@ TEST(EdgeSnap, UnknownDepthStaysUnknown) {
         EXPECT_FALSE(out.isKnown(i));
 }
 
-TEST(EdgeSnap, OnlyTheRegionIsWorkedOn) {
+TEST(EdgeSnap, OnlyTheRegionIsProcessed) {
     const PixelRect where{20, 10, 44, 30};
     const InverseDepthField out = snapped(field(2, 0), picture(), where);
     for (int y = 0; y < kPicture.height; ++y)

@@ -109,7 +109,7 @@ TEST(CameraV4l2, ABusyDeviceIsReported) {
               "/dev/video0: setting the format: busy: another program uses it");
 }
 
-TEST(CameraV4l2, IsFoundByCardAndBus) {
+TEST(CameraV4l2, DeviceIsFoundByCardAndBus) {
     FakeV4l2 fake;
     CameraV4l2Options options = wanted();
     for (const char* name : {"Fake Camera", "fake:1"}) {
@@ -148,7 +148,7 @@ TEST(CameraV4l2, WithoutANameTheExcludedCameraIsNotChosen) {
     EXPECT_EQ(CameraV4l2(options, fake).info().name, "Fake Camera (/dev/video2)");
 }
 
-TEST(CameraV4l2, ControlsAreSetBeforeItRuns) {
+TEST(CameraV4l2, ControlsAreSetBeforeStreamingStarts) {
     FakeV4l2 fake;
     fake.controls = {{0x980900, "Brightness", V4L2_CTRL_TYPE_INTEGER, 0, 255, 1, 100}};
     CameraV4l2Options options = wanted();

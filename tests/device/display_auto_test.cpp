@@ -123,7 +123,7 @@ TEST_F(AutoDisplay, KernelEventsShowTheScreenAtOnce) {
     EXPECT_EQ(run(std::chrono::milliseconds(100)), 2);
 }
 
-TEST_F(AutoDisplay, PrefersTheFirstAndLeavesTheOther) {
+TEST_F(AutoDisplay, PrefersTheFirstDeviceAndReleasesTheSecond) {
     fbdev_.presence = Presence::Ready;
     run(kSecond);
     kms_.presence = Presence::Ready;
@@ -187,7 +187,7 @@ TEST_F(AutoDisplay, ARepeatedlyLostScreenStaysReported) {
     EXPECT_EQ(display_->fault(), std::nullopt);
 }
 
-TEST_F(AutoDisplay, GivesADeviceBackThatWentAway) {
+TEST_F(AutoDisplay, ReleasesADeviceThatWentAway) {
     kms_.presence = Presence::Ready;
     run(kSecond);
     kms_.presence = Presence::Absent;
@@ -195,7 +195,7 @@ TEST_F(AutoDisplay, GivesADeviceBackThatWentAway) {
     EXPECT_FALSE(kms_.held);
 }
 
-TEST_F(AutoDisplay, TriesTheNextWhenTheFirstPictureIsRefused) {
+TEST_F(AutoDisplay, TriesTheNextDeviceWhenTheFirstPictureIsRefused) {
     kms_.presence = fbdev_.presence = Presence::Ready;
     kms_.refuses = true;
     EXPECT_GE(run(kSecond), 8);
@@ -203,7 +203,7 @@ TEST_F(AutoDisplay, TriesTheNextWhenTheFirstPictureIsRefused) {
     EXPECT_FALSE(kms_.held);
 }
 
-TEST_F(AutoDisplay, TriesTheNextWhenTheSecondFlipNeverCompletes) {
+TEST_F(AutoDisplay, TriesTheNextDeviceWhenTheSecondFlipNeverCompletes) {
     kms_.presence = fbdev_.presence = Presence::Ready;
     kms_.refusesAfter = 2;  // a missing flip is noticed at the third picture
     EXPECT_GE(run(kSecond), 8);
@@ -211,7 +211,7 @@ TEST_F(AutoDisplay, TriesTheNextWhenTheSecondFlipNeverCompletes) {
     EXPECT_EQ(kms_.shown, 2);
 }
 
-TEST_F(AutoDisplay, TriesTheFirstAgainWhenThereIsNoNext) {
+TEST_F(AutoDisplay, TriesTheFirstDeviceAgainWhenThereIsNoNext) {
     kms_.presence = Presence::Ready;
     kms_.refuses = true;
     EXPECT_EQ(run(kSecond), 0);
@@ -243,7 +243,7 @@ TEST_F(AutoDisplay, OpensNothingWhenTheDevicesDoNotExist) {
     }
 }
 
-TEST_F(AutoDisplay, OnlyMalformedWordsAreErrors) {
+TEST_F(AutoDisplay, OnlyMalformedScreenNamesAreErrors) {
     EXPECT_THROW((void)openScreen("kms:card0,17"), std::runtime_error);
     EXPECT_THAT(screenFault("kms:card0,17").value_or(""), HasSubstr("\"17\""));
 }

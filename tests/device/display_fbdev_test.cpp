@@ -37,7 +37,7 @@ FbGeometry geometry(const std::function<void(Info&)>& change = [](Info&) {}) {
     return checkedGeometry(i.var, i.fix);
 }
 
-TEST(FbGeometry, TakesWhatTheDriverStates) {
+TEST(FbGeometry, UsesTheGeometryThatTheDriverReports) {
     const FbGeometry g = geometry();
     EXPECT_EQ(g.size, (Size{800, 480}));
     EXPECT_EQ(g.layout, (PixelLayout{16, {11, 5}, {5, 6}, {0, 5}, {0, 0}}));
@@ -57,14 +57,14 @@ TEST(FbGeometry, VisiblePartMayLieAnywhereInTheMemory) {
     EXPECT_EQ(g.page0, 200U);
 }
 
-TEST(FbGeometry, PansOnlyWhereTheDriverAndTheMemoryAllow) {
+TEST(FbGeometry, PansOnlyIfDriverAndMemoryAllowIt) {
     EXPECT_EQ(geometry([](Info& i) { i.fix.ypanstep = 0; }).pages, 1);
     EXPECT_EQ(geometry([](Info& i) { i.fix.ypanstep = 7; }).pages, 1);
     EXPECT_EQ(geometry([](Info& i) { i.var.yres_virtual = 959; }).pages, 1);
     EXPECT_EQ(geometry([](Info& i) { i.fix.smem_len -= 1; }).pages, 1);
 }
 
-TEST(FbGeometry, NumbersThatLeaveTheMemoryAreRefused) {
+TEST(FbGeometry, GeometryBeyondTheMemoryIsRefused) {
     const std::vector<std::function<void(Info&)>> lies{
         [](Info& i) { i.var.xres = 0; },
         [](Info& i) { i.var.yres = 0; },

@@ -46,7 +46,7 @@ double worstError(HostScaler& scaler, const Pixels& picture, Size screen) {
     return worst;
 }
 
-TEST(HostScaler, EqualSizeIsThePictureItself) {
+TEST(HostScaler, EqualSizeCopiesThePicture) {
     const Pixels picture = noisy({321, 97});
     HostScaler scaler({321, 97});
     EXPECT_EQ(scaler.scaled(picture.rows()).data, picture.rows().data);
@@ -71,7 +71,7 @@ TEST(HostScaler, EveryPixelIsTheMeanOfItsFootprint) {
     }
 }
 
-TEST(HostScaler, EveryLevelOfAPlainPictureStaysAsItIs) {
+TEST(HostScaler, UniformPicturesKeepEveryGreyLevel) {
     const Size from{50, 37}, screen{24, 18};
     HostScaler smaller(screen), larger({200, 148});
     for (std::uint32_t level = 0; level < 256; ++level) {

@@ -106,7 +106,7 @@ TEST_F(KmsScreenTest, ARefusedFlipNamesTheScreenAndTheReason) {
               card() + ", HDMI-A-1: the picture is refused: Device or resource busy");
 }
 
-TEST_F(KmsScreenTest, FollowsTheMonitor) {
+TEST_F(KmsScreenTest, FollowsConnectionAndModeOfTheMonitor) {
     driver_.connected = false;
     ASSERT_EQ(screen_.look(true), Presence::Waiting);
     EXPECT_NE(screen_.status().find("no screen connected (HDMI-A-1 disconnected)"),
@@ -141,7 +141,7 @@ TEST_F(KmsScreenTest, ThePictureStaysWhileTheContextIsRecreated) {
 }
 
 // One descriptor never becomes readable; the other end of the second descriptor is closed.
-TEST(WaitForFlip, EndsInTimeAndWithTheDevice) {
+TEST(WaitForFlip, EndsAtTheTimeLimitOrWhenTheDeviceIsGone) {
     std::array<int, 2> ends{};
     ASSERT_EQ(pipe(ends.data()), 0);
     bool pending = true;

@@ -94,7 +94,7 @@ TEST_F(DisplayScaler, EveryPixelIsTheMeanOfItsFootprint) {
     }
 }
 
-TEST_F(DisplayScaler, BesideThePictureIsBlack) {
+TEST_F(DisplayScaler, ScreenBesideThePictureIsBlack) {
     const Size screen{128, 72};
     const auto white = [](int, int) { return Colour{255, 255, 255}; };
     const Size from{230, 172};
@@ -239,7 +239,7 @@ TEST_F(DisplayScaler, ReaderTakesBothKindsOfPictures) {
     EXPECT_EQ(reader.last().pixels, fromTexture.pixels);
 }
 
-TEST_F(DisplayScaler, LastReturnsTheShownPicture) {
+TEST_F(DisplayScaler, LastShownReturnsTheShownPicture) {
     const gpu::Texture from = picture({230, 172}, noise);
     ScreenScaler scaler;
     ScreenReader reader({128, 72}, scaler);

@@ -5,7 +5,7 @@
 namespace mfar {
 namespace {
 
-TEST(FieldOfView, WholeSensorIsWhole) {
+TEST(FieldOfView, UncroppedModeShowsTheWholeField) {
     EXPECT_TRUE(showsWholeField({4056, 3040}, {4056, 3040}, {640, 480}));
     EXPECT_TRUE(showsWholeField({4032, 3024}, {4056, 3040}, {640, 480})) << "aligned mode";
 }

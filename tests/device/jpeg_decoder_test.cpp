@@ -80,7 +80,7 @@ void expectRamp(const ImageView& view) {
         }
 }
 
-TEST(JpegDecoder, PlanesOfBothSubsamplingsOfCameras) {
+TEST(JpegDecoder, BothSubsamplingsThatCamerasUseAreDecoded) {
     JpegDecoder decoder(kJpegSize, 2);
     for (const int subsampling : {TJSAMP_420, TJSAMP_422}) {
         const auto frame = decoder.decode(encoded(subsampling), {5});
@@ -90,7 +90,7 @@ TEST(JpegDecoder, PlanesOfBothSubsamplingsOfCameras) {
     }
 }
 
-TEST(JpegDecoder, MissingHuffmanTablesAreTheStandardOnes) {
+TEST(JpegDecoder, MissingHuffmanTablesDefaultToTheStandardOnes) {
     const Bytes whole = encoded(TJSAMP_422), bare = withoutHuffmanTables(whole);
     ASSERT_LT(bare.size() + 300, whole.size());
     JpegDecoder decoder(kJpegSize, 1);

@@ -50,7 +50,7 @@ TEST(MappedPicture, PlanesMayBeFilesOfTheirOwn) {
     EXPECT_EQ(picture.view().chroma[1].data[0], 3);
 }
 
-TEST(MappedPicture, OutlivesTheBufferAndReadsAroundSynchronisation) {
+TEST(MappedPicture, OutlivesTheBufferAndSynchronisesItsReads) {
     std::unique_ptr<MappedPicture> picture;
     {
         const FrameBuffer buffer(Planes{plane(memory(7), 0, 4096)});

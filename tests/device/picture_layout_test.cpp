@@ -53,7 +53,7 @@ TEST_F(PictureLayoutTest, ColoursAndPackedFormatsPassThrough) {
     EXPECT_EQ(view.chroma[0].data, nullptr);
 }
 
-TEST_F(PictureLayoutTest, EveryByteThatIsReadMustBeThere) {
+TEST_F(PictureLayoutTest, TooSmallMemoryIsRefused) {
     struct Case {
         PixelFormat format;
         std::size_t stride;

@@ -188,7 +188,7 @@ TEST(PulseTrigger, LoopbackMeasuresStartAndLength) {
     }
 }
 
-TEST(PulseTrigger, MissedEdgesAreCountedAndNotConfused) {
+TEST(PulseTrigger, MissedEdgesAreCountedAndNotConfusedWithOthers) {
     for (const int lost : {1, 2}) {
         for (const microseconds pulse : {microseconds{50}, microseconds{3000}}) {
             const auto wire = std::make_shared<Wire>();

@@ -98,7 +98,7 @@ bool takes(FakeDriver& camera, std::int64_t number) {
     return true;
 }
 
-TEST(RequestCycle, RequestsCirculate) {
+TEST(RequestCycle, CompletedRequestsAreQueuedAgain) {
     FakeDriver camera;
     camera.cycle.start();
     for (int i = 1; i <= 3 * static_cast<int>(kRequests); ++i)
@@ -179,7 +179,7 @@ TEST(RequestCycle, RequestsReturnedAfterTheEndDoNotCountAsAnotherEnd) {
     EXPECT_TRUE(takes(camera, 2));
 }
 
-TEST(RequestCycle, NextDoesNotBlockDuringBackOff) {
+TEST(RequestCycle, NextDoesNotBlockDuringThePauseBeforeARestart) {
     constexpr RestartLimits kLimits{
         .early = milliseconds(60'000), .firstPause = milliseconds(60'000), .most = 5};
     FakeDriver camera(kLimits);
@@ -196,7 +196,7 @@ TEST(RequestCycle, NextDoesNotBlockDuringBackOff) {
 }
 
 // One driver thread serves all cameras; so a hanging restart must not hold it.
-TEST(RequestCycle, RestartThatHangsCostsTheOtherCameraNothing) {
+TEST(RequestCycle, AHangingRestartDoesNotDelayTheOtherCamera) {
     FakeDriver ill(kPatient), sound(kPatient);
     ill.cycle.start();
     sound.cycle.start();

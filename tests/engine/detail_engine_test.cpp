@@ -117,7 +117,7 @@ double channel(Rows<const std::uint32_t> picture, int x, int y, int c) {
     return static_cast<double>(picture[y][x] >> (8 * c) & 255U);
 }
 
-TEST_P(DetailEngineTest, WholeFrameIsTheOraclesAtAnySize) {
+TEST_P(DetailEngineTest, WholeFrameMatchesTheOracleAtAnySize) {
     const bool shaders = GetParam().detail == EngineKind::Gles;
     for (const auto& [video, stillSize, output] : simd::kSizes) {
         const DetailCase frame = withRoom(DetailCase(video, stillSize));
@@ -154,7 +154,7 @@ void expectPicture(Rows<const std::uint32_t> drawn, F&& of, double most) {
 // Luma has units of 1/8 grey level, limits of a quarter of that.
 constexpr double kLearnedError = 1.3;
 
-TEST_P(DetailEngineTest, LearnedFramesAreTheOraclesWithAndWithoutAStill) {
+TEST_P(DetailEngineTest, LearnedFramesMatchTheOracleWithAndWithoutAStill) {
     const bool shaders = GetParam().detail == EngineKind::Gles;
     const simd::DetailOptions options{SuperResMode::Detail, true, false, false, &simd::evenBank()};
     for (const auto& [video, stillSize, output] : simd::kSizes) {
@@ -175,7 +175,7 @@ TEST_P(DetailEngineTest, LearnedFramesAreTheOraclesWithAndWithoutAStill) {
     }
 }
 
-TEST_P(DetailEngineTest, GuidedFramesAreTheOracles) {
+TEST_P(DetailEngineTest, GuidedFramesMatchTheOracle) {
     const bool shaders = GetParam().detail == EngineKind::Gles;
     const simd::DetailOptions options{SuperResMode::Detail, true, false, false,
                                       &simd::guidedBank()};
@@ -212,7 +212,7 @@ TEST_P(DetailEngineTest, TilesWithoutStructureAreNotEnlargedByFilters) {
         kLearnedError);
 }
 
-TEST_P(DetailEngineTest, ChangingOrRemovingFiltersActsInTheNextFrame) {
+TEST_P(DetailEngineTest, ChangedOrRemovedFiltersTakeEffectInTheNextFrame) {
     const Size video{53, 37}, output{191, 133};
     const DetailCase frame = withRoom(DetailCase(video, {200, 140}));
     const std::array<const FilterBank*, 6> banks{&simd::evenBank(),    &simd::guidedBank(),
@@ -262,7 +262,7 @@ void expectOnlyChangedTiles(const StepEngines& engines, const simd::Sizes& sizes
     EXPECT_TRUE(most > 5 || output == video) << "what the still shows moves: " << most;
 }
 
-TEST_P(DetailEngineTest, OnlyChangedTilesAreDrawnAndLookAsInAWholeFrame) {
+TEST_P(DetailEngineTest, OnlyChangedTilesAreDrawnAndMatchAWholeFrame) {
     for (const simd::Sizes& sizes : simd::kSizes)
         expectOnlyChangedTiles(GetParam(), sizes, nullptr);
 }
@@ -350,11 +350,11 @@ void expectTheSamePicture(const FilterBank* filters, double most, double rms) {
     }
 }
 
-TEST_F(DetailEngines, DrawTheSamePicture) {
+TEST_F(DetailEngines, BothEnginesDrawTheSamePicture) {
     expectTheSamePicture(nullptr, 4, 0.85);
 }
 
-TEST_F(DetailEngines, EnlargeByTheSameFilters) {
+TEST_F(DetailEngines, BothEnginesEnlargeByTheSameFilters) {
     expectTheSamePicture(&FilterBank::prior(), 4, 0.6);
 }
 
@@ -362,7 +362,7 @@ TEST_F(DetailEngines, BothEnginesApplyTheSameGuidance) {
     expectTheSamePicture(&simd::guidedBank(), 4, 0.6);
 }
 
-TEST_F(DetailEngines, ShowTheSameOfASecondStill) {
+TEST_F(DetailEngines, BothEnginesShowASecondStillEqually) {
     const Size output{576, 432};
     const DetailCase whole = withRoom(DetailCase({160, 120}, {400, 300}));
     for (const double share : {1.0, 0.4}) {

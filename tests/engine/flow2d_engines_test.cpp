@@ -102,7 +102,7 @@ void expectAlike(const Difference& d, double leastClose) {
     EXPECT_LT(d.cost, 0.003);
 }
 
-TEST_F(Flow2dEngines, BothWaysAgree) {
+TEST_F(Flow2dEngines, BothEnginesFindTheSameFlow) {
     for (const Size size : {Size{320, 240}, Size{213, 119}}) {
         const Waves waves(1, 8, 120, 35);
         Engines e(waves.shoot(size, {}), waves.shoot(size, {.shift = {-4.3, 2.7}, .gain = 0.8}));
@@ -115,7 +115,7 @@ TEST_F(Flow2dEngines, BothWaysAgree) {
     }
 }
 
-TEST_F(Flow2dEngines, BothWaysAgreeOnAPhotograph) {
+TEST_F(Flow2dEngines, BothEnginesFindTheSameFlowOnAPhotograph) {
     const std::filesystem::path folder = std::filesystem::path(MFAR_SHARED_DATA) / "rubberwhale";
     if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is absent";
     const auto load = [&](const char* name) {

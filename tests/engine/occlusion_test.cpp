@@ -76,7 +76,7 @@ TEST_P(OcclusionTest, EarlyExitsGiveTheWeightedResult) {
     EXPECT_GT(std::ranges::count(got.visibility, 255), 4000);
 }
 
-TEST_P(OcclusionTest, UnknownDepthNeverHides) {
+TEST_P(OcclusionTest, UnknownDepthNeverOccludes) {
     for (const double bad : {0.0, -0.0, -1.0, -1e30, 1e-42, kNan, kInfinite, -kInfinite})
         EXPECT_EQ(run(plainScene({bad, 0.01}), {}).visibleEverywhere(), 1)
             << "inverse depth " << bad;
@@ -110,7 +110,7 @@ TEST_P(OcclusionTest, LayerWithoutDepthIsNotDrawn) {
         EXPECT_EQ(run(scene, layerAt(bad)).shown, scene.picture.bytes) << bad;
 }
 
-TEST_P(OcclusionTest, VirtualThingWinsWhereBothAreEqual) {
+TEST_P(OcclusionTest, VirtualObjectIsVisibleAtEqualDepth) {
     constexpr double kSigma = 0.01;
     const CompositeOptions o{.bias = 2, .softness = 2, .virtualSigma = 0};
     for (const auto& [sigmas, visible] :
@@ -120,7 +120,7 @@ TEST_P(OcclusionTest, VirtualThingWinsWhereBothAreEqual) {
             << sigmas;
 }
 
-TEST_P(OcclusionTest, BlendIsOverByVisibility) {
+TEST_P(OcclusionTest, LayerIsBlendedByItsVisibility) {
     const twin::Scene scene = plainScene({0.53, 0.01});
     constexpr std::array<std::uint8_t, 4> kColour{120, 60, 0, 128};
     LaidLayer layer;
@@ -156,7 +156,7 @@ TEST_P(OcclusionTest, OpaqueLayersReplaceThePicture) {
     }
 }
 
-TEST_P(OcclusionTest, BoundsAreClippedAtTheBorders) {
+TEST_P(OcclusionTest, BoundsAreClippedAtThePicturesBorders) {
     const twin::Scene scene = plainScene({0.1, 0.01});
     for (const PixelRect& b : {PixelRect{-50, -9, 1000, 999}, PixelRect{180, 120, 500, 140}}) {
         LaidLayer layer;
@@ -284,7 +284,7 @@ TEST_P(ScaledLayer, ColoursAreLinearBetweenItsPixels) {
         ASSERT_NEAR(got.at(50, y, 1), 4 * ((y + 0.5) / 2 - 0.5), most) << y;
 }
 
-TEST_P(ScaledLayer, EdgeTakesDepthOfThePixelThatHasOne) {
+TEST_P(ScaledLayer, EdgesTakeTheDepthOfTheCoveredPixel) {
     constexpr Size kQuarter{40, 30};
     for (const double nothing : {0.0, kNan, -1.0}) {
         LaidLayer layer{kQuarter};

@@ -59,7 +59,7 @@ double worstOf(const twin::Grey& got, const twin::Grey& wanted) {
     return out;
 }
 
-TEST_P(StepsTest, PyramidOfTheVideoIsSmoothedAndHalved) {
+TEST_P(StepsTest, VideoPyramidIsSmoothedAndHalved) {
     for (const Size size : {Size{64, 48}, Size{101, 59}, Size{213, 119}})
         for (const PixelFormat format : {PixelFormat::Rgba8, PixelFormat::Gray8}) {
             const TestPicture picture = randomPicture(size, 1, format);
@@ -78,7 +78,7 @@ TEST_P(StepsTest, PyramidOfTheVideoIsSmoothedAndHalved) {
         }
 }
 
-TEST_P(StepsTest, PyramidOfTheStillIsSeenThroughTheRig) {
+TEST_P(StepsTest, StillPyramidIsResampledToTheVideosGeometry) {
     for (const StereoRig& rig : {plainRig({96, 72}, {345, 259}), plainRig({96, 72}, {96, 72}),
                                  bentRig({97, 71}, {350, 256})}) {
         const TestPicture still = Waves(3, 12, 200, 40).shoot(rig.still.size, {});
@@ -93,7 +93,7 @@ TEST_P(StepsTest, PyramidOfTheStillIsSeenThroughTheRig) {
     }
 }
 
-TEST_P(StepsTest, PyramidsKeepTheRange) {
+TEST_P(StepsTest, PyramidsKeepBlackAndWhite) {
     const Size size{70, 60};
     for (const std::uint8_t fill : {0, 255}) {
         const TestPicture flat(size, PixelFormat::Rgba8, fill);
@@ -119,7 +119,7 @@ twin::Grey raisedOf(const StillPictures& still) {
     return twin::greyOf(pairs.size, [&](int x, int y) { return double(pairs[y][x] & 255); });
 }
 
-TEST_P(StepsTest, FinestDetailOfTheStillIsRaisedUnlessItIsReduced) {
+TEST_P(StepsTest, FinestDetailOfTheStillIsAmplifiedUnlessTheStillIsReduced) {
     const StereoRig rig = plainRig({50, 35}, {200, 140});
     for (const auto& [output, share] : {std::pair{Size{200, 140}, 0.08}, {Size{100, 70}, 0.0}})
         for (const PixelFormat format : {PixelFormat::Rgba8, PixelFormat::Gray8}) {

@@ -39,7 +39,7 @@ std::uint32_t twin(const LumaImage& picture, int x, int y) {
     return bits;
 }
 
-TEST(Census, MatchesTheScalarTwinOnEverySize) {
+TEST(Census, MatchesTheOracleAtEverySize) {
     for (const Size size :
          {Size{1, 1}, Size{1, 9}, Size{9, 1}, Size{2, 2}, Size{3, 4}, Size{16, 16}, Size{33, 21}}) {
         const LumaImage picture = randomPicture(size, 0, 255, 3);
@@ -60,7 +60,7 @@ TEST(Census, OneDarkNeighbourSetsItsOwnBit) {
     EXPECT_EQ(censusOf(picture)[9 * 4 + 4], 1U << 23 | 1U << 11 | 1U);
 }
 
-TEST(Census, FitsItsBitsAndNeverMeansNoCensus) {
+TEST(Census, CensusUsesAllItsBitsAndNeverTheNoCensusMark) {
     const LumaImage picture = randomPicture({40, 30}, 0, 255, 5);
     std::uint32_t all = 0;
     for (const std::uint32_t bits : censusOf(picture))

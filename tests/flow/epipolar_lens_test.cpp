@@ -95,7 +95,7 @@ TEST(EpipolarLens, ProjectsAsTheCameraDoesWithinThePicture) {
     }
 }
 
-TEST(EpipolarLens, PixelsComeBackFromTheirRays) {
+TEST(EpipolarLens, RaysProjectBackToTheirPixels) {
     for (const CameraModel& camera :
          {test::oddPlain(), test::oddBarrel(), pincushion(), fisheye()}) {
         const EpipolarLens lens(camera, 1);
@@ -111,7 +111,7 @@ TEST(EpipolarLens, PixelsComeBackFromTheirRays) {
 }
 
 // Along a ray away from the axis, projected points move outwards or stay; they never move back.
-TEST(EpipolarLens, NeverFoldsBack) {
+TEST(EpipolarLens, ProjectionNeverFoldsBack) {
     for (const CameraModel& camera :
          {test::oddPlain(), test::oddBarrel(), pincushion(), fisheye()}) {
         const EpipolarLens lens(camera, 0);

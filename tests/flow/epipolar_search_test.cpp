@@ -62,7 +62,7 @@ void expectErrors(const View& view, double median, double bad) {
     testing::Test::RecordProperty("bad", std::to_string(errors.bad));
 }
 
-TEST(EpipolarSearch, FindsAWallSideways) {
+TEST(EpipolarSearch, FindsAWallAfterASidewaysMotion) {
     for (const double t : {-0.25, -0.02, 0.05, 0.2})
         expectErrors({plain(), flatScene(), motion({0, 0, 0}, {t, 0, 0})}, kAlongAxis, 0.02);
     expectErrors({plain(), flatScene(), motion({0, 0, 0}, {0, 0.15, 0})}, kAlongAxis, 0.02);
@@ -70,7 +70,7 @@ TEST(EpipolarSearch, FindsAWallSideways) {
 
 // Two consecutive labels have the same nearest pixel, and the two pixels next to the match differ
 // from it equally: the true place is between them.
-TEST(EpipolarSearch, FindsAWallHalfAPixelAlongADiagonal) {
+TEST(EpipolarSearch, FindsAWallAtHalfPixelsAlongADiagonal) {
     const CameraModel camera = plain();
     for (const double pixels : {5.4, 5.5, 5.6, -8.5}) {
         const double t = 2 * pixels / camera.fx;
@@ -85,7 +85,7 @@ TEST(EpipolarSearch, FindsASlantedWall) {
     expectErrors({plain(), slantedScene(), motion({0, 0, 0}, {0.1, -0.1, 0.02})}, kAcross, 0.02);
 }
 
-TEST(EpipolarSearch, FindsAStep) {
+TEST(EpipolarSearch, FindsADepthStep) {
     expectErrors({plain(), stepScene(), motion({0, 0, 0}, {-0.2, 0, 0})}, kAlongAxis, 0.04);
     expectErrors({plain(), stepScene(), motion({0, 0, 0}, {0.1, 0.15, 0})}, kAcross, 0.04);
 }
@@ -101,14 +101,14 @@ TEST(EpipolarSearch, FindsDepthAsWellAsFlow) {
 }
 
 // The epipole is within the picture: displacements are longest at the border.
-TEST(EpipolarSearch, FindsScenesAhead) {
+TEST(EpipolarSearch, FindsScenesAfterAForwardMotion) {
     for (const double t : {-0.4, 0.4}) {
         expectErrors({plain(), stepScene(), motion({0, 0, 0}, {0, 0, t})}, 0.15, 0.04);
         expectErrors({plain(), slantedScene(), motion({0, 0, 0}, {0.03, 0.02, t})}, 0.15, 0.03);
     }
 }
 
-TEST(EpipolarSearch, FindsScenesAfterATurnThroughALens) {
+TEST(EpipolarSearch, FindsScenesAfterARotationThroughALens) {
     expectErrors({barrel(), slantedScene(), motion({4, -6, 8}, {-0.15, 0.1, 0.05})}, 0.2, 0.03);
     expectErrors({barrel(), stepScene(), motion({-3, 9, -25}, {0.2, 0.05, -0.2})}, 0.2, 0.06);
     expectErrors({barrel(), flatScene(), motion({0, 0, 90}, {0.1, 0.1, 0})}, 0.2, 0.03);
@@ -116,13 +116,13 @@ TEST(EpipolarSearch, FindsScenesAfterATurnThroughALens) {
 }
 
 // Three levels, and a displacement longer than the window of the coarsest level.
-TEST(EpipolarSearch, FindsLongWaysThroughThreeLevels) {
+TEST(EpipolarSearch, FindsLongDisparitiesThroughThreeLevels) {
     const CameraModel camera{{320, 240}, 300, 300, 159.5, 119.5, {}};
     const Scene scene{{{{0, 0, 1}, 3}, {{0, 0, 1}, 1.5, {-0.3, -0.3}, {0.3, 0.3}}}, 35, 100};
     expectErrors({camera, scene, motion({0, 0, 0}, {-0.5, 0, 0})}, 0.15, 0.05);
 }
 
-TEST(EpipolarSearch, FarAwayIsInfinity) {
+TEST(EpipolarSearch, DistantScenesAreAtInfinity) {
     const View view{plain(), {{{{0, 0, 1}, 1e5}}, 6e-4, 100}, motion({0, 3, 0}, {0.2, 0, 0})};
     const EpipolarSearch search = searched(view);
     const FlowErrors errors = errorsOf(search, view);
@@ -143,7 +143,7 @@ TEST(EpipolarSearch, PureRotationNeedsNoSearch) {
 }
 
 // One unit of s moves no pixel by more than this, and some by nearly as much.
-TEST(EpipolarSearch, PixelsPerUnitIsTheLongestWay) {
+TEST(EpipolarSearch, PixelsPerUnitIsTheLongestMotionOfAPixel) {
     for (const Eigen::Vector3d& t :
          {Eigen::Vector3d(0.2, 0, 0), Eigen::Vector3d(0.1, -0.1, 0.3), Eigen::Vector3d(0, 0, -1)}) {
         const EpipolarSearch search = searched({plain(), flatScene(), motion({0, 0, 0}, t)});
@@ -188,7 +188,7 @@ LumaImage developed(LumaImage picture, const std::function<double(double)>& curv
 
 // A search around predicted s, as from a previous frame, is as good as one through the coarser
 // levels.
-TEST(EpipolarSearch, PredictionIsAsGoodAsCoarseToFine) {
+TEST(EpipolarSearch, SearchFromAPredictionIsAsGoodAsCoarseToFine) {
     const View view{plain(), stepScene(), motion({0, 2, 0}, {-0.2, 0.03, 0})};
     const EpipolarSearch whole = searched(view);
     const EpipolarLens cells(view.camera, 2);
@@ -232,7 +232,7 @@ double alikeIn(const PixelRect& area, const EpipolarSearch& part, const Epipolar
     return static_cast<double>(alike) / all;
 }
 
-TEST(EpipolarSearch, APartGivesTheSameResultAsTheWhole) {
+TEST(EpipolarSearch, SearchingAPartGivesTheSameResultAsTheWhole) {
     const View view{barrel(), stepScene(), motion({1, -2, 3}, {-0.15, 0.1, 0.03})};
     const EpipolarSearch whole = searched(view);
     EpipolarSearch search = test::searchWith(view.camera, 2);

@@ -59,7 +59,7 @@ test::FlowErrors errorsWith(const EpipolarOptions& options) {
     return test::errorsOf(search, view);
 }
 
-TEST(EpipolarOptions, EverySettingFindsAWallInItsReach) {
+TEST(EpipolarOptions, EverySettingFindsAWallWithinItsReach) {
     for (const int levels : {1, 2, 3, 4})
         EXPECT_LT(errorsWith({.levels = levels}).bad, 0.02) << levels;
     for (const int radius : {0, 8})

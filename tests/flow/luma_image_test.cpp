@@ -163,7 +163,7 @@ TEST(Smooth, IsTheSeparableMaskWithTheBorderRepeated) {
     }
 }
 
-TEST(Smooth, NothingAtTheSidesIsACopyAndEvenStaysEven) {
+TEST(Smooth, ZeroSideWeightsCopyAndUniformPicturesStayUniform) {
     const LumaImage in = randomPicture({21, 17}, 14);
     LumaImage out;
     smooth(in, 0, out);
@@ -187,7 +187,7 @@ TEST(NoiseOf, FindsWhiteNoiseOnSlopesAndEdges) {
     }
 }
 
-TEST(NoiseOf, IsNearNothingWithoutNoise) {
+TEST(NoiseOf, IsNearZeroWithoutNoise) {
     EXPECT_LT(noiseOf(pictureOf({200, 150}, greyScene)),
               0.45);  // rounding to grey levels alone yields 0.29
     EXPECT_EQ(noiseOf(pictureOf({64, 64}, [](int, int) { return 255; })), 0);
@@ -196,7 +196,7 @@ TEST(NoiseOf, IsNearNothingWithoutNoise) {
     EXPECT_EQ(noiseOf(pictureOf({64, 64}, [](int, int y) { return y == 29 ? 20 : 220; })), 0);
 }
 
-TEST(NoiseOf, PicturesWithoutABlockHaveNone) {
+TEST(NoiseOf, PicturesSmallerThanABlockHaveNoNoise) {
     EXPECT_EQ(noiseOf(randomPicture({1, 1}, 1)), 0);
     EXPECT_EQ(noiseOf(randomPicture({9, 200}, 1)), 0);
     EXPECT_GT(noiseOf(randomPicture({10, 10}, 1)), 0);

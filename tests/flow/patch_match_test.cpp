@@ -34,7 +34,7 @@ std::optional<Eigen::Vector2d> placed(const PatchMatcher& matcher, PatchPlace pl
     return found ? matcher.polish(place, *found) : std::nullopt;
 }
 
-TEST(TexturedPlaces, LieWhereTheTextureIs) {
+TEST(TexturedPlaces, PlacesLieWhereTheTextureIs) {
     const LumaImage picture =
         drawn({160, 120}, [](double x, double y) { return x < 80 ? waves(x, y) : 90; });
     const auto places = texturedPlaces(picture, 0);
@@ -58,7 +58,7 @@ TEST(TexturedPlaces, NeitherNoiseNorEdgesAreTexture) {
     EXPECT_TRUE(texturedPlaces(edges, 0).empty());
 }
 
-TEST(TexturedPlaces, TinyPicturesHaveNoneOrSomeInside) {
+TEST(TexturedPlaces, TinyPicturesHaveOnlyPlacesInside) {
     for (int w = 1; w <= 24; ++w)
         for (int h = 1; h <= 24; ++h)
             for (const PatchPlace& p : texturedPlaces(drawn({w, h}, waves), 0)) {

@@ -103,7 +103,7 @@ std::vector<View> views() {
 }
 
 // At this focal length 2 px are half a degree.
-TEST(PoseRefinement, BringsEpipolarLinesBackToAQuarterPixel) {
+TEST(PoseRefinement, CorrectsEpipolarLinesToAQuarterPixel) {
     for (const View& view : views()) {
         const Shots shots(view);
         for (const Eigen::Vector3d& off :
@@ -120,7 +120,7 @@ TEST(PoseRefinement, BringsEpipolarLinesBackToAQuarterPixel) {
     }
 }
 
-TEST(PoseRefinement, LeavesAGoodPoseAsItIs) {
+TEST(PoseRefinement, KeepsAGoodPose) {
     for (const View& view : views()) {
         const EpipolarSearch search = searched(view, {}, kUsual);
         EXPECT_FALSE(search.refinement().accepted);
@@ -133,7 +133,7 @@ TEST(PoseRefinement, LeavesAGoodPoseAsItIs) {
     }
 }
 
-TEST(PoseRefinement, AnUncertainPoseIsSoughtFartherAway) {
+TEST(PoseRefinement, AnUncertainPoseIsSearchedFartherAway) {
     const View view{pagePlain(), panelScene(), motion({3, -4, 5}, {0, 0, 0})};
     const RigidTransform error = motion({1.5, -1, 0.3}, {0, 0, 0});
     EXPECT_LT(missOf(searched(view, error, covarianceOf(1, 0)).pose(), view), 0.1);

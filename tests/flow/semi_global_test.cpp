@@ -129,19 +129,19 @@ void expectTwin(const Problem& p) {
 }
 
 // Paths are along the axes: for those addPath()'s order, row by row, is right.
-TEST(SemiGlobal, MatchesTheScalarTwinInOneWindow) {
+TEST(SemiGlobal, MatchesTheOracleInOneWindow) {
     for (unsigned seed = 1; seed <= 4; ++seed)
         for (const Size size : {Size{1, 1}, Size{1, 9}, Size{11, 1}, Size{2, 3}, Size{37, 29}})
             expectTwin(randomProblem(size, 1, 0, seed));
 }
 
-TEST(SemiGlobal, MatchesTheScalarTwinWithWindowsOfEveryShift) {
+TEST(SemiGlobal, MatchesTheOracleWithWindowsOfEveryShift) {
     for (const int reach : {1, 5, 8, 16, 40, 300})
         for (unsigned seed = 1; seed <= 3; ++seed)
             expectTwin(randomProblem({41, 23}, 1, reach, seed));
 }
 
-TEST(SemiGlobal, MatchesTheScalarTwinWithSeveralVectors) {
+TEST(SemiGlobal, MatchesTheOracleWithSeveralVectors) {
     for (const int vectors : {2, 3, 5})
         for (const int reach : {0, 7, 17, 40})
             expectTwin(randomProblem({33, 19}, vectors, reach, 10 + vectors));

@@ -110,7 +110,7 @@ int leftOff(const CameraModel& camera, const Eigen::Matrix3d& rotation, const Ca
     return count;
 }
 
-TEST(TurnedPicture, NoTurnIsTheSamePicture) {
+TEST(TurnedPicture, WithoutRotationThePictureIsUnchanged) {
     const CameraModel camera = test::oddPlain();
     const Canvas canvas = turned(camera, Eigen::Matrix3d::Identity());
     const LumaImage picture = smoothPicture(camera.size);
@@ -177,7 +177,7 @@ TEST(TurnedPicture, OriginIsAlignedAndTheCanvasStaysWithinReach) {
     }
 }
 
-TEST(TurnedPicture, NothingIsSeenBackwards) {
+TEST(TurnedPicture, PointsBehindTheCameraAreUnseen) {
     for (const CameraModel& camera : {test::oddPlain(), test::oddBarrel(), folding()}) {
         for (const Eigen::Matrix3d& rotation :
              {turn(0, 180, 0), turn(180, 0, 0), turn(0, 150, 0), turn(0, -145, 40)}) {
@@ -187,7 +187,7 @@ TEST(TurnedPicture, NothingIsSeenBackwards) {
     }
 }
 
-TEST(TurnedPicture, MayBePlacedAgain) {
+TEST(TurnedPicture, CanBeReusedForAnotherRotation) {
     const CameraModel camera = test::oddBarrel();
     Canvas canvas = turned(camera, turn(0, 20, 30));
     Workers workers(3);

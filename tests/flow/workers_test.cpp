@@ -26,7 +26,7 @@ Parts partsOf(Workers& workers, int end, int grain) {
     return parts;
 }
 
-TEST(Workers, CoverEveryIndexOnce) {
+TEST(Workers, EveryIndexIsProcessedOnce) {
     for (int threads = 1; threads <= 4; ++threads) {
         Workers workers(threads);
         EXPECT_EQ(workers.count(), threads);
@@ -63,7 +63,7 @@ TEST(Workers, PartsAreConsecutiveAndNoShorterThanTheGrain) {
     }
 }
 
-TEST(Workers, NothingToDoCallsNobody) {
+TEST(Workers, AnEmptyLoopCallsNothing) {
     Workers workers(3);
     EXPECT_TRUE(partsOf(workers, 0, 1).empty());
     EXPECT_TRUE(partsOf(workers, -5, 1).empty());
@@ -71,7 +71,7 @@ TEST(Workers, NothingToDoCallsNobody) {
 }
 
 // A part of an earlier loop that is left over or done twice would change the next loop's sum.
-TEST(Workers, ManyLoopsInARowStayApart) {
+TEST(Workers, ConsecutiveLoopsDoNotMix) {
     for (int threads = 1; threads <= 4; ++threads) {
         Workers workers(threads);
         for (int loop = 1; loop <= 3000; ++loop) {
@@ -99,7 +99,7 @@ TEST(Workers, ResultsAreVisibleToTheCaller) {
     }
 }
 
-TEST(Workers, OtherThreadsHelp) {
+TEST(Workers, OtherThreadsShareTheWork) {
     Workers workers(2);
     std::mutex mutex;
     std::set<std::thread::id> seen;
@@ -118,12 +118,12 @@ TEST(Workers, OtherThreadsHelp) {
     EXPECT_TRUE(seen.contains(std::this_thread::get_id()));
 }
 
-TEST(Workers, NoNumberMeansOnePerProcessorUpToFour) {
+TEST(Workers, DefaultIsOneThreadPerProcessorUpToFour) {
     const int processors = static_cast<int>(std::thread::hardware_concurrency());
     EXPECT_EQ(Workers().count(), std::clamp(processors, 1, 4));
 }
 
-TEST(Workers, EndAtOnceWhenNeverUsed) {
+TEST(Workers, UnusedWorkersEndAtOnce) {
     for (int i = 0; i < 200; ++i)
         const Workers workers(4);
 }

@@ -63,7 +63,7 @@ TEST(GuidanceLearner, FindsTheGuidanceForEachExposure) {
     }
 }
 
-TEST(GuidanceLearner, NoiseOfTheStillAloneTeachesNothing) {
+TEST(GuidanceLearner, NoiseOfTheStillAloneGivesNoGuidance) {
     EXPECT_FALSE(learned(0, 16).guidance().any());
     EXPECT_FALSE(learned(1, 24).guidance().any()) << "it would gain less than it may cost";
 }
@@ -109,7 +109,7 @@ TEST(GuidanceLearner, UnusablePicturesAreIgnored) {
     EXPECT_EQ(learner.stored(), before);
 }
 
-TEST(GuidanceLearner, AFewLookUpsThatAreNotNumbersChangeLittle) {
+TEST(GuidanceLearner, AFewNanLookUpsChangeLittle) {
     GuidanceLearner learner;
     for (unsigned i = 1; i <= 3; ++i) {
         Stills of(4, 8, i);
@@ -153,7 +153,7 @@ TEST(GuidanceLearner, NumbersOutOfRangeAreNotRestored) {
     }
 }
 
-TEST(EnlargerLearner, PutsGuidanceInPlaceWithItsFilters) {
+TEST(EnlargerLearner, GuidanceIsLearnedAndKeptWithTheFilters) {
     EnlargerLearner learner;
     const Stills of(4, 8, 1);
     EXPECT_EQ(learner.addOlder(of.truth, of.older), EnlargerLearner::Outcome::Replaced);

@@ -116,7 +116,7 @@ TEST_P(PipelineLearning, AReplacedStillIsReportedWithTheLastPicture) {
     EXPECT_EQ(heard.replacements, 1);
 }
 
-TEST_P(PipelineLearning, FiltersComeInWithTheNextStillOrAtOnceWithoutAny) {
+TEST_P(PipelineLearning, NewFiltersTakeEffectWithTheNextStillOrAtOnceWithoutOne) {
     const auto none = std::make_shared<const FilterBank>(
         std::vector<FilterBank::Filter>(enlarge::kUnique, FilterBank::Filter{}));
     pipeline_.setFilters(none);

@@ -21,7 +21,7 @@ void expectNear(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
     EXPECT_LT((a - b).norm(), 1e-6F) << a.transpose() << " is not " << b.transpose();
 }
 
-TEST(GltfModel, IsTurnedUpright) {
+TEST(GltfModel, ModelIsTurnedUpright) {
     const Model model = modelOf(oneTriangle());
     ASSERT_EQ(model.meshes.size(), 1U);
     ASSERT_EQ(model.materials.size(), 1U) << "the default one";
@@ -64,7 +64,7 @@ TEST(GltfModel, HierarchyIsApplied) {
 }
 
 // The picture stands upright: u along +x, and up in it is up in the world.
-TEST(GltfModel, TangentsAreMade) {
+TEST(GltfModel, MissingTangentsAreComputed) {
     const Mesh mesh = modelOf(richModel()).meshes.at(0);
     ASSERT_EQ(mesh.tangents.size(), 4U);
     for (std::size_t i = 0; i < 4; ++i) {
@@ -74,7 +74,7 @@ TEST(GltfModel, TangentsAreMade) {
     }
 }
 
-TEST(GltfModel, MirroringKeepsTheFrontInFront) {
+TEST(GltfModel, MirroringKeepsFrontFacesInFront) {
     GltfMaker maker = richModel();
     maker.root["nodes"][1]["scale"] = {-1, 1, 1};
     const Mesh mesh = modelOf(maker).meshes.at(0);
@@ -102,7 +102,7 @@ TEST(GltfModel, NormalsFollowUnequalScales) {
     expectNear(mesh.normals[a], front);
 }
 
-TEST(GltfModel, RotationTurnsAsItShould) {
+TEST(GltfModel, RotationsTurnInTheRightDirection) {
     GltfMaker maker = oneTriangle();
     const double half = std::sqrt(0.5);
     maker.root["nodes"][0]["rotation"] = {0, 0, half, half};  // 90 degrees about glTF's z
@@ -111,7 +111,7 @@ TEST(GltfModel, RotationTurnsAsItShould) {
     expectNear(mesh.positions[2], {-1, 0, 0});
 }
 
-TEST(GltfModel, StripsAndFansTurnOneWay) {
+TEST(GltfModel, StripsAndFansHaveConsistentWinding) {
     for (const int mode : {5, 6}) {
         GltfMaker maker;
         const std::vector<float> strip = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0},
@@ -141,7 +141,7 @@ TEST(GltfModel, SparseElementsAreReplaced) {
     expectNear(zeros.positions[2], {0, 0, 5});
 }
 
-TEST(GltfModel, InterleavedAndNormalizedElements) {
+TEST(GltfModel, InterleavedAndNormalizedElementsAreRead) {
     GltfMaker maker = richModel();
     // Four elements of two shorts, each followed by four bytes of something else.
     const std::array<std::uint16_t, 16> uvs = {0,     65535, 9, 9, 65535, 65535, 9, 9,
@@ -161,7 +161,7 @@ TEST(GltfModel, InterleavedAndNormalizedElements) {
 }
 
 // The specification's own example: the lower left quarter of the picture, turned.
-TEST(GltfModel, TextureTransform) {
+TEST(GltfModel, TextureTransformIsApplied) {
     GltfMaker maker = richModel();
     nlohmann::json& m = maker.root["materials"][0];
     const nlohmann::json transform = {
@@ -178,14 +178,14 @@ TEST(GltfModel, TextureTransform) {
     }
 }
 
-TEST(GltfModel, EmissionMayBeStrong) {
+TEST(GltfModel, EmissionStrengthIsApplied) {
     GltfMaker maker = richModel();
     maker.root["materials"][0]["extensions"] = {
         {"KHR_materials_emissive_strength", {{"emissiveStrength", 8}}}};
     expectNear(modelOf(maker).materials.at(0).emission, {4, 0, 8});
 }
 
-TEST(GltfModel, BlendIsAMask) {
+TEST(GltfModel, AlphaBlendingBecomesAMask) {
     GltfMaker maker = richModel();
     maker.root["materials"][0]["alphaMode"] = "BLEND";
     EXPECT_EQ(modelOf(maker).materials.at(0).alphaCutoff, 0.5F);
@@ -193,7 +193,7 @@ TEST(GltfModel, BlendIsAMask) {
     EXPECT_EQ(modelOf(maker).materials.at(0).alphaCutoff, 0);
 }
 
-TEST(GltfModel, AMeshMayBeShownTwice) {
+TEST(GltfModel, AMeshMayBeInstancedTwice) {
     GltfMaker maker = oneTriangle();
     maker.root["nodes"].push_back({{"mesh", 0}, {"translation", {5, 0, 0}}});
     maker.root["scenes"][0]["nodes"].push_back(1);

@@ -102,7 +102,7 @@ TEST(SphericalHarmonics, AreOrthonormal) {
     EXPECT_LT((products - Eigen::Matrix<double, 9, 9>::Identity()).cwiseAbs().maxCoeff(), 1e-3);
 }
 
-TEST(LightEstimate, KnownLightIsFoundWhenAllOfItWasSeen) {
+TEST(LightEstimate, LightIsFoundOnceAllDirectionsWereSeen) {
     Watcher watcher;
     for (const RigidTransform& T : allAround())
         watcher.look(T, smoothLight);
@@ -155,7 +155,7 @@ TEST(LightEstimate, LightOutOfViewIsRemembered) {
     EXPECT_LT(degreesBetween(watcher.estimate().mainDirection, kFrom), 3);
 }
 
-TEST(LightEstimate, OneFlashMovesItLittle) {
+TEST(LightEstimate, OneFlashChangesTheEstimateLittle) {
     Watcher watcher;
     for (int i = 0; i < 100; ++i)
         watcher.look(lookingDown(), smoothLight);
@@ -166,7 +166,7 @@ TEST(LightEstimate, OneFlashMovesItLittle) {
     EXPECT_GT(flash, before);
 }
 
-TEST(LightEstimate, ANewLightIsLearnt) {
+TEST(LightEstimate, AChangedLightIsLearned) {
     Watcher watcher;
     const auto level = [](float v) {
         return [v](const Eigen::Vector3f&) { return Eigen::Vector3f(v, v, v); };
@@ -180,7 +180,7 @@ TEST(LightEstimate, ANewLightIsLearnt) {
     EXPECT_NEAR(share, 1 - std::exp(-1.0F), 0.02F);
 }
 
-TEST(LightEstimate, CoveredAndImpossibleFramesAreLeftOut) {
+TEST(LightEstimate, CoveredAndImpossibleFramesAreSkipped) {
     Watcher watcher;
     EXPECT_FALSE(watcher.estimator.estimate());
     watcher.look(lookingDown(), [](const auto&) { return Eigen::Vector3f(0, 0, 0); });

@@ -19,7 +19,7 @@ std::optional<Lighting> followed(LightFollower& light, std::chrono::milliseconds
                         Timestamp{} + at);
 }
 
-TEST(LightFollower, LightChangesTwiceASecondAtMost) {
+TEST(LightFollower, LightChangesAtMostTwiceASecond) {
     LightFollower light({});
     int changes = 0;
     for (auto at = 33ms; at < 2s; at += 33ms)
@@ -27,7 +27,7 @@ TEST(LightFollower, LightChangesTwiceASecondAtMost) {
     EXPECT_EQ(changes, 4);
 }
 
-TEST(LightFollower, GivenSunStays) {
+TEST(LightFollower, AConfiguredSunIsKept) {
     Sun sun;
     sun.towards = {0.6F, 0, 0.8F};
     LightFollower light(sun);

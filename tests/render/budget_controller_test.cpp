@@ -45,7 +45,7 @@ int framesOff(const std::vector<double>& used, double share) {
         used, [&](double ms) { return !(std::abs(ms / kBudget - 1) <= share); }));
 }
 
-TEST(BudgetController, KeepsASteadyCostToTheMillisecond) {
+TEST(BudgetController, KeepsASteadyCostToAMillisecond) {
     BudgetController budget(kBudget);
     const std::vector<double> used = usedIn(budget, 300, 1000, [](int) { return 0.003; });
     EXPECT_NEAR(meanShare(used), 1, 0.001);

@@ -71,7 +71,7 @@ TEST(EnvironmentLight, SamplesHaveTheDensityAndRadianceOfTheirDirection) {
     EXPECT_GE(same, 508);
 }
 
-TEST(EnvironmentLight, SamplesAndEvenDirectionsTogetherGiveTheIntegral) {
+TEST(EnvironmentLight, SamplesAndUniformDirectionsTogetherGiveTheIntegral) {
     const EnvironmentLight light(unevenLight());
     const Eigen::Vector3f expected =
         overSphere([&](const Eigen::Vector3f& d) { return light.radiance(d); });
@@ -100,7 +100,7 @@ TEST(EnvironmentLight, MissingEnvironmentIsDark) {
     EXPECT_EQ(EnvironmentLight(render_scenes::evenLight(0)).density({0, 0, 1}), 0);
 }
 
-TEST(EnvironmentLight, EvenLightIsLeftToTheSurfaces) {
+TEST(EnvironmentLight, UniformLightIsNotSampledByDirection) {
     auto picture = std::make_shared<Environment>();
     picture->size = {1, 1};
     picture->radiance = {{2, 2, 2}};

@@ -34,7 +34,7 @@ RenderedPicture pictureOf(const Film& film, const Exposure& exposure = {}) {
 
 using Rgba = std::array<std::uint8_t, 4>;
 
-TEST(Film, EmptyIsNothing) {
+TEST(Film, AnEmptyFilmGivesTransparentPixels) {
     const Film film({3, 2});
     const RenderedPicture picture = pictureOf(film);
     ASSERT_EQ(picture.colour.size(), 6U);
@@ -47,7 +47,7 @@ TEST(Film, EmptyIsNothing) {
     EXPECT_EQ(picture.samples, 0);
 }
 
-TEST(Film, ObjectIsItsMeanPremultiplied) {
+TEST(Film, ObjectPixelIsThePremultipliedMeanOfItsSamples) {
     Film film({1, 1});
     film.add(0, objectSample(0.1F, 1.5F, 7));
     film.add(0, objectSample(0.3F, 1.2F, 7));
@@ -82,7 +82,7 @@ TEST(Film, AMillionSamplesKeepDoublePrecision) {
     EXPECT_NEAR(film.error(0) / (slope * deviation), 1, 1e-3);
 }
 
-TEST(Film, CentreDecidesDepth) {
+TEST(Film, DepthIsTakenAtThePixelsCentre) {
     Film film({1, 1});
     film.setCentre(0, {{1.5F, 2}});
     film.add(0, objectSample(0.1F, 1.0F, 1));
@@ -91,7 +91,7 @@ TEST(Film, CentreDecidesDepth) {
     EXPECT_EQ(picture.id[0], 2);
 }
 
-TEST(Film, ShadowIsBlackOfTheRatiosCoverage) {
+TEST(Film, ShadowIsBlackWithACoverageFromTheLightRatio) {
     Film film({1, 1});
     film.setCentre(0, {{2, kCatcherId}});
     film.add(0, catcherSample({0.1F, 0.05F, 0.025F}, {0.4F, 0.2F, 0.1F}));
@@ -102,7 +102,7 @@ TEST(Film, ShadowIsBlackOfTheRatiosCoverage) {
     EXPECT_EQ(picture.depth[0], 2);
 }
 
-TEST(Film, BouncedLightIsAddedColour) {
+TEST(Film, BouncedLightAddsColour) {
     Film film({1, 1});
     film.add(0, catcherSample({0.3F, 0.2F, 0.2F}, {0.2F, 0.2F, 0.2F}));
     const RenderedPicture picture = pictureOf(film);
@@ -112,14 +112,14 @@ TEST(Film, BouncedLightIsAddedColour) {
     EXPECT_EQ(picture.id[0], kCatcherId);
 }
 
-TEST(Film, BouncedLightOnADarkSurfaceIsSeen) {
+TEST(Film, BouncedLightOnADarkSurfaceIsVisible) {
     Film film({1, 1});
     film.add(0, catcherSample({0.3F, 0, 0}, {0, 0, 0}));
     EXPECT_EQ(pictureOf(film).colour[0],
               (Rgba{static_cast<std::uint8_t>(std::lround(255 * srgbEncoded(0.3F))), 0, 0, 0}));
 }
 
-TEST(Film, UnchangedCatcherIsNothing) {
+TEST(Film, AnUnchangedCatcherIsTransparent) {
     Film film({1, 1});
     film.setCentre(0, {{2, kCatcherId}});
     film.add(0, catcherSample({0.37F, 0.2F, 0.11F}, {0.37F, 0.2F, 0.11F}));
@@ -189,7 +189,7 @@ TEST(Film, UniformLightHasZeroError) {
     EXPECT_EQ(film.error(1), 0);
 }
 
-TEST(Film, AnEdgesErrorFalls) {
+TEST(Film, ErrorOfAnEdgeFallsWithItsSamples) {
     const auto edge = [](int samples) {
         Film film({1, 1});
         for (int i = 0; i < samples; ++i)
@@ -199,7 +199,7 @@ TEST(Film, AnEdgesErrorFalls) {
     EXPECT_NEAR(edge(16) / edge(256), 8, 0.1);
 }
 
-TEST(Film, ClearForgets) {
+TEST(Film, ClearDiscardsAllSamples) {
     Film film({2, 1});
     film.setCentre(0, {{1, 1}});
     film.add(0, objectSample(0.5F));

@@ -42,7 +42,7 @@ TEST(Microfacet, VisibleNormalsIntegrateToOne) {
         }
 }
 
-TEST(Microfacet, MaskingIsTheVisibleShareOfTheNormals) {
+TEST(Microfacet, MaskingTermIsTheVisibleShareOfTheNormals) {
     const Ggx ggx(0.5F);
     const Eigen::Vector3f wo = viewAt(0.4F);
     // The projected area of the visible normals equals that of the surface (Heitz 2014, equation
@@ -82,7 +82,7 @@ TEST(Microfacet, AlbedoTableHoldsTheIntegral) {
         }
 }
 
-TEST(Microfacet, MeanAlbedoIsTheMean) {
+TEST(Microfacet, MeanAlbedoIsTheMeanOverDirections) {
     for (const float roughness : {0.2F, 0.77F}) {
         double sum = 0;
         for (int i = 0; i < 512; ++i) {

@@ -41,7 +41,7 @@ Eigen::Vector3f meanRadiance(const Film& film) {
     return sum / static_cast<float>(pixels);
 }
 
-TEST(PathTracer, AWhiteSphereInEvenLightCannotBeSeen) {
+TEST(PathTracer, AWhiteSphereInUniformLightIsInvisible) {
     for (const float metallic : {0.0F, 1.0F})
         for (const float roughness : {0.2F, 0.6F, 1.0F}) {
             auto scene =
@@ -54,7 +54,7 @@ TEST(PathTracer, AWhiteSphereInEvenLightCannotBeSeen) {
         }
 }
 
-TEST(PathTracer, ABowlGivesBackNoMoreThanItGets) {
+TEST(PathTracer, ABowlReflectsNoMoreLightThanItReceives) {
     // Light is reflected many times inside: all of it leaves, except what the limit of the path's
     // length cuts off.
     Mesh bowl = sphere({0, 0, 0}, 1, 32);
@@ -74,7 +74,7 @@ TEST(PathTracer, ABowlGivesBackNoMoreThanItGets) {
     EXPECT_LT(meanRadiance(traced(PathTracer(scene, options), view, 16)).mean(), deep);
 }
 
-TEST(PathTracer, RouletteKeepsTheMean) {
+TEST(PathTracer, RussianRouletteKeepsTheMean) {
     auto scene = sceneOf(sphere({0, 0, 0}, 1, 16), materialOf({0.8F, 0.8F, 0.8F}, 0, 1));
     scene->catcher = ground(3, 0.8F);
     for (Eigen::Vector3f& p : scene->catcher.positions)
@@ -109,7 +109,7 @@ Eigen::Vector3f byQuadrature(const Lighting& lighting, const SurfaceLook& look,
     return sum * (2 * std::numbers::pi_v<float> / kHeights / kPhis);
 }
 
-TEST(PathTracer, EnvironmentOnASurfaceIsTheIntegral) {
+TEST(PathTracer, EnvironmentLightOnASurfaceMatchesTheIntegral) {
     for (const float roughness : {0.25F, 0.5F, 1.0F}) {
         auto scene = sceneOf(square(1, 0), materialOf({0.9F, 0.6F, 0.3F}, 0.6F, roughness));
         scene->lighting.environment = unevenLight();
@@ -122,7 +122,7 @@ TEST(PathTracer, EnvironmentOnASurfaceIsTheIntegral) {
     }
 }
 
-TEST(PathTracer, SunOnAMattSurfaceIsItsIrradianceTimesCosine) {
+TEST(PathTracer, SunlightOnAMattSurfaceIsIrradianceTimesCosine) {
     auto scene = std::make_shared<Scene>();
     scene->objects.push_back(objectOf(modelOf(sphere({50, 50, 0}, 0.1F, 8), {})));
     scene->catcher = ground(1, 0.6F);
@@ -148,7 +148,7 @@ TEST(PathTracer, AMirrorShowsTheSunWithItsRadiance) {
     EXPECT_NEAR(seen * std::numbers::pi_v<float> * sine * sine, 2, 0.04F);
 }
 
-TEST(PathTracer, EmissionIsSeenAndLights) {
+TEST(PathTracer, EmissiveSurfacesAreVisibleAndGiveLight) {
     Material lamp = materialOf({0, 0, 0}, 0, 1);
     lamp.emission = {2, 1, 0.5F};
     auto scene = sceneOf(sphere({0, 0, 0}, 1, 24), lamp);
@@ -226,7 +226,7 @@ TEST(PathTracer, DepthIsAlongTheCamerasAxis) {
     }
 }
 
-TEST(PathTracer, BoundsHoldObjectsAndShadows) {
+TEST(PathTracer, BoundsContainObjectsAndShadows) {
     auto scene = sceneOf(sphere({0.1F, 0, 0.3F}, 0.3F, 16), materialOf({1, 1, 1}, 0, 1));
     scene->lighting.sun = Sun{Eigen::Vector3f(0.6F, 0, 1).normalized(), {3, 3, 3}, 0.02F};
     scene->catcher = ground(4, 0.5F);

@@ -93,7 +93,7 @@ TEST(RayScene, HolesLetRaysThrough) {
     EXPECT_FALSE(scene.blocked({rays[1].origin, rays[1].direction, 0, 2.5F}));
 }
 
-TEST(RayScene, EmptyHasNothing) {
+TEST(RayScene, AnEmptySceneHasNoHits) {
     RayScene scene;
     scene.commit();
     EXPECT_TRUE(scene.empty());

@@ -14,7 +14,7 @@ using namespace reference_pictures;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-TEST(NextStep, FollowsTheCamera) {
+TEST(NextStep, StepDependsOnHowFarTheViewChanged) {
     using enum ReferenceStep;
     struct Case {
         std::optional<double> sinceShown, sinceNext;
@@ -38,7 +38,7 @@ TEST(NextStep, FollowsTheCamera) {
     }
 }
 
-TEST(NextStep, StartsLaterWhenColoursAreUsed) {
+TEST(NextStep, NextPictureStartsLaterWhenColoursAreUsed) {
     using enum ReferenceStep;
     EXPECT_EQ(nextStep(0.9, {}, 1), Refine);
     EXPECT_EQ(nextStep(1.0, {}, 1), Start);
@@ -46,7 +46,7 @@ TEST(NextStep, StartsLaterWhenColoursAreUsed) {
     EXPECT_EQ(nextStep(0.6, 0.7, 1), Continue);
 }
 
-TEST(ReferencePictures, ACameraAtRestSeesItsPictureGetFiner) {
+TEST(ReferencePictures, AtRestThePictureIsRefined) {
     Driver driver(kThirtyTwo);
     EXPECT_FALSE(driver.step()) << "no view, no work";
     driver.look(20);
@@ -61,7 +61,7 @@ TEST(ReferencePictures, ACameraAtRestSeesItsPictureGetFiner) {
     EXPECT_FALSE(driver.step()) << "it serves";
 }
 
-TEST(ReferencePictures, ACameraThatComesToRestGetsAPictureOfItsOwnView) {
+TEST(ReferencePictures, AfterAMotionAPictureOfTheRestingViewIsStarted) {
     Driver driver(kThirtyTwo);
     driver.look(20);
     driver.settle();
@@ -82,7 +82,7 @@ TEST(ReferencePictures, ACameraThatComesToRestGetsAPictureOfItsOwnView) {
     EXPECT_FALSE(driver.step());
 }
 
-TEST(ReferencePictures, APictureIsFinishedThoughTheLightChangesAllTheTime) {
+TEST(ReferencePictures, APictureIsFinishedThoughTheLightKeepsChanging) {
     Driver driver(kThirtyTwo);
     driver.look(20);
     driver.settle();
@@ -117,7 +117,7 @@ TEST(ReferencePictures, AnotherViewsPictureIsShownWithEnoughSamples) {
     EXPECT_TRUE(driver.shows(26));
 }
 
-TEST(ReferencePictures, AHopelesslyOldPictureIsReplacedAtOnce) {
+TEST(ReferencePictures, AVeryOldPictureIsReplacedAtOnce) {
     Driver driver(kThirtyTwo);
     driver.look(20);
     driver.settle();
@@ -126,7 +126,7 @@ TEST(ReferencePictures, AHopelesslyOldPictureIsReplacedAtOnce) {
     EXPECT_EQ(driver.shown[4].samples, 1);
 }
 
-TEST(ReferencePictures, ACameraThatComesBackFindsItsPictureAndRefinesIt) {
+TEST(ReferencePictures, AReturningCameraGetsItsPictureAndRefinesIt) {
     Driver driver(kThirtyTwo);
     driver.look(20);
     driver.untilShown(3);
@@ -154,7 +154,7 @@ TEST(ReferencePictures, PicturesArePredictedForMovingCameras) {
     EXPECT_TRUE(driver.shows(33));
 }
 
-TEST(ReferencePictures, ACameraThatTurnsRoundIsFollowed) {
+TEST(ReferencePictures, AReversingCameraIsFollowed) {
     Driver driver(kThirtyTwo);
     driver.look(20);
     driver.settle();

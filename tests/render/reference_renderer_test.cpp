@@ -175,7 +175,7 @@ TEST(ReferenceRenderer, SleepsWhenTheFramesBudgetIsUsedUp) {
     EXPECT_LE(frames.renderer.counters().cpuMs - used, 20 * options.budgetMs);
 }
 
-TEST(ReferenceRenderer, StopsInTheMidstOfWork) {
+TEST(ReferenceRenderer, StopInterruptsItsWork) {
     ReferenceOptions options = quick();
     options.slices.samples = 1 << 20;
     options.budgetMs = 1e6;
@@ -279,7 +279,7 @@ TEST(ReferenceRenderer, HolesDoNotKeepAReferenceFromBeingFinished) {
     }));
 }
 
-TEST(ReferenceRenderer, AnUnsoundSceneIsReportedAndTheOldOneStays) {
+TEST(ReferenceRenderer, AnInvalidSceneIsReportedAndTheOldOneStays) {
     Frames frames(quick());
     const RenderView view = render_scenes::viewFrom(kRenderSize, 20);
     frames.renderer.setScene(render_scenes::stillLife());
@@ -295,7 +295,7 @@ TEST(ReferenceRenderer, AnUnsoundSceneIsReportedAndTheOldOneStays) {
     EXPECT_TRUE(frames.finish(render_scenes::viewFrom(kRenderSize, 40), 2));
 }
 
-TEST(ReferenceRenderer, NewObjectsOrLightStartAPictureSmallChangesDoNot) {
+TEST(ReferenceRenderer, NewObjectsOrLightStartAPictureButSmallChangesDoNot) {
     Frames frames(quick());
     const RenderView view = render_scenes::viewFrom(kRenderSize, 20);
     auto scene = std::make_shared<Scene>(*render_scenes::stillLife());

@@ -70,7 +70,7 @@ TEST(ShadowCatcher, TheSunsPenumbraIsTheCoveredShareOfItsDisc) {
     EXPECT_NEAR(ratio(0.5 * r), part, 0.01);
 }
 
-TEST(ShadowCatcher, WithoutInfluenceTheChangeIsExactlyNothing) {
+TEST(ShadowCatcher, PixelsWithoutInfluenceAreExactlyUnchanged) {
     auto scene = sphereOverGround(0.1F, 0.1F);
     scene->lighting.sun = Sun{Eigen::Vector3f(0.3F, 0.2F, 1).normalized(), {2, 2, 2}, 0.02F};
     const RenderView view = lookingAt({0, -3, 2}, {0, 0.1, 0}, {64, 48}, 120);

@@ -82,7 +82,7 @@ NoisyPicture traced(const SliceOptions& options, std::size_t workers, std::int64
     return picture;
 }
 
-TEST(Slices, EveryPixelInBoundsGetsAllItsSamples) {
+TEST(Slices, EveryPixelWithinTheBoundsGetsTheConfiguredSamples) {
     for (const Slicing slicing : {Slicing::Time, Slicing::Spatial}) {
         const NoisyPicture picture = traced({slicing, 10, 3, 0, 2}, 3, 50);
         EXPECT_EQ(picture.samples().size(), 27U * 23U);
@@ -95,7 +95,7 @@ TEST(Slices, EveryPixelInBoundsGetsAllItsSamples) {
     }
 }
 
-TEST(Slices, SamplesArePlacedAlikeForBothWaysAndAnyThreads) {
+TEST(Slices, SamplePositionsDoNotDependOnSlicingOrThreads) {
     const SliceOptions time{Slicing::Time, 64, 4, 1, 8};
     SliceOptions spatial = time;
     spatial.slicing = Slicing::Spatial;
@@ -182,7 +182,7 @@ TEST(Slices, TheFirstSamplesAreSpreadEvenly) {
     }
 }
 
-TEST(Slices, PixelsKnownAfterTheFirstLookGetNoSamples) {
+TEST(Slices, PixelsKnownAfterTheSparseSamplesGetNoMore) {
     Slices slices({Slicing::Time, 16, 4, 1, 8});
     slices.begin({0, 0, 32, 24}, {32, 24});
     NoisyPicture picture([](std::uint32_t) { return 1e6F; });
@@ -199,7 +199,7 @@ TEST(Slices, PixelsKnownAfterTheFirstLookGetNoSamples) {
         EXPECT_EQ(samples, pixel % 32 < 16 ? 0 : 16) << pixel;
 }
 
-TEST(Slices, UntouchedTilesGetTheSparseSamplesAlone) {
+TEST(Slices, TilesWithoutObjectsGetOnlyTheSparseSamples) {
     Slices slices({Slicing::Time, 16, 4, 1, 8});
     slices.begin({0, 0, 32, 24}, {32, 24});
     NoisyPicture picture([](std::uint32_t) { return 1e6F; });
@@ -224,7 +224,7 @@ TEST(Slices, UntouchedTilesGetTheSparseSamplesAlone) {
     EXPECT_DOUBLE_EQ(slices.progress(), 1);
 }
 
-TEST(Slices, DensityLeavesOutTilesAndPixels) {
+TEST(Slices, SparseDensitySkipsTilesAndPixels) {
     Slices slices({Slicing::Time, 4, 2, 0, 2});
     slices.begin({0, 0, 24, 8}, {24, 8}, [](const PixelRect& tile) {
         if (tile.x0 == 0) return Slices::Density::None;
@@ -274,7 +274,7 @@ TEST(Slices, TilesFollowTheMortonCurve) {
     EXPECT_EQ(places.back(), std::pair(3, 3));
 }
 
-TEST(Slices, CalmPixelsGetNoMoreSamplesNoisyOnesAll) {
+TEST(Slices, OnlyNoisyPixelsGetAllSamples) {
     // Noise only in the middle of one tile: this pixel and its neighbours get more samples.
     const std::uint32_t noisy = 12 * 32 + 12;
     NoisyPicture picture([&](std::uint32_t pixel) { return pixel == noisy ? 1e6F : 0.1F; });
@@ -302,7 +302,7 @@ TEST(Slices, NanErrorsKeepAPixelActive) {
     EXPECT_EQ(slices.traced(), 64U * 32U);
 }
 
-TEST(Slices, NothingInBoundsIsFinished) {
+TEST(Slices, EmptyBoundsAreFinishedAtOnce) {
     Slices slices({});
     EXPECT_TRUE(slices.finished());
     for (const PixelRect& nothing :
@@ -314,7 +314,7 @@ TEST(Slices, NothingInBoundsIsFinished) {
     }
 }
 
-TEST(Slices, ANewPictureBeginsFromNothing) {
+TEST(Slices, ANewPictureForgetsTheLastOne) {
     Slices slices({Slicing::Spatial, 4, 2, 0, 2});
     slices.begin(kBounds, kPicture);
     const Slice slice = slices.next(10);

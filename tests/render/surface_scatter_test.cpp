@@ -34,14 +34,14 @@ Eigen::Vector3f furnace(const SurfaceLook& look, float mu) {
     return sum / kSamples;
 }
 
-TEST(SurfaceScatter, WhiteReflectsAllLight) {
+TEST(SurfaceScatter, AWhiteSurfaceReflectsAllLight) {
     for (const SurfaceLook& look : looks({1, 1, 1}))
         for (const float mu : {0.1F, 0.4F, 0.7F, 1.0F})
             EXPECT_NEAR(furnace(look, mu).mean(), 1, 0.02)
                 << look.metallic << ' ' << look.roughness << ' ' << mu;
 }
 
-TEST(SurfaceScatter, NeverReflectsMoreThanAll) {
+TEST(SurfaceScatter, NeverReflectsMoreLightThanArrives) {
     for (const SurfaceLook& look : looks({0.9F, 0.5F, 0.0F}))
         for (const float mu : {0.02F, 0.3F, 0.9F}) {
             const Eigen::Vector3f back = furnace(look, mu);

@@ -8,7 +8,7 @@
 namespace mfar {
 namespace {
 
-TEST(TripleBuffer, TheNewestWins) {
+TEST(TripleBuffer, TheReaderGetsTheNewestValue) {
     TripleBuffer<int> buffer;
     EXPECT_FALSE(buffer.fetch());
     for (const int value : {1, 2, 3}) {
@@ -43,7 +43,7 @@ TEST(TripleBuffer, TheReadersValueStaysAndMemoryIsReused) {
     EXPECT_EQ(buffer.front()[99], 19);
 }
 
-TEST(TripleBuffer, ThreadsSeeWholeValuesInTheirOrder) {
+TEST(TripleBuffer, ThreadsSeeCompleteValuesInOrder) {
     struct Pair {
         int a = 0, b = 0;
     };

@@ -73,7 +73,7 @@ private:
     std::unique_ptr<GlContext> context_ = createGlContext();
 };
 
-TEST_F(DepthScenario, StaysWhileTheCameraRestsForTenSeconds) {
+TEST_F(DepthScenario, DepthStaysWhileTheCameraRestsForTenSeconds) {
     constexpr std::int64_t kStep = 200'000'000;  // [ns]
     Watched w(synthetic::Scene::Shelf, Path::Handheld, 30);
     follow(w, kSettling + 2);
@@ -88,12 +88,12 @@ TEST_F(DepthScenario, StaysWhileTheCameraRestsForTenSeconds) {
     }
 }
 
-TEST_F(DepthScenario, StaysWhileTheCameraTurnsOnTheSpot) {
+TEST_F(DepthScenario, DepthStaysWhileTheCameraTurnsOnTheSpot) {
     Watched w(synthetic::Scene::Shelf, Path::Rotate, 10);
     follow(w, 28);
 }
 
-TEST_F(DepthScenario, StaysWhileTheCameraComesNearer) {
+TEST_F(DepthScenario, DepthStaysWhileTheCameraComesNearer) {
     Watched w(synthetic::Scene::Office, Path::Forward, 10);
     follow(w, 28);
 }
@@ -127,7 +127,7 @@ double errorOf(const Pose& pose, const SyntheticBoard& board) {
 }
 
 // Tags lost for a second: the pose is predicted at first, then unknown.
-TEST_F(DepthScenario, StaysWhileTheTagsAreLostAndFoundAgain) {
+TEST_F(DepthScenario, DepthStaysWhileTheTagsAreLostAndFoundAgain) {
     constexpr int kLost = kSettling + 4, kFound = kLost + 15, kEnd = kFound + 8;
     Watched w(synthetic::Scene::Office, Path::Handheld, 15, PoseSource::None);
     TrackerOptions options;

@@ -49,7 +49,7 @@ private:
     std::unique_ptr<GlContext> context_ = createGlContext();
 };
 
-TEST_P(Occlusion, RealThingsHideAVirtualOneAtTheirEdges) {
+TEST_P(Occlusion, RealObjectsOccludeAVirtualOneUpToTheirEdges) {
     SceneRun scene = sceneOn(Path::Handheld);
     Pipeline pipeline(scene.rig(), {});
     pipeline.setObjects({object_});
@@ -83,7 +83,7 @@ double overlapOf(const Pipeline& pipeline, const VirtualTruth& truth) {
         .overlap;
 }
 
-TEST_P(Rest, AStillShowsWhatIsInFront) {
+TEST_P(Rest, OneStillSufficesForOcclusion) {
     SceneRun scene = sceneOn(Path::Rest);
     Pipeline pipeline(scene.rig(), {});
     pipeline.setObjects({object_});
@@ -97,7 +97,7 @@ TEST_P(Rest, AStillShowsWhatIsInFront) {
 }
 
 // The camera is carried by hand, then put down at the position of the scene's resting camera.
-TEST_P(Rest, NothingFlickersNorComesThrough) {
+TEST_P(Rest, OcclusionNeitherFlickersNorLeaksAtRest) {
     constexpr int kFrames = 30;
     constexpr double kMostFlicker = 0.001;
     SceneRun carried = sceneOn(Path::Handheld), resting = sceneOn(Path::Rest);

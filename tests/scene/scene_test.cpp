@@ -72,7 +72,7 @@ TEST_F(SceneTest, MovingObjectsAreSearchedInBothDimensionsAndNotSmeared) {
 /// Two paths: the epipole lies in the picture, or the distance of the sensors causes all parallax.
 class Motion : public SceneTest, public testing::WithParamInterface<Path> {};
 
-TEST_P(Motion, GetsDetail) {
+TEST_P(Motion, MovingCamerasGetDetail) {
     const SceneShots s(synthetic::Scene::Outdoor, GetParam(), 8);
     const std::vector<bool> all(s.movingTiles().size(), true);
     const Pipeline detail = ran(s, SuperResMode::Detail), off = ran(s, SuperResMode::Off);

@@ -24,7 +24,7 @@ std::ostream& operator<<(std::ostream& out, const Group& group) {
 
 class HostileInput : public testing::TestWithParam<Group> {};
 
-TEST_P(HostileInput, BreaksNothing) {
+TEST_P(HostileInput, HostileInputBreaksNoInvariant) {
     if (GetParam().cases().empty()) GTEST_SKIP() << "not built";
     GlWatch gl;
     Checks checks;
@@ -48,7 +48,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 // Long runs found these: the depth of triangles seen edge-on was extrapolated far beyond the
 // triangles.
-TEST(HostileInput, SeedsThatFailedOnceBreakNothing) {
+TEST(HostileInput, SeedsThatFailedOnceBreakNoInvariant) {
     GlWatch gl;
     Checks checks;
     const std::vector<Case> all = virtualCases();
@@ -61,7 +61,7 @@ TEST(HostileInput, SeedsThatFailedOnceBreakNothing) {
         EXPECT_EQ(run(*one, seed, checks, gl, scale), std::vector<std::string>());
 }
 
-TEST(HostileInput, IsAFunctionOfItsSeed) {
+TEST(HostileInput, InputDependsOnTheSeedAlone) {
     Hostile one(7), same(7), other(8);
     const auto picture = one.picture({33, 21}).bytes;
     EXPECT_EQ(picture, same.picture({33, 21}).bytes);

@@ -46,7 +46,7 @@ protected:
     static std::unique_ptr<GlContext> context() { return createGlContext(); }
 };
 
-TEST_F(ValidationTest, ValidOutputsAreNoFaults) {
+TEST_F(ValidationTest, ValidOutputsHaveNoFaults) {
     const auto gl = context();
     gpu::Validation validation;
     weigh(withValue(0, 3));
@@ -54,7 +54,7 @@ TEST_F(ValidationTest, ValidOutputsAreNoFaults) {
     EXPECT_EQ(validation.counts().at("superres_weigh.comp").runs, 1);
 }
 
-TEST_F(ValidationTest, NanNamesPassOutputAndTexel) {
+TEST_F(ValidationTest, NanIsReportedWithPassOutputAndTexel) {
     const auto gl = context();
     gpu::Validation validation;
     validation.nextFrame();
@@ -129,7 +129,7 @@ TEST(WatchedShaders, AnIndexOutOfRangeIsCounted) {
     EXPECT_EQ(faults[0], "luma_from_video.comp: 2 indices out of range");
 }
 
-TEST(StatedRanges, AreReadFromTheShadersText) {
+TEST(StatedRanges, RangesAreReadFromTheShadersText) {
     const auto ranges =
         gpu::statedRanges("// a\n// Range: out -1.5..2, 0..1e6\nvoid main\n", "out");
     ASSERT_EQ(ranges.size(), 2U);
@@ -141,7 +141,7 @@ TEST(StatedRanges, AreReadFromTheShadersText) {
 }
 
 // Every output that a shader writes as floats of 32 or 16 bits must have a stated range.
-TEST(StatedRanges, EveryFloatImageAndBufferHasOne) {
+TEST(StatedRanges, EveryFloatImageAndBufferHasARange) {
     for (const shaders::Source& shader : shaders::all()) {
         const std::string text(shader.text);
         for (const std::string kind : {"(rgba32f, ", "(rgba16f, ", "(r32f, "})

@@ -181,7 +181,7 @@ TEST_P(SecondStillOfEngines, IsDroppedWithTheNewest) {
     EXPECT_EQ(pipeline.readImage(), fresh.readImage());
 }
 
-TEST_F(SecondStill, StaysWhileNewStillsMissTheSame) {
+TEST_F(SecondStill, StaysWhileNewStillsMissTheSameParts) {
     Pipeline pipeline = made(1);
     setStill(pipeline, whole_);
     run(pipeline);

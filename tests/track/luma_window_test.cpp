@@ -47,7 +47,7 @@ TEST(LumaWindow, PlanesAreNotCopied) {
     }
 }
 
-TEST(LumaWindow, LimitedRangeHardlyMovesCorners) {
+TEST(LumaWindow, LimitedLumaRangeHardlyMovesCorners) {
     const CameraModel camera = test::testCamera();
     const test::PlacedTag placed{{TagFamily::Tag36h11, 5}, 0.1, {}};
     const auto pose = test::cameraAt(0.4, 0.5, 0.3, 0.2);

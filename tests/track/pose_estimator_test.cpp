@@ -125,7 +125,7 @@ TEST(PlanarChoice, WithEqualErrorsThePredictionIsKept) {
         ASSERT_EQ(&choice.choose(poses, cameraAt(0.6, -0.05, 0)), &*poses.other) << i;
 }
 
-TEST(PoseEstimator, MillimetresAndMetresGiveTheSameMotion) {
+TEST(PoseEstimator, MillimetresAndMetresGiveEqualMotion) {
     const CameraModel camera = testCamera();
     PoseEstimator metres, millimetres;
     Corners a(0.15), b(0.15, 1000);
@@ -145,7 +145,7 @@ TEST(PoseEstimator, MillimetresAndMetresGiveTheSameMotion) {
     EXPECT_EQ(metres.flips(), millimetres.flips());
 }
 
-TEST(PoseEstimator, GapsAreBridgedAndThenTheresNoPose) {
+TEST(PoseEstimator, ShortGapsAreBridgedAndLongOnesHaveNoPose) {
     const CameraModel camera = testCamera();
     PoseEstimator estimator;
     Corners corners(0.05);

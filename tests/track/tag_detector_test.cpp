@@ -107,7 +107,7 @@ TEST(CornerRefiner, MeasuresCornersToAFewHundredthsOfAPixel) {
     }
 }
 
-TEST(CornerRefiner, LeavesCornersAloneWhereNothingIsSeen) {
+TEST(CornerRefiner, KeepsCornersInUniformPictures) {
     const CameraModel camera = testCamera();
     TagDetection made;
     made.corners = {{{100, 140}, {140, 140}, {140, 100}, {100, 100}}};

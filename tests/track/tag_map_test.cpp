@@ -142,7 +142,7 @@ TEST(TagMap, BrokenBundlesAreRefusedWithFileAndLine) {
             << text;
 }
 
-TEST(TagMap, ATextWithoutEndIsRefusedBeforeItIsParsed) {
+TEST(TagMap, AnEndlessTextIsRefusedBeforeItIsParsed) {
     std::string dots = "a";
     for (int i = 0; i < 50'000; ++i)
         dots += ".a";

@@ -164,7 +164,7 @@ TEST(TagPose, SeveralTagsDetermineTheEdgeShift) {
     }
 }
 
-TEST(TagPose, OutwardsMoveEveryEdgeByOne) {
+TEST(TagPose, OutwardVectorsMoveEveryEdgeByOnePixel) {
     const CameraModel camera = testCamera();
     const auto corners = cornersOf(camera, cameraAt(0.5, 0.6, 0.2, 0.4), kTag);
     const auto outwards = outwardsOf(corners);
@@ -178,7 +178,7 @@ TEST(TagPose, OutwardsMoveEveryEdgeByOne) {
     }
 }
 
-TEST(TagPose, ATagThatContradictsTheOthersIsLeftOut) {
+TEST(TagPose, ATagThatContradictsTheOthersIsIgnored) {
     const CameraModel camera = testCamera();
     const RigidTransform truth = cameraAt(0.6, 0.4, -0.3);
     for (std::size_t wrong = 0; wrong < 4; ++wrong) {
@@ -195,7 +195,7 @@ TEST(TagPose, ATagThatContradictsTheOthersIsLeftOut) {
     }
 }
 
-TEST(TagPose, UnfitTagsGiveNothing) {
+TEST(TagPose, UnusableTagsGiveNoPose) {
     const CameraModel camera = testCamera();
     const auto refused = [&](const TagObservation& tag) {
         EXPECT_FALSE(solveTagPose({&tag, 1}, camera).has_value());
@@ -249,7 +249,7 @@ TEST(TagPose, AnyFourCornersGiveAFinitePoseOrNone) {
     EXPECT_GT(solved, 100);
 }
 
-TEST(TagPose, MillimetresAndMetresGiveTheSame) {
+TEST(TagPose, MillimetresAndMetresGiveEqualPoses) {
     std::mt19937 random(5);
     const CameraModel camera = testCamera();
     Noise noise(0.3);

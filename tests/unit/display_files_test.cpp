@@ -82,7 +82,7 @@ TEST_F(FileDisplays, HostRowsAreWrittenLikeATexture) {
     EXPECT_EQ(video.substr(video.size() - frame), video.substr(video.size() - 2 * frame, frame));
 }
 
-TEST_F(FileDisplays, EveryPictureIsWrittenThoughTheBuffersAreFew) {
+TEST_F(FileDisplays, EveryPictureIsWrittenWithFewBuffers) {
     const auto display = openFileDisplay("png:" + folder_.path().string(), 30);
     for (int i = 0; i < 25; ++i)
         show(*display, plain({64, 48}, static_cast<std::uint8_t>(i)), {i});
@@ -92,7 +92,7 @@ TEST_F(FileDisplays, EveryPictureIsWrittenThoughTheBuffersAreFew) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 25);
 }
 
-TEST_F(FileDisplays, ShowingLeavesTheBindingsAsTheyWere) {
+TEST_F(FileDisplays, ShowingKeepsTheGlBindings) {
     const gpu::Texture target({8, 8}, gpu::TexelFormat::Rgba8);
     const gpu::Framebuffer framebuffer(target);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer.id());
@@ -170,7 +170,7 @@ TEST_F(FileDisplays, Y4mMinusIsStandardOutput) {
     EXPECT_EQ(test::readFile(folder_ / "out").substr(0, 16), "YUV4MPEG2 W8 H8 ");
 }
 
-TEST_F(FileDisplays, AClosedPipeIsAnErrorNotTheEndOfTheProcess) {
+TEST_F(FileDisplays, AClosedPipeIsAnErrorAndDoesNotEndTheProcess) {
     const fs::path pipe = folder_ / "pipe";
     ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
     const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
@@ -269,7 +269,7 @@ TEST_F(PipeDisplays, WriterWhoseReaderTakesNothingIsOverItsBudget) {
     EXPECT_TRUE(comesTrue([&] { return hearts.late().empty(); })) << "it waits for a picture";
 }
 
-TEST_F(PipeDisplays, LivePicturesAreGivenUpAtTheEnd) {
+TEST_F(PipeDisplays, LivePicturesAreDiscardedAtTheEnd) {
     const FileDisplayPolicy live{.isLive = true, .finish = std::chrono::milliseconds(100)};
     const auto display = openFileDisplay("y4m:" + pipe.string(), 30, {}, live);
     show(*display, plain(kSize, 1), {1});
@@ -299,7 +299,7 @@ TEST_F(PipeDisplays, WaitingForAReaderIsReported) {
     EXPECT_EQ(display->leftOut(), 0U) << "every picture is written";
 }
 
-TEST_F(PipeDisplays, ReaderThatGoesAwayEndsALiveDisplay) {
+TEST_F(PipeDisplays, AClosedReaderEndsALiveDisplay) {
     const FileDisplayPolicy live{.isLive = true};
     const auto display = openFileDisplay("y4m:" + pipe.string(), 30, {}, live);
     close(std::exchange(reader, -1));
@@ -321,7 +321,7 @@ TEST_F(FileDisplays, FullDiskEndsALiveDisplay) {
     EXPECT_THROW(show(*display, plain({64, 48}, 1), {2}), std::runtime_error);
 }
 
-TEST_F(FileDisplays, NoneTakesEverythingAndLeavesNothing) {
+TEST_F(FileDisplays, DisplayNoneAcceptsPicturesAndWritesNothing) {
     const auto display = openFileDisplay("none", 30);
     show(*display, plain({8, 8}, 1), {1});
     display->finish();

@@ -287,7 +287,7 @@ TEST_F(PowerCut, SynchronisedDataReadsBackAfterACutAtAnyMoment) {
     EXPECT_GT(read, 300);  // most cuts come late enough
 }
 
-TEST_F(PowerCut, RowsAreSafeBeforeTheNextPicturesAre) {
+TEST_F(PowerCut, RowsAreSynchronisedBeforeTheNextPictures) {
     std::vector<int> syncs = syncsAfterRows(operations_, (whole_ / "cam0/data.csv").string());
     ASSERT_GT(syncs.size(), 2U);
     ++syncs.back();  // counts as a further one: no pictures follow

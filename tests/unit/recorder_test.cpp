@@ -201,7 +201,7 @@ TEST(Recorder, APictureIsListedOnlyWhenItsFileIsComplete) {
     EXPECT_EQ(test::readFile(folder / "cam0/data.csv"), "#timestamp [ns],filename\n1,1.png\n");
 }
 
-TEST(Recorder, TakesNothingThatWouldMakeTheRecordingInvalid) {
+TEST(Recorder, PicturesThatWouldMakeTheRecordingInvalidAreRefused) {
     const TempFolder folder;
     Recorder recorder(folder.path(), smallRig(), 30);
     const StoredImage picture = plain(test::kSmallVideo, 1);
@@ -219,7 +219,7 @@ TEST(Recorder, TakesNothingThatWouldMakeTheRecordingInvalid) {
     EXPECT_EQ(loadRecording(folder.path()).video.size(), 1U);
 }
 
-TEST(Recorder, RefusesAFolderThatHoldsAnything) {
+TEST(Recorder, ANonEmptyFolderIsRefused) {
     const TempFolder folder;
     test::writeFile(folder / "precious", "x");
     EXPECT_THROW(Recorder(folder.path(), smallRig(), 30), std::runtime_error);

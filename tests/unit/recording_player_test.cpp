@@ -59,7 +59,7 @@ TEST(RecordingPlayer, ConsumerPaceHoldsAStillBackUntilTheVideoHasCome) {
     EXPECT_FALSE(player.video().ended());
 }
 
-TEST(RecordingPlayer, ConsumerPaceGivesStillsUpToTheVideoThatWasAskedFirst) {
+TEST(RecordingPlayer, ConsumerPaceGivesStillsUpToTheRequestedVideoFirst) {
     const TempFolder folder;
     writeSmallRecording(folder.path(), {0, 33 * kMs, 66 * kMs},
                         {5 * kMs, 33 * kMs, 40 * kMs, 90 * kMs});
@@ -123,7 +123,7 @@ TEST(RecordingPlayer, RealtimeTimesOutBeforeThePictureIsDue) {
     EXPECT_FALSE(player.video().ended());
 }
 
-TEST(RecordingPlayer, RealtimeLeavesOutLatePicturesAndCountsThem) {
+TEST(RecordingPlayer, RealtimeSkipsLatePicturesAndCountsThem) {
     const TempFolder folder;
     std::vector<std::int64_t> times;
     for (int i = 0; i < 20; ++i)
@@ -204,7 +204,7 @@ TEST(RecordingPlayer, FramesOutliveThePlayer) {
     EXPECT_EQ(frame->view().data[0], 10);
 }
 
-TEST(RecordingPlayer, TriggerCountsAndDoesNothingElse) {
+TEST(RecordingPlayer, TriggerOnlyCountsPulses) {
     const TempFolder folder;
     writeSmallRecording(folder.path(), {0, 33 * kMs}, {});
     RecordingPlayer player(loadRecording(folder.path()), {.pace = Pace::Consumer});

@@ -201,7 +201,7 @@ TEST(Recording, MissingFolderIsNamed) {
     EXPECT_EQ(faultOf("/nonexistent/recording"), "/nonexistent/recording: folder is missing");
 }
 
-TEST(Recording, HasTheContentOfItsFiles) {
+TEST(Recording, RecordingHasTheContentOfItsFiles) {
     const TempFolder folder;
     test::writeSmallRecording(folder.path());
     const Recording r = loadRecording(folder.path());
@@ -290,7 +290,7 @@ TEST(Recording, StillsAndPosesMayBeAbsent) {
     EXPECT_FALSE(r.poseAt(r.video.front().time).has_value());
 }
 
-TEST(Recording, TruthIsFoundWhereItIs) {
+TEST(Recording, TruthFilesAreFound) {
     const TempFolder folder;
     test::writeSmallRecording(folder.path());
     writeFile(folder / "truth/flow/1000000000_1500000000.flo", "x");

@@ -156,7 +156,7 @@ TEST(ReopeningCamera, ASilentCameraIsReopenedLaterWhileTheLibraryIsBusy) {
     EXPECT_TRUE(drivenUntil(camera, [&](bool) { return camera.losses() > 0; }));
 }
 
-TEST(ReopeningCamera, ADeviceThatIsSlowToCloseHoldsNobodyUp) {
+TEST(ReopeningCamera, ASlowlyClosingDeviceDelaysNobody) {
     Socket socket;
     ReopeningCamera camera = cameraOn(socket);
     camera.start();
@@ -174,7 +174,7 @@ TEST(ReopeningCamera, ADeviceThatIsSlowToCloseHoldsNobodyUp) {
     EXPECT_TRUE(drivenUntil(camera, [](bool frame) { return frame; }));
 }
 
-TEST(ReopeningCamera, OneWhoseDriverHangsIsNamedAndStopDoesNotWaitForIt) {
+TEST(ReopeningCamera, AHangingDriverIsReportedAndStopDoesNotWaitForIt) {
     Socket socket;
     ReopeningOptions options = quick();
     options.silent = milliseconds(0);  // on trigger, so that silence alone says nothing
@@ -310,7 +310,7 @@ TEST(ReopeningCamera, ACameraLostBeforeItsFirstFrameIsReopenedSlowly) {
     EXPECT_EQ(camera.fault(), "video camera: it has gone");
 }
 
-TEST(ReopeningCamera, OneOnTriggerMayBeSilent) {
+TEST(ReopeningCamera, ATriggeredCameraMayBeSilent) {
     Socket socket;
     socket.sends = false;
     ReopeningOptions options = quick();
@@ -326,7 +326,7 @@ TEST(ReopeningCamera, OneOnTriggerMayBeSilent) {
     EXPECT_EQ(socket.opened, 1);
 }
 
-TEST(ReopeningCamera, AnotherSizeCountsAsNotThere) {
+TEST(ReopeningCamera, ACameraOfAnotherSizeCountsAsMissing) {
     Socket socket;
     socket.size = {2, 2};
     ReopeningCamera camera = cameraOn(socket);

@@ -55,7 +55,7 @@ TEST(StillMatcher, StillWithoutAPulseIsNeverUsed) {
     EXPECT_EQ(matcher.counters().matched, 1U);
 }
 
-TEST(StillMatcher, ConstantIsTheMedianOfTheFirstTwenty) {
+TEST(StillMatcher, LatencyIsTheMedianOfTheFirstTwentyStills) {
     StillMatcherOptions options;
     options.guess = 20ms;
     StillMatcher matcher(options);
@@ -159,7 +159,7 @@ TEST(StillMatcher, LateStillIsMatchedAndSparesItsRepetition) {
     EXPECT_EQ(matcher.counters().lost, 1U);
 }
 
-TEST(StillMatcher, SteppedClockIsLearnedAgain) {
+TEST(StillMatcher, LatencyIsLearnedAgainAfterAClockStep) {
     for (const milliseconds step : {-40ms, 7ms, 80ms}) {
         StillMatcher matcher({});
         Timestamp pulse = kStart;
@@ -182,7 +182,7 @@ TEST(StillMatcher, SteppedClockIsLearnedAgain) {
     }
 }
 
-TEST(StillMatcher, MissesThatDisagreeAreNoStep) {
+TEST(StillMatcher, InconsistentMissesAreNotAClockStep) {
     StillMatcherOptions wide = fast();
     wide.wideWindow = 100ms;
     StillMatcher scattered(wide);
@@ -343,7 +343,7 @@ private:
     std::uint64_t arrived_ = 0;
 };
 
-TEST(StillMatcher, NoFaultSwapsStillsOrLosesTheCount) {
+TEST(StillMatcher, NoFaultSwapsStillsOrLosesCountOfPulses) {
     for (unsigned seed = 0; seed < 200; ++seed) {
         SCOPED_TRACE(seed);
         Chaos(seed).run();

@@ -112,7 +112,7 @@ struct TriggeredStills : testing::Test {
     Sensor sensor;
 };
 
-TEST_F(TriggeredStills, IsTheCameraWithoutARate) {
+TEST_F(TriggeredStills, ReportsTheCamerasInfoWithoutARate) {
     const auto camera = open();
     EXPECT_EQ(camera->info().name, "fake");
     EXPECT_EQ(camera->info().size, (Size{2304, 1728}));
@@ -146,7 +146,7 @@ TEST_F(TriggeredStills, PulseGivesTheExposureIfTheCameraDoesNotReportIt) {
     EXPECT_EQ(still->time(), edge + 300us + 3ms);
 }
 
-TEST_F(TriggeredStills, TheLineIsAskedToRestBeforeAnyPulse) {
+TEST_F(TriggeredStills, TheLineIsSetInactiveBeforeAnyPulse) {
     const auto camera = open();
     EXPECT_GE(sensor.rests, 1);
     const int before = sensor.rests;
@@ -155,7 +155,7 @@ TEST_F(TriggeredStills, TheLineIsAskedToRestBeforeAnyPulse) {
     EXPECT_TRUE(sensor.pulses.empty());
 }
 
-TEST_F(TriggeredStills, StrayStillsGoBackToTheCamera) {
+TEST_F(TriggeredStills, StillsWithoutAPulseAreReturnedToTheCamera) {
     const auto camera = open();
     {
         std::lock_guard lock(sensor.mutex);

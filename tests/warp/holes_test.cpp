@@ -55,7 +55,7 @@ TEST_F(WarpHolesGl, HolesOfTheReferenceAreRequested) {
     EXPECT_GT(hidden, 0.8 * surfaces);
 }
 
-TEST_F(WarpHolesGl, OneRequestAtATimeAndAnswersCloseTheirHoles) {
+TEST_F(WarpHolesGl, OneRequestIsMadeAtATimeAndAnswersCloseTheirHoles) {
     Turned s({});
     const auto request = s.requestAt(15);
     ASSERT_TRUE(request);
@@ -77,7 +77,7 @@ TEST_F(WarpHolesGl, AnswersMoveWithTheCamera) {
     EXPECT_LT(left, request->pixels.size() / 3) << "but for what one more degree uncovers";
 }
 
-TEST_F(WarpHolesGl, AnswersAppearOverTheirFrames) {
+TEST_F(WarpHolesGl, AnswersFadeInOverSeveralFrames) {
     Turned s({.fadeFrames = 4});
     const auto request = s.requestAt(15);
     ASSERT_TRUE(request);
@@ -93,7 +93,7 @@ TEST_F(WarpHolesGl, AnswersAppearOverTheirFrames) {
     EXPECT_NEAR(mean(), last, 0.5);
 }
 
-TEST_F(WarpHolesGl, MoreHolesThanMayBeAskedForAreSpreadEvenly) {
+TEST_F(WarpHolesGl, HolesBeyondTheRequestLimitAreSampledEvenly) {
     Turned all({}), few({.mostRequested = 100});
     const auto every = all.requestAt(20), some = few.requestAt(20);
     ASSERT_TRUE(every && some);
@@ -108,7 +108,7 @@ TEST_F(WarpHolesGl, MoreHolesThanMayBeAskedForAreSpreadEvenly) {
     EXPECT_NEAR(meanRow(every->pixels), meanRow(some->pixels), 8);
 }
 
-TEST_F(WarpHolesGl, ModesThatDoNotRenderDoNotAsk) {
+TEST_F(WarpHolesGl, ModesThatDoNotRenderHolesRequestNone) {
     for (const HoleFilling filling : {HoleFilling::None, HoleFilling::PushPull}) {
         Turned s({.filling = filling});
         EXPECT_FALSE(s.requestAt(15));
@@ -139,7 +139,7 @@ TEST_F(WarpHolesGl, AppearingObjectsAreFilledAtOnce) {
     EXPECT_GT(uncovered, 20);
 }
 
-TEST_F(WarpHolesGl, FaultyAnswersAreRefusedAndThoseOfAnotherSceneLeftOut) {
+TEST_F(WarpHolesGl, FaultyAnswersAreRefusedAndAnswersOfAnotherSceneIgnored) {
     Turned s({});
     const auto request = s.requestAt(15);
     ASSERT_TRUE(request);

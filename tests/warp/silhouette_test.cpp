@@ -82,7 +82,7 @@ TEST_F(SilhouetteGl, TransparentAlphaFactorsMakeHoles) {
     EXPECT_NEAR(seen({squareAt(0, solid)})[1], kSquare, 200);
 }
 
-TEST_F(SilhouetteGl, AnotherSceneOfTheSameModelsShowsThemWhereTheyAreNow) {
+TEST_F(SilhouetteGl, AnotherSceneOfTheSameModelsShowsThemAtTheirNewPlaces) {
     const SceneObject left = squareAt(-0.25, {}), right = squareAt(0.25, {});
     ModelSilhouette silhouette(seeing());
     Scene scene;

@@ -254,7 +254,7 @@ TEST(SurfacePaint, PlainColoursAreExactUpToTwoRoundings) {
         }
 }
 
-TEST(SurfacePaint, WithoutTextureCoordinatesIsTheFactorAlone) {
+TEST(SurfacePaint, WithoutTextureCoordinatesOnlyTheFactorIsUsed) {
     Material material = textured(0, 0);
     material.baseColour = {1, 0, 1, 1};
     Mesh bare = square();
@@ -287,7 +287,7 @@ TEST(SurfacePaint, TheObjectWithMostQuartersIsPainted) {
     }
 }
 
-TEST(SurfacePaint, IsSeenThroughHoles) {
+TEST(SurfacePaint, SurfaceBehindAlphaHolesIsPainted) {
     Material masked = textured(), red;
     masked.alphaCutoff = 0.5F;
     masked.metallic = 0;

@@ -129,7 +129,7 @@ TEST(SurfaceRaster, TrianglesBehindTheCameraAreClipped) {
         }
 }
 
-TEST(SurfaceRaster, MasksHaveTheirHoles) {
+TEST(SurfaceRaster, AlphaMasksHaveHoles) {
     auto model = std::make_shared<Model>();
     model->meshes.push_back(shards(5, 3));
     Material masked;

@@ -54,7 +54,7 @@ TEST_F(WarpGl, SmallTurnsAreAsSharpAsInterpolationAllows) {
         EXPECT_GT(s.psnrAt(degrees), 35) << degrees;
 }
 
-TEST_F(WarpGl, RenderedHolesBeatFilledOnesFilledOnesBeatNone) {
+TEST_F(WarpGl, RenderedHolesBeatFilledOnesAndFilledOnesBeatOpenOnes) {
     std::array<double, 4> psnr{};
     for (int i = 0; i < 4; ++i) {
         // A ball far in front of another one.
@@ -67,7 +67,7 @@ TEST_F(WarpGl, RenderedHolesBeatFilledOnesFilledOnesBeatNone) {
     EXPECT_NEAR(psnr[3], psnr[2], 0.3) << "both, once they have arrived";
 }
 
-TEST_F(WarpGl, NothingIsShownOutsideOfSilhouetteAndShadow) {
+TEST_F(WarpGl, NothingIsShownOutsideSilhouetteAndShadow) {
     Shown s;
     const RenderedPicture truth = s.scene.cast(s.view(5), 4);
     const auto rgba = test::bytesOf(test::settled(s.warp, s.scene, test::orbit(5)).colour);
@@ -154,12 +154,12 @@ TEST_F(WarpGl, EmptySceneShowsNothing) {
     EXPECT_EQ(warp.counters().empty, 2U);
 }
 
-TEST_F(WarpGl, ObjectLargerThanTheView) {
+TEST_F(WarpGl, AnObjectLargerThanTheViewIsWarped) {
     Shown s({.filling = HoleFilling::PushPull}, {{{{0, 0, 0.1}, 0.5}}, false, 1});
     EXPECT_GT(s.psnrAt(1), 33);
 }
 
-TEST_F(WarpGl, ReferenceOfAnotherResolutionIsWarpedAlways) {
+TEST_F(WarpGl, AReferenceOfAnotherResolutionIsAlwaysWarped) {
     Shown s({.filling = HoleFilling::PushPull});
     const RenderView small{s.warp.camera().scaledTo({181, 137}), test::orbit(0)};
     s.warp.setReference(warpReference(s.scene.cast(small, 3)));
@@ -180,7 +180,7 @@ TEST_F(WarpGl, OddSizesWork) {
     }
 }
 
-TEST_F(WarpGl, ACrowdOfTrianglesIsSimplifiedAndSeenTheSame) {
+TEST_F(WarpGl, MeshesOfManyTrianglesAreSimplifiedAndLookTheSame) {
     const CastScene scene{{{{0, 0, 0.1}, 0.09}}, true, 1};
     const auto engine = test::warpEngine();
     Warp warp(test::bentCamera(kLayer), kLayer, *engine, {.filling = HoleFilling::PushPull});

@@ -32,7 +32,7 @@ std::vector<std::uint8_t> pipelinePictures() {
 
 /// CTest runs this twice: with the first GL it writes MFAR_PICTURES_OUT, with the other it reads
 /// MFAR_PICTURES_IN.
-TEST_F(AcrossGl, BothDrawTheSamePictures) {
+TEST_F(AcrossGl, BothRenderersDrawTheSamePictures) {
     const char* out = std::getenv("MFAR_PICTURES_OUT");
     const char* in = std::getenv("MFAR_PICTURES_IN");
     if (out == nullptr && in == nullptr) GTEST_SKIP() << "needs the file of the other GL (CTest)";

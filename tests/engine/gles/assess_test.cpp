@@ -95,7 +95,7 @@ twin::Cells cellsOf(const std::vector<std::array<float, 4>>& field, Size cells) 
 
 class AssessFields : public GlTest, public testing::WithParamInterface<int> {};
 
-TEST_P(AssessFields, StatisticsLookUpAndConfidenceMatchTwin) {
+TEST_P(AssessFields, StatisticsLookUpsAndConfidenceMatchTheOracle) {
     const StereoRig rig = bentRig(kVideo, kStill);
     const Waves waves(1, 6, 60, 40);
     const LevelPair pair(waves.shoot(kVideo, {}), waves.shoot(kVideo, {.shift = {-3, 2}}));
@@ -156,7 +156,7 @@ TEST_F(Assess, DisagreementBeyondAlphaAndLookUpsOutsideHaveNoConfidence) {
     }
 }
 
-TEST_F(Assess, GainStatisticsMatchTwin) {
+TEST_F(Assess, GainStatisticsMatchTheOracle) {
     const Size size{122, 90}, half{61, 45}, forward{31, 23}, cells{16, 12};
     const Waves waves(2, 8, 80, 40);
     const LevelPair pair(waves.shoot(size, {}), waves.shoot(size, {.gain = 0.7}));

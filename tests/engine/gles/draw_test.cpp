@@ -45,7 +45,7 @@ gpu::Texture weights(std::uint8_t half, std::uint8_t signal) {
     return uploaded(p, Filter::Linear);
 }
 
-TEST_F(Draw, SharpeningMatchesTwin) {
+TEST_F(Draw, SharpeningMatchesTheOracle) {
     const TestPicture p = Waves(1, 4, 40, 30).shoot(kSmallVideo, {});
     TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);
     params.sharpening = 1;
@@ -86,7 +86,7 @@ gpu::Texture columnsOf(const TestPicture& p, const TileParams& params) {
                  {kSmallVideo.width, kOutput.height});
 }
 
-TEST_F(Draw, UpscalingMatchesTwin) {
+TEST_F(Draw, UpscalingMatchesTheOracle) {
     const TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);
     for (const TestPicture& p : {randomPicture(kSmallVideo, 2), checkerboard(kSmallVideo),
                                  Waves(1, 5, 40, 40).shoot(kSmallVideo, {})}) {
@@ -240,7 +240,7 @@ TEST_F(Draw, TilesCoverThePictureWithoutSeams) {
         drawn("composite_upscale.frag", params, {gpu::sampler(0, columns)}, kOutput).readRgba8());
 }
 
-TEST_F(Draw, PlainTilesEqualTheField) {
+TEST_F(Draw, TilesOfConstantWeightMatchThoseOfAWeightField) {
     const TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);
     const gpu::Texture columns = columnsOf(Waves(2, 6, 40, 20).shoot(kSmallVideo, {}), params);
     const gpu::Texture still =

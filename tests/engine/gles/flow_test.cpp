@@ -71,7 +71,7 @@ std::vector<Cell> search(const LevelPair& pair, const std::vector<Cell>& prior, 
     return patches.read<Cell>(kArea);
 }
 
-TEST_F(FlowPasses, CostAndTextureMatchTwin) {
+TEST_F(FlowPasses, CostAndTextureMatchTheOracle) {
     const LevelPair pair(Waves(1, 5, 40, 40).shoot(kSize, {}), randomPicture(kSize, 3));
     const auto a = pair.first(), b = pair.second();
     const auto prior = randomField(4, 9);
@@ -84,7 +84,7 @@ TEST_F(FlowPasses, CostAndTextureMatchTwin) {
     }
 }
 
-TEST_F(FlowPasses, OneStepMatchesTwin) {
+TEST_F(FlowPasses, OneStepMatchesTheOracle) {
     const Waves waves(2, 10, 60, 40);
     const LevelPair pair(waves.shoot(kSize, {}), waves.shoot(kSize, {.shift = {1.3, -0.6}}));
     const auto a = pair.first(), b = pair.second();
@@ -148,7 +148,7 @@ std::vector<Cell> align(const LevelPair& pair, const std::vector<Cell>& in, int 
     return patches.read<Cell>(kArea);
 }
 
-TEST_F(FlowPasses, BentPatchesMatchTwin) {
+TEST_F(FlowPasses, BentPatchesMatchTheOracle) {
     const LevelPair pair(Waves(1, 5, 40, 40).shoot(kSize, {}), randomPicture(kSize, 3));
     const auto a = pair.first(), b = pair.second();
     // A plane, and a fold where the slopes have opposite signs.
@@ -224,7 +224,7 @@ std::vector<Cell> filtered(const std::vector<Cell>& in, int planeFits = 2) {
     return patches.read<Cell>(kArea);
 }
 
-TEST_F(FlowPasses, FilterMatchesTwin) {
+TEST_F(FlowPasses, FilterMatchesTheOracle) {
     // From nearly a plane of reliable cells to unrelated vectors.
     for (const float reach : {0.2F, 0.7F, 5.0F}) {
         auto in = randomField(8, reach);

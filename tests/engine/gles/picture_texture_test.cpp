@@ -44,7 +44,7 @@ bool isYuv(PixelFormat format) {
            format == PixelFormat::Yuv420;
 }
 
-TEST_F(PictureTexture, EveryFormatWithPaddedRowsMatchesTheTwin) {
+TEST_F(PictureTexture, EveryFormatWithPaddedRowsMatchesTheOracle) {
     for (const PixelFormat format : kEveryFormat) {
         const PaddedPicture source(format, kEvenSize, 3);
         for (const YuvMatrix matrix : {YuvMatrix::Bt601, YuvMatrix::Bt709})
@@ -93,7 +93,7 @@ TEST_F(PictureTexture, FormatAndSizeMayChangeFromPictureToPicture) {
         }
 }
 
-TEST_F(PictureTexture, ThePictureOfEachUploadIsTheNewOne) {
+TEST_F(PictureTexture, EachUploadReplacesThePicture) {
     gpu::PictureTexture picture;
     GLuint id = 0;
     for (unsigned seed = 1; seed < 4; ++seed) {
@@ -160,7 +160,7 @@ struct SharedPicture {
     SharedMemory memory;
 };
 
-TEST_F(PictureTexture, MemoryThatIsSharedIsReadWhereItIs) {
+TEST_F(PictureTexture, SharedMemoryIsReadWithoutACopy) {
     for (const PixelFormat format : {PixelFormat::Yuyv, PixelFormat::Nv12, PixelFormat::Yuv420}) {
         FakeImporter importer;
         {
@@ -179,7 +179,7 @@ TEST_F(PictureTexture, MemoryThatIsSharedIsReadWhereItIs) {
     }
 }
 
-TEST_F(PictureTexture, MemoryOfCamerasThatHaveGoneIsGivenUp) {
+TEST_F(PictureTexture, MemoryOfRemovedCamerasIsReleased) {
     FakeImporter importer;
     gpu::PictureTexture picture;
     picture.setImporter(&importer);
@@ -212,7 +212,7 @@ TEST_F(PictureTexture, MemoryThatTheDriverRefusesIsCopied) {
     EXPECT_EQ(picture.takeImportFault(), std::nullopt);
 }
 
-TEST_F(PictureTexture, OneLargerThanTheGpuAllowsIsNamed) {
+TEST_F(PictureTexture, APictureLargerThanTheGpuAllowsIsReported) {
     try {
         const gpu::Texture texture({1 << 20, 8}, gpu::TexelFormat::Rgba8);
         FAIL() << "no GPU has textures that wide";

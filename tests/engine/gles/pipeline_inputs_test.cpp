@@ -56,7 +56,7 @@ TEST_F(PipelineInputs, FlowUsesTheConfiguredLevels) {
     EXPECT_LT(errorWith(3), 0.5);
 }
 
-TEST_F(PipelineInputs, AStillMuchNarrowerThanTheVideoHasAnOutputOfARow) {
+TEST_F(PipelineInputs, AStillMuchNarrowerThanTheVideoGivesAnOutputOfOneRow) {
     const TestPicture video({160, 40}, PixelFormat::Rgba8, 90),
         still({1, 7}, PixelFormat::Rgba8, 90);
     Pipeline p(plainRig(video.size, still.size), {});

@@ -48,7 +48,7 @@ TestPicture changedIn(TestPicture base, int tiles, int by) {
     return out;
 }
 
-TEST_F(Plan, FlagsAndNoiseMatchTwin) {
+TEST_F(Plan, FlagsAndNoiseMatchTheOracle) {
     const TestPicture drawn = Waves(1, 6, 60, 30).shoot(kSize, {});
     TestPicture now = drawn;
     std::mt19937 random(7);
@@ -85,7 +85,7 @@ TEST_F(Plan, FlagsAndNoiseMatchTwin) {
     EXPECT_LE(changed, 26);
 }
 
-TEST_F(Plan, OverdrawnTilesAreRedrawnWithAnyOtherTile) {
+TEST_F(Plan, OverdrawnTilesAreRedrawnOnceAnyOtherTileChanges) {
     const TestPicture base = Waves(1, 6, 60, 30).shoot(kSize, {});
     const TestPicture oneTile = changedIn(base, 1, 64);
     WorkPlan plan(kSize);
@@ -112,7 +112,7 @@ TEST_F(Plan, OverdrawnTilesAreRedrawnWithAnyOtherTile) {
     EXPECT_EQ(plan.work().changed, 28) << "none counts twice";
 }
 
-TEST_F(Plan, OverdrawnTilesAreRedrawnWithTheirTilesOrTheWholePicture) {
+TEST_F(Plan, OverdrawnTilesAreRedrawnTogetherOnceOneOfThemChanges) {
     const TestPicture base = Waves(1, 6, 60, 30).shoot(kSize, {});
     const TestPicture oneTile = changedIn(base, 1, 64);  // the first
     WorkPlan plan(kSize);
@@ -164,7 +164,7 @@ TEST_F(Plan, AChangeAtATileBorderMarksTheNeighbour) {
     }
 }
 
-TEST_F(Plan, NothingChangedDrawsNothing) {
+TEST_F(Plan, UnchangedFramesDrawNothing) {
     const TestPicture p = randomPicture(kSize, 1);
     WorkPlan plan(kSize);
     plan.update(planesOf(p), planesOf(p), false);
@@ -174,7 +174,7 @@ TEST_F(Plan, NothingChangedDrawsNothing) {
     EXPECT_FALSE(plan.work().drawsWhole());
 }
 
-TEST_F(Plan, AForcedFrameChangesEverything) {
+TEST_F(Plan, AForcedFrameMarksEveryTileChanged) {
     const TestPicture p = randomPicture(kSize, 1);
     WorkPlan plan(kSize);
     plan.update(planesOf(p), planesOf(p), true);
@@ -198,7 +198,7 @@ TEST_F(Plan, TheBufferHoldsEveryTilesFlags) {
               (std::vector<std::uint32_t>{0, 5, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 1}));
 }
 
-TEST_F(Plan, ManyChangedTilesAreDrawnInOnePiece) {
+TEST_F(Plan, ManyChangedTilesAreDrawnAsAWholeFrame) {
     const TestPicture base = Waves(2, 20, 100, 20).shoot(kSize, {});
     const int last = 12;  // 0.45 of 28 tiles are 12.6
     for (const int tiles : {1, last, last + 1, 28}) {

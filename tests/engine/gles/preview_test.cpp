@@ -83,7 +83,7 @@ void expectAlike(const twin::DepthPicture& drawn, const twin::DepthPicture& trut
     EXPECT_GT(covered, 2000);
 }
 
-TEST_F(Preview, ShapesAreWhereTheLensShowsThem) {
+TEST_F(Preview, ShapesAreDrawnWhereTheLensShowsThem) {
     PreviewRenderer renderer(lens(), kOutput);
     for (const VirtualObject& o : inWorld(objects()))
         expectAlike(depthOf(renderer.render(std::array{o}, kPose)),
@@ -120,7 +120,7 @@ TEST_F(Preview, SurfacesAroundAndBehindTheCameraDoNotSmear) {
     }
 }
 
-TEST_F(Preview, NothingInViewDrawsNothing) {
+TEST_F(Preview, ObjectsOutOfViewDrawNothing) {
     PreviewRenderer renderer(lens(), kOutput);
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     constexpr double kInfinite = std::numeric_limits<double>::infinity();
@@ -177,7 +177,7 @@ TEST_F(Preview, BoundsEncloseCoveredPixelsTightly) {
     }
 }
 
-TEST_F(Preview, NothingStaysOfEarlierFrames) {
+TEST_F(Preview, EarlierFramesLeaveNothingBehind) {
     PreviewRenderer renderer(lens(), kOutput), fresh(lens(), kOutput);
     const std::vector<VirtualObject> all = inWorld(objects());
     renderer.render(all, kPose);
@@ -203,7 +203,7 @@ int litQuad(double angle, double ambient) {
     return rgba[4UL * (200UL * kOutput.width + 280)];
 }
 
-TEST_F(Preview, LightIsLambertsLawOverAmbient) {
+TEST_F(Preview, LightFollowsLambertsLawPlusAmbient) {
     for (const double degrees : {0.0, 30.0, 60.0, 85.0, 120.0})
         for (const double ambient : {0.0, 0.35, 1.0}) {
             const double angle = degrees * std::numbers::pi / 180;
@@ -213,7 +213,7 @@ TEST_F(Preview, LightIsLambertsLawOverAmbient) {
         }
 }
 
-TEST_F(Preview, SquaresAlternateOverASide) {
+TEST_F(Preview, CheckerboardSquaresAlternateOverASide) {
     const CameraModel flat = plainRig(kVideo, kVideo).video;
     PreviewRenderer renderer(flat, kOutput, {.ambient = 1});
     VirtualObject o = object(VirtualShape::Quad, {0.6, 0.6, 0}, {});

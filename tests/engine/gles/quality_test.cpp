@@ -146,7 +146,7 @@ TEST_F(QualityTest, SettingsOutOfRangeAreRefusedAndChangeNothing) {
     EXPECT_TRUE(pictureOf(p, c, true) == pictureOf(untouched, c, true));
 }
 
-TEST_F(QualityTest, AShareOfTheTilesGetsDetail) {
+TEST_F(QualityTest, OnlyTheConfiguredShareOfTilesGetsDetail) {
     const PipelineCase c;
     std::size_t before = 0;
     for (const double share : {0.3, 1.0}) {
@@ -235,7 +235,7 @@ std::vector<TileClass> classesAfterAChange(const SkipOptions& skips) {
     return p.readTileClasses();
 }
 
-TEST_F(QualityTest, DisabledSkipsDoTheWork) {
+TEST_F(QualityTest, WithSkipsDisabledAllWorkIsDone) {
     const auto count = [](const std::vector<TileClass>& classes, TileClass which) {
         return std::ranges::count(classes, which);
     };

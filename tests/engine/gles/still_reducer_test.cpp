@@ -51,7 +51,7 @@ std::vector<double> twinOf(const TestPicture& picture, Size to) {
     return out;
 }
 
-TEST_F(StillReducerTest, MatchesItsTwin) {
+TEST_F(StillReducerTest, MatchesTheOracle) {
     for (const auto& [from, to] : {std::pair(Size{100, 70}, Size{43, 31}),
                                    {Size{37, 41}, Size{36, 11}},
                                    {Size{9, 1}, Size{2, 1}},
@@ -93,7 +93,7 @@ std::vector<std::uint8_t> halved(const std::vector<std::uint8_t>& rgba, Size siz
     return out;
 }
 
-TEST_F(StillReducerTest, ASmallPictureIsAsGoodAsALargeOneMadeSmall) {
+TEST_F(StillReducerTest, ASmallOutputIsAsGoodAsAReducedLargeOutput) {
     const PipelineCase c;
     const Eigen::Vector2d shift{2.3, -1.4};
     Pipeline large(c.rig, {});

@@ -96,7 +96,7 @@ std::set<std::uint32_t> listed(const TileLists& lists, int level) {
     return out;
 }
 
-TEST_F(TileListsGl, FlagsAndListsMatchTheTwins) {
+TEST_F(TileListsGl, FlagsAndListsMatchTheOracles) {
     TileBuffer tiles(kVideoSize);
     TileLists lists(kCells, kLevels);
     const auto fields = randomFields(1);
@@ -196,7 +196,7 @@ public:
     Flow2d flow;
 };
 
-TEST_F(TileListsGl, MovedObjectsAreFoundAndTheRestStays) {
+TEST_F(TileListsGl, MovedObjectsAreFoundAndOtherTilesKeepTheirFlow) {
     const MovedSquare s;
     const Refined r(s.now, s.then);
     const auto vectors = r.vectors(), errors = r.errors();
@@ -219,7 +219,7 @@ TEST_F(TileListsGl, MovedObjectsAreFoundAndTheRestStays) {
         }
 }
 
-TEST_F(TileListsGl, WhereNothingMovedNothingIsSearched) {
+TEST_F(TileListsGl, WithoutMotionNothingIsSearched) {
     const TestPicture still = Waves(3, 6, 60, 40).shoot(kVideoSize, {});
     const Refined r(still, still);
     EXPECT_EQ(r.flow.searched().count(), 0);

@@ -57,7 +57,7 @@ Weighed weigh(const twin::Cells& displacement, const twin::Cells& statistics,
     return {{kWhole, field.readRgba32F()}, {kWhole, look.readRgba32F()}, weights.readRgba8()};
 }
 
-TEST_F(Weigh, WeightsMatchTwin) {
+TEST_F(Weigh, WeightsMatchTheOracle) {
     // From a uniform flow on the left to a bent one on the right, slightly torn at the bottom.
     twin::Cells displacement{kWhole, {}};
     for (int y = 0; y < kWhole.height; ++y)
@@ -102,7 +102,7 @@ twin::Cells constantCells(Size size, std::array<float, 4> value) {
 
 // Half of the variance is shared: enough if both sensors look from the same side; otherwise it
 // costs three quarters of the weight.
-TEST_F(Weigh, ABentFlowCostsTrustInAnImperfectMatch) {
+TEST_F(Weigh, ABentFlowLowersTheWeightOfAnImperfectMatch) {
     const twin::Cells half = constantCells(kHalf, {0, 0, 0, 0});
     const twin::Cells matched = constantCells(kWhole, {7.07e4F, 1e5F, 1e5F, 1});
     twin::Cells bent{kWhole, {}};
@@ -115,7 +115,7 @@ TEST_F(Weigh, ABentFlowCostsTrustInAnImperfectMatch) {
 
 // Between two cells that look at different places, look-ups are wrong. Rotations and zooms do not
 // tear the flow.
-TEST_F(Weigh, ATornFlowIsNotTrusted) {
+TEST_F(Weigh, ADiscontinuousFlowHasNoWeight) {
     const twin::Cells half = constantCells(kHalf, {1e5F, 1e5F, 1e5F, 0});
     const twin::Cells alike = constantCells(kWhole, {1e5F, 1e5F, 1e5F, 1});
     const auto weightsWithJump = [&](float jump) {
@@ -237,7 +237,7 @@ void expectLists(const Classified& got, const std::array<std::set<std::uint32_t>
     }
 }
 
-TEST_F(Classify, ClassesCountsAndListsMatchTwin) {
+TEST_F(Classify, ClassesCountsAndListsMatchTheOracle) {
     const twin::Cells field = mixedField();
     std::array<std::set<std::uint32_t>, 4> wanted;  // all, upscaled, trusted, blended
     std::array<unsigned, 4> counts{};

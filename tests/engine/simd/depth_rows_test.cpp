@@ -125,7 +125,7 @@ TEST(MeasureRow, DistinguishesVisibleAndMovingPoints) {
     }
 }
 
-TEST(TakeCells, IsBilinearWhereItAgreesWithThePixel) {
+TEST(TakeCells, InterpolatesBilinearlyWhereCellsAgreeWithThePixel) {
     for (const Size cells : {Size{1, 1}, Size{1, 3}, Size{10, 6}}) {
         const Row field = test::randomValues<float>(
             static_cast<std::size_t>(cells.width) * cells.height, 0, 1, 1);

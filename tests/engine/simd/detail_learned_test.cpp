@@ -8,7 +8,7 @@ namespace {
 // Luma has units of 1/8 grey level, limits of a quarter of that.
 constexpr double kLearnedError = 1.3;
 
-TEST(DetailStepLearned, LearnedFramesAreTheOraclesWithAndWithoutAStill) {
+TEST(DetailStepLearned, LearnedFramesMatchTheOracleWithAndWithoutAStill) {
     for (const auto& [video, stillSize, output] : kSizes)
         for (const bool usesStill : {true, false}) {
             if (output.width > 1000) continue;  // slow, and the video is small
@@ -32,7 +32,7 @@ TEST(DetailStepLearned, LearnedFramesAreTheOraclesWithAndWithoutAStill) {
         }
 }
 
-TEST(DetailStepLearned, GuidedFramesAreTheOracles) {
+TEST(DetailStepLearned, GuidedFramesMatchTheOracle) {
     for (const auto& [video, stillSize, output] : kSizes) {
         if (output.width > 1000) continue;  // slow, and the video is small
         const DetailCase frame(video, stillSize);

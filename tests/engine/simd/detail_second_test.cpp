@@ -71,7 +71,7 @@ void expectAlike(const AlignedRows<std::uint32_t>& a, const AlignedRows<std::uin
             ASSERT_EQ(a.rows()[y][x], b.rows()[y][x]) << x << " " << y;
 }
 
-TEST(DetailStepSecond, ASecondStillWithNoHigherWeightIsInvisible) {
+TEST(DetailStepSecond, ASecondStillIsShownOnlyWhereItsWeightIsHigher) {
     for (const float more : {-0.3F, 0.0F, 0.9F * params::kSecondFrom}) {
         const TwoStills stills(more);
         const DrawnWithBoth both(stills);
@@ -108,7 +108,7 @@ TEST(DetailStepSecond, ASecondStillWithHigherWeightBlendsWithoutASeam) {
     });
 }
 
-TEST(DetailStepSecond, ChangedTilesLookAsInAWholeFrame) {
+TEST(DetailStepSecond, ChangedTilesMatchAWholeFrame) {
     const TwoStills part(0.6F, 0.4), whole(0.6F);
     const DrawnWithBoth some(part), all(whole);
     for (int y = 0; y < kOutput.height; ++y)

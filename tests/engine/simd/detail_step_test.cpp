@@ -7,7 +7,7 @@
 namespace mfar::simd {
 namespace {
 
-TEST(DetailStep, WholeFrameIsTheOraclesAtAnySize) {
+TEST(DetailStep, WholeFrameMatchesTheOracleAtAnySize) {
     for (const auto& [video, stillSize, output] : kSizes) {
         const DetailCase frame(video, stillSize);
         const Drawn drawn(frame, output, {SuperResMode::Detail, true, false, true});
@@ -59,7 +59,7 @@ TEST(DetailStep, BlendMixesTheStillByItsConfidence) {
     }
 }
 
-TEST(DetailStep, OnlyChangedTilesAreDrawnAndLookAsInAWholeFrame) {
+TEST(DetailStep, OnlyChangedTilesAreDrawnAndMatchAWholeFrame) {
     for (const auto& [video, stillSize, output] : kSizes) {
         const DetailCase part(video, stillSize, 0.4), whole(video, stillSize);
         for (const auto& [mode, bank] :
@@ -81,7 +81,7 @@ TEST(DetailStep, OnlyChangedTilesAreDrawnAndLookAsInAWholeFrame) {
     }
 }
 
-TEST(DetailStep, NothingChangedDrawsNothing) {
+TEST(DetailStep, UnchangedFramesDrawNothing) {
     DetailCase frame({64, 48}, {200, 150}, 0.4);
     for (TileWork::Tile& tile : frame.work.flags)
         tile.changed = 0;

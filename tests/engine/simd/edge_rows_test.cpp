@@ -9,7 +9,7 @@
 namespace mfar::simd {
 namespace {
 
-TEST(OpenRow, IsOpenAtEdgesAndWhereNothingIsKnown) {
+TEST(OpenRow, PixelsAreOpenAtEdgesAndWhereDepthIsUnknown) {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     for (const std::size_t width : test::kLengths) {
         std::vector<float> low(3 * width, 1), high(3 * width, 1), rho(width, 1), variance(width);

@@ -101,7 +101,7 @@ TEST(EnlargeRows, LumaOfGreyIsExact) {
     });
 }
 
-TEST(EnlargeRows, ClassesAreTheOracles) {
+TEST(EnlargeRows, ClassesMatchTheOracle) {
     onEveryTarget([&] {
         int compared = 0, all = 0;
         for (const Size size : kSizes) {
@@ -200,7 +200,7 @@ TEST(EnlargeRows, ResidualMatchesTheOracleForEqualClasses) {
     }
 }
 
-TEST(EnlargeRows, FlatHasNoResidualToTheBit) {
+TEST(EnlargeRows, ResidualOfFlatPicturesIsExactlyZero) {
     const FilterBank bank(randomFilters(8000, 2));
     onEveryTarget([&] {
         for (const int level : {0, 1, 1000, 2040}) {
@@ -289,7 +289,7 @@ TEST(EnlargeRows, BlurredEdgesGetSharper) {
     EXPECT_LT(allAfter, 0.8 * allBefore);
 }
 
-TEST(EnlargeRows, MixedRowLiesBetween) {
+TEST(EnlargeRows, MixedRowLiesBetweenItsInputs) {
     onEveryTarget([&] {
         AlignedRows<std::int16_t> rows({50, 2});
         AlignedRows<float> out({50, 1});

@@ -27,7 +27,7 @@ std::string faultOf(std::span<const std::uint8_t> bytes) {
     return "";
 }
 
-TEST(FilterBank, TapsAreTheNeighboursOnce) {
+TEST(FilterBank, TapsCoverEachNeighbourOnce) {
     std::set<std::pair<int, int>> seen;
     for (int i = 0; i < kTaps; ++i) {
         const Offset at = kTapAt[i];
@@ -88,7 +88,7 @@ TEST(FilterBank, WeightsThatSumsCouldNotHoldAreRefused) {
     EXPECT_THROW(FilterBank(std::span(filters).first(5)), FilterBankError);
 }
 
-TEST(FilterBank, PriorIsWholeAndLearned) {
+TEST(FilterBank, ShippedFiltersCoverMostClasses) {
     const Rows<const std::int16_t> gradient = FilterBank::prior().gradient();
     ASSERT_EQ(gradient.size.height, GradientClasses::kCount);
     int learned = 0;
@@ -98,7 +98,7 @@ TEST(FilterBank, PriorIsWholeAndLearned) {
     EXPECT_GT(learned, GradientClasses::kCount / 2);
 }
 
-TEST(FilterBank, CubicLeavesFlatAlone) {
+TEST(FilterBank, CubicKeepsFlatPictures) {
     // The pixel's own weight completes the sum to one; the other weights are Keys'.
     const std::int16_t* cubic = FilterBank::prior().cubic();
     int far = 0;

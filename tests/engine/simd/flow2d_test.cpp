@@ -245,7 +245,7 @@ std::vector<Cell> seedsAround(const Vector2d& flow, double noise) {
     return out;
 }
 
-TEST(Flow2d, RefineAligns) {
+TEST(Flow2d, RefinementAlignsTheSeeds) {
     Pair pair(wavesMoved(kSmall, {0, 0}), wavesMoved(kSmall, {4.3, -2.2}));
     pair.refine(seedsAround({4.3, -2.2}, 0.3), std::vector<Cell>(1200));
     EXPECT_TRUE(pair.flow.errorsGiven());

@@ -55,7 +55,7 @@ struct Problem {
 
 // Costs are the differences to the nearest pixels along the straight line from a vector's first
 // label to its last.
-TEST(LabelCosts, MatchTheNearestPixels) {
+TEST(LabelCosts, CostsAreThoseOfTheNearestPixels) {
     for (const std::size_t width : {1UL, 5UL, 64UL, 150UL}) {
         for (const int vectors : {1, 3}) {
             for (const bool slack : {false, true}) {
@@ -153,7 +153,7 @@ TEST(LabelPlaces, SubLabelPositionsAreMeasuredFromPixelFeet) {
     }
 }
 
-TEST(LabelVertices, AreThoseOfTwoLines) {
+TEST(LabelVertices, VerticesAreThoseOfTwoLines) {
     for (const std::size_t count : test::kLengths) {
         std::vector<Valley> valleys(count);
         for (std::size_t i = 0; i < count; ++i)

@@ -52,7 +52,7 @@ TEST(LumaPyramids, FinestLevelIsSmoothed) {
     }
 }
 
-TEST(LumaPyramids, ColoursCountAsRec601) {
+TEST(LumaPyramids, LumaOfColoursFollowsRec601) {
     constexpr Size kSize{33, 17};
     std::vector<std::uint8_t> texels(4UL * kSize.width * kSize.height);
     for (std::size_t i = 0; i < texels.size(); ++i)
@@ -109,7 +109,7 @@ StereoRig bentRigOf(Size video, Size still) {
     return rig;
 }
 
-TEST(LumaPyramids, StillsAreSeenThroughTheRig) {
+TEST(LumaPyramids, StillsAreResampledToTheVideosGeometry) {
     // The largest still's footprint does not fit into a window.
     for (const Size size : {Size{345, 259}, Size{96, 72}, Size{1000, 750}}) {
         const FlowPicture still = wavesMoved(size, {0, 0});
@@ -140,7 +140,7 @@ TEST(LumaPyramids, RaysThatPointAwayGiveTheBorder) {
             ASSERT_EQ(level.at(x, y), 91);
 }
 
-TEST(LumaPyramids, ExtremesKeepTheRange) {
+TEST(LumaPyramids, BlackAndWhiteAreKept) {
     for (const std::uint8_t fill : {0, 255}) {
         const FlowPicture flat({70, 60}, fill);
         LumaPyramids pyramids(flat.size, twoWorkers());

@@ -9,7 +9,7 @@
 namespace mfar::simd {
 namespace {
 
-TEST(TurnedPoints, AreProjectionsOfTurnedRays) {
+TEST(TurnedPoints, PointsAreProjectionsOfRotatedRays) {
     const TurnedLens lens{test::barrel(), test::smallTurn(), 0.7F};
     for (const std::size_t count : test::kLengths) {
         auto raysX = test::randomValues<float>(count, -0.8, 0.8, 1);
@@ -33,7 +33,7 @@ TEST(TurnedPoints, AreProjectionsOfTurnedRays) {
 }
 
 // The smallest picture, odd sizes, and a map that leaves the picture on every side.
-TEST(TurnedRow, IsBilinearInsideAndUnseenOutside) {
+TEST(TurnedRow, RowIsBilinearInsideAndUnseenOutside) {
     for (const Size size : {Size{2, 2}, Size{3, 2}, Size{40, 31}}) {
         for (const int width : {1, 8, 23, 80}) {
             const std::ptrdiff_t pitch = size.width + 3;

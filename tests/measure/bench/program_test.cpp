@@ -160,7 +160,7 @@ TEST(MfarBench, ParetoHasOursAndPeersAndATableThatTheDaemonReads) {
     EXPECT_GE(levels.size(), 2U);
 }
 
-TEST(MfarBench, SkipMeasuresWhatIsAskedFor) {
+TEST(MfarBench, SkipMeasuresTheRequestedCasesAndSkips) {
     const mfar::test::TempFolder folder;
     const auto csv = folder / "skip.csv";
     const std::string command =
@@ -180,7 +180,7 @@ TEST(MfarBench, SkipMeasuresWhatIsAskedFor) {
     EXPECT_FALSE(std::getline(lines, line));
 }
 
-TEST(MfarBench, GovernorIsMeasuredAtTheDeadlineAskedFor) {
+TEST(MfarBench, GovernorIsMeasuredAtTheRequestedDeadline) {
     const mfar::test::TempFolder folder;
     const auto out = folder / "governor.txt";
     const std::string command =

@@ -10,7 +10,7 @@ double meanDifference(const cv::Mat& a, const cv::Mat& b) {
     return cv::norm(a, b, cv::NORM_L1) / static_cast<double>(a.total() * 3);
 }
 
-TEST(SyntheticWorkload, EveryFrameMovesAndRepeats) {
+TEST(SyntheticWorkload, EveryFrameMovesAndCanBeRepeated) {
     const Workload work = syntheticWorkload({160, 120}, {576, 432}, 4);
     ASSERT_EQ(work.frames.size(), 4U);
     EXPECT_EQ(work.frames[0].size(), cv::Size(160, 120));

@@ -112,7 +112,7 @@ TEST(DnnPeer, AModelEnlargesTheVideo) {
     EXPECT_LE(cv::norm(dnnEnlarger(file, {72, 54})(video), wider, cv::NORM_INF), 2);
 }
 
-TEST(DnnPeer, FilesThatAreNoModelsAreRefused) {
+TEST(DnnPeer, FilesThatAreNotModelsAreRefused) {
     if (builtWithout()) GTEST_SKIP() << "built without OpenCV's dnn_superres";
     const TempFolder folder;
     const std::string good = copiesToPixels(4);

@@ -89,7 +89,7 @@ TEST(FlowTruth, PixelsOccludedOrOutsideInTheStillAreUnknown) {
     }
 }
 
-TEST(FlowTruth, ASlantedSurfaceDoesNotHideItself) {
+TEST(FlowTruth, ASlantedSurfaceDoesNotOccludeItself) {
     StereoRig rig;
     rig.video = {{80, 60}, 100, 100, 39.5, 29.5, {}};
     rig.still = rig.video;

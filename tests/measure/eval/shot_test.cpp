@@ -12,7 +12,7 @@ Pose somePose(std::int64_t ns) {
     return {{ns}, {Eigen::Quaterniond(turn), {1, -2, 3}}};
 }
 
-TEST(PosesOf, AreTheRecordedOnesWhereTheyReach) {
+TEST(PosesOf, PosesAreTheRecordedOnesWithinTheirTimeRange) {
     Recording recording;
     recording.poses = {somePose(100), somePose(200)};
     const PosePair inside = posesOf(recording, {100}, {150});
@@ -21,7 +21,7 @@ TEST(PosesOf, AreTheRecordedOnesWhereTheyReach) {
     EXPECT_TRUE(beyond.frame && !beyond.still);
 }
 
-TEST(PosesOf, WithoutPosesOnlyEqualTimesHaveOne) {
+TEST(PosesOf, WithoutRecordedPosesOnlyEqualTimesHaveAPose) {
     const PosePair equal = posesOf({}, {100}, {100});
     ASSERT_TRUE(equal.frame && equal.still);
     StereoRig rig;

@@ -72,7 +72,7 @@ TEST(StereoPeer, FollowsAnyMotionAcrossTheView) {
     }
 }
 
-TEST(StereoPeer, BlocksAreMatchedAsWell) {
+TEST(StereoPeer, BlockMatchingWorksAsWell) {
     const FlowError error =
         errorAfter(moved(3, {1, 2, 1}, {-0.1, 0, 0}), StereoPeer::Matcher::Block);
     EXPECT_GT(error.coverage, 0.9);  // no result for half a block at the top and at the bottom
@@ -85,7 +85,7 @@ TEST(StereoPeer, HasNoAnswerWithoutABaselineAcrossTheView) {
     EXPECT_EQ(errorAfter(moved(0, {1, 0, 0}, {0.05, 0, 0.2})).coverage, 0);
 }
 
-TEST(Rectification, PutsEveryPointOnTheSameRowNearerToTheLeft) {
+TEST(Rectification, PutsEveryPointOnTheSameRowAndNearerPointsFartherLeft) {
     const CameraModel camera = crookedPairRig().video;
     const RigidTransform motion = moved(4, {1, -1, 2}, {0.03, 0.1, -0.02});
     const auto views = Rectification::of(camera, motion, 32);
@@ -108,7 +108,7 @@ TEST(Rectification, PutsEveryPointOnTheSameRowNearerToTheLeft) {
             }
 }
 
-TEST(Rectification, LeavesRectifiedPicturesAlone) {
+TEST(Rectification, KeepsRectifiedPictures) {
     CameraModel camera = crookedPairRig().video;
     camera.distortion = {};
     camera.fy = camera.fx;

@@ -45,7 +45,7 @@ TEST(VirtualTruth, AQuadIsSeenFromBothSidesAndFlat) {
     EXPECT_NEAR(surfaceDepth(quad, {}, {0.09, 0.04}), 2, 1e-12);
 }
 
-TEST(VirtualTruth, NothingBehindTheCameraOrAroundIt) {
+TEST(VirtualTruth, ObjectsBehindOrAroundTheCameraAreNotSeen) {
     for (const VirtualShape shape : {VirtualShape::Box, VirtualShape::Sphere, VirtualShape::Quad}) {
         EXPECT_EQ(surfaceDepth(objectAt(shape, {0, 0, -2}), {}, {0, 0}), 0);
         EXPECT_EQ(surfaceDepth(objectAt(shape, {0, 0, 0}), {}, {0, 0}), 0);

@@ -74,7 +74,7 @@ double constantOf(const ReferenceRow& row, const hdrvdp::ReceptorResponse& respo
     return NAN;
 }
 
-TEST(HdrVdpReference, ConstantsOfTheEye) {
+TEST(HdrVdpReference, ConstantsOfTheEyeMatchTheReferenceTable) {
     const auto table = referenceTable("hdrvdp2_constants.csv");
     if (table.empty()) GTEST_SKIP() << test::referenceFolder().string() << " is not there";
     const hdrvdp::ReceptorResponse response;
@@ -90,7 +90,7 @@ TEST(HdrVdpReference, ConstantsOfTheEye) {
     EXPECT_EQ(checked, 3 + 27 + 36 + 12 + 90 + 24 + 5 + 2);
 }
 
-TEST(HdrVdpReference, FiltersOfThePyramid) {
+TEST(HdrVdpReference, PyramidFiltersMatchTheReferenceTable) {
     std::ifstream in(test::referenceFolder() / "sp3_filters.txt");
     if (!in) GTEST_SKIP() << test::referenceFolder().string() << " is not there";
     const SteerableFilters got = steerableFilters();
@@ -112,7 +112,7 @@ TEST(HdrVdpReference, FiltersOfThePyramid) {
     EXPECT_EQ(seen, filters.size());
 }
 
-TEST(HdrVdpReference, PathwayOfEveryPicture) {
+TEST(HdrVdpReference, PathwayOfEveryPictureMatchesTheReferenceTable) {
     const auto table = referenceTable("hdrvdp2_pathway.csv");
     if (table.empty()) GTEST_SKIP() << test::referenceFolder().string() << " is not there";
     for (const auto& row : table) {
@@ -159,7 +159,7 @@ void expectBand(const HdrVdpBand& got, const ReferenceRow& row, const std::strin
     check(got.meanMasking, "mean_N_mask");
 }
 
-TEST(HdrVdpReference, QualityAndBandsOfEveryPair) {
+TEST(HdrVdpReference, QualityAndBandsOfEveryPairMatchTheReferenceTable) {
     const auto table = referenceTable("hdrvdp2.csv");
     if (table.empty()) GTEST_SKIP() << test::referenceFolder().string() << " is not there";
     std::map<std::string, std::vector<ReferenceRow>> bands;

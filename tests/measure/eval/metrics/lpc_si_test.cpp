@@ -25,7 +25,7 @@ cv::Mat softened(const cv::Mat& picture, double sigma) {
     return out;
 }
 
-TEST(LpcSi, FallsWithBlurInBothForms) {
+TEST(LpcSi, IndexFallsWithBlurInBothVersions) {
     cv::Mat edge(80, 96, CV_64F, cv::Scalar(50));
     edge.colRange(41, 96) = 200;
     for (const double ratio : {kLpcRelease, kLpcVariant}) {

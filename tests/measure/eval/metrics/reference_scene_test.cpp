@@ -18,7 +18,7 @@ double differenceFrom(const std::string& name, const cv::Mat& picture) {
 }
 
 // The tests at full size rely on this agreement.
-TEST(ReferenceScene, IsTheOneOfThePictures) {
+TEST(ReferenceScene, SceneMatchesTheReferencePictures) {
     if (referenceTable("lpc_si.csv").empty())
         GTEST_SKIP() << referenceFolder().string() << " is not there";
     const cv::Mat scene = referenceScene(1);

@@ -16,7 +16,7 @@ std::vector<float> ramp(std::size_t n) {
     return out;
 }
 
-TEST(Sparsification, KnowingEveryErrorLeavesNoArea) {
+TEST(Sparsification, PerfectConfidenceGivesNoArea) {
     const auto error = ramp(1000);
     std::vector<float> confidence;
     for (const float e : error)
@@ -28,7 +28,7 @@ TEST(Sparsification, KnowingEveryErrorLeavesNoArea) {
     EXPECT_NEAR(got.byConfidence[50], 501.0 / 1001, 1e-9);
 }
 
-TEST(Sparsification, TheSameConfidenceEverywhereIsARandomOrder) {
+TEST(Sparsification, EqualConfidencesGiveTheAreaOfARandomOrder) {
     const auto error = ramp(1000);
     const Sparsification got = sparsification(error, std::vector<float>(1000, 0.5F));
     for (const double left : got.byConfidence)
@@ -37,18 +37,18 @@ TEST(Sparsification, TheSameConfidenceEverywhereIsARandomOrder) {
     EXPECT_NEAR(got.ause, 0.5, 0.01);  // the area between 1 and a straight line from 1 to 0
 }
 
-TEST(Sparsification, TheWrongOrderIsWorseThanNone) {
+TEST(Sparsification, AReversedOrderIsWorseThanARandomOne) {
     const auto error = ramp(100);
     EXPECT_GT(sparsification(error, error).ausePerRandom, 1.5);
 }
 
-TEST(Sparsification, NoErrorNoArea) {
+TEST(Sparsification, WithoutErrorsTheAreaIsNan) {
     EXPECT_TRUE(std::isnan(sparsification({}, {}).ause));
     const std::vector<float> none(5, 0);
     EXPECT_TRUE(std::isnan(sparsification(none, ramp(5)).ause));
 }
 
-TEST(Sparsification, RefusesUnsoundValues) {
+TEST(Sparsification, InvalidValuesAreRefused) {
     const std::vector<float> one{1}, two{1, 2}, less{-1};
     const std::vector<float> nan{std::numeric_limits<float>::quiet_NaN()};
     EXPECT_THROW((void)sparsification(one, two), std::invalid_argument);
