@@ -15,11 +15,12 @@ constexpr Size kStill{220, 163};
 constexpr Size kGrid{16, 12};
 constexpr int kGridArea = 16 * 12;
 constexpr double kAlpha = params::kTwoWayAlpha;
-// For sums of 64 products of up to 255^2 in single precision.
+// Tolerances for sums of 64 products of up to 255^2 in single precision.
 constexpr double kRelative = 1e-3, kAbsolute = 2;
-constexpr double kPixel = 0.01;  // [still px], for unprojection in single precision
+constexpr double kPixel = 0.01;  // tolerance of unprojection in single precision [still px]
 
-/// Flow vectors in both directions, row-major; backward in pixels of `scale` video pixels.
+/// Flow vectors in both directions, row by row. The backward flow is in pixels of `scale` video
+/// pixels.
 struct Fields {
     std::vector<std::array<float, 4>> forward, backward;
     int scale = 1;

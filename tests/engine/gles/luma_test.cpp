@@ -6,7 +6,7 @@ namespace {
 
 using Luma = GlTest;
 
-// Half an 8-bit step, plus single precision for values between two steps.
+// Tolerance: half an 8-bit step, plus single precision for values between two steps.
 constexpr double kRounding = 0.501;
 
 void expectNear(const twin::Grey& gpu, const twin::Grey& twin, double tolerance) {

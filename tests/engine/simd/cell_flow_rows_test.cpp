@@ -63,7 +63,7 @@ TEST(CellFlow, EndsWhereTheStillShowsThePoint) {
 
 TEST(CellFlow, PointsBehindTheCameraAndNanHaveNoFlow) {
     Cells cells(20);
-    cells.ends.motion.turn = {1, 0, 0, 0, 1, 0, 0, 0, -1};  // looks backwards
+    cells.ends.motion.turn = {1, 0, 0, 0, 1, 0, 0, 0, -1};  // the camera looks backwards
     for (const auto& v : cells.flow(cells.s))
         EXPECT_GT(v[0], 9000);
     cells = Cells(20);
@@ -71,7 +71,7 @@ TEST(CellFlow, PointsBehindTheCameraAndNanHaveNoFlow) {
     EXPECT_GT(cells.flow(cells.s)[7][1], 9000);
 }
 
-// The flow at other depths leads back to these depths.
+// The flow of other depths must lead back to these depths.
 TEST(AlignCells, FollowsTheFlowAlongTheLine) {
     for (const std::size_t count : test::kLengths) {
         const Cells cells(count);

@@ -9,10 +9,10 @@ namespace mfar::simd {
 namespace {
 
 constexpr Size kVideo{160, 120}, kStill{400, 300}, kOutput{576, 432};
-constexpr int kFrom = 20, kTo = 32;  // columns of cells
+constexpr int kFrom = 20, kTo = 32;  // a range of columns of cells
 
-/// A frame with two stills. The second is inverted and has its own look-ups; in some columns of
-/// cells its weight exceeds the first one's by `more`, elsewhere it is 0.
+/// A frame with two stills. The second still is inverted and has look-ups of its own. In some
+/// columns of cells its weight exceeds that of the first still by `more`; elsewhere it is 0.
 struct TwoStills {
     explicit TwoStills(float more, double changedShare = 1)
         : frame(kVideo, kStill, changedShare), other(kVideo, kStill, changedShare) {

@@ -17,7 +17,7 @@ std::vector<FilterBank::Filter> numberedFilters() {
     return out;
 }
 
-/// The error message for refused bytes; empty if they are read.
+/// The message with which these bytes are refused. Empty if they are accepted.
 std::string faultOf(std::span<const std::uint8_t> bytes) {
     try {
         (void)readFilters(bytes, "some.filters");
@@ -44,7 +44,7 @@ TEST(FilterBank, BinsMapOntoOneQuadrantByMirrors) {
         for (int bin = 0; bin < bins; ++bin) {
             const Symmetry same = Symmetry::of(bin, bins);
             const double angle = ((bin + 0.5) / bins - 0.5) * 3.14159265358979;
-            // A direction in the centre of the bin, mapped as pixels are.
+            // A direction in the centre of the bin. Pixels are mapped in the same way.
             double x = std::cos(angle), y = std::sin(angle);
             if (same.mirrors) y = -y;
             if (same.transposes) std::swap(x, y);
@@ -99,7 +99,8 @@ TEST(FilterBank, ShippedFiltersCoverMostClasses) {
 }
 
 TEST(FilterBank, CubicKeepsFlatPictures) {
-    // The pixel's own weight completes the sum to one; the other weights are Keys'.
+    // The weight of the pixel itself completes the sum to one. The other weights are those of Keys'
+    // cubic.
     const std::int16_t* cubic = FilterBank::prior().cubic();
     int far = 0;
     for (int phase = 0; phase < kPhases; ++phase)

@@ -6,10 +6,10 @@
 namespace mfar::simd {
 namespace {
 
-// Half an 8-bit step, plus single precision for values between two steps.
+// Tolerance: half an 8-bit step, plus single precision for values between two steps.
 constexpr double kRounding = 0.501;
 
-/// A level as stored; columns begin at -8.
+/// A level as it is stored; its columns begin at x = -8.
 class Stored {
 public:
     Stored(const LumaPyramids& pyramids, const LumaLevel& level)
@@ -21,7 +21,7 @@ public:
     [[nodiscard]] int held(int x, int y) const {
         return at(std::clamp(x, 0, level_.width - 1), std::clamp(y, 0, level_.height - 1));
     }
-    /// Checks that margins repeat the border.
+    /// Checks that the margins repeat the border.
     void checkMargins() const {
         for (int y = 0; y < level_.height; ++y)
             for (int x = -8; x < 4 * level_.pitch - 8; ++x)
@@ -110,7 +110,7 @@ StereoRig bentRigOf(Size video, Size still) {
 }
 
 TEST(LumaPyramids, StillsAreResampledToTheVideosGeometry) {
-    // The largest still's footprint does not fit into a window.
+    // The footprint of the largest still does not fit into one window.
     for (const Size size : {Size{345, 259}, Size{96, 72}, Size{1000, 750}}) {
         const FlowPicture still = wavesMoved(size, {0, 0});
         const Size video{96, 72};
