@@ -10,7 +10,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr double kGamma = 2.2;  // of the video sensor
+constexpr double kGamma = 2.2;  // gamma of the video sensor
 
 cv::Mat3f linear(const cv::Mat3f& picture) {
     cv::Mat3f out;
@@ -67,7 +67,7 @@ TEST_P(EveryScene, HighResTruthAveragesToTheVideo) {
     const cv::Mat3f video = linear(colour(board.cleanVideo(t)));
     cv::Mat3f high = linear(colour(board.highRes(t))), small;
     cv::resize(high, small, video.size(), 0, 0, cv::INTER_AREA);
-    cv::GaussianBlur(small, small, {3, 3}, 0.36);  // the video sensor's blur
+    cv::GaussianBlur(small, small, {3, 3}, 0.36);  // blur of the video sensor
     EXPECT_GT(psnr(small, video), 36);
 }
 

@@ -14,7 +14,7 @@ namespace {
 const CameraModel kWide{{157, 123}, 150, 152, 82.5, 57.1, {-0.28, 0.07, 0.002, -0.001, 0.004}};
 const RigidTransform kEye{Eigen::Quaterniond(0.7, 0.3, -0.5, 0.4).normalized(), {1, 2, -0.5}};
 
-/// Points of a sphere's surface joined to many small triangles; two meshes.
+/// Points on a sphere, joined to many small triangles in two meshes.
 std::shared_ptr<Model> crumpledBall(float radius) {
     std::mt19937 random(7);
     std::normal_distribution<float> normal;
@@ -77,7 +77,7 @@ TEST(SceneBoxes, BoxesAreFewAndTight) {
     SceneBoxes boxes(scene);
     EXPECT_LT(boxes.world().size(), 217U);
     Silhouette silhouette(kWide, 0);
-    // A ball of radius 0.3 at 3 m: about 16 px around the principal point.
+    // A ball of radius 0.3 at 3 m has a radius of about 16 px around the principal point.
     EXPECT_LE(coveredTiles(silhouette.run(boxes, kEye)), 16);
 }
 

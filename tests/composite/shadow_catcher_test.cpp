@@ -12,7 +12,7 @@ const CameraModel kLens{{160, 120}, 150, 150, 79.5, 59.5, {-0.1, 0.02, 0, 0, 0}}
 const Eigen::AlignedBox3d kThing(Eigen::Vector3d(-0.05, -0.05, 0),
                                  Eigen::Vector3d(0.05, 0.05, 0.1));
 
-/// A camera half a metre from the world's origin that looks down at it at an angle.
+/// A camera half a metre from the world's origin. It looks down at the origin at an angle.
 RigidTransform eyeAbove() {
     const Eigen::Vector3d eye(0, -0.4, 0.35);
     const Eigen::Vector3d z = -eye.normalized(), x(1, 0, 0), y = z.cross(x);

@@ -67,7 +67,7 @@ TEST(Silhouette, EveryPixelNearASurfacePointIsCovered) {
 }
 
 TEST(Silhouette, TilesAwayFromObjectsStayFree) {
-    // A sphere of radius 0.1 at 2 m: about 8 px around the principal point.
+    // A sphere of radius 0.1 at 2 m has a radius of about 8 px around the principal point.
     Silhouette silhouette(kCamera, 0);
     const auto& ranges =
         silhouette.run(std::vector{at({0, 0, 2}, VirtualShape::Sphere, 0.2)}, kPose);

@@ -115,7 +115,7 @@ TEST(CameraWatch, ChecksumsDependOnEveryByte) {
     const std::uint64_t before = sparseChecksum(view);
     EXPECT_EQ(sparseChecksum(view), before);
     for (std::size_t x = 0; x < 37; ++x) {
-        pixels[2 * 40 + x] ^= 1;  // the first row that is compared
+        pixels[2 * 40 + x] ^= 1;  // belongs to the first row that is compared
         EXPECT_NE(sparseChecksum(view), before) << x;
         pixels[2 * 40 + x] ^= 1;
     }

@@ -178,7 +178,7 @@ TEST(Config, AnEndlessTextIsRefusedBeforeItIsParsed) {
     EXPECT_EQ(configFaults(dots + " = 1\n"), "test.toml:1:69: a key has more than 32 parts");
     EXPECT_EQ(configFaults("pace = \"auto\"\n[" + dots + "]\n"),
               "test.toml:2:70: a key has more than 32 parts");
-    // Text in quotes neither hides the key nor counts.
+    // A quoted text must neither hide the key nor count as nesting.
     EXPECT_THAT(configFaults("a = [\"\"\"x\"\"\"\", {" + dots + " = 1}]\n"), HasSubstr("32 parts"));
     EXPECT_THAT(configFaults("a = ['''x'''', {" + dots + " = 1}]\n"), HasSubstr("32 parts"));
     EXPECT_EQ(configFaults("# " + dots + "\nrecording = \"" + dots + "\"\n"), "");
@@ -189,7 +189,7 @@ TEST(Config, AnEndlessTextIsRefusedBeforeItIsParsed) {
     for (int i = 0; i < 100'000; ++i)
         list += ",0";
     EXPECT_THAT(configFaults(list + "]"), HasSubstr("more than 100000 values"));
-    // Each part of a key is a table.
+    // Each part of a dotted key is a table.
     std::string tables;
     for (int i = 0; i < 4'000; ++i)
         tables += fmt::format("a{}.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b = 1\n", i);
@@ -223,7 +223,7 @@ TEST(Config, DevicesAndPipesAreRefused) {
         {pipe, "it is not a regular file"},
         {"/dev/zero", "it is not a regular file"},
         {"/dev/full", "it is not a regular file"},
-        // Its size is 0.
+        // The kernel reports a size of 0 for this file.
         {"/proc/version", "it has become longer while it was read"},
         {folder / "long", "it has 2097152 bytes, at most 1048576 are read"},
     };

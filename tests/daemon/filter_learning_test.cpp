@@ -30,7 +30,7 @@ struct FilterLearningTest : testing::Test {
         }
     }
 
-    // Tests run concurrently, each in a process of its own.
+    // Each test has its own folder, because tests run concurrently in separate processes.
     FilterLearningOptions options{std::filesystem::path(testing::TempDir()) /
                                       ("mfar-filters-" + std::to_string(::getpid()) + ".learned"),
                                   "video, still", true};
@@ -55,7 +55,8 @@ StereoRig discsRig() {
     return rig;
 }
 
-/// Replaces a still by another one of the same view, with a noisy video.
+/// Shows a still, then another one of the same view with a noisy video, so that the first is
+/// replaced.
 void replace(FilterLearning& learning, unsigned seed) {
     const twin::Grey sharp = sharpDiscs(seed);
     const SensorPair noisy{.videoNoise = 4, .seed = seed};

@@ -18,7 +18,7 @@ std::vector<QualityLevel> fourLevels() {
     return out;
 }
 
-/// A machine with a given frame time for each level.
+/// A simulated machine on which each level has a given frame time.
 class Machine {
 public:
     using Cost = std::function<double(std::size_t level)>;
@@ -27,7 +27,7 @@ public:
         : governor_(fourLevels(), deadlineMs), cost_(std::move(cost)) {}
 
     void setCost(Cost cost) { cost_ = std::move(cost); }
-    /// Runs frames and returns the share of late ones. Times vary by 4 % (standard deviation).
+    /// Runs frames. Returns the share of late ones. Frame times vary by 4 % (standard deviation).
     double run(int frames, double changed = 1) {
         int late = 0;
         for (int i = 0; i < frames; ++i) {

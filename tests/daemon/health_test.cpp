@@ -45,7 +45,7 @@ TEST_F(HealthTest, FreshPicturesAreHealthy) {
     EXPECT_TRUE(health.isAlive());
 }
 
-// Pictures arrive, but all are the same.
+// Pictures keep arriving, but all of them are equal.
 TEST_F(HealthTest, AFrozenPictureIsDegraded) {
     repeats = now;
     pass(seconds(4));
@@ -57,8 +57,8 @@ TEST_F(HealthTest, AFrozenPictureIsDegraded) {
     EXPECT_TRUE(health.isAlive());
 }
 
-// The worst fault in the field: the driver's dequeue call hangs while the banner is drawn
-// repeatedly.
+// The worst fault seen in use: the driver's dequeue call hangs while the banner is drawn again and
+// again.
 TEST_F(HealthTest, BannerOfAHangingDriverDoesNotCountAsAlive) {
     const Heartbeat capture(hearts, "capture", budget::kCapture);
     picture = now;

@@ -155,7 +155,7 @@ TEST(Log, UnreadMessagesDoNotBlockAThread) {
     const std::string part(4096, 'x');
     while (write(ends[1], part.data(), part.size()) > 0) {
     }
-    fcntl(ends[1], F_SETFL, 0);  // blocking from now on
+    fcntl(ends[1], F_SETFL, 0);  // the socket blocks from now on
     Log log(ends[1], Log::Style::Plain);
     for (int i = 0; i < 20; ++i)
         log.notice("lost");

@@ -18,7 +18,7 @@ CommandLine parse(std::vector<const char*> arguments) {
     return parseCommandLine(static_cast<int>(arguments.size()), arguments.data());
 }
 
-/// The program's error message for these arguments.
+/// The error message of the program for these arguments.
 std::string usageFault(std::vector<const char*> arguments) {
     try {
         (void)parse(std::move(arguments));

@@ -8,14 +8,14 @@ namespace {
 
 constexpr double kInterval = 1. / 30;
 
-/// Constant rate in the camera's own frame [rad/s, m/s].
+/// A constant velocity in the camera's own frame [rad/s, m/s].
 const Vector6 kTwist{{0.3, -0.2, 0.5, 0.4, 0.1, -0.3}};
 
 Timestamp timeOf(double frame) {
     return Timestamp::fromSeconds(100 + frame * kInterval);
 }
 
-/// Pose of a camera with constant rate.
+/// Pose of a camera that moves with this velocity.
 Pose steady(double frame) {
     Pose pose;
     pose.time = timeOf(frame);

@@ -13,7 +13,7 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 
 struct RepeatLimitTest : testing::Test {
-    /// Reports an event; records the message if it may pass at once.
+    /// Reports an event. Records the message if it may be logged at once.
     void happen(const std::string& event, const std::string& text) {
         if (limit.mayPass(event, {4, text}, now)) said.push_back(text);
     }
@@ -49,7 +49,7 @@ TEST_F(RepeatLimitTest, ASingleRepetitionIsWrittenInWords) {
     EXPECT_THAT(said, ElementsAre("gone", "gone (once more in 28 s)"));
 }
 
-// Without the limit: 16 lines in 28 s.
+// Without the limit, 16 lines would be logged in 28 s.
 TEST_F(RepeatLimitTest, ALoosePlugLogsLittleAndTheLastMessageIsCorrect) {
     for (int i = 0; i < 8; ++i) {
         happen("camera", "camera: gone");

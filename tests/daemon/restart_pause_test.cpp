@@ -11,12 +11,12 @@ namespace {
 using std::chrono::seconds;
 
 struct RestartPauseTest : testing::Test {
-    /// A process runs for `ran` and fails; returns the pause before its restart.
+    /// A process runs for `ran` and fails. Returns the pause before its restart.
     RestartPause::Next fail(seconds ran = seconds(1)) {
         const Timestamp started = now;
         now = now + ran;
         const RestartPause::Next next = RestartPause(file).failed(started, now);
-        now = now + next.wait + seconds(1);  // RestartSec=
+        now = now + next.wait + seconds(1);  // RestartSec= of the service
         return next;
     }
 

@@ -14,8 +14,7 @@ using testing::Not;
 
 const std::vector<StageTime> kStages = {{"flow", 30}, {"superres", 10}};
 
-/// Pictures for one second, 50 ms apart, each shown 20 ms after its frame. The 21st is shown at
-/// 11.02 s.
+/// Shows pictures 50 ms apart, each 20 ms after its frame was taken. The 21st is shown at 11.02 s.
 void showPictures(Stats& stats, int count) {
     for (int i = 0; i < count; ++i) {
         FrameStats frame;
@@ -60,7 +59,7 @@ TEST(Stats, RecentRateFallsWhenPicturesStop) {
     EXPECT_LT(fpsAt(1000), 0.01);
 }
 
-// Regression: the rate was 0 when it was queried more often than pictures were made.
+// Regression test: the rate was 0 if it was read more often than pictures were made.
 TEST(Stats, RecentRateOfSlowPicturesIsRightAtAnyTime) {
     Stats stats;
     for (int i = 0; i < 4; ++i) {
@@ -207,7 +206,8 @@ Pose fromTags(int tags, double errorPx) {
     return pose;
 }
 
-/// Three frames: measured, predicted, lost; two stills: measured, and placed between frames.
+/// Three frames with a measured, a predicted and no pose; two stills with a measured pose and with
+/// one interpolated between frames.
 void findPoses(Stats& stats) {
     TrackStats tracker{.frames = 3, .fullSearches = 1, .roiSearches = 2, .flips = 4, .lastMs = 2};
     stats.framePose(fromTags(6, 0.25), tracker);
@@ -243,8 +243,8 @@ TEST(Status, SummaryReportsTheSourcesOfPoses) {
     EXPECT_NEAR(pose["still_track_ms"]["median"].get<double>(), 8, 0.1);
 }
 
-/// Two frames matched along epipolar lines, the first with a refined, the second with a predicted
-/// pose; before them a frame without such data.
+/// A frame without data on lines, then two frames matched along epipolar lines: one with a refined,
+/// one with a predicted pose.
 void showLines(Stats& stats) {
     FrameStats frame;
     frame.usedStill = frame.usedPose = true;

@@ -20,12 +20,12 @@ TEST(StillPolicy, ABusyTriggerIsRetriedAtOnce) {
     EXPECT_EQ(policy.lost(), 0);
 }
 
-/// A sensor that answers a trigger after a fixed time, or never.
+/// A still sensor that answers a trigger after a fixed time, or never.
 class Simulation {
 public:
     explicit Simulation(const TriggerConfig& config) : policy(config) {}
 
-    /// Runs frames for `seconds`; returns how often the policy fired.
+    /// Runs frames for `seconds`. Returns how often the policy fired.
     int run(double seconds, FrameStats stats) {
         int fired = 0;
         for (const double end = now + seconds; now < end; now += kFrame) {
@@ -44,7 +44,7 @@ public:
 
     StillPolicy policy;
     double now = 100;
-    double delay = 0;  ///< by how much the numbers lag behind their frame
+    double delay = 0;  ///< how far the statistics lag behind their frame [s]
     double latency = 0.2;
     bool answers = true;
     std::optional<double> answerAt;
@@ -77,7 +77,8 @@ TEST(StillPolicy, CameraAtRestFiresOnceEvenIfTheStillExplainsNothing) {
     EXPECT_EQ(board.run(600, frame(0, 0.01)), 1);
 }
 
-// Numbers of the first frame, in which everything is new, arrive after the trigger that it caused.
+// Everything is new in the first frame, which fires the trigger. The statistics of this frame
+// arrive only after that trigger.
 TEST(StillPolicy, StatsOlderThanTheTriggerAreNotMotion) {
     Simulation board({});
     board.delay = kFrame;
@@ -85,7 +86,7 @@ TEST(StillPolicy, StatsOlderThanTheTriggerAreNotMotion) {
     EXPECT_EQ(board.run(60, frame(0.1, 0)), 0);
 }
 
-// The pipeline draws every tile again for a new still, even if nothing moves.
+// For a new still, the pipeline draws every tile again even if nothing moves.
 TEST(StillPolicy, TheRedrawForANewStillDoesNotCountAsMotion) {
     TriggerConfig config;
     config.maxAgeS = 0.5;
@@ -128,7 +129,7 @@ TEST(StillPolicy, MotionThatTheStillExplainsWaitsForTheAge) {
     EXPECT_EQ(board.run(0.5, kMovingExplained), 1);
 }
 
-// A sensor's noise must be learned first, so the first frames appear to change.
+// The sensor's noise must be learned first; so the first frames appear to change.
 TEST(StillPolicy, ChangesBeforeTheFirstUseDoNotAgeAStill) {
     TriggerConfig config;
     config.maxAgeS = 5;
@@ -138,7 +139,7 @@ TEST(StillPolicy, ChangesBeforeTheFirstUseDoNotAgeAStill) {
     EXPECT_EQ(board.run(60, kRest), 0);
 }
 
-// The camera turns and stops while the still is pending, which then shows the wrong view.
+// The camera turns and stops while the still is pending; so the still shows the wrong view.
 TEST(StillPolicy, AStillTakenDuringMotionIsReplaced) {
     Simulation board({});
     board.latency = 0.4;

@@ -1,4 +1,4 @@
-// Hostile pictures and poses, and independence of earlier frames.
+// Hostile pictures and poses; independence of earlier frames.
 #include "pipeline/epipolar/epipolar_search.h"
 #include "tests/flow/flow_scene.h"
 
@@ -40,7 +40,7 @@ LumaImage wholePictureOf(Size size, const std::function<int(int, int)>& grey) {
     return out;
 }
 
-/// The field is finite, and displacements are within the search range.
+/// Expects a finite field whose displacements are within the search range.
 void expectSane(const EpipolarSearch& search, Size size) {
     ASSERT_TRUE(test::isFinite(search));
     ASSERT_EQ(search.inverseDepth().size(), static_cast<std::size_t>(size.width) * size.height);
@@ -80,7 +80,7 @@ TEST(EpipolarSearchOdd, UniformAndExtremePicturesGiveFiniteFields) {
     }
 }
 
-// Without information the field must not jump.
+// Without texture the field must not jump.
 TEST(EpipolarSearchOdd, UniformPicturesGiveAUniformField) {
     const Size size{97, 71};
     EpipolarSearch search = test::searchWith(cameraOf(size), 2);
@@ -186,7 +186,7 @@ TEST(EpipolarSearchOdd, IsTheSameWithAnyNumberOfThreads) {
     }
 }
 
-// Every frame has its own canvas, without remains of an earlier frame.
+// Every frame has its own canvas; nothing of an earlier frame may remain.
 TEST(EpipolarSearchOdd, DoesNotDependOnEarlierFrames) {
     const CameraModel camera = barrelOf({180, 130});
     const LumaImage video = scene().render(camera, {}),

@@ -20,11 +20,11 @@ Matrix6 priorCovariance(double turn, double shift) {
     return diagonal.asDiagonal();
 }
 
-/// Matches for a prior with the error `motion`, in the orientation of the rays `still`.
+/// Matches of a scene. The prior has the error `motion`, in the orientation of the rays `still`.
 struct Case {
     Eigen::Vector3d translation{0.2, 0.02, 0.01};
     Vector6 motion = Vector6::Zero();
-    double noise = 0.2;  // of a match [px]
+    double noise = 0.2;  // noise of a match [px]
     double wrong = 0;    // share of outliers
     int count = 250;
 
@@ -94,7 +94,7 @@ TEST(RelativePose, IsRobustToOutliers) {
     }
 }
 
-// Two pictures do not determine the length of the translation.
+// Two pictures do not determine the length of the translation between them.
 TEST(RelativePose, TranslationKeepsTheLengthOfThePrior) {
     const Case c{.motion = motionOf({0.2, 0, 0.1}, {0, 0, 0})};
     for (const double shift : {0.002, 0.02}) {

@@ -70,7 +70,8 @@ TEST(Workers, AnEmptyLoopCallsNothing) {
     EXPECT_EQ(partsOf(workers, 1, 1).size(), 1U);
 }
 
-// A part of an earlier loop that is left over or done twice would change the next loop's sum.
+// If a part of an earlier loop were left over or run twice, the sum of the next loop would be
+// wrong.
 TEST(Workers, ConsecutiveLoopsDoNotMix) {
     for (int threads = 1; threads <= 4; ++threads) {
         Workers workers(threads);
@@ -86,7 +87,7 @@ TEST(Workers, ConsecutiveLoopsDoNotMix) {
     }
 }
 
-// Without locks, the caller sees what the loop's body wrote (checked by ThreadSanitizer).
+// Without a lock, the caller must see what the body of the loop wrote. ThreadSanitizer checks this.
 TEST(Workers, ResultsAreVisibleToTheCaller) {
     Workers workers(4);
     std::vector<int> values(500);
@@ -104,7 +105,7 @@ TEST(Workers, OtherThreadsShareTheWork) {
     std::mutex mutex;
     std::set<std::thread::id> seen;
     std::atomic<bool> both = false;
-    // The first thread's part ends only after the second thread has begun one.
+    // The part of the first thread ends only after the second thread has begun one.
     workers.forRange(2, 1, [&](int, int) {
         {
             const std::scoped_lock lock(mutex);
