@@ -9,7 +9,7 @@ namespace {
 
 using Outcome = EnlargerLearner::Outcome;
 
-constexpr unsigned kFresh = 1000;  // seed of a picture that is not used for learning
+constexpr unsigned kFresh = 1000;  // seed of a picture from which nothing is learned
 
 SensorPair seeded(SensorPair pair, unsigned seed) {
     pair.seed = seed;
@@ -119,7 +119,7 @@ TEST(EnlargerLearner, BadPairsNeverGiveFiltersWorseThanTheCubic) {
 }
 
 TEST(EnlargerLearner, ClassesWithFewPixelsKeepTheShippedFilters) {
-    // Edges of one direction only: the classes of all other directions stay empty.
+    // Edges of one direction only, so that the classes of all other directions stay empty.
     const auto stripes = [](int phase) {
         return twin::greyOf({1024, 768}, [phase](int x, int) {
             return 60.0 + 120 * ((x + 7 * phase) / 37 % 2) + 8 * ((x / 37) % 5);

@@ -24,7 +24,7 @@ TEST(FineMatchLearner, StartsWithoutAFineMatch) {
 TEST(FineMatchLearner, FindsTheNoiseOfTheVideo) {
     EXPECT_LT(learned({}).noise, 0.5);
     for (const double noise : {2.0, 4.0}) {
-        // Three quarters of the noise are in the finest detail; a tenth of the cells has less than
+        // Three quarters of the noise are in the finest detail. A tenth of the cells has less than
         // half of that.
         const double fine = 0.75 * noise * noise;
         const float found = learned({.videoNoise = noise}).noise;

@@ -110,10 +110,10 @@ TEST(LearnerState, GuidanceOutOfRangeIsRefusedThoughTheChecksumIsRight) {
     auto bytes = learned().stored("a, b");
     bytes.resize(bytes.size() - 4);
     auto guidance = bytes;
-    guidance[bytes.size() - kFineMatchSize - kGuidanceSize + 15] ^= 0x40;  // to far more than one
+    guidance[bytes.size() - kFineMatchSize - kGuidanceSize + 15] ^= 0x40;  // far above one
     enlarge::putNumber(guidance, enlarge::fnv1a(guidance), 4);
     EXPECT_THAT(faultOf(guidance), HasSubstr("guidance that is out of range"));
-    bytes[bytes.size() - 1] ^= 0x40;  // the share in FineMatch
+    bytes[bytes.size() - 1] ^= 0x40;  // byte of the share in FineMatch
     enlarge::putNumber(bytes, enlarge::fnv1a(bytes), 4);
     EXPECT_THAT(faultOf(bytes), HasSubstr("usual match that is out of range"));
 }

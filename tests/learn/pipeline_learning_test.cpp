@@ -60,7 +60,7 @@ protected:
                      {});
         return pipeline.readImage();
     }
-    /// True when both pipelines draw the same picture.
+    /// True if both pipelines draw the same picture.
     bool alike() { return picture(pipeline_) == picture(other_); }
 
     bool current_;

@@ -42,13 +42,14 @@ TEST(EnvironmentMap, UncompressedPixelsAreRead) {
     const Environment e =
         parseEnvironment(hdr(kHeader + "-Y 1 +X 2\n", {128, 64, 0, 129, 255, 255, 255, 130}), "a");
     EXPECT_EQ(e.size, (Size{2, 1}));
-    // A mantissa means the middle of its quantization step.
+    // A mantissa stands for the middle of its quantisation step.
     expectClose(e.radiance[0], {128.5F / 128, 64.5F / 128, 0.5F / 128});
     expectClose(e.radiance[1], Eigen::Vector3f::Constant(255.5F / 64));
 }
 
 TEST(EnvironmentMap, RunLengthsOfBothKindsAreRead) {
-    // Four rows of eight pixels, split into components: R a run, G plain, B and E runs.
+    // Four rows of eight pixels, split into components: R is a run, G is not compressed, B and E
+    // are runs.
     Bytes rows;
     for (int y = 0; y < 4; ++y) {
         const auto level = static_cast<std::uint8_t>(10 * y);
@@ -57,7 +58,7 @@ TEST(EnvironmentMap, RunLengthsOfBothKindsAreRead) {
     }
     const Environment split = parseEnvironment(hdr(kHeader + "-Y 4 +X 8\n", rows), "a");
     expectClose(split.radiance[3 * 8 + 5], {30.5F, 6.5F, 9.5F});
-    // One pixel, then a run that repeats it seven times.
+    // One pixel, followed by a run that repeats it seven times.
     rows.clear();
     for (int y = 0; y < 4; ++y)
         rows.insert(rows.end(), {5, 6, 7, 136, 1, 1, 1, 7});
@@ -80,7 +81,7 @@ TEST(EnvironmentMap, EightBitPicturesAreLinearised) {
 }
 
 TEST(EnvironmentMap, LargePicturesAreAveraged) {
-    // 2048 rows of 4096 pixels of one value, but every other row is twice as bright.
+    // 2048 rows of 4096 equal pixels; every other row is twice as bright.
     Bytes rows;
     for (int y = 0; y < 2048; ++y) {
         rows.insert(rows.end(), {2, 2, 16, 0});
@@ -122,7 +123,7 @@ TEST(EnvironmentMap, FaultsAreReportedInOneLine) {
     EXPECT_THROW((void)loadEnvironment(folder / "none.hdr"), ModelError);
 }
 
-// scene.h: column 0 is -x, +y at three quarters of the width, row 0 up.
+// As scene.h defines: column 0 is -x, +y is at three quarters of the width, row 0 is up.
 TEST(EnvironmentMap, DirectionsFollowTheScenesAxes) {
     expectClose(environmentDirection(0, 0.5F), {-1, 0, 0});
     expectClose(environmentDirection(0.75F, 0.5F), {0, 1, 0});

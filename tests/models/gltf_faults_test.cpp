@@ -34,7 +34,7 @@ std::string faultOf(const GltfMaker& maker, const ModelLimits& limits = {}) {
     return faultOf([&] { (void)parseGltf(maker.glb(), "test.glb", {}, limits); });
 }
 
-/// The error message after one change of a valid model.
+/// The error message after one change to a valid model.
 std::string faultAfter(const std::function<void(json&)>& change) {
     GltfMaker maker = richModel();
     change(maker.root);
@@ -61,7 +61,7 @@ TEST(GltfFaults, BytesThatAreNotAModelAreRefused) {
     std::vector<std::uint8_t> glb = oneTriangle().glb();
     glb[4] = 1;
     EXPECT_THAT(faultOfBytes(glb), HasSubstr("version 1"));
-    // A file cut off at any byte gives one clear error.
+    // A file that is cut off at any byte must give one clear error.
     glb = richModel().glb();
     for (std::size_t size = 0; size < glb.size(); size += 7)
         EXPECT_THAT(faultOfBytes({glb.begin(), glb.begin() + static_cast<std::ptrdiff_t>(size)}),
@@ -182,7 +182,7 @@ TEST(GltfFaults, InvalidNodesAreRefused) {
     EXPECT_THAT(faultOf(maker), HasSubstr("nested deeper than 64"));
 }
 
-// A tree that shows each node twice per level would have 2^40 of them.
+// Each level of the tree contains the next level twice; so there are 2^40 instances.
 TEST(GltfFaults, EveryInstanceOfANodeIsCounted) {
     GltfMaker maker = oneTriangle();
     for (int i = 0; i < 40; ++i)
@@ -241,7 +241,7 @@ TEST(GltfFaults, ModelsBeyondTheLimitsAreRefused) {
     limits = {};
     limits.elements = 3;
     EXPECT_THAT(faultOf(richModel(), limits), saysAt("accessors", "4 entries, at most 3"));
-    // Two instances of three vertices.
+    // Two instances of a triangle.
     GltfMaker maker = oneTriangle();
     maker.root["scenes"][0]["nodes"] = {0, 0};
     limits = {};

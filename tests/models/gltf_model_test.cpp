@@ -44,7 +44,7 @@ TEST(GltfModel, MaterialIsRead) {
     EXPECT_EQ(m.normalScale, 0.5F);
     EXPECT_EQ(m.alphaCutoff, 0.25F);
     EXPECT_TRUE(m.doubleSided);
-    // One image used as colour and as data.
+    // One image is used as colour and as data; so it gives two textures.
     ASSERT_EQ(model.textures.size(), 2U);
     EXPECT_EQ(m.baseColourTexture, m.emissionTexture);
     EXPECT_EQ(m.normalTexture, m.metallicRoughnessTexture);
@@ -63,7 +63,7 @@ TEST(GltfModel, HierarchyIsApplied) {
     expectNear(mesh.normals[0], {0, -1, 0});
 }
 
-// The picture stands upright: u along +x, and up in it is up in the world.
+// The picture stands upright: u points along +x, and up in the picture is up in the world.
 TEST(GltfModel, MissingTangentsAreComputed) {
     const Mesh mesh = modelOf(richModel()).meshes.at(0);
     ASSERT_EQ(mesh.tangents.size(), 4U);
@@ -92,7 +92,7 @@ TEST(GltfModel, MirroringKeepsFrontFacesInFront) {
 TEST(GltfModel, NormalsFollowUnequalScales) {
     GltfMaker maker = richModel();
     maker.root["nodes"][1].erase("scale");
-    // The columns of a shear: x stays, y leans towards z, z is stretched.
+    // The columns of a matrix with shear: x stays, y leans towards z, z is stretched.
     maker.root["nodes"][1]["matrix"] = {1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 4, 0, 0, 0, 0, 1};
     const Mesh mesh = modelOf(maker).meshes.at(0);
     const auto& [a, b, c] = mesh.triangles[0];
@@ -143,7 +143,7 @@ TEST(GltfModel, SparseElementsAreReplaced) {
 
 TEST(GltfModel, InterleavedAndNormalizedElementsAreRead) {
     GltfMaker maker = richModel();
-    // Four elements of two shorts, each followed by four bytes of something else.
+    // Four elements of two shorts. Four unrelated bytes follow each element.
     const std::array<std::uint16_t, 16> uvs = {0,     65535, 9, 9, 65535, 65535, 9, 9,
                                                65535, 0,     9, 9, 0,     0,     9, 9};
     const int view = maker.view(uvs.data(), sizeof uvs - 4);
@@ -160,7 +160,7 @@ TEST(GltfModel, InterleavedAndNormalizedElementsAreRead) {
     EXPECT_EQ(mesh.uvs[3], Eigen::Vector2f(0, 0));
 }
 
-// The specification's own example: the lower left quarter of the picture, turned.
+// Example of the specification: the lower left quarter of the picture, rotated.
 TEST(GltfModel, TextureTransformIsApplied) {
     GltfMaker maker = richModel();
     nlohmann::json& m = maker.root["materials"][0];

@@ -23,7 +23,7 @@ TEST(ShapeModel, ShapesAreValidModelsOfTheirSize) {
     }
 }
 
-// n = grad of the ellipsoid's equation, not the sphere's normal stretched.
+// The normal is the gradient of the ellipsoid's equation, not the stretched normal of a sphere.
 TEST(ShapeModel, EllipsoidNormalsAreTheSurfaceGradients) {
     VirtualObject object;
     object.shape = VirtualShape::Sphere;

@@ -66,7 +66,7 @@ TEST(Showpiece, IsAValidModelThatStandsOnTheTable) {
     EXPECT_LT(box.center().head<2>().norm(), 1e-3F);
 }
 
-// A triangle that faces away from its normals would be black or lit from inside.
+// A triangle that faces away from its normals would be black, or lit from inside.
 TEST(Showpiece, NormalsAgreeWithTriangles) {
     const Model model = showpiece();
     for (const Mesh& mesh : model.meshes) {

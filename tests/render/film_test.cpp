@@ -11,7 +11,7 @@ namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-/// Sample of a white matt object.
+/// A sample of a white matt object.
 FilmSample objectSample(float radiance, float depth = 1, std::uint8_t id = 1) {
     const Eigen::Vector3f grey = Eigen::Vector3f::Constant(radiance);
     FilmSample out{{depth, id}, grey, {0, 0, 0}};
@@ -58,8 +58,7 @@ TEST(Film, ObjectPixelIsThePremultipliedMeanOfItsSamples) {
     EXPECT_EQ(picture.colour[0][0], expected);
     EXPECT_EQ(picture.colour[0][3], 128);
     EXPECT_EQ(picture.id[0], 7);
-    EXPECT_EQ(picture.depth[0], 1.2F);  // the nearest hit, because nothing is seen through the
-                                        // centre
+    EXPECT_EQ(picture.depth[0], 1.2F);  // the nearest hit, because the centre shows nothing
     EXPECT_EQ(picture.samples, 4);
 }
 
@@ -146,7 +145,7 @@ TEST(Film, NonFiniteSamplesAreDroppedAndCounted) {
     EXPECT_EQ(picture.colour[0][3], 255);
 }
 
-// The object seen through the pixel's centre was hit by no sample.
+// The object that the pixel's centre shows was not hit by any sample.
 TEST(Film, UnknownLightIsShownUnshaded) {
     SeenSurface seen{{1, 3}};
     seen.paint.diffuse = {0.5F, 0.5F, 0.5F};
@@ -169,10 +168,10 @@ TEST(Film, ErrorIsTheStandardErrorInGreyLevels) {
     EXPECT_TRUE(std::isinf(film.error(0)));
     for (int i = 1; i < 64; ++i)
         film.add(0, objectSample(i % 2 == 0 ? 0.4F : 0.6F));
-    // Standard deviation 0.1 / sqrt(64), times the slope of the encoding at 0.5.
+    // The error is 0.1 / sqrt(64), times the slope of the sRGB encoding at 0.5.
     const float slope = (srgbEncoded(0.501F) - srgbEncoded(0.499F)) / 0.002F;
     EXPECT_NEAR(film.error(0), 255 * slope * 0.1F / 8, 0.05F);
-    // Half the light, shown twice as bright: the same picture.
+    // Half the light, shown with twice the exposure, gives the same picture.
     Film dim({1, 1});
     for (int i = 0; i < 64; ++i)
         dim.add(0, objectSample(i % 2 == 0 ? 0.2F : 0.3F));

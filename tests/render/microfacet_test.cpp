@@ -19,7 +19,7 @@ double overHemisphere(F f) {
     double sum = 0;
     for (int i = 0; i < kThetas; ++i)
         for (int j = 0; j < Phis; ++j) {
-            // Finer steps near the pole and the rim.
+            // Steps are finer near the pole and the rim.
             const double s = (i + 0.5) / kThetas;
             const double z = s * s * (3 - 2 * s), dz = 6 * s * (1 - s) / kThetas;
             const double phi = 2 * M_PI * (j + 0.5) / Phis, r = std::sqrt(1 - z * z);

@@ -46,7 +46,7 @@ double errorOf(const Pixels& pixels, Value value) {
     return std::sqrt(squares / static_cast<double>(2 * pixels.size()));
 }
 
-/// Runs the rows of each stage in several portions, the last ones first.
+/// Runs the rows of each stage in several portions, the last rows first.
 Pixels filtered(Size size, const Pixels& pixels) {
     NoiseFilter filter;
     filter.begin(size, {0, 0, size.width, size.height});
@@ -90,7 +90,7 @@ TEST(NoiseFilter, KeepsDifferencesAboveNoise) {
     EXPECT_GT(errorOf(known, flat), 0.95 * kSigma);
 }
 
-// A step of two standard errors without noise: only a guide distinguishes it from noise.
+// A step of two standard errors without noise. Only a guide can distinguish it from noise.
 template <class Mark>
 double errorAtStep(Mark mark) {
     Pixels pixels = noisyPicture(step, 0);
@@ -124,7 +124,7 @@ TEST(NoiseFilter, KeepsPixelsWithoutNoise) {
             << i;
 }
 
-// One pixel in 16 was sampled; the second part is known in fewer pixels.
+// One pixel in 16 was sampled. The second part of the light is known in fewer pixels.
 TEST(NoiseFilter, FillsPixelsWithoutSamples) {
     Pixels pixels = noisyPicture(flat, 0);
     for (int y = 0; y < kNoisySize.height; ++y)
@@ -146,7 +146,7 @@ TEST(NoiseFilter, FillsPixelsWithoutSamples) {
         ASSERT_TRUE(p.firstCount > 0 && p.secondCount > 0);
 }
 
-// If the neighbours of one part differ by more than noise, the other part is filtered all the same.
+// If the neighbours of one part differ by more than noise, the other part must still be filtered.
 TEST(NoiseFilter, FiltersBothLightPartsSeparately) {
     Pixels pixels = noisyPicture(flat);
     for (std::size_t i = 0; i < pixels.size(); ++i)

@@ -25,7 +25,8 @@ std::shared_ptr<Scene> oddScene(Mesh mesh) {
     return out;
 }
 
-/// Traces, expects finite numbers, and returns how many pixels see an object or its shadow.
+/// Traces the scene and expects finite numbers. Returns how many pixels see an object or its
+/// shadow.
 int tracedSoundly(const std::shared_ptr<const Scene>& scene, const RenderView& view) {
     const PathTracer tracer(scene);
     const Film film = traced(tracer, view, 4);

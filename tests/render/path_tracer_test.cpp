@@ -28,7 +28,7 @@ std::shared_ptr<Scene> sceneOf(Mesh mesh, const Material& material) {
     return out;
 }
 
-/// Mean of the object's radiance over all pixels that see nothing else.
+/// Mean radiance of the object over all pixels that see nothing else.
 Eigen::Vector3f meanRadiance(const Film& film) {
     Eigen::Vector3f sum{0, 0, 0};
     int pixels = 0;
@@ -55,7 +55,7 @@ TEST(PathTracer, AWhiteSphereInUniformLightIsInvisible) {
 }
 
 TEST(PathTracer, ABowlReflectsNoMoreLightThanItReceives) {
-    // Light is reflected many times inside: all of it leaves, except what the limit of the path's
+    // Light is reflected many times inside. All of it must leave, apart from what the limit of path
     // length cuts off.
     Mesh bowl = sphere({0, 0, 0}, 1, 32);
     std::erase_if(bowl.triangles, [&](const auto& t) {
@@ -90,7 +90,7 @@ TEST(PathTracer, RussianRouletteKeepsTheMean) {
     EXPECT_NEAR(a, b, 0.006F);
 }
 
-/// Radiance of a horizontal surface along wo under a scene's lights, by quadrature.
+/// Radiance of a horizontal surface in the direction wo under the lights of a scene, by quadrature.
 Eigen::Vector3f byQuadrature(const Lighting& lighting, const SurfaceLook& look,
                              const Eigen::Vector3f& wo) {
     const SurfaceScatter scatter(look, wo);
@@ -138,8 +138,8 @@ TEST(PathTracer, SunlightOnAMattSurfaceIsIrradianceTimesCosine) {
 }
 
 TEST(PathTracer, AMirrorShowsTheSunWithItsRadiance) {
-    // The disc fills the reflection's lobe: only the weighted sum of both strategies gives its
-    // radiance.
+    // The sun's disc fills the lobe of the reflection. Only the weighted sum of both sampling
+    // strategies gives its radiance.
     auto scene = sceneOf(square(1, 0), materialOf({1, 1, 1}, 1, 0.1F));
     scene->lighting.sun = Sun{Eigen::Vector3f(0, 1, 1).normalized(), {2, 2, 2}, 0.4F};
     const RenderView view = lookingAt({0, -3, 3}, {0, 0, 0}, {4, 4}, 2000);
@@ -155,7 +155,7 @@ TEST(PathTracer, EmissiveSurfacesAreVisibleAndGiveLight) {
     const RenderView view = lookingAt({0, -4, 0}, {0, 0, 0}, {8, 8}, 20);
     const Eigen::Vector3f seen = meanRadiance(traced(PathTracer(scene), view, 4));
     EXPECT_NEAR((seen - lamp.emission).norm(), 0, 1e-5F);
-    // Ground below: a sphere of radius r = 1 at height h = 2 adds radiance * albedo * (r / h)^2.
+    // Ground below a sphere of radius r = 1 at height h = 2 adds radiance * albedo * (r / h)^2.
     scene->catcher = ground(20, 0.5F);
     for (Eigen::Vector3f& p : scene->catcher.positions)
         p.z() = -2;
@@ -194,7 +194,7 @@ TEST(PathTracer, TexturesAlphaMasksAndSidesAreRespected) {
 }
 
 TEST(PathTracer, ANormalMapTurnsTheLight) {
-    // All normals are tilted towards +u, which is +x: light from +x becomes brighter.
+    // All normals are tilted towards +u, which is +x; so light from +x must become brighter.
     SurfaceTexture map{{1, 1}, false, {{218, 128, 218, 255}}};
     Material leaning = materialOf({1, 1, 1}, 0, 1);
     leaning.normalTexture = 0;

@@ -26,11 +26,11 @@ TEST(NextStep, StepDependsOnHowFarTheViewChanged) {
              {0.2, {}, Refine},       // the picture is new
              {0.3, {}, Start},        // the next picture takes over its light
              {kInfinite, {}, Start},  // the picture shown cannot serve at all
-             {1.1, 0.9, Continue},    // the camera is on the way
-             {0.6, 2.0, Start},       // the same, and the picture shown serves meanwhile
-             {0.1, 0.7, Drop},        // the camera came back
-             {0.2, 0.7, Continue},    // the camera did not quite come back
-             {2.0, 1.5, Continue},    // too fast, but the next picture is better than the one shown
+             {1.1, 0.9, Continue},    // the camera is still on its way to the next picture's view
+             {0.6, 2.0, Start},       // as before, but the shown picture can serve meanwhile
+             {0.1, 0.7, Drop},        // the camera came back to the shown picture's view
+             {0.2, 0.7, Continue},    // the camera came back, but not quite
+             {2.0, 1.5, Continue},    // too fast, but the next picture is nearer
              {1.5, 2.0, Start},       // the camera took another way than predicted
          }) {
         EXPECT_EQ(nextStep(sinceShown, sinceNext, 0.25), step)
@@ -66,7 +66,7 @@ TEST(ReferencePictures, AfterAMotionAPictureOfTheRestingViewIsStarted) {
     driver.look(20);
     driver.settle();
     const std::size_t before = driver.shown.size();
-    for (int i = 0; i < 30; ++i) {  // it still moves, and the picture serves
+    for (int i = 0; i < 30; ++i) {  // the camera still moves, and the picture can serve
         driver.look(i % 2 == 0 ? 20.8 : 19.2);
         EXPECT_FALSE(driver.step()) << i;
     }

@@ -22,7 +22,8 @@ using Pixels = std::vector<std::uint32_t>;
 constexpr Size kPicture{37, 29};
 constexpr PixelRect kBounds{3, 5, 30, 28};
 
-/// The error of a pixel is its own noise over the root of its number of samples.
+/// A picture in which the error of a pixel is the pixel's own noise divided by the root of its
+/// number of samples.
 class NoisyPicture {
 public:
     explicit NoisyPicture(std::function<float(std::uint32_t)> noise) : noise_(std::move(noise)) {}
@@ -44,14 +45,14 @@ private:
     std::map<std::uint32_t, int> samples_;
 };
 
-/// Random from pixel to pixel, increasing towards the bottom.
+/// Noise that is random from pixel to pixel and increases towards the bottom.
 float hashedNoise(std::uint32_t pixel) {
     const int row = static_cast<int>(pixel) / kPicture.width;
     return 0.02F * static_cast<float>(row) * static_cast<float>(pixel * 2654435761U >> 28);
 }
 
-/// Traces until no portion is handed out. Up to `workers` portions are outstanding at a time and
-/// are done in random order; a portion has at most `most` samples.
+/// Traces until no portion is handed out. Up to `workers` portions of at most `most` samples are
+/// outstanding at a time; they are finished in random order.
 void traceAll(Slices& slices, NoisyPicture& picture, std::size_t workers, std::int64_t most) {
     std::mt19937 random(7);
     std::vector<Slice> out;
@@ -133,7 +134,8 @@ TEST(Slices, NoPixelIsInTwoOutstandingPortions) {
     }
 }
 
-// A ray through every pixel's centre, then the first samples in three turns.
+// First a ray through the centre of every pixel is traced; then come the first samples, in three
+// rounds.
 TEST(Slices, TimeSlicesAreCompleteAfterEachTurn) {
     Slices slices({Slicing::Time, 8, 3, 0, 2});
     slices.begin({0, 0, 32, 24}, {32, 24});
@@ -160,7 +162,7 @@ TEST(Slices, TimeSlicesAreCompleteAfterEachTurn) {
     EXPECT_EQ(sampled, (std::vector<int>{0, 48, 192, 768, 768, 768}));
 }
 
-// One pixel of each 4x4, then one of each 2x2.
+// First one pixel of each 4x4, then one of each 2x2.
 TEST(Slices, TheFirstSamplesAreSpreadEvenly) {
     Slices slices({Slicing::Time, 2, 1, 0, 2});
     slices.begin({0, 0, 32, 24}, {32, 24});
@@ -186,7 +188,7 @@ TEST(Slices, PixelsKnownAfterTheSparseSamplesGetNoMore) {
     Slices slices({Slicing::Time, 16, 4, 1, 8});
     slices.begin({0, 0, 32, 24}, {32, 24});
     NoisyPicture picture([](std::uint32_t) { return 1e6F; });
-    // The left half is known from an earlier picture.
+    // An earlier picture already gives the left half.
     while (true) {
         const Slice slice = slices.next(50);
         if (slice.pixels.empty()) break;
@@ -275,7 +277,8 @@ TEST(Slices, TilesFollowTheMortonCurve) {
 }
 
 TEST(Slices, OnlyNoisyPixelsGetAllSamples) {
-    // Noise only in the middle of one tile: this pixel and its neighbours get more samples.
+    // Only one pixel in the middle of a tile is noisy. This pixel and its neighbours must get more
+    // samples.
     const std::uint32_t noisy = 12 * 32 + 12;
     NoisyPicture picture([&](std::uint32_t pixel) { return pixel == noisy ? 1e6F : 0.1F; });
     Slices slices({Slicing::Time, 64, 4, 1, 8});

@@ -24,7 +24,7 @@ std::vector<SurfaceLook> looks(const Eigen::Vector3f& colour) {
     return out;
 }
 
-/// Reflected light under uniform light of 1.
+/// Reflected light if light of radiance 1 comes from all directions.
 Eigen::Vector3f furnace(const SurfaceLook& look, float mu) {
     const SurfaceScatter scatter(look, directionAt(mu, 0.4F));
     Eigen::Vector3f sum{0, 0, 0};
@@ -60,8 +60,7 @@ TEST(SurfaceScatter, IsReciprocal) {
     }
 }
 
-/// Shares of the samples, and the density's integral, over cells of equal size in cosine and
-/// azimuth.
+/// Share of the samples, and integral of the density, in cells of equal size in cosine and azimuth.
 struct Cells {
     static constexpr int kSide = 8, kFine = 48;
     std::array<double, kSide * kSide> sampled{}, expected{};

@@ -28,7 +28,7 @@ double change(const RenderView& from, const RenderView& to) {
 }
 
 TEST(ViewChange, IsTheAngleAboutTheObjectInUnitsOfTheLimit) {
-    // At the object's level, the azimuth is that angle.
+    // If the camera is at the object's height, the azimuth equals the angle.
     const RenderView from = viewFrom(kSize, 20, 0);
     EXPECT_NEAR(change(from, from), 0, 1e-12);
     EXPECT_NEAR(change(from, viewFrom(kSize, 22, 0)), 0.5, 1e-9);

@@ -41,7 +41,7 @@ TEST(ViewPredictor, UsesTheMotionOfTheLastTenthOfASecond) {
     ViewPredictor predictor(kNoLimits);
     for (int i = 0; i <= 15; ++i)
         predictor.add(onCircle(i / 30.0, 20), Timestamp::fromSeconds(i / 30.0));
-    for (int i = 16; i <= 20; ++i)  // the camera stops
+    for (int i = 16; i <= 20; ++i)  // from here on the camera rests
         predictor.add(onCircle(0.5, 20), Timestamp::fromSeconds(i / 30.0));
     expectNear(predictor.predict(1, kFar), onCircle(0.5, 20), 1e-9, 1e-9);
 }

@@ -5,7 +5,7 @@
 namespace mfar {
 namespace {
 
-/// A still that frames were matched with, and how far they have moved since.
+/// A still that frames were matched with, and how far the frames have moved since.
 struct Known {
     explicit Known(double shows, float moved = 0, float weight = 1) {
         cells.assign(12, {3 + moved, 2, weight, 1});

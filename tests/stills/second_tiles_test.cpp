@@ -9,7 +9,7 @@ namespace {
 
 constexpr Size kTiles{5, 4}, kCells{20, 16};
 
-/// Twenty tiles: the newest still shows all but some of them.
+/// Twenty tiles. The newest still shows all of them except some.
 class SecondTilesTest : public testing::Test {
 protected:
     SecondTilesTest()

@@ -66,7 +66,7 @@ TEST(Tracker, FollowsTheCameraMostlyInRegions) {
     }
     const TrackStats stats = tracker.stats();
     EXPECT_EQ(stats.frames, 11);
-    EXPECT_EQ(stats.fullSearches, 3);  // twice until the motion is known, then every fifth frame
+    EXPECT_EQ(stats.fullSearches, 3);  // two until the motion is known, then one every fifth frame
     EXPECT_EQ(stats.roiSearches, 8);
     EXPECT_EQ(stats.flips, 0);
     EXPECT_GT(stats.worstMs, 0);

@@ -15,7 +15,8 @@ using test::writeSmallRecording;
 
 constexpr std::int64_t kMs = 1'000'000;
 
-/// Frames that one thread gets by asking both cameras in turn: "V" or "S", time in ms, level.
+/// The frames that one thread gets if it asks both cameras in turn: "V" or "S", the time in ms, the
+/// level.
 std::string played(RecordingPlayer& player, std::size_t limit = 1000) {
     std::string seen;
     for (std::size_t n = 0; n < limit && !(player.video().ended() && player.stills().ended());) {

@@ -10,7 +10,7 @@ using test::CastScene;
 using WarpEdgesGl = GlTest;
 
 constexpr Size kEdgeLayer{200, 150};
-constexpr int kLongEnough = 12;  // frames until everything is requested and faded in
+constexpr int kLongEnough = 12;  // number of frames until everything is requested and faded in
 
 struct Resting {
     explicit Resting(const WarpOptions& options)
@@ -23,7 +23,7 @@ struct Resting {
         return test::bytesOf(
             test::settled(warp, scene, test::orbit(degrees), 2 * kLongEnough).colour);
     }
-    /// Returns the first request for edges; answers all others.
+    /// Returns the first request for edges. Answers all other requests.
     std::optional<HoleRequest> edgesAt(double degrees) {
         for (int i = 0; i < kLongEnough; ++i) {
             warp.run(test::orbit(degrees));

@@ -10,7 +10,7 @@ using WarpEngines = GlTest;
 
 constexpr Size kBoth{241, 183};
 
-/// One engine's layer at `degrees` from the reference.
+/// The layer of one engine at `degrees` from the reference.
 struct OfEngine {
     OfEngine(EngineKind kind, double degrees, const WarpOptions& options)
         : engine(test::warpEngine(kind)), warp(test::bentCamera(kBoth), kBoth, *engine, options) {

@@ -39,7 +39,7 @@ TEST_F(WarpHolesGl, HolesOfTheReferenceAreRequested) {
     const RenderedPicture before = s.scene.cast({s.warp.camera(), test::orbit(0)});
     int hidden = 0, surfaces = 0;
     for (const std::uint32_t pixel : request->pixels) {
-        if (now.id[pixel] == 0) continue;  // the plane next to the shadow, which cannot be known
+        if (now.id[pixel] == 0) continue;  // the plane beside the shadow has no depth
         ++surfaces;
         const Eigen::Vector2d at(pixel % kHoleLayer.width, pixel / kHoleLayer.width);
         const Eigen::Vector3d p = now.depth[pixel] * s.warp.camera().unproject(at).homogeneous();
@@ -50,7 +50,7 @@ TEST_F(WarpHolesGl, HolesOfTheReferenceAreRequested) {
         hidden +=
             before.id[i] != now.id[pixel] || std::abs(before.depth[i] - q.z()) > 0.003 ? 1 : 0;
     }
-    // The other pixels are at a limb, where rounding decides.
+    // The other pixels are at the limb of a ball, where rounding decides.
     EXPECT_GT(surfaces, 100);
     EXPECT_GT(hidden, 0.8 * surfaces);
 }
@@ -116,8 +116,8 @@ TEST_F(WarpHolesGl, ModesThatDoNotRenderHolesRequestNone) {
     }
 }
 
-// The small ball is occluded by the big one; when a little of it appears, it must be opaque at
-// once.
+// The large ball occludes the small one. When a little of the small ball appears, it must be opaque
+// at once.
 TEST_F(WarpHolesGl, AppearingObjectsAreFilledAtOnce) {
     const CastScene scene = test::twoBalls();
     const auto engine = test::warpEngine();

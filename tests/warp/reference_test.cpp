@@ -9,7 +9,7 @@
 namespace mfar {
 namespace {
 
-/// 5x4 pixels: object 1 in the left three columns, in front of the catcher.
+/// A picture of 5x4 pixels. Object 1 covers the left three columns, in front of the catcher.
 RenderedPicture smallPicture() {
     RenderedPicture p;
     p.camera = {{5, 4}, 5, 5, 2, 1.5, {}};

@@ -40,7 +40,7 @@ TEST(SurfaceMesh, LongEdgesAreCutAtTheSamePointsOnBothSides) {
             if (to < from) std::swap(from, to);
             ++edges[{from, to}];
         }
-    // Inner edges belong to two triangles, the others to the outline: its length shows whether an
+    // Length of the outline. Inner edges belong to two triangles; so a longer outline shows that an
     // edge is torn.
     double outline = 0;
     for (const auto& [edge, triangles] : edges) {
@@ -91,7 +91,7 @@ TEST(SurfaceMesh, SimplifiedMeshStaysCloseToASmoothSurface) {
     EXPECT_EQ(simplified(whole, 80000).triangles.size(), whole.triangles.size());
 }
 
-// A pipe around which u runs from 0 to 1.
+// A pipe. Around it, u runs from 0 to 1.
 TEST(SurfaceMesh, SimplifiedMeshKeepsBothSidesOfASeamApart) {
     std::vector<Vector3f> corners;
     std::vector<Eigen::Vector2f> uvs;
