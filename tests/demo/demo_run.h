@@ -29,8 +29,8 @@ struct Shown {
     cv::Mat upscaled;
     cv::Mat result;
     cv::Mat truth;
-    std::vector<float> confidence;   ///< of each video pixel
-    std::vector<TileClass> classes;  ///< of each tile
+    std::vector<float> confidence;   ///< confidence of each video pixel
+    std::vector<TileClass> classes;  ///< class of each tile
     Size video;
 };
 

@@ -41,7 +41,8 @@ public:
     /// Checks that a finished recording can be read.
     void recording(const std::string& folder);
     /// Checks memory, descriptors and threads while there are no faults. The first call sets the
-    /// reference. Returns false if the process holds more; requests in progress may end soon.
+    /// reference. Returns false if the process holds more; the caller may try again, because
+    /// requests in progress may end soon.
     [[nodiscard]] bool holdsNoMore(std::uint64_t moreBytes = 8U << 20U);
 
     void note(const std::string& text);

@@ -1,4 +1,4 @@
-// Inputs on which hostile cases failed before they were mended. Each has a test.
+// Inputs on which hostile cases failed before the code was fixed. Each has a test.
 #include "pipeline/depth/depth_filter.h"
 #include "pipeline/depth/edge_snap.h"
 #include "pipeline/epipolar/epipolar_flow.h"

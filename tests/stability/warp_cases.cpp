@@ -215,7 +215,7 @@ HoleAnswer answerOf(Context& c, const std::vector<std::uint32_t>& listed, Size s
     return out;
 }
 
-// Edges are asked for in pictures that no surface shows.
+// Edges must also be found in arbitrary pictures, which no rendered surface gives.
 void edges(Context& c) {
     const Size size = c.size(1, 90);
     const double share = c.hostile.pick({0.01, 0.15, 1.0});

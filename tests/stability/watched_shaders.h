@@ -10,7 +10,7 @@
 /// out of range is counted and clamped. A fault may be planted in one of the shaders.
 namespace mfar::stress {
 
-inline constexpr unsigned kWatchBinding = 15;     ///< buffer of counts, one uint per shader
+inline constexpr unsigned kWatchBinding = 15;     ///< counts: one uint per shader
 inline constexpr std::size_t kMostWatched = 128;  ///< largest number of shaders
 
 /// Name of the shader that count number `index` belongs to.

@@ -145,7 +145,7 @@ public:
         return eval::wallMs([&] { paper_.run(work_.frames[i]); });
     }
     void measure(std::size_t i) { ms_.push_back(run(i)); }
-    /// `ours`: times of the product's frames. They were run alternately with this peer's frames.
+    /// `ours`: times of the product's frames. They were run in turn with the frames of this peer.
     [[nodiscard]] PeerResult result(const CaseResult& of, const std::vector<double>& ours) const {
         const Summary own = summarise(ms_);
         std::vector<double> ratios;

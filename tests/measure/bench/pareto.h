@@ -12,7 +12,7 @@ struct ParetoPoint {
 
     std::string name;
     Kind kind = Kind::Ours;
-    double ms = 0;     ///< median
+    double ms = 0;     ///< median run time [ms]
     double error = 0;  ///< as described by ParetoStage::measure; smaller is better
 };
 

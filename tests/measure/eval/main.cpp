@@ -167,7 +167,7 @@ CLI::App* addSamples(CLI::App& app, const char* name, const char* what, const ch
     return sub;
 }
 
-/// Adds the options that all tasks share to the request.
+/// Completes the request with the options that all tasks share.
 const SampleRequest& completed(SampleRequest& request, const std::vector<std::string>& methods,
                                const Options& o) {
     checkMethods(request.methods, methods);

@@ -13,7 +13,7 @@ struct SlicingRequest {
     int truthSamples = 512;      ///< samples per pixel of the truth, with another seed
     double budgetMs = 4;         ///< processor time per frame [ms]
     int frames = 300;            ///< number of frames under the budget
-    int threads = 2;             ///< for these frames and the truth; one thread for all else
+    int threads = 2;             ///< for these frames and the truth; all else uses one
     std::filesystem::path plot;  ///< SVG of error against time; empty: not written
 };
 
