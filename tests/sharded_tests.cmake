@@ -1,10 +1,10 @@
-# Tests of a program that takes longer to start (OpenGL contexts, shaders to compile) than one of its
-# tests takes: a few processes run them all.
+# Tests of a program whose start (OpenGL contexts, shaders to compile) takes longer than one of its
+# tests. So a few processes run all of them.
 #   target       the program
-#   name         of the tests; a number follows it
-#   SHARDS       how many processes (default: 4)
-#   FILTER       of GoogleTest
-#   LABELS       of CTest
+#   name         name of the tests; a number follows it
+#   SHARDS       number of processes (default: 4)
+#   FILTER       filter of GoogleTest
+#   LABELS       labels of CTest
 #   ENVIRONMENT  variables, as NAME=VALUE
 function(mfar_add_sharded_tests target name)
     cmake_parse_arguments(PARSE_ARGV 2 arg "" "SHARDS;FILTER;LABELS" "ENVIRONMENT")
@@ -18,7 +18,7 @@ function(mfar_add_sharded_tests target name)
         set(properties)
         foreach(property LABELS ENVIRONMENT)
             if(arg_${property})
-                # A property's value is one argument, however many variables it sets.
+                # The value of a property is one argument, whatever number of variables it sets.
                 string(REPLACE ";" "\\;" value "${arg_${property}}")
                 list(APPEND properties ${property} "${value}")
             endif()

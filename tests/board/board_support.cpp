@@ -50,7 +50,7 @@ std::map<int, std::array<Eigen::Vector2d, 4>> detectTags(const cv::Mat1b& pictur
     for (int i = 0; i < zarray_size(found); ++i) {
         apriltag_detection_t* d = nullptr;
         zarray_get(found, i, static_cast<void*>(&d));
-        // In the library's coordinates the centre of the first pixel is (0.5, 0.5).
+        // In libapriltag's coordinates the centre of the first pixel is (0.5, 0.5).
         for (int k = 0; k < 4; ++k)
             out[d->id][k] = {d->p[k][0] - 0.5, d->p[k][1] - 0.5};
     }

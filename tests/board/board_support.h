@@ -10,7 +10,7 @@
 
 namespace mfar::test {
 
-/// The board of a scene, in consumer pace; it lives until the program ends.
+/// The board of a scene at the pace of its consumer. It lives until the program ends.
 SyntheticBoard& sharedBoard(synthetic::Scene scene);
 
 /// Grey copy of a picture.
@@ -18,10 +18,10 @@ cv::Mat1b grey(const ImageView& image);
 /// Colour copy of a picture, in the picture's order of channels, [0, 1].
 cv::Mat3f colour(const StoredImage& image);
 
-/// Corners [px] of the tags 36h11 that libapriltag finds, by id, in the library's order: from
-/// bottom left via bottom right.
+/// Corners [px] of the 36h11 tags that libapriltag finds, by id. They are in the library's order:
+/// bottom left, bottom right, and so on.
 std::map<int, std::array<Eigen::Vector2d, 4>> detectTags(const cv::Mat1b& picture);
-/// The true places of these corners, from the tag's and the camera's pose.
+/// True places of these corners, computed from the poses of tag and camera.
 std::array<Eigen::Vector2d, 4> projectedCorners(const synthetic::Tag& tag,
                                                 const CameraModel& camera,
                                                 const RigidTransform& T_world_camera);

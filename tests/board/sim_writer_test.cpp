@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST(SimWriter, TheRecordingLoadsWithAllItsTruth) {
+TEST(SimWriter, WrittenRecordingLoadsWithAllItsTruth) {
     const TempFolder folder;
     SyntheticOptions options;
     options.scene = synthetic::Scene::Flat;
@@ -50,7 +50,7 @@ TEST(SimWriter, TheRecordingLoadsWithAllItsTruth) {
     EXPECT_TRUE(fs::exists(folder.path() / "tags.toml"));
 }
 
-TEST(SimWriter, AFolderThatHoldsSomethingIsRefused) {
+TEST(SimWriter, ANonEmptyFolderIsRefused) {
     const TempFolder folder;
     fs::create_directory(folder.path() / "other");
     SyntheticOptions options;

@@ -32,8 +32,8 @@ struct Delivery {
     std::vector<std::size_t> stillsAfterFrame;  ///< number of video frames before each still
 };
 
-/// Fires pulses at the given frames, in one thread, until the board ends. Polls for stills while
-/// frames come; after the last frame it waits for the remaining stills.
+/// Fires pulses at the given frames, in one thread, until the board ends. Polls for stills between
+/// frames. After the last frame, waits for the remaining stills.
 Delivery runBoard(SyntheticBoard& board, const std::vector<std::size_t>& pulses) {
     Delivery out;
     board.video().start();
@@ -55,7 +55,7 @@ Delivery runBoard(SyntheticBoard& board, const std::vector<std::size_t>& pulses)
     return out;
 }
 
-TEST(SyntheticBoard, SameSeedSameBytesOtherSeedOtherBytes) {
+TEST(SyntheticBoard, EqualSeedsGiveEqualBytesAndOtherSeedsGiveOthers) {
     SyntheticBoard a(flat(Pace::Consumer, 5, 4)), b(flat(Pace::Consumer, 5, 4)),
         c(flat(Pace::Consumer, 5, 5));
     const Delivery first = runBoard(a, {1}), second = runBoard(b, {1}), other = runBoard(c, {1});
@@ -71,14 +71,15 @@ TEST(SyntheticBoard, AStillComesOnlyAfterAPulseAndItsLatency) {
     const Delivery run = runBoard(board, {2});
     ASSERT_EQ(run.videoTimes.size(), 8U);
     ASSERT_EQ(run.stillTimes.size(), 1U);
-    // Exposed for 8 ms, from 1 ms after the pulse; arrives 60 ms after the pulse: two frames later.
+    // The exposure lasts 8 ms and begins 1 ms after the pulse. The still arrives 60 ms after the
+    // pulse: two frames later.
     EXPECT_EQ(run.stillTimes[0], run.videoTimes[1] + 5ms);
     EXPECT_EQ(run.stillsAfterFrame[0], 4U);
     for (std::size_t i = 1; i < run.videoTimes.size(); ++i)
         EXPECT_NEAR((run.videoTimes[i] - run.videoTimes[i - 1]).count(), 1e9 / 30, 1);
 }
 
-TEST(SyntheticBoard, NoPulseNoStill) {
+TEST(SyntheticBoard, WithoutAPulseNoStillArrives) {
     SyntheticBoard board(flat(Pace::Consumer, 4));
     EXPECT_TRUE(runBoard(board, {}).stillTimes.empty());
 }
@@ -122,7 +123,7 @@ TEST(SyntheticBoard, HoldingEveryFrameTimesOutInsteadOfBlocking) {
     EXPECT_TRUE(board.video().next(10s));
 }
 
-TEST(SyntheticBoard, RealtimeTimesAreRecentAndRising) {
+TEST(SyntheticBoard, RealtimeTimesAreRecentAndIncrease) {
     SyntheticBoard board(flat(Pace::Realtime));
     const Timestamp before = Timestamp::now();
     board.video().start();

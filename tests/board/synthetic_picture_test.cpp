@@ -10,7 +10,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr double kGamma = 2.2;  // of the video sensor
+constexpr double kGamma = 2.2;  // gamma of the video sensor
 
 cv::Mat3f linear(const cv::Mat3f& picture) {
     cv::Mat3f out;
@@ -49,7 +49,7 @@ void expectTags(const SyntheticBoard& board, const ImageView& picture, const Cam
     }
 }
 
-TEST_P(EveryScene, BothSensorsSeeTheTagsWhereTheyAre) {
+TEST_P(EveryScene, BothSensorsShowTheTagsAtTheirTruePositions) {
     SyntheticBoard& board = sharedBoard(GetParam());
     const Pair pair = takePair(board);
     ASSERT_TRUE(pair.video && pair.still);
@@ -67,7 +67,7 @@ TEST_P(EveryScene, HighResTruthAveragesToTheVideo) {
     const cv::Mat3f video = linear(colour(board.cleanVideo(t)));
     cv::Mat3f high = linear(colour(board.highRes(t))), small;
     cv::resize(high, small, video.size(), 0, 0, cv::INTER_AREA);
-    cv::GaussianBlur(small, small, {3, 3}, 0.36);  // the video sensor's blur
+    cv::GaussianBlur(small, small, {3, 3}, 0.36);  // blur of the video sensor
     EXPECT_GT(psnr(small, video), 36);
 }
 
@@ -114,7 +114,7 @@ TEST(SyntheticPicture, TheStillShowsDetailThatTheVideoLacks) {
     EXPECT_GT(lostInVideo(synthetic::Scene::Flat), office + 6);
 }
 
-TEST(SyntheticPicture, NoiseIsThereAndSmall) {
+TEST(SyntheticPicture, PicturesHaveSmallNoise) {
     SyntheticBoard& board = sharedBoard(synthetic::Scene::Flat);
     board.video().start();
     const auto frame = board.video().next(10s);

@@ -12,8 +12,8 @@ constexpr std::array kAllScenes{Scene::Office, Scene::Shelf,  Scene::Outdoor,
                                 Scene::Flat,   Scene::Moving, Scene::Still};
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// A viewpoint with a quarter of the video's resolution: enough pixels for a test, in a sixteenth
-/// of the time.
+/// A viewpoint with a quarter of the video's resolution, which is enough for a test and takes a
+/// sixteenth of the time.
 Viewpoint small(const World& world, Path path, double t) {
     return {boardRig().video.scaledTo({160, 120}), cameraPose(world, path, 1, t), t};
 }
@@ -35,7 +35,7 @@ TEST(SyntheticRig, SensorsStandFourteenMillimetresApartAndAlmostParallel) {
     EXPECT_LT(angle, 0.7);
 }
 
-TEST(SyntheticRig, LensesCanBeUndoneOverTheWholePicture) {
+TEST(SyntheticRig, LensesCanBeInvertedOverTheWholePicture) {
     const StereoRig rig = boardRig();
     for (const CameraModel& camera : {rig.video, rig.still}) {
         for (const double u : {-0.01, 0.25, 0.6, 1.01}) {
@@ -43,7 +43,7 @@ TEST(SyntheticRig, LensesCanBeUndoneOverTheWholePicture) {
                 const Eigen::Vector2d p{u * camera.size.width, v * camera.size.height};
                 const Eigen::Vector2d ray = camera.unproject(p);
                 EXPECT_LT((camera.project(ray) - p).norm(), 1e-6);
-                // From any initial value, even one on the other side of the picture.
+                // Must work from any initial value, even from one on the other side of the picture.
                 for (const double off : {0.0, 1e-3, 0.2, 2.0})
                     EXPECT_LT((camera.unproject(p, ray - Eigen::Vector2d(off, off)) - ray).norm(),
                               1e-9);
@@ -68,7 +68,7 @@ TEST(SyntheticPath, HandHeldShakeIsSmallAndSmooth) {
     EXPECT_GT(widest, 0.8 * kDegree);
 }
 
-TEST(SyntheticPath, RestRestsAndRotationOnlyRotates) {
+TEST(SyntheticPath, RestPathStaysAndRotationPathOnlyRotates) {
     const World world = makeWorld(Scene::Office, 1);
     const RigidTransform rest = cameraPose(world, Path::Rest, 1, 0);
     for (const double t : {0.5, 3.0, 7.7}) {
@@ -81,7 +81,7 @@ TEST(SyntheticPath, RestRestsAndRotationOnlyRotates) {
               2 * kDegree);
 }
 
-TEST(SyntheticWorld, EveryTagLiesInTheFirstViewUnhidden) {
+TEST(SyntheticWorld, FirstViewShowsEveryTagUnoccluded) {
     for (const Scene scene : kAllScenes) {
         const World world = makeWorld(scene, 1);
         ASSERT_FALSE(world.tags.empty());
@@ -95,7 +95,7 @@ TEST(SyntheticWorld, EveryTagLiesInTheFirstViewUnhidden) {
             const int x = static_cast<int>(std::lround(q.x()));
             const int y = static_cast<int>(std::lround(q.y()));
             ASSERT_TRUE(x >= 0 && y >= 0 && x < 640 && y < 480) << name(scene) << tag.id;
-            // The ray of exactly this pixel hits the tag's plane n.(X - p) = 0.
+            // Intersects the ray of exactly this pixel with the tag's plane n.(X - p) = 0.
             const Eigen::Vector3d n =
                 (T_camera_world.rotation * tag.T_world_tag.rotation) * Eigen::Vector3d::UnitZ();
             const double expected = n.dot(ray(view.camera, x, y)) / n.dot(p);
@@ -144,7 +144,7 @@ TEST(SyntheticTruth, FlowUnderPureRotationDoesNotDependOnDepth) {
     EXPECT_GT(compared, 10000);
 }
 
-TEST(SyntheticTruth, OccludedAndOutsidePixelsAreUnknown) {
+TEST(SyntheticTruth, FlowOfOccludedAndOutsidePixelsIsUnknown) {
     const World world = makeWorld(Scene::Shelf, 1);
     const Viewpoint a = small(world, Path::Rest, 0);
     Viewpoint b = a;
@@ -164,8 +164,8 @@ TEST(SyntheticTruth, OccludedAndOutsidePixelsAreUnknown) {
                 EXPECT_FALSE(known(flow.at(x, y)));
                 continue;
             }
-            // Only points behind everything visible in the neighbourhood are tested, so that edges
-            // cannot matter.
+            // Only points are tested that lie behind everything visible around them, so that edges
+            // do not matter.
             bool behind = true;
             for (int i = 0; i < 9; ++i) {
                 const int nx = std::clamp(px + i % 3 - 1, 0, 159);
@@ -181,13 +181,13 @@ TEST(SyntheticTruth, OccludedAndOutsidePixelsAreUnknown) {
     EXPECT_GT(hidden, 100);
 }
 
-TEST(SyntheticTruth, AMovingThingIsFollowed) {
+TEST(SyntheticTruth, FlowFollowsAMovingObject) {
     const World world = makeWorld(Scene::Moving, 1);
     const Viewpoint a = small(world, Path::Rest, 0);
     Viewpoint b = a;
     b.t = 0.5;
     const FlowImage flow = flowBetween(world, a, b);
-    // With the camera at rest, only the moving object has flow, as its pose prescribes.
+    // The camera is at rest; so only the moving object has flow. Its pose gives that flow.
     const RigidTransform T_camera_world = a.T_world_camera.inverse();
     const Eigen::Vector3d before = T_camera_world * world.moverPivot;
     const Eigen::Vector3d after =

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Holds every shader to its budget on every board whose drivers are in the cache; ends with 77 where there
-# are none. With "planted": whether a shader with a large local array is found on each of them.
-# Usage: budget.sh COMPILE-SHADERS [planted]
+# Checks that every shader keeps to its budget on every board whose drivers are in the cache. Exit
+# status 77: there are none. With "planted": checks that a shader with a large local array is
+# reported on each board. Usage: budget.sh COMPILE-SHADERS [planted]
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 boards=$here/../../toolchains/boards

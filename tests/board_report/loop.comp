@@ -1,4 +1,5 @@
-// Recorded as samples/: a texture read and a sum in storage within a loop, and one after it.
+// samples/ has the statistics of this shader: a texture read and a sum in storage inside a loop,
+// and another after it.
 layout(local_size_x = 4, local_size_y = 4) in;
 layout(std430, binding = 0) buffer Sums {
     int count;

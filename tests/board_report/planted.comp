@@ -1,4 +1,4 @@
-// Too many values at once for the registers of any board: its budget has to find that.
+// This shader has more live values than any board has registers; the budget must report it.
 layout(local_size_x = 4, local_size_y = 4) in;
 layout(std430, binding = 0) buffer Values {
     float values[];

@@ -14,7 +14,7 @@ Timestamp at(double seconds) {
     return Timestamp::fromSeconds(seconds);
 }
 
-TEST(PoseTrack, AnEvenScrewIsFollowedExactlyAtUnevenTimes) {
+TEST(PoseTrack, UniformScrewMotionIsInterpolatedExactlyAtUnevenTimes) {
     const Vector6 twist = (Vector6() << 0.4, -0.7, 0.2, 0.1, 0.3, -0.2).finished();
     const RigidTransform start{Eigen::Quaterniond(0.6, 0, 0.8, 0), {1, 2, 3}};
     PoseTrack track;
@@ -28,7 +28,7 @@ TEST(PoseTrack, AnEvenScrewIsFollowedExactlyAtUnevenTimes) {
     }
 }
 
-TEST(PoseTrack, AHandsTremorIsFollowedToThousandthsOfADegree) {
+TEST(PoseTrack, HandTremorIsInterpolatedToThousandthsOfADegree) {
     const auto pose = [](double t) {
         return RigidTransform{
             Eigen::Quaterniond(Eigen::AngleAxisd(

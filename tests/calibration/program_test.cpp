@@ -9,13 +9,13 @@
 #include <sstream>
 #include <string>
 
-/// mfar-calibrate as a user runs it, on pictures that mfar-sim took of a target.
+/// Runs mfar-calibrate as a user does, on pictures of a target that mfar-sim made.
 namespace mfar::test {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// The still sensor's clock is now `ns` ahead.
+/// Moves the clock of the still sensor ahead by `ns`.
 void shiftStills(const fs::path& recording, long long ns) {
     std::istringstream in(readFile(recording / "cam1/data.csv"));
     std::string out;
@@ -61,7 +61,7 @@ TEST(MfarCalibrate, RecoversTheRigFromARecording) {
         EXPECT_NE(ran.text.find(words), std::string::npos) << words << " in\n" << ran.text;
 }
 
-TEST(MfarCalibrate, OneMomentIsNotEnoughAndNothingIsWritten) {
+TEST(MfarCalibrate, ARecordingOfOneViewIsRefusedAndNothingIsWritten) {
     const TempFolder folder;
     const std::string recording = (folder / "recording").string(), out = (folder / "out").string();
     const Outcome made = execute(folder, fmt::format("{} --scene calibration --path rest --seconds "

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The sizes of every sample, for the files without sizes.
+/// Sizes of the samples, for formats whose files contain no sizes.
 const WantedSizes kSizes{Size{640, 480}, Size{2304, 1728}};
 
 std::string faultOf(const fs::path& path) {
@@ -35,8 +35,8 @@ void writeAll(const fs::path& root) {
     writeFile(root / "cv.yml", openCvText());
 }
 
-/// load: what to load; file: which of its files to edit; from, to: the edit; where: how the message
-/// has to begin; what: a part of the message.
+/// load: folder or file to load; file: which of its files to edit; from, to: text to replace and
+/// its replacement; where: required start of the message; what: required part of the message.
 struct Fault {
     const char *load, *file, *from, *to, *where, *what;
 };
@@ -144,7 +144,7 @@ TEST(RigFiles, DeepOrEndlessFilesAreRefusedBeforeParsing) {
     }
 }
 
-TEST(RigFiles, ADeviceOrAPipeIsNoCalibration) {
+TEST(RigFiles, DevicesAndPipesAreRefused) {
     const TempFolder folder;
     ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
     for (const fs::path& file : {folder / "pipe", fs::path("/dev/zero")})
@@ -152,7 +152,7 @@ TEST(RigFiles, ADeviceOrAPipeIsNoCalibration) {
                   file.string() + ": is not a regular file, so this camera has no calibration");
 }
 
-// docs/calibration.md has the same table as the code.
+// The table in docs/calibration.md must equal the one in the code.
 TEST(RigFiles, TheDocumentationHasThePlausibleRanges) {
     const std::string page = readFile(MFAR_CALIBRATION_PAGE);
     for (const plausible::Range& range : plausible::kRanges)

@@ -84,7 +84,7 @@ T: !!opencv-matrix
 )";
 
 inline std::string openCvText() {
-    // One document: without the second header.
+    // A single document must not have a second header.
     return kOpenCvIntrinsics + std::string(kOpenCvExtrinsics).substr(14) +
            "image_size1: [ 640, 480 ]\nimage_size2: [ 2304, 1728 ]\n";
 }

@@ -22,7 +22,7 @@ void expectCamera(const SensorResult& found, const CameraModel& truth) {
     EXPECT_NEAR(c.fy, truth.fy, 1e-3 * truth.fy);
     EXPECT_NEAR(c.cx, truth.cx, 0.5);
     EXPECT_NEAR(c.cy, truth.cy, 0.5);
-    // The reported deviations are realistic: the errors are within four of them.
+    // The reported standard deviations must be realistic: errors are less than four of them.
     EXPECT_LT(std::abs(c.fx - truth.fx), 4 * found.deviations[0]);
     EXPECT_LT(std::abs(c.cx - truth.cx), 4 * found.deviations[2]);
     EXPECT_LT(std::abs(c.distortion[0] - truth.distortion[0]), 4 * found.deviations[4]);
@@ -53,7 +53,7 @@ TEST(Calibrate, FindsLensesBaselineAndClockOffsetInNoise) {
     EXPECT_NEAR(found.still.rms, motion.noise * std::sqrt(2), 0.02);
 }
 
-TEST(Calibrate, OffsetsOfManyFramesAreFound) {
+TEST(Calibrate, ClockOffsetsOfManyFramesAreFound) {
     Motion motion;
     motion.offset = -0.187;
     const BothViews views = makeViews(kGrid, motion);
@@ -62,14 +62,15 @@ TEST(Calibrate, OffsetsOfManyFramesAreFound) {
     expectRig(found);
 }
 
-TEST(Calibrate, WrongCornersAndWrongViewsAreLeftOut) {
+TEST(Calibrate, WrongCornersAndWrongViewsAreExcluded) {
     BothViews views = makeViews(kGrid, {});
     for (std::size_t i = 0; i < views.video.views.size(); i += 3)
         views.video.views[i].corners[i % 20].pixel.x() += 3 + static_cast<double>(i % 5);
     for (const std::size_t bad : {2U, 9U})
         for (Corner& c : views.still.views[bad].corners)
             c.pixel.y() *= 1.004;
-    // A still with a wrong time contradicts the video's motion, although its corners fit well.
+    // The corners of a still with a wrong time fit well, but they contradict the motion of the
+    // video.
     views.still.views[5].time = views.still.views[5].time + std::chrono::milliseconds(60);
     const Calibration found = calibrate(kGrid, views.video, views.still, {});
     expectRig(found);
@@ -88,7 +89,7 @@ void expectNoOffset(const Calibration& found) {
     expectRig(found);
 }
 
-TEST(Calibrate, AnUnobservableOffsetIsZeroAndReported) {
+TEST(Calibrate, AnUnobservableClockOffsetIsZeroAndReported) {
     Motion motion;
     motion.rests = true;
     motion.stillsHz = 1;
@@ -97,7 +98,7 @@ TEST(Calibrate, AnUnobservableOffsetIsZeroAndReported) {
     expectNoOffset(calibrate(kGrid, views.video, views.still, {}));
 }
 
-TEST(Calibrate, WithoutASearchTheOffsetIsZero) {
+TEST(Calibrate, ClockOffsetThatIsNotSearchedIsZero) {
     const BothViews views = makeViews(kGrid, {});
     SolveOptions options;
     options.maxOffset = 0;
@@ -129,8 +130,9 @@ TEST(Calibrate, AllViewsFromOneDirectionAreRefused) {
               std::string::npos);
 }
 
-TEST(Calibrate, OneDistanceIsRefused) {
-    // The target is small and only tilted about its own centre, so that depths hardly differ.
+TEST(Calibrate, AllViewsFromOneDistanceAreRefused) {
+    // The target is small and only tilted about its own centre; so the depths of its points hardly
+    // differ.
     const Target small = aprilGrid(6, 6, 0.008, 0.25);
     Motion motion;
     motion.distance = 0.02;
@@ -144,7 +146,7 @@ TEST(Calibrate, OneDistanceIsRefused) {
     }
 }
 
-TEST(Calibrate, APictureThatIsNotCoveredIsRefusedAndThePlaceNamed) {
+TEST(Calibrate, AnUncoveredPartOfThePictureIsRefusedAndNamed) {
     BothViews views = makeViews(kGrid, {});
     for (TargetView& view : views.video.views)
         std::erase_if(view.corners, [](const Corner& c) { return c.pixel.x() > 330; });
@@ -162,7 +164,7 @@ TEST(Calibrate, StillsWithoutVideoAreRefused) {
               std::string::npos);
 }
 
-TEST(Calibrate, TheReportHasEveryViewAndThePictureIsWritten) {
+TEST(Calibrate, TheReportListsEveryViewAndItsPictureIsWritten) {
     const BothViews views = makeViews(kGrid, {});
     const Calibration found = calibrate(kGrid, views.video, views.still, {});
     const std::string text = viewsText(found);
@@ -178,7 +180,7 @@ TEST(Calibrate, TheReportHasEveryViewAndThePictureIsWritten) {
     std::size_t coloured = 0;
     for (std::size_t i = 0; i < picture.pixels.size(); i += 4)
         coloured += std::abs(picture.pixels[i] - picture.pixels[i + 2]) > 30 ? 1 : 0;
-    EXPECT_GT(coloured, 5000U);  // arrows and dots
+    EXPECT_GT(coloured, 5000U);  // of arrows and dots
 }
 
 }  // namespace

@@ -8,25 +8,25 @@ namespace mfar::test {
 
 /// Motion of the simulated board in front of the target.
 struct Motion {
-    double tilt = 0.5;       ///< [rad]
+    double tilt = 0.5;       ///< greatest tilt [rad]
     double distance = 0.25;  ///< relative change of the distance
-    double aside = 0.12;     ///< [m]
-    double offset = 0;       ///< [s] still's time + offset = video's time
+    double aside = 0.12;     ///< greatest sideways motion [m]
+    double offset = 0;       ///< a still's time + offset = video time [s]
     double seconds = 12;
     double stillsHz = 2;
-    bool rests = false;  ///< the board is at rest when stills are taken, and moves in between
-    double noise = 0.1;  ///< of a corner's coordinate in both pictures [px]
+    bool rests = false;  ///< the board rests while stills are taken and moves in between
+    double noise = 0.1;  ///< standard deviation of corner coordinates [px]
     std::uint64_t seed = 1;
 };
 
-/// The synthetic board's two cameras, ground truth for all tests here.
+/// Calibration of the synthetic board's two cameras: the ground truth of all tests here.
 [[nodiscard]] StereoRig trueRig();
 
 struct BothViews {
     calibration::SensorViews video, still;
 };
 
-/// Corners of an AprilGrid in both pictures of trueRig(), exact but for the noise.
+/// Corners of an AprilGrid in both pictures of trueRig(): exact, plus the noise.
 [[nodiscard]] BothViews makeViews(const calibration::Target& target, const Motion& motion);
 
 }  // namespace mfar::test

@@ -29,7 +29,7 @@ TEST(Target, KalibrsDescriptionIsRead) {
     EXPECT_TRUE(grid.points[30].isApprox(Eigen::Vector3d(expected, expected, 0), 1e-12));
 }
 
-TEST(Target, DescriptionsThatCannotBeAreRefusedWithTheLine) {
+TEST(Target, ImpossibleDescriptionsAreRefusedWithTheirLine) {
     struct Fault {
         const char *from, *to, *where, *what;
     };
@@ -65,16 +65,16 @@ TEST(Target, CheckerboardsThatLookTheSameUpsideDownAreRefused) {
     EXPECT_THROW((void)checkerboard("9x6", std::nan("")), std::runtime_error);
 }
 
-/// A simulated photograph of a print. `pixelOfTarget`: homography from target metres to pixels.
-/// Drawn four times too large and reduced, so that edges have the grey levels that a sensor would
-/// see.
+/// A simulated photograph of a print. `pixelOfTarget`: homography from metres on the target to
+/// pixels. The print is drawn four times too large and then reduced, so that edges have the grey
+/// levels that a sensor would see.
 struct Scene {
     cv::Mat1b picture;
     cv::Matx33d pixelOfTarget;
 };
 
-/// Photograph of paper with `texels` per metre, the target's origin at texel `origin`, y upwards if
-/// `upwards`.
+/// Photographs a paper that has `texels` per metre. The origin of the target is at texel `origin`;
+/// y points upwards if `upwards`.
 Scene photograph(const cv::Mat1b& paper, double texels, cv::Point2d origin, bool upwards,
                  double turn) {
     const cv::Matx33d texelOfTarget{texels,   0, origin.x, 0, upwards ? -texels : texels,
@@ -116,11 +116,11 @@ void expectCorners(const Target& target, const Scene& scene, const std::vector<C
         bias += error / static_cast<double>(corners.size());
     }
     EXPECT_LT(std::sqrt(sum / static_cast<double>(corners.size())), 0.08);
-    EXPECT_LT(bias.norm(), 0.03);  // an offset of half a pixel would fail here
+    EXPECT_LT(bias.norm(), 0.03);  // an error of half a pixel would fail here
 }
 
-/// A grid as Kalibr prints it; each tag rotated by `turn` quarter turns, with a border of 1 or 2
-/// cells.
+/// A grid as Kalibr prints it. Each tag is rotated by `turn` quarter turns and has a border of 1 or
+/// 2 cells.
 cv::Mat1b printedGrid(const Target& grid, int cell, int turn, int border) {
     const int tagCells = 6 + 2 * border;
     const int gap = static_cast<int>(std::lround(tagCells * grid.spacing));
@@ -153,8 +153,8 @@ Scene photographOfGrid(const Target& grid, int printTurn, int border, double tur
     constexpr int kCell = 20;
     const int tagCells = 6 + 2 * border;
     const cv::Mat1b paper = printedGrid(grid, kCell, printTurn, border);
-    // Distance of the first corner from the lower left: one cell of rim and the lowest row of
-    // squares.
+    // Distance of the first corner from the lower left: one cell of white rim, plus the lowest row
+    // of squares.
     const double first = (1 + tagCells * grid.spacing) * kCell;
     return photograph(paper, kCell * tagCells / 0.08, {first, paper.rows - first}, true, turn);
 }
@@ -168,7 +168,7 @@ void expectGridFound(int turn, int border) {
     expectCorners(grid, scene, corners, 64);
 }
 
-TEST(TargetFinder, AprilGridCornersAreWhereTheyAreHoweverItsTagsAreTurned) {
+TEST(TargetFinder, AprilGridCornersAreFoundForAnyRotationOfItsTags) {
     for (const int turn : {0, 1, 2, 3})
         expectGridFound(turn, 1);
 }

@@ -11,12 +11,12 @@ CameraModel barrel() {
     return {{160, 120}, 150, 152, 82.5, 57.1, {-0.31, 0.08, 0.002, -0.0015, 0.004}};
 }
 
-// The distortion folds back not far outside the corners of the picture.
+// A lens whose distortion folds back shortly outside the corners of the picture.
 CameraModel folding() {
     return {{160, 120}, 110, 110, 80, 59, {-0.17, 0, 0, 0, 0}};
 }
 
-TEST(LensProjection, WithinTheRimItIsTheCamera) {
+TEST(LensProjection, MatchesTheCameraModelWithinTheRim) {
     for (const CameraModel& camera : {barrel(), folding()}) {
         const LensProjection lens(camera);
         for (int y = 0; y < camera.size.height; y += 7)
@@ -30,7 +30,7 @@ TEST(LensProjection, WithinTheRimItIsTheCamera) {
     }
 }
 
-TEST(LensProjection, BeyondTheRimNothingComesBackIntoThePicture) {
+TEST(LensProjection, RaysBeyondTheRimStayOutsideThePicture) {
     for (const CameraModel& camera : {barrel(), folding()}) {
         const LensProjection lens(camera);
         for (int i = 0; i < 360; ++i) {

@@ -14,7 +14,7 @@ namespace {
 const CameraModel kWide{{157, 123}, 150, 152, 82.5, 57.1, {-0.28, 0.07, 0.002, -0.001, 0.004}};
 const RigidTransform kEye{Eigen::Quaterniond(0.7, 0.3, -0.5, 0.4).normalized(), {1, 2, -0.5}};
 
-/// Points of a sphere's surface joined to many small triangles; two meshes.
+/// Points on a sphere, joined to many small triangles in two meshes.
 std::shared_ptr<Model> crumpledBall(float radius) {
     std::mt19937 random(7);
     std::normal_distribution<float> normal;
@@ -47,7 +47,7 @@ int coveredTiles(const std::vector<SurfaceRange>& tiles) {
         std::count_if(tiles.begin(), tiles.end(), [](const auto& t) { return t.farthest > 0; }));
 }
 
-TEST(SceneBoxes, EveryVertexInThePictureHasItsTile) {
+TEST(SceneBoxes, BoxesCoverTheTileOfEveryVisibleVertex) {
     const Scene scene = sceneAt({0.05, -0.02, 0.9});
     SceneBoxes boxes(scene);
     Silhouette silhouette(kWide, 0);
@@ -72,16 +72,16 @@ TEST(SceneBoxes, EveryVertexInThePictureHasItsTile) {
     EXPECT_GT(seen, 1000);
 }
 
-TEST(SceneBoxes, AreFewAndTight) {
+TEST(SceneBoxes, BoxesAreFewAndTight) {
     const Scene scene = sceneAt({0, 0, 3});
     SceneBoxes boxes(scene);
     EXPECT_LT(boxes.world().size(), 217U);
     Silhouette silhouette(kWide, 0);
-    // A ball of radius 0.3 at 3 m: about 16 px around the principal point.
+    // A ball of radius 0.3 at 3 m has a radius of about 16 px around the principal point.
     EXPECT_LE(coveredTiles(silhouette.run(boxes, kEye)), 16);
 }
 
-TEST(SceneBoxes, ShadowCatcherHasItsOwn) {
+TEST(SceneBoxes, ShadowCatcherHasBoxesOfItsOwn) {
     Scene scene;
     EXPECT_TRUE(SceneBoxes(scene.catcher).world().empty());
     scene.catcher.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
@@ -106,7 +106,7 @@ TEST(SceneBoxes, ObjectsOutOfViewOrWithoutAPoseCoverNothing) {
     EXPECT_EQ(coveredTiles(silhouette.run(before, nowhere)), 0);
 }
 
-TEST(SceneBoxes, SurfacesAroundTheCameraCoverAll) {
+TEST(SceneBoxes, SurfacesAroundTheCameraCoverTheWholePicture) {
     Scene scene = sceneAt({0, 0, 0.1});
     auto room = std::make_shared<Model>();
     room->meshes.resize(1);

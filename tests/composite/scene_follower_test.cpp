@@ -10,7 +10,7 @@ namespace {
 const CameraModel kFollowing{{160, 120}, 150, 150, 79.5, 59.5, {}};
 constexpr PixelRect kPicture{0, 0, 160, 120};
 
-/// A camera that looks down at the world's origin, turned about x by `angle`.
+/// A camera above the world's origin that looks down at it, rotated about x by `angle`.
 RigidTransform downAt(double angle) {
     const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitX()));
     const Eigen::Quaterniond down(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()));
@@ -29,7 +29,7 @@ Scene cube() {
     return scene;
 }
 
-/// Depth picture of a table at this height.
+/// Depth of a table at this height, as a camera above it measures it.
 InverseDepthField table(double height, double known = 1) {
     InverseDepthField field(kFollowing.size);
     for (std::size_t i = 0; i < field.rho.size(); ++i) {
@@ -82,7 +82,7 @@ TEST(SceneFollower, CatcherIsRebuiltLaterWhenTheViewChanges) {
     EXPECT_NE(follow(0, 105), nullptr);
 }
 
-TEST(SceneFollower, NothingToFollowChangesNothing) {
+TEST(SceneFollower, WithoutObjectsInThePictureNothingChanges) {
     SceneFollower follower({.settling = 0});
     EXPECT_EQ(follower.follow(table(0), kFollowing, downAt(0), kPicture, atSecond(1)), nullptr);
     EXPECT_TRUE(follower.set({})->catcher.positions.empty());

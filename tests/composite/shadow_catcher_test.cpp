@@ -12,7 +12,7 @@ const CameraModel kLens{{160, 120}, 150, 150, 79.5, 59.5, {-0.1, 0.02, 0, 0, 0}}
 const Eigen::AlignedBox3d kThing(Eigen::Vector3d(-0.05, -0.05, 0),
                                  Eigen::Vector3d(0.05, 0.05, 0.1));
 
-/// A camera half a metre from the world's origin that looks down at it at an angle.
+/// A camera half a metre from the world's origin. It looks down at the origin at an angle.
 RigidTransform eyeAbove() {
     const Eigen::Vector3d eye(0, -0.4, 0.35);
     const Eigen::Vector3d z = -eye.normalized(), x(1, 0, 0), y = z.cross(x);
@@ -55,7 +55,7 @@ double areaOf(const ShadowCatcher& c) {
     return sum;
 }
 
-TEST(ShadowCatcher, PlaneReachesAroundWhatStandsOnIt) {
+TEST(ShadowCatcher, PlaneReachesAroundTheObjectsOnIt) {
     const ShadowCatcher plane = planeCatcher(kThing);
     const double reach = kShadowReach * 0.5 * kThing.diagonal().norm();
     EXPECT_NEAR(areaOf(plane), (0.1 + 2 * reach) * (0.1 + 2 * reach), 1e-6);
@@ -68,7 +68,7 @@ TEST(ShadowCatcher, PlaneReachesAroundWhatStandsOnIt) {
     EXPECT_TRUE(planeCatcher(below).triangles.empty());
 }
 
-TEST(ShadowCatcher, NoisyDepthOfThePlaneIsThePlane) {
+TEST(ShadowCatcher, NoisyDepthOfThePlaneGivesAPlane) {
     std::mt19937 random(2);
     std::normal_distribution<double> noise(0, 0.01);
     const InverseDepthField field = fieldOf(
@@ -80,7 +80,7 @@ TEST(ShadowCatcher, NoisyDepthOfThePlaneIsThePlane) {
     EXPECT_LT(off, static_cast<long>(c.positions.size()) / 50);
 }
 
-TEST(ShadowCatcher, ThingsOnThePlaneKeepTheirHeightAndAreNotJoinedToIt) {
+TEST(ShadowCatcher, ObjectsOnThePlaneKeepTheirHeightAndAreNotJoinedToIt) {
     const InverseDepthField field =
         fieldOf([&](int x, int y) { return depthOfPlane(x, y, x < 80 ? 0 : 0.06); }, 1e-4);
     const ShadowCatcher c = depthCatcher(field, kLens, eyeAbove(), kAll, kThing);
@@ -96,7 +96,7 @@ TEST(ShadowCatcher, ThingsOnThePlaneKeepTheirHeightAndAreNotJoinedToIt) {
     EXPECT_GT(high, 50);
 }
 
-TEST(ShadowCatcher, UnknownFarAndOutsideGiveNothing) {
+TEST(ShadowCatcher, UnknownDistantAndOutsideDepthGivesNoSurface) {
     const auto none = [](const InverseDepthField& field, const PixelRect& where) {
         return depthCatcher(field, kLens, eyeAbove(), where, kThing).triangles.empty();
     };

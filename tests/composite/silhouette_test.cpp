@@ -67,7 +67,7 @@ TEST(Silhouette, EveryPixelNearASurfacePointIsCovered) {
 }
 
 TEST(Silhouette, TilesAwayFromObjectsStayFree) {
-    // A sphere of radius 0.1 at 2 m: about 8 px around the principal point.
+    // A sphere of radius 0.1 at 2 m has a radius of about 8 px around the principal point.
     Silhouette silhouette(kCamera, 0);
     const auto& ranges =
         silhouette.run(std::vector{at({0, 0, 2}, VirtualShape::Sphere, 0.2)}, kPose);
@@ -88,7 +88,7 @@ TEST(Silhouette, TilesAwayFromObjectsStayFree) {
     EXPECT_GT(covered(ranges), 1);
 }
 
-TEST(Silhouette, MarginWidensIt) {
+TEST(Silhouette, MarginWidensTheSilhouette) {
     const std::vector objects{at({0, 0, 2}, VirtualShape::Sphere, 0.2)};
     int before = 0;
     for (const int margin : {0, 20, 40, 1000}) {
@@ -112,7 +112,7 @@ TEST(Silhouette, ObjectsOutOfViewOrWithoutAPoseCoverNothing) {
     EXPECT_EQ(covered(silhouette.run({}, kPose)), 0);
 }
 
-TEST(Silhouette, SurfacesAroundTheCameraCoverAllAndBeginAtTheNearPlane) {
+TEST(Silhouette, SurfacesAroundTheCameraCoverTheWholePictureFromTheNearPlane) {
     Silhouette silhouette(kCamera, 0);
     EXPECT_EQ(covered(silhouette.run(std::vector{at({0, 0, 0.1}, VirtualShape::Box, 3)}, kPose)),
               80);

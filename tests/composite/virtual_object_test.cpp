@@ -8,7 +8,7 @@
 namespace mfar {
 namespace {
 
-/// Vector along the normal with twice the triangle's area as its length.
+/// A vector along the normal. Its length is twice the area of the triangle.
 Eigen::Vector3f cross(const ShapeMesh& mesh, const std::array<std::uint32_t, 3>& t) {
     const auto at = [&](int i) { return mesh.vertices[t[i]].position; };
     return (at(1) - at(0)).cross(at(2) - at(0));

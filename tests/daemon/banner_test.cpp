@@ -26,7 +26,7 @@ gpu::Texture plainPicture(std::uint8_t level) {
     return out;
 }
 
-/// Index of the first row that does not have this level everywhere; the height if there is none.
+/// Index of the first row that does not have this level everywhere; the height if all rows have it.
 int rowsOf(const std::vector<std::uint8_t>& pixels, std::uint8_t level) {
     const std::size_t row = std::size_t{4} * kPictureSize.width;
     for (std::size_t y = 0; y < pixels.size() / row; ++y)
@@ -75,8 +75,8 @@ TEST_F(BannerText, HostPicturesGetTheSameBanner) {
     EXPECT_EQ(rows[239][319], 90 * 0x01010101U);
 }
 
-// There may be no GL context.
-TEST_F(BannerText, WithoutAPictureItIsBlackOnTheHost) {
+// Must also work without a GL context.
+TEST_F(BannerText, WithoutAPictureTheHostBannerIsOnBlack) {
     Banner banner(kPictureSize);
     ASSERT_TRUE(banner.over({}, "no picture yet").isOnHost());
     const auto shown = pixelsOf(banner.over({}, "no picture yet"));

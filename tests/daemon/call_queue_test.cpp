@@ -11,7 +11,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-TEST(CallQueue, WorkIsDoneByTheOtherThreadAndItsResultComesBack) {
+TEST(CallQueue, TheOtherThreadDoesTheWorkAndTheCallerGetsItsResult) {
     CallQueue<int> queue;
     int target = 7;
     std::atomic<bool> ended{false};

@@ -37,7 +37,7 @@ struct Watched {
     std::size_t noises = 0;
 };
 
-TEST(CameraWatch, AWrongRateIsNamedOnceAndAfterAWhile) {
+TEST(CameraWatch, AWrongRateIsReportedOnceAndOnlyAfterAWhile) {
     Watched camera(CameraKind::Sensor);
     for (int i = 0; i < 20; ++i)
         camera.send(66'666'667ns);
@@ -53,7 +53,7 @@ TEST(CameraWatch, AWrongRateIsNamedOnceAndAfterAWhile) {
     EXPECT_EQ(camera.watch.state().counters.missed, 0U);
 }
 
-TEST(CameraWatch, ARateThatIsNearlyRightIsNoWarning) {
+TEST(CameraWatch, ANearlyRightRateIsNotReported) {
     for (const double hz : {28., 30., 32.}) {
         Watched camera(CameraKind::Sensor);
         for (int i = 0; i < 300; ++i)
@@ -62,7 +62,7 @@ TEST(CameraWatch, ARateThatIsNearlyRightIsNoWarning) {
     }
 }
 
-TEST(CameraWatch, OnePictureForEverIsNamedOnceEachTime) {
+TEST(CameraWatch, AFrozenPictureIsReportedOnceEachTime) {
     Watched camera(CameraKind::Sensor);
     for (int round = 1; round <= 2; ++round) {
         for (int i = 0; i < 30; ++i)
@@ -80,7 +80,7 @@ TEST(CameraWatch, OnePictureForEverIsNamedOnceEachTime) {
     }
 }
 
-TEST(CameraWatch, RecordingsAndSyntheticCamerasMayRepeatAndHaveNoRate) {
+TEST(CameraWatch, RecordingsAndSyntheticCamerasMayRepeatPicturesAndHaveNoRate) {
     for (const CameraKind kind : {CameraKind::Stored, CameraKind::Live}) {
         Watched camera(kind);
         for (int i = 0; i < 300; ++i)
@@ -115,7 +115,7 @@ TEST(CameraWatch, ChecksumsDependOnEveryByte) {
     const std::uint64_t before = sparseChecksum(view);
     EXPECT_EQ(sparseChecksum(view), before);
     for (std::size_t x = 0; x < 37; ++x) {
-        pixels[2 * 40 + x] ^= 1;  // the first row that is compared
+        pixels[2 * 40 + x] ^= 1;  // belongs to the first row that is compared
         EXPECT_NE(sparseChecksum(view), before) << x;
         pixels[2 * 40 + x] ^= 1;
     }

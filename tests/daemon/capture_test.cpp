@@ -21,7 +21,7 @@ PoseConfig noPoses() {
     return config;
 }
 
-/// The capture thread with two fake cameras, without poses.
+/// A capture thread with two simulated cameras and without poses.
 struct Capture {
     explicit Capture(HandOver handOver, bool sensors = false)
         : source(new FakeSource(handOver, sensors)), rig(std::unique_ptr<RigSource>(source)),
@@ -30,10 +30,10 @@ struct Capture {
 
     FakeCamera& video() { return source->videoCamera; }
     FakeCamera& still() { return source->stillCamera; }
-    /// The next frame; empty after 20 s or at the end.
+    /// The next frame; empty after 20 s or at the end of the capture.
     std::optional<CapturedFrame> take() { return mailbox.takeWithin(20s); }
 
-    FakeSource* source;  ///< owned by the rig
+    FakeSource* source;  ///< the rig owns it
     Rig rig;
     Stats stats;
     PoseFinder poses;
@@ -48,7 +48,7 @@ bool becomesTrue(const std::function<bool()>& condition) {
     return false;
 }
 
-/// The fault with which the capture ends.
+/// The fault that ends the capture.
 std::string endOf(Capture& capture) {
     const auto isOver = [&] {
         (void)capture.mailbox.tryTake();  // a frame may have arrived before the fault was noticed
@@ -75,7 +75,7 @@ TEST(CaptureThread, TheVideoGoesOnWhileTheStillCameraHangs) {
         EXPECT_EQ(frame->video.time(), Timestamp::fromSeconds(i));
         EXPECT_FALSE(frame->still);
     }
-    // The end of the run does not wait for the still camera either.
+    // The end of the run must not wait for the still camera either.
     auto ended = std::async(std::launch::async, [&] {
         capture.thread->stop();
         capture.thread->join();
@@ -84,7 +84,7 @@ TEST(CaptureThread, TheVideoGoesOnWhileTheStillCameraHangs) {
     capture.still().hang(false);
 }
 
-TEST(CaptureThread, TheEndDoesNotWaitForAVideoCameraThatHangs) {
+TEST(CaptureThread, ShutdownDoesNotWaitForAHangingVideoCamera) {
     Capture capture(HandOver::NewestWins);
     capture.video().hang(true);
     ASSERT_TRUE(capture.video().isHung());
@@ -104,7 +104,7 @@ TEST(CaptureThread, LiveStillsComeWithTheFirstFrameThatIsNotOlder) {
     EXPECT_FALSE(capture.take()->still);
     std::optional<CapturedFrame> with;
     double time = 2;
-    ASSERT_TRUE(becomesTrue([&] {  // the thread may not be waiting yet
+    ASSERT_TRUE(becomesTrue([&] {  // the thread may not wait yet
         capture.video().send(time++);
         with = capture.take();
         return with && with->still;
@@ -211,9 +211,9 @@ TEST(CaptureThread, RepeatedPicturesAreDetectedOnlyForSensors) {
     }
 }
 
-TEST(CaptureThread, ASourceThatLosesNothingIsReadByOneThreadInOrder) {
+TEST(CaptureThread, ALosslessSourceIsReadByOneThreadInOrder) {
     Capture capture(HandOver::Lossless);
-    // All waiting stills are delivered with the frame, as no other thread fetches them.
+    // All waiting stills must be delivered with the frame, because no other thread fetches them.
     for (int i = 1; i <= 4; ++i)
         capture.still().send(i);
     for (int i = 1; i <= 4; ++i)

@@ -92,7 +92,7 @@ measure = true
     EXPECT_EQ(config.status, (StatusConfig{0.5, true}));
 }
 
-TEST(Config, SyntaxErrorsHaveAPlace) {
+TEST(Config, SyntaxErrorsAreReportedWithTheirPlace) {
     EXPECT_THAT(configFaults("seed = 1\nseed = = 2\n"), StartsWith("test.toml:2:"));
 }
 
@@ -123,7 +123,7 @@ TEST(Config, WrongTypesAreRefused) {
     EXPECT_THAT(configFaults("[trigger]\nrate_hz = [1]\n"), HasSubstr("not a list"));
 }
 
-TEST(Config, RangesAreHeld) {
+TEST(Config, ValuesOutOfRangeAreRefused) {
     EXPECT_THAT(configFaults("seed = -1\n"), HasSubstr("negative"));
     for (const char* value : {"0.0", "-1", "61", "nan", "inf", "-inf", "1e300"})
         EXPECT_THAT(configFaults(std::string("[trigger]\nrate_hz = ") + value + "\n"),
@@ -171,14 +171,14 @@ TEST(Config, AFileThatCannotBeReadIsAMissingInput) {
     }
 }
 
-TEST(Config, ATextWithoutEndIsRefusedBeforeItIsParsed) {
+TEST(Config, AnEndlessTextIsRefusedBeforeItIsParsed) {
     std::string dots = "seed";
     for (int i = 0; i < 50'000; ++i)
         dots += ".a";
     EXPECT_EQ(configFaults(dots + " = 1\n"), "test.toml:1:69: a key has more than 32 parts");
     EXPECT_EQ(configFaults("pace = \"auto\"\n[" + dots + "]\n"),
               "test.toml:2:70: a key has more than 32 parts");
-    // Text in quotes neither hides the key nor counts.
+    // A quoted text must neither hide the key nor count as nesting.
     EXPECT_THAT(configFaults("a = [\"\"\"x\"\"\"\", {" + dots + " = 1}]\n"), HasSubstr("32 parts"));
     EXPECT_THAT(configFaults("a = ['''x'''', {" + dots + " = 1}]\n"), HasSubstr("32 parts"));
     EXPECT_EQ(configFaults("# " + dots + "\nrecording = \"" + dots + "\"\n"), "");
@@ -189,7 +189,7 @@ TEST(Config, ATextWithoutEndIsRefusedBeforeItIsParsed) {
     for (int i = 0; i < 100'000; ++i)
         list += ",0";
     EXPECT_THAT(configFaults(list + "]"), HasSubstr("more than 100000 values"));
-    // Each part of a key is a table.
+    // Each part of a dotted key is a table.
     std::string tables;
     for (int i = 0; i < 4'000; ++i)
         tables += fmt::format("a{}.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b = 1\n", i);
@@ -207,14 +207,14 @@ TEST(Config, TheNumberOfReportedFaultsIsLimited) {
                 HasSubstr("unknown key of 100000 characters"));
 }
 
-TEST(Config, WholeNumbersThatNoDoubleHoldsHaveTheirPlace) {
+TEST(Config, TooLargeIntegersAreReportedWithTheirPlace) {
     EXPECT_THAT(configFaults("[trigger]\nrate_hz = 9007199254740993\n"),
                 StartsWith("test.toml:2:11: trigger.rate_hz must be from 0.01 to 60, not "));
     EXPECT_THAT(configFaults("[[objects]]\norientation = [9223372036854775807, 0, 0, 0]\n"),
                 StartsWith("test.toml:2:16: objects[0].orientation must hold numbers"));
 }
 
-TEST(Config, ADeviceOrAPipeIsNoConfiguration) {
+TEST(Config, DevicesAndPipesAreRefused) {
     const test::TempFolder folder;
     const std::filesystem::path pipe = folder / "pipe";
     ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
@@ -223,7 +223,7 @@ TEST(Config, ADeviceOrAPipeIsNoConfiguration) {
         {pipe, "it is not a regular file"},
         {"/dev/zero", "it is not a regular file"},
         {"/dev/full", "it is not a regular file"},
-        // Its size is 0.
+        // The kernel reports a size of 0 for this file.
         {"/proc/version", "it has become longer while it was read"},
         {folder / "long", "it has 2097152 bytes, at most 1048576 are read"},
     };

@@ -70,7 +70,7 @@ TEST_F(ControlSocketTest, AnswersWithALineAndItsData) {
     EXPECT_EQ(reply.data, data);
 }
 
-TEST_F(ControlSocketTest, OwnerAndGroupMayUseItAlone) {
+TEST_F(ControlSocketTest, OnlyOwnerAndGroupMayUseTheSocket) {
     const ControlSocket socket(path, echo);
     struct stat there{};
     ASSERT_EQ(stat(path.c_str(), &there), 0);
@@ -81,7 +81,7 @@ TEST_F(ControlSocketTest, EndlessRequestIsCutOff) {
     const ControlSocket socket(path, echo);
     const int client = connected();
     const std::string flood(1'000'000, 'x');
-    // The other end closes before it has read everything.
+    // The client closes its end before it has read everything.
     std::ignore = send(client, flood.data(), flood.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
     std::string answer(200, '\0');
     const ssize_t got = recv(client, answer.data(), answer.size(), 0);
@@ -112,7 +112,7 @@ TEST_F(ControlSocketTest, SilentClientsDelayNobody) {
         close(fd);
 }
 
-// Such an answer: a recording that ends waits for the disk.
+// An answer is slow, for example, if a recording ends and waits for the disk.
 TEST_F(ControlSocketTest, SlowAnswersDelayNobody) {
     std::promise<void> goOn;
     const std::shared_future<void> gone = goOn.get_future().share();
@@ -140,7 +140,7 @@ TEST_F(ControlSocketTest, ClientsThatDoNotReadDelayNobody) {
     const int greedy = connected();
     EXPECT_EQ(send(greedy, "large\n", 6, MSG_NOSIGNAL), 6);
     char first = 0;
-    EXPECT_EQ(recv(greedy, &first, 1, 0), 1);  // the answer is being sent
+    EXPECT_EQ(recv(greedy, &first, 1, 0), 1);  // after the first byte, the answer is being sent
     const Timestamp begun = Timestamp::now();
     EXPECT_EQ(ask(path, {{"command", "status"}}).body["length"], 20);
     EXPECT_LT(Timestamp::now() - begun, std::chrono::milliseconds(1000));
@@ -157,7 +157,8 @@ TEST_F(ControlSocketTest, TheUserOfThisProcessIsAnOperator) {
     EXPECT_EQ(seen, ControlRole::Operator);
 }
 
-// Another user of the group is an observer; tested from a process that drops its privileges.
+// Another user who belongs to the group is an observer. A process that drops its privileges plays
+// this user.
 TEST_F(ControlSocketTest, AnotherUserIsAnObserver) {
     if (geteuid() != 0) GTEST_SKIP() << "only root can become another user";
     const ControlSocket socket(path, [&](std::string_view, ControlRole role) -> ControlAnswer {
@@ -168,7 +169,7 @@ TEST_F(ControlSocketTest, AnotherUserIsAnObserver) {
     const pid_t child = fork();
     ASSERT_GE(child, 0);
     if (child == 0) {
-        // After fork(), nothing may lock what a thread of the parent might hold.
+        // After fork(), no lock may be taken, because a thread of the parent might have held it.
         if (setgroups(0, nullptr) != 0 || setgid(1234) != 0 || setuid(1234) != 0) _exit(2);
         const int fd = connected();
         char answer[64] = {};
@@ -191,8 +192,8 @@ TEST(ControlRole, MembersOfTheGroupAreOperators) {
     EXPECT_EQ(roleOf(4321, groups, std::nullopt), ControlRole::Observer);
 }
 
-// A thread that retries continuously would occupy a whole processor.
-TEST_F(ControlSocketTest, WithoutAFreeDescriptorItWaits) {
+// A thread that tried again without a pause would occupy a whole processor.
+TEST_F(ControlSocketTest, WithoutAFreeDescriptorClientsWait) {
     const ControlSocket socket(path, echo);
     std::vector<int> all{connected()};
     std::this_thread::sleep_for(std::chrono::milliseconds(50));

@@ -16,13 +16,13 @@ EngineChoice matchingOnSimd() {
     return choice;
 }
 
-TEST(EngineConfig, WithoutWishesTheDecisionStands) {
+TEST(EngineConfig, WithoutConfiguredEnginesTheDecisionIsKept) {
     EXPECT_EQ(withWishes({}, matchingOnSimd()), matchingOnSimd());
     EXPECT_FALSE(EngineConfig{}.needsGles());
     EXPECT_FALSE(EngineConfig{}.isSimdAlone());
 }
 
-TEST(EngineConfig, AStepsOwnWishWinsOverThatForAll) {
+TEST(EngineConfig, TheEngineOfAStepOverridesTheEngineOfAllSteps) {
     const Config config = parseConfig("[engine]\nuse = \"simd\"\ndetail = \"gles\"\n", "test");
     EngineChoice wanted = EngineChoice::all(EngineKind::Simd);
     wanted.detail = EngineKind::Gles;

@@ -20,12 +20,12 @@ TEST(EngineGuess, AnUnknownGpuGetsEveryPlacement) {
     EXPECT_THAT(promisingEngines(""), SizeIs(4));
 }
 
-TEST(EngineGuess, WhereShadersAreHopelessNothingIsMeasured) {
+TEST(EngineGuess, IfShadersAreFarTooSlowNothingIsMeasured) {
     EXPECT_THAT(promisingEngines("EGL device, hardware: V3D 4.2.14.0, OpenGL ES 3.1"),
                 ElementsAre(kSimd));
 }
 
-TEST(EngineGuess, TheMostPromisingComesFirst) {
+TEST(EngineGuess, TheMostPromisingPlacementComesFirst) {
     EngineChoice drawing = kGles;
     drawing.pyramid = drawing.flow = drawing.weigh = EngineKind::Simd;
     const auto guess = promisingEngines("Mali-G610 (Panfrost)");

@@ -29,7 +29,7 @@ TEST(Events, SignalsComeFirstAndByNumber) {
     EXPECT_EQ(events.wait().kind, Event::Kind::Wake);
 }
 
-TEST(Events, TicksRepeatAndADeadlineComesOnce) {
+TEST(Events, TicksRepeatAndADeadlineExpiresOnce) {
     Events events;
     events.deadlineIn(milliseconds(1));
     EXPECT_EQ(events.wait().kind, Event::Kind::Deadline);

@@ -21,7 +21,7 @@
 
 namespace mfar::test {
 
-/// A camera that delivers what the test tells it to. Thread-safe.
+/// A camera that delivers what the test requests. Thread-safe.
 class FakeCamera final : public Camera {
 public:
     FakeCamera(std::string name, Size size, double rateHz)
@@ -71,7 +71,7 @@ public:
         const std::lock_guard lock(mutex_);
         warnings_.push_back(text);
     }
-    /// Sends a picture of `level`, exposed at `seconds`.
+    /// Delivers a picture of grey level `level`, exposed at time `seconds`.
     void send(double seconds, std::uint8_t level = 0, std::optional<Size> size = std::nullopt) {
         const Size picture = size.value_or(info_.size);
         auto pixels = std::make_shared<std::vector<std::uint8_t>>(
@@ -82,25 +82,25 @@ public:
         waiting_.emplace_back(view, Timestamp::fromSeconds(seconds), [pixels] {});
         changed_.notify_all();
     }
-    /// Reports the end: no further picture comes.
+    /// Reports the end: no further picture follows.
     void end() {
         const std::lock_guard lock(mutex_);
         ends_ = true;
         changed_.notify_all();
     }
-    /// Makes next() throw this.
+    /// Makes next() throw an error with this text.
     void fail(const std::string& why) {
         const std::lock_guard lock(mutex_);
         broken_ = why;
         changed_.notify_all();
     }
-    /// Makes next() hang while `wanted`.
+    /// While `wanted` is true, next() does not return.
     void hang(bool wanted) {
         const std::lock_guard lock(mutex_);
         hangs_ = wanted;
         changed_.notify_all();
     }
-    /// Waits until a thread hangs in next(); false after 20 s.
+    /// Waits until a thread hangs in next(). Returns false after 20 s.
     [[nodiscard]] bool isHung() {
         std::unique_lock lock(mutex_);
         return changed_.wait_for(lock, std::chrono::seconds(20), [&] { return hung_; });
@@ -129,7 +129,7 @@ private:
 
 inline constexpr Size kFakeVideo{8, 6}, kFakeStill{16, 12};
 
-/// A video and a still camera of the tests.
+/// A source with a simulated video camera and a simulated still camera.
 class FakeSource final : public RigSource {
 public:
     explicit FakeSource(HandOver mode, bool sensors = false) {

@@ -30,13 +30,13 @@ struct FilterLearningTest : testing::Test {
         }
     }
 
-    // Tests run concurrently, each in a process of its own.
+    // Each test has its own folder, because tests run concurrently in separate processes.
     FilterLearningOptions options{std::filesystem::path(testing::TempDir()) /
                                       ("mfar-filters-" + std::to_string(::getpid()) + ".learned"),
                                   "video, still", true};
 };
 
-TEST_F(FilterLearningTest, LearnsAndHandsOutFiltersOnce) {
+TEST_F(FilterLearningTest, LearnedFiltersAreHandedOutOnce) {
     FilterLearning learning(options);
     EXPECT_NE(learning.takeFilters(), nullptr) << "the shipped ones";
     EXPECT_EQ(learning.takeFilters(), nullptr);
@@ -55,7 +55,8 @@ StereoRig discsRig() {
     return rig;
 }
 
-/// Replaces a still by another one of the same view, with a noisy video.
+/// Shows a still, then another one of the same view with a noisy video, so that the first is
+/// replaced.
 void replace(FilterLearning& learning, unsigned seed) {
     const twin::Grey sharp = sharpDiscs(seed);
     const SensorPair noisy{.videoNoise = 4, .seed = seed};
@@ -93,7 +94,7 @@ TEST_F(FilterLearningTest, WithoutARigNoGuidanceIsLearned) {
     EXPECT_FALSE(learning.takeFilters()->guidance().any());
 }
 
-TEST_F(FilterLearningTest, GoesOnAfterARestart) {
+TEST_F(FilterLearningTest, LearningContinuesAfterARestart) {
     {
         FilterLearning learning(options);
         show(learning, 1, 2);
@@ -107,7 +108,7 @@ TEST_F(FilterLearningTest, GoesOnAfterARestart) {
     EXPECT_THAT(learning.takeWarnings(), IsEmpty());
 }
 
-TEST_F(FilterLearningTest, AStateThatIsCutOffIsReportedAndReplaced) {
+TEST_F(FilterLearningTest, ATruncatedStateFileIsReportedAndReplaced) {
     {
         FilterLearning learning(options);
         show(learning, 1, 1);
@@ -137,7 +138,7 @@ TEST_F(FilterLearningTest, FiltersLearnedFromOtherSensorsAreNotUsed) {
     EXPECT_THAT(learning.takeWarnings(), ElementsAre(HasSubstr("other sensors")));
 }
 
-TEST_F(FilterLearningTest, AResetForgetsTheFileToo) {
+TEST_F(FilterLearningTest, AResetDeletesTheStateFileToo) {
     {
         FilterLearning learning(options);
         show(learning, 1, 2);
@@ -154,7 +155,7 @@ TEST_F(FilterLearningTest, AResetForgetsTheFileToo) {
     EXPECT_FALSE(std::filesystem::exists(options.file));
 }
 
-TEST_F(FilterLearningTest, StillsThatComeTooSoonAreLeftOut) {
+TEST_F(FilterLearningTest, StillsThatArriveTooSoonAreSkipped) {
     options.waits = false;
     FilterLearning learning(options);
     for (int i = 1; i <= 3; ++i) {
@@ -186,7 +187,7 @@ TEST_F(FilterLearningTest, LearningThatTakesTooLongIsOverItsBudget) {
     EXPECT_TRUE(hearts.late().empty()) << "it waits for a still";
 }
 
-TEST(LearnedFiltersFile, IsOneOfEachPairOfSensorsInTheStateFolder) {
+TEST(LearnedFiltersFile, EachPairOfSensorsHasItsFileInTheStateFolder) {
     unsetenv("STATE_DIRECTORY");
     EXPECT_TRUE(learnedFiltersFile("a").empty());
     setenv("STATE_DIRECTORY", "/some/folder", 1);
@@ -196,7 +197,7 @@ TEST(LearnedFiltersFile, IsOneOfEachPairOfSensorsInTheStateFolder) {
     unsetenv("STATE_DIRECTORY");
 }
 
-TEST(LearnedFilters, AreDescribedInOneLine) {
+TEST(LearnedFilters, FiltersAreDescribedInOneLine) {
     LearningCounts counts;
     counts.learner = {12, 0, 0, 71, 1.02, 0.54};
     EXPECT_EQ(describe(counts),

@@ -23,13 +23,13 @@ TEST(GovernorConfig, EveryKeyIsReadAndChecked) {
     EXPECT_EQ(needRestart(Config{}, wanted), "governor");
 }
 
-TEST(GovernorConfig, WithoutDeadlineAndPinNothingIsGoverned) {
+TEST(GovernorConfig, WithoutADeadlineOrAPinnedLevelThereIsNoGovernor) {
     EXPECT_TRUE(governedLevels({}).empty());
     EXPECT_FALSE(GovernorConfig{}.governs());
     EXPECT_EQ(governedLevels({33, "", ""}).size(), builtInQualityLevels().size());
 }
 
-TEST(GovernorConfig, APinnedLevelIsAloneAndNotGoverned) {
+TEST(GovernorConfig, APinnedLevelIsTheOnlyLevelAndHasNoGovernor) {
     const GovernorConfig pinned{33, "off", ""};
     EXPECT_FALSE(pinned.governs());
     const auto levels = governedLevels(pinned);
@@ -38,7 +38,7 @@ TEST(GovernorConfig, APinnedLevelIsAloneAndNotGoverned) {
     EXPECT_THROW((void)governedLevels({0, "nowhere", ""}), ConfigError);
 }
 
-TEST(GovernorConfig, LevelsComeFromTheTableThatIsNamed) {
+TEST(GovernorConfig, LevelsComeFromTheConfiguredTable) {
     const test::TempFolder folder;
     test::writeFile(folder / "levels.toml",
                     "[[level]]\nname = \"b\"\nms = 2\n[[level]]\nname = \"a\"\nms = 1\n");

@@ -18,7 +18,7 @@ std::vector<QualityLevel> fourLevels() {
     return out;
 }
 
-/// A machine with a given frame time for each level.
+/// A simulated machine on which each level has a given frame time.
 class Machine {
 public:
     using Cost = std::function<double(std::size_t level)>;
@@ -27,7 +27,7 @@ public:
         : governor_(fourLevels(), deadlineMs), cost_(std::move(cost)) {}
 
     void setCost(Cost cost) { cost_ = std::move(cost); }
-    /// Runs frames and returns the share of late ones. Times vary by 4 % (standard deviation).
+    /// Runs frames. Returns the share of late ones. Frame times vary by 4 % (standard deviation).
     double run(int frames, double changed = 1) {
         int late = 0;
         for (int i = 0; i < frames; ++i) {
@@ -62,7 +62,7 @@ TEST(Governor, StartsWithTheBestLevelPredictedByTheTable) {
         EXPECT_EQ(Governor(fourLevels(), deadline).level().name, level) << deadline;
 }
 
-TEST(Governor, KeepsEveryDeadlineThatALevelCan) {
+TEST(Governor, KeepsEveryDeadlineThatSomeLevelCanKeep) {
     for (const double deadline : {33.0, 66.0, 133.0}) {
         for (const double factor : {0.2, 0.5, 1.0, 1.2, 1.9}) {
             if (factor * fourLevels()[0].ms > 0.85 * deadline) continue;
@@ -104,7 +104,7 @@ TEST(Governor, SettlesAsFastAfterManyChanges) {
     }
 }
 
-TEST(Governor, FourFramesAtMostAreLateWhenAllBecomesSlower) {
+TEST(Governor, AtMostFourFramesAreLateWhenEverythingBecomesSlower) {
     Machine machine(100, scaled(0.6));
     machine.run(60);
     machine.setCost(scaled(3));
@@ -134,7 +134,7 @@ TEST(Governor, OneLateFrameInFiftyChangesNothing) {
     EXPECT_EQ(governor.changes(), 0U);
 }
 
-TEST(Governor, AtRestThePictureIsDrawnOnceMoreAtItsBest) {
+TEST(Governor, AtRestThePictureIsRedrawnOnceAtTheBestLevel) {
     Machine machine(66, scaled(1));
     machine.run(40);
     ASSERT_EQ(machine.level(), "a");
@@ -156,7 +156,7 @@ TEST(Governor, AtRestThePictureIsDrawnOnceMoreAtItsBest) {
     EXPECT_LE(machine.run(100), 0.05);
 }
 
-TEST(Governor, AStillThatMakesAFrameLateComesOnceInForty) {
+TEST(Governor, StillsThatMakeFramesLateAreAllowedOnceInFortyFrames) {
     Governor governor(fourLevels(), 100);
     EXPECT_TRUE(governor.mayTakeStill());
     governor.add({.ms = 300, .newStill = true});
@@ -187,7 +187,7 @@ TEST(Governor, RequestsNoStillForALevelWithoutStills) {
     EXPECT_FALSE(governor.mayTakeStill());
 }
 
-TEST(Governor, FramesWithoutAStillSayNothingAboutALevelThatUsesOne) {
+TEST(Governor, FramesWithoutAStillDoNotRateALevelThatUsesOne) {
     Governor governor(fourLevels(), 100);
     for (int i = 0; i < 100; ++i)
         governor.add({.ms = 20, .usedStill = false});

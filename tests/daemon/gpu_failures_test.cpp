@@ -9,13 +9,13 @@ using std::chrono::seconds;
 
 const Timestamp kStart{1'000'000'000'000};
 
-TEST(GpuFailures, NothingIsWrongBeforeTheFirst) {
+TEST(GpuFailures, NoFailureIsReportedBeforeTheFirst) {
     GpuFailures failures;
     EXPECT_EQ(failures.fault(kStart), std::nullopt);
     EXPECT_EQ(failures.banner(kStart), std::nullopt);
 }
 
-TEST(GpuFailures, OneIsNamedForAMinuteAndNotInThePicture) {
+TEST(GpuFailures, OneFailureIsReportedForAMinuteButNotInThePicture) {
     GpuFailures failures;
     EXPECT_FALSE(failures.add(kStart, "reset"));
     EXPECT_EQ(failures.fault(kStart + seconds(60)), "the GPU failed and was restarted (reset)");

@@ -35,7 +35,7 @@ struct HealthTest : testing::Test {
     std::optional<Timestamp> repeats, picture, banner, started = now;
 };
 
-TEST_F(HealthTest, FreshPicturesAreOk) {
+TEST_F(HealthTest, FreshPicturesAreHealthy) {
     picture = now;
     pass(seconds(2));
     const Health health = look();
@@ -45,8 +45,8 @@ TEST_F(HealthTest, FreshPicturesAreOk) {
     EXPECT_TRUE(health.isAlive());
 }
 
-// Pictures arrive, but all are the same.
-TEST_F(HealthTest, OnePictureForEverIsDegraded) {
+// Pictures keep arriving, but all of them are equal.
+TEST_F(HealthTest, AFrozenPictureIsDegraded) {
     repeats = now;
     pass(seconds(4));
     picture = now;
@@ -57,9 +57,9 @@ TEST_F(HealthTest, OnePictureForEverIsDegraded) {
     EXPECT_TRUE(health.isAlive());
 }
 
-// The worst fault in the field: the driver's dequeue call hangs while the banner is drawn
-// repeatedly.
-TEST_F(HealthTest, BannerOfADriverThatHangsIsNotAlive) {
+// The worst fault seen in use: the driver's dequeue call hangs while the banner is drawn again and
+// again.
+TEST_F(HealthTest, BannerOfAHangingDriverDoesNotCountAsAlive) {
     const Heartbeat capture(hearts, "capture", budget::kCapture);
     picture = now;
     pass(seconds(5));
@@ -72,7 +72,7 @@ TEST_F(HealthTest, BannerOfADriverThatHangsIsNotAlive) {
               "the capture thread hangs (stalled for 5.0 s, last picture 5.0 s ago)");
 }
 
-TEST_F(HealthTest, BannerOfADeviceThatIsOpenedAgainIsAlive) {
+TEST_F(HealthTest, BannerWhileADeviceIsReopenedCountsAsAlive) {
     Heartbeat capture(hearts, "capture", budget::kCapture);
     fault = "video camera: is not there";
     for (int s = 0; s < 3600; ++s) {
@@ -86,7 +86,7 @@ TEST_F(HealthTest, BannerOfADeviceThatIsOpenedAgainIsAlive) {
     EXPECT_EQ(sentence(look()), "video camera: is not there (degraded for 3599.0 s)");
 }
 
-TEST_F(HealthTest, BannerWithoutAFaultOrThatIsNoLongerDrawnIsNotAlive) {
+TEST_F(HealthTest, BannerWithoutAFaultOrNoLongerDrawnDoesNotCountAsAlive) {
     banner = now;
     pass(kStalePicture / 2);
     EXPECT_TRUE(look().isAlive());
@@ -100,7 +100,7 @@ TEST_F(HealthTest, BannerWithoutAFaultOrThatIsNoLongerDrawnIsNotAlive) {
     EXPECT_FALSE(look().isAlive()) << "the thread that draws it does not come back";
 }
 
-TEST_F(HealthTest, FirstPicturesMayTakeTheirTime) {
+TEST_F(HealthTest, FirstPicturesMayTakeLonger) {
     Heartbeat drawing(hearts, "picture", budget::kPicture);
     patience = kFirstPatience;
     pass(5 * budget::kPicture);
@@ -123,7 +123,7 @@ TEST_F(HealthTest, HelperThatHangsIsReportedAndThePictureGoesOn) {
     EXPECT_EQ(look().cause, "the reload thread hangs");
 }
 
-TEST_F(HealthTest, WaitForAReaderIsNamed) {
+TEST_F(HealthTest, WaitingForAReaderIsReported) {
     Heartbeat drawing(hearts, "picture", budget::kPicture);
     drawing.restFor("the reader of the pipe");
     picture = now;
@@ -136,7 +136,7 @@ TEST_F(HealthTest, WaitForAReaderIsNamed) {
     EXPECT_EQ(look().state, HealthState::Stalled);
 }
 
-TEST_F(HealthTest, DisplayThatLeavesPicturesOutIsDegraded) {
+TEST_F(HealthTest, DisplayThatSkipsPicturesIsDegraded) {
     picture = now;
     display = "y4m:pipe: the reader of the pipe takes nothing";
     (void)look();
@@ -162,7 +162,7 @@ TEST_F(HealthTest, AllCausesAreReported) {
     EXPECT_NEAR(look().sinceS, 1, 1e-6);
 }
 
-TEST_F(HealthTest, SlowCameraIsNoFault) {
+TEST_F(HealthTest, SlowCameraIsNotAFault) {
     picture = now;
     pass(seconds(10));
     Observed seen{now};

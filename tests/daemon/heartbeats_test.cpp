@@ -39,7 +39,7 @@ TEST_F(HeartbeatsTest, ThreadThatIsOverItsBudgetIsNamedWithItsTime) {
     EXPECT_THAT(late(), IsEmpty());
 }
 
-TEST_F(HeartbeatsTest, LongestSilenceComesFirst) {
+TEST_F(HeartbeatsTest, ThreadWithTheLongestSilenceComesFirst) {
     const Heartbeat first(all, "first", seconds(1));
     now = now + seconds(1);
     const Heartbeat second(all, "second", milliseconds(100), ThreadRole::Helper);
@@ -60,7 +60,7 @@ TEST_F(HeartbeatsTest, ThreadThatWaitsForWorkIsNotLate) {
     EXPECT_THAT(late(), ElementsAre("control"));
 }
 
-TEST_F(HeartbeatsTest, NamedWaitIsReportedAndIsNoFault) {
+TEST_F(HeartbeatsTest, NamedWaitIsReportedButIsNotAFault) {
     Heartbeat picture(all, "picture", seconds(1));
     picture.restFor("the reader of the pipe");
     now = now + seconds(5);

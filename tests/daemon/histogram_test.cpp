@@ -25,18 +25,18 @@ TEST(Histogram, QuantilesStayWithinTheBucketWidth) {
     }
 }
 
-TEST(Histogram, OneValueIsEveryQuantile) {
+TEST(Histogram, ASingleValueIsEveryQuantile) {
     Histogram histogram;
     histogram.add(20);
     for (const double q : {0.0, 0.5, 0.99, 1.0})
         EXPECT_NEAR(histogram.quantile(q), 20, 0.25) << q;
 }
 
-TEST(Histogram, EmptyIsZero) {
+TEST(Histogram, QuantilesOfAnEmptyHistogramAreZero) {
     EXPECT_EQ(Histogram{}.quantile(0.5), 0);
 }
 
-TEST(Histogram, TakesWhateverADeviceReports) {
+TEST(Histogram, AcceptsEveryValueThatADeviceMayReport) {
     Histogram histogram;
     for (const double ms : {0.0, -1.0, 1e300, std::numeric_limits<double>::infinity(),
                             std::numeric_limits<double>::quiet_NaN()})

@@ -16,13 +16,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-TEST(Journal, WithoutOneNothingIsTaken) {
+TEST(Journal, WithoutAJournalNoMessageIsAccepted) {
     const test::TempFolder folder;
     Journal journal((folder / "none").string());
     EXPECT_FALSE(journal({"MESSAGE=lost"}));
 }
 
-TEST(Journal, AStalledJournalIsWaitedForOnce) {
+TEST(Journal, OnlyOneMessageWaitsForAStalledJournal) {
     const test::TempFolder folder;
     sockaddr_un address{};
     address.sun_family = AF_UNIX;

@@ -18,7 +18,7 @@ TEST(LastResort, ActsWhenShutdownHangs) {
     EXPECT_EQ(acted.get_future().wait_for(seconds(60)), std::future_status::ready);
 }
 
-TEST(LastResort, DoesNothingWhenItIsOver) {
+TEST(LastResort, DoesNothingOnceShutdownIsOver) {
     bool acted = false;
     {
         LastResort last;

@@ -19,7 +19,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-/// The bytes of a PNG that are checked before decoding.
+/// Only the bytes of a PNG that are checked before it is decoded.
 std::string pngThatClaims(std::uint16_t width, std::uint16_t height) {
     std::string out("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0..\0\0..", 24);
     out[18] = static_cast<char>(width >> 8U);
@@ -108,8 +108,8 @@ TEST(Limits, AModelThatDoesNotFitIsReportedWithItsPlace) {
                       HasSubstr("large.glb: images["), HasSubstr("textures of more than")));
 }
 
-// Eight objects of one model take the memory of one model.
-TEST(Limits, AModelIsReadOnceWhateverItsNames) {
+// Eight objects share one model and take the memory of one model.
+TEST(Limits, AModelWithSeveralNamesIsReadOnce) {
     const test::TempFolder folder;
     const std::vector<std::uint8_t> glb = test::oneTriangle().glb();
     test::writeFile(folder / "a/thing.glb",

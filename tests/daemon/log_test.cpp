@@ -43,7 +43,7 @@ void talkMuch(Log& log) {
     log.endStatus();
 }
 
-TEST(Log, PlainHasOnlyMessages) {
+TEST(Log, PlainStyleWritesOnlyMessages) {
     EXPECT_EQ(written(Log::Style::Plain, talkMuch),
               "mfard: error: broken\nmfard: error: really\nmfard: warning: late\n"
               "mfard: started\n");
@@ -55,7 +55,7 @@ TEST(Log, JournalLinesCarryTheirPriority) {
               "<5>mfard: started\n");
 }
 
-TEST(Log, TerminalKeepsTheStatusLineBelowMessages) {
+TEST(Log, TerminalStyleKeepsTheStatusLineBelowMessages) {
     EXPECT_EQ(written(Log::Style::Terminal,
                       [](Log& log) {
                           log.status("12 fps");
@@ -110,7 +110,7 @@ TEST(Log, RepeatedEventsAreLoggedWithTheirCount) {
                               "<4>mfard: warning: hangs for 2 s (once more in 1 s)\n");
 }
 
-TEST(Log, TheJournalGetsFields) {
+TEST(Log, TheJournalGetsStructuredFields) {
     std::vector<std::string> sent;
     Timestamp now = Timestamp::fromSeconds(100);
     Log log(
@@ -155,7 +155,7 @@ TEST(Log, UnreadMessagesDoNotBlockAThread) {
     const std::string part(4096, 'x');
     while (write(ends[1], part.data(), part.size()) > 0) {
     }
-    fcntl(ends[1], F_SETFL, 0);  // blocking from now on
+    fcntl(ends[1], F_SETFL, 0);  // the socket blocks from now on
     Log log(ends[1], Log::Style::Plain);
     for (int i = 0; i < 20; ++i)
         log.notice("lost");

@@ -1,4 +1,4 @@
-// A context that is lost at any moment of a frame is created again, and the pictures equal those of
+// At any moment of a frame, a lost context must be created again; pictures must then equal those of
 // a run without a loss. Uses a libGLESv2 that loses contexts, see tests/device/faulty_moments.h.
 
 #include "daemon/session.h"
@@ -27,12 +27,12 @@ namespace mfar {
 namespace {
 
 constexpr int kFrames = 6;
-/// A still at the time of a frame, seen from a position to the side.
+/// A still that is taken at the time of a frame from a position to the side.
 struct StillAt {
     int frame;
-    double aside;  ///< [m]
+    double aside;  ///< sideways offset of the camera [m]
 };
-// Each still shows a border of the picture that the other does not show.
+// Each still shows a border of the picture that the other still does not show.
 constexpr std::array kStills{StillAt{1, 0.08}, StillAt{3, -0.08}};
 constexpr Size kVideo{160, 120}, kStill{320, 240};
 
@@ -50,7 +50,7 @@ StereoRig rigOf() {
     return rig;
 }
 
-/// A wall one metre away, seen from `x`.
+/// What a camera at `x` sees of a wall one metre away.
 std::vector<std::uint8_t> wall(const CameraModel& camera, double x) {
     std::vector<std::uint8_t> out;
     for (int v = 0; v < camera.size.height; ++v)
@@ -99,7 +99,7 @@ protected:
     struct Ran {
         ScreenPicture last;
         Counted counted;
-        std::vector<std::string> moments;  ///< without duplicates, after the start
+        std::vector<std::string> moments;  ///< moments after the start, without duplicates
     };
 
     void SetUp() override {
@@ -107,7 +107,7 @@ protected:
             GTEST_SKIP() << "LD_LIBRARY_PATH does not name the libGLESv2 that fails";
     }
 
-    /// `virtualLayer`: keys of the [virtual] section.
+    /// `virtualLayer`: keys of the configuration's section [virtual].
     void play(int frames, const std::string& virtualLayer) {
         record(folder_ / "recording", frames);
         config_ = parseConfig("[pose]\nsource = \"recorded\"\n[engine]\nuse = \"gles\"\n"
@@ -120,8 +120,8 @@ protected:
         config_.display = "none";
     }
 
-    /// Runs a session that loses its context at this moment of a frame; null: never. It ends with
-    /// the recording, or, with `early`, a few pictures after the loss.
+    /// Runs a session that loses its context at this moment of a frame; null: never. The session
+    /// ends with the recording or, with `early`, a few pictures after the loss.
     Ran run(const char* moment, bool early = false) {
         Stats stats;
         Mailbox<Tunables> changes(HandOver::NewestWins);
@@ -169,7 +169,7 @@ protected:
     Config config_;
 };
 
-// One moment for each step and for each of its shaders.
+// Covers one moment for each step and each of its shaders.
 TEST_F(LostContext, RecoversInEveryShader) {
     loseAtAll([](std::string_view moment) { return moment.starts_with("glUseProgram"); });
 }
@@ -182,7 +182,7 @@ TEST_F(LostContext, RecoversInEveryTransfer) {
     });
 }
 
-// Warping starts when the path tracer has a picture of the objects.
+// Warping starts once the path tracer has a picture of the objects.
 TEST_F(LostContext, RecoversWhileTracedObjectsAreWarped) {
     constexpr int kSeconds = 12;
     play(30 * kSeconds,

@@ -11,7 +11,7 @@
 namespace mfar {
 namespace {
 
-TEST(Mailbox, NewestWinsAndTheReplacedAreCounted) {
+TEST(Mailbox, TheNewestItemWinsAndReplacedItemsAreCounted) {
     Mailbox<int> box(HandOver::NewestWins);
     EXPECT_EQ(box.put(1), Mailbox<int>::Put::Stored);
     EXPECT_EQ(box.put(2), Mailbox<int>::Put::Replaced);
@@ -61,7 +61,7 @@ TEST(Mailbox, LosslessHandsOverEveryItemInOrder) {
     EXPECT_EQ(box.dropped(), 0U);
 }
 
-TEST(Mailbox, NewestWinsUnderLoadLosesNothingUncounted) {
+TEST(Mailbox, UnderLoadEveryReplacedItemIsCounted) {
     constexpr int kItems = 2000;
     Mailbox<int> box(HandOver::NewestWins);
     int received = 0;
@@ -109,7 +109,7 @@ TEST(Mailbox, TimedWaitDistinguishesTimeoutFromEnd) {
     EXPECT_TRUE(box.over());
 }
 
-TEST(Mailbox, FinishLetsTheLastItemThrough) {
+TEST(Mailbox, FinishStillDeliversTheLastItem) {
     Mailbox<int> box(HandOver::NewestWins);
     box.put(5);
     box.finish();

@@ -101,7 +101,7 @@ model = "thing.glb"
     EXPECT_TRUE(placedShapes(config.objects, {}).empty());
 }
 
-TEST(ObjectsConfig, AFileIsReadOnceWhateverItIsCalled) {
+TEST(ObjectsConfig, AFileWithSeveralNamesIsReadOnce) {
     const test::TempFolder folder;
     const std::vector<std::uint8_t> glb = test::oneTriangle().glb();
     test::writeFile(folder / "thing.glb", {reinterpret_cast<const char*>(glb.data()), glb.size()});
@@ -117,7 +117,7 @@ TEST(ObjectsConfig, AFileIsReadOnceWhateverItIsCalled) {
         EXPECT_EQ(one.model, config.objects[0].model) << one.modelName;
 }
 
-TEST(ObjectsConfig, ModelsThatCannotBeReadHaveTheirPlace) {
+TEST(ObjectsConfig, UnreadableModelsAreReportedWithTheirPlace) {
     EXPECT_THAT(configFaults("[[objects]]\nmodel = \"none.glb\"\n"),
                 StartsWith("test.toml:2:9: objects[0].model = \"none.glb\": none.glb: is missing"));
     EXPECT_THAT(configFaults("[[objects]]\nscale = 0\n"), HasSubstr("objects[0].scale must be"));
@@ -127,7 +127,7 @@ TEST(ObjectsConfig, ModelsThatCannotBeReadHaveTheirPlace) {
                 HasSubstr("must be one of \"tag36h11\""));
 }
 
-// The tag is on a wall that faces the world's -y: its x axis is the world's x, its y axis the
+// The tag is on a wall that faces the world's -y. Its x axis is the world's x, its y axis is the
 // world's -z.
 TEST(ObjectsConfig, ObjectsAreAnchoredToTheirTag) {
     const TagKey key{TagFamily::Tag36h11, 5};
@@ -140,7 +140,7 @@ TEST(ObjectsConfig, ObjectsAreAnchoredToTheirTag) {
     EXPECT_EQ(worldPlace(object, map).value().translation, Eigen::Vector3d(0.1, 0.2, 0.3));
     object.tag = key;
     const RigidTransform T = worldPlace(object, map).value();
-    // To the right along the wall, upwards, and out of it.
+    // The offset points to the right along the wall, upwards, and out of the wall.
     EXPECT_LT((T.translation - Eigen::Vector3d(1.1, 1.7, 3.2)).norm(), 1e-9);
     EXPECT_LT((T.rotation * Eigen::Vector3d::UnitZ() - Eigen::Vector3d(0, -1, 0)).norm(), 1e-9);
     ASSERT_EQ(placedShapes({object}, map).size(), 1U);
@@ -151,7 +151,7 @@ TEST(ObjectsConfig, ObjectsAreAnchoredToTheirTag) {
     EXPECT_TRUE(placedShapes({object}, map).empty());
 }
 
-// The default file shows an object in comments: as it stands there it must be right.
+// The default file shows an object in comments. The object must be valid as it stands there.
 TEST(ObjectsConfig, OmittedObjectsAreReported) {
     const TagMap map({{{TagFamily::Tag36h11, 5}, 0.1, {}}});
     PlacedObject shape, onTag, model;

@@ -23,7 +23,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-/// A key with the section that it is in.
+/// A key and the section that contains it.
 struct Key {
     const OptionSection* section;
     const Option* option;
@@ -45,14 +45,14 @@ bool isLevel(const Key& key) {
     return key.section == levelOptions().data();
 }
 
-/// A file with this key alone.
+/// A configuration file that contains only this key.
 std::string with(const Key& key, std::string_view value) {
     const bool isList = key.section->kind == OptionSection::Kind::List;
     const std::string head =
         key.section->name.empty()
             ? ""
             : fmt::format("{}{}{}\n", isList ? "[[" : "[", key.section->name, isList ? "]]" : "]");
-    std::string needed;  // a level cannot be without these
+    std::string needed;  // keys that a level must also have
     if (isLevel(key) && key.option->name != "name") needed += "name = \"a\"\n";
     if (isLevel(key) && key.option->name != "ms") needed += "ms = 1.0\n";
     return head + needed + fmt::format("{} = {}\n", key.option->name, value);
@@ -75,7 +75,7 @@ std::string numberText(const Key& key, double value) {
                                                        : fmt::format("{:.6f}", value);
     if (option.type != OptionType::Numbers) return one;
     std::vector<std::string> all(static_cast<std::size_t>(option.count), one);
-    // Of a quaternion, the one number that may be as large as all.
+    // Only one component of a quaternion may have the largest value.
     if (option.name == "orientation") std::fill(all.begin() + 1, all.end(), "0");
     return fmt::format("[{}]", fmt::join(all, ", "));
 }
@@ -85,7 +85,7 @@ std::vector<std::string> wordsOf(const Option& option) {
     return {std::istream_iterator<std::string>(in), {}};
 }
 
-/// A value that is not the default.
+/// A value that differs from the default.
 std::string another(const Key& key) {
     static const std::map<std::string_view, std::string> texts = {
         {"source", "\"synthetic\""}, {"display", "\"none\""}, {"size", "\"still\""},
@@ -106,7 +106,8 @@ std::string another(const Key& key) {
     return most != option.byDefault ? most : numberText(key, option.range.least);
 }
 
-/// Every key that can be read; a test for each would cost more to start than to run.
+/// All keys that can be read. One test covers all, because a test for each would take longer to
+/// start than to run.
 std::vector<Key> allKeys() {
     std::vector<Key> out = keysOf(configOptions()), levels = keysOf(levelOptions());
     out.insert(out.end(), levels.begin(), levels.end());
@@ -117,7 +118,7 @@ void theParserTakesTheDefault(const Key& key) {
     EXPECT_THAT(faults(key, key.option->byDefault), IsEmpty());
 }
 
-TEST(OptionTable, TheParserTakesTheDefault) {
+TEST(OptionTable, TheParserUsesTheTablesDefault) {
     for (const Key& key : allKeys()) {
         SCOPED_TRACE(key.name());
         theParserTakesTheDefault(key);
@@ -140,7 +141,7 @@ void theParserHasTheRange(const Key& key) {
                 HasSubstr(fmt::format("Range: {} to {}", range.least, range.most)));
 }
 
-TEST(OptionTable, TheParserHasTheRange) {
+TEST(OptionTable, TheParserEnforcesTheTablesRange) {
     for (const Key& key : allKeys()) {
         SCOPED_TRACE(key.name());
         theParserHasTheRange(key);
@@ -156,7 +157,7 @@ void theParserHasTheWords(const Key& key) {
     const std::vector<std::string> words = wordsOf(*key.option);
     for (const std::string& word : words)
         EXPECT_THAT(faults(key, value(word)), IsEmpty());
-    // No more than these, in whatever order.
+    // Exactly these words must be accepted, in any order.
     const std::string refused = faults(key, value("no-such-word"));
     const std::string list = refused.substr(refused.find("one of "));
     EXPECT_EQ(std::ranges::count(list, '"'), 2 * static_cast<std::ptrdiff_t>(words.size()));
@@ -222,7 +223,8 @@ TEST(OptionDefaults, ObjectDefaultsMatchTheParser) {
     EXPECT_FALSE(given.tag);
     const PlacedObject onTag = read("[[objects]]\ntag = 0\n");
     EXPECT_EQ(read(section("objects", configOptions()) + "tag = 0\n").tag, onTag.tag);
-    // The examples of what is absent are the checkerboard's colours.
+    // An option without a default has an example in the table. Here these are the checkerboard's
+    // colours.
     const PlacedObject coloured =
         read("[[objects]]\ncolour = [0.9, 0.9, 0.9]\nsecond_colour = [0.8, 0.2, 0.1]\n");
     EXPECT_EQ(coloured.shape.colours, without.shape.colours);
@@ -270,7 +272,7 @@ TEST(OptionText, ADefaultFileHasEveryKeyOnce) {
         EXPECT_LE(line.size(), 100U) << line;
 }
 
-TEST(OptionText, SectionsThatAreCommentedOutAreSoundWhenTheyAreNot) {
+TEST(OptionText, CommentedOutSectionsAreValidOnceUncommented) {
     std::string text = defaultConfigText(), all;
     std::istringstream in(text.substr(text.find("# [light.sun]")));
     for (std::string line; std::getline(in, line);)

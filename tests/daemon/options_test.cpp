@@ -18,7 +18,7 @@ CommandLine parse(std::vector<const char*> arguments) {
     return parseCommandLine(static_cast<int>(arguments.size()), arguments.data());
 }
 
-/// The program's error message for these arguments.
+/// The error message of the program for these arguments.
 std::string usageFault(std::vector<const char*> arguments) {
     try {
         (void)parse(std::move(arguments));
@@ -29,7 +29,7 @@ std::string usageFault(std::vector<const char*> arguments) {
     }
 }
 
-TEST(Options, NothingGivenLeavesEverythingToTheDefaults) {
+TEST(Options, WithoutArgumentsAllOptionsHaveTheirDefaults) {
     const CommandLine line = parse({});
     EXPECT_FALSE(line.print);
     const Config config = effectiveConfig(line.options);
@@ -61,7 +61,7 @@ TEST(Options, EveryOptionIsRead) {
     EXPECT_TRUE(config.validate);
 }
 
-TEST(Options, TheCommandLineComesBeforeTheFile) {
+TEST(Options, TheCommandLineOverridesTheFile) {
     const std::string file = testing::TempDir() + "options_test.toml";
     std::ofstream(file) << "recording = \"/data/run\"\nseed = 5\n[superres]\nmode = \"off\"\n";
     const Config fromFile = effectiveConfig(parse({"--config", file.c_str()}).options);

@@ -17,7 +17,7 @@ StereoRig product() {
     return rig;
 }
 
-TEST(PictureSize, Words) {
+TEST(PictureSize, TextsAreParsedOrRefused) {
     EXPECT_EQ(pictureSize("screen"), PictureSize{});
     EXPECT_EQ(pictureSize("still"), (PictureSize{Fits::Still, {}}));
     EXPECT_EQ(pictureSize("1280x720"), (PictureSize{Fits::Given, {1280, 720}}));
@@ -28,7 +28,7 @@ TEST(PictureSize, Words) {
     }
 }
 
-TEST(PictureSize, FillsTheScreen) {
+TEST(PictureSize, OutputFillsTheScreen) {
     const StereoRig rig = product();
     EXPECT_EQ(outputSizeFor({}, rig, Size{1920, 1080}), (Size{1440, 1080}));
     EXPECT_EQ(outputSizeFor({}, rig, Size{1280, 800}), (Size{1067, 800}));
@@ -39,14 +39,14 @@ TEST(PictureSize, FillsTheScreen) {
     EXPECT_EQ(outputSizeFor({}, rig, Size{0, 0}), (Size{2304, 1728}));
 }
 
-TEST(PictureSize, IsAsAskedFor) {
+TEST(PictureSize, OutputHasTheRequestedSize) {
     const StereoRig rig = product();
     EXPECT_EQ(outputSizeFor({Fits::Still, {}}, rig, Size{640, 480}), (Size{2304, 1728}));
     EXPECT_EQ(outputSizeFor({Fits::Given, {1024, 9999}}, rig, Size{640, 480}), (Size{1024, 768}));
     EXPECT_EQ(outputSizeFor({Fits::Given, {9999, 9999}}, rig, {}), (Size{2304, 1728}));
 }
 
-TEST(PictureSize, IsRead) {
+TEST(PictureSize, ConfiguredSizeIsRead) {
     EXPECT_EQ(parseConfig("size = \"800x600\"", "f").size, (PictureSize{Fits::Given, {800, 600}}));
     EXPECT_EQ(parseConfig("", "f").size, PictureSize{});
     EXPECT_THAT(configFaults("size = \"large\"\n"), HasSubstr("test.toml:1:"));

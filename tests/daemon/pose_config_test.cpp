@@ -16,7 +16,7 @@ using testing::StartsWith;
 constexpr const char* kTag = "family = \"tag36h11\"\n[[tags]]\nid = 3\nsize = 0.1\n"
                              "position = [0, 0, 1]\norientation = [1, 0, 0, 0]\n";
 
-/// The program's failure for a configuration file in this folder.
+/// The failure of the program for a configuration file in this folder.
 Failure fault(const test::TempFolder& folder) {
     Options options;
     options.config = folder.path() / "mfard.toml";
@@ -44,7 +44,7 @@ TEST(PoseConfig, TheTagMapIsCheckedWithTheConfiguration) {
     EXPECT_EQ(fault(folder).code, ExitCode::Ok);
 }
 
-TEST(PoseConfig, AMapThatIsNotUsedNeedNotBeThere) {
+TEST(PoseConfig, AnUnusedTagMapMayBeMissing) {
     const PoseConfig none{PoseOrigin::None, "/nonexistent/tags.toml"};
     EXPECT_TRUE(configuredTags(none).empty());
 }
@@ -56,7 +56,7 @@ TEST(PoseConfig, RecordedPosesNeedARecording) {
     EXPECT_THAT(fault(folder).what(), HasSubstr("needs a recording"));
 }
 
-TEST(PoseConfig, TheTrackerDoesWhatIsConfigured) {
+TEST(PoseConfig, TheTrackerUsesTheConfiguration) {
     PoseConfig pose;
     pose.families = {TagFamily::Tag25h9};
     pose.tagSize = 0.25;

@@ -27,7 +27,7 @@ Timestamp frameTime(double frame) {
     return Timestamp::fromSeconds(2 + frame / 30);
 }
 
-/// A lent picture with or without the tag, `at` frames after the start.
+/// A frame, with or without the tag, `at` frames after the start.
 struct Shot {
     Shot(const CameraModel& camera, double at, bool withTag)
         : picture(withTag ? renderTags(camera, view(at), {kPlacedTag})
@@ -122,7 +122,7 @@ TEST(PoseFinder, WithoutAMapTheFirstTagIsTheWorld) {
     EXPECT_FALSE(finder.takeFoundTags()) << "once";
 }
 
-TEST(PoseFinder, RecordedPosesAreTakenAsTheyAre) {
+TEST(PoseFinder, RecordedPosesAreUsedUnchanged) {
     Stats stats;
     PoseConfig config;
     config.source = PoseOrigin::Recorded;

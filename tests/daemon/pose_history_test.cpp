@@ -8,14 +8,14 @@ namespace {
 
 constexpr double kInterval = 1. / 30;
 
-/// Constant rate in the camera's own frame [rad/s, m/s].
+/// A constant velocity in the camera's own frame [rad/s, m/s].
 const Vector6 kTwist{{0.3, -0.2, 0.5, 0.4, 0.1, -0.3}};
 
 Timestamp timeOf(double frame) {
     return Timestamp::fromSeconds(100 + frame * kInterval);
 }
 
-/// Pose of a camera with constant rate.
+/// Pose of a camera that moves with this velocity.
 Pose steady(double frame) {
     Pose pose;
     pose.time = timeOf(frame);
@@ -30,7 +30,7 @@ double distance(const Pose& a, const Pose& b) {
     return logarithm(a.T_world_video.inverse() * b.T_world_video).norm();
 }
 
-TEST(PoseHistory, ASteadyMotionIsMetExactly) {
+TEST(PoseHistory, ASteadyMotionIsInterpolatedExactly) {
     PoseHistory history;
     for (int i = 0; i < 5; ++i)
         history.add(steady(i));
@@ -76,7 +76,7 @@ TEST(PoseHistory, ALongGapIsNotBridged) {
     EXPECT_TRUE(history.at(timeOf(6.5)));
 }
 
-TEST(PoseHistory, AChangeOfRateIsInTheCovariance) {
+TEST(PoseHistory, AChangeOfRateRaisesTheCovariance) {
     // Constant acceleration along x: 4 m/s^2.
     const auto accelerated = [](double frame) {
         Pose pose;
@@ -95,7 +95,7 @@ TEST(PoseHistory, AChangeOfRateIsInTheCovariance) {
     EXPECT_EQ(found.covariance(4, 4), 0);
 }
 
-TEST(PoseHistory, OldPosesAreForgottenAndAStepBackForgetsAll) {
+TEST(PoseHistory, OldPosesAreForgottenAndAStepBackInTimeForgetsAll) {
     PoseHistory history;
     const int many = 3 * PoseHistory::kLength;
     for (int i = 0; i < many; ++i)

@@ -9,7 +9,7 @@
 namespace mfar {
 namespace {
 
-TEST(ProcessUse, TimeGoesOn) {
+TEST(ProcessUse, ProcessorTimeIncreases) {
     const ProcessUse before = processUse();
     std::this_thread::sleep_for(std::chrono::milliseconds(60));
     const ProcessUse after = processUse();
@@ -20,7 +20,7 @@ TEST(ProcessUse, TimeGoesOn) {
     EXPECT_GE(after.cpuMs, before.cpuMs);
 }
 
-TEST(ProcessUse, MemoryThatIsWrittenCounts) {
+TEST(ProcessUse, WrittenMemoryCounts) {
     const ProcessUse before = processUse();
     EXPECT_GT(before.residentMb, 0);
     const std::vector<char> memory(64'000'000, 'a');

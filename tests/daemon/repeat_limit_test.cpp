@@ -13,7 +13,7 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 
 struct RepeatLimitTest : testing::Test {
-    /// Reports an event; records the message if it may pass at once.
+    /// Reports an event. Records the message if it may be logged at once.
     void happen(const std::string& event, const std::string& text) {
         if (limit.mayPass(event, {4, text}, now)) said.push_back(text);
     }
@@ -28,7 +28,7 @@ struct RepeatLimitTest : testing::Test {
     std::vector<std::string> said;
 };
 
-TEST_F(RepeatLimitTest, FirstIsLoggedAtOnceAndTheOthersWithTheirCount) {
+TEST_F(RepeatLimitTest, FirstEventIsLoggedAtOnceAndRepetitionsWithTheirCount) {
     for (int i = 0; i < 8; ++i)
         happen("plug", "gone");
     EXPECT_THAT(said, ElementsAre("gone"));
@@ -49,7 +49,7 @@ TEST_F(RepeatLimitTest, ASingleRepetitionIsWrittenInWords) {
     EXPECT_THAT(said, ElementsAre("gone", "gone (once more in 28 s)"));
 }
 
-// Without the limit: 16 lines in 28 s.
+// Without the limit, 16 lines would be logged in 28 s.
 TEST_F(RepeatLimitTest, ALoosePlugLogsLittleAndTheLastMessageIsCorrect) {
     for (int i = 0; i < 8; ++i) {
         happen("camera", "camera: gone");
@@ -73,7 +73,7 @@ TEST_F(RepeatLimitTest, NewestTextOfAnEventIsKept) {
     EXPECT_EQ(said.back(), "gone from /dev/video4 (2 more times in 10 s)");
 }
 
-TEST_F(RepeatLimitTest, AStormIsLoggedEveryTenSeconds) {
+TEST_F(RepeatLimitTest, AStormOfEventsIsLoggedEveryTenSeconds) {
     for (int ms = 0; ms < 3'600'000; ms += 50) {
         happen("storm", "error");
         pass(milliseconds(50));
@@ -92,7 +92,7 @@ TEST_F(RepeatLimitTest, StormOfDifferentEventsIsBounded) {
     EXPECT_EQ(said.back(), "later") << "old events are forgotten";
 }
 
-TEST_F(RepeatLimitTest, NothingIsLostAtTheEnd) {
+TEST_F(RepeatLimitTest, PendingRepetitionsAreLoggedAtTheEnd) {
     happen("plug", "gone");
     happen("plug", "gone");
     happen("plug", "gone");

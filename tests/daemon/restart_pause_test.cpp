@@ -11,12 +11,12 @@ namespace {
 using std::chrono::seconds;
 
 struct RestartPauseTest : testing::Test {
-    /// A process runs for `ran` and fails; returns the pause before its restart.
+    /// A process runs for `ran` and fails. Returns the pause before its restart.
     RestartPause::Next fail(seconds ran = seconds(1)) {
         const Timestamp started = now;
         now = now + ran;
         const RestartPause::Next next = RestartPause(file).failed(started, now);
-        now = now + next.wait + seconds(1);  // RestartSec=
+        now = now + next.wait + seconds(1);  // RestartSec= of the service
         return next;
     }
 
@@ -31,7 +31,7 @@ TEST_F(RestartPauseTest, WaitsGrowUpToALimit) {
     EXPECT_EQ(fail().inARow, 9);
 }
 
-TEST_F(RestartPauseTest, DayOfFailuresIsFewRestarts) {
+TEST_F(RestartPauseTest, ADayOfFailuresCausesFewRestarts) {
     const Timestamp end = now + std::chrono::hours(24);
     int restarts = 0;
     while (now < end) {
@@ -41,14 +41,14 @@ TEST_F(RestartPauseTest, DayOfFailuresIsFewRestarts) {
     EXPECT_LT(restarts, 3000) << "one a second before";
 }
 
-TEST_F(RestartPauseTest, ALongRunEndsTheRowOfFailures) {
+TEST_F(RestartPauseTest, ALongRunResetsTheCountOfFailures) {
     for (int i = 0; i < 4; ++i)
         (void)fail();
     EXPECT_EQ(fail(seconds(61)).wait.count(), 0);
     EXPECT_EQ(fail().wait.count(), 1) << "and begins the next";
 }
 
-TEST_F(RestartPauseTest, FailureOfLongAgoDoesNotCount) {
+TEST_F(RestartPauseTest, OldFailuresDoNotCount) {
     for (int i = 0; i < 4; ++i)
         (void)fail();
     now = now + seconds(61);

@@ -1,4 +1,4 @@
-// The cameras of a rig with a simulated V4L2 driver, pretended_v4l2.cpp.
+// Tests the cameras of a rig with the simulated V4L2 driver of pretended_v4l2.cpp.
 #include "daemon/budgets.h"
 #include "daemon/rig.h"
 #include "tests/unit/temp_folder.h"
@@ -41,7 +41,7 @@ protected:
         out.rateHz = rateHz;
         return out;
     }
-    /// Sets the faults of a device from now on.
+    /// Sets the faults that a device has from now on.
     void says(const std::string& device, const std::string& words) const {
         const std::filesystem::path next = folder_.path() / "next";
         std::ofstream(next) << words;
@@ -59,7 +59,7 @@ bool becomesTrue(const std::function<bool()>& condition) {
     return false;
 }
 
-// Opening a data.csv that is a pipe without a reader never returns.
+// data.csv is a pipe without a reader; so opening it never returns.
 TEST_F(RigOfCameras, RecorderWhoseDiskHangsIsOverItsBudget) {
     says("video90", "");
     std::atomic<std::int64_t> passed{0};
@@ -83,7 +83,7 @@ TEST_F(RigOfCameras, RecorderWhoseDiskHangsIsOverItsBudget) {
     EXPECT_TRUE(becomesTrue([&] { return hearts.late().empty(); })) << "it waits for work";
 }
 
-/// Resources of this process: open files, threads, allocated bytes.
+/// Resources that this process uses: open files, threads, allocated bytes.
 struct Used {
     static long entries(const char* folder) {
         return std::distance(std::filesystem::directory_iterator(folder), {});
@@ -92,7 +92,7 @@ struct Used {
     std::size_t bytes = mallinfo2().uordblks;
 };
 
-TEST_F(RigOfCameras, AHundredLossesLeaveNothingBehind) {
+TEST_F(RigOfCameras, AHundredCameraLossesLeakNothing) {
     says("video90", "rate 200");
     Heartbeats hearts;
     Rig rig(config_, hearts);
@@ -115,7 +115,7 @@ TEST_F(RigOfCameras, AHundredLossesLeaveNothingBehind) {
     EXPECT_LT(after.bytes, before->bytes + 32'768);
 }
 
-TEST_F(RigOfCameras, DriverWithoutBuffersIsNamedUntilItHasSome) {
+TEST_F(RigOfCameras, DriverWithoutBuffersIsReportedUntilItHasSome) {
     says("video90", "buffers 0");
     says("video91", "rate 100");
     Heartbeats hearts;

@@ -15,7 +15,7 @@
 namespace mfar {
 namespace {
 
-/// The service manager's end of the notification socket.
+/// The end of the notification socket that belongs to the service manager.
 class Manager {
 public:
     Manager() : fd_(socket(AF_UNIX, SOCK_DGRAM, 0)) {
@@ -60,7 +60,7 @@ TEST(Service, SendsValidNotifications) {
     EXPECT_EQ(manager.heard(), "STOPPING=1\nSTATUS=ending");
 }
 
-TEST(Service, FeedsTheWatchdogTwiceAsOftenAsAsked) {
+TEST(Service, NotifiesTheWatchdogTwiceAsOftenAsRequired) {
     const Manager manager;
     EXPECT_EQ(Service().watchdogPeriod(), std::nullopt);
     setenv("WATCHDOG_USEC", "3000000", 1);

@@ -14,8 +14,7 @@ using testing::Not;
 
 const std::vector<StageTime> kStages = {{"flow", 30}, {"superres", 10}};
 
-/// Pictures for one second, 50 ms apart, each shown 20 ms after its frame. The 21st is shown at
-/// 11.02 s.
+/// Shows pictures 50 ms apart, each 20 ms after its frame was taken. The 21st is shown at 11.02 s.
 void showPictures(Stats& stats, int count) {
     for (int i = 0; i < count; ++i) {
         FrameStats frame;
@@ -42,7 +41,7 @@ TEST(Stats, RatesLatencyAndSharesMatchThePictures) {
     EXPECT_NEAR(counted.meanConfidence, 0.8, 1e-9) << "frames without still do not count";
 }
 
-TEST(Stats, NothingShownIsAllZero) {
+TEST(Stats, WithoutShownPicturesAllValuesAreZero) {
     Stats stats;
     const Counted counted = stats.count();
     EXPECT_EQ(counted.fps, 0);
@@ -60,8 +59,8 @@ TEST(Stats, RecentRateFallsWhenPicturesStop) {
     EXPECT_LT(fpsAt(1000), 0.01);
 }
 
-// Regression: the rate was 0 when it was queried more often than pictures were made.
-TEST(Stats, RecentRateOfSlowPicturesIsTrueWheneverItIsAsked) {
+// Regression test: the rate was 0 if it was read more often than pictures were made.
+TEST(Stats, RecentRateOfSlowPicturesIsRightAtAnyTime) {
     Stats stats;
     for (int i = 0; i < 4; ++i) {
         const Timestamp shown = Timestamp::fromSeconds(10 + 2.5 * i);
@@ -162,7 +161,7 @@ TEST(Status, ReportsTheStateOfTheCameras) {
     EXPECT_EQ(json["drops"]["sensor"], 5);
 }
 
-TEST(Status, ACameraThatHasFallenSilentHasNoRate) {
+TEST(Status, ASilentCameraHasNoRate) {
     Stats stats;
     CameraState video;
     video.rateHz = 30;
@@ -207,7 +206,8 @@ Pose fromTags(int tags, double errorPx) {
     return pose;
 }
 
-/// Three frames: measured, predicted, lost; two stills: measured, and placed between frames.
+/// Three frames with a measured, a predicted and no pose; two stills with a measured pose and with
+/// one interpolated between frames.
 void findPoses(Stats& stats) {
     TrackStats tracker{.frames = 3, .fullSearches = 1, .roiSearches = 2, .flips = 4, .lastMs = 2};
     stats.framePose(fromTags(6, 0.25), tracker);
@@ -243,8 +243,8 @@ TEST(Status, SummaryReportsTheSourcesOfPoses) {
     EXPECT_NEAR(pose["still_track_ms"]["median"].get<double>(), 8, 0.1);
 }
 
-/// Two frames matched along epipolar lines, the first with a refined, the second with a predicted
-/// pose; before them a frame without such data.
+/// A frame without data on lines, then two frames matched along epipolar lines: one with a refined,
+/// one with a predicted pose.
 void showLines(Stats& stats) {
     FrameStats frame;
     frame.usedStill = frame.usedPose = true;
@@ -292,7 +292,7 @@ TEST(Status, LineReportsTheSourceOfTheLastPose) {
     EXPECT_THAT(statusLine(recorded.count(), {}, 1), HasSubstr(", tracked 100% |"));
 }
 
-TEST(Status, SummaryOfAnEmptyRunHasNoHoles) {
+TEST(Status, SummaryOfAnEmptyRunIsComplete) {
     Stats stats;
     const auto json = summary(stats.count(), {}, "error", 70);
     EXPECT_EQ(json.dump().find("null"), std::string::npos) << json.dump();
@@ -323,7 +323,7 @@ TEST(Status, LineReportsThatNoFrameHasArrived) {
     EXPECT_EQ(statusLine(stats.count(), {}, 1), "waiting for the first picture");
 }
 
-TEST(Status, LineHasABarWhereTheEndIsKnown) {
+TEST(Status, LineHasAProgressBarIfTheEndIsKnown) {
     Stats stats;
     showPictures(stats, 20);
     RunDescription run;
@@ -334,7 +334,7 @@ TEST(Status, LineHasABarWhereTheEndIsKnown) {
     EXPECT_THAT(statusLine(stats.count(), run, 1), testing::StartsWith("[####............]  25%"));
 }
 
-TEST(Summary, VirtualLayerIsCountedWhereThereIsOne) {
+TEST(Summary, VirtualLayerIsCountedIfItExists) {
     Stats stats;
     EXPECT_FALSE(summary(stats.count(), {}, "", 0)["virtual"].contains("path_tracer"));
     TracedLayerCounters counters;

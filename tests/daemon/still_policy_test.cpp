@@ -20,12 +20,12 @@ TEST(StillPolicy, ABusyTriggerIsRetriedAtOnce) {
     EXPECT_EQ(policy.lost(), 0);
 }
 
-/// A sensor that answers a trigger after a fixed time, or never.
+/// A still sensor that answers a trigger after a fixed time, or never.
 class Simulation {
 public:
     explicit Simulation(const TriggerConfig& config) : policy(config) {}
 
-    /// Runs frames for `seconds`; returns how often the policy fired.
+    /// Runs frames for `seconds`. Returns how often the policy fired.
     int run(double seconds, FrameStats stats) {
         int fired = 0;
         for (const double end = now + seconds; now < end; now += kFrame) {
@@ -44,7 +44,7 @@ public:
 
     StillPolicy policy;
     double now = 100;
-    double delay = 0;  ///< by how much the numbers lag behind their frame
+    double delay = 0;  ///< how far the statistics lag behind their frame [s]
     double latency = 0.2;
     bool answers = true;
     std::optional<double> answerAt;
@@ -72,12 +72,13 @@ TEST(StillPolicy, CameraAtRestFiresOnceOnly) {
     EXPECT_EQ(board.run(3600, kRest), 1);
 }
 
-TEST(StillPolicy, CameraAtRestFiresOnceEvenWhereTheStillExplainsNothing) {
+TEST(StillPolicy, CameraAtRestFiresOnceEvenIfTheStillExplainsNothing) {
     Simulation board({});
     EXPECT_EQ(board.run(600, frame(0, 0.01)), 1);
 }
 
-// Numbers of the first frame, in which everything is new, arrive after the trigger that it caused.
+// Everything is new in the first frame, which fires the trigger. The statistics of this frame
+// arrive only after that trigger.
 TEST(StillPolicy, StatsOlderThanTheTriggerAreNotMotion) {
     Simulation board({});
     board.delay = kFrame;
@@ -85,8 +86,8 @@ TEST(StillPolicy, StatsOlderThanTheTriggerAreNotMotion) {
     EXPECT_EQ(board.run(60, frame(0.1, 0)), 0);
 }
 
-// The pipeline draws every tile again for a new still, even if nothing moves.
-TEST(StillPolicy, TheRedrawForANewStillIsNoMotion) {
+// For a new still, the pipeline draws every tile again even if nothing moves.
+TEST(StillPolicy, TheRedrawForANewStillDoesNotCountAsMotion) {
     TriggerConfig config;
     config.maxAgeS = 0.5;
     Simulation board(config);
@@ -128,7 +129,7 @@ TEST(StillPolicy, MotionThatTheStillExplainsWaitsForTheAge) {
     EXPECT_EQ(board.run(0.5, kMovingExplained), 1);
 }
 
-// A sensor's noise must be learned first, so the first frames appear to change.
+// The sensor's noise must be learned first; so the first frames appear to change.
 TEST(StillPolicy, ChangesBeforeTheFirstUseDoNotAgeAStill) {
     TriggerConfig config;
     config.maxAgeS = 5;
@@ -138,7 +139,7 @@ TEST(StillPolicy, ChangesBeforeTheFirstUseDoNotAgeAStill) {
     EXPECT_EQ(board.run(60, kRest), 0);
 }
 
-// The camera turns and stops while the still is pending, which then shows the wrong view.
+// The camera turns and stops while the still is pending; so the still shows the wrong view.
 TEST(StillPolicy, AStillTakenDuringMotionIsReplaced) {
     Simulation board({});
     board.latency = 0.4;
@@ -166,7 +167,7 @@ TEST(StillPolicy, NeverFiresWhileAStillIsPending) {
     EXPECT_GE(board.firedAt.size(), 9U);
 }
 
-TEST(StillPolicy, KeepsTheShortestInterval) {
+TEST(StillPolicy, KeepsTheMinimumIntervalBetweenStills) {
     TriggerConfig config;
     config.minIntervalS = 0.5;
     Simulation board(config);
@@ -215,7 +216,7 @@ TEST(StillPolicy, ALateStillDoesNotAnswerTheRepetition) {
     EXPECT_FALSE(board.policy.pending());
 }
 
-TEST(StillPolicy, RateHoldsOnTheFrameClock) {
+TEST(StillPolicy, FixedRateFollowsTheTimesOfFrames) {
     TriggerConfig config;
     config.mode = TriggerMode::Rate;
     config.rateHz = 4;
@@ -224,14 +225,14 @@ TEST(StillPolicy, RateHoldsOnTheFrameClock) {
     EXPECT_NEAR(fired, 120, 1);
 }
 
-TEST(StillPolicy, OffNeverFires) {
+TEST(StillPolicy, ModeOffNeverFires) {
     TriggerConfig config;
     config.mode = TriggerMode::Off;
     Simulation board(config);
     EXPECT_EQ(board.run(30, kMovingUnexplained), 0);
 }
 
-TEST(StillPolicy, OffRepeatsAStillThatWasAskedForAndLost) {
+TEST(StillPolicy, ModeOffRepeatsARequestedStillThatWasLost) {
     TriggerConfig config;
     config.mode = TriggerMode::Off;
     Simulation board(config);

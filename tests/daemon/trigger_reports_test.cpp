@@ -22,7 +22,7 @@ TEST(TriggerReports, EachEventIsReportedOnce) {
     EXPECT_THAT(reports.newSince({2, 2, false}), IsEmpty());
 }
 
-// Another device is opened, whose counters start at zero.
+// Another device is opened. Its counters start at zero.
 TEST(TriggerReports, CounterResetsAreNotEvents) {
     TriggerReports reports;
     (void)reports.newSince({5, 5, false});

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs the daemon on the simulated board and leaves pictures of what it does.
-# Usage: demo.sh BUILD_FOLDER OUTPUT_FOLDER
+# Runs the daemon on the simulated board and saves pictures of the results. Usage: demo.sh
+# BUILD_FOLDER OUTPUT_FOLDER
 set -euo pipefail
 build=$1
 out=$2

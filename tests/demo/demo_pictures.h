@@ -10,14 +10,14 @@ namespace mfar::demo {
 
 [[nodiscard]] std::string_view name(TileClass tileClass);
 
-/// Upscaled video, result and truth side by side, and below each the place where the video lacks
-/// most of the truth's detail, magnified.
+/// Enlarged video, result and truth side by side. Below each, the place at which the video lacks
+/// most of the truth's detail is magnified.
 [[nodiscard]] cv::Mat comparisonPicture(const Shown& shown);
 
-/// Eq. 2 over the video, from dark (0) to light (1), with its scale.
+/// Confidence (eq. 2 of the paper) over the video, from dark (0) to light (1), with a scale.
 [[nodiscard]] cv::Mat confidencePicture(const Shown& shown);
 
-/// The class of every tile as a colour over the result, with a legend.
+/// The result with the class of every tile as a colour, and a legend.
 [[nodiscard]] cv::Mat tileClassPicture(const Shown& shown);
 
 }  // namespace mfar::demo

@@ -33,10 +33,10 @@ using mfar::demo::VirtualRun;
 struct Request {
     fs::path recording;
     fs::path folder;
-    fs::path video;       ///< Y4M of the daemon, empty: none
-    fs::path objects;     ///< configuration with objects, empty: none
-    fs::path pathTraced;  ///< the same, to be path traced
-    std::string scene;    ///< that was recorded; the objects' truth needs it
+    fs::path video;       ///< Y4M written by the daemon; empty: none
+    fs::path objects;     ///< configuration with objects; empty: none
+    fs::path pathTraced;  ///< configuration with path-traced objects; empty: none
+    std::string scene;    ///< recorded scene; the truth of objects needs it
 };
 
 void showProgress(int done, int all) {

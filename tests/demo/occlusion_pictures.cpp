@@ -12,7 +12,7 @@
 namespace mfar::demo {
 namespace {
 
-constexpr double kMostError = 0.05;  // share of the depth, the scale's end
+constexpr double kMostError = 0.05;  // relative depth error at the end of the scale
 const cv::Scalar kUnknown(120, 120, 120);
 
 /// Nearest and farthest depth of a colour scale [1/m].
@@ -20,7 +20,7 @@ struct Range {
     double far, near;
 };
 
-// Ignores the farthest and the nearest 1 % of the pixels.
+// The range without the farthest and the nearest 1 % of the pixels.
 Range rangeOf(const cv::Mat& rho) {
     std::vector<float> values;
     for (const float value : cv::Mat_<float>(rho))
@@ -29,7 +29,7 @@ Range rangeOf(const cv::Mat& rho) {
     return {values[values.size() / 100], values[values.size() - 1 - values.size() / 100]};
 }
 
-/// Turbo, from blue (0) to red (1); unknown where `known` is 0.
+/// Colours of the map Turbo, from blue (0) to red (1). Where `known` is 0, a colour for unknown.
 cv::Mat colours(const cv::Mat& shares, const cv::Mat& known) {
     cv::Mat levels, out;
     shares.convertTo(levels, CV_8U, 255);
@@ -47,7 +47,7 @@ cv::Mat errorColours(const cv::Mat& rho, const cv::Mat& truth) {
     return colours(cv::abs(truth / rho - 1) / kMostError, known);
 }
 
-/// A bar of the colours with labels at its ends.
+/// Draws a bar of the colours with labels at its ends.
 void addScale(cv::Mat& canvas, cv::Point corner, const std::string& from, const std::string& to) {
     constexpr int kLabel = 90;
     cv::Mat ramp(kMargin, 256, CV_32F);
@@ -58,7 +58,7 @@ void addScale(cv::Mat& canvas, cv::Point corner, const std::string& from, const 
     write(canvas, to, {corner.x + kLabel + ramp.cols + 12, corner.y + 18});
 }
 
-/// The place where large hidden and large visible parts of the object are close together.
+/// The window in which large hidden and large visible parts of the object are close together.
 cv::Rect mostHidden(const OcclusionShown& shown) {
     const cv::Size window = detailSize(shown.composite.size());
     cv::Mat hidden, visible, both;

@@ -9,8 +9,8 @@ namespace mfar::demo {
 /// Depth, true depth and the error, with their scales.
 [[nodiscard]] cv::Mat depthPicture(const OcclusionRun& run);
 
-/// Three pictures: the object over everything, as composed, and the truth; below each, the place
-/// where most of the object is hidden, magnified.
+/// Three pictures: the object over everything, the result, and the truth. Below each, the place at
+/// which most of the object is hidden is magnified.
 [[nodiscard]] cv::Mat occlusionPicture(const OcclusionRun& run);
 
 }  // namespace mfar::demo

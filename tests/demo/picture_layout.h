@@ -24,9 +24,9 @@ struct Column {
     cv::Mat picture;
 };
 
-/// Size of the window that fills a panel when magnified.
+/// Size of a window that, magnified, fills a panel.
 [[nodiscard]] cv::Size detailSize(cv::Size picture);
-/// Panels side by side, each with the same detail magnified below it.
+/// Panels side by side. Below each, the same detail is magnified.
 [[nodiscard]] cv::Mat columnsWithDetail(std::span<const Column> columns, const cv::Rect& detail);
 
 }  // namespace mfar::demo

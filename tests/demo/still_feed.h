@@ -8,10 +8,11 @@
 
 namespace mfar::demo {
 
-/// Gives the pipeline the newest still taken before the frame; each still once.
+/// Gives the pipeline the newest still that was taken before the frame; each still once.
 class StillFeed {
 public:
-    /// `poses`: of the stills; nullptr: the pipeline gets no poses. Both must outlive this.
+    /// `poses`: poses of the stills; null: the pipeline gets no poses. Both arguments must outlive
+    /// this object.
     explicit StillFeed(const Recording& recording, const eval::KnownPoses* poses = nullptr)
         : recording_(recording), poses_(poses) {}
 
@@ -20,7 +21,7 @@ public:
 private:
     const Recording& recording_;
     const eval::KnownPoses* poses_;
-    std::size_t next_ = 0;  ///< the first still not taken before the last frame
+    std::size_t next_ = 0;  ///< first still that was not taken before the last frame
 };
 
 }  // namespace mfar::demo

@@ -18,7 +18,7 @@ namespace mfar::demo {
 namespace {
 
 constexpr std::chrono::milliseconds kFrameInterval{33};
-// A camera that has rested for some frames gets a reference picture of exactly its view.
+// The camera must rest for some frames before a reference picture of exactly its view is made.
 constexpr int kLeastLooks = 15, kMostRestFrames = 20000;
 
 bool isSettled(const TracedLayerCounters& counters) {
@@ -35,7 +35,7 @@ cv::Rect outputRect(const PixelRect& video, Size frame, Size output) {
                       at(video.y1, frame.height, output.height))};
 }
 
-/// The window of the detail's size around the region's middle.
+/// A window of the detail's size, centred on the region.
 cv::Rect detailOf(const cv::Rect& region, cv::Size picture) {
     const cv::Size window = detailSize(picture);
     const cv::Point middle = (region.tl() + region.br()) / 2;
@@ -44,7 +44,7 @@ cv::Rect detailOf(const cv::Rect& region, cv::Size picture) {
             window};
 }
 
-/// One pipeline, one recording.
+/// Runs one pipeline on one recording.
 class Show {
 public:
     Show(const Recording& recording, const Config& config)
@@ -61,7 +61,7 @@ public:
         stills_.feed(pipeline_, time_);
         show();
     }
-    /// The last frame again, a little later.
+    /// Runs the last frame again, a little later.
     void again() {
         time_ = time_ + kFrameInterval;
         show();
@@ -107,7 +107,7 @@ VirtualRun runVirtual(const Recording& recording, const Config& config,
     if (run.region.empty())
         throw std::runtime_error(recording.root.string() + ": no object is in view at the end");
     Timestamp seen = show.counters().render.frame;
-    int looks = 0;  // frames that the tracer's threads have seen: they may be slower than these
+    int looks = 0;  // frames that the tracer's threads have received, which may lag behind
     for (int i = 0; i < kMostRestFrames && !(looks > kLeastLooks && isSettled(show.counters()));
          ++i) {
         show.again();
@@ -115,7 +115,7 @@ VirtualRun runVirtual(const Recording& recording, const Config& config,
         seen = show.counters().render.frame;
         ++looks;
     }
-    // Finished samples are shown by the frame after that.
+    // A later frame shows the samples that were finished here.
     for (int i = 0; i < 5; ++i) {
         std::this_thread::sleep_for(kFrameInterval);
         show.again();

@@ -10,21 +10,21 @@
 
 namespace mfar::demo {
 
-/// Path traced objects in a recording. Pictures: CV_8UC3, B G R, at output size.
+/// Results of path-traced objects in a recording. Pictures are CV_8UC3, B G R, at output size.
 struct VirtualRun {
-    cv::Mat moving;   ///< the last frame, a reference picture warped to it
-    cv::Mat atRest;   ///< the same after the camera stayed there, with all samples
-    cv::Rect region;  ///< around the objects and their shadows [output px]
+    cv::Mat moving;   ///< the last frame: a reference picture, warped to this view
+    cv::Mat atRest;   ///< the same view after the camera rested, with all samples
+    cv::Rect region;  ///< contains the objects and their shadows [output px]
     TracedLayerCounters moved, rested;
 };
 
-/// Shows the configuration's objects with the poses that the recording's tags give. Needs a current
-/// GL context. `progress` gets the frames done and in total. Throws std::runtime_error when no
-/// object is in view at the end.
+/// Shows the objects of a configuration with the poses that the recording's tags give. `progress`
+/// gets the number of frames done and the total. Needs a current GL context. Throws
+/// std::runtime_error if no object is in view at the end.
 [[nodiscard]] VirtualRun runVirtual(const Recording& recording, const Config& config,
                                     const std::function<void(int, int)>& progress);
 
-/// Both pictures, and below each the objects magnified.
+/// Both pictures. Below each, the objects are magnified.
 [[nodiscard]] cv::Mat virtualPicture(const VirtualRun& run);
 
 }  // namespace mfar::demo

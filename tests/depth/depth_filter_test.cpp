@@ -62,7 +62,7 @@ TEST(DepthFilter, OneOutlierIsIgnoredAndAChangeIsFollowed) {
     EXPECT_NEAR(filter.field().rho[middle()], 3, 1e-5);
 }
 
-TEST(DepthFilter, TheNearerSurfaceHidesTheOther) {
+TEST(DepthFilter, TheNearerSurfaceOccludesTheOther) {
     DepthFilter filter = filterOf();
     filter.predict({}, 0);
     InverseDepthField measured = evenField(0.5F, 0.01F);
@@ -70,7 +70,8 @@ TEST(DepthFilter, TheNearerSurfaceHidesTheOther) {
         for (int x = 40; x < 60; ++x)
             measured.rho[static_cast<std::size_t>(y) * 120 + x] = 2;
     filter.fuse(measured, kWhole);
-    // 0.1 m to the right: the near square moves 22 px to the left, the background 5.5 px.
+    // The camera moves 0.1 m to the right: the near square moves 22 px to the left, the background
+    // 5.5 px.
     filter.predict(motion({0, 0, 0}, {0.1, 0, 0}), 0);
     const auto at = [&](int x) { return filter.field().rho[45UL * 120 + x]; };
     EXPECT_NEAR(at(28), 2, 1e-4);
@@ -79,22 +80,22 @@ TEST(DepthFilter, TheNearerSurfaceHidesTheOther) {
     EXPECT_FALSE(filter.field().isKnown(45UL * 120 + 45)) << "came to light";
 }
 
-TEST(DepthFilter, MovesAndGrowsWithTheCamera) {
+TEST(DepthFilter, DepthMovesAndScalesWithTheCamera) {
     DepthFilter filter = filterOf();
     filter.predict({}, 0);
     filter.fuse(evenField(1, 0.02F), kWhole);
     const float variance = filter.field().variance[middle()];
-    // Half a metre towards a wall at one metre.
+    // The camera moves half a metre towards a wall at one metre.
     filter.predict(motion({0, 0, 0}, {0, 0, 0.5}), 0);
     ASSERT_TRUE(filter.field().isKnown(middle()));
     EXPECT_NEAR(filter.field().rho[middle()], 2, 1e-4);
     EXPECT_GT(filter.field().variance[middle()], 10 * variance);
-    // Through the wall.
+    // The camera moves through the wall.
     filter.predict(motion({0, 0, 0}, {0, 0, 1.2}), 0);
     EXPECT_FALSE(filter.field().isKnown(middle()));
 }
 
-TEST(DepthFilter, ForgetsOnlyWhenTheCameraMoves) {
+TEST(DepthFilter, DepthIsForgottenOnlyWhenTheCameraMoves) {
     DepthFilter filter = filterOf();
     filter.predict({}, 0);
     filter.fuse(evenField(1, 0.02F), kWhole);
@@ -114,7 +115,7 @@ TEST(DepthFilter, SmallMotionsAddUpWithoutBlur) {
     filter.fuse(measured, kWhole);
     for (int i = 1; i <= 1000; ++i)
         filter.predict(motion({0, 0, 0}, {2e-5 * i, 0, 0}), 0);
-    // 2 cm at half a metre: 4.4 px.
+    // A motion of 2 cm at half a metre is 4.4 px.
     EXPECT_NEAR(filter.field().rho[middle() - 4], 2, 1e-3);
 }
 

@@ -27,13 +27,13 @@ Scene panelScene() {
             100};
 }
 
-/// Runs the depth stage while a camera moves in that scene; the world is the scene's frame.
+/// Runs the depth stage while a camera moves in that scene. The world frame is that of the scene.
 class Walk {
 public:
     explicit Walk(const DepthOptions& options = {}, const PixelRect& where = kAll)
         : stage_(barrelCamera(), std::make_shared<Workers>(2), options), where_(where) {}
 
-    /// Passes the frame of a camera at this pose.
+    /// Passes the frame that a camera at this pose takes.
     void go(const RigidTransform& T_world_video) {
         pose_ = T_world_video;
         Pose pose{Timestamp::fromSeconds(1 + kFrame * frames_++), T_world_video};
@@ -46,8 +46,8 @@ public:
     static RigidTransform at(double x) { return motion({0, 0, 0}, {x, 0.3 * x, 0}); }
 
     struct Errors {
-        double median = 0;    ///< of |z - truth| / truth over pixels with known depth
-        double bad = 0;       ///< share of known pixels with an error above a tenth
+        double median = 0;    ///< median of |z - truth| / truth over pixels with known depth
+        double bad = 0;       ///< share of pixels with known depth whose error is above a tenth
         double complete = 0;  ///< share of pixels with known depth
     };
     [[nodiscard]] Errors errors() const {
@@ -120,7 +120,7 @@ TEST(DepthStage, AStopAndATurnKeepTheDepth) {
     EXPECT_GT(walk.errors().complete, 0.85);
 }
 
-TEST(DepthStage, MeasuresOnTheWayToTheScene) {
+TEST(DepthStage, DepthIsMeasuredWhileTheCameraMovesForwards) {
     Walk walk;
     for (int i = 0; i < 14; ++i)
         walk.go(motion({0, 0, 0}, {0.002 * i, 0, 0.03 * i}));
@@ -129,13 +129,13 @@ TEST(DepthStage, MeasuresOnTheWayToTheScene) {
     EXPECT_GT(errors.complete, 0.8);
 }
 
-TEST(DepthStage, MeasuresOnlyWhereItIsNeeded) {
+TEST(DepthStage, DepthIsMeasuredOnlyInRequestedTiles) {
     const PixelRect where{70, 50, 150, 120};
     Walk walk({}, where);
     walk.goSideways(10, 0.01);
     expectGood(walk.errors());
     const InverseDepthField& field = walk.stage().field();
-    // Measured values move by up to four pixels per frame.
+    // Measured values may move by up to four pixels per frame.
     const PixelRect reached = widened(where, 40, field.size);
     for (int y = 0; y < field.size.height; ++y) {
         for (int x = 0; x < field.size.width; ++x) {
@@ -146,7 +146,7 @@ TEST(DepthStage, MeasuresOnlyWhereItIsNeeded) {
     }
 }
 
-TEST(DepthStage, ForgetsOnRequest) {
+TEST(DepthStage, DepthIsForgottenOnRequest) {
     Walk walk;
     walk.goSideways(6, 0.012);
     walk.stage().forget(PixelRect{100, 80, 120, 90});

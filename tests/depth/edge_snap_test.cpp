@@ -26,7 +26,7 @@ std::vector<std::uint8_t> picture(int left = 60, int right = 160) {
     return out;
 }
 
-/// The near surface extends `too` pixels too far, followed by `unknown` pixels.
+/// The near surface extends `too` pixels beyond its true edge. `unknown` pixels follow it.
 InverseDepthField field(int too, int unknown) {
     InverseDepthField out(kPicture);
     for (int y = 0; y < kPicture.height; ++y)
@@ -39,7 +39,7 @@ InverseDepthField field(int too, int unknown) {
     return out;
 }
 
-/// Two colours of the same luma, one on each side of kEdge.
+/// Paints two colours of equal luma, one on each side of kEdge.
 void paintHalves(test::PaddedPicture& out) {
     const ImageView view = out.view();
     const int step = bytesPerPixel(view.format);
@@ -88,7 +88,7 @@ TEST(EdgeSnap, DepthEdgesMoveToPictureEdges) {
         }
 }
 
-// The surfaces differ only in colour, so that it must be read correctly from every format.
+// The surfaces differ only in colour; so chroma must be read correctly from every format.
 TEST(EdgeSnap, ColourOfEveryFormatDistinguishesSurfaces) {
     for (const PixelFormat format : test::kEveryFormat) {
         if (format == PixelFormat::Gray8) continue;
@@ -106,14 +106,14 @@ TEST(EdgeSnap, ColourOfEveryFormatDistinguishesSurfaces) {
     }
 }
 
-// If values are rounded and chroma is the same for each pair of pixels, a Y U V picture gives the
+// Values are rounded and chroma is equal in each pair of pixels; so the Y U V picture must give the
 // same result as the R G B picture.
 TEST(EdgeSnap, YuvAndItsRgbGiveTheSameField) {
     for (const PixelFormat format : {PixelFormat::Yuyv, PixelFormat::Nv12, PixelFormat::Yuv420}) {
         test::PaddedPicture painted(format, kPicture, 6);
         for (int plane = 0; plane < planeCount(format); ++plane)
             for (auto& b : painted.plane(plane))
-                b = static_cast<std::uint8_t>(110 + b / 8);  // some values are equal
+                b = static_cast<std::uint8_t>(110 + b / 8);  // makes some values equal
         const ImageView view = painted.view(YuvMatrix::Bt709, YuvRange::Limited);
         const auto samples = twin::yuvSamples(view);
         const int down = format == PixelFormat::Yuyv ? 1 : 2;
@@ -139,7 +139,7 @@ TEST(EdgeSnap, YuvAndItsRgbGiveTheSameField) {
     }
 }
 
-TEST(EdgeSnap, ASlopeStaysAsItIs) {
+TEST(EdgeSnap, ASlopeStaysUnchanged) {
     InverseDepthField in(kPicture);
     for (std::size_t i = 0; i < in.rho.size(); ++i) {
         in.rho[i] = 1 + 0.004F * static_cast<float>(i % 64);
@@ -162,7 +162,7 @@ TEST(EdgeSnap, UnknownDepthStaysUnknown) {
         EXPECT_FALSE(out.isKnown(i));
 }
 
-TEST(EdgeSnap, OnlyTheRegionIsWorkedOn) {
+TEST(EdgeSnap, OnlyTheRegionIsProcessed) {
     const PixelRect where{20, 10, 44, 30};
     const InverseDepthField out = snapped(field(2, 0), picture(), where);
     for (int y = 0; y < kPicture.height; ++y)

@@ -27,14 +27,14 @@ TEST(CameraSelection, IdsTakePrecedenceOverModels) {
     EXPECT_EQ(chooseCamera({{"a", "b", ""}, {"b", "c", ""}}, {"b"}), 1U);
 }
 
-TEST(CameraSelection, AnyIsTheSmallestOrTheLargest) {
+TEST(CameraSelection, WithoutANameTheSmallestOrLargestCameraIsChosen) {
     std::vector<ListedCamera> board = kBoard;
     for (ListedCamera& camera : board)
         camera.pixels = 1000;
     board[3].pixels = 4000;
     board[1].pixels = 4000;
     EXPECT_EQ(chooseCamera(board, {}), 0U);
-    EXPECT_EQ(chooseCamera(board, {.largest = true}), 3U);  // the last by id
+    EXPECT_EQ(chooseCamera(board, {.largest = true}), 3U);  // the last one in the order of the ids
     EXPECT_EQ(chooseCamera(board, {.except = "imx296"}), 2U);
     EXPECT_EQ(chooseCamera(board, {.except = board[3].id, .largest = true}), 1U);
     EXPECT_EQ(chooseCamera(board, {.except = "external", .largest = true}), 1U);

@@ -1,4 +1,4 @@
-// Tests of the lending and return of the driver's buffers.
+// Tests that the driver's buffers are lent to users and returned.
 
 #include "hal/device/camera_v4l2.h"
 #include "tests/device/fake_v4l2.h"
@@ -117,7 +117,8 @@ TEST(CameraV4l2Buffers, FewBuffersSufficeForManyPictures) {
                 EXPECT_EQ(held[i].view().size, kPicture);
                 EXPECT_EQ(held[i].view().data[100], i);
             }
-            // The user holds more pictures than the buffers allow: the next is lost and counted.
+            // The user holds as many pictures as the buffers allow; so the next picture is lost and
+            // counted.
             ASSERT_TRUE(fake.deliver());
             EXPECT_FALSE(camera.next(0ms).has_value());
             EXPECT_EQ(camera.cameraCounters().missed, 1U);
@@ -139,11 +140,11 @@ TEST(CameraV4l2Buffers, EnoughBuffersAreLentWithoutACopy) {
     EXPECT_EQ(fake.queued(), 3);
 }
 
-/// Number of this process's event descriptors.
+/// Number of event descriptors that this process has open.
 int eventDescriptors() {
     int out = 0;
     for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
-        std::error_code error;  // the directory's own descriptor is closed by now
+        std::error_code error;  // the directory's own descriptor is already closed
         out += std::filesystem::read_symlink(entry.path(), error) == "anon_inode:[eventfd]" ? 1 : 0;
     }
     return out;

@@ -109,7 +109,7 @@ TEST(CameraV4l2, ABusyDeviceIsReported) {
               "/dev/video0: setting the format: busy: another program uses it");
 }
 
-TEST(CameraV4l2, IsFoundByCardAndBus) {
+TEST(CameraV4l2, DeviceIsFoundByCardAndBus) {
     FakeV4l2 fake;
     CameraV4l2Options options = wanted();
     for (const char* name : {"Fake Camera", "fake:1"}) {
@@ -148,7 +148,7 @@ TEST(CameraV4l2, WithoutANameTheExcludedCameraIsNotChosen) {
     EXPECT_EQ(CameraV4l2(options, fake).info().name, "Fake Camera (/dev/video2)");
 }
 
-TEST(CameraV4l2, ControlsAreSetBeforeItRuns) {
+TEST(CameraV4l2, ControlsAreSetBeforeStreamingStarts) {
     FakeV4l2 fake;
     fake.controls = {{0x980900, "Brightness", V4L2_CTRL_TYPE_INTEGER, 0, 255, 1, 100}};
     CameraV4l2Options options = wanted();
@@ -204,7 +204,7 @@ TEST(CameraV4l2, TimeIsTheMiddleOfAManualExposure) {
         FakeV4l2 fake;
         fake.controls = {{0x9a0901, "Auto Exposure", V4L2_CTRL_TYPE_INTEGER, 0, 3, 1, automatic},
                          {0x9a0902, "Exposure Time, Absolute", V4L2_CTRL_TYPE_INTEGER, 1, 5000, 1,
-                          2000}};  // 200 ms
+                          2000}};  // exposure of 200 ms
         CameraV4l2 camera(wanted(), fake);
         camera.start();
         fake.deliver({.flags = flags, .ageMs = 1000});
@@ -237,7 +237,7 @@ TEST(CameraV4l2, RunsAgainAfterStop) {
     fake.deliver({.ageMs = 30});
     auto held = camera.next(1s);
     ASSERT_TRUE(held.has_value());
-    fake.deliver({.ageMs = 20, .level = 5});  // stays in the queue, which stop() empties
+    fake.deliver({.ageMs = 20, .level = 5});  // stays in the queue until stop()
     camera.stop();
     camera.start();
     EXPECT_EQ(fake.queued(), 3) << "all but the one that is held";
@@ -279,7 +279,7 @@ TEST(CameraV4l2, AnUnpluggedDeviceIsLost) {
     EXPECT_THROW(camera.start(), DeviceLost);
 }
 
-// With vb2, poll() reports an error until a buffer has been queued since the start.
+// With the kernel's vb2, poll() reports an error from the start until a buffer is queued.
 TEST(CameraV4l2, APollErrorAloneDoesNotMeanDeviceLost) {
     FakeV4l2 fake;
     CameraV4l2 camera(wanted(), fake);

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Compiles the sources that depend on a device library's version inside another Debian's root and
-# runs their tests there: so both of CMake's choices by version are tested. Usage:
-# compile_against.sh CACHE SUITE   (bookworm, trixie, sid). Needs root and mmdebstrap; the root is
-# kept in CACHE for a week; creating it takes two minutes.
+# Compiles the sources that depend on the version of a device library, in a root folder with another
+# Debian release, and runs their tests there. So both versions between which CMake chooses are
+# tested. Usage: compile_against.sh CACHE SUITE, where SUITE is bookworm, trixie or sid. Needs root
+# and mmdebstrap. The root folder takes two minutes to create and is kept in CACHE for a week.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.."
 # shellcheck source=toolchains/debian.sh
@@ -27,22 +27,22 @@ work=$(mktemp -d -p "$root/tmp" mfar.XXXXXX)
 trap 'rm -rf "$work"' EXIT
 tar -cf - hal tests/device tests/unit/*.h | tar -xf - -C "$work"
 
-# Expanded and executed in the root. Arguments: folder.
+# The text is expanded and executed inside the root folder. Its argument is a folder.
 # shellcheck disable=SC2016
 inside='
 set -eu
 cd "$1"
 version() { pkg-config --modversion "$1"; }
 warnings="-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Werror"
-objects() { # PACKAGES SOURCES...: compiles each into the folder
-    # As system headers, whose warnings are ignored.
+objects() { # objects PACKAGES SOURCES...: compiles each source into the folder
+    # -isystem makes the compiler ignore warnings in the headers of the library.
     flags=$(pkg-config --cflags "$1" | sed "s/-I/-isystem /g")
     shift
     for source; do
         g++ -std=c++20 $warnings -I. $flags -c "$source" -o "$(basename "$source" .cpp).o"
     done
 }
-link() { # NAME PACKAGES PARTS...
+link() { # link NAME PACKAGES PARTS...: links a test
     name=$1 libraries=$(pkg-config --libs "$2")
     shift 2
     g++ $(printf "%s.o " "$@") -o "$name" $libraries -lgmock_main -lgmock -lgtest -lfmt -pthread
@@ -64,7 +64,7 @@ objects libcamera hal/frame.cpp base/image_layout.cpp $(printf "hal/device/%s.cp
 parts="frame image_layout $parts"
 link camera-tests libcamera $parts libcamera_test $(printf "%s_test " $tested)
 link probe libcamera $parts libcamera_probe
-# libcamera logs its version at every start, and what is missing in a chroot.
+# Silences libcamera, which logs its version at every start and, in a chroot, what it does not find.
 export LIBCAMERA_LOG_LEVELS="*:FATAL"
 ./camera-tests --gtest_brief=1
 ./probe

@@ -12,7 +12,7 @@ namespace {
 using Presence = Screen::Presence;
 using testing::HasSubstr;
 
-// State of a simulated device, and its counters.
+// State of a simulated display device, with counters of calls.
 struct Device {
     Presence presence = Presence::Absent;
     bool refuses = false;        // show() throws
@@ -64,7 +64,7 @@ protected:
             nullptr, std::move(screens), [this] { return now_; },
             [this] { return std::exchange(changed_, false); });
     }
-    // Shows pictures at 20 Hz; returns the number that either screen showed.
+    // Shows pictures at 20 Hz for this time. Returns how many either screen showed.
     int run(std::chrono::milliseconds duration) {
         const int before = kms_.shown + fbdev_.shown;
         for (const Timestamp end = now_ + duration; now_ < end;
@@ -87,7 +87,7 @@ TEST_F(AutoDisplay, RunsWithoutAScreenAndReportsIt) {
     EXPECT_THAT(display_->name(), HasSubstr("kms missing; fbdev missing"));
     EXPECT_EQ(display_->fault(), display_->name());
     EXPECT_FALSE(display_->lastShown());
-    EXPECT_LE(kms_.looks, 5);  // twice a second
+    EXPECT_LE(kms_.looks, 5);  // a lost screen is looked for twice a second
     EXPECT_NO_THROW(display_->finish());
 }
 
@@ -123,7 +123,7 @@ TEST_F(AutoDisplay, KernelEventsShowTheScreenAtOnce) {
     EXPECT_EQ(run(std::chrono::milliseconds(100)), 2);
 }
 
-TEST_F(AutoDisplay, PrefersTheFirstAndLeavesTheOther) {
+TEST_F(AutoDisplay, PrefersTheFirstDeviceAndReleasesTheSecond) {
     fbdev_.presence = Presence::Ready;
     run(kSecond);
     kms_.presence = Presence::Ready;
@@ -169,7 +169,8 @@ TEST_F(AutoDisplay, ReturnsToAScreenThatWasLostForAMoment) {
     EXPECT_EQ(display_->name(), "no screen yet (kms missing; fbdev missing)");
 }
 
-// Such a screen: its flips do not complete, which is noticed at every third picture.
+// A screen that is lost repeatedly: its flips do not complete, which is noticed at every third
+// picture.
 TEST_F(AutoDisplay, ARepeatedlyLostScreenStaysReported) {
     kms_.presence = Presence::Ready;
     run(kSecond);
@@ -186,7 +187,7 @@ TEST_F(AutoDisplay, ARepeatedlyLostScreenStaysReported) {
     EXPECT_EQ(display_->fault(), std::nullopt);
 }
 
-TEST_F(AutoDisplay, GivesADeviceBackThatWentAway) {
+TEST_F(AutoDisplay, ReleasesADeviceThatWentAway) {
     kms_.presence = Presence::Ready;
     run(kSecond);
     kms_.presence = Presence::Absent;
@@ -194,7 +195,7 @@ TEST_F(AutoDisplay, GivesADeviceBackThatWentAway) {
     EXPECT_FALSE(kms_.held);
 }
 
-TEST_F(AutoDisplay, TriesTheNextWhenTheFirstPictureIsRefused) {
+TEST_F(AutoDisplay, TriesTheNextDeviceWhenTheFirstPictureIsRefused) {
     kms_.presence = fbdev_.presence = Presence::Ready;
     kms_.refuses = true;
     EXPECT_GE(run(kSecond), 8);
@@ -202,7 +203,7 @@ TEST_F(AutoDisplay, TriesTheNextWhenTheFirstPictureIsRefused) {
     EXPECT_FALSE(kms_.held);
 }
 
-TEST_F(AutoDisplay, TriesTheNextWhenTheSecondFlipNeverCompletes) {
+TEST_F(AutoDisplay, TriesTheNextDeviceWhenTheSecondFlipNeverCompletes) {
     kms_.presence = fbdev_.presence = Presence::Ready;
     kms_.refusesAfter = 2;  // a missing flip is noticed at the third picture
     EXPECT_GE(run(kSecond), 8);
@@ -210,7 +211,7 @@ TEST_F(AutoDisplay, TriesTheNextWhenTheSecondFlipNeverCompletes) {
     EXPECT_EQ(kms_.shown, 2);
 }
 
-TEST_F(AutoDisplay, TriesTheFirstAgainWhenThereIsNoNext) {
+TEST_F(AutoDisplay, TriesTheFirstDeviceAgainWhenThereIsNoNext) {
     kms_.presence = Presence::Ready;
     kms_.refuses = true;
     EXPECT_EQ(run(kSecond), 0);
@@ -242,7 +243,7 @@ TEST_F(AutoDisplay, OpensNothingWhenTheDevicesDoNotExist) {
     }
 }
 
-TEST_F(AutoDisplay, OnlyMalformedWordsAreErrors) {
+TEST_F(AutoDisplay, OnlyMalformedScreenNamesAreErrors) {
     EXPECT_THROW((void)openScreen("kms:card0,17"), std::runtime_error);
     EXPECT_THAT(screenFault("kms:card0,17").value_or(""), HasSubstr("\"17\""));
 }

@@ -13,7 +13,7 @@ struct Info {
     fb_fix_screeninfo fix{};
 };
 
-// 800x480, 16 bits, rows of 1664 bytes, memory for two screens.
+// A valid description: 800x480, 16 bits per pixel, rows of 1664 bytes, memory for two screens.
 Info good() {
     Info i;
     i.var.xres = i.var.xres_virtual = 800;
@@ -37,7 +37,7 @@ FbGeometry geometry(const std::function<void(Info&)>& change = [](Info&) {}) {
     return checkedGeometry(i.var, i.fix);
 }
 
-TEST(FbGeometry, TakesWhatTheDriverStates) {
+TEST(FbGeometry, UsesTheGeometryThatTheDriverReports) {
     const FbGeometry g = geometry();
     EXPECT_EQ(g.size, (Size{800, 480}));
     EXPECT_EQ(g.layout, (PixelLayout{16, {11, 5}, {5, 6}, {0, 5}, {0, 0}}));
@@ -57,23 +57,23 @@ TEST(FbGeometry, VisiblePartMayLieAnywhereInTheMemory) {
     EXPECT_EQ(g.page0, 200U);
 }
 
-TEST(FbGeometry, PansOnlyWhereTheDriverAndTheMemoryAllow) {
+TEST(FbGeometry, PansOnlyIfDriverAndMemoryAllowIt) {
     EXPECT_EQ(geometry([](Info& i) { i.fix.ypanstep = 0; }).pages, 1);
     EXPECT_EQ(geometry([](Info& i) { i.fix.ypanstep = 7; }).pages, 1);
     EXPECT_EQ(geometry([](Info& i) { i.var.yres_virtual = 959; }).pages, 1);
     EXPECT_EQ(geometry([](Info& i) { i.fix.smem_len -= 1; }).pages, 1);
 }
 
-TEST(FbGeometry, NumbersThatLeaveTheMemoryAreRefused) {
+TEST(FbGeometry, GeometryBeyondTheMemoryIsRefused) {
     const std::vector<std::function<void(Info&)>> lies{
         [](Info& i) { i.var.xres = 0; },
         [](Info& i) { i.var.yres = 0; },
         [](Info& i) { i.var.xres = 20000; },
-        [](Info& i) { i.var.xres = i.var.xres_virtual = 833; },  // 1666 bytes
+        [](Info& i) { i.var.xres = i.var.xres_virtual = 833; },  // a row would need 1666 bytes
         [](Info& i) { i.var.xoffset = 1; },
         [](Info& i) { i.var.xoffset = 0xffffffff; },
         [](Info& i) { i.var.yoffset = 481; },
-        [](Info& i) { i.var.yoffset = 0xfffffe20; },  // + 480 overflows to 0
+        [](Info& i) { i.var.yoffset = 0xfffffe20; },  // adding 480 overflows to 0
         [](Info& i) { i.var.yres_virtual = 479; },
         [](Info& i) { i.fix.smem_len = 1664 * 480 - 1; },
         [](Info& i) { i.fix.smem_len = 0; },

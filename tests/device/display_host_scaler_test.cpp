@@ -27,7 +27,7 @@ std::array<int, 3> colourOf(std::uint32_t pixel) {
             static_cast<int>(pixel >> 16 & 255)};
 }
 
-/// The largest error of a pixel inside the rectangle [grey levels]; pixels outside must be black.
+/// Largest error of a pixel inside the rectangle [grey levels]. Pixels outside it must be black.
 double worstError(HostScaler& scaler, const Pixels& picture, Size screen) {
     const Rows<const std::uint32_t> shown = scaler.scaled(picture.rows());
     EXPECT_EQ(shown.size, screen);
@@ -46,7 +46,7 @@ double worstError(HostScaler& scaler, const Pixels& picture, Size screen) {
     return worst;
 }
 
-TEST(HostScaler, EqualSizeIsThePictureItself) {
+TEST(HostScaler, EqualSizeCopiesThePicture) {
     const Pixels picture = noisy({321, 97});
     HostScaler scaler({321, 97});
     EXPECT_EQ(scaler.scaled(picture.rows()).data, picture.rows().data);
@@ -65,13 +65,13 @@ TEST(HostScaler, EveryPixelIsTheMeanOfItsFootprint) {
                                       {{700, 500}, {1, 1}},
                                       {{17, 400}, {31, 23}}}) {
         HostScaler scaler(screen);
-        // Half a level of rounding, plus truncated products.
+        // Tolerance: rounding by half a level, and products that are truncated.
         EXPECT_LE(worstError(scaler, noisy(from), screen), 0.55)
             << from.width << "x" << from.height;
     }
 }
 
-TEST(HostScaler, EveryLevelOfAPlainPictureStaysAsItIs) {
+TEST(HostScaler, UniformPicturesKeepEveryGreyLevel) {
     const Size from{50, 37}, screen{24, 18};
     HostScaler smaller(screen), larger({200, 148});
     for (std::uint32_t level = 0; level < 256; ++level) {

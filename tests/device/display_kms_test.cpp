@@ -29,7 +29,7 @@ protected:
 
     [[nodiscard]] std::string card() const { return (folder_ / "card").string(); }
     void show() { screen_.show(Picture(rows_.rows())); }
-    /// The message with which show() fails; `took` gets its duration.
+    /// Returns the message with which show() fails. `took`: gets the duration of the call.
     std::string faultOfShow(milliseconds& took) {
         const Timestamp begin = Timestamp::now();
         std::string out;
@@ -106,7 +106,7 @@ TEST_F(KmsScreenTest, ARefusedFlipNamesTheScreenAndTheReason) {
               card() + ", HDMI-A-1: the picture is refused: Device or resource busy");
 }
 
-TEST_F(KmsScreenTest, FollowsTheMonitor) {
+TEST_F(KmsScreenTest, FollowsConnectionAndModeOfTheMonitor) {
     driver_.connected = false;
     ASSERT_EQ(screen_.look(true), Presence::Waiting);
     EXPECT_NE(screen_.status().find("no screen connected (HDMI-A-1 disconnected)"),
@@ -126,7 +126,7 @@ TEST_F(KmsScreenTest, FollowsTheMonitor) {
     EXPECT_EQ(driver_.buffers, 0);
 }
 
-// The buffers of a lost GPU stay on the screen until new ones are shown.
+// The buffers of the lost context stay on the screen until new ones are shown.
 TEST_F(KmsScreenTest, ThePictureStaysWhileTheContextIsRecreated) {
     ASSERT_EQ(screen_.look(true), Presence::Ready);
     show();
@@ -140,8 +140,8 @@ TEST_F(KmsScreenTest, ThePictureStaysWhileTheContextIsRecreated) {
     EXPECT_TRUE(driver_.console);
 }
 
-// One descriptor that never becomes readable, and one whose other end is closed.
-TEST(WaitForFlip, EndsInTimeAndWithTheDevice) {
+// One descriptor never becomes readable; the other end of the second descriptor is closed.
+TEST(WaitForFlip, EndsAtTheTimeLimitOrWhenTheDeviceIsGone) {
     std::array<int, 2> ends{};
     ASSERT_EQ(pipe(ends.data()), 0);
     bool pending = true;

@@ -14,7 +14,7 @@ const PixelLayout kBgr888{24, {0, 8}, {8, 8}, {16, 8}, {0, 0}};
 const PixelLayout kRgb565{16, {11, 5}, {5, 6}, {0, 5}, {0, 0}};
 const PixelLayout kArgb1555{16, {10, 5}, {5, 5}, {0, 5}, {15, 1}};
 
-// Packs two rows of two pixels into rows of `stride` bytes.
+// Packs two rows of two pixels. A row of the result has `stride` bytes.
 std::vector<std::uint8_t> packed(const PixelLayout& layout, std::size_t stride) {
     const std::vector<std::uint8_t> bgra{0x12, 0x34, 0x56, 0xff, 0xff, 0x00, 0x80, 0xff,  //
                                          0x00, 0xff, 0x00, 0xff, 0x07, 0x03, 0xf8, 0xff};
@@ -25,21 +25,21 @@ std::vector<std::uint8_t> packed(const PixelLayout& layout, std::size_t stride) 
 
 using Bytes = std::vector<std::uint8_t>;
 
-TEST(PixelLayout, ThirtyTwoBitsInEitherOrder) {
+TEST(PixelLayout, PacksThirtyTwoBitsInEitherChannelOrder) {
     EXPECT_EQ(packed(kXrgb, 8), (Bytes{0x12, 0x34, 0x56, 0xff, 0xff, 0x00, 0x80, 0xff,  //
                                        0x00, 0xff, 0x00, 0xff, 0x07, 0x03, 0xf8, 0xff}));
     EXPECT_EQ(packed(kRgbx, 8), (Bytes{0xff, 0x12, 0x34, 0x56, 0xff, 0xff, 0x00, 0x80,  //
                                        0xff, 0x00, 0xff, 0x00, 0xff, 0x07, 0x03, 0xf8}));
 }
 
-TEST(PixelLayout, TwentyFourBitsInEitherOrderLeaveThePaddingAlone) {
+TEST(PixelLayout, PacksTwentyFourBitsAndLeavesThePaddingAlone) {
     EXPECT_EQ(packed(kRgb888, 7), (Bytes{0x12, 0x34, 0x56, 0xff, 0x00, 0x80, 0xee,  //
                                          0x00, 0xff, 0x00, 0x07, 0x03, 0xf8, 0xee}));
     EXPECT_EQ(packed(kBgr888, 6), (Bytes{0x56, 0x34, 0x12, 0x80, 0x00, 0xff,  //
                                          0x00, 0xff, 0x00, 0xf8, 0x03, 0x07}));
 }
 
-TEST(PixelLayout, SixteenBitsKeepTheUppermostBits) {
+TEST(PixelLayout, PacksTheUppermostBitsIntoSixteenBits) {
     // 0x56 0x34 0x12 -> 01010 001101 00010; 0x80 0x00 0xff -> 10000 000000 11111
     EXPECT_EQ(packed(kRgb565, 5), (Bytes{0xa2, 0x51, 0x1f, 0x80, 0xee,  //
                                          0xe0, 0x07, 0x00, 0xf8, 0xee}));
@@ -47,8 +47,8 @@ TEST(PixelLayout, SixteenBitsKeepTheUppermostBits) {
     EXPECT_EQ(packed(kArgb1555, 4), (Bytes{0xc2, 0xa8, 0x1f, 0xc0, 0xe0, 0x83, 0x00, 0xfc}));
 }
 
-// Rows on the host are packed like a GPU's picture, also at widths that do not fill vectors; alpha
-// is ignored.
+// Host rows and GPU pictures must be packed equally, also at widths that do not fill the vectors.
+// Alpha is ignored.
 TEST(PixelLayout, HostRowsPackLikeGpuPictures) {
     constexpr Size kSize{37, 3};
     Bytes bgra(4UL * kSize.width * kSize.height, 255), rgba(bgra.size());

@@ -1,9 +1,9 @@
-// Shows a test picture on a real screen and prints what is shown where: for boards, and for a guest
-// whose host takes a screenshot. Usage:
+// Shows a test picture on a real screen and prints when it is shown and where. For boards, and for
+// a guest whose host takes a screenshot. Usage:
 //   display_probe SCREEN PICTURES PPM SECONDS
-// SCREEN as in openScreen(). Waits for a screen, shows PICTURES pictures with a moving bar, writes
-// the last one to the file PPM as lastShown() returns it, and continues to show it for SECONDS.
-// Prints every change of name().
+// SCREEN is as in openScreen(). The program waits for a screen, shows PICTURES pictures with a
+// moving bar, writes the last one to the file PPM as lastShown() returns it, and keeps it on the
+// screen for SECONDS. It prints every change of name().
 
 #include "hal/device/display_auto.h"
 #include "hal/gl_context.h"
@@ -24,7 +24,7 @@ namespace {
 constexpr Size kSize{640, 480};
 constexpr int kBarWidth = 16;
 
-// Colours that distinguish channels, rows and columns; fine stripes and a bar.
+// A picture whose colours distinguish channels, rows and columns. It has fine stripes and a bar.
 std::vector<std::uint8_t> testPicture(int bar) {
     std::vector<std::uint8_t> rgba;
     for (int y = 0; y < kSize.height; ++y)
@@ -56,7 +56,7 @@ public:
         draw(0);
     }
 
-    // Shows pictures and counts from the first one that is on a screen.
+    // Shows pictures. Counting starts with the first one that is on a screen.
     void move(int pictures) {
         while (!display_->lastShown())
             show();
@@ -90,7 +90,7 @@ private:
             say(name);
             name_ = std::move(name);
         }
-        // Without a screen, or without a vertical blank, nothing else limits the rate.
+        // Limits the rate if there is no screen, or a screen without a vertical blank.
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     void say(std::string_view what) const {

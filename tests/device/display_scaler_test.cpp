@@ -16,7 +16,7 @@ using Colour = std::array<int, 3>;
 
 class DisplayScaler : public GlTest {
 protected:
-    // A texture whose pixels get their colours from a function.
+    // A texture. The function gives the colour of each pixel.
     static gpu::Texture picture(Size size, const std::function<Colour(int, int)>& colour) {
         std::vector<std::uint8_t> pixels;
         for (int y = 0; y < size.height; ++y)
@@ -29,7 +29,7 @@ protected:
         texture.upload({pixels.data(), static_cast<std::size_t>(size.width) * 4});
         return texture;
     }
-    // The output of ScreenReader, as R G B.
+    // What ScreenReader reads from the screen, as R G B.
     static std::vector<Colour> shown(const gpu::Texture& picture, Size screen) {
         ScreenScaler scaler;
         return shown(scaler, picture, screen);
@@ -88,13 +88,13 @@ TEST_F(DisplayScaler, EveryPixelIsTheMeanOfItsFootprint) {
                 for (std::size_t k = 0; k < 3; ++k)
                     worst = std::max(worst, std::abs(got[k] - mean[k]));
             }
-        // A linear sampler interpolates with at least 8 bits, truncated along x and along y; plus
-        // half a level of rounding.
+        // Tolerance: a linear sampler interpolates with at least 8 bits and truncates along x and
+        // along y; rounding adds half a level.
         EXPECT_LE(worst, 2.5) << from.width << "x" << from.height;
     }
 }
 
-TEST_F(DisplayScaler, BesideThePictureIsBlack) {
+TEST_F(DisplayScaler, ScreenBesideThePictureIsBlack) {
     const Size screen{128, 72};
     const auto white = [](int, int) { return Colour{255, 255, 255}; };
     const Size from{230, 172};
@@ -111,8 +111,8 @@ TEST_F(DisplayScaler, BesideThePictureIsBlack) {
         }
 }
 
-// A zone plate contains all frequencies. Where it is finer than the screen, only grey may remain:
-// without a filter, sampling would show false rings of full contrast.
+// A zone plate contains all frequencies. Detail that is finer than the screen's pixels must become
+// grey. Without a filter, sampling would show false rings of full contrast.
 TEST_F(DisplayScaler, DetailBeyondTheScreensResolutionBecomesGrey) {
     const Size from{2304, 1728}, screen{1280, 720};
     const auto stripes = [](int x, int) {
@@ -130,7 +130,7 @@ TEST_F(DisplayScaler, DetailBeyondTheScreensResolutionBecomesGrey) {
         return high - low;
     };
     EXPECT_GE(contrast(160, 400), 240);  // up to 0.3 cycles per screen pixel: kept
-    EXPECT_LE(contrast(960, 1120), 64);  // 1 to 1.2 cycles per screen pixel: at most a quarter
+    EXPECT_LE(contrast(960, 1120), 64);  // 1 to 1.2 cycles per pixel: at most a quarter
 }
 
 TEST_F(DisplayScaler, WarmUpChangesNothingThatIsShown) {
@@ -239,7 +239,7 @@ TEST_F(DisplayScaler, ReaderTakesBothKindsOfPictures) {
     EXPECT_EQ(reader.last().pixels, fromTexture.pixels);
 }
 
-TEST_F(DisplayScaler, LastReturnsTheShownPicture) {
+TEST_F(DisplayScaler, LastShownReturnsTheShownPicture) {
     const gpu::Texture from = picture({230, 172}, noise);
     ScreenScaler scaler;
     ScreenReader reader({128, 72}, scaler);

@@ -10,13 +10,13 @@ namespace {
 
 using Kind = ScreenSpec::Kind;
 
-TEST(ScreenSpec, KindsAloneHaveNoDeviceOrMode) {
+TEST(ScreenSpec, AKindAloneNamesNoDeviceOrMode) {
     EXPECT_EQ(parseScreenSpec("auto"), (ScreenSpec{Kind::Auto, "", "", {}}));
     EXPECT_EQ(parseScreenSpec("kms"), (ScreenSpec{Kind::Kms, "", "", {}}));
     EXPECT_EQ(parseScreenSpec("fbdev"), (ScreenSpec{Kind::Fbdev, "", "", {}}));
 }
 
-TEST(ScreenSpec, NamesCardConnectorAndMode) {
+TEST(ScreenSpec, CardConnectorAndModeAreParsed) {
     EXPECT_EQ(parseScreenSpec("kms:card1,HDMI-A-2,1920x1080@59.94"),
               (ScreenSpec{Kind::Kms, "/dev/dri/card1", "HDMI-A-2", ModeWish{{1920, 1080}, 59.94}}));
     EXPECT_EQ(parseScreenSpec("kms,Virtual-1"), (ScreenSpec{Kind::Kms, "", "Virtual-1", {}}));

@@ -6,7 +6,7 @@
 
 namespace mfar::test {
 
-/// The message of the std::runtime_error that the action throws; "no error" if it throws none.
+/// Returns the message of the std::runtime_error that the action throws, or "no error".
 [[nodiscard]] inline std::string errorOf(const std::function<void()>& action) {
     try {
         action();

@@ -1,5 +1,5 @@
-// Replaces both libEGL and libGLESv2. Like vendors' old libraries it exports few functions; the
-// others are found through eglGetProcAddress().
+// Replaces both libEGL and libGLESv2. Like the old libraries of some vendors, it exports few
+// functions; callers find the others through eglGetProcAddress().
 #include "tests/device/fake_gl.h"
 
 #include <EGL/egl.h>

@@ -5,12 +5,12 @@
 
 namespace mfar {
 
-/// State shared by the tests and the library in fake_gl.cpp, which exports fakeGl().
+/// State that the tests share with the library in fake_gl.cpp. The library exports fakeGl().
 struct FakeGl {
-    std::string unknown{};        ///< name for which eglGetProcAddress() returns null
-    int others = 0;               ///< calls of functions that are not exported
-    float depth = 0;              ///< argument of glClearDepthf()
-    std::vector<int> integers{};  ///< arguments of glTexSubImage3D(), in order
+    std::string unknown{};        ///< eglGetProcAddress() returns null for this name
+    int others = 0;               ///< number of calls of functions that are not exported
+    float depth = 0;              ///< last argument of glClearDepthf()
+    std::vector<int> integers{};  ///< last arguments of glTexSubImage3D(), in order
     const void* pixels = nullptr;
 };
 

@@ -110,7 +110,7 @@ int FakeV4l2::answer(unsigned long request, void* argument) {
     case VIDIOC_G_PARM:
     case VIDIOC_S_PARM: {
         auto& capture = static_cast<v4l2_streamparm*>(argument)->parm.capture;
-        // At most the format's highest rate.
+        // The driver grants at most the highest rate of the format.
         const auto& wanted = capture.timeperframe;
         const FakeFormat* format = find(fourcc_);
         if (request == VIDIOC_S_PARM && format != nullptr && wanted.numerator > 0) {

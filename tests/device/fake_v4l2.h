@@ -20,8 +20,8 @@ namespace mfar::test {
 
 struct FakeFormat {
     std::uint32_t fourcc;
-    std::vector<Size> sizes;  ///< empty: the driver does not list sizes
-    double fastest = 30;      ///< [Hz]
+    std::vector<Size> sizes;  ///< if empty, the driver does not list sizes
+    double fastest = 30;      ///< highest rate [Hz]
 };
 
 struct FakeControl {
@@ -31,11 +31,11 @@ struct FakeControl {
     std::int64_t minimum, maximum, step, value;
     std::vector<std::string> menu{};
     std::uint32_t flags = 0;
-    int refusals = 0;   ///< number of settings that fail with `error`
-    int error = EBUSY;  ///< error of these refusals
+    int refusals = 0;   ///< this number of attempts to set it fail with `error`
+    int error = EBUSY;  ///< the error of these attempts
 };
 
-/// The driver's description of the next picture, where it differs from the truth.
+/// What the driver reports about the next picture.
 struct FakePicture {
     std::uint32_t flags = 0;
     std::size_t missingBytes = 0;
@@ -45,12 +45,12 @@ struct FakePicture {
     std::span<const std::uint8_t> jpeg{};
 };
 
-/// Writes text into a fixed-size field, which need not end with a zero.
+/// Writes text into a field of fixed size. The field need not end with a zero.
 void putText(void* field, std::size_t bytes, const std::string& text);
 
-/// A capture device as described in the kernel's documentation: one node that captures and another
-/// one that does not. A pipe replaces its descriptor, so that poll() and close() are the real ones;
-/// a memory file replaces its buffers.
+/// A simulated capture device that behaves as the kernel's documentation describes. It has one node
+/// that captures and one that does not. Its descriptors are pipes, so that poll() and close() are
+/// the real ones; its buffers lie in a memory file.
 class FakeV4l2 final : public V4l2Api {
 public:
     FakeV4l2();
@@ -63,28 +63,29 @@ public:
     int ioctl(int fd, unsigned long request, void* argument) override;
     [[nodiscard]] void* map(int fd, std::size_t length, std::int64_t offset) override;
 
-    /// Fills a buffer; false if the camera has queued none.
+    /// Fills a buffer and delivers it. Returns false if the camera has queued none.
     bool deliver(const FakePicture& picture = {});
     void unplug();
-    /// poll() reports an error, but calls still work.
+    /// Makes poll() report an error. Other calls still work.
     void hangUp();
-    /// Makes the driver's calls that move buffers hang while `wanted`.
+    /// While `wanted` is true, the driver's calls that move buffers do not return.
     void hang(bool wanted);
-    [[nodiscard]] bool hangs();  ///< a call is hanging
-    /// Number of buffers that wait to be filled.
+    [[nodiscard]] bool hangs();  ///< true while a call hangs
+    /// Number of buffers that are queued and not yet filled.
     [[nodiscard]] int queued();
-    [[nodiscard]] bool released();  ///< the buffers were released
+    [[nodiscard]] bool released();  ///< true after the buffers were released
     [[nodiscard]] std::int64_t control(const std::string& name);
 
-    // Properties; to be changed before the device is opened.
+    // Properties of the device. They must be set before the device is opened.
     std::string card = "Fake Camera", secondPath;  ///< secondPath: another capture node
     bool multiPlanar = false;
     bool busy = false;    ///< another program uses the buffers
-    bool rounds = false;  ///< answers S_FMT with a different size
+    bool rounds = false;  ///< S_FMT answers with another size than requested
     std::uint32_t clock = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
     std::size_t padding = 0;  ///< padding of rows [bytes]
     std::uint32_t mostBuffers = 16;
-    /// Requests above mostBuffers fail for lack of memory instead of granting fewer.
+    /// Requests for more than mostBuffers buffers fail with out of memory; otherwise fewer are
+    /// granted.
     bool refusesMore = false;
     int sizeFault = 0;  ///< added to the reported picture size
     std::uint32_t colorspace = V4L2_COLORSPACE_SRGB, quantization = V4L2_QUANTIZATION_DEFAULT;

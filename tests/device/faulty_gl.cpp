@@ -1,12 +1,12 @@
-// A libGLESv2.so.2 that is found before the real one (LD_LIBRARY_PATH) and uses the real one's
-// functions through libEGL. Words in the file MFAR_FAULTY_GL select faults; they may change at any
-// time:
+// A libGLESv2.so.2 that is found before the real one, through LD_LIBRARY_PATH. It calls the real
+// functions, which it finds through libEGL. Words in the file MFAR_FAULTY_GL select its faults.
+// They may change at any time:
 //   never      no fence is signalled, and waiting for the GPU does not return
 //   hang       drawing does not return
 //   lost WORD  the current context is lost when these words appear: its calls do nothing and
 //              return zero; the next context works
-//   broken     every context is lost as soon as it is made
-// A test in the same process may lose contexts, too, see faulty_moments.h.
+//   broken     every context is lost as soon as it is created
+// A test in the same process may also make it lose contexts, see faulty_moments.h.
 
 #include "hal/device/gl_libraries.h"
 #include "tests/device/faulty_moments.h"
@@ -56,7 +56,7 @@ F real(const char* name) {
     return reinterpret_cast<F>(find(name));
 }
 
-// Replaces a function with any arguments, in all calling conventions in use.
+// Replaces a function with any arguments, in all calling conventions that are in use.
 std::uintptr_t nothing() {
     return 0;
 }
@@ -64,8 +64,8 @@ std::uintptr_t nothing() {
 Function workingOr(const char* name);
 Function lostOr(const char* name);
 
-/// Identifies the lost context: only this context has this buffer, whatever the contexts'
-/// addresses.
+/// A buffer by which the lost context is recognised: only that context has it. A new context could
+/// have the same address.
 GLuint mark = 0;
 
 void lose() {
@@ -96,7 +96,7 @@ bool loseNow(const char* function) {
     return mark != 0;
 }
 
-// Loses the context if this call is the selected moment, otherwise calls the function.
+// Loses the context if this call is the chosen moment. Otherwise calls the function.
 template <class F, class... Arguments>
 auto moment(const char* function, Arguments... arguments) {
     using Result = decltype(std::declval<F*>()(arguments...));
@@ -168,7 +168,8 @@ GLenum getError() {
     return isLost() ? kContextLost : real<decltype(&glGetError)>("glGetError")();
 }
 
-// Reports a renderer that is not software. This is the first call on a context.
+// Reports a renderer name that is not a software renderer's. This is the first call on every
+// context.
 const GLubyte* getString(GLenum name) {
     if (isLost()) return nullptr;
     constexpr const char* kRenderer = "pretended GPU";

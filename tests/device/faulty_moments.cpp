@@ -10,11 +10,11 @@
 namespace mfar::faulty {
 namespace {
 
-// Set by a test only, as mfard's memory must not grow because of this library.
+// Only tests set this: mfard's memory must not grow because of this library.
 bool isAsked = false;
-std::string loseAt;  // empty: never
+std::string loseAt;  // name of the moment at which the context is lost; empty: never
 std::vector<std::string> moments;
-std::map<unsigned, std::string> shaders, programs;  // names
+std::map<unsigned, std::string> shaders, programs;  // names of shaders and programs, by GL name
 std::string current;
 
 }  // namespace
@@ -32,7 +32,7 @@ void sourceOf(unsigned shader, const char* text) {
         if (one.text == text) shaders[shader] = one.name;
 }
 
-// In a program that draws, the fragment shader is attached last.
+// A program that draws has two shaders. Its fragment shader, which is attached last, names it.
 void attached(unsigned program, unsigned shader) {
     programs[program] = shaders[shader];
 }

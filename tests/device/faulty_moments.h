@@ -1,23 +1,23 @@
 #pragma once
 
-// Functions of the library in faulty_gl.cpp, which tests in the same process find with dlsym(). GL
-// thread.
+// Functions of the library in faulty_gl.cpp. Tests in the same process find them with dlsym(). Call
+// them on the GL thread.
 extern "C" {
 
-/// Forgets the recorded moments (GL calls that move or compute something) and loses the context at
-/// the first moment of this name; null: never.
+/// Forgets the recorded moments and loses the context at the first moment of this name; null:
+/// never. A moment is a GL call that moves data or computes.
 __attribute__((visibility("default"))) void mfarFaultyGlLoseAt(const char* name);
-/// The name of the i-th moment, "glUseProgram flow_search.comp"; the shader is the last used one.
-/// Null: fewer moments were recorded.
+/// Name of moment i, such as "glUseProgram flow_search.comp": the call and the shader used last.
+/// Null if fewer moments were recorded.
 __attribute__((visibility("default"))) const char* mfarFaultyGlMoment(int i);
 }
 
 namespace mfar::faulty {
 
-/// Records a moment. True: the context is lost now.
+/// Records a moment. Returns true if the context is lost at it.
 bool isLostAt(const char* function);
 
-// Tracks which shader a program contains.
+// Records that a program contains this shader.
 void attached(unsigned program, unsigned shader);
 void sourceOf(unsigned shader, const char* text);
 void used(unsigned program);

@@ -5,7 +5,7 @@
 namespace mfar {
 namespace {
 
-TEST(FieldOfView, WholeSensorIsWhole) {
+TEST(FieldOfView, UncroppedModeShowsTheWholeField) {
     EXPECT_TRUE(showsWholeField({4056, 3040}, {4056, 3040}, {640, 480}));
     EXPECT_TRUE(showsWholeField({4032, 3024}, {4056, 3040}, {640, 480})) << "aligned mode";
 }
@@ -16,7 +16,7 @@ TEST(FieldOfView, CroppingInOneDirectionIsAllowed) {
 }
 
 TEST(FieldOfView, CroppedModesAreDetected) {
-    // imx477 at 1332x990: the central 2664x1980 pixels of the sensor, binned.
+    // An imx477 at 1332x990 bins the central 2664x1980 pixels; so it does not show the whole field.
     EXPECT_FALSE(showsWholeField({2664, 1980}, {4056, 3040}, {640, 480}));
     EXPECT_FALSE(showsWholeField({1280, 720}, {1920, 1080}, {640, 480}));
     EXPECT_FALSE(showsWholeField({1440, 900}, {1920, 1080}, {640, 480}));

@@ -37,7 +37,7 @@ TEST(FrameDrops, NothingIsCountedBeforeThePeriodIsKnown) {
     EXPECT_FALSE(drops.period());
 }
 
-TEST(FrameDrops, NewRateIsLearned) {
+TEST(FrameDrops, AChangedRateIsLearned) {
     FrameDrops drops;
     Timestamp time{0};
     for (int i = 0; i < 40; ++i)
@@ -51,11 +51,11 @@ TEST(FrameDrops, NewRateIsLearned) {
     EXPECT_EQ(drops.period(), 2 * kPeriod);
 }
 
-TEST(FrameDrops, NumbersAreExactAtAnyRate) {
+TEST(FrameDrops, FrameNumbersGiveExactDropsAtAnyRate) {
     for (const auto period : {kPeriod, 2 * kPeriod, 5 * kPeriod}) {
         FrameDrops drops;
         Timestamp time{0};
-        std::uint32_t number = 4294967290;  // wraps after six frames
+        std::uint32_t number = 4294967290;  // the number overflows after six frames
         for (int i = 0; i < 100; ++i) {
             const int gap = i > 0 && i % 7 == 0 ? i % 5 : 0;
             time = time + period * (1 + gap);
@@ -80,7 +80,7 @@ TEST(FrameDrops, AfterACounterResetTimesAreUsed) {
     EXPECT_EQ(drops.add(time = time + 2 * kPeriod), 1) << "no number at all";
 }
 
-TEST(FrameDrops, BrokenFramesAreNotMissing) {
+TEST(FrameDrops, BrokenFramesAreNotDrops) {
     for (const bool numbered : {true, false}) {
         FrameDrops drops;
         Timestamp time{0};

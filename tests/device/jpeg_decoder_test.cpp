@@ -40,7 +40,8 @@ Bytes encoded(int subsampling) {
     return out;
 }
 
-/// As sent by many cameras: without the tables that the standard suggests.
+/// Removes the Huffman tables, as in the pictures of many cameras: they omit the tables that the
+/// standard suggests.
 Bytes withoutHuffmanTables(const Bytes& jpeg) {
     Bytes out(jpeg.begin(), jpeg.begin() + 2);
     std::size_t i = 2;
@@ -55,7 +56,7 @@ Bytes withoutHuffmanTables(const Bytes& jpeg) {
     return out;
 }
 
-/// BT.601 full range; chroma from the centre of each 2x2 pixels.
+/// Expects BT.601 full range. Chroma comes from the centre of each 2x2 pixels.
 void expectRamp(const ImageView& view) {
     ASSERT_EQ(view.size, kJpegSize);
     ASSERT_EQ(view.format, PixelFormat::Yuv420);
@@ -79,7 +80,7 @@ void expectRamp(const ImageView& view) {
         }
 }
 
-TEST(JpegDecoder, PlanesOfBothSubsamplingsOfCameras) {
+TEST(JpegDecoder, BothSubsamplingsThatCamerasUseAreDecoded) {
     JpegDecoder decoder(kJpegSize, 2);
     for (const int subsampling : {TJSAMP_420, TJSAMP_422}) {
         const auto frame = decoder.decode(encoded(subsampling), {5});
@@ -89,7 +90,7 @@ TEST(JpegDecoder, PlanesOfBothSubsamplingsOfCameras) {
     }
 }
 
-TEST(JpegDecoder, MissingHuffmanTablesAreTheStandardOnes) {
+TEST(JpegDecoder, MissingHuffmanTablesDefaultToTheStandardOnes) {
     const Bytes whole = encoded(TJSAMP_422), bare = withoutHuffmanTables(whole);
     ASSERT_LT(bare.size() + 300, whole.size());
     JpegDecoder decoder(kJpegSize, 1);

@@ -15,7 +15,7 @@ namespace {
 using libcamera::FrameBuffer;
 using Planes = std::vector<FrameBuffer::Plane>;
 
-/// 4 KiB of increasing bytes.
+/// A memory file with 4 KiB of increasing bytes.
 libcamera::SharedFD memory(std::uint8_t first) {
     libcamera::SharedFD fd(memfd_create("picture", 0));
     for (unsigned i = 0; i < 4096; ++i) {
@@ -50,14 +50,14 @@ TEST(MappedPicture, PlanesMayBeFilesOfTheirOwn) {
     EXPECT_EQ(picture.view().chroma[1].data[0], 3);
 }
 
-TEST(MappedPicture, OutlivesTheBufferAndReadsAroundSynchronisation) {
+TEST(MappedPicture, OutlivesTheBufferAndSynchronisesItsReads) {
     std::unique_ptr<MappedPicture> picture;
     {
         const FrameBuffer buffer(Planes{plane(memory(7), 0, 4096)});
         picture =
             std::make_unique<MappedPicture>(buffer, PictureLayout{{32, 16}, PixelFormat::Yuyv, 64});
     }
-    picture->beginRead();  // not a dma-buf: no effect
+    picture->beginRead();  // this memory is not a dma-buf, so the call has no effect
     EXPECT_EQ(picture->view().data[64], 7 + 64);
     picture->endRead();
 }

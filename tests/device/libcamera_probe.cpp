@@ -1,8 +1,9 @@
-// Lists the cameras of libcamera, or takes frames from one of them and prints a line for each:
+// Lists the cameras of libcamera. With arguments, takes frames from one of them and prints a line
+// for each:
 //   libcamera-probe
 //   libcamera-probe CAMERA WIDTHxHEIGHT FRAMES [NAME=VALUE...]
-// CAMERA is an id, location, model or an index into the list. NAME=VALUE are controls.
-// Exit status: 0 all frames came, 1 a camera failed or a second passed without a frame, 2 usage.
+// CAMERA is an id, location, model or an index into the list. NAME=VALUE sets a control. Exit
+// status: 0 all frames came, 1 a camera failed or a second passed without a frame, 2 wrong usage.
 
 #include "hal/device/camera_libcamera.h"
 
@@ -38,7 +39,7 @@ const char* nameOf(PixelFormat format) {
     return "?";
 }
 
-/// Mean of the first channel: luma, or green in RGB pictures.
+/// Mean of the first channel: luma in YUV pictures, green in RGB pictures.
 double meanLuma(const ImageView& view) {
     const int step = bytesPerPixel(view.format);
     const int channel = step == 4 ? 1 : 0;

@@ -23,7 +23,7 @@ LibcameraOptions unknown() {
     return options;
 }
 
-// Holds on every machine, with or without cameras.
+// This test passes on every machine, with or without cameras.
 TEST(Libcamera, AnUnknownCameraListsTheAvailableOnes) {
     const std::vector<ListedCamera> cameras = listLibcameras();
     const std::string expected = cameras.empty() ? "finds no camera" : cameras[0].id;
@@ -47,7 +47,7 @@ TEST(Libcamera, ImpossibleOptionsAreRefusedBeforeADeviceIsLookedFor) {
     refused([](auto& o) { o.buffers = 1; }, "buffers");
 }
 
-TEST(Libcamera, ManagerIsOneWhileHeldAndCanBeMadeAgain) {
+TEST(Libcamera, OneManagerExistsWhileHeldAndCanBeCreatedAgain) {
     auto first = libcameraManager();
     EXPECT_EQ(first, libcameraManager());
     first.reset();

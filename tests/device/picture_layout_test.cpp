@@ -53,13 +53,13 @@ TEST_F(PictureLayoutTest, ColoursAndPackedFormatsPassThrough) {
     EXPECT_EQ(view.chroma[0].data, nullptr);
 }
 
-TEST_F(PictureLayoutTest, EveryByteThatIsReadMustBeThere) {
+TEST_F(PictureLayoutTest, TooSmallMemoryIsRefused) {
     struct Case {
         PixelFormat format;
         std::size_t stride;
         std::size_t bytes;
     };
-    // The last row need not be padded.
+    // The last row needs no padding.
     for (const Case& c :
          {Case{PixelFormat::Nv12, 80, 80 * 48 + 80 * 23 + 64},
           Case{PixelFormat::Yuv420, 80, 80 * 48 + 40 * 24 + 40 * 23 + 32},

@@ -34,7 +34,8 @@ inline void sleepMs(double ms) {
     std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(ms));
 }
 
-/// A simulated V4L2 camera, open once, whose faults are words in a file: see pretended_v4l2.cpp.
+/// A simulated V4L2 camera that can be open once. Words in a file select its faults, see
+/// pretended_v4l2.cpp.
 class Device {
 public:
     Device(std::string file, std::string name)
@@ -109,7 +110,7 @@ private:
         return 0;
     }
 
-    /// Describes its only control.
+    /// Answers a query for the camera's only control.
     static int describe(v4l2_query_ext_ctrl& control) {
         constexpr std::uint32_t kNext = V4L2_CTRL_FLAG_NEXT_CTRL | V4L2_CTRL_FLAG_NEXT_COMPOUND;
         if ((control.id & ~kNext) >= V4L2_CID_GAIN) return EINVAL;
@@ -220,7 +221,8 @@ private:
                 due - steady_clock::now(), std::chrono::milliseconds(20)));
     }
 
-    /// False if no pulse comes for some time: the camera's faults may have changed by then.
+    /// Waits for a pulse of the trigger line. Returns false after some time, because the faults may
+    /// have changed by then.
     bool awaitPulse() {
         constexpr int kLooks = 20;
         for (int i = 0; i < kLooks && running_; ++i) {
@@ -257,7 +259,7 @@ private:
         }
     }
 
-    /// Wakes programs that wait for pictures; they get the error.
+    /// Wakes the programs that wait for pictures. Their calls fail with this error.
     void lose(int error) {
         lostError_ = error;
         isLost_ = true;
@@ -265,7 +267,7 @@ private:
         static_cast<void>(!write(fd_, &one, sizeof one));
     }
 
-    /// Fills a buffer; `us`: the picture's time. False without a free buffer.
+    /// Fills a buffer. `us`: time of the picture [us]. Returns false if no buffer is free.
     bool fill(const Words& wrong, std::uint64_t i, std::uint32_t number, std::int64_t us) {
         const std::lock_guard lock(mutex_);
         if (free_.empty() || wrong.contains("hang")) return false;
@@ -307,15 +309,15 @@ private:
 
     const WordFile words_;
     const std::string name_;
-    const double plug_;  ///< number of the word "unplug" at opening
-    const int fd_;       ///< readable while there are filled buffers; closed by the program
+    const double plug_;  ///< N of the word "unplug" when the device was opened
+    const int fd_;       ///< readable while filled buffers exist; the program closes it
     const int memory_;
     std::atomic<double> rateHz_{30};
     std::size_t bytes_ = 0, room_ = 0;
-    std::int64_t pulse_ = 0;  ///< last pulse that the camera has noticed [us]
+    std::int64_t pulse_ = 0;  ///< time of the last pulse that the camera has noticed [us]
     off_t mapped_ = 0;        ///< length of the mapped memory
     int width_ = 0;
-    int refused_ = 0;  ///< refused settings of the control
+    int refused_ = 0;  ///< number of times that setting the control was refused
     std::atomic<bool> running_{false}, isLost_{false};
     std::atomic<int> lostError_{0};
     std::thread maker_;

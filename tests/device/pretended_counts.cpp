@@ -1,8 +1,8 @@
 #include "tests/device/pretended_counts.h"
 
-/// For another library in the same program: pictures that the program should have refused, the gain
-/// that it set, and the pictures that it took before setting the gain.
-// NOLINTNEXTLINE(readability-identifier-naming)
+/// For another library in the same program: the number of pictures that the program should have
+/// refused, the gain that it set, and the number of pictures that it took before it set the gain.
+/// NOLINTNEXTLINE(readability-identifier-naming)
 extern "C" void mfar_pretended_known(const char* camera, std::uint64_t* broken,
                                      std::uint64_t* badTimes, std::int64_t* gain,
                                      std::uint64_t* ungained) {

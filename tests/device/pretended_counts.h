@@ -11,12 +11,12 @@
 
 namespace mfar::pretended {
 
-/// A camera's observations of the program that uses it.
+/// What a camera observed of the program that uses it.
 struct KnownOfCamera {
-    // Pictures that the program took and must refuse.
-    std::uint64_t broken = 0;    ///< marked as broken, or too short
-    std::uint64_t badTimes = 0;  ///< in the future, too old, or not after the previous one
-    std::int64_t gain = 0;       ///< last setting since the camera was opened
+    // Numbers of pictures that the program took although it must refuse them.
+    std::uint64_t broken = 0;    ///< pictures marked as broken, or too short
+    std::uint64_t badTimes = 0;  ///< times in the future, too old, or not after the previous one
+    std::int64_t gain = 0;       ///< last value set since the camera was opened
     std::uint64_t ungained = 0;  ///< pictures taken before the gain was set
 };
 
@@ -30,11 +30,11 @@ inline std::int64_t microseconds(const timeval& t) {
     return t.tv_sec * 1'000'000LL + t.tv_usec;
 }
 
-/// Observations by camera name, over all times that it was opened. Thread-safe.
+/// Observations of each camera, by its name; they stay when the camera is closed. Thread-safe.
 class Known {
 public:
     static Known& get() {
-        static auto* all = new Known;  // threads outlive main()
+        static auto* all = new Known;  // never freed, because threads outlive main()
         return *all;
     }
     [[nodiscard]] KnownOfCamera of(const std::string& camera) {
@@ -45,7 +45,7 @@ public:
         const std::lock_guard lock(mutex_);
         counts_[camera].gain = value;
     }
-    /// `lastGood`: time of the last picture that need not be refused, since the camera was opened.
+    /// `lastGood`: time of the last acceptable picture since the camera was opened.
     void add(const std::string& camera, const v4l2_buffer& taken, std::size_t whole,
              std::optional<std::int64_t>& lastGood) {
         constexpr std::int64_t kAhead = 50'000, kOldest = 10'000'000;

@@ -18,7 +18,7 @@ namespace {
 
 using mfar::test::PretendedDrm;
 
-// Object ids; properties are identified by their index in kProperties.
+// Ids of the objects. The id of a property is its index in kProperties.
 constexpr std::uint32_t kCrtc = 10, kConnector = 20, kPlane = 30, kEncoder = 40;
 constexpr std::uint32_t kConsole = 99, kFirstProperty = 100;
 constexpr std::array<std::string_view, 12> kProperties = {"CRTC_ID", "MODE_ID", "ACTIVE", "FB_ID",
@@ -36,15 +36,15 @@ struct Driver {
     PretendedDrm seen;
     std::filesystem::path card;
     std::map<std::uint32_t, DumbBuffer> buffers;
-    std::map<std::uint32_t, std::uint32_t> framebuffers;  // key: framebuffer, value: its buffer
+    std::map<std::uint32_t, std::uint32_t> framebuffers;  // the buffer of each framebuffer
     std::uint32_t next = 1;
-    std::uint32_t asked = 0;  // framebuffer of the current request
+    std::uint32_t asked = 0;  // framebuffer that the current request asks for
     void* flipping = nullptr;
     std::uint64_t end = 0;
 };
 Driver driver;
 
-// libdrm frees its results with free().
+// libdrm frees these results with free().
 template <class T>
 T* made(std::size_t count = 1) {
     return static_cast<T*>(std::calloc(count, sizeof(T)));

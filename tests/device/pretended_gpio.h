@@ -25,23 +25,24 @@
 
 namespace mfar::pretended {
 
-/// Time of the trigger line's last activation [us], for cameras that wait for it; 0: none yet.
+/// Time at which the trigger line was last activated [us], for cameras that wait for a pulse; 0:
+/// never.
 inline std::atomic<std::int64_t>& lastPulse() {
     static std::atomic<std::int64_t> us{0};
     return us;
 }
 
-/// A GPIO chip with the line 5 "TRIGGER", with the kernel's first interface, which libgpiod 1 uses.
-/// It exists if the folder MFAR_PRETENDED_V4L2 contains a file "gpiochip0", whose words select
-/// faults: see pretended_v4l2.cpp. The file "line" in this folder contains the level, 0 or 1, which
-/// outlives the program as a real line's level does. Thread-safe.
+/// A GPIO chip whose line 5 is "TRIGGER". It has the kernel's first interface, which libgpiod 1
+/// uses. The chip exists if the folder MFAR_PRETENDED_V4L2 contains a file "gpiochip0"; words in it
+/// select faults, see pretended_v4l2.cpp. The file "line" in that folder holds the level, 0 or 1.
+/// As on a real line, the level outlives the program. Thread-safe.
 class GpioChip {
 public:
     static constexpr std::string_view kPath = "/dev/gpiochip0",
                                       kNumbers = "/sys/bus/gpio/devices/gpiochip0/dev";
 
     static GpioChip& get() {
-        static auto* chip = new GpioChip;  // threads outlive main()
+        static auto* chip = new GpioChip;  // never freed, because threads outlive main()
         return *chip;
     }
 
@@ -51,7 +52,7 @@ public:
     [[nodiscard]] std::string file(const char* name) const { return folder_ + "/" + name; }
     [[nodiscard]] const std::string& folder() const { return folder_; }
 
-    /// The result of stat() for the chip.
+    /// Gives the result of stat() for the chip.
     static int describe(struct stat* out) {
         *out = {};
         out->st_mode = S_IFCHR | 0660;
@@ -59,7 +60,7 @@ public:
         return 0;
     }
 
-    /// A descriptor of the chip or of the file with its device numbers; -1 with errno.
+    /// Opens the chip, or the file with its device numbers. Returns a descriptor, or -1 with errno.
     int open(std::string_view path) {
         if (path == kNumbers) return numbers();
         if (words_.now().contains("gone")) {

@@ -68,7 +68,8 @@ std::shared_ptr<Device> deviceOf(int fd) {
     return at == devices().end() ? nullptr : at->second;
 }
 
-/// A descriptor of the device; -1 with errno if it cannot be opened; empty for other files.
+/// Opens a simulated device. Returns -1 with errno if it cannot be opened, and nothing for other
+/// files.
 std::optional<int> openDevice(const char* path) {
     const char* folder = std::getenv("MFAR_PRETENDED_V4L2");
     if (folder == nullptr || std::strncmp(path, "/dev/", 5) != 0) return std::nullopt;
@@ -123,7 +124,7 @@ int open64(const char* path, int flags, ...) {
     return openFile(path, flags | O_LARGEFILE, mode);
 }
 
-// A search for chips in /dev finds the simulated ones.
+// A program that searches /dev for chips finds the simulated one.
 int openat(int folder, const char* path, int flags, ...) {
     va_list rest;
     va_start(rest, flags);
@@ -174,7 +175,7 @@ void* mmap64(void* at, std::size_t length, int protection, int flags, int fd,
     return mapFile(at, length, protection, flags, fd, offset);
 }
 
-// A closed descriptor's number may be reused for another file.
+// The number of the closed descriptor may be reused for another file.
 int close(int fd) {
     std::shared_ptr<Device> closed;
     {

@@ -24,12 +24,12 @@ struct Level {
     Timestamp time;
 };
 
-/// A wire: the loopback sees the driven level a little later.
+/// A wire to the loopback input, which sees the driven level a little later.
 struct Wire {
     std::mutex mutex;
     std::vector<Level> history;
     std::deque<Timestamp> edges;
-    std::chrono::nanoseconds clockOffset{0};  ///< of the loopback's clock
+    std::chrono::nanoseconds clockOffset{0};  ///< offset of the loopback's clock
     int edgesToLose = 0;
     int setsToFail = 0;
 
@@ -175,7 +175,7 @@ TEST(PulseTrigger, LoopbackMeasuresStartAndLength) {
         const auto wire = std::make_shared<Wire>();
         const auto trigger = triggerOn(wire, pulse, true);
         EXPECT_FALSE(trigger->measured());
-        wire->edges.push_back(Timestamp::now());  // a disturbance before the pulse
+        wire->edges.push_back(Timestamp::now());  // an edge before the pulse, from a disturbance
         const Timestamp edge = trigger->fire();
         while (!trigger->measured())
             std::this_thread::sleep_for(100us);
@@ -188,7 +188,7 @@ TEST(PulseTrigger, LoopbackMeasuresStartAndLength) {
     }
 }
 
-TEST(PulseTrigger, MissedEdgesAreCountedAndNotConfused) {
+TEST(PulseTrigger, MissedEdgesAreCountedAndNotConfusedWithOthers) {
     for (const int lost : {1, 2}) {
         for (const microseconds pulse : {microseconds{50}, microseconds{3000}}) {
             const auto wire = std::make_shared<Wire>();
@@ -208,7 +208,7 @@ TEST(PulseTrigger, MissedEdgesAreCountedAndNotConfused) {
 
 TEST(PulseTrigger, LoopbackTimesOfAnotherClockAreIgnored) {
     const auto wire = std::make_shared<Wire>();
-    wire->clockOffset = std::chrono::hours(24 * 365 * 50);  // as CLOCK_REALTIME
+    wire->clockOffset = std::chrono::hours(24 * 365 * 50);  // the offset of CLOCK_REALTIME
     const auto trigger = triggerOn(wire, 50us, true);
     const Timestamp edge = trigger->fire();
     EXPECT_LE(edge, Timestamp::now());

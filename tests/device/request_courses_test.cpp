@@ -1,5 +1,5 @@
-// Random sequences of a camera's requests on a simulated clock, compared with a model that knows
-// where each request must be, next to a second camera that must not be disturbed.
+// Random sequences of a camera's requests on a simulated clock. They are compared with a model that
+// knows where each request must be. A second camera beside it must not be disturbed.
 #include "hal/device/request_cycle.h"
 
 #include <gtest/gtest.h>
@@ -23,12 +23,12 @@ using std::chrono::milliseconds;
 constexpr std::uint32_t kSeeds = 200;
 constexpr int kSteps = 200;
 constexpr milliseconds kEarly{500};
-/// Pause before a restart, indexed by the number of early ends in a row; after the last one the
-/// device is lost.
+/// Pause before a restart. The index is the number of early ends in a row; after the last entry the
+/// device counts as lost.
 constexpr std::array<milliseconds, 5> kPauses = {milliseconds(0), milliseconds(0), milliseconds(50),
                                                  milliseconds(100), milliseconds(200)};
 
-/// Random numbers and time of a sequence.
+/// The random numbers and the clock of one sequence.
 struct Chance {
     explicit Chance(std::uint32_t seed) : random(seed) {}
 
@@ -41,7 +41,7 @@ struct Chance {
     Timestamp now{1'000'000'000};
 };
 
-/// A driver and the user of its pictures. Each call compares the cycle with the model.
+/// Plays a driver and the user of its pictures. Each call compares the cycle with the model.
 class ModelledCamera final : public RequestDriver {
 public:
     explicit ModelledCamera(Chance& chance)
@@ -125,7 +125,7 @@ public:
         if (!request) return;
         cycle.giveBack(*request);
     }
-    /// True if next() must restart the camera.
+    /// True if next() has to restart the camera.
     [[nodiscard]] bool restartIsDue() const {
         return running_ && !isLost && ready_.empty() && restartAt && chance_.now >= *restartAt;
     }
@@ -149,7 +149,8 @@ public:
         }
         EXPECT_TRUE(isLost || starts_ - before == (restarts ? 1 : 0));
     }
-    /// Stops during a restart, from another thread, which has to wait for its end.
+    /// Calls stop() from another thread during a restart. That thread must wait until the restart
+    /// ends.
     void stopInThread() {
         if (stopper_.joinable()) return;
         stopper_ = std::thread([this] { cycle.stop(); });
@@ -173,7 +174,7 @@ public:
         EXPECT_FALSE(has(At::Driver));
     }
 
-    /// Requests that nobody holds are lost, except cancelled ones.
+    /// A request that nobody holds is lost, unless it was cancelled.
     void check() const {
         EXPECT_EQ(cycle.restarts(), restarts_);
         EXPECT_EQ(cycle.delivered(), delivered_);
@@ -196,7 +197,7 @@ public:
     bool startFails = false;
     bool isLost = false;
     std::optional<Timestamp> restartAt;
-    std::array<int, kPauses.size()> pauses{};  ///< how often each pause was planned
+    std::array<int, kPauses.size()> pauses{};  ///< number of times that each pause was chosen
     int threadedStops = 0;
 
 private:
@@ -213,7 +214,7 @@ private:
         return cycle.next(milliseconds(0));
     }
     [[nodiscard]] bool has(At where) const { return std::ranges::find(at_, where) != at_.end(); }
-    /// A random request in this place, which is handed to the cycle.
+    /// Takes a random request from this place and hands it to the cycle.
     std::optional<std::size_t> take(At where) {
         std::vector<std::size_t> those;
         for (std::size_t i = 0; i < kRequests; ++i)
@@ -227,7 +228,7 @@ private:
     Chance& chance_;
     std::thread stopper_;
     std::array<At, kRequests> at_{};
-    std::array<bool, kRequests> isCancelled_{};  ///< since the last completed request
+    std::array<bool, kRequests> isCancelled_{};  ///< requests cancelled since one was completed
     std::deque<std::size_t> ready_;
     bool running_ = false;
     Timestamp begun_;
@@ -236,7 +237,7 @@ private:
     std::uint64_t delivered_ = 0, restarts_ = 0;
 };
 
-/// Totals over all sequences.
+/// Totals of what happened, over all sequences.
 struct Seen {
     std::array<int, kPauses.size()> pauses{};
     int lost = 0, failedStarts = 0, stopsInRestarts = 0;
@@ -306,7 +307,7 @@ private:
         restarts_ = false;
     }
 
-    /// Called while the faulty camera starts or stops, in the thread that does it.
+    /// Runs in the thread in which the faulty camera starts or stops, while it does so.
     void happenMeanwhile() {
         serveOther();
         if (chance_.oneIn(4)) ill_.giveBack();
@@ -324,7 +325,7 @@ private:
 
     Chance chance_;
     ModelledCamera ill_, sound_;
-    std::uint32_t cancelsAll_ = 0;  ///< cancels all requests in one of this number of steps
+    std::uint32_t cancelsAll_ = 0;  ///< one step in this number cancels all requests
     bool restarts_ = false;
     std::uint64_t served_ = 0;
 };

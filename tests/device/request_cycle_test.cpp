@@ -19,7 +19,8 @@ using std::chrono::milliseconds;
 constexpr milliseconds kPatience{10'000};
 constexpr std::size_t kRequests = 4;
 
-/// Fills requests when the test asks for it, in the test's thread; libcamera uses its own thread.
+/// Fills requests in the test's thread, when the test asks for it. libcamera uses a thread of its
+/// own.
 class FakeDriver final : public RequestDriver {
 public:
     explicit FakeDriver(const RestartLimits& limits = {}) : cycle(*this, limits) {
@@ -86,7 +87,7 @@ private:
     bool hangs_ = false;
 };
 
-/// No end counts as early.
+/// With this limit no end counts as early.
 constexpr RestartLimits kPatient{.early = milliseconds(0)};
 
 bool takes(FakeDriver& camera, std::int64_t number) {
@@ -97,7 +98,7 @@ bool takes(FakeDriver& camera, std::int64_t number) {
     return true;
 }
 
-TEST(RequestCycle, RequestsCirculate) {
+TEST(RequestCycle, CompletedRequestsAreQueuedAgain) {
     FakeDriver camera;
     camera.cycle.start();
     for (int i = 1; i <= 3 * static_cast<int>(kRequests); ++i)
@@ -178,7 +179,7 @@ TEST(RequestCycle, RequestsReturnedAfterTheEndDoNotCountAsAnotherEnd) {
     EXPECT_TRUE(takes(camera, 2));
 }
 
-TEST(RequestCycle, NextDoesNotBlockDuringBackOff) {
+TEST(RequestCycle, NextDoesNotBlockDuringThePauseBeforeARestart) {
     constexpr RestartLimits kLimits{
         .early = milliseconds(60'000), .firstPause = milliseconds(60'000), .most = 5};
     FakeDriver camera(kLimits);
@@ -194,8 +195,8 @@ TEST(RequestCycle, NextDoesNotBlockDuringBackOff) {
     EXPECT_FALSE(camera.cycle.next(kPatience));
 }
 
-// One driver thread serves all cameras.
-TEST(RequestCycle, RestartThatHangsCostsTheOtherCameraNothing) {
+// One driver thread serves all cameras; so a hanging restart must not hold it.
+TEST(RequestCycle, AHangingRestartDoesNotDelayTheOtherCamera) {
     FakeDriver ill(kPatient), sound(kPatient);
     ill.cycle.start();
     sound.cycle.start();
@@ -204,7 +205,7 @@ TEST(RequestCycle, RestartThatHangsCostsTheOtherCameraNothing) {
     std::thread reader([&] { EXPECT_FALSE(ill.cycle.next(kPatience)); });
     for (int i = 1; i <= 50; ++i) {
         EXPECT_TRUE(takes(sound, i));
-        ill.cycle.cancelled(0);  // the driver's thread may call it at the same time
+        ill.cycle.cancelled(0);  // the driver's thread may call this at the same time
     }
     EXPECT_EQ(ill.starts().size(), 1U);
     ill.hang(false);

@@ -42,7 +42,7 @@ TEST(SensorClock, AShortSuspendIsDetectedByAnyOfTheFirstFrames) {
     EXPECT_EQ(clock.kind(), SensorClock::Kind::Boottime);
 }
 
-TEST(SensorClock, LaterOddTimesDoNotChangeTheClock) {
+TEST(SensorClock, LaterImplausibleTimesDoNotChangeTheClock) {
     SensorClock clock;
     for (int i = 0; i < 8; ++i)
         (void)clock.toMonotonic(kNow - 30ms, sleptFor(2h));

@@ -12,7 +12,7 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-// Holds on every machine, with or without GPIO chips.
+// This test passes on every machine, with or without GPIO chips.
 TEST(GpioTrigger, UnknownChipIsRefusedByName) {
     TriggerOptions options;
     options.chip = "no-such-chip";

@@ -1,9 +1,9 @@
 // Fires pulses on a GPIO line and prints a line for each still that matches one:
 //   trigger-probe CAMERA WIDTHxHEIGHT CHIP LINE PULSES PERIOD-MS JITTER-MS
-// A line is "TIME pulse N still M", where M is the number in the picture's upper rows: 32 blocks
-// side by side, bit 0 first, white for 1, as shown by the test bed's cameras. At the end it prints
-// "fired F matched M unmatched U lost L late T repeated R relearned S". Exit status: 0 done, 1 a
-// device failed, 2 usage.
+// A line is "TIME pulse N still M". M is the number in the upper rows of the picture, as the
+// cameras of the test bed show it: 32 blocks side by side, bit 0 first, white for 1. The last line
+// is "fired F matched M unmatched U lost L late T repeated R relearned S". Exit status: 0 done, 1 a
+// device failed, 2 wrong usage.
 
 #include "hal/device/camera_libcamera.h"
 #include "hal/device/trigger_gpiod.h"
@@ -21,7 +21,7 @@ using namespace mfar;
 namespace {
 
 constexpr std::chrono::milliseconds kLook{20};
-constexpr std::chrono::seconds kAfter{3};  // time for the last still to arrive
+constexpr std::chrono::seconds kAfter{3};  // time that the last still has to arrive
 
 unsigned numberOf(const ImageView& view) {
     unsigned number = 0;

@@ -60,7 +60,7 @@ TEST(FoldedName, IsLowerCaseWithOneUnderscoreBetweenWords) {
     EXPECT_EQ(foldedName("  "), "");
 }
 
-TEST_F(V4l2ControlsTest, ListHasAllButTitlesAndTheDisabled) {
+TEST_F(V4l2ControlsTest, ListHasAllControlsExceptTitlesAndDisabledOnes) {
     const V4l2Controls controls(device_);
     std::string all;
     for (const V4l2Control& c : controls.list())
@@ -85,7 +85,7 @@ TEST_F(V4l2ControlsTest, ValuesAreSetAndReadBack) {
     EXPECT_EQ(controls.get("sensor_temperature"), 31);
 }
 
-TEST_F(V4l2ControlsTest, TextsAreNumbersWordsAndMenuEntries) {
+TEST_F(V4l2ControlsTest, ValuesMayBeNumbersWordsOrMenuEntries) {
     const V4l2Controls controls(device_);
     EXPECT_EQ(controls.set("brightness", "50"), 50);
     EXPECT_EQ(controls.set("horizontal_flip", "on"), 1);

@@ -1,5 +1,5 @@
-// Captures from a V4L2 device, for machines that have one: lists its controls, sets the given ones,
-// prints a line for each frame.
+// Captures from a real V4L2 device. Lists its controls, sets the given ones, and prints a line for
+// each frame.
 //
 //   v4l2-probe DEVICE WIDTHxHEIGHT FRAMES [--format FOURCC] [--rate HZ] [NAME=VALUE]...
 //
@@ -26,7 +26,7 @@ double meanLuma(const mfar::ImageView& view) {
     for (int y = 0; y < view.size.height; ++y) {
         const std::uint8_t* p = view.data + static_cast<std::size_t>(y) * view.stride;
         for (int x = 0; x < view.size.width; ++x, p += step)
-            sum += colour ? (p[0] + 2 * p[1] + p[2]) / 4.0 : p[0];  // green has half of the weight
+            sum += colour ? (p[0] + 2 * p[1] + p[2]) / 4.0 : p[0];  // green counts half
     }
     return sum / view.size.width / view.size.height;
 }

@@ -8,7 +8,7 @@ namespace {
 
 using simd::DetailCase;
 
-/// The engine of the detail step and the engine that prepares the still.
+/// Which engine runs the detail step, and which engine prepares the still.
 struct StepEngines {
     EngineKind detail, still;
 };
@@ -24,8 +24,8 @@ INSTANTIATE_TEST_SUITE_P(Engines, DetailEngineTest,
                                     std::string(nameOf(tested.param.still));
                          });
 
-/// Reduces contrast: shaders clamp values between passes, so overshoot of the sharpening needs
-/// room.
+/// Reduces the contrast, because shaders clamp values between passes: the overshoot of the
+/// sharpening must stay in range.
 DetailCase withRoom(DetailCase frame) {
     for (std::vector<std::uint8_t>* pixels : {&frame.videoPixels, &frame.stillPixels})
         for (std::uint8_t& byte : *pixels)
@@ -34,7 +34,7 @@ DetailCase withRoom(DetailCase frame) {
     return frame;
 }
 
-/// Draws consecutive frames with one engine's detail step and another's still.
+/// Draws consecutive frames. The detail step and the still may be of different engines.
 class Drawing {
 public:
     Drawing(const StepEngines& engines, const DetailCase& first, Size output)
@@ -48,7 +48,7 @@ public:
         const DetailStep::Matched matched{pictures_, weights};
         return draw(frame, &matched, filters);
     }
-    /// Draws with a second still, matched as `second` says.
+    /// Draws with a second still, whose look-ups and weights `second` gives.
     Rows<const std::uint32_t> drawBoth(const DetailCase& frame, const DetailCase& second,
                                        const FilterBank* filters) {
         if (!secondStill_) secondStill_ = stillEngine_->still();
@@ -62,7 +62,7 @@ public:
     Rows<const std::uint32_t> drawWithoutStill(const DetailCase& frame, const FilterBank* filters) {
         return draw(frame, nullptr, filters);
     }
-    /// The still's luma with raised detail.
+    /// Luma of the still with amplified detail.
     [[nodiscard]] twin::Grey luma() const {
         if (!pictures_.raised.isEmpty()) {
             const Rows<const std::uint8_t> raised = pictures_.raised.host();
@@ -117,7 +117,7 @@ double channel(Rows<const std::uint32_t> picture, int x, int y, int c) {
     return static_cast<double>(picture[y][x] >> (8 * c) & 255U);
 }
 
-TEST_P(DetailEngineTest, WholeFrameIsTheOraclesAtAnySize) {
+TEST_P(DetailEngineTest, WholeFrameMatchesTheOracleAtAnySize) {
     const bool shaders = GetParam().detail == EngineKind::Gles;
     for (const auto& [video, stillSize, output] : simd::kSizes) {
         const DetailCase frame = withRoom(DetailCase(video, stillSize));
@@ -131,7 +131,7 @@ TEST_P(DetailEngineTest, WholeFrameIsTheOraclesAtAnySize) {
             for (int x = 0; x < output.width; ++x)
                 for (int c = 0; c < 3; ++c) {
                     const double error = channel(drawn, x, y, c) - wanted.withStill(x, y, c, still);
-                    // Shaders keep 8 bits after each pass.
+                    // Tolerance: shaders keep 8 bits after each pass.
                     ASSERT_LE(std::abs(error), shaders ? 3.5 : 0.8)
                         << output.width << ": " << x << " " << y << " " << c;
                     squares += error * error;
@@ -141,7 +141,7 @@ TEST_P(DetailEngineTest, WholeFrameIsTheOraclesAtAnySize) {
     }
 }
 
-/// Error statistics of a picture over all channels; `of` gives the wanted values.
+/// Error statistics of a picture over all channels. `of` returns the wanted value of a channel.
 template <class F>
 void expectPicture(Rows<const std::uint32_t> drawn, F&& of, double most) {
     for (int y = 0; y < drawn.size.height; ++y)
@@ -151,14 +151,14 @@ void expectPicture(Rows<const std::uint32_t> drawn, F&& of, double most) {
                     << drawn.size.width << ": " << x << " " << y << " " << c;
 }
 
-// Luma has units of 1/8 grey level, limits of a quarter of that.
+// Tolerance: luma has units of 1/8 grey level, and the limits have units of a quarter of that.
 constexpr double kLearnedError = 1.3;
 
-TEST_P(DetailEngineTest, LearnedFramesAreTheOraclesWithAndWithoutAStill) {
+TEST_P(DetailEngineTest, LearnedFramesMatchTheOracleWithAndWithoutAStill) {
     const bool shaders = GetParam().detail == EngineKind::Gles;
     const simd::DetailOptions options{SuperResMode::Detail, true, false, false, &simd::evenBank()};
     for (const auto& [video, stillSize, output] : simd::kSizes) {
-        if (output.width > 1000) continue;  // slow, and the video is small
+        if (output.width > 1000) continue;  // skipped: slow for this small video
         const DetailCase frame = withRoom(DetailCase(video, stillSize));
         Drawing drawing(GetParam(), frame, output);
         simd::Wanted alone(frame, output, options, false), wanted(frame, output, options, true);
@@ -167,7 +167,7 @@ TEST_P(DetailEngineTest, LearnedFramesAreTheOraclesWithAndWithoutAStill) {
             drawing.drawWithoutStill(frame, options.learned),
             [&](int x, int y, int c) { return alone.enlarged(x, y, c); }, kLearnedError);
         const twin::Grey still = drawing.luma();
-        // Shaders read the still with 8-bit weights at half-precision positions.
+        // Tolerance: shaders read the still with weights of 8 bits, at positions in half precision.
         expectPicture(
             drawing.draw(frame, options.learned),
             [&](int x, int y, int c) { return wanted.withStill(x, y, c, still); },
@@ -175,12 +175,12 @@ TEST_P(DetailEngineTest, LearnedFramesAreTheOraclesWithAndWithoutAStill) {
     }
 }
 
-TEST_P(DetailEngineTest, GuidedFramesAreTheOracles) {
+TEST_P(DetailEngineTest, GuidedFramesMatchTheOracle) {
     const bool shaders = GetParam().detail == EngineKind::Gles;
     const simd::DetailOptions options{SuperResMode::Detail, true, false, false,
                                       &simd::guidedBank()};
     for (const auto& [video, stillSize, output] : simd::kSizes) {
-        if (output.width > 1000) continue;  // slow, and the video is small
+        if (output.width > 1000) continue;  // skipped: slow for this small video
         const DetailCase frame = withRoom(DetailCase(video, stillSize));
         Drawing drawing(GetParam(), frame, output);
         simd::Wanted wanted(frame, output, options, true);
@@ -212,7 +212,7 @@ TEST_P(DetailEngineTest, TilesWithoutStructureAreNotEnlargedByFilters) {
         kLearnedError);
 }
 
-TEST_P(DetailEngineTest, ChangingOrRemovingFiltersActsInTheNextFrame) {
+TEST_P(DetailEngineTest, ChangedOrRemovedFiltersTakeEffectInTheNextFrame) {
     const Size video{53, 37}, output{191, 133};
     const DetailCase frame = withRoom(DetailCase(video, {200, 140}));
     const std::array<const FilterBank*, 6> banks{&simd::evenBank(),    &simd::guidedBank(),
@@ -228,8 +228,8 @@ TEST_P(DetailEngineTest, ChangingOrRemovingFiltersActsInTheNextFrame) {
     }
 }
 
-// All look-ups move, but only some tiles are drawn, although their detail also depends on their
-// surroundings.
+// All look-ups change, but only some tiles are drawn. Their detail also depends on the tiles around
+// them.
 void expectOnlyChangedTiles(const StepEngines& engines, const simd::Sizes& sizes,
                             const FilterBank* filters) {
     const auto& [video, stillSize, output] = sizes;
@@ -262,7 +262,7 @@ void expectOnlyChangedTiles(const StepEngines& engines, const simd::Sizes& sizes
     EXPECT_TRUE(most > 5 || output == video) << "what the still shows moves: " << most;
 }
 
-TEST_P(DetailEngineTest, OnlyChangedTilesAreDrawnAndLookAsInAWholeFrame) {
+TEST_P(DetailEngineTest, OnlyChangedTilesAreDrawnAndMatchAWholeFrame) {
     for (const simd::Sizes& sizes : simd::kSizes)
         expectOnlyChangedTiles(GetParam(), sizes, nullptr);
 }
@@ -277,8 +277,8 @@ TEST_P(DetailEngineTest, OnlyChangedTilesAreGuided) {
         expectOnlyChangedTiles(GetParam(), sizes, &simd::guidedBank());
 }
 
-/// Another still for the same video: darker, with other look-ups, and trusted where the first is
-/// not.
+/// Another still for the same video. It is darker, has other look-ups, and has weight where the
+/// first still has none.
 DetailCase secondOf(DetailCase frame) {
     for (std::uint8_t& byte : frame.stillPixels)
         byte = static_cast<std::uint8_t>(byte * 4 / 5);
@@ -319,14 +319,14 @@ TEST_P(DetailEngineTest, OnlyChangedTilesShowASecondStill) {
         EXPECT_GT(differs, output.width * output.height / 10) << "the second still shows nothing";
         EXPECT_GT(some.summary().second, 0);
         EXPECT_LT(some.summary().second, all.summary().second);
-        // Where only one still is used in the next frame, the second must leave nothing behind.
+        // The next frame uses only one still; the second still must leave nothing behind.
         EXPECT_EQ(copyOf(some.draw(whole, filters)), one);
     }
 }
 
 using DetailEngines = GlTest;
 
-/// `most` and `rms`: upper limits of the channels' differences.
+/// `most`, `rms`: upper limits of the difference of any channel, and of its root mean square.
 void expectNear(Rows<const std::uint32_t> a, Rows<const std::uint32_t> b, double most, double rms) {
     double squares = 0;
     for (int y = 0; y < a.size.height; ++y)
@@ -339,7 +339,7 @@ void expectNear(Rows<const std::uint32_t> a, Rows<const std::uint32_t> b, double
     EXPECT_LE(std::sqrt(squares / (3.0 * a.size.width * a.size.height)), rms) << a.size.width;
 }
 
-// The kernels average the warped still, which must be finer than the video for this.
+// The kernels average the warped still; so the still must be finer than the video.
 void expectTheSamePicture(const FilterBank* filters, double most, double rms) {
     for (const auto& [video, stillSize, output] : simd::kSizes) {
         if (2 * output.width < 3 * video.width) continue;
@@ -350,11 +350,11 @@ void expectTheSamePicture(const FilterBank* filters, double most, double rms) {
     }
 }
 
-TEST_F(DetailEngines, DrawTheSamePicture) {
+TEST_F(DetailEngines, BothEnginesDrawTheSamePicture) {
     expectTheSamePicture(nullptr, 4, 0.85);
 }
 
-TEST_F(DetailEngines, EnlargeByTheSameFilters) {
+TEST_F(DetailEngines, BothEnginesEnlargeByTheSameFilters) {
     expectTheSamePicture(&FilterBank::prior(), 4, 0.6);
 }
 
@@ -362,7 +362,7 @@ TEST_F(DetailEngines, BothEnginesApplyTheSameGuidance) {
     expectTheSamePicture(&simd::guidedBank(), 4, 0.6);
 }
 
-TEST_F(DetailEngines, ShowTheSameOfASecondStill) {
+TEST_F(DetailEngines, BothEnginesShowASecondStillEqually) {
     const Size output{576, 432};
     const DetailCase whole = withRoom(DetailCase({160, 120}, {400, 300}));
     for (const double share : {1.0, 0.4}) {

@@ -8,7 +8,7 @@
 
 namespace mfar {
 
-/// Name of a test parametrised by an engine.
+/// Name of a test instance: the engine.
 inline std::string engineOfTest(const testing::TestParamInfo<EngineKind>& engine) {
     return std::string(nameOf(engine.param));
 }

@@ -16,7 +16,7 @@ using Shares = std::vector<float>;
 
 constexpr FineMatch kMatch{5, 0.02F};
 
-/// A frame with a prepared still of the same size.
+/// A frame and a prepared still of the same size.
 struct FineInput {
     explicit FineInput(Size video, Size stillSize)
         : frame(video, stillSize), still(frame.rig, stillSize, std::make_shared<Workers>(2)) {
@@ -65,7 +65,7 @@ struct FineInput {
 Shares onHost(const FineInput& in) {
     simd::FineCheck check(in.still.rig(), std::make_shared<Workers>(2));
     Shares out;
-    for (int run = 0; run < 2; ++run) {  // a second run must not depend on the first
+    for (int run = 0; run < 2; ++run) {  // the second run must not depend on the first
         const Rows<const float> rows =
             check.run(in.frame.video, in.still.pairs(), in.lookUps(), in.frame.work, kMatch);
         out.clear();

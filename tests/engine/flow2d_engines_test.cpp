@@ -1,4 +1,4 @@
-// Compares the host's pyramids and 2-D flow with those of the shaders.
+// Compares the pyramids and the 2-D flow of the host with those of the shaders.
 
 #include "pipeline/gles/flow2d.h"
 #include "pipeline/gles/luma_pyramids.h"
@@ -19,7 +19,7 @@ namespace {
 using Flow2dEngines = GlTest;
 using Cell = std::array<float, 4>;
 
-/// Both engines with the same pictures.
+/// Both engines on the same pictures.
 class Engines {
 public:
     Engines(const TestPicture& now, const TestPicture& then)
@@ -30,7 +30,8 @@ public:
         glPyramids_.buildSecond(uploaded(then));
     }
 
-    /// Gives the shaders' pyramids to the host's flow: both use the same bytes.
+    /// Gives the pyramids of the shaders to the flow of the host, so that both flows read the same
+    /// bytes.
     void sharePyramids() {
         const auto words = glPyramids_.words().read<std::uint32_t>(pyramids_.words().size());
         std::ranges::copy(words, pyramids_.words().begin());
@@ -67,9 +68,9 @@ private:
 };
 
 struct Difference {
-    double close = 0;   ///< share of cells within kClose
-    double median = 0;  ///< [px]
-    double cost = 0;    ///< mean difference
+    double close = 0;   ///< share of the cells that differ by less than kClose
+    double median = 0;  ///< median difference [px]
+    double cost = 0;    ///< mean difference of the matching costs
 };
 constexpr double kClose = 0.02;  // [px]
 
@@ -94,15 +95,15 @@ Difference differenceOf(const std::vector<Cell>& gl, Rows<const FlowCell> host) 
     return d;
 }
 
-// Where a step hardly changes the cost, rounding decides whether it is taken: some cells end at
-// other vectors with the same cost.
+// Where a step hardly changes the cost, rounding decides whether the step is taken. So some cells
+// may end at other vectors of the same cost.
 void expectAlike(const Difference& d, double leastClose) {
     EXPECT_GT(d.close, leastClose);
     EXPECT_LT(d.median, 0.003);
     EXPECT_LT(d.cost, 0.003);
 }
 
-TEST_F(Flow2dEngines, BothWaysAgree) {
+TEST_F(Flow2dEngines, BothEnginesFindTheSameFlow) {
     for (const Size size : {Size{320, 240}, Size{213, 119}}) {
         const Waves waves(1, 8, 120, 35);
         Engines e(waves.shoot(size, {}), waves.shoot(size, {.shift = {-4.3, 2.7}, .gain = 0.8}));
@@ -115,7 +116,7 @@ TEST_F(Flow2dEngines, BothWaysAgree) {
     }
 }
 
-TEST_F(Flow2dEngines, BothWaysAgreeOnAPhotograph) {
+TEST_F(Flow2dEngines, BothEnginesFindTheSameFlowOnAPhotograph) {
     const std::filesystem::path folder = std::filesystem::path(MFAR_SHARED_DATA) / "rubberwhale";
     if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is absent";
     const auto load = [&](const char* name) {

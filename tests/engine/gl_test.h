@@ -9,8 +9,8 @@
 
 namespace mfar {
 
-/// The GL context that all tests of a program share. Closed after the last test: while the process
-/// exits, a layer of the driver may already be destroyed.
+/// The GL context that all tests of a program share. It is closed after the last test, because a
+/// layer of the driver may already be destroyed while the process exits.
 class SharedContext final : public testing::Environment {
 public:
     GlContext& context() {
@@ -23,15 +23,15 @@ private:
     std::unique_ptr<GlContext> context_;
 };
 
-/// Owned by GoogleTest.
+/// GoogleTest owns the object.
 inline SharedContext* const kSharedContext = [] {
     auto* out = new SharedContext;
     testing::AddGlobalTestEnvironment(out);
     return out;
 }();
 
-/// A test with the shared context current. The error state is checked after every test, so that no
-/// GL error is missed.
+/// A test in which the shared context is current. After every test the GL error state is checked,
+/// so that no GL error is missed.
 class GlTest : public testing::Test {
 protected:
     static GlContext& context() { return kSharedContext->context(); }

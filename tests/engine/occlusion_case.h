@@ -12,26 +12,26 @@
 
 namespace mfar {
 
-/// A layer of virtual objects: a colour and a depth for each pixel.
+/// A layer of virtual objects, with a colour and a depth for each pixel.
 struct LaidLayer {
     Size size;
     std::function<std::array<std::uint8_t, 4>(int, int)> colour = [](int, int) {
         return std::array<std::uint8_t, 4>{200, 100, 50, 255};
     };
-    std::function<double(int, int)> z = [](int, int) { return 2.0; };  ///< [m]
+    std::function<double(int, int)> z = [](int, int) { return 2.0; };  ///< depth of a pixel [m]
     PixelRect bounds{0, 0, 5000, 5000};
 };
 
-/// An engine's result for a frame with a layer.
+/// What an engine makes of a frame with a layer.
 struct LaidOver {
     Size output;
     std::vector<std::uint8_t> shown;       ///< RGBA8
-    std::vector<std::uint8_t> visibility;  ///< visible share in each output pixel [1/255]
+    std::vector<std::uint8_t> visibility;  ///< visible share of each output pixel [1/255]
 
     [[nodiscard]] double visibleAt(int x, int y) const {
         return visibility[static_cast<std::size_t>(y) * output.width + x] / 255.0;
     }
-    /// The visibility if all pixels have the same, or -1.
+    /// The visibility if it is equal in all pixels, otherwise -1.
     [[nodiscard]] double visibleEverywhere() const {
         for (const std::uint8_t share : visibility)
             if (share != visibility[0]) return -1;
@@ -42,13 +42,13 @@ struct LaidOver {
     }
 };
 
-/// Base of tests of both engines' occlusion step.
+/// Base of the tests of the occlusion step, for both engines.
 class OcclusionCase : public GlTest {
 protected:
     static constexpr Size kCoarse{53, 37};
     static constexpr Size kFine{191, 133};
 
-    /// Noise pictures with constant real depth.
+    /// Pictures of noise, with one real depth everywhere.
     static twin::Scene plainScene(const twin::RealSample& real);
     static LaidOver laidOver(EngineKind engine, const twin::Scene& scene, const LaidLayer& layer,
                              const CompositeOptions& options = {});
@@ -62,7 +62,7 @@ protected:
     }
 };
 
-/// Compares the visibility with the oracle's, to rounding, everywhere.
+/// Expects the oracle's visibility in every pixel, apart from rounding.
 void expectOracles(const LaidOver& got, twin::Scene scene, const LaidLayer& layer,
                    const CompositeOptions& options = {});
 

@@ -21,7 +21,7 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 INSTANTIATE_TEST_SUITE_P(Engines, OcclusionTest,
                          testing::Values(EngineKind::Gles, EngineKind::Simd), engineOfTest);
 
-/// A layer of constant depth.
+/// A layer whose pixels all have the same depth.
 LaidLayer layerAt(double z) {
     LaidLayer layer;
     layer.z = [z](int, int) { return z; };
@@ -63,7 +63,7 @@ INSTANTIATE_TEST_SUITE_P(
                                      Sides{{17, 31}, {601, 40}}, Sides{{64, 48}, {33, 21}},
                                      Sides{{40, 30}, {160, 120}})));
 
-// A step in real depth: most pixels need no weights, and all answers occur.
+// Real depth has a step: most pixels need no weights, and all kinds of results occur.
 TEST_P(OcclusionTest, EarlyExitsGiveTheWeightedResult) {
     twin::Scene scene = plainScene({0.4, 0.01});
     for (std::size_t i = 0; i < scene.real.size(); ++i)
@@ -76,7 +76,7 @@ TEST_P(OcclusionTest, EarlyExitsGiveTheWeightedResult) {
     EXPECT_GT(std::ranges::count(got.visibility, 255), 4000);
 }
 
-TEST_P(OcclusionTest, UnknownDepthNeverHides) {
+TEST_P(OcclusionTest, UnknownDepthNeverOccludes) {
     for (const double bad : {0.0, -0.0, -1.0, -1e30, 1e-42, kNan, kInfinite, -kInfinite})
         EXPECT_EQ(run(plainScene({bad, 0.01}), {}).visibleEverywhere(), 1)
             << "inverse depth " << bad;
@@ -110,7 +110,7 @@ TEST_P(OcclusionTest, LayerWithoutDepthIsNotDrawn) {
         EXPECT_EQ(run(scene, layerAt(bad)).shown, scene.picture.bytes) << bad;
 }
 
-TEST_P(OcclusionTest, VirtualThingWinsWhereBothAreEqual) {
+TEST_P(OcclusionTest, VirtualObjectIsVisibleAtEqualDepth) {
     constexpr double kSigma = 0.01;
     const CompositeOptions o{.bias = 2, .softness = 2, .virtualSigma = 0};
     for (const auto& [sigmas, visible] :
@@ -120,7 +120,7 @@ TEST_P(OcclusionTest, VirtualThingWinsWhereBothAreEqual) {
             << sigmas;
 }
 
-TEST_P(OcclusionTest, BlendIsOverByVisibility) {
+TEST_P(OcclusionTest, LayerIsBlendedByItsVisibility) {
     const twin::Scene scene = plainScene({0.53, 0.01});
     constexpr std::array<std::uint8_t, 4> kColour{120, 60, 0, 128};
     LaidLayer layer;
@@ -141,7 +141,7 @@ TEST_P(OcclusionTest, BlendIsOverByVisibility) {
         }
 }
 
-// A colour that is not premultiplied must not overflow.
+// The layer's colour is not premultiplied; blending must not overflow.
 TEST_P(OcclusionTest, OpaqueLayersReplaceThePicture) {
     const twin::Scene scene = plainScene({0.1, 0.01});
     for (const std::array<std::uint8_t, 4>& colour :
@@ -156,7 +156,7 @@ TEST_P(OcclusionTest, OpaqueLayersReplaceThePicture) {
     }
 }
 
-TEST_P(OcclusionTest, BoundsAreClippedAtTheBorders) {
+TEST_P(OcclusionTest, BoundsAreClippedAtThePicturesBorders) {
     const twin::Scene scene = plainScene({0.1, 0.01});
     for (const PixelRect& b : {PixelRect{-50, -9, 1000, 999}, PixelRect{180, 120, 500, 140}}) {
         LaidLayer layer;
@@ -195,13 +195,13 @@ TEST_P(OcclusionTest, OptionsOutOfRangeAreRefused) {
     }
 }
 
-/// A near object to the left of a straight edge, which runs through (26.3, 18) at an angle.
+/// A near object to the left of a straight edge. The edge runs through (26.3, 18) at an angle.
 struct EdgeScene {
     double degrees;
-    double contrast = 90;  ///< [grey levels]
+    double contrast = 90;  ///< between both sides of the edge [grey levels]
     Size coarse, fine;
 
-    /// Signed distance to the right of the edge [video px]; u, v in video px, too.
+    /// Signed distance from the edge [video px]; positive to its right. u, v: position [video px].
     [[nodiscard]] double beyond(double u, double v) const {
         const double a = degrees * std::numbers::pi / 180;
         return (u - 26.3) * std::cos(a) + (v - 18) * std::sin(a);
@@ -231,8 +231,8 @@ struct EdgeScene {
                 s.real.push_back({beyond(x, y) < 0 ? 1.0 : 0.25, 0.01});
         return s;
     }
-    /// Mean distance between the line of half visibility and the edge [video px]: the area between
-    /// both, divided by the edge's length.
+    /// Mean distance between the true edge and the line of half visibility [video px]: the area
+    /// between both, divided by the length of the edge.
     [[nodiscard]] double errorOf(const LaidOver& got) const {
         const double step = static_cast<double>(coarse.width) / fine.width;
         double wrong = 0;
@@ -254,7 +254,7 @@ TEST_P(OcclusionTest, PartlyOccludedObjectEndsAtTheImageEdge) {
         }
 }
 
-/// A layer with its own size, over black, without real occluders.
+/// A layer with another size than the output, over black, without real objects in front.
 class ScaledLayer : public OcclusionTest {
 protected:
     static constexpr Size kVideo{40, 30}, kOutput{160, 120};
@@ -270,7 +270,7 @@ INSTANTIATE_TEST_SUITE_P(Engines, ScaledLayer, testing::Values(EngineKind::Gles,
 
 TEST_P(ScaledLayer, ColoursAreLinearBetweenItsPixels) {
     constexpr Size kHalf{80, 60};
-    // Texture units of software renderers have 8-bit weights.
+    // Tolerance: the texture units of software renderers have weights of 8 bits.
     const double most = GetParam() == EngineKind::Gles ? 1.01 : 0.53;
     LaidLayer layer{kHalf};
     layer.colour = [](int x, int y) {
@@ -284,7 +284,7 @@ TEST_P(ScaledLayer, ColoursAreLinearBetweenItsPixels) {
         ASSERT_NEAR(got.at(50, y, 1), 4 * ((y + 0.5) / 2 - 0.5), most) << y;
 }
 
-TEST_P(ScaledLayer, EdgeTakesDepthOfThePixelThatHasOne) {
+TEST_P(ScaledLayer, EdgesTakeTheDepthOfTheCoveredPixel) {
     constexpr Size kQuarter{40, 30};
     for (const double nothing : {0.0, kNan, -1.0}) {
         LaidLayer layer{kQuarter};
@@ -295,8 +295,8 @@ TEST_P(ScaledLayer, EdgeTakesDepthOfThePixelThatHasOne) {
         layer.z = [&](int x, int) { return x == 20 ? 2 : nothing; };
         layer.bounds = {20, 0, 21, kQuarter.height};
         const LaidOver got = runOverBlack(layer);
-        // The centre of pixel 20 is at output 81.5; its tent reaches four output pixels to both
-        // sides.
+        // The centre of layer pixel 20 is at output position 81.5. Its tent reaches four output
+        // pixels to each side.
         for (int x = 0; x < kOutput.width; ++x) {
             const double tent = std::max(1 - std::abs(x - 81.5) / 4, 0.0);
             ASSERT_NEAR(got.at(x, 60, 0), 200 * tent, 1.01) << x;

@@ -13,21 +13,22 @@
 
 namespace mfar {
 
-/// Sampling of a pattern: pixel (x, y) shows the pattern around ((x, y) + 0.5) step - 0.5 + shift,
-/// averaged over a square of `footprint` pattern units.
+/// How a pattern is sampled: pixel (x, y) is the mean over a square of `footprint` pattern units
+/// around ((x, y) + 0.5) step - 0.5 + shift.
 struct Shot {
     double step = 1;
     Eigen::Vector2d shift{0, 0};
     double footprint = 1;
-    double gain = 1, offset = 0;  ///< of the grey levels
+    double gain = 1, offset = 0;  ///< applied to the grey levels
     PixelFormat format = PixelFormat::Rgba8;
 };
 
-/// A random pattern with known values at every position: a sum of plane waves, in grey levels.
-/// Wavelengths are distributed uniformly in the logarithm.
+/// A random pattern that is known at every position: a sum of plane waves, in grey levels. The
+/// logarithms of their wavelengths are uniformly distributed.
 class Waves {
 public:
-    /// Wavelengths in pattern units; contrast = standard deviation [grey levels].
+    /// `shortest`, `longest`: wavelengths [pattern units]. `contrast`: standard deviation [grey
+    /// levels].
     Waves(unsigned seed, double shortest, double longest, double contrast, int count = 48);
     [[nodiscard]] TestPicture shoot(Size size, const Shot& shot) const;
 
@@ -42,21 +43,22 @@ private:
                                         PixelFormat f = PixelFormat::Rgba8);
 /// Alternating black and white pixels.
 [[nodiscard]] TestPicture checkerboard(Size size);
-/// Adds the same Gaussian noise to all channels of each pixel.
+/// Adds Gaussian noise. All channels of a pixel get the same noise.
 void addNoise(TestPicture& picture, double sigma, unsigned seed);
-/// Peak signal-to-noise ratio [dB] for a peak of 255.
+/// Peak signal-to-noise ratio for a peak of 255 [dB].
 [[nodiscard]] double psnr(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b);
 
-/// Two ideal cameras at the same place: the still shows the video's view at another resolution.
+/// Two cameras without distortion at the same place. The still shows the video's view at another
+/// resolution.
 [[nodiscard]] StereoRig plainRig(Size video, Size still);
-/// Two different lenses, rotated by some degrees relative to each other.
+/// Two cameras with different distorting lenses, rotated against each other by some degrees.
 [[nodiscard]] StereoRig bentRig(Size video, Size still);
 
 [[nodiscard]] gpu::Texture uploaded(const TestPicture& p, gpu::Filter f = gpu::Filter::Nearest);
 [[nodiscard]] RgbPlanes planesOf(const TestPicture& p);
-/// The values that shaders sample, including the swizzle: RGBA8.
+/// The values that a shader gets when it samples the texture, as RGBA8, with its swizzle.
 [[nodiscard]] std::vector<std::uint8_t> sampled(const gpu::Texture& texture);
-/// A texture from four floats a texel.
+/// A texture of four floats per texel.
 [[nodiscard]] gpu::Texture floatTexture(Size size, gpu::TexelFormat format,
                                         const std::vector<float>& values,
                                         gpu::Filter f = gpu::Filter::Nearest);

@@ -8,10 +8,10 @@
 namespace mfar {
 namespace {
 
-// Half an 8-bit step, plus single precision for values between two steps.
+// Tolerance: half an 8-bit step, plus single precision for values between two steps.
 constexpr double kToABit = 0.501;
 
-/// Requirements on the steps of both engines, tested through the pipeline's interface.
+/// Requirements on the steps of both engines, tested through the engines' common interface.
 class StepsTest : public GlTest, public testing::WithParamInterface<EngineKind> {
 protected:
     static std::unique_ptr<Engine> engineFor(const StereoRig& rig, Size output = {64, 48}) {
@@ -23,7 +23,7 @@ protected:
 INSTANTIATE_TEST_SUITE_P(Engines, StepsTest, testing::Values(EngineKind::Gles, EngineKind::Simd),
                          engineOfTest);
 
-/// Work with all tiles changed and matched.
+/// Work in which all tiles are changed and matched.
 TileWork everything(Size video) {
     TileWork work;
     work.tiles = tilesOf(video);
@@ -33,10 +33,10 @@ TileWork everything(Size video) {
     return work;
 }
 
-/// A level as stored; checks that its margin repeats the border.
+/// A level as it is stored. Checks that its margin repeats the border.
 twin::Grey levelOf(const LumaPyramid& pyramid, const LumaLevel& level) {
     const std::uint32_t* words = pyramid.words.host().data + level.offset;
-    const auto stored = [&](int x, int y) {  // columns begin at x = -8
+    const auto stored = [&](int x, int y) {  // the stored columns begin at x = -8
         const std::uint32_t word =
             words[static_cast<std::ptrdiff_t>(y) * level.pitch + (x + 8) / 4];
         return static_cast<double>((word >> (8 * (x & 3))) & 255U);
@@ -59,7 +59,7 @@ double worstOf(const twin::Grey& got, const twin::Grey& wanted) {
     return out;
 }
 
-TEST_P(StepsTest, PyramidOfTheVideoIsSmoothedAndHalved) {
+TEST_P(StepsTest, VideoPyramidIsSmoothedAndHalved) {
     for (const Size size : {Size{64, 48}, Size{101, 59}, Size{213, 119}})
         for (const PixelFormat format : {PixelFormat::Rgba8, PixelFormat::Gray8}) {
             const TestPicture picture = randomPicture(size, 1, format);
@@ -78,7 +78,7 @@ TEST_P(StepsTest, PyramidOfTheVideoIsSmoothedAndHalved) {
         }
 }
 
-TEST_P(StepsTest, PyramidOfTheStillIsSeenThroughTheRig) {
+TEST_P(StepsTest, StillPyramidIsResampledToTheVideosGeometry) {
     for (const StereoRig& rig : {plainRig({96, 72}, {345, 259}), plainRig({96, 72}, {96, 72}),
                                  bentRig({97, 71}, {350, 256})}) {
         const TestPicture still = Waves(3, 12, 200, 40).shoot(rig.still.size, {});
@@ -86,14 +86,14 @@ TEST_P(StepsTest, PyramidOfTheStillIsSeenThroughTheRig) {
         const auto prepare = engine->still();
         const auto step = engine->pyramid();
         const LumaPyramid& pyramid = step->still(prepare->run(still.view(), SuperResMode::Detail));
-        // The shaders' filter has 8-bit weights; the kernels round luma before.
+        // Tolerance: the shaders' filter has weights of 8 bits; the kernels round luma before.
         EXPECT_LE(worstOf(levelOf(pyramid, pyramid.still[0]),
                           twin::lumaFromStill(twin::luma(still.view()), rig)),
                   kToABit + 1);
     }
 }
 
-TEST_P(StepsTest, PyramidsKeepTheRange) {
+TEST_P(StepsTest, PyramidsKeepBlackAndWhite) {
     const Size size{70, 60};
     for (const std::uint8_t fill : {0, 255}) {
         const TestPicture flat(size, PixelFormat::Rgba8, fill);
@@ -108,7 +108,7 @@ TEST_P(StepsTest, PyramidsKeepTheRange) {
     }
 }
 
-/// The luma with raised detail, as the engine that made it reads it.
+/// Luma with amplified detail, as the engine that made it reads it.
 twin::Grey raisedOf(const StillPictures& still) {
     EXPECT_NE(still.raised.isEmpty(), still.pairs.isEmpty());
     if (still.pairs.isEmpty()) {
@@ -119,7 +119,7 @@ twin::Grey raisedOf(const StillPictures& still) {
     return twin::greyOf(pairs.size, [&](int x, int y) { return double(pairs[y][x] & 255); });
 }
 
-TEST_P(StepsTest, FinestDetailOfTheStillIsRaisedUnlessItIsReduced) {
+TEST_P(StepsTest, FinestDetailOfTheStillIsAmplifiedUnlessTheStillIsReduced) {
     const StereoRig rig = plainRig({50, 35}, {200, 140});
     for (const auto& [output, share] : {std::pair{Size{200, 140}, 0.08}, {Size{100, 70}, 0.0}})
         for (const PixelFormat format : {PixelFormat::Rgba8, PixelFormat::Gray8}) {
@@ -162,12 +162,12 @@ TEST_P(StepsTest, WithoutAStillTheVideoIsEnlarged) {
     for (const Size output : {Size{191, 133}, Size{61, 140}, Size{424, 296}})
         for (const bool cubic : {true, false}) {
             const auto engine = engineFor(plainRig(video, output), output);
-            // Shaders round columns to 8 bits; kernels have rows in 1/64 grey level and products in
-            // 1/32.
+            // Tolerance: shaders round columns to 8 bits; kernels have rows in 1/64 grey level and
+            // products in 1/32.
             const double gain = cubic ? twin::kCubicGain : 1;
             const double most = isGles() ? 0.51 * (1 + gain) : 0.65;
             expectEnlarged(*engine, Waves(1, 3, 40, 20).shoot(video, {}), output, cubic, most);
-            // Shaders clamp columns that leave a byte's range; kernels do not clamp rows.
+            // Shaders clamp columns to a byte's range; kernels do not clamp rows.
             if (isGles()) continue;
             expectEnlarged(*engine, randomPicture(video, 2), output, cubic, most);
             expectEnlarged(*engine, checkerboard(video), output, cubic, most);

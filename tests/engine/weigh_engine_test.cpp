@@ -30,7 +30,7 @@ TEST_F(WeighEngines, BothEnginesGiveTheSameWeights) {
     TestPicture picture = waves.shoot(kVideo, {});
     addNoise(picture, 1.5, 1);
     plan.matchStructured(0.6);
-    for (int i = 0; i < 20; ++i)  // until the noise is known
+    for (int i = 0; i < 20; ++i)  // after these frames the noise is known
         plan.update(planesOf(picture), planesOf(picture), true);
     const TileWork& work = plan.work();
     tiles.set(work);

@@ -24,7 +24,7 @@
 namespace mfar::faults {
 namespace {
 
-/// Followed by the still camera's trigger settings and super-resolution.
+/// The settings of the still camera's trigger and of super-resolution are appended.
 constexpr std::string_view kConfiguration = R"(source = "cameras"
 [record]
 least_free_mb = 0
@@ -55,7 +55,7 @@ rate_hz = 2.0
 )";
 constexpr std::string_view kNoTrigger = "rate_hz = 5.0\n";
 
-/// Followed by its mode.
+/// The mode is appended.
 constexpr std::string_view kSuperRes = R"([superres]
 learn = false
 )";
@@ -72,8 +72,8 @@ constexpr std::array<std::string_view, 6> kBad = {
 constexpr std::array<Ns, 4> kSteps = {3600 * kSecond, -3600 * kSecond, 315'360'000 * kSecond,
                                       -315'360'000 * kSecond};
 
-// Renames, so that a reader finds the old or the new file. Not affected by faults of disk and
-// descriptors.
+// Replaces a file by renaming, so that a reader finds either the old or the new file. Faults of
+// disk and descriptors do not affect this.
 void replace(const std::string& file, std::string_view text) {
     rlimit limit{};
     getrlimit(RLIMIT_NOFILE, &limit);
@@ -129,7 +129,7 @@ void Board::setUp(const Plan& plan) {
 }
 
 void Board::writeDevice(Where which) const {
-    // Only the video picture's time appears on the screen.
+    // Only the time of the video picture appears on the screen; so stills have none.
     std::string text = which == Where::Still ? "plain " : "";
     if (which == Where::Still && hasTrigger_) text += "triggered ";
     for (const Fault* fault : active_)
@@ -178,7 +178,7 @@ void Board::disturb(const Fault& fault, int by) {
         return Scheduler::get().stepWall(by * kSteps[static_cast<std::size_t>(fault.number)]);
     case Where::Disk: (fault.number == 0 ? diskFull_ : diskHangs_) += by; return;
     case Where::Descriptors:
-        // If two overlap, both end with the first.
+        // If two such faults overlap, both end with the first.
         if (by > 0) return limitDescriptors(fault.number);
         if (descriptors_) setrlimit(RLIMIT_NOFILE, &*descriptors_);
         return descriptors_.reset();
@@ -186,7 +186,7 @@ void Board::disturb(const Fault& fault, int by) {
     }
 }
 
-/// Allows `free` descriptors in addition to the open ones.
+/// Allows only `free` descriptors more than are open.
 void Board::limitDescriptors(int free) {
     if (descriptors_) return;
     rlimit limit{};
@@ -200,7 +200,7 @@ void Board::limitDescriptors(int free) {
 
 void Board::changeConfiguration(const Fault& fault) {
     const auto which = static_cast<std::size_t>(fault.number);
-    if (!Judge::get().isReady()) return;  // nobody would handle the signal
+    if (!Judge::get().isReady()) return;  // too early: nothing would handle the signal
     replace("mfard.toml", configuration_ + std::string(which < kBad.size() ? kBad[which] : ""));
     kill(getpid(), SIGHUP);
 }

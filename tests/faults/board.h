@@ -13,7 +13,7 @@
 namespace mfar::faults {
 
 /// The surroundings of mfard, in the current folder: two simulated cameras, a pipe whose other end
-/// is the screen, a configuration file, a disk. Faults act on them.
+/// is the screen, a configuration file, and a disk. Faults act on them.
 class Board {
 public:
     static Board& get();
@@ -25,7 +25,7 @@ public:
 
     [[nodiscard]] bool readerStalls() const { return readerStalls_ > 0; }
     [[nodiscard]] bool diskIsFull() const { return diskFull_ > 0; }
-    /// True if the trigger's line has its level without a pulse, or if there is no line.
+    /// True if the trigger line has the level that it has without a pulse, or if there is no line.
     [[nodiscard]] bool lineRests() const;
     [[nodiscard]] bool diskHangs() const { return diskHangs_ > 0; }
 
@@ -45,7 +45,7 @@ private:
     bool hasTrigger_ = false;
     std::vector<const Fault*> active_;
     std::vector<int> clients_;
-    std::optional<rlimit> descriptors_;  ///< limit before it was lowered
+    std::optional<rlimit> descriptors_;  ///< limit of descriptors before it was lowered
     int readerStalls_ = 0, diskFull_ = 0, diskHangs_ = 0;
 };
 

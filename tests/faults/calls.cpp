@@ -1,5 +1,5 @@
-// Calls for waiting and for the time, replaced by preloading this library, see Scheduler. The
-// calling thread has the turn. Locks are the C library's own and are tried until they are free.
+// Calls that wait or read the time. The preloaded library replaces them, see Scheduler. The calling
+// thread has the turn. Locks are those of the C library and are tried until they are free.
 
 #include "tests/faults/real_calls.h"
 #include "tests/faults/scheduler.h"
@@ -82,8 +82,8 @@ bool isOurs(clockid_t clock) {
            clock == CLOCK_MONOTONIC_COARSE || clock == CLOCK_BOOTTIME;
 }
 
-/// Converts to the scheduler's clock. A step of the wall clock does not move deadlines of waits in
-/// progress.
+/// Converts a time to the scheduler's clock. A step of the wall clock does not move the deadlines
+/// of waits that are in progress.
 Ns deadlineOf(clockid_t clock, const timespec* time) {
     if (time == nullptr) return kNever;
     return nsOf(*time) - (isWall(clock) ? Scheduler::get().wallOffset() : 0);
@@ -93,7 +93,8 @@ Ns deadlineIn(Ns time) {
     return Scheduler::get().look() + std::max<Ns>(time, 0);
 }
 
-/// Repeats `attempt` until it succeeds; the releasing thread wakes waiters with the same key.
+/// Repeats `attempt` until it succeeds. The thread that releases a lock wakes the threads that wait
+/// with the same key.
 template <class Attempt>
 int lockWith(const void* key, Attempt attempt, Ns deadline = kNever) {
     Scheduler& all = Scheduler::get();
@@ -116,7 +117,7 @@ int unlock(pthread_mutex_t* mutex) {
     return error;
 }
 
-/// Conditions whose timeouts use the monotonic clock. Never destroyed.
+/// Condition variables whose timeouts use the monotonic clock. Never destroyed.
 std::set<const pthread_cond_t*>& monotonicConditions() {
     static auto* all = new std::set<const pthread_cond_t*>;
     return *all;
@@ -168,7 +169,7 @@ void sleepUntil(Ns deadline) {
 
 using namespace mfar::faults;
 
-// Clocks.
+// Replacements for clocks.
 
 MFAR_TAKES_OVER int clock_gettime(clockid_t clock, timespec* out) noexcept {
     if (!isOurs(clock)) return real().clock(clock, out);
@@ -212,7 +213,7 @@ MFAR_TAKES_OVER int sched_yield() noexcept {
     return 0;
 }
 
-// Threads.
+// Replacements for threads.
 
 MFAR_TAKES_OVER int pthread_create(pthread_t* thread, const pthread_attr_t* attributes,
                                    void* (*start)(void*), void* argument) noexcept {
@@ -336,7 +337,7 @@ MFAR_TAKES_OVER long syscall(long number, ...) noexcept {
     return real().syscall(number, a[0], a[1], a[2], a[3], a[4], a[5]);
 }
 
-// Files.
+// Replacements for files.
 
 MFAR_TAKES_OVER int poll(pollfd* fds, nfds_t count, int ms) {
     Scheduler& all = Scheduler::get();

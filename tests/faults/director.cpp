@@ -1,5 +1,5 @@
-// Runs a schedule of faults inside mfard's process and queries its status all the time. Part of the
-// preloaded library: it starts before main() and ends with the process.
+// Applies a schedule of faults inside mfard's process and keeps requesting its status. As part of
+// the preloaded library, it starts before main() and ends with the process.
 
 #include "daemon/tools/control_client.h"
 #include "tests/faults/board.h"
@@ -27,10 +27,10 @@ namespace mfar::faults {
 namespace {
 
 constexpr Ns kUs = 1000;
-constexpr Ns kEndTime = 3 * kSecond;  ///< upper limit from SIGTERM to the end
-/// Upper limit from the start to READY, whatever devices do.
+constexpr Ns kEndTime = 3 * kSecond;  ///< longest time from SIGTERM to the end
+/// Longest time from the start to READY, whatever the devices do.
 constexpr Ns kReadyTime = 5 * kSecond;
-/// Pause between episodes: late effects have ended, and mfard is checked without faults.
+/// Pause between episodes. In it, late effects end, and mfard is checked without faults.
 constexpr Ns kQuiet = 4500 * kMs;
 
 long numberOf(const char* variable, long otherwise) {
@@ -68,7 +68,7 @@ struct Step {
 std::vector<Step> stepsOf(const Episode& episode) {
     std::vector<Step> steps;
     for (const Fault& fault : episode) {
-        // A loose plug is disconnected several times.
+        // A loose plug is unplugged several times.
         const int times = fault.kind->name.ends_with("loose plug") ? 5 : 1;
         for (int i = 0; i < times; ++i) {
             const Ns part = fault.length / (2 * times - 1);
@@ -81,7 +81,7 @@ std::vector<Step> stepsOf(const Episode& episode) {
     return steps;
 }
 
-/// Sends a request that may fail because of another fault.
+/// Sends a request that another fault may cause to fail.
 void request(nlohmann::json what) {  // NOLINT(performance-unnecessary-value-param): of a thread
     try {
         static_cast<void>(ask(Board::kSocket, what));
@@ -90,7 +90,7 @@ void request(nlohmann::json what) {  // NOLINT(performance-unnecessary-value-par
     }
 }
 
-// Disk faults begin during a recording.
+// Disk faults begin while a recording runs.
 void apply(const Step& step) {
     static int recordings = 0;
     const bool ofDisk = step.fault->kind->where == Where::Disk;
@@ -104,10 +104,10 @@ void apply(const Step& step) {
         Board::get().begin(*step.fault);
     } else {
         Board::get().end(*step.fault);
-        // Stopping waits for the disk, which another fault may block.
+        // Stopping a recording waits for the disk, which another fault may block.
         if (ofDisk)
             std::thread([] {
-                sleepFor(300 * kMs);  // a recording that the fault has delayed starts now
+                sleepFor(300 * kMs);  // a recording that the fault delayed starts now
                 request({{"command", "record"}, {"stop", true}});
             }).detach();
         Judge::get().ends(*step.fault);
@@ -127,9 +127,9 @@ void checkRecordings() {
 
 const Plan& plan();
 
-/// Upper limit of growth: a configuration that is read again may turn super-resolution's detail on,
-/// which takes 9 MiB in the software renderer. Losses of the context add nothing, regardless of
-/// their number.
+/// Largest allowed growth of memory. A reload may turn on the detail mode of super-resolution,
+/// which takes 9 MiB in the software renderer. Losses of the context add nothing, however many
+/// there are.
 std::uint64_t grows() {
     const bool mayTurnOn = std::getenv("MFAR_FAULTY_GL") != nullptr && plan().mode != "detail";
     return (mayTurnOn ? 20U : 8U) << 20U;
@@ -146,7 +146,7 @@ void checkGrowth(std::uint64_t moreBytes = grows()) {
 void checkLine() {
     for (int i = 0; i < 5; ++i) {
         if (Board::get().lineRests()) return;
-        sleepFor(70 * kMs);  // there may be a pulse at the moment
+        sleepFor(70 * kMs);  // a pulse may be in progress
     }
     Judge::get().fail("the trigger's line does not rest");
 }
@@ -162,10 +162,10 @@ void checkInQuiet() {
     }
 }
 
-/// True when the first thread's signal mask is its own again, not the one of begin().
+/// True once the first thread has its own signal mask again instead of that of begin().
 std::atomic<bool> hasItsMask = false;
 
-/// True if the first thread blocks SIGTERM; until then, SIGTERM ends the process at once.
+/// True if the first thread blocks SIGTERM. Before that, SIGTERM ends the process at once.
 bool blocksSigterm() {
     if (!hasItsMask) return false;
     std::ifstream status("/proc/self/status");
@@ -200,7 +200,7 @@ void runEpisode(const Episode& episode, Ns begin) {
     sleepFor(kQuiet);
 }
 
-/// Runs the last episode; the process may end in the middle of it.
+/// Runs the last episode, in which the process may end.
 void runLast(const Plan& plan) {
     const Ns begin = Scheduler::get().now();
     std::thread([at = begin + plan.endAfter, isKilled = plan.isKilled] {
@@ -221,7 +221,7 @@ void run(const Plan& plan) {
     runLast(plan);
 }
 
-/// Runs this number of frames without faults. Memory may grow in the first minutes.
+/// Runs this number of frames without faults. Memory may grow only in the first minutes.
 [[noreturn]] void soak(std::uint64_t frames) {
     constexpr std::uint64_t kMoreBytes = 1U << 20U;
     sleepFor(120 * kSecond);
@@ -249,7 +249,7 @@ void awaitReady() {
     if (Scheduler::get().now() - begin > kReadyTime) Judge::get().fail("it is ready late");
 }
 
-/// The run after a process in the same folder was killed.
+/// The run in a folder whose previous process was killed.
 [[noreturn]] void runAfterKill() {
     awaitReady();
     sleepFor(kQuiet);
@@ -277,12 +277,12 @@ void direct() {
 __attribute__((constructor)) void begin() {
     Judge::get();
     Board::get().setUp(plan());
-    // Signals are handled only by mfard's own threads.
+    // Only mfard's own threads may handle signals.
     sigset_t all, before;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
     std::thread(direct).detach();
-    // The director starts first, as its faults may have to precede everything else.
+    // The director starts first, because its faults may have to precede everything else.
     Scheduler::get().yield();
     for (void (*work)() : {&runScreen, &askAlways})
         std::thread(work).detach();

@@ -23,17 +23,17 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// The product's promises, see daemon/budgets.h and the service's unit.
+// What the product promises, see daemon/budgets.h and the service's unit.
 constexpr Ns kStale = 3 * kSecond, kMarked = 250 * kMs, kBack = 3 * kSecond;
 constexpr Ns kVideoBudget = 1500 * kMs, kWriter = 2500 * kMs;
 constexpr Ns kPicture = 2000 * kMs;
-constexpr Ns kRepeats = 200 * kMs;  ///< the time of some pictures
-constexpr Ns kLookTime = kSecond;   ///< interval in which mfard checks its threads
+constexpr Ns kRepeats = 200 * kMs;  ///< the duration of some pictures
+constexpr Ns kLookTime = kSecond;   ///< how often mfard checks its threads
 constexpr Ns kSameLine = 10 * kSecond;
 constexpr std::uint64_t kProvenFrames = 10;
-/// Tolerance of measurements: pictures have periods, and answers take time.
+/// Tolerance: pictures have periods, and answers take time.
 constexpr Ns kSlack = 100 * kMs;
-constexpr Ns kOnScreen = 500 * kMs;  ///< upper limit of a picture's age without faults
+constexpr Ns kOnScreen = 500 * kMs;  ///< greatest age of a picture without faults
 constexpr Ns kAnswer = kSecond;
 
 std::string seconds(Ns time) {
@@ -49,11 +49,11 @@ std::uint64_t entries(const char* folder) {
         std::distance(std::filesystem::directory_iterator(folder), {}));
 }
 
-/// The files that the descriptors refer to.
+/// Names of the files that the open descriptors refer to.
 std::multiset<std::string> openFiles() {
     std::multiset<std::string> out;
     for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
-        std::error_code error;  // the directory's own descriptor is closed by now
+        std::error_code error;  // the directory's own descriptor is already closed
         out.insert(std::filesystem::read_symlink(entry.path(), error).string());
     }
     return out;
@@ -115,7 +115,7 @@ void Judge::change(const Fault& fault, int by) {
 }
 
 void Judge::begins(const Fault& fault) {
-    // If the device is not open, opening it hangs, which may take far longer.
+    // If the device is closed, mfard is opening it, which may hang far longer.
     const bool wasSound = calm_[VideoDevice].lasts(kBack, now());
     const int before = calm_[VideoDevice].active;
     change(fault, 1);
@@ -137,19 +137,20 @@ void Judge::shows(Ns taken) {
     shown_ = taken;
 }
 
-// 0 before the first picture, when no picture can be stale.
+// Returns 0 before the first picture, because no picture can be stale then.
 Ns Judge::age(Ns at) const {
     return shown_ ? at - *shown_ : 0;
 }
 
-/// How long the video camera has sent nothing because of its fault.
+/// How long a fault of the video camera has kept it from sending.
 Ns Judge::missing(Ns at) const {
     const Calm& device = calm_[VideoDevice];
     return device.active > 0 ? std::min(age(at), at - device.since) : 0;
 }
 
-/// How long the GPU has finished no picture because of its fault. 0 during the first pictures,
-/// which may take longer, without a camera, and after the GPU was given up, when it draws nothing.
+/// How long a fault of the GPU has kept it from finishing a picture. 0 in three cases: during the
+/// first pictures, which may take longer; without a camera; after mfard has given up the GPU, which
+/// then draws nothing.
 Ns Judge::unfinished(Watched gpu, Ns at) const {
     if (calm_[gpu].active == 0 || calm_[Video].active > 0) return 0;
     if (frames_ < kProvenFrames || isGpuGivenUp_) return 0;
@@ -171,15 +172,16 @@ void Judge::judgeState(const ordered_json& said, Ns asked) {
     isGpuGivenUp_ = isGpuGivenUp_ || cause.find("the CPU draws") != cause.npos;
     const std::string fault = textOf(said, "fault");
     const bool isFine = state == "ok" && fault.empty();
-    // A pipe without a reader takes some pictures; then one may wait for the writer's whole budget.
+    // A pipe without a reader takes some pictures. The next picture may wait for the whole budget
+    // of the writer.
     const Ns stalled = asked - std::max(calm_[Screen].since, calm_[Video].since);
-    // A repeated picture is recognised only after some pictures.
+    // A repeated picture is recognised only after several pictures.
     const bool repeats = calm_[Video].active > calm_[VideoDevice].active;
     const bool isKnown = (calm_[Screen].active == 0 || stalled > kWriter) &&
                          (!repeats || calm_[VideoDevice].lasts(kRepeats, asked));
     if (age(asked) > kStale + kSlack && isFine && isKnown)
         fail("the screen's picture is " + seconds(age(asked)) + " old, status says ok");
-    // Cameras are checked between pictures.
+    // mfard checks cameras only between pictures.
     if (missing(asked) > kMarked + kSlack && isFine && calm_[Drawing].lasts(kMarked, asked))
         fail("the video camera has sent nothing for " + seconds(missing(asked)) +
              ", status says ok");
@@ -187,7 +189,7 @@ void Judge::judgeState(const ordered_json& said, Ns asked) {
         fail("the GPU has finished no picture for " + seconds(unfinished(Gpu, asked)) +
              ", status says ok");
     if (!calm_[All].lasts(kBack + kSlack, asked) || frames_ < kProvenFrames) return;
-    // The status names a failed GPU for a minute, or permanently.
+    // The status reports a failed GPU for a minute, or permanently.
     const bool namesGpu = hadGpuFaults_ && cause.find("the GPU failed") != cause.npos;
     if (!isFine && !namesGpu)
         fail(fmt::format("nothing has been wrong for {}, status says {}: {} {}",
@@ -198,7 +200,7 @@ void Judge::judgeState(const ordered_json& said, Ns asked) {
              ", the screen's picture is " + seconds(age(asked)) + " old");
 }
 
-// A camera's fault must not be attributed to the other one.
+// Checks that a fault of one camera is not attributed to the other.
 void Judge::judgeBlame(const std::string& fault, Ns asked) {
     if (!calm_[Slow].lasts(kBack, asked)) return;
     const bool video = calm_[Video].lasts(kBack + kSlack, asked);
@@ -245,14 +247,14 @@ void Judge::fed() {
         fail("the watchdog is fed with a picture that is " + seconds(age(now())) + " old");
 }
 
-// Answers to requests are logged each time.
+// Answers to requests are logged every time.
 void Judge::logSays(std::string_view text) {
     logBytes_ += text.size();
     std::string all(text.substr(0, text.find_last_not_of('\n') + 1));
     note("log: " + std::regex_replace(all, std::regex("\n"), "\n             log: "));
-    // At the end, suppressed messages are logged.
+    // At the end, suppressed messages are logged too.
     if (isEnding() || all.find("mfard.toml") != all.npos) return;
-    // The text without duration and number of suppressed messages.
+    // The text without its duration and without the number of suppressed messages.
     const std::string event =
         std::regex_replace(all, std::regex(R"( \((degraded|stalled|once)[^)]*\))"), "");
     const auto before = logged_.find(event);

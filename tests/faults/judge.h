@@ -15,33 +15,34 @@
 
 namespace mfar::faults {
 
-/// Compares what mfard reports with the facts. Each violated rule is a line in the report. Only one
-/// thread at a time calls it, see Scheduler.
+/// Compares what mfard reports with the facts. The report gets a line for each violated rule. Only
+/// one thread at a time calls this, see Scheduler.
 class Judge {
 public:
-    /// The process's judge, which writes to the file named by MFAR_FAULTS_REPORT.
+    /// The judge of this process. It writes to the file that MFAR_FAULTS_REPORT names.
     static Judge& get();
 
-    // The facts.
+    // Facts that the surroundings report.
     void begins(const Fault& fault);
     void ends(const Fault& fault);
     /// The screen shows a picture that was taken at this time.
     void shows(Ns taken);
 
-    // Actions and messages of mfard.
+    // What mfard does and says.
     void serviceHears(std::string_view text);
     void logSays(std::string_view text);
     void status(const nlohmann::ordered_json& said, Ns asked);
     void answersNot(const std::string& why, Ns asked);
-    void terminated();  ///< mfard was asked to end
+    void terminated();  ///< mfard got the request to end
     void ended(int code, bool inTime);
-    /// Without faults: compares the counts of invalid pictures in `stats` with those that cameras
-    /// sent.
+    /// Called without faults: compares the counts of invalid pictures in `stats` with those that
+    /// the cameras sent.
     void stats(const nlohmann::ordered_json& said);
     /// Checks that a finished recording can be read.
     void recording(const std::string& folder);
-    /// Checks memory, descriptors and threads without faults; the first call sets the reference.
-    /// False if there is more than that: requests in progress may end soon.
+    /// Checks memory, descriptors and threads while there are no faults. The first call sets the
+    /// reference. Returns false if the process holds more; the caller may try again, because
+    /// requests in progress may end soon.
     [[nodiscard]] bool holdsNoMore(std::uint64_t moreBytes = 8U << 20U);
 
     void note(const std::string& text);
@@ -53,7 +54,7 @@ public:
     [[nodiscard]] std::uint64_t frames() const { return frames_; }
 
 private:
-    /// Time since the last such fault ended.
+    /// Time since the last fault of a kind ended.
     struct Calm {
         int active = 0;
         Ns since = 0;
@@ -79,13 +80,13 @@ private:
     int report_ = 2;
     std::array<Calm, WatchedCount> calm_{};
     std::optional<Ns> ready_, terminated_, shown_, fed_;
-    std::optional<Ns> hangs_;  ///< since when the video driver hangs, without another fault of it
+    std::optional<Ns> hangs_;  ///< since when the video driver hangs without another fault of it
     std::uint64_t frames_ = 0, asked_ = 0, meals_ = 0, failures_ = 0;
     std::map<std::string, Ns> logged_;
     std::uint64_t logBytes_ = 0;
     bool hadGpuFaults_ = false, isGpuGivenUp_ = false;
     struct Held {
-        std::multiset<std::string> files;  ///< files that descriptors refer to
+        std::multiset<std::string> files;  ///< files that open descriptors refer to
         std::uint64_t threads = 0, bytes = 0;
     };
     std::optional<Held> first_;

@@ -1,5 +1,5 @@
-// mfar-faults: runs mfard with schedules of faults until the time is over or mfard breaks one of
-// its promises.
+// mfar-faults runs mfard with schedules of faults until the time is over or mfard breaks one of its
+// promises.
 #include "tests/faults/plan.h"
 #include "tests/faults/trial.h"
 #include "tests/stability/seeded_run.h"

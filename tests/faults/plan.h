@@ -23,23 +23,23 @@ enum class Where {
     Gpu
 };
 
-/// A fault's observable effect, from which the judge derives its rules.
+/// The observable effect of a fault. The judge derives its rules from it.
 enum class Effect {
     None,         ///< pictures continue
-    StopsDevice,  ///< no new picture comes from the camera, which must be reported
-    HangsDriver,  ///< as StopsDevice, and a thread of mfard hangs
-    Repeats,      ///< a camera repeats one picture
-    StopsReader,  ///< the screen reads nothing
-    StopsGpu,     ///< no picture is finished, which must be reported, but not as a camera's fault
-    HangsGpu,     ///< as StopsGpu, and the drawing thread hangs
-    Slows,        ///< times cannot be judged
+    StopsDevice,  ///< the camera sends no new picture; this must be reported
+    HangsDriver,  ///< like StopsDevice; a thread of mfard hangs too
+    Repeats,      ///< a camera sends the same picture again and again
+    StopsReader,  ///< the screen does not read
+    StopsGpu,     ///< no picture is finished; must be reported, but not as a camera's fault
+    HangsGpu,     ///< like StopsGpu; the drawing thread hangs too
+    Slows,        ///< everything is slow, so times cannot be judged
 };
 
 struct Kind {
     std::string_view name;
     Where where;
     Effect effect;
-    std::string_view words;   ///< for the file of the camera or GPU; * is replaced by a number
+    std::string_view words;   ///< words for the file of the camera or GPU; a number replaces *
     int least = 0, most = 0;  ///< range of this number
 };
 
@@ -50,20 +50,20 @@ struct Fault {
     [[nodiscard]] std::string text() const;
 };
 
-/// One fault, or two that overlap, and time to recover.
+/// One fault, or two that overlap, followed by time to recover.
 using Episode = std::vector<Fault>;
 
 struct Plan {
     bool beginsBroken = false;                  ///< the first episode begins before the program
     std::string_view mode;                      ///< super-resolution mode
-    [[nodiscard]] bool recordsAtStart() const;  ///< to a disk that is faulty at the start
+    [[nodiscard]] bool recordsAtStart() const;  ///< true if the disk is also faulty at the start
     std::vector<Episode> episodes;
-    Ns endAfter = 0;               ///< time of the signal, from the start of the last episode
-    bool hasTrigger = false;       ///< the still camera waits for the trigger
-    bool endsBeforeReady = false;  ///< or soon after; nobody waits for READY
-    bool isKilled = false;         ///< with SIGKILL instead of SIGTERM; then it is started again
+    Ns endAfter = 0;               ///< time of the signal after the start of the last episode
+    bool hasTrigger = false;       ///< the still camera waits for trigger pulses
+    bool endsBeforeReady = false;  ///< mfard ends before or soon after READY
+    bool isKilled = false;         ///< ended with SIGKILL instead of SIGTERM, then started again
 
-    /// Draws from the kinds whose names contain `only`. Throws std::runtime_error if there is none.
+    /// Draws from the kinds whose names contain `only`. Throws std::runtime_error if no name does.
     [[nodiscard]] static Plan drawn(std::uint64_t seed, int episodes, std::string_view only,
                                     bool hasGpu);
 };

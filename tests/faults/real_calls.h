@@ -8,7 +8,7 @@
 
 namespace mfar::faults {
 
-/// The C library's functions that calls.cpp replaces.
+/// The functions of the C library that calls.cpp replaces.
 struct RealCalls {
     int (*clock)(clockid_t, timespec*);
     long (*syscall)(long, ...);

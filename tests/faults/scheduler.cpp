@@ -18,7 +18,7 @@ namespace mfar::faults {
 
 struct Scheduler::Task {
     std::atomic<int> turn{0};
-    /// The task waits for this key, or for its files; null: it is ready.
+    /// The key that the task waits for; its files also wake it. Null: the task is ready.
     const void* key = nullptr;
     pollfd* files = nullptr;
     nfds_t fileCount = 0;
@@ -35,7 +35,7 @@ struct Scheduler::Task {
 
 namespace {
 
-// Files are checked once in this number of turns while tasks are ready.
+// While tasks are ready, files are checked once in this number of turns.
 constexpr std::uint64_t kFileTurns = 16;
 constexpr std::uint64_t kLocksPerYield = 16;
 constexpr int kIdleMs = 100, kMostIdle = 100;
@@ -117,7 +117,7 @@ void Scheduler::checkFiles() {
     }
 }
 
-// Jumps to the next deadline. Without one, only another process can wake a task.
+// Jumps to the next deadline. If there is none, only another process can wake a task.
 void Scheduler::advance() {
     Ns first = kNever;
     for (const Task* task : tasks_)
@@ -221,7 +221,7 @@ void* Scheduler::begin(void* argument) {
     return task->start(task->argument);
 }
 
-// Destructors of thread-local data may lock: this must be the last round.
+// Destructors of thread-local data may lock; so this must run in the last round of destructors.
 void Scheduler::end(void* argument) {
     auto* task = static_cast<Task*>(argument);
     if (++task->cleanUps < PTHREAD_DESTRUCTOR_ITERATIONS) {

@@ -14,41 +14,41 @@ using Ns = std::int64_t;
 constexpr Ns kNever = std::numeric_limits<Ns>::max();
 constexpr Ns kMs = 1'000'000, kSecond = 1'000'000'000;
 
-/// Runs the threads of this process one at a time on a simulated clock, which advances a little
-/// with each reading and jumps to the next deadline when every thread waits. So an hour of waiting
-/// costs nothing; and as the next thread is drawn from a seed, a run can be repeated.
+/// Runs the threads of this process one at a time on a simulated clock. The clock advances a little
+/// with each reading and jumps to the next deadline when every thread waits; so an hour of waiting
+/// costs nothing. The next thread is drawn from a seed; so a run can be repeated.
 ///
 /// A thread gives up its turn where it waits (see calls.cpp), and sometimes where it locks. Only
-/// the thread with the turn calls these functions, so nothing here is locked.
+/// the thread that has the turn calls these functions; so they need no lock.
 class Scheduler {
 public:
-    /// Created by the first call; never destroyed, as threads outlive main().
+    /// Created by the first call. Never destroyed, because threads outlive main().
     static Scheduler& get();
 
-    /// False in a thread that has given up its turn permanently, during the C library's last
-    /// clean-up.
+    /// False in a thread that has given up its turn for good, during the last clean-up by the C
+    /// library.
     [[nodiscard]] bool hasTurn() const;
 
     [[nodiscard]] Ns now() const { return now_; }
-    /// Reads the clock, after advancing it by the cost of a reading.
+    /// Advances the clock by the cost of a reading and returns it.
     [[nodiscard]] Ns look() { return now_ += cost_; }
     void setCost(Ns cost) { cost_ = cost; }
     /// Offset of CLOCK_REALTIME from the other clocks.
     [[nodiscard]] Ns wallOffset() const { return wallOffset_; }
     void stepWall(Ns by) { wallOffset_ += by; }
 
-    /// Waits for a wake() with this key; false at the deadline.
+    /// Waits until wake() is called with this key. Returns false at the deadline.
     bool waitFor(const void* key, Ns deadline = kNever);
-    /// Wakes the first `count` waiting tasks; returns their number.
+    /// Wakes the first `count` tasks that wait with this key. Returns the number of tasks woken.
     int wake(const void* key, int count = std::numeric_limits<int>::max());
-    /// As poll(), including -1 with errno.
+    /// Like poll(), including -1 with errno.
     int waitForFiles(pollfd* fds, nfds_t count, Ns deadline);
     /// Gives other tasks a turn.
     void yield();
-    /// Yields at some of the calls.
+    /// Yields in some of the calls.
     void maybeYield();
 
-    /// Makes a timer's descriptor readable at `first` (0: never), then every `period` (0: only
+    /// Makes a timer's descriptor readable at `first` (0: never), and then every `period` (0: only
     /// once).
     void setTimer(int fd, Ns first, Ns period);
     void addTimer(int fd) { timers_.push_back({fd, 0, 0}); }
@@ -56,7 +56,7 @@ public:
     // Start and end of threads.
     int create(pthread_t* thread, const pthread_attr_t* attributes, void* (*start)(void*),
                void* argument);
-    /// Returns when the thread executes no more code of this process.
+    /// Returns when the thread no longer executes code of this process.
     void waitForEnd(pthread_t thread);
 
     [[nodiscard]] std::uint64_t random() { return random_(); }

@@ -17,7 +17,7 @@
 namespace mfar::faults {
 namespace {
 
-/// Parses a Y4M stream.
+/// Reads a Y4M stream.
 class Reader {
 public:
     void add(std::span<const char> bytes) {
@@ -53,7 +53,7 @@ private:
             reinterpret_cast<const std::uint8_t*>(text_.data()) + at_ + kFrame.size();
         at_ += whole;
         if (const auto ms = pretended::stampOf({pixels, luma}, width_)) {
-            // The stamp contains only the time's lower bits.
+            // The stamp contains only the lower bits of the time.
             const std::int64_t now = Scheduler::get().now() / kMs;
             constexpr std::int64_t kMask = (1LL << pretended::kStampBits) - 1;
             Judge::get().shows((now - ((now - *ms) & kMask)) * kMs);
@@ -83,7 +83,7 @@ void runScreen() {
             std::this_thread::sleep_for(std::chrono::milliseconds(10));
         const ssize_t count = read(fd, bytes.data(), bytes.size());
         if (count > 0) reader.add({bytes.data(), static_cast<std::size_t>(count)});
-        // The pipe has no writer before mfard opens it and after it has closed it.
+        // The pipe has no writer before mfard opens it and after mfard closes it.
         if (count <= 0) std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
 }

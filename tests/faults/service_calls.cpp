@@ -1,5 +1,5 @@
-// Calls to the rest of the machine, replaced by preloading this library: the service manager, the
-// log, the disk, and the end of the process.
+// Calls to the rest of the machine: the service manager, the log, the disk, and the end of the
+// process. The preloaded library replaces them.
 
 #include "tests/faults/board.h"
 #include "tests/faults/judge.h"
@@ -22,7 +22,7 @@ using namespace mfar::faults;
 
 namespace {
 
-/// True only for files of a recording: mfard may need other files.
+/// True only for files of a recording, because mfard may need other files.
 bool isOnDisk(int fd) {
     std::error_code ignored;
     const auto file =
@@ -31,7 +31,7 @@ bool isOnDisk(int fd) {
 }
 
 __attribute__((destructor)) void atExit() {
-    // The status of exit() is unknown here; the parent process gets it.
+    // The exit status is unknown here; the parent process gets it.
     Judge::get().ended(0, true);
 }
 

@@ -27,11 +27,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Upper limits in real time: schedules take a second, a soak some minutes.
+/// Limits in real time. A schedule takes a second, a run without faults some minutes.
 constexpr std::chrono::minutes kTrialTime{2}, kSoakTime{60};
-constexpr std::size_t kContext = 40;  // number of lines printed before the first failure
+constexpr std::size_t kContext = 40;  // number of lines that are printed before the first failure
 
-/// A folder for one trial, removed with everything in it.
+/// A folder for one trial. It is removed with everything in it.
 class Folder {
 public:
     Folder() {
@@ -52,7 +52,7 @@ private:
     fs::path path_;
 };
 
-// Only one thread of mfard runs at a time: switching is fastest on a single processor.
+// Only one thread of mfard runs at a time; so switching is fastest on a single processor.
 void takeProcessor(int job) {
     cpu_set_t allowed, one;
     if (sched_getaffinity(0, sizeof allowed, &allowed) != 0) return;
@@ -95,7 +95,7 @@ constexpr const char* kAfterKill = "MFAR_FAULTS_AFTER_KILL";
     _exit(127);
 }
 
-/// How it ended, in words; empty for exit status 0.
+/// How the child process ended, in words; empty for exit status 0.
 std::string waitFor(pid_t child, std::chrono::minutes most) {
     const auto end = std::chrono::steady_clock::now() + most;
     int status = 0;
@@ -129,7 +129,7 @@ bool tellsFailure(const std::string& line) {
     return line.find("FAILED: ") != line.npos;
 }
 
-// All failures, with the lines before the first.
+// All failures, and the lines before the first of them.
 std::string excerpt(const std::vector<std::string>& lines) {
     const auto first = std::ranges::find_if(lines, tellsFailure);
     const auto before = static_cast<std::size_t>(first - lines.begin());

@@ -26,7 +26,8 @@ std::vector<std::uint32_t> censusOf(const LumaImage& picture) {
     return out;
 }
 
-/// Row by row from the top left; the first neighbour is the highest bit.
+/// Oracle: compares the neighbours row by row from the top left. The first neighbour gives the
+/// highest bit.
 std::uint32_t twin(const LumaImage& picture, int x, int y) {
     const auto at = [&](int i, int j) {
         return picture.row(
@@ -39,7 +40,7 @@ std::uint32_t twin(const LumaImage& picture, int x, int y) {
     return bits;
 }
 
-TEST(Census, MatchesTheScalarTwinOnEverySize) {
+TEST(Census, MatchesTheOracleAtEverySize) {
     for (const Size size :
          {Size{1, 1}, Size{1, 9}, Size{9, 1}, Size{2, 2}, Size{3, 4}, Size{16, 16}, Size{33, 21}}) {
         const LumaImage picture = randomPicture(size, 0, 255, 3);
@@ -55,12 +56,12 @@ TEST(Census, OneDarkNeighbourSetsItsOwnBit) {
     LumaImage picture({9, 9});
     std::fill(picture.pixels.begin(), picture.pixels.end(), std::uint8_t{100});
     picture.row(2)[2] = 50;  // top left of the pixel (4, 4)
-    picture.row(6)[6] = 50;  // its bottom right
-    picture.row(4)[5] = 50;  // just right of it
+    picture.row(6)[6] = 50;  // bottom right of the pixel (4, 4)
+    picture.row(4)[5] = 50;  // just right of the pixel (4, 4)
     EXPECT_EQ(censusOf(picture)[9 * 4 + 4], 1U << 23 | 1U << 11 | 1U);
 }
 
-TEST(Census, FitsItsBitsAndNeverMeansNoCensus) {
+TEST(Census, CensusUsesAllItsBitsAndNeverTheNoCensusMark) {
     const LumaImage picture = randomPicture({40, 30}, 0, 255, 5);
     std::uint32_t all = 0;
     for (const std::uint32_t bits : censusOf(picture))
@@ -81,7 +82,7 @@ LumaImage toned(LumaImage picture, const std::function<double(double)>& curve) {
     return picture;
 }
 
-// With only fifty levels, each of these curves keeps neighbouring levels distinct.
+// The picture has only fifty levels; so each of these curves keeps neighbouring levels distinct.
 TEST(Census, IsInvariantToRisingToneCurves) {
     const LumaImage picture = randomPicture({31, 23}, 100, 149, 9);
     const auto bits = censusOf(picture);
@@ -97,7 +98,7 @@ TEST(Census, IsInvariantToRisingToneCurves) {
     EXPECT_NE(censusOf(toned(picture, [](double v) { return 255 - v; })), bits);
 }
 
-// Where a curve makes neighbours equal, bits may be cleared; none may be set.
+// Where a curve makes neighbours equal, bits may be cleared, but no bit may be set.
 TEST(Census, FlatterCurvesNeverReverseAnOrder) {
     const LumaImage picture = randomPicture({31, 23}, 0, 255, 9);
     const auto bits = censusOf(picture);

@@ -15,7 +15,7 @@ CameraModel pincushion() {
     return {{161, 119}, 150, 150, 80, 59, {0.15, 0.03, 0, 0, 0.01}};
 }
 
-// The model folds back not far beyond the picture's corners.
+// A lens model that folds back shortly beyond the picture's corners.
 CameraModel fisheye() {
     return {{161, 119}, 110, 110, 80, 59, {-0.17, 0, 0, 0, 0}};
 }
@@ -38,7 +38,7 @@ TEST(EpipolarLens, RaysMatchThePixelsOfEveryLevel) {
             const double scale = 1 << level;
             for (int y = 0; y < size.height; ++y) {
                 for (int x = 0; x < size.width; ++x) {
-                    // The centre of 2x2 pixels is between them.
+                    // The centre of 2x2 pixels lies between them.
                     const Eigen::Vector2d ray = camera.unproject(
                         {scale * x + 0.5 * (scale - 1), scale * y + 0.5 * (scale - 1)});
                     const std::size_t p = static_cast<std::size_t>(y) * size.width + x;
@@ -95,7 +95,7 @@ TEST(EpipolarLens, ProjectsAsTheCameraDoesWithinThePicture) {
     }
 }
 
-TEST(EpipolarLens, PixelsComeBackFromTheirRays) {
+TEST(EpipolarLens, RaysProjectBackToTheirPixels) {
     for (const CameraModel& camera :
          {test::oddPlain(), test::oddBarrel(), pincushion(), fisheye()}) {
         const EpipolarLens lens(camera, 1);
@@ -110,8 +110,8 @@ TEST(EpipolarLens, PixelsComeBackFromTheirRays) {
     }
 }
 
-// Along a ray away from the axis, projected points move outwards or stay; they never move back.
-TEST(EpipolarLens, NeverFoldsBack) {
+// Along a ray away from the axis, projected points may move outwards or stay, but never move back.
+TEST(EpipolarLens, ProjectionNeverFoldsBack) {
     for (const CameraModel& camera :
          {test::oddPlain(), test::oddBarrel(), pincushion(), fisheye()}) {
         const EpipolarLens lens(camera, 0);

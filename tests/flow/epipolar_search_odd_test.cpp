@@ -1,4 +1,4 @@
-// Hostile pictures and poses, and independence of earlier frames.
+// Hostile pictures and poses; independence of earlier frames.
 #include "pipeline/epipolar/epipolar_search.h"
 #include "tests/flow/flow_scene.h"
 
@@ -40,7 +40,7 @@ LumaImage wholePictureOf(Size size, const std::function<int(int, int)>& grey) {
     return out;
 }
 
-/// The field is finite, and displacements are within the search range.
+/// Expects a finite field whose displacements are within the search range.
 void expectSane(const EpipolarSearch& search, Size size) {
     ASSERT_TRUE(test::isFinite(search));
     ASSERT_EQ(search.inverseDepth().size(), static_cast<std::size_t>(size.width) * size.height);
@@ -57,7 +57,7 @@ const std::vector<Eigen::Vector3d>& translations() {
     return all;
 }
 
-TEST(EpipolarSearchOdd, EvenAndExtremePicturesGiveFiniteFields) {
+TEST(EpipolarSearchOdd, UniformAndExtremePicturesGiveFiniteFields) {
     const Size size{97, 71};
     std::mt19937 random(1);
     const std::function<int(int, int)> greys[] = {
@@ -80,8 +80,8 @@ TEST(EpipolarSearchOdd, EvenAndExtremePicturesGiveFiniteFields) {
     }
 }
 
-// Without information the field must not jump.
-TEST(EpipolarSearchOdd, EvenPicturesGiveAnEvenField) {
+// Without texture the field must not jump.
+TEST(EpipolarSearchOdd, UniformPicturesGiveAUniformField) {
     const Size size{97, 71};
     EpipolarSearch search = test::searchWith(cameraOf(size), 2);
     search.setStill(test::viewOf(wholePictureOf(size, [](int, int) { return 90; })));
@@ -92,7 +92,7 @@ TEST(EpipolarSearchOdd, EvenPicturesGiveAnEvenField) {
     EXPECT_LT((*greatest - *least) * search.pixelsPerUnit(), 8);
 }
 
-TEST(EpipolarSearchOdd, TinyAndOddSizes) {
+TEST(EpipolarSearchOdd, TinyAndOddSizesGiveValidFields) {
     for (const Size size : {Size{16, 16}, Size{17, 16}, Size{61, 45}, Size{45, 61}, Size{16, 100},
                             Size{100, 16}, Size{121, 119}}) {
         for (const CameraModel& camera : {cameraOf(size), barrelOf(size)}) {
@@ -135,7 +135,7 @@ TEST(EpipolarSearchOdd, PosesWithoutOverlapAreRefused) {
     }
 }
 
-TEST(EpipolarSearchOdd, EveryTurnGivesAFiniteFieldOrNone) {
+TEST(EpipolarSearchOdd, EveryRotationGivesAFiniteFieldOrNone) {
     const CameraModel camera = barrelOf({120, 90});
     const LumaImage picture = scene().render(camera, {});
     EpipolarSearch search = test::searchWith(camera, 2);
@@ -186,8 +186,8 @@ TEST(EpipolarSearchOdd, IsTheSameWithAnyNumberOfThreads) {
     }
 }
 
-// Every frame has its own canvas, without remains of an earlier frame.
-TEST(EpipolarSearchOdd, RemembersNothingOfEarlierFrames) {
+// Every frame has its own canvas; nothing of an earlier frame may remain.
+TEST(EpipolarSearchOdd, DoesNotDependOnEarlierFrames) {
     const CameraModel camera = barrelOf({180, 130});
     const LumaImage video = scene().render(camera, {}),
                     other = scene().render(camera, motion({9, 9, 9}, {0, 0, 1}));

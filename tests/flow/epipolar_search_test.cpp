@@ -30,7 +30,7 @@ Scene flatScene() {
     return {{{{0, 0, 1}, 2}}, 30, 100};
 }
 
-/// A wall that is slanted to the right and down.
+/// A wall that is slanted to the right and downwards.
 Scene slantedScene() {
     return {{{Eigen::Vector3d(0.35, 0.2, 1).normalized(), 2}}, 30, 100};
 }
@@ -48,9 +48,9 @@ EpipolarSearch searched(const View& view, int threads = 2) {
     return search;
 }
 
-// Upper limits of the median error. Costs are those of the nearest pixels. The distance of these
-// pixels along the line is corrected for, not their distance from the line; and results are biased
-// towards pixel centres.
+// Upper limits of the median error. A cost is that of the nearest pixel. The search corrects for
+// the distance of this pixel along the line, but not for its distance from the line. Results are
+// also biased towards pixel centres.
 constexpr double kAcross = 0.38, kAlongAxis = 0.22;
 
 void expectErrors(const View& view, double median, double bad) {
@@ -62,15 +62,15 @@ void expectErrors(const View& view, double median, double bad) {
     testing::Test::RecordProperty("bad", std::to_string(errors.bad));
 }
 
-TEST(EpipolarSearch, FindsAWallSideways) {
+TEST(EpipolarSearch, FindsAWallAfterASidewaysMotion) {
     for (const double t : {-0.25, -0.02, 0.05, 0.2})
         expectErrors({plain(), flatScene(), motion({0, 0, 0}, {t, 0, 0})}, kAlongAxis, 0.02);
     expectErrors({plain(), flatScene(), motion({0, 0, 0}, {0, 0.15, 0})}, kAlongAxis, 0.02);
 }
 
-// Two consecutive labels have the same nearest pixel, and the two pixels next to the match differ
-// from it equally: the true place is between them.
-TEST(EpipolarSearch, FindsAWallHalfAPixelAlongADiagonal) {
+// Two consecutive labels have the same nearest pixel. The two pixels next to the match differ from
+// it equally; so the true place is between them.
+TEST(EpipolarSearch, FindsAWallAtHalfPixelsAlongADiagonal) {
     const CameraModel camera = plain();
     for (const double pixels : {5.4, 5.5, 5.6, -8.5}) {
         const double t = 2 * pixels / camera.fx;
@@ -85,7 +85,7 @@ TEST(EpipolarSearch, FindsASlantedWall) {
     expectErrors({plain(), slantedScene(), motion({0, 0, 0}, {0.1, -0.1, 0.02})}, kAcross, 0.02);
 }
 
-TEST(EpipolarSearch, FindsAStep) {
+TEST(EpipolarSearch, FindsADepthStep) {
     expectErrors({plain(), stepScene(), motion({0, 0, 0}, {-0.2, 0, 0})}, kAlongAxis, 0.04);
     expectErrors({plain(), stepScene(), motion({0, 0, 0}, {0.1, 0.15, 0})}, kAcross, 0.04);
 }
@@ -100,29 +100,29 @@ TEST(EpipolarSearch, FindsDepthAsWellAsFlow) {
     EXPECT_NEAR(depthAt(170, 20), 3, 0.1);
 }
 
-// The epipole is within the picture: displacements are longest at the border.
-TEST(EpipolarSearch, FindsScenesAhead) {
+// The epipole lies inside the picture; so displacements are longest at the border.
+TEST(EpipolarSearch, FindsScenesAfterAForwardMotion) {
     for (const double t : {-0.4, 0.4}) {
         expectErrors({plain(), stepScene(), motion({0, 0, 0}, {0, 0, t})}, 0.15, 0.04);
         expectErrors({plain(), slantedScene(), motion({0, 0, 0}, {0.03, 0.02, t})}, 0.15, 0.03);
     }
 }
 
-TEST(EpipolarSearch, FindsScenesAfterATurnThroughALens) {
+TEST(EpipolarSearch, FindsScenesAfterARotationThroughALens) {
     expectErrors({barrel(), slantedScene(), motion({4, -6, 8}, {-0.15, 0.1, 0.05})}, 0.2, 0.03);
     expectErrors({barrel(), stepScene(), motion({-3, 9, -25}, {0.2, 0.05, -0.2})}, 0.2, 0.06);
     expectErrors({barrel(), flatScene(), motion({0, 0, 90}, {0.1, 0.1, 0})}, 0.2, 0.03);
     expectErrors({barrel(), flatScene(), motion({2, -28, 5}, {0.15, 0, 0.1})}, 0.2, 0.04);
 }
 
-// Three levels, and a displacement longer than the window of the coarsest level.
-TEST(EpipolarSearch, FindsLongWaysThroughThreeLevels) {
+// The displacement needs three levels and is longer than the window of the coarsest level.
+TEST(EpipolarSearch, FindsLongDisparitiesThroughThreeLevels) {
     const CameraModel camera{{320, 240}, 300, 300, 159.5, 119.5, {}};
     const Scene scene{{{{0, 0, 1}, 3}, {{0, 0, 1}, 1.5, {-0.3, -0.3}, {0.3, 0.3}}}, 35, 100};
     expectErrors({camera, scene, motion({0, 0, 0}, {-0.5, 0, 0})}, 0.15, 0.05);
 }
 
-TEST(EpipolarSearch, FarAwayIsInfinity) {
+TEST(EpipolarSearch, DistantScenesAreAtInfinity) {
     const View view{plain(), {{{{0, 0, 1}, 1e5}}, 6e-4, 100}, motion({0, 3, 0}, {0.2, 0, 0})};
     const EpipolarSearch search = searched(view);
     const FlowErrors errors = errorsOf(search, view);
@@ -142,8 +142,8 @@ TEST(EpipolarSearch, PureRotationNeedsNoSearch) {
     }
 }
 
-// One unit of s moves no pixel by more than this, and some by nearly as much.
-TEST(EpipolarSearch, PixelsPerUnitIsTheLongestWay) {
+// One unit of s must not move any pixel farther than this, and must move some pixels nearly as far.
+TEST(EpipolarSearch, PixelsPerUnitIsTheLongestMotionOfAPixel) {
     for (const Eigen::Vector3d& t :
          {Eigen::Vector3d(0.2, 0, 0), Eigen::Vector3d(0.1, -0.1, 0.3), Eigen::Vector3d(0, 0, -1)}) {
         const EpipolarSearch search = searched({plain(), flatScene(), motion({0, 0, 0}, t)});
@@ -171,7 +171,7 @@ TEST(EpipolarSearch, IsInvariantToTheUnitOfLength) {
         EXPECT_EQ(search.labels(), metres.labels());
         EXPECT_NEAR(search.pixelsPerUnit(), unit * metres.pixelsPerUnit(),
                     1e-3 * unit * metres.pixelsPerUnit());
-        // Steps along the line are single precision: rounding may change a few pixels.
+        // Steps along the line are in single precision; so rounding may change a few pixels.
         int apart = 0;
         for (int y = 0; y < 150; ++y)
             for (int x = 0; x < 200; ++x)
@@ -186,9 +186,9 @@ LumaImage developed(LumaImage picture, const std::function<double(double)>& curv
     return picture;
 }
 
-// A search around predicted s, as from a previous frame, is as good as one through the coarser
-// levels.
-TEST(EpipolarSearch, PredictionIsAsGoodAsCoarseToFine) {
+// A search around a predicted s, as from a previous frame, must be as good as a search through the
+// coarser levels.
+TEST(EpipolarSearch, SearchFromAPredictionIsAsGoodAsCoarseToFine) {
     const View view{plain(), stepScene(), motion({0, 2, 0}, {-0.2, 0.03, 0})};
     const EpipolarSearch whole = searched(view);
     const EpipolarLens cells(view.camera, 2);
@@ -206,7 +206,7 @@ TEST(EpipolarSearch, PredictionIsAsGoodAsCoarseToFine) {
     const FlowErrors around = errorsOf(search, view), from = errorsOf(whole, view);
     EXPECT_LT(around.median, 1.05 * from.median);
     EXPECT_LT(around.bad, from.bad + 0.005);
-    // Only the prediction's surroundings are searched: a wrong prediction yields a wrong result.
+    // Only values around the prediction are searched; so a wrong prediction gives a wrong result.
     const auto far = static_cast<float>(30 / whole.pixelsPerUnit());
     for (float& s : predicted)
         s += far;
@@ -214,8 +214,8 @@ TEST(EpipolarSearch, PredictionIsAsGoodAsCoarseToFine) {
     EXPECT_GT(errorsOf(search, view).bad, 0.9);
 }
 
-/// Share of the pixels in which both find the same surface; exact values differ, as the steps along
-/// the line do.
+/// Share of the pixels in which both searches find the same surface. Exact values differ, because
+/// the steps along the line differ.
 double alikeIn(const PixelRect& area, const EpipolarSearch& part, const EpipolarSearch& whole) {
     const PixelRect& from = part.area();
     int alike = 0, all = 0;
@@ -232,7 +232,7 @@ double alikeIn(const PixelRect& area, const EpipolarSearch& part, const Epipolar
     return static_cast<double>(alike) / all;
 }
 
-TEST(EpipolarSearch, APartGivesTheSameResultAsTheWhole) {
+TEST(EpipolarSearch, SearchingAPartGivesTheSameResultAsTheWhole) {
     const View view{barrel(), stepScene(), motion({1, -2, 3}, {-0.15, 0.1, 0.03})};
     const EpipolarSearch whole = searched(view);
     EpipolarSearch search = test::searchWith(view.camera, 2);

@@ -35,7 +35,7 @@ float medianAt(const std::vector<float>& field, Size size, int x, int y) {
     return around[4];
 }
 
-// A small number of different values yields many ties.
+// A small number of different values gives many ties.
 TEST(Median3x3, IsTheMiddleOfTheNineSorted) {
     for (int threads = 1; threads <= 3; ++threads) {
         Workers workers(threads);
@@ -54,7 +54,8 @@ TEST(Median3x3, IsTheMiddleOfTheNineSorted) {
     }
 }
 
-// Random orders of nine distinct values: a wrong sorting network fails only for some orders.
+// Tries random orders of nine distinct values, because a wrong sorting network fails only for some
+// orders.
 TEST(Median3x3, EveryOrderOfNineHasTheSameMiddle) {
     Workers workers(1);
     std::vector<float> in{1, 2, 3, 4, 5, 6, 7, 8, 9}, out(9);
@@ -92,7 +93,7 @@ TEST(LocalRange, IsTheLeastAndGreatestOfTheSquare) {
     }
 }
 
-// Scratch memory must not keep values of a larger picture.
+// Scratch memory must not keep values of the larger picture.
 TEST(LocalRange, MayBeUsedAgainForAnotherSize) {
     LocalRange range;
     localRange(randomField({40, 30}, 100), {40, 30}, 2, range);

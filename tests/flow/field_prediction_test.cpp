@@ -19,8 +19,8 @@ Scene slantedStep() {
     return {{{normal, 3}, {{0, 0, 1}, 2, {-0.35, -0.4}, {0.45, 0.3}}}, 28, 100};
 }
 
-/// s of the cells of a frame at `T_frame_world`. Its still is at the world's origin, and the scene
-/// is given in the still's frame.
+/// s of the cells of a frame at `T_frame_world`. The still is at the world's origin; the scene is
+/// given in the still's frame.
 std::vector<float> truth(const EpipolarLens& cells, const RigidTransform& T_frame_world,
                          const Scene& scene) {
     const RigidTransform T_still_frame = T_frame_world.inverse();
@@ -38,9 +38,9 @@ RigidTransform scaled(RigidTransform T, double factor) {
     return T;
 }
 
-/// Share of cells whose predicted s is wrong by more than 0.7 %, the change from one cell to the
-/// next on the wall. Three cells at the border are left out, as new parts of the scene came in
-/// there.
+/// Share of the cells whose predicted s is wrong by more than 0.7 %, the change from one cell to
+/// the next on the wall. Three cells at each border do not count, because new parts of the scene
+/// appear there.
 double missed(std::span<const float> predicted, const std::vector<float>& expected, Size cells,
               double unit = 1) {
     int missed = 0, all = 0;
@@ -82,14 +82,14 @@ TEST(FieldPrediction, EveryFrameHasItsOwnUnit) {
 }
 
 TEST(FieldPrediction, TheNearestSurfaceOccludesOthers) {
-    // All cells are at infinity except one, which lands on a far cell and replaces it.
+    // All cells are at infinity except one. That cell lands on a far cell and replaces it.
     const EpipolarLens cells(barrelCamera(), 2);
     const int width = cells.size().width, middle = 30 * width + 40;
     std::vector<float> kept(static_cast<std::size_t>(width) * cells.size().height, 0.0F);
     kept[middle] = 0.5F;
     FieldPrediction prediction(barrelCamera());
     prediction.keep(kept, {}, 1);
-    // Moves it by two cells to the right: f = 62 cells, at a depth of two units.
+    // The motion moves the cell two cells to the right: f = 62 cells, at a depth of two units.
     const auto predicted = prediction.in(motion({0, 0, 0}, {-2 * 2 / 62.0, 0, 0}), 1);
     ASSERT_FALSE(predicted.empty());
     EXPECT_FLOAT_EQ(predicted[middle + 2], 0.5F);

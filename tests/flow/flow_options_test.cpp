@@ -47,7 +47,7 @@ TEST(FlowOptions, ValuesOutOfRangeAreRefused) {
         EXPECT_THROW(validate(EpipolarOptions{.longestParallax = share}), std::invalid_argument);
 }
 
-/// Errors on a wall whose parallax is 38 px, a fifth of the picture's width.
+/// Errors on a wall with a parallax of 38 px, a fifth of the picture's width.
 test::FlowErrors errorsWith(const EpipolarOptions& options) {
     const CameraModel camera{{200, 150}, 190, 190, 99.5, 74.5, {}};
     const test::View view{
@@ -59,7 +59,7 @@ test::FlowErrors errorsWith(const EpipolarOptions& options) {
     return test::errorsOf(search, view);
 }
 
-TEST(EpipolarOptions, EverySettingFindsAWallInItsReach) {
+TEST(EpipolarOptions, EverySettingFindsAWallWithinItsReach) {
     for (const int levels : {1, 2, 3, 4})
         EXPECT_LT(errorsWith({.levels = levels}).bad, 0.02) << levels;
     for (const int radius : {0, 8})

@@ -10,21 +10,23 @@
 
 namespace mfar::test {
 
-/// The plane normal . p = distance in the video's frame, limited to points with x and y between
-/// `least` and `greatest`. Its texture is a function of space.
+/// The plane normal . p = distance in the frame of the video camera, limited to points whose x and
+/// y are between `least` and `greatest`. Its texture is a function of the point.
 struct Surface {
     Eigen::Vector3d normal{0, 0, 1};
     double distance = 2;
     Eigen::Vector2d least{-1e9, -1e9}, greatest{1e9, 1e9};
 };
 
-/// A scene for a camera that sees surfaces of unit size with about `grain` cells of texture.
+/// A scene of surfaces of unit size. `grain`: cells of texture that the camera sees on such a
+/// surface.
 struct Scene {
     std::vector<Surface> surfaces;
     double grain = 20;     ///< cells of the finest texture per unit of length
-    double contrast = 90;  ///< grey levels above and below 128
+    double contrast = 90;  ///< amplitude around 128 [grey levels]
 
-    /// Depth z of the first surface on the pixel's ray, seen from T_camera_video; zero: no surface.
+    /// Depth z of the first surface on the ray of the pixel, for a camera at T_camera_video. Zero:
+    /// the ray meets no surface.
     [[nodiscard]] double depth(const RigidTransform& T_camera_video,
                                const Eigen::Vector2d& ray) const;
     [[nodiscard]] LumaImage render(const CameraModel& camera,
@@ -43,28 +45,28 @@ struct View {
 
 using mfar::viewOf;
 
-/// Of an odd size, without and with distortion.
+/// Cameras of odd size, without and with distortion.
 [[nodiscard]] CameraModel oddPlain();
 [[nodiscard]] CameraModel oddBarrel();
 
-/// A search in which both cameras are the same.
+/// A search for two cameras with equal lenses.
 [[nodiscard]] EpipolarSearch searchWith(const CameraModel& camera, int threads);
 
-/// The place of the frame's pixel in the still, according to a search.
+/// The place in the still that a search finds for a pixel of the frame.
 [[nodiscard]] Eigen::Vector2d landing(const EpipolarSearch& search, const View& view, int x, int y);
 
-/// Errors of a search's flow [px], over the pixels that are visible in the still.
+/// Errors of the flow that a search found [px], over the pixels that the still shows.
 struct FlowErrors {
     std::size_t pixels = 0;
     double median = 0;
-    double bad = 0;  ///< share of pixels with an error of more than one pixel
+    double bad = 0;  ///< share of pixels with an error above one pixel
 };
 [[nodiscard]] FlowErrors errorsOf(const EpipolarSearch& search, const View& view);
 
-/// True when the whole field is finite.
+/// True if the whole field is finite.
 [[nodiscard]] bool isFinite(const EpipolarSearch& search);
 
-/// Rotates by the angles [degrees] about x, then y, then z, then translates.
+/// Rotates by the angles [degrees] about x, then y, then z. Then translates.
 [[nodiscard]] RigidTransform motion(const Eigen::Vector3d& degrees, const Eigen::Vector3d& t);
 
 }  // namespace mfar::test

@@ -33,7 +33,7 @@ int clampedAt(const LumaImage& picture, int x, int y) {
         std::clamp(y, 0, picture.size.height - 1))[std::clamp(x, 0, picture.size.width - 1)];
 }
 
-/// Slopes, steps along both axes, a slanted edge, and a textured part.
+/// A picture with slopes, steps along both axes, a slanted edge, and a textured part.
 double greyScene(int x, int y) {
     double grey = 40 + 0.2 * x + 0.1 * y;
     if (x > 90) grey += 60;
@@ -155,7 +155,8 @@ TEST(Smooth, IsTheSeparableMaskWithTheBorderRepeated) {
                         for (int i = -1; i <= 1; ++i)
                             sum += (i == 0 ? 1 - 2.0 * side : side) *
                                    (j == 0 ? 1 - 2.0 * side : side) * clampedAt(in, x + i, y + j);
-                    // Weights are rounded to 1/256: an error of up to 0.002 in each direction.
+                    // Tolerance: weights are rounded to 1/256, an error of up to 0.002 in each
+                    // direction.
                     ASSERT_NEAR(out.row(y)[x], sum, 0.5 + 255 * 4 * 0.002) << side;
                 }
             }
@@ -163,7 +164,7 @@ TEST(Smooth, IsTheSeparableMaskWithTheBorderRepeated) {
     }
 }
 
-TEST(Smooth, NothingAtTheSidesIsACopyAndEvenStaysEven) {
+TEST(Smooth, ZeroSideWeightsCopyAndUniformPicturesStayUniform) {
     const LumaImage in = randomPicture({21, 17}, 14);
     LumaImage out;
     smooth(in, 0, out);
@@ -187,16 +188,16 @@ TEST(NoiseOf, FindsWhiteNoiseOnSlopesAndEdges) {
     }
 }
 
-TEST(NoiseOf, IsNearNothingWithoutNoise) {
+TEST(NoiseOf, IsNearZeroWithoutNoise) {
     EXPECT_LT(noiseOf(pictureOf({200, 150}, greyScene)),
-              0.45);  // rounding to grey levels alone yields 0.29
+              0.45);  // rounding to grey levels alone gives 0.29
     EXPECT_EQ(noiseOf(pictureOf({64, 64}, [](int, int) { return 255; })), 0);
     EXPECT_EQ(noiseOf(pictureOf({64, 64}, [](int x, int y) { return 2 * x + y; })), 0);
     EXPECT_EQ(noiseOf(pictureOf({64, 64}, [](int x, int) { return x < 29 ? 20 : 220; })), 0);
     EXPECT_EQ(noiseOf(pictureOf({64, 64}, [](int, int y) { return y == 29 ? 20 : 220; })), 0);
 }
 
-TEST(NoiseOf, PicturesWithoutABlockHaveNone) {
+TEST(NoiseOf, PicturesSmallerThanABlockHaveNoNoise) {
     EXPECT_EQ(noiseOf(randomPicture({1, 1}, 1)), 0);
     EXPECT_EQ(noiseOf(randomPicture({9, 200}, 1)), 0);
     EXPECT_GT(noiseOf(randomPicture({10, 10}, 1)), 0);

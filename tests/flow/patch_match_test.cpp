@@ -17,8 +17,8 @@ LumaImage drawn(Size size, const std::function<double(double, double)>& grey) {
     return out;
 }
 
-// Waves with periods of 7 to 13 pixels in three directions: smooth, without repetition within the
-// windows.
+// Waves with periods of 7 to 13 pixels in three directions: smooth, and not repeated within a
+// window.
 double waves(double x, double y) {
     return 120 + 30 * std::sin(0.71 * x + 0.2 * y) + 30 * std::sin(-0.3 * x + 0.63 * y) +
            30 * std::sin(0.35 * x + 0.41 * y + 1);
@@ -34,7 +34,7 @@ std::optional<Eigen::Vector2d> placed(const PatchMatcher& matcher, PatchPlace pl
     return found ? matcher.polish(place, *found) : std::nullopt;
 }
 
-TEST(TexturedPlaces, LieWhereTheTextureIs) {
+TEST(TexturedPlaces, PlacesLieWhereTheTextureIs) {
     const LumaImage picture =
         drawn({160, 120}, [](double x, double y) { return x < 80 ? waves(x, y) : 90; });
     const auto places = texturedPlaces(picture, 0);
@@ -58,7 +58,7 @@ TEST(TexturedPlaces, NeitherNoiseNorEdgesAreTexture) {
     EXPECT_TRUE(texturedPlaces(edges, 0).empty());
 }
 
-TEST(TexturedPlaces, TinyPicturesHaveNoneOrSomeInside) {
+TEST(TexturedPlaces, TinyPicturesHaveOnlyPlacesInside) {
     for (int w = 1; w <= 24; ++w)
         for (int h = 1; h <= 24; ++h)
             for (const PatchPlace& p : texturedPlaces(drawn({w, h}, waves), 0)) {

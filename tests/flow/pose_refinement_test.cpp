@@ -1,4 +1,4 @@
-// The search with an inexact pose, on rendered scenes of known depth.
+// Tests the search with an inexact pose, on rendered scenes of known depth.
 #include "pipeline/epipolar/epipolar_search.h"
 #include "tests/flow/flow_scene.h"
 
@@ -36,8 +36,8 @@ Matrix6 covarianceOf(double degrees, double shift) {
     return diagonal.asDiagonal();
 }
 
-/// Median distance of the true points from a pose's epipolar lines [px]; without parallax, from the
-/// points that the pose predicts.
+/// Median distance of the true points from the epipolar lines of a pose [px]. Without parallax:
+/// distance from the points that the pose predicts.
 double missOf(const RigidTransform& pose, const View& view) {
     const CameraModel& camera = view.camera;
     std::vector<double> out;
@@ -67,7 +67,7 @@ struct Shots {
     Shots(const View& v) : view(v), video(v.video()), still(v.still()) {}
 };
 
-/// A search from a pose with the error `error`.
+/// A search whose pose has the error `error`.
 EpipolarSearch searched(const Shots& shots, const RigidTransform& error,
                         const Matrix6& covariance) {
     EpipolarSearch search = test::searchWith(shots.view.camera, 2);
@@ -103,7 +103,7 @@ std::vector<View> views() {
 }
 
 // At this focal length 2 px are half a degree.
-TEST(PoseRefinement, BringsEpipolarLinesBackToAQuarterPixel) {
+TEST(PoseRefinement, CorrectsEpipolarLinesToAQuarterPixel) {
     for (const View& view : views()) {
         const Shots shots(view);
         for (const Eigen::Vector3d& off :
@@ -120,7 +120,7 @@ TEST(PoseRefinement, BringsEpipolarLinesBackToAQuarterPixel) {
     }
 }
 
-TEST(PoseRefinement, LeavesAGoodPoseAsItIs) {
+TEST(PoseRefinement, KeepsAGoodPose) {
     for (const View& view : views()) {
         const EpipolarSearch search = searched(view, {}, kUsual);
         EXPECT_FALSE(search.refinement().accepted);
@@ -133,7 +133,7 @@ TEST(PoseRefinement, LeavesAGoodPoseAsItIs) {
     }
 }
 
-TEST(PoseRefinement, AnUncertainPoseIsSoughtFartherAway) {
+TEST(PoseRefinement, AnUncertainPoseIsSearchedFartherAway) {
     const View view{pagePlain(), panelScene(), motion({3, -4, 5}, {0, 0, 0})};
     const RigidTransform error = motion({1.5, -1, 0.3}, {0, 0, 0});
     EXPECT_LT(missOf(searched(view, error, covarianceOf(1, 0)).pose(), view), 0.1);
@@ -149,14 +149,14 @@ TEST(PoseRefinement, PureRotationIsRefinedWithoutASearch) {
     EXPECT_LT(missOf(search.pose(), view), 0.1);
 }
 
-// A panel in front of a wall moves on its own, across the epipolar lines; it contains nearly half
-// of the patches.
+// A panel in front of a wall moves by itself, across the epipolar lines. Nearly half of the patches
+// are on it.
 TEST(PoseRefinement, MovingObjectsDoNotDisturbThePose) {
     View view{pagePlain(), panelScene(), motion({0, 0, 0}, {-0.2, 0, 0})};
     view.scene.surfaces[1].least = {-0.75, -0.75};
     view.scene.surfaces[1].greatest = {0.65, 0.35};
     const LumaImage video = view.video();
-    // The texture is a function of space, so the panel is rendered from another pose instead of
+    // The texture is a function of the point; so the panel is rendered from another pose instead of
     // being moved.
     const RigidTransform lifted = view.T_still_video * motion({0, 0, 0}, {0, 0.06, 0});
     LumaImage still = view.still();
@@ -249,7 +249,7 @@ TEST(PoseRefinement, IsTheSameWithAnyNumberOfThreads) {
     }
 }
 
-// With too few patches for a refinement, the search also looks next to its lines.
+// If there are too few patches for a refinement, the search also looks beside its lines.
 TEST(PoseRefinement, WithoutPatchesTheSearchIsWidenedAcrossTheLines) {
     // A small panel without a background.
     const Shots shots({pagePlain(),

@@ -20,11 +20,11 @@ Matrix6 priorCovariance(double turn, double shift) {
     return diagonal.asDiagonal();
 }
 
-/// Matches for a prior with the error `motion`, in the orientation of the rays `still`.
+/// Matches of a scene. The prior has the error `motion`, in the orientation of the rays `still`.
 struct Case {
     Eigen::Vector3d translation{0.2, 0.02, 0.01};
     Vector6 motion = Vector6::Zero();
-    double noise = 0.2;  // of a match [px]
+    double noise = 0.2;  // noise of a match [px]
     double wrong = 0;    // share of outliers
     int count = 250;
 
@@ -55,7 +55,7 @@ Vector6 motionOf(const Eigen::Vector3d& degrees, const Eigen::Vector3d& shift) {
 
 const Matrix6 kUsualCovariance = priorCovariance(0.3 * kDegree, 0.005);
 
-TEST(RelativePose, FindsAWrongTurnFromNoisyMatches) {
+TEST(RelativePose, CorrectsAWrongRotationFromNoisyMatches) {
     for (const Eigen::Vector3d& t : {Eigen::Vector3d(0.2, 0.02, 0.01), Eigen::Vector3d(0, 0, 0.3),
                                      Eigen::Vector3d(0.05, -0.2, -0.3)}) {
         for (const Eigen::Vector3d& turn : {Eigen::Vector3d(0.2, 0, 0), Eigen::Vector3d(0, 0, -0.3),
@@ -71,7 +71,7 @@ TEST(RelativePose, FindsAWrongTurnFromNoisyMatches) {
     }
 }
 
-TEST(RelativePose, FindsAWrongDirection) {
+TEST(RelativePose, CorrectsAWrongDirectionOfTranslation) {
     const Case c{.motion = motionOf({0, 0, 0}, {0, 0.02, 0.03})};
     const auto out =
         refineRelativePose(c.matches(), {c.translation, priorCovariance(1e-3, 0.03)}, kFocal);
@@ -94,8 +94,8 @@ TEST(RelativePose, IsRobustToOutliers) {
     }
 }
 
-// Two pictures do not determine the length of the translation.
-TEST(RelativePose, LengthOfTheTranslationIsThePriors) {
+// Two pictures do not determine the length of the translation between them.
+TEST(RelativePose, TranslationKeepsTheLengthOfThePrior) {
     const Case c{.motion = motionOf({0.2, 0, 0.1}, {0, 0, 0})};
     for (const double shift : {0.002, 0.02}) {
         const auto out = refineRelativePose(
@@ -105,7 +105,7 @@ TEST(RelativePose, LengthOfTheTranslationIsThePriors) {
     }
 }
 
-TEST(RelativePose, PureRotationTakesBothComponents) {
+TEST(RelativePose, PureRotationIsRefinedFromBothComponentsOfMatches) {
     const Case c{.translation = {0, 0, 0}, .motion = motionOf({0.1, -0.2, 0.15}, {0, 0, 0})};
     const auto out =
         refineRelativePose(c.matches(), {c.translation, priorCovariance(0.3 * kDegree, 0)}, kFocal);
@@ -125,7 +125,7 @@ TEST(RelativePose, KeepsAPriorThatIsGoodEnough) {
     }
 }
 
-TEST(RelativePose, KeepsThePriorWhereMatchesAreFewOrDisagree) {
+TEST(RelativePose, KeepsThePriorIfMatchesAreFewOrDisagree) {
     Case c{.motion = motionOf({0.2, 0, 0}, {0, 0, 0})};
     const PosePrior prior{c.translation, kUsualCovariance};
     for (const int count : {0, 1, 5, 12}) {
@@ -172,7 +172,7 @@ TEST(RelativePose, NonFiniteInputIsRefused) {
     EXPECT_FALSE(refineRelativePose(matches, {c.translation, -kUsualCovariance}, kFocal).accepted);
 }
 
-TEST(RelativePose, SpreadCoversTurnAndParallax) {
+TEST(RelativePose, SpreadCoversUncertainRotationAndParallax) {
     const Matrix6 turn = priorCovariance(0.01, 0), shift = priorCovariance(0, 0.02);
     const RayMatch far{{0, 0}, {0, 0}}, near{{0, 0}, {0.1, 0}};
     const Eigen::Vector3d t(0.2, 0, 0);

@@ -9,7 +9,7 @@
 namespace mfar {
 namespace {
 
-/// Input of the matcher and of its scalar twin. Costs by pixel, then by label.
+/// Input of the matcher and of its oracle. Costs are ordered by pixel, then by label.
 struct Problem {
     LumaImage guide;
     int vectors = 1;
@@ -23,7 +23,7 @@ struct Problem {
     }
 };
 
-/// Random costs and guide, and random windows up to `reach` labels away from zero.
+/// Random costs and guide, with random windows up to `reach` labels away from zero.
 Problem randomProblem(Size size, int vectors, int reach, unsigned seed, int greatest = 24) {
     std::mt19937 random(seed);
     const auto upTo = [&](int n) { return std::uniform_int_distribution<int>(0, n)(random); };
@@ -32,7 +32,8 @@ Problem randomProblem(Size size, int vectors, int reach, unsigned seed, int grea
     for (std::uint8_t& v : p.guide.pixels)
         v = static_cast<std::uint8_t>(upTo(3) == 0 ? upTo(255) : 100 + upTo(10));
     for (std::size_t i = 0; i < p.guide.pixels.size(); ++i) {
-        // Windows move rarely, as those from a coarser level do, but then by up to the whole reach.
+        // Windows move rarely, as those from a coarser level do. When they move, it is by up to the
+        // whole reach.
         const int moved = upTo(2 * reach) - reach;
         p.base.push_back(static_cast<std::int16_t>(i > 0 && upTo(2) > 0 ? p.base.back() : moved));
         for (int k = 0; k < p.labels(); ++k)
@@ -61,9 +62,9 @@ std::vector<float> solve(const Problem& p, int threads) {
     return solve(p, matcher, workers);
 }
 
-/// Adds the costs of the paths in direction (dx, dy), directly from the recurrence: L(p, k) = C(p,
-/// k) + min(L(q, k), L(q, k +- 1) + step, jump) - min L(p, .) with min L(q, .) = 0, where q is the
-/// pixel before p and labels are compared by their absolute number.
+/// Adds the costs of the paths in direction (dx, dy), computed from the recurrence L(p, k) = C(p,
+/// k) + min(L(q, k), L(q, k +- 1) + step, jump) - min L(p, .), normalised so that min L(q, .) = 0.
+/// q is the pixel before p. Labels are compared by their absolute number.
 void addPath(const Problem& p, int dx, int dy, std::vector<int>& sums) {
     const auto [w, h] = p.guide.size;
     const int labels = p.labels();
@@ -128,26 +129,26 @@ void expectTwin(const Problem& p) {
     }
 }
 
-// Paths are along the axes: for those addPath()'s order, row by row, is right.
-TEST(SemiGlobal, MatchesTheScalarTwinInOneWindow) {
+// Paths run along the axes only. For these, the row-by-row order of addPath() is right.
+TEST(SemiGlobal, MatchesTheOracleInOneWindow) {
     for (unsigned seed = 1; seed <= 4; ++seed)
         for (const Size size : {Size{1, 1}, Size{1, 9}, Size{11, 1}, Size{2, 3}, Size{37, 29}})
             expectTwin(randomProblem(size, 1, 0, seed));
 }
 
-TEST(SemiGlobal, MatchesTheScalarTwinWithWindowsOfEveryShift) {
+TEST(SemiGlobal, MatchesTheOracleWithWindowsOfEveryShift) {
     for (const int reach : {1, 5, 8, 16, 40, 300})
         for (unsigned seed = 1; seed <= 3; ++seed)
             expectTwin(randomProblem({41, 23}, 1, reach, seed));
 }
 
-TEST(SemiGlobal, MatchesTheScalarTwinWithSeveralVectors) {
+TEST(SemiGlobal, MatchesTheOracleWithSeveralVectors) {
     for (const int vectors : {2, 3, 5})
         for (const int reach : {0, 7, 17, 40})
             expectTwin(randomProblem({33, 19}, vectors, reach, 10 + vectors));
 }
 
-// The largest sums: costs are zero or the maximum, penalties are at their upper limits.
+// Sums are largest if costs are zero or the maximum and penalties are at their upper limits.
 TEST(SemiGlobal, SumsFitInTheirBytes) {
     for (unsigned seed = 1; seed <= 3; ++seed) {
         Problem p = randomProblem({40, 40}, 1, 30, seed);
@@ -169,8 +170,8 @@ TEST(SemiGlobal, OneClearLabelWinsEverywhere) {
     }
 }
 
-// The surface rises by one label every second pixel: only paths that take the shift of the windows
-// into account follow it.
+// The surface rises by one label every second pixel. Only paths that account for the shift of the
+// windows can follow it.
 TEST(SemiGlobal, FollowsASlopeThroughMovingWindows) {
     Problem p = randomProblem({60, 24}, 1, 0, 3);
     p.smoothness = {12, 60, 255};
@@ -179,7 +180,7 @@ TEST(SemiGlobal, FollowsASlopeThroughMovingWindows) {
             const std::size_t i = p.pixel(x, y);
             const int truth = x / 2;
             p.base[i] = static_cast<std::int16_t>(truth - 3 - (x / 7 + y / 5) % 8);
-            // Every third pixel has no information of its own.
+            // Every third pixel has equal costs for all labels.
             for (int k = 0; k < 16; ++k)
                 p.costs[i * 16 + k] = (x + y) % 3 == 0 || p.base[i] + k == truth ? 4 : 20;
         }
@@ -193,7 +194,7 @@ TEST(SemiGlobal, FollowsASlopeThroughMovingWindows) {
     }
 }
 
-// For costs that rise as |k - truth|, a parabola's vertex would be biased towards whole labels.
+// Costs rise as |k - truth|. The vertex of a parabola would be biased towards whole labels.
 TEST(SemiGlobal, SubLabelPartIsTheVertexOfTwoLines) {
     for (const int quarter : {-2, -1, 0, 1, 2}) {
         Problem p = randomProblem({1, 1}, 1, 0, 3);
@@ -210,7 +211,7 @@ TEST(SemiGlobal, IsTheSameWithAnyNumberOfThreads) {
         EXPECT_EQ(solve(p, threads), one);
 }
 
-// Scratch memory of a larger problem must not influence the next.
+// Scratch memory must not keep values of the larger problem.
 TEST(SemiGlobal, MayBeUsedAgainForSmallerProblems) {
     Workers workers(2);
     SemiGlobal matcher(40UL * 30 * 3);

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kBeyond = 0.8;
 
-// The model folds back not far beyond its corners: rays 61 degrees off the axis are projected to
-// the centre again.
+// The lens model folds back shortly beyond its corners: rays 61 degrees off the axis are projected
+// to the centre again.
 CameraModel folding() {
     return {{161, 119}, 150, 150, 80, 59, {-0.3, 0, 0, 0, 0}};
 }
@@ -21,7 +21,7 @@ Eigen::Matrix3d turn(double x, double y, double z) {
     return test::motion({x, y, z}, {0, 0, 0}).rotation.toRotationMatrix();
 }
 
-/// Smooth, so that values between pixels are known.
+/// A smooth function, so that values between pixels are known.
 double grey(double x, double y) {
     return 128 + 50 * std::sin(0.11 * x) + 50 * std::cos(0.13 * y + 0.02 * x);
 }
@@ -49,7 +49,8 @@ Canvas turned(const CameraModel& camera, const Eigen::Matrix3d& rotation) {
     return out;
 }
 
-/// The place of the camera's pixel in the picture; far outside when it is not visible.
+/// The place in the picture that shows a pixel of the rotated camera; far outside if that point is
+/// not visible.
 Eigen::Vector2d source(const CameraModel& camera, const Eigen::Matrix3d& rotation,
                        const Eigen::Vector2d& pixel) {
     constexpr double kNowhere = -1e6;
@@ -58,7 +59,7 @@ Eigen::Vector2d source(const CameraModel& camera, const Eigen::Matrix3d& rotatio
     const Eigen::Vector3d p = rotation * ray.homogeneous();
     if (!(p.z() > 0)) return {kNowhere, kNowhere};
     const Eigen::Vector2d at = camera.project(p.hnormalized());
-    // The lens model projects rays from far outside back into the picture.
+    // The lens model also projects rays from far outside back into the picture; those do not count.
     const bool real = (camera.unproject(at) - p.hnormalized()).norm() < 1e-3;
     return real ? at : Eigen::Vector2d(kNowhere, kNowhere);
 }
@@ -69,10 +70,10 @@ double depthInside(Size size, const Eigen::Vector2d& at) {
 
 struct Agreement {
     int shown = 0, missing = 0, invented = 0;
-    double worst = 0;  // [grey levels]
+    double worst = 0;  // largest difference [grey levels]
 };
 
-// Pixels within two pixels of the picture's border may be either.
+// Within two pixels of the picture's border, a pixel may count as seen or as unseen.
 Agreement compare(const CameraModel& camera, const Eigen::Matrix3d& rotation,
                   const Canvas& canvas) {
     Agreement out;
@@ -94,8 +95,8 @@ Agreement compare(const CameraModel& camera, const Eigen::Matrix3d& rotation,
     return out;
 }
 
-/// Number of pixels in the camera's own frame, and in `beyond` around it, that show the picture but
-/// are outside the canvas.
+/// Number of pixels in the camera's own frame, and up to `beyond` around it, that show the picture
+/// but lie outside the canvas.
 int leftOff(const CameraModel& camera, const Eigen::Matrix3d& rotation, const Canvas& canvas) {
     const int reach = static_cast<int>(kBeyond * camera.size.width) - 1;
     const auto [ox, oy] = canvas.placed.origin();
@@ -110,7 +111,7 @@ int leftOff(const CameraModel& camera, const Eigen::Matrix3d& rotation, const Ca
     return count;
 }
 
-TEST(TurnedPicture, NoTurnIsTheSamePicture) {
+TEST(TurnedPicture, WithoutRotationThePictureIsUnchanged) {
     const CameraModel camera = test::oddPlain();
     const Canvas canvas = turned(camera, Eigen::Matrix3d::Identity());
     const LumaImage picture = smoothPicture(camera.size);
@@ -136,7 +137,7 @@ TEST(TurnedPicture, MatchesDirectProjection) {
             const Agreement found = compare(camera, rotation, canvas);
             EXPECT_GT(found.shown, 500);
             // Near a fold, interpolation between two points of the grid is not linear, and cells
-            // across it show nothing.
+            // across the fold show nothing.
             const bool folds = camera.distortion[1] == 0 && camera.distortion[0] < 0;
             EXPECT_LT(found.worst, folds ? 15 : 3) << rotation;
             EXPECT_LE(found.missing, folds ? found.shown / 12 : 0) << rotation;
@@ -148,7 +149,7 @@ TEST(TurnedPicture, MatchesDirectProjection) {
 
 TEST(TurnedPicture, CanvasLiesWhereTheCameraTurnedTo) {
     const CameraModel camera = test::oddPlain();
-    // Rays of the new orientation come from the right of the picture, so the picture is on the
+    // In the new orientation the rays come from the right of the picture; so the picture is on the
     // left.
     const Canvas left = turned(camera, turn(0, 38, 0));
     EXPECT_LT(left.placed.origin().x, -camera.size.width / 4);
@@ -177,7 +178,7 @@ TEST(TurnedPicture, OriginIsAlignedAndTheCanvasStaysWithinReach) {
     }
 }
 
-TEST(TurnedPicture, NothingIsSeenBackwards) {
+TEST(TurnedPicture, PointsBehindTheCameraAreUnseen) {
     for (const CameraModel& camera : {test::oddPlain(), test::oddBarrel(), folding()}) {
         for (const Eigen::Matrix3d& rotation :
              {turn(0, 180, 0), turn(180, 0, 0), turn(0, 150, 0), turn(0, -145, 40)}) {
@@ -187,7 +188,7 @@ TEST(TurnedPicture, NothingIsSeenBackwards) {
     }
 }
 
-TEST(TurnedPicture, MayBePlacedAgain) {
+TEST(TurnedPicture, CanBeReusedForAnotherRotation) {
     const CameraModel camera = test::oddBarrel();
     Canvas canvas = turned(camera, turn(0, 20, 30));
     Workers workers(3);

@@ -26,7 +26,7 @@ Parts partsOf(Workers& workers, int end, int grain) {
     return parts;
 }
 
-TEST(Workers, CoverEveryIndexOnce) {
+TEST(Workers, EveryIndexIsProcessedOnce) {
     for (int threads = 1; threads <= 4; ++threads) {
         Workers workers(threads);
         EXPECT_EQ(workers.count(), threads);
@@ -63,15 +63,16 @@ TEST(Workers, PartsAreConsecutiveAndNoShorterThanTheGrain) {
     }
 }
 
-TEST(Workers, NothingToDoCallsNobody) {
+TEST(Workers, AnEmptyLoopCallsNothing) {
     Workers workers(3);
     EXPECT_TRUE(partsOf(workers, 0, 1).empty());
     EXPECT_TRUE(partsOf(workers, -5, 1).empty());
     EXPECT_EQ(partsOf(workers, 1, 1).size(), 1U);
 }
 
-// A part of an earlier loop that is left over or done twice would change the next loop's sum.
-TEST(Workers, ManyLoopsInARowStayApart) {
+// If a part of an earlier loop were left over or run twice, the sum of the next loop would be
+// wrong.
+TEST(Workers, ConsecutiveLoopsDoNotMix) {
     for (int threads = 1; threads <= 4; ++threads) {
         Workers workers(threads);
         for (int loop = 1; loop <= 3000; ++loop) {
@@ -86,7 +87,7 @@ TEST(Workers, ManyLoopsInARowStayApart) {
     }
 }
 
-// Without locks, the caller sees what the loop's body wrote (checked by ThreadSanitizer).
+// Without a lock, the caller must see what the body of the loop wrote. ThreadSanitizer checks this.
 TEST(Workers, ResultsAreVisibleToTheCaller) {
     Workers workers(4);
     std::vector<int> values(500);
@@ -99,12 +100,12 @@ TEST(Workers, ResultsAreVisibleToTheCaller) {
     }
 }
 
-TEST(Workers, OtherThreadsHelp) {
+TEST(Workers, OtherThreadsShareTheWork) {
     Workers workers(2);
     std::mutex mutex;
     std::set<std::thread::id> seen;
     std::atomic<bool> both = false;
-    // The first thread's part ends only after the second thread has begun one.
+    // The part of the first thread ends only after the second thread has begun one.
     workers.forRange(2, 1, [&](int, int) {
         {
             const std::scoped_lock lock(mutex);
@@ -118,12 +119,12 @@ TEST(Workers, OtherThreadsHelp) {
     EXPECT_TRUE(seen.contains(std::this_thread::get_id()));
 }
 
-TEST(Workers, NoNumberMeansOnePerProcessorUpToFour) {
+TEST(Workers, DefaultIsOneThreadPerProcessorUpToFour) {
     const int processors = static_cast<int>(std::thread::hardware_concurrency());
     EXPECT_EQ(Workers().count(), std::clamp(processors, 1, 4));
 }
 
-TEST(Workers, EndAtOnceWhenNeverUsed) {
+TEST(Workers, UnusedWorkersEndAtOnce) {
     for (int i = 0; i < 200; ++i)
         const Workers workers(4);
 }

@@ -1,4 +1,4 @@
-// Calibrations in all formats: a folder, each file on its own, and two files together.
+// Fuzzes calibrations in all formats: a folder, each file on its own, and two files together.
 #include "base/calibration/camera_info.h"
 #include "base/calibration/rig_files.h"
 #include "tests/fuzz/file_bundle.h"
@@ -10,7 +10,7 @@ namespace {
 
 using namespace mfar;
 
-/// Properties of every calibration that is accepted.
+/// Every accepted calibration must have these properties.
 void requireSound(const CameraModel& camera) {
     test::requireThat(camera.size.width > 0 && camera.size.height > 0, "a size");
     test::requireThat(camera.fx > 0 && camera.fy > 0, "a focal length");

@@ -1,4 +1,4 @@
-// The configuration. Files that it refers to do not exist.
+// Fuzzes the configuration. Files that it refers to do not exist.
 #include "daemon/config.h"
 #include "tests/fuzz/target.h"
 

@@ -1,4 +1,4 @@
-// Requests to the control socket.
+// Fuzzes requests to the control socket.
 #include "daemon/control.h"
 #include "tests/fuzz/target.h"
 

@@ -1,4 +1,4 @@
-// Environment pictures: Radiance, PNG, JPEG.
+// Fuzzes environment pictures: Radiance, PNG and JPEG.
 #include "pipeline/models/environment_map.h"
 #include "pipeline/models/gltf_model.h"
 #include "tests/fuzz/target.h"

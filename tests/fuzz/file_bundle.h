@@ -8,10 +8,10 @@
 
 namespace mfar::test {
 
-/// A folder of files, made from one input: "#@ NAME", a line end and the file's bytes, until the
-/// line end before the next such line or the end of the input. Only files with names in `known` are
-/// written. The folder is in memory where the machine has a file system for that, and is removed in
-/// the end.
+/// A folder of files, made from one input. A file begins with a line "#@ NAME", followed by its
+/// bytes. It ends with the line end before the next such line, or with the input. Only files whose
+/// names are in `known` are written. The folder is in memory if the machine has a file system for
+/// that. It is removed at the end.
 class FileBundle {
 public:
     FileBundle(const std::uint8_t* data, std::size_t size, const std::vector<std::string>& known);
@@ -20,7 +20,7 @@ public:
     ~FileBundle();
 
     [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
-    /// In the order of the input.
+    /// The files in the order of the input.
     [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
 
 private:

@@ -1,6 +1,7 @@
-// The state of the learned filters. An input edits a valid file: two bytes select a place (in 64ths
-// of the file, plus an offset), the third the number of bytes that follow and replace the file's.
-// The checksum is corrected afterwards; otherwise nothing behind its check would be reached.
+// Fuzzes the state of the learned filters. An input edits a valid file: two bytes select a place
+// (in 64ths of the file, plus an offset); the third is the number of bytes that follow and replace
+// bytes of the file. Then the checksum is corrected, because otherwise no input would get past its
+// check.
 #include "pipeline/enlarge/enlarger_learner.h"
 #include "pipeline/enlarge/filter_bank.h"
 #include "pipeline/enlarge/stored_numbers.h"

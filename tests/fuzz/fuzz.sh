@@ -16,7 +16,7 @@ EOF
 
 fuzzTargets() { sed -n 's/^ *mfar_fuzz_target(\([a-z0-9]*\).*/\1/p' tests/fuzz/CMakeLists.txt | sort -u; }
 
-# The sources whose coverage is counted for a target, as a regular expression.
+# fuzzRoom TARGET: a regular expression for the sources whose coverage counts.
 fuzzRoom() {
     case $1 in
     calibration) echo 'base/calibration/' ;;
@@ -36,7 +36,7 @@ fuzzRoom() {
     esac
 }
 
-# Folder of inputs that were found before, next to other results that take long to make.
+# The folder of inputs that were found before. It lies next to other results that take long to make.
 fuzzFolder() {
     local folder
     folder=$(cacheFolder)/fuzz/$1
@@ -44,7 +44,7 @@ fuzzFolder() {
     echo "$folder"
 }
 
-# Arguments: preset, target, seconds. Keeps an input that fails and prints its path.
+# fuzzOne PRESET TARGET SECONDS: keeps an input that fails and prints its path.
 fuzzOne() {
     local build=.build/$1 target=$2 seconds=$3 seeds=tests/fuzz/corpus/$2 found
     local dictionary=tests/fuzz/$2.dict
@@ -68,7 +68,7 @@ fuzzOne() {
     ' "$build/$target.log"
 }
 
-# Share of its sources' lines that a target's inputs reach.
+# Prints the share of lines of its sources that the inputs of a target reach.
 fuzzCoverage() {
     local target=$1 program=.build/fuzz-coverage/tests/fuzz/mfar-fuzz-$1 data=.build/fuzz-coverage/$1
     LLVM_PROFILE_FILE=$data.profraw "$program" "tests/fuzz/corpus/$target" "$(fuzzFolder "$target")" >/dev/null
@@ -81,8 +81,8 @@ fuzzCoverage() {
         awk '/^TOTAL/ { print $10 " of " $8 " lines, " $7 " of " $5 " functions" }'
 }
 
-# Builds the libraries that decode pictures and read YAML with coverage and sanitizers, and creates
-# the link by which the preset finds them. CMake remembers the target of the link.
+# Builds the libraries that decode pictures and read YAML, with coverage and sanitizers, and creates
+# the link by which the preset finds them. CMake remembers where the link pointed.
 instrumentLibraries() {
     local made link=.build/instrumented
     ensurePackages fuzzLibraryPackages
@@ -93,7 +93,8 @@ instrumentLibraries() {
     ln -sfn "$made" "$link"
 }
 
-# Arguments: targets (none: all), --minutes N (default 1), --coverage, --instrument-libraries.
+# fuzz [TARGET...] [--minutes N] [--coverage] [--instrument-libraries]: runs all targets if none is
+# given; N is 1 by default.
 fuzz() {
     local preset=fuzz seconds=60 coverage='' targets=() running=0 status=0 target
     while [[ $# -gt 0 ]]; do

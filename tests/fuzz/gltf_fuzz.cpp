@@ -1,4 +1,4 @@
-// Models in one file. Every accepted model satisfies scene.h.
+// Fuzzes models in one file. Every accepted model must satisfy scene.h.
 #include "pipeline/models/gltf_model.h"
 #include "tests/fuzz/sound_model.h"
 #include "tests/fuzz/target.h"

@@ -1,4 +1,4 @@
-// PNG and JPEG in memory, as in recordings, textures and environments.
+// Fuzzes PNG and JPEG in memory, as in recordings, textures and environments.
 #include "hal/image_codec.h"
 #include "tests/fuzz/target.h"
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Builds the libraries that decode pictures and read YAML, as Debian has them, for fuzzing: with
-# coverage and both sanitizers. Prints the folder that they are installed in. What was built is
-# kept; it takes about three minutes. Usage: libraries.sh CACHE
+# Builds the libraries that decode pictures and read YAML for fuzzing, in Debian's versions, with
+# coverage and both sanitizers. Prints the folder in which they are installed. Results are kept;
+# building takes about three minutes. Usage: libraries.sh CACHE
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 # shellcheck source=toolchains/debian.sh
@@ -15,11 +15,12 @@ sources=(zlib libpng1.6 libjpeg-turbo yaml-cpp)
 # shellcheck disable=SC2016 # dpkg-query expands
 versions=$(dpkg-query -W -f '${Version} ' zlib1g-dev libpng-dev libturbojpeg0-dev libyaml-cpp-dev)
 
-# As the preset "fuzz" has them. Functions of C libraries are called through pointers of other types.
+# The same options as in the preset "fuzz". C libraries call functions through pointers of other
+# types.
 sanitizers=-fsanitize=fuzzer-no-link,address,undefined
 flags="-O1 -g1 -fno-omit-frame-pointer -fno-sanitize-recover=all $sanitizers -fno-sanitize=function"
 
-# Arguments: a new folder, files of package sources. Unpacks the sources with Debian's patches there.
+# tryFetching FOLDER FILE...: unpacks package sources, with Debian's patches, in a new folder.
 tryFetching() {
     local folder=$1 file options
     shift
@@ -33,7 +34,8 @@ tryFetching() {
         (cd "$folder" && apt-get -qq "${options[@]}" source "${sources[@]}")
 }
 
-# Argument: a new folder. Security updates are not on every mirror as source.
+# fetch FOLDER: gets the sources into a new folder. Not every mirror has the sources of security
+# updates.
 fetch() {
     local folder=$1 files
     mapfile -t files < <(debianSources)
@@ -46,7 +48,7 @@ fetch() {
     fi
 }
 
-# Arguments: source folder, folder to install in, options of CMake.
+# buildOne SOURCE PREFIX OPTION...: builds with CMake and installs in PREFIX.
 buildOne() {
     local source=$1 prefix=$2
     shift 2
@@ -62,11 +64,11 @@ buildOne() {
 buildAll() {
     local folder=$1 prefix=$2
     fetch "$folder"
-    # Debian leaves out files that its CMake asks for.
+    # Debian's package lacks files that zlib's CMake project needs.
     (cd "$folder"/zlib-*/ && CC=clang-19 CFLAGS=$flags ./configure --static --prefix="$prefix" &&
         make install)
     buildOne "$folder"/libpng1.6-*/ "$prefix" -DPNG_SHARED=OFF -DPNG_TESTS=OFF -DPNG_EXECUTABLES=OFF
-    # Its lanes are assembly, which no sanitizer sees.
+    # Without its SIMD code, which is assembly that no sanitizer can check.
     buildOne "$folder"/libjpeg-turbo-*/ "$prefix" -DENABLE_SHARED=OFF -DWITH_SIMD=OFF
     buildOne "$folder"/yaml-cpp-*/ "$prefix" -DYAML_CPP_BUILD_TESTS=OFF -DYAML_CPP_BUILD_TOOLS=OFF
 }
@@ -76,19 +78,19 @@ if [[ ! -d $built ]]; then
     printf 'Making %s, about three minutes\n' "$built" >&2
     rm -rf "$built.part"
     mkdir -p "$built.part"
-    # In the background, as "||" would let it go on after a fault.
+    # Runs in the background, because "||" would let it continue after a fault.
     buildAll "$built.part/source" "$built.part/prefix" >"$built.log" 2>&1 &
     wait $! || {
         tail -n 20 "$built.log" >&2
         die "the libraries cannot be built, see $built.log"
     }
-    # Its own path is in files of pkg-config and CMake.
+    # Files of pkg-config and CMake contain the folder's path.
     grep -rlIZ "$built.part/prefix" "$built.part/prefix/lib" | xargs -0 sed -i "s|$built.part/prefix|$built|g"
     rm -rf "$built.part/source" "$built.log"
     mv "$built.part/prefix" "$built"
     rmdir "$built.part"
 fi
 touch "$built"
-# Those of earlier versions.
+# Removes the results of earlier versions.
 find "$cache" -maxdepth 1 -name 'instrumented-*' ! -name "${built##*/}" -mtime +14 -exec rm -rf {} +
 echo "$built"

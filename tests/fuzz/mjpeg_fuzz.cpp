@@ -1,4 +1,4 @@
-// Pictures of a camera that delivers JPEG.
+// Fuzzes pictures of a camera that delivers JPEG.
 #include "base/image_layout.h"
 #include "hal/device/jpeg_decoder.h"
 #include "tests/fuzz/target.h"

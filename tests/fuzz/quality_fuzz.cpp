@@ -1,4 +1,4 @@
-// Tables of quality levels, as mfar-bench writes them.
+// Fuzzes tables of quality levels, as mfar-bench writes them.
 #include "daemon/config.h"
 #include "daemon/quality_table.h"
 #include "tests/fuzz/target.h"

@@ -1,4 +1,4 @@
-// Runs a fuzz target once for each file in some folders: seeds and inputs that failed before.
+// Runs a fuzz target once for each file in some folders: seeds, and inputs that failed before.
 // Replaces libFuzzer's main().
 #include "tests/fuzz/target.h"
 
@@ -32,7 +32,7 @@ int main(int argc, char** argv) {
             std::ifstream in(file, std::ios::binary);
             const std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
             fmt::print("{}\n", file.string());
-            std::fflush(stdout);  // before the target may end the process
+            std::fflush(stdout);  // the target may end the process
             LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()),
                                    bytes.size());
             ++count;

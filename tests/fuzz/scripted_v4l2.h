@@ -9,11 +9,11 @@
 
 namespace mfar::test {
 
-/// A driver whose answers are bytes of a script, within the limits that the kernel sets to a
-/// driver: it returns an error or fills the structure of a call, but neither changes the caller's
-/// pointers nor returns descriptors that are not new. The first byte of each call selects the
-/// answer: 0 to 7 are errors, 8 to 127 the answer of a correct camera, and for larger values the
-/// script fills the structure. After the end of the script all answers are correct.
+/// A driver whose answers are bytes of a script, within the kernel's limits for drivers. It returns
+/// an error or fills the structure of a call. It neither changes the caller's pointers nor returns
+/// descriptors that are not new. The first byte of each call selects the answer: 0 to 7 are errors;
+/// 8 to 127 are the answer of a correct camera; for larger values the script fills the structure.
+/// After the end of the script all answers are correct.
 class ScriptedV4l2 final : public V4l2Api {
 public:
     explicit ScriptedV4l2(std::span<const std::uint8_t> script) : script_(script) {}

@@ -1,4 +1,4 @@
-// Tag maps in both formats.
+// Fuzzes tag maps in both formats.
 #include "pipeline/track/tag_map.h"
 #include "tests/fuzz/target.h"
 

@@ -1,4 +1,4 @@
-// A driver with arbitrary answers: the input is the script of its answers.
+// Fuzzes a driver with arbitrary answers. The input is the script of its answers.
 #include "base/image_layout.h"
 #include "hal/device/camera_v4l2.h"
 #include "tests/fuzz/scripted_v4l2.h"

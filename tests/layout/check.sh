@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Checks the direction of includes, the places of third-party headers, the length of files and the
-# names at the top level. Usage: check.sh [ROOT]. One line per fault, exit status 1 when there is one.
+# names at the top level. Usage: check.sh [ROOT]. Prints one line per fault. Exit status 1: there
+# are faults.
 set -euo pipefail
 cd "${1:-$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../..}"
 
@@ -8,7 +9,8 @@ rooms=(base daemon hal pipeline gles_shaders tests systemd toolchains)
 topLevel=' CMakeLists.txt CMakePresets.json README.md LICENSE CHANGELOG.md CONTRIBUTING.md CITATION.cff
   run .clang-format .clang-tidy .ci .gitignore base daemon hal pipeline gles_shaders tests systemd
   toolchains docs '
-# Not part of the tree: version control, build and output folders, recordings for measurements.
+# Top-level names that are not part of the tree: version control, build and output folders,
+# recordings.
 ignored=' .git .build out shared '
 maxLines=400
 
@@ -20,8 +22,9 @@ fault() {
     faults=$((faults + 1))
 }
 
-# These two set a variable: to print it would cost a process for each include.
-# `allowed`: what the files of a room may include from the project, as a regular expression.
+# allowedFrom() and homeOf() return their result in a variable, because printing it would cost a
+# process for each include. `allowed`: regular expression for the project files that a folder may
+# include.
 allowedFrom() {
     case $1 in
     tests/*) allowed='.+' ;;
@@ -39,7 +42,8 @@ allowedFrom() {
     esac
 }
 
-# `home`: the only places of a third-party header, as a regular expression; nothing: anywhere.
+# `home`: regular expression for the only places that may include a third-party header; empty: any
+# place.
 homeOf() {
     home=''
     case $1 in

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# check.sh must pass a sound tree and find each fault that is planted into it.
+# check.sh must accept a valid tree and report each fault that is planted into it.
 set -euo pipefail
 check=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/check.sh
 work=$(mktemp -d)
@@ -33,7 +33,8 @@ soundTree() {
     put tests/all.cpp '#include "daemon/app.h"' '#include "hal/virtual/player.h"'
 }
 
-# expectFault MESSAGE FILE LINE...: the file, planted into a sound tree, is reported with MESSAGE.
+# expectFault MESSAGE FILE LINE...: plants the file into a valid tree and expects a report with
+# MESSAGE.
 expectFault() {
     local message=$1 said
     soundTree

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What gles_shaders/params_to_glsl.cmake makes of headers, and which it refuses.
+# Checks how gles_shaders/params_to_glsl.cmake converts headers, and which headers it refuses.
 set -euo pipefail
 top=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../..
 work=$(mktemp -d)
@@ -68,7 +68,8 @@ END
 translate || fail "a sound header is refused"
 diff wanted.glsl out.glsl || fail "the translation differs"
 
-# refused LINE REASON TEXT: the text, from line 3 of a header on, is refused for the reason.
+# refused LINE REASON TEXT: a header with the text, which starts at line 3, must be refused at LINE
+# for the reason.
 refused() {
     printf '#pragma once\n#include "shared.h"\n%s\n' "$3" >case.h
     if translate; then fail "accepted: $3"; fi

@@ -9,7 +9,7 @@ namespace {
 
 using Outcome = EnlargerLearner::Outcome;
 
-constexpr unsigned kFresh = 1000;  // seed of a picture that is not used for learning
+constexpr unsigned kFresh = 1000;  // seed of a picture from which nothing is learned
 
 SensorPair seeded(SensorPair pair, unsigned seed) {
     pair.seed = seed;
@@ -76,7 +76,7 @@ TEST(EnlargerLearner, ExposureAndGammaOfTheStillAreNotLearned) {
     EXPECT_LT(other, 1.05 * same);
 }
 
-TEST(EnlargerLearner, LookUpsThatAreOffByAFractionOfAPixelAreMovedBack) {
+TEST(EnlargerLearner, LookUpErrorsOfAFractionOfAPixelAreCorrected) {
     const SensorPair pair{.videoBlur = 1};
     SensorPair off = pair;
     off.shift = 0.2;
@@ -85,7 +85,7 @@ TEST(EnlargerLearner, LookUpsThatAreOffByAFractionOfAPixelAreMovedBack) {
     EXPECT_LT(other, 1.05 * same);
 }
 
-TEST(EnlargerLearner, StillsOfSomethingElseAreRefused) {
+TEST(EnlargerLearner, StillsOfAnotherSceneAreRefused) {
     EnlargerLearner learner;
     EXPECT_EQ(learner.add(matchedPictures(sharpDiscs(1), sharpDiscs(2), {})), Outcome::Refused);
     EXPECT_EQ(learner.add(matchedPictures(sharpDiscs(1), {.weight = 0})), Outcome::Refused);
@@ -101,7 +101,7 @@ TEST(EnlargerLearner, StillsOutOfFocusAreRefused) {
     EXPECT_TRUE(sameFilters(*learner.filters(), FilterBank::prior()));
 }
 
-TEST(EnlargerLearner, BadPairsNeverMakeItWorseThanTheCubic) {
+TEST(EnlargerLearner, BadPairsNeverGiveFiltersWorseThanTheCubic) {
     for (const SensorPair& good : {SensorPair{}, SensorPair{.videoBlur = 1, .videoNoise = 2}}) {
         EnlargerLearner learner;
         for (int i = 1; i <= 8; ++i) {
@@ -119,7 +119,7 @@ TEST(EnlargerLearner, BadPairsNeverMakeItWorseThanTheCubic) {
 }
 
 TEST(EnlargerLearner, ClassesWithFewPixelsKeepTheShippedFilters) {
-    // Edges of one direction only: the classes of all other directions stay empty.
+    // Edges of one direction only, so that the classes of all other directions stay empty.
     const auto stripes = [](int phase) {
         return twin::greyOf({1024, 768}, [phase](int x, int) {
             return 60.0 + 120 * ((x + 7 * phase) / 37 % 2) + 8 * ((x / 37) % 5);

@@ -24,7 +24,7 @@ TEST(FineMatchLearner, StartsWithoutAFineMatch) {
 TEST(FineMatchLearner, FindsTheNoiseOfTheVideo) {
     EXPECT_LT(learned({}).noise, 0.5);
     for (const double noise : {2.0, 4.0}) {
-        // Three quarters of the noise are in the finest detail; a tenth of the cells has less than
+        // Three quarters of the noise are in the finest detail. A tenth of the cells has less than
         // half of that.
         const double fine = 0.75 * noise * noise;
         const float found = learned({.videoNoise = noise}).noise;
@@ -33,13 +33,13 @@ TEST(FineMatchLearner, FindsTheNoiseOfTheVideo) {
     }
 }
 
-TEST(FineMatchLearner, LookUpsThatAreOffRaiseTheShare) {
+TEST(FineMatchLearner, WrongLookUpsRaiseTheUnexplainedShare) {
     const float right = learned({.videoNoise = 1}).share,
                 off = learned({.videoNoise = 1, .shift = 0.3}).share;
     EXPECT_GT(off, right + 0.02);
 }
 
-TEST(FineMatchLearner, APartThatIsMatchedWronglyDoesNotDecide) {
+TEST(FineMatchLearner, AWronglyMatchedPartHasLittleInfluence) {
     FineMatchLearner learner;
     MatchedPictures pictures = matchedPictures(sharpDiscs(1), {.videoNoise = 1});
     for (int y = 0; y < pictures.lookUps.size().height / 4; ++y)
@@ -80,7 +80,7 @@ TEST(FineMatchLearner, NumbersOutOfRangeAreNotRestored) {
     EXPECT_EQ(restored.fineMatch(), learner.fineMatch());
 }
 
-TEST(EnlargerLearner, PutsTheUsualMatchInPlace) {
+TEST(EnlargerLearner, FineMatchIsLearnedAndRestoredWithTheFilters) {
     EnlargerLearner learner;
     EXPECT_EQ(learner.add(matchedPictures(sharpDiscs(1), {.videoNoise = 2})),
               EnlargerLearner::Outcome::Replaced);

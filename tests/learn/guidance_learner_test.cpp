@@ -9,8 +9,8 @@
 namespace mfar::enlarge {
 namespace {
 
-/// `truth`: a noisy video of the discs with a sharp still; `older`: the same with the noisy still
-/// that it is drawn with.
+/// `truth`: a noisy video of the discs with a sharp still. `older`: the same video with the noisy
+/// older still with which it is drawn.
 struct Stills {
     Stills(double videoNoise, double olderNoise, unsigned seed, SensorPair how = {}) {
         const twin::Grey sharp = sharpDiscs(seed);
@@ -39,7 +39,7 @@ TEST(GuidanceLearner, StartsWithoutGuidance) {
 }
 
 TEST(GuidanceLearner, FindsTheBestMeanOfTwoNoisyValues) {
-    // The mean of the still over a video pixel has a quarter of the still's noise.
+    // The still is averaged over a video pixel, which leaves a quarter of its noise.
     for (const auto& [video, still] : {std::pair{4.0, 0.0}, {4.0, 8.0}, {4.0, 16.0}}) {
         const double best = video * video / (video * video + still * still / 16);
         const GuidanceLearner learner = learned(video, still);
@@ -51,8 +51,8 @@ TEST(GuidanceLearner, FindsTheBestMeanOfTwoNoisyValues) {
 }
 
 TEST(GuidanceLearner, FindsTheGuidanceForEachExposure) {
-    // `weight` scales the still's detail to the video's exposure.
-    for (const double gain : {0.5, 0.8}) {  // a larger gain would be saturated
+    // `weight` scales the detail of the still to the exposure of the video.
+    for (const double gain : {0.5, 0.8}) {  // with a larger gain the still would saturate
         GuidanceLearner learner;
         for (unsigned i = 1; i <= 3; ++i) {
             const Stills of(4, 0, i, {.gain = gain, .weight = 1 / gain});
@@ -63,7 +63,7 @@ TEST(GuidanceLearner, FindsTheGuidanceForEachExposure) {
     }
 }
 
-TEST(GuidanceLearner, NoiseOfTheStillAloneTeachesNothing) {
+TEST(GuidanceLearner, NoiseOfTheStillAloneGivesNoGuidance) {
     EXPECT_FALSE(learned(0, 16).guidance().any());
     EXPECT_FALSE(learned(1, 24).guidance().any()) << "it would gain less than it may cost";
 }
@@ -109,7 +109,7 @@ TEST(GuidanceLearner, UnusablePicturesAreIgnored) {
     EXPECT_EQ(learner.stored(), before);
 }
 
-TEST(GuidanceLearner, AFewLookUpsThatAreNotNumbersChangeLittle) {
+TEST(GuidanceLearner, AFewNanLookUpsChangeLittle) {
     GuidanceLearner learner;
     for (unsigned i = 1; i <= 3; ++i) {
         Stills of(4, 8, i);
@@ -153,7 +153,7 @@ TEST(GuidanceLearner, NumbersOutOfRangeAreNotRestored) {
     }
 }
 
-TEST(EnlargerLearner, PutsGuidanceInPlaceWithItsFilters) {
+TEST(EnlargerLearner, GuidanceIsLearnedAndKeptWithTheFilters) {
     EnlargerLearner learner;
     const Stills of(4, 8, 1);
     EXPECT_EQ(learner.addOlder(of.truth, of.older), EnlargerLearner::Outcome::Replaced);

@@ -29,7 +29,7 @@ std::string faultOf(std::span<const std::uint8_t> bytes, const std::string& key 
     return "";
 }
 
-TEST(LearnerState, IsRestoredToTheBitAndContinuesEqually) {
+TEST(LearnerState, RestoredStateIsIdenticalAndContinuesEqually) {
     EnlargerLearner first = learned();
     ASSERT_GT(first.counts().classes, 0);
     const auto bytes = first.stored("a, b");
@@ -50,7 +50,7 @@ TEST(LearnerState, StateOfOtherSensorsIsRefused) {
               "state: was learned from other sensors");
 }
 
-TEST(LearnerState, DamagedOnesAreRefused) {
+TEST(LearnerState, DamagedStatesAreRefused) {
     const auto whole = learned().stored("a, b");
     EXPECT_EQ(faultOf(whole), "");
     for (const std::size_t size : {std::size_t{0}, std::size_t{7}, std::size_t{12}, std::size_t{40},
@@ -66,7 +66,7 @@ TEST(LearnerState, DamagedOnesAreRefused) {
     EXPECT_EQ(faultOf(damaged), "state: another version than this program's");
 }
 
-TEST(LearnerState, NumbersThatAreNotFiniteAreRefusedThoughTheSumIsRight) {
+TEST(LearnerState, NonFiniteNumbersAreRefusedThoughTheChecksumIsRight) {
     auto bytes = learned().stored("a, b");
     bytes.resize(bytes.size() - 4);
     for (std::size_t i = bytes.size() - 8; i < bytes.size(); ++i)
@@ -95,7 +95,7 @@ TEST(LearnerState, OlderVersionsAreReadWithoutTheirGuidance) {
     }
 }
 
-TEST(LearnerState, VersionThreeIsReadWithItsGuidanceButWithoutTheUsualMatch) {
+TEST(LearnerState, VersionThreeIsReadWithGuidanceButWithoutFineMatch) {
     const EnlargerLearner now = learned();
     auto bytes = now.stored("a, b");
     bytes.resize(bytes.size() - 4 - kFineMatchSize);
@@ -106,19 +106,19 @@ TEST(LearnerState, VersionThreeIsReadWithItsGuidanceButWithoutTheUsualMatch) {
     EXPECT_FALSE(then.filters()->fineMatch().isKnown());
 }
 
-TEST(LearnerState, AGuidanceOutOfRangeIsRefusedThoughTheSumIsRight) {
+TEST(LearnerState, GuidanceOutOfRangeIsRefusedThoughTheChecksumIsRight) {
     auto bytes = learned().stored("a, b");
     bytes.resize(bytes.size() - 4);
     auto guidance = bytes;
-    guidance[bytes.size() - kFineMatchSize - kGuidanceSize + 15] ^= 0x40;  // to far more than one
+    guidance[bytes.size() - kFineMatchSize - kGuidanceSize + 15] ^= 0x40;  // far above one
     enlarge::putNumber(guidance, enlarge::fnv1a(guidance), 4);
     EXPECT_THAT(faultOf(guidance), HasSubstr("guidance that is out of range"));
-    bytes[bytes.size() - 1] ^= 0x40;  // the share in FineMatch
+    bytes[bytes.size() - 1] ^= 0x40;  // byte of the share in FineMatch
     enlarge::putNumber(bytes, enlarge::fnv1a(bytes), 4);
     EXPECT_THAT(faultOf(bytes), HasSubstr("usual match that is out of range"));
 }
 
-TEST(LearnerState, AWrongLengthIsRefusedThoughTheSumIsRight) {
+TEST(LearnerState, AWrongLengthIsRefusedThoughTheChecksumIsRight) {
     auto bytes = EnlargerLearner().stored("a, b");
     bytes.resize(bytes.size() - 4);
     auto longer = bytes;

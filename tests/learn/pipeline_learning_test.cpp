@@ -60,7 +60,7 @@ protected:
                      {});
         return pipeline.readImage();
     }
-    /// True when both pipelines draw the same picture.
+    /// True if both pipelines draw the same picture.
     bool alike() { return picture(pipeline_) == picture(other_); }
 
     bool current_;
@@ -116,7 +116,7 @@ TEST_P(PipelineLearning, AReplacedStillIsReportedWithTheLastPicture) {
     EXPECT_EQ(heard.replacements, 1);
 }
 
-TEST_P(PipelineLearning, FiltersComeInWithTheNextStillOrAtOnceWithoutAny) {
+TEST_P(PipelineLearning, NewFiltersTakeEffectWithTheNextStillOrAtOnceWithoutOne) {
     const auto none = std::make_shared<const FilterBank>(
         std::vector<FilterBank::Filter>(enlarge::kUnique, FilterBank::Filter{}));
     pipeline_.setFilters(none);

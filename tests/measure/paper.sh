@@ -19,7 +19,8 @@ fi
 rm -rf "$out"
 mkdir -p "$out"
 
-# measured FILE COMMAND...: runs COMMAND; its table goes into FILE, its messages to the terminal.
+# measured FILE COMMAND...: runs COMMAND. Its table is written to FILE, its messages to the
+# terminal.
 measured() {
     local file=$out/$1
     shift
@@ -31,11 +32,11 @@ measured() {
     fi
 }
 
-# median LINE: the median in this line of mfar-bench's table [ms].
+# median LINE: prints the median [ms] in this line of mfar-bench's table.
 median() { awk -v line="$1" 'index($0, line " ") == 1 { sub(line, ""); print $1; exit }' "$out/times.txt"; }
 perSecond() { awk -v ms="$1" 'BEGIN { if (ms == "") print "not measured"; else printf "%.1f frames/s", 1000 / ms }'; }
 
-# section TITLE NAME [FIGURE]
+# section TITLE NAME [FIGURE]: starts a section of the page.
 section() {
     printf '\n## %s\n\n' "$1"
     [[ ! -s $out/${3:-none} ]] || printf '![%s](%s)\n\n' "$1" "$3"

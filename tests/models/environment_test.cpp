@@ -38,17 +38,18 @@ void expectClose(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
     EXPECT_LT((a - b).norm(), 1e-3F * (1 + b.norm())) << a.transpose() << " / " << b.transpose();
 }
 
-TEST(EnvironmentMap, FlatPixels) {
+TEST(EnvironmentMap, UncompressedPixelsAreRead) {
     const Environment e =
         parseEnvironment(hdr(kHeader + "-Y 1 +X 2\n", {128, 64, 0, 129, 255, 255, 255, 130}), "a");
     EXPECT_EQ(e.size, (Size{2, 1}));
-    // A mantissa means the middle of its quantization step.
+    // A mantissa stands for the middle of its quantisation step.
     expectClose(e.radiance[0], {128.5F / 128, 64.5F / 128, 0.5F / 128});
     expectClose(e.radiance[1], Eigen::Vector3f::Constant(255.5F / 64));
 }
 
-TEST(EnvironmentMap, RunsOfBothKinds) {
-    // Four rows of eight pixels, split into components: R a run, G plain, B and E runs.
+TEST(EnvironmentMap, RunLengthsOfBothKindsAreRead) {
+    // Four rows of eight pixels, split into components: R is a run, G is not compressed, B and E
+    // are runs.
     Bytes rows;
     for (int y = 0; y < 4; ++y) {
         const auto level = static_cast<std::uint8_t>(10 * y);
@@ -57,7 +58,7 @@ TEST(EnvironmentMap, RunsOfBothKinds) {
     }
     const Environment split = parseEnvironment(hdr(kHeader + "-Y 4 +X 8\n", rows), "a");
     expectClose(split.radiance[3 * 8 + 5], {30.5F, 6.5F, 9.5F});
-    // One pixel, then a run that repeats it seven times.
+    // One pixel, followed by a run that repeats it seven times.
     rows.clear();
     for (int y = 0; y < 4; ++y)
         rows.insert(rows.end(), {5, 6, 7, 136, 1, 1, 1, 7});
@@ -65,14 +66,14 @@ TEST(EnvironmentMap, RunsOfBothKinds) {
     expectClose(old.radiance[31], {5.5F, 6.5F, 7.5F});
 }
 
-TEST(EnvironmentMap, ExposureIsUndone) {
+TEST(EnvironmentMap, ExposureIsDividedOut) {
     const Environment e = parseEnvironment(
         hdr("#?RGBE\nEXPOSURE=2\nEXPOSURE= 4.0\n\n-Y 1 +X 2\n", {8, 8, 8, 136, 0, 0, 0, 0}), "a");
     expectClose(e.radiance[0], Eigen::Vector3f::Constant(8.5F / 8));
     EXPECT_EQ(e.radiance[1], Eigen::Vector3f(0, 0, 0));
 }
 
-TEST(EnvironmentMap, PicturesAreLinearised) {
+TEST(EnvironmentMap, EightBitPicturesAreLinearised) {
     const Environment e = parseEnvironment(
         test::rgbaPng({2, 1}, {{{255, 188, 0, 255}}, {{128, 10, 5, 255}}}), "a.png");
     expectClose(e.radiance[0], {1, 0.5029F, 0});
@@ -80,7 +81,7 @@ TEST(EnvironmentMap, PicturesAreLinearised) {
 }
 
 TEST(EnvironmentMap, LargePicturesAreAveraged) {
-    // 2048 rows of 4096 pixels of one value, but every other row is twice as bright.
+    // 2048 rows of 4096 equal pixels; every other row is twice as bright.
     Bytes rows;
     for (int y = 0; y < 2048; ++y) {
         rows.insert(rows.end(), {2, 2, 16, 0});
@@ -96,7 +97,7 @@ TEST(EnvironmentMap, LargePicturesAreAveraged) {
         expectClose(e.radiance[i], Eigen::Vector3f::Constant(1.5F * 100.5F));
 }
 
-TEST(EnvironmentMap, FaultsAreOneClearLine) {
+TEST(EnvironmentMap, FaultsAreReportedInOneLine) {
     const Bytes pixel = {8, 8, 8, 136};
     EXPECT_THAT(environmentFault({}), HasSubstr("sky.hdr: neither PNG nor JPEG"));
     EXPECT_THAT(environmentFault(hdr("#?RADIANCE\n", {})), HasSubstr("broken header"));
@@ -122,8 +123,8 @@ TEST(EnvironmentMap, FaultsAreOneClearLine) {
     EXPECT_THROW((void)loadEnvironment(folder / "none.hdr"), ModelError);
 }
 
-// scene.h: column 0 is -x, +y at three quarters of the width, row 0 up.
-TEST(EnvironmentMap, DirectionsAreTheScenes) {
+// As scene.h defines: column 0 is -x, +y is at three quarters of the width, row 0 is up.
+TEST(EnvironmentMap, DirectionsFollowTheScenesAxes) {
     expectClose(environmentDirection(0, 0.5F), {-1, 0, 0});
     expectClose(environmentDirection(0.75F, 0.5F), {0, 1, 0});
     expectClose(environmentDirection(0.3F, 0), {0, 0, 1});

@@ -34,7 +34,7 @@ std::string faultOf(const GltfMaker& maker, const ModelLimits& limits = {}) {
     return faultOf([&] { (void)parseGltf(maker.glb(), "test.glb", {}, limits); });
 }
 
-/// The error message after one change of a valid model.
+/// The error message after one change to a valid model.
 std::string faultAfter(const std::function<void(json&)>& change) {
     GltfMaker maker = richModel();
     change(maker.root);
@@ -50,7 +50,7 @@ TEST(GltfFaults, ValidModelsHaveNoFaults) {
     EXPECT_EQ(faultOf(richModel()), "none");
 }
 
-TEST(GltfFaults, BytesThatAreNoModel) {
+TEST(GltfFaults, BytesThatAreNotAModelAreRefused) {
     const auto faultOfBytes = [](std::vector<std::uint8_t> bytes) {
         return faultOf([&] { (void)parseGltf(bytes, "test.glb"); });
     };
@@ -61,7 +61,7 @@ TEST(GltfFaults, BytesThatAreNoModel) {
     std::vector<std::uint8_t> glb = oneTriangle().glb();
     glb[4] = 1;
     EXPECT_THAT(faultOfBytes(glb), HasSubstr("version 1"));
-    // A file cut off at any byte gives one clear error.
+    // A file that is cut off at any byte must give one clear error.
     glb = richModel().glb();
     for (std::size_t size = 0; size < glb.size(); size += 7)
         EXPECT_THAT(faultOfBytes({glb.begin(), glb.begin() + static_cast<std::ptrdiff_t>(size)}),
@@ -76,7 +76,7 @@ TEST(GltfFaults, NestingHasALimit) {
     EXPECT_THAT(faultOf([&] { (void)parseGltf(bytes, "test.gltf"); }), HasSubstr("nested deeper"));
 }
 
-TEST(GltfFaults, RangesOfBuffers) {
+TEST(GltfFaults, InvalidBufferRangesAreRefused) {
     EXPECT_THAT(faultAfter([](json& r) { r["bufferViews"][1]["byteOffset"] = -4; }),
                 saysAt("bufferViews[1]", "byteOffset is no count"));
     EXPECT_THAT(faultAfter([](json& r) {
@@ -96,7 +96,7 @@ TEST(GltfFaults, RangesOfBuffers) {
     EXPECT_THAT(faultAfter([](json& r) { r["nodes"] = "none"; }), saysAt("nodes", "no list"));
 }
 
-TEST(GltfFaults, RangesOfAccessors) {
+TEST(GltfFaults, InvalidAccessorRangesAreRefused) {
     const auto accessor = [](const char* key, const json& value) {
         return faultAfter([&](json& r) { r["accessors"][0][key] = value; });
     };
@@ -117,7 +117,7 @@ TEST(GltfFaults, RangesOfAccessors) {
         saysAt(place, "index 12"));
 }
 
-TEST(GltfFaults, SparseAccessors) {
+TEST(GltfFaults, InvalidSparseAccessorsAreRefused) {
     const auto sparse = [](const char* key, const json& value) {
         GltfMaker maker = oneTriangle();
         const std::uint8_t index = 9;
@@ -141,7 +141,7 @@ TEST(GltfFaults, SparseAccessors) {
     EXPECT_THAT(sparse("/indices/componentType", 5126), HasSubstr("not sound"));
 }
 
-TEST(GltfFaults, NumbersOfVertices) {
+TEST(GltfFaults, InconsistentVertexCountsAreRefused) {
     GltfMaker maker = oneTriangle();
     maker.mesh(maker.floats({0, 0, NAN, 1, 0, 0, 0, 1, 0}, 3));
     EXPECT_THAT(faultOf(maker), HasSubstr("meshes[1].primitives[0].attributes.POSITION: element 0"
@@ -159,7 +159,7 @@ TEST(GltfFaults, NumbersOfVertices) {
     EXPECT_THAT(faultOf(maker), saysAt("meshes[0].primitives[0]", "1 normals for 3 vertices"));
 }
 
-TEST(GltfFaults, Nodes) {
+TEST(GltfFaults, InvalidNodesAreRefused) {
     EXPECT_THAT(faultAfter([](json& r) { r["nodes"][0]["children"] = {1}; }),
                 saysAt("nodes[1]", "its own ancestor"));
     EXPECT_THAT(faultAfter([](json& r) { r["nodes"][1]["children"] = {5}; }),
@@ -182,7 +182,7 @@ TEST(GltfFaults, Nodes) {
     EXPECT_THAT(faultOf(maker), HasSubstr("nested deeper than 64"));
 }
 
-// A tree that shows each node twice per level would have 2^40 of them.
+// Each level of the tree contains the next level twice; so there are 2^40 instances.
 TEST(GltfFaults, EveryInstanceOfANodeIsCounted) {
     GltfMaker maker = oneTriangle();
     for (int i = 0; i < 40; ++i)
@@ -191,7 +191,7 @@ TEST(GltfFaults, EveryInstanceOfANodeIsCounted) {
     EXPECT_THAT(faultOf(maker), HasSubstr("more than 100000 nodes"));
 }
 
-TEST(GltfFaults, Materials) {
+TEST(GltfFaults, InvalidMaterialsAreRefused) {
     const auto material = [](const char* key, const json& value) {
         return faultAfter([&](json& r) { r["materials"][0][json::json_pointer(key)] = value; });
     };
@@ -210,7 +210,7 @@ TEST(GltfFaults, Materials) {
                 saysAt("extensionsRequired", "KHR_draco"));
 }
 
-TEST(GltfFaults, Pictures) {
+TEST(GltfFaults, InvalidPicturesAreRefused) {
     GltfMaker maker = richModel();
     const std::vector<std::uint8_t> noise(64, 7);
     maker.texture(noise, "image/png");
@@ -228,7 +228,7 @@ TEST(GltfFaults, Pictures) {
     EXPECT_THAT(faultOf(richModel(), limits), HasSubstr("more than 1 textures"));
 }
 
-TEST(GltfFaults, Limits) {
+TEST(GltfFaults, ModelsBeyondTheLimitsAreRefused) {
     ModelLimits limits;
     limits.vertices = 3;
     EXPECT_THAT(faultOf(richModel(), limits), HasSubstr("4 elements, 1 to 3 are read"));
@@ -241,7 +241,7 @@ TEST(GltfFaults, Limits) {
     limits = {};
     limits.elements = 3;
     EXPECT_THAT(faultOf(richModel(), limits), saysAt("accessors", "4 entries, at most 3"));
-    // Two instances of three vertices.
+    // Two instances of a triangle.
     GltfMaker maker = oneTriangle();
     maker.root["scenes"][0]["nodes"] = {0, 0};
     limits = {};
@@ -284,7 +284,7 @@ protected:
     test::TempFolder folder_;
 };
 
-TEST_F(GltfFiles, OnlyItsFolderIsRead) {
+TEST_F(GltfFiles, OnlyFilesInTheModelsFolderAreRead) {
     EXPECT_EQ(faultWithUri("data.bin"), "none");
     EXPECT_EQ(faultWithUri("./data.bin"), "none");
     EXPECT_THAT(faultWithUri("../secret.bin"), HasSubstr("folder"));
@@ -298,7 +298,7 @@ TEST_F(GltfFiles, OnlyItsFolderIsRead) {
     EXPECT_THAT(faultWithUri("link.bin"), HasSubstr("folder"));
 }
 
-TEST_F(GltfFiles, AFileInMemoryNamesNone) {
+TEST_F(GltfFiles, AModelInMemoryMayNotNameFiles) {
     const std::string text = maker_.gltf();
     const std::vector<std::uint8_t> bytes(text.begin(), text.end());
     EXPECT_THAT(faultOf([&] { (void)parseGltf(bytes, "test.gltf"); }),

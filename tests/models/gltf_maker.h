@@ -11,23 +11,23 @@
 
 namespace mfar::test {
 
-/// Builds a glTF document, which is valid until `root` is changed by hand.
+/// Builds a glTF document. It is valid unless `root` is changed by hand.
 class GltfMaker {
 public:
     GltfMaker();
 
-    /// Each adds an accessor (with a bufferView of its own) and returns its number.
+    /// These functions add an accessor with its own bufferView and return its number.
     int floats(const std::vector<float>& values, int components);
     int shorts(const std::vector<std::uint16_t>& values);
-    /// Adds an image in a bufferView with a texture of it; returns the texture's number.
+    /// Adds an image in a bufferView and a texture of it. Returns the number of the texture.
     int texture(const std::vector<std::uint8_t>& file, const std::string& mime);
-    /// Adds a mesh of one primitive in a node of the scene; returns the primitive.
+    /// Adds a mesh of one primitive in a node of the scene. Returns the primitive.
     nlohmann::json& mesh(int positions, int indices = -1);
     int view(const void* bytes, std::size_t count);
 
-    /// The file in one piece.
+    /// The document as one .glb file.
     [[nodiscard]] std::vector<std::uint8_t> glb() const;
-    /// The JSON alone, its buffer in the file "data.bin" of these bytes.
+    /// The JSON text alone. Its buffer is the file "data.bin", which has these bytes.
     [[nodiscard]] std::string gltf() const;
     [[nodiscard]] const std::vector<std::uint8_t>& bin() const { return bin_; }
 

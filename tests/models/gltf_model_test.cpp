@@ -21,7 +21,7 @@ void expectNear(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
     EXPECT_LT((a - b).norm(), 1e-6F) << a.transpose() << " is not " << b.transpose();
 }
 
-TEST(GltfModel, IsTurnedUpright) {
+TEST(GltfModel, ModelIsTurnedUpright) {
     const Model model = modelOf(oneTriangle());
     ASSERT_EQ(model.meshes.size(), 1U);
     ASSERT_EQ(model.materials.size(), 1U) << "the default one";
@@ -44,7 +44,7 @@ TEST(GltfModel, MaterialIsRead) {
     EXPECT_EQ(m.normalScale, 0.5F);
     EXPECT_EQ(m.alphaCutoff, 0.25F);
     EXPECT_TRUE(m.doubleSided);
-    // One image used as colour and as data.
+    // One image is used as colour and as data; so it gives two textures.
     ASSERT_EQ(model.textures.size(), 2U);
     EXPECT_EQ(m.baseColourTexture, m.emissionTexture);
     EXPECT_EQ(m.normalTexture, m.metallicRoughnessTexture);
@@ -63,8 +63,8 @@ TEST(GltfModel, HierarchyIsApplied) {
     expectNear(mesh.normals[0], {0, -1, 0});
 }
 
-// The picture stands upright: u along +x, and up in it is up in the world.
-TEST(GltfModel, TangentsAreMade) {
+// The picture stands upright: u points along +x, and up in the picture is up in the world.
+TEST(GltfModel, MissingTangentsAreComputed) {
     const Mesh mesh = modelOf(richModel()).meshes.at(0);
     ASSERT_EQ(mesh.tangents.size(), 4U);
     for (std::size_t i = 0; i < 4; ++i) {
@@ -74,7 +74,7 @@ TEST(GltfModel, TangentsAreMade) {
     }
 }
 
-TEST(GltfModel, MirroringKeepsTheFrontInFront) {
+TEST(GltfModel, MirroringKeepsFrontFacesInFront) {
     GltfMaker maker = richModel();
     maker.root["nodes"][1]["scale"] = {-1, 1, 1};
     const Mesh mesh = modelOf(maker).meshes.at(0);
@@ -92,7 +92,7 @@ TEST(GltfModel, MirroringKeepsTheFrontInFront) {
 TEST(GltfModel, NormalsFollowUnequalScales) {
     GltfMaker maker = richModel();
     maker.root["nodes"][1].erase("scale");
-    // The columns of a shear: x stays, y leans towards z, z is stretched.
+    // The columns of a matrix with shear: x stays, y leans towards z, z is stretched.
     maker.root["nodes"][1]["matrix"] = {1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 4, 0, 0, 0, 0, 1};
     const Mesh mesh = modelOf(maker).meshes.at(0);
     const auto& [a, b, c] = mesh.triangles[0];
@@ -102,7 +102,7 @@ TEST(GltfModel, NormalsFollowUnequalScales) {
     expectNear(mesh.normals[a], front);
 }
 
-TEST(GltfModel, RotationTurnsAsItShould) {
+TEST(GltfModel, RotationsTurnInTheRightDirection) {
     GltfMaker maker = oneTriangle();
     const double half = std::sqrt(0.5);
     maker.root["nodes"][0]["rotation"] = {0, 0, half, half};  // 90 degrees about glTF's z
@@ -111,7 +111,7 @@ TEST(GltfModel, RotationTurnsAsItShould) {
     expectNear(mesh.positions[2], {-1, 0, 0});
 }
 
-TEST(GltfModel, StripsAndFansTurnOneWay) {
+TEST(GltfModel, StripsAndFansHaveConsistentWinding) {
     for (const int mode : {5, 6}) {
         GltfMaker maker;
         const std::vector<float> strip = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0},
@@ -141,9 +141,9 @@ TEST(GltfModel, SparseElementsAreReplaced) {
     expectNear(zeros.positions[2], {0, 0, 5});
 }
 
-TEST(GltfModel, InterleavedAndNormalizedElements) {
+TEST(GltfModel, InterleavedAndNormalizedElementsAreRead) {
     GltfMaker maker = richModel();
-    // Four elements of two shorts, each followed by four bytes of something else.
+    // Four elements of two shorts. Four unrelated bytes follow each element.
     const std::array<std::uint16_t, 16> uvs = {0,     65535, 9, 9, 65535, 65535, 9, 9,
                                                65535, 0,     9, 9, 0,     0,     9, 9};
     const int view = maker.view(uvs.data(), sizeof uvs - 4);
@@ -160,8 +160,8 @@ TEST(GltfModel, InterleavedAndNormalizedElements) {
     EXPECT_EQ(mesh.uvs[3], Eigen::Vector2f(0, 0));
 }
 
-// The specification's own example: the lower left quarter of the picture, turned.
-TEST(GltfModel, TextureTransform) {
+// Example of the specification: the lower left quarter of the picture, rotated.
+TEST(GltfModel, TextureTransformIsApplied) {
     GltfMaker maker = richModel();
     nlohmann::json& m = maker.root["materials"][0];
     const nlohmann::json transform = {
@@ -178,14 +178,14 @@ TEST(GltfModel, TextureTransform) {
     }
 }
 
-TEST(GltfModel, EmissionMayBeStrong) {
+TEST(GltfModel, EmissionStrengthIsApplied) {
     GltfMaker maker = richModel();
     maker.root["materials"][0]["extensions"] = {
         {"KHR_materials_emissive_strength", {{"emissiveStrength", 8}}}};
     expectNear(modelOf(maker).materials.at(0).emission, {4, 0, 8});
 }
 
-TEST(GltfModel, BlendIsAMask) {
+TEST(GltfModel, AlphaBlendingBecomesAMask) {
     GltfMaker maker = richModel();
     maker.root["materials"][0]["alphaMode"] = "BLEND";
     EXPECT_EQ(modelOf(maker).materials.at(0).alphaCutoff, 0.5F);
@@ -193,7 +193,7 @@ TEST(GltfModel, BlendIsAMask) {
     EXPECT_EQ(modelOf(maker).materials.at(0).alphaCutoff, 0);
 }
 
-TEST(GltfModel, AMeshMayBeShownTwice) {
+TEST(GltfModel, AMeshMayBeInstancedTwice) {
     GltfMaker maker = oneTriangle();
     maker.root["nodes"].push_back({{"mesh", 0}, {"translation", {5, 0, 0}}});
     maker.root["scenes"][0]["nodes"].push_back(1);

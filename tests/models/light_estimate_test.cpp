@@ -22,7 +22,7 @@ std::uint8_t encoded(float linear) {
     return static_cast<std::uint8_t>(std::lround(255 * s));
 }
 
-/// The camera's picture of light from all directions.
+/// What a camera at this pose sees of light that comes from all directions.
 std::vector<std::uint8_t> seenFrom(const RigidTransform& T_world_camera, const Radiance& light) {
     std::vector<std::uint8_t> out;
     for (int y = 0; y < kSmall.height; ++y) {
@@ -38,7 +38,7 @@ std::vector<std::uint8_t> seenFrom(const RigidTransform& T_world_camera, const R
     return out;
 }
 
-/// Feeds an estimator with frames 33 ms apart.
+/// Gives an estimator frames that are 33 ms apart.
 class Watcher {
 public:
     explicit Watcher(const LightEstimatorOptions& options = {}) : estimator(options) {}
@@ -65,7 +65,7 @@ RigidTransform lookingDown() {
     return lookingAlong({0.2, 0.5, -1});
 }
 
-/// Directions all around, evenly spaced.
+/// Directions in all of space, evenly spaced.
 std::vector<RigidTransform> allAround() {
     std::vector<RigidTransform> out;
     constexpr int kViews = 80;
@@ -81,7 +81,7 @@ double degreesBetween(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
     return std::acos(std::clamp<double>(a.dot(b), -1, 1)) * 180 / std::numbers::pi;
 }
 
-// Smooth light that nine harmonics represent exactly.
+// Smooth light that nine spherical harmonics represent exactly.
 const Eigen::Vector3f kFrom = Eigen::Vector3f(0.5F, -0.4F, 0.7F).normalized();
 Eigen::Vector3f smoothLight(const Eigen::Vector3f& d) {
     return Eigen::Vector3f(0.4F, 0.35F, 0.3F) * (1 + 0.8F * d.dot(kFrom));
@@ -102,7 +102,7 @@ TEST(SphericalHarmonics, AreOrthonormal) {
     EXPECT_LT((products - Eigen::Matrix<double, 9, 9>::Identity()).cwiseAbs().maxCoeff(), 1e-3);
 }
 
-TEST(LightEstimate, KnownLightIsFoundWhenAllOfItWasSeen) {
+TEST(LightEstimate, LightIsFoundOnceAllDirectionsWereSeen) {
     Watcher watcher;
     for (const RigidTransform& T : allAround())
         watcher.look(T, smoothLight);
@@ -113,7 +113,7 @@ TEST(LightEstimate, KnownLightIsFoundWhenAllOfItWasSeen) {
         const Eigen::Vector3f truth = smoothLight(d);
         EXPECT_LT((radianceOf(estimate.radiance, d) - truth).norm(), 0.1F * 0.35F * 1.73F);
     }
-    // 0.8 / 3 of the value for light from one direction.
+    // The value is 0.8 / 3 of that for light from a single direction.
     EXPECT_NEAR(estimate.directionality, 0.8 / 3, 0.03);
 }
 
@@ -155,7 +155,7 @@ TEST(LightEstimate, LightOutOfViewIsRemembered) {
     EXPECT_LT(degreesBetween(watcher.estimate().mainDirection, kFrom), 3);
 }
 
-TEST(LightEstimate, OneFlashMovesItLittle) {
+TEST(LightEstimate, OneFlashChangesTheEstimateLittle) {
     Watcher watcher;
     for (int i = 0; i < 100; ++i)
         watcher.look(lookingDown(), smoothLight);
@@ -166,7 +166,7 @@ TEST(LightEstimate, OneFlashMovesItLittle) {
     EXPECT_GT(flash, before);
 }
 
-TEST(LightEstimate, ANewLightIsLearnt) {
+TEST(LightEstimate, AChangedLightIsLearned) {
     Watcher watcher;
     const auto level = [](float v) {
         return [v](const Eigen::Vector3f&) { return Eigen::Vector3f(v, v, v); };
@@ -174,13 +174,13 @@ TEST(LightEstimate, ANewLightIsLearnt) {
     for (int i = 0; i < 30; ++i)
         watcher.look(lookingDown(), level(0.1F));
     const float dark = watcher.estimate().radiance(0, 0);
-    for (int i = 0; i < 91; ++i)  // as long as it smooths: 3 s
+    for (int i = 0; i < 91; ++i)  // 3 s, as long as the estimator smooths
         watcher.look(lookingDown(), level(0.5F));
     const float share = (watcher.estimate().radiance(0, 0) / dark - 1) / 4;
     EXPECT_NEAR(share, 1 - std::exp(-1.0F), 0.02F);
 }
 
-TEST(LightEstimate, CoveredAndImpossibleFramesAreLeftOut) {
+TEST(LightEstimate, CoveredAndImpossibleFramesAreSkipped) {
     Watcher watcher;
     EXPECT_FALSE(watcher.estimator.estimate());
     watcher.look(lookingDown(), [](const auto&) { return Eigen::Vector3f(0, 0, 0); });
@@ -235,7 +235,7 @@ TEST(LightEstimate, EveryFormatGivesTheSameLight) {
 
 TEST(Lighting, IsNeverNegativeAndKeepsTheLight) {
     LightEstimate estimate;
-    // Only a lamp straight above.
+    // A single lamp straight above.
     estimate.radiance = harmonicsAt({0, 0, 1}) * Eigen::RowVector3f(3, 3, 3);
     estimate.mainDirection = {0, 0, 1};
     estimate.directionality = 1;

@@ -12,14 +12,14 @@ using namespace std::chrono_literals;
 
 const CameraModel kWideLens{{64, 48}, 56, 56, 31.5, 23.5, {}};
 
-/// A frame of one grey level.
+/// Gives the follower a frame of one grey level.
 std::optional<Lighting> followed(LightFollower& light, std::chrono::milliseconds at) {
     const std::vector<std::uint8_t> pixels(4UL * 64 * 48, 180);
     return light.follow({pixels.data(), {64, 48}, 256, PixelFormat::Rgba8}, kWideLens, {},
                         Timestamp{} + at);
 }
 
-TEST(LightFollower, LightChangesTwiceASecondAtMost) {
+TEST(LightFollower, LightChangesAtMostTwiceASecond) {
     LightFollower light({});
     int changes = 0;
     for (auto at = 33ms; at < 2s; at += 33ms)
@@ -27,7 +27,7 @@ TEST(LightFollower, LightChangesTwiceASecondAtMost) {
     EXPECT_EQ(changes, 4);
 }
 
-TEST(LightFollower, GivenSunStays) {
+TEST(LightFollower, AConfiguredSunIsKept) {
     Sun sun;
     sun.towards = {0.6F, 0, 0.8F};
     LightFollower light(sun);

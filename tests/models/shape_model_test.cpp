@@ -7,7 +7,7 @@
 namespace mfar {
 namespace {
 
-TEST(ShapeModel, ShapesAreSoundModelsOfTheirSize) {
+TEST(ShapeModel, ShapesAreValidModelsOfTheirSize) {
     for (const VirtualShape shape : {VirtualShape::Box, VirtualShape::Sphere, VirtualShape::Quad}) {
         VirtualObject object;
         object.shape = shape;
@@ -23,8 +23,8 @@ TEST(ShapeModel, ShapesAreSoundModelsOfTheirSize) {
     }
 }
 
-// n = grad of the ellipsoid's equation, not the sphere's normal stretched.
-TEST(ShapeModel, AnEllipsoidsNormalsAreItsOwn) {
+// The normal is the gradient of the ellipsoid's equation, not the stretched normal of a sphere.
+TEST(ShapeModel, EllipsoidNormalsAreTheSurfaceGradients) {
     VirtualObject object;
     object.shape = VirtualShape::Sphere;
     object.size = {1, 2, 4};

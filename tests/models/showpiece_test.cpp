@@ -20,7 +20,7 @@ double volumeOf(const Mesh& mesh) {
     return volume;
 }
 
-TEST(Lathe, ASphereIsOne) {
+TEST(Lathe, AHalfCircleProfileGivesASphere) {
     LatheProfile half;
     for (int i = 0; i <= 64; ++i) {
         const float turn = std::numbers::pi_v<float> * static_cast<float>(i) / 64;
@@ -37,7 +37,7 @@ TEST(Lathe, ASphereIsOne) {
     EXPECT_EQ(mesh.uvs.back(), Eigen::Vector2f(1, 0));
 }
 
-TEST(Lathe, SmoothProfilesGoThroughTheirKnots) {
+TEST(Lathe, SmoothProfilesPassThroughTheirKnots) {
     const LatheProfile knots = {{1, 0}, {2, 1}, {1.5F, 3}, {0, 4}};
     const LatheProfile profile = smoothProfile(knots, 31);
     ASSERT_EQ(profile.size(), 31U);
@@ -45,7 +45,7 @@ TEST(Lathe, SmoothProfilesGoThroughTheirKnots) {
         EXPECT_LT((profile[10 * i] - knots[i]).norm(), 1e-5F);
 }
 
-TEST(Showpiece, IsASoundModelThatStandsOnTheTable) {
+TEST(Showpiece, IsAValidModelThatStandsOnTheTable) {
     const Model model = showpiece();
     EXPECT_NO_THROW(test::requireSoundModel(model));
     std::size_t triangles = 0;
@@ -66,7 +66,7 @@ TEST(Showpiece, IsASoundModelThatStandsOnTheTable) {
     EXPECT_LT(box.center().head<2>().norm(), 1e-3F);
 }
 
-// A triangle that faces away from its normals would be black or lit from inside.
+// A triangle that faces away from its normals would be black, or lit from inside.
 TEST(Showpiece, NormalsAgreeWithTriangles) {
     const Model model = showpiece();
     for (const Mesh& mesh : model.meshes) {

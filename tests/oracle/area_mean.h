@@ -9,8 +9,8 @@
 
 namespace mfar::twin {
 
-/// The mean of a picture's colours, `colour(x, y)` with three channels, over [lo, hi) in x and y;
-/// pixels outside repeat the edge.
+/// Mean colour of a picture over the area [lo, hi) in x and y. `colour(x, y)` gives the three
+/// channels of a pixel; positions outside the picture repeat its edge.
 template <class Colour>
 std::array<double, 3> areaMean(Size size, Colour colour, std::array<double, 2> lo,
                                std::array<double, 2> hi) {
@@ -29,8 +29,8 @@ std::array<double, 3> areaMean(Size size, Colour colour, std::array<double, 2> l
     return sum;
 }
 
-/// As display_scale.frag: pixel (x, y) of the rectangle `to` that is filled by a picture of this
-/// size.
+/// Oracle of display_scale.frag: colour of the screen's pixel (x, y), counted from the corner of
+/// the rectangle `to`, which a picture of this size fills.
 template <class Colour>
 std::array<double, 3> scaledPixel(Size size, Colour colour, const ScreenRect& to, int x, int y) {
     const double sx = double(size.width) / to.size.width;

@@ -8,11 +8,11 @@
 #include <cmath>
 #include <numbers>
 
-/// The learned enlarger in double precision: classes, the residual on the grid of sub-pixels, and
-/// the residual at another size. Luma pictures in grey levels.
+/// Oracle of the learned enlarger in double precision: the classes, the residual on the grid of
+/// sub-pixels, and the residual at another size. Pictures are luma in grey levels.
 namespace mfar::twin {
 
-/// A class and the distance to the nearest border of classes: 0 on the border.
+/// A class, and the distance of its input to the nearest class border; 0: on the border.
 struct Classified {
     int number;
     double margin;
@@ -20,7 +20,7 @@ struct Classified {
 
 class Thresholds {
 public:
-    /// Number of thresholds that `value` reaches.
+    /// Number of thresholds that are at most `value`.
     template <class Range>
     int count(double value, const Range& from) {
         int out = 0;
@@ -30,7 +30,8 @@ public:
         }
         return out;
     }
-    /// Bin of half the angle atan2(sine, cosine), among `bins` equal ones from -pi/2 on.
+    /// Bin of half the angle atan2(sine, cosine). The `bins` bins are equally wide and start at
+    /// -pi/2.
     int bin(double cosine, double sine, int bins) {
         const double at = (std::atan2(sine, cosine) / (2 * std::numbers::pi) + 0.5) * bins;
         margin_ = std::min(margin_, std::abs(at - std::round(at)));
@@ -84,7 +85,7 @@ inline std::array<double, 2> rangeAround(const Grey& g, int x, int y) {
     return out;
 }
 
-/// The residual added to the cubic at a sub-pixel of a pixel of these classes.
+/// The residual that is added to the cubic at one sub-pixel of a pixel of these classes.
 inline double residualAt(const Grey& g, int x, int y, int phase, int gradient, int curvature,
                          const FilterBank& bank) {
     const auto scale = double(enlarge::kWeightScale);
@@ -101,7 +102,7 @@ inline double residualAt(const Grey& g, int x, int y, int phase, int gradient, i
     return std::clamp(sum + up, low - more - here, high + more - here) - up;
 }
 
-/// The residual on the grid of 4x4 sub-pixels per pixel.
+/// The residual on a grid of 4x4 sub-pixels per pixel.
 inline Grey residualGrid(const Grey& g, const FilterBank& bank) {
     constexpr int kGrid = enlarge::kGrid;
     Grey out{{kGrid * g.size.width, kGrid * g.size.height}, {}};
@@ -117,7 +118,7 @@ inline Grey residualGrid(const Grey& g, const FilterBank& bank) {
     return out;
 }
 
-/// The residual at another size: linear between sub-pixels.
+/// The residual at another size, interpolated linearly between sub-pixels.
 inline Grey learnedResidual(const Grey& g, Size to, const FilterBank& bank) {
     return enlarged(residualGrid(g, bank), to, true);
 }

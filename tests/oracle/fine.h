@@ -10,18 +10,18 @@
 #include <functional>
 #include <vector>
 
-/// Scalar twin of the comparison of the video's finest detail with a still's.
+/// Oracle of the comparison of the video's finest detail with that of a still.
 namespace mfar::twin {
 
 struct FineCase {
     Grey video;
-    /// The still's value where a position of the video looks it up [video px].
+    /// The value of the still that a position of the video looks up [video px].
     std::function<double(double x, double y)> still;
-    std::function<bool(int x, int y)> isMatched;  ///< by cell
+    std::function<bool(int x, int y)> isMatched;  ///< whether the cell (x, y) is matched
 };
 
-/// Variance of the video, covariance, variance of the still: in blocks of 2x2 pixels in the middle
-/// rows of a cell.
+/// Variance of the video, covariance, and variance of the still, from the two blocks of 2x2 pixels
+/// in the middle two rows of a cell.
 inline Eigen::Vector3d fineSums(const FineCase& in, int cellX, int cellY) {
     Eigen::Vector3d out = Eigen::Vector3d::Zero();
     const Size size = in.video.size;
@@ -43,7 +43,7 @@ inline Eigen::Vector3d fineSums(const FineCase& in, int cellX, int cellY) {
     return out;
 }
 
-/// Share of its weight that each cell keeps, row-major.
+/// The share of its weight that each cell keeps, row by row.
 inline std::vector<double> fineShares(const FineCase& in, Size cells, const FineMatch& match) {
     std::vector<Eigen::Vector3d> sums;
     for (int y = 0; y < cells.height; ++y)
@@ -53,7 +53,8 @@ inline std::vector<double> fineShares(const FineCase& in, Size cells, const Fine
     for (int y = 0; y < cells.height; ++y)
         for (int x = 0; x < cells.width; ++x) {
             Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-            // Only even rows of cells are sampled; an odd row uses the two next to it.
+            // Only even rows of cells are sampled. An odd row uses the even rows above and below
+            // it.
             const int above = y - y % 2, below = std::min(y + y % 2, (cells.height - 1) / 2 * 2);
             for (int i = x - 1; i <= x + 1; ++i)
                 for (const int j : {above, below})

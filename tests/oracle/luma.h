@@ -8,16 +8,17 @@
 #include <cmath>
 #include <vector>
 
-/// Scalar twins of the luma passes, in double precision.
+/// Oracles of the luma passes, in double precision.
 namespace mfar::twin {
 
-// Finest level: kSmoothing is the weight of each side's neighbour; kBoxWidening widens a pixel's
-// box to the variance of the box and this smoothing together.
+// Parameters of the finest level. kSmoothing: weight of each of the two neighbours along an axis.
+// kBoxWidening: factor by which a pixel's box is widened, so that its variance is that of the box
+// and this smoothing together.
 inline constexpr double kSmoothing = params::kLumaSmoothing;
 inline const double kBoxWidening = std::sqrt(1 + 12 * 2 * kSmoothing);
 using params::kFootprintTaps;
 
-/// One channel; positions outside repeat the border.
+/// A picture of one channel. Positions outside it repeat the border.
 struct Grey {
     Size size;
     std::vector<double> values;
@@ -43,12 +44,13 @@ Grey greyOf(Size size, F valueAt) {
     return out;
 }
 
-/// Position of a pixel in a picture of another size, so that pixel centres map to the same places.
+/// Position of a pixel's centre in a picture of another size that covers the same area.
 inline double centre(int x, int from, int to) {
     return (x + 0.5) * from / to - 0.5;
 }
 
-/// Largest difference from rows of bytes; wanted values are clamped to [0, 255].
+/// Largest difference between a picture and rows of bytes. The picture's values are clamped to [0,
+/// 255] first.
 template <class Row>
 double worst(const Grey& wanted, const Row& rows) {
     double out = 0;
@@ -58,7 +60,7 @@ double worst(const Grey& wanted, const Row& rows) {
     return out;
 }
 
-/// Rec. 601 luma, unrounded grey levels.
+/// Rec. 601 luma in grey levels, not rounded.
 inline Grey luma(const ImageView& v) {
     return greyOf(v.size, [&](int x, int y) {
         const std::uint8_t* p = v.data + y * v.stride + 1UL * x * bytesPerPixel(v.format);
@@ -68,7 +70,7 @@ inline Grey luma(const ImageView& v) {
     });
 }
 
-/// Finest level of a video frame, unrounded.
+/// Finest level of the pyramid of a video frame, not rounded.
 inline Grey smoothed(const Grey& g) {
     const double weight[3] = {kSmoothing, 1 - 2 * kSmoothing, kSmoothing};
     return greyOf(g.size, [&](int x, int y) {
@@ -88,14 +90,15 @@ inline Grey halved(const Grey& g) {
     });
 }
 
-/// Position in the still of a video pixel at infinite depth.
+/// Position in the still that shows what a video pixel shows, for a point at infinity.
 inline Eigen::Vector2d stillPixel(const StereoRig& rig, const Eigen::Vector2d& videoPixel) {
     const Eigen::Vector3d ray =
         rig.T_still_video.rotation * rig.video.unproject(videoPixel).homogeneous();
     return rig.still.project(ray.hnormalized());
 }
 
-/// The still in the video's geometry: mean over a video pixel's footprint, widened by kBoxWidening.
+/// The still in the video's geometry: the mean over the footprint of a video pixel, widened by
+/// kBoxWidening.
 inline Grey lumaFromStill(const Grey& still, const StereoRig& rig) {
     const double footprint = kBoxWidening * rig.still.fx / rig.video.fx;
     return greyOf(rig.video.size, [&](int x, int y) {

@@ -9,35 +9,38 @@
 #include <optional>
 #include <vector>
 
-/// Scalar twins of measureTiles(), markDrifted() and markBeside().
+/// Oracles of measureTiles(), markDrifted() and markBeside().
 namespace mfar::twin {
 
 struct TileChange {
-    /// Per cell of the tile, row-major, maximum over the channels: mean difference, mean absolute
-    /// difference.
+    /// For each cell of the tile, row by row: mean difference and mean absolute difference, each of
+    /// the channel in which it is largest.
     std::array<double, 16> mean{}, absolute{};
-    double cellNoise = 0;  ///< variance of a cell's mean in the noisiest channel
+    double cellNoise = 0;  ///< variance of a cell's mean, in the noisiest channel
     double noise = 0;      ///< [grey levels]
-    /// Squared mean and slopes of the difference, divided by their variance; of the worst channel.
+    /// Squared mean and slopes of the difference over their variance, of the channel in which this
+    /// is largest.
     double moments = 0;
-    /// Mean squares of the luma's difference: twist of pixels, 2x2 means, twist of 2x2 means. For
-    /// white noise, each is the full variance of a pixel.
+    /// Mean squares of three measures of the luma's difference: the twist of pixels, 2x2 means, and
+    /// the twist of 2x2 means. They are scaled so that each equals a pixel's variance for white
+    /// noise.
     std::array<double, 3> energy{};
-    /// Mean sum of squares of the luma's 2x2 means after subtraction of planes through 8x8 pixels.
+    /// Mean square of the luma's 2x2 means, after a plane is fitted to each 8x8 pixels and
+    /// subtracted.
     double structure = 0;
 };
 
-/// Difference of two pictures; 0 outside of them.
+/// Difference of two pictures; 0 outside them.
 struct Difference {
     const TestPicture &now, &drawn;
 
-    /// Difference of red, green or blue.
+    /// Difference of one colour: red, green or blue.
     [[nodiscard]] double of(int x, int y, int colour) const {
         if (x >= now.size.width || y >= now.size.height) return 0;
         const std::size_t i = 4 * (static_cast<std::size_t>(y) * now.size.width + x) + colour;
         return double(now.bytes[i]) - drawn.bytes[i];
     }
-    /// Difference of red, luma or blue.
+    /// Difference of one channel: red, luma or blue.
     [[nodiscard]] double at(int x, int y, int channel) const {
         if (channel != 1) return of(x, y, channel);
         return double{params::kLumaRed} * of(x, y, 0) + double{params::kLumaGreen} * of(x, y, 1) +
@@ -50,7 +53,8 @@ struct Difference {
             sum += at(x + i % size, y + i / size, channel);
         return sum / (size * size);
     }
-    /// Twist of 2x2 blocks, each the mean of size x size pixels.
+    /// Twist of a block of 2x2 values, each of which is the mean of size x size pixels. The twist
+    /// is the sum of one diagonal minus that of the other.
     [[nodiscard]] double twist(int x, int y, int size, int channel) const {
         return (mean(x, y, size, channel) - mean(x + size, y, size, channel) -
                 mean(x, y + size, size, channel) + mean(x + size, y + size, size, channel)) /
@@ -83,7 +87,7 @@ inline void driftOf(const Difference& d, int x0, int y0, double grain, TileChang
         out.energy[2] += 4 * std::pow(d.twist(x0 + 4 * (i % 4), y0 + 4 * (i / 4), 2, 1), 2) / 16;
 }
 
-/// Residual of a plane fitted to 4x4 means, by plain least squares.
+/// Residual of 4x4 means about a plane that is fitted to them by least squares.
 inline double besidePlane(const std::array<double, 16>& v) {
     double mean = 0, dx = 0, dy = 0, out = 0;
     for (int i = 0; i < 16; ++i) {
@@ -138,11 +142,12 @@ inline TileChange tileChange(const TestPicture& now, const TestPicture& drawn, c
                                       grey.at(x + 1, y + 1)) /
                              2 / 64;
     }
-    out.noise *= 1.2533;  // from a Gaussian's mean absolute value to its standard deviation
+    out.noise *= 1.2533;  // ratio of a Gaussian's standard deviation to its mean absolute value
     return out;
 }
 
-/// Thresholds for changed tiles: bounds of a cell's mean and mean absolute difference.
+/// Thresholds above which a tile counts as changed: for a cell's mean difference, and for its mean
+/// absolute difference.
 struct ChangeBounds {
     double mean, absolute;
     static constexpr double kMoments = 40, kCell = 30;
@@ -167,8 +172,8 @@ struct ChangeBounds {
     }
 };
 
-/// Sums the energies of tiles without a sure change and compares them with the noise's: above 0,
-/// the tiles changed.
+/// Sums the energies of tiles without a sure change and subtracts those of noise. If the result is
+/// above 0, the tiles changed.
 class Drift {
 public:
     void add(const TileChange& t) {
@@ -197,7 +202,7 @@ inline bool reaches(const TileChange& t, const ChangeBounds& bounds, int x, int 
     return false;
 }
 
-/// For each tile, row-major, whether it changed; empty where rounding decides.
+/// Whether each tile changed, row by row; empty where rounding decides.
 inline std::vector<std::optional<bool>> changedTiles(const std::vector<TileChange>& tiles,
                                                      int columns, const ChangeBounds& bounds) {
     constexpr int kBlock = 8;

@@ -10,7 +10,7 @@
 
 namespace mfar::twin {
 
-/// A cell field with repeated border: flow (x, y), cost, texture.
+/// A field of cells with flow (x, y), cost and texture. Cells outside it repeat the border.
 struct FlowCells {
     const std::vector<std::array<float, 4>>& values;
     int width, height;
@@ -21,7 +21,7 @@ struct FlowCells {
     }
 };
 
-/// Median of each component over 3x3 cells.
+/// Median of each component of the flow over 3x3 cells.
 inline Eigen::Vector2d medianAround(const FlowCells& cells, int x, int y) {
     Eigen::Vector2d out;
     for (int component = 0; component < 2; ++component) {
@@ -34,7 +34,7 @@ inline Eigen::Vector2d medianAround(const FlowCells& cells, int x, int y) {
     return out;
 }
 
-/// Columns: value, change per column, change per row.
+/// Its columns are: value, change per column of cells, change per row of cells.
 using Plane = Eigen::Matrix<double, 2, 3>;
 
 inline Plane fitPlane(const FlowCells& cells, int x, int y, const Plane& about, double reach) {

@@ -2,11 +2,13 @@
 
 #include "tests/oracle/upscale.h"
 
-/// Preparation of a still, and its contribution to a frame; in double precision and grey levels.
+/// Oracle of the preparation of a still and of its contribution to a frame, in double precision and
+/// grey levels.
 namespace mfar::twin {
 
-/// Values that a grid's pixels see: means of 4x4 samples a quarter of `footprint` pixels apart.
-/// `at(x, y)` gives the value at a position, where (0.5, 0.5) is the centre of the first pixel.
+/// What the pixels of a grid see: a pixel is the mean of 4x4 samples that are a quarter of
+/// `footprint` pixels apart. `at(x, y)` gives the value at a position; the centre of the first
+/// pixel is (0.5, 0.5).
 template <class At>
 Grey seen(Size grid, const At& at, double footprintX = params::kSeen,
           double footprintY = params::kSeen) {
@@ -21,8 +23,8 @@ Grey seen(Size grid, const At& at, double footprintX = params::kSeen,
     });
 }
 
-/// As seen(), for a warped still at the output's size. Its linear look-ups widen the footprint,
-/// which is reduced to keep the same variance.
+/// Like seen(), for a warped still of the output's size. Its linear look-ups widen the footprint;
+/// so a smaller footprint is used, which gives the same variance.
 inline Grey seenOf(const Grey& warped, Size video) {
     const double stepX = static_cast<double>(warped.size.width) / video.width,
                  stepY = static_cast<double>(warped.size.height) / video.height;
@@ -37,7 +39,8 @@ inline Grey seenOf(const Grey& warped, Size video) {
         footprint(stepX), footprint(stepY));
 }
 
-/// Luma with raised finest detail; `neighbours`: weight of each of the pixel's four neighbours.
+/// Luma whose finest detail is amplified. `neighbours`: weight of each of a pixel's four
+/// neighbours.
 inline Grey raised(const Grey& luma, double neighbours) {
     return greyOf(luma.size, [&](int x, int y) {
         const double beside =
@@ -46,7 +49,7 @@ inline Grey raised(const Grey& luma, double neighbours) {
     });
 }
 
-/// Tent filter along both axes, two result pixels wide.
+/// Reduces with a tent filter along both axes. The tent is two result pixels wide.
 inline Grey reduced(const Grey& g, Size to) {
     const auto along = [](int from, int wanted, int i, const auto& valueAt) {
         const double scale = static_cast<double>(from) / wanted, at = centre(i, from, wanted);

@@ -8,10 +8,10 @@
 
 #include <array>
 
-/// Scalar twins of the passes that weigh the still and classify tiles.
+/// Oracles of the passes that weigh the still and classify tiles.
 namespace mfar::twin {
 
-/// A field of cells with four channels; cells outside repeat the border.
+/// A field of cells with four channels. Cells outside it repeat the border.
 struct Cells {
     Size size;
     std::vector<float> values;
@@ -29,7 +29,7 @@ struct Cells {
     }
 };
 
-/// Eq. 2 with lambda(x) = min(x, 1).
+/// Confidence by eq. 2 of the paper, with lambda(x) = min(x, 1).
 inline double confidence(const Eigen::Vector2d& forward, const Eigen::Vector2d& backward,
                          double alpha) {
     return 1 - std::min((forward + backward).norm() / alpha, 1.0);
@@ -59,7 +59,8 @@ inline double smoothstep(double low, double high, double v) {
     return t * t * (3 - 2 * t);
 }
 
-/// `statistics`: covariance, variance of the video, variance of the still, confidence.
+/// The weight of a cell. `statistics`: covariance, variance of the video, variance of the still,
+/// confidence.
 inline Weight weigh(const Cells& flow, const Cells& statistics, const Cells& half, int x, int y,
                     double sigma) {
     Eigen::Vector4d s = Eigen::Vector4d::Zero(), h = Eigen::Vector4d::Zero();
@@ -90,8 +91,8 @@ inline Weight weigh(const Cells& flow, const Cells& statistics, const Cells& hal
             textured && ncc2 * conf <= params::kUnexplainedMatch ? 1.0 : 0.0};
 }
 
-/// Class of a tile, from its cells and a ring around them: 1 upscaled, 2 trusted (affine flow,
-/// uniform weight), 3 blended.
+/// Class of a tile, decided by its cells and the ring of cells around them. 1: enlarged only; 2:
+/// trusted (affine flow, uniform weight); 3: blended.
 inline unsigned tileClass(const Cells& field, int tileX, int tileY) {
     const int x0 = 4 * tileX, y0 = 4 * tileY;
     const Eigen::Vector4d origin = field.at(x0, y0);

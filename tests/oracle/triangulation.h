@@ -6,14 +6,14 @@
 
 #include <optional>
 
-/// Double-precision twins of the triangulation.
+/// Oracles of the triangulation, in double precision.
 namespace mfar::twin {
 
 inline double cross2(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
     return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Two views of a static scene.
+/// Two views of a scene at rest.
 struct TwoViews {
     CameraModel a, b;
     RigidTransform T_b_a;
@@ -21,25 +21,25 @@ struct TwoViews {
     [[nodiscard]] Eigen::Vector2d rayA(const Eigen::Vector2d& pixel) const {
         return a.unproject(pixel);
     }
-    /// Q^-1 m of a pixel of b, in the frame of a; z = 1.
+    /// Ray Q^-1 m of a pixel of b, in the frame of a, scaled to z = 1.
     [[nodiscard]] Eigen::Vector3d rayB(const Eigen::Vector2d& pixel) const {
         const Eigen::Vector3d ray =
             T_b_a.rotation.conjugate() * b.unproject(pixel).homogeneous().eval();
         return ray / ray.z();
     }
-    /// Flow of the point that a shows at `pixel` with inverse depth `rho`: its position in b minus
-    /// the pixel.
+    /// Flow of the point that a shows at `pixel`, at inverse depth `rho`: its position in b minus
+    /// `pixel`.
     [[nodiscard]] Eigen::Vector2d flow(const Eigen::Vector2d& pixel, double rho) const {
         const Eigen::Vector3d point =
             T_b_a.rotation * rayA(pixel).homogeneous().eval() + rho * T_b_a.translation;
         return b.project(point.hnormalized()) - pixel;
     }
-    /// The translation after removal of the rotation.
+    /// The translation between the views after the rotation is removed.
     [[nodiscard]] Eigen::Vector3d baseline() const {
         return T_b_a.rotation.conjugate() * T_b_a.translation;
     }
-    /// Direction of the epipolar line, towards nearer points; its length is that of the baseline
-    /// across the ray.
+    /// Direction of the epipolar line, towards nearer points. Its length is that of the baseline's
+    /// component across the ray.
     [[nodiscard]] Eigen::Vector2d line(const Eigen::Vector2d& pixel) const {
         const Eigen::Vector3d t = baseline();
         return t.head<2>() - rayA(pixel) * t.z();
@@ -50,7 +50,8 @@ struct FlowDepth {
     double inverseDepth, sigma, residual;
 };
 
-/// rho = (u . e) / (|e|^2 - b_z (u . e)), its standard deviation, and the flow normal to e.
+/// Inverse depth rho = (u . e) / (|e|^2 - b_z (u . e)), its standard deviation, and the component
+/// of the flow that is normal to e.
 inline FlowDepth depthFromFlow(const TwoViews& views, const Eigen::Vector2d& pixel,
                                const Eigen::Vector2d& flow, double flowSigma) {
     const double focal = std::sqrt(views.b.fx * views.b.fy);
@@ -63,10 +64,11 @@ inline FlowDepth depthFromFlow(const TwoViews& views, const Eigen::Vector2d& pix
 
 struct Midpoint {
     double inverseDepth, rayDistance;
-    bool ahead;  ///< in front of both cameras
+    bool ahead;  ///< the point is in front of both cameras
 };
 
-/// The paper's method: the shortest line between lambda Q_a^-1 m_a and c + lambda Q_b^-1 m_b.
+/// The paper's method: the midpoint of the shortest line between the rays lambda Q_a^-1 m_a and c +
+/// lambda Q_b^-1 m_b.
 inline Midpoint midpoint(const TwoViews& views, const Eigen::Vector2d& pixel,
                          const Eigen::Vector2d& flow) {
     const Eigen::Vector3d c = views.T_b_a.inverse().translation;

@@ -10,14 +10,14 @@
 #include <cmath>
 #include <vector>
 
-/// Scalar twin of the composite's occlusion.
+/// Oracle of the occlusion of virtual objects in the composite.
 namespace mfar::twin {
 
 struct RealSample {
     double rho, sigma;  ///< [1/m]
 };
 
-/// Visibility of a virtual surface of inverse depth `inverse` behind a real sample; an unknown
+/// Visibility of a virtual surface at inverse depth `inverse`, given a real sample. An unknown
 /// sample occludes nothing.
 inline double visibleOver(const RealSample& real, double inverse, const CompositeOptions& o) {
     const bool known =
@@ -29,7 +29,7 @@ inline double visibleOver(const RealSample& real, double inverse, const Composit
     return 1 - t * t * (3 - 2 * t);
 }
 
-/// Both pictures and the real depth, for the visibility at output pixel (x, y).
+/// Both pictures and the real depth. Gives the visibility at output pixel (x, y).
 struct Scene {
     TestPicture video, picture;
     std::vector<RealSample> real;

@@ -6,11 +6,11 @@
 #include <array>
 #include <cmath>
 
-/// Scalar twin of picture_from_yuv.frag, in double precision, with the standards' printed
-/// coefficients.
+/// Oracle of picture_from_yuv.frag in double precision, with the coefficients that the standards
+/// print.
 namespace mfar::twin {
 
-/// One channel of one plane: samples are `step` bytes apart.
+/// The samples of one channel in one plane. They are `step` bytes apart.
 struct Samples {
     const std::uint8_t* data;
     std::size_t stride;
@@ -41,10 +41,10 @@ inline std::array<Samples, 3> yuvSamples(const ImageView& v) {
             Samples{second.data, second.stride, step, w / 2, h / 2}};
 }
 
-/// R, G, B of Y, U, V, unrounded and not clamped.
+/// R, G, B from Y, U, V; neither rounded nor clamped.
 inline std::array<double, 3> rgbOfYuv(double y, double u, double v, const ImageView& of) {
     const bool full = of.range == YuvRange::Full, hd = of.matrix == YuvMatrix::Bt709;
-    // 1, V to R, U to G, V to G, U to B
+    // Y: 1; V to R, U to G, V to G, U to B
     constexpr double kTable[2][2][5] = {
         {{1.164384, 1.596027, -0.391762, -0.812968, 2.017232},
          {1.164384, 1.792741, -0.213249, -0.532909, 2.112402}},
@@ -56,8 +56,8 @@ inline std::array<double, 3> rgbOfYuv(double y, double u, double v, const ImageV
     return {y + k[1] * v, y + k[2] * u + k[3] * v, y + k[4] * u};
 }
 
-/// Colour of a pixel of any format, [0, 255], unrounded. Chroma samples are in the centre of the
-/// pixels that share them and are interpolated.
+/// Colour of a pixel of any format, in [0, 255], not rounded. A chroma sample lies in the centre of
+/// the pixels that share it; values between samples are interpolated.
 inline std::array<double, 3> rgbAt(const ImageView& picture, int x, int y) {
     const std::uint8_t* p =
         picture.data + y * picture.stride + 1UL * x * bytesPerPixel(picture.format);

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The Debian package's life in a bare Debian: install, upgrade, remove, purge. Needs root,
-# mmdebstrap and a package mirror; about two minutes. Usage: check.sh PACKAGE
+# Installs, upgrades, removes and purges the Debian package in a minimal Debian. Needs root,
+# mmdebstrap and a package mirror; takes about two minutes. Usage: check.sh PACKAGE
 set -euo pipefail
 deb=$(readlink -f "$1")
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
@@ -15,7 +15,7 @@ failures=0
 
 step() { printf '%s\n' "$*"; }
 
-# holds WHAT COMMAND...: the command must succeed.
+# holds DESCRIPTION COMMAND...: the command must succeed.
 holds() {
     local what=$1
     shift
@@ -35,7 +35,7 @@ apt() {
     holds "apt-get $1 is silent about faults" isNot grep -iE 'warning|error|fail' "$work/apt"
 }
 
-# The same package with a higher version and another default configuration.
+# Makes the same package with a higher version and another default configuration.
 makeSuccessor() {
     dpkg-deb -R "$deb" "$work/next"
     sed -i 's/^Version: .*/&+next/' "$work/next/DEBIAN/control"

@@ -15,10 +15,11 @@ namespace {
 
 constexpr double kBudget = 4;  // [ms]
 
-/// Cost of a sample [ms] in a frame.
+/// Cost of a sample in a frame [ms].
 using CostTrace = std::function<double(int frame)>;
 
-/// Time used in each frame by a tracer with endless work, in portions of at most `tile`.
+/// Time that a tracer with endless work uses in each frame. Its portions have at most `tile`
+/// samples.
 std::vector<double> usedIn(BudgetController& budget, int frames, int tile, const CostTrace& cost) {
     std::vector<double> used;
     for (int frame = 0; frame < frames; ++frame) {
@@ -39,13 +40,13 @@ double meanShare(const std::vector<double>& used) {
     return sum / (kBudget * static_cast<double>(used.size()));
 }
 
-/// Number of frames that differ from the budget by more than `share` of it.
+/// Number of frames whose time differs from the budget by more than `share` of the budget.
 int framesOff(const std::vector<double>& used, double share) {
     return static_cast<int>(std::ranges::count_if(
         used, [&](double ms) { return !(std::abs(ms / kBudget - 1) <= share); }));
 }
 
-TEST(BudgetController, KeepsASteadyCostToTheMillisecond) {
+TEST(BudgetController, KeepsASteadyCostToAMillisecond) {
     BudgetController budget(kBudget);
     const std::vector<double> used = usedIn(budget, 300, 1000, [](int) { return 0.003; });
     EXPECT_NEAR(meanShare(used), 1, 0.001);
@@ -120,7 +121,7 @@ TEST(BudgetController, OutstandingGrantsAreReserved) {
     }
     EXPECT_NEAR(reserved, kBudget, 0.02 * kBudget);
     for (const BudgetGrant& grant : out)
-        budget.spent(grant, 0, 0);  // no work was done
+        budget.spent(grant, 0, 0);  // the work used no samples and no time
     EXPECT_GT(budget.grant().samples, 0);
     EXPECT_EQ(budget.used(), 0);
 }
@@ -174,7 +175,7 @@ TEST(BudgetController, FramesWithoutProcessorTimeAreNotCounted) {
     for (int i = 0; i < 50; ++i) {
         budget.beginFrame(true);
         const BudgetGrant grant = budget.grant();
-        budget.spent(grant, grant.samples, grant.reservedMs);  // after that, no more is requested
+        budget.spent(grant, grant.samples, grant.reservedMs);  // no more work follows
     }
     budget.beginFrame(true);
     EXPECT_EQ(budget.kept().frames, 10);

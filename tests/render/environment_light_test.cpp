@@ -32,9 +32,8 @@ TEST(EnvironmentLight, FollowsTheDocumentedOrientation) {
     auto picture = std::make_shared<Environment>();
     picture->size = {8, 4};
     picture->radiance.assign(32, {0, 0, 0});
-    picture->radiance[0 * 8 + 2] = {1, 0, 0};  // first row: up
-    picture->radiance[1 * 8 + 5] = {0, 1, 0};  // between half and three quarters of the width: +x
-                                               // +y
+    picture->radiance[0 * 8 + 2] = {1, 0, 0};  // first row: directions near +z (up)
+    picture->radiance[1 * 8 + 5] = {0, 1, 0};  // second row: from +x to +y
     picture->radiance[2 * 8 + 0] = {0, 0, 1};  // below the horizon, just after -x towards -y
     const EnvironmentLight light(picture);
     const auto at = [&](float u, float v) {
@@ -48,7 +47,7 @@ TEST(EnvironmentLight, FollowsTheDocumentedOrientation) {
     EXPECT_NEAR(at(0.5F / 8, 2.5F / 4).z(), 1, 1e-3F);
     EXPECT_GT(light.radiance(Eigen::Vector3f(1, 1, 0.3F).normalized()).y(), 0.3F);
     EXPECT_GT(light.radiance(Eigen::Vector3f(-1, -0.4F, -0.4F).normalized()).z(), 0.3F);
-    // Interpolation wraps around at the picture's border.
+    // Interpolation must wrap around at the left and right borders of the picture.
     EXPECT_NEAR(at(0, 2.5F / 4).z(), 0.5F, 1e-3F);
 }
 
@@ -65,17 +64,17 @@ TEST(EnvironmentLight, SamplesHaveTheDensityAndRadianceOfTheirDirection) {
         EXPECT_NEAR(s.direction.norm(), 1, 1e-5F);
         EXPECT_NEAR((light.radiance(s.direction) - s.radiance).norm(), 0,
                     0.02F * s.radiance.norm());
-        // Rounding may move a sample across a texel's edge.
+        // Rounding may move a sample across the edge of a texel.
         same += std::abs(light.density(s.direction) - s.density) < 1e-3F * s.density;
     }
     EXPECT_GE(same, 508);
 }
 
-TEST(EnvironmentLight, SamplesAndEvenDirectionsTogetherGiveTheIntegral) {
+TEST(EnvironmentLight, SamplesAndUniformDirectionsTogetherGiveTheIntegral) {
     const EnvironmentLight light(unevenLight());
     const Eigen::Vector3f expected =
         overSphere([&](const Eigen::Vector3f& d) { return light.radiance(d); });
-    // One sample of each strategy, combined by the balance heuristic.
+    // Combines one sample of each strategy by the balance heuristic.
     constexpr float kEven = 1 / (4 * static_cast<float>(M_PI));
     Eigen::Vector3f sum{0, 0, 0};
     for (std::uint32_t i = 0; i < 4096; ++i) {
@@ -100,7 +99,7 @@ TEST(EnvironmentLight, MissingEnvironmentIsDark) {
     EXPECT_EQ(EnvironmentLight(render_scenes::evenLight(0)).density({0, 0, 1}), 0);
 }
 
-TEST(EnvironmentLight, EvenLightIsLeftToTheSurfaces) {
+TEST(EnvironmentLight, UniformLightIsNotSampledByDirection) {
     auto picture = std::make_shared<Environment>();
     picture->size = {1, 1};
     picture->radiance = {{2, 2, 2}};

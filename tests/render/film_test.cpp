@@ -11,7 +11,7 @@ namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-/// Sample of a white matt object.
+/// A sample of a white matt object.
 FilmSample objectSample(float radiance, float depth = 1, std::uint8_t id = 1) {
     const Eigen::Vector3f grey = Eigen::Vector3f::Constant(radiance);
     FilmSample out{{depth, id}, grey, {0, 0, 0}};
@@ -34,7 +34,7 @@ RenderedPicture pictureOf(const Film& film, const Exposure& exposure = {}) {
 
 using Rgba = std::array<std::uint8_t, 4>;
 
-TEST(Film, EmptyIsNothing) {
+TEST(Film, AnEmptyFilmGivesTransparentPixels) {
     const Film film({3, 2});
     const RenderedPicture picture = pictureOf(film);
     ASSERT_EQ(picture.colour.size(), 6U);
@@ -47,7 +47,7 @@ TEST(Film, EmptyIsNothing) {
     EXPECT_EQ(picture.samples, 0);
 }
 
-TEST(Film, ObjectIsItsMeanPremultiplied) {
+TEST(Film, ObjectPixelIsThePremultipliedMeanOfItsSamples) {
     Film film({1, 1});
     film.add(0, objectSample(0.1F, 1.5F, 7));
     film.add(0, objectSample(0.3F, 1.2F, 7));
@@ -58,8 +58,7 @@ TEST(Film, ObjectIsItsMeanPremultiplied) {
     EXPECT_EQ(picture.colour[0][0], expected);
     EXPECT_EQ(picture.colour[0][3], 128);
     EXPECT_EQ(picture.id[0], 7);
-    EXPECT_EQ(picture.depth[0], 1.2F);  // the nearest hit, because nothing is seen through the
-                                        // centre
+    EXPECT_EQ(picture.depth[0], 1.2F);  // the nearest hit, because the centre shows nothing
     EXPECT_EQ(picture.samples, 4);
 }
 
@@ -82,7 +81,7 @@ TEST(Film, AMillionSamplesKeepDoublePrecision) {
     EXPECT_NEAR(film.error(0) / (slope * deviation), 1, 1e-3);
 }
 
-TEST(Film, CentreDecidesDepth) {
+TEST(Film, DepthIsTakenAtThePixelsCentre) {
     Film film({1, 1});
     film.setCentre(0, {{1.5F, 2}});
     film.add(0, objectSample(0.1F, 1.0F, 1));
@@ -91,7 +90,7 @@ TEST(Film, CentreDecidesDepth) {
     EXPECT_EQ(picture.id[0], 2);
 }
 
-TEST(Film, ShadowIsBlackOfTheRatiosCoverage) {
+TEST(Film, ShadowIsBlackWithACoverageFromTheLightRatio) {
     Film film({1, 1});
     film.setCentre(0, {{2, kCatcherId}});
     film.add(0, catcherSample({0.1F, 0.05F, 0.025F}, {0.4F, 0.2F, 0.1F}));
@@ -102,7 +101,7 @@ TEST(Film, ShadowIsBlackOfTheRatiosCoverage) {
     EXPECT_EQ(picture.depth[0], 2);
 }
 
-TEST(Film, BouncedLightIsAddedColour) {
+TEST(Film, BouncedLightAddsColour) {
     Film film({1, 1});
     film.add(0, catcherSample({0.3F, 0.2F, 0.2F}, {0.2F, 0.2F, 0.2F}));
     const RenderedPicture picture = pictureOf(film);
@@ -112,14 +111,14 @@ TEST(Film, BouncedLightIsAddedColour) {
     EXPECT_EQ(picture.id[0], kCatcherId);
 }
 
-TEST(Film, BouncedLightOnADarkSurfaceIsSeen) {
+TEST(Film, BouncedLightOnADarkSurfaceIsVisible) {
     Film film({1, 1});
     film.add(0, catcherSample({0.3F, 0, 0}, {0, 0, 0}));
     EXPECT_EQ(pictureOf(film).colour[0],
               (Rgba{static_cast<std::uint8_t>(std::lround(255 * srgbEncoded(0.3F))), 0, 0, 0}));
 }
 
-TEST(Film, UnchangedCatcherIsNothing) {
+TEST(Film, AnUnchangedCatcherIsTransparent) {
     Film film({1, 1});
     film.setCentre(0, {{2, kCatcherId}});
     film.add(0, catcherSample({0.37F, 0.2F, 0.11F}, {0.37F, 0.2F, 0.11F}));
@@ -146,7 +145,7 @@ TEST(Film, NonFiniteSamplesAreDroppedAndCounted) {
     EXPECT_EQ(picture.colour[0][3], 255);
 }
 
-// The object seen through the pixel's centre was hit by no sample.
+// The object that the pixel's centre shows was not hit by any sample.
 TEST(Film, UnknownLightIsShownUnshaded) {
     SeenSurface seen{{1, 3}};
     seen.paint.diffuse = {0.5F, 0.5F, 0.5F};
@@ -169,10 +168,10 @@ TEST(Film, ErrorIsTheStandardErrorInGreyLevels) {
     EXPECT_TRUE(std::isinf(film.error(0)));
     for (int i = 1; i < 64; ++i)
         film.add(0, objectSample(i % 2 == 0 ? 0.4F : 0.6F));
-    // Standard deviation 0.1 / sqrt(64), times the slope of the encoding at 0.5.
+    // The error is 0.1 / sqrt(64), times the slope of the sRGB encoding at 0.5.
     const float slope = (srgbEncoded(0.501F) - srgbEncoded(0.499F)) / 0.002F;
     EXPECT_NEAR(film.error(0), 255 * slope * 0.1F / 8, 0.05F);
-    // Half the light, shown twice as bright: the same picture.
+    // Half the light, shown with twice the exposure, gives the same picture.
     Film dim({1, 1});
     for (int i = 0; i < 64; ++i)
         dim.add(0, objectSample(i % 2 == 0 ? 0.2F : 0.3F));
@@ -189,7 +188,7 @@ TEST(Film, UniformLightHasZeroError) {
     EXPECT_EQ(film.error(1), 0);
 }
 
-TEST(Film, AnEdgesErrorFalls) {
+TEST(Film, ErrorOfAnEdgeFallsWithItsSamples) {
     const auto edge = [](int samples) {
         Film film({1, 1});
         for (int i = 0; i < samples; ++i)
@@ -199,7 +198,7 @@ TEST(Film, AnEdgesErrorFalls) {
     EXPECT_NEAR(edge(16) / edge(256), 8, 0.1);
 }
 
-TEST(Film, ClearForgets) {
+TEST(Film, ClearDiscardsAllSamples) {
     Film film({2, 1});
     film.setCentre(0, {{1, 1}});
     film.add(0, objectSample(0.5F));

@@ -38,7 +38,7 @@ HoleAnswer answered(HoleTracer& holes, const PathTracer& tracer, HoleRequest req
     return out;
 }
 
-TEST(HoleTracer, AnswersAsAPictureOfTheViewWould) {
+TEST(HoleTracer, AnswersMatchAPictureOfTheView) {
     const PathTracer tracer(render_scenes::stillLife());
     const RenderView view = render_scenes::viewFrom(kHoleSize, 20);
     PixelList all(kHoleSize.width * kHoleSize.height);
@@ -50,8 +50,7 @@ TEST(HoleTracer, AnswersAsAPictureOfTheViewWould) {
     resolve(film, view, {}, truth);
 
     HoleTracer holes(10000);
-    for (int round = 0; round < 2; ++round) {  // the second round must not contain results of the
-                                               // first
+    for (int round = 0; round < 2; ++round) {  // the second must not keep results of the first
         PixelList some;
         for (std::uint32_t i = 0; i < all.size(); i += 2 + round)
             some.push_back(i);
@@ -78,7 +77,7 @@ TEST(HoleTracer, EachPixelInsideThePictureIsTracedOnce) {
     EXPECT_EQ(answer.pixels, (PixelList{3, 7, 900, 48 * 36 - 1}));
 }
 
-TEST(HoleTracer, RespectsItsLimits) {
+TEST(HoleTracer, RequestsBeyondTheLimitsAreCut) {
     const PathTracer tracer(render_scenes::stillLife());
     HoleTracer holes(5);
     EXPECT_EQ(answered(holes, tracer, requestFor({1, 2, 3, 4, 5, 6, 7}, 1), 10).pixels.size(), 5U);

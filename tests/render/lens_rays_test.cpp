@@ -28,7 +28,7 @@ TEST(LensRays, MatchUnprojectWithinATwentiethOfAPixel) {
     }
 }
 
-TEST(LensRays, CellsHoldEveryPixelOfABox) {
+TEST(LensRays, CellsContainEveryPixelOfABox) {
     const CameraModel camera = wideLens();
     const LensRays rays(camera);
     const Eigen::Vector2f least{-0.3F, 0.1F}, most{0.05F, 0.2F};
@@ -54,14 +54,14 @@ TEST(ViewBounds, ABoxBehindTheCameraHasEmptyBounds) {
     EXPECT_TRUE(pixelsOfBox({}, view, rays).empty());
 }
 
-TEST(ViewBounds, ABoxAroundTheCameraIsThePicture) {
+TEST(ViewBounds, ABoxAroundTheCameraCoversThePicture) {
     const RenderView view{wideLens(), {}};
     const LensRays rays(view.camera);
     EXPECT_EQ(pixelsOfBox({Eigen::Vector3f(-1, -1, -1), Eigen::Vector3f(1, 1, 1)}, view, rays),
               (PixelRect{0, 0, 321, 243}));
 }
 
-TEST(ViewBounds, HoldEveryPointOfABox) {
+TEST(ViewBounds, BoundsContainEveryPointOfABox) {
     const RenderView view{wideLens(), {}};
     const LensRays rays(view.camera);
     const Eigen::AlignedBox3f box(Eigen::Vector3f(0.1F, -0.2F, -0.5F),

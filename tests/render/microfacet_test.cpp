@@ -19,7 +19,7 @@ double overHemisphere(F f) {
     double sum = 0;
     for (int i = 0; i < kThetas; ++i)
         for (int j = 0; j < Phis; ++j) {
-            // Finer steps near the pole and the rim.
+            // Steps are finer near the pole and the rim.
             const double s = (i + 0.5) / kThetas;
             const double z = s * s * (3 - 2 * s), dz = 6 * s * (1 - s) / kThetas;
             const double phi = 2 * M_PI * (j + 0.5) / Phis, r = std::sqrt(1 - z * z);
@@ -42,7 +42,7 @@ TEST(Microfacet, VisibleNormalsIntegrateToOne) {
         }
 }
 
-TEST(Microfacet, MaskingIsTheVisibleShareOfTheNormals) {
+TEST(Microfacet, MaskingTermIsTheVisibleShareOfTheNormals) {
     const Ggx ggx(0.5F);
     const Eigen::Vector3f wo = viewAt(0.4F);
     // The projected area of the visible normals equals that of the surface (Heitz 2014, equation
@@ -82,7 +82,7 @@ TEST(Microfacet, AlbedoTableHoldsTheIntegral) {
         }
 }
 
-TEST(Microfacet, MeanAlbedoIsTheMean) {
+TEST(Microfacet, MeanAlbedoIsTheMeanOverDirections) {
     for (const float roughness : {0.2F, 0.77F}) {
         double sum = 0;
         for (int i = 0; i < 512; ++i) {

@@ -46,7 +46,7 @@ double errorOf(const Pixels& pixels, Value value) {
     return std::sqrt(squares / static_cast<double>(2 * pixels.size()));
 }
 
-/// Runs the rows of each stage in several portions, the last ones first.
+/// Runs the rows of each stage in several portions, the last rows first.
 Pixels filtered(Size size, const Pixels& pixels) {
     NoiseFilter filter;
     filter.begin(size, {0, 0, size.width, size.height});
@@ -90,7 +90,7 @@ TEST(NoiseFilter, KeepsDifferencesAboveNoise) {
     EXPECT_GT(errorOf(known, flat), 0.95 * kSigma);
 }
 
-// A step of two standard errors without noise: only a guide distinguishes it from noise.
+// A step of two standard errors without noise. Only a guide can distinguish it from noise.
 template <class Mark>
 double errorAtStep(Mark mark) {
     Pixels pixels = noisyPicture(step, 0);
@@ -100,7 +100,7 @@ double errorAtStep(Mark mark) {
     return errorOf(pixels, step);
 }
 
-TEST(NoiseFilter, KeepsToItsSurface) {
+TEST(NoiseFilter, DoesNotMixDifferentSurfaces) {
     EXPECT_GT(errorAtStep([](LightPixel&, bool) {}), 1e-3);
     EXPECT_LT(errorAtStep([](LightPixel& p, bool left) { p.id = left ? 1 : 2; }), 1e-6);
     EXPECT_LT(errorAtStep([](LightPixel& p, bool left) { p.depth = left ? 1.0F : 1.2F; }), 1e-6);
@@ -124,7 +124,7 @@ TEST(NoiseFilter, KeepsPixelsWithoutNoise) {
             << i;
 }
 
-// One pixel in 16 was sampled; the second part is known in fewer pixels.
+// One pixel in 16 was sampled. The second part of the light is known in fewer pixels.
 TEST(NoiseFilter, FillsPixelsWithoutSamples) {
     Pixels pixels = noisyPicture(flat, 0);
     for (int y = 0; y < kNoisySize.height; ++y)
@@ -146,8 +146,8 @@ TEST(NoiseFilter, FillsPixelsWithoutSamples) {
         ASSERT_TRUE(p.firstCount > 0 && p.secondCount > 0);
 }
 
-// If the neighbours of one part differ by more than noise, the other part is filtered all the same.
-TEST(NoiseFilter, FiltersBothPartsSeparately) {
+// If the neighbours of one part differ by more than noise, the other part must still be filtered.
+TEST(NoiseFilter, FiltersBothLightPartsSeparately) {
     Pixels pixels = noisyPicture(flat);
     for (std::size_t i = 0; i < pixels.size(); ++i)
         pixels[i].second.setConstant(static_cast<int>(i % kNoisySize.width) < 20 ? 0.1F : 0.9F);
@@ -160,7 +160,7 @@ TEST(NoiseFilter, FiltersBothPartsSeparately) {
     EXPECT_LT(errorOf(pixels, flat), kSigma / 2);
 }
 
-TEST(NoiseFilter, SeesNothingBeyondItsPixels) {
+TEST(NoiseFilter, ReadsNothingOutsideItsPixels) {
     const PixelRect where{8, 4, 30, 20};
     const auto inside = [&](float outside) {
         NoiseFilter filter;
@@ -179,7 +179,7 @@ TEST(NoiseFilter, SeesNothingBeyondItsPixels) {
     EXPECT_EQ(inside(0.5F), inside(0.52F));
 }
 
-TEST(NoiseFilter, TakesAnySize) {
+TEST(NoiseFilter, WorksAtAnySize) {
     for (const Size size : {Size{0, 0}, Size{1, 1}, Size{1, 9}, Size{9, 1}}) {
         Pixels pixels(static_cast<std::size_t>(size.width) * size.height);
         for (LightPixel& p : pixels) {

@@ -25,7 +25,8 @@ std::shared_ptr<Scene> oddScene(Mesh mesh) {
     return out;
 }
 
-/// Traces, expects finite numbers, and returns how many pixels see an object or its shadow.
+/// Traces the scene and expects finite numbers. Returns how many pixels see an object or its
+/// shadow.
 int tracedSoundly(const std::shared_ptr<const Scene>& scene, const RenderView& view) {
     const PathTracer tracer(scene);
     const Film film = traced(tracer, view, 4);
@@ -44,7 +45,7 @@ int tracedSoundly(const std::shared_ptr<const Scene>& scene, const RenderView& v
 
 const RenderView kOddView = lookingAt({0.5, -3, 2}, {0, 0, 0.3}, {32, 24}, 30);
 
-TEST(OddScenes, NothingAtAll) {
+TEST(OddScenes, EmptyScenesAreTransparent) {
     EXPECT_EQ(tracedSoundly(std::make_shared<Scene>(), kOddView), 0);
     auto bare = std::make_shared<Scene>();
     bare->lighting = allLight();
@@ -55,7 +56,7 @@ TEST(OddScenes, NothingAtAll) {
     EXPECT_EQ(tracedSoundly(bare, kOddView), 0);
 }
 
-TEST(OddScenes, TrianglesWithoutArea) {
+TEST(OddScenes, TrianglesWithoutAreaAreHarmless) {
     Mesh mesh = sphere({0, 0, 0.5F}, 0.5F, 12);
     mesh.triangles.push_back({3, 3, 3});
     mesh.triangles.push_back({3, 4, 3});
@@ -69,7 +70,7 @@ TEST(OddScenes, TrianglesWithoutArea) {
     EXPECT_EQ(tracedSoundly(oddScene(flat), kOddView), 0);
 }
 
-TEST(OddScenes, ASliverAndNumbersFarApart) {
+TEST(OddScenes, SliversAndExtremeSizesAreHarmless) {
     Mesh sliver;
     sliver.positions = {{-1, 0, 0.3F}, {1, 1e-7F, 0.3F}, {1, 0, 0.3F}};
     sliver.triangles = {{0, 1, 2}};
@@ -80,20 +81,20 @@ TEST(OddScenes, ASliverAndNumbersFarApart) {
     EXPECT_GE(tracedSoundly(oddScene(tiny), kOddView), 0);
 }
 
-TEST(OddScenes, OneTriangle) {
+TEST(OddScenes, ASingleTriangleIsSeen) {
     Mesh one;
     one.positions = {{-1, 0, 0}, {1, 0, 0}, {0, 0, 1.5F}};
     one.triangles = {{0, 1, 2}};
     EXPECT_GT(tracedSoundly(oddScene(one), kOddView), 20);
 }
 
-TEST(OddScenes, HalfAMillionTriangles) {
+TEST(OddScenes, HalfAMillionTrianglesAreSeen) {
     const Mesh mesh = sphere({0, 0, 0.5F}, 0.5F, 354);
     ASSERT_GT(mesh.triangles.size(), 500000U);
     EXPECT_GT(tracedSoundly(oddScene(mesh), kOddView), 50);
 }
 
-TEST(OddScenes, TheCameraInsideAnObject) {
+TEST(OddScenes, ACameraInsideAnObjectSeesItsInside) {
     auto scene = oddScene(sphere({0, 0, 0}, 5, 16));
     EXPECT_EQ(tracedSoundly(scene, kOddView), 32 * 24);
     EXPECT_EQ(PathTracer(scene).bounds(kOddView), (PixelRect{0, 0, 32, 24}));
@@ -104,14 +105,14 @@ TEST(OddScenes, TheCameraInsideAnObject) {
     EXPECT_EQ(tracedSoundly(single, kOddView), 0);
 }
 
-TEST(OddScenes, TheCameraOnASurface) {
+TEST(OddScenes, ACameraOnASurfaceIsHarmless) {
     const RenderView onGround = lookingAt({0, -1, 0}, {0, 0, 0}, {32, 24}, 30);
     EXPECT_GT(tracedSoundly(oddScene(sphere({0, 0, 0.5F}, 0.5F, 16)), onGround), 20);
     const RenderView onSphere = lookingAt({0, -0.5, 0.5}, {0, 0, 0.5}, {32, 24}, 30);
     EXPECT_GE(tracedSoundly(oddScene(sphere({0, 0, 0.5F}, 0.5F, 16)), onSphere), 0);
 }
 
-TEST(OddScenes, BehindTheCameraNothingIsSeen) {
+TEST(OddScenes, ObjectsBehindTheCameraAreNotSeen) {
     const RenderView away = lookingAt({0, -3, 1}, {0, -6, 1}, {32, 24}, 30);
     auto scene = oddScene(sphere({0, 0, 0.5F}, 0.5F, 16));
     scene->catcher = {};
@@ -119,7 +120,7 @@ TEST(OddScenes, BehindTheCameraNothingIsSeen) {
     EXPECT_TRUE(PathTracer(scene).bounds(away).empty());
 }
 
-TEST(OddScenes, LightsBrightAndFaintStayNumbers) {
+TEST(OddScenes, BrightAndFaintLightsGiveFiniteColours) {
     auto scene = oddScene(sphere({0, 0, 0.5F}, 0.5F, 16));
     auto bright = std::make_shared<Environment>(*unevenLight());
     bright->radiance[100] = {1e8F, 1e8F, 1e8F};

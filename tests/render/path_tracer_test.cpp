@@ -28,7 +28,7 @@ std::shared_ptr<Scene> sceneOf(Mesh mesh, const Material& material) {
     return out;
 }
 
-/// Mean of the object's radiance over all pixels that see nothing else.
+/// Mean radiance of the object over all pixels that see nothing else.
 Eigen::Vector3f meanRadiance(const Film& film) {
     Eigen::Vector3f sum{0, 0, 0};
     int pixels = 0;
@@ -41,7 +41,7 @@ Eigen::Vector3f meanRadiance(const Film& film) {
     return sum / static_cast<float>(pixels);
 }
 
-TEST(PathTracer, AWhiteSphereInEvenLightCannotBeSeen) {
+TEST(PathTracer, AWhiteSphereInUniformLightIsInvisible) {
     for (const float metallic : {0.0F, 1.0F})
         for (const float roughness : {0.2F, 0.6F, 1.0F}) {
             auto scene =
@@ -54,8 +54,8 @@ TEST(PathTracer, AWhiteSphereInEvenLightCannotBeSeen) {
         }
 }
 
-TEST(PathTracer, ABowlGivesBackNoMoreThanItGets) {
-    // Light is reflected many times inside: all of it leaves, except what the limit of the path's
+TEST(PathTracer, ABowlReflectsNoMoreLightThanItReceives) {
+    // Light is reflected many times inside. All of it must leave, apart from what the limit of path
     // length cuts off.
     Mesh bowl = sphere({0, 0, 0}, 1, 32);
     std::erase_if(bowl.triangles, [&](const auto& t) {
@@ -74,7 +74,7 @@ TEST(PathTracer, ABowlGivesBackNoMoreThanItGets) {
     EXPECT_LT(meanRadiance(traced(PathTracer(scene, options), view, 16)).mean(), deep);
 }
 
-TEST(PathTracer, RouletteKeepsTheMean) {
+TEST(PathTracer, RussianRouletteKeepsTheMean) {
     auto scene = sceneOf(sphere({0, 0, 0}, 1, 16), materialOf({0.8F, 0.8F, 0.8F}, 0, 1));
     scene->catcher = ground(3, 0.8F);
     for (Eigen::Vector3f& p : scene->catcher.positions)
@@ -90,7 +90,7 @@ TEST(PathTracer, RouletteKeepsTheMean) {
     EXPECT_NEAR(a, b, 0.006F);
 }
 
-/// Radiance of a horizontal surface along wo under a scene's lights, by quadrature.
+/// Radiance of a horizontal surface in the direction wo under the lights of a scene, by quadrature.
 Eigen::Vector3f byQuadrature(const Lighting& lighting, const SurfaceLook& look,
                              const Eigen::Vector3f& wo) {
     const SurfaceScatter scatter(look, wo);
@@ -109,7 +109,7 @@ Eigen::Vector3f byQuadrature(const Lighting& lighting, const SurfaceLook& look,
     return sum * (2 * std::numbers::pi_v<float> / kHeights / kPhis);
 }
 
-TEST(PathTracer, EnvironmentOnASurfaceIsTheIntegral) {
+TEST(PathTracer, EnvironmentLightOnASurfaceMatchesTheIntegral) {
     for (const float roughness : {0.25F, 0.5F, 1.0F}) {
         auto scene = sceneOf(square(1, 0), materialOf({0.9F, 0.6F, 0.3F}, 0.6F, roughness));
         scene->lighting.environment = unevenLight();
@@ -122,7 +122,7 @@ TEST(PathTracer, EnvironmentOnASurfaceIsTheIntegral) {
     }
 }
 
-TEST(PathTracer, SunOnAMattSurfaceIsItsIrradianceTimesCosine) {
+TEST(PathTracer, SunlightOnAMattSurfaceIsIrradianceTimesCosine) {
     auto scene = std::make_shared<Scene>();
     scene->objects.push_back(objectOf(modelOf(sphere({50, 50, 0}, 0.1F, 8), {})));
     scene->catcher = ground(1, 0.6F);
@@ -138,8 +138,8 @@ TEST(PathTracer, SunOnAMattSurfaceIsItsIrradianceTimesCosine) {
 }
 
 TEST(PathTracer, AMirrorShowsTheSunWithItsRadiance) {
-    // The disc fills the reflection's lobe: only the weighted sum of both strategies gives its
-    // radiance.
+    // The sun's disc fills the lobe of the reflection. Only the weighted sum of both sampling
+    // strategies gives its radiance.
     auto scene = sceneOf(square(1, 0), materialOf({1, 1, 1}, 1, 0.1F));
     scene->lighting.sun = Sun{Eigen::Vector3f(0, 1, 1).normalized(), {2, 2, 2}, 0.4F};
     const RenderView view = lookingAt({0, -3, 3}, {0, 0, 0}, {4, 4}, 2000);
@@ -148,14 +148,14 @@ TEST(PathTracer, AMirrorShowsTheSunWithItsRadiance) {
     EXPECT_NEAR(seen * std::numbers::pi_v<float> * sine * sine, 2, 0.04F);
 }
 
-TEST(PathTracer, EmissionIsSeenAndLights) {
+TEST(PathTracer, EmissiveSurfacesAreVisibleAndGiveLight) {
     Material lamp = materialOf({0, 0, 0}, 0, 1);
     lamp.emission = {2, 1, 0.5F};
     auto scene = sceneOf(sphere({0, 0, 0}, 1, 24), lamp);
     const RenderView view = lookingAt({0, -4, 0}, {0, 0, 0}, {8, 8}, 20);
     const Eigen::Vector3f seen = meanRadiance(traced(PathTracer(scene), view, 4));
     EXPECT_NEAR((seen - lamp.emission).norm(), 0, 1e-5F);
-    // Ground below: a sphere of radius r = 1 at height h = 2 adds radiance * albedo * (r / h)^2.
+    // Ground below a sphere of radius r = 1 at height h = 2 adds radiance * albedo * (r / h)^2.
     scene->catcher = ground(20, 0.5F);
     for (Eigen::Vector3f& p : scene->catcher.positions)
         p.z() = -2;
@@ -194,7 +194,7 @@ TEST(PathTracer, TexturesAlphaMasksAndSidesAreRespected) {
 }
 
 TEST(PathTracer, ANormalMapTurnsTheLight) {
-    // All normals are tilted towards +u, which is +x: light from +x becomes brighter.
+    // All normals are tilted towards +u, which is +x; so light from +x must become brighter.
     SurfaceTexture map{{1, 1}, false, {{218, 128, 218, 255}}};
     Material leaning = materialOf({1, 1, 1}, 0, 1);
     leaning.normalTexture = 0;
@@ -226,7 +226,7 @@ TEST(PathTracer, DepthIsAlongTheCamerasAxis) {
     }
 }
 
-TEST(PathTracer, BoundsHoldObjectsAndShadows) {
+TEST(PathTracer, BoundsContainObjectsAndShadows) {
     auto scene = sceneOf(sphere({0.1F, 0, 0.3F}, 0.3F, 16), materialOf({1, 1, 1}, 0, 1));
     scene->lighting.sun = Sun{Eigen::Vector3f(0.6F, 0, 1).normalized(), {3, 3, 3}, 0.02F};
     scene->catcher = ground(4, 0.5F);

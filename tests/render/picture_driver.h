@@ -28,11 +28,11 @@ prepared(const std::shared_ptr<const Scene>& scene, std::uint64_t objects, std::
     return prepared(render_scenes::stillLife(), objects, light);
 }
 
-/// No filter and no history: every pixel is sampled.
+/// A policy without filter and without history: every pixel is sampled.
 inline constexpr ReferencePolicy kPlain{{4, 0.2}, 8, false, false};
 inline constexpr ReferencePolicy kProduct{{4, 0.2}, 8, true, true};
 
-/// Runs the steps of a renderer's threads one by one, and keeps the picture shown.
+/// Runs the steps of a renderer's threads one by one. Keeps the picture that is shown.
 class Driver {
 public:
     explicit Driver(const SliceOptions& slices, const ReferencePolicy& policy = kPlain)
@@ -44,7 +44,7 @@ public:
         const RenderView view = render_scenes::viewFrom(size, azimuth);
         pictures.look(view, view, {});
     }
-    /// Returns whether there was something to do.
+    /// Runs one step. Returns false if there was nothing to do.
     bool step() {
         if (pictures.toBegin()) {
             pictures.begin();
@@ -75,7 +75,7 @@ public:
         while (shown.size() < pictures)
             ASSERT_TRUE(step());
     }
-    /// Whether the picture shown last was made for the view.
+    /// True if the shown picture was made for this view.
     [[nodiscard]] bool shows(double azimuth) const {
         const RigidTransform there =
             render_scenes::viewFrom(kReferenceSize, azimuth).T_world_camera;

@@ -31,7 +31,7 @@ void expectSame(const RenderedPicture& a, const RenderedPicture& b) {
 TEST_P(PictureResolving, PortionsInAnyOrderMakeThePicture) {
     RenderedPicture whole, parts;
     resolve(film, view, {}, whole, GetParam());
-    // Values of an earlier picture must be overwritten.
+    // Values of an earlier picture, which must be overwritten.
     parts.colour.assign(kResolvedSize.width * kResolvedSize.height, {1, 2, 3, 4});
     parts.id.assign(parts.colour.size(), 7);
     PictureResolver resolver;

@@ -34,7 +34,7 @@ TEST(RayScene, FindsTheNearestSurface) {
     EXPECT_FALSE(scene.blocked({{2, 2, 5}, {0, 0, -1}, 6.1F}));
 }
 
-/// A fan of rays; every third one meets an edge or a corner, where two triangles are hit at once.
+/// A fan of rays. Every third ray meets an edge or a corner, where it hits two triangles at once.
 std::vector<Ray> fan(std::size_t count, std::mt19937& random) {
     const Mesh ball = sphere({0, 0, 0}, 1, 32);
     std::uniform_real_distribution<float> slope(-0.4F, 0.4F);
@@ -75,7 +75,7 @@ TEST(RayScene, PacketsMatchSingleRaysExactly) {
 TEST(RayScene, HolesLetRaysThrough) {
     RayScene scene;
     const Mesh upper = square(1, 1), lower = square(1, 0);
-    // Only the first triangle exists, and of it only the part near its first corner.
+    // Makes holes of all triangles but the first, and of the first except near its first corner.
     const HoleTest holes{[](const void*, std::uint32_t triangle, float u, float v) {
                              return triangle != 0 || u + v > 0.5F;
                          },
@@ -93,7 +93,7 @@ TEST(RayScene, HolesLetRaysThrough) {
     EXPECT_FALSE(scene.blocked({rays[1].origin, rays[1].direction, 0, 2.5F}));
 }
 
-TEST(RayScene, EmptyHasNothing) {
+TEST(RayScene, AnEmptySceneHasNoHits) {
     RayScene scene;
     scene.commit();
     EXPECT_TRUE(scene.empty());

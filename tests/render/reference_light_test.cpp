@@ -12,8 +12,8 @@ namespace {
 
 using namespace reference_pictures;
 
-/// Root mean square error of the objects' colours within their silhouettes [grey levels], compared
-/// with a picture sampled without filter or history.
+/// Root mean square error of the objects' colours within their silhouettes [grey levels], against a
+/// picture that was sampled without filter and history.
 double errorOf(const RenderedPicture& picture, double azimuth) {
     Driver exact({Slicing::Time, 256, 16, 0, 16});
     exact.look(azimuth);
@@ -40,7 +40,7 @@ TEST(ReferenceLight, FirstPictureNeedsOneSamplePerSixteenPixels) {
     EXPECT_GT(driver.shown.size(), 4U);
     const RenderedPicture &first = driver.shown.front(), &last = driver.shown.back();
     for (std::size_t i = 0; i < first.id.size(); ++i) {
-        // The first id is that of the pixel's centre; later samples may also hit a neighbouring
+        // The first id is that of the pixel's centre. Later samples may also hit a neighbouring
         // object.
         if (first.id[i] == 0 || first.id[i] == kCatcherId || last.id[i] == kCatcherId) continue;
         ASSERT_EQ(first.id[i], last.id[i]) << "objects are whole at once";
@@ -101,7 +101,7 @@ TEST(ReferenceLight, CarriedLightOfOtherLightingIsSoonOutweighed) {
 TEST(ReferenceLight, SurfacesThatNothingChangesAreTracedOnce) {
     Driver driver({Slicing::Time, 2, 1, 0, 2}, kProduct);
     driver.size = {192, 144};
-    // A black ball in the sun: it casts a shadow and changes no other light.
+    // A black ball in the sun. It casts a shadow and does not change other light.
     const auto sunlit = std::make_shared<Scene>(*render_scenes::stillLife());
     sunlit->lighting.environment = nullptr;
     sunlit->objects.resize(1);
@@ -133,7 +133,7 @@ TEST(ReferenceLight, AtRestEachPixelHasItsOwnSamples) {
     EXPECT_TRUE(driver.pictures.settled());
 }
 
-// At silhouettes, where there is no carried light.
+// Light cannot be carried over at silhouettes.
 TEST(ReferenceLight, AtRestSilhouettesAreAsSmoothAsWithoutHistory) {
     Driver driver({Slicing::Time, 64, 2, 1, 16}, kProduct), exact({Slicing::Time, 256, 16, 0, 16});
     driver.look(20);

@@ -14,7 +14,7 @@ using namespace reference_pictures;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-TEST(NextStep, FollowsTheCamera) {
+TEST(NextStep, StepDependsOnHowFarTheViewChanged) {
     using enum ReferenceStep;
     struct Case {
         std::optional<double> sinceShown, sinceNext;
@@ -26,11 +26,11 @@ TEST(NextStep, FollowsTheCamera) {
              {0.2, {}, Refine},       // the picture is new
              {0.3, {}, Start},        // the next picture takes over its light
              {kInfinite, {}, Start},  // the picture shown cannot serve at all
-             {1.1, 0.9, Continue},    // the camera is on the way
-             {0.6, 2.0, Start},       // the same, and the picture shown serves meanwhile
-             {0.1, 0.7, Drop},        // the camera came back
-             {0.2, 0.7, Continue},    // the camera did not quite come back
-             {2.0, 1.5, Continue},    // too fast, but the next picture is better than the one shown
+             {1.1, 0.9, Continue},    // the camera is still on its way to the next picture's view
+             {0.6, 2.0, Start},       // as before, but the shown picture can serve meanwhile
+             {0.1, 0.7, Drop},        // the camera came back to the shown picture's view
+             {0.2, 0.7, Continue},    // the camera came back, but not quite
+             {2.0, 1.5, Continue},    // too fast, but the next picture is nearer
              {1.5, 2.0, Start},       // the camera took another way than predicted
          }) {
         EXPECT_EQ(nextStep(sinceShown, sinceNext, 0.25), step)
@@ -38,7 +38,7 @@ TEST(NextStep, FollowsTheCamera) {
     }
 }
 
-TEST(NextStep, StartsLaterWhenColoursAreUsed) {
+TEST(NextStep, NextPictureStartsLaterWhenColoursAreUsed) {
     using enum ReferenceStep;
     EXPECT_EQ(nextStep(0.9, {}, 1), Refine);
     EXPECT_EQ(nextStep(1.0, {}, 1), Start);
@@ -46,7 +46,7 @@ TEST(NextStep, StartsLaterWhenColoursAreUsed) {
     EXPECT_EQ(nextStep(0.6, 0.7, 1), Continue);
 }
 
-TEST(ReferencePictures, ACameraAtRestSeesItsPictureGetFiner) {
+TEST(ReferencePictures, AtRestThePictureIsRefined) {
     Driver driver(kThirtyTwo);
     EXPECT_FALSE(driver.step()) << "no view, no work";
     driver.look(20);
@@ -61,12 +61,12 @@ TEST(ReferencePictures, ACameraAtRestSeesItsPictureGetFiner) {
     EXPECT_FALSE(driver.step()) << "it serves";
 }
 
-TEST(ReferencePictures, ACameraThatComesToRestGetsAPictureOfItsOwnView) {
+TEST(ReferencePictures, AfterAMotionAPictureOfTheRestingViewIsStarted) {
     Driver driver(kThirtyTwo);
     driver.look(20);
     driver.settle();
     const std::size_t before = driver.shown.size();
-    for (int i = 0; i < 30; ++i) {  // it still moves, and the picture serves
+    for (int i = 0; i < 30; ++i) {  // the camera still moves, and the picture can serve
         driver.look(i % 2 == 0 ? 20.8 : 19.2);
         EXPECT_FALSE(driver.step()) << i;
     }
@@ -82,7 +82,7 @@ TEST(ReferencePictures, ACameraThatComesToRestGetsAPictureOfItsOwnView) {
     EXPECT_FALSE(driver.step());
 }
 
-TEST(ReferencePictures, APictureIsFinishedThoughTheLightChangesAllTheTime) {
+TEST(ReferencePictures, APictureIsFinishedThoughTheLightKeepsChanging) {
     Driver driver(kThirtyTwo);
     driver.look(20);
     driver.settle();
@@ -117,7 +117,7 @@ TEST(ReferencePictures, AnotherViewsPictureIsShownWithEnoughSamples) {
     EXPECT_TRUE(driver.shows(26));
 }
 
-TEST(ReferencePictures, AHopelesslyOldPictureIsReplacedAtOnce) {
+TEST(ReferencePictures, AVeryOldPictureIsReplacedAtOnce) {
     Driver driver(kThirtyTwo);
     driver.look(20);
     driver.settle();
@@ -126,7 +126,7 @@ TEST(ReferencePictures, AHopelesslyOldPictureIsReplacedAtOnce) {
     EXPECT_EQ(driver.shown[4].samples, 1);
 }
 
-TEST(ReferencePictures, ACameraThatComesBackFindsItsPictureAndRefinesIt) {
+TEST(ReferencePictures, AReturningCameraGetsItsPictureAndRefinesIt) {
     Driver driver(kThirtyTwo);
     driver.look(20);
     driver.untilShown(3);
@@ -154,7 +154,7 @@ TEST(ReferencePictures, PicturesArePredictedForMovingCameras) {
     EXPECT_TRUE(driver.shows(33));
 }
 
-TEST(ReferencePictures, ACameraThatTurnsRoundIsFollowed) {
+TEST(ReferencePictures, AReversingCameraIsFollowed) {
     Driver driver(kThirtyTwo);
     driver.look(20);
     driver.settle();

@@ -32,7 +32,7 @@ ReferenceOptions quick() {
     return out;
 }
 
-/// A frame loop without other work; times are those of 30 frames per second.
+/// A loop of frames without other work, with the times of 30 frames per second.
 class Frames {
 public:
     explicit Frames(const ReferenceOptions& options) : renderer(options) {}
@@ -52,7 +52,7 @@ public:
         }
         return true;
     }
-    /// Runs frames until `reached`; returns false if it never is.
+    /// Runs frames until `reached` returns true. Returns false if it never does.
     bool until(const RenderView& view, const std::function<bool()>& reached) {
         const auto end = steady_clock::now() + std::chrono::seconds(60);
         while (!reached()) {
@@ -86,7 +86,7 @@ RenderView shownView(ReferenceRenderer& renderer) {
     return {renderer.newest()->camera, renderer.newest()->T_world_camera};
 }
 
-/// Angle about the origin.
+/// Angle between two views about the origin.
 double degreesBetween(const RenderView& a, const RenderView& b) {
     const Eigen::Vector3d &from = a.T_world_camera.translation, &to = b.T_world_camera.translation;
     return std::atan2(from.cross(to).norm(), from.dot(to)) * 180 / std::numbers::pi;
@@ -123,8 +123,7 @@ TEST(ReferenceRenderer, GivesTheSamePictureForBothWaysAndAnyThreads) {
 TEST(ReferenceRenderer, IsIdleOnceConvergedAndUnmoved) {
     ReferenceOptions options = quick();
     options.slices.samples = 4096;
-    options.slices.threshold = 1e6;  // every pixel counts as finished as soon as its estimated
-                                     // error is trusted
+    options.slices.threshold = 1e6;  // every pixel is finished once its error is trusted
     Frames frames(options);
     EXPECT_TRUE(frames.renderer.counters().idle);
     frames.renderer.setScene(render_scenes::stillLife());
@@ -162,20 +161,21 @@ TEST(ReferenceRenderer, SleepsWhenTheFramesBudgetIsUsedUp) {
     Frames frames(options);
     frames.renderer.setScene(render_scenes::stillLife());
     const RenderView view = render_scenes::viewFrom(kRenderSize, 20);
-    // A busy machine may give less time, but never more.
+    // On a busy machine frames may get less time, but never more.
     int shown = 0;
     ASSERT_TRUE(frames.until(
         view, [&] { return ++shown > 300 && frames.renderer.counters().budget.mean > 0; }));
     EXPECT_LE(frames.renderer.counters().budget.mean, 1.1);
     const double used = frames.renderer.counters().cpuMs;
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
-    frames.frame(view);  // its counters describe the time before
+    frames.frame(view);  // its counters describe the time before it
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    // Time of a few frames that the counters did not include yet; awake threads would use hundreds.
+    // The limit is the time of a few frames that the counters did not include yet. Threads that do
+    // not sleep would use that of hundreds.
     EXPECT_LE(frames.renderer.counters().cpuMs - used, 20 * options.budgetMs);
 }
 
-TEST(ReferenceRenderer, StopsInTheMidstOfWork) {
+TEST(ReferenceRenderer, StopInterruptsItsWork) {
     ReferenceOptions options = quick();
     options.slices.samples = 1 << 20;
     options.budgetMs = 1e6;
@@ -279,7 +279,7 @@ TEST(ReferenceRenderer, HolesDoNotKeepAReferenceFromBeingFinished) {
     }));
 }
 
-TEST(ReferenceRenderer, AnUnsoundSceneIsReportedAndTheOldOneStays) {
+TEST(ReferenceRenderer, AnInvalidSceneIsReportedAndTheOldOneStays) {
     Frames frames(quick());
     const RenderView view = render_scenes::viewFrom(kRenderSize, 20);
     frames.renderer.setScene(render_scenes::stillLife());
@@ -295,7 +295,7 @@ TEST(ReferenceRenderer, AnUnsoundSceneIsReportedAndTheOldOneStays) {
     EXPECT_TRUE(frames.finish(render_scenes::viewFrom(kRenderSize, 40), 2));
 }
 
-TEST(ReferenceRenderer, NewObjectsOrLightStartAPictureSmallChangesDoNot) {
+TEST(ReferenceRenderer, NewObjectsOrLightStartAPictureButSmallChangesDoNot) {
     Frames frames(quick());
     const RenderView view = render_scenes::viewFrom(kRenderSize, 20);
     auto scene = std::make_shared<Scene>(*render_scenes::stillLife());

@@ -11,20 +11,20 @@
 /// Small scenes with known light, and functions that trace them.
 namespace mfar::render_scenes {
 
-/// Latitude-longitude sphere about `centre` with smooth normals.
+/// A sphere about `centre`, with vertices along latitudes and longitudes and with smooth normals.
 [[nodiscard]] Mesh sphere(const Eigen::Vector3f& centre, float radius, int rings = 32);
-/// Rectangle with the corners (-side, -side) and (side, side) at height z, facing up.
+/// A square with the corners (-side, -side) and (side, side) at height z. It faces up.
 [[nodiscard]] Mesh square(float side, float z);
-/// The same as a catcher.
+/// The same square as a shadow catcher.
 [[nodiscard]] ShadowCatcher ground(float side, float albedo);
 [[nodiscard]] Model modelOf(Mesh mesh, const Material& material);
 [[nodiscard]] SceneObject objectOf(Model model);
-/// Constant radiance from all directions.
+/// Light of constant radiance from all directions.
 [[nodiscard]] std::shared_ptr<const Environment> evenLight(float radiance);
-/// Brighter towards +z, with a bright window on one side.
+/// Light that is brighter towards +z, with a bright window on one side.
 [[nodiscard]] std::shared_ptr<const Environment> unevenLight();
 
-/// A pinhole camera at `eye` that looks at `target`, the top of the picture towards +z.
+/// A pinhole camera at `eye` that looks at `target`. The top of its picture points towards +z.
 [[nodiscard]] RenderView lookingAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& target,
                                    Size size, double focal);
 

@@ -22,7 +22,8 @@ using Pixels = std::vector<std::uint32_t>;
 constexpr Size kPicture{37, 29};
 constexpr PixelRect kBounds{3, 5, 30, 28};
 
-/// The error of a pixel is its own noise over the root of its number of samples.
+/// A picture in which the error of a pixel is the pixel's own noise divided by the root of its
+/// number of samples.
 class NoisyPicture {
 public:
     explicit NoisyPicture(std::function<float(std::uint32_t)> noise) : noise_(std::move(noise)) {}
@@ -44,14 +45,14 @@ private:
     std::map<std::uint32_t, int> samples_;
 };
 
-/// Random from pixel to pixel, increasing towards the bottom.
+/// Noise that is random from pixel to pixel and increases towards the bottom.
 float hashedNoise(std::uint32_t pixel) {
     const int row = static_cast<int>(pixel) / kPicture.width;
     return 0.02F * static_cast<float>(row) * static_cast<float>(pixel * 2654435761U >> 28);
 }
 
-/// Traces until no portion is handed out. Up to `workers` portions are outstanding at a time and
-/// are done in random order; a portion has at most `most` samples.
+/// Traces until no portion is handed out. Up to `workers` portions of at most `most` samples are
+/// outstanding at a time; they are finished in random order.
 void traceAll(Slices& slices, NoisyPicture& picture, std::size_t workers, std::int64_t most) {
     std::mt19937 random(7);
     std::vector<Slice> out;
@@ -82,7 +83,7 @@ NoisyPicture traced(const SliceOptions& options, std::size_t workers, std::int64
     return picture;
 }
 
-TEST(Slices, EveryPixelInBoundsGetsAllItsSamples) {
+TEST(Slices, EveryPixelWithinTheBoundsGetsTheConfiguredSamples) {
     for (const Slicing slicing : {Slicing::Time, Slicing::Spatial}) {
         const NoisyPicture picture = traced({slicing, 10, 3, 0, 2}, 3, 50);
         EXPECT_EQ(picture.samples().size(), 27U * 23U);
@@ -95,7 +96,7 @@ TEST(Slices, EveryPixelInBoundsGetsAllItsSamples) {
     }
 }
 
-TEST(Slices, SamplesArePlacedAlikeForBothWaysAndAnyThreads) {
+TEST(Slices, SamplePositionsDoNotDependOnSlicingOrThreads) {
     const SliceOptions time{Slicing::Time, 64, 4, 1, 8};
     SliceOptions spatial = time;
     spatial.slicing = Slicing::Spatial;
@@ -133,7 +134,8 @@ TEST(Slices, NoPixelIsInTwoOutstandingPortions) {
     }
 }
 
-// A ray through every pixel's centre, then the first samples in three turns.
+// First a ray through the centre of every pixel is traced; then come the first samples, in three
+// rounds.
 TEST(Slices, TimeSlicesAreCompleteAfterEachTurn) {
     Slices slices({Slicing::Time, 8, 3, 0, 2});
     slices.begin({0, 0, 32, 24}, {32, 24});
@@ -160,7 +162,7 @@ TEST(Slices, TimeSlicesAreCompleteAfterEachTurn) {
     EXPECT_EQ(sampled, (std::vector<int>{0, 48, 192, 768, 768, 768}));
 }
 
-// One pixel of each 4x4, then one of each 2x2.
+// First one pixel of each 4x4, then one of each 2x2.
 TEST(Slices, TheFirstSamplesAreSpreadEvenly) {
     Slices slices({Slicing::Time, 2, 1, 0, 2});
     slices.begin({0, 0, 32, 24}, {32, 24});
@@ -182,11 +184,11 @@ TEST(Slices, TheFirstSamplesAreSpreadEvenly) {
     }
 }
 
-TEST(Slices, PixelsKnownAfterTheFirstLookGetNoSamples) {
+TEST(Slices, PixelsKnownAfterTheSparseSamplesGetNoMore) {
     Slices slices({Slicing::Time, 16, 4, 1, 8});
     slices.begin({0, 0, 32, 24}, {32, 24});
     NoisyPicture picture([](std::uint32_t) { return 1e6F; });
-    // The left half is known from an earlier picture.
+    // An earlier picture already gives the left half.
     while (true) {
         const Slice slice = slices.next(50);
         if (slice.pixels.empty()) break;
@@ -199,7 +201,7 @@ TEST(Slices, PixelsKnownAfterTheFirstLookGetNoSamples) {
         EXPECT_EQ(samples, pixel % 32 < 16 ? 0 : 16) << pixel;
 }
 
-TEST(Slices, UntouchedTilesGetTheSparseSamplesAlone) {
+TEST(Slices, TilesWithoutObjectsGetOnlyTheSparseSamples) {
     Slices slices({Slicing::Time, 16, 4, 1, 8});
     slices.begin({0, 0, 32, 24}, {32, 24});
     NoisyPicture picture([](std::uint32_t) { return 1e6F; });
@@ -224,7 +226,7 @@ TEST(Slices, UntouchedTilesGetTheSparseSamplesAlone) {
     EXPECT_DOUBLE_EQ(slices.progress(), 1);
 }
 
-TEST(Slices, DensityLeavesOutTilesAndPixels) {
+TEST(Slices, SparseDensitySkipsTilesAndPixels) {
     Slices slices({Slicing::Time, 4, 2, 0, 2});
     slices.begin({0, 0, 24, 8}, {24, 8}, [](const PixelRect& tile) {
         if (tile.x0 == 0) return Slices::Density::None;
@@ -274,8 +276,9 @@ TEST(Slices, TilesFollowTheMortonCurve) {
     EXPECT_EQ(places.back(), std::pair(3, 3));
 }
 
-TEST(Slices, CalmPixelsGetNoMoreSamplesNoisyOnesAll) {
-    // Noise only in the middle of one tile: this pixel and its neighbours get more samples.
+TEST(Slices, OnlyNoisyPixelsGetAllSamples) {
+    // Only one pixel in the middle of a tile is noisy. This pixel and its neighbours must get more
+    // samples.
     const std::uint32_t noisy = 12 * 32 + 12;
     NoisyPicture picture([&](std::uint32_t pixel) { return pixel == noisy ? 1e6F : 0.1F; });
     Slices slices({Slicing::Time, 64, 4, 1, 8});
@@ -302,7 +305,7 @@ TEST(Slices, NanErrorsKeepAPixelActive) {
     EXPECT_EQ(slices.traced(), 64U * 32U);
 }
 
-TEST(Slices, NothingInBoundsIsFinished) {
+TEST(Slices, EmptyBoundsAreFinishedAtOnce) {
     Slices slices({});
     EXPECT_TRUE(slices.finished());
     for (const PixelRect& nothing :
@@ -314,7 +317,7 @@ TEST(Slices, NothingInBoundsIsFinished) {
     }
 }
 
-TEST(Slices, ANewPictureBeginsFromNothing) {
+TEST(Slices, ANewPictureForgetsTheLastOne) {
     Slices slices({Slicing::Spatial, 4, 2, 0, 2});
     slices.begin(kBounds, kPicture);
     const Slice slice = slices.next(10);

@@ -7,12 +7,12 @@
 
 namespace mfar::render_scenes {
 
-/// Balls and boxes, rough and shiny, within 0.2 m of the origin on a plane that catches their
+/// Rough and shiny balls and boxes within 0.2 m of the origin, on a plane that catches their
 /// shadows, with a sun and unevenLight().
 [[nodiscard]] std::shared_ptr<const Scene> stillLife();
 
-/// A camera that looks at the origin, in metres and degrees: `azimuth` about the world's z from +x,
-/// `elevation` above the plane.
+/// A camera that looks at the origin from a distance [m]. `azimuth`: about the world's z, from +x
+/// [degrees]; `elevation`: above the plane [degrees].
 [[nodiscard]] RenderView viewFrom(Size size, double azimuth, double elevation = 35,
                                   double distance = 0.9);
 

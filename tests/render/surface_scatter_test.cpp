@@ -24,7 +24,7 @@ std::vector<SurfaceLook> looks(const Eigen::Vector3f& colour) {
     return out;
 }
 
-/// Reflected light under uniform light of 1.
+/// Reflected light if light of radiance 1 comes from all directions.
 Eigen::Vector3f furnace(const SurfaceLook& look, float mu) {
     const SurfaceScatter scatter(look, directionAt(mu, 0.4F));
     Eigen::Vector3f sum{0, 0, 0};
@@ -34,14 +34,14 @@ Eigen::Vector3f furnace(const SurfaceLook& look, float mu) {
     return sum / kSamples;
 }
 
-TEST(SurfaceScatter, WhiteReflectsAllLight) {
+TEST(SurfaceScatter, AWhiteSurfaceReflectsAllLight) {
     for (const SurfaceLook& look : looks({1, 1, 1}))
         for (const float mu : {0.1F, 0.4F, 0.7F, 1.0F})
             EXPECT_NEAR(furnace(look, mu).mean(), 1, 0.02)
                 << look.metallic << ' ' << look.roughness << ' ' << mu;
 }
 
-TEST(SurfaceScatter, NeverReflectsMoreThanAll) {
+TEST(SurfaceScatter, NeverReflectsMoreLightThanArrives) {
     for (const SurfaceLook& look : looks({0.9F, 0.5F, 0.0F}))
         for (const float mu : {0.02F, 0.3F, 0.9F}) {
             const Eigen::Vector3f back = furnace(look, mu);
@@ -60,8 +60,7 @@ TEST(SurfaceScatter, IsReciprocal) {
     }
 }
 
-/// Shares of the samples, and the density's integral, over cells of equal size in cosine and
-/// azimuth.
+/// Share of the samples, and integral of the density, in cells of equal size in cosine and azimuth.
 struct Cells {
     static constexpr int kSide = 8, kFine = 48;
     std::array<double, kSide * kSide> sampled{}, expected{};

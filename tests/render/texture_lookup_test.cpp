@@ -14,17 +14,16 @@ SurfaceTexture twoByTwo(bool srgb) {
     return out;
 }
 
-TEST(TextureLookup, TexelCentresAreTheTexels) {
+TEST(TextureLookup, TexelCentresGiveTheTexelsValues) {
     const SurfaceTexture texture = twoByTwo(false);
     EXPECT_TRUE(lookUp(texture, {0.75F, 0.25F}).isApprox(Eigen::Vector4f(1, 0, 0, 1)));
     EXPECT_TRUE(lookUp(texture, {0.25F, 0.75F}).isApprox(Eigen::Vector4f(0, 1, 0, 0)));
 }
 
-TEST(TextureLookup, InterpolatesAndRepeats) {
+TEST(TextureLookup, InterpolatesTexelsAndRepeatsTheTexture) {
     const SurfaceTexture texture = twoByTwo(false);
     EXPECT_NEAR(lookUp(texture, {0.5F, 0.25F}).x(), 0.5F, 1e-6F);
-    EXPECT_NEAR(lookUp(texture, {0, 0.25F}).x(), 0.5F, 1e-6F);  // between the last and the first
-                                                                // column
+    EXPECT_NEAR(lookUp(texture, {0, 0.25F}).x(), 0.5F, 1e-6F);  // between last and first column
     EXPECT_TRUE(lookUp(texture, {-7.25F, 12.25F}).isApprox(lookUp(texture, {0.75F, 0.25F})));
     EXPECT_TRUE(lookUp(texture, {1e30F, -1e30F}).allFinite());
 }

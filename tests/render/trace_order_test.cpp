@@ -39,7 +39,7 @@ void expectSame(const Film& a, const Film& b) {
     EXPECT_EQ(p.id, q.id);
 }
 
-TEST(TraceOrder, CutsChangeNothing) {
+TEST(TraceOrder, PortionSizesDoNotChangeThePicture) {
     const PathTracer tracer(mixedScene());
     const Film whole = traced(tracer, kMixedView, 8);
     Film cut(kMixedView.camera.size);
@@ -53,7 +53,7 @@ TEST(TraceOrder, CutsChangeNothing) {
     expectSame(whole, cut);
 }
 
-TEST(TraceOrder, ThreadsChangeNothing) {
+TEST(TraceOrder, ThreadCountDoesNotChangeThePicture) {
     const PathTracer tracer(mixedScene());
     const Film alone = traced(tracer, kMixedView, 4);
     Film shared(kMixedView.camera.size);
@@ -69,7 +69,7 @@ TEST(TraceOrder, ThreadsChangeNothing) {
     expectSame(alone, shared);
 }
 
-TEST(TraceOrder, SeedsDiffer) {
+TEST(TraceOrder, DifferentSeedsGiveDifferentPictures) {
     PathTracerOptions other;
     other.seed = 1;
     const Film a = traced(PathTracer(mixedScene()), kMixedView, 1);

@@ -8,7 +8,7 @@
 namespace mfar {
 namespace {
 
-TEST(TripleBuffer, TheNewestWins) {
+TEST(TripleBuffer, TheReaderGetsTheNewestValue) {
     TripleBuffer<int> buffer;
     EXPECT_FALSE(buffer.fetch());
     for (const int value : {1, 2, 3}) {
@@ -23,7 +23,7 @@ TEST(TripleBuffer, TheNewestWins) {
 
 TEST(TripleBuffer, TheReadersValueStaysAndMemoryIsReused) {
     TripleBuffer<std::vector<int>> buffer;
-    for (int i = 0; i < 3; ++i) {  // allocates the memory of all three slots
+    for (int i = 0; i < 3; ++i) {  // the memory of all three slots is allocated
         buffer.back().assign(100, i);
         buffer.publish();
         buffer.fetch();
@@ -43,7 +43,7 @@ TEST(TripleBuffer, TheReadersValueStaysAndMemoryIsReused) {
     EXPECT_EQ(buffer.front()[99], 19);
 }
 
-TEST(TripleBuffer, ThreadsSeeWholeValuesInTheirOrder) {
+TEST(TripleBuffer, ThreadsSeeCompleteValuesInOrder) {
     struct Pair {
         int a = 0, b = 0;
     };

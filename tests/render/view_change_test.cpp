@@ -28,7 +28,7 @@ double change(const RenderView& from, const RenderView& to) {
 }
 
 TEST(ViewChange, IsTheAngleAboutTheObjectInUnitsOfTheLimit) {
-    // At the object's level, the azimuth is that angle.
+    // If the camera is at the object's height, the azimuth equals the angle.
     const RenderView from = viewFrom(kSize, 20, 0);
     EXPECT_NEAR(change(from, from), 0, 1e-12);
     EXPECT_NEAR(change(from, viewFrom(kSize, 22, 0)), 0.5, 1e-9);
@@ -36,7 +36,7 @@ TEST(ViewChange, IsTheAngleAboutTheObjectInUnitsOfTheLimit) {
     EXPECT_NEAR(change(from, viewFrom(kSize, 20, 4)), 1, 1e-9);
 }
 
-TEST(ViewChange, IsTheDistancesRatioInUnitsOfTheLimit) {
+TEST(ViewChange, IsTheRatioOfDistancesInUnitsOfTheLimit) {
     const RenderView near = viewFrom(kSize, 20, 30, 1), far = viewFrom(kSize, 20, 30, 1.3);
     EXPECT_NEAR(change(near, far), 1.5, 1e-9);
     EXPECT_NEAR(change(far, near), 1.5, 1e-9);
@@ -50,7 +50,7 @@ TEST(ViewChange, RotationOnTheSpotIsIgnoredForWhollyVisibleObjects) {
     EXPECT_NEAR(change(cut, turned(cut, -8)), 2, 0.01);
 }
 
-TEST(ViewChange, HiddenObjectsAreIgnoredAppearingOnesForceAChange) {
+TEST(ViewChange, HiddenObjectsAreIgnoredButAppearingOnesForceAChange) {
     const RenderView from = viewFrom(kSize, 20), away = turned(viewFrom(kSize, 60), 180);
     EXPECT_EQ(change(from, away), 0);
     EXPECT_TRUE(std::isinf(change(away, from)));
@@ -73,7 +73,7 @@ TEST(ViewChange, IsFiniteInsideAnObject) {
     EXPECT_FALSE(std::isnan(change(middle, middle)));
 }
 
-TEST(ObjectBalls, HoldAllVertices) {
+TEST(ObjectBalls, BallsContainAllVertices) {
     const auto scene = render_scenes::stillLife();
     const std::vector<ObjectBall> balls = objectBalls(*scene);
     ASSERT_EQ(balls.size(), scene->objects.size());
@@ -84,7 +84,7 @@ TEST(ObjectBalls, HoldAllVertices) {
         }
 }
 
-TEST(LightChange, IsAShareOfTheStronger) {
+TEST(LightChange, IsRelativeToTheStrongerLight) {
     Lighting a;
     a.environment = render_scenes::unevenLight();
     EXPECT_EQ(lightChange(a, a), 0);
@@ -99,7 +99,7 @@ TEST(LightChange, IsAShareOfTheStronger) {
     EXPECT_EQ(lightChange({}, {}), 0);
 }
 
-TEST(LightChange, SeesASunThatWanders) {
+TEST(LightChange, DetectsAMovingSun) {
     Lighting a;
     a.sun.emplace();
     a.sun->towards = {0, 0, 1};
@@ -110,7 +110,7 @@ TEST(LightChange, SeesASunThatWanders) {
     EXPECT_NEAR(lightChange(a, b), 0.05, 0.001);
 }
 
-TEST(SameObjects, DifferInPlaceModelAndCatcher) {
+TEST(SameObjects, PlaceModelAndCatcherDistinguishObjects) {
     const auto scene = render_scenes::stillLife();
     Scene other = *scene;
     other.lighting = {};

@@ -37,16 +37,16 @@ TEST(ViewPredictor, AConstantRateInTheCamerasFrameIsPredictedExactly) {
         expectNear(predictor.predict(ahead, kFar), onCircle(1 + ahead, 20), 1e-6, 1e-6);
 }
 
-TEST(ViewPredictor, FollowsTheLastTenthOfASecond) {
+TEST(ViewPredictor, UsesTheMotionOfTheLastTenthOfASecond) {
     ViewPredictor predictor(kNoLimits);
     for (int i = 0; i <= 15; ++i)
         predictor.add(onCircle(i / 30.0, 20), Timestamp::fromSeconds(i / 30.0));
-    for (int i = 16; i <= 20; ++i)  // the camera stops
+    for (int i = 16; i <= 20; ++i)  // from here on the camera rests
         predictor.add(onCircle(0.5, 20), Timestamp::fromSeconds(i / 30.0));
     expectNear(predictor.predict(1, kFar), onCircle(0.5, 20), 1e-9, 1e-9);
 }
 
-TEST(ViewPredictor, HoldsToItsLimits) {
+TEST(ViewPredictor, PredictionStaysWithinItsLimits) {
     ViewPredictor predictor({0.25, 5});
     for (int i = 0; i <= 30; ++i)
         predictor.add(onCircle(i / 30.0, 10), Timestamp::fromSeconds(i / 30.0));
@@ -59,14 +59,14 @@ TEST(ViewPredictor, HoldsToItsLimits) {
     EXPECT_GT(way, 0.09 * 5 * kDegree);
 }
 
-TEST(ViewPredictor, ACameraAtRestOrSeenOnceStays) {
+TEST(ViewPredictor, ACameraAtRestOrSeenOnceIsPredictedToStay) {
     ViewPredictor predictor;
     expectNear(predictor.predict(1, 1), {}, 1e-12, 1e-12);
     predictor.add(onCircle(1, 20), Timestamp::fromSeconds(1));
     expectNear(predictor.predict(1, 1), onCircle(1, 20), 1e-9, 1e-9);
 }
 
-TEST(ViewPredictor, AGapOrAStepBackIsANewStart) {
+TEST(ViewPredictor, AGapOrAStepBackInTimeRestartsThePrediction) {
     for (const double jump : {1.0, -1.0, 0.0}) {
         ViewPredictor predictor;
         predictor.add(onCircle(0, 20), Timestamp::fromSeconds(5));

@@ -11,7 +11,7 @@ summary_has mailbox 0
 summary_has exit_reason '"end of the source"'
 while IFS=, read -r time _; do
     [ -s "shown/$time.png" ] || fail "picture of frame $time is missing"
-    # The width and height of a PNG file are in bytes 16 to 23.
+    # Bytes 16 to 23 of a PNG file are its width and height.
     size=$(od -An -tu1 -j16 -N8 "shown/$time.png" | tr -s ' ')
     [ "$size" = " 0 0 9 0 0 0 6 192" ] || fail "picture $time is not 2304x1728:$size"
 done < <(grep -v '^#' run/cam0/data.csv)

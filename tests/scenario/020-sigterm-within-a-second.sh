@@ -1,6 +1,6 @@
 #!/bin/bash
-# SIGTERM and SIGINT end mfard within one second, whatever it waits for. The limits allow half a
-# second more for the scheduler.
+# SIGTERM and SIGINT must end mfard within one second, whatever it waits for. The limits allow half
+# a second more, for the scheduler.
 . "$(dirname "$0")/lib.sh"
 
 limit=1500
@@ -45,8 +45,8 @@ sleep 1
 kill -TERM "$pid"
 ends_with 0 $limit
 
-# True when all of mfard's threads sleep in five checks. A thread that only lacks processor time
-# does not.
+# True if all threads of mfard sleep in each of five checks. A thread that only lacks processor time
+# does not sleep.
 at_rest() {
     for _ in 1 2 3 4 5; do
         if cat /proc/"$pid"/task/*/stat | grep -q ') [RD] '; then return 1; fi
@@ -54,10 +54,10 @@ at_rest() {
     done
 }
 
-# The reader takes the first bytes of a picture. The pipe holds a hundredth of the rest, so mfard
+# The reader takes the first bytes of a picture. The pipe holds a hundredth of the rest; so mfard
 # soon blocks.
 start_blocked() {
-    exec 3>&- # no process has the pipe open any more, so it is empty again
+    exec 3>&- # no process has the pipe open any more, so the pipe is empty again
     exec 3<>pipe
     start --recording run --display y4m:pipe --summary summary.json
     timeout $((30 * patience)) head -c 5000 <&3 >/dev/null || fail "no picture comes"
@@ -65,8 +65,8 @@ start_blocked() {
 }
 
 echo "while the reader of the display pipe takes nothing more"
-# The threads have half a second to give up, then mfard ends without them. On a starved machine the
-# second is accepted, but at least one of a few tries must give up in time.
+# The threads have half a second to give up. Then mfard ends without them. On a starved machine the
+# full second is accepted, but in at least one of a few tries the threads must give up in time.
 for _ in $(seq "$patience"); do
     start_blocked
     kill -TERM "$pid"
@@ -90,7 +90,7 @@ echo "during the first milliseconds"
 start --source synthetic:flat
 sleep 0.02
 kill -TERM "$pid"
-# Before mfard handles signals, they end it directly, which is accepted.
+# Until mfard handles signals itself, a signal ends it directly, which is accepted.
 code=0
 wait "$pid" || code=$?
 [ "$code" = 0 ] || [ "$code" = 143 ] || fail "ended with $code"

@@ -1,5 +1,5 @@
 #!/bin/bash
-# An invalid configuration is refused with the place of every fault, and no device or file is
+# An invalid configuration must be refused, with the place of every fault. No device or file may be
 # touched.
 . "$(dirname "$0")/lib.sh"
 

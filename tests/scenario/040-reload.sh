@@ -1,5 +1,5 @@
 #!/bin/bash
-# SIGHUP reads the configuration again; an invalid one is refused and the old one stays.
+# SIGHUP reads the configuration again. An invalid one must be refused; the old one stays.
 . "$(dirname "$0")/lib.sh"
 
 lines() { [ "$(grep -Ec "$1" err)" -ge "$2" ]; }

@@ -1,8 +1,8 @@
 #!/bin/bash
-# A board at rest takes exactly one still and uses it; the picture does not change afterwards.
+# A board at rest must take exactly one still and use it. Afterwards the picture must not change.
 . "$(dirname "$0")/lib.sh"
 
-# The run is longer than the age limit: age alone must not request a still.
+# The run is longer than the age limit: age alone must not cause a request for a still.
 printf '[trigger]\nmax_age_s = 0.2\nmin_interval_s = 0.0\n' >mfard.toml
 run 0 --config mfard.toml --source synthetic:still --pace consumer --frames 16 \
     --summary summary.json

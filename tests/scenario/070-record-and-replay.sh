@@ -1,5 +1,6 @@
 #!/bin/bash
-# A recording of a live run replays it: same frames, same still, same pictures.
+# A recording of a live run must replay that run: the same frames, the same still, the same
+# pictures.
 . "$(dirname "$0")/lib.sh"
 
 record run 8 --source synthetic:office --display png:live --summary summary.json
@@ -10,8 +11,8 @@ summary_has frames 8
 [ "$(grep -vc '^#' run/cam0/data.csv)" = 8 ] || fail "not all frames were recorded"
 [ "$(grep -vc '^#' run/cam1/data.csv)" = 1 ] || fail "the still was not recorded"
 
-# The still was taken before the frame that first used it, so the replay may use it a few frames
-# earlier. Before the still's exposure and at the end both runs have the same state.
+# The still was taken before the frame that first used it; so the replay may use it a few frames
+# earlier. Before the exposure of the still, and at the end, both runs must have the same state.
 first=$(ls live | sort -n | head -n 1)
 cmp "live/$first" "again/$first" || fail "the first picture differs"
 

@@ -1,5 +1,6 @@
 #!/bin/bash
-# Recorded poses replace the tags; a recording without poses is refused when poses are required.
+# Recorded poses must replace the tags. A recording without poses must be refused if poses are
+# required.
 . "$(dirname "$0")/lib.sh"
 
 "$sim" --scene office --path pan --seconds 0.2 --stills 5 --no-truth \

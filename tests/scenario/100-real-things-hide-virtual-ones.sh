@@ -1,12 +1,12 @@
 #!/bin/bash
-# A virtual object has a fixed place in the world of the tags, is hidden by nearer real things, and
-# can be changed while mfard runs.
+# A virtual object must keep its place in the world of the tags, be hidden by nearer real objects,
+# and change when the configuration changes while mfard runs.
 . "$(dirname "$0")/lib.sh"
 
 "$sim" --scene office --path handheld --seconds 0.3 --stills 3 --no-truth \
     --out run >/dev/null || fail "no recording"
 
-# last NAME [ARGUMENT...]: saves the last picture of the recording, its bytes as NAME.raw.
+# last NAME [ARGUMENT...]: saves the last picture of the recording. NAME.raw holds its pixels.
 last() {
     local name=$1
     shift
@@ -17,7 +17,7 @@ last() {
 differing() { { cmp -l plain.raw "$1.raw" || true; } | wc -l; }
 
 last plain
-# In front of everything on the desk, and far behind the wall.
+# One object in front of everything on the desk, one far behind the wall.
 cat >near.toml <<'END'
 [virtual]
 rendering = "preview"
@@ -33,7 +33,7 @@ last far --config far.toml
 near=$(differing near) far=$(differing far)
 echo "$near bytes differ with the object in front, $far with the one behind"
 [ "$near" -gt 50000 ] || fail "the object is not shown"
-# Cells of unknown depth hide nothing: specks at the edges of things.
+# Cells of unknown depth do not hide anything; so specks remain at the edges of objects.
 [ "$far" -lt $((near / 50)) ] || fail "the wall does not hide what is behind it"
 
 echo "without a map, what stands on a tag is shown as soon as one is the world"

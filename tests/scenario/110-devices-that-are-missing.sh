@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Without its cameras mfard runs, reports in the picture and in the log what is missing, and keeps
-# looking for it. A service stays alive without them.
+# Without its cameras mfard must run, report in the picture and in the log what is missing, and keep
+# looking for it. A service must stay alive without them.
 . "$(dirname "$0")/lib.sh"
 
 cat >mfard.toml <<'END'
@@ -24,13 +24,13 @@ says err 'still camera: .*no such card'
 summary_has frames 0
 summary_has faults 1
 
-# The trigger line is missing, too: releasing it fails with a reason.
+# The trigger line is also missing; so releasing it must fail with a reason.
 run 69 --config mfard.toml --release-trigger
 says err 'no such chip'
 sed -i '/trigger/,$d' mfard.toml
 run 0 --config mfard.toml --release-trigger
 
-# A missing calibration, or one of other sizes, is an error: mfard does not wait for it.
+# A missing calibration, or one of other sizes, is an error for which mfard does not wait.
 sed -i '1a [cameras]\ncalibration = "lenses"' mfard.toml
 run 66 --config mfard.toml
 says err 'lenses'

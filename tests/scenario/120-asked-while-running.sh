@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# mfarctl asks a running mfard for its status, a picture, a still and a recording.
+# mfarctl must get status, a picture, a still and a recording from a running mfard.
 . "$(dirname "$0")/lib.sh"
 
 ctl="$(dirname "$sim")/mfarctl"
-# refused EXIT-CODE ARGUMENT...: mfarctl must end with this code. Its output is in answer and
+# refused EXIT-CODE ARGUMENT...: mfarctl must end with this code. Its output goes to `answer` and
 # err.ctl.
 refused() {
     local code=$1 got=0

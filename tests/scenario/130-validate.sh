@@ -1,6 +1,6 @@
 #!/bin/bash
-# On demand the output of every pass is checked: super-resolution, depth, path tracing and warping
-# of a hand-held view write no invalid value.
+# On request, the output of every pass is checked. Super-resolution, depth, path tracing and warping
+# of a hand-held view must not write an invalid value.
 . "$(dirname "$0")/lib.sh"
 
 "$sim" --scene office --path handheld --seconds 0.2 --stills 5 --no-truth \

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# On a machine without EGL, or without GLES, the SIMD engine makes the pictures, and mfard reports
-# why. Whatever needs GL fails with 69, the code for a missing device, and names the packages to
+# On a machine without EGL or without GLES, the SIMD engine must make the pictures, and mfard must
+# report why. Options that need GL must fail with code 69 (missing device) and name the packages to
 # install.
 . "$(dirname "$0")/lib.sh"
 
 record take 3 --source synthetic:flat --display none
 run 0 --recording take --frames 2 --engine simd --display png:with
 
-# The dynamic linker takes the first file of a name, and fails if it is not a library.
+# The dynamic linker takes the first file of a name. It fails if that is not a library.
 mkdir hidden
 for library in libEGL.so.1 libGLESv2.so.2; do
     : >"hidden/$library"

@@ -1,18 +1,18 @@
 #!/usr/bin/env bash
-# On a machine without OpenGL ES, path-traced objects are shown as on any other. Previews need it:
-# mfard reports that and shows the pictures without them.
+# On a machine without OpenGL ES, path-traced objects must be shown as on any other machine.
+# Previews need OpenGL ES: mfard must report that and show the pictures without objects.
 . "$(dirname "$0")/lib.sh"
 
 "$sim" --scene office --path handheld --seconds 1.5 --stills 3 --no-truth \
     --out run >/dev/null || fail "no recording"
 
-# The dynamic linker takes the first file of a name, and fails if it is not a library.
+# The dynamic linker takes the first file of a name. It fails if that is not a library.
 mkdir hidden
 : >hidden/libEGL.so.1
 : >hidden/libGLESv2.so.2
 export LD_LIBRARY_PATH=$PWD/hidden${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
 
-# last NAME [ARGUMENT...]: saves the last picture of the recording, its bytes as NAME.raw.
+# last NAME [ARGUMENT...]: saves the last picture of the recording. NAME.raw holds its pixels.
 last() {
     local name=$1
     shift
@@ -25,7 +25,7 @@ last() {
 differing() { { cmp -l plain.raw "$1.raw" || true; } | wc -l; }
 
 last plain
-# In front of everything on the desk.
+# An object in front of everything on the desk.
 cat >preview.toml <<'END'
 [virtual]
 rendering = "preview"
@@ -34,7 +34,7 @@ shape = "box"
 size = [0.1, 0.1, 0.1]
 position = [0.0, 0.0, 0.06]
 END
-# Few pixels and samples, so that there is a picture soon even on a slow machine.
+# Few pixels and samples, so that there is a picture soon, even on a slow machine.
 sed 's/"preview"/"path-traced"\nresolution = 0.1\nsamples = 1\nbudget_ms = 60/' preview.toml >traced.toml
 
 last preview --config preview.toml

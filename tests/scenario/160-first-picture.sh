@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The first picture comes soon after the start: memory that it does not need is not touched before
-# it. (Touching 220 MB more took most of a second.)
+# The first picture must come soon after the start: mfard must not touch memory before it that the
+# picture does not need. (Touching 220 MB more took most of a second.)
 . "$(dirname "$0")/lib.sh"
 
 "$sim" --scene flat --path pan --seconds 0.1 --stills 10 --no-truth --out run >/dev/null ||
@@ -12,5 +12,6 @@ grep -A3 first_picture summary.json
 resident=$(sed -n 's/.*"resident_mb": \([0-9]*\).*/\1/p' summary.json)
 [ -n "$resident" ] || fail "the summary does not tell the memory"
 [ "$resident" -gt 20 ] || fail "$resident MB are too little to be true"
-# 90 MB on x86-64, 30 of them programs and libraries; 310 MB with all buffers of a run touched.
+# About 90 MB are used on x86-64, 30 of them for programs and libraries. With all buffers of a run
+# touched, it would be 310 MB.
 [ "$resident" -lt 180 ] || fail "$resident MB are in use at the first picture"

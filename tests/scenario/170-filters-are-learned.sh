@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Filters are learned from matched stills, survive a restart, and are deleted on demand.
+# Filters must be learned from matched stills, survive a restart, and be deleted on request.
 . "$(dirname "$0")/lib.sh"
 
 ctl="$(dirname "$sim")/mfarctl"

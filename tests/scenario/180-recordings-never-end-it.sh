@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Every start records into a new folder. A recording that cannot be written ends, and mfard goes on.
+# Every start must record into a new folder. If a recording cannot be written, it ends, but mfard
+# continues.
 . "$(dirname "$0")/lib.sh"
 
 ctl="$(dirname "$sim")/mfarctl"
@@ -11,7 +12,7 @@ goes_on() {
     more() { [ "$(frames)" -gt $((shown + 5)) ]; }
     until_true more
 }
-# A still would fill a short recording before there is a frame to replay.
+# A still would fill a short recording before it has a frame to replay.
 quiet='source = "synthetic:flat,rest"
 [superres]
 mode = "off"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The reader of the display's pipe stalls: with a live source the pictures go on, and status names
-# the reader; a recording waits for it and reports that. When the reader closes the pipe, mfard
-# ends.
+# The reader of the display's pipe stalls. With a live source the pictures must continue, and status
+# must report the reader. A recording must wait for the reader and report that. When the reader
+# closes the pipe, mfard must end.
 . "$(dirname "$0")/lib.sh"
 
 ctl="$(dirname "$sim")/mfarctl"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Something that a service needs is missing, and the service manager restarts it at once: mfard logs
-# what to do and waits longer each time before it ends. From a command line it ends at once.
-# Usage: 210-service-that-cannot-run.sh MFARD MFAR-SIM NOTIFY-LISTENER
+# A service lacks something that it needs, and the service manager restarts it at once. Then mfard
+# must log what to do, and wait longer each time before it ends. From a command line it must end at
+# once. Usage: 210-service-that-cannot-run.sh MFARD MFAR-SIM NOTIFY-LISTENER
 . "$(dirname "$0")/lib.sh"
 
 listener=$3

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# A driver never returns: the watchdog is no longer fed, and status, log and service manager name
-# the thread that hangs. While a missing camera is being reopened, the watchdog is fed. The cameras
-# are simulated by a preloaded library, the service manager by a program that writes down its
-# messages.
-# Usage: 220-driver-that-hangs.sh MFARD MFAR-SIM PRETENDED.so NOTIFY-LISTENER
+# A driver never returns. Then mfard must stop notifying the watchdog; status, log and service
+# manager must get the name of the thread that hangs. While a missing camera is being reopened,
+# mfard must notify the watchdog. A preloaded library simulates the cameras; a program that writes
+# down the messages simulates the service manager. Usage: 220-driver-that-hangs.sh MFARD MFAR-SIM
+# PRETENDED.so NOTIFY-LISTENER
 . "$(dirname "$0")/lib.sh"
 
 pretended=$3
@@ -19,12 +19,12 @@ meals() { grep -c '^WATCHDOG=1$' heard || true; }
 fed() { [ "$(meals)" -gt $((before + $1)) ]; }
 status() { timeout 10 "$ctl" --socket control status; }
 status_says() { status | grep -Eq -- "$1"; }
-# Fed three times from now on.
+# True if the watchdog is notified three times from now on.
 is_fed() {
     before=$(meals)
     until_true fed 2
 }
-# Not fed for four seconds, although a tick comes every second.
+# True if the watchdog is not notified for four seconds. Normally a notification comes every second.
 is_hungry() {
     before=$(meals)
     sleep 4

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# As a service, mfard sends messages with fields to the journal: kind, camera, count. Without a
-# journal, or when it takes nothing, messages go to standard error.
-# Usage: 230-fields-for-the-journal.sh MFARD MFAR-SIM JOURNAL.so NOTIFY-LISTENER
+# As a service, mfard must send messages with fields to the journal: kind, camera, count. If there
+# is no journal, or if it does not accept messages, they must go to standard error. Usage:
+# 230-fields-for-the-journal.sh MFARD MFAR-SIM JOURNAL.so NOTIFY-LISTENER
 ids=$(realpath "$(dirname "$0")/../../daemon/message_ids.h")
 . "$(dirname "$0")/lib.sh"
 
@@ -12,8 +12,8 @@ id() { sed -n "s/^constexpr std::string_view $1 = \"\(.*\)\";/\1/p" "$ids"; }
 "$listener" socket heard &
 pids+=($!)
 until_true test -S socket
-# One message has both fields. Each message ends with an empty line; texts of several lines are sent
-# with their length.
+# True if one message has both fields. An empty line ends each message. The length of a text
+# precedes it if it has several lines.
 heard() {
     tr '\0' ' ' <heard |
         awk -v RS= -v a="$1" -v b="$2" '$0 ~ a && $0 ~ b {found = 1} END {exit !found}'

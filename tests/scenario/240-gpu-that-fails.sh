@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# A GPU that is lost or hangs is named and set up again while control and cameras go on. After three
-# losses within a minute the CPU draws instead, and the picture says so. A driver that does
-# not return is named, and a run with a time limit ends nevertheless.
-# Usage: 240-gpu-that-fails.sh MFARD MFAR-SIM PRETENDED.so FAULTY-GL-FOLDER
+# A GPU that is lost or hangs must be reported and set up again, while control and cameras continue.
+# After three losses within a minute, the CPU must draw instead, and the picture must say so. A
+# driver that does not return must be reported, and a run with a time limit must still end. Usage:
+# 240-gpu-that-fails.sh MFARD MFAR-SIM PRETENDED.so FAULTY-GL-FOLDER
 . "$(dirname "$0")/lib.sh"
 
 pretended=$3
@@ -11,7 +11,7 @@ ctl="$(dirname "$sim")/mfarctl"
 control() { timeout 10 "$ctl" --socket control "$@"; }
 status_says() { control status | grep -Eq -- "$1"; }
 frames() { [ "$(control status | sed -n 's/^frames  *//p')" -gt "$1" ] 2>/dev/null; }
-# Sets the GPU's fault from now on.
+# gpu_says WORD...: sets the faults that the GPU has from now on.
 gpu_says() {
     echo "$1" >gl.new
     mv gl.new gl

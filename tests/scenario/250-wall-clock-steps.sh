@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The wall clock steps by an hour and by ten years, as on a board that gets the time late: no frame
-# is lost, nothing becomes stale, and recordings stay complete and separate.
-# Usage: 250-wall-clock-steps.sh MFARD MFAR-SIM PRETENDED.so CLOCK.so
+# The wall clock steps by an hour and by ten years, as on a board that gets the time late. No frame
+# may be lost, nothing may become stale, and recordings must stay complete and separate. Usage:
+# 250-wall-clock-steps.sh MFARD MFAR-SIM PRETENDED.so CLOCK.so
 . "$(dirname "$0")/lib.sh"
 
 libraries=$3:$4
@@ -32,7 +32,7 @@ for seconds in 3600 -3600 315360000 -315360000 0; do
 done
 kill -TERM "$pid"
 ends_with 0 1500
-summary_has faults 1 # until the cameras were open
+summary_has faults 1 # waited until the cameras were open
 summary_has bad_times 0
 summary_has broken 0
 if grep -q 'warning' err; then fail "it warns"; fi

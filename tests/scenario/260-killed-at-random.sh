@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# mfard is killed at random moments, also during a pulse, again and again. Each start shows its
-# first picture within five seconds and replaces the control socket of the dead process; the hook
-# that systemd runs after a crash releases the trigger line; every recording can be read.
+# mfard is killed at random moments, again and again, also during a pulse. Each start must show its
+# first picture within five seconds and replace the control socket of the dead process. The hook
+# that systemd runs after a crash must release the trigger line. Every recording must be readable.
 # Usage: 260-killed-at-random.sh MFARD MFAR-SIM PRETENDED.so [TIMES]
 . "$(dirname "$0")/lib.sh"
 
@@ -38,7 +38,8 @@ for round in $(seq "$times"); do
     before=$(recorded)
     begin
     sleep 0.$((RANDOM % 3))$((RANDOM % 10))
-    # Every second process has shown its first picture; every fourth has recorded and is in a pulse.
+    # Every second process is killed after its first picture; every fourth while it records, during
+    # a pulse.
     if [ $((round % 2)) = 0 ]; then
         until_true shows_pictures
         took=$(($(milliseconds) - begun))

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# The power is cut while mfard records, on a real file system. All writes to its disk are logged,
-# and disks are built as cuts at random moments would leave them. Each can be mounted, has
-# everything that was safe, and every picture in the recording's list can be read.
-# Usage: 280-power-is-cut.sh MFARD MFAR-SIM PRETENDED.so [CUTS]. Exit status 77: not without root,
-# loop devices, qemu-storage-daemon and FUSE.
+# The power is cut while mfard records on a real file system. All writes to its disk are logged, and
+# disks are built as cuts at random moments would leave them. Each disk must be mountable and have
+# everything that was safe; every picture in the recording's list must be readable. Usage:
+# 280-power-is-cut.sh MFARD MFAR-SIM PRETENDED.so [CUTS]. Exit status 77: root, loop devices,
+# qemu-storage-daemon or FUSE are missing.
 for needed in qemu-storage-daemon mkfs.ext4 losetup python3; do
     command -v $needed >/dev/null || { echo "$needed is not installed" && exit 77; }
 done
@@ -20,7 +20,7 @@ cuts=${4:-10}
 seed=${MFAR_SEED:-7}
 trap 'umount --lazy disk after shown 2>/dev/null || true; losetup --detach "$loop" 2>/dev/null || true; clean_up' EXIT
 
-# QEMU exports disk.img as the file "shown", and logs all writes to it.
+# QEMU exports disk.img as the file "shown" and logs all writes to it.
 truncate --size 64M disk.img
 mkfs.ext4 -q disk.img
 cp --sparse=always disk.img start.img
@@ -34,7 +34,7 @@ pids+=($!)
 exported() { [ -s shown ]; }
 until_true exported
 loop=$(losetup --find --show shown)
-# With its default, ext4 would write everything every five seconds.
+# By default, ext4 would write everything every five seconds.
 mount -t ext4 -o commit=300 "$loop" disk
 
 export STATE_DIRECTORY=$PWD/state
@@ -47,7 +47,8 @@ has_grown() { [ "$(named)" -gt "$rows" ]; }
 rows=0
 for _ in 1 2 3 4; do
     until_true has_grown
-    # The previous rows are safe: their file names are synced before further pictures are written.
+    # The previous rows are safe, because the file names are synchronised before further pictures
+    # are written.
     echo "$(stat --format %s log) $rows" >>marks
     rows=$(named)
 done
@@ -62,7 +63,7 @@ for cut in $(seq "$cuts"); do
     mount -t ext4 -o loop cut.img after || fail "cut $cut: no file system"
     film=$(ls -d after/films/* 2>/dev/null || true)
     rows=0
-    # The list's length may include rows without their data, which do not look like rows.
+    # The list may end with rows whose data was not written; they do not look like rows.
     if [ -n "$film" ]; then rows=$(grep -acE '^[0-9]+,[0-9]+\.png$' "$film/cam0/data.csv" || true); fi
     [ "$rows" -ge "$safe" ] || fail "cut $cut: $rows pictures are left, $safe were safe"
     if [ "$rows" -gt 0 ]; then

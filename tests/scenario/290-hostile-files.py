@@ -257,8 +257,8 @@ def while_it_runs():
         wait_for(lambda: 'display ' in said(), 'it does not start')
         for name, text in CONFIGURATIONS.items():
             before = answers()
-            # Written next to the old file and renamed: mfard could read a file that is only partly
-            # written.
+            # Written to another file and renamed, because mfard could otherwise read a partly
+            # written file.
             Path('next.toml').write_text(text() + '\n' + sound.split('\n', 2)[2])
             os.replace('next.toml', config)
             process.send_signal(signal.SIGHUP)

@@ -19,7 +19,7 @@ from pathlib import Path
 
 MAGIC = 0x6a736677736872
 FLUSH, FUA, DISCARD = 1, 2, 4
-ENTRY = struct.Struct('<QQQQ')  # sector, sectors, flags, bytes of data
+ENTRY = struct.Struct('<QQQQ')  # first sector, number of sectors, flags, bytes of data
 SECTOR, BLOCK = 512, 4096
 
 

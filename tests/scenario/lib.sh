@@ -1,7 +1,7 @@
-# Common functions of the scenarios. Each is run as "NNN-name.sh MFARD MFAR-SIM LIBRARY", with the
-# paths of the two programs and of tests/device/pretended_v4l2.cpp, and tells one story of the real
-# program in a folder of its own. MFAR_PATIENCE (default 1) multiplies all time limits, for
-# sanitizers and slow machines.
+# Common functions of the scenarios. A scenario is run as "NNN-name.sh MFARD MFAR-SIM LIBRARY", with
+# the paths of the two programs and of the library built from tests/device/pretended_v4l2.cpp. It
+# runs the real program in a folder of its own. MFAR_PATIENCE (default 1) multiplies all time
+# limits, for sanitizers and slow machines.
 
 set -eu -o pipefail
 
@@ -12,8 +12,9 @@ work=$(mktemp -d)
 cd "$work"
 pids=()
 
-# ThreadSanitizer does not understand TBB, which runs OpenCV's loops; on a single CPU TBB uses one
-# thread. Races of other threads are found all the same, as it checks order, not simultaneity.
+# ThreadSanitizer does not understand TBB, which runs OpenCV's loops. On a single CPU, TBB uses one
+# thread. Races of other threads are still found, because ThreadSanitizer checks order, not
+# simultaneity.
 if [ -n "${MFAR_ONE_CPU:-}" ]; then
     first=$(sed -n 's/^Cpus_allowed_list:[[:space:]]*\([0-9]*\).*/\1/p' /proc/self/status)
     taskset -pc "$first" $$ >/dev/null
@@ -38,7 +39,8 @@ milliseconds() {
     echo $((now / 1000))
 }
 
-# run EXIT-CODE ARGUMENT...: mfard must end with this code. Messages are in the file err.
+# run EXIT-CODE ARGUMENT...: runs mfard, which must end with this code. Its messages go to the file
+# err.
 run() {
     local expected=$1 code=0
     shift
@@ -46,10 +48,10 @@ run() {
     [ "$code" = "$expected" ] || fail "mfard $* ended with $code instead of $expected"
 }
 
-# start ARGUMENT...: starts mfard in the background, its id in $pid.
+# start ARGUMENT...: starts mfard in the background and sets $pid to its process id.
 start() {
-    # Emptied here, as messages of the previous process would be taken for the new one's until it
-    # runs.
+    # Empties the file before the start, because messages of the previous process could be taken for
+    # those of the new one.
     : >err
     "$mfard" "$@" >out 2>err &
     pid=$!
@@ -65,23 +67,24 @@ until_true() {
     done
 }
 
-# The start line with renderer, sensors and display: devices are open and frames come.
+# True after the start line with renderer, sensors and display: then devices are open and frames
+# arrive.
 started() { grep -q 'display ' err; }
 
-# Vulkan's validation layer, where one is loaded, writes to standard output.
+# Checks the output of Vulkan's validation layer, which is written to standard output.
 no_complaint() {
     if [ -f out ] && grep -aE 'Validation (Error|Warning|Performance)' out >&2; then
         fail "Vulkan's validation layer complains"
     fi
 }
 
-# ends_with EXIT-CODE LIMIT-MS: the background mfard must end with this code within this time from
-# now.
+# ends_with EXIT-CODE LIMIT-MS: mfard in the background must end with this code within this time
+# from now.
 ends_with() {
     local begin code=0 took
     begin=$(milliseconds)
-    # Only checks the process table, so that a mfard that hangs fails this test and not the test's
-    # timeout.
+    # Only looks at the process table, so that a hanging mfard fails this check and does not run
+    # into the time limit of the test.
     while kill -0 "$pid" 2>/dev/null && [ $(($(milliseconds) - begin)) -lt 30000 ]; do
         sleep 0.02
     done
@@ -117,21 +120,21 @@ ${1:-}
 END
 }
 
-# pretended_cameras [TOML]: the same with simulated cameras, whose faults are in the files
-# cameras/video90 and cameras/video91.
+# pretended_cameras [TOML]: like two_cameras, but the cameras are simulated. Their faults are in the
+# files cameras/video90 and cameras/video91.
 pretended_cameras() {
     mkdir cameras
     touch cameras/video90 cameras/video91
     two_cameras "$@"
 }
 
-# says FILE PATTERN: the file must contain the pattern.
+# says FILE PATTERN: a line of the file must match the pattern.
 says() { grep -Eq -- "$2" "$1" || fail "$1 does not say: $2"; }
 
-# summary_has KEY VALUE: checks one scalar of summary.json, where keys are unique.
+# summary_has KEY VALUE: checks a number or word in summary.json, whose keys are unique.
 summary_has() { says summary.json "\"$1\": $2,?\$"; }
 
-# record DIR FRAMES [ARGUMENT...]: makes a small recording of the synthetic board.
+# record FOLDER FRAMES [ARGUMENT...]: makes a small recording of the synthetic board.
 record() {
     local dir=$1 frames=$2
     shift 2

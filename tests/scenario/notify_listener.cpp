@@ -1,6 +1,5 @@
-// A simulated service manager: writes the messages that a service sends to $NOTIFY_SOCKET into a
-// file, one per line.
-// Usage: notify-listener SOCKET FILE
+// A simulated service manager. It writes the messages that a service sends to $NOTIFY_SOCKET into a
+// file, one per line. Usage: notify-listener SOCKET FILE
 
 #include <sys/socket.h>
 #include <sys/un.h>

@@ -21,11 +21,12 @@ using synthetic::Path;
 
 constexpr int kSettling = 12;  // frames
 constexpr double kMostError = 0.015, kLeastKnown = 0.85;
-/// One match with the still has an error of 4.5 % of the inverse depth here, and a filter in
-/// balance gives it a weight of 1/12: 0.26 % a frame in the median. Three times that is a jump.
+/// A larger change is a jump. One match with the still has an error of 4.5 % of the inverse depth
+/// here. In equilibrium the filter gives it a weight of 1/12; that is 0.26 % per frame in the
+/// median. The limit is three times as large.
 constexpr double kMostChange = 0.0075;
 
-/// A scene with an object, and its depth in the whole picture.
+/// A scene with an object. Its depth is measured in the whole picture.
 struct Watched {
     Watched(synthetic::Scene scene, Path path, double rateHz,
             PoseSource poses = PoseSource::Recorded)
@@ -45,7 +46,8 @@ struct Watched {
     Pipeline pipeline;
 };
 
-/// `poseError`: error of the position, as a share of the distance; it causes an equal depth error.
+/// `poseError`: error of the camera's position, as a share of the distance; it causes an equal
+/// error of depth.
 void expectGood(const DepthState& state, int frame, double poseError = 0) {
     SCOPED_TRACE(frame);
     EXPECT_LE(state.absrel, kMostError + poseError);
@@ -58,7 +60,7 @@ class DepthScenario : public testing::Test {
 protected:
     void SetUp() override { context_->makeCurrent(); }
 
-    /// Runs along the path, with one still at its start.
+    /// Runs along the path, with one still at the start of the path.
     static void follow(Watched& w, int frames) {
         for (int frame = 0; frame < frames; ++frame) {
             const SceneRun::Shots shots = w.run.next();
@@ -73,7 +75,7 @@ private:
     std::unique_ptr<GlContext> context_ = createGlContext();
 };
 
-TEST_F(DepthScenario, StaysWhileTheCameraRestsForTenSeconds) {
+TEST_F(DepthScenario, DepthStaysWhileTheCameraRestsForTenSeconds) {
     constexpr std::int64_t kStep = 200'000'000;  // [ns]
     Watched w(synthetic::Scene::Shelf, Path::Handheld, 30);
     follow(w, kSettling + 2);
@@ -88,17 +90,17 @@ TEST_F(DepthScenario, StaysWhileTheCameraRestsForTenSeconds) {
     }
 }
 
-TEST_F(DepthScenario, StaysWhileTheCameraTurnsOnTheSpot) {
+TEST_F(DepthScenario, DepthStaysWhileTheCameraTurnsOnTheSpot) {
     Watched w(synthetic::Scene::Shelf, Path::Rotate, 10);
     follow(w, 28);
 }
 
-TEST_F(DepthScenario, StaysWhileTheCameraComesNearer) {
+TEST_F(DepthScenario, DepthStaysWhileTheCameraComesNearer) {
     Watched w(synthetic::Scene::Office, Path::Forward, 10);
     follow(w, 28);
 }
 
-/// Grey paper over all tags.
+/// Covers all tags with grey paper.
 cv::Mat covered(const ImageView& view, const SyntheticBoard& board, Timestamp time) {
     cv::Mat out = cv::Mat(view.size.height, view.size.width,
                           view.format == PixelFormat::Gray8 ? CV_8UC1 : CV_8UC4,
@@ -118,7 +120,7 @@ cv::Mat covered(const ImageView& view, const SyntheticBoard& board, Timestamp ti
     return out;
 }
 
-/// Error of a pose, as a share of the distance to the object.
+/// Error of a pose's position, as a share of the distance to the object.
 double errorOf(const Pose& pose, const SyntheticBoard& board) {
     const Eigen::Vector3d truth = board.pose(pose.time).T_world_video.translation;
     const Eigen::Vector3d object =
@@ -126,8 +128,8 @@ double errorOf(const Pose& pose, const SyntheticBoard& board) {
     return (pose.T_world_video.translation - truth).norm() / (object - truth).norm();
 }
 
-// Tags lost for a second: the pose is predicted at first, then unknown.
-TEST_F(DepthScenario, StaysWhileTheTagsAreLostAndFoundAgain) {
+// The tags are lost for a second. At first the pose is predicted, then it is unknown.
+TEST_F(DepthScenario, DepthStaysWhileTheTagsAreLostAndFoundAgain) {
     constexpr int kLost = kSettling + 4, kFound = kLost + 15, kEnd = kFound + 8;
     Watched w(synthetic::Scene::Office, Path::Handheld, 15, PoseSource::None);
     TrackerOptions options;

@@ -23,7 +23,7 @@ double medianOf(std::vector<double>& values) {
 
 }  // namespace
 
-// 1/z of the measured pixels, 0 elsewhere.
+// True 1/z of the pixels that are measured; 0 elsewhere.
 cv::Mat DepthWatch::trueDepth(Timestamp time) const {
     const CameraModel& video = board_.rig().video;
     const RigidTransform pose = board_.pose(time).T_world_video;
@@ -42,7 +42,7 @@ cv::Mat DepthWatch::trueDepth(Timestamp time) const {
     return out;
 }
 
-// The measured pixel nearest to where the point was in the frame before.
+// Looks up the measured pixel that is nearest to where the point was in the previous frame.
 double DepthWatch::ratioBefore(int x, int y, double rho, const RigidTransform& pose) const {
     const CameraModel& video = board_.rig().video;
     const Eigen::Vector3d p =

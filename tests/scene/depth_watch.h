@@ -9,25 +9,25 @@
 
 namespace mfar::test {
 
-/// Accuracy of a frame's depth in the silhouette of an object. Medians over every third pixel of
-/// every third row.
+/// Accuracy of the depth of a frame within the silhouette of an object. Values are medians over
+/// every third pixel of every third row.
 struct DepthState {
-    double absrel = 0;        ///< |z - true z| / true z where known; NaN: nowhere
-    double completeness = 0;  ///< share of the pixels that are known
-    double sigma = 0;         ///< what the pipeline takes for the error, as a share of rho
-    /// Change of rho / true rho since the frame before, at the same point of the scene, where known
-    /// in both; 0: nowhere.
+    double absrel = 0;        ///< |z - true z| / true z of known pixels; NaN: no pixel is known
+    double completeness = 0;  ///< share of the pixels with known depth
+    double sigma = 0;         ///< error of rho that the pipeline reports, as a share of rho
+    /// Change of rho / true rho since the previous frame, at the same point of the scene, where
+    /// depth is known in both frames. 0: nowhere.
     double change = 0;
 };
 
-/// Compares a pipeline's depth with the board's truth, frame by frame.
+/// Compares the depth of a pipeline with the board's truth, frame by frame.
 class DepthWatch {
 public:
-    /// `board` must outlive this.
+    /// `board` must outlive this object.
     DepthWatch(const SyntheticBoard& board, const VirtualObject& object)
         : board_(board), object_(object) {}
 
-    /// `time`: when the frame was taken.
+    /// `time`: time at which the frame was taken.
     [[nodiscard]] DepthState look(const Pipeline& pipeline, Timestamp time);
 
 private:
@@ -36,7 +36,7 @@ private:
 
     const SyntheticBoard& board_;
     VirtualObject object_;
-    cv::Mat ratio_;  // of the frame before: rho / true rho, 0 where it is not known
+    cv::Mat ratio_;  // rho / true rho of the previous frame; 0: unknown
     std::optional<RigidTransform> pose_;
 };
 

@@ -1,4 +1,4 @@
-// Real depth is measured only where it may decide whether a virtual object is visible.
+// Real depth must be measured only where it may decide whether a virtual object is visible.
 #include "hal/gl_context.h"
 #include "tests/measure/eval/scene_run.h"
 
@@ -24,8 +24,8 @@ protected:
         pipeline_.emplace(scene_->rig(), PipelineOptions{});
     }
 
-    /// A sphere of 10 cm in front of the camera's first position, at this share of the way to the
-    /// desk.
+    /// Places a sphere of 10 cm in front of the camera's first position, at this share of the way
+    /// to the desk.
     void placeSphere(double share) {
         VirtualObject sphere;
         sphere.shape = VirtualShape::Sphere;
@@ -45,7 +45,7 @@ protected:
         return out;
     }
 
-    static constexpr double kDesk = 0.8;  // [m]
+    static constexpr double kDesk = 0.8;  // distance to the desk [m]
 
 private:
     std::unique_ptr<GlContext> context_ = createGlContext();

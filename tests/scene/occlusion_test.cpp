@@ -1,4 +1,4 @@
-// Virtual objects behind real things of the synthetic scenes, compared with the truth.
+// Virtual objects behind real objects of the synthetic scenes, compared with the truth.
 #include "hal/gl_context.h"
 #include "tests/measure/eval/metrics/occlusion_score.h"
 #include "tests/measure/eval/scene_objects.h"
@@ -18,13 +18,13 @@ namespace {
 using namespace eval;
 using synthetic::Path;
 
-constexpr int kUnscored = 8;  // frames
+constexpr int kUnscored = 8;  // frames that are not scored
 
-/// Bounds per scene. On the shelf, matching windows widen thin things by more than the edges of the
-/// picture correct.
+/// Limits for each scene. On the shelf, matching windows make thin objects look wider, by more than
+/// the snapping to edges of the picture corrects.
 struct Case {
     synthetic::Scene scene;
-    double leastOverlap, mostBoundary;  // [px]
+    double leastOverlap, mostBoundary;  // intersection over union; boundary distance [px]
 };
 
 class Occlusion : public testing::TestWithParam<Case> {
@@ -49,7 +49,7 @@ private:
     std::unique_ptr<GlContext> context_ = createGlContext();
 };
 
-TEST_P(Occlusion, RealThingsHideAVirtualOneAtTheirEdges) {
+TEST_P(Occlusion, RealObjectsOccludeAVirtualOneUpToTheirEdges) {
     SceneRun scene = sceneOn(Path::Handheld);
     Pipeline pipeline(scene.rig(), {});
     pipeline.setObjects({object_});
@@ -75,7 +75,8 @@ TEST_P(Occlusion, RealThingsHideAVirtualOneAtTheirEdges) {
 
 class Rest : public Occlusion {};
 
-/// Overlap of the object's visible part in a pipeline's output with the true one.
+/// Intersection over union of the visible part of the object in a pipeline's output and the true
+/// one.
 double overlapOf(const Pipeline& pipeline, const VirtualTruth& truth) {
     return occlusionScore(
                shownAtVideo(shownObjects(pipeline), {truth.visible.cols, truth.visible.rows}),
@@ -83,7 +84,7 @@ double overlapOf(const Pipeline& pipeline, const VirtualTruth& truth) {
         .overlap;
 }
 
-TEST_P(Rest, AStillShowsWhatIsInFront) {
+TEST_P(Rest, OneStillSufficesForOcclusion) {
     SceneRun scene = sceneOn(Path::Rest);
     Pipeline pipeline(scene.rig(), {});
     pipeline.setObjects({object_});
@@ -96,8 +97,8 @@ TEST_P(Rest, AStillShowsWhatIsInFront) {
               GetParam().leastOverlap);
 }
 
-// The camera is carried by hand, then put down at the position of the scene's resting camera.
-TEST_P(Rest, NothingFlickersNorComesThrough) {
+// The camera is carried by hand and then put down at the position of the scene's resting camera.
+TEST_P(Rest, OcclusionNeitherFlickersNorLeaksAtRest) {
     constexpr int kFrames = 30;
     constexpr double kMostFlicker = 0.001;
     SceneRun carried = sceneOn(Path::Handheld), resting = sceneOn(Path::Rest);

@@ -6,7 +6,7 @@
 namespace mfar::stress {
 namespace {
 
-constexpr double kTrial = 60;  // time limit of a case that has not yet reached its pass [s]
+constexpr double kTrial = 60;  // time limit of a case that has not reached its pass yet [s]
 
 }  // namespace
 

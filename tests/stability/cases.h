@@ -10,13 +10,13 @@
 #include <vector>
 
 /// Each case draws a hostile input from its seed, runs one part of the pipeline on it and checks
-/// invariants: no NaN, nothing infinite, everything within its stated range; where truth is known,
-/// the error; and that scaling the world, mirroring the pictures or exchanging the views changes
-/// nothing else.
+/// the results. No number may be NaN or infinite, and all must lie in their stated ranges. Where
+/// truth is known, the error is checked. Some cases scale the world, mirror the pictures or
+/// exchange the views; results may change only as expected.
 namespace mfar::stress {
 
-/// Size of the pictures: small, as in the tests; a mixture of small and the product's size; the
-/// product's size only.
+/// Size of the pictures: small, as in the tests; small ones and ones of the product's size; only
+/// the product's size.
 enum class Scale { Tests, Mixed, Product };
 
 struct Context {
@@ -25,11 +25,12 @@ struct Context {
     GlWatch& gl;
     Scale scale = Scale::Tests;
 
-    /// Size of the video; hostile.size(least, most) where it is small.
+    /// Size of the video. Small sizes are drawn by hostile.size(least, most).
     [[nodiscard]] Size size(int least, int most);
 };
 
-/// Two cameras next to each other: small ones, or with distorted lenses at the product's size.
+/// Two cameras next to each other: small ones, or, at the product's size, ones with distorted
+/// lenses.
 [[nodiscard]] StereoRig hostileRig(Context& context);
 
 struct Case {
@@ -40,7 +41,7 @@ struct Case {
 
 [[nodiscard]] std::vector<Case> allCases();
 
-// One function per file.
+// Each file of cases has one of these functions.
 [[nodiscard]] std::vector<Case> flowCases();
 [[nodiscard]] std::vector<Case> triangulationCases();
 [[nodiscard]] std::vector<Case> pipelineCases();
@@ -61,7 +62,8 @@ struct Case {
 }
 #endif
 
-/// Runs a case; an exception is a fault, too. Returns the faults, each with the case and the seed.
+/// Runs a case. An exception counts as a fault. Returns the faults; each names the case and the
+/// seed.
 [[nodiscard]] std::vector<std::string> run(const Case& one, std::uint64_t seed, Checks& checks,
                                            GlWatch& gl, Scale scale);
 

@@ -1,5 +1,5 @@
-// Both engines on the same hostile input. Each step reads the output of the previous GLES step, so
-// that a single different decision of a search does not make all following steps differ.
+// Runs both engines on the same hostile input. Each step reads the output of the previous GLES
+// step. Otherwise a single different decision of a search would make all later steps differ.
 #include "pipeline/engine/engine.h"
 #include "pipeline/plan/work_plan.h"
 #include "tests/stability/cases.h"
@@ -12,7 +12,7 @@
 namespace mfar::stress {
 namespace {
 
-/// Pictures of both sensors: of one scene, which the still shows, or arbitrary hostile ones.
+/// Pictures of both sensors. Either both show one scene, or they are arbitrary hostile pictures.
 struct Sensors {
     StereoRig rig;
     TestPicture video, still;
@@ -31,15 +31,15 @@ Sensors hostileSensors(Context& c) {
     Sensors out{hostileRig(c), {}, {}};
     out.video = c.hostile.picture(out.rig.video.size);
     out.still = c.hostile.picture(out.rig.still.size);
-    // Limits the contrast, so that sharpening and enlarging do not overshoot: the GPU clamps
-    // between passes.
+    // Limits the contrast, because the GPU clamps between passes: sharpening and enlarging must not
+    // overshoot.
     for (TestPicture* picture : {&out.video, &out.still})
         for (std::uint8_t& byte : picture->bytes)
             byte = static_cast<std::uint8_t>(96 + byte / 4);
     return out;
 }
 
-/// A frame with its work plan.
+/// A frame and its work plan.
 struct Shot {
     RgbPlanes planes;
     TileWork work;
@@ -69,7 +69,7 @@ int channelDifference(std::uint32_t a, std::uint32_t b) {
     return most;
 }
 
-/// Number of pixels of a level that differ by more than rounding.
+/// Number of pixels of a pyramid level whose difference is larger than rounding.
 long differingPixels(const LumaPyramid& a, const LumaPyramid& b, const LumaLevel& level) {
     const std::uint32_t* words[] = {a.words.host()[0], b.words.host()[0]};
     const auto pixel = [&](int which, int x, int y) {
@@ -84,7 +84,7 @@ long differingPixels(const LumaPyramid& a, const LumaPyramid& b, const LumaLevel
     return count;
 }
 
-// Where a strong lens folds back on itself, rounding decides which branch a ray takes.
+// Where a strong lens folds back on itself, rounding decides which of two branches a ray takes.
 constexpr double kFolded = 0.1;
 
 void comparePyramids(Context& c, const LumaPyramid& gles, const LumaPyramid& simd) {
@@ -119,18 +119,18 @@ void compareWeights(Context& c, const CellWeights& gles, const CellWeights& simd
             c.checks.within(b[y][x].weight - a[y][x].weight, -0.02, 0.02, "difference of a weight");
             c.checks.within(b[y][x].confidence - a[y][x].confidence, -0.02, 0.02,
                             "difference of a confidence");
-            // The GPU stores look-ups in half precision.
+            // Tolerance: the GPU stores look-ups in half precision.
             const double slack = 0.01 + 1e-3 * std::abs(lb[y][x].x) + 1e-3 * std::abs(lb[y][x].y);
             c.checks.within(lb[y][x].x - la[y][x].x, -slack, slack, "difference of a look-up");
             c.checks.within(lb[y][x].y - la[y][x].y, -slack, slack, "difference of a look-up");
         }
 }
 
-// In contrast to detail, blending trusts cells with different patches when the forward and backward
-// flow agree. Between two such cells a look-up may jump by many pixels, which the GPU filters with
+// Blending, unlike detail, trusts cells with different patches if their forward and backward flow
+// agree. Between two such cells a look-up may jump by many pixels; there the GPU's filter has only
 // 8 bits.
 constexpr double kJumps = 0.05;
-constexpr int kRounding = 5;  // of three GPU passes with 8 bits [grey levels]
+constexpr int kRounding = 5;  // error of three GPU passes with 8 bits each [grey levels]
 
 void compareDrawn(Context& c, SuperResMode mode, DetailStep& gles, DetailStep& simd) {
     const auto a = gles.output().host(), b = simd.output().host();

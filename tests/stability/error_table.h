@@ -6,21 +6,21 @@
 
 namespace mfar::stress {
 
-/// Errors of one quantity, printed as a line of a table.
+/// Collects the errors of one quantity and prints them as one line of a table.
 class ErrorTable {
 public:
-    /// `what`: pass and quantity; `unit`: of the errors. Values below `least`, such as pixels near
-    /// 0, use the unit in the last place of `least`.
+    /// `what`: the pass and the quantity. `unit`: unit of the errors. `least`: smaller values, such
+    /// as pixels near 0, take the unit in the last place of this value.
     ErrorTable(std::string what, std::string unit, double least = 0)
         : what_(std::move(what)), unit_(std::move(unit)), least_(least) {}
 
-    /// `error`: in the unit; `got` and `wanted`: for the error in units in the last place of single
-    /// precision.
+    /// `error`: in the table's unit. `got`, `wanted`: values from which the error in units in the
+    /// last place (ulps) of single precision is computed.
     void add(double error, double got, double wanted);
     void add(double error) { errors_.push_back(error); }
 
     [[nodiscard]] double worst() const;
-    /// "what  count  p99.9  max  unit  max ulps"
+    /// Prints "what  count  p99.9  max  unit  max ulps".
     void print();
     static void printHead();
 

@@ -1,4 +1,4 @@
-// The two-dimensional flow with its pyramids, on GL.
+// Cases for the two-dimensional flow and its pyramids on GL.
 #include "pipeline/pipeline.h"
 #include "tests/stability/cases.h"
 
@@ -13,7 +13,7 @@ struct FlowSummary {
     double median = 0, most = 0;
 };
 
-/// Deviation of a flow from a shift, without the border.
+/// Deviation of a flow from a constant shift. The border of the picture does not count.
 FlowSummary errorOf(const std::vector<float>& flow, Size size, const Eigen::Vector2d& shift) {
     constexpr int kBorder = 24;
     std::vector<double> errors;
@@ -41,7 +41,7 @@ void hostileFlow(Context& c) {
     checkFlow(c, flowBetween(a.view(), b.view()), size);
 }
 
-// A picture has no flow to itself, whatever it shows.
+// The flow from a picture to itself must be zero, whatever the picture shows.
 void samePicture(Context& c) {
     const Size size = c.hostile.size(16, 150);
     const TestPicture a = c.hostile.picture(size);
@@ -62,8 +62,8 @@ TestPicture mirrored(const TestPicture& p) {
     return out;
 }
 
-// A shift within reach of the search and of sub-pixel steps; also with exchanged and with mirrored
-// pictures.
+// A shift within the reach of the search and of sub-pixel steps must be found, also with exchanged
+// and with mirrored pictures.
 void shiftedPicture(Context& c) {
     const Size size = c.size(101, 180);
     const Waves waves(static_cast<unsigned>(c.hostile.integer(1, 1 << 30)), 6, 60, 35);

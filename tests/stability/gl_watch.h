@@ -11,7 +11,8 @@
 namespace mfar::stress {
 
 /// Checks all GL passes: their outputs (gpu::Validation), the bytes behind their buffers, and every
-/// index into a buffer, a texture or an image (watched_shaders.h). Creates the context.
+/// index into a buffer, a texture or an image (watched_shaders.h). The constructor creates the GL
+/// context.
 class GlWatch {
 public:
     GlWatch();
@@ -19,8 +20,8 @@ public:
     GlWatch(const GlWatch&) = delete;
     GlWatch& operator=(const GlWatch&) = delete;
 
-    /// Counts the passes since the last call with this number of pixels each, or with the number
-    /// that they wrote if that is larger, and reports their faults.
+    /// Counts `pixels` for each pass that ran since the last call, or the number that it wrote if
+    /// that is larger. Reports the faults of these passes.
     void frame(Checks& checks, long pixels);
 
 private:

@@ -17,8 +17,8 @@ namespace {
 using Eigen::half;
 
 constexpr int kDraws = 20000;
-constexpr double kMostLevels = 0.5;   // [grey levels], limit of a colour's error
-constexpr double kMostPixels = 0.05;  // limit of a position's error [px]
+constexpr double kMostLevels = 0.5;   // largest allowed error of a colour [grey levels]
+constexpr double kMostPixels = 0.05;  // largest allowed error of a position [px]
 
 template <class T>
 std::array<T, 4> cubicWeights(T t) {
@@ -34,7 +34,7 @@ T weighed(const std::array<T, 4>& w, const std::array<double, 4>& v) {
     return w[0] * T(v[0]) + w[1] * T(v[1]) + w[2] * T(v[2]) + w[3] * T(v[3]);
 }
 
-/// The fraction between two pixels of the video at the place x of the output: x scale - 0.5.
+/// Fraction of the position between two video pixels, for place x of the output: x scale - 0.5.
 template <class T>
 T fractionAt(double x, double scale) {
     const T p = T(x) * T(scale) - T(0.5);
@@ -54,7 +54,7 @@ T meanOf16(const std::array<double, 16>& v) {
     return sum / T(16);
 }
 
-/// Projection of a ray through a lens, as in camera.glsl; one coordinate.
+/// Projects a ray through a lens, as in camera.glsl; computes one coordinate.
 template <class T>
 T projected(const CameraModel& c, double x, double y) {
     const T u(x), v(y), r2 = u * u + v * v;

@@ -13,7 +13,7 @@
 
 namespace mfar::stress {
 
-/// Draws hostile inputs, each a function of the seed alone.
+/// Draws hostile inputs. Each input depends on the seed alone.
 class Hostile {
 public:
     explicit Hostile(std::uint64_t seed) : random_(seed) {}
@@ -27,30 +27,32 @@ public:
         return of.begin()[integer(0, static_cast<int>(of.size()) - 1)];
     }
 
-    /// 1x1, 1xN, primes, near multiples of the tile, up to about `most` in each direction.
+    /// Sizes such as 1x1, 1xN, primes, and near multiples of the tile; each side is at most about
+    /// `most`.
     [[nodiscard]] Size size(int least, int most);
-    /// NaN, infinities, the ends of float's range, denormals, zeros.
+    /// NaN, infinities, the largest and smallest floats, denormals, and zeros.
     [[nodiscard]] double bad();
-    /// The same without NaN and infinities.
+    /// Like bad(), but without NaN and infinities.
     [[nodiscard]] double extreme();
 
-    /// Constant, saturated, checkerboard and columns at Nyquist, impulse, noise, extreme gain,
-    /// ramp, photograph-like.
+    /// A picture that is constant, saturated, a checkerboard, columns at the Nyquist frequency, an
+    /// impulse, noise, of extreme gain, a ramp, or like a photograph.
     [[nodiscard]] TestPicture picture(Size size, PixelFormat format = PixelFormat::Rgba8);
     [[nodiscard]] LumaImage luma(Size size);
 
-    /// A lens for such a picture: undistorted to strong barrel or pincushion distortion, off
-    /// centre.
+    /// A lens for a picture of this size: from undistorted to strong barrel or pincushion
+    /// distortion, or with an off-centre principal point.
     [[nodiscard]] CameraModel camera(Size size);
     [[nodiscard]] Eigen::Vector3d direction();
-    /// Rotations from zero to all orientations.
+    /// A rotation: from zero to any orientation.
     [[nodiscard]] Eigen::Quaterniond turn();
-    /// Small and large rotations; translations from zero to a thousand units sideways, forwards,
-    /// backwards; with the epipole in, on and near the border.
+    /// A motion with small or large rotation. The translation is zero to a thousand units,
+    /// sideways, forwards or backwards; the epipole may lie in the picture, at its border or near
+    /// it.
     [[nodiscard]] RigidTransform motion(double unit = 1);
-    /// A small motion, as of a hand-held camera.
+    /// A small motion, like that of a hand-held camera.
     [[nodiscard]] RigidTransform gentle(double unit = 1);
-    /// With an invalid number in one place, or an invalid rotation.
+    /// `T` with one number made invalid, or with an invalid rotation.
     [[nodiscard]] RigidTransform spoilt(RigidTransform T);
     [[nodiscard]] Matrix6 covariance();
 

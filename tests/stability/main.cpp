@@ -1,4 +1,4 @@
-// mfar-stress: runs hostile cases with new seeds until the time is over or a case fails.
+// mfar-stress runs hostile cases with new seeds until the time is over or a case fails.
 #include "tests/stability/balance.h"
 #include "tests/stability/cases.h"
 #include "tests/stability/precision.h"
@@ -67,7 +67,7 @@ void print(const Tally& tally) {
     fmt::print("{} cases of {} seeds, {} failures\n", tally.cases, tally.seeds, tally.failures);
 }
 
-/// Runs cases, seed after seed.
+/// Runs the cases, one seed after the other.
 class Run {
 public:
     explicit Run(const Options& options)
@@ -107,7 +107,7 @@ void Run::runCase(const Case& one, std::uint64_t seed, Scale scale) {
                    scale == Scale::Product ? " --full" : "");
 }
 
-// Each run has a seed of its own, as the same case may be chosen again.
+// Each run gets its own seed, because the same case may be chosen again.
 void Run::fillUp(std::uint64_t seed, double until) {
     constexpr std::uint64_t kFarOff = 1000000007;
     while (!stops() && minutes() < until) {
@@ -137,7 +137,7 @@ Tally Run::drawSeeds(std::uint64_t first) {
             runCase(one, seed, scale);
             if (stops()) break;
         }
-        // Fills up for three times the time that the seed took.
+        // Fills up for three times as long as the seed took.
         if (scale == Scale::Mixed && !repeats)
             fillUp(seed, std::min(4 * minutes() - 3 * start, options_.run.minutes));
         ++seeds_;

@@ -1,4 +1,4 @@
-// Inputs on which hostile cases once failed, one test each.
+// Inputs on which hostile cases failed before the code was fixed. Each has a test.
 #include "pipeline/depth/depth_filter.h"
 #include "pipeline/depth/edge_snap.h"
 #include "pipeline/epipolar/epipolar_flow.h"
@@ -88,7 +88,7 @@ TEST(Mended, InvalidDepthStaysUnknownAtEdges) {
     }
 }
 
-// The only ray is the optical axis: the lens's rim has radius zero.
+// The only ray is the optical axis, so the rim of the lens has radius zero.
 TEST(Mended, APictureOfOnePixelHasALens) {
     const EpipolarLens lens(smallCamera({1, 1}), 0);
     const auto p = lens.project(0, 0);
@@ -96,7 +96,7 @@ TEST(Mended, APictureOfOnePixelHasALens) {
     EXPECT_EQ(p.y, 0);
 }
 
-// There is no second column or row of cells.
+// The cells form only one column or one row.
 TEST(Mended, PicturesOneOrTwoPixelsWideHaveAFlow) {
     for (const Size size : {Size{1, 1}, Size{1, 40}, Size{40, 1}, Size{2, 3}}) {
         EpipolarFlow flow({smallCamera(size), smallCamera(size), {}}, oneWorker());
@@ -150,7 +150,7 @@ TEST(Mended, PosesWithAnInvalidCovarianceAreRejected) {
     pose.covariance.setIdentity();
     pose.T_world_video.rotation.coeffs().setZero();
     EXPECT_EQ(filter.update(pose, 1), PoseFilter::Outcome::Rejected);
-    // A rotation that is only slightly off is accepted.
+    // A quaternion whose norm is slightly off is accepted, and normalised.
     pose.T_world_video.rotation.coeffs() << 0, 0, 0, 1.001;
     EXPECT_EQ(filter.update(pose, 1), PoseFilter::Outcome::Started);
     ASSERT_TRUE(filter.predict(pose.time));

@@ -1,4 +1,4 @@
-// Passes over pictures: formats, pyramids, the plan of changes, enlargement, weights.
+// Cases for passes over pictures: formats, pyramids, the plan of changes, enlargement, weights.
 #include "base/image_layout.h"
 #include "pipeline/engine/params/weigh.h"
 #include "pipeline/gles/picture_texture.h"
@@ -20,7 +20,8 @@
 namespace mfar::stress {
 namespace {
 
-// Bilinear look-ups have weights of 8 bits; the errors of both chroma channels add up.
+// Tolerance: bilinear look-ups have weights of 8 bits, and the errors of both chroma channels add
+// up.
 constexpr double kFormatError = 2.7;  // [grey levels]
 
 void pictureFormats(Context& c) {
@@ -52,7 +53,7 @@ void pictureFormats(Context& c) {
         }
 }
 
-// Rounded twice, which makes at most one level of difference.
+// Values are rounded twice; so they may differ by one level.
 void lumaPyramids(Context& c) {
     const Size size = c.size(1, 120);
     const TestPicture a = c.hostile.picture(size), b = c.hostile.picture(size);
@@ -69,7 +70,7 @@ void lumaPyramids(Context& c) {
     c.gl.frame(c.checks, pixelsOf(size));
 }
 
-/// A different picture, or one that differs in one pixel, a few pixels, or nowhere.
+/// Another picture, or one that differs from `before` in one pixel, in a few pixels, or nowhere.
 TestPicture changed(Context& c, const TestPicture& before) {
     const Size size = before.size;
     if (c.hostile.chance(0.3)) return c.hostile.picture(size);
@@ -111,7 +112,7 @@ void changePlan(Context& c) {
                                 twin.energy[k] / (1 + twin.energy[k]),
                             -1e-3, 1e-3, "what a tile's difference varies by");
     }
-    // The thresholds of WorkPlan::update() before any measurement.
+    // These are the thresholds of WorkPlan::update() before anything was measured.
     const auto wanted = twin::changedTiles(twins, tiles.width, {1 + 2 * 0.29, 1.5 + 4 * 0.29});
     for (std::size_t t = 0; t < count; ++t)
         c.checks.require(!wanted[t] ||
@@ -122,7 +123,7 @@ void changePlan(Context& c) {
     c.gl.frame(c.checks, pixelsOf(size));
 }
 
-// Without a still the output is the enlarged video, with columns rounded to 8 bits.
+// Without a still the output must be the enlarged video, whose columns are rounded to 8 bits.
 void enlargement(Context& c) {
     const Size video = c.size(1, 60);
     const Size output{video.width * c.hostile.integer(1, 4) + c.hostile.integer(0, 3),
@@ -151,7 +152,7 @@ void enlargement(Context& c) {
     }
 }
 
-// A constant picture stays constant, whatever the still.
+// A constant picture must stay constant, whatever the still is.
 void evenPicture(Context& c) {
     const Size video = c.hostile.size(1, 60), still = c.hostile.size(8, 150);
     const auto level = static_cast<std::uint8_t>(c.hostile.integer(0, 255));
@@ -164,7 +165,7 @@ void evenPicture(Context& c) {
         pipeline.run(TestPicture(video, PixelFormat::Rgba8, level).view(), {});
     c.gl.frame(c.checks, pixelsOf(video));
     for (const std::uint8_t v : pipeline.readImage())
-        if (v != 255)  // alpha
+        if (v != 255)  // skips alpha
             c.checks.within(v - level, -1, 1, "change of an even picture");
 }
 

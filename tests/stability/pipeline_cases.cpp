@@ -1,4 +1,4 @@
-// The whole pipeline, with hostile poses, stills and objects.
+// Cases for the whole pipeline, with hostile poses, stills and objects.
 #include "pipeline/pipeline.h"
 #include "tests/stability/cases.h"
 
@@ -19,7 +19,7 @@ std::optional<Pose> poseFor(Context& c, double unit) {
     return pose;
 }
 
-/// One engine for all steps, or a mixture, so that fields are transferred between host and GPU.
+/// One engine for all steps, or a mixture in which fields are transferred between host and GPU.
 EngineChoice enginesFor(Context& c) {
     const auto kind = [&] { return c.hostile.pick({EngineKind::Gles, EngineKind::Simd}); };
     if (c.hostile.chance(0.6)) return EngineChoice::all(kind());
@@ -28,7 +28,7 @@ EngineChoice enginesFor(Context& c) {
 
 constexpr int kMostOutput = 4096;  // [px]
 
-/// In front of, around, behind the camera; intersecting its plane; tiny and huge.
+/// An object in front of, around or behind the camera, or across the camera's plane; tiny or huge.
 VirtualObject objectFor(Context& c, double unit) {
     VirtualObject o;
     o.shape = c.hostile.pick({VirtualShape::Box, VirtualShape::Sphere, VirtualShape::Quad});
@@ -74,8 +74,8 @@ void frames(Context& c) {
     options.engines = enginesFor(c);
     if (c.scale == Scale::Product)
         options.output = c.hostile.pick({rig.still.size, Size{1440, 1080}, Size{1067, 800}});
-    // A still narrower than the video has no full size; that of a very wide still is larger than a
-    // texture may be.
+    // A still that is narrower than the video has no full size. The full size of a very wide still
+    // may be larger than a texture can be.
     const Size full = Pipeline::fullSize(rig);
     if (c.scale == Scale::Mixed || rig.still.size.width < rig.video.size.width ||
         std::max(full.width, full.height) > kMostOutput)
@@ -89,7 +89,8 @@ void frames(Context& c) {
         pipeline.setObjects(objects);
     }
     Timestamp time{};
-    // Creating a pipeline takes as long as some frames of the product's size.
+    // At the product's size more frames are run, because creating a pipeline takes as long as
+    // several frames.
     const int count = c.scale == Scale::Product ? 12 : 5;
     for (int frame = 0; frame < count; ++frame) {
         if (frame == 0 || c.hostile.chance(0.3))
@@ -101,7 +102,7 @@ void frames(Context& c) {
     }
 }
 
-/// Median deviation of the flow from a shift [px].
+/// Median deviation of a flow from a constant shift [px].
 double shiftError(const std::vector<float>& flow, const Eigen::Vector2d& shift) {
     std::vector<double> errors;
     for (std::size_t i = 0; i < flow.size(); i += 2)
@@ -110,7 +111,7 @@ double shiftError(const std::vector<float>& flow, const Eigen::Vector2d& shift) 
     return errors.empty() ? 1e9 : errors[errors.size() / 2];
 }
 
-// The still's detail is added to the picture although the video has moved since.
+// The detail of the still must be added to the picture although the video has moved since.
 void knownTruth(Context& c) {
     const Size video = c.scale == Scale::Mixed && c.hostile.chance(0.1)
                            ? Size{640, 480}
@@ -140,7 +141,7 @@ void knownTruth(Context& c) {
     checkPipeline(c, pipeline, rig);
 }
 
-// The same scene in another unit of length yields the same flow.
+// The same scene in another unit of length must give the same flow.
 void scaledWorld(Context& c) {
     const Size video{c.hostile.integer(64, 150), c.hostile.integer(64, 120)};
     StereoRig rig = bentRig(video, {3 * video.width, 3 * video.height});

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# Plants faults in shaders and host sources, one at a time, and runs the cases that have to find them.
-# Usage: planted_faults.sh BUILD-FOLDER [shaders|host|kernels|texts]. Prints each fault with the case that
-# found it; exit status 1 when a fault was not found. Shaders are changed when the program loads them. A host
-# source is changed in a copy, compiled with the flags of its unity file, and linked before the library with
-# the original. `texts` only checks that the sources still contain the texts to be replaced, once each.
+# Plants faults in shaders and host sources, one at a time, and runs the cases that must find them.
+# Usage: planted_faults.sh BUILD-FOLDER [shaders|host|kernels|texts]. Prints each fault with the
+# case that found it. Exit status 1: a fault was not found. A shader is changed when the program
+# loads it. A host source is changed in a copy, which is compiled with the flags of its unity file
+# and linked before the library that contains the original. `texts` only checks that the sources
+# still contain the texts to be replaced, each exactly once.
 set -euo pipefail
 build=$(readlink -f "$1") which=${2:-all}
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.."
@@ -12,7 +13,7 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 missed=0 found=0
 
-# Arguments: program, what, cases, further arguments.
+# Arguments: program, description, cases, further arguments.
 expectFound() {
     local run=$1 what=$2 cases=$3 said status=0
     shift 3
@@ -34,9 +35,10 @@ inShaders() {
     done < <("$program" --list-planted)
 }
 
-# Arguments: source, object. Compiles the source with the changed copies (its own or that of a
-# header), which lie in $scratch under their own paths, as a kernel includes itself once per
-# instruction set. Uses the command of the source's unity file or, without one, its own.
+# Arguments: source, object. Compiles the source together with the changed copies (of itself or of a
+# header). The copies lie in $scratch under their own paths, because a kernel includes itself once
+# per instruction set. Uses the command of the source's unity file, or the source's own command if
+# there is no such file.
 compile() {
     local source=$1 object=$2 unit command
     unit=$(grep -lsF "/$source\"" "$build"/pipeline/CMakeFiles/*/Unity/*.cxx \
@@ -49,7 +51,7 @@ compile() {
     (cd "$build" && eval "$command -w -I$PWD -c $scratch/$source -o $object")
 }
 
-# Arguments: source, text to replace, replacement, description, cases, and for a header the source
+# Arguments: source, text to replace, replacement, description, cases; for a header also the source
 # that includes it.
 inHost() {
     local source=$1 from=$2 to=$3 what=$4 cases=$5 unit=${6:-$1} link
@@ -103,7 +105,7 @@ hostFaults() {
         'distance <= mostDistance_;' 'removed guard' triangulation
 }
 
-# Kernels of the SIMD engine.
+# Faults in kernels of the SIMD engine.
 kernelFaults() {
     local simd=pipeline/simd
     inHost $simd/luma_kernels.cpp 'hn::Set(d, params::kLumaGreen)' 'hn::Set(d, 0.614F)' 'wrong weight of green' engines
@@ -134,7 +136,7 @@ kernelFaults() {
     rowFaults
 }
 
-# Kernels of the search along lines, of depth, of tiles and of turned pictures.
+# Faults in kernels of the search along lines, of depth, of tiles and of turned pictures.
 rowFaults() {
     local simd=pipeline/simd
     inHost $simd/label_costs.cpp 'hn::IfNegativeThenElse(seen, hn::Set(d, kUnseenCost), count)' 'count' \

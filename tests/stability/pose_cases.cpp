@@ -1,4 +1,4 @@
-// The camera's pose from tags, its filter, and the lens.
+// Cases for the camera's pose from tags, the pose filter, and the lens.
 #include "pipeline/composite/lens_projection.h"
 #include "pipeline/track/pose_estimator.h"
 #include "pipeline/track/tracker.h"
@@ -14,7 +14,8 @@
 namespace mfar::stress {
 namespace {
 
-/// A camera at this distance from a tag at the world's origin, tilted by up to 70 degrees.
+/// A camera at this distance from a tag at the world's origin; the tag is tilted by up to 70
+/// degrees.
 RigidTransform before(Context& c, double distance) {
     const Eigen::AngleAxisd tilt(
         c.hostile.real(-1.2, 1.2),
@@ -53,7 +54,7 @@ void checkPose(Context& c, const RigidTransform& T, const Matrix6& covariance) {
                      "covariance of a pose");
 }
 
-// Exact corners yield the exact pose, in any unit of length.
+// Exact corners must give the exact pose, in any unit of length.
 void exactTag(Context& c) {
     const CameraModel camera = tagCamera(c);
     const double unit = c.hostile.pick({1e-6, 1e-3, 1.0, 1e3});
@@ -145,8 +146,8 @@ void hostileTracker(Context& c) {
     }
 }
 
-// Unprojecting and projecting a pixel yields the pixel; rays beyond the rim do not fall into the
-// picture.
+// Unprojecting and then projecting a pixel must give the pixel. Rays beyond the rim must not fall
+// into the picture.
 void lenses(Context& c) {
     const CameraModel camera = c.hostile.camera(c.hostile.size(1, 2000));
     const LensProjection lens(camera);
@@ -155,8 +156,8 @@ void lenses(Context& c) {
                                     c.hostile.real(0, camera.size.height - 1));
         const Eigen::Vector2d ray = camera.unproject(pixel);
         c.checks.require(ray.allFinite(), "a ray that is not finite");
-        // Where the model folds over before the picture's corner, unproject() returns the nearest
-        // ray.
+        // Where the lens model folds over before the picture's corner, unproject() returns the
+        // nearest ray instead.
         if (camera.projectJacobian(ray).determinant() > 0.1 * camera.fx * camera.fy)
             c.checks.within((camera.project(ray) - pixel).norm(), 0, 1e-6, "a pixel's way [px]");
         const double z = c.hostile.pick({1.0, 1e-6, -1e-6, -1.0, 1e6, 1e-30});

@@ -58,7 +58,7 @@ twin::TwoViews productViews() {
             {Eigen::Quaterniond(turn), {-0.12, 0.03, 0.02}}};
 }
 
-// Expresses the error of the depth as the flow error with the same effect.
+// Expresses the error of a depth as the error of the flow that would cause it.
 void triangulation(TriangulationMethod method, const char* what) {
     const twin::TwoViews views = productViews();
     std::vector<float> flow;
@@ -85,7 +85,7 @@ void triangulation(TriangulationMethod method, const char* what) {
     table.print();
 }
 
-/// The still pixel of each cell of a video without motion, minus the scaled cell centre.
+/// The still pixel of each cell of a video without motion, minus the scaled centre of the cell.
 std::vector<float> assessedStillPixels(const StereoRig& rig) {
     const Size cells = cellsOf(rig.video.size);
     const TestPicture even(rig.video.size, PixelFormat::Rgba8, 128);
@@ -116,7 +116,7 @@ std::vector<float> assessedStillPixels(const StereoRig& rig) {
     return displacement.readRgba32F();
 }
 
-// Includes both lenses and the rotation between them.
+// The look-up applies both lenses and the rotation between them.
 void stillPixels() {
     const StereoRig rig = bentRig({640, 480}, {2304, 1728});
     const Size cells = cellsOf(rig.video.size);

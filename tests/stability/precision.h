@@ -2,8 +2,8 @@
 
 namespace mfar::stress {
 
-/// Prints the errors of each geometric pass against double precision, and of passes that might use
-/// half precision in that precision.
+/// Prints the error of each geometric pass against double precision. For passes that might use half
+/// precision, prints their error in it.
 void printPrecision();
 
 }  // namespace mfar::stress

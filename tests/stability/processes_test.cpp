@@ -18,7 +18,7 @@ Tally tallyOf(int job) {
     return out;
 }
 
-TEST(StressProcesses, AddUp) {
+TEST(StressProcesses, ResultsOfProcessesAreAddedUp) {
     const Tally sum = inProcesses(2, false, tallyOf);
     EXPECT_EQ(sum.pixels,
               (std::map<std::string, long>{{"a pass", 201}, {"first", 7}, {"second", 7}}));
@@ -37,7 +37,7 @@ TEST(StressProcesses, ACrashIsAFailureAndOtherResultsAreKept) {
     EXPECT_EQ(sum.cases, 10);
 }
 
-TEST(StressProcesses, AFailureEndsTheOthers) {
+TEST(StressProcesses, AFailureEndsTheOtherProcesses) {
     const auto begin = std::chrono::steady_clock::now();
     const Tally sum = inProcesses(2, false, [](int job) {
         if (job == 1) std::this_thread::sleep_for(std::chrono::minutes(1));

@@ -1,5 +1,6 @@
-// Row kernels of the epipolar search and of depth against their definitions in double precision, on
-// hostile pictures, lenses and values, where rounding does not decide.
+// Cases for the row kernels of the epipolar search and of depth. On hostile pictures, lenses and
+// values they are compared with their definitions in double precision, except where rounding
+// decides.
 #include "pipeline/epipolar/epipolar_lens.h"
 #include "pipeline/simd/census_rows.h"
 #include "pipeline/simd/depth_rows.h"
@@ -53,7 +54,7 @@ void turnedPoints(Context& c) {
         const auto p = test::turned(lens.turn, {raysX[i], raysY[i], 1});
         const double radius = std::hypot(p.x, p.y) / p.z;
         const bool isShown = p.z > 0.05 && radius < rim;
-        // Skipped: results within a tenth of a percent of the rim, and rays so long that floats
+        // Skips results within a tenth of a percent of the rim, and rays so long that floats
         // overflow.
         if (std::abs(radius / rim - 1) < 1e-3 || std::abs(p.z - 0.05) < 1e-3) continue;
         if (!isShown) {
@@ -68,11 +69,11 @@ void turnedPoints(Context& c) {
     c.checks.through("turnedPoints", static_cast<long>(count));
 }
 
-// Through the picture and beyond it on every side.
+// Rows that cross the picture and end beyond it on every side.
 void turnedRow(Context& c) {
     Size size = c.size(2, 60);
     size = {std::max(size.width, 2), std::max(size.height, 2)};
-    // Rows without padding: no byte behind the last pixel may be read.
+    // The rows have no padding; so no byte behind the last pixel may be read.
     const LumaImage picture = c.hostile.luma(size);
     const std::size_t width = lengthOf(c), cells = width / simd::kTurnedCell + 2;
     const double right = size.width + 2, bottom = size.height + 2;
@@ -102,20 +103,20 @@ void turnedRow(Context& c) {
         const double wanted =
             std::lerp(std::lerp(p[0], p[1], sx - ix),
                       std::lerp(p[size.width], p[size.width + 1], sx - ix), sy - iy);
-        // The result is rounded, and read up to a thousandth of a pixel beyond the last column and
-        // row.
+        // Tolerance: the result is rounded, and it is read up to a thousandth of a pixel beyond the
+        // last column and row.
         c.checks.within(grey[i] - wanted, -1.1, 1.1, "error of a turned pixel [grey levels]");
     }
     c.checks.through("turnedRow", static_cast<long>(width));
 }
 
-/// A lens without distortion whose labels are whole pixels apart along a row or a column, in either
-/// direction, so that a pixel's feet and costs are known without following a line.
+/// A lens without distortion, whose labels are whole pixels apart along a row or a column, in
+/// either direction. So the feet and the costs of a pixel are known without following a line.
 struct WholeLabels {
     simd::LabelLines lines{};
     Row raysX, raysY;
-    std::vector<std::array<int, 2>> pixels;  ///< nearest pixel to label 0
-    std::vector<double> feet;  ///< distance of the nearest pixel's foot from label 0 [labels]
+    std::vector<std::array<int, 2>> pixels;  ///< the pixel nearest to label 0, for each pixel
+    std::vector<double> feet;  ///< distance from label 0 to the foot of that pixel [labels]
     std::array<int, 2> way{};  ///< step per label [px]
 
     WholeLabels(Context& c, std::size_t count, Size canvas) {
@@ -153,7 +154,8 @@ Valley valleyOf(Context& c) {
     return out;
 }
 
-/// The minimum of two straight lines of the same slope, through a label and its two neighbours.
+/// The minimum of two straight lines with opposite slopes of equal size, through the costs of a
+/// label and its two neighbours.
 double bottomOf(const Valley& v) {
     const int left = v.rise[1], right = v.rise[2], most = std::max(left, right);
     if (most == 0 || most == Valley::kUnknown) return 0;
@@ -177,7 +179,7 @@ void labelPlaces(Context& c) {
     c.checks.through("labelPlaces", static_cast<long>(count));
 }
 
-/// The matching costs of a picture's pixels.
+/// The matching costs of the pixels of a picture.
 struct CensusCosts {
     Size size;
     std::vector<std::uint32_t> census;

@@ -1,4 +1,4 @@
-// The picture on a screen: extreme sizes, from a pixel to several times the screen.
+// Cases for the picture on a screen, from one pixel to several times the screen's size.
 #include "hal/device/display_scaler.h"
 #include "tests/oracle/area_mean.h"
 #include "tests/stability/cases.h"
@@ -11,11 +11,11 @@
 namespace mfar::stress {
 namespace {
 
-// A linear sampler has at least 8 bits between two pixels, truncated in both directions, plus half
-// a level of rounding.
+// Tolerance: a linear sampler has at least 8 bits between two pixels and truncates in both
+// directions; rounding adds half a level.
 constexpr double kSampling = 2.5;  // [grey levels]
 
-/// A size of 0.2 to 4 times the screen's in each direction.
+/// A size of 0.2 to 4 times the screen's, separately in each direction.
 Size sizeFor(Context& c, Size screen) {
     const auto side = [&](int pixels) {
         const double times = c.hostile.pick({1.0, c.hostile.real(0.2, 1), c.hostile.real(1, 4)});
@@ -24,7 +24,7 @@ Size sizeFor(Context& c, Size screen) {
     return {side(screen.width), side(screen.height)};
 }
 
-// The host's scaler: weights are rounded to 16 bits and their products truncated.
+// Tolerance of the host's scaler: weights are rounded to 16 bits, and their products are truncated.
 void onTheHost(Context& c, const TestPicture& picture, Size screen, const ScreenRect& to) {
     AlignedRows<std::uint32_t> rows(picture.size);
     for (int y = 0; y < picture.size.height; ++y)
@@ -46,7 +46,8 @@ void onTheHost(Context& c, const TestPicture& picture, Size screen, const Screen
         }
 }
 
-// Each pixel is the mean of the area it covers; outside the picture the screen is black.
+// Each screen pixel must be the mean of the area that it covers. Outside the picture the screen
+// must be black.
 void screens(Context& c) {
     const Size screen = c.size(1, 120), size = sizeFor(c, screen);
     const TestPicture picture = c.hostile.picture(size);

@@ -1,4 +1,4 @@
-// The epipolar search on the host, and the parts around it.
+// Cases for the epipolar search on the host and for the parts around it.
 #include "pipeline/epipolar/epipolar_flow.h"
 #include "pipeline/epipolar/field_filters.h"
 #include "pipeline/epipolar/relative_pose.h"
@@ -28,7 +28,7 @@ void checkSearch(Context& c, const EpipolarSearch& search) {
     c.checks.through("EpipolarSearch", pixelsOf(size));
     c.checks.require(search.inverseDepth().size() == static_cast<std::size_t>(pixelsOf(size)),
                      "size of the searched field");
-    // Relative to the translation, as an invalid pose may have a translation of 1e18.
+    // The limit is relative to the translation, which may be 1e18 in an invalid pose.
     c.checks.within(search.pixelsPerUnit(), 0, 1e9 * search.translation().cast<double>().norm(),
                     "pixels per unit");
     c.checks.within(search.normalError(), 0, 1e7, "normal error");
@@ -71,7 +71,7 @@ void hostileSearch(Context& c) {
     }
 }
 
-/// Median distance between the result and the scene [px].
+/// Median distance between the result and the true scene [px].
 double medianErrorOf(const test::View& view) {
     EpipolarSearch search({view.camera, view.camera, {}}, workers());
     search.setStill(test::viewOf(view.still()));
@@ -79,7 +79,7 @@ double medianErrorOf(const test::View& view) {
     return test::errorsOf(search, view).median;
 }
 
-// A plane, in any unit of length; also with exchanged views.
+// The search must find a plane, in any unit of length, also with exchanged views.
 void planeSearch(Context& c) {
     const Size size{c.hostile.integer(100, 160), c.hostile.integer(90, 130)};
     CameraModel camera = c.hostile.camera(size);
@@ -104,7 +104,7 @@ void planeSearch(Context& c) {
     back.setStill(viewOf(video));
     if (!back.run(still, view.T_still_video.inverse())) c.checks.fail("no search back");
     checkSearch(c, back);
-    // The plane in the still camera's frame.
+    // The plane in the frame of the still camera.
     const Eigen::Vector3d normal = view.T_still_video.rotation * Eigen::Vector3d::UnitZ();
     const double distance = 2 + normal.dot(view.T_still_video.translation);
     const test::View turned{camera, {{{normal, distance}}, 18, 100}, view.T_still_video.inverse()};
@@ -175,7 +175,7 @@ void hostileRefinement(Context& c) {
     c.checks.tried("refineRelativePose", static_cast<long>(matches.size()));
 }
 
-// Matches without errors yield the rotation that the prior lacks.
+// From matches without errors, the refinement must find the rotation that the prior lacks.
 void exactRefinement(Context& c) {
     const Eigen::Vector3d translation = 0.2 * c.hostile.direction();
     const Eigen::Quaterniond turn(
@@ -190,8 +190,8 @@ void exactRefinement(Context& c) {
     }
     const PoseRefinement out = refineRelativePose(matches, prior, 600);
     c.checks.tried("refineRelativePose", 300);
-    // In rare cases the rotation moves the matches only along their lines: then there is nothing to
-    // correct.
+    // In rare cases the rotation moves the matches only along their epipolar lines. Then there is
+    // nothing to correct.
     if (!out.accepted && out.normalBefore < 1.1 * kExactEnough) return;
     c.checks.require(out.accepted, "exact matches that are not accepted");
     c.checks.within(out.motion.rotation.angularDistance(turn), 0, 5e-4,
@@ -199,7 +199,7 @@ void exactRefinement(Context& c) {
     c.checks.within(out.normalAfter, 0, 0.05, "distance of exact matches from their lines [px]");
 }
 
-/// Median of 3x3 values; border values repeat.
+/// Median of 3x3 values. Values outside the field repeat its border.
 float medianAround(const std::vector<float>& in, Size size, long at) {
     const int x = static_cast<int>(at % size.width), y = static_cast<int>(at / size.width);
     std::array<float, 9> values{};

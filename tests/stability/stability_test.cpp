@@ -1,4 +1,4 @@
-// A few seeds of every case, and tests that do not depend on a seed.
+// Runs a few seeds of every case, and tests that do not depend on a seed.
 #include "pipeline/depth/depth_filter.h"
 #include "tests/stability/cases.h"
 
@@ -24,7 +24,7 @@ std::ostream& operator<<(std::ostream& out, const Group& group) {
 
 class HostileInput : public testing::TestWithParam<Group> {};
 
-TEST_P(HostileInput, BreaksNothing) {
+TEST_P(HostileInput, HostileInputBreaksNoInvariant) {
     if (GetParam().cases().empty()) GTEST_SKIP() << "not built";
     GlWatch gl;
     Checks checks;
@@ -46,8 +46,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Group{"tracer", tracerCases, 12}, Group{"warp", warpCases, 6}),
     [](const testing::TestParamInfo<Group>& one) { return std::string(one.param.name); });
 
-// Found by long runs: triangles seen edge-on, whose depth was extrapolated far beyond them.
-TEST(HostileInput, SeedsThatFailedOnceBreakNothing) {
+// Long runs found these: the depth of triangles seen edge-on was extrapolated far beyond the
+// triangles.
+TEST(HostileInput, SeedsThatFailedOnceBreakNoInvariant) {
     GlWatch gl;
     Checks checks;
     const std::vector<Case> all = virtualCases();
@@ -60,14 +61,14 @@ TEST(HostileInput, SeedsThatFailedOnceBreakNothing) {
         EXPECT_EQ(run(*one, seed, checks, gl, scale), std::vector<std::string>());
 }
 
-TEST(HostileInput, IsAFunctionOfItsSeed) {
+TEST(HostileInput, InputDependsOnTheSeedAlone) {
     Hostile one(7), same(7), other(8);
     const auto picture = one.picture({33, 21}).bytes;
     EXPECT_EQ(picture, same.picture({33, 21}).bytes);
     EXPECT_NE(one.integer(0, 1 << 30), other.integer(0, 1 << 30));
 }
 
-// The filter's recursion in double precision.
+// The recursion of the depth filter in double precision.
 struct DoubleFilter {
     double rho, variance;
     void fuse(double measured, double error, double leastShare) {

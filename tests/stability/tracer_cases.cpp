@@ -1,4 +1,4 @@
-// The path tracer on degenerate scenes.
+// Cases for the path tracer on degenerate scenes.
 #include "pipeline/render/film.h"
 #include "pipeline/render/path_tracer.h"
 #include "tests/render/render_scenes.h"
@@ -25,7 +25,7 @@ Vector3f pointOf(Context& c, double reach) {
     return Eigen::Vector3d(x, y, z).cast<float>();
 }
 
-/// Random triangles, some without area, with shared corners, or with all corners in one point.
+/// Random triangles. Some have no area, some share corners, and some have all corners in one point.
 Mesh meshOf(Context& c, double reach) {
     if (c.hostile.chance(0.3))
         return render_scenes::sphere(pointOf(c, 0.3 * reach), static_cast<float>(0.5 * reach), 12);
@@ -88,7 +88,7 @@ std::shared_ptr<Scene> sceneOf(Context& c) {
     return out;
 }
 
-/// Adds an object with one number that is not finite.
+/// Adds an object that has one number that is not finite.
 void spoilScene(Context& c, Scene& scene) {
     auto mesh = std::make_shared<Model>(render_scenes::modelOf(meshOf(c, 1), materialOf(c)));
     mesh->meshes[0].positions[0][c.hostile.integer(0, 2)] = std::nanf("");
@@ -137,7 +137,7 @@ void hostileTracer(Context& c) {
     checkFilm(c, film, view);
     c.checks.through("PathTracer", kSamples * pixelsOf(camera.size));
     if (c.scale == Scale::Product) return;
-    // Every pixel is the same when the calls are divided otherwise.
+    // Every pixel must be the same if the work is divided into other calls.
     Film other(camera.size);
     std::vector<std::uint32_t> pixels = render_scenes::allPixels(camera.size);
     const auto half = pixels.begin() + static_cast<std::ptrdiff_t>(pixels.size() / 2);

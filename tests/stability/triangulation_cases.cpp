@@ -1,5 +1,5 @@
-// Depth from flow by both methods, against double precision, scaled, mirrored and with exchanged
-// views.
+// Cases for depth from flow by both methods: compared with double precision, scaled, mirrored, and
+// with exchanged views.
 #include "tests/measure/triangulation/triangulation.h"
 #include "tests/oracle/triangulation.h"
 #include "tests/stability/cases.h"
@@ -52,7 +52,7 @@ void hostileTriangulation(Context& c) {
     triangulate(c, views, flow, options);
 }
 
-/// Two realistic views and the flow of a surface whose inverse depth varies.
+/// Two realistic views, and the flow of a surface of varying inverse depth.
 struct SurfaceScene {
     twin::TwoViews views;
     std::vector<float> flow;
@@ -89,14 +89,15 @@ SurfaceScene usualScene(Context& c, double unit) {
     return out;
 }
 
-/// The error of inverse depth for an error of 2e-6 in normalised rays, a thousandth of a pixel.
+/// Error of inverse depth that an error of 2e-6 in normalised rays causes, which is a thousandth of
+/// a pixel.
 double bound(const twin::TwoViews& views, const twin::FlowDepth& truth, double flowSigma) {
     const double focal = std::sqrt(views.b.fx * views.b.fy);
     return truth.sigma * 2e-6 * focal / flowSigma + 2e-6 * std::abs(truth.inverseDepth);
 }
 
-/// True when depth can be determined at this pixel: the point is in front of both cameras, seen by
-/// both, with parallax.
+/// True if depth can be determined at this pixel: the point is in front of both cameras, both see
+/// it, and it has parallax.
 bool isTold(const twin::TwoViews& views, const Vector2d& pixel, const Vector2d& flow,
             const twin::FlowDepth& truth) {
     const Vector2d q = pixel + flow, end(views.b.size.width - 1, views.b.size.height - 1);
@@ -130,7 +131,7 @@ void usualTriangulation(Context& c) {
         TriangulationOptions options;
         options.method = method;
         const Points points = triangulate(c, s.views, s.flow, options);
-        // In smaller units rounding of the flow moves the midpoint.
+        // In smaller units of length, rounding of the flow would move the midpoint.
         if (unit >= 1e-3) checkAgainstTwin(c, s, points, options.flowSigma);
     }
 }
@@ -178,7 +179,7 @@ void mirroredTriangulation(Context& c) {
         for (int x = 0; x < size.width; ++x) {
             const std::size_t row = static_cast<std::size_t>(y) * size.width;
             const std::size_t i = row + x, j = row + size.width - 1 - x;
-            // Mirrored about the centres of pictures that may differ in width.
+            // The pictures are mirrored about their centres; they may differ in width.
             const double across = s.views.b.size.width - size.width;
             mirror.flow[2 * i] = static_cast<float>(across - s.flow[2 * j]);
             mirror.flow[2 * i + 1] = s.flow[2 * j + 1];
@@ -188,14 +189,14 @@ void mirroredTriangulation(Context& c) {
     for (std::size_t i = 0; i < one.size(); ++i) {
         const std::size_t row = i / size.width * size.width;
         const auto& m = other[row + size.width - 1 - (i - row)];
-        if (one[i].sigma > 1 || m.sigma > 1) continue;  // near the epipole
+        if (one[i].sigma > 1 || m.sigma > 1) continue;  // this pixel is near the epipole
         const double slack = 1e-4 * one[i].sigma + 4e-6;
         c.checks.within(m.inverseDepth - one[i].inverseDepth, -slack, slack, "depth in a mirror");
         c.checks.within(m.residual + one[i].residual, -2e-3, 2e-3, "residual in a mirror");
     }
 }
 
-// A point seen from a in b, and from b in a, is the same.
+// A point must have the same position whether a is the first view or b.
 void exchangedTriangulation(Context& c) {
     const SurfaceScene s = usualScene(c, 1);
     const twin::TwoViews back{s.views.b, s.views.a, s.views.T_b_a.inverse()};

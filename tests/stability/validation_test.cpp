@@ -16,7 +16,7 @@ namespace {
 
 constexpr Size kCells{5, 3};
 
-/// superres_weigh.comp copies its displacement to its output.
+/// superres_weigh.comp copies its input, the displacement, to its output.
 void weigh(const std::vector<float>& displacement) {
     using gpu::TexelFormat;
     const std::vector<float> zeros(4UL * 15);
@@ -46,7 +46,7 @@ protected:
     static std::unique_ptr<GlContext> context() { return createGlContext(); }
 };
 
-TEST_F(ValidationTest, ValidOutputsAreNoFaults) {
+TEST_F(ValidationTest, ValidOutputsHaveNoFaults) {
     const auto gl = context();
     gpu::Validation validation;
     weigh(withValue(0, 3));
@@ -54,7 +54,7 @@ TEST_F(ValidationTest, ValidOutputsAreNoFaults) {
     EXPECT_EQ(validation.counts().at("superres_weigh.comp").runs, 1);
 }
 
-TEST_F(ValidationTest, NanNamesPassOutputAndTexel) {
+TEST_F(ValidationTest, NanIsReportedWithPassOutputAndTexel) {
     const auto gl = context();
     gpu::Validation validation;
     validation.nextFrame();
@@ -83,7 +83,7 @@ TEST_F(ValidationTest, ValuesOutOfTheStatedRangeAreFaults) {
     }
 }
 
-// A picture of 16x8 pixels: eight words per row.
+// Parameters for a picture of 16x8 pixels, whose rows have eight words.
 constexpr params::LumaFromVideo kLuma{.target = {0, 8, 16, 8}, .smoothing = 0.25F};
 constexpr std::size_t kLumaBytes = std::size_t{4} * 8 * 8;
 
@@ -129,7 +129,7 @@ TEST(WatchedShaders, AnIndexOutOfRangeIsCounted) {
     EXPECT_EQ(faults[0], "luma_from_video.comp: 2 indices out of range");
 }
 
-TEST(StatedRanges, AreReadFromTheShadersText) {
+TEST(StatedRanges, RangesAreReadFromTheShadersText) {
     const auto ranges =
         gpu::statedRanges("// a\n// Range: out -1.5..2, 0..1e6\nvoid main\n", "out");
     ASSERT_EQ(ranges.size(), 2U);
@@ -140,8 +140,8 @@ TEST(StatedRanges, AreReadFromTheShadersText) {
     EXPECT_TRUE(gpu::statedRanges("// Range: other 0..1\n", "out").empty());
 }
 
-// The outputs that a shader writes as floats of 32 or 16 bits.
-TEST(StatedRanges, EveryFloatImageAndBufferHasOne) {
+// Every output that a shader writes as floats of 32 or 16 bits must have a stated range.
+TEST(StatedRanges, EveryFloatImageAndBufferHasARange) {
     for (const shaders::Source& shader : shaders::all()) {
         const std::string text(shader.text);
         for (const std::string kind : {"(rgba32f, ", "(rgba16f, ", "(r32f, "})

@@ -1,4 +1,4 @@
-// Virtual objects: their preview, and occlusion.
+// Cases for the preview of virtual objects and their occlusion.
 #include "pipeline/composite/preview_renderer.h"
 #include "pipeline/composite/silhouette.h"
 #include "pipeline/gles/layer_composite.h"
@@ -84,7 +84,8 @@ void compositing(Context& c) {
         for (int x = 0; x < output.width; ++x) {
             const std::size_t i = static_cast<std::size_t>(y) * output.width + x;
             const double wanted = scene.visibility(x, y, layer.z[i], options);
-            // A steeper transition shows the difference between single and double precision.
+            // The tolerance is wider for a steeper transition, which shows the difference between
+            // single and double precision.
             const double slack = options.softness >= 1 ? 0.012 : 1;
             c.checks.within(seen[4 * i] / 255.0 - wanted, -slack, slack, "error of visibility");
             const double over = layer.colour[4 * i + 3] / 255.0 * seen[4 * i];
@@ -110,8 +111,8 @@ VirtualObject objectOf(Context& c) {
     return o;
 }
 
-/// True for an object entirely in front of the camera and of a valid size: only then can rays be
-/// compared.
+/// True if the object is entirely in front of the camera and has a valid size. Only then can its
+/// rays be compared.
 bool isCast(const VirtualObject& o) {
     const bool sound = isFinite(o.T_world_object) && o.size.allFinite() &&
                        std::abs(o.T_world_object.rotation.norm() - 1) < 1e-9;
@@ -150,9 +151,9 @@ void preview(Context& c) {
                     "pixels off their ray");
 }
 
-constexpr double kInterpolation = 0x1p-20;  // relative to the largest value: a few roundings
+constexpr double kInterpolation = 0x1p-20;  // a few roundings, relative to the largest value
 
-// Every pixel of an object lies in a tile whose range contains its depth.
+// Every pixel of an object must lie in a tile whose depth range contains the pixel's depth.
 void silhouettes(Context& c) {
     const CameraModel camera = c.hostile.camera(c.size(1, 120));
     Silhouette silhouette(camera, 0);
@@ -171,7 +172,7 @@ void silhouettes(Context& c) {
             const SurfaceRange& tile =
                 tiles[static_cast<std::size_t>(y / kTileSize) * columns + x / kTileSize];
             if (!(z > 0)) continue;
-            // The renderer interpolates 1 / z in single precision.
+            // Tolerance: the renderer interpolates 1 / z in single precision.
             const double rounding = kInterpolation / tile.nearest;
             c.checks.within(1 / z, 0.999 / tile.farthest - rounding,
                             1.001 / tile.nearest + rounding, "inverse depth in its tile");

@@ -1,4 +1,5 @@
-// The warp of the virtual layer: invalid pictures, and poses far from the pictures'.
+// Cases for the warp of the virtual layer: invalid pictures, and poses far from those of the
+// pictures.
 #include "pipeline/gles/edge_refiner.h"
 #include "tests/stability/cases.h"
 #include "tests/warp/warp_support.h"
@@ -30,7 +31,7 @@ RigidTransform around(Context& c) {
                        c.hostile.real(5, 85));
 }
 
-/// Replaces some depths, numbers and colours by ones that no renderer produces.
+/// Replaces some depths, numbers and colours by values that no renderer produces.
 void spoilPicture(Context& c, std::vector<float>& depth, std::vector<std::uint8_t>& id,
                   std::vector<std::array<std::uint8_t, 4>>& colour, double share) {
     for (std::size_t i = 0; i < depth.size(); ++i) {
@@ -72,7 +73,7 @@ void checkLayer(Context& c, const LayerPicture& layer) {
         }
 }
 
-/// One frame; a request for pixels is answered.
+/// Renders one frame. A request for pixels is answered.
 void showFrame(Context& c, Warp& warp, const test::CastScene& balls, const RigidTransform& pose,
                double spoilt) {
     checkLayer(c, warp.run(pose));
@@ -109,12 +110,12 @@ void hostileWarp(Context& c) {
         if (c.hostile.chance(0.1)) warp.dropReference();
     }
     if (c.hostile.chance(0.5)) return;
-    const RigidTransform rest = from * c.hostile.gentle(0.3);  // at rest edges are sharpened
+    const RigidTransform rest = from * c.hostile.gentle(0.3);  // edges are sharpened only at rest
     for (int frame = 0; frame < 12; ++frame)
         showFrame(c, warp, balls, rest, spoilt);
 }
 
-// The warped older picture shows the scene's points at their places.
+// The warped older picture must show the scene's points at their places.
 void knownWarp(Context& c) {
     test::CastScene balls = test::twoBalls();
     balls.contrast = 0.5;
@@ -151,8 +152,8 @@ gpu::Texture textureOf(Size size, const Pixels& pixels) {
     return out;
 }
 
-/// As warp_edges.comp: the largest difference of a colour in the 3x3 neighbourhood, in steps of
-/// kLevels.
+/// Oracle of warp_edges.comp: the largest difference of a colour in the 3x3 neighbourhood, in steps
+/// of kLevels.
 int contrastAt(const Pixels& pixels, Size size, const PixelRect& where, int x, int y) {
     int most = 0;
     for (std::size_t c = 0; c < 3; ++c) {
@@ -168,8 +169,8 @@ int contrastAt(const Pixels& pixels, Size size, const PixelRect& where, int x, i
     return std::min(most * EdgeRefiner::kLevels / 255, EdgeRefiner::kLevels - 1);
 }
 
-/// The highest levels whose pixels together are at most `share` of the objects' pixels; at least
-/// the highest one.
+/// The highest contrast levels whose pixels together are at most `share` of the objects' pixels; at
+/// least the highest level.
 std::vector<std::uint32_t> edgesOf(const Pixels& colour, const Pixels& state, Size size,
                                    const PixelRect& where, double share) {
     std::array<std::vector<std::uint32_t>, EdgeRefiner::kLevels> byLevel;
@@ -197,7 +198,7 @@ PixelRect partOf(Context& c, Size size) {
     return {x, y, c.hostile.integer(x + 1, size.width), c.hostile.integer(y + 1, size.height)};
 }
 
-/// Colours for most of the listed pixels, and for some others.
+/// Colours for most of the listed pixels, and for some pixels that are not listed.
 HoleAnswer answerOf(Context& c, const std::vector<std::uint32_t>& listed, Size size) {
     HoleAnswer out;
     for (const std::uint32_t pixel : listed)
@@ -214,7 +215,7 @@ HoleAnswer answerOf(Context& c, const std::vector<std::uint32_t>& listed, Size s
     return out;
 }
 
-// Edges of pictures that no surface shows.
+// Edges must also be found in arbitrary pictures, which no rendered surface gives.
 void edges(Context& c) {
     const Size size = c.size(1, 90);
     const double share = c.hostile.pick({0.01, 0.15, 1.0});

@@ -5,31 +5,31 @@
 #include <string>
 #include <string_view>
 
-/// Versions of the project's shaders, used by this program instead of those of gles_shaders: each
-/// index into a storage buffer, a texture or an image is compared with its bounds, counted when out
-/// of range, and clamped. A fault may be planted in one of them.
+/// Versions of the project's shaders, which this program uses instead of those of gles_shaders.
+/// Each index into a storage buffer, a texture or an image is compared with its bounds. An index
+/// out of range is counted and clamped. A fault may be planted in one of the shaders.
 namespace mfar::stress {
 
-inline constexpr unsigned kWatchBinding = 15;  ///< binding of the buffer of uint counts, by shader
-inline constexpr std::size_t kMostWatched = 128;  ///< maximum number of shaders
+inline constexpr unsigned kWatchBinding = 15;     ///< counts: one uint per shader
+inline constexpr std::size_t kMostWatched = 128;  ///< largest number of shaders
 
-/// The shader of a count.
+/// Name of the shader that count number `index` belongs to.
 [[nodiscard]] std::string watchedName(std::size_t index);
 
-/// `text` with its indices checked; violations are counted in element `index`.
+/// `text` with checks of its indices. Invalid indices are counted in element `index`.
 [[nodiscard]] std::string watched(std::string_view text, std::size_t index);
 
-/// A change of a shader that the suite has to detect.
+/// A change of a shader that the cases must detect.
 struct PlantedFault {
     const char* shader;
     const char* from;  ///< text to replace, as the program gets it
     const char* to;
     const char* what;
-    const char* cases;  ///< cases that detect it, separated by commas
+    const char* cases;  ///< the cases that must detect it, separated by commas
 };
 [[nodiscard]] std::span<const PlantedFault> plantedFaults();
-/// To be called before the first shader is loaded. Throws std::runtime_error unless the text
-/// contains `from` exactly once.
+/// Must be called before the first shader is loaded. Throws std::runtime_error if the text does not
+/// contain `from` exactly once.
 void plant(const PlantedFault& fault);
 
 }  // namespace mfar::stress

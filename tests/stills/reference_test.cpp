@@ -5,7 +5,7 @@
 namespace mfar {
 namespace {
 
-/// A still that frames were matched with, and how far they have moved since.
+/// A still that frames were matched with, and how far the frames have moved since.
 struct Known {
     explicit Known(double shows, float moved = 0, float weight = 1) {
         cells.assign(12, {3 + moved, 2, weight, 1});
@@ -24,7 +24,7 @@ struct Known {
     Reference reference;
 };
 
-TEST(Reference, MovedIsTheMeanWayOfItsCells) {
+TEST(Reference, MotionIsTheMeanDisplacementOfMatchedCells) {
     EXPECT_EQ(Known(1).reference.moved(), 0);
     EXPECT_NEAR(Known(1, -5).reference.moved(), 5, 1e-6);
     Known half(1, 8);
@@ -36,7 +36,7 @@ TEST(Reference, MovedIsTheMeanWayOfItsCells) {
     EXPECT_EQ(half.reference.moved(), 0) << "no frame was matched";
 }
 
-TEST(Reference, ItsShareFollowsTheFrames) {
+TEST(Reference, ShownShareFollowsTheFrames) {
     Reference still;
     still.count(0, 0);
     EXPECT_EQ(still.shows, 1);
@@ -45,18 +45,18 @@ TEST(Reference, ItsShareFollowsTheFrames) {
     EXPECT_NEAR(still.shows, 0.25, 1e-4);
 }
 
-TEST(KeepsOlder, NotWithoutAny) {
+TEST(KeepsOlder, DoesNotKeepAMissingStill) {
     const Reference none;
     EXPECT_FALSE(keepsOlder(none, Known(0.1).reference));
 }
 
-TEST(KeepsOlder, WhenTheNewestShowsTheSameAsTheNewOne) {
+TEST(KeepsOlder, KeepsItIfTheNewestStillShowsTheSameAsTheNewOne) {
     const Known older(0.1);
     EXPECT_TRUE(keepsOlder(older.reference, Known(0.9, 1).reference));
     EXPECT_FALSE(keepsOlder(older.reference, Known(0.9, 20).reference));
 }
 
-TEST(KeepsOlder, WhenItShowsMore) {
+TEST(KeepsOlder, KeepsItIfItShowsMoreThanTheNewest) {
     const Known older(0.6);
     EXPECT_TRUE(keepsOlder(older.reference, Known(0.5, 20).reference));
     EXPECT_FALSE(keepsOlder(older.reference, Known(0.7, 20).reference));

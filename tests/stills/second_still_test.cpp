@@ -13,8 +13,8 @@ using twin::Grey;
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr Size kVideo{256, 192}, kStill{1024, 768};
-const PixelRect kHidden{0, 0, 400, 768};  // of the still [px]
-constexpr int kRoom = 24;                 // around a border [px]
+const PixelRect kHidden{0, 0, 400, 768};  // left part of the still [px]
+constexpr int kRoom = 24;                 // around a border [px]; not scored
 
 StereoRig simpleRig() {
     StereoRig rig;
@@ -23,7 +23,7 @@ StereoRig simpleRig() {
     return rig;
 }
 
-/// Another scene in a part of the picture.
+/// Replaces the left part of a picture by another scene.
 Grey hidden(const Grey& scene) {
     const Grey front = sharpDiscs(77);
     return twin::greyOf(
@@ -34,7 +34,7 @@ Bytes bytesOf(const Grey& picture) {
     return {picture.values.begin(), picture.values.end()};
 }
 
-/// A scene, a still that shows all of it, and a still that does not show its left part.
+/// A scene, a still that shows all of it, and a still that lacks its left part.
 class SecondStillTest : public GlTest {
 protected:
     static Pipeline made(double share, const EngineChoice& engines) {
@@ -51,7 +51,7 @@ protected:
         pipeline.run({video_.data(), kVideo, std::size_t(kVideo.width), PixelFormat::Gray8}, {});
         return pipeline.readStats();
     }
-    /// Mean square error inside or outside the part in which the newest still shows another scene.
+    /// Mean squared error inside or outside the part in which the newest still shows another scene.
     double error(const Pipeline& pipeline, bool inHidden) const {
         const Bytes picture = pipeline.readImage();
         double sum = 0, count = 0;
@@ -71,7 +71,7 @@ protected:
                 video_ = bytesOf(videoOf(scene_, {}));
 };
 
-/// Each engine alone, and each drawing with the other's match.
+/// The engines: each alone, and each drawing with the match of the other.
 struct Engines {
     const char* name;
     EngineChoice choice;
@@ -172,7 +172,7 @@ TEST_P(SecondStillOfEngines, IsDroppedWithTheNewest) {
     run(pipeline);
     pipeline.dropStill();
     EXPECT_FALSE(run(pipeline).usedStill);
-    for (int frame = 0; frame < 3; ++frame)  // both have seen as much of the video's noise
+    for (int frame = 0; frame < 3; ++frame)  // until both know the noise equally
         run(fresh);
     setStill(pipeline, part_);
     setStill(fresh, part_);
@@ -181,7 +181,7 @@ TEST_P(SecondStillOfEngines, IsDroppedWithTheNewest) {
     EXPECT_EQ(pipeline.readImage(), fresh.readImage());
 }
 
-TEST_F(SecondStill, StaysWhileNewStillsMissTheSame) {
+TEST_F(SecondStill, StaysWhileNewStillsMissTheSameParts) {
     Pipeline pipeline = made(1);
     setStill(pipeline, whole_);
     run(pipeline);

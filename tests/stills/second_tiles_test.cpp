@@ -9,7 +9,7 @@ namespace {
 
 constexpr Size kTiles{5, 4}, kCells{20, 16};
 
-/// Twenty tiles: the newest still shows all but some of them.
+/// Twenty tiles. The newest still shows all of them except some.
 class SecondTilesTest : public testing::Test {
 protected:
     SecondTilesTest()
@@ -66,7 +66,7 @@ TEST_F(SecondTilesTest, ChoosesTilesThatTheNewestStillDoesNotShow) {
     EXPECT_EQ(tiles_.shownByNewest(), 18);
 }
 
-TEST_F(SecondTilesTest, WithoutStructureNothingIsMissing) {
+TEST_F(SecondTilesTest, TilesWithoutStructureAreNotChosen) {
     fill(weighed_, 3, 0);
     forCells(3, [&](int i) { trust_[i].signal = 0; });
     EXPECT_EQ(chosen(), Tiles{});
@@ -83,7 +83,7 @@ TEST_F(SecondTilesTest, IfTooManyTilesQualifyTheWorstAreChosen) {
     EXPECT_EQ(chosen(0), Tiles{});
 }
 
-TEST_F(SecondTilesTest, TilesThatAreNotDrawnOrNotMatchedAreLeftAlone) {
+TEST_F(SecondTilesTest, TilesThatAreNotDrawnOrNotMatchedAreNotChosen) {
     for (const int tile : {2, 3, 9})
         fill(weighed_, tile, 0);
     work_.draw = TileWork::Draw::Tiles;
@@ -112,7 +112,7 @@ TEST_F(SecondTilesTest, TilesThatNeitherStillShowsAreNotTriedForAWhile) {
     EXPECT_EQ(chosen(), (Tiles{2, 3})) << "another still";
 }
 
-TEST_F(SecondTilesTest, ATileThatTheSecondShowedStaysRatherThanAnother) {
+TEST_F(SecondTilesTest, ATileShownByTheSecondStillIsPreferredToOthers) {
     for (const int tile : {2, 3})
         fill(weighed_, tile, 0);
     fill(second_, 2, 1);
@@ -126,7 +126,7 @@ TEST_F(SecondTilesTest, ATileThatTheSecondShowedStaysRatherThanAnother) {
     EXPECT_EQ(chosen(1), Tiles{2});
 }
 
-TEST_F(SecondTilesTest, WeightsThatAreNotNumbersChooseNothing) {
+TEST_F(SecondTilesTest, NanWeightsChooseNoTile) {
     fill(weighed_, 3, std::numeric_limits<float>::quiet_NaN());
     EXPECT_EQ(chosen(), Tiles{});
     fill(weighed_, 4, 0);

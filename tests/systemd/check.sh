@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Checks the service's files: systemd understands them, little is exposed, and mfard accepts the
-# configuration. Usage: check.sh UNIT MFARD SOURCE-FOLDER. Exit status 77: skipped.
+# Checks the files of the service: systemd must accept them, the service must expose little, and
+# mfard must accept the configuration. Usage: check.sh UNIT MFARD SOURCE-FOLDER. Exit status 77:
+# skipped.
 set -euo pipefail
 unit=$1
 mfard=$2
@@ -17,14 +18,15 @@ command -v systemd-analyze >/dev/null || { echo "systemd-analyze is not installe
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# systemd requires that the program in the unit exists.
+# systemd requires that the program of the unit exists.
 sed "s|/usr/bin/mfard|$mfard|; s|^Documentation=.*|Documentation=man:systemd(1)|" "$unit" \
     >"$work/mfard.service"
 said=$(systemd-analyze verify --man=no "$work/mfard.service" 2>&1) || fault "verify ended with $?"
 [[ -z $said ]] || fault "verify: $said"
 
-# The optional drop-in that reboots after repeated failures: systemd accepts it, and the starts that
-# it limits happen within its interval, although mfard waits before each.
+# The optional drop-in that reboots after repeated failures. systemd must accept it. The number of
+# starts that it counts must be possible within its interval, although mfard waits before each
+# start.
 reboot=$(dirname "$unit")/reboot.conf
 install -D -m 644 "$reboot" "$work/mfard.service.d/reboot.conf"
 said=$(systemd-analyze verify --man=no "$work/mfard.service" 2>&1) || fault "verify of reboot.conf ended with $?"
@@ -34,7 +36,7 @@ minutes=$(sed -n 's/^StartLimitIntervalSec=\([0-9]*\)min$/\1/p' "$reboot")
 starts=$(sed -n 's/^StartLimitBurst=//p' "$reboot")
 wait=$(sed -n 's/^constexpr std::chrono::seconds kLongestWait{\([0-9]*\)};$/\1/p' \
     "$sources/../daemon/restart_pause.cpp")
-# A hang lasts as long as the timeouts of the watchdog and the start together.
+# A hang takes the timeouts of the watchdog and of the start together.
 ((60 * minutes > starts * (wait + 20))) || fault "reboot.conf never counts $starts starts"
 rm -r "$work/mfard.service.d"
 
@@ -56,27 +58,27 @@ for group in video render gpio; do
     grep -Eq "^$group:.*:(.*,)?mfar(,|$)" "$work/root/etc/group" || fault "mfar is not in $group"
 done
 
-# The configuration error of daemon/exit_code.h must not be tried again.
+# The exit code for a configuration error in daemon/exit_code.h must not cause a restart.
 grep -q '^RestartPreventExitStatus=.*\<78\>' "$unit" || fault "exit code 78 would restart"
 
-# Debian 12 has systemd 252, which ignores unknown settings.
+# Debian 12 has systemd 252, which ignores settings that it does not know.
 grep -Eq '^(RestartSteps|RestartMaxDelaySec|RestartMode)=' "$unit" &&
     fault "a key that needs systemd 254"
-# The threads' time budgets assume this limit.
+# The time budgets of the threads assume this limit.
 limit=$(sed -n "s/^constexpr milliseconds kWatchdog{\([0-9]*\)'000};$/\1/p" \
     "$sources/../daemon/budgets.h")
 grep -qx "WatchdogSec=$limit" "$unit" || fault "WatchdogSec is not the $limit s of budgets.h"
-# mfard waits before every start that follows one of the restarted exit codes.
+# mfard must wait before every start that follows an exit code that causes a restart.
 grep -qx 'RestartPreventExitStatus=64 65 66 78' "$unit" || fault "isRestarted() knows other codes"
 
-# The service's resources are limited, and its hook has no more rights than the service.
+# The resources of the service must be limited. Its hook must not have more rights than the service.
 for key in MemoryMax OOMPolicy TasksMax LimitNOFILE; do
     grep -q "^$key=" "$unit" || fault "no $key="
 done
 grep -Eq '^ExecStopPost=-?[^+!:@]' "$unit" || fault "the hook of the service runs outside its sandbox"
 grep -q '^ExecStopPost=.*--config' "$unit" && fault "the hook reads the configuration"
 
-# Only the chip of the configured line is found, by each of its names.
+# Only the chip of the configured line may be found, by each of its names.
 isChip() {
     printf '%s\n' "$2" >"$work/trigger.toml"
     "$sources/is-trigger-chip" "$1" "$work/sys/chip/$1" "$work/trigger.toml"

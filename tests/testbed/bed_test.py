@@ -113,7 +113,7 @@ class Cameras(unittest.TestCase):
         self.assertEqual(self.numbers(payloads), [1, 2, 3])
         self.assertEqual({len(p) for p in payloads}, {uvc.HEADER + FRAME})
         flags = [p[1] for p in payloads]
-        self.assertEqual(flags, [0x8f, 0x8e, 0x8f])  # ends a picture, its parity changes
+        self.assertEqual(flags, [0x8f, 0x8e, 0x8f])  # the end of each picture changes the parity
 
     def test_pulse_without_stream_is_lost(self):
         self.camera.pulse()

@@ -12,14 +12,14 @@
 #include <stdexcept>
 #include <vector>
 
-// Makes films of a recording for the cameras of the test bed: per sensor a file with its pictures
-// in NV12 (BT.601, limited range), one after the other, and a file with their times [s], one a
-// line, counted from the first video frame.
+// Makes films of a recording for the cameras of the test bed. Each sensor gets two files: its
+// pictures in NV12 (BT.601, limited range), one after the other; and their times [s], one per line,
+// counted from the first video frame.
 
 namespace mfar {
 namespace {
 
-/// Interleaves U and V of OpenCV's planes.
+/// Interleaves the planes U and V that OpenCV gives.
 void writeNv12(std::ofstream& out, const StoredImage& image) {
     cv::Mat rgba(image.size.height, image.size.width, CV_8UC4,
                  const_cast<std::uint8_t*>(image.pixels.data()));

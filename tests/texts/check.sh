@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Texts that are printed from tables are as the tables say, and are understood by who reads them.
-# Usage: check.sh MFAR-TEXTS SOURCE-FOLDER. To write them anew: cmake --build .build/host --target texts
+# Texts that are printed from tables must agree with the tables, and the programs that read them
+# must accept them. Usage: check.sh MFAR-TEXTS SOURCE-FOLDER. To write the texts again: cmake
+# --build .build/host --target texts
 set -euo pipefail
 texts=$1
 sources=$2
@@ -19,18 +20,19 @@ while IFS= read -r file; do
     diff -u "$sources/$file" "$work/tree/$file" || fault "$file differs from the tables"
 done < <(cd "$work/tree" && find . -type f -printf '%P\n')
 
-# The example of the page is the one that is compiled.
+# The example on the page must equal the source that is compiled.
 diff -u <(sed -n '/^```cpp$/,/^```$/{//!p}' "$sources/docs/flow-method.md") \
     "$sources/tests/measure/eval/shift_flow.cpp" || fault "the example of docs/flow-method.md"
 
-# Links of the pages lead to files.
+# Links on the pages must lead to files.
 while IFS=: read -r page link; do
     target=${link#*](}
     target=${target%)}
     [[ -e $(dirname "$page")/${target%%#*} ]] || fault "$page: no $target"
 done < <(grep -Eo '\]\([^):]+\)' "$sources"/*.md "$sources"/docs/*.md)
 
-# Messages for which the README has a remedy are those of the programs; "..." stands for what varies.
+# Messages for which the README gives a remedy must be messages of the programs; "..." stands for
+# text that varies.
 find "$sources/hal" "$sources/daemon" -name '*.cpp' -exec cat {} + |
     perl -0pe 's/(?<!\\)"\s*\n\s*"//g; s/\\"/"/g' >"$work/messages"
 while IFS= read -r message; do
@@ -41,7 +43,7 @@ while IFS= read -r message; do
 done < <(sed -n '/^## Troubleshooting/,/^## /p' "$sources/README.md" | sed -n 's/^| \(`.*`\) | .*/\1/p' |
     grep -Eo '`[^`]+`' | tr -d '`')
 
-# completes PREVIOUS BEGINNING: what bash offers.
+# completes PREVIOUS BEGINNING: prints the completions that bash offers.
 completes() {
     # shellcheck source=/dev/null
     (. "$work/tree/systemd/mfard.bash-completion" && COMP_WORDS=(mfard "$1" "$2") COMP_CWORD=2 &&

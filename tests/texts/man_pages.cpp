@@ -9,7 +9,7 @@
 namespace mfar::test {
 namespace {
 
-/// A paragraph, so that no character of it is a command of groff.
+/// A paragraph in which groff takes no character as a command.
 std::string troff(std::string_view text) {
     std::string out;
     for (const char c : text) {
@@ -35,7 +35,7 @@ std::string entry(std::string_view key, std::string_view text) {
     return fmt::format(".TP\n.B {}\n{}\n", troff(key), troff(text));
 }
 
-/// "--help" of "-h,--help".
+/// Returns "--help" for "-h,--help".
 std::string longName(const ArgumentText& argument) {
     return argument.names.substr(argument.names.rfind(',') + 1);
 }

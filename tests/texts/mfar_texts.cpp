@@ -1,5 +1,5 @@
-// Writes the texts that are printed from tables into a source tree, or into a folder to compare.
-// Usage: mfar-texts FOLDER
+// Writes the texts that are printed from tables into a source tree, or into a folder in order to
+// compare them. Usage: mfar-texts FOLDER
 #include "daemon/option_text.h"
 #include "tests/texts/pages.h"
 

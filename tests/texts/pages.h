@@ -8,7 +8,7 @@
 
 namespace mfar::test {
 
-/// docs/configuration.md.
+/// The text of docs/configuration.md.
 [[nodiscard]] std::string configurationPage();
 
 /// Manual pages in the language of groff's -man.
@@ -18,7 +18,7 @@ namespace mfar::test {
 /// Completion of mfard's command line in bash.
 [[nodiscard]] std::string bashCompletion();
 
-/// Keys and sections as a dictionary of libFuzzer, then these entries.
+/// Keys and sections as a dictionary for libFuzzer, followed by these entries.
 [[nodiscard]] std::string fuzzDictionary(std::span<const OptionSection> table,
                                          std::string_view entries);
 

@@ -32,7 +32,7 @@ TEST(LumaWindow, EveryFormatGivesItsLumaInTheRequestedPart) {
                         ? 0.299 * rgb[0] + 0.587 * rgb[1] + 0.114 * rgb[2]
                         : picture.view()
                               .data[y * picture.view().stride + 1UL * x * bytesPerPixel(format)];
-                // The weights are in 1/256.
+                // Tolerance: the weights have units of 1/256.
                 ASSERT_NEAR(luma.data[y * luma.stride + x], expected, packedRgb ? 1.4 : 0)
                     << nameOf(format);
             }
@@ -47,7 +47,7 @@ TEST(LumaWindow, PlanesAreNotCopied) {
     }
 }
 
-TEST(LumaWindow, LimitedRangeHardlyMovesCorners) {
+TEST(LumaWindow, LimitedLumaRangeHardlyMovesCorners) {
     const CameraModel camera = test::testCamera();
     const test::PlacedTag placed{{TagFamily::Tag36h11, 5}, 0.1, {}};
     const auto pose = test::cameraAt(0.4, 0.5, 0.3, 0.2);

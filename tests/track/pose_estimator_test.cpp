@@ -17,7 +17,7 @@ Timestamp momentOf(int i) {
     return Timestamp::fromSeconds(1 + i / 30.);
 }
 
-/// A hand-held camera in front of a tag; each coordinate is a sum of slow and fast sines.
+/// A hand-held camera in front of a tag. Each coordinate is a sum of slow and fast sines.
 RigidTransform hand(int i, double tiltDeg, double offsetDeg) {
     const double t = i / 30.;
     const auto sway = [&](double phase) {
@@ -46,10 +46,11 @@ private:
     double unit_;
 };
 
-/// `turns`: how often the pose error changes by more than a limit from frame to frame.
+/// `turns`: how often the error of the pose changes by more than a limit from one frame to the
+/// next.
 struct Followed {
     int turns = 0, flips = 0, lost = 0;
-    double worst = 0;  ///< rotation error [rad]
+    double worst = 0;  ///< greatest rotation error [rad]
 };
 
 Followed follow(double tiltDeg, double offsetDeg, double sigma, int frames) {
@@ -125,7 +126,7 @@ TEST(PlanarChoice, WithEqualErrorsThePredictionIsKept) {
         ASSERT_EQ(&choice.choose(poses, cameraAt(0.6, -0.05, 0)), &*poses.other) << i;
 }
 
-TEST(PoseEstimator, MillimetresAndMetresGiveTheSameMotion) {
+TEST(PoseEstimator, MillimetresAndMetresGiveEqualMotion) {
     const CameraModel camera = testCamera();
     PoseEstimator metres, millimetres;
     Corners a(0.15), b(0.15, 1000);
@@ -145,7 +146,7 @@ TEST(PoseEstimator, MillimetresAndMetresGiveTheSameMotion) {
     EXPECT_EQ(metres.flips(), millimetres.flips());
 }
 
-TEST(PoseEstimator, GapsAreBridgedAndThenTheresNoPose) {
+TEST(PoseEstimator, ShortGapsAreBridgedAndLongOnesHaveNoPose) {
     const CameraModel camera = testCamera();
     PoseEstimator estimator;
     Corners corners(0.05);

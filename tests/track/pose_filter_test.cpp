@@ -32,7 +32,7 @@ Pose measured(const RigidTransform& T, Timestamp time, double angle = 0.002,
     return out;
 }
 
-/// Motion at a constant rate in the body's own frame: a helix.
+/// A motion at constant velocity in the body's own frame: a helix.
 RigidTransform helix(double seconds) {
     Vector6 twist;
     twist << 0.3, -0.2, 0.4, 0.1, 0.2, -0.15;
@@ -114,8 +114,8 @@ TEST(PoseFilter, SmoothsNoiseWithAConsistentCovariance) {
         ++count;
     }
     EXPECT_LT(filtered, 0.5 * raw);
-    // The filter allows for acceleration, which this path does not have: its covariance may be too
-    // large, never too small.
+    // The filter allows for acceleration, which this path does not have. So its covariance may be
+    // too large, but never too small.
     EXPECT_LT(normalised / count, 7);
     EXPECT_GT(normalised / count, 0.5);
 }

@@ -64,8 +64,8 @@ TEST(TagDetector, FindsEveryFamilyWithItsCornersInOrder) {
     }
 }
 
-// Linear sensor values: only a wrong convention of pixel centres could shift the corners on
-// average.
+// The picture has linear sensor values; so only a wrong convention of pixel centres could shift the
+// corners on average.
 TEST(TagDetector, PixelCentresAreAtIntegers) {
     const CameraModel camera = testCamera();
     for (const double decimation : {1., 1.5, 2., 3.}) {
@@ -107,7 +107,7 @@ TEST(CornerRefiner, MeasuresCornersToAFewHundredthsOfAPixel) {
     }
 }
 
-TEST(CornerRefiner, LeavesCornersAloneWhereNothingIsSeen) {
+TEST(CornerRefiner, KeepsCornersInUniformPictures) {
     const CameraModel camera = testCamera();
     TagDetection made;
     made.corners = {{{100, 140}, {140, 140}, {140, 100}, {100, 100}}};

@@ -100,7 +100,8 @@ TEST(TagMap, ReadsAnAprilTagRosBundleAndTurnsItsTagFrame) {
     ASSERT_EQ(map.tags().size(), 2U);
     const MappedTag* tag = map.find({TagFamily::Tag36h11, 2});
     ASSERT_NE(tag, nullptr);
-    // With y down (mfar) the bottom left corner is at (-, +), with y up (apriltag_ros) at (-, -).
+    // The bottom left corner is at (-, +) if y points down (mfar), and at (-, -) if y points up
+    // (apriltag_ros).
     const Eigen::Vector3d corner = tag->T_world_tag * Eigen::Vector3d(-0.025, 0.025, 0);
     EXPECT_TRUE(corner.isApprox(Eigen::Vector3d(0.1 - 0.025, 0.2 - 0.025, 0)));
     EXPECT_EQ(map.find({TagFamily::Tag36h11, 9}), nullptr);
@@ -142,7 +143,7 @@ TEST(TagMap, BrokenBundlesAreRefusedWithFileAndLine) {
             << text;
 }
 
-TEST(TagMap, ATextWithoutEndIsRefusedBeforeItIsParsed) {
+TEST(TagMap, AnEndlessTextIsRefusedBeforeItIsParsed) {
     std::string dots = "a";
     for (int i = 0; i < 50'000; ++i)
         dots += ".a";

@@ -18,7 +18,7 @@ TagObservation observe(const CameraModel& camera, const RigidTransform& T_world_
     return {tag.size, tag.T_world_tag, cornersOf(camera, T_world_camera, tag)};
 }
 
-/// Adds normally distributed noise to the corners [px].
+/// Adds normally distributed noise to corners [px].
 class Noise {
 public:
     explicit Noise(double sigma) : noise_(0, sigma) {}
@@ -108,8 +108,8 @@ TEST(TagPose, CovarianceMatchesTheErrors) {
         mean += error / kRuns;
         distance += error.dot(poses->best.covariance.ldlt().solve(error)) / kRuns;
     }
-    // Expected: six, for six degrees of freedom, with a standard error of 0.08. The variance must
-    // not be underestimated.
+    // The expected value is six, for six degrees of freedom; its standard error is 0.08. The
+    // variance must not be underestimated.
     EXPECT_GT(distance, 4.5);
     EXPECT_LT(distance, 6.4);
     EXPECT_LT(mean.head<3>().norm(), 0.05 * kDegree);
@@ -151,7 +151,7 @@ TEST(TagPose, SeveralTagsDetermineTheEdgeShift) {
         }
         const auto many = solveTagPose(seen, camera), one = solveTagPose({seen.data(), 1}, camera);
         ASSERT_TRUE(many && one);
-        // The prior reduces the estimate slightly.
+        // The prior makes the estimate slightly smaller.
         EXPECT_NEAR(many->best.edgeShift, shift, 0.1 * std::abs(shift) + 1e-6);
         const auto error = [&](const CameraPoses& poses) {
             return (poses.best.T_world_camera.translation - truth.translation).norm();
@@ -164,7 +164,7 @@ TEST(TagPose, SeveralTagsDetermineTheEdgeShift) {
     }
 }
 
-TEST(TagPose, OutwardsMoveEveryEdgeByOne) {
+TEST(TagPose, OutwardVectorsMoveEveryEdgeByOnePixel) {
     const CameraModel camera = testCamera();
     const auto corners = cornersOf(camera, cameraAt(0.5, 0.6, 0.2, 0.4), kTag);
     const auto outwards = outwardsOf(corners);
@@ -178,7 +178,7 @@ TEST(TagPose, OutwardsMoveEveryEdgeByOne) {
     }
 }
 
-TEST(TagPose, ATagThatContradictsTheOthersIsLeftOut) {
+TEST(TagPose, ATagThatContradictsTheOthersIsIgnored) {
     const CameraModel camera = testCamera();
     const RigidTransform truth = cameraAt(0.6, 0.4, -0.3);
     for (std::size_t wrong = 0; wrong < 4; ++wrong) {
@@ -195,18 +195,18 @@ TEST(TagPose, ATagThatContradictsTheOthersIsLeftOut) {
     }
 }
 
-TEST(TagPose, UnfitTagsGiveNothing) {
+TEST(TagPose, UnusableTagsGiveNoPose) {
     const CameraModel camera = testCamera();
     const auto refused = [&](const TagObservation& tag) {
         EXPECT_FALSE(solveTagPose({&tag, 1}, camera).has_value());
     };
     const TagObservation good = observe(camera, cameraAt(0.6, 0.3, 0.2), kTag);
     ASSERT_TRUE(solveTagPose({&good, 1}, camera).has_value());
-    refused(observe(camera, cameraAt(0.6, 85 * kDegree, 0), kTag));  // grazing angle
-    refused(observe(camera, cameraAt(0.6, 3, 0), kTag));             // seen from behind
-    refused(observe(camera, cameraAt(9, 0.3, 0.2), kTag));           // too small
+    refused(observe(camera, cameraAt(0.6, 85 * kDegree, 0), kTag));  // refused: grazing angle
+    refused(observe(camera, cameraAt(0.6, 3, 0), kTag));             // refused: seen from behind
+    refused(observe(camera, cameraAt(9, 0.3, 0.2), kTag));           // refused: too small
     const RigidTransform aside{Eigen::Quaterniond::Identity(), {0.3, 0, -0.5}};
-    refused(observe(camera, aside, kTag));  // partly outside the picture
+    refused(observe(camera, aside, kTag));  // refused: partly outside the picture
     for (const double value : {std::nan(""), std::numeric_limits<double>::infinity(), 1e300}) {
         TagObservation tag = good;
         tag.corners[2].y() = value;
@@ -227,7 +227,7 @@ TEST(TagPose, UnfitTagsGiveNothing) {
     EXPECT_FALSE(solveTagPose({}, camera).has_value());
 }
 
-// No four points may yield NaN, even if they do not look like a tag at all.
+// No four points may give NaN, even if they do not look like a tag.
 TEST(TagPose, AnyFourCornersGiveAFinitePoseOrNone) {
     std::mt19937 random(9);
     std::uniform_real_distribution<double> x(-20, 660), y(-20, 500);
@@ -249,7 +249,7 @@ TEST(TagPose, AnyFourCornersGiveAFinitePoseOrNone) {
     EXPECT_GT(solved, 100);
 }
 
-TEST(TagPose, MillimetresAndMetresGiveTheSame) {
+TEST(TagPose, MillimetresAndMetresGiveEqualPoses) {
     std::mt19937 random(5);
     const CameraModel camera = testCamera();
     Noise noise(0.3);

@@ -7,11 +7,11 @@
 namespace mfar::test {
 namespace {
 
-constexpr int kRays = 4;  // per pixel, in each direction
+constexpr int kRays = 4;  // rays per pixel in each direction
 
 struct Drawn {
     RigidTransform T_tag_camera;
-    double cell;  ///< [m]
+    double cell;  ///< side of a cell of the tag [m]
     TagPicture picture;
     PixelRect box;
 };
@@ -40,7 +40,7 @@ Drawn prepare(const CameraModel& camera, const RigidTransform& T_world_camera,
     return out;
 }
 
-/// 1: white paper, 0: black paper, nothing: outside the tag.
+/// 1: white paper; 0: black paper; empty: outside the tag.
 std::optional<int> paperAt(const Drawn& tag, const Eigen::Vector2d& ray) {
     const Eigen::Vector3d direction = tag.T_tag_camera.rotation * ray.homogeneous();
     const Eigen::Vector3d& from = tag.T_tag_camera.translation;

@@ -41,7 +41,8 @@ struct SensorLook {
     double bright = 0.8;  ///< brightness of white paper
 };
 
-/// Renders tags with their quiet zones on grey ground through the lens, with 4 x 4 rays per pixel.
+/// Renders tags with their white borders on a grey ground, through the lens, with 4 x 4 rays per
+/// pixel.
 [[nodiscard]] GrayPicture renderTags(const CameraModel& camera,
                                      const RigidTransform& T_world_camera,
                                      const std::vector<PlacedTag>& tags,
@@ -54,8 +55,8 @@ cornersOf(const CameraModel& camera, const RigidTransform& T_world_camera, const
 /// A camera of 640x480 with the distortion of an inexpensive lens.
 [[nodiscard]] CameraModel testCamera();
 
-/// Pose of a camera at `distance` in front of the world's origin, looking at it along +z, then
-/// rotated about the origin by pitch (about x) and yaw (about y), and rolled [rad].
+/// Pose of a camera at `distance` in front of the world's origin. It looks at the origin along +z.
+/// Then it is rotated about the origin by pitch (about x) and yaw (about y), and rolled [rad].
 [[nodiscard]] RigidTransform cameraAt(double distance, double pitch, double yaw, double roll = 0);
 
 /// Angle between two rotations [rad].

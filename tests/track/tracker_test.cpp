@@ -66,7 +66,7 @@ TEST(Tracker, FollowsTheCameraMostlyInRegions) {
     }
     const TrackStats stats = tracker.stats();
     EXPECT_EQ(stats.frames, 11);
-    EXPECT_EQ(stats.fullSearches, 3);  // twice until the motion is known, then every fifth frame
+    EXPECT_EQ(stats.fullSearches, 3);  // two until the motion is known, then one every fifth frame
     EXPECT_EQ(stats.roiSearches, 8);
     EXPECT_EQ(stats.flips, 0);
     EXPECT_GT(stats.worstMs, 0);
@@ -130,7 +130,7 @@ TEST(Tracker, WithoutAMapTheLargestTagIsTheWorld) {
     EXPECT_EQ(map.find(tags[0].tag)->size, 0.07);
 }
 
-TEST(Tracker, AStillIsMeasuredInItself) {
+TEST(Tracker, PoseOfAStillComesFromTheStillItself) {
     Tracker tracker = trackerFor(mapOf(world()));
     const auto still = [&](int i) {
         return renderTags(kRig.still, view(i) * kRig.T_still_video.inverse(), world(),
@@ -150,7 +150,7 @@ TEST(Tracker, AStillIsMeasuredInItself) {
     EXPECT_FALSE(tracker.trackStill(GrayPicture(kRig.still.size, 200).view(), frameTime(4)));
 }
 
-TEST(Tracker, ColourIsReadAsItsLuma) {
+TEST(Tracker, ColourPicturesAreReadAsLuma) {
     Tracker gray = trackerFor(mapOf(world())), colour = trackerFor(mapOf(world()));
     for (int i = 0; i < 3; ++i) {
         const GrayPicture frame = picture(i);
@@ -205,7 +205,7 @@ TEST(Tracker, WrongSizesAndOptionsAreRefused) {
     EXPECT_THROW(Tracker(kRig, options), std::invalid_argument);
 }
 
-TEST(SearchRegions, HoldTheTagsThatCanBeSeenAndNoOther) {
+TEST(SearchRegions, RegionsContainOnlyTheVisibleTags) {
     std::vector<PlacedTag> tags = world();
     const Eigen::Quaterniond back(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitY()));
     tags.push_back({{TagFamily::Tag36h11, 20}, 0.07, {back, {0, 0, 0}}});  // seen from behind

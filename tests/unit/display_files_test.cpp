@@ -35,7 +35,7 @@ std::string refusal(const std::string& spec, double rateHz = 30) {
 
 class FileDisplays : public testing::Test {
 protected:
-    /// Shows a picture the way the pipeline does: as a texture.
+    /// Shows a picture as the pipeline does: as a texture.
     void show(Display& display, const StoredImage& picture, Timestamp time) {
         gpu::Texture texture(picture.size, gpu::TexelFormat::Rgba8);
         texture.upload(PlaneView{picture.view().data, picture.view().stride});
@@ -59,7 +59,7 @@ TEST_F(FileDisplays, PngHoldsTheShownPixelsWithTheTopRowFirst) {
 }
 
 TEST_F(FileDisplays, HostRowsAreWrittenLikeATexture) {
-    AlignedRows<std::uint32_t> rows({7, 5});  // padded
+    AlignedRows<std::uint32_t> rows({7, 5});  // rows with padding
     StoredImage picture = plain({7, 5}, 0);
     for (int y = 0; y < 5; ++y)
         for (int x = 0; x < 7; ++x) {
@@ -82,7 +82,7 @@ TEST_F(FileDisplays, HostRowsAreWrittenLikeATexture) {
     EXPECT_EQ(video.substr(video.size() - frame), video.substr(video.size() - 2 * frame, frame));
 }
 
-TEST_F(FileDisplays, EveryPictureIsWrittenThoughTheBuffersAreFew) {
+TEST_F(FileDisplays, EveryPictureIsWrittenWithFewBuffers) {
     const auto display = openFileDisplay("png:" + folder_.path().string(), 30);
     for (int i = 0; i < 25; ++i)
         show(*display, plain({64, 48}, static_cast<std::uint8_t>(i)), {i});
@@ -92,7 +92,7 @@ TEST_F(FileDisplays, EveryPictureIsWrittenThoughTheBuffersAreFew) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 25);
 }
 
-TEST_F(FileDisplays, ShowingLeavesTheBindingsAsTheyWere) {
+TEST_F(FileDisplays, ShowingKeepsTheGlBindings) {
     const gpu::Texture target({8, 8}, gpu::TexelFormat::Rgba8);
     const gpu::Framebuffer framebuffer(target);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer.id());
@@ -170,7 +170,7 @@ TEST_F(FileDisplays, Y4mMinusIsStandardOutput) {
     EXPECT_EQ(test::readFile(folder_ / "out").substr(0, 16), "YUV4MPEG2 W8 H8 ");
 }
 
-TEST_F(FileDisplays, AClosedPipeIsAnErrorNotTheEndOfTheProcess) {
+TEST_F(FileDisplays, AClosedPipeIsAnErrorAndDoesNotEndTheProcess) {
     const fs::path pipe = folder_ / "pipe";
     ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
     const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
@@ -193,13 +193,13 @@ TEST_F(FileDisplays, CancelEndsTheWaitForAStalledReader) {
     ASSERT_GE(reader, 0);
     std::stop_source stop;
     const auto display = openFileDisplay("y4m:" + pipe.string(), 30, stop.get_token());
-    show(*display, plain({640, 480}, 1), {1});  // more than a pipe holds
+    show(*display, plain({640, 480}, 1), {1});  // more than a pipe can hold
     stop.request_stop();
     EXPECT_THROW(display->finish(), std::runtime_error);
     close(reader);
 }
 
-/// A pipe whose reader takes only the number of pictures that the test asks for.
+/// A pipe whose reader takes only as many pictures as the test requests.
 struct PipeDisplays : FileDisplays {
     PipeDisplays() {
         mkfifo(pipe.c_str(), 0600);
@@ -208,7 +208,8 @@ struct PipeDisplays : FileDisplays {
     ~PipeDisplays() override {
         if (reader >= 0) close(reader);
     }
-    /// Reads until `count` pictures have come; returns the luma of the last one's first pixel.
+    /// Reads until `count` pictures have arrived. Returns the luma of the first pixel of the last
+    /// picture.
     int readPictures(std::size_t count) const {
         const std::size_t header = y4mHeader(kSize, 30).size();
         const std::size_t picture = 6 + 640 * 480 * 3 / 2;
@@ -233,7 +234,7 @@ struct PipeDisplays : FileDisplays {
         return condition();
     }
 
-    static constexpr Size kSize{640, 480};  // more than a pipe holds
+    static constexpr Size kSize{640, 480};  // more than a pipe can hold
     fs::path pipe = folder_ / "pipe";
     int reader = -1;
 };
@@ -269,7 +270,7 @@ TEST_F(PipeDisplays, WriterWhoseReaderTakesNothingIsOverItsBudget) {
     EXPECT_TRUE(comesTrue([&] { return hearts.late().empty(); })) << "it waits for a picture";
 }
 
-TEST_F(PipeDisplays, LivePicturesAreGivenUpAtTheEnd) {
+TEST_F(PipeDisplays, LivePicturesAreDiscardedAtTheEnd) {
     const FileDisplayPolicy live{.isLive = true, .finish = std::chrono::milliseconds(100)};
     const auto display = openFileDisplay("y4m:" + pipe.string(), 30, {}, live);
     show(*display, plain(kSize, 1), {1});
@@ -299,7 +300,7 @@ TEST_F(PipeDisplays, WaitingForAReaderIsReported) {
     EXPECT_EQ(display->leftOut(), 0U) << "every picture is written";
 }
 
-TEST_F(PipeDisplays, ReaderThatGoesAwayEndsALiveDisplay) {
+TEST_F(PipeDisplays, AClosedReaderEndsALiveDisplay) {
     const FileDisplayPolicy live{.isLive = true};
     const auto display = openFileDisplay("y4m:" + pipe.string(), 30, {}, live);
     close(std::exchange(reader, -1));
@@ -321,7 +322,7 @@ TEST_F(FileDisplays, FullDiskEndsALiveDisplay) {
     EXPECT_THROW(show(*display, plain({64, 48}, 1), {2}), std::runtime_error);
 }
 
-TEST_F(FileDisplays, NoneTakesEverythingAndLeavesNothing) {
+TEST_F(FileDisplays, DisplayNoneAcceptsPicturesAndWritesNothing) {
     const auto display = openFileDisplay("none", 30);
     show(*display, plain({8, 8}, 1), {1});
     display->finish();

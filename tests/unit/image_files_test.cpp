@@ -28,7 +28,7 @@ std::string errorOf(F&& f) {
     return "no error";
 }
 
-/// Padded rows, and a different value in every byte.
+/// A picture with padded rows and a different value in every byte.
 struct Padded {
     Padded(Size size, PixelFormat format) {
         const std::size_t stride = static_cast<std::size_t>(size.width) * bytesPerPixel(format) + 5;

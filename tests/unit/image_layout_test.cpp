@@ -52,14 +52,14 @@ TEST(ImageLayout, PackingKeepsEveryPixelAndDropsThePadding) {
     }
 }
 
-TEST(ImageLayout, SoundPicturesOfEveryFormatPass) {
+TEST(ImageLayout, ValidPicturesOfEveryFormatAreAccepted) {
     for (const PixelFormat format : kEveryFormat)
         EXPECT_EQ(faultOf(PaddedPicture(format, {22, 14}, 1).view()), "sound") << nameOf(format);
     EXPECT_EQ(faultOf(PaddedPicture(PixelFormat::Gray8, {3, 5}, 1).view()), "sound");
     EXPECT_EQ(faultOf(PaddedPicture(PixelFormat::Yuyv, {2, 1}, 1).view()), "sound");
 }
 
-TEST(ImageLayout, EachFaultIsNamed) {
+TEST(ImageLayout, EachFaultIsReported) {
     const PaddedPicture nv12(PixelFormat::Nv12, {22, 14}, 1), yuyv(PixelFormat::Yuyv, {22, 14}, 1);
     ImageView view = nv12.view();
     view.size = {21, 14};
@@ -88,7 +88,7 @@ TEST(ImageLayout, EachFaultIsNamed) {
     EXPECT_EQ(faultOf({}), "still: 0x0 is no size of a picture");
 }
 
-TEST(ImageLayout, LumaIsTakenWhereItLies) {
+TEST(ImageLayout, LumaPlaneIsNotCopied) {
     for (const PixelFormat format : {PixelFormat::Gray8, PixelFormat::Nv12, PixelFormat::Yuv420}) {
         const PaddedPicture picture(format, {22, 14}, 1);
         const auto luma = lumaPlane(picture.view());
@@ -102,7 +102,7 @@ TEST(ImageLayout, LumaIsTakenWhereItLies) {
         EXPECT_FALSE(lumaPlane(PaddedPicture(format, {22, 14}, 1).view()).has_value());
 }
 
-TEST(YuvToRgb, IsThePrintedOne) {
+TEST(YuvToRgb, MatrixMatchesTheStandards) {
     for (const YuvMatrix matrix : {YuvMatrix::Bt601, YuvMatrix::Bt709})
         for (const YuvRange range : {YuvRange::Limited, YuvRange::Full}) {
             const YuvToRgb rows = yuvToRgb(matrix, range);
@@ -119,7 +119,7 @@ TEST(YuvToRgb, IsThePrintedOne) {
         }
 }
 
-TEST(YuvToRgb, BlackAndWhiteOfTheRangeAreBlackAndWhite) {
+TEST(YuvToRgb, EndsOfTheLumaRangeAreBlackAndWhite) {
     const auto greyOf = [](YuvRange range, float y) {
         const auto row = yuvToRgb(YuvMatrix::Bt709, range)[1];
         return row[0] * y + (row[1] + row[2]) * 128 + row[3];

@@ -12,8 +12,8 @@ inline constexpr PixelFormat kEveryFormat[]{PixelFormat::Gray8, PixelFormat::Rgb
                                             PixelFormat::Bgra8, PixelFormat::Yuyv,
                                             PixelFormat::Nv12,  PixelFormat::Yuv420};
 
-/// A picture of random bytes as a driver may lay it out: every plane in memory of its own, rows
-/// with padding, which differs between the planes.
+/// A picture of random bytes, laid out as a driver may do it: every plane has its own memory and
+/// padded rows, and the padding differs between planes.
 class PaddedPicture {
 public:
     PaddedPicture(PixelFormat format, Size size, unsigned seed, std::size_t padding = 8) {

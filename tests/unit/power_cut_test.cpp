@@ -1,6 +1,6 @@
-// A recording can be read back after a power cut at any moment. The recorder's system calls are
-// logged (the linker's --wrap). Data written before the last synchronisation is on the disk; any
-// part of the later data may be.
+// A recording must be readable after a power cut at any moment. The recorder's system calls are
+// logged (the linker's --wrap). Data that was written before the last synchronisation is on the
+// disk. Of later data, any part may be.
 #include "base/whole_file.h"
 #include "hal/virtual/image_files.h"
 #include "hal/virtual/recorder.h"
@@ -33,13 +33,13 @@ struct Written {
 struct Renamed {
     std::string from, to;
 };
-struct Synced {};  ///< the whole file system
+struct Synced {};  ///< synchronises the whole file system
 struct SyncedFile {
     std::string file;
 };
 using Operation = std::variant<Written, Renamed, Synced, SyncedFile>;
 
-/// Log of the operations on files below a folder, in order.
+/// Log of the operations on files below a folder, in their order.
 class Journal {
 public:
     void begin(const fs::path& folder) {
@@ -57,7 +57,8 @@ public:
         files_.erase(fd);
         if (fd >= 0 && isOurs(file)) files_[fd] = file;
     }
-    /// Called with the operation's own lock held, so that the log has the operations' order.
+    /// Called while the operation's own lock is held, so that the log has the order of the
+    /// operations.
     template <class Call>
     auto note(const Call& call) {
         const std::lock_guard lock(mutex_);
@@ -151,7 +152,7 @@ StereoRig smallRig() {
     return rig;
 }
 
-/// 12 pictures, 4 stills and 12 poses, synchronised as often as the writer has time to.
+/// Records 12 pictures, 4 stills and 12 poses. The writer synchronises as often as it has time to.
 std::vector<Operation> record(const fs::path& folder) {
     journal().begin(folder);
     Recorder recorder(folder, smallRig(), 30, {.syncEvery = {}});
@@ -163,7 +164,7 @@ std::vector<Operation> record(const fs::path& folder) {
         }
         EXPECT_TRUE(recorder.pose({{1000 * i}, smallRig().T_still_video}));
         if (i == 6) recorder.addFile("tags.toml", "family = \"tag36h11\"\n");
-        // Ensures some synchronisations on a slow machine, too.
+        // Makes sure that there are some synchronisations, even on a slow machine.
         if (i % 4 == 1) recorder.finish();
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
@@ -171,8 +172,8 @@ std::vector<Operation> record(const fs::path& folder) {
     return journal().end();
 }
 
-/// A possible state on disk of a file that was growing from `safe` to `now`: with a part of the new
-/// bytes, or with the new length but without the bytes.
+/// A possible state on disk of a file that was growing from `safe` to `now`: either with a part of
+/// the new bytes, or with the new length but without the bytes.
 std::string part(const std::string& safe, const std::string& now, std::mt19937& random) {
     if (!now.starts_with(safe)) return random() % 2 == 0 ? safe : now;
     const std::size_t more = random() % (now.size() - safe.size() + 1);
@@ -181,10 +182,10 @@ std::string part(const std::string& safe, const std::string& now, std::mt19937& 
     return out;
 }
 
-/// A possible state of the disk after this number of operations and a power cut.
+/// A possible state of the disk if the power is cut after this number of operations.
 Files afterCut(const std::vector<Operation>& operations, std::size_t count, std::mt19937& random) {
     Files safe, now;
-    std::set<std::string> safeBytes;  // whose bytes are on the disk, under whatever name
+    std::set<std::string> safeBytes;  // content that is on the disk, whatever the file's name
     for (std::size_t i = 0; i < count; ++i) {
         const Operation& operation = operations[i];
         if (const auto* written = std::get_if<Written>(&operation)) {
@@ -204,7 +205,7 @@ Files afterCut(const std::vector<Operation>& operations, std::size_t count, std:
     for (const auto& [file, bytes] : now) {
         const auto before = safe.find(file);
         if (before != safe.end() && before->second == bytes) continue;
-        if (before == safe.end() && random() % 2 == 0) continue;  // not even its name
+        if (before == safe.end() && random() % 2 == 0) continue;  // not even its name was written
         disk[file] = safeBytes.contains(file)
                          ? bytes
                          : part(before == safe.end() ? "" : before->second, bytes, random);
@@ -225,7 +226,7 @@ std::size_t safeRows(const std::vector<Operation>& operations, std::size_t count
     return safe > 0 ? safe - 1 : 0;  // without the heading
 }
 
-/// Synchronisations after each addition to a list, until the next addition or the end.
+/// Number of synchronisations after each addition to a list, up to the next addition or the end.
 std::vector<int> syncsAfterRows(const std::vector<Operation>& operations, const std::string& list) {
     std::vector<int> out;
     for (const Operation& operation : operations) {
@@ -248,7 +249,7 @@ void expectWhole(const std::vector<RecordedImage>& images, Size size) {
 
 class PowerCut : public testing::Test {
 protected:
-    /// Reads the recording that is left; nothing if not even one picture was safe.
+    /// Reads the recording that is left after a cut. Empty if not even one picture was safe.
     std::optional<Recording> leftAfter(std::size_t count) {
         fs::remove_all(cut_.path() / "run");
         for (const char* folder : {"cam0/data", "cam1/data"})
@@ -260,7 +261,8 @@ protected:
         return loadRecording(cut_.path() / "run");
     }
 
-    // In memory if there is such a file system: the folders are created a thousand times.
+    // Uses a file system in memory if there is one, because the folders are created a thousand
+    // times.
     const int inMemory_ = fs::is_directory("/dev/shm") ? setenv("TMPDIR", "/dev/shm", 1) : 0;
     test::TempFolder whole_, cut_;
     const std::vector<Operation> operations_ = record(whole_.path());
@@ -284,13 +286,13 @@ TEST_F(PowerCut, SynchronisedDataReadsBackAfterACutAtAnyMoment) {
         expectWhole(left->stills, test::kSmallStill);
         if (HasFailure()) return;
     }
-    EXPECT_GT(read, 300);  // most cuts come late enough
+    EXPECT_GT(read, 300);  // most cuts are late enough for a recording
 }
 
-TEST_F(PowerCut, RowsAreSafeBeforeTheNextPicturesAre) {
+TEST_F(PowerCut, RowsAreSynchronisedBeforeTheNextPictures) {
     std::vector<int> syncs = syncsAfterRows(operations_, (whole_ / "cam0/data.csv").string());
     ASSERT_GT(syncs.size(), 2U);
-    ++syncs.back();  // counts as a further one: no pictures follow
+    ++syncs.back();  // the end counts as a synchronisation: no pictures follow
     EXPECT_THAT(syncs, testing::Each(testing::Ge(2)));
 }
 

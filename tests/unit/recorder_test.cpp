@@ -94,7 +94,8 @@ TEST(Recorder, PicturesOfEveryFormatAreRecordedAsTheyLook) {
             for (int x = 0; x < view.size.width; ++x) {
                 const auto rgb = twin::rgbAt(view, x, y);
                 const std::uint8_t* p = &read.pixels[4UL * (y * view.size.width + x)];
-                // Interpolated chroma is rounded to 8 bits before it becomes colour.
+                // Tolerance: interpolated chroma is rounded to 8 bits before it is converted to
+                // colour.
                 for (std::size_t c = 0; c < 3; ++c)
                     ASSERT_NEAR(p[c], rgb[c], 1.7) << nameOf(view.format) << " " << x << "," << y;
             }
@@ -131,7 +132,7 @@ TEST(Recorder, PaddedRowsAreRecordedWithoutThePadding) {
             ASSERT_EQ(read.pixels[(y * width + x) * 4], y);
 }
 
-/// Numbers of this process's threads.
+/// Ids of the threads of this process.
 std::set<fs::path> threads() {
     std::set<fs::path> out;
     for (const auto& entry : fs::directory_iterator("/proc/self/task"))
@@ -143,7 +144,8 @@ TEST(Recorder, ALockedDiskDropsAndCountsPicturesButNeverHoldsTheCaller) {
     const TempFolder folder;
     const std::set<fs::path> before = threads();
     Recorder recorder(folder.path(), smallRig(), 30, {.videoBuffers = 4, .poses = 3});
-    // A pipe without a reader replaces the thread's first file: open() blocks, as on a dead disk.
+    // A pipe without a reader replaces the thread's first file. So open() blocks, as on a dead
+    // disk.
     std::vector<fs::path> pipes;
     for (const fs::path& thread : threads())
         if (!before.contains(thread)) {
@@ -201,7 +203,7 @@ TEST(Recorder, APictureIsListedOnlyWhenItsFileIsComplete) {
     EXPECT_EQ(test::readFile(folder / "cam0/data.csv"), "#timestamp [ns],filename\n1,1.png\n");
 }
 
-TEST(Recorder, TakesNothingThatWouldMakeTheRecordingInvalid) {
+TEST(Recorder, PicturesThatWouldMakeTheRecordingInvalidAreRefused) {
     const TempFolder folder;
     Recorder recorder(folder.path(), smallRig(), 30);
     const StoredImage picture = plain(test::kSmallVideo, 1);
@@ -219,7 +221,7 @@ TEST(Recorder, TakesNothingThatWouldMakeTheRecordingInvalid) {
     EXPECT_EQ(loadRecording(folder.path()).video.size(), 1U);
 }
 
-TEST(Recorder, RefusesAFolderThatHoldsAnything) {
+TEST(Recorder, ANonEmptyFolderIsRefused) {
     const TempFolder folder;
     test::writeFile(folder / "precious", "x");
     EXPECT_THROW(Recorder(folder.path(), smallRig(), 30), std::runtime_error);

@@ -15,7 +15,8 @@ using test::writeSmallRecording;
 
 constexpr std::int64_t kMs = 1'000'000;
 
-/// Frames that one thread gets by asking both cameras in turn: "V" or "S", time in ms, level.
+/// The frames that one thread gets if it asks both cameras in turn: "V" or "S", the time in ms, the
+/// level.
 std::string played(RecordingPlayer& player, std::size_t limit = 1000) {
     std::string seen;
     for (std::size_t n = 0; n < limit && !(player.video().ended() && player.stills().ended());) {
@@ -59,7 +60,7 @@ TEST(RecordingPlayer, ConsumerPaceHoldsAStillBackUntilTheVideoHasCome) {
     EXPECT_FALSE(player.video().ended());
 }
 
-TEST(RecordingPlayer, ConsumerPaceGivesStillsUpToTheVideoThatWasAskedFirst) {
+TEST(RecordingPlayer, ConsumerPaceGivesStillsUpToTheRequestedVideoFirst) {
     const TempFolder folder;
     writeSmallRecording(folder.path(), {0, 33 * kMs, 66 * kMs},
                         {5 * kMs, 33 * kMs, 40 * kMs, 90 * kMs});
@@ -123,7 +124,7 @@ TEST(RecordingPlayer, RealtimeTimesOutBeforeThePictureIsDue) {
     EXPECT_FALSE(player.video().ended());
 }
 
-TEST(RecordingPlayer, RealtimeLeavesOutLatePicturesAndCountsThem) {
+TEST(RecordingPlayer, RealtimeSkipsLatePicturesAndCountsThem) {
     const TempFolder folder;
     std::vector<std::int64_t> times;
     for (int i = 0; i < 20; ++i)
@@ -204,7 +205,7 @@ TEST(RecordingPlayer, FramesOutliveThePlayer) {
     EXPECT_EQ(frame->view().data[0], 10);
 }
 
-TEST(RecordingPlayer, TriggerCountsAndDoesNothingElse) {
+TEST(RecordingPlayer, TriggerOnlyCountsPulses) {
     const TempFolder folder;
     writeSmallRecording(folder.path(), {0, 33 * kMs}, {});
     RecordingPlayer player(loadRecording(folder.path()), {.pace = Pace::Consumer});

@@ -27,7 +27,7 @@ std::string faultOf(const fs::path& root) {
     return "no fault found";
 }
 
-/// One way to break a valid recording, and the required beginning and content of the message.
+/// One change that breaks a valid recording, and the required beginning and content of the message.
 struct Fault {
     const char* name;
     std::function<void(const fs::path& root)> inflict;
@@ -182,7 +182,7 @@ const Fault kFaults[] = {
      "cam0/data.csv: ", "has a line of more than 4096 characters"},
 };
 
-// One test for all: a process for each fault would take a minute.
+// One test covers all faults, because a process for each would take a minute.
 TEST(Recording, EveryFaultIsRefusedWithFileAndLine) {
     for (const Fault& fault : kFaults) {
         SCOPED_TRACE(fault.name);
@@ -201,7 +201,7 @@ TEST(Recording, MissingFolderIsNamed) {
     EXPECT_EQ(faultOf("/nonexistent/recording"), "/nonexistent/recording: folder is missing");
 }
 
-TEST(Recording, HasTheContentOfItsFiles) {
+TEST(Recording, RecordingHasTheContentOfItsFiles) {
     const TempFolder folder;
     test::writeSmallRecording(folder.path());
     const Recording r = loadRecording(folder.path());
@@ -230,7 +230,8 @@ TEST(Recording, StillSensorToTheRightSeesThePointFurtherLeft) {
 TEST(Recording, PosesDescribeTheVideoCameraNotTheBody) {
     const TempFolder folder;
     test::writeSmallRecording(folder.path());
-    // Quarter turn about z and an offset: the video camera's frame is no longer the body's.
+    // A quarter turn about z and an offset, so that the frame of the video camera is not that of
+    // the body.
     replaceInFile(folder / kVideoYaml, "[1.0, 0.0, 0.0, 0,", "[0.0, -1.0, 0.0, 0.5,");
     replaceInFile(folder / kVideoYaml, "0.0, 1.0, 0.0, 0.0,", "1.0, 0.0, 0.0, 0.0,");
     const Recording r = loadRecording(folder.path());
@@ -290,7 +291,7 @@ TEST(Recording, StillsAndPosesMayBeAbsent) {
     EXPECT_FALSE(r.poseAt(r.video.front().time).has_value());
 }
 
-TEST(Recording, TruthIsFoundWhereItIs) {
+TEST(Recording, TruthFilesAreFound) {
     const TempFolder folder;
     test::writeSmallRecording(folder.path());
     writeFile(folder / "truth/flow/1000000000_1500000000.flo", "x");

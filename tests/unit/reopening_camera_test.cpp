@@ -13,7 +13,8 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// A device that can be plugged and unplugged; may outlive its cameras and be used by any thread.
+/// A device that can be plugged and unplugged. It may outlive its cameras, and any thread may use
+/// it.
 struct Socket {
     std::atomic<bool> plugged{true};
     std::atomic<bool> sends{true};
@@ -86,7 +87,7 @@ ReopeningCamera cameraOn(Socket& socket, const ReopeningOptions& options = quick
             options};
 }
 
-/// Asks for frames until `done`; false after five seconds.
+/// Asks for frames until `done` returns true. Returns false after five seconds.
 bool drivenUntil(ReopeningCamera& camera, const std::function<bool(bool frame)>& done) {
     const Timestamp end = Timestamp::now() + std::chrono::seconds(5);
     while (Timestamp::now() < end)
@@ -156,7 +157,7 @@ TEST(ReopeningCamera, ASilentCameraIsReopenedLaterWhileTheLibraryIsBusy) {
     EXPECT_TRUE(drivenUntil(camera, [&](bool) { return camera.losses() > 0; }));
 }
 
-TEST(ReopeningCamera, ADeviceThatIsSlowToCloseHoldsNobodyUp) {
+TEST(ReopeningCamera, ASlowlyClosingDeviceDelaysNobody) {
     Socket socket;
     ReopeningCamera camera = cameraOn(socket);
     camera.start();
@@ -174,10 +175,10 @@ TEST(ReopeningCamera, ADeviceThatIsSlowToCloseHoldsNobodyUp) {
     EXPECT_TRUE(drivenUntil(camera, [](bool frame) { return frame; }));
 }
 
-TEST(ReopeningCamera, OneWhoseDriverHangsIsNamedAndStopDoesNotWaitForIt) {
+TEST(ReopeningCamera, AHangingDriverIsReportedAndStopDoesNotWaitForIt) {
     Socket socket;
     ReopeningOptions options = quick();
-    options.silent = milliseconds(0);  // on trigger, so that silence alone says nothing
+    options.silent = milliseconds(0);  // a triggered camera: silence alone is not a fault
     ReopeningCamera camera = cameraOn(socket, options);
     camera.start();
     ASSERT_TRUE(drivenUntil(camera, [](bool frame) { return frame; }));
@@ -206,7 +207,8 @@ TEST(ReopeningCamera, OneWhoseDriverHangsIsNamedAndStopDoesNotWaitForIt) {
     socket.answers = true;
 }
 
-/// The watchdog's finding about a camera's opener after a time; its budget is 10 s.
+/// What the watchdog finds out about a camera's opening thread after some time. The thread's budget
+/// is 10 s.
 struct WatchedOpener {
     [[nodiscard]] std::vector<std::string> lateAfter(std::chrono::seconds time) {
         passed = passed.load() + time.count();
@@ -310,7 +312,7 @@ TEST(ReopeningCamera, ACameraLostBeforeItsFirstFrameIsReopenedSlowly) {
     EXPECT_EQ(camera.fault(), "video camera: it has gone");
 }
 
-TEST(ReopeningCamera, OneOnTriggerMayBeSilent) {
+TEST(ReopeningCamera, ATriggeredCameraMayBeSilent) {
     Socket socket;
     socket.sends = false;
     ReopeningOptions options = quick();
@@ -326,7 +328,7 @@ TEST(ReopeningCamera, OneOnTriggerMayBeSilent) {
     EXPECT_EQ(socket.opened, 1);
 }
 
-TEST(ReopeningCamera, AnotherSizeCountsAsNotThere) {
+TEST(ReopeningCamera, ACameraOfAnotherSizeCountsAsMissing) {
     Socket socket;
     socket.size = {2, 2};
     ReopeningCamera camera = cameraOn(socket);

@@ -13,11 +13,11 @@
 namespace mfar::test {
 
 struct Outcome {
-    int status = -1;   ///< exit status, -1 when a signal ended it
+    int status = -1;   ///< exit status; -1: a signal ended it
     std::string text;  ///< standard output and error
 };
 
-/// Runs a command of the shell; what it prints goes through log.txt in `folder`.
+/// Runs a shell command. Its output is kept in log.txt in `folder`.
 inline Outcome execute(const TempFolder& folder, const std::string& command) {
     const std::filesystem::path log = folder / "log.txt";
     const int raw = std::system(fmt::format("{} >'{}' 2>&1", command, log.string()).c_str());

@@ -6,7 +6,7 @@
 
 namespace mfar::test {
 
-/// Every number is the same to the bit.
+/// Expects every number to be equal to the bit.
 inline void expectSame(const CameraModel& a, const CameraModel& b) {
     EXPECT_EQ(a.size, b.size);
     EXPECT_EQ(a.fx, b.fx);

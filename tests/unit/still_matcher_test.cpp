@@ -55,12 +55,13 @@ TEST(StillMatcher, StillWithoutAPulseIsNeverUsed) {
     EXPECT_EQ(matcher.counters().matched, 1U);
 }
 
-TEST(StillMatcher, ConstantIsTheMedianOfTheFirstTwenty) {
+TEST(StillMatcher, LatencyIsTheMedianOfTheFirstTwentyStills) {
     StillMatcherOptions options;
     options.guess = 20ms;
     StillMatcher matcher(options);
     EXPECT_EQ(matcher.constant(), nanoseconds(20ms));
-    // 30 ms + 0.00 .. 0.19 ms in mixed order, but one still is 60 ms off.
+    // The latencies are 30 ms + 0.00 to 0.19 ms in mixed order, except one still that is 60 ms
+    // later.
     for (int i = 0; i < 20; ++i) {
         EXPECT_FALSE(matcher.learned()) << i;
         const Timestamp pulse = kStart + i * 1s;
@@ -69,7 +70,7 @@ TEST(StillMatcher, ConstantIsTheMedianOfTheFirstTwenty) {
         EXPECT_TRUE(matcher.stillArrived(pulse + off)) << i;
     }
     EXPECT_TRUE(matcher.learned());
-    // Without the 0.08 of pulse 4: the middle two of the twenty are 0.10 and 0.11.
+    // Without the 0.08 of pulse 4, the middle two of the twenty are 0.10 and 0.11.
     EXPECT_EQ(matcher.constant(), nanoseconds(30ms + 105us));
     matcher.pulseFired(kStart + 100s);
     EXPECT_FALSE(matcher.stillArrived(kStart + 100s + 31106us)) << "1 ms now";
@@ -159,7 +160,7 @@ TEST(StillMatcher, LateStillIsMatchedAndSparesItsRepetition) {
     EXPECT_EQ(matcher.counters().lost, 1U);
 }
 
-TEST(StillMatcher, SteppedClockIsLearnedAgain) {
+TEST(StillMatcher, LatencyIsLearnedAgainAfterAClockStep) {
     for (const milliseconds step : {-40ms, 7ms, 80ms}) {
         StillMatcher matcher({});
         Timestamp pulse = kStart;
@@ -182,7 +183,7 @@ TEST(StillMatcher, SteppedClockIsLearnedAgain) {
     }
 }
 
-TEST(StillMatcher, MissesThatDisagreeAreNoStep) {
+TEST(StillMatcher, InconsistentMissesAreNotAClockStep) {
     StillMatcherOptions wide = fast();
     wide.wideWindow = 100ms;
     StillMatcher scattered(wide);
@@ -229,7 +230,7 @@ TEST(StillMatcher, ManyPulsesWithoutStillsAreAllLost) {
     EXPECT_EQ(matcher.counters().lost, 1000U);
 }
 
-/// A camera and a trigger with every fault, and the true pulse of each still.
+/// A camera and a trigger with every fault. Knows the true pulse of each still.
 class Chaos {
 public:
     explicit Chaos(unsigned seed) : random_(seed) {
@@ -252,7 +253,7 @@ private:
     struct Still {
         Timestamp arrival;
         Timestamp exposed;
-        std::optional<Timestamp> pulse;  ///< empty: a still without a pulse
+        std::optional<Timestamp> pulse;  ///< empty: the still has no pulse
     };
 
     std::int64_t pick(std::int64_t from, std::int64_t to) {
@@ -280,7 +281,8 @@ private:
         expose(now_, clean);
     }
 
-    /// Delivers everything that arrives until then, and checks for lost pulses in between.
+    /// Delivers everything that arrives until then, and checks for lost pulses between the
+    /// deliveries.
     void deliver(StillMatcher& matcher, Timestamp until) {
         const Timestamp end = until;
         for (Timestamp t = lastPoll_ + 5ms; t <= end; t = t + 5ms) {
@@ -292,7 +294,7 @@ private:
             }
             const StillMatcher::Due due = matcher.poll(t);
             lost_ += due.lost;
-            // Closer pulses are not tested here.
+            // Pulses that are closer to each other are not tested here.
             if (due.repeat && t - now_ > 60ms && end - t > 60ms) {
                 now_ = t;
                 fire(matcher, Pulse::Repetition, false);
@@ -309,7 +311,7 @@ private:
             return;
         }
         EXPECT_TRUE(given_.insert(match->pulse.ns).second) << "a pulse got two stills";
-        // A copy of a still stands for the still itself.
+        // A copy of a still counts as the still.
         const std::int64_t off = (still.exposed - match->pulse).count() - constant_.count();
         EXPECT_LE(std::abs(off), 450'000) << "a stray was used";
         EXPECT_EQ(match->pulse, still.pulse.value_or(match->pulse)) << "swapped";
@@ -343,7 +345,7 @@ private:
     std::uint64_t arrived_ = 0;
 };
 
-TEST(StillMatcher, NoFaultSwapsStillsOrLosesTheCount) {
+TEST(StillMatcher, NoFaultSwapsStillsOrLosesCountOfPulses) {
     for (unsigned seed = 0; seed < 200; ++seed) {
         SCOPED_TRACE(seed);
         Chaos(seed).run();

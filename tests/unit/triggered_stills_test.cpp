@@ -17,20 +17,20 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 using namespace std::chrono_literals;
 
-/// A sensor and its trigger line; the test decides which pulses expose a still.
+/// A sensor and its trigger line. The test decides which pulses expose a still.
 struct Sensor {
     std::mutex mutex;
     std::condition_variable changed;
     std::deque<Frame> ready;
     std::vector<Timestamp> pulses;
     int loans = 0;
-    int busy = 0;   ///< number of pulses to refuse
-    int blind = 0;  ///< number of pulses that expose nothing
+    int busy = 0;   ///< this number of pulses will be refused
+    int blind = 0;  ///< this number of pulses will not expose a still
     bool stopped = false;
-    int rests = 0;      ///< number of requests to deactivate the line
+    int rests = 0;      ///< number of requests to set the line inactive
     bool high = false;  ///< level of the line after a pulse
     nanoseconds exposure{0};
-    nanoseconds delay{300us};  ///< from edge to the start of exposure
+    nanoseconds delay{300us};  ///< from the edge to the start of the exposure
 
     void expose(Timestamp start) {
         ++loans;
@@ -112,7 +112,7 @@ struct TriggeredStills : testing::Test {
     Sensor sensor;
 };
 
-TEST_F(TriggeredStills, IsTheCameraWithoutARate) {
+TEST_F(TriggeredStills, ReportsTheCamerasInfoWithoutARate) {
     const auto camera = open();
     EXPECT_EQ(camera->info().name, "fake");
     EXPECT_EQ(camera->info().size, (Size{2304, 1728}));
@@ -146,7 +146,7 @@ TEST_F(TriggeredStills, PulseGivesTheExposureIfTheCameraDoesNotReportIt) {
     EXPECT_EQ(still->time(), edge + 300us + 3ms);
 }
 
-TEST_F(TriggeredStills, TheLineIsAskedToRestBeforeAnyPulse) {
+TEST_F(TriggeredStills, TheLineIsSetInactiveBeforeAnyPulse) {
     const auto camera = open();
     EXPECT_GE(sensor.rests, 1);
     const int before = sensor.rests;
@@ -155,7 +155,7 @@ TEST_F(TriggeredStills, TheLineIsAskedToRestBeforeAnyPulse) {
     EXPECT_TRUE(sensor.pulses.empty());
 }
 
-TEST_F(TriggeredStills, StrayStillsGoBackToTheCamera) {
+TEST_F(TriggeredStills, StillsWithoutAPulseAreReturnedToTheCamera) {
     const auto camera = open();
     {
         std::lock_guard lock(sensor.mutex);

@@ -27,9 +27,9 @@ std::size_t grownSince(std::size_t before) {
     return now > before ? now - before : 0;
 }
 
-TEST(ZeroedArray, IsZeroAndAlignedAtEverySize) {
+TEST(ZeroedArray, ContentIsZeroAndAlignedAtEverySize) {
     for (const std::size_t size : {0, 1, 63, 64, 65, 4095, 1 << 20}) {
-        // A block that was used before and is used again.
+        // Fills a block, which is freed and used again below.
         std::fill_n(ZeroedArray<std::uint8_t>(size).data(), size, std::uint8_t{0xA5});
         ZeroedArray<std::uint8_t> array(size);
         ASSERT_EQ(array.size(), size);
@@ -39,7 +39,7 @@ TEST(ZeroedArray, IsZeroAndAlignedAtEverySize) {
     }
 }
 
-TEST(ZeroedArray, MovesItsMemory) {
+TEST(ZeroedArray, MovingKeepsTheMemory) {
     ZeroedArray<int> a(10);
     a.data()[9] = 5;
     const int* const memory = a.data();
@@ -52,7 +52,7 @@ TEST(ZeroedArray, MovesItsMemory) {
     EXPECT_EQ(c.data()[9], 5);
 }
 
-TEST(ZeroedArray, TakesMemoryWhereItIsUsed) {
+TEST(ZeroedArray, OnlyUsedPartsTakeMemory) {
     const std::size_t before = residentBytes();
     ASSERT_GT(before, 0U);
     ZeroedArray<std::uint8_t> array(kMany);
@@ -61,14 +61,14 @@ TEST(ZeroedArray, TakesMemoryWhereItIsUsed) {
     EXPECT_GT(grownSince(before), kMany / 2);
 }
 
-TEST(ZeroedArray, RowsThatAreNotUsedTakeNoMemory) {
+TEST(ZeroedArray, UnusedRowsTakeNoMemory) {
     const std::size_t before = residentBytes();
     const AlignedRows<std::uint32_t> rows({4096, 4096});
     EXPECT_LT(grownSince(before), kMany / 2);
     EXPECT_EQ(rows[4095][4095], 0U);
 }
 
-TEST(ZeroedArray, BuffersOfAPoolThatAreNotLentTakeNoMemory) {
+TEST(ZeroedArray, UnlentBuffersOfAPoolTakeNoMemory) {
     const std::size_t before = residentBytes();
     FramePool pool({2048, 2048}, PixelFormat::Rgba8, 4);
     const auto slot = pool.acquire(std::chrono::milliseconds(0));

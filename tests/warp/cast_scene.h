@@ -11,7 +11,7 @@
 namespace mfar::test {
 
 /// Spheres above the plane z = 0. Their pattern is a function of the point alone, and each casts a
-/// soft disc as its shadow: any view can be computed exactly by casting rays. World frame: z up.
+/// soft disc as its shadow. So casting rays computes any view exactly. World frame: z points up.
 struct CastScene {
     struct Ball {
         Eigen::Vector3d centre;
@@ -19,23 +19,23 @@ struct CastScene {
     };
     std::vector<Ball> balls;
     bool shadows = true;
-    double contrast = 1;  ///< of the spheres' pattern
+    double contrast = 1;  ///< contrast of the pattern on the spheres
 
-    /// The same scene as triangles, with `segments` around each sphere.
+    /// The same scene as triangles, with `segments` segments around each sphere.
     [[nodiscard]] mfar::Scene scene(int segments = 192) const;
-    /// `grid`^2 rays per pixel for the colour, one through its centre for depth and id.
+    /// Casts `grid`^2 rays per pixel for its colour, and one through its centre for depth and id.
     [[nodiscard]] RenderedPicture cast(const RenderView& view, int grid = 1) const;
-    /// Only these pixels; the others are empty.
+    /// Casts rays only for these pixels; all others are empty.
     [[nodiscard]] RenderedPicture castPixels(const RenderView& view, int grid,
                                              std::span<const std::uint32_t> pixels) const;
 };
 
-/// A big ball with a small one in front, and their shadows.
+/// A large ball with a small ball in front of it, and their shadows.
 [[nodiscard]] CastScene twoBalls();
 /// An off-centre lens with some distortion.
 [[nodiscard]] CameraModel bentCamera(Size size);
-/// Pose of a camera at `degrees` around the scene's centre, looking at it from 0.6 m; `up` above
-/// the plane.
+/// Pose of a camera at `degrees` around the centre of the scene, at which it looks from 0.6 m.
+/// `up`: height above the plane.
 [[nodiscard]] RigidTransform orbit(double degrees, double distance = 0.6, double upDegrees = 30);
 
 }  // namespace mfar::test

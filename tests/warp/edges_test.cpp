@@ -10,7 +10,7 @@ using test::CastScene;
 using WarpEdgesGl = GlTest;
 
 constexpr Size kEdgeLayer{200, 150};
-constexpr int kLongEnough = 12;  // frames until everything is requested and faded in
+constexpr int kLongEnough = 12;  // number of frames until everything is requested and faded in
 
 struct Resting {
     explicit Resting(const WarpOptions& options)
@@ -23,7 +23,7 @@ struct Resting {
         return test::bytesOf(
             test::settled(warp, scene, test::orbit(degrees), 2 * kLongEnough).colour);
     }
-    /// Returns the first request for edges; answers all others.
+    /// Returns the first request for edges. Answers all other requests.
     std::optional<HoleRequest> edgesAt(double degrees) {
         for (int i = 0; i < kLongEnough; ++i) {
             warp.run(test::orbit(degrees));
@@ -49,7 +49,7 @@ TEST_F(WarpEdgesGl, EdgesAreRerenderedAtRest) {
               test::psnrInside(plain.rest(2), truth) + 3);
 }
 
-TEST_F(WarpEdgesGl, AreAskedForOncePerPoseAndAreAShareOfTheObjects) {
+TEST_F(WarpEdgesGl, EdgesAreRequestedOncePerPoseAndAreAShareOfTheObjects) {
     Resting s({.sharpenShare = 0.1});
     const auto request = s.edgesAt(2);
     ASSERT_TRUE(request);
@@ -65,7 +65,7 @@ TEST_F(WarpEdgesGl, AreAskedForOncePerPoseAndAreAShareOfTheObjects) {
     EXPECT_TRUE(s.edgesAt(3));
 }
 
-TEST_F(WarpEdgesGl, AppearOverTheirFramesAndGoWithTheFirstMotion) {
+TEST_F(WarpEdgesGl, EdgesFadeInAndVanishWithTheFirstMotion) {
     Resting s({.fadeFrames = 4});
     const auto request = s.edgesAt(2);
     ASSERT_TRUE(request);
@@ -85,7 +85,7 @@ TEST_F(WarpEdgesGl, AppearOverTheirFramesAndGoWithTheFirstMotion) {
     EXPECT_NEAR(meanAt(2), before, 10) << "what was asked for another rest is forgotten";
 }
 
-TEST_F(WarpEdgesGl, AnAnswerThatComesAfterAMotionIsLeftOut) {
+TEST_F(WarpEdgesGl, AnAnswerThatArrivesAfterAMotionIsIgnored) {
     Resting s({});
     const auto request = s.edgesAt(2);
     ASSERT_TRUE(request);
@@ -95,7 +95,7 @@ TEST_F(WarpEdgesGl, AnAnswerThatComesAfterAMotionIsLeftOut) {
     EXPECT_TRUE(s.edgesAt(3)) << "and does not keep the next ones from being asked for";
 }
 
-TEST_F(WarpEdgesGl, AreLeftAloneWhereNothingIsRendered) {
+TEST_F(WarpEdgesGl, EdgesAreNotRequestedWhereNothingIsRendered) {
     for (const HoleFilling filling : {HoleFilling::None, HoleFilling::PushPull}) {
         Resting s({.filling = filling});
         EXPECT_FALSE(s.edgesAt(2));

@@ -10,7 +10,7 @@ using WarpEngines = GlTest;
 
 constexpr Size kBoth{241, 183};
 
-/// One engine's layer at `degrees` from the reference.
+/// The layer of one engine at `degrees` from the reference.
 struct OfEngine {
     OfEngine(EngineKind kind, double degrees, const WarpOptions& options)
         : engine(test::warpEngine(kind)), warp(test::bentCamera(kBoth), kBoth, *engine, options) {
@@ -31,7 +31,7 @@ struct OfEngine {
     PixelRect bounds;
 };
 
-TEST_F(WarpEngines, ShowTheSame) {
+TEST_F(WarpEngines, BothEnginesShowTheSamePicture) {
     for (const HoleFilling filling : {HoleFilling::None, HoleFilling::PushPull})
         for (const double degrees : {0.5, 3.0, 12.0}) {
             const WarpOptions options{.filling = filling};
@@ -53,7 +53,7 @@ TEST_F(WarpEngines, ShowTheSame) {
         }
 }
 
-TEST_F(WarpEngines, ShowTheSameDepth) {
+TEST_F(WarpEngines, BothEnginesShowTheSameDepth) {
     const OfEngine gles(EngineKind::Gles, 5, {}), simd(EngineKind::Simd, 5, {});
     int apart = 0;
     for (std::size_t i = 0; i < gles.depth.size(); ++i)

@@ -39,7 +39,7 @@ TEST_F(WarpHolesGl, HolesOfTheReferenceAreRequested) {
     const RenderedPicture before = s.scene.cast({s.warp.camera(), test::orbit(0)});
     int hidden = 0, surfaces = 0;
     for (const std::uint32_t pixel : request->pixels) {
-        if (now.id[pixel] == 0) continue;  // the plane next to the shadow, which cannot be known
+        if (now.id[pixel] == 0) continue;  // the plane beside the shadow has no depth
         ++surfaces;
         const Eigen::Vector2d at(pixel % kHoleLayer.width, pixel / kHoleLayer.width);
         const Eigen::Vector3d p = now.depth[pixel] * s.warp.camera().unproject(at).homogeneous();
@@ -50,12 +50,12 @@ TEST_F(WarpHolesGl, HolesOfTheReferenceAreRequested) {
         hidden +=
             before.id[i] != now.id[pixel] || std::abs(before.depth[i] - q.z()) > 0.003 ? 1 : 0;
     }
-    // The other pixels are at a limb, where rounding decides.
+    // The other pixels are at the limb of a ball, where rounding decides.
     EXPECT_GT(surfaces, 100);
     EXPECT_GT(hidden, 0.8 * surfaces);
 }
 
-TEST_F(WarpHolesGl, OneRequestAtATimeAndAnswersCloseTheirHoles) {
+TEST_F(WarpHolesGl, OneRequestIsMadeAtATimeAndAnswersCloseTheirHoles) {
     Turned s({});
     const auto request = s.requestAt(15);
     ASSERT_TRUE(request);
@@ -77,7 +77,7 @@ TEST_F(WarpHolesGl, AnswersMoveWithTheCamera) {
     EXPECT_LT(left, request->pixels.size() / 3) << "but for what one more degree uncovers";
 }
 
-TEST_F(WarpHolesGl, AnswersAppearOverTheirFrames) {
+TEST_F(WarpHolesGl, AnswersFadeInOverSeveralFrames) {
     Turned s({.fadeFrames = 4});
     const auto request = s.requestAt(15);
     ASSERT_TRUE(request);
@@ -93,7 +93,7 @@ TEST_F(WarpHolesGl, AnswersAppearOverTheirFrames) {
     EXPECT_NEAR(mean(), last, 0.5);
 }
 
-TEST_F(WarpHolesGl, MoreHolesThanMayBeAskedForAreSpreadEvenly) {
+TEST_F(WarpHolesGl, HolesBeyondTheRequestLimitAreSampledEvenly) {
     Turned all({}), few({.mostRequested = 100});
     const auto every = all.requestAt(20), some = few.requestAt(20);
     ASSERT_TRUE(every && some);
@@ -108,7 +108,7 @@ TEST_F(WarpHolesGl, MoreHolesThanMayBeAskedForAreSpreadEvenly) {
     EXPECT_NEAR(meanRow(every->pixels), meanRow(some->pixels), 8);
 }
 
-TEST_F(WarpHolesGl, ModesThatDoNotRenderDoNotAsk) {
+TEST_F(WarpHolesGl, ModesThatDoNotRenderHolesRequestNone) {
     for (const HoleFilling filling : {HoleFilling::None, HoleFilling::PushPull}) {
         Turned s({.filling = filling});
         EXPECT_FALSE(s.requestAt(15));
@@ -116,8 +116,8 @@ TEST_F(WarpHolesGl, ModesThatDoNotRenderDoNotAsk) {
     }
 }
 
-// The small ball is occluded by the big one; when a little of it appears, it must be opaque at
-// once.
+// The large ball occludes the small one. When a little of the small ball appears, it must be opaque
+// at once.
 TEST_F(WarpHolesGl, AppearingObjectsAreFilledAtOnce) {
     const CastScene scene = test::twoBalls();
     const auto engine = test::warpEngine();
@@ -139,7 +139,7 @@ TEST_F(WarpHolesGl, AppearingObjectsAreFilledAtOnce) {
     EXPECT_GT(uncovered, 20);
 }
 
-TEST_F(WarpHolesGl, FaultyAnswersAreRefusedAndThoseOfAnotherSceneLeftOut) {
+TEST_F(WarpHolesGl, FaultyAnswersAreRefusedAndAnswersOfAnotherSceneIgnored) {
     Turned s({});
     const auto request = s.requestAt(15);
     ASSERT_TRUE(request);

@@ -9,7 +9,7 @@
 namespace mfar {
 namespace {
 
-/// 5x4 pixels: object 1 in the left three columns, in front of the catcher.
+/// A picture of 5x4 pixels. Object 1 covers the left three columns, in front of the catcher.
 RenderedPicture smallPicture() {
     RenderedPicture p;
     p.camera = {{5, 4}, 5, 5, 2, 1.5, {}};
@@ -24,7 +24,7 @@ RenderedPicture smallPicture() {
     return p;
 }
 
-TEST(WarpReference, EdgesTakeTheColourFromWithin) {
+TEST(WarpReference, EdgesTakeTheColourOfTheirObject) {
     const WarpReference r = warpReference(smallPicture());
     for (std::size_t i = 0; i < 20; ++i) {
         const std::array<std::uint8_t, 4> object{200, 100, 0, 255}, shadow{0, 0, 0, 60};
@@ -34,7 +34,7 @@ TEST(WarpReference, EdgesTakeTheColourFromWithin) {
     EXPECT_EQ(r.picture, smallPicture().colour);
 }
 
-TEST(WarpReference, ShadowsAreShownLiftedAndMovedAsTheyAre) {
+TEST(WarpReference, ShadowsAreShownLiftedAndMovedUnlifted) {
     const RenderedPicture p = smallPicture();
     const WarpReference r = warpReference(p);
     for (std::size_t i = 0; i < 20; ++i) {
@@ -45,7 +45,7 @@ TEST(WarpReference, ShadowsAreShownLiftedAndMovedAsTheyAre) {
     EXPECT_EQ(r.tiles.at(0).farthest, 0.8F);
 }
 
-TEST(WarpReference, InvalidDepthIsEmpty) {
+TEST(WarpReference, PixelsWithInvalidDepthAreEmpty) {
     RenderedPicture p = smallPicture();
     p.depth[0] = std::numeric_limits<float>::quiet_NaN();
     p.depth[1] = std::numeric_limits<float>::infinity();
@@ -60,7 +60,7 @@ TEST(WarpReference, InvalidDepthIsEmpty) {
     }
 }
 
-TEST(WarpReference, UnsoundPicturesAreRefused) {
+TEST(WarpReference, InvalidPicturesAreRefused) {
     const auto refused = [](auto&& spoil) {
         RenderedPicture p = smallPicture();
         spoil(p);
@@ -78,7 +78,7 @@ TEST(WarpReference, UnsoundPicturesAreRefused) {
     refused([&](RenderedPicture& p) { p.T_world_camera.translation.x() = kNan; });
 }
 
-TEST(WarpReference, MotionBoundsWhereItsPointsGo) {
+TEST(WarpReference, MotionBoundsContainEveryMovedPoint) {
     const test::CastScene scene = test::twoBalls();
     const RenderView view{test::bentCamera({160, 120}), test::orbit(0)};
     const RenderedPicture picture = scene.cast(view);

@@ -18,7 +18,7 @@ CameraModel seeing() {
     return {kSeen, 50, 50, 29.5, 19.5, {}};
 }
 
-/// A square of 0.4 m about (x, 0, 1) that faces a camera at the origin.
+/// A square of 0.4 m about (x, 0, 1). It faces a camera at the origin.
 SceneObject squareAt(double x, const Material& material) {
     auto model = std::make_shared<Model>();
     Mesh mesh;
@@ -35,7 +35,7 @@ SceneObject turnedRound(SceneObject object) {
     return object;
 }
 
-/// Number of the surface's pixels that show each object.
+/// For each object, the number of the surface's pixels that show it.
 std::array<int, 256> pixelsOfEach(const gpu::Texture& surface) {
     const Size size = surface.size();
     std::vector<std::array<std::uint32_t, 4>> texels(static_cast<std::size_t>(size.width) *
@@ -62,7 +62,7 @@ std::array<int, 256> seen(std::vector<SceneObject> objects) {
     return seen(silhouette);
 }
 
-constexpr int kSquare = 4 * 20 * 20;  // pixels, at twice the resolution
+constexpr int kSquare = 4 * 20 * 20;  // pixels of the square, at twice the resolution
 
 TEST_F(SilhouetteGl, BackFacesAreVisibleOnlyIfTwoSided) {
     Material twoSided;
@@ -82,7 +82,7 @@ TEST_F(SilhouetteGl, TransparentAlphaFactorsMakeHoles) {
     EXPECT_NEAR(seen({squareAt(0, solid)})[1], kSquare, 200);
 }
 
-TEST_F(SilhouetteGl, AnotherSceneOfTheSameModelsShowsThemWhereTheyAreNow) {
+TEST_F(SilhouetteGl, AnotherSceneOfTheSameModelsShowsThemAtTheirNewPlaces) {
     const SceneObject left = squareAt(-0.25, {}), right = squareAt(0.25, {});
     ModelSilhouette silhouette(seeing());
     Scene scene;

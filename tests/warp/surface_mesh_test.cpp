@@ -40,7 +40,7 @@ TEST(SurfaceMesh, LongEdgesAreCutAtTheSamePointsOnBothSides) {
             if (to < from) std::swap(from, to);
             ++edges[{from, to}];
         }
-    // Inner edges belong to two triangles, the others to the outline: its length shows whether an
+    // Length of the outline. Inner edges belong to two triangles; so a longer outline shows that an
     // edge is torn.
     double outline = 0;
     for (const auto& [edge, triangles] : edges) {
@@ -54,7 +54,7 @@ TEST(SurfaceMesh, LongEdgesAreCutAtTheSamePointsOnBothSides) {
     EXPECT_NEAR(outline, wanted, 1e-4);
 }
 
-TEST(SurfaceMesh, FaultyTrianglesAreLeftOutAndTheNumberIsBounded) {
+TEST(SurfaceMesh, FaultyTrianglesAreSkippedAndTheirNumberIsBounded) {
     constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
     const std::vector<Vector3f> corners{{0, 0, 0}, {100, 0, 0}, {0, 100, 0}, {kNan, 0, 0}};
     const SurfaceMesh mesh = surfaceMesh(
@@ -67,7 +67,7 @@ TEST(SurfaceMesh, FaultyTrianglesAreLeftOutAndTheNumberIsBounded) {
     EXPECT_TRUE(surfaceMesh({}, {}, {}, 1).triangles.empty());
 }
 
-TEST(SurfaceMesh, SimplifiedStaysCloseToASmoothSurface) {
+TEST(SurfaceMesh, SimplifiedMeshStaysCloseToASmoothSurface) {
     std::vector<Vector3f> corners;
     std::vector<std::array<std::uint32_t, 3>> triangles;
     constexpr std::uint32_t kSide = 200;
@@ -91,8 +91,8 @@ TEST(SurfaceMesh, SimplifiedStaysCloseToASmoothSurface) {
     EXPECT_EQ(simplified(whole, 80000).triangles.size(), whole.triangles.size());
 }
 
-// A pipe around which u runs from 0 to 1.
-TEST(SurfaceMesh, SimplifiedKeepsBothSidesOfASeamApart) {
+// A pipe. Around it, u runs from 0 to 1.
+TEST(SurfaceMesh, SimplifiedMeshKeepsBothSidesOfASeamApart) {
     std::vector<Vector3f> corners;
     std::vector<Eigen::Vector2f> uvs;
     std::vector<std::array<std::uint32_t, 3>> triangles;

@@ -19,7 +19,7 @@ namespace mfar::simd {
 namespace {
 
 constexpr Size kPainted{60, 40};
-constexpr int kRays = 8;  // per pixel in each direction
+constexpr int kRays = 8;  // rays per pixel in each direction
 
 CameraModel paintCamera() {
     return {kPainted, 50, 50, 29.5, 19.5, {}};
@@ -35,7 +35,7 @@ SurfaceTexture noise(Size size, unsigned seed, bool srgb = true) {
     return out;
 }
 
-/// A square of 0.4 m about the origin that faces -z; `uvScale` periods of the texture.
+/// A square of 0.4 m about the origin that faces -z. It shows `uvScale` periods of the texture.
 Mesh square(float uvScale = 1) {
     Mesh mesh;
     mesh.positions = {{-0.2F, -0.2F, 0}, {-0.2F, 0.2F, 0}, {0.2F, 0.2F, 0}, {0.2F, -0.2F, 0}};
@@ -106,7 +106,7 @@ Words paintOf(const Scene& scene, int threads = 1) {
     return paintOf(raster);
 }
 
-/// Diffuse colour, then reflectance along the normal.
+/// Diffuse colour, followed by the reflectance along the normal.
 using Six = Eigen::Matrix<double, 6, 1>;
 
 Six bytesOf(const PaintWords& words) {
@@ -118,7 +118,7 @@ Six bytesOf(const PaintWords& words) {
     return out;
 }
 
-/// Paint (linear) of the surface that a ray from the origin meets first.
+/// Linear paint of the first surface that a ray from the origin meets.
 std::optional<Six> met(const Scene& scene, const Eigen::Vector3d& along) {
     double nearest = 1e9;
     std::optional<Six> out;
@@ -163,7 +163,7 @@ struct Errors {
     double worst = 0;
 };
 
-/// Errors over the pixels that the scene fills [grey levels].
+/// Errors over the pixels that the scene covers [grey levels].
 Errors errorsOf(const Words& words, const Scene& scene) {
     Errors out;
     for (int y = 0; y < kPainted.height; ++y)
@@ -227,7 +227,8 @@ TEST(SurfacePaint, ABallIsPaintedWithFactorsAndTexturesOfTwoSizes) {
     EXPECT_LT(errors.mean, 3.6);
 }
 
-// Textures store roots of linear values in bytes: half a step is 0.75 grey levels in dark areas.
+// Tolerance: textures store roots of linear values in bytes; half a step is 0.75 grey levels in
+// dark areas.
 TEST(SurfacePaint, PlainColoursAreExactUpToTwoRoundings) {
     for (const bool hasTexture : {false, true})
         for (int level = 0; level < 256; ++level) {
@@ -254,7 +255,7 @@ TEST(SurfacePaint, PlainColoursAreExactUpToTwoRoundings) {
         }
 }
 
-TEST(SurfacePaint, WithoutTextureCoordinatesIsTheFactorAlone) {
+TEST(SurfacePaint, WithoutTextureCoordinatesOnlyTheFactorIsUsed) {
     Material material = textured(0, 0);
     material.baseColour = {1, 0, 1, 1};
     Mesh bare = square();
@@ -266,7 +267,7 @@ TEST(SurfacePaint, WithoutTextureCoordinatesIsTheFactorAlone) {
 }
 
 // A nearer square covers the upper right quarter of pixel (30, 20) and half of each of two
-// neighbours.
+// neighbouring pixels.
 TEST(SurfacePaint, TheObjectWithMostQuartersIsPainted) {
     Material red, blue;
     red.baseColour = {1, 0, 0, 1};
@@ -280,14 +281,14 @@ TEST(SurfacePaint, TheObjectWithMostQuartersIsPainted) {
             return words[static_cast<std::size_t>(y) * kPainted.width + x].diffuse & 0xFFFFFFU;
         };
         EXPECT_EQ(at(30, 20), 0x000000FFU);
-        EXPECT_EQ(at(30, 19), 0x000000FFU);  // of equal objects, the first counted from below
+        EXPECT_EQ(at(30, 19), 0x000000FFU);  // at a tie, the lowest quarter decides
         EXPECT_EQ(at(31, 20), 0x000000FFU);
         EXPECT_EQ(at(31, 19), 0x00FF0000U);
         EXPECT_EQ(at(39, 10), 0x00FF0000U);
     }
 }
 
-TEST(SurfacePaint, IsSeenThroughHoles) {
+TEST(SurfacePaint, SurfaceBehindAlphaHolesIsPainted) {
     Material masked = textured(), red;
     masked.alphaCutoff = 0.5F;
     masked.metallic = 0;
@@ -310,7 +311,7 @@ TEST(SurfacePaint, IsSeenThroughHoles) {
     EXPECT_EQ(at(34, 24), 0x0000FF00U);
 }
 
-// Two objects, and two triangles of a model, at the same places.
+// Two objects, and two triangles of one model, lie at the same places.
 TEST(SurfacePaint, ThreadsAndTheRowsEndsChangeNothing) {
     const std::vector<SurfaceTexture> textures{noise({64, 64}, 5), noise({16, 16}, 6)};
     auto twice = modelOf(ball(0.15F, 64), textured(0), textures);
@@ -320,7 +321,7 @@ TEST(SurfacePaint, ThreadsAndTheRowsEndsChangeNothing) {
     Scene scene = sceneOf({{twice, placed(0.8, {0, 0, 0.5}), 1},
                            {twice, placed(0.8, {0.05, 0, 0.5}), 0.9F},
                            {twice, placed(0.8, {0, 0, 0.5}), 1}});
-    // Bent, so that it is drawn; it has no paint.
+    // The catcher is bent, so that it is drawn. It has no paint.
     scene.catcher.positions = {{-1, -1, 0.4F}, {1, -1, 0.4F}, {1, 1, 0.5F}, {-1, 1, 0.4F}};
     scene.catcher.triangles = {{0, 1, 2}, {0, 2, 3}};
     const Words one = paintOf(scene);

@@ -21,7 +21,8 @@ CameraModel straight() {
     return {kLayer, 50, 50, 29.5, 19.5, {}};
 }
 
-/// A square of 0.4 m about the origin that faces -z, cut into many triangles of irregular shape.
+/// A square of 0.4 m about the origin that faces -z. It is cut into many triangles of irregular
+/// shape.
 Mesh shards(int side, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> shift(-0.4F, 0.4F);
@@ -53,7 +54,7 @@ Scene sceneOf(const Mesh& mesh, const Material& material, const RigidTransform& 
     return scene;
 }
 
-/// Words of the whole grid, row-major.
+/// Words of the whole grid, row by row.
 std::vector<std::uint32_t> drawn(const Scene& scene, const RigidTransform& camera = {},
                                  int threads = 1) {
     SurfaceRaster raster(straight(), std::make_shared<Workers>(threads));
@@ -70,8 +71,8 @@ float depthOf(std::uint32_t word) {
     return std::bit_cast<float>(word & 0xFFFFFF00U);
 }
 
-// At a distance of 1 m the square covers 40 of the grid's pixels in each direction: from 39.99 and
-// from 19.99.
+// At a distance of 1 m, the square covers 40 pixels of the grid in each direction, beginning at
+// 39.99 and 19.99.
 TEST(SurfaceRaster, CoversASurfaceWithoutGapsOrRims) {
     for (unsigned seed = 0; seed < 20; ++seed) {
         const auto words = drawn(
@@ -109,7 +110,7 @@ TEST(SurfaceRaster, DepthMatchesTheSlantedPlane) {
     EXPECT_GT(checked, 1000);
 }
 
-// A floor from behind the camera to far in front of it.
+// A floor that extends from behind the camera to far in front of it.
 TEST(SurfaceRaster, TrianglesBehindTheCameraAreClipped) {
     Material both;
     both.doubleSided = true;
@@ -129,7 +130,7 @@ TEST(SurfaceRaster, TrianglesBehindTheCameraAreClipped) {
         }
 }
 
-TEST(SurfaceRaster, MasksHaveTheirHoles) {
+TEST(SurfaceRaster, AlphaMasksHaveHoles) {
     auto model = std::make_shared<Model>();
     model->meshes.push_back(shards(5, 3));
     Material masked;
@@ -155,7 +156,7 @@ TEST(SurfaceRaster, MasksHaveTheirHoles) {
 
 TEST(SurfaceRaster, ObjectsCoverTheCatcherAndThreadsChangeNothing) {
     Scene scene = sceneOf(shards(40, 5), {}, {Eigen::Quaterniond::Identity(), {0, 0, 1}});
-    // Bent, so that it is drawn; nearer than the square.
+    // The catcher is bent, so that it is drawn. It is nearer than the square.
     scene.catcher.positions = {{-1, -1, 0.5F}, {1, -1, 0.5F}, {1, 1, 0.6F}, {-1, 1, 0.5F}};
     scene.catcher.triangles = {{0, 1, 2}, {0, 2, 3}};
     const auto one = drawn(scene);

@@ -16,7 +16,7 @@ using WarpThreadsGl = GlTest;
 
 constexpr const char* kHashFile = "MFAR_WARP_HASH_OUT";
 
-/// FNV-1a.
+/// FNV-1a hash.
 template <class T>
 std::uint64_t hashed(std::uint64_t hash, const std::vector<T>& values) {
     const auto* bytes = reinterpret_cast<const unsigned char*>(values.data());
@@ -25,7 +25,7 @@ std::uint64_t hashed(std::uint64_t hash, const std::vector<T>& values) {
     return hash;
 }
 
-/// Hash over several poses, with holes filled and rendered.
+/// Hash of the pictures at several poses, with holes filled and rendered.
 std::uint64_t hashOfWarps(int threads) {
     std::uint64_t hash = 14695981039346656037U;
     const Size size{320, 240};
@@ -42,13 +42,13 @@ std::uint64_t hashOfWarps(int threads) {
     return hash;
 }
 
-TEST_F(WarpThreadsGl, WritesItsHash) {
+TEST_F(WarpThreadsGl, WritesTheHashOfItsPicture) {
     const char* file = std::getenv(kHashFile);
     if (file == nullptr) GTEST_SKIP() << "part of PicturesAreTheSameAtOneAndTwoThreads";
     std::ofstream(file) << hashOfWarps(std::atoi(std::getenv("LP_NUM_THREADS")));
 }
 
-TEST(WarpThreads, PicturesAreTheSameAtOneAndTwoThreads) {
+TEST(WarpThreads, PicturesAreEqualWithOneAndTwoThreads) {
     const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
     std::string hashes[2];
     for (int threads = 1; threads <= 2; ++threads) {
@@ -56,7 +56,7 @@ TEST(WarpThreads, PicturesAreTheSameAtOneAndTwoThreads) {
         std::ostringstream command;
         command << kHashFile << "='" << file << "' LP_NUM_THREADS=" << threads
                 << " GTEST_TOTAL_SHARDS=1 GTEST_SHARD_INDEX=0 '" << program
-                << "' --gtest_filter=WarpThreadsGl.WritesItsHash >/dev/null";
+                << "' --gtest_filter=WarpThreadsGl.WritesTheHashOfItsPicture >/dev/null";
         ASSERT_EQ(std::system(command.str().c_str()), 0);
         std::ifstream(file) >> hashes[threads - 1];
         std::filesystem::remove(file);

@@ -14,7 +14,7 @@
 
 namespace mfar::test {
 
-/// PSNR of the colours over the pixels that show an object in `truth` [dB, peak 255].
+/// PSNR of the colours over the pixels in which `truth` shows an object [dB, peak 255].
 inline double psnrInside(const std::vector<std::uint8_t>& rgba, const RenderedPicture& truth) {
     double sum = 0;
     std::size_t values = 0;
@@ -42,14 +42,14 @@ inline HoleAnswer answered(const CastScene& scene, const HoleRequest& request, i
     return out;
 }
 
-/// The same in plain white.
+/// Answers a request with plain white.
 inline HoleAnswer answeredInWhite(const CastScene& scene, const HoleRequest& request) {
     HoleAnswer out = answered(scene, request);
     std::ranges::fill(out.colour, std::array<std::uint8_t, 4>{255, 255, 255, 255});
     return out;
 }
 
-/// Mean of green over these pixels in the next frame at this pose.
+/// Mean of green over these pixels in the next frame, whose camera is at this pose.
 inline double meanGreen(Warp& warp, const RigidTransform& pose,
                         const std::vector<std::uint32_t>& pixels) {
     const auto rgba = bytesOf(warp.run(pose).colour);
@@ -59,7 +59,7 @@ inline double meanGreen(Warp& warp, const RigidTransform& pose,
     return sum / static_cast<double>(pixels.size());
 }
 
-/// Runs until the holes of this pose are rendered and fully shown, or until there are none.
+/// Renders until the holes of this pose are rendered and fully shown, or until there are none.
 inline const LayerPicture& settled(Warp& warp, const CastScene& scene, const RigidTransform& pose,
                                    int frames = 12) {
     for (int i = 0; i < frames; ++i) {

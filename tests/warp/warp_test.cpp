@@ -14,7 +14,7 @@ using WarpGl = GlTest;
 
 constexpr Size kLayer{241, 183};
 
-/// Reference at 0 degrees of test::twoBalls().
+/// A warp of test::twoBalls() whose reference was made at 0 degrees.
 struct Shown {
     explicit Shown(const WarpOptions& options = {}, CastScene cast = test::twoBalls())
         : scene(std::move(cast)), warp(test::bentCamera(kLayer), kLayer, *engine, options) {
@@ -36,7 +36,7 @@ struct Shown {
 TEST_F(WarpGl, UnmovedPoseShowsTheReferenceItself) {
     Shown s;
     RigidTransform pose = test::orbit(0);
-    pose.translation.x() += 2e-5;  // 0.01 px
+    pose.translation.x() += 2e-5;  // moves pixels by 0.01 px
     const LayerPicture& layer = s.warp.run(pose);
     const auto rgba = test::bytesOf(layer.colour);
     const RenderedPicture reference = s.scene.cast(s.view(0), 3);
@@ -54,10 +54,10 @@ TEST_F(WarpGl, SmallTurnsAreAsSharpAsInterpolationAllows) {
         EXPECT_GT(s.psnrAt(degrees), 35) << degrees;
 }
 
-TEST_F(WarpGl, RenderedHolesBeatFilledOnesFilledOnesBeatNone) {
+TEST_F(WarpGl, RenderedHolesBeatFilledOnesAndFilledOnesBeatOpenOnes) {
     std::array<double, 4> psnr{};
     for (int i = 0; i < 4; ++i) {
-        // A ball far in front of another one.
+        // One ball is far in front of the other.
         Shown s({.filling = static_cast<HoleFilling>(i)},
                 {{{{0, 0, 0.1}, 0.09}, {{0.04, -0.25, 0.14}, 0.045}}, true, 1.5});
         psnr[i] = s.psnrAt(15);
@@ -67,7 +67,7 @@ TEST_F(WarpGl, RenderedHolesBeatFilledOnesFilledOnesBeatNone) {
     EXPECT_NEAR(psnr[3], psnr[2], 0.3) << "both, once they have arrived";
 }
 
-TEST_F(WarpGl, NothingIsShownOutsideOfSilhouetteAndShadow) {
+TEST_F(WarpGl, NothingIsShownOutsideSilhouetteAndShadow) {
     Shown s;
     const RenderedPicture truth = s.scene.cast(s.view(5), 4);
     const auto rgba = test::bytesOf(test::settled(s.warp, s.scene, test::orbit(5)).colour);
@@ -96,7 +96,8 @@ TEST_F(WarpGl, DepthMatchesTheCurrentPose) {
                 truth.id[i - kLayer.width] != id || truth.id[i + kLayer.width] != id)
                 continue;
             if (id == kCatcherId && truth.colour[i][3] < 8) continue;
-            // At a ball's limb its facets are slightly nearer to the centre than the ball.
+            // At the limb of a ball, its facets are slightly nearer to the centre than the ball's
+            // surface.
             const float lift = id == kCatcherId ? kShadowLift * truth.depth[i] : 0;
             ASSERT_NEAR(z[i], truth.depth[i] - lift, 0.01) << x << " " << y;
             ++checked;
@@ -113,7 +114,8 @@ TEST_F(WarpGl, HugeMotionAndOddPosesAreHarmless) {
     RigidTransform away = test::orbit(0);
     away.rotation = away.rotation * Eigen::Quaterniond(0, 0, 1, 0);  // looks the other way
     EXPECT_TRUE(s.warp.run(away).bounds.empty());
-    // Inside a ball, on its surface, in the plane, far away, upside down, turned by 90 degrees.
+    // Tries distances inside a ball, on its surface, in the plane and far away, and cameras upside
+    // down and turned by 90 degrees.
     for (const double distance : {0.001, 0.05, 0.09, 0.1001, 0.14, 50.0, 1e5})
         for (const double degrees : {0.0, 90.0, 180.0}) {
             const LayerPicture& layer = s.warp.run(test::orbit(degrees, distance, 1));
@@ -154,12 +156,12 @@ TEST_F(WarpGl, EmptySceneShowsNothing) {
     EXPECT_EQ(warp.counters().empty, 2U);
 }
 
-TEST_F(WarpGl, ObjectLargerThanTheView) {
+TEST_F(WarpGl, AnObjectLargerThanTheViewIsWarped) {
     Shown s({.filling = HoleFilling::PushPull}, {{{{0, 0, 0.1}, 0.5}}, false, 1});
     EXPECT_GT(s.psnrAt(1), 33);
 }
 
-TEST_F(WarpGl, ReferenceOfAnotherResolutionIsWarpedAlways) {
+TEST_F(WarpGl, AReferenceOfAnotherResolutionIsAlwaysWarped) {
     Shown s({.filling = HoleFilling::PushPull});
     const RenderView small{s.warp.camera().scaledTo({181, 137}), test::orbit(0)};
     s.warp.setReference(warpReference(s.scene.cast(small, 3)));
@@ -180,11 +182,11 @@ TEST_F(WarpGl, OddSizesWork) {
     }
 }
 
-TEST_F(WarpGl, ACrowdOfTrianglesIsSimplifiedAndSeenTheSame) {
+TEST_F(WarpGl, MeshesOfManyTrianglesAreSimplifiedAndLookTheSame) {
     const CastScene scene{{{{0, 0, 0.1}, 0.09}}, true, 1};
     const auto engine = test::warpEngine();
     Warp warp(test::bentCamera(kLayer), kLayer, *engine, {.filling = HoleFilling::PushPull});
-    warp.setScene(scene.scene(720));  // half a million triangles
+    warp.setScene(scene.scene(720));  // a scene of half a million triangles
     const RenderView from{warp.camera(), test::orbit(0)}, to{warp.camera(), test::orbit(2)};
     warp.setReference(warpReference(scene.cast(from, 3)));
     EXPECT_GT(psnrInside(test::bytesOf(warp.run(to.T_world_camera).colour), scene.cast(to, 3)), 34);

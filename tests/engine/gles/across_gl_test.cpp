@@ -11,8 +11,8 @@ namespace {
 
 using AcrossGl = GlTest;
 
-// Share of bytes that may differ by more than one grey level, and the largest difference allowed:
-// the renderers round alike, but may add in another order.
+// Share of the bytes that may differ by more than one grey level, and the largest difference
+// allowed. The renderers round alike, but may add in another order.
 constexpr double kDifferentShare = 1e-4;
 constexpr int kLargest = 4;
 
@@ -30,9 +30,9 @@ std::vector<std::uint8_t> pipelinePictures() {
     return out;
 }
 
-/// CTest runs this twice: with the first GL it writes MFAR_PICTURES_OUT, with the other it reads
-/// MFAR_PICTURES_IN.
-TEST_F(AcrossGl, BothDrawTheSamePictures) {
+/// CTest runs this test twice. With the first GL it writes the file MFAR_PICTURES_OUT, with the
+/// second it reads the file MFAR_PICTURES_IN.
+TEST_F(AcrossGl, BothRenderersDrawTheSamePictures) {
     const char* out = std::getenv("MFAR_PICTURES_OUT");
     const char* in = std::getenv("MFAR_PICTURES_IN");
     if (out == nullptr && in == nullptr) GTEST_SKIP() << "needs the file of the other GL (CTest)";

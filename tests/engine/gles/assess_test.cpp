@@ -15,11 +15,12 @@ constexpr Size kStill{220, 163};
 constexpr Size kGrid{16, 12};
 constexpr int kGridArea = 16 * 12;
 constexpr double kAlpha = params::kTwoWayAlpha;
-// For sums of 64 products of up to 255^2 in single precision.
+// Tolerances for sums of 64 products of up to 255^2 in single precision.
 constexpr double kRelative = 1e-3, kAbsolute = 2;
-constexpr double kPixel = 0.01;  // [still px], for unprojection in single precision
+constexpr double kPixel = 0.01;  // tolerance of unprojection in single precision [still px]
 
-/// Flow vectors in both directions, row-major; backward in pixels of `scale` video pixels.
+/// Flow vectors in both directions, row by row. The backward flow is in pixels of `scale` video
+/// pixels.
 struct Fields {
     std::vector<std::array<float, 4>> forward, backward;
     int scale = 1;
@@ -95,7 +96,7 @@ twin::Cells cellsOf(const std::vector<std::array<float, 4>>& field, Size cells) 
 
 class AssessFields : public GlTest, public testing::WithParamInterface<int> {};
 
-TEST_P(AssessFields, StatisticsLookUpAndConfidenceMatchTwin) {
+TEST_P(AssessFields, StatisticsLookUpsAndConfidenceMatchTheOracle) {
     const StereoRig rig = bentRig(kVideo, kStill);
     const Waves waves(1, 6, 60, 40);
     const LevelPair pair(waves.shoot(kVideo, {}), waves.shoot(kVideo, {.shift = {-3, 2}}));
@@ -156,7 +157,7 @@ TEST_F(Assess, DisagreementBeyondAlphaAndLookUpsOutsideHaveNoConfidence) {
     }
 }
 
-TEST_F(Assess, GainStatisticsMatchTwin) {
+TEST_F(Assess, GainStatisticsMatchTheOracle) {
     const Size size{122, 90}, half{61, 45}, forward{31, 23}, cells{16, 12};
     const Waves waves(2, 8, 80, 40);
     const LevelPair pair(waves.shoot(size, {}), waves.shoot(size, {.gain = 0.7}));

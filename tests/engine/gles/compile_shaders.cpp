@@ -1,13 +1,13 @@
-// Compiles every shader of the program, in every variant, on the driver that mfard would use.
-// Prints a line "shader: NAME DEFINES" before each, so that the driver's output can be assigned to
-// it:
+// Compiles every shader of the program, in every variant, with the driver that mfard would use.
+// Before each shader it prints a line "shader: NAME DEFINES", so that the driver's output can be
+// assigned to it:
 //   V3D_DEBUG=shaderdb mfar-compile-shaders 2>&1
 // BIFROST_MESA_DEBUG=shaderdb does the same on Mali. Usage:
 //   mfar-compile-shaders [--link-only] [FILE...]
-// --link-only: draws and dispatches nothing. Panfrost compiles a shader when it is linked, and
-// without a GPU (Mesa's drm-shim) it crashes at dispatches and at shaders that spill. With files:
-// compiles these instead; their format is that of gles_shaders/ with every #include resolved. Exit
-// status 1 if one of them does not compile.
+// --link-only: draws and dispatches nothing. Panfrost compiles a shader when it is linked. Without
+// a GPU (Mesa's drm-shim) it crashes at dispatches and at shaders that spill registers. With files,
+// compiles these instead; they have the format of gles_shaders/ with every #include resolved. Exit
+// status 1: a shader did not compile.
 
 #include "base/gl/buffer.h"
 #include "base/gl/pass.h"
@@ -35,7 +35,7 @@ struct Shader {
     std::string name, text, defines;
 };
 
-/// A program of one or two shaders, deleted at the end of the scope.
+/// A program of one or two shaders. It is deleted at the end of the scope.
 class LinkedProgram {
 public:
     explicit LinkedProgram(const std::vector<Shader>& shaders) : id_(glCreateProgram()) {
@@ -54,7 +54,7 @@ public:
     ~LinkedProgram() { glDeleteProgram(id_); }
 
     [[nodiscard]] GLuint id() const { return id_; }
-    /// The compiler's or linker's message; empty on success.
+    /// Message of the compiler or the linker; empty on success.
     [[nodiscard]] const std::string& log() const { return log_; }
 
 private:
@@ -96,8 +96,8 @@ constexpr std::array kImageFormats{
     ImageFormat{"rgba32f", gpu::TexelFormat::Rgba32F},
 };
 
-/// A one-pixel image for each of the shader's image bindings. Without it a driver may abort or hang
-/// while generating the final code.
+/// A one-pixel image for each image binding of the shader. Without images a driver may abort or
+/// hang while it generates the final code.
 std::vector<gpu::Texture> boundImages(const std::string& text) {
     static const std::regex declared("layout\\(([^)]*)\\)[^;]*\\b[iu]?image2D\\b");
     static const std::regex binding("binding = ([0-9]+)");
@@ -117,8 +117,8 @@ std::vector<gpu::Texture> boundImages(const std::string& text) {
     return images;
 }
 
-/// Buffers of zeros and one-pixel targets: drivers generate a shader's final code when it is first
-/// used.
+/// Provides buffers of zeros and one-pixel targets, because drivers generate the final code of a
+/// shader when it is first used.
 class Use {
 public:
     explicit Use(bool runs) : runs_(runs) {
@@ -154,8 +154,8 @@ private:
     gpu::Framebuffer target_;
 };
 
-/// Draws a fragment or vertex shader with the first partner that links with it. Returns the message
-/// if it does not compile or link.
+/// Draws with a fragment or vertex shader and the first partner that links with it. Returns the
+/// message if the shader does not compile or link.
 std::string drawn(const Shader& shader, Use& use) {
     const bool vertex = shader.name.ends_with(".vert");
     std::string log = "has no partner";
@@ -188,13 +188,13 @@ bool compiles(const Shader& shader, Use& use) {
     return log.empty();
 }
 
-/// Adds every variant that the text names.
+/// Adds every variant that the shader's text declares.
 void addVariants(std::string_view name, const std::string& text, std::vector<Shader>& out) {
     for (const std::string& defines : shaderVariants(text))
         out.push_back({std::string(name), text, defines});
 }
 
-/// The shaders in these files; without files, all shaders of the program.
+/// The shaders in these files. Without files, all shaders of the program.
 std::vector<Shader> wanted(const std::vector<std::string>& files) {
     std::vector<Shader> out;
     for (const std::string& path : files) {

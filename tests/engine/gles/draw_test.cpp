@@ -15,9 +15,10 @@ using gpu::TexelFormat;
 constexpr Size kSmallVideo{53, 37};  // 4x3 tiles, 14x10 cells
 constexpr Size kOutput{191, 133};
 constexpr Size kSmallStill{200, 140};
-// Errors of a rounded result, and of a result from columns that were rounded to 8 bits.
+// Tolerances: of a result that is rounded once, and of a result from columns that were rounded to 8
+// bits before.
 constexpr double kOnce = 0.51, kTwice = 0.51 * (1 + twin::kCubicGain);
-// As kTwice, plus a bilinear look-up with 8-bit weights and half-precision positions.
+// Tolerance: kTwice plus a bilinear look-up with weights of 8 bits and positions in half precision.
 constexpr double kLookUp = kTwice + 1.2;
 
 double worst(const twin::Grey& a, const twin::Grey& b) {
@@ -35,7 +36,8 @@ gpu::Texture cellTexture(std::array<float, 4> value, TexelFormat format) {
     return floatTexture({14, 10}, format, values, Filter::Linear);
 }
 
-/// Image of weights: half the detail's weight, confidence, signal share, unexplained share; bytes.
+/// An image of weights, in bytes: half the detail's weight, confidence, share of the signal,
+/// unexplained share.
 gpu::Texture weights(std::uint8_t half, std::uint8_t signal) {
     TestPicture p({14, 10});
     for (std::size_t i = 0; i < p.bytes.size(); i += 4) {
@@ -45,7 +47,7 @@ gpu::Texture weights(std::uint8_t half, std::uint8_t signal) {
     return uploaded(p, Filter::Linear);
 }
 
-TEST_F(Draw, SharpeningMatchesTwin) {
+TEST_F(Draw, SharpeningMatchesTheOracle) {
     const TestPicture p = Waves(1, 4, 40, 30).shoot(kSmallVideo, {});
     TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);
     params.sharpening = 1;
@@ -86,7 +88,7 @@ gpu::Texture columnsOf(const TestPicture& p, const TileParams& params) {
                  {kSmallVideo.width, kOutput.height});
 }
 
-TEST_F(Draw, UpscalingMatchesTwin) {
+TEST_F(Draw, UpscalingMatchesTheOracle) {
     const TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);
     for (const TestPicture& p : {randomPicture(kSmallVideo, 2), checkerboard(kSmallVideo),
                                  Waves(1, 5, 40, 40).shoot(kSmallVideo, {})}) {
@@ -119,7 +121,7 @@ TEST_F(Draw, UpscalingIsOpenCvsBicubic) {
     EXPECT_LE(cv::norm(mine, peer, cv::NORM_INF), 1);
 }
 
-/// A still that is looked up with a constant offset [still px].
+/// A still that every pixel looks up with the same offset [still px].
 struct LookUp {
     double x, y;
     double weight, confidence;
@@ -136,7 +138,7 @@ gpu::Texture lookUpTexture(const LookUp& l) {
                        TexelFormat::Rgba16F);
 }
 
-/// The video with the still's value, as the video would see it, in alpha.
+/// The video in R G B. Alpha holds the value of the still, averaged over the video pixel.
 gpu::Texture withStill(const TestPicture& video, const gpu::Texture& still, const LookUp& l) {
     return drawn("superres_sharpen.frag", tileParams(kSmallVideo, kSmallStill, kOutput),
                  {gpu::sampler(0, uploaded(video)), gpu::sampler(1, weights(0, 255)),
@@ -187,8 +189,8 @@ TEST_F(Draw, DetailIsAddedByItsWeight) {
         const twin::Grey wanted = twin::greyOf(kOutput, [&](int x, int y) {
             return up.at(x, y) + l.weight * (stillAt(s, x, y, l) - low.at(x, y));
         });
-        // The mean is rounded, enlarged along columns and rounded again; plus the look-up's error,
-        // see kLookUp.
+        // Tolerance: the mean is rounded, enlarged along columns and rounded again; the look-up
+        // adds its error, see kLookUp.
         EXPECT_LE(worst(channelOf(out, 0), wanted), kTwice + l.weight * (kTwice + 1.2)) << l.x;
     }
 }
@@ -214,7 +216,7 @@ TEST_F(Draw, BlendMixesByConfidence) {
     }
 }
 
-/// Draws all tiles with tile_rect.vert instead of one triangle.
+/// Draws all tiles with tile_rect.vert, instead of one triangle over the whole target.
 gpu::Texture drawnByTiles(const char* shader, const char* defines, const TileParams& params,
                           gpu::Bindings bindings) {
     const std::uint32_t tiles = 4 * 3;
@@ -240,7 +242,7 @@ TEST_F(Draw, TilesCoverThePictureWithoutSeams) {
         drawn("composite_upscale.frag", params, {gpu::sampler(0, columns)}, kOutput).readRgba8());
 }
 
-TEST_F(Draw, PlainTilesEqualTheField) {
+TEST_F(Draw, TilesOfConstantWeightMatchThoseOfAWeightField) {
     const TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);
     const gpu::Texture columns = columnsOf(Waves(2, 6, 40, 20).shoot(kSmallVideo, {}), params);
     const gpu::Texture still =

@@ -39,7 +39,7 @@ FilterBank randomBank(int most, unsigned seed) {
     return FilterBank(unique);
 }
 
-/// A list of tiles that no pass uses.
+/// An empty list of tiles, which the pass does not use.
 struct NoTiles {
     gpu::Buffer commands{16}, tiles{4};
     [[nodiscard]] gpu::InstanceList list() const { return {commands, 0, tiles}; }
@@ -55,8 +55,8 @@ std::vector<std::array<GLint, 4>> integersOf(const gpu::Texture& texture) {
     return out;
 }
 
-/// The residual on the grid of sub-pixels [grey levels]: at four times the video's size, rows and
-/// columns of the result are those of the grid.
+/// The residual on the grid of sub-pixels [grey levels]. The result has four times the video's
+/// size, so that its rows and columns are those of the grid.
 Grey residualOf(const TestPicture& picture, const FilterBank& bank, const TileWork& work) {
     const Size video = picture.size;
     const Size output{enlarge::kGrid * video.width, enlarge::kGrid * video.height};
@@ -74,8 +74,8 @@ Grey residualOf(const TestPicture& picture, const FilterBank& bank, const TileWo
     });
 }
 
-/// Number of compared pixels; pixels so close to the border between two classes that single
-/// precision decides are not compared.
+/// Number of compared pixels. A pixel near the border between two classes is not compared, because
+/// single precision decides its class.
 struct Compared {
     int pixels = 0, all = 0;
 };
@@ -88,7 +88,8 @@ void expectResidual(const Grey& residual, const Grey& luma, int x, int y, const 
     if (!(gradient.margin > 1e-3 && curvature.margin > 1e-3)) return;
     ++compared.pixels;
     for (int phase = 0; phase < enlarge::kPhases; ++phase)
-        // The quarter of the range is computed in whole eighths; weights have eleven bits.
+        // Tolerance: a quarter of the range is computed in whole eighths of a grey level, and
+        // weights have eleven bits.
         ASSERT_NEAR(residual.at(4 * x + phase % 4, 4 * y + phase / 4),
                     twin::residualAt(luma, x, y, phase, gradient.number, curvature.number, bank),
                     0.32)
@@ -96,7 +97,7 @@ void expectResidual(const Grey& residual, const Grey& luma, int x, int y, const 
 }
 
 TEST_F(Enlarge, ResidualMatchesTheOracleForEqualClasses) {
-    // Small weights, and weights so large that the limits take effect.
+    // Tries small weights, and weights so large that the limits take effect.
     for (const int most : {500, 8000}) {
         const FilterBank bank = randomBank(most, 11);
         Compared compared;
@@ -112,7 +113,7 @@ TEST_F(Enlarge, ResidualMatchesTheOracleForEqualClasses) {
     }
 }
 
-TEST_F(Enlarge, WavesOfEveryAngleAndStrengthAreTheOracles) {
+TEST_F(Enlarge, WavesOfEveryAngleAndStrengthMatchTheOracle) {
     const FilterBank bank = randomBank(2000, 13);
     const Size size{40, 40};
     std::vector<bool> met(enlarge::GradientClasses::kCount);

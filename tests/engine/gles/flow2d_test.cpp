@@ -18,7 +18,8 @@ struct Errors {
     Vector2d bias{0, 0};
 };
 
-/// Errors against a constant flow, where the pixel and its target are at least `border` px inside.
+/// Errors against a constant flow. Only pixels count that are, like their targets, at least
+/// `border` px inside the picture.
 Errors errorsOf(const std::vector<float>& flow, Size size, const Vector2d& truth, int border) {
     Errors e;
     int n = 0;
@@ -40,7 +41,7 @@ Errors errorsOf(const std::vector<float>& flow, Size size, const Vector2d& truth
     return e;
 }
 
-/// Errors between a pattern and the same pattern moved by `truth`.
+/// Errors of the flow between a pattern and the same pattern moved by `truth`.
 Errors shiftErrors(const Waves& waves, Size size, const Vector2d& truth, int border,
                    double gain = 1, double offset = 0) {
     const TestPicture a = waves.shoot(size, {});

@@ -13,15 +13,15 @@ namespace {
 using FlowPasses = GlTest;
 using Eigen::Vector2d;
 
-// For cost and texture: sums of 64 squares of up to 255 in single precision.
+// Tolerance of cost and texture, which are sums of 64 squares of up to 255 in single precision.
 constexpr double kTolerance = 2e-3;
-constexpr Size kSize{61, 45};  // one level; the last cells are cut off
+constexpr Size kSize{61, 45};  // one level; the picture cuts off the last cells
 constexpr Size kCells{16, 12};
 constexpr int kArea = 16 * 12;
 
 using Cell = std::array<float, 4>;  // flow (x, y), cost, texture
 
-/// Parameters from the second picture to the first.
+/// Parameters for refining the flow from the second picture to the first.
 params::RefineFlow refineParams(const LevelPair& pair, int steps) {
     return {.from = pair.pyramids.video()[0],
             .to = pair.pyramids.still()[0],
@@ -32,7 +32,7 @@ params::RefineFlow refineParams(const LevelPair& pair, int steps) {
             .steps = steps};
 }
 
-/// Random flow vectors; every eighth far outside.
+/// Random flow vectors, of which every eighth leads far outside the picture.
 std::vector<Cell> randomField(unsigned seed, float reach) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> flow(-reach, reach);
@@ -44,7 +44,7 @@ std::vector<Cell> randomField(unsigned seed, float reach) {
     return out;
 }
 
-/// Runs `steps` steps of flow_search.comp, starting only from `prior`.
+/// Runs `steps` steps of flow_search.comp. `prior` is their only start.
 std::vector<Cell> search(const LevelPair& pair, const std::vector<Cell>& prior, int steps) {
     gpu::Buffer patches(2 * kArea * sizeof(Cell));
     patches.write(std::span(prior), kArea * sizeof(Cell));
@@ -71,7 +71,7 @@ std::vector<Cell> search(const LevelPair& pair, const std::vector<Cell>& prior, 
     return patches.read<Cell>(kArea);
 }
 
-TEST_F(FlowPasses, CostAndTextureMatchTwin) {
+TEST_F(FlowPasses, CostAndTextureMatchTheOracle) {
     const LevelPair pair(Waves(1, 5, 40, 40).shoot(kSize, {}), randomPicture(kSize, 3));
     const auto a = pair.first(), b = pair.second();
     const auto prior = randomField(4, 9);
@@ -84,7 +84,7 @@ TEST_F(FlowPasses, CostAndTextureMatchTwin) {
     }
 }
 
-TEST_F(FlowPasses, OneStepMatchesTwin) {
+TEST_F(FlowPasses, OneStepMatchesTheOracle) {
     const Waves waves(2, 10, 60, 40);
     const LevelPair pair(waves.shoot(kSize, {}), waves.shoot(kSize, {.shift = {1.3, -0.6}}));
     const auto a = pair.first(), b = pair.second();
@@ -136,7 +136,7 @@ TEST_F(FlowPasses, PropagationTakesTheBestOfTheNeighbours) {
     EXPECT_GT(moved, kArea / 4);
 }
 
-/// Runs `steps` steps of flow_align.comp, starting from `in`.
+/// Runs `steps` steps of flow_align.comp on the vectors `in`.
 std::vector<Cell> align(const LevelPair& pair, const std::vector<Cell>& in, int steps) {
     gpu::Buffer patches(2 * kArea * sizeof(Cell));
     patches.write(std::span(in), kArea * sizeof(Cell));
@@ -148,10 +148,10 @@ std::vector<Cell> align(const LevelPair& pair, const std::vector<Cell>& in, int 
     return patches.read<Cell>(kArea);
 }
 
-TEST_F(FlowPasses, BentPatchesMatchTwin) {
+TEST_F(FlowPasses, BentPatchesMatchTheOracle) {
     const LevelPair pair(Waves(1, 5, 40, 40).shoot(kSize, {}), randomPicture(kSize, 3));
     const auto a = pair.first(), b = pair.second();
-    // A plane, and a fold where the slopes have opposite signs.
+    // A plane, and a fold at which the slopes change their sign.
     const Vector2d dx(0.1137, -0.0613), dy(0.0419, 0.1931);
     std::vector<Cell> in(kArea);
     for (int i = 0; i < kArea; ++i) {
@@ -162,8 +162,8 @@ TEST_F(FlowPasses, BentPatchesMatchTwin) {
     const auto out = align(pair, in, 0);
     for (int i = 0; i < kArea; ++i) {
         const int x = i % 16, y = i / 16;
-        // The field is repeated at its border, so the slope there is zero on one side; then zero is
-        // used.
+        // Beyond the border the field is repeated; so one of the two slopes there is zero, and zero
+        // is used.
         const Vector2d alongX =
             x < 1 || x > 14 ? Vector2d(0, 0) : dx * (x == 1 || x == 14 ? 0.5 : 1);
         Vector2d alongY = y < 6 ? dy : Vector2d(-dy);
@@ -224,8 +224,8 @@ std::vector<Cell> filtered(const std::vector<Cell>& in, int planeFits = 2) {
     return patches.read<Cell>(kArea);
 }
 
-TEST_F(FlowPasses, FilterMatchesTwin) {
-    // From nearly a plane of reliable cells to unrelated vectors.
+TEST_F(FlowPasses, FilterMatchesTheOracle) {
+    // Fields from a nearly plane one of reliable cells to one of unrelated vectors.
     for (const float reach : {0.2F, 0.7F, 5.0F}) {
         auto in = randomField(8, reach);
         std::mt19937 random(9);
@@ -258,7 +258,7 @@ TEST_F(FlowPasses, FilterKeepsPlanesAndTheStepBetweenThem) {
     const auto out = filtered(in);
     for (int i = 0; i < kArea; ++i) {
         const int x = i % 16, y = i / 16;
-        if (x < 2 || x > 13 || y < 2 || y > 9) continue;  // outside of this, the border is repeated
+        if (x < 2 || x > 13 || y < 2 || y > 9) continue;  // outside, the border is repeated
         EXPECT_NEAR(out[i][0], in[i][0], 5e-3) << "cell " << i;
         EXPECT_NEAR(out[i][1], in[i][1], 5e-3) << "cell " << i;
     }

@@ -9,11 +9,12 @@
 
 namespace mfar {
 
-/// Reads back one level of a pyramid: all pixels; checks that its margin repeats the border.
+/// Reads back all pixels of one level of a pyramid. Checks that the margin of the level repeats the
+/// border.
 inline twin::Grey readLevel(const LumaPyramids& pyramids, const LumaLevel& level) {
     const auto words = pyramids.words().read<std::uint32_t>(
         static_cast<std::size_t>(level.pitch) * level.height, 4UL * level.offset);
-    const auto stored = [&](int x, int y) {  // columns begin at x = -8
+    const auto stored = [&](int x, int y) {  // the stored columns begin at x = -8
         const std::uint32_t word = words[static_cast<std::size_t>(y) * level.pitch + (x + 8) / 4];
         return static_cast<double>((word >> (8 * (x & 3))) & 255U);
     };
@@ -27,7 +28,7 @@ inline twin::Grey readLevel(const LumaPyramids& pyramids, const LumaLevel& level
     return out;
 }
 
-/// The pyramids of two pictures of the same size.
+/// The luma pyramids of two pictures of equal size.
 struct LevelPair {
     LevelPair(const TestPicture& a, const TestPicture& b) : tiles(a.size), pyramids(a.size) {
         pyramids.buildVideo(uploaded(a));
@@ -40,7 +41,7 @@ struct LevelPair {
         return readLevel(pyramids, pyramids.still()[level]);
     }
 
-    TileBuffer tiles;  // all changed and matched
+    TileBuffer tiles;  // all tiles are changed and matched
     LumaPyramids pyramids;
 };
 

@@ -6,7 +6,7 @@ namespace {
 
 using Luma = GlTest;
 
-// Half an 8-bit step, plus single precision for values between two steps.
+// Tolerance: half an 8-bit step, plus single precision for values between two steps.
 constexpr double kRounding = 0.501;
 
 void expectNear(const twin::Grey& gpu, const twin::Grey& twin, double tolerance) {
@@ -17,7 +17,7 @@ void expectNear(const twin::Grey& gpu, const twin::Grey& twin, double tolerance)
     EXPECT_LE(worst, tolerance);
 }
 
-TEST_F(Luma, VideoMatchesTwin) {
+TEST_F(Luma, VideoMatchesTheOracle) {
     for (const Size size : {Size{64, 48}, Size{101, 59}})
         for (const PixelFormat format : {PixelFormat::Rgba8, PixelFormat::Gray8}) {
             const TestPicture a = randomPicture(size, 1, format),

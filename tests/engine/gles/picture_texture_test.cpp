@@ -20,9 +20,10 @@ using test::PaddedPicture;
 using PictureTexture = GlTest;
 
 constexpr Size kEvenSize{54, 38};
-// Rounding to 8 bits.
+// Tolerance: rounding to 8 bits.
 constexpr double kConverted = 0.501;
-// A bilinear filter with 8-bit weights may lose one grey level in each chroma channel.
+// Tolerance: a bilinear filter with weights of 8 bits may err by one grey level in each chroma
+// channel.
 constexpr double kChroma = kConverted + 2.2;
 
 void expectTwin(const gpu::PictureTexture& picture, const ImageView& view, double tolerance) {
@@ -44,7 +45,7 @@ bool isYuv(PixelFormat format) {
            format == PixelFormat::Yuv420;
 }
 
-TEST_F(PictureTexture, EveryFormatWithPaddedRowsMatchesTheTwin) {
+TEST_F(PictureTexture, EveryFormatWithPaddedRowsMatchesTheOracle) {
     for (const PixelFormat format : kEveryFormat) {
         const PaddedPicture source(format, kEvenSize, 3);
         for (const YuvMatrix matrix : {YuvMatrix::Bt601, YuvMatrix::Bt709})
@@ -66,7 +67,7 @@ TEST_F(PictureTexture, RowsMayHaveAnyNumberOfBytes) {
     }
 }
 
-// Constant chroma needs no filter, so its tolerance can hide no error.
+// Constant chroma needs no filter; so the tolerance for chroma cannot hide an error.
 TEST_F(PictureTexture, LumaIsExact) {
     for (const PixelFormat format : {PixelFormat::Yuyv, PixelFormat::Nv12, PixelFormat::Yuv420}) {
         PaddedPicture source(format, kEvenSize, 4);
@@ -93,7 +94,7 @@ TEST_F(PictureTexture, FormatAndSizeMayChangeFromPictureToPicture) {
         }
 }
 
-TEST_F(PictureTexture, ThePictureOfEachUploadIsTheNewOne) {
+TEST_F(PictureTexture, EachUploadReplacesThePicture) {
     gpu::PictureTexture picture;
     GLuint id = 0;
     for (unsigned seed = 1; seed < 4; ++seed) {
@@ -105,7 +106,7 @@ TEST_F(PictureTexture, ThePictureOfEachUploadIsTheNewOne) {
     }
 }
 
-/// Acts like a driver that imports memory, but copies it.
+/// Behaves like a driver that imports memory, but copies the memory.
 class FakeImporter final : public PlaneImporter {
 public:
     unsigned import(const SharedPlane& plane) override {
@@ -132,14 +133,14 @@ public:
         EXPECT_EQ(alive.erase(texture), 1U);
     }
 
-    std::vector<const std::uint8_t*> memory;  ///< index: descriptor
+    std::vector<const std::uint8_t*> memory;  ///< indexed by descriptor
     std::set<unsigned> alive;
     int imports = 0;
     bool refuses = false;
 };
 
-/// A picture whose planes are only in the importer's memory: the memory that the CPU can read
-/// contains another picture.
+/// A picture whose planes are only in the importer's memory. The memory that the CPU can read holds
+/// another picture.
 struct SharedPicture {
     SharedPicture(PixelFormat format, FakeImporter& importer, std::uint64_t id)
         : real(format, kEvenSize, 4), other(format, kEvenSize, 4), view(real.view()),
@@ -149,7 +150,7 @@ struct SharedPicture {
         memory.id = id;
         for (std::size_t i = 0; i < static_cast<std::size_t>(planeCount(format)); ++i) {
             const std::uint8_t* begin = i == 0 ? view.data : view.chroma[i - 1].data;
-            // Planes may begin anywhere in their buffers.
+            // A plane may begin anywhere in its buffer.
             memory.planes[i] = {static_cast<int>(importer.memory.size()), 4 * i};
             importer.memory.push_back(begin - 4 * i);
         }
@@ -160,7 +161,7 @@ struct SharedPicture {
     SharedMemory memory;
 };
 
-TEST_F(PictureTexture, MemoryThatIsSharedIsReadWhereItIs) {
+TEST_F(PictureTexture, SharedMemoryIsReadWithoutACopy) {
     for (const PixelFormat format : {PixelFormat::Yuyv, PixelFormat::Nv12, PixelFormat::Yuv420}) {
         FakeImporter importer;
         {
@@ -179,7 +180,7 @@ TEST_F(PictureTexture, MemoryThatIsSharedIsReadWhereItIs) {
     }
 }
 
-TEST_F(PictureTexture, MemoryOfCamerasThatHaveGoneIsGivenUp) {
+TEST_F(PictureTexture, MemoryOfRemovedCamerasIsReleased) {
     FakeImporter importer;
     gpu::PictureTexture picture;
     picture.setImporter(&importer);
@@ -212,7 +213,7 @@ TEST_F(PictureTexture, MemoryThatTheDriverRefusesIsCopied) {
     EXPECT_EQ(picture.takeImportFault(), std::nullopt);
 }
 
-TEST_F(PictureTexture, OneLargerThanTheGpuAllowsIsNamed) {
+TEST_F(PictureTexture, APictureLargerThanTheGpuAllowsIsReported) {
     try {
         const gpu::Texture texture({1 << 20, 8}, gpu::TexelFormat::Rgba8);
         FAIL() << "no GPU has textures that wide";

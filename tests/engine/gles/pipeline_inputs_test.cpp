@@ -26,7 +26,7 @@ TEST_F(PipelineInputs, FramesOfAnotherSizeAreRefused) {
         EXPECT_THROW(p.run(TestPicture(wrong).view(), {}), std::invalid_argument);
     EXPECT_THROW(p.run({}, {}), std::invalid_argument);
     EXPECT_THROW(p.setStill(c.video().view(), {}), std::invalid_argument);
-    p.run(c.video().view(), {});  // afterwards everything still works
+    p.run(c.video().view(), {});  // after the refused input, the pipeline must still work
 }
 
 TEST_F(PipelineInputs, OptionsOutOfRangeAreRefused) {
@@ -38,7 +38,7 @@ TEST_F(PipelineInputs, OptionsOutOfRangeAreRefused) {
     EXPECT_THROW(Pipeline(c.rig, far), std::invalid_argument);
 }
 
-// Only the coarsest level can reach a shift of 9 px.
+// A shift of 9 px can only be found at the coarsest level.
 TEST_F(PipelineInputs, FlowUsesTheConfiguredLevels) {
     const PipelineCase c;
     const auto errorWith = [&](int levels) {
@@ -56,7 +56,7 @@ TEST_F(PipelineInputs, FlowUsesTheConfiguredLevels) {
     EXPECT_LT(errorWith(3), 0.5);
 }
 
-TEST_F(PipelineInputs, AStillMuchNarrowerThanTheVideoHasAnOutputOfARow) {
+TEST_F(PipelineInputs, AStillMuchNarrowerThanTheVideoGivesAnOutputOfOneRow) {
     const TestPicture video({160, 40}, PixelFormat::Rgba8, 90),
         still({1, 7}, PixelFormat::Rgba8, 90);
     Pipeline p(plainRig(video.size, still.size), {});
@@ -136,7 +136,7 @@ TEST_F(PipelineInputs, FlatPicturesStayFlat) {
     }
 }
 
-/// Counts the driver's high-severity messages while the object exists.
+/// Counts the driver's messages of high severity while the object exists.
 class HighMessages {
 public:
     explicit HighMessages(const GlContext& gl)

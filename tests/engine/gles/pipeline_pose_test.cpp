@@ -18,8 +18,8 @@ Pose poseAt(const Vector3d& translation, const Vector3d& degrees = Vector3d::Zer
     return pose;
 }
 
-/// Sideways, forwards with the epipole in the picture, rotated only, unchanged, hardly moved, far
-/// away.
+/// Poses after a sideways motion, a forward motion with the epipole in the picture, a pure
+/// rotation, no motion, a tiny motion, and a very long one.
 std::vector<Pose> poses() {
     return {
         poseAt({0.1, 0.02, 0}),   poseAt({0.01, 0, 0.3}), poseAt(Vector3d::Zero(), {0, 2, 1}),
@@ -100,7 +100,8 @@ TEST_F(PipelinePose, AnIdenticalFrameIsNotSearched) {
     p.run(c.video({2, 0}).view(), {}, poseAt({0.02, 0, 0}));
     const auto image = p.readImage();
     const auto flow = p.readFlow();
-    // Another pose with the same picture: no tile changed, so nothing is searched with it.
+    // The pose changes but the picture does not. No tile changed; so nothing may be searched with
+    // this pose.
     p.run(c.video({2, 0}).view(), {}, poseAt({0.3, 0.2, 0}, {0, 5, 0}));
     EXPECT_EQ(p.readStats().changed, 0);
     EXPECT_EQ(p.readStats().searched2d, 0);

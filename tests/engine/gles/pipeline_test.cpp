@@ -9,7 +9,7 @@ namespace {
 
 using PipelineTest = GlTest;
 
-const Eigen::Vector2d kShift{2.3, -1.4};  // between video and still [video px]
+const Eigen::Vector2d kShift{2.3, -1.4};  // shift between video and still [video px]
 
 int unchangedTiles(const Pipeline& p) {
     return p.readStats().tiles[static_cast<std::size_t>(TileClass::Unchanged)];
@@ -22,7 +22,7 @@ TEST_F(PipelineTest, WithoutAStillTheVideoIsUpscaled) {
     const PipelineCase c;
     Pipeline p(c.rig, {});
     p.setQuality({.learned = false});
-    // Low contrast: the shaders clamp columns that leave a byte's range.
+    // The contrast is low, because the shaders clamp enlarged columns to a byte's range.
     const TestPicture video = Waves(1, 1.2, 60, 25, 96).shoot(c.rig.video.size, {});
     const FrameResult& r = p.run(video.view(), {});
     EXPECT_FALSE(r.stats.usedStill);
@@ -33,7 +33,7 @@ TEST_F(PipelineTest, WithoutAStillTheVideoIsUpscaled) {
     for (const double value : twin::enlargedColumns(luma, p.outputSize().height).values)
         ASSERT_TRUE(value > 0 && value < 255);
     const twin::Grey wanted = twin::enlarged(luma, p.outputSize());
-    // The shaders round columns to 8 bits, the kernels round rows to 1/64 grey level.
+    // Tolerance: the shaders round columns to 8 bits, the kernels round rows to 1/64 grey level.
     constexpr double kTwiceRounded = 0.51 * (1 + twin::kCubicGain);
     const auto image = p.readImage();
     for (std::size_t i = 0; i < wanted.values.size(); ++i)
@@ -64,7 +64,7 @@ void expectGainByAStill(bool learned) {
         EXPECT_DOUBLE_EQ(psnr(p.readImage(), truth), upscaled);
     p.setMode(SuperResMode::Detail);
     p.run(video.view(), {});
-    // The search starts from the last frame's flow, so the result is slightly better.
+    // The search starts from the flow of the last frame; so the result may be slightly better.
     EXPECT_GT(psnr(p.readImage(), truth), detail - 0.1);
     EXPECT_LT(psnr(p.readImage(), truth), detail + 0.3);
     p.dropStill();

@@ -1,4 +1,5 @@
-// Errors that remain when a scene changes slowly or rests, under different kinds of sensor noise.
+// Tests which errors remain while a scene changes slowly or rests, with different kinds of sensor
+// noise.
 #include "pipeline/plan/work_plan.h"
 #include "tests/engine/gl_test.h"
 #include "tests/engine/pictures.h"
@@ -16,7 +17,7 @@ constexpr Size kDriftVideo{317, 235};  // the last tiles are cut off
 constexpr std::size_t kDriftPixels = std::size_t{317} * 235;
 
 using Rgb = std::array<float, 3>;  // [grey levels]
-using Light = std::vector<Rgb>;    // per pixel
+using Light = std::vector<Rgb>;    // one colour per pixel
 using DriftScene = std::function<Rgb(int x, int y, int frame)>;
 
 Light lightOf(const DriftScene& scene, int frame) {
@@ -28,8 +29,8 @@ Light lightOf(const DriftScene& scene, int frame) {
     return out;
 }
 
-/// A long table of Gaussian numbers, read from any position: new random numbers would take most of
-/// a test's time.
+/// Gaussian random numbers from a long table, which is read from any position. Drawing new numbers
+/// would take most of a test's time.
 float gaussian(std::size_t at) {
     static const std::vector<float> table = [] {
         std::mt19937 random(3);
@@ -41,8 +42,8 @@ float gaussian(std::size_t at) {
     return table[at % table.size()];
 }
 
-/// A sensor's noise, which grows with brightness. A share `shared` of its variance is common to 2x2
-/// pixels, as after processing.
+/// Noise of a sensor, which grows with brightness. The share `shared` of its variance is common to
+/// each 2x2 pixels, as after the processing in a camera.
 struct NoisySensor {
     double sigma = 1, shared = 0;
     std::mt19937 random{3};
@@ -70,11 +71,11 @@ struct NoisySensor {
 };
 
 struct DriftOutcome {
-    double stale = 0;    ///< mean square error of tiles that were not drawn, without noise
-    double changed = 0;  ///< share of the tiles
+    double stale = 0;    ///< mean square error of tiles that were not drawn, noise subtracted
+    double changed = 0;  ///< share of the tiles that were drawn
 };
 
-/// Runs frames and draws what the plan says; the result is measured over the frames after
+/// Runs frames and draws the tiles that the plan marks. The result counts only the frames after
 /// `settled`.
 DriftOutcome watch(const DriftScene& scene, NoisySensor sensor, int settled, int frames) {
     WorkPlan plan(kDriftVideo);
@@ -108,7 +109,7 @@ Rgb grey(double level) {
     return {g, g, g};
 }
 
-/// A smooth hill and a slope, seen by a camera that moves to the right.
+/// A smooth hill and a slope. The camera moves to the right.
 DriftScene slopes(double contrast, double pixelsPerFrame) {
     return [=](int x, int y, int frame) {
         const double u = (x + pixelsPerFrame * frame) / 90, v = y / 70.0;
@@ -116,7 +117,7 @@ DriftScene slopes(double contrast, double pixelsPerFrame) {
     };
 }
 
-/// The light gets brighter; with `redAlone`, only the red channel does.
+/// The light becomes brighter; with `redAlone`, only the red channel does.
 DriftScene brightening(double perFrame, bool redAlone) {
     return [=](int x, int y, int frame) {
         const auto gain = static_cast<float>(1 + perFrame * frame / 100);
@@ -127,7 +128,8 @@ DriftScene brightening(double perFrame, bool redAlone) {
     };
 }
 
-// If a picture's only error is the video's noise, 0.1 dB are 2.3 % of this noise's variance.
+// The limit: if noise is the picture's only error, a loss of 0.1 dB is 2.3 % of the noise's
+// variance.
 TEST_F(PlanDrift, SlowChangesLeaveNoStaleTiles) {
     const std::vector<std::pair<const char*, DriftScene>> scenes{
         {"slow", slopes(25, 0.05)},
@@ -141,8 +143,8 @@ TEST_F(PlanDrift, SlowChangesLeaveNoStaleTiles) {
                 << name << ", noise " << sigma;
 }
 
-// A change of colour without luma cannot be detected over many tiles: each tile's own test must
-// detect it.
+// A change of colour at constant luma is not seen by the sum over many tiles. Each tile's own test
+// must detect it.
 TEST_F(PlanDrift, ChangesOfColourOnlyAreRedrawnBeforeTheyAreVisible) {
     for (const double sigma : {0.5, 2.0})
         EXPECT_LT(watch(brightening(0.3, true), {sigma}, 4, 12).stale,
@@ -155,12 +157,12 @@ TEST_F(PlanDrift, NoiseOfAStaticSceneRedrawsNothing) {
         EXPECT_LT(watch(slopes(60, 0), {sigma}, 20, 24).changed, 0.0005) << "noise " << sigma;
 }
 
-// Noise that a sensor's processing has smoothed must be learned first.
+// Noise that was smoothed in the camera redraws tiles until the plan has learned the noise.
 TEST_F(PlanDrift, SmoothedNoiseRedrawsNothingOnceItIsLearned) {
     EXPECT_LT(watch(slopes(60, 0), {1.5, 0.25}, 80, 16).changed, 0.0005);
 }
 
-// Tiles around a small moving object must stay as they are without it.
+// Tiles around a small moving object must be drawn as rarely as without the object.
 TEST_F(PlanDrift, AMovingObjectRedrawsOnlyItsTiles) {
     const DriftScene scene = [](int x, int y, int frame) {
         const bool moves = std::hypot(x - 100 - 2 * (frame % 20), y - 90) < 12;

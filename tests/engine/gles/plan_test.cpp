@@ -11,13 +11,13 @@ namespace {
 using Plan = GlTest;
 
 constexpr Size kSize{100, 60};  // 7x4 tiles, the last ones cut off
-// Thresholds for a frame without measured noise (0.29 grey levels).
+// Thresholds of a frame whose noise was not measured; 0.29 grey levels are assumed.
 constexpr double kMeanThreshold = 1.58, kAbsoluteThreshold = 2.37;
 
 struct TileState {
     std::uint32_t changed, matched;
     double noise, structure;
-    std::array<double, 3> energy;  // of the difference: pixels, 2x2 means, the means' twist
+    std::array<double, 3> energy;  // mean squares of pixels, 2x2 means, their twist
 };
 
 std::vector<TileState> tilesOf(const WorkPlan& plan) {
@@ -35,12 +35,12 @@ std::vector<TileState> tilesOf(const WorkPlan& plan) {
     return out;
 }
 
-/// `base` with some grey levels changed in the first `tiles` tiles.
+/// Returns `base` with some grey levels changed in the first `tiles` tiles.
 TestPicture changedIn(TestPicture base, int tiles, int by) {
     TestPicture out = base;
     for (int t = 0; t < tiles; ++t)
         for (int i = 0; i < 64; ++i) {
-            // Away from the border to another tile, but up to the picture's border.
+            // Positions away from borders to other tiles, but also at the border of the picture.
             const int x = t % 7 == 6 ? 96 + i % 4 : 16 * (t % 7) + 4 + i % 8;
             std::uint8_t* pixel = out.at(x, 16 * (t / 7) + 4 + i / 8);
             pixel[1] = static_cast<std::uint8_t>(base.at(x, 16 * (t / 7) + 4 + i / 8)[1] ^ by);
@@ -48,11 +48,11 @@ TestPicture changedIn(TestPicture base, int tiles, int by) {
     return out;
 }
 
-TEST_F(Plan, FlagsAndNoiseMatchTwin) {
+TEST_F(Plan, FlagsAndNoiseMatchTheOracle) {
     const TestPicture drawn = Waves(1, 6, 60, 30).shoot(kSize, {});
     TestPicture now = drawn;
     std::mt19937 random(7);
-    for (int tile = 0; tile < 28; ++tile)  // from hardly any change to large ones, in one channel
+    for (int tile = 0; tile < 28; ++tile)  // changes in one channel, from hardly any to large ones
         for (int i = 0; i < 256; ++i) {
             const int x = 16 * (tile % 7) + i % 16, y = 16 * (tile / 7) + i / 16;
             if (x < kSize.width && y < kSize.height)
@@ -85,7 +85,7 @@ TEST_F(Plan, FlagsAndNoiseMatchTwin) {
     EXPECT_LE(changed, 26);
 }
 
-TEST_F(Plan, OverdrawnTilesAreRedrawnWithAnyOtherTile) {
+TEST_F(Plan, OverdrawnTilesAreRedrawnOnceAnyOtherTileChanges) {
     const TestPicture base = Waves(1, 6, 60, 30).shoot(kSize, {});
     const TestPicture oneTile = changedIn(base, 1, 64);
     WorkPlan plan(kSize);
@@ -112,9 +112,9 @@ TEST_F(Plan, OverdrawnTilesAreRedrawnWithAnyOtherTile) {
     EXPECT_EQ(plan.work().changed, 28) << "none counts twice";
 }
 
-TEST_F(Plan, OverdrawnTilesAreRedrawnWithTheirTilesOrTheWholePicture) {
+TEST_F(Plan, OverdrawnTilesAreRedrawnTogetherOnceOneOfThemChanges) {
     const TestPicture base = Waves(1, 6, 60, 30).shoot(kSize, {});
-    const TestPicture oneTile = changedIn(base, 1, 64);  // the first
+    const TestPicture oneTile = changedIn(base, 1, 64);  // only the first tile changes
     WorkPlan plan(kSize);
     plan.drawnOver({2, 0, 4, 2}, WorkPlan::Redraw::WithThem);
     plan.update(planesOf(oneTile), planesOf(base), false);
@@ -140,7 +140,7 @@ TEST_F(Plan, NoiseOfAKnownGaussianIsFound) {
     }
 }
 
-// Enlarging reads two pixels beyond a tile.
+// Enlarging a tile reads two pixels beyond it.
 TEST_F(Plan, AChangeAtATileBorderMarksTheNeighbour) {
     const TestPicture base = Waves(1, 6, 60, 30).shoot(kSize, {});
     struct Case {
@@ -164,7 +164,7 @@ TEST_F(Plan, AChangeAtATileBorderMarksTheNeighbour) {
     }
 }
 
-TEST_F(Plan, NothingChangedDrawsNothing) {
+TEST_F(Plan, UnchangedFramesDrawNothing) {
     const TestPicture p = randomPicture(kSize, 1);
     WorkPlan plan(kSize);
     plan.update(planesOf(p), planesOf(p), false);
@@ -174,7 +174,7 @@ TEST_F(Plan, NothingChangedDrawsNothing) {
     EXPECT_FALSE(plan.work().drawsWhole());
 }
 
-TEST_F(Plan, AForcedFrameChangesEverything) {
+TEST_F(Plan, AForcedFrameMarksEveryTileChanged) {
     const TestPicture p = randomPicture(kSize, 1);
     WorkPlan plan(kSize);
     plan.update(planesOf(p), planesOf(p), true);
@@ -198,9 +198,9 @@ TEST_F(Plan, TheBufferHoldsEveryTilesFlags) {
               (std::vector<std::uint32_t>{0, 5, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 1}));
 }
 
-TEST_F(Plan, ManyChangedTilesAreDrawnInOnePiece) {
+TEST_F(Plan, ManyChangedTilesAreDrawnAsAWholeFrame) {
     const TestPicture base = Waves(2, 20, 100, 20).shoot(kSize, {});
-    const int last = 12;  // 0.45 of 28 tiles are 12.6
+    const int last = 12;  // 0.45 of the 28 tiles are 12.6
     for (const int tiles : {1, last, last + 1, 28}) {
         WorkPlan plan(kSize);
         plan.update(planesOf(changedIn(base, tiles, 64)), planesOf(base), false);
@@ -214,7 +214,7 @@ TEST_F(Plan, ManyChangedTilesAreDrawnInOnePiece) {
     }
 }
 
-/// A slope and noise, with columns of dots two tiles apart, one column for each contrast given.
+/// A slope with noise, and columns of dots two tiles apart. Each given contrast has one column.
 TestPicture dotted(Size size, const std::vector<int>& contrasts) {
     TestPicture out(size);
     for (int y = 0; y < size.height; ++y)
@@ -233,7 +233,8 @@ TestPicture dotted(Size size, const std::vector<int>& contrasts) {
     return out;
 }
 
-/// Columns in which all tiles are matched; {-1} if a column has both kinds of tiles.
+/// Columns of tiles in which all tiles are matched. Returns {-1} if a column has both kinds of
+/// tiles.
 std::vector<int> matchedColumns(const WorkPlan& plan) {
     const auto tiles = tilesOf(plan);
     const Size count = plan.tileCount();
@@ -255,7 +256,7 @@ TEST_F(Plan, TilesWithStructureAndTheirNeighboursAreMatched) {
     const TestPicture picture = dotted(size, {20, 60, 0, 40});
     WorkPlan plan(size);
     const auto update = [&] {
-        for (int i = 0; i < 20; ++i)  // until the noise is known
+        for (int i = 0; i < 20; ++i)  // after these frames the noise is known
             plan.update(planesOf(picture), planesOf(picture), true);
         return matchedColumns(plan);
     };
@@ -310,7 +311,7 @@ TEST_F(Plan, ChangedTilesWithoutStructureAreNotMatched) {
         for (int i = 0; i < 20; ++i)
             plan.update(planesOf(drawn), planesOf(drawn), false);
         TestPicture now = drawn;
-        for (int i = 0; i < 256; ++i)  // one tile, uniformly
+        for (int i = 0; i < 256; ++i)  // changes one tile uniformly
             now.at((inStructure ? 16 : 192) + i % 16, 32 + i / 16)[1] += 9;
         plan.update(planesOf(now), planesOf(drawn), false);
         EXPECT_EQ(plan.work().changed, 9) << "with those beside it";
@@ -318,13 +319,14 @@ TEST_F(Plan, ChangedTilesWithoutStructureAreNotMatched) {
     }
 }
 
-/// Plans a completely changed picture, after the noise is known.
+/// Plans a picture that changed completely. The noise is already known.
 void planWhole(WorkPlan& plan, const TestPicture& picture) {
     for (int i = 0; i < 20; ++i)
         plan.update(planesOf(picture), planesOf(picture), true);
 }
 
-// A rectangle around tiles far apart would contain mostly others.
+// The structured tiles are far apart; so a rectangle around them would contain mostly tiles without
+// structure.
 TEST_F(Plan, AWholeFrameWithLittleStructureIsEnlarged) {
     const Size size{512, 96};
     for (const bool structured : {false, true}) {

@@ -15,7 +15,7 @@ using Preview = GlTest;
 constexpr Size kVideo{160, 120};
 constexpr Size kOutput{576, 432};
 
-/// A strong off-centre barrel distortion, at the video's resolution.
+/// A lens with strong, off-centre barrel distortion, at the video's resolution.
 CameraModel lens() {
     CameraModel c = plainRig(kVideo, kVideo).video;
     c.cx += 3.4;
@@ -46,7 +46,8 @@ std::vector<VirtualObject> objects() {
     };
 }
 
-// The camera is neither at the world's origin nor upright; objects are given in its frame.
+// A camera pose away from the world's origin and not upright. Objects are given in the camera's
+// frame.
 const RigidTransform kPose = turned({0.4, -1.1, 0.7}, {2, -3, 1});
 
 std::vector<VirtualObject> inWorld(std::vector<VirtualObject> inCamera) {
@@ -63,8 +64,8 @@ twin::DepthPicture depthOf(const VirtualLayer& layer) {
     return out;
 }
 
-/// Silhouettes within a pixel; depth as exact as the triangles, with more tolerance next to a
-/// silhouette, where a pixel may show the truth of its neighbour.
+/// Silhouettes must agree within a pixel. Depth must be as exact as the triangles; next to a
+/// silhouette the tolerance is wider, because a pixel may show what its neighbour should show.
 void expectAlike(const twin::DepthPicture& drawn, const twin::DepthPicture& truth,
                  double exactness = 1e-3) {
     ASSERT_EQ(drawn.size, truth.size);
@@ -83,7 +84,7 @@ void expectAlike(const twin::DepthPicture& drawn, const twin::DepthPicture& trut
     EXPECT_GT(covered, 2000);
 }
 
-TEST_F(Preview, ShapesAreWhereTheLensShowsThem) {
+TEST_F(Preview, ShapesAreDrawnWhereTheLensShowsThem) {
     PreviewRenderer renderer(lens(), kOutput);
     for (const VirtualObject& o : inWorld(objects()))
         expectAlike(depthOf(renderer.render(std::array{o}, kPose)),
@@ -100,13 +101,13 @@ TEST_F(Preview, NearerObjectHidesFartherInAnyOrder) {
 }
 
 TEST_F(Preview, SurfacesAroundAndBehindTheCameraDoNotSmear) {
-    // A lens model that folds over outside of the picture's corners.
+    // The model of this lens folds over outside the picture's corners.
     CameraModel folding = plainRig(kVideo, kVideo).video;
     folding.fx = folding.fy = 130;
     folding.distortion = {-0.17, 0, 0, 0, 0};
-    // A wall beside the camera, one as near as 5 mm, and a floor that begins behind the camera.
-    // Their cells are up to a quarter of their distance wide, which the lens bends by a few
-    // percent.
+    // Surfaces: a wall beside the camera, a wall at 5 mm, and a floor that begins behind the
+    // camera. Their cells are up to a quarter of their distance wide; the lens bends such cells by
+    // a few percent.
     for (const CameraModel& camera : {lens(), folding}) {
         PreviewRenderer renderer(camera, kOutput);
         for (const VirtualObject& o : inWorld({
@@ -120,7 +121,7 @@ TEST_F(Preview, SurfacesAroundAndBehindTheCameraDoNotSmear) {
     }
 }
 
-TEST_F(Preview, NothingInViewDrawsNothing) {
+TEST_F(Preview, ObjectsOutOfViewDrawNothing) {
     PreviewRenderer renderer(lens(), kOutput);
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     constexpr double kInfinite = std::numeric_limits<double>::infinity();
@@ -142,7 +143,7 @@ TEST_F(Preview, NothingInViewDrawsNothing) {
     EXPECT_TRUE(renderer.render(inWorld({box({0, 0, 2}, unit)}), broken).bounds.empty());
 }
 
-/// Distances from the layer's bounds to its covered pixels: the smallest and the largest side.
+/// Smallest and largest distance between a side of the layer's bounds and the covered pixels [px].
 std::array<int, 2> slackOf(const VirtualLayer& layer) {
     const twin::DepthPicture z = depthOf(layer);
     PixelRect covered{kOutput.width, kOutput.height, 0, 0};
@@ -161,7 +162,7 @@ TEST_F(Preview, BoundsEncloseCoveredPixelsTightly) {
     PreviewRenderer renderer(lens(), kOutput);
     struct Case {
         Eigen::Vector2d shift;
-        int most;  // the picture's border cuts off cells of this number of pixels
+        int most;  // cells that the picture's border cuts off are this large [px]
     };
     for (const Case& c :
          {Case{{0, 0}, 3}, Case{{-0.7, 0.1}, 16}, Case{{0.7, -0.5}, 16}, Case{{0.1, 0.6}, 16}}) {
@@ -177,7 +178,7 @@ TEST_F(Preview, BoundsEncloseCoveredPixelsTightly) {
     }
 }
 
-TEST_F(Preview, NothingStaysOfEarlierFrames) {
+TEST_F(Preview, EarlierFramesLeaveNothingBehind) {
     PreviewRenderer renderer(lens(), kOutput), fresh(lens(), kOutput);
     const std::vector<VirtualObject> all = inWorld(objects());
     renderer.render(all, kPose);
@@ -190,7 +191,7 @@ TEST_F(Preview, NothingStaysOfEarlierFrames) {
     EXPECT_EQ(std::count(empty.begin(), empty.end(), 0), static_cast<long>(empty.size()));
 }
 
-/// Colour of a plain quad in front of the camera, whose normal is at `angle` to the light.
+/// Colour of a plain quad in front of the camera. `angle`: between its normal and the light.
 int litQuad(double angle, double ambient) {
     PreviewRenderer renderer(
         lens(), kOutput,
@@ -203,7 +204,7 @@ int litQuad(double angle, double ambient) {
     return rgba[4UL * (200UL * kOutput.width + 280)];
 }
 
-TEST_F(Preview, LightIsLambertsLawOverAmbient) {
+TEST_F(Preview, LightFollowsLambertsLawPlusAmbient) {
     for (const double degrees : {0.0, 30.0, 60.0, 85.0, 120.0})
         for (const double ambient : {0.0, 0.35, 1.0}) {
             const double angle = degrees * std::numbers::pi / 180;
@@ -213,7 +214,7 @@ TEST_F(Preview, LightIsLambertsLawOverAmbient) {
         }
 }
 
-TEST_F(Preview, SquaresAlternateOverASide) {
+TEST_F(Preview, CheckerboardSquaresAlternateOverASide) {
     const CameraModel flat = plainRig(kVideo, kVideo).video;
     PreviewRenderer renderer(flat, kOutput, {.ambient = 1});
     VirtualObject o = object(VirtualShape::Quad, {0.6, 0.6, 0}, {});

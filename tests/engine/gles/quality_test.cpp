@@ -1,4 +1,4 @@
-// Settings that change between frames, and work that is not skipped.
+// Tests settings that change between frames, and work that is not skipped.
 #include "tests/engine/gl_test.h"
 #include "tests/engine/gles/pipeline_case.h"
 #include "tests/oracle/upscale.h"
@@ -34,7 +34,7 @@ PipelineOptions madeWith(const Quality& quality) {
     return out;
 }
 
-/// The picture of the second of two frames after a still.
+/// The picture of the second frame after a still.
 Image pictureOf(Pipeline& p, const PipelineCase& c, bool withPoses) {
     const auto pose = [&](double x) { return withPoses ? std::optional(posed(x)) : std::nullopt; };
     p.setStill(c.still().view(), {}, pose(0));
@@ -62,14 +62,14 @@ TEST_F(QualityTest, WithoutTheStillAFrameMayBeEnlargedLinearly) {
             c.rig.video.size, [&](int x, int y) { return static_cast<double>(frame.at(x, y)[0]); });
         const twin::Grey wanted = twin::enlarged(red, p.outputSize(), true);
         for (std::size_t i = 0; i < wanted.values.size(); ++i)
-            // Columns are rounded to 8 bits.
+            // Tolerance: columns are rounded to 8 bits.
             ASSERT_NEAR(image[4 * i], wanted.values[i], 1.02) << i;
     }
     Pipeline usual(c.rig, {});
     EXPECT_TRUE(pictureOf(detail, c, false) == pictureOf(usual, c, false)) << "of the still alone";
 }
 
-// The change is in the two lowest rows of a tile.
+// Only the two lowest rows of a tile change.
 TEST_F(QualityTest, NeighboursAffectedByAChangeAreRedrawn) {
     const PipelineCase c;
     Pipeline p(c.rig, {}), whole(c.rig, {});
@@ -87,7 +87,7 @@ TEST_F(QualityTest, NeighboursAffectedByAChangeAreRedrawn) {
     EXPECT_TRUE(p.readImage() == whole.readImage());
 }
 
-// All pipelines saw the same frames before, so they know the same noise.
+// All pipelines have processed the same frames before; so they know the same noise.
 TEST_F(QualityTest, SettingsChangedBetweenFramesActAsIfSetAtTheStart) {
     const PipelineCase c;
     for (const bool withPoses : {false, true}) {
@@ -146,7 +146,7 @@ TEST_F(QualityTest, SettingsOutOfRangeAreRefusedAndChangeNothing) {
     EXPECT_TRUE(pictureOf(p, c, true) == pictureOf(untouched, c, true));
 }
 
-TEST_F(QualityTest, AShareOfTheTilesGetsDetail) {
+TEST_F(QualityTest, OnlyTheConfiguredShareOfTilesGetsDetail) {
     const PipelineCase c;
     std::size_t before = 0;
     for (const double share : {0.3, 1.0}) {
@@ -182,7 +182,7 @@ TEST_F(QualityTest, DisablingSkipsDrawsTheSamePicture) {
     }
 }
 
-/// The picture in uniform grey except for a patch in the middle.
+/// Makes the picture uniformly grey, except for a patch in the middle.
 TestPicture evenButForAPatch(TestPicture picture, int grey) {
     const Size size = picture.view().size;
     for (int y = 0; y < size.height; ++y)
@@ -219,7 +219,7 @@ TEST_F(QualityTest, APatchIsDrawnAsWellAsAWholePicture) {
     }
 }
 
-/// Classes of tiles drawn after a small change in one corner.
+/// Classes of the tiles that are drawn after a small change in one corner.
 std::vector<TileClass> classesAfterAChange(const SkipOptions& skips) {
     const PipelineCase c;
     PipelineOptions options;
@@ -235,7 +235,7 @@ std::vector<TileClass> classesAfterAChange(const SkipOptions& skips) {
     return p.readTileClasses();
 }
 
-TEST_F(QualityTest, DisabledSkipsDoTheWork) {
+TEST_F(QualityTest, WithSkipsDisabledAllWorkIsDone) {
     const auto count = [](const std::vector<TileClass>& classes, TileClass which) {
         return std::ranges::count(classes, which);
     };

@@ -4,7 +4,7 @@
 
 namespace mfar {
 
-/// True when `work` drew at least one pixel.
+/// True if `work` draws at least one pixel.
 template <class F>
 bool drewAnything(F&& work) {
     GLuint query = 0;

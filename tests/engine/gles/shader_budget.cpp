@@ -53,7 +53,7 @@ void checkVariantsAreNamed(std::string_view text, const std::string& code, Fault
     }
 }
 
-/// Deletes the program at the end of the scope.
+/// A linked program. It is deleted at the end of the scope.
 class LinkedShader {
 public:
     LinkedShader(std::string_view name, std::string_view text, std::string_view defines) {
@@ -156,8 +156,8 @@ void checkGroup(const LinkedShader& shader, Faults& faults) {
         faults.push_back(std::to_string(invocations) + " invocations a group");
 }
 
-// ES does not report the size of shared variables. Moved into storage blocks, their size can be
-// queried: the compiler evaluates the array lengths.
+// OpenGL ES does not report the size of shared variables. They are moved into storage blocks, whose
+// size can be queried: so the compiler evaluates the array lengths.
 void checkShared(std::string_view name, std::string_view text, std::string_view defines,
                  Faults& faults) {
     std::string code = withoutComments(text);

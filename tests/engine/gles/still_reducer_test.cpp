@@ -12,7 +12,7 @@ namespace {
 
 using StillReducerTest = GlTest;
 
-// Reduces one row or column, in double precision.
+// Reduces one row or one column, in double precision.
 std::vector<double> reduced(const std::vector<double>& line, int to) {
     const int from = static_cast<int>(line.size());
     const double scale = static_cast<double>(from) / to;
@@ -51,7 +51,7 @@ std::vector<double> twinOf(const TestPicture& picture, Size to) {
     return out;
 }
 
-TEST_F(StillReducerTest, MatchesItsTwin) {
+TEST_F(StillReducerTest, MatchesTheOracle) {
     for (const auto& [from, to] : {std::pair(Size{100, 70}, Size{43, 31}),
                                    {Size{37, 41}, Size{36, 11}},
                                    {Size{9, 1}, Size{2, 1}},
@@ -93,7 +93,7 @@ std::vector<std::uint8_t> halved(const std::vector<std::uint8_t>& rgba, Size siz
     return out;
 }
 
-TEST_F(StillReducerTest, ASmallPictureIsAsGoodAsALargeOneMadeSmall) {
+TEST_F(StillReducerTest, ASmallOutputIsAsGoodAsAReducedLargeOutput) {
     const PipelineCase c;
     const Eigen::Vector2d shift{2.3, -1.4};
     Pipeline large(c.rig, {});
@@ -106,7 +106,7 @@ TEST_F(StillReducerTest, ASmallPictureIsAsGoodAsALargeOneMadeSmall) {
     const auto truth = c.fine(half, shift).bytes;
     EXPECT_EQ(small.outputSize(), half);
     EXPECT_GT(psnr(small.readImage(), truth), psnr(halved(large.readImage(), full), truth) - 0.2);
-    // Matching does not depend on the output size.
+    // Matching must not depend on the size of the output.
     EXPECT_EQ(small.readFlow(), large.readFlow());
 }
 

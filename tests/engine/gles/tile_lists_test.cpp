@@ -21,7 +21,8 @@ constexpr Size kTiles{19, 15};
 constexpr int kLevels = 4;
 constexpr int kCount = kCells.width * kCells.height;
 
-/// Fields as output by refine(): flow, cost, texture; then the two-way errors.
+/// Fields in the format of refine()'s output: flow, cost and texture, followed by the two-way
+/// errors.
 std::vector<Cell> randomFields(unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> unit(0, 1);
@@ -41,7 +42,7 @@ gpu::Buffer stored(const std::vector<Cell>& fields) {
     return patches;
 }
 
-/// Tiles in which at least three cells have texture, match badly and are visible in the still.
+/// Tiles with at least three cells that have texture, match badly and are visible in the still.
 std::vector<bool> twinFlags(const std::vector<Cell>& fields) {
     std::vector<int> cells(kTiles.width * kTiles.height);
     for (int y = 0; y < kCells.height; ++y)
@@ -56,7 +57,7 @@ std::vector<bool> twinFlags(const std::vector<Cell>& fields) {
     return out;
 }
 
-/// Adds the tiles with at least two flagged neighbours.
+/// Also flags the tiles that have at least two flagged neighbours.
 std::vector<bool> twinClosed(const std::vector<bool>& flags) {
     const auto at = [&](int x, int y) {
         const bool within = x >= 0 && y >= 0 && x < kTiles.width && y < kTiles.height;
@@ -70,8 +71,8 @@ std::vector<bool> twinClosed(const std::vector<bool>& flags) {
     return out;
 }
 
-/// Groups (y * 65536 + x) of the level above that a level's groups read: their own and its
-/// neighbours.
+/// Groups (y * 65536 + x) of the next coarser level that the groups of a level read: their own
+/// group and its neighbours.
 std::set<std::uint32_t> twinAbove(const std::set<std::uint32_t>& groups, Size level) {
     std::set<std::uint32_t> out;
     for (const std::uint32_t g : groups)
@@ -96,7 +97,7 @@ std::set<std::uint32_t> listed(const TileLists& lists, int level) {
     return out;
 }
 
-TEST_F(TileListsGl, FlagsAndListsMatchTheTwins) {
+TEST_F(TileListsGl, FlagsAndListsMatchTheOracles) {
     TileBuffer tiles(kVideoSize);
     TileLists lists(kCells, kLevels);
     const auto fields = randomFields(1);
@@ -115,7 +116,7 @@ TEST_F(TileListsGl, CoarserLevelsContainAllGroupsThatFinerOnesRead) {
     TileBuffer tiles(kVideoSize);
     TileLists lists(kCells, kLevels);
     std::vector<Cell> fields(2UL * kCount, Cell{0, 0, 0, 1e4F});
-    for (const int tile : {0, 60, 200})  // far apart
+    for (const int tile : {0, 60, 200})  // these tiles are far apart
         for (int i = 0; i < 3; ++i)
             fields[4 * (tile / kTiles.width) * kCells.width + 4 * (tile % kTiles.width) + i][2] = 1;
     const gpu::Buffer patches = stored(fields);
@@ -150,9 +151,9 @@ TEST_F(TileListsGl, AnEmptyPlanListsNothing) {
     EXPECT_EQ(lists.count(), 0);
 }
 
-/// A static picture with a square that moves in the second one.
+/// A scene at rest with a square that moves in the second picture.
 struct MovedSquare {
-    static constexpr int kFirst = 96, kEnd = 192;  // [px], six tiles
+    static constexpr int kFirst = 96, kEnd = 192;  // first and last pixel; six tiles
     static constexpr int kBy = 14;
 
     MovedSquare() {
@@ -173,7 +174,7 @@ struct MovedSquare {
     TestPicture now, then;
 };
 
-/// Result of refine() for a field of zero motion.
+/// Result of refine() for a field without motion.
 class Refined {
 public:
     Refined(const TestPicture& now, const TestPicture& then) : pyramids_(now.size), flow(now.size) {
@@ -196,7 +197,7 @@ public:
     Flow2d flow;
 };
 
-TEST_F(TileListsGl, MovedObjectsAreFoundAndTheRestStays) {
+TEST_F(TileListsGl, MovedObjectsAreFoundAndOtherTilesKeepTheirFlow) {
     const MovedSquare s;
     const Refined r(s.now, s.then);
     const auto vectors = r.vectors(), errors = r.errors();
@@ -219,7 +220,7 @@ TEST_F(TileListsGl, MovedObjectsAreFoundAndTheRestStays) {
         }
 }
 
-TEST_F(TileListsGl, WhereNothingMovedNothingIsSearched) {
+TEST_F(TileListsGl, WithoutMotionNothingIsSearched) {
     const TestPicture still = Waves(3, 6, 60, 40).shoot(kVideoSize, {});
     const Refined r(still, still);
     EXPECT_EQ(r.flow.searched().count(), 0);

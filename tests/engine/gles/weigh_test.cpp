@@ -15,7 +15,7 @@ constexpr Size kWhole{25, 15};
 constexpr Size kHalf{13, 8};
 constexpr double kSigma = 1.5;
 
-/// Covariance, variances, confidence: from flat to strong contrast and from equal to unrelated
+/// Covariance, variances and confidence, from flat to strong contrast and from equal to unrelated
 /// pictures.
 twin::Cells randomStatistics(Size size, unsigned seed) {
     std::mt19937 random(seed);
@@ -57,8 +57,9 @@ Weighed weigh(const twin::Cells& displacement, const twin::Cells& statistics,
     return {{kWhole, field.readRgba32F()}, {kWhole, look.readRgba32F()}, weights.readRgba8()};
 }
 
-TEST_F(Weigh, WeightsMatchTwin) {
-    // From a uniform flow on the left to a bent one on the right, slightly torn at the bottom.
+TEST_F(Weigh, WeightsMatchTheOracle) {
+    // The flow is uniform on the left and changes along x on the right. At the bottom it is
+    // slightly discontinuous.
     twin::Cells displacement{kWhole, {}};
     for (int y = 0; y < kWhole.height; ++y)
         for (int x = 0; x < kWhole.width; ++x)
@@ -76,7 +77,7 @@ TEST_F(Weigh, WeightsMatchTwin) {
             EXPECT_NEAR(f[2], t.weight, 1e-3 * t.weight + 1e-6) << x << ", " << y;
             EXPECT_NEAR(f[3], t.confidence, 1e-6);
             EXPECT_EQ(f.head<2>(), d.head<2>());
-            const Eigen::Vector4d l = got.look.at(x, y);  // in half precision
+            const Eigen::Vector4d l = got.look.at(x, y);  // the look-up is stored in half precision
             EXPECT_NEAR(l[0], std::min(d[2], 65504.0), 1e-3 * d[2]);
             EXPECT_NEAR(l[2], t.weight, 1e-3 * t.weight + 1e-4);
             const std::uint8_t* w = &got.weights[4UL * (1UL * y * kWhole.width + x)];
@@ -100,9 +101,9 @@ twin::Cells constantCells(Size size, std::array<float, 4> value) {
     return out;
 }
 
-// Half of the variance is shared: enough if both sensors look from the same side; otherwise it
-// costs three quarters of the weight.
-TEST_F(Weigh, ABentFlowCostsTrustInAnImperfectMatch) {
+// Both sensors share half of the variance. That is enough where the flow is uniform; where it
+// changes, it costs three quarters of the weight.
+TEST_F(Weigh, ABentFlowLowersTheWeightOfAnImperfectMatch) {
     const twin::Cells half = constantCells(kHalf, {0, 0, 0, 0});
     const twin::Cells matched = constantCells(kWhole, {7.07e4F, 1e5F, 1e5F, 1});
     twin::Cells bent{kWhole, {}};
@@ -113,9 +114,9 @@ TEST_F(Weigh, ABentFlowCostsTrustInAnImperfectMatch) {
     EXPECT_LT(weigh(bent, matched, half, 0.3).field.at(5, 5)[2], 0.4 * even);
 }
 
-// Between two cells that look at different places, look-ups are wrong. Rotations and zooms do not
-// tear the flow.
-TEST_F(Weigh, ATornFlowIsNotTrusted) {
+// Between two cells that look up different places, look-ups are wrong. Rotations and zooms change
+// the flow smoothly and keep their weight.
+TEST_F(Weigh, ADiscontinuousFlowHasNoWeight) {
     const twin::Cells half = constantCells(kHalf, {1e5F, 1e5F, 1e5F, 0});
     const twin::Cells alike = constantCells(kWhole, {1e5F, 1e5F, 1e5F, 1});
     const auto weightsWithJump = [&](float jump) {
@@ -185,7 +186,7 @@ Classified classify(const twin::Cells& field, const std::vector<std::uint32_t>& 
             lists.read<std::uint32_t>(4UL * kTileCount)};
 }
 
-/// Affine tiles, broken ones and ones without weight, side by side.
+/// A field with affine tiles, discontinuous tiles and tiles without weight, side by side.
 twin::Cells mixedField() {
     twin::Cells out{kWhole, {}};
     std::mt19937 random(5);
@@ -201,8 +202,8 @@ twin::Cells mixedField() {
     return out;
 }
 
-/// Header (whole, changed tiles), then `changed` and `matched` of each tile: every third is
-/// unchanged, every fifth not matched.
+/// A header (whole frame, changed tiles), then `changed` and `matched` of each tile. Every third
+/// tile is unchanged, every fifth is not matched.
 std::vector<std::uint32_t> changes(std::uint32_t whole) {
     std::vector<std::uint32_t> out{whole, 0};
     for (unsigned i = 0; i < kTileCount; ++i)
@@ -210,13 +211,13 @@ std::vector<std::uint32_t> changes(std::uint32_t whole) {
     return out;
 }
 
-/// Class of a changed tile of mixedField().
+/// Wanted class of a changed tile of mixedField().
 unsigned classIn(const twin::Cells& field, int tile) {
     if (tile % 5 == 0) return 1;
     return twin::tileClass(field, tile % kClassified.width, tile / kClassified.width);
 }
 
-/// The tiles and all their neighbours.
+/// These tiles and all their neighbours.
 std::set<std::uint32_t> withNeighbours(const std::set<std::uint32_t>& tiles) {
     std::set<std::uint32_t> out;
     for (const std::uint32_t tile : tiles)
@@ -237,9 +238,9 @@ void expectLists(const Classified& got, const std::array<std::set<std::uint32_t>
     }
 }
 
-TEST_F(Classify, ClassesCountsAndListsMatchTwin) {
+TEST_F(Classify, ClassesCountsAndListsMatchTheOracle) {
     const twin::Cells field = mixedField();
-    std::array<std::set<std::uint32_t>, 4> wanted;  // all, upscaled, trusted, blended
+    std::array<std::set<std::uint32_t>, 4> wanted;  // tiles: all, enlarged only, trusted, blended
     std::array<unsigned, 4> counts{};
     for (int i = 0; i < static_cast<int>(kTileCount); ++i) {
         const int x = i % kClassified.width, y = i / kClassified.width;
@@ -267,7 +268,8 @@ TEST_F(Classify, ClassesCountsAndListsMatchTwin) {
         EXPECT_GT(counts[k], 0U) << "the field shows every class";
         EXPECT_EQ(got.draws.counts[k], counts[k]);
     }
-    EXPECT_EQ(got.draws.counts[6], kTileCount * 128);  // mean confidence 1/2, in units of 1/256
+    EXPECT_EQ(got.draws.counts[6],
+              kTileCount * 128);  // each tile has a mean confidence of 128 / 256
 
     wanted[0] = changed;
     expectLists(classify(field, changes(0), true, 0), wanted);

@@ -10,7 +10,7 @@ namespace {
 
 using Row = std::vector<float>;
 
-TEST(CellDepths, AreTheMeanOfTheMiddleTwo) {
+TEST(CellDepths, CellDepthIsTheMeanOfTheMiddleTwoPixels) {
     for (const std::size_t count : test::kLengths) {
         const Row upper = test::randomValues<float>(4 * count, -1, 1, 1);
         const Row lower = test::randomValues<float>(4 * count, -1, 1, 2);
@@ -63,7 +63,7 @@ TEST(CellFlow, EndsWhereTheStillShowsThePoint) {
 
 TEST(CellFlow, PointsBehindTheCameraAndNanHaveNoFlow) {
     Cells cells(20);
-    cells.ends.motion.turn = {1, 0, 0, 0, 1, 0, 0, 0, -1};  // looks backwards
+    cells.ends.motion.turn = {1, 0, 0, 0, 1, 0, 0, 0, -1};  // the camera looks backwards
     for (const auto& v : cells.flow(cells.s))
         EXPECT_GT(v[0], 9000);
     cells = Cells(20);
@@ -71,7 +71,7 @@ TEST(CellFlow, PointsBehindTheCameraAndNanHaveNoFlow) {
     EXPECT_GT(cells.flow(cells.s)[7][1], 9000);
 }
 
-// The flow at other depths leads back to these depths.
+// The flow of other depths must lead back to these depths.
 TEST(AlignCells, FollowsTheFlowAlongTheLine) {
     for (const std::size_t count : test::kLengths) {
         const Cells cells(count);
@@ -88,7 +88,7 @@ TEST(AlignCells, FollowsTheFlowAlongTheLine) {
     }
 }
 
-TEST(CellLandings, AreTheNearestCell) {
+TEST(CellLandings, FlowLandsInTheNearestCell) {
     const Size cells{37, 20};
     const Row x = test::randomValues<float>(37, -60, 60, 1),
               y = test::randomValues<float>(37, -60, 60, 2);
@@ -119,7 +119,7 @@ TEST(CellsHidden, OccludedCellsLieBehindOthersAtTheSamePixel) {
     }
 }
 
-TEST(PredictCells, CarriesThemToTheNextFrame) {
+TEST(PredictCells, CarriesCellsToTheNextFrame) {
     CellMotion m{test::barrel(), {test::smallTurn(), {0.1F, 0.05F, -0.2F}}, 0.3F, 0.4F, 1.5F,
                  0.05F};
     const Size cells{100, 80};

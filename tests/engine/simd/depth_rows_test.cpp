@@ -13,7 +13,7 @@ constexpr Size kPicture{100, 80};
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 using Row = std::vector<float>;
 
-/// Row-major index of the pixel; -1 outside; -2 if rounding decides.
+/// Index of the pixel, row by row; -1: outside the picture; -2: rounding decides.
 int pixelOf(const test::Ray& p, bool valid) {
     if (!valid) return -1;
     if (test::isBetween(p.x) || test::isBetween(p.y)) return -2;
@@ -78,7 +78,7 @@ TEST(MoveRow, CarriesPointsWithTheirVariance) {
             const double z = turned.z + rho[i] * motion.move[2];
             const auto q = test::project(lens, (turned.x + rho[i] * motion.move[0]) / z,
                                          (turned.y + rho[i] * motion.move[1]) / z);
-            // Far outside, beyond the lens's valid circle.
+            // Also tries rays far outside, beyond the valid circle of the lens.
             if (std::abs(z - rule.leastDepth) < 0.05) continue;
             const int expected = pixelOf(q, variance[i] < kInfinity && z > rule.leastDepth);
             if (expected == -2) continue;
@@ -125,7 +125,7 @@ TEST(MeasureRow, DistinguishesVisibleAndMovingPoints) {
     }
 }
 
-TEST(TakeCells, IsBilinearWhereItAgreesWithThePixel) {
+TEST(TakeCells, InterpolatesBilinearlyWhereCellsAgreeWithThePixel) {
     for (const Size cells : {Size{1, 1}, Size{1, 3}, Size{10, 6}}) {
         const Row field = test::randomValues<float>(
             static_cast<std::size_t>(cells.width) * cells.height, 0, 1, 1);

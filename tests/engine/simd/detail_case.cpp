@@ -7,7 +7,7 @@
 namespace mfar::simd {
 namespace {
 
-/// A pattern with edges, fine detail and smooth parts, at a position of the video [grey levels].
+/// A pattern with edges, fine detail and smooth parts [grey levels], at a position in video pixels.
 double pattern(double x, double y, int channel) {
     const double waves = std::sin(0.19 * x + 0.07 * y) + std::sin(0.11 * y - 0.05 * x) +
                          0.7 * std::sin(1.3 * x) * std::sin(1.1 * y);
@@ -42,7 +42,7 @@ TileWork workOf(Size tiles, double changedShare) {
     const int count = tiles.width * tiles.height;
     work.flags.resize(count);
     for (int i = 0; i < count; ++i) {
-        // Clusters of a few tiles, like moving objects.
+        // Changed tiles form clusters of a few tiles, as moving objects do.
         const int x = i % tiles.width / 3, y = i / tiles.width / 3;
         const unsigned mixed = (x * 73856093U) ^ (y * 19349663U);
         const bool changed = mixed % 1000 < changedShare * 1000;

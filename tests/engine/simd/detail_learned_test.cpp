@@ -5,13 +5,13 @@
 namespace mfar::simd {
 namespace {
 
-// Luma has units of 1/8 grey level, limits of a quarter of that.
+// Tolerance: luma has units of 1/8 grey level, and the limits have units of a quarter of that.
 constexpr double kLearnedError = 1.3;
 
-TEST(DetailStepLearned, LearnedFramesAreTheOraclesWithAndWithoutAStill) {
+TEST(DetailStepLearned, LearnedFramesMatchTheOracleWithAndWithoutAStill) {
     for (const auto& [video, stillSize, output] : kSizes)
         for (const bool usesStill : {true, false}) {
-            if (output.width > 1000) continue;  // slow, and the video is small
+            if (output.width > 1000) continue;  // skipped: slow for this small video
             const DetailCase frame(video, stillSize);
             const DetailOptions options{SuperResMode::Detail, true, false, true, &evenBank()};
             const Drawn drawn(frame, output, options, usesStill);
@@ -32,9 +32,9 @@ TEST(DetailStepLearned, LearnedFramesAreTheOraclesWithAndWithoutAStill) {
         }
 }
 
-TEST(DetailStepLearned, GuidedFramesAreTheOracles) {
+TEST(DetailStepLearned, GuidedFramesMatchTheOracle) {
     for (const auto& [video, stillSize, output] : kSizes) {
-        if (output.width > 1000) continue;  // slow, and the video is small
+        if (output.width > 1000) continue;  // skipped: slow for this small video
         const DetailCase frame(video, stillSize);
         const DetailOptions options{SuperResMode::Detail, true, false, true, &guidedBank()};
         const Drawn drawn(frame, output, options),

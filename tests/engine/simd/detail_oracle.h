@@ -9,15 +9,15 @@
 #include <memory>
 #include <vector>
 
-/// Frames drawn by the detail step, and the wanted results.
+/// Frames drawn by the detail step, and the results that the oracle wants.
 namespace mfar::simd {
 
 using twin::Grey;
 
-inline constexpr std::uint32_t kBefore = 0x12345678;  // previous content of the output
+inline constexpr std::uint32_t kBefore = 0x12345678;  // content of the output before the frame
 inline constexpr DetailOptions kDetail{SuperResMode::Detail, true, true, true};
 
-/// A frame drawn over kBefore.
+/// A frame drawn over pixels of the value kBefore.
 struct Drawn {
     Drawn(const DetailCase& frame, Size output, const DetailOptions& options, bool usesStill = true,
           int threads = 2)
@@ -38,7 +38,7 @@ struct Drawn {
     TileSummary summary;
 };
 
-/// The wanted picture of a frame.
+/// The picture that a frame should have.
 class Wanted {
 public:
     Wanted(const DetailCase& frame, Size output, const DetailOptions& options, bool usesStill)
@@ -69,17 +69,17 @@ public:
     [[nodiscard]] double enlarged(int x, int y, int c) const {
         return std::clamp(video_[c].at(x, y), 0.0, 255.0);
     }
-    /// Blended with a channel of the still by the confidence.
+    /// The video blended with a channel of the still, by confidence.
     [[nodiscard]] double blended(int x, int y, int c, const Grey& still) const {
         return std::lerp(enlarged(x, y, c), there(x, y, still), lookUpAt(x, y, 3));
     }
-    /// From now on, averages the still itself over video pixels, as the shaders do, instead of the
-    /// warped still.
+    /// From this call on, video pixels see the mean of the still itself, as in the shaders. By
+    /// default they see the mean of the warped still.
     void seeStill() {
         ofWarped_ = false;
         detail_ = {};
     }
-    /// With the detail of a still's luma, see lumaPlane(). The first call is slow.
+    /// The video with the detail of a still's luma added, see lumaPlane(). The first call is slow.
     [[nodiscard]] double withStill(int x, int y, int c, const Grey& still) {
         if (detail_.values.empty()) {
             const Grey warped =
@@ -97,7 +97,7 @@ public:
         }
         const double weight = lookUpAt(x, y, 2);
         double up = video_[c].at(x, y);
-        if (options_.learned != nullptr)  // reduced where the still's detail is added
+        if (options_.learned != nullptr)  // reduced where the detail of the still is added
             up -= std::min(weight, 1.0) * residual_.at(x, y);
         return std::clamp(up + weight * detail_.at(x, y), 0.0, 255.0);
     }
@@ -108,15 +108,15 @@ private:
         return lookUp_[channel].bilinear((x + 0.5) * video.width / output_.width / 4 - 0.5,
                                          (y + 0.5) * video.height / output_.height / 4 - 0.5);
     }
-    /// The still's value where an output position looks it up.
+    /// The value of the still at the place that an output position looks up.
     [[nodiscard]] double there(double x, double y, const Grey& still) const {
         const double px = (x + 0.5) * still.size.width / output_.width + lookUpAt(x, y, 0) - 0.5,
                      py = (y + 0.5) * still.size.height / output_.height + lookUpAt(x, y, 1) - 0.5;
         return still.bilinear(std::clamp(px, -1.0, double(still.size.width)),
                               std::clamp(py, -1.0, double(still.size.height)));
     }
-    /// Subtracts what guidance adds and removes, relative to the mean over those of 5x5 pixels
-    /// whose cells have a weight.
+    /// Subtracts what guidance adds and removes. Values are relative to the mean over those of the
+    /// 5x5 pixels around whose cells have a weight.
     [[nodiscard]] Grey guided(const Grey& seen) const {
         const Guidance guidance =
             options_.learned != nullptr ? options_.learned->guidance() : Guidance{};
@@ -190,13 +190,13 @@ inline const std::vector<Sizes> kSizes{
     {{16, 16}, {70, 65}, {57, 58}},       {{64, 48}, {200, 150}, {64, 48}},
     {{100, 60}, {90, 54}, {61, 37}},      {{35, 18}, {64, 33}, {1300, 700}}};
 
-/// Tile column or row of an output pixel.
+/// The column of tiles of an output column, or the row of tiles of an output row.
 inline int tileAt(int pixel, int video, int output) {
     return static_cast<int>((pixel + 0.5) * video / output) / kTileSize;
 }
 
-/// The same filter for every class, so that rounding cannot select another one. Classes mirror
-/// their filters: this one is symmetric.
+/// All classes have the same filter, so that rounding cannot choose another one. Classes mirror
+/// their filters; so the filter is symmetric.
 inline std::vector<FilterBank::Filter> evenFilters() {
     FilterBank::Filter filter;
     for (int tap = 0; tap < enlarge::kTaps; ++tap)
@@ -213,7 +213,7 @@ inline const FilterBank& evenBank() {
     static const FilterBank bank(evenFilters());
     return bank;
 }
-/// As evenBank(), with guidance.
+/// The filters of evenBank(), with guidance.
 inline const FilterBank& guidedBank() {
     static const FilterBank bank(evenFilters(), {0.7F, 0.5F});
     return bank;

@@ -9,10 +9,10 @@ namespace mfar::simd {
 namespace {
 
 constexpr Size kVideo{160, 120}, kStill{400, 300}, kOutput{576, 432};
-constexpr int kFrom = 20, kTo = 32;  // columns of cells
+constexpr int kFrom = 20, kTo = 32;  // a range of columns of cells
 
-/// A frame with two stills. The second is inverted and has its own look-ups; in some columns of
-/// cells its weight exceeds the first one's by `more`, elsewhere it is 0.
+/// A frame with two stills. The second still is inverted and has look-ups of its own. In some
+/// columns of cells its weight exceeds that of the first still by `more`; elsewhere it is 0.
 struct TwoStills {
     explicit TwoStills(float more, double changedShare = 1)
         : frame(kVideo, kStill, changedShare), other(kVideo, kStill, changedShare) {
@@ -71,7 +71,7 @@ void expectAlike(const AlignedRows<std::uint32_t>& a, const AlignedRows<std::uin
             ASSERT_EQ(a.rows()[y][x], b.rows()[y][x]) << x << " " << y;
 }
 
-TEST(DetailStepSecond, ASecondStillWithNoHigherWeightIsInvisible) {
+TEST(DetailStepSecond, ASecondStillIsShownOnlyWhereItsWeightIsHigher) {
     for (const float more : {-0.3F, 0.0F, 0.9F * params::kSecondFrom}) {
         const TwoStills stills(more);
         const DrawnWithBoth both(stills);
@@ -108,7 +108,7 @@ TEST(DetailStepSecond, ASecondStillWithHigherWeightBlendsWithoutASeam) {
     });
 }
 
-TEST(DetailStepSecond, ChangedTilesLookAsInAWholeFrame) {
+TEST(DetailStepSecond, ChangedTilesMatchAWholeFrame) {
     const TwoStills part(0.6F, 0.4), whole(0.6F);
     const DrawnWithBoth some(part), all(whole);
     for (int y = 0; y < kOutput.height; ++y)

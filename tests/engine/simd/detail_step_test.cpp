@@ -7,7 +7,7 @@
 namespace mfar::simd {
 namespace {
 
-TEST(DetailStep, WholeFrameIsTheOraclesAtAnySize) {
+TEST(DetailStep, WholeFrameMatchesTheOracleAtAnySize) {
     for (const auto& [video, stillSize, output] : kSizes) {
         const DetailCase frame(video, stillSize);
         const Drawn drawn(frame, output, {SuperResMode::Detail, true, false, true});
@@ -59,7 +59,7 @@ TEST(DetailStep, BlendMixesTheStillByItsConfidence) {
     }
 }
 
-TEST(DetailStep, OnlyChangedTilesAreDrawnAndLookAsInAWholeFrame) {
+TEST(DetailStep, OnlyChangedTilesAreDrawnAndMatchAWholeFrame) {
     for (const auto& [video, stillSize, output] : kSizes) {
         const DetailCase part(video, stillSize, 0.4), whole(video, stillSize);
         for (const auto& [mode, bank] :
@@ -81,7 +81,7 @@ TEST(DetailStep, OnlyChangedTilesAreDrawnAndLookAsInAWholeFrame) {
     }
 }
 
-TEST(DetailStep, NothingChangedDrawsNothing) {
+TEST(DetailStep, UnchangedFramesDrawNothing) {
     DetailCase frame({64, 48}, {200, 150}, 0.4);
     for (TileWork::Tile& tile : frame.work.flags)
         tile.changed = 0;
@@ -93,7 +93,7 @@ TEST(DetailStep, NothingChangedDrawsNothing) {
     EXPECT_EQ(drawn.summary.tiles[0], 12);
 }
 
-/// Expects detail in some tiles, and the sharpened, enlarged video in the others.
+/// Expects detail in some tiles, and the sharpened, enlarged video in all others.
 void expectDetailIn(const DetailCase& frame, const Drawn& drawn, Size output,
                     const std::function<bool(int, int)>& inTile) {
     Wanted wanted(frame, output, kDetail, true);

@@ -9,14 +9,14 @@
 namespace mfar::simd {
 namespace {
 
-TEST(OpenRow, IsOpenAtEdgesAndWhereNothingIsKnown) {
+TEST(OpenRow, PixelsAreOpenAtEdgesAndWhereDepthIsUnknown) {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     for (const std::size_t width : test::kLengths) {
         std::vector<float> low(3 * width, 1), high(3 * width, 1), rho(width, 1), variance(width);
         for (std::size_t x = 0; x < width; ++x) {
             variance[x] = x % 5 == 4 ? kInfinity : 0.0001F;  // sigma = 0.01
             if (x % 5 == 1) low[2 * width + x] = 0.5F;       // an edge in the last row
-            // Below the limits of 8 % and three sigmas.
+            // below the limits of 8 % and three sigmas
             if (x % 5 == 2) high[x] = 1.1F;
             if (x % 5 == 3) high[x] = 1.13F;  // above the limits
         }
@@ -30,7 +30,7 @@ TEST(OpenRow, IsOpenAtEdgesAndWhereNothingIsKnown) {
 }
 
 struct Scene {
-    Size size{61, 47};  // in voters
+    Size size{61, 47};  // in a picture that has voters
     AlignedRows<float> rho{size}, variance{size}, red{size}, green{size}, blue{size};
 
     explicit Scene(double invalidShare) {
@@ -49,7 +49,7 @@ struct Scene {
     }
 };
 
-/// Decides by the rule, in double precision. `margin`: distance from another decision.
+/// Decides by the rule, in double precision. `margin`: how far the input is from another decision.
 OpenPixel decide(const Scene& scene, const VoteRule& rule, const PixelRect& where, int y,
                  OpenPixel pixel, double& margin) {
     const auto votes = [&](int i, int j) {

@@ -15,7 +15,7 @@ using twin::Grey;
 
 constexpr int kMargin = 64;
 
-/// Luma rows with repeated borders, and the same picture for the oracle.
+/// Rows of luma with repeated borders, and the same picture for the oracle.
 struct LumaPicture {
     LumaPicture(Size size, const std::function<int(int, int)>& eighthsAt)
         : grey(twin::greyOf(size,
@@ -101,7 +101,7 @@ TEST(EnlargeRows, LumaOfGreyIsExact) {
     });
 }
 
-TEST(EnlargeRows, ClassesAreTheOracles) {
+TEST(EnlargeRows, ClassesMatchTheOracle) {
     onEveryTarget([&] {
         int compared = 0, all = 0;
         for (const Size size : kSizes) {
@@ -129,7 +129,7 @@ TEST(EnlargeRows, ClassesAreTheOracles) {
 }
 
 TEST(EnlargeRows, EveryAngleAndStrengthClassOccurs) {
-    // Waves of all directions, with contrast from flat to steep.
+    // Waves of all directions, from flat to steep.
     std::vector<bool> gradient(GradientClasses::kCount), curvature(CurvatureClasses::kCount);
     for (int angle = 0; angle < 64; ++angle)
         for (const double strength : {1.0, 4.0, 10.0, 40.0, 100.0}) {
@@ -154,7 +154,7 @@ TEST(EnlargeRows, EveryAngleAndStrengthClassOccurs) {
     EXPECT_GT(std::ranges::count(curvature, true), CurvatureClasses::kCount * 8 / 10);
 }
 
-/// Residual rows of a whole picture, computed by the kernels.
+/// Rows of the residual of a whole picture, computed by the kernels.
 struct Residual {
     Residual(const LumaPicture& p, const FilterBank& bank)
         : classes(p), grid({4 * p.grey.size.width, 4 * p.grey.size.height}) {
@@ -175,7 +175,7 @@ struct Residual {
 };
 
 TEST(EnlargeRows, ResidualMatchesTheOracleForEqualClasses) {
-    // Small weights, and weights so large that the limits take effect.
+    // Tries small weights, and weights so large that the limits take effect.
     for (const int most : {500, 8000}) {
         const FilterBank bank(randomFilters(most, 11));
         onEveryTarget([&] {
@@ -191,7 +191,7 @@ TEST(EnlargeRows, ResidualMatchesTheOracleForEqualClasses) {
                                                               residual.classes.gradient[y][x],
                                                               residual.classes.curvature[y][x],
                                                               bank),
-                                        // The quarter of the range is computed in whole eighths.
+                                        // tolerance: a quarter of the range in whole eighths
                                         8.6)
                                 << x << " " << y << " " << phase;
                         }
@@ -200,7 +200,7 @@ TEST(EnlargeRows, ResidualMatchesTheOracleForEqualClasses) {
     }
 }
 
-TEST(EnlargeRows, FlatHasNoResidualToTheBit) {
+TEST(EnlargeRows, ResidualOfFlatPicturesIsExactlyZero) {
     const FilterBank bank(randomFilters(8000, 2));
     onEveryTarget([&] {
         for (const int level : {0, 1, 1000, 2040}) {
@@ -255,8 +255,8 @@ TEST(EnlargeRows, MirroredAndTransposedPicturesHaveTheSameResiduals) {
 }
 
 TEST(EnlargeRows, BlurredEdgesGetSharper) {
-    // A step averaged over pixels' areas: over several angles, the result is closer to the true
-    // step than the cubic.
+    // A step, averaged over the area of each pixel. Over several angles, the result must be closer
+    // to the true step than the cubic is.
     double allBefore = 0, allAfter = 0;
     for (const double degrees : {0.0, 17.0, 45.0, 71.0, 90.0, 118.0}) {
         const double a = degrees * std::numbers::pi / 180, nx = std::cos(a), ny = std::sin(a);
@@ -289,7 +289,7 @@ TEST(EnlargeRows, BlurredEdgesGetSharper) {
     EXPECT_LT(allAfter, 0.8 * allBefore);
 }
 
-TEST(EnlargeRows, MixedRowLiesBetween) {
+TEST(EnlargeRows, MixedRowLiesBetweenItsInputs) {
     onEveryTarget([&] {
         AlignedRows<std::int16_t> rows({50, 2});
         AlignedRows<float> out({50, 1});

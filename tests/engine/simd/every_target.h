@@ -5,7 +5,7 @@
 
 namespace mfar::test {
 
-/// Calls body() once for each instruction set that both this processor and this program support.
+/// Calls body() once for each instruction set that this processor and this program both support.
 template <class Body>
 void onEveryTarget(const Body& body) {
     const std::int64_t all = hwy::SupportedTargets();

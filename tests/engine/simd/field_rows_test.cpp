@@ -11,7 +11,7 @@ namespace {
 
 using Row = std::vector<float>;
 
-TEST(FieldRows, MediansAreTheMiddleOfNine) {
+TEST(FieldRows, MedianIsTheMiddleOfNineValues) {
     for (const std::size_t width : test::kLengths) {
         const Row rows[3] = {test::randomValues<float>(width, -9, 9, 1),
                              test::randomValues<float>(width, -9, 9, 2),
@@ -74,7 +74,7 @@ TEST(FieldRows, RangesAcrossRowsMatchRangesAlongColumns) {
     }
 }
 
-TEST(FieldRows, TheGreatestIsFoundAnywhere) {
+TEST(FieldRows, TheMaximumIsFoundAtAnyPosition) {
     EXPECT_EQ(greatestOf(nullptr, 0), 0);
     for (const std::size_t count : test::kLengths)
         for (std::size_t at = 0; at < count; ++at) {

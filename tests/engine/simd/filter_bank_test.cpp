@@ -17,7 +17,7 @@ std::vector<FilterBank::Filter> numberedFilters() {
     return out;
 }
 
-/// The error message for refused bytes; empty if they are read.
+/// The message with which these bytes are refused. Empty if they are accepted.
 std::string faultOf(std::span<const std::uint8_t> bytes) {
     try {
         (void)readFilters(bytes, "some.filters");
@@ -27,7 +27,7 @@ std::string faultOf(std::span<const std::uint8_t> bytes) {
     return "";
 }
 
-TEST(FilterBank, TapsAreTheNeighboursOnce) {
+TEST(FilterBank, TapsCoverEachNeighbourOnce) {
     std::set<std::pair<int, int>> seen;
     for (int i = 0; i < kTaps; ++i) {
         const Offset at = kTapAt[i];
@@ -44,7 +44,7 @@ TEST(FilterBank, BinsMapOntoOneQuadrantByMirrors) {
         for (int bin = 0; bin < bins; ++bin) {
             const Symmetry same = Symmetry::of(bin, bins);
             const double angle = ((bin + 0.5) / bins - 0.5) * 3.14159265358979;
-            // A direction in the centre of the bin, mapped as pixels are.
+            // A direction in the centre of the bin. Pixels are mapped in the same way.
             double x = std::cos(angle), y = std::sin(angle);
             if (same.mirrors) y = -y;
             if (same.transposes) std::swap(x, y);
@@ -88,7 +88,7 @@ TEST(FilterBank, WeightsThatSumsCouldNotHoldAreRefused) {
     EXPECT_THROW(FilterBank(std::span(filters).first(5)), FilterBankError);
 }
 
-TEST(FilterBank, PriorIsWholeAndLearned) {
+TEST(FilterBank, ShippedFiltersCoverMostClasses) {
     const Rows<const std::int16_t> gradient = FilterBank::prior().gradient();
     ASSERT_EQ(gradient.size.height, GradientClasses::kCount);
     int learned = 0;
@@ -98,8 +98,9 @@ TEST(FilterBank, PriorIsWholeAndLearned) {
     EXPECT_GT(learned, GradientClasses::kCount / 2);
 }
 
-TEST(FilterBank, CubicLeavesFlatAlone) {
-    // The pixel's own weight completes the sum to one; the other weights are Keys'.
+TEST(FilterBank, CubicKeepsFlatPictures) {
+    // The weight of the pixel itself completes the sum to one. The other weights are those of Keys'
+    // cubic.
     const std::int16_t* cubic = FilterBank::prior().cubic();
     int far = 0;
     for (int phase = 0; phase < kPhases; ++phase)

@@ -44,8 +44,8 @@ struct Errors {
     Vector2d bias{0, 0};
 };
 
-/// Errors against a constant flow [px of the field's level], at least `border` cells inside the
-/// picture.
+/// Errors against a constant flow [px of the field's level]. Only cells count that are at least
+/// `border` cells inside the picture.
 Errors errorsOf(Rows<const FlowCell> field, const Vector2d& truth, int border) {
     Errors e;
     int n = 0;
@@ -164,7 +164,7 @@ TEST(Flow2d, WithoutMatchedTilesTheFlowStays) {
         EXPECT_EQ(pair.flow.forward()[7][x].x, 0);
 }
 
-/// Two thirds of a picture's tiles, some in groups and some alone.
+/// Two thirds of the tiles of a picture, in groups and alone.
 TileWork someWork(Size video) {
     TileWork work = wholeWork(video);
     work.draw = TileWork::Draw::Tiles;
@@ -193,7 +193,7 @@ TEST(Flow2d, SkippedTilesDoNotAffectOthers) {
                 ASSERT_EQ(wanted.x, got.x) << x << ", " << y;
                 ASSERT_EQ(wanted.y, got.y) << x << ", " << y;
                 ASSERT_EQ(wanted.cost, got.cost) << x << ", " << y;
-                // At the vector's end, both have the same backward flow.
+                // At the end of the vector, both fields have the same backward flow.
                 const auto at = [&](int cell, float by, int cells) {
                     const auto end = static_cast<int>(std::floor((4.0F * cell + 2 + by) / 8));
                     return std::clamp(end, 0, cells - 1);
@@ -230,11 +230,11 @@ TEST(Flow2d, TilesThatDidNotChangeKeepTheirVectors) {
             if (pair.work.at(x / 4, y / 4).changed == 0) {
                 EXPECT_EQ(before[40UL * y + x].x, pair.flow.forward()[y][x].x);
             }
-    pair.run(false);  // a new still: earlier results are invalid
+    pair.run(false);  // a new still makes earlier results invalid
     EXPECT_LT(errorsOf(pair.flow.forward(), {3, 1}, 3).worst, 0.3);
 }
 
-/// Seeds around a constant flow.
+/// Seeds scattered around a constant flow.
 std::vector<Cell> seedsAround(const Vector2d& flow, double noise) {
     std::mt19937 random(3);
     std::normal_distribution<double> off(0, noise);
@@ -245,7 +245,7 @@ std::vector<Cell> seedsAround(const Vector2d& flow, double noise) {
     return out;
 }
 
-TEST(Flow2d, RefineAligns) {
+TEST(Flow2d, RefinementAlignsTheSeeds) {
     Pair pair(wavesMoved(kSmall, {0, 0}), wavesMoved(kSmall, {4.3, -2.2}));
     pair.refine(seedsAround({4.3, -2.2}, 0.3), std::vector<Cell>(1200));
     EXPECT_TRUE(pair.flow.errorsGiven());

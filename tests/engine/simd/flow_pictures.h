@@ -19,7 +19,7 @@
 
 namespace mfar::simd {
 
-/// Luma picture that owns its pixels.
+/// A luma picture that owns its pixels.
 struct FlowPicture {
     explicit FlowPicture(Size s, std::uint8_t fill = 0)
         : size(s), pixels(static_cast<std::size_t>(s.width) * s.height, fill) {}
@@ -34,9 +34,8 @@ struct FlowPicture {
     std::vector<std::uint8_t> pixels;
 };
 
-/// A sum of plane waves of 6 to 80 px, known at every position and moved by `shift`: content of the
-/// picture without a shift appears `shift` farther. `stretch`: factor along x, from the left
-/// border.
+/// A sum of plane waves of 6 to 80 px, known at every position. Content that is at x without a
+/// shift appears at x + `shift`. `stretch`: factor along x, from the left border.
 inline FlowPicture wavesMoved(Size size, Eigen::Vector2d shift, double gain = 1, double offset = 0,
                               unsigned seed = 1, double stretch = 1) {
     constexpr int kWaves = 24;
@@ -92,7 +91,7 @@ inline RgbPlanes planesOf(const FlowPicture& p) {
     return shared;
 }
 
-/// Work with every tile changed and matched.
+/// Work in which every tile is changed and matched.
 inline TileWork wholeWork(Size video) {
     TileWork work;
     work.tiles = tilesOf(video);
@@ -103,7 +102,7 @@ inline TileWork wholeWork(Size video) {
     return work;
 }
 
-/// Two ideal cameras at the same place.
+/// Two cameras without distortion at the same place.
 inline StereoRig rigOf(Size video, Size still) {
     CameraModel v;
     v.size = video;

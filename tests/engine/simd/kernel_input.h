@@ -10,7 +10,7 @@
 
 namespace mfar::test {
 
-/// Lengths that fill vectors completely and lengths that do not.
+/// Lengths that fill vectors exactly, and lengths that do not.
 inline constexpr std::array<std::size_t, 8> kLengths{1, 2, 3, 7, 16, 33, 64, 131};
 
 template <class T>
@@ -31,7 +31,7 @@ inline simd::Lens barrel() {
     return {100, 102, 49, 38, -0.1F, 0.02F, 0.001F, -0.002F, 0.003F, 4};
 }
 
-/// Brown-Conrady projection in double precision, for rays inside the valid circle.
+/// Projects with the Brown-Conrady model in double precision, for rays inside the valid circle.
 inline Ray project(const simd::Lens& lens, double x, double y) {
     const double q = x * x + y * y;
     const double radial = 1 + lens.k1 * q + lens.k2 * q * q + lens.k3 * q * q * q;
@@ -39,7 +39,7 @@ inline Ray project(const simd::Lens& lens, double x, double y) {
             lens.fy * (y * radial + 2 * lens.p2 * x * y + lens.p1 * (q + 2 * y * y)) + lens.cy};
 }
 
-/// A rotation by a tenth about two axes, row-major.
+/// A rotation by 0.1 rad about two axes, row by row.
 inline std::array<float, 9> smallTurn() {
     const double c = std::cos(0.1), s = std::sin(0.1);
     const auto f = [](double v) { return static_cast<float>(v); };
@@ -54,7 +54,7 @@ inline Point3 turned(const std::array<float, 9>& r, const Point3& p) {
             r[6] * p.x + r[7] * p.y + r[8] * p.z};
 }
 
-/// True if a coordinate is so close to the border between two pixels that rounding decides.
+/// True if a coordinate is so near the border between two pixels that rounding decides.
 inline bool isBetween(double v) {
     const double part = v + 0.5 - std::floor(v + 0.5);
     return part < 0.01 || part > 0.99;

@@ -27,7 +27,7 @@ TEST(LumaFilters, HalvesTakeTheRoundedMeanOfFour) {
     }
 }
 
-TEST(LumaFilters, ThinRowsHaveEverySecondByte) {
+TEST(LumaFilters, ThinnedRowsHaveEverySecondByte) {
     for (const std::size_t width : kLengths) {
         const Bytes in = bytes(2 * width - 1, 3);
         Bytes out(width + 1, 99);
@@ -38,7 +38,7 @@ TEST(LumaFilters, ThinRowsHaveEverySecondByte) {
     }
 }
 
-TEST(LumaFilters, SmoothRowsAreTheTapsInBothDirections) {
+TEST(LumaFilters, SmoothedRowsApplyTheTapsInBothDirections) {
     for (const std::size_t width : {1UL, 2UL, 5UL, 255UL, 256UL, 257UL, 600UL}) {
         for (const int side : {0, 20, 64, 85}) {
             const Bytes a = bytes(width, 4), b = bytes(width, 5), c = bytes(width, 6);
@@ -57,11 +57,11 @@ TEST(LumaFilters, SmoothRowsAreTheTapsInBothDirections) {
     }
 }
 
-TEST(LumaFilters, NoiseIsWhatTheMaskLeaves) {
+TEST(LumaFilters, NoiseIsTheResponseToTheMask) {
     constexpr Size kSize{140, 18};
     for (const bool extreme : {false, true}) {
         Bytes picture = bytes(140UL * 18, 7);
-        if (extreme)  // largest possible sums
+        if (extreme)  // the largest possible sums
             for (std::size_t i = 0; i < picture.size(); ++i)
                 picture[i] = (i % 140 + i / 140) % 2 == 0 ? 0 : 255;
         std::vector<std::uint16_t> sums(138);
@@ -78,7 +78,7 @@ TEST(LumaFilters, NoiseIsWhatTheMaskLeaves) {
     }
 }
 
-TEST(LumaFilters, WeightedRowsAddUp) {
+TEST(LumaFilters, WeightedRowsAreSummed) {
     for (const std::size_t count : kLengths) {
         const Bytes in = bytes(count, 8);
         std::vector<float> sums(count + 1, 3);

@@ -11,10 +11,10 @@
 
 namespace mfar::test {
 
-/// Luma pyramids of video and still, with margins filled as the passes fill them.
+/// The luma pyramids of video and still. Their margins are filled as the passes fill them.
 class LumaMemory {
 public:
-    /// `video(x, y)`, `still(x, y)`: grey levels of the finest levels, rounded by the constructor.
+    /// `video(x, y)`, `still(x, y)`: grey levels of the finest levels. The constructor rounds them.
     template <class Video, class Still>
     LumaMemory(Size size, Video video, Still still) {
         std::int32_t count = 0;
@@ -54,7 +54,7 @@ private:
     std::vector<twin::Grey> video_, still_;
 };
 
-/// Two different lenses, rotated by some degrees relative to each other.
+/// Two cameras with different distorting lenses, rotated against each other by some degrees.
 [[nodiscard]] inline StereoRig twoLenses(Size video, Size still, bool distort) {
     CameraModel v;
     v.size = video;

@@ -6,10 +6,10 @@
 namespace mfar::simd {
 namespace {
 
-// Half an 8-bit step, plus single precision for values between two steps.
+// Tolerance: half an 8-bit step, plus single precision for values between two steps.
 constexpr double kRounding = 0.501;
 
-/// A level as stored; columns begin at -8.
+/// A level as it is stored; its columns begin at x = -8.
 class Stored {
 public:
     Stored(const LumaPyramids& pyramids, const LumaLevel& level)
@@ -21,7 +21,7 @@ public:
     [[nodiscard]] int held(int x, int y) const {
         return at(std::clamp(x, 0, level_.width - 1), std::clamp(y, 0, level_.height - 1));
     }
-    /// Checks that margins repeat the border.
+    /// Checks that the margins repeat the border.
     void checkMargins() const {
         for (int y = 0; y < level_.height; ++y)
             for (int x = -8; x < 4 * level_.pitch - 8; ++x)
@@ -52,7 +52,7 @@ TEST(LumaPyramids, FinestLevelIsSmoothed) {
     }
 }
 
-TEST(LumaPyramids, ColoursCountAsRec601) {
+TEST(LumaPyramids, LumaOfColoursFollowsRec601) {
     constexpr Size kSize{33, 17};
     std::vector<std::uint8_t> texels(4UL * kSize.width * kSize.height);
     for (std::size_t i = 0; i < texels.size(); ++i)
@@ -109,8 +109,8 @@ StereoRig bentRigOf(Size video, Size still) {
     return rig;
 }
 
-TEST(LumaPyramids, StillsAreSeenThroughTheRig) {
-    // The largest still's footprint does not fit into a window.
+TEST(LumaPyramids, StillsAreResampledToTheVideosGeometry) {
+    // The footprint of the largest still does not fit into one window.
     for (const Size size : {Size{345, 259}, Size{96, 72}, Size{1000, 750}}) {
         const FlowPicture still = wavesMoved(size, {0, 0});
         const Size video{96, 72};
@@ -140,7 +140,7 @@ TEST(LumaPyramids, RaysThatPointAwayGiveTheBorder) {
             ASSERT_EQ(level.at(x, y), 91);
 }
 
-TEST(LumaPyramids, ExtremesKeepTheRange) {
+TEST(LumaPyramids, BlackAndWhiteAreKept) {
     for (const std::uint8_t fill : {0, 255}) {
         const FlowPicture flat({70, 60}, fill);
         LumaPyramids pyramids(flat.size, twoWorkers());

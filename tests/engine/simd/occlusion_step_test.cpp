@@ -18,7 +18,7 @@ constexpr Size kCoarse{53, 37};
 constexpr Size kFine{191, 133};
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// Smooth waves with the same look at any size.
+/// Smooth waves that look the same at any size.
 TestPicture wavyPicture(Size size) {
     TestPicture out(size, PixelFormat::Rgba8, 255);
     for (int y = 0; y < size.height; ++y)
@@ -39,7 +39,7 @@ struct Layer {
     PixelRect bounds{0, 0, 1000, 1000};
 };
 
-/// Draws a frame with a layer and keeps the results.
+/// Draws a frame with a layer. Keeps the results.
 class Occlusion {
 public:
     Occlusion(Size video, Size output) : video_(video), output_(output) {}
@@ -116,7 +116,7 @@ TEST_P(OcclusionSizes, ThreadsAndBoundsChangeNothingInside) {
                 const PixelRect& b = layer.bounds;
                 const bool in = x >= b.x0 && x < b.x1 && y >= b.y0 && y < b.y1;
                 if (in) {
-                    // sigma^2 is computed from sigma, which was a square root.
+                    // Tolerance: sigma^2 is computed from sigma, which was a square root.
                     ASSERT_NEAR(part.visibleAt(x, y), whole.visibleAt(x, y),
                                 threads == 2 ? 1.01 / 255 : 0);
                 }

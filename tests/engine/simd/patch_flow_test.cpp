@@ -10,9 +10,9 @@ namespace {
 
 using Eigen::Vector2d;
 
-// For costs: pixels are compared in 1/32 grey level.
+// Tolerance of costs: pixels are compared in units of 1/32 grey level.
 constexpr double kTolerance = 2e-3;
-constexpr Size kSize{61, 45};  // the last cells are cut off
+constexpr Size kSize{61, 45};  // the picture cuts off the last cells
 constexpr Size kCells{16, 12};
 
 /// A picture in the memory layout that the kernels read.
@@ -34,7 +34,7 @@ private:
     Size size_;
 };
 
-/// Random vectors, four floats a cell; every eighth far outside.
+/// Random vectors, four floats per cell, of which every eighth leads far outside the picture.
 std::vector<float> randomVectors(unsigned seed, float reach) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> flow(-reach, reach);
@@ -47,7 +47,7 @@ std::vector<float> randomVectors(unsigned seed, float reach) {
     return out;
 }
 
-/// Searches from `vectors` alone, with `steps` Gauss-Newton steps.
+/// Searches with `steps` Gauss-Newton steps. `vectors` are the only start.
 FlowField searched(const Level& a, const Level& b, const std::vector<float>& vectors, int steps) {
     FlowField out(kCells), coarser({8, 6});
     SearchStep step;
@@ -81,7 +81,7 @@ void expectCostsOf(const FlowPicture& first, const FlowPicture& second) {
 TEST(PatchFlow, CostAndTextureMatchTheOracle) {
     expectCostsOf(wavesMoved(kSize, {0, 0}), noiseOf(kSize, 3));
     expectCostsOf(noiseOf(kSize, 5), wavesMoved(kSize, {0, 0}));
-    FlowPicture chess(kSize);  // largest possible sums
+    FlowPicture chess(kSize);  // gives the largest possible sums
     for (int y = 0; y < kSize.height; ++y)
         for (int x = 0; x < kSize.width; ++x)
             chess.at(x, y) = (x / 2 + y / 2) % 2 != 0 ? 255 : 0;
@@ -164,7 +164,7 @@ TEST(PatchFlow, PropagationTakesTheBestOfTheNeighbours) {
     EXPECT_GT(moved, kCells.width * kCells.height / 4);
 }
 
-/// Checks the costs of seeds on a plane, away from the border.
+/// Checks the costs of seeds that lie on a plane. Cells at the border do not count.
 void expectBentCosts(const Vector2d& dx, const Vector2d& dy, int span) {
     const FlowPicture first = wavesMoved(kSize, {0, 0}), second = noiseOf(kSize, 3);
     const Level a(first), b(second);
@@ -210,7 +210,7 @@ TEST(PatchFlow, CleanUpKeepsPlanesAndTheStepBetweenThem) {
         prepareCleanUpRow(field, FlowField::first(known), y);
     std::vector<float> out(4UL * kCells.width * kCells.height);
     const CleanUpStep step{field, FlowField::first(known), out.data(), 2};
-    for (int y = 2; y < kCells.height - 2; ++y)  // outside of this, the border is repeated
+    for (int y = 2; y < kCells.height - 2; ++y)  // outside, the border is repeated
         cleanUpCells(step, y, 2, kCells.width - 2);
     for (int y = 2; y < kCells.height - 2; ++y)
         for (int x = 2; x < kCells.width - 2; ++x) {

@@ -108,8 +108,8 @@ TEST(StillPreparation, ConstantStillStaysConstant) {
     }
 }
 
-/// Luma of a Y U V picture through R G B, not clamped; chroma is interpolated between the pixels
-/// that share it.
+/// Luma of a Y U V picture, computed through R G B, not clamped. Chroma is interpolated between the
+/// pixels that share it.
 Grey lumaOfYuv(const ImageView& p) {
     const YuvToRgb rows = yuvToRgb(p.matrix, p.range);
     const bool packed = p.format == PixelFormat::Yuyv, pairs = p.format == PixelFormat::Nv12;

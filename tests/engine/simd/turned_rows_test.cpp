@@ -9,7 +9,7 @@
 namespace mfar::simd {
 namespace {
 
-TEST(TurnedPoints, AreProjectionsOfTurnedRays) {
+TEST(TurnedPoints, PointsAreProjectionsOfRotatedRays) {
     const TurnedLens lens{test::barrel(), test::smallTurn(), 0.7F};
     for (const std::size_t count : test::kLengths) {
         auto raysX = test::randomValues<float>(count, -0.8, 0.8, 1);
@@ -32,12 +32,12 @@ TEST(TurnedPoints, AreProjectionsOfTurnedRays) {
     }
 }
 
-// The smallest picture, odd sizes, and a map that leaves the picture on every side.
-TEST(TurnedRow, IsBilinearInsideAndUnseenOutside) {
+// Tries the smallest picture, odd sizes, and a map that leaves the picture on every side.
+TEST(TurnedRow, RowIsBilinearInsideAndUnseenOutside) {
     for (const Size size : {Size{2, 2}, Size{3, 2}, Size{40, 31}}) {
         for (const int width : {1, 8, 23, 80}) {
             const std::ptrdiff_t pitch = size.width + 3;
-            // There is no byte behind the last pixel.
+            // The memory ends behind the last pixel.
             const auto bytes = static_cast<std::size_t>((size.height - 1) * pitch + size.width);
             const auto picture = test::randomValues<std::uint8_t>(bytes, 0, 255.9, 3);
             const std::size_t cells = width / kTurnedCell + 2;

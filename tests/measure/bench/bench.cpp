@@ -32,7 +32,8 @@ Workload withoutPoses(Workload work) {
     return work;
 }
 
-/// Our pipeline on a workload's frames; sets the stills outside the measured time.
+/// The product's pipeline on the frames of a workload. Setting a still is not part of a frame's
+/// time.
 class Ours {
 public:
     Ours(const Workload& work, SuperResMode mode, EngineKind engine, int threads = 0,
@@ -46,7 +47,7 @@ public:
             frames_.push_back(eval::toRgba(frame));
     }
 
-    /// Time of frame i from upload to finished picture [ms].
+    /// Returns the time of frame i from upload to finished picture [ms].
     double run(std::size_t i) {
         if (still_ != work_.stillOf[i]) setStill(work_.stillOf[i]);
         return eval::wallMs([&] {
@@ -105,7 +106,7 @@ void addTiles(CaseResult& result, const FrameStats& stats) {
         result.tileShare[c] += stats.tiles[c] / all / static_cast<double>(result.frame.runs);
 }
 
-/// Runs `frames` again and times each stage separately.
+/// Runs the first `frames` frames again and times each stage separately.
 void measureStages(Ours& ours, std::size_t frames, CaseResult& result) {
     std::vector<std::pair<std::string, std::vector<double>>> stages;
     gpu::Timer timer;
@@ -144,7 +145,7 @@ public:
         return eval::wallMs([&] { paper_.run(work_.frames[i]); });
     }
     void measure(std::size_t i) { ms_.push_back(run(i)); }
-    /// `ours`: time of each of our frames, run in turn with this peer.
+    /// `ours`: times of the product's frames. They were run in turn with the frames of this peer.
     [[nodiscard]] PeerResult result(const CaseResult& of, const std::vector<double>& ours) const {
         const Summary own = summarise(ms_);
         std::vector<double> ratios;

@@ -20,25 +20,24 @@ struct StageSummary {
     Summary ms;
 };
 
-/// Our pipeline on one workload.
+/// Times of the product's pipeline on one workload.
 struct CaseResult {
     std::string name;
     Summary frame;                     ///< whole frame from upload to finished picture
-    std::vector<StageSummary> stages;  ///< from a separate run in which each stage waits for its
-                                       ///< end
+    std::vector<StageSummary> stages;  ///< from a separate run that waits after each stage
     std::array<double, kTileClasses> tileShare{};  ///< mean share of the tiles of each TileClass
 };
 
-/// OpenCV's version of the paper's method on a moving camera; its frames are run in turn with ours.
+/// OpenCV's version of the paper's method on a moving camera. Its frames alternate with ours.
 struct PeerResult {
     std::string name;
-    std::string of;  ///< name of our case
+    std::string of;  ///< name of our case that it is compared with
     Summary frame;
-    double ratio = 0;          ///< our median over the peer's: below 1 ours is faster
+    double ratio = 0;          ///< our median over the peer's; below 1: ours is faster
     double low = 0, high = 0;  ///< 10th and 90th percentile of the ratio of single frames
 };
 
-/// Moving frames with another number of threads or output size.
+/// Times with another number of threads or another output size, for moving and hand-held frames.
 struct ScalingResult {
     int threads = 0;
     Size output;
@@ -50,7 +49,7 @@ struct BenchResult {
     std::string posed;     ///< source of the hand-held frames
     std::string renderer;
     Size video, still, output;
-    Summary setStill;  ///< per-still work of our pipeline
+    Summary setStill;  ///< work of our pipeline for each new still
     std::vector<CaseResult> cases;
     std::vector<PeerResult> peers;
     DepthTimes depth;  ///< on the hand-held frames
@@ -60,15 +59,16 @@ struct BenchResult {
     RenderFigures render;
 };
 
-/// Filters learned from a workload's lessons, as in the daemon; null: no lessons. Prints one line
-/// on what was learned to stderr.
+/// Learns filters from the lessons of a workload, as the daemon does; null without lessons. Prints
+/// one line on what was learned to stderr.
 [[nodiscard]] std::shared_ptr<const FilterBank> learnedFrom(const Workload& work);
 
-/// Needs a current GL context, described by `renderer`. The first frames warm up and do not count.
-/// Uses the poses of `posed`, not those of `moving`; `posed` without frames is skipped.
+/// Needs a current GL context; `renderer` describes it. The first frames warm up and do not count.
+/// `moving`: its poses are not used. `posed`: its poses are used; it is skipped if it has no
+/// frames.
 [[nodiscard]] BenchResult runBench(const Workload& moving, const Workload& posed, SuperResMode mode,
                                    EngineKind engine, const std::string& renderer);
-/// With one and two threads, at three output sizes.
+/// Measures with one and with two threads, at three output sizes.
 [[nodiscard]] std::vector<ScalingResult> runScaling(const Workload& moving, const Workload& posed,
                                                     SuperResMode mode, EngineKind engine);
 

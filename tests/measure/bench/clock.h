@@ -9,11 +9,11 @@
 
 namespace mfar::bench {
 
-/// Definition of run time.
+/// How the run time is measured.
 enum class Clock {
     Wall,
-    /// Processor time of all threads over the number of cores: on a shared machine, the time that a
-    /// run would take alone if its work were spread evenly.
+    /// Processor time of all threads, divided by the number of cores. On a shared machine this is
+    /// the time that the run would take alone if its work were spread evenly over the cores.
     Processor,
 };
 

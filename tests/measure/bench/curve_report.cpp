@@ -37,7 +37,7 @@ std::string curvesCsv(const Curves& curves) {
 
 void writeCurves(const Curves& curves, const fs::path& folder) {
     std::error_code error;
-    fs::create_directories(folder, error);  // an error shows when a file is written
+    fs::create_directories(folder, error);  // an error shows when a file is opened
     write(folder / "curves.csv", curvesCsv(curves));
     write(folder / "curves.svg", curvesSvg(curves));
 }

@@ -11,8 +11,9 @@ namespace mfar::bench {
 /// value are empty.
 [[nodiscard]] std::string curvesCsv(const Curves& curves);
 
-/// The same as a chart: time on x, bad-1 on y, both logarithmic; a panel for each method, a line
-/// for each knob with its ends labelled, the default ringed, the peers in both panels.
+/// The same values as a chart with logarithmic axes: time on x, bad-1 on y. Each method has a
+/// panel, each knob a line whose ends are labelled. The default setting is ringed. Both panels show
+/// the peers.
 [[nodiscard]] std::string curvesSvg(const Curves& curves);
 
 /// Writes curves.csv and curves.svg. Throws EvalError if they cannot be written.

@@ -8,7 +8,7 @@
 
 namespace mfar::bench {
 
-/// A frame, its still and the true flow between them, on which a setting is measured.
+/// A video frame, its still and the true flow between them: the input for measuring a setting.
 struct CurveSample {
     std::string name;
     StereoRig rig;
@@ -23,8 +23,8 @@ struct CurveSample {
 [[nodiscard]] std::vector<CurveSample>
 curveSamplesOf(const std::vector<std::filesystem::path>& folders, std::size_t most);
 
-/// One hand-held frame of each of the first `most` synthetic scenes (office, shelf), at the
-/// requested video size (a fraction of 640x480). Repeatable.
+/// One hand-held frame of each of the first `most` synthetic scenes (office, shelf). `video` is the
+/// size of the video, at most 640x480. Repeated calls give equal samples.
 [[nodiscard]] std::vector<CurveSample> syntheticCurveSamples(Size video, std::size_t most = 2);
 
 }  // namespace mfar::bench

@@ -15,7 +15,7 @@ cv::Mat grey(const cv::Mat& picture) {
     return out;
 }
 
-// An independent flow method must find the true flow in the pictures.
+// OpenCV's flow between the two pictures must agree with the truth.
 TEST(SyntheticCurveSamples, TruthFitsThePictures) {
     const auto samples = syntheticCurveSamples({320, 240});
     ASSERT_EQ(samples.size(), 2U);

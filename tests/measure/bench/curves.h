@@ -7,13 +7,13 @@
 
 namespace mfar::bench {
 
-/// Time and error of one value of a knob; all other settings are the defaults.
+/// Time and error at one value of a knob. All other settings have their defaults.
 struct CurvePoint {
     double value = 0;
     bool isDefault = false;
-    double ms = 0;    ///< mean over the samples of the median of three runs
-    double epe = 0;   ///< mean over the samples [px]
-    double bad1 = 0;  ///< likewise, share of the known pixels with an error above 1 px
+    double ms = 0;    ///< mean over the samples; each is the median of three runs
+    double epe = 0;   ///< end-point error, mean over the samples [px]
+    double bad1 = 0;  ///< share of the known pixels with an error above 1 px, mean over the samples
 };
 
 /// The values of one knob in ascending order.
@@ -23,22 +23,22 @@ struct Curve {
     std::vector<CurvePoint> points;
 };
 
-/// One of OpenCV's flow algorithms, in one direction, on the same samples.
+/// One of OpenCV's flow algorithms, computed in one direction, on the same samples.
 struct CurvePeer {
     std::string name;
     CurvePoint point;
 };
 
 struct Curves {
-    std::vector<std::string> samples;  ///< names
+    std::vector<std::string> samples;  ///< names of the samples
     std::vector<Curve> curves;
     std::vector<CurvePeer> peers;
 };
 
-/// Measures every knob of the flow on every sample; knobs of the epipolar search only if poses are
-/// known. Needs a current GL context. flow2d computes both directions, as in the product, and
-/// starts without the last frame's field; work per still is not timed. Throws std::invalid_argument
-/// without samples.
+/// Measures every knob of the flow on every sample. Knobs of the epipolar search are measured only
+/// if poses are known. As in the product, flow2d computes both directions, but it starts without
+/// the field of the last frame. Work per still is not timed. Needs a current GL context. Throws
+/// std::invalid_argument if there are no samples.
 [[nodiscard]] Curves measureCurves(const std::vector<CurveSample>& samples);
 
 }  // namespace mfar::bench

@@ -5,14 +5,14 @@
 
 namespace mfar::bench {
 
-/// Time of depth without a still, per frame: luma, search against a keyframe, filter and edges. The
-/// options make every frame search. Not measured: zero runs.
+/// Time per frame of finding depth without a still: luma, search against a keyframe, filter and
+/// edges. The options make every frame search. A summary of zero runs: not measured.
 struct DepthTimes {
-    Summary tenth;  ///< of the picture, around its centre
-    Summary whole;  ///< the whole picture
+    Summary tenth;  ///< search in a tenth of the picture, around its centre
+    Summary whole;  ///< search in the whole picture
 };
 
-/// Uses the workload's frames that have a pose; the first ones warm up and do not count.
+/// Uses only the frames that have a pose. The first of them warm up and do not count.
 [[nodiscard]] DepthTimes measureDepth(const Workload& posed);
 
 }  // namespace mfar::bench

@@ -8,7 +8,7 @@
 
 namespace mfar::bench {
 
-/// `mfar-bench governor`: how well deadlines are met.
+/// `mfar-bench governor`: measures how well the product meets deadlines.
 class GovernorCommand {
 public:
     explicit GovernorCommand(CLI::App& app);

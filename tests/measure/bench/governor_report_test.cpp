@@ -5,7 +5,7 @@
 namespace mfar::bench {
 namespace {
 
-TEST(GovernorReport, SettledIsWhereOneInTwentyIsLateAtMost) {
+TEST(GovernorReport, SettledIsWhenAtMostOneFrameInTwentyIsLate) {
     std::vector<double> ms(100, 30);
     EXPECT_EQ(settledAfter(ms, 33), 0);
     ms[0] = ms[1] = ms[2] = 40;

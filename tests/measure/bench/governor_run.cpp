@@ -14,7 +14,7 @@
 namespace mfar::bench {
 namespace {
 
-constexpr int kStillEvery = 30;  // frames between stills, if the governor allows one
+constexpr int kStillEvery = 30;  // frames between two stills, at levels that use stills
 constexpr std::chrono::milliseconds kInterval{33};
 
 /// The frames of a scene, played forwards and backwards.
@@ -42,7 +42,7 @@ Shots shotsOf(synthetic::Scene which, synthetic::Path path, const char* name, in
     return out;
 }
 
-/// A pipeline under a governor, as the daemon runs it.
+/// A pipeline whose levels are chosen by a governor, as in the daemon.
 class Governed {
 public:
     Governed(const StereoRig& rig, const std::vector<QualityLevel>& levels, double deadlineMs,

@@ -10,11 +10,10 @@
 
 namespace mfar::bench {
 
-/// One scene of a sequence, as the governor handled it.
+/// What the governor did during one scene of a sequence.
 struct GovernedScene {
     std::string name;
-    std::vector<double> ms;             ///< of its frames, from the first one after the change of
-                                        ///< scene
+    std::vector<double> ms;             ///< frame times, the first is that after the change
     std::map<std::string, int> levels;  ///< number of frames at each level
 };
 
@@ -25,23 +24,23 @@ struct GovernedRun {
 
 struct GovernorRequest {
     std::vector<double> deadlinesMs{33, 66, 133};
-    int frames = 120;  ///< per scene
+    int frames = 120;  ///< frames per scene
     Clock clock = Clock::Wall;
 };
 
-/// Runs the frames at one deadline after the other, each under its own governor that starts with
-/// `levels`. Needs a current GL context.
+/// Runs the frames at one deadline after the other. Each deadline has its own governor, which
+/// starts with the table `levels`. Needs a current GL context.
 [[nodiscard]] std::vector<GovernedRun> measureGovernor(const GovernorRequest& request,
                                                        const std::vector<QualityLevel>& levels);
 
-/// Number of frames after a change of scene until at most one in twenty of the remaining ones is
-/// late; all frames if that never happens.
+/// Number of frames that the governor needs to settle after a change of scene: from then on, at
+/// most one frame in twenty is late. Equals the number of all frames if it never settles.
 [[nodiscard]] int settledAfter(std::span<const double> ms, double deadlineMs);
 
-/// 95th percentile over the frames from number `from` (0: all) of each scene [ms].
+/// 95th percentile of the frame times [ms]. The first `from` frames of each scene are not counted.
 [[nodiscard]] double p95(const GovernedRun& run, std::size_t from);
 
-/// Human-readable: a line for each scene of each deadline.
+/// A text for people: one line for each scene at each deadline.
 [[nodiscard]] std::string governorTable(std::span<const GovernedRun> runs);
 
 }  // namespace mfar::bench

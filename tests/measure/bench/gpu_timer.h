@@ -6,10 +6,10 @@
 
 namespace mfar::gpu {
 
-/// Measures the time that the GPU spends on commands between start() and stop(). The GPU measures
-/// it and the result is read later, so that nothing waits. Optional: needs EXT_disjoint_timer_query
-/// (OpenGL ES) or ARB_timer_query (OpenGL); without them every call is a no-op and read() returns
-/// nothing.
+/// Measures the time that the GPU spends on the commands between start() and stop(). The result is
+/// read later, so that the CPU does not wait for the GPU. Needs EXT_disjoint_timer_query (OpenGL
+/// ES) or ARB_timer_query (OpenGL). Without them every call does nothing and read() returns no
+/// value.
 class Timer {
 public:
     Timer();
@@ -18,16 +18,16 @@ public:
     ~Timer();
 
     [[nodiscard]] bool available() const { return query_ != 0; }
-    /// One measurement at a time; only one Timer may measure in a context.
+    /// Only one Timer of a context may measure at a time.
     void start();
     void stop();
-    /// Milliseconds of the last measurement; empty while it is unfinished, or if the GPU changed
-    /// its clock meanwhile.
+    /// Time of the last measurement [ms]. Empty while the GPU is still working, and if the GPU
+    /// changed its clock meanwhile.
     [[nodiscard]] std::optional<double> read() const;
 
 private:
     GLuint query_ = 0;
-    bool disjointKnown_ = false;  // the context reports a change of clock (OpenGL ES only)
+    bool disjointKnown_ = false;  // the context reports clock changes (OpenGL ES only)
 };
 
 }  // namespace mfar::gpu

@@ -8,7 +8,8 @@
 
 namespace mfar::bench {
 
-/// A setting of the flow that trades time for error, and its values to try, in ascending order.
+/// A setting of the flow that trades time for accuracy, and the values to measure, in ascending
+/// order.
 struct Knob {
     std::string method;  ///< flow2d or epipolar
     std::string name;    ///< member of Flow2dOptions or EpipolarOptions

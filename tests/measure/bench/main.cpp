@@ -43,7 +43,7 @@ struct Options {
     std::vector<std::filesystem::path> data;
 };
 
-/// Workloads with motion, without and with poses; no frames if unavailable.
+/// Workloads of a moving camera, without and with poses. One that is unavailable has no frames.
 struct Workloads {
     Workload moving, posed;
 };

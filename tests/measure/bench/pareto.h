@@ -12,38 +12,39 @@ struct ParetoPoint {
 
     std::string name;
     Kind kind = Kind::Ours;
-    double ms = 0;     ///< median
-    double error = 0;  ///< see ParetoStage::measure; smaller is better
+    double ms = 0;     ///< median run time [ms]
+    double error = 0;  ///< as described by ParetoStage::measure; smaller is better
 };
 
-/// All methods for one stage, measured in turn in one run.
+/// All methods for one stage. They were measured in turn in one run.
 struct ParetoStage {
     std::string name;
-    std::string measure;  ///< definition of the error, with its unit
-    std::string samples;  ///< the samples used
+    std::string measure;  ///< what the error is, with its unit
+    std::string samples;  ///< names of the samples
     std::vector<ParetoPoint> points;
 };
 
-/// Whether `a` is neither slower nor less accurate than `b` and differs from it. False for values
-/// that are not finite.
+/// True if `a` is at least as fast and as accurate as `b` and better in one of the two. False if
+/// any value is not finite.
 [[nodiscard]] bool dominates(const ParetoPoint& a, const ParetoPoint& b);
 
 /// Indices of the points that no other point dominates, by ascending time.
 [[nodiscard]] std::vector<std::size_t> paretoFront(const std::vector<ParetoPoint>& points);
 
-/// Names of the peers that dominate a point of ours.
+/// Names of the peers that dominate at least one of our points.
 [[nodiscard]] std::vector<std::string> dominatingPeers(const ParetoStage& stage,
                                                        const ParetoPoint& point);
 
-/// stage,name,kind,ms,error,measure,front,dominated_by: one line per point.
+/// One line per point, with the columns stage,name,kind,ms,error,measure,front,dominated_by.
 [[nodiscard]] std::string paretoCsv(const std::vector<ParetoStage>& stages);
 
-/// Human-readable: our points that no peer dominates, and those that a peer dominates, with its
-/// name.
+/// A text for people: which of our points no peer dominates, and which peer dominates each other
+/// one.
 [[nodiscard]] std::string paretoSummary(const std::vector<ParetoStage>& stages);
 
-/// One panel per stage: time on x, error on y, both logarithmic; the front as a line, our points as
-/// discs, peers as diamonds, the default ringed. The front and the peers are labelled.
+/// One panel per stage with logarithmic axes: time on x, error on y. A line joins the points that
+/// nothing dominates (the front). Discs are our points, diamonds are peers, and a ring marks the
+/// default. The points of the front and the peers are labelled.
 [[nodiscard]] std::string paretoSvg(const std::vector<ParetoStage>& stages);
 
 }  // namespace mfar::bench

@@ -25,11 +25,11 @@ void writeText(const fs::path& file, const std::string& text) {
     if (!out.flush()) throw eval::EvalError(fmt::format("{}: cannot be written", file.string()));
 }
 
-// Levels that are hardly slower than a less accurate one replace it: the governor could not gain
-// time by choosing that one.
+// A level replaces the level before it, which is less accurate, unless it is slower by this factor.
+// Otherwise the governor could hardly gain time by choosing the less accurate one.
 constexpr double kLeastStep = 1.05;
 
-/// Our points' front as levels, from fast to accurate.
+/// Makes levels of our points that no other of our points dominates, from fast to accurate.
 std::vector<QualityLevel> levelsOf(const ParetoStage& superres) {
     std::vector<ParetoPoint> ours;
     for (const ParetoPoint& p : superres.points)

@@ -9,7 +9,7 @@
 
 namespace mfar::bench {
 
-/// `mfar-bench pareto`: run time and error of every setting and peer.
+/// `mfar-bench pareto`: measures run time and error of every setting and every peer.
 class ParetoCommand {
 public:
     explicit ParetoCommand(CLI::App& app);

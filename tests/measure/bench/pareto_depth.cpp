@@ -20,7 +20,7 @@ namespace {
 
 struct DepthSetting {
     const char* name;
-    EpipolarOptions search;  ///< search against the still
+    EpipolarOptions search;  ///< settings of the search against the still
 };
 
 std::vector<DepthSetting> depthSettings() {
@@ -56,8 +56,8 @@ double scoreOf(const DepthSample& sample, const cv::Mat& rho) {
            eval::depthError(rho, sample.inverseDepth, shots.rig.video.fx * baseline, all).bad1;
 }
 
-/// One setting on one sample. Only the first result is scored: later ones are filtered with earlier
-/// ones.
+/// Measures one setting on one sample. Only the first result is scored, because the filter combines
+/// later results with earlier ones.
 class DepthWay {
 public:
     DepthWay(const DepthSample& sample, const DepthSetting& setting)
@@ -69,7 +69,7 @@ public:
 
     void measure(const ParetoRun& run, bool scored, WayTimes& out) {
         const CurveSample& shots = sample_.shots;
-        // A new still, so that the same view is measured again and nothing is predicted.
+        // Sets the still again, so that the same view is measured without a prediction.
         pipeline_.setStill(eval::viewOf(still_), shots.still.time, shots.still.pose);
         const double ms = msOf(run.clock, [&] {
             pipeline_.run(eval::viewOf(frame_), shots.frame.time, shots.frame.pose);

@@ -55,7 +55,7 @@ constexpr const char* kBlindPeers[] = {"dis-fast", "dis-medium", "dis-medium-bot
                                        "dis-medium-full", "farneback"};
 constexpr const char* kStereoPeers[] = {"sgbm", "stereobm"};
 
-/// All methods on one sample.
+/// Runs all methods on one sample.
 class FlowSampleRun {
 public:
     FlowSampleRun(const CurveSample& sample, bool withPoses, const ParetoRun& run)
@@ -65,7 +65,7 @@ public:
     void ours(PipelineOptions options, bool scored, WayTimes& out) {
         options.output = sample_.rig.video.size;
         Pipeline& pipeline = pool_.with(options);
-        // A new still, so that no run starts from the result of the previous one.
+        // Sets the still again, so that no run starts from the result of the previous one.
         pipeline.setStill(eval::viewOf(still_), sample_.still.time,
                           withPoses_ ? sample_.still.pose : std::nullopt);
         pipeline.setMeasure(true);
@@ -89,7 +89,8 @@ public:
     }
 
 private:
-    // The stages that compute the field: all of the 2-D flow, or the search along the lines.
+    // Names of the stages that compute the field: all stages of the 2-D flow, or only the search
+    // along the epipolar lines.
     [[nodiscard]] std::vector<std::string_view> stages() const {
         if (withPoses_) return {"epipolar"};
         return {"pyramid", "flow"};
@@ -102,7 +103,8 @@ private:
     cv::Mat frame_, still_;
 };
 
-/// Runs all samples in turn. The first round is scored but not timed: it warms up.
+/// Runs all samples in turn. The first round warms up: its results are scored, its times do not
+/// count.
 class FlowStageRun {
 public:
     FlowStageRun(bool withPoses, const ParetoRun& run)

@@ -20,7 +20,7 @@ bool canBeDrawn(const ParetoPoint& p) {
     return std::isfinite(p.ms) && std::isfinite(p.error) && p.ms > 0 && p.error >= 0;
 }
 
-/// Draws one stage, with its left edge at `left`.
+/// Draws the panel of one stage. Its left edge is at x = `left`.
 class StagePanel {
 public:
     StagePanel(const ParetoStage& stage, double left) : stage_(stage), left_(left) {
@@ -65,7 +65,7 @@ private:
         for (const std::size_t i : paretoFront(stage_.points)) {
             const ParetoPoint& p = stage_.points[i];
             if (!canBeDrawn(p)) continue;
-            // A staircase: everything above it and to its right is dominated.
+            // A staircase: points above it and to its right are dominated.
             path += path.empty() ? fmt::format("M{:.1f} {:.1f}", x(p.ms), y(p.error))
                                  : fmt::format(" H{:.1f} V{:.1f}", x(p.ms), y(p.error));
             if (p.kind != ParetoPoint::Kind::Peer)

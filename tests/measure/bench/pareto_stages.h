@@ -14,36 +14,36 @@
 
 namespace mfar::bench {
 
-/// How a stage is measured: `rounds` rounds, each running every method in turn. All need a current
-/// GL context.
+/// How a stage is measured: in `rounds` rounds, each of which runs every method once. All functions
+/// below that take it need a current GL context.
 struct ParetoRun {
     Clock clock = Clock::Wall;
     int rounds = 3;
 };
 
-/// Flow of single frames after a new still, against bad-1, with or without poses: every setting of
-/// flowKnobs() and combinations, and OpenCV's flow algorithms. With poses, samples without poses
-/// are skipped. Empty if no sample remains.
+/// Run time and bad-1 of the flow of single frames after a new still. Methods: every setting of
+/// flowKnobs(), combinations of settings, and OpenCV's flow algorithms. With poses, samples without
+/// poses are skipped. The stage is empty if no sample remains.
 [[nodiscard]] ParetoStage flowStage(const std::vector<CurveSample>& samples, bool withPoses,
                                     const ParetoRun& run);
 
-/// A frame, its still and the true depth. Both have poses.
+/// A frame, its still and the true depth. Frame and still have poses.
 struct DepthSample {
-    CurveSample shots;     ///< without true flow
+    CurveSample shots;     ///< its true flow is not set
     cv::Mat inverseDepth;  ///< CV_32F [1/m], NaN = unknown or occluded in the still
 };
-/// The first `most` samples of each folder that mfar-eval depth accepts. Throws the same
-/// exceptions.
+/// The first `most` samples of each folder that mfar-eval depth accepts. Throws EvalError,
+/// RecordingError and ImageFileError.
 [[nodiscard]] std::vector<DepthSample>
 depthSamplesOf(const std::vector<std::filesystem::path>& folders, std::size_t most);
 /// One frame of each synthetic scene (office, shelf), see syntheticCurveSamples().
 [[nodiscard]] std::vector<DepthSample> syntheticDepthSamples(Size video, std::size_t most = 2);
 
-/// Depth of single frames against bad-1; peers: OpenCV's stereo matchers, and triangulation of
-/// their flow.
+/// Run time and bad-1 of the depth of single frames. Peers: OpenCV's stereo matchers, and
+/// triangulation of the flow of OpenCV's flow algorithms.
 [[nodiscard]] ParetoStage depthStage(const std::vector<DepthSample>& samples, const ParetoRun& run);
 
-/// The frames after a still, some with known truth.
+/// The frames after a still. The truth of some of them is known.
 struct SequenceSample {
     Workload work;
     std::vector<cv::Mat>
@@ -54,22 +54,22 @@ struct SequenceSample {
 [[nodiscard]] std::vector<SequenceSample> syntheticSequences(Size video, Size still, int frames,
                                                              std::size_t most = 2);
 
-/// Whole frames against the root mean square error of their luma: the modes, settings of their flow
-/// and combinations; peers: bicubic enlargement and the paper's method on OpenCV. The first frame
-/// after a still does not count.
+/// Run time of whole frames and the root mean square error of their luma. Methods: the modes,
+/// settings of their flow, and combinations. Peers: bicubic enlargement and the paper's method on
+/// OpenCV. The first frame after a still does not count.
 [[nodiscard]] ParetoStage superResStage(const std::vector<SequenceSample>& samples,
                                         const ParetoRun& run);
 
-/// A path-traced picture seen from another view, against the error inside the silhouette: methods
-/// that fill its holes; peers: OpenCV's inpainting, and tracing the picture again. Throws EvalError
-/// if there is no path tracer.
+/// A path-traced picture is warped to another view; run time, and error inside the silhouette.
+/// Methods: the ways to fill the holes. Peers: OpenCV's inpainting, and tracing the picture again.
+/// Throws EvalError if the path tracer is not built.
 [[nodiscard]] ParetoStage warpStage(bool quick);
 
-/// A path-traced picture after some samples per pixel, in slices of both kinds and as a whole,
-/// against its error. Throws as warpStage() does; needs no GL.
+/// Error of a path-traced picture after some samples per pixel, traced in slices of both kinds and
+/// as a whole. Throws EvalError if the path tracer is not built. Needs no GL context.
 [[nodiscard]] ParetoStage slicingStage(bool quick);
 
-/// Settings of superResStage() by name, from which the levels of a quality table are made.
+/// A setting of superResStage() with its name. Levels of a quality table are made from it.
 struct QualitySetting {
     std::string name;
     Quality quality;

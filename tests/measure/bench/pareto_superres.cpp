@@ -38,7 +38,8 @@ double errorOf(const cv::Mat& bgr, const cv::Mat& truth) {
     return std::sqrt(eval::meanSquaredError(eval::luma(bgr)(inner), truth(inner)));
 }
 
-/// A method that makes a sequence's pictures, frame by frame after its still.
+/// A method that makes the pictures of a sequence. Its frames are run one after the other, after
+/// their still.
 struct SequenceWay {
     std::function<void()> begin;                  ///< sets the still
     std::function<void(std::size_t)> run;         ///< processes frame i; timed by msOf()
@@ -55,7 +56,7 @@ void measureWay(const SequenceSample& sample, const SequenceWay& way, const Pare
     }
 }
 
-/// Our pipeline on one sequence; all settings use the same pipeline.
+/// The product's pipeline on one sequence. All settings share it.
 class SequencePipeline {
 public:
     explicit SequencePipeline(const Workload& work)

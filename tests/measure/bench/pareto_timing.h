@@ -15,7 +15,7 @@
 
 namespace mfar::bench {
 
-/// Times and errors of one method, collected sample by sample.
+/// Times and errors of one method, one sample after the other.
 class WayTimes {
 public:
     void time(double ms) { ms_.push_back(ms); }
@@ -23,9 +23,9 @@ public:
         sum_ += value;
         ++count_;
     }
-    /// Ends a sample; its median is kept.
+    /// Ends a sample and keeps the median of its times.
     void endSample() { medians_.push_back(summarise(std::exchange(ms_, {})).median); }
-    /// Mean of the samples' medians.
+    /// Mean of the samples' medians [ms].
     [[nodiscard]] double ms() const {
         double sum = 0;
         for (const double ms : medians_)
@@ -40,7 +40,8 @@ private:
     int count_ = 0;
 };
 
-/// The points of a stage: the first of ours is the default; in `times`, peers follow ours.
+/// The points of a stage. `times` begins with our settings, of which the first is the default, and
+/// ends with the peers.
 [[nodiscard]] inline std::vector<ParetoPoint> pointsOf(const std::vector<std::string>& ours,
                                                        const std::vector<std::string>& peers,
                                                        const std::vector<WayTimes>& times) {
@@ -55,7 +56,7 @@ private:
     return out;
 }
 
-/// Share of the named stages in the time of the last run, which must have been measured.
+/// Share of the last run's time that the named stages took. The run must have been measured.
 [[nodiscard]] inline double shareOfStages(const Pipeline& pipeline,
                                           const std::vector<std::string_view>& names) {
     double some = 0, all = 0;
@@ -67,23 +68,23 @@ private:
     return all > 0 ? some / all : 0;
 }
 
-/// A peer's result with its time by this clock; `method`: a FlowMethod or DepthMethod.
+/// Runs a peer and measures its time by this clock. `method`: a FlowMethod or a DepthMethod.
 template <class Method>
 [[nodiscard]] auto timed(Method& method, const eval::Shot& frame, Clock clock) {
-    constexpr double kRuns = 4;  // one for the result, three timed
+    constexpr double kRuns = 4;  // the first gives the result, three are timed
     typename Method::Result out;
     const double ms = msOf(clock, [&] { out = method.run(frame); });
     if (clock == Clock::Processor) out.ms = ms / kRuns;
     return out;
 }
 
-/// Pipelines for one rig; settings that may change between frames share a pipeline.
+/// Pipelines for one rig. Settings that may change between frames share one pipeline.
 class PipelinePool {
 public:
     explicit PipelinePool(const StereoRig& rig) : rig_(rig) {}
 
-    /// A pipeline that uses these options from its next run. Options that Quality does not cover
-    /// must be the same in all calls, except those compared here.
+    /// Returns a pipeline that uses these options from its next run on. Options that neither
+    /// Quality contains nor this function compares must be equal in all calls.
     Pipeline& with(const PipelineOptions& options) {
         for (auto& [made, pipeline] : made_) {
             const bool fits = made.flow2d.levels == options.flow2d.levels &&

@@ -1,4 +1,5 @@
-// Stages of the virtual layer: pictures that the tracer makes in slices, and their warps.
+// The two stages of virtual objects: pictures that the path tracer makes in slices, and the warp of
+// such a picture.
 #include "tests/measure/bench/pareto_stages.h"
 #include "tests/measure/eval/slicing.h"
 #include "tests/measure/eval/warp.h"
@@ -20,7 +21,7 @@ constexpr const char* kDefaultSlicing = "time-adaptive";
 constexpr const char* kWholePicture = "full";
 constexpr const char* kInpainting = "inpaint";
 
-/// One column of a report's row.
+/// The value of a row of a report in one column.
 double valueOf(const eval::Report::Row& row, std::size_t column) {
     return row.values.at(column).value();
 }
@@ -73,7 +74,7 @@ ParetoStage warpStage(bool quick) {
 
 ParetoStage slicingStage(bool quick) {
     eval::SlicingRequest request;
-    request.frames = 8;  // the budget is not measured
+    request.frames = 8;  // small: only errors are used here, not the budget
     if (quick) {
         request.size = {48, 36};
         request.samples = 8;

@@ -107,7 +107,7 @@ TEST(MfarBench, CurvesHaveEveryValueOfEveryKnob) {
     }
 }
 
-/// For each stage of a table, the number of points of each kind.
+/// Counts the points of a table by stage and by kind.
 std::map<std::string, std::map<std::string, int>> paretoKinds(const std::filesystem::path& csv) {
     std::istringstream lines(mfar::test::readFile(csv));
     std::string line;
@@ -160,7 +160,7 @@ TEST(MfarBench, ParetoHasOursAndPeersAndATableThatTheDaemonReads) {
     EXPECT_GE(levels.size(), 2U);
 }
 
-TEST(MfarBench, SkipMeasuresWhatIsAskedFor) {
+TEST(MfarBench, SkipMeasuresTheRequestedCasesAndSkips) {
     const mfar::test::TempFolder folder;
     const auto csv = folder / "skip.csv";
     const std::string command =
@@ -180,7 +180,7 @@ TEST(MfarBench, SkipMeasuresWhatIsAskedFor) {
     EXPECT_FALSE(std::getline(lines, line));
 }
 
-TEST(MfarBench, GovernorIsMeasuredAtTheDeadlineAskedFor) {
+TEST(MfarBench, GovernorIsMeasuredAtTheRequestedDeadline) {
     const mfar::test::TempFolder folder;
     const auto out = folder / "governor.txt";
     const std::string command =

@@ -8,15 +8,15 @@
 
 namespace mfar::bench {
 
-/// A frame and the still that precedes it, R G B A, rendered before anything is timed: the board's
-/// renderer uses threads of this program.
+/// A frame and the still that came before it, R G B A. Rendered before any measurement starts,
+/// because the board renders in threads of this process.
 struct SceneFrame {
-    cv::Mat picture, still;  ///< still: empty if there is none
+    cv::Mat picture, still;  ///< `still` is empty if none came before the frame
     Timestamp time;
     std::optional<Pose> pose, stillPose;
 };
 
-/// The next frame of a scene.
+/// Renders the next frame of a scene.
 [[nodiscard]] SceneFrame nextFrame(eval::SceneRun& scene);
 
 }  // namespace mfar::bench

@@ -8,7 +8,7 @@
 
 namespace mfar::bench {
 
-/// `mfar-bench skip`: time saved and accuracy lost by skipping work.
+/// `mfar-bench skip`: measures the time saved and the accuracy lost by skipping work.
 class SkipCommand {
 public:
     explicit SkipCommand(CLI::App& app);

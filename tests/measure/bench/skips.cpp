@@ -24,10 +24,11 @@ namespace {
 
 using synthetic::Path;
 
-/// Frames before the first that counts: until there is a still and depth has settled.
+/// Frames that are not scored: until the first still has arrived and depth has settled.
 constexpr std::size_t kSettled = 8;
 constexpr std::size_t kScoredFrames = 4;  // every fourth frame is scored
-// Disparity is that of a camera moved by this distance [m].
+// bad-1 of depth is measured in pixels of disparity. It is that between two cameras at this
+// distance [m].
 constexpr double kBaseline = 0.05;
 
 struct Skip {
@@ -66,7 +67,7 @@ struct Case {
     std::vector<VirtualObject> objects;
 };
 
-/// The office's own object, translated.
+/// The object that belongs to the office scene, translated by `by` [m].
 std::vector<VirtualObject> officeObject(const Eigen::Vector3d& by) {
     auto out = eval::sceneObjects(synthetic::Scene::Office);
     for (VirtualObject& object : out)
@@ -96,7 +97,7 @@ auto chosen(const All& all, const std::vector<std::string>& names) {
     return out;
 }
 
-/// Errors of one pipeline over the scored frames.
+/// Errors of one pipeline, collected over the scored frames.
 struct Errors {
     double square = 0, overlap = 0, bad1 = 0;
     int frames = 0, seen = 0, depths = 0;
@@ -117,10 +118,10 @@ std::optional<double> difference(std::optional<double> a, std::optional<double> 
     return a && b ? std::optional(*a - *b) : std::nullopt;
 }
 
-/// Truth of a frame.
+/// The true picture of a frame and its true visible objects.
 struct FrameTruth {
-    cv::Mat luma;     ///< of the output, CV_64F
-    cv::Mat without;  ///< CV_8U: pixels where no object may be shown
+    cv::Mat luma;     ///< luma of the output's size, CV_64F
+    cv::Mat without;  ///< CV_8U: set where no object may be shown
     cv::Mat visible;  ///< pixels that show an object; CV_8U at the video's size
     cv::Mat silhouette, undecided, rho;
 };
@@ -149,7 +150,7 @@ FrameTruth truthOf(SyntheticBoard& board, const Case& one, Timestamp time) {
 
 struct CaseFrame {
     SceneFrame shots;
-    std::optional<FrameTruth> truth;  ///< for scored frames
+    std::optional<FrameTruth> truth;  ///< only of scored frames
 };
 
 std::vector<CaseFrame> framesOf(const Case& one, eval::SceneRun& scene, int count) {
@@ -164,7 +165,7 @@ std::vector<CaseFrame> framesOf(const Case& one, eval::SceneRun& scene, int coun
     return out;
 }
 
-/// The pipeline of one variant in one case.
+/// The pipeline of one case with one set of skips.
 class SkipWay {
 public:
     SkipWay(const Case& one, const StereoRig& rig, const Skip* off, Clock clock)

@@ -8,26 +8,27 @@
 
 namespace mfar::bench {
 
-/// Time saved and accuracy lost by skipping one kind of work in one case.
+/// The time that one skip saves in one case, and the accuracy that it costs.
 struct SkipResult {
-    std::string skip, scene;  ///< the case
+    std::string skip, scene;  ///< the kind of work that is skipped; the case
     double ms = 0,
-           msWithout = 0;  ///< median frame with the skip, and without it
-    /// Errors that the skip adds; empty if there is nothing to measure.
-    std::optional<double> psnrLost;  ///< of the picture outside virtual objects [dB]
-    /// Error of the depth under the objects, where it decides visibility [points].
+           msWithout = 0;  ///< median frame [ms] with the skip, and without it
+    /// Loss of accuracy by the skip: less PSNR, more depth errors, less overlap. Each is empty if
+    /// it cannot be measured.
+    std::optional<double> psnrLost;  ///< PSNR of the picture outside virtual objects [dB]
+    /// Share of wrong depths where they decide the visibility of objects [percentage points].
     std::optional<double> bad1Added;
     std::optional<double>
-        overlapLost;  ///< overlap of the visible object with its true visible part [points]
+        overlapLost;  ///< overlap of shown and true visible object [percentage points]
 };
 
-/// A case with all skips enabled.
+/// Counters of a case with all skips enabled.
 struct SkipCase {
     std::string scene;
-    double ms = 0;          ///< median frame
-    long depthTiles = 0;    ///< over all frames
+    double ms = 0;          ///< median frame [ms]
+    long depthTiles = 0;    ///< searched tiles, over all frames
     long framesInView = 0;  ///< frames with an object in view
-    double changed = 0;     ///< mean share of the tiles
+    double changed = 0;     ///< mean share of tiles that changed
 };
 
 struct SkipReport {
@@ -36,22 +37,22 @@ struct SkipReport {
 };
 
 struct SkipRequest {
-    std::vector<std::string> cases, skips;  ///< empty: all
-    int frames = 20;                        ///< number of frames that count
+    std::vector<std::string> cases, skips;  ///< names to measure; empty: all
+    int frames = 20;                        ///< number of frames that are measured
     Clock clock = Clock::Wall;
 };
 
 [[nodiscard]] std::vector<std::string> skipNames();
 [[nodiscard]] std::vector<std::string> skipCaseNames();
 
-/// Runs every case with all skips enabled, and with each of them disabled, frame by frame in turn.
-/// Needs a current GL context.
+/// Runs every case with all skips enabled and with each skip disabled. Frames of these variants
+/// alternate. Needs a current GL context.
 [[nodiscard]] SkipReport measureSkips(const SkipRequest& request);
 
-/// Human-readable: cases, then skips; skips that save nothing, or lose more than 0.1 dB or points,
-/// are marked.
+/// A text for people: the cases, then the skips. A skip that saves nothing, or that loses more than
+/// 0.1 dB or 0.1 percentage points, is marked.
 [[nodiscard]] std::string skipTable(const SkipReport& report);
-/// case,skip,ms,ms_without,saved_ms,psnr_lost_db,bad1_added,overlap_lost
+/// Columns: case,skip,ms,ms_without,saved_ms,psnr_lost_db,bad1_added,overlap_lost.
 [[nodiscard]] std::string skipCsv(const SkipReport& report);
 
 }  // namespace mfar::bench

@@ -7,7 +7,7 @@
 namespace mfar::bench {
 namespace {
 
-TEST(Summary, OddAndEvenMedians) {
+TEST(Summary, MediansOfOddAndEvenCountsAreRight) {
     EXPECT_DOUBLE_EQ(summarise({3, 1, 2}).median, 2);
     EXPECT_DOUBLE_EQ(summarise({4, 1, 2, 3}).median, 2.5);
     EXPECT_DOUBLE_EQ(summarise({4, 1, 2, 3}).min, 1);
@@ -20,7 +20,7 @@ TEST(Summary, P99IsNotExceededBy99Percent) {
     EXPECT_DOUBLE_EQ(summarise({7}).p99, 7);
 }
 
-TEST(Summary, NothingMeasuredIsZero) {
+TEST(Summary, WithoutMeasurementsAllValuesAreZero) {
     EXPECT_EQ(summarise({}).runs, 0U);
 }
 

@@ -13,7 +13,7 @@ namespace mfar::bench {
 namespace {
 
 constexpr int kRuns = 9;
-constexpr int kPeerPoints = 5000;  // the peer is much slower, and each point takes the same time
+constexpr int kPeerPoints = 5000;  // few: the peer is slow, its time per point constant
 
 struct Views {
     explicit Views(Size size)
@@ -22,7 +22,7 @@ struct Views {
           T_b_a{Eigen::Quaterniond(Eigen::AngleAxisd(0.03, Eigen::Vector3d(1, 2, 3).normalized())),
                 {-0.1, 0.02, 0.01}} {}
 
-    /// Normalised rays, in both views, of the point that a pixel shows.
+    /// Rays of the two views to the scene point that a pixel shows, in normalised coordinates.
     [[nodiscard]] std::pair<Eigen::Vector2d, Eigen::Vector2d> rays(int x, int y) const {
         const double rho = 0.3 + 0.2 * x / camera.size.width;
         const Eigen::Vector2d a = camera.unproject({x, y});

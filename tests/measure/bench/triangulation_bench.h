@@ -4,13 +4,13 @@
 
 namespace mfar::bench {
 
-/// Time to triangulate a point, median of several runs [ns].
+/// Time to triangulate one point, the median of several runs [ns].
 struct TriangulationTimes {
-    double flow = 0, midpoint = 0;  ///< ours, for every pixel of the video, one thread
+    double flow = 0, midpoint = 0;  ///< our two methods, every pixel of the video, one thread
     double opencv = 0;              ///< cv::triangulatePoints, on undistorted points
 };
 
-/// On the flow of a hand-held camera with distorting lenses; the methods run in turn.
+/// Triangulates the flow of a hand-held camera with distorting lenses. The methods run in turn.
 [[nodiscard]] TriangulationTimes measureTriangulation(Size video);
 
 }  // namespace mfar::bench

@@ -6,17 +6,17 @@
 
 namespace mfar::bench {
 
-/// Time per frame, with all work finished, to warp a picture of two balls on a plane by 2 degrees.
+/// Time per frame [ms] to warp a picture of two balls on a plane by 2 degrees, until all work is
+/// finished.
 struct WarpTimes {
     Summary objects;    ///< balls that cover a ninth of the picture, with their shadows
-    Summary whole;      ///< a ball larger than the picture
-    Summary still;      ///< as `objects`, with the camera at rest
-    Summary reference;  ///< for `objects`: preparing a new traced picture on the CPU, and its
-                        ///< upload
+    Summary whole;      ///< one ball that is larger than the picture
+    Summary still;      ///< as `objects`, but the camera is at rest
+    Summary reference;  ///< as `objects`: CPU work for a new traced picture, with its upload
     Summary remap;      ///< the peer: cv::remap, bilinear, on the whole picture
 };
 
-/// GLES needs a current context. Makes `runs` runs after one that does not count.
+/// The first run does not count; `runs` runs follow. GLES needs a current context.
 [[nodiscard]] WarpTimes measureWarp(Size size, int runs, EngineKind engine);
 
 }  // namespace mfar::bench

@@ -18,28 +18,28 @@ class SyntheticBoard;
 
 namespace mfar::bench {
 
-/// A still, and a frame that the product matched with it.
+/// A still and a frame that was matched with it, from which the product learns.
 struct Lesson {
     cv::Mat still, frame;
     std::optional<Pose> stillPose{}, framePose{};
 };
 
-/// The input of a benchmark, all in memory. CV_8UC3, B G R.
+/// The input of a benchmark. All pictures are in memory, CV_8UC3, B G R.
 struct Workload {
     std::string name;
     StereoRig rig;
     std::vector<cv::Mat> stills;
     std::vector<cv::Mat> frames;
-    std::vector<std::size_t> stillOf;  ///< per frame: index of its still
-    /// Poses of the video camera, per frame and per still. An entry is empty if unknown; the vector
-    /// is empty if all are.
+    std::vector<std::size_t> stillOf;  ///< index of the still of each frame
+    /// Poses of the video camera at each frame and at each still. An unknown pose is an empty
+    /// entry; if all are unknown, the vector is empty.
     std::vector<std::optional<Pose>> framePoses{}, stillPoses{};
-    std::vector<Lesson> lessons{};  ///< pairs from which the product learned before the frames
-    std::shared_ptr<const FilterBank> filters{};  ///< learned from the lessons; null: default
-                                                  ///< filters
+    std::vector<Lesson> lessons{};  ///< the product learned from them before the frames
+    std::shared_ptr<const FilterBank> filters{};  ///< learned from `lessons`; null: default
 };
 
-/// Enough for pairs of stills among the lessons, as in a running product.
+/// Number of lessons. It is large enough that two stills can be compared, as in the running
+/// product.
 inline constexpr int kLessons = 4;
 
 /// A synthetic textured plane seen by a hand-held camera: consecutive frames differ by about 4
@@ -49,17 +49,17 @@ inline constexpr int kLessons = 4;
 /// The synthetic board's office through a hand-held camera, with exact poses: one still, then
 /// frames, resized to the requested sizes. Needs no current GL context. Repeatable.
 [[nodiscard]] Workload handheldWorkload(Size video, Size still, int frames, int lessons = 0);
-/// The same for any board of Pace::Consumer that has not been started.
+/// As above, for any board of Pace::Consumer that has not been started.
 [[nodiscard]] Workload handheldWorkload(SyntheticBoard& board, Size video, Size still, int frames,
                                         int lessons = 0);
 
-/// Frames of a recording, repeated from its start if it is too short, with the stills that
-/// mfar-eval would use, and their poses. Each still with its first frame is a lesson. Throws
-/// EvalError and RecordingError.
+/// Frames of a recording with their poses and with the stills that mfar-eval would use. Starts
+/// again from the first frame if the recording is too short. A lesson is a still with its first
+/// frame. Throws EvalError and RecordingError.
 [[nodiscard]] Workload recordedWorkload(const std::filesystem::path& folder, int frames);
 
-/// Repeats the first frame: a camera at rest. `noise`: sigma of sensor noise that changes in every
-/// frame [grey levels].
+/// Repeats the first frame, as a camera at rest would see it. `noise`: sigma of the sensor noise,
+/// which differs in every frame [grey levels].
 [[nodiscard]] Workload atRest(const Workload& moving, double noise);
 
 }  // namespace mfar::bench

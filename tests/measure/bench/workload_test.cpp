@@ -10,7 +10,7 @@ double meanDifference(const cv::Mat& a, const cv::Mat& b) {
     return cv::norm(a, b, cv::NORM_L1) / static_cast<double>(a.total() * 3);
 }
 
-TEST(SyntheticWorkload, EveryFrameMovesAndRepeats) {
+TEST(SyntheticWorkload, EveryFrameMovesAndCanBeRepeated) {
     const Workload work = syntheticWorkload({160, 120}, {576, 432}, 4);
     ASSERT_EQ(work.frames.size(), 4U);
     EXPECT_EQ(work.frames[0].size(), cv::Size(160, 120));
@@ -53,7 +53,7 @@ TEST(AtRest, FramesAreEqualOrDifferByNoiseOnly) {
     const Workload moving = syntheticWorkload({160, 120}, {576, 432}, 3);
     const Workload still = atRest(moving, 0), noisy = atRest(moving, 2);
     EXPECT_EQ(meanDifference(still.frames[2], still.frames[0]), 0);
-    // Mean absolute difference of two normal values of sigma 2: 2 * 2 / sqrt(pi).
+    // Mean absolute difference of two values with normal noise of sigma 2: 2 * 2 / sqrt(pi).
     EXPECT_NEAR(meanDifference(noisy.frames[2], noisy.frames[0]), 2.257, 0.15);
 }
 

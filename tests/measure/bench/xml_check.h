@@ -5,8 +5,8 @@
 
 namespace mfar::bench::test {
 
-/// Whether a document is well-formed XML, apart from declarations: elements are closed in the
-/// reverse order of opening, attributes are quoted, and there is no unescaped & or <.
+/// Checks that a document is well-formed XML; declarations are not checked. Elements must be closed
+/// in the reverse order of opening, attributes be quoted, and & and < be escaped.
 inline bool isWellFormed(const std::string& xml) {
     std::vector<std::string> open;
     bool any = false;

@@ -1,6 +1,6 @@
-// Work per frame on a board: runs the product's frame path on synthetic pictures, for ./run
-// board-report. On GLES, lists every draw and dispatch with its invocations and bytes; on SIMD,
-// runs the work for an emulator that counts instructions, or times it.
+// Measures the work per frame on a board, for `./run board-report`. Runs the product's frame path
+// on synthetic pictures. On GLES it lists every draw and dispatch with its invocations and bytes.
+// On SIMD it runs the frames under an emulator that counts instructions, or times them.
 
 #include "hal/gl_context.h"
 #include "pipeline/enlarge/prior_filters.h"
@@ -33,7 +33,8 @@ struct Options {
     bool time = false, avx2 = false;
 };
 
-/// Filters as if learned from stills, so that their work is part of the frame.
+/// Filters such as the product learns from stills. With them the frame contains the work of
+/// applying learned filters.
 std::shared_ptr<const FilterBank> learnedFilters() {
     return std::make_shared<FilterBank>(readFilters(enlarge::priorFilters(), "prior"),
                                         Guidance{0.5F, 0.5F}, FineMatch{4.0F, 0.1F});
@@ -92,7 +93,7 @@ Json recorded(const PassRecorder& recorder) {
     return out;
 }
 
-/// The passes of the still and of the last frame.
+/// Records the GL work of setting a still and of the last frame.
 Json passesOf(Frames& frames) {
     Json out;
     {
@@ -108,7 +109,8 @@ Json passesOf(Frames& frames) {
     return out;
 }
 
-/// Current clock of this processor [GHz]: each addition of a dependent chain takes one cycle.
+/// Current clock of this processor [GHz], from a chain of dependent additions: each takes one
+/// cycle.
 double clockGhz() {
     constexpr int kAdditions = 50'000'000;
     using Clock = std::chrono::steady_clock;
@@ -127,7 +129,7 @@ double clockGhz() {
     return most;
 }
 
-/// Median time of each stage and of the frame [ms], without the first three frames.
+/// Median time of each stage and of the whole frame [ms]. The first three frames do not count.
 Json timesOf(Frames& frames) {
     constexpr std::size_t kWarmUp = 3;
     std::map<std::string, std::vector<double>> ms;

@@ -16,10 +16,10 @@ PassRecorder* recorder = nullptr;
 struct ShaderText {
     std::string name, defines;
 };
-std::map<GLuint, ShaderText> shaderTexts;                  // by shader
-std::map<GLuint, std::vector<ShaderText>> programShaders;  // by program
+std::map<GLuint, ShaderText> shaderTexts;                  // keyed by shader
+std::map<GLuint, std::vector<ShaderText>> programShaders;  // keyed by program
 
-/// Parses one of the product's shader texts: version, defines, precisions, body; see
+/// Splits a shader text of the product into version, defines, precisions and body; see
 /// gpu::shaderPreamble().
 ShaderText textOf(const std::string& whole) {
     ShaderText out;
@@ -67,7 +67,7 @@ std::int64_t bytesOfTexel(GLint format) {
     }
 }
 
-/// Size of the texture bound to the active unit.
+/// Bytes of the texture that is bound to the active unit.
 std::int64_t bytesOfBoundTexture() {
     GLint width = 0, height = 0, format = 0;
     glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_WIDTH, &width);
@@ -147,7 +147,8 @@ std::int64_t bytesSampledFrom(GLint unit) {
     return bytes;
 }
 
-/// Storage blocks count as read; what a search or a filter writes to them is small.
+/// Bytes of the program's storage blocks. They count as read, because searches and filters write
+/// little to them.
 std::int64_t bytesOfStorage(GLuint program) {
     GLint count = 0;
     std::int64_t bytes = 0;
@@ -164,8 +165,8 @@ std::int64_t bytesOfStorage(GLuint program) {
     return bytes;
 }
 
-/// Bytes that the current program accesses if it reads and writes everything once, and its
-/// parameters.
+/// Parameters of the current program, and the bytes that it accesses if it reads and writes all its
+/// textures and buffers once.
 PassWork usedNow() {
     PassWork out;
     const auto program = static_cast<GLuint>(integer(GL_CURRENT_PROGRAM));
@@ -228,7 +229,7 @@ std::int64_t bytesOfTargetPixel() {
     return bytes;
 }
 
-/// `pixels`: number of the target's pixels that the draw fills.
+/// `pixels`: number of pixels of the render target that the draw fills.
 void recordDraw(std::int64_t vertices, std::int64_t pixels) {
     if (vertices == 0) return;
     PassWork work = usedNow();
@@ -243,13 +244,13 @@ void recordDraw(std::int64_t vertices, std::int64_t pixels) {
     recorder->add(std::move(work));
 }
 
-/// Number of target pixels per video tile, from the ratio of the target's size to the video's.
+/// Number of target pixels per video tile: the target may have another resolution than the video.
 std::int64_t pixelsOfTile(const PassWork& work) {
     std::array<GLint, 4> viewport{};
     glGetIntegerv(GL_VIEWPORT, viewport.data());
     const auto columns = work.params.find("videoWidth"), rows = work.params.find("videoHeight");
     if (columns == work.params.end() || rows == work.params.end()) return 0;
-    constexpr double kTile = 16;  // side in pixels of the video
+    constexpr double kTile = 16;  // side of a tile [video px]
     return static_cast<std::int64_t>(kTile * viewport[2] / columns->second * kTile * viewport[3] /
                                      rows->second);
 }
@@ -272,7 +273,7 @@ nlohmann::json jsonOf(const PassWork& work) {
 
 }  // namespace mfar::boards
 
-// The linker redirects the product's calls to these functions (--wrap).
+// The linker's option --wrap redirects the product's GL calls to these functions.
 using namespace mfar::boards;
 extern "C" {
 

@@ -20,9 +20,9 @@ struct PassWork {
     std::map<std::string, int> params;  ///< integers of the uniform block Params
 };
 
-/// Records all work that this thread's GL context receives during the object's life. The linker
-/// redirects the GL functions that start work to it (--wrap), so that the product's own calls are
-/// recorded unchanged. One object at a time. Waits for the GPU wherever a list on the GPU
+/// Records all work that this thread's GL context receives while the object exists. The linker's
+/// option --wrap redirects the GL functions that start work to it, so that the product's calls need
+/// no change. Only one object may exist at a time. Waits for the GPU where a list on the GPU
 /// determines the amount of work.
 class PassRecorder {
 public:

@@ -7,8 +7,8 @@
 
 namespace mfar::eval {
 
-/// Degradation of the still relative to the recorded one. Applied in the order of a real sensor:
-/// blur (lens), gain (exposure), gamma (tone curve), noise (read-out).
+/// How the recorded still is degraded. The steps follow the order of a real sensor: blur (lens),
+/// gain (exposure), gamma (tone curve), noise (read-out).
 struct Degradation {
     double gain = 1;   ///< factor on the pixel value, > 0
     double gamma = 1;  ///< v -> v^gamma with v in [0, 1], > 0
@@ -17,8 +17,8 @@ struct Degradation {
     bool operator==(const Degradation&) const = default;
 };
 
-/// Parses "gain=0.7,gamma=1.3,blur=0.7,noise=4", any subset in any order; empty = no degradation.
-/// Throws std::invalid_argument that names the faulty part.
+/// Parses a text like "gain=0.7,gamma=1.3,blur=0.7,noise=4": any subset, in any order. An empty
+/// text means no degradation. Throws std::invalid_argument that names the faulty part.
 [[nodiscard]] Degradation parseDegradation(const std::string& text,
                                            const std::string& option = "--degrade");
 

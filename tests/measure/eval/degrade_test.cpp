@@ -41,7 +41,7 @@ TEST(Degrade, BlurKeepsTheMeanAndSpreadsAPoint) {
     EXPECT_NEAR(cv::sum(out)[0], 255, 8);
 }
 
-TEST(Degrade, NoiseHasTheSigmaAskedForAndRepeatsBySeed) {
+TEST(Degrade, NoiseHasTheRequestedSigmaAndDependsOnTheSeed) {
     const cv::Mat picture(200, 200, CV_8UC3, cv::Scalar::all(128));
     const cv::Mat first = degrade(picture, {1, 1, 0, 4}, 5);
     EXPECT_EQ(cv::norm(first, degrade(picture, {1, 1, 0, 4}, 5), cv::NORM_INF), 0);

@@ -14,9 +14,9 @@
 namespace mfar::eval {
 namespace {
 
-constexpr double kEdgeReach = 4;  // [px]
+constexpr double kEdgeReach = 4;  // distance from a depth edge that counts as near it [px]
 
-/// Truth for a sample's depths.
+/// The truth that the depths of a sample are compared with.
 struct DepthTruth {
     cv::Mat visible;  ///< CV_32F [1/m], NaN where unknown or occluded in the still
     cv::Mat all, edges, inner;

@@ -16,8 +16,8 @@
 namespace mfar::eval {
 namespace {
 
-/// A dense flow, triangulated pixel by pixel. A flow method's still has the video's lens and
-/// orientation, so both views have the video camera's lens.
+/// Depth from a dense flow, triangulated pixel by pixel. For flow methods the still is resampled to
+/// the video's lens and orientation; so both views have the lens of the video camera.
 class TriangulatedFlow final : public DepthMethod {
 public:
     TriangulatedFlow(const StereoRig& rig, std::unique_ptr<FlowMethod> flow,
@@ -52,8 +52,8 @@ private:
     std::optional<Pose> stillPose_;
 };
 
-/// The product: search along epipolar lines, filtered over the frames. Its time includes all stages
-/// that depth needs.
+/// The product's depth: search along epipolar lines, filtered over the frames. Its time includes
+/// all stages that depth needs.
 class FilteredDepth final : public DepthMethod {
 public:
     explicit FilteredDepth(const StereoRig& rig)

@@ -14,17 +14,17 @@ class DepthMethod {
 public:
     virtual ~DepthMethod() = default;
 
-    /// The still for the following frames.
+    /// Sets the still for the following frames.
     virtual void setStill(const Shot& still) = 0;
     struct Result {
         cv::Mat inverseDepth;  ///< CV_32F [1/m] of every video pixel, 0 = unknown
-        double ms = 0;         ///< wall time [ms], see FlowMethod, including triangulation
+        double ms = 0;         ///< wall time [ms], measured as in FlowMethod, with triangulation
         cv::Mat variance{};    ///< CV_32F of inverseDepth [1/m^2], empty if the method has none
     };
     [[nodiscard]] virtual Result run(const Shot& frame) = 0;
 };
 
-/// Names that --methods accepts for depth.
+/// Names that the option --methods accepts for depth.
 [[nodiscard]] const std::vector<std::string>& depthMethodNames();
 
 class DepthFactory {

@@ -13,9 +13,9 @@
 namespace mfar::eval {
 namespace {
 
-constexpr int kTrial = 32;  // side of a picture to test a model with [px]
+constexpr int kTrial = 32;  // side of the picture on which a model is tried [px]
 
-/// Error with OpenCV's reason for refusing the file, in one line.
+/// An error that says in one line why OpenCV refused the file.
 EvalError unusable(const std::filesystem::path& file, std::string why) {
     why.erase(std::min(why.find('\n'), why.size()));
     return EvalError(
@@ -28,7 +28,7 @@ public:
         : file_(std::move(file)), output_(output.width, output.height) {
         const DnnModelName name = dnnModelNamed(file_);
         if (!std::ifstream(file_)) throw EvalError(fmt::format("{}: no such file", file_.string()));
-        // OpenCV's importer also prints the errors that it throws.
+        // Keeps OpenCV's importer from printing the errors that it also throws.
         cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
         try {
             model_.readModel(file_.string());
@@ -36,7 +36,7 @@ public:
             throw unusable(file_, e.err);
         }
         model_.setModel(name.algorithm, name.scale);
-        // A faulty file is only detected when it is used.
+        // OpenCV detects some faults of a file only when the network runs.
         (void)enlarged(cv::Mat(kTrial, kTrial, CV_8UC3, cv::Scalar::all(90)));
     }
 

@@ -16,7 +16,7 @@ namespace {
 
 using test::TempFolder;
 
-/// Encodes fields of a protocol buffer, the format of TensorFlow's network files.
+/// Encodes fields of a protocol buffer: TensorFlow's network files have this format.
 std::string varint(unsigned long value) {
     std::string out;
     for (; value >= 128; value >>= 7)
@@ -40,7 +40,8 @@ std::string node(const std::string& name, const std::string& op,
     return field(1, out + attributes);
 }
 
-/// A network of one channel: `copies` copies of it, rearranged to a picture.
+/// A network that copies its one channel `copies` times and rearranges the copies to a larger
+/// picture.
 std::string copiesToPixels(int copies) {
     constexpr unsigned long kFloat = 1;
     const std::string type = field(6, kFloat);
@@ -71,7 +72,7 @@ std::filesystem::path write(const std::filesystem::path& file, const std::string
     return file;
 }
 
-/// Error message for a file; empty if it is accepted.
+/// The error message for a file; empty if the file is accepted.
 std::string refusal(const std::filesystem::path& file) {
     try {
         (void)dnnEnlarger(file, {72, 54});
@@ -94,8 +95,8 @@ TEST(DnnPeer, TheNameContainsTheModelAndItsFactor) {
         EXPECT_THROW((void)dnnModelNamed(name), EvalError) << name;
 }
 
-// A network that repeats each pixel checks that pictures pass upright, with channels in order and
-// pixels in place.
+// The network repeats each pixel. So the result shows whether rows, channels and pixels keep their
+// order.
 TEST(DnnPeer, AModelEnlargesTheVideo) {
     if (builtWithout()) GTEST_SKIP() << "built without OpenCV's dnn_superres";
     const TempFolder folder;
@@ -111,7 +112,7 @@ TEST(DnnPeer, AModelEnlargesTheVideo) {
     EXPECT_LE(cv::norm(dnnEnlarger(file, {72, 54})(video), wider, cv::NORM_INF), 2);
 }
 
-TEST(DnnPeer, FilesThatAreNoModelsAreRefused) {
+TEST(DnnPeer, FilesThatAreNotModelsAreRefused) {
     if (builtWithout()) GTEST_SKIP() << "built without OpenCV's dnn_superres";
     const TempFolder folder;
     const std::string good = copiesToPixels(4);

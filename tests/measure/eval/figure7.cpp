@@ -20,7 +20,7 @@ namespace mfar::eval {
 namespace {
 
 constexpr int kStillEvery = 10;  // synthetic frames between stills
-constexpr int kScoredFrame = 5;  // number of frames after the request for a still
+constexpr int kScoredFrame = 5;  // number of frames from the request for a still
 
 /// Runs all methods on the frames of one scene.
 class Figure7Run {
@@ -72,7 +72,8 @@ private:
     std::optional<Timestamp> stillTime_;
 };
 
-/// Filters that the product learns from the next stills of a scene.
+/// Filters that the product learns from the next stills of a scene. Other scenes and recordings do
+/// not count.
 std::shared_ptr<const FilterBank> learnedFrom(SceneRun& board, int stills) {
     StillLearning learning;
     learning.begin(board.rig());
@@ -128,7 +129,7 @@ Figure7Scene ofRecording(const Figure7Request& request, const std::filesystem::p
 }  // namespace
 
 std::vector<Figure7Scene> evaluateFigure7(const Figure7Request& request) {
-    SuperResFactory factory(2);  // the paper's alpha [video px]
+    SuperResFactory factory(2);  // the paper's alpha, as in its experiments [video px]
     if (request.learn > 0) factory.requireContext();
     std::vector<Figure7Scene> out;
     for (const synthetic::Scene scene : request.scenes)

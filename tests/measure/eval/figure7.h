@@ -11,16 +11,17 @@ namespace mfar::eval {
 struct Figure7Request {
     std::vector<synthetic::Scene> scenes{synthetic::Scene::Office, synthetic::Scene::Shelf,
                                          synthetic::Scene::Outdoor};
-    std::vector<std::filesystem::path> recordings;  ///< with truth/highres
-    int frames = 3;                                 ///< per recording or scene, at most
-    int learn = 0;  ///< stills per scene from which the product learns before; 0: default filters
+    std::vector<std::filesystem::path> recordings;  ///< recordings that have truth/highres
+    int frames = 3;                                 ///< upper limit per recording or scene
+    int learn = 0;  ///< stills per scene to learn from first; 0: default filters
     PictureMetrics metrics{{"psnr", "lpc_si", "lpc_si_tiles", "hdrvdp"}, {}};
-    std::filesystem::path svg, save;  ///< files for the figure and the pictures; empty: not written
+    std::filesystem::path svg, save;  ///< files for figure and pictures; empty: not written
 };
 
-/// Reproduces Figure 7 of the paper: accuracy and sharpness of super-resolved frames, in synthetic
-/// scenes (a still every ten frames; the fifth frame after it is measured; frames for learning come
-/// before) and in recordings. Throws EvalError and RecordingError.
+/// Repeats Figure 7 of the paper: accuracy and sharpness of super-resolved frames, in synthetic
+/// scenes and in recordings. A synthetic scene begins with the frames for learning. Then a still is
+/// requested every ten frames, and the fifth frame after each request is measured. Throws EvalError
+/// and RecordingError.
 [[nodiscard]] std::vector<Figure7Scene> evaluateFigure7(const Figure7Request& request);
 
 }  // namespace mfar::eval

@@ -24,14 +24,14 @@ struct Figure7Panel {
     std::function<double(const PictureScores&)> value;
     double least, most, step;
     int decimals;
-    bool tiles;  ///< also draw quantiles of the tiles
+    bool tiles;  ///< also draw the quantiles over the tiles
 };
 
 double groupWidth() {
     return static_cast<double>(figure7Methods().size()) * (kBar + kBarGap) + kGroupGap;
 }
 
-/// Draws the bars of a panel, with its upper edge at `top`.
+/// Draws the bars of one panel. Its upper edge is at y = `top`.
 class Figure7Bars {
 public:
     Figure7Bars(const Figure7Panel& panel, double top) : panel_(panel), top_(top) {}
@@ -75,7 +75,7 @@ private:
             out += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2\" fill=\"#fff\" "
                                "stroke=\"#222\" stroke-width=\"0.8\"/>\n",
                                x + kBar / 2, y(panel_.value(frame)));
-        const bool inside = zero - end > 18;  // at the foot of the bar, where nothing else is drawn
+        const bool inside = zero - end > 18;  // at the bar's foot, where nothing else is drawn
         out += svg::text(x + kBar / 2, inside ? zero - 6 : std::min(zero, end) - 6, "middle",
                          fmt::format("{:.{}f}", mean, mean > 99.9 ? 0 : panel_.decimals), 10,
                          inside ? kBarInk[m] : "#222");
@@ -97,7 +97,8 @@ private:
     double top_;
 };
 
-/// The lowest value of any frame, or 0 if that is lower, rounded down to whole steps.
+/// Start of the axis: the lowest value of any frame, or 0 if that is lower, rounded down to a whole
+/// step.
 double leastOf(const std::vector<Figure7Scene>& scenes, const Figure7Panel& panel) {
     double out = 0;
     for (const Figure7Scene& scene : scenes)

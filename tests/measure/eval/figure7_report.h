@@ -8,10 +8,10 @@
 
 namespace mfar::eval {
 
-/// The methods in the order of the figure: the truth first, the product second.
+/// The methods in the order of the figure: the truth is the first, the product the second.
 struct Figure7Method {
-    const char* name;   ///< of superResMethodNames(), or "truth"
-    const char* title;  ///< in the legend
+    const char* name;   ///< one of superResMethodNames(), or "truth"
+    const char* title;  ///< its name in the legend
 };
 [[nodiscard]] const std::vector<Figure7Method>& figure7Methods();
 
@@ -19,9 +19,9 @@ struct Figure7Method {
 struct Figure7Scene {
     std::string name;
     std::vector<std::string> frames;
-    std::vector<std::vector<PictureScores>> scores;  ///< by method, then by frame
+    std::vector<std::vector<PictureScores>> scores;  ///< indexed by method, then by frame
 
-    /// Mean over the frames. `value`: selects a score of a frame.
+    /// Mean over the frames. `value` returns a score of one frame.
     template <class F>
     [[nodiscard]] double mean(std::size_t method, F&& value) const {
         double sum = 0;
@@ -31,12 +31,12 @@ struct Figure7Scene {
     }
 };
 
-/// All frames and methods, then the means.
+/// One row per frame and method, then the means.
 [[nodiscard]] Report figure7Report(const std::vector<Figure7Scene>& scenes,
                                    const PictureMetrics& metrics);
 /// One line per scene that compares the product with the paper's method, bilinear and the truth.
 [[nodiscard]] std::string figure7Summary(const std::vector<Figure7Scene>& scenes);
-/// Means as bars, frames as dots; for LPC-SI also quantiles of the tiles.
+/// Bars show the means, dots the frames. For LPC-SI, lines show the quantiles over the tiles.
 [[nodiscard]] std::string figure7Svg(const std::vector<Figure7Scene>& scenes,
                                      const PictureMetrics& metrics);
 

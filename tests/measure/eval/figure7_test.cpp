@@ -13,7 +13,7 @@ std::size_t count(const std::string& text, const std::string& what) {
     return n;
 }
 
-/// Each method loses ten of Q and a tenth of LPC-SI relative to the one before.
+/// Scores that fall from method to method, by ten (Q) and by a tenth (LPC-SI).
 Figure7Scene steps(const std::string& name, std::size_t frames) {
     Figure7Scene out{name, std::vector<std::string>(frames, "0"), {}};
     for (std::size_t m = 0; m < figure7Methods().size(); ++m) {

@@ -17,7 +17,7 @@ void addRow(Report& report, const SampleRow& row, const FlowMethod::Result& resu
     const FlowError error = flowError(result.flow, truth);
     if (error.known == 0)
         throw EvalError(fmt::format("{}: no vector is known", row.sample.truth.string()));
-    // If a method has no result, its time does not count either.
+    // A method without any result has no time either.
     const bool answered = error.coverage > 0;
     const auto ofAnswers = [&](double value) {
         return answered && std::isfinite(value) ? std::optional(value) : std::nullopt;

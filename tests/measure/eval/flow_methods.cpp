@@ -26,13 +26,14 @@ cv::Mat grey(const cv::Mat& picture) {
     return out;
 }
 
-/// A peer without knowledge of cameras: flow from one grey picture to another of the same size.
+/// A peer that knows nothing about cameras: it computes the flow between two grey pictures of the
+/// same size.
 struct PlainFlows {
-    cv::Mat flow, back;  ///< back: empty for methods with one direction
+    cv::Mat flow, back;  ///< `back` is empty if a method computes one direction only
 };
 using PlainFlow = std::function<PlainFlows(const cv::Mat& a, const cv::Mat& b)>;
 
-constexpr double kAlpha = 2;  // the paper's alpha, for its confidence [px]
+constexpr double kAlpha = 2;  // alpha of the paper's confidence [px]
 
 class PlainMethod final : public FlowMethod {
 public:
@@ -107,9 +108,9 @@ private:
     std::optional<Pose> stillPose_;
 };
 
-/// The product: along epipolar lines if both poses are known, otherwise in 2-D. Its time includes
-/// the stages that the field needs: all of the 2-D flow, which computes both directions, or the
-/// search along the lines.
+/// The product's flow: along epipolar lines if both poses are known, otherwise in 2-D. Its time
+/// includes the stages that the field needs: the whole 2-D flow, which computes both directions, or
+/// only the search along the lines.
 class ProductMethod final : public FlowMethod {
 public:
     ProductMethod(const StereoRig& rig, bool usePoses)

@@ -15,10 +15,10 @@ class FlowMethod {
 public:
     virtual ~FlowMethod() = default;
 
-    /// The still for the following frames.
+    /// Sets the still for the following frames.
     virtual void setStill(const Shot& still) = 0;
     struct Result {
-        cv::Mat flow;  ///< CV_32FC2 [video px], FlowField in pipeline/results.h; NaN = no answer
+        cv::Mat flow;  ///< CV_32FC2 [video px], see FlowField in pipeline/results.h; NaN: no result
         double ms =
             0;  ///< wall time [ms], median of three runs after the first, without work per still
         cv::Mat confidence{};  ///< CV_32F of every pixel, empty if the method has none
@@ -26,11 +26,11 @@ public:
     [[nodiscard]] virtual Result run(const Shot& frame) = 0;
 };
 
-/// Names that --methods accepts for flow.
+/// Names that the option --methods accepts for flow.
 [[nodiscard]] const std::vector<std::string>& flowMethodNames();
 
-/// The product's methods need a GL context: it is created when first needed and stays current.
-/// Throws std::invalid_argument for an unknown name.
+/// Makes flow methods. The product's methods need a GL context, which is created for the first of
+/// them and stays current. create() throws std::invalid_argument for an unknown name.
 class FlowFactory {
 public:
     [[nodiscard]] std::unique_ptr<FlowMethod> create(const std::string& name, const StereoRig& rig);

@@ -22,7 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The whole text as a number, digits only; empty if it is not a number or too large.
+/// Parses the whole text as a number of digits only. Empty if it is not such a number or if it is
+/// too large.
 std::optional<std::int64_t> parseDigits(const std::string& text) {
     std::int64_t value = 0;
     const char* end = text.data() + text.size();
@@ -31,7 +32,7 @@ std::optional<std::int64_t> parseDigits(const std::string& text) {
     return value;
 }
 
-/// Files named prefix, number, suffix, by their number.
+/// Files whose names consist of prefix, number and suffix, keyed by the number.
 std::map<std::int64_t, fs::path> numbered(const fs::path& folder, std::string_view prefix,
                                           std::string_view suffix) {
     std::map<std::int64_t, fs::path> out;
@@ -47,8 +48,8 @@ std::map<std::int64_t, fs::path> numbered(const fs::path& folder, std::string_vi
     return out;
 }
 
-/// Assumed camera of a pair, whose real one is unknown: one pinhole with a focal length of the
-/// picture's width, looking straight ahead.
+/// The camera that is assumed for a pair of pictures, whose real camera is unknown: one pinhole for
+/// both, with a focal length equal to the picture's width, looking straight ahead.
 StereoRig pairRig(const fs::path& picture) {
     const Size size = loadImage(picture).size;
     StereoRig rig;
@@ -93,7 +94,7 @@ FlowSample sampleOf(const Recording& recording, const RecordedImage& video,
             posesOf(recording, video.time, still.time)};
 }
 
-/// The samples of truth/flow, separated by their target.
+/// The samples of truth/flow, separated by whether the flow leads to a still or to a frame.
 struct RecordedFlows {
     std::vector<FlowSample> toStill, toVideo;
 

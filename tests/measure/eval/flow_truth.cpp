@@ -9,13 +9,14 @@ namespace mfar::eval {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr double kNearPlane = 1e-3;    // lower limit of depth, as a share of the point's own depth
-constexpr double kSplatWeight = 0.25;  // bilinear weight above which a pixel is covered
+constexpr double kNearPlane = 1e-3;    // nearer points are rejected; share of the point's own depth
+constexpr double kSplatWeight = 0.25;  // a pixel with a greater bilinear weight counts as covered
 
-/// Position of a frame's point in the still, with the video's lens, and its inverse depth there.
+/// Where the still shows a point of the frame, in the video's lens, and the point's inverse depth
+/// there.
 struct Seen {
     Eigen::Vector2d pixel;
-    double inverseDepth;  ///< [1/m], along the still's axis rotated to the video's orientation
+    double inverseDepth;  ///< [1/m], along the still's axis, turned to the video's orientation
 };
 
 class Projection {
@@ -25,7 +26,7 @@ public:
           rotation_((turn_ * T_still_frame.rotation).toRotationMatrix()),
           translation_(turn_ * T_still_frame.translation) {}
 
-    /// Empty if the point is behind the camera or outside the still's picture.
+    /// Empty if the point is behind the still camera or outside its picture.
     [[nodiscard]] std::optional<Seen> see(const Eigen::Vector2d& pixel, double rho) const {
         const Eigen::Vector2d ray = rig_.video.unproject(pixel);
         const Eigen::Vector3d point =
@@ -56,12 +57,13 @@ private:
     Eigen::Vector3d translation_;
 };
 
-/// Inverse depth of the nearest surface at each pixel of the still in the video's geometry.
+/// Inverse depth of the nearest surface at each pixel of the still, after the still is resampled to
+/// the video's geometry.
 class NearestSurface {
 public:
     explicit NearestSurface(cv::Size size) : rho_(size, CV_64F, -1.0) {}
 
-    /// Covers the pixels around a position whose bilinear weight is above a quarter.
+    /// Covers each pixel around a position whose bilinear weight is above a quarter.
     void add(const Seen& seen) {
         const double left = std::floor(seen.pixel.x()), top = std::floor(seen.pixel.y());
         for (const double y : {top, top + 1})

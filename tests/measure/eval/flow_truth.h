@@ -7,15 +7,17 @@
 
 namespace mfar::eval {
 
-/// True flow of a scene at rest, as defined by FlowField in pipeline/results.h: video pixel p shows
-/// what pixel p + flow(p) of the still shows after transformation to the video's geometry (the
-/// rig's rotation and both lenses, no parallax). CV_32FC2 [video px]. With T_still_video of the
-/// shots = [R|t] and R_s the rig's rotation: p + flow = project_video(R_s^T (R ray + rho t)).
+/// True flow of a scene at rest, as defined by FlowField in pipeline/results.h: video pixel p and
+/// still pixel p + flow(p) show the same point, if the still is resampled to the video's geometry.
+/// Resampling uses the rig's rotation and both lenses, but no parallax. With [R|t] = T_still_frame,
+/// which maps video camera coordinates at the frame's time to still camera coordinates at the
+/// still's time, with R_s, the rig's rotation, and with rho, the inverse depth [1/m]: p + flow =
+/// project_video(R_s^T (R ray + rho t)). Returns CV_32FC2 [video px].
 ///
-/// NaN where the inverse depth is unknown, outside the still's picture, and where the truth,
-/// projected into the still, has a surface in front that is nearer by more than one pixel of
-/// parallax. `inverseDepth` has the video's size, 1/m; `T_still_frame` maps video camera
-/// coordinates at the frame's time to still camera coordinates at the still's time.
+/// The flow is NaN where the inverse depth is unknown, where the point lies outside the still's
+/// picture, and where it is occluded in the still: another surface of the frame, projected into the
+/// still, lies in front of it by more than one pixel of parallax. `inverseDepth` has the video's
+/// size.
 [[nodiscard]] cv::Mat flowOfInverseDepth(const FloatImage& inverseDepth, const StereoRig& rig,
                                          const RigidTransform& T_still_frame);
 

@@ -46,7 +46,8 @@ TEST(FlowTruth, LeadsToTheStillPixelThatShowsThePoint) {
             const Eigen::Vector3d point =
                 T_still_frame * Eigen::Vector3d(ray.x() / 0.8, ray.y() / 0.8, 1 / 0.8);
             const Eigen::Vector2d wanted = rig.still.project(point.head<2>() / point.z());
-            // remap interpolates at 1/32 px, and a video pixel is four still pixels.
+            // Tolerance: remap interpolates at 1/32 px, and a video pixel is as wide as four still
+            // pixels.
             EXPECT_NEAR(q.at<cv::Vec2f>(0)[0], wanted.x(), 0.15);
             EXPECT_NEAR(q.at<cv::Vec2f>(0)[1], wanted.y(), 0.15);
             ++known;
@@ -65,8 +66,8 @@ TEST(FlowTruth, IsZeroAtInfinityAndUnknownWithoutDepth) {
     EXPECT_TRUE(std::isnan(flow.at<cv::Vec2f>(30, 41)[0]));
 }
 
-/// A wall at 2 m with a panel at 1 m in front, columns 30 to 49; the still stands 0.1 m to the
-/// right.
+/// The scene is a wall at 2 m with a panel in front of it, at 1 m, in columns 30 to 49. The still
+/// camera is 0.1 m to the right of the video camera.
 TEST(FlowTruth, PixelsOccludedOrOutsideInTheStillAreUnknown) {
     StereoRig rig;
     rig.video = {{80, 60}, 100, 100, 39.5, 29.5, {}};
@@ -77,8 +78,8 @@ TEST(FlowTruth, PixelsOccludedOrOutsideInTheStillAreUnknown) {
         for (int x = 30; x < 50; ++x)
             depth.at(x, y) = 1;
     const cv::Mat flow = flowOfInverseDepth(depth, rig, rig.T_still_video);
-    // The wall moves 5 px to the left and leaves the picture, the panel 10 px: it occludes 5
-    // columns.
+    // In the still the wall moves 5 px to the left and partly leaves the picture. The panel moves
+    // 10 px; so it occludes 5 columns of the wall.
     for (int x = 0; x < 80; ++x) {
         const auto& v = flow.at<cv::Vec2f>(30, x);
         if (x < 5 || (x >= 25 && x < 30))
@@ -88,7 +89,7 @@ TEST(FlowTruth, PixelsOccludedOrOutsideInTheStillAreUnknown) {
     }
 }
 
-TEST(FlowTruth, ASlantedSurfaceDoesNotHideItself) {
+TEST(FlowTruth, ASlantedSurfaceDoesNotOccludeItself) {
     StereoRig rig;
     rig.video = {{80, 60}, 100, 100, 39.5, 29.5, {}};
     rig.still = rig.video;
@@ -108,7 +109,8 @@ TEST(FlowTruth, ASlantedSurfaceDoesNotHideItself) {
     }
 }
 
-/// Rays through the exact world determine occlusion more accurately than the projected truth.
+/// The exact world decides by rays which pixels are occluded; the truth under test is compared with
+/// it.
 TEST(FlowTruth, AgreesWithRaysThroughTheWorld) {
     using synthetic::Path;
     StereoRig rig = synthetic::boardRig();
@@ -119,8 +121,7 @@ TEST(FlowTruth, AgreesWithRaysThroughTheWorld) {
         const RigidTransform T_world_frame = cameraPose(world, path, 1, 1.5);
         const RigidTransform T_world_still =
             cameraPose(world, path, 1, 0) * rig.T_still_video.inverse();
-        RigidTransform T_world_turned = T_world_still;  // with the video's orientation, see
-                                                        // FlowField
+        RigidTransform T_world_turned = T_world_still;  // as FlowField defines
         T_world_turned.rotation = T_world_still.rotation * rig.T_still_video.rotation;
         const synthetic::Viewpoint frame{rig.video, T_world_frame, 0};
         const FlowImage exact = flowBetween(world, frame, {rig.video, T_world_turned, 0});
@@ -138,8 +139,7 @@ TEST(FlowTruth, AgreesWithRaysThroughTheWorld) {
             }
         EXPECT_EQ(far, 0);
         EXPECT_GT(both, 8000);
-        EXPECT_GT(both, 0.95 * either);  // silhouettes are exact within a pixel; the borders of two
-                                         // lenses differ
+        EXPECT_GT(both, 0.95 * either);  // silhouettes are exact to a pixel; lenses differ
     }
 }
 

@@ -6,7 +6,8 @@
 
 namespace mfar::eval {
 
-/// Short names for recordings: the folder's name, or the whole path if the name is not unique.
+/// Short names for recordings: the name of the folder, or its whole path if two folders have the
+/// same name.
 [[nodiscard]] std::vector<std::string> labelsOf(const std::vector<std::filesystem::path>& paths);
 
 }  // namespace mfar::eval

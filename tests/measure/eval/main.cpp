@@ -93,14 +93,14 @@ struct Options {
     std::string csv;
 };
 
-/// CLI::Range accepts NaN.
+/// Needed because CLI::Range accepts NaN.
 std::string isAngle(const std::string& text) {
     double degrees = -1;
     const bool number = CLI::detail::lexical_cast(text, degrees);
     return number && degrees >= 0 && degrees <= 180 ? "" : text + " is not in [0, 180]";
 }
 
-/// Options for disturbances, common to all tasks.
+/// Adds the options for disturbances, which all tasks share.
 void addDisturbances(CLI::App& sub, Options& o) {
     sub.add_option("--degrade", o.degrade,
                    "make the still worse: gain=0.7,gamma=1.3,blur=0.7,noise=4; applied as blur "
@@ -167,7 +167,7 @@ CLI::App* addSamples(CLI::App& app, const char* name, const char* what, const ch
     return sub;
 }
 
-/// The request, completed by the options common to all tasks.
+/// Completes the request with the options that all tasks share.
 const SampleRequest& completed(SampleRequest& request, const std::vector<std::string>& methods,
                                const Options& o) {
     checkMethods(request.methods, methods);
@@ -191,7 +191,7 @@ Report runPose(const Options& o) {
     return evaluatePose(o.pose);
 }
 
-/// All subcommands; they store their options in `o`.
+/// Adds all subcommands. They store their options in `o`.
 std::vector<EvalCommand> addCommands(CLI::App& app, Options& o) {
     std::vector<EvalCommand> out = addTracedCommands(app, o.csv);
     const auto add = [&](CLI::App* command, std::function<Report()> evaluate) {

@@ -57,7 +57,7 @@ TEST(MatchClasses, PointsBehindTheStillsCameraAreOutside) {
     EXPECT_EQ(count(matchClasses(rig, {48, 36}, evenMatch({0, 0}, 1)), kOutside), 48 * 36);
 }
 
-TEST(MatchClasses, EachHasItsShareAndItsGain) {
+TEST(MatchClasses, EachClassHasItsShareAndGain) {
     cv::Mat classes(10, 10, CV_8U, cv::Scalar(kMatched));
     classes.rowRange(0, 3) = kOutside;
     const cv::Mat truth(10, 10, CV_64F, cv::Scalar(100)), bicubic = truth + 10;

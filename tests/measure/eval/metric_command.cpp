@@ -11,7 +11,8 @@
 namespace mfar::eval {
 namespace {
 
-/// Replaces the HDR-VDP-2 score of luma by that of the light of an sRGB display.
+/// Replaces the HDR-VDP-2 score, which was computed from luma, by the score of the colours as an
+/// sRGB display shows them.
 void scoreColours(const cv::Mat& test, const cv::Mat& reference, const HdrVdpDisplay& display,
                   PictureScores& out) {
     const auto light = [&](const cv::Mat& picture) {

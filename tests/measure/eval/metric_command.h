@@ -13,13 +13,13 @@ namespace mfar::eval {
 struct MetricRequest {
     std::filesystem::path test, reference;
     PictureMetrics metrics{pictureMetricNames(), {}};
-    bool colour = false;  ///< HDR-VDP-2 of the colours instead of luma
+    bool colour = false;  ///< compute HDR-VDP-2 from colours instead of luma
 };
 
-/// `mfar-eval metric`: metrics of one picture against another.
+/// `mfar-eval metric`: compares one picture with another.
 CLI::App* addMetricCommand(CLI::App& app, MetricRequest& request, std::string& csv);
 
-/// One row. Throws ImageFileError and, for pictures of different size, EvalError.
+/// The report has one row. Throws ImageFileError, and EvalError if the pictures differ in size.
 [[nodiscard]] Report evaluateMetric(const MetricRequest& request);
 
 }  // namespace mfar::eval

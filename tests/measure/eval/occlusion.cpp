@@ -18,7 +18,7 @@ namespace {
 
 using synthetic::Path;
 
-/// Frames before the first that is scored: until there is a still and depth has settled.
+/// Frames that are not scored: until the first still has arrived and depth has settled.
 constexpr int kSettling = 8;
 
 std::optional<double> measured(double value) {
@@ -41,7 +41,7 @@ std::string_view nameOf(VirtualShape shape) {
     return "";
 }
 
-/// One object on one path through one scene.
+/// One virtual object in one scene on one camera path.
 struct Placement {
     std::string label;
     synthetic::Scene scene;

@@ -13,17 +13,17 @@ namespace mfar::eval {
 struct OcclusionRequest {
     std::vector<synthetic::Scene> scenes{synthetic::Scene::Office, synthetic::Scene::Shelf};
     std::vector<synthetic::Path> paths{synthetic::Path::Handheld, synthetic::Path::Rest};
-    std::filesystem::path objects;  ///< a configuration of mfard; empty: sceneObjects()
+    std::filesystem::path objects;  ///< configuration of mfard; empty: sceneObjects()
     PoseSource poses = PoseSource::Recorded;
     int frames = 24;   ///< scored frames per run
-    double noise = 1;  ///< of both sensors, see SyntheticOptions
+    double noise = 1;  ///< sensor noise of both sensors, see SyntheticOptions
 };
 
-/// Measures every object alone in every scene, on every path: rows of `SCENE/PATH/OBJECT`; `method`
-/// is the source of poses. Columns: ms of the stages depth and composite, iou, boundary_px (see
-/// OcclusionScore), flicker with a camera at rest, as a share of the object's pixels at the
-/// output's resolution. Then means and medians. Throws EvalError, and Failure for a faulty
-/// configuration.
+/// Measures every object alone in every scene, on every path. A row is named SCENE/PATH/OBJECT; its
+/// `method` is the source of the poses. Columns: ms, the time of the stages depth and composite;
+/// iou and boundary_px, see OcclusionScore; flicker with the camera at rest, as a share of the
+/// object's pixels at the output's resolution. Means and medians follow the rows. Throws EvalError,
+/// and Failure for a faulty configuration.
 [[nodiscard]] Report evaluateOcclusion(const OcclusionRequest& request);
 
 }  // namespace mfar::eval

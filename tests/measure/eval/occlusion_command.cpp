@@ -17,7 +17,7 @@ constexpr const char* kOcclusionHelp =
     "frame in which nothing changed needs neither.\n"
     "The first 8 frames are not scored; the still is asked for in the first.";
 
-/// CLI::Range accepts NaN.
+/// Needed because CLI::Range accepts NaN.
 std::string isNoise(const std::string& text) {
     double factor = -1;
     const bool number = CLI::detail::lexical_cast(text, factor);

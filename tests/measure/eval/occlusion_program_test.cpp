@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-/// `mfar-eval occlusion` as a user runs it.
+/// Runs `mfar-eval occlusion` as a user does.
 namespace mfar::eval {
 namespace {
 

@@ -9,7 +9,8 @@
 namespace mfar::eval {
 namespace {
 
-/// a + (b - a) weight / 255 per channel, row-parallel; CV_8UC3, weight CV_8U.
+/// Computes a + (b - a) weight / 255 per channel, with rows in parallel. a and b are CV_8UC3,
+/// `weight` is CV_8U.
 void blendInto(cv::Mat& a, const cv::Mat& b, const cv::Mat& weight) {
     cv::parallel_for_({0, a.rows}, [&](const cv::Range& rows) {
         for (int y = rows.start; y < rows.end; ++y) {
@@ -63,7 +64,7 @@ void PaperPipeline::setStill(const cv::Mat& still) {
 
 const cv::Mat& PaperPipeline::run(const cv::Mat& video) {
     cv::cvtColor(video, grey_, cv::COLOR_BGR2GRAY);
-    // DIS takes an existing flow as its first guess; here every frame starts without one.
+    // DIS would take an existing flow as its first guess; this makes every frame start without one.
     forward_.release();
     backward_.release();
     dis_->calc(grey_, stillGrey_, forward_);

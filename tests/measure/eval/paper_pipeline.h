@@ -14,34 +14,35 @@ struct PaperOptions {
     double alpha = 2;  ///< two-way error at which the confidence reaches zero [video px]
 };
 
-/// Peer for super-resolution: the paper's method, using OpenCV only. DIS flow in both directions
-/// between video frame and still, confidence by the paper's eq. 2, flow up-scaled bilinearly, still
-/// remapped at full resolution and blended with the bicubically up-scaled video by confidence. Uses
-/// OpenCV's threads.
+/// Peer for super-resolution: the paper's method with OpenCV only. It computes DIS flow in both
+/// directions between frame and still, and the confidence by eq. 2 of the paper. It enlarges the
+/// flow bilinearly, remaps the still at full resolution, and blends it by confidence with the
+/// bicubically enlarged video. Uses OpenCV's threads.
 class PaperPipeline {
 public:
     PaperPipeline(const StereoRig& rig, Size output, const PaperOptions& options = {});
 
-    /// The still for the following frames: CV_8UC3 of the rig's still size. Per-still work.
+    /// Sets the still for the following frames: CV_8UC3 of the rig's still size. Does the work per
+    /// still.
     void setStill(const cv::Mat& still);
-    /// The picture, CV_8UC3 of the output size, valid until the next run. Frame: CV_8UC3.
+    /// Returns the picture, CV_8UC3 of the output's size, valid until the next run. `video`:
+    /// CV_8UC3.
     const cv::Mat& run(const cv::Mat& video);
 
-    /// Eq. 2 confidence of the last frame, CV_32F in [0, 1] at video size.
+    /// Confidence of the last frame by eq. 2, CV_32F in [0, 1], at video size.
     [[nodiscard]] const cv::Mat& confidence() const { return confidence_; }
 
 private:
     StereoRig rig_;
     PaperOptions options_;
-    cv::Mat videoMap_, outputMap_;  ///< the still pixel of every video pixel, and of every output
-                                    ///< pixel
+    cv::Mat videoMap_, outputMap_;  ///< the still pixel of every video and output pixel
     cv::Ptr<cv::DISOpticalFlow> dis_;
     cv::Mat still_, stillGrey_, grey_, forward_, backward_, confidence_;
     cv::Mat shift_, weight_, warped_, upscaled_;
 };
 
-/// Eq. 2; look-ups outside the picture have confidence 0. Flows CV_32FC2 [px]: `forward` from a to
-/// b, `backward` from b to a. Result CV_32F in [0, 1].
+/// Confidence by eq. 2 of the paper, CV_32F in [0, 1]; 0 where the flow leads outside the picture.
+/// Flows are CV_32FC2 [px]: `forward` from a to b, `backward` from b to a.
 [[nodiscard]] cv::Mat twoWayConfidence(const cv::Mat& forward, const cv::Mat& backward,
                                        double alpha);
 

@@ -16,7 +16,7 @@ StereoRig plainRig() {
     return rig;
 }
 
-/// Blobs of many sizes: every place looks different, and no detail is finer than two pixels.
+/// Blobs of many sizes: each place looks different, and no detail is finer than two pixels.
 cv::Mat texture(cv::Size size) {
     cv::Mat out(size, CV_32FC3, cv::Scalar::all(0));
     for (const int cell : {3, 9, 27}) {
@@ -67,7 +67,7 @@ TEST(TwoWayConfidence, FallsLinearlyAndIsZeroOutside) {
     const cv::Mat backward(8, 8, CV_32FC2, cv::Scalar(-0.5, 0));
     const cv::Mat conf = twoWayConfidence(forward, backward, 2);
     EXPECT_NEAR(conf.at<float>(4, 3), 0.75, 1e-6);
-    EXPECT_EQ(conf.at<float>(4, 7), 0);  // its look-up is at x = 8, outside
+    EXPECT_EQ(conf.at<float>(4, 7), 0);  // its flow leads to x = 8, outside the picture
     EXPECT_EQ(twoWayConfidence(forward, backward, 0.25).at<float>(4, 3), 0);
 }
 

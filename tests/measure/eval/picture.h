@@ -20,7 +20,7 @@ void savePicture(const std::filesystem::path& file, const cv::Mat& picture);
 [[nodiscard]] cv::Mat toRgba(const cv::Mat& bgr);
 /// A view of a CV_8UC4 (Rgba8) or CV_8UC1 (Gray8) picture.
 [[nodiscard]] ImageView viewOf(const cv::Mat& picture);
-/// The result of Pipeline::readImage -> CV_8UC3 B G R.
+/// Converts the result of Pipeline::readImage() to CV_8UC3, B G R.
 [[nodiscard]] cv::Mat fromRgba(const std::vector<std::uint8_t>& rgba, Size size);
 
 }  // namespace mfar::eval

@@ -12,19 +12,20 @@
 
 namespace mfar::eval {
 
-/// Names that `--metrics` accepts: psnr, ssim, msssim, lpc_si, lpc_si_tiles, hdrvdp.
+/// Names that the option --metrics accepts: psnr, ssim, msssim, lpc_si, lpc_si_tiles, hdrvdp.
 [[nodiscard]] const std::vector<std::string>& pictureMetricNames();
 
 /// The requested metrics and their parameters.
 struct PictureMetrics {
-    std::vector<std::string> names;  ///< of pictureMetricNames()
+    std::vector<std::string> names;  ///< names out of pictureMetricNames()
     HdrVdpDisplay display;
     double lpcRatio = kLpcRelease;
 
     [[nodiscard]] bool has(const std::string& name) const;
 };
 
-/// Empty for metrics that are not requested. Names as in design.md, section 10.
+/// Scores of one picture. A metric that is not requested is empty. The names are those of the
+/// report's columns.
 struct PictureScores {
     std::optional<double> psnr, ssim, msSsim, lpcSi, hdrVdpQ, hdrVdpQMos;
     std::optional<LpcTiles> tiles;
@@ -35,13 +36,13 @@ struct PictureScores {
 [[nodiscard]] PictureScores scoreOf(const cv::Mat& picture, const cv::Mat& truth,
                                     const PictureMetrics& metrics);
 
-/// Further columns of a report, after psnr_db, ssim, lpc_si and hdrvdp_q, with the parameters of
-/// the metrics; none for metrics that are not requested.
+/// Columns of a report that follow psnr_db, ssim, lpc_si and hdrvdp_q, with the parameters of the
+/// metrics. Only requested metrics have columns.
 [[nodiscard]] std::vector<Column> furtherColumns(const PictureMetrics& metrics);
 [[nodiscard]] std::vector<std::optional<double>> furtherValues(const PictureScores& scores,
                                                                const PictureMetrics& metrics);
 
-/// Concatenates a report's own columns or values and others.
+/// Joins two lists: a report's own columns or values, and those of the metrics.
 template <class T>
 [[nodiscard]] std::vector<T> followedBy(std::vector<T> own, const std::vector<T>& others) {
     own.insert(own.end(), others.begin(), others.end());

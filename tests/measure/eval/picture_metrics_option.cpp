@@ -7,7 +7,7 @@
 namespace mfar::eval {
 namespace {
 
-/// CLI::Range accepts NaN.
+/// Needed because CLI::Range accepts NaN.
 CLI::Validator within(double least, double most) {
     return CLI::Validator(
         [least, most](const std::string& text) {

@@ -6,12 +6,13 @@
 
 namespace mfar::eval {
 
-/// Help text on the metrics and their parameters, for every subcommand.
+/// Help text of every subcommand on the metrics and their parameters.
 extern const char* const kPictureMetricsHelp;
 
-/// Adds `--metrics`, whose default is the content of `metrics`, and the metrics' parameters.
+/// Adds the option --metrics, whose default is the content of `metrics`, and the metrics'
+/// parameters.
 void addPictureMetrics(CLI::App& sub, PictureMetrics& metrics);
-/// Adds only the metrics' parameters: --ppd, --peak, --black, --gamma, --lpc-ratio.
+/// Adds only the parameters of the metrics: --ppd, --peak, --black, --gamma, --lpc-ratio.
 void addMetricParameters(CLI::App& sub, PictureMetrics& metrics);
 
 }  // namespace mfar::eval

@@ -9,14 +9,14 @@
 
 namespace mfar::eval {
 
-/// Checks a budget of processor time [ms]; CLI::Range accepts NaN.
+/// Checks a budget of processor time [ms]. Needed because CLI::Range accepts NaN.
 inline std::string isBudget(const std::string& text) {
     double ms = -1;
     const bool number = CLI::detail::lexical_cast(text, ms);
     return number && ms >= 0.1 && ms <= 1000 ? "" : text + " is not in [0.1, 1000]";
 }
 
-/// Adds --width and --height, the size of `what`.
+/// Adds the options --width and --height, for the size of `what`.
 inline void addSize(CLI::App& sub, Size& size, const char* what) {
     const std::string help = fmt::format("of the {} [px]", what);
     for (const auto& [name, side] : {std::pair("--width", &size.width), {"--height", &size.height}})

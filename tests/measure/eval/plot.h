@@ -7,7 +7,7 @@
 
 namespace mfar::eval {
 
-/// A point of a plot. Points that are not finite or, for x, not above 0 are left out.
+/// A point of a plot. It is not drawn if a value is not finite or if x is not above 0.
 struct PlotPoint {
     double x = 0, y = 0;
     std::string tip;    ///< tool tip
@@ -19,16 +19,16 @@ struct PlotLine {
     std::vector<PlotPoint> points;
 };
 
-/// Two logarithmic axes over all points, and the lines between them.
+/// A panel with two logarithmic axes that span all points, and the lines between the points.
 struct PlotPanel {
     std::string title, xLabel, yLabel;
-    double leastY = 1e-9;  ///< lower limit of what is drawn, because the axis is logarithmic
+    double leastY = 1e-9;  ///< smaller values are drawn here, because the axis is logarithmic
     std::vector<PlotLine> lines;
     std::vector<PlotPoint> diamonds;
     std::optional<PlotPoint> ringed;
 };
 
-/// An SVG document of panels side by side, in colours that are distinct for all kinds of colour
+/// An SVG document with the panels side by side. Its colours can be told apart with any colour
 /// vision.
 [[nodiscard]] std::string plotSvg(const std::string& title, const std::vector<PlotPanel>& panels,
                                   const std::string& footnote);

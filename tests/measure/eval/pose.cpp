@@ -18,7 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Rotation of the error between consecutive frames that noise cannot explain.
+// A larger rotation of the error between consecutive frames counts as a flip: noise cannot explain
+// it [degrees].
 constexpr double kFlipDeg = 3;
 
 const std::vector<Column> kColumns{
@@ -46,7 +47,7 @@ Values none() {
     return Values(kColumns.size());
 }
 
-/// Error: motion from the camera's true pose to the measured one, in the camera's own frame.
+/// The error of a measured pose: the motion from the true pose to it, in the frame of the camera.
 RigidTransform errorOf(const Pose& measured, const Pose& truth) {
     return truth.T_world_video.inverse() * measured.T_world_video;
 }
@@ -66,7 +67,7 @@ double distanceTo(const std::vector<TagDetection>& seen, const TagMap& map, cons
     return count > 0 ? sum / count : 0;
 }
 
-/// Adds the rows of one recording and one method.
+/// Adds the rows of one recording and one method to the report.
 class Series {
 public:
     Series(Report& report, std::string recording, std::string method)
@@ -96,7 +97,7 @@ public:
         report_.add(recording_, std::to_string(time.ns), method_, std::move(row));
     }
 
-    /// Must be called after the means are added; otherwise they would include the medians.
+    /// Call this after the means are added; otherwise they would include the medians.
     void addMedian() const {
         if (rows_.empty()) return;
         Values out = none();

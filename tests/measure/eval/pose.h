@@ -10,21 +10,21 @@
 namespace mfar::eval {
 
 struct PoseRequest {
-    /// Recordings with poses and tags.toml, or folders with pictures NAME.jpg|png and their tags'
-    /// corners in NAME.txt.
+    /// Folders are recordings with poses and tags.toml, or hold pictures NAME.jpg or NAME.png with
+    /// their tags' corners in NAME.txt.
     std::vector<std::filesystem::path> folders;
-    std::vector<std::string> methods;  ///< of poseMethodNames(), for recordings
-    int frames = 0;                    ///< per folder, 0 = all
-    TrackerOptions tracker;            ///< each recording replaces the map by its own
+    std::vector<std::string> methods;  ///< names out of poseMethodNames(); only for recordings
+    int frames = 0;                    ///< number of frames per folder, 0: all
+    TrackerOptions tracker;            ///< a recording replaces the tag map by its own
 };
 
-/// The product's poses: of every video frame, the filter's pose and the pose from the last frame's
-/// tags alone; of every still, the pose from the still itself.
+/// The product's poses. For a video frame: the pose of the filter, and the pose from the tags of
+/// that frame alone. For a still: the pose from the still itself.
 [[nodiscard]] const std::vector<std::string>& poseMethodNames();
 
-/// Columns as in design.md, section 10, and more; those without meaning for a folder stay empty. At
-/// the end come the means and, per recording and method, the medians with the number of flips.
-/// Throws EvalError, RecordingError, TagMapError and ImageFileError.
+/// A column that has no meaning for a folder stays empty. The last rows are the means and, for each
+/// recording and method, the medians with the number of flips. Throws EvalError, RecordingError,
+/// TagMapError and ImageFileError.
 [[nodiscard]] Report evaluatePose(const PoseRequest& request);
 
 }  // namespace mfar::eval

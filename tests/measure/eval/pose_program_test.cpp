@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-/// `mfar-eval pose` as a user runs it, on a tiny recording and a single picture.
+/// Runs `mfar-eval pose` as a user does, on a tiny recording and on a single picture.
 namespace mfar::eval {
 namespace {
 

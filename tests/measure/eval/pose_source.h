@@ -7,19 +7,19 @@
 
 namespace mfar::eval {
 
-/// Source of the camera poses that methods get.
+/// Where the poses come from that methods get.
 enum class PoseSource {
-    Recorded,  ///< poses of the recording, see posesOf()
+    Recorded,  ///< the recording, see posesOf()
     Tags,      ///< the product's tracker, from the tags in frames and stills
-    None,      ///< no poses
+    None,      ///< methods get no poses
 };
 
-/// The poses of one recording as methods get them. The truth stays as recorded.
+/// The poses of one recording that methods get. The truth always uses the recorded poses.
 class KnownPoses {
 public:
-    /// `recording` must outlive this. Tags: processes all pictures in the order of their times,
-    /// with the recording's tags.toml. A still has the pose computed from the still itself; a
-    /// picture without a pose has none. Throws TagMapError and ImageFileError.
+    /// `recording` must outlive this object. With Tags, all pictures are processed in the order of
+    /// their times, with the recording's tags.toml. The pose of a still is computed from the still
+    /// itself. Throws TagMapError and ImageFileError.
     KnownPoses(const Recording& recording, PoseSource source);
 
     /// `still` may also be the time of a video frame.
@@ -30,7 +30,7 @@ private:
 
     const Recording& recording_;
     PoseSource source_;
-    std::map<std::int64_t, Pose> video_, still_;  // by time [ns]
+    std::map<std::int64_t, Pose> video_, still_;  // keyed by time [ns]
 };
 
 }  // namespace mfar::eval

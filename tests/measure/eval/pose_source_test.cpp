@@ -26,8 +26,8 @@ RigidTransform standsAt(Timestamp time) {
     return cameraAt(kDistance, 0.4 + 0.004 * static_cast<double>(time.ns) / 33e6, -0.3, 0.1);
 }
 
-/// Four frames with tags, then one without, and a still between two frames. The recorded poses are
-/// far off.
+/// Four frames with tags, a still between two of them, then a frame without tags. The recorded
+/// poses are wrong on purpose.
 Recording recordedIn(const std::filesystem::path& root) {
     const StereoRig rig{testCamera(), testCamera().scaledTo({1280, 960}), {}};
     Recorder recorder(root, rig, 30);

@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
-/// Runs the programs as a user does, on tiny pictures, so that they cannot rot. The product's
-/// accuracy and speed are not asserted here.
+/// Runs the programs as a user does, on tiny pictures, so that they keep working. Accuracy and
+/// speed are not checked here.
 namespace mfar::eval {
 namespace {
 
@@ -13,7 +13,7 @@ using test::Outcome;
 using test::TempFolder;
 namespace fs = std::filesystem;
 
-/// A texture, the same texture moved by (3, -2) pixels, and that flow.
+/// Writes a texture, the same texture moved by (3, -2) pixels, and that flow.
 void writePair(const fs::path& folder) {
     const cv::Mat world = bench::syntheticWorkload({160, 120}, {320, 240}, 1).stills[0];
     const cv::Size size(160, 120);
@@ -77,7 +77,7 @@ TEST(MfarEval, FlowMeasuresAKnownShift) {
     ASSERT_EQ(rows.size(), 1U + 10 + 10) << outcome.text;
     EXPECT_EQ(rows[0], split("recording,frame,method,ms,epe_px,bad1,bad2,coverage,angular_deg,"
                              "ause,ause_rel"));
-    EXPECT_LT(std::stod(rows[4].at(8)), 5);  // a method without confidence
+    EXPECT_LT(std::stod(rows[4].at(8)), 5);  // this method has no confidence
     EXPECT_TRUE(rows[4].at(9).empty());
     EXPECT_EQ(rows[5][2], "dis-medium-both");
     EXPECT_GE(std::stod(rows[5].at(10)), 0);
@@ -90,8 +90,8 @@ TEST(MfarEval, FlowMeasuresAKnownShift) {
     EXPECT_LT(std::stod(rows[10][4]), 0.5);
 }
 
-/// A flat wall at 2 m, taken by both sensors at the same time: inverse depth and a baseline, no
-/// flow.
+/// Both sensors take a flat wall at 2 m at the same time. The recording has inverse depth and a
+/// baseline, but no flow.
 void writeStereo(const fs::path& root) {
     const cv::Mat world = bench::syntheticWorkload({160, 120}, {320, 240}, 1).stills[0];
     const cv::Size size(160, 120);
@@ -135,7 +135,7 @@ TEST(MfarEval, StereoFlowReportsItsPoseAndError) {
     for (const double share : clean)
         EXPECT_LT(share, 0.05);
     EXPECT_GT(worse[1], clean[1] + 0.05);
-    EXPECT_EQ(off[1], clean[1]);  // uses no pose
+    EXPECT_EQ(off[1], clean[1]);  // this method uses no pose
     EXPECT_GT(off[2], 0.5);
     EXPECT_GT(other[2], 0.5);
     EXPECT_NE(off[2], other[2]);

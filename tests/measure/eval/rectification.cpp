@@ -7,10 +7,9 @@
 namespace mfar::eval {
 namespace {
 
-constexpr double kShortest = 1e-9;  // baseline [m]
-constexpr double kFlattest = 0.2;   // cosine between a ray and the rectified axis
-constexpr double kLargest = 3;      // upper limit of a side of the rectified picture over that of
-                                    // the view
+constexpr double kShortest = 1e-9;  // a shorter baseline counts as none [m]
+constexpr double kFlattest = 0.2;   // smallest cosine between a ray and the rectified axis
+constexpr double kLargest = 3;      // a rectified side may be this many times the view's
 
 Eigen::Vector3d rayOf(const CameraModel& camera, const Eigen::Vector2d& pixel) {
     return camera.unproject(pixel).homogeneous();
@@ -65,8 +64,8 @@ bool Rectification::fit(int disparities) {
     if (flat || !((high.x() - low.x()) < kLargest * camera_.size.width) ||
         !((high.y() - low.y()) < kLargest * camera_.size.width))
         return false;
-    // Whole pixels, so that views that are already rectified are only shifted. A fraction below
-    // 1e-6 adds no row.
+    // Shifts by whole pixels, so that views that are already rectified are not interpolated. A
+    // fraction below 1e-6 adds no row.
     const double left = std::floor(low.x() + 1e-6) - disparities, top = std::floor(low.y() + 1e-6);
     size_ = {static_cast<int>(std::ceil(high.x() - 1e-6) - left) + 1,
              static_cast<int>(std::ceil(high.y() - 1e-6) - top) + 1};

@@ -8,24 +8,25 @@
 
 namespace mfar::eval {
 
-/// Two views rotated to one pinhole camera at both positions: a point at (u, v) in the first lies
-/// at (u - d, v) in the second, d = fx |baseline| / depth >= 0. The picture may lie on its side: u
-/// follows the baseline.
+/// Two views, rotated so that both have the same pinhole camera. A point at (u, v) in the first
+/// view lies at (u - d, v) in the second, with d = fx |baseline| / depth >= 0. u follows the
+/// baseline; so the picture may lie on its side.
 class Rectification {
 public:
-    /// Both views have the lens and size of `camera`; `T_second_first` maps camera coordinates.
-    /// `disparities` [px]: margin on the left, where the second view shows the first view's border.
-    /// Empty if rectification is impossible: no baseline, or its direction lies in or near one of
-    /// the pictures.
+    /// Both views have the lens and size of `camera`. `T_second_first` maps camera coordinates of
+    /// the first view to the second. `disparities`: width of a margin on the left, in which the
+    /// second view shows what the border of the first shows [px]. Empty if the views cannot be
+    /// rectified: the baseline is zero, or its direction lies in or near one of the pictures.
     [[nodiscard]] static std::optional<Rectification>
     of(const CameraModel& camera, const RigidTransform& T_second_first, int disparities);
 
     [[nodiscard]] cv::Size size() const { return size_; }
-    /// For cv::remap, CV_32FC2 of size(): the view's pixel for each rectified pixel.
+    /// Maps for cv::remap, CV_32FC2 of size(): the view's pixel for each rectified pixel.
     [[nodiscard]] cv::Mat firstMap() const { return mapOf(firstTurn_); }
     [[nodiscard]] cv::Mat secondMap() const { return mapOf(secondTurn_); }
-    /// ofFirst(): rectified pixel of a pixel of the first view. The other: pixel of the second view
-    /// for a rectified pixel, far outside if the point is behind that camera.
+    /// ofFirst() returns the rectified pixel of a pixel of the first view. toSecond() returns the
+    /// pixel of the second view for a rectified pixel, far outside if the point is behind that
+    /// camera.
     [[nodiscard]] Eigen::Vector2d ofFirst(const Eigen::Vector2d& pixel) const;
     [[nodiscard]] Eigen::Vector2d toSecond(const Eigen::Vector2d& rectified) const {
         return toView(rectified, secondTurn_);

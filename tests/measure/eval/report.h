@@ -9,34 +9,34 @@
 
 namespace mfar::eval {
 
-/// A wrong request or unusable input: one line for the user, exit status 2.
+/// A wrong request or an unusable input. The program prints it as one line and exits with status 2.
 class EvalError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
 struct Column {
-    std::string name;  ///< as in the CSV
-    int decimals;      ///< in the table; the CSV has six
+    std::string name;  ///< its name in the CSV
+    int decimals;      ///< number of decimals in the table; the CSV always has six
 };
 
-/// The results of an evaluation: one row per recording, frame and method. Printed as one table and
-/// written as one CSV whose columns begin with recording,frame,method.
+/// The results of an evaluation, with one row per recording, frame and method. It is printed as one
+/// table, and written as one CSV that begins with the columns recording,frame,method.
 class Report {
 public:
     explicit Report(std::vector<Column> columns) : columns_(std::move(columns)) {}
 
-    /// One value per column; empty if it was not measured.
+    /// `values` has one entry per column; an entry is empty if it was not measured.
     void add(const std::string& recording, const std::string& frame, const std::string& method,
              std::vector<std::optional<double>> values);
-    /// Appends the means: `frame` = "mean" per recording and method; with several recordings also
-    /// recording = "all", over all their frames.
+    /// Appends the means of each recording and method, with `frame` = "mean". With several
+    /// recordings, appends the means over all their frames too, with `recording` = "all".
     void addMeans();
-    /// The same with the medians of the frames, `frame` = "median".
+    /// Appends the medians of the frames in the same way, with `frame` = "median".
     void addMedians();
 
     /// Lines above the table that explain how to read it.
     void setHead(std::string head) { head_ = std::move(head); }
-    /// Columns that were never measured are left out.
+    /// A column in which nothing was measured is omitted.
     [[nodiscard]] std::string table() const;
     [[nodiscard]] std::string csv() const;
     /// Throws EvalError if the file cannot be written.
@@ -45,7 +45,7 @@ public:
     struct Row {
         std::string recording, frame, method;
         std::vector<std::optional<double>> values;
-        bool ofFrames = false;  ///< aggregated over several frames
+        bool ofFrames = false;  ///< a mean or median over frames
     };
     [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
 

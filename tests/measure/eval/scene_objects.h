@@ -7,7 +7,8 @@
 
 namespace mfar::eval {
 
-/// Virtual objects half behind real objects of a scene; empty if no suitable place is known.
+/// Virtual objects that real objects of the scene occlude by half. Empty if no suitable place in
+/// the scene is known.
 [[nodiscard]] std::vector<VirtualObject> sceneObjects(synthetic::Scene scene);
 
 }  // namespace mfar::eval

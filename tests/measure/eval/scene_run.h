@@ -16,21 +16,22 @@ namespace mfar::eval {
 [[nodiscard]] TagMap tagMapOf(const synthetic::World& world);
 
 /// A synthetic scene as the product sees it, frame by frame: the pictures of both sensors, with
-/// poses from a source. Its truth is the board's. Equal options give equal pictures.
+/// poses from one source. The board knows the truth. Equal options give equal pictures.
 class SceneRun {
 public:
-    /// The board runs at its consumer's pace. Needs a linked createGlContext().
+    /// The board runs at the pace of its consumer. The program must be linked with
+    /// createGlContext().
     SceneRun(SyntheticOptions options, PoseSource poses);
 
-    /// The next frame and its pose; a still's pose is computed from the still itself. A still
-    /// arrives some frames after its pulse.
+    /// The next frame with its pose, and the still that came before it, if any. The pose of a still
+    /// is computed from the still itself. A still arrives some frames after its pulse.
     struct Shots {
         Frame frame;
         std::optional<Pose> pose;
         std::optional<Frame> still;
         std::optional<Pose> stillPose;
     };
-    /// Throws std::runtime_error if there are no more.
+    /// Throws std::runtime_error after the last frame.
     [[nodiscard]] Shots next();
     /// Asks for a still.
     void fire() { board_->trigger().fire(); }
@@ -47,13 +48,14 @@ private:
     std::optional<Tracker> tracker_;
 };
 
-/// Runs one frame through the pipeline, after its still if there is one.
+/// Passes one frame to the pipeline; before it the still, if there is one.
 const FrameResult& runOn(Pipeline& pipeline, const SceneRun::Shots& shots);
 
 /// Share of each pixel of a pipeline's picture that shows a virtual object, CV_32F of the output's
 /// size; 0 everywhere without objects.
 [[nodiscard]] cv::Mat shownObjects(const Pipeline& pipeline);
-/// The same at the video's size, thresholded at a half: CV_8U, 255 or 0.
+/// The same at the video's size, thresholded: CV_8U, 255 where at least half of a pixel shows an
+/// object, else 0.
 [[nodiscard]] cv::Mat shownAtVideo(const cv::Mat& shown, Size video);
 
 }  // namespace mfar::eval

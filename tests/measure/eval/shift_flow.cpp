@@ -19,13 +19,13 @@ class ShiftFlow final : public FlowMethod {
 public:
     explicit ShiftFlow(const StereoRig& rig) : rig_(rig) {}
 
-    // The still at the geometry of the video: its size and its lens.
+    // Resamples the still to the video's geometry: to its size and its lens.
     void setStill(const Shot& still) override {
         still_ = greyFloats(resampleStill(still.picture, rig_));
         cv::createHanningWindow(window_, still_.size(), CV_32F);
     }
 
-    // frame(p) looks like still(p + flow(p)).
+    // Video pixel p looks like still pixel p + flow(p).
     Result run(const Shot& frame) override {
         const cv::Mat video = greyFloats(frame.picture);
         cv::Point2d shift;

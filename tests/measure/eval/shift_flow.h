@@ -4,8 +4,8 @@
 
 namespace mfar::eval {
 
-/// One shift for the whole picture, by phase correlation: a baseline that any flow method should
-/// beat.
+/// A baseline that any flow method should beat: one shift for the whole picture, found by phase
+/// correlation.
 [[nodiscard]] std::unique_ptr<FlowMethod> shiftFlow(const StereoRig& rig);
 
 }  // namespace mfar::eval

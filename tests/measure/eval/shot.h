@@ -11,12 +11,13 @@
 
 namespace mfar::eval {
 
-/// A picture as a method gets it: as its sensor took it, with the pose of the video camera at that
+/// A picture as methods get it: as the sensor took it, with the pose of the video camera at that
 /// time.
 struct Shot {
-    cv::Mat picture;  ///< CV_8UC3, B G R, of its sensor's size
+    cv::Mat picture;  ///< CV_8UC3, B G R, in the sensor's size
     Timestamp time;
-    /// World is any frame that both shots of a sample share. Empty: unknown.
+    /// Both shots of a sample share the world frame, which is otherwise arbitrary. Empty: the pose
+    /// is unknown.
     std::optional<Pose> pose = std::nullopt;
 };
 
@@ -25,24 +26,25 @@ struct PosePair {
     std::optional<Pose> frame, still;
 };
 
-/// From the recorded poses; empty outside their time range. Without recorded poses, the still's
-/// view is the world: a frame's pose is known only at the still's very time, from the rig.
+/// Poses from the recorded ones; empty outside their time range. If no poses are recorded, the view
+/// of the still is the world frame, and a frame's pose is known only if both have equal times: then
+/// the rig gives it.
 [[nodiscard]] PosePair posesOf(const Recording& recording, Timestamp frame, Timestamp still);
 
-/// [R|t] of design.md, section 3: video camera coordinates at the frame's time -> still camera
+/// T_still_frame = [R|t]: maps video camera coordinates at the frame's time to still camera
 /// coordinates at the still's time.
 [[nodiscard]] RigidTransform stillFromFrame(const StereoRig& rig, const Pose& frame,
                                             const Pose& still);
 
-/// Pose errors: each frame's pose is rotated about its own axis.
+/// Pose errors for tests of robustness: the pose of each frame is rotated about an axis of its own.
 struct PoseNoise {
-    double degrees = 0;      ///< exact angle of each frame's rotation
+    double degrees = 0;      ///< the angle of every rotation; it is exact
     std::uint64_t seed = 0;  ///< another seed gives other axes
 };
 
-/// The pose of a camera rotated about an axis drawn uniformly from all directions: the relative
-/// pose to any still is wrong by exactly the angle. Equal recording, time and seed give the same
-/// axis.
+/// The pose of a camera that was rotated about a random axis; all directions are equally probable.
+/// The relative pose to any still is then wrong by exactly this angle. Equal recording, time and
+/// seed give the same axis.
 [[nodiscard]] Pose turned(const Pose& pose, const PoseNoise& noise, std::string_view recording);
 
 }  // namespace mfar::eval

@@ -12,7 +12,7 @@ Pose somePose(std::int64_t ns) {
     return {{ns}, {Eigen::Quaterniond(turn), {1, -2, 3}}};
 }
 
-TEST(PosesOf, AreTheRecordedOnesWhereTheyReach) {
+TEST(PosesOf, PosesAreTheRecordedOnesWithinTheirTimeRange) {
     Recording recording;
     recording.poses = {somePose(100), somePose(200)};
     const PosePair inside = posesOf(recording, {100}, {150});
@@ -21,7 +21,7 @@ TEST(PosesOf, AreTheRecordedOnesWhereTheyReach) {
     EXPECT_TRUE(beyond.frame && !beyond.still);
 }
 
-TEST(PosesOf, WithoutPosesOnlyEqualTimesHaveOne) {
+TEST(PosesOf, WithoutRecordedPosesOnlyEqualTimesHaveAPose) {
     const PosePair equal = posesOf({}, {100}, {100});
     ASSERT_TRUE(equal.frame && equal.still);
     StereoRig rig;
@@ -44,7 +44,7 @@ TEST(Turned, TurnsTheRelativePoseByExactlyTheAngle) {
         EXPECT_NEAR((off.translation - exact.translation).norm(), 0, 1e-12);
         sum += (exact.rotation.conjugate() * off.rotation).vec().normalized();
     }
-    EXPECT_LT(sum.norm() / 200, 0.2);  // no direction is preferred
+    EXPECT_LT(sum.norm() / 200, 0.2);  // all directions are equally probable, so the sum is small
 }
 
 TEST(Turned, EveryRecordingFrameAndSeedHasItsOwnAxis) {

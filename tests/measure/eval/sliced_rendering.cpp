@@ -19,7 +19,7 @@ constexpr std::uint32_t kTruthSeed = 1;
 constexpr int kParts = 16;
 constexpr std::int64_t kPortion = 256;
 
-/// One picture, traced by the calling thread portion by portion; measures its processor time.
+/// One picture that the calling thread traces in portions. Measures its processor time.
 class SlicedPicture {
 public:
     SlicedPicture(const SlicedScene& scene, const SliceOptions& options)
@@ -27,8 +27,8 @@ public:
         slices.begin(scene.bounds, scene.view.camera.size);
     }
 
-    /// Traces at most `most` samples of all pixels together; returns the number traced. A ray
-    /// through a pixel's centre counts as one.
+    /// Traces at most `most` samples, counted over all pixels. Returns the number traced. A ray
+    /// through a pixel's centre counts as one sample.
     std::int64_t trace(std::int64_t most) {
         const double begin = threadCpuMs();
         const Slice slice = slices.next(most);
@@ -151,7 +151,7 @@ BudgetRun budgetRun(const SliceOptions& slices, Size size, double budgetMs, int 
     const auto period = std::chrono::nanoseconds(1'000'000'000 / 30);
     steady_clock::time_point next = steady_clock::now();
     RenderCounters counters;
-    // If it takes longer, the tracer has no work or gets no time.
+    // Gives up after four times the frames: then the tracer has no work or gets no processor time.
     for (int frame = 0; counters.budget.frames < frames && frame < 4 * frames + 60; ++frame) {
         const double azimuth = kAzimuth + frame * degreesPerSecond / 30;
         renderer.update(render_scenes::viewFrom(size, azimuth), Timestamp{} + frame * period);

@@ -18,37 +18,38 @@ struct SlicedScene {
     PixelRect bounds;
     RenderedPicture truth;
 
-    /// The small scene of balls and boxes of the tests. `threads`: for tracing the truth.
+    /// The small test scene of balls and boxes. `threads`: number of threads that trace the truth.
     SlicedScene(Size size, int truthSamples, int threads);
-    /// Root mean square of the difference from the truth inside the bounds [grey levels].
+    /// Root mean square difference from the truth inside the objects' bounds [grey levels].
     [[nodiscard]] double error(const Film& film, bool filter = false) const;
 };
 
-/// Error of the picture after some processor time.
+/// Error of a picture after some processor time.
 struct ErrorAt {
-    double samples = 0;  ///< mean number per pixel
+    double samples = 0;  ///< mean number of samples per pixel
     double ms = 0, rmse = 0;
-    double filtered = 0;  ///< error of the picture with smoothed noise
+    double filtered = 0;  ///< error of the picture after its noise was smoothed
 };
 
-/// Errors of the unfinished picture: after 1, 2, 4, ... samples (time slices), or after 1, 2, 4,
-/// ... of its 16 parts and at the end (spatial slices, in which parts that are not traced yet are
-/// empty).
+/// Errors of the unfinished picture. Time slices: after 1, 2, 4, ... samples. Spatial slices: after
+/// 1, 2, 4, ... of its 16 parts, and at the end; parts that are not traced yet are empty.
 [[nodiscard]] std::vector<ErrorAt> slicedErrors(const SlicedScene& scene,
                                                 const SliceOptions& slices);
 
-/// Errors of the whole picture, traced from scratch with 1, 2, 4, ... samples up to `samples`.
+/// Errors of the whole picture, each traced from scratch, with 1, 2, 4, ... samples up to
+/// `samples`.
 [[nodiscard]] std::vector<ErrorAt> wholeErrors(const SlicedScene& scene, int samples);
 
-/// Processor time of each frame [ms] if a picture is cut into `frames` portions of equally many
-/// samples.
+/// Processor time of each frame [ms] if a picture is divided into `frames` portions with equal
+/// numbers of samples.
 [[nodiscard]] std::vector<double> frameTimes(const SlicedScene& scene, const SliceOptions& slices,
                                              int frames);
 
-/// How well `frames` frames kept to a budget: the product's renderer in its threads, while the view
-/// rotates by `degreesPerSecond` at 30 frames per second, so that new pictures are needed.
+/// How well the frames kept to the budget. The product's renderer works in its threads for `frames`
+/// frames. Meanwhile the view rotates by `degreesPerSecond` at 30 frames per second, so that new
+/// pictures are needed.
 struct BudgetRun {
-    double mean = 0, deviation = 0;  ///< see BudgetKept
+    double mean = 0, deviation = 0;  ///< as in BudgetKept
     double samplesPerSecond = 0;     ///< per second of processor time
 };
 [[nodiscard]] BudgetRun budgetRun(const SliceOptions& slices, Size size, double budgetMs,

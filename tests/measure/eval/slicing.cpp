@@ -15,9 +15,10 @@ namespace mfar::eval {
 namespace {
 
 constexpr const char* kSceneName = "still-life";
-// Frames per picture in the paper.
+// Number of frames for one picture in the paper.
 constexpr int kFramesOfPicture = 64;
-// Fast enough for a new picture every few seconds, so that beginnings and ends of pictures count.
+// This rotation requires a new picture every few seconds, so that starts and ends of pictures are
+// measured too.
 constexpr double kTurnPerSecond = 3;
 
 struct SlicingMethod {
@@ -55,8 +56,8 @@ void addErrors(Report& report, const char* method, const std::vector<ErrorAt>& e
     panel.lines.push_back(std::move(line));
 }
 
-/// Statistics of the frames' times: their mean and, relative to it, standard deviation, 95th
-/// percentile and maximum.
+/// Statistics of the frame times: the mean and, divided by it, the standard deviation, the 95th
+/// percentile and the maximum.
 void addFrames(Report& report, const char* method, std::vector<double> ms) {
     const auto count = static_cast<double>(ms.size());
     const double mean = std::accumulate(ms.begin(), ms.end(), 0.0) / count;

@@ -9,23 +9,22 @@ namespace mfar::eval {
 
 struct SlicingRequest {
     Size size{320, 240};
-    int samples = 64;            ///< per pixel of a finished picture
-    int truthSamples = 512;      ///< per pixel of the picture that it is compared with, with
-                                 ///< another seed
-    double budgetMs = 4;         ///< processor time per frame
-    int frames = 300;            ///< frames under the budget
-    int threads = 2;             ///< for these frames and for the truth; everything else is timed
-                                 ///< on one thread
+    int samples = 64;            ///< samples per pixel of a finished picture
+    int truthSamples = 512;      ///< samples per pixel of the truth, with another seed
+    double budgetMs = 4;         ///< processor time per frame [ms]
+    int frames = 300;            ///< number of frames under the budget
+    int threads = 2;             ///< for these frames and the truth; all else uses one
     std::filesystem::path plot;  ///< SVG of error against time; empty: not written
 };
 
-/// Measures a picture of a few balls and boxes on a plane by time slices, by spatial slices and as
-/// a whole. Columns: ms of processor time, and rmse [grey levels, premultiplied RGBA inside the
-/// objects' bounds] of the picture without and with smoothed noise, after some samples per pixel
-/// (which name the rows); times of frames with equal shares of the samples: coefficient of
-/// variation, 95th percentile and maximum over the mean (row `frames`); use of the budget by the
-/// frames: mean, and 95th percentile of the deviation (row `budget`). Throws EvalError if the plot
-/// cannot be written.
+/// Traces a picture of a few balls and boxes on a plane in time slices, in spatial slices, and as a
+/// whole. Rows are named after the samples per pixel. Columns: ms of processor time; rmse of the
+/// picture, without and with smoothed noise [grey levels, premultiplied RGBA inside the objects'
+/// bounds].
+///
+/// Row `frames`: times of frames with equal shares of the samples, as coefficient of variation, and
+/// as 95th percentile and maximum over the mean. Row `budget`: use of the budget by the frames, as
+/// mean, and as 95th percentile of the deviation. Throws EvalError if the plot cannot be written.
 [[nodiscard]] Report evaluateSlicing(const SlicingRequest& request);
 
 }  // namespace mfar::eval

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-/// `mfar-eval slicing` as a user runs it.
+/// Runs `mfar-eval slicing` as a user does.
 namespace mfar::eval {
 namespace {
 
@@ -17,7 +17,7 @@ using test::execute;
 using test::Outcome;
 using test::TempFolder;
 
-/// Fields of the CSV's lines after the first, by method and frame.
+/// Fields of the CSV's lines without the header, keyed by method and frame.
 std::map<std::string, std::vector<std::string>> rowsOf(const std::string& csv) {
     std::map<std::string, std::vector<std::string>> out;
     std::istringstream in(csv);

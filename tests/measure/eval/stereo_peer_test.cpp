@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kDistance = 2;  // of the wall [m]
+constexpr double kDistance = 2;  // distance of the wall [m]
 
 StereoRig crookedPairRig() {
     StereoRig rig;
@@ -28,10 +28,10 @@ RigidTransform moved(double degrees, const Vector3d& axis, const Vector3d& trans
             translation};
 }
 
-/// A camera's picture of a textured wall perpendicular to the video camera's axis.
+/// What a camera sees of a textured wall that is perpendicular to the axis of the video camera.
 cv::Mat pictureOfWall(const CameraModel& camera, const RigidTransform& T_camera_frame) {
     constexpr int kEdge = 700;
-    constexpr double kPixel = 1.0 / 160;  // texture pixels a metre
+    constexpr double kPixel = 1.0 / 160;  // size of a texture pixel [m]
     cv::Mat texture(kEdge, kEdge, CV_8UC3), map(camera.size.height, camera.size.width, CV_32FC2);
     cv::RNG(5).fill(texture, cv::RNG::UNIFORM, 0, 256);
     cv::GaussianBlur(texture, texture, {}, 1);
@@ -50,7 +50,7 @@ cv::Mat pictureOfWall(const CameraModel& camera, const RigidTransform& T_camera_
     return out;
 }
 
-/// Error of the peer's flow if the still was taken after `motion`.
+/// Error of the peer's flow if the still is taken after `motion`.
 FlowError errorAfter(const RigidTransform& motion,
                      StereoPeer::Matcher matcher = StereoPeer::Matcher::SemiGlobal) {
     const StereoRig rig = crookedPairRig();
@@ -72,10 +72,10 @@ TEST(StereoPeer, FollowsAnyMotionAcrossTheView) {
     }
 }
 
-TEST(StereoPeer, BlocksAreMatchedAsWell) {
+TEST(StereoPeer, BlockMatchingWorksAsWell) {
     const FlowError error =
         errorAfter(moved(3, {1, 2, 1}, {-0.1, 0, 0}), StereoPeer::Matcher::Block);
-    EXPECT_GT(error.coverage, 0.9);  // half a block is missing at the top and the bottom
+    EXPECT_GT(error.coverage, 0.9);  // no result for half a block at the top and at the bottom
     EXPECT_LT(error.epe, 0.3);
 }
 
@@ -85,7 +85,7 @@ TEST(StereoPeer, HasNoAnswerWithoutABaselineAcrossTheView) {
     EXPECT_EQ(errorAfter(moved(0, {1, 0, 0}, {0.05, 0, 0.2})).coverage, 0);
 }
 
-TEST(Rectification, PutsEveryPointOnTheSameRowNearerToTheLeft) {
+TEST(Rectification, PutsEveryPointOnTheSameRowAndNearerPointsFartherLeft) {
     const CameraModel camera = crookedPairRig().video;
     const RigidTransform motion = moved(4, {1, -1, 2}, {0.03, 0.1, -0.02});
     const auto views = Rectification::of(camera, motion, 32);
@@ -98,7 +98,8 @@ TEST(Rectification, PutsEveryPointOnTheSameRowNearerToTheLeft) {
                 EXPECT_LT(place.y(), views->size().height);
                 const Vector3d point = motion * (depth * camera.unproject({x, y}).homogeneous());
                 const Eigen::Vector2d seen = camera.project(point.head<2>() / point.z());
-                // A single disparity must explain it: where the second view shows the point.
+                // There must be one disparity with which the rectified point falls on the point in
+                // the second view.
                 double best = 1e9;
                 for (double d = 0; d < 40; d += 0.01)
                     best = std::min(best,
@@ -107,7 +108,7 @@ TEST(Rectification, PutsEveryPointOnTheSameRowNearerToTheLeft) {
             }
 }
 
-TEST(Rectification, LeavesRectifiedPicturesAlone) {
+TEST(Rectification, KeepsRectifiedPictures) {
     CameraModel camera = crookedPairRig().video;
     camera.distortion = {};
     camera.fy = camera.fx;

@@ -12,7 +12,7 @@ bool isIdentity(const RigidTransform& t) {
            t.rotation.angularDistance(Eigen::Quaterniond::Identity()) < kSameView;
 }
 
-/// The nearest usable still in time, except one.
+/// The usable still that is nearest in time, apart from one that is excluded.
 std::optional<std::size_t> nearestStill(const Recording& recording, Timestamp frame,
                                         std::optional<std::size_t> but) {
     std::optional<std::size_t> best;

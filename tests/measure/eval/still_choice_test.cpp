@@ -16,7 +16,7 @@ Pose poseAt(std::int64_t ns, double x) {
     return {{ns}, {Eigen::Quaterniond::Identity(), {x, 0, 0}}};
 }
 
-TEST(ReferenceStill, IsTheNearestInTimeEarlierFirst) {
+TEST(ReferenceStill, IsTheNearestInTimeOrTheEarlierOfTwo) {
     const Recording recording = withStillsAt({100, 200, 400});
     EXPECT_EQ(referenceStill(recording, {190}), 1U);
     EXPECT_EQ(referenceStill(recording, {150}), 0U);
@@ -33,7 +33,7 @@ TEST(SecondStill, IsTheNextNearestThatDoesNotShowTheFramesOwnView) {
     EXPECT_EQ(secondStill(withStillsAt({100, 200}), {200}), std::nullopt);
 }
 
-TEST(ReferenceStill, NeverTheFramesOwnViewAtEqualTime) {
+TEST(ReferenceStill, NeverShowsTheFramesOwnViewAtEqualTime) {
     const Recording recording = withStillsAt({100, 300});
     EXPECT_EQ(referenceStill(recording, {100}), 1U);
     EXPECT_EQ(referenceStill(withStillsAt({100}), {100}), std::nullopt);

@@ -10,17 +10,17 @@
 
 namespace mfar::eval {
 
-/// Learns from every still that a pipeline matches, as the daemon does, but in the pipeline's own
-/// thread, so that the same pictures give the same filters.
+/// Learns from every still that a pipeline matches, as the daemon does. It learns in the pipeline's
+/// thread, so that equal pictures give equal filters.
 class StillLearning final : public MatchListener {
 public:
-    /// Must be called before the first still of a pipeline with this rig.
+    /// Call this before the first still of a pipeline with this rig.
     void begin(const StereoRig& rig);
-    /// Whether the next still may serve as the truth of the last frame (default: yes). It must not
-    /// if it shows the frame's own view.
+    /// Sets whether the next still may serve as the truth of the last frame (default: yes). It must
+    /// not if it shows the frame's own view.
     void setMayUseOlder(bool may) { mayUseOlder_ = may; }
     [[nodiscard]] std::shared_ptr<const FilterBank> filters() const { return learner_.filters(); }
-    /// Prints one line on what was learned to stderr, prefixed with the name of this program.
+    /// Prints one line on what was learned to stderr. The line begins with the name of the program.
     void report(const char* program = "mfar-eval") const;
 
     void matched(const RgbPlanes& video, Rows<const std::uint8_t> still,

@@ -30,12 +30,12 @@ double colourPsnr(const cv::Mat& picture, const cv::Mat& truth) {
     return cv::PSNR(picture, withoutBorder(truth), 255);
 }
 
-/// NaN: nothing could be measured.
+/// Empty if the value is NaN, which means that nothing could be measured.
 std::optional<double> measured(double value) {
     return std::isnan(value) ? std::nullopt : std::optional(value);
 }
 
-/// One recording, with the methods set up for its rig.
+/// Measures all methods on one recording.
 class SuperResRun {
 public:
     SuperResRun(const SuperResRequest& request, const Recording& recording, std::string label,
@@ -90,7 +90,7 @@ private:
     struct Named {
         std::string name;
         std::unique_ptr<SuperResMethod> method;
-        cv::Mat error{};  ///< of the last frame
+        cv::Mat error{};  ///< error of the last frame
     };
     using Times = std::pair<Timestamp, Timestamp>;
 

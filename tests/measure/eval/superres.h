@@ -14,21 +14,20 @@ namespace mfar::eval {
 
 struct SuperResRequest {
     std::vector<std::filesystem::path> recordings;
-    std::vector<std::string> methods;              ///< of superResMethodNames()
-    std::vector<std::filesystem::path> dnnModels;  ///< further peers, named like their files
-    bool classes = false;                          ///< measure each method's gain per
-                                                   ///< matchClasses()
+    std::vector<std::string> methods;              ///< names out of superResMethodNames()
+    std::vector<std::filesystem::path> dnnModels;  ///< model files of further peers
+    bool classes = false;                          ///< also measure each method's gain per class
     bool noStill = false;                          ///< enlarge the video without a still
     int stills = 1;                                ///< 2: also use the second-nearest still in time
     Degradation degradation;                       ///< applied to every still
     Degradation videoDegradation;                  ///< applied to every frame of the video
-    int learn = 0;  ///< matched stills from which filters are learned before; 0: default filters
-    /// Recordings to learn from; empty: each recording learns from itself.
+    int learn = 0;  ///< number of matched stills to learn from first; 0: default filters
+    /// Recordings to learn from. Empty: each recording learns from its own stills.
     std::vector<std::filesystem::path> learnFrom;
     PoseSource poses = PoseSource::Recorded;
-    PoseNoise poseNoise;         ///< of every frame
-    double alpha = 2;            ///< of the paper's confidence [video px]
-    int frames = 0;              ///< per recording, 0 = all that have truth
+    PoseNoise poseNoise;         ///< applied to the pose of every frame
+    double alpha = 2;            ///< alpha of the paper's confidence [video px]
+    int frames = 0;              ///< number of frames per recording, 0: all that have truth
     std::filesystem::path save;  ///< folder for the pictures; empty: not saved
     PictureMetrics metrics{{"psnr", "ssim"}, {}};
 };

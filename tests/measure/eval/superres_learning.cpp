@@ -16,7 +16,7 @@ struct Match {
     std::size_t frame, still;
 };
 
-/// For each still, its frame of the given rank in the order of distance in time.
+/// For each still, the frame that is number `rank` in the order of distance in time.
 std::vector<Match> matchesOf(const Recording& recording, std::size_t rank) {
     std::vector<Match> out;
     for (std::size_t still = 0; still < recording.stills.size(); ++still) {
@@ -51,12 +51,12 @@ void learnFrom(const Recording& recording, const SuperResRequest& request, int& 
                                          request.degradation,
                                          static_cast<std::uint64_t>(stillAt.ns)),
                                  stillAt, pose.still};
-            // Other noise than that of the measured frame.
+            // The noise must differ from that of the measured frame.
             const Shot video{degrade(loadPicture(recording.video[frame].file),
                                      request.videoDegradation,
                                      ~static_cast<std::uint64_t>(at.ns) - 1),
                              at, pose.frame};
-            // A still with the same view as a frame is that frame's truth.
+            // A still that shows the same view as a frame is the truth of that frame.
             learning.setMayUseOlder(last && !showsOwnView(recording, stillAt, *last));
             last = at;
             PipelineShot(reference).giveAsStill(pipeline);

@@ -35,7 +35,7 @@ public:
     Result run(const Shot& frame) override {
         const PipelineShot shot(frame, usePoses_);
         shot.run(pipeline_);
-        // The picture of the first run: a second run could start from the first one's result.
+        // Keeps the picture of the first run, because a second run could start from its result.
         Result out{fromRgba(pipeline_.readImage(), pipeline_.outputSize()), 0};
         glFinish();
         out.ms = wallMs([&] {

@@ -17,11 +17,11 @@ class SuperResMethod {
 public:
     virtual ~SuperResMethod() = default;
 
-    /// `second`: null if there is none; for methods that use two stills.
+    /// `second`: a second still, for methods that use two; null if there is none.
     virtual void setStills(const Shot& newest, const Shot* second) = 0;
     struct Result {
         cv::Mat picture;
-        double ms = 0;  ///< wall time of a second run on the same frame, with all work finished
+        double ms = 0;  ///< wall time of a second run on the same frame, until all work is finished
     };
     [[nodiscard]] virtual Result run(const Shot& frame) = 0;
 };
@@ -37,28 +37,28 @@ public:
 
 /// Names that --methods accepts for superres.
 [[nodiscard]] const std::vector<std::string>& superResMethodNames();
-/// Whether this method needs a still to give a result, or a result different from plain enlarging.
+/// True if this method, without a still, gives no result or only a plain enlargement.
 [[nodiscard]] bool needsStill(const std::string& method);
 
-/// The product's methods need a GL context: it is created when first needed and stays current.
-/// Throws std::invalid_argument for an unknown name.
+/// Makes methods. The product's methods need a GL context, which is created for the first of them
+/// and stays current. create() throws std::invalid_argument for an unknown name.
 class SuperResFactory {
 public:
     explicit SuperResFactory(double alpha) : alpha_(alpha) {}
-    /// Filters for the product's methods; null: default filters.
+    /// Sets the filters of the product's methods; null: default filters.
     void setFilters(std::shared_ptr<const FilterBank> filters) { filters_ = std::move(filters); }
-    /// Creates the context, for other users' pipelines.
+    /// Creates the GL context now, because other pipelines need it.
     void requireContext();
     [[nodiscard]] std::unique_ptr<SuperResMethod> create(const std::string& name,
                                                          const StereoRig& rig);
-    /// A method from a model of OpenCV's dnn_superres. Throws EvalError as dnnEnlarger() does.
+    /// Makes a method of a model of OpenCV's dnn_superres. Throws EvalError as dnnEnlarger() does.
     [[nodiscard]] static std::unique_ptr<SuperResMethod>
     createModel(const std::filesystem::path& file, const StereoRig& rig);
     [[nodiscard]] std::unique_ptr<StillMatcher> createMatcher(const StereoRig& rig);
 
 private:
     std::shared_ptr<const FilterBank> filters_;
-    double alpha_;  ///< of the paper's confidence [video px]
+    double alpha_;  ///< alpha of the paper's confidence [video px]
     std::unique_ptr<GlContext> context_;
 };
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-/// `mfar-eval superres` as a user runs it, on tiny pictures.
+/// Runs `mfar-eval superres` as a user does, on tiny pictures.
 namespace mfar::eval {
 namespace {
 
@@ -82,7 +82,7 @@ TEST(MfarEval, SuperResDistinguishesClassesOfPixels) {
     }
 }
 
-TEST(MfarEval, SuperResMakesTheVideoWorseForEveryMethod) {
+TEST(MfarEval, SuperResDegradesTheVideoForEveryMethod) {
     const TempFolder folder;
     writeRecording(folder / "tiny", true);
     const auto psnrOf = [&](const std::string& options) {
@@ -120,7 +120,7 @@ TEST(MfarEval, SuperResLearnsFromStillsBeforeItMeasures) {
     EXPECT_NE(shaders.text.find("learned from"), std::string::npos) << shaders.text;
 }
 
-TEST(MfarEval, SuperResTakesSlowMeasuresWhenAsked) {
+TEST(MfarEval, SuperResComputesSlowMetricsOnRequest) {
     const TempFolder folder;
     writeRecording(folder / "tiny", true);
     const Outcome outcome =

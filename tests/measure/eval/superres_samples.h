@@ -10,7 +10,7 @@
 
 namespace mfar::eval {
 
-/// A frame to measure: its truth and the stills that may be used.
+/// A frame to measure: its truth, and the stills that methods may use.
 struct SuperResSample {
     RecordedImage video;
     RecordedImage still;
@@ -18,17 +18,17 @@ struct SuperResSample {
     std::filesystem::path truth;
 };
 
-/// The frames with truth/highres, at most `limit` of them, 0 = all. Prints one line per skipped
-/// frame to stderr. Throws EvalError if none remains.
+/// The frames that have truth/highres, at most `limit` (0: all). Prints one line to stderr for each
+/// skipped frame. Throws EvalError if no frame remains.
 [[nodiscard]] std::vector<SuperResSample> superResSamplesOf(const Recording& recording, int limit);
 
-/// The truth, CV_8UC3 of the output's size. Throws EvalError if the size differs or is too small
-/// for a border, and ImageFileError.
+/// The true picture, CV_8UC3 of the output's size. Throws ImageFileError, and EvalError if the size
+/// differs or is too small for the border.
 [[nodiscard]] cv::Mat loadHighRes(const SuperResSample& sample, const StereoRig& rig);
 
-/// Border excluded from every metric [output px].
+/// Width of the border that no metric counts [output px].
 inline constexpr int kSuperResBorder = 32;
-/// Shares the picture's memory.
+/// The picture without its border. It shares the picture's memory.
 [[nodiscard]] cv::Mat withoutBorder(const cv::Mat& picture);
 
 }  // namespace mfar::eval

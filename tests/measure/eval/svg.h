@@ -4,18 +4,18 @@
 #include <string>
 #include <string_view>
 
-/// Elements of SVG documents for charts. Lengths in px, y downwards; every element ends with a
-/// newline.
+/// Elements of SVG documents for charts. Lengths are in px; y points downwards. Every element ends
+/// with a newline.
 namespace mfar::eval::svg {
 
-/// Okabe and Ito: distinct for all kinds of colour vision.
+/// The colours of Okabe and Ito, which can be told apart with any colour vision.
 inline constexpr std::array<const char*, 7> kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                      "#e69f00", "#56b4e9", "#444444"};
 
 /// Escapes any text for use as the content of an element.
 [[nodiscard]] std::string escaped(std::string_view text);
 
-/// `anchor`: start, middle or end; this part of the text is at x. y is the base line.
+/// `anchor`: which part of the text stands at x: start, middle or end. y is the base line.
 [[nodiscard]] std::string text(double x, double y, std::string_view anchor, std::string_view what,
                                int size = 12, std::string_view colour = "#222");
 /// Text that runs upwards, centred at (x, y).
@@ -23,7 +23,7 @@ inline constexpr std::array<const char*, 7> kColours{"#0072b2", "#d55e00", "#009
 [[nodiscard]] std::string line(double x0, double y0, double x1, double y1,
                                std::string_view colour = "#ddd", double width = 1);
 
-/// The whole document on a white background.
+/// A whole document from its elements, on a white background.
 [[nodiscard]] std::string document(double width, double height, std::string_view body);
 
 }  // namespace mfar::eval::svg

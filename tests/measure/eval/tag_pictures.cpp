@@ -50,8 +50,8 @@ Eigen::Vector2d middle(const std::array<Eigen::Vector2d, 4>& c) {
     return (c[0] + c[1] + c[2] + c[3]) / 4;
 }
 
-/// Squared distance of corners, for the cyclic order that fits best, because the true corners do
-/// not define which is the tag's first.
+/// Squared distance of two sets of corners, in the cyclic order that fits best: the true corners do
+/// not say which one is the tag's first.
 double cornerError(const std::array<Eigen::Vector2d, 4>& a,
                    const std::array<Eigen::Vector2d, 4>& b) {
     double least = INFINITY;

@@ -17,28 +17,27 @@ struct KnownTag {
     std::array<Eigen::Vector2d, 4> corners;  ///< [px], pixel centres at integers
 };
 
-/// A photograph that shows tags. Its text file has a line "id, (x y), (x y), (x y), (x y)" for each
-/// tag; the centre of the first pixel is at (0.5, 0.5), as in libapriltag.
+/// A photograph that shows tags, and its true tags. Its text file has one line "id, (x y), (x y),
+/// (x y), (x y)" per tag. As in libapriltag, the centre of the first pixel is at (0.5, 0.5).
 struct TagPictureFile {
     std::filesystem::path image;
     std::vector<KnownTag> tags;
 };
 
-/// Sorted by name. Throws EvalError ("file:line: what") for a faulty text, a text without a picture
-/// and a folder without pictures.
+/// The photographs of a folder, sorted by name. Throws EvalError ("file:line: what") for a faulty
+/// text file, for a text file without a picture and for a folder without pictures.
 [[nodiscard]] std::vector<TagPictureFile> tagPicturesOf(const std::filesystem::path& folder);
 
 struct TagScore {
     double ms = 0;
-    double cornerPx = 0;  ///< root mean square distance of the found tags' corners
-    int found = 0;        ///< same id, centre within half an edge
+    double cornerPx = 0;  ///< root mean square error of the corners of found tags
+    int found = 0;        ///< tags found: same id, centre closer than half an edge
     int missed = 0;
-    int wrong = 0;  ///< detections that are not known tags
+    int wrong = 0;  ///< detections that match none of the known tags
 };
 
-/// Scores of the search in the whole picture: `detector`, and `refined` with refined corners, for
-/// which the lens is assumed to be free of distortion. Uses families, decimation, threads and gamma
-/// of the options.
+/// Scores of searching the whole picture: `detector`, and `refined`, whose corners are refined as
+/// if the lens had no distortion. Uses families, decimation, threads and gamma of the options.
 [[nodiscard]] std::vector<std::pair<std::string, TagScore>>
 compareTags(const TagPictureFile& picture, const TrackerOptions& options);
 

@@ -29,14 +29,15 @@ using Rgb = std::array<float, 3>;
 using Picture = std::vector<Rgb>;
 
 constexpr double kRate = 30;      // frames per second
-constexpr int kFirstFrames = 15;  // first frames, in which there may be no picture yet
-constexpr float kPaper = 200;     // grey level below the layer
-constexpr double kFill = 0.5;     // share of the picture's height that the objects' ball covers
+constexpr int kFirstFrames = 15;  // frames at the start in which no picture may exist yet
+constexpr float kPaper = 200;     // grey level of the paper under the layer
+constexpr double kFill = 0.5;     // diameter of the objects' ball over the picture's height
 constexpr auto kPatience = std::chrono::seconds(20);
 constexpr std::uint64_t kWorldSeed = 1;
 
-/// The objects' scene, and the path of the board's camera around it: the point at which the board
-/// looks is the centre of the objects, and distances are scaled so that they fill the picture.
+/// The scene with the objects, and the board's camera path around it. The point at which the board
+/// looks becomes the centre of the objects. Distances are scaled so that the objects fill the
+/// picture.
 class Course {
 public:
     Course(const std::string& scene, synthetic::Path path, Size size)
@@ -92,7 +93,7 @@ Picture differenceOf(const Picture& a, const Picture& b) {
     return out;
 }
 
-/// Mean square over pixels of three channels.
+/// Mean square over the three channels of pixels.
 struct MeanSquare {
     double sum = 0;
     double values = 0;
@@ -108,7 +109,7 @@ struct MeanSquare {
     }
 };
 
-/// Luma of an error, CV_64F.
+/// Luma of an error picture, CV_64F.
 cv::Mat lumaOf(const Picture& error, Size size) {
     cv::Mat out(size.height, size.width, CV_64F);
     double* to = out.ptr<double>();
@@ -117,8 +118,8 @@ cv::Mat lumaOf(const Picture& error, Size size) {
     return out;
 }
 
-/// Flow from the objects' pixels of a frame to their positions in the one before, CV_32FC2; NaN if
-/// that frame does not show the object there.
+/// Flow of the objects' pixels from a frame to the frame before it, CV_32FC2. NaN if that frame
+/// does not show the object there.
 cv::Mat motionTo(const RenderedPicture& before, const RenderedPicture& now) {
     const Size size = now.camera.size;
     const LensProjection lens(now.camera);
@@ -142,8 +143,8 @@ cv::Mat motionTo(const RenderedPicture& before, const RenderedPicture& now) {
     return out;
 }
 
-/// Flicker of the errors of objects' pixels between consecutive frames; empty if no pixel is in
-/// both.
+/// Flicker of the errors of objects' pixels between consecutive frames. Empty if no object pixel is
+/// in both.
 std::optional<double> flickerOf(const Picture& before, const RenderedPicture& truthBefore,
                                 const Picture& now, const RenderedPicture& truth) {
     const Size size = truth.camera.size;
@@ -161,7 +162,7 @@ TracedLayerOptions optionsOf(const TracedRequest& request, const std::string& me
     return out;
 }
 
-/// The product's layer along a path, frame by frame.
+/// Renders the product's layer along a path, frame by frame.
 class ShownFrames {
 public:
     ShownFrames(const Course& course, const TracedLayerOptions& options)
@@ -169,8 +170,8 @@ public:
         layer_.setScene(course.scene());
     }
 
-    /// Waits until the tracer's threads have used up the budget before the next frame begins, as on
-    /// a board with free processors.
+    /// Returns the next frame. First waits until the tracer's threads have used up the budget of
+    /// the frame, as they would on a board with free processors.
     Picture next() {
         const RenderView view = course_.at(frame_);
         const Timestamp time =
@@ -229,7 +230,7 @@ public:
           truth_(course_.scene(), request.truthSamples, request.truth, label_) {}
 
     void run() {
-        std::vector<std::vector<Picture>> shown;  // by method, for the video
+        std::vector<std::vector<Picture>> shown;  // frames for the video, indexed by method
         for (const std::string& method : request_.methods)
             shown.push_back(run(method));
         if (!request_.video.empty()) writeVideo(shown);

@@ -58,7 +58,7 @@ CLI::App* addTracedCommand(CLI::App& app, TracedRequest& request) {
 }
 
 Report runTracedCommand(const TracedRequest& request) {
-    // The engine that MFAR_ENGINE names.
+    // Uses the engine that the environment variable MFAR_ENGINE names.
     const bool gles = EngineChoice::fromEnvironment().occlusion == EngineKind::Gles;
     const auto context = gles ? createGlContext() : nullptr;
     return evaluateTraced(request);

@@ -16,8 +16,8 @@ struct EvalCommand {
     std::function<Report()> evaluate;
 };
 
-/// Subcommands that need the path tracer; empty if it is not built. `csv` is set as by other
-/// subcommands.
+/// Adds the subcommands that need the path tracer. Empty if the path tracer is not built. They set
+/// `csv` as other subcommands do.
 [[nodiscard]] std::vector<EvalCommand> addTracedCommands(CLI::App& app, std::string& csv);
 
 }  // namespace mfar::eval

@@ -11,15 +11,16 @@
 
 namespace mfar::eval {
 
-/// Pictures path traced for the views of frames, kept in a folder between runs if there is one.
+/// Path-traced pictures for the views of frames. If a folder is given, they are kept there between
+/// runs.
 class TracedTruth {
 public:
-    /// `name`: name of the path, for the files.
+    /// `name`: name of the path, used in file names.
     TracedTruth(const std::shared_ptr<const Scene>& scene, int samples,
                 std::filesystem::path folder, const std::string& name);
 
-    /// The picture stays valid as long as this object. An incomplete file is made again. Throws
-    /// EvalError if a file cannot be written.
+    /// The picture stays valid as long as this object exists. An incomplete file is traced again.
+    /// Throws EvalError if a file cannot be written.
     const RenderedPicture& at(int frame, const RenderView& view);
 
 private:
@@ -32,7 +33,7 @@ private:
     std::map<int, RenderedPicture> pictures_;
 };
 
-/// Pictures of `size` side by side, with values in [0, 255].
+/// Puts pictures of `size` side by side. Their values are in [0, 255].
 [[nodiscard]] StoredImage
 rgbaOf(const std::vector<const std::vector<std::array<float, 3>>*>& pictures, Size size);
 

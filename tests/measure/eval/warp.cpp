@@ -42,7 +42,7 @@ PathTracerOptions asInTheProduct() {
 
 using Rgba = std::vector<std::uint8_t>;
 
-/// PSNR of the three colours where the truth shows an object [dB].
+/// PSNR over the three colour channels where the truth shows an object [dB].
 double psnrInside(const Rgba& rgba, const RenderedPicture& truth) {
     double sum = 0;
     for (std::size_t i = 0; i < truth.id.size(); ++i)
@@ -64,14 +64,14 @@ struct Shot {
     RenderedPicture truth;
 };
 
-/// Result and cost of one method for a view.
+/// Picture and cost of one method for one view.
 struct Warped {
     Rgba rgba;
     double ms = 0;
     std::optional<double> holeShare, rerayShare, rerayOfObjects;
 };
 
-/// One scene with its traced picture.
+/// Measures all methods on one scene and its traced picture.
 class WarpRun {
 public:
     WarpRun(const WarpRequest& request, const std::string& scene)
@@ -148,7 +148,8 @@ private:
         return out;
     }
 
-    /// Telea's method, for the holes that the method `none` leaves. Time without that of the warp.
+    /// Telea's method, for the holes that the method `none` leaves. Its time does not include the
+    /// warp.
     [[nodiscard]] Warped inpaint(const Shot& shot) const {
         Warp warp(view_.camera, request_.size, *engine_,
                   {.filling = HoleFilling::None, .leastMotion = 0});

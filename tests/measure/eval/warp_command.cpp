@@ -62,7 +62,7 @@ CLI::App* addWarpCommand(CLI::App& app, WarpRequest& request, WarpFiles& files) 
 }
 
 Report runWarpCommand(const WarpRequest& request, const WarpFiles& files) {
-    // The engine that MFAR_ENGINE names.
+    // Uses the engine that the environment variable MFAR_ENGINE names.
     const bool gles = EngineChoice::fromEnvironment().occlusion == EngineKind::Gles;
     const auto context = gles ? createGlContext() : nullptr;
     Report report = evaluateWarp(request);

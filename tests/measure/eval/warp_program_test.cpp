@@ -7,7 +7,7 @@
 #include <sstream>
 #include <string>
 
-/// `mfar-eval warp` as a user runs it.
+/// Runs `mfar-eval warp` as a user does.
 namespace mfar::eval {
 namespace {
 

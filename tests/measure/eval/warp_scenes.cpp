@@ -18,9 +18,8 @@
 namespace mfar::eval {
 namespace {
 
-constexpr double kElevation = 35, kFocal = 1.2;  // [degrees], [picture widths]
-constexpr double kFill = 0.6;                    // share of the picture's height that the objects'
-                                                 // ball covers
+constexpr double kElevation = 35, kFocal = 1.2;  // camera: [degrees], [picture widths]
+constexpr double kFill = 0.6;                    // the objects' ball over the picture's height
 
 Scene sceneOf(Model model) {
     Scene scene;

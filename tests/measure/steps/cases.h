@@ -9,7 +9,8 @@
 
 namespace mfar {
 
-/// A case to measure. `make` prepares it for a number of threads and returns the function to time.
+/// A case to measure. `make` prepares it for a number of threads and returns the function to be
+/// timed.
 struct BenchCase {
     std::string name;
     std::function<std::function<void()>(std::shared_ptr<Workers>)> make;
@@ -17,7 +18,7 @@ struct BenchCase {
 
 [[nodiscard]] std::vector<BenchCase> detailBenchCases();
 
-/// All cases, in the order of the report.
+/// All cases, in the order in which they are reported.
 [[nodiscard]] std::vector<BenchCase> benchCases();
 
 }  // namespace mfar

@@ -10,8 +10,8 @@ namespace {
 
 using namespace enlarge;
 
-constexpr int kBorder = 12;           // pixels at the picture's border that are skipped
-constexpr double kLeastPixels = 400;  // lower limit per class, for learning and for checking
+constexpr int kBorder = 12;           // the outermost pixels of the picture are skipped
+constexpr double kLeastPixels = 400;  // lower limit for learning and for checking
 
 }  // namespace
 

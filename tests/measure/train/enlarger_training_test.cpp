@@ -29,7 +29,7 @@ EnlargerTraining::Outcome learnedFrom(int pictures, double noise) {
     return training.solve(20);
 }
 
-TEST(EnlargerTraining, PicturesOfDiscsAreLearned) {
+TEST(EnlargerTraining, FiltersLearnedFromDiscsBeatTheCubic) {
     const auto outcome = learnedFrom(16, 0);
     EXPECT_EQ(outcome.filters.size(), std::size_t{enlarge::kUnique});
     EXPECT_GT(outcome.used, 20);
@@ -61,8 +61,9 @@ TEST(EnlargerTraining, ClassesWithoutPixelsToCheckGetNoFilter) {
     EXPECT_EQ(training.solve(20).used, 0);
 }
 
-TEST(EnlargerTraining, FiltersThatMakeHeldOutPicturesWorseAreLeftOut) {
-    // Learned without noise and checked on pure noise: there sharpening only amplifies noise.
+TEST(EnlargerTraining, FiltersThatMakeHeldOutPicturesWorseAreDropped) {
+    // The filters are learned without noise but checked on pure noise, where sharpening only
+    // amplifies the noise.
     EnlargerTraining training;
     training.add({discs(1), {}}, false);
     training.add({twin::greyOf({320, 256}, [](int, int) { return 128.0; }), {12, 0, 5}}, true);
@@ -71,7 +72,7 @@ TEST(EnlargerTraining, FiltersThatMakeHeldOutPicturesWorseAreLeftOut) {
         EXPECT_LE(outcome.error[by], outcome.cubicError[by]);
 }
 
-TEST(TrainingPair, VideoIsTheMeanOverPixelsAndTheTargetWhatTheCubicMisses) {
+TEST(TrainingPair, VideoIsAreaAveragedAndTheTargetIsTheCubicsError) {
     const twin::Grey sharp =
         twin::greyOf({128, 96}, [](int x, int y) { return x < 64 && y < 48 ? 200.0 : 40.0; });
     const TrainingPair pair(sharp, {});

@@ -13,12 +13,11 @@ namespace {
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 
-constexpr double kShortest = 1e-9;     // baseline [m]
-constexpr double kLongestLine = 1e30;  // upper limit [m], finite in single precision
-constexpr float kLargestRho = 1e6F;    // [1/m]
-constexpr float kNearPlane = 0.05F;    // lower limit of z, in a's orientation, of b's ray (x, y, 1)
-constexpr float kNoAngle = 1e-9F;      // normalised units: below it rays are parallel, or the pixel
-                                       // is its own epipole
+constexpr double kShortest = 1e-9;     // a shorter baseline counts as zero [m]
+constexpr double kLongestLine = 1e30;  // clamp [m] that keeps single precision finite
+constexpr float kLargestRho = 1e6F;    // greater inverse depths are rejected [1/m]
+constexpr float kNearPlane = 0.05F;    // least z, in a's orientation, of the ray (x, y, 1) of b
+constexpr float kNoAngle = 1e-9F;      // [normalised units] below this, rays count as parallel
 
 std::size_t pixelsOf(Size size) {
     return static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
@@ -41,14 +40,14 @@ std::vector<SplitVector> raysOf(const CameraModel& camera) {
     return rays;
 }
 
-/// Motion from a to b, in the frame of a.
+/// The motion from view a to view b, in the frame of a.
 struct Motion {
     Eigen::Matrix3f turnHead = Eigen::Matrix3f::Zero(), turnTail = turnHead;  // R_a_b - I
-    Vector3f baselineHead{0, 0, 0}, baselineTail{0, 0, 0};                    // unit vector
-    float length = 1;                                                         // [m]
+    Vector3f baselineHead{0, 0, 0}, baselineTail{0, 0, 0};                    // unit baseline
+    float length = 1;                                                         // of the baseline [m]
 
     Motion() = default;
-    /// A zero baseline gives zero parallax everywhere, so that all depths are unknown.
+    /// A zero baseline gives zero parallax everywhere; so all depths are unknown.
     explicit Motion(const RigidTransform& T_b_a) {
         const Eigen::Matrix3d R_a_b = T_b_a.rotation.normalized().toRotationMatrix().transpose();
         const Eigen::Vector3d baseline = R_a_b * T_b_a.translation;
@@ -68,26 +67,27 @@ struct Motion {
     }
 };
 
-/// u and e in normalised coordinates of a, with the rotation removed: for a baseline of length 1, u
-/// = rho e / (1 + rho b.z).
+/// Parallax of a pixel in normalised coordinates of view a, after the rotation is removed. For a
+/// baseline of length 1, u = rho e / (1 + rho b.z).
 struct Parallax {
-    Vector2f ray;  // of view a
-    Vector2f u;    // residual flow
-    Vector2f e;    // b.xy - ray b.z
-    Vector3f b;    // unit baseline, zero if there is no baseline
+    Vector2f ray;  // of the pixel in view a
+    Vector2f u;    // flow that the rotation does not explain
+    Vector2f e;    // = b.xy - ray b.z, direction of the epipolar line
+    Vector3f b;    // unit baseline; zero if there is no baseline
 };
 
 float crossOf(const Vector2f& a, const Vector2f& b) {
     return a.x() * b.y() - a.y() * b.x();
 }
 
-/// |(ray, 1) x (v, 0)|^2
+/// Returns |(ray, 1) x (v, 0)|^2.
 float squaredNormal(const Vector2f& ray, const Vector2f& v) {
     const float z = crossOf(ray, v);
     return v.squaredNorm() + z * z;
 }
 
-/// The residual flow between a ray of a and one of b; empty if b's ray points behind a.
+/// The flow between a ray of a and a ray of b that the rotation does not explain. Empty if b's ray
+/// points behind a.
 std::optional<Vector2f> residualFlow(const Motion& motion, const SplitVector& a,
                                      const SplitVector& b) {
     const Vector3f head3 = b.head.homogeneous();
@@ -104,7 +104,7 @@ std::optional<Vector2f> residualFlow(const Motion& motion, const SplitVector& a,
     return (exact + rounded) / z;
 }
 
-/// Evaluates the flow of one pixel.
+/// Computes depth and its errors from the flow of one pixel.
 class PixelDepth {
 public:
     PixelDepth(const CameraModel& b, const Motion& motion, const TriangulationOptions& options)
@@ -128,23 +128,22 @@ public:
     }
 
 private:
-    /// rho = (u . e) / (|e|^2 - b_z (u . e)); the sign is that of u = rho e / (1 + rho b_z).
-    /// Source: design, section 3.
+    /// rho = (u . e) / (|e|^2 - b_z (u . e)), from u = rho e / (1 + rho b_z), whose sign it has.
     [[nodiscard]] static float fromFlow(const Parallax& s) {
         const float along = s.u.dot(s.e), d = s.e.squaredNorm() - s.b.z() * along;
         return d > 0 ? along / d : 0;
     }
 
-    /// Inverse depth of the midpoint of the shortest line between both rays. Source: paper; P =
-    /// A[R|t] = [Q|q~], c = -Q^-1 q~, w = c + lambda Q^-1 m. The ends of the line follow from the
-    /// rays' common normal, which the residual flow gives without cancellation.
+    /// Inverse depth of the midpoint of the shortest line between both rays, as in the paper: P =
+    /// A[R|t] = [Q|q~], c = -Q^-1 q~, w = c + lambda Q^-1 m. The ends of the line are found with
+    /// the common normal of the rays, which the residual flow gives without cancellation.
     [[nodiscard]] static float fromMidpoint(const Parallax& s) {
         const Vector3f n(-s.u.y(), s.u.x(), crossOf(s.ray, s.u));
         const Vector3f first = s.ray.homogeneous();
         const Vector3f second = (s.ray + s.u).eval().homogeneous();
         const Vector3f c = -s.b;
         const float lengths = n.squaredNorm();
-        const float onFirst = c.cross(second).dot(n);  // times |n|^2
+        const float onFirst = c.cross(second).dot(n);  // distance along the first ray, times |n|^2
         const float onSecond = c.cross(first).dot(n);
         const float z = 0.5F * (onFirst + onSecond + lengths * c.z());
         return onFirst > 0 && onSecond > 0 && z > 0 ? lengths / z : 0;
@@ -155,7 +154,8 @@ private:
         return focal_ * (along > kNoAngle ? crossOf(s.e, s.u) / along : s.u.norm());
     }
 
-    /// |b . n| / |n| with n = r x (u, 0), the normal of both rays; for parallel rays |b x r| / |r|.
+    /// Distance of both rays: |b . n| / |n|, where n = r x (u, 0) is the normal of both. For
+    /// parallel rays: |b x r| / |r|.
     [[nodiscard]] float rayDistance(const Parallax& s) const {
         const float n2 = squaredNormal(s.ray, s.u), apart = crossOf(s.u, s.e);
         const float square = n2 > kNoAngle * kNoAngle
@@ -164,8 +164,8 @@ private:
         return motion_.length * std::sqrt(square);
     }
 
-    /// Standard deviation of the flow form, to first order; no other method for the same depth has
-    /// a smaller one.
+    /// Standard deviation of fromFlow(), to first order. No other method for the same depth has a
+    /// smaller one.
     [[nodiscard]] float sigmaOf(const Parallax& s) const {
         const float ee = s.e.squaredNorm(), d = ee - s.b.z() * s.u.dot(s.e);
         const float sigma = flowSigma_ / focal_ * std::sqrt(ee) * ee / (d * d) / motion_.length;
@@ -198,7 +198,7 @@ const std::vector<TriangulatedPoint>& Triangulation::run(std::span<const float> 
         const Vector2f f(flow[2 * i], flow[2 * i + 1]), q = p + f;
         points_[i] = {0, kUnknownSigma, 0, 0};
         if (!(q.x() >= -0.5F && q.y() >= -0.5F && q.x() <= end.x() && q.y() <= end.y())) continue;
-        // The ray of the nearest pixel, plus the remaining fraction of a pixel.
+        // Takes the ray of the nearest pixel and adds the remaining fraction of a pixel.
         const Vector2f whole = (f.array() + 0.5F).floor();
         const Vector2f last = end.array() - 0.5F;
         const Vector2f pixel = (p + whole).cwiseMax(Vector2f::Zero()).cwiseMin(last);

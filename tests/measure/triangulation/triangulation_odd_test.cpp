@@ -4,7 +4,7 @@
 #include <limits>
 #include <random>
 
-/// For any input, the triangulation returns usable values or an unknown depth.
+/// For any input, triangulation must return usable values or an unknown depth.
 namespace mfar {
 namespace {
 
@@ -15,7 +15,7 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr auto kBothMethods = {TriangulationMethod::Flow, TriangulationMethod::Midpoint};
 
-/// Expects all numbers in their ranges; returns how many depths are known.
+/// Expects all numbers to be in their ranges. Returns the number of known depths.
 int checked(const std::vector<TriangulatedPoint>& points) {
     int known = 0;
     for (const TriangulatedPoint& p : points) {
@@ -98,7 +98,7 @@ TEST(TriangulationOdd, AnyFlowUnderAnyPoseGivesUsableNumbers) {
     EXPECT_GT(known, 10000);
 }
 
-// Forward motion: the epipole is a pixel of the picture, where e is zero.
+// The camera moves forward. The epipole is then a pixel of the picture, at which e is zero.
 TEST(TriangulationOdd, TheEpipoleItselfIsUnknown) {
     twin::TwoViews views = plainViews(moved(0, Vector3d::UnitX(), {0, 0, -0.1}));
     views.a.cx = views.b.cx = 30;

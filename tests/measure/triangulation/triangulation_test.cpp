@@ -6,30 +6,30 @@
 namespace mfar {
 namespace {
 
-constexpr int kComparedEvery = 37;  // pixels
+constexpr int kComparedEvery = 37;  // every 37th pixel is compared
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr auto kMethods = {TriangulationMethod::Flow, TriangulationMethod::Midpoint};
 
-/// Inverse depth of a point at which the rays of both views meet at the given angle.
+/// Inverse depth of the point at which the rays of both views meet at the given angle.
 double inverseDepthAt(const twin::TwoViews& views, const Vector2d& pixel, double angle) {
     const Vector3d ray = views.rayA(pixel).homogeneous().normalized();
     const Vector3d toB = views.T_b_a.inverse().translation;
     const double away = std::acos(ray.dot(toB.normalized()));
-    // Law of sines in the triangle of both centres and the point.
+    // Law of sines in the triangle of the two camera centres and the point.
     const double range = toB.norm() * std::sin(std::numbers::pi - away - angle) / std::sin(angle);
     return 1 / (range * ray.z());
 }
 
 struct Errors {
-    double worst = 0;  ///< relative error of inverse depth
+    double worst = 0;  ///< largest relative error of the inverse depth
     int compared = 0;
 };
 
-/// Compares with double precision: the same cameras, pose and flow, rounded to single precision for
-/// both. Uses every kComparedEvery-th pixel whose flow ends in view b.
+/// Compares with double precision. Both get the same cameras, pose and flow, rounded to single
+/// precision. Uses every kComparedEvery-th pixel whose flow ends in view b.
 template <class Oracle>
 Errors compare(const twin::TwoViews& views, const std::vector<float>& flow,
                TriangulationMethod method, Oracle oracle) {
@@ -74,7 +74,7 @@ TEST(Triangulation, IsWithinAMillionthDownToAHundredthOfADegree) {
         }
 }
 
-// The camera moves into the picture: depth is unknown at the epipole itself.
+// The camera moves forward into the scene. Depth is unknown at the epipole itself.
 TEST(Triangulation, IsWithinATenThousandthAroundTheEpipole) {
     const twin::TwoViews views = bentViews(moved(3, {1, 1, 2}, {0.002, 0.003, -0.1}));
     const auto flow = fieldOf(views.a.size, [&](const Vector2d& p) { return views.flow(p, 0.5); });
@@ -108,11 +108,11 @@ TEST(Triangulation, FindsTheDepthThatMadeTheFlow) {
         };
         const Errors errors = compare(views, flow, method, rhoOf);
         EXPECT_GT(errors.compared, 3000);
-        EXPECT_LT(errors.worst, 1e-5);  // rounding of the flow itself
+        EXPECT_LT(errors.worst, 1e-5);  // the flow itself is rounded to single precision
     }
 }
 
-/// A wall at 2 m whose flow has an error of some pixels in any direction.
+/// A wall at 2 m. Its flow has an error of a few pixels, in any direction.
 struct OffLine {
     twin::TwoViews views = bentViews(moved(2, {1, -1, 2}, {0.1, 0.08, -0.05}));
     std::vector<float> flow = fieldOf(views.a.size, [this](const Vector2d& p) {
@@ -156,7 +156,7 @@ TEST(Triangulation, PointsBehindACameraAreUnknown) {
     const auto fast = triangulated(wall.views, wall.flow, {});
     const auto middle =
         triangulated(wall.views, wall.flow, {.method = TriangulationMethod::Midpoint});
-    // If the parallax points the other way, the rays meet behind the cameras.
+    // With the parallax reversed, the rays meet behind the cameras.
     const auto turned =
         fieldOf(wall.views.a.size, [&](const Vector2d& p) { return wall.views.flow(p, -0.5); });
     for (const TriangulationMethod method : kMethods)
@@ -225,7 +225,7 @@ TEST(Triangulation, SigmaGrowsWithoutBoundAsTheBaselineVanishes) {
 
 TEST(Triangulation, TheResidualHasTheSignAndTheLengthOfTheFlowBesideTheLine) {
     const twin::TwoViews views = plainViews(moved(0, Vector3d::UnitX(), {-0.2, 0, 0}));
-    // Nearer points lie to the left; clockwise from there is up.
+    // Nearer points move to the left; a quarter turn clockwise from left is up.
     for (const double off : {-3.0, 0.5}) {
         const auto points = triangulated(
             views, fieldOf({64, 48}, [&](const Vector2d&) { return Vector2d(-4, off); }));

@@ -6,7 +6,7 @@
 namespace mfar::eval {
 namespace {
 
-/// An input sample of a result, and its weight.
+/// One input sample of a result, with its weight.
 struct ResizeTap {
     std::vector<int> index;
     std::vector<double> weight;

@@ -6,8 +6,8 @@
 
 namespace mfar::eval {
 
-/// Complex two-dimensional Fourier transform of pictures of one size, CV_64FC2, in place and not
-/// scaled. Construct on one thread at a time; run() is thread-safe.
+/// Complex two-dimensional Fourier transform of pictures of one size, CV_64FC2, in place, not
+/// scaled. Only one thread may construct an object at a time; run() is thread-safe.
 class ComplexFft {
 public:
     enum class Direction { Forward, Inverse };

@@ -14,17 +14,17 @@ cv::Mat everywhere(const cv::Mat& like) {
     return {like.size(), CV_8U, cv::Scalar(255)};
 }
 
-TEST(DepthError, CountsWhatIsOffAndWhatIsKnown) {
+TEST(DepthError, CountsWrongAndKnownPixels) {
     const cv::Mat truth = (cv::Mat_<float>(1, 6) << 0.5F, 0.5F, 0.5F, 0.5F, kNan, 0);
     const cv::Mat rho = (cv::Mat_<float>(1, 6) << 0.5F, 0.4F, 0.48F, 0, 1, 1);
     const DepthError error = depthError(rho, truth, 20, everywhere(truth));
     EXPECT_EQ(error.pixels, 4U);
-    EXPECT_NEAR(error.absrel, 0.5 / 0.48 - 1, 1e-6);  // median of 0, 1/4, 1/24
-    EXPECT_DOUBLE_EQ(error.bad1, 0.5);                // one is wrong by 2 px, one is unknown
+    EXPECT_NEAR(error.absrel, 0.5 / 0.48 - 1, 1e-6);  // median of the errors 0, 1/4 and 1/24
+    EXPECT_DOUBLE_EQ(error.bad1, 0.5);                // one pixel is wrong by 2 px, one is unknown
     EXPECT_DOUBLE_EQ(error.completeness, 0.75);
 }
 
-TEST(DepthError, DeltaCountsRatiosEitherWay) {
+TEST(DepthError, DeltaCountsRatiosInBothDirections) {
     const cv::Mat truth(1, 5, CV_32F, cv::Scalar(1));
     const cv::Mat rho = (cv::Mat_<float>(1, 5) << 1.2F, 1 / 1.3F, 1.9F, 2, 0);
     const DepthError error = depthError(rho, truth, 10, everywhere(truth));
@@ -33,7 +33,7 @@ TEST(DepthError, DeltaCountsRatiosEitherWay) {
     EXPECT_DOUBLE_EQ(error.delta[2], 0.6);  // 1.25^3 = 1.95
 }
 
-TEST(DepthSparsification, OrdersByVarianceWhereBothAreKnown) {
+TEST(DepthSparsification, OrdersPixelsByVarianceWhereBothDepthsAreKnown) {
     const cv::Mat truth = (cv::Mat_<float>(1, 5) << 1, 1, 1, 1, kNan);
     const cv::Mat rho = (cv::Mat_<float>(1, 5) << 1.1F, 1.2F, 1.4F, 0, 9);
     const cv::Mat variance = (cv::Mat_<float>(1, 5) << 0.1F, 0.2F, 0.3F, kNan, kNan);
@@ -41,7 +41,7 @@ TEST(DepthSparsification, OrdersByVarianceWhereBothAreKnown) {
     EXPECT_GT(depthSparsification(rho, 1 - variance, truth, 10).ausePerRandom, 1);
 }
 
-TEST(DepthError, LooksAtTheMaskOnly) {
+TEST(DepthError, CountsOnlyPixelsInTheMask) {
     const cv::Mat truth(2, 2, CV_32F, cv::Scalar(1));
     const cv::Mat rho = (cv::Mat_<float>(2, 2) << 1, 2, 2, 2);
     cv::Mat mask = everywhere(truth) & 0;
@@ -51,7 +51,7 @@ TEST(DepthError, LooksAtTheMaskOnly) {
     EXPECT_EQ(depthError(rho, truth, 10, mask).bad1, 0);
 }
 
-TEST(DepthError, AnythingNotAboveZeroIsUnknown) {
+TEST(DepthError, ValuesNotAboveZeroAreUnknown) {
     const cv::Mat truth(1, 4, CV_32F, cv::Scalar(1));
     const cv::Mat rho = (cv::Mat_<float>(1, 4) << kNan, -1, 0, INFINITY);
     const DepthError error = depthError(rho, truth, 10, everywhere(truth));
@@ -63,7 +63,7 @@ TEST(DepthError, AnythingNotAboveZeroIsUnknown) {
 TEST(DepthError, EdgesAreWhereDepthJumps) {
     cv::Mat truth(9, 40, CV_32F);
     for (int y = 0; y < truth.rows; ++y)
-        for (int x = 0; x < truth.cols; ++x)  // with a slope, a step and a hole
+        for (int x = 0; x < truth.cols; ++x)  // the surface has a slope, a step and a hole
             truth.at<float>(y, x) = x < 20 ? 1 + 0.02F * x : (x < 32 ? 3 : kNan);
     const cv::Mat edge = nearDepthEdge(truth, 4);
     for (int x = 0; x < truth.cols; ++x)

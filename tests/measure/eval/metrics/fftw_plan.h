@@ -9,7 +9,7 @@ namespace mfar::eval {
 struct FftwPlanDelete {
     void operator()(fftw_plan_s* plan) const;
 };
-/// A plan of FFTW for a transform. FFTW makes plans on one thread at a time; any thread may execute
+/// A plan of FFTW for a transform. Only one thread at a time may make plans; any thread may execute
 /// them.
 using FftwPlan = std::unique_ptr<fftw_plan_s, FftwPlanDelete>;
 

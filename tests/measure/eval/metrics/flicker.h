@@ -4,14 +4,14 @@
 
 namespace mfar::eval {
 
-/// Flicker of scene points from one picture to the next: root mean square of the change of the
-/// error along the true motion, over the square root of two. For independent errors that is their
-/// standard deviation. Moving objects and changing light are in both errors and do not count, nor
-/// does an error that stays with its point. [grey levels]
+/// Flicker of scene points from one picture to the next. It is the root mean square change of a
+/// point's error along the true motion, divided by the square root of two. For independent errors
+/// this is their standard deviation. An error that stays with its point does not count. [grey
+/// levels]
 ///
-/// `before`, `after`: errors of two consecutive pictures, CV_64F, same size, with `border` pixels
-/// cut off at all sides. `flow`: CV_32FC2 of the video's size, from the first to the second [video
-/// px]; not finite or above 1e9: unknown. NaN if no point is in both.
+/// `before`, `after`: errors of two consecutive pictures, CV_64F, same size; `border` pixels are
+/// cut off at each side. `flow`: CV_32FC2 of the video's size, from the first picture to the second
+/// [video px]; unknown if not finite or above 1e9. Returns NaN if no point is in both pictures.
 [[nodiscard]] double flicker(const cv::Mat& before, const cv::Mat& after, const cv::Mat& flow,
                              int border);
 

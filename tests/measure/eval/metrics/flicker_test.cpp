@@ -21,7 +21,7 @@ cv::Mat flowOf(float x, float y) {
     return {48, 64, CV_32FC2, cv::Scalar(x, y)};
 }
 
-TEST(Flicker, ErrorsThatStayWithTheirPlaceDoNotCount) {
+TEST(Flicker, ErrorsThatStayWithTheirPointDoNotCount) {
     const cv::Mat all = noise(5, 1, {248, 180});
     const cv::Mat before = all(cv::Rect(8, 4, 240, 176)), after = all(cv::Rect(0, 0, 240, 176));
     EXPECT_NEAR(flicker(before, after, flowOf(2, 1), kBorder), 0, 1e-9) << "moved by (8, 4)";
@@ -29,11 +29,11 @@ TEST(Flicker, ErrorsThatStayWithTheirPlaceDoNotCount) {
     EXPECT_GT(flicker(before, after, flowOf(1, 2), kBorder), 4) << "x and y";
 }
 
-TEST(Flicker, IndependentErrorsGiveTheirDeviation) {
+TEST(Flicker, IndependentErrorsGiveTheirStandardDeviation) {
     EXPECT_NEAR(flicker(noise(3, 1), noise(3, 2), flowOf(0, 0), kBorder), 3, 0.05);
 }
 
-TEST(Flicker, OnlyPlacesThatAreInBothCount) {
+TEST(Flicker, OnlyPointsInBothPicturesCount) {
     cv::Mat flow = flowOf(0, 0);
     flow.at<cv::Vec2f>(20, 30) = {std::numeric_limits<float>::quiet_NaN(), 0};
     flow.at<cv::Vec2f>(20, 31) = {1e10F, 0};

@@ -4,8 +4,9 @@
 
 namespace mfar::eval {
 
-/// Share of pixels whose error exceeds that of plain bicubic up-scaling by more than `tolerance`
-/// grey levels: there the method did harm. All CV_64F in grey levels, same size.
+/// Share of the pixels whose error exceeds that of plain bicubic enlargement by more than
+/// `tolerance` grey levels. At these pixels the method did harm. All pictures CV_64F in grey
+/// levels, same size.
 [[nodiscard]] double harmRate(const cv::Mat& picture, const cv::Mat& bicubic, const cv::Mat& truth,
                               double tolerance = 2);
 

@@ -8,11 +8,11 @@
 
 namespace mfar::eval {
 
-/// The display that shows a picture.
+/// The display on which a picture is viewed.
 struct HdrVdpDisplay {
     double peak = 100, black = 1;  ///< luminance of white and of black [cd/m^2]
-    double gamma = 2.2;            ///< for grey pictures; colours are sRGB
-    double pixelsPerDegree = 30;   ///< of the visual field
+    double gamma = 2.2;            ///< for grey pictures; colours are always sRGB
+    double pixelsPerDegree = 30;   ///< pixels per degree of the visual field
 };
 
 /// Pixels per degree at the centre of a screen: diagonal [inches], distance [m].
@@ -23,33 +23,34 @@ struct HdrVdpDisplay {
 /// impossible display.
 [[nodiscard]] cv::Mat displayedLight(const cv::Mat& picture, const HdrVdpDisplay& display);
 
-/// One orientation of one band of the pyramid, for both pictures together.
+/// What one orientation of one band of the pyramid contributes, for both pictures together.
 struct HdrVdpBand {
     int band = 1, orientation = 1;  ///< counted from 1
     cv::Size size;
     double frequency = 0;  ///< [cycles/degree]
-    double weight = 0;     ///< in the quality of release 2.2.2
+    double weight = 0;     ///< weight in the quality score of release 2.2.2
     double error = 0;      ///< root of the summed squares of D where the pictures differ, per pixel
-    double sumAbsolute = 0;                  ///< of D, the masked difference
-    double meanReference = 0, meanTest = 0;  ///< means of absolute band values
+    double sumAbsolute = 0;                  ///< sum of |D|; D is the masked difference
+    double meanReference = 0, meanTest = 0;  ///< means of the absolute band values of each picture
     double meanSensitivity = 0, meanSelfMask = 0, meanMasking = 0;
 };
 
 struct HdrVdpResult {
-    double q = 0;     ///< of releases 2.2.1 and 2.2.2: 100 = no difference, no lower bound
-    double q220 = 0;  ///< the sum from which release 2.2.0 computes Q_MOS
-    double qMos = 0;  ///< of release 2.2.0, [0, 100]
+    double q = 0;     ///< score of releases 2.2.1 and 2.2.2; 100: equal; no lower bound
+    double q220 = 0;  ///< the sum from which release 2.2.0 computes its Q_MOS
+    double qMos = 0;  ///< Q_MOS of release 2.2.0, [0, 100]
     std::vector<HdrVdpBand> bands;
 };
 
-/// Quality of a picture against a reference as predicted by HDR-VDP-2 (Mantiuk et al. 2011; weights
+/// Quality of a picture against a reference, predicted by HDR-VDP-2 (Mantiuk et al. 2011; weights
 /// of Narwaria et al. 2015), with the constants and the dark surround (1e-5 cd/m^2) of releases
-/// 2.2.x. Q falls with the pixels per degree and rises with the size: only compare values with
-/// equal ones.
+/// 2.2.x. Q falls with the pixels per degree and rises with the size; so compare only values of
+/// equal size and equal pixels per degree.
 ///
-/// Both pictures: light [cd/m^2], CV_64F, or CV_64FC3 (B G R of `emission`), same size, at least
-/// 17x17; as returned by displayedLight(). Throws std::invalid_argument for other pictures, and for
-/// light or pixels per degree that are not finite and positive. From one thread at a time.
+/// Both pictures hold light [cd/m^2] as returned by displayedLight(): CV_64F, or CV_64FC3 (B G R of
+/// `emission`), same size, at least 17x17. Throws std::invalid_argument for other pictures, and for
+/// light or pixels per degree that are not finite and positive. Only one thread may call it at a
+/// time.
 [[nodiscard]] HdrVdpResult hdrVdp(const cv::Mat& test, const cv::Mat& reference,
                                   double pixelsPerDegree,
                                   hdrvdp::Emission emission = hdrvdp::Emission::FluorescentLcd);

@@ -15,7 +15,7 @@
 namespace mfar::eval::hdrvdp {
 namespace {
 
-constexpr int kLeastSide = 17;  // smallest side of a picture that is divided further
+constexpr int kLeastSide = 17;  // a picture with a smaller side is not divided further
 int levelsOf(cv::Size size) {
     int out = 0;
     for (; size.width >= kLeastSide && size.height >= kLeastSide; ++out)
@@ -35,12 +35,13 @@ cv::Mat logOfMean(const cv::Mat& a, const cv::Mat& b) {
     return out;
 }
 
-/// Input for comparing a row of a band; the base has no sensitivity of its own.
+/// Input for comparing one row of a band. `sensitivity` is null for the base, which has none of its
+/// own.
 struct BandRow {
     const double *difference, *self, *others, *beside, *sensitivity, *weight;
 };
 
-/// Sums over a row: squared visible difference times squared weight, visible difference, and
+/// Three sums over a row: squared visible difference times squared weight, visible difference, and
 /// masking.
 cv::Vec3d comparedRow(const BandRow& row, int cols, double norm) {
     const Masking& by = masking();
@@ -104,7 +105,8 @@ void BandComparison::decompose(Pathways pathways) {
     addBase(test, reference, testLuminance, referenceLuminance);
 }
 
-// The base is filtered by frequency here, because it is too coarse for a single sensitivity.
+// The base is filtered by frequency, because one sensitivity for all its frequencies would be too
+// coarse.
 void BandComparison::addBase(const cv::Mat& test, const cv::Mat& reference, double testLuminance,
                              double referenceLuminance) {
     Band& base = bands_.back();
@@ -157,7 +159,7 @@ HdrVdpBand BandComparison::compare(std::size_t b, std::size_t o, const cv::Mat& 
                  weight.ptr<double>(y)},
                 self.cols, band.norm);
     });
-    // Summed in the order of the rows, so that the result does not depend on the number of threads.
+    // Sums in the order of the rows, so that the result does not depend on the number of threads.
     const cv::Vec3d total = std::accumulate(sums.begin(), sums.end(), cv::Vec3d(0, 0, 0));
     const auto pixels = static_cast<double>(self.total());
     return {static_cast<int>(b) + 1,

@@ -12,10 +12,10 @@ namespace {
 constexpr int kLuminances = 2048;  // entries of the receptors' tables
 constexpr int kCurveSamples = 256;
 constexpr double kLeastLog = -5, kMostLog = 5;
-// Scales the sensitivities to measured ones.
+// Factor that scales the model's sensitivities to measured ones.
 constexpr double kPeakSensitivity = 0.006894596;
 
-/// Piecewise linear between ascending or descending nodes, constant beyond.
+/// Interpolates linearly between nodes in ascending or descending order; constant outside them.
 template <std::size_t N>
 double interpolated(const std::array<double, N>& at, const std::array<double, N>& values,
                     double x) {
@@ -28,7 +28,7 @@ double interpolated(const std::array<double, N>& at, const std::array<double, N>
     return values[i - 1] + t * (values[i] - values[i - 1]);
 }
 
-/// Reads a table over evenly spaced logarithms of the luminance.
+/// Looks up a table whose entries are evenly spaced in the logarithm of the luminance.
 double fromLogTable(const std::vector<double>& table, double log) {
     const auto last = static_cast<double>(table.size() - 1);
     const double at =
@@ -41,8 +41,8 @@ double luminanceAt(int i) {
     return std::pow(10, kLeastLog + (kMostLog - kLeastLog) * i / (kLuminances - 1));
 }
 
-/// Sensitivity of one kind of L or M cones, taken as equal, at every luminance of the table: half
-/// of their joint sensitivity.
+/// Sensitivity of the L cones, or of the M cones, at every luminance of the table. Both are taken
+/// as equal: each has half of their joint sensitivity.
 std::vector<double> coneSensitivities() {
     std::vector<double> both(kLuminances), out(kLuminances);
     for (int i = 0; i < kLuminances; ++i)
@@ -58,7 +58,7 @@ std::vector<double> coneSensitivities() {
     return out;
 }
 
-/// Number of just noticeable steps from the darkest luminance.
+/// Number of just noticeable steps from the darkest luminance to each luminance.
 std::vector<double> integrated(const std::vector<double>& sensitivity) {
     const double step = (kMostLog - kLeastLog) / (kLuminances - 1) * std::numbers::ln10;
     const double scale = kPeakSensitivity / std::pow(10, -2.4);

@@ -6,17 +6,17 @@
 
 namespace mfar::eval::hdrvdp {
 
-/// A picture after the eye's stages that precede the spatial channels. CV_64F of the picture's
-/// size.
+/// A picture after the eye's stages before the spatial channels. CV_64F of the picture's size.
 struct Pathway {
     cv::Mat adaptation;  ///< luminance to which each pixel is adapted [cd/m^2]
-    cv::Mat achromatic;  ///< response of cones and rods together, less its mean [JND]
+    cv::Mat achromatic;  ///< response of cones and rods together, minus its mean [JND]
 };
 struct Pathways {
     Pathway test, reference;
 };
 
-/// Optics, photoreceptors and their sum, for both pictures; light as in hdrVdp().
+/// Applies the eye's optics and photoreceptors to both pictures and sums the responses. Light as in
+/// hdrVdp().
 [[nodiscard]] Pathways pathways(const cv::Mat& test, const cv::Mat& reference,
                                 double pixelsPerDegree,
                                 Emission emission = Emission::FluorescentLcd);

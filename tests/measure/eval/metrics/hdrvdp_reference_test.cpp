@@ -21,7 +21,7 @@ void expectRelative(double value, double wanted, double relative, const std::str
     EXPECT_NEAR(value, wanted, relative * std::abs(wanted) + 1e-15) << what;
 }
 
-/// The light of a picture of the reference set.
+/// Computes the light that a display emits for a picture of the reference set.
 cv::Mat lightOf(const std::string& name, const std::string& encoding) {
     HdrVdpDisplay display;
     if (encoding == "luminance") {
@@ -36,7 +36,7 @@ std::string keyOf(const ReferenceRow& row) {
            row.text("ppd");
 }
 
-/// The number after a sign like L=0.1.
+/// The number after the equals sign, as in L=0.1.
 double numberAfter(const std::string& text) {
     return std::stod(text.substr(text.find('=') + 1));
 }
@@ -46,7 +46,8 @@ hdrvdp::Emission emissionNamed(const std::string& quantity) {
     return quantity.ends_with("led-lcd") ? hdrvdp::Emission::LedLcd : hdrvdp::Emission::Crt;
 }
 
-/// The program's value for a row of the table of constants; NaN if the row is not used by any part.
+/// The program's value for a row of the table of constants; NaN if the program does not use the
+/// row.
 double constantOf(const ReferenceRow& row, const hdrvdp::ReceptorResponse& response) {
     const std::string &quantity = row.text("quantity"), &a = row.text("arg1"),
                       &b = row.text("arg2");
@@ -73,7 +74,7 @@ double constantOf(const ReferenceRow& row, const hdrvdp::ReceptorResponse& respo
     return NAN;
 }
 
-TEST(HdrVdpReference, ConstantsOfTheEye) {
+TEST(HdrVdpReference, ConstantsOfTheEyeMatchTheReferenceTable) {
     const auto table = referenceTable("hdrvdp2_constants.csv");
     if (table.empty()) GTEST_SKIP() << test::referenceFolder().string() << " is not there";
     const hdrvdp::ReceptorResponse response;
@@ -85,11 +86,11 @@ TEST(HdrVdpReference, ConstantsOfTheEye) {
         expectRelative(got, row.number("value"), 1e-9, what);
         ++checked;
     }
-    // All but the S cones, which are not used, and factors contained in others.
+    // Not checked: the S cones, which are not used, and factors that other rows contain.
     EXPECT_EQ(checked, 3 + 27 + 36 + 12 + 90 + 24 + 5 + 2);
 }
 
-TEST(HdrVdpReference, FiltersOfThePyramid) {
+TEST(HdrVdpReference, PyramidFiltersMatchTheReferenceTable) {
     std::ifstream in(test::referenceFolder() / "sp3_filters.txt");
     if (!in) GTEST_SKIP() << test::referenceFolder().string() << " is not there";
     const SteerableFilters got = steerableFilters();
@@ -111,7 +112,7 @@ TEST(HdrVdpReference, FiltersOfThePyramid) {
     EXPECT_EQ(seen, filters.size());
 }
 
-TEST(HdrVdpReference, PathwayOfEveryPicture) {
+TEST(HdrVdpReference, PathwayOfEveryPictureMatchesTheReferenceTable) {
     const auto table = referenceTable("hdrvdp2_pathway.csv");
     if (table.empty()) GTEST_SKIP() << test::referenceFolder().string() << " is not there";
     for (const auto& row : table) {
@@ -158,7 +159,7 @@ void expectBand(const HdrVdpBand& got, const ReferenceRow& row, const std::strin
     check(got.meanMasking, "mean_N_mask");
 }
 
-TEST(HdrVdpReference, QualityAndBandsOfEveryPair) {
+TEST(HdrVdpReference, QualityAndBandsOfEveryPairMatchTheReferenceTable) {
     const auto table = referenceTable("hdrvdp2.csv");
     if (table.empty()) GTEST_SKIP() << test::referenceFolder().string() << " is not there";
     std::map<std::string, std::vector<ReferenceRow>> bands;

@@ -22,7 +22,7 @@ double q(const cv::Mat& test, const cv::Mat& reference, const HdrVdpDisplay& dis
         .q;
 }
 
-TEST(DisplayedLight, RunsFromBlackToWhite) {
+TEST(DisplayedLight, LightRangesFromBlackToWhite) {
     const cv::Mat grey = (cv::Mat_<double>(1, 3) << 0, 127.5, 255);
     const cv::Mat light = displayedLight(grey, {.peak = 200, .black = 2});
     EXPECT_DOUBLE_EQ(light.at<double>(0), 2);
@@ -48,13 +48,13 @@ TEST(DisplayedLight, ImpossibleValuesAreRefused) {
     EXPECT_THROW((void)displayedLight(grey, {.gamma = nan}), std::invalid_argument);
 }
 
-TEST(HdrVdp, EqualPicturesAreAHundred) {
+TEST(HdrVdp, EqualPicturesScoreAHundred) {
     const cv::Mat grey = smoothNoise({50, 41}), colour = smoothNoise({33, 20}, 3);
     EXPECT_EQ(q(grey, grey), 100);
     EXPECT_EQ(q(colour, colour), 100);
 }
 
-TEST(HdrVdp, FallsAsTheNoiseRises) {
+TEST(HdrVdp, ScoreFallsAsNoiseRises) {
     const cv::Mat clean = smoothNoise({64, 48});
     cv::Mat noise(clean.size(), CV_64F);
     cv::RNG(3).fill(noise, cv::RNG::UNIFORM, -1, 1);
@@ -67,8 +67,8 @@ TEST(HdrVdp, FallsAsTheNoiseRises) {
     }
 }
 
-// A difference below a thousandth of the light does not count, and larger ones only count where
-// they are.
+// A difference below a thousandth of the light does not count. A larger difference counts only at
+// its own pixels.
 TEST(HdrVdp, DifferencesBelowAThousandthAreInvisible) {
     const cv::Mat light(40, 40, CV_64F, cv::Scalar(50));
     EXPECT_EQ(hdrVdp(light * 1.0009, light, 30).q, 100);

@@ -25,8 +25,8 @@ Complex* complexRow(cv::Mat& values, int y) {
     return reinterpret_cast<Complex*>(values.ptr<cv::Vec2d>(y));
 }
 
-/// Frequencies [cycles/px] of the bins of one axis. Odd lengths divide by one less, as the release
-/// does.
+/// Frequencies of the bins of one axis [cycles/px]. As in the authors' release, odd lengths are
+/// divided by one less.
 std::vector<double> binFrequencies(int n) {
     std::vector<double> out(static_cast<std::size_t>(n));
     for (int k = 0; k < n; ++k)
@@ -35,7 +35,7 @@ std::vector<double> binFrequencies(int n) {
     return out;
 }
 
-/// Parts shared by all filters of a picture's size.
+/// What all filters of one picture size share.
 struct FilterParts {
     std::array<cv::Mat, kScales> radial;
     cv::Mat angle;
@@ -67,7 +67,7 @@ FilterParts filterParts(cv::Size size, double sigmaRatio) {
     return out;
 }
 
-/// Sum over all pixels, in an order that does not depend on the number of threads.
+/// Sums a function over all pixels, in an order that does not depend on the number of threads.
 double sumOf(cv::Size size, const std::function<double(int y, int x)>& value) {
     std::vector<double> sums(static_cast<std::size_t>(size.height), 0);
     cv::parallel_for_({0, size.height}, [&](const cv::Range& rows) {
@@ -109,11 +109,11 @@ public:
         return out;
     }
 
-    /// Eq. 33 for every pixel.
+    /// Evaluates eq. 33 for every pixel.
     [[nodiscard]] cv::Mat map() const { return coherent_ / (weight_ + kRegularity); }
 
 private:
-    /// Computes the responses at every scale; returns the sums of the gains.
+    /// Computes the responses at every scale. Returns the sum of the filter's gains at each scale.
     std::array<double, kScales> respond(double direction) {
         cv::Mat lobe(spectrum_.size(), CV_64F);
         cv::parallel_for_({0, lobe.rows}, [&](const cv::Range& rows) {
@@ -156,7 +156,7 @@ private:
         return out;
     }
 
-    /// Eq. 32 for one pixel from its responses, at least 0.
+    /// Evaluates eq. 32 for one pixel from its responses; negative results become 0.
     static double coherence(const Complex& c1, const Complex& c2, const Complex& c3) {
         const auto phase = [](const Complex& c) {
             const double amplitude = std::sqrt(std::norm(c));
@@ -166,7 +166,7 @@ private:
         return std::max(0.0, (a * b * b * b * c * c).real());
     }
 
-    /// Adds an orientation to both sums of eq. 33; returns the sum of its weights.
+    /// Adds one orientation to both sums of eq. 33. Returns the sum of its weights.
     double accumulate(const cv::Mat& amplitude, double threshold) {
         return sumOf(amplitude.size(), [&](int y, int x) {
             const double energy = amplitude.at<double>(y, x) - threshold;
@@ -185,13 +185,13 @@ private:
     std::array<cv::Mat, kScales> responses_;
 };
 
-/// Eqs. 34 and 35: the mean of the sorted values with weights that decrease with the rank.
+/// Eqs. 34 and 35: mean of the values, sorted, with weights that decrease with the rank.
 double pooled(const cv::Mat& map) {
     std::vector<double> values;
     for (int y = 0; y < map.rows; ++y)
         values.insert(values.end(), map.ptr<double>(y), map.ptr<double>(y) + map.cols);
     const auto last = static_cast<double>(values.size() - 1);
-    // Weights below 1e-17 change nothing.
+    // Values whose weight is below 1e-17 change nothing and are skipped.
     const auto count =
         std::min(values.size(), static_cast<std::size_t>(40 * kRankDecay * last) + 2);
     const auto end = values.begin() + static_cast<std::ptrdiff_t>(count);
@@ -205,7 +205,7 @@ double pooled(const cv::Mat& map) {
     return sum / weights;
 }
 
-/// Interpolates between sorted values, the first at 0 and the last at 1.
+/// Interpolates between sorted values. Share 0 gives the first value, share 1 the last.
 double quantile(const std::vector<double>& sorted, double share) {
     const double at = share * static_cast<double>(sorted.size() - 1);
     const auto i = static_cast<std::size_t>(at);

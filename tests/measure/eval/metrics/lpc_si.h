@@ -6,39 +6,39 @@
 
 namespace mfar::eval {
 
-/// Ratio of the filters' spread to their centre frequency: in the authors' release 1.0, and in a
-/// variant in circulation, whose values are higher and not comparable.
+/// Ratio of a filter's spread to its centre frequency: in the authors' release 1.0, and in another
+/// version that is in circulation. Values of that version are higher and cannot be compared.
 inline constexpr double kLpcRelease = 0.75, kLpcVariant = 0.33;
 
-/// Contribution of one of the eight orientations.
+/// What one of the eight orientations contributes.
 struct LpcOrientation {
-    std::array<double, 3> filterSum{};    ///< sum of the gains at each scale, finest first
-    double mean = 0, deviation = 0;       ///< amplitude at the finest scale, within the border
-    double threshold = 0;                 ///< minimum amplitude that counts
+    std::array<double, 3> filterSum{};    ///< sum of the filter's gains at each scale, finest first
+    double mean = 0, deviation = 0;       ///< of the finest scale's amplitude, without border
+    double threshold = 0;                 ///< smaller amplitudes do not count
     double energy = 0;                    ///< sum of amplitudes above the threshold, whole picture
-    std::array<double, 2> coarserMean{};  ///< amplitude at the other scales, whole picture
+    std::array<double, 2> coarserMean{};  ///< mean amplitude at the other scales, whole picture
 };
 
 struct LpcSharpness {
     double index = 0;                ///< LPC-SI, [0, 1): larger is sharper
-    double mapMax = 0, mapMean = 0;  ///< of the local values within the border
+    double mapMax = 0, mapMean = 0;  ///< of the local values, without the border
     std::array<LpcOrientation, 8> orientations{};
 };
 
 /// Local phase coherence sharpness index (Hassen, Wang, Salama 2013, eqs. 21 to 35), as computed by
-/// the authors' release 1.0. The sharpest ten thousandth of the pixels decides it, so that a single
-/// sharp patch makes a whole picture sharp: see also lpcTiles(). CV_64F in grey levels [0, 255], at
-/// least 32x32. Throws std::invalid_argument for other pictures and for values that are not finite.
-/// From one thread at a time.
+/// the authors' release 1.0. The sharpest ten-thousandth of the pixels determines it; so a single
+/// sharp patch makes a whole picture count as sharp. lpcTiles() avoids this. `picture`: CV_64F in
+/// grey levels [0, 255], at least 32x32. Throws std::invalid_argument for other pictures and for
+/// values that are not finite. Only one thread may call it at a time.
 [[nodiscard]] LpcSharpness lpcSharpness(const cv::Mat& picture, double sigmaRatio = kLpcRelease);
 [[nodiscard]] double lpcSi(const cv::Mat& picture, double sigmaRatio = kLpcRelease);
 
-/// Distribution of lpcSi() over 8x8 tiles of equal size, each computed separately.
+/// Distribution of lpcSi() over 8x8 tiles of equal size; each tile is computed separately.
 struct LpcTiles {
     double p10 = 0, median = 0, p90 = 0;
 };
-inline constexpr int kLpcTiles = 8;          ///< in each direction
-inline constexpr int kLpcSmallestSide = 32;  ///< of a picture or tile [px]
+inline constexpr int kLpcTiles = 8;          ///< tiles in each direction
+inline constexpr int kLpcSmallestSide = 32;  ///< smallest side of a picture or tile [px]
 [[nodiscard]] LpcTiles lpcTiles(const cv::Mat& picture, double sigmaRatio = kLpcRelease);
 
 }  // namespace mfar::eval

@@ -11,12 +11,12 @@ namespace {
 using test::referencePicture;
 using test::referenceTable;
 
-/// The tables have eight decimals or ten digits.
+/// Tolerance: the tables have eight decimals or ten digits.
 void expectNear(double value, double wanted, double relative, const std::string& what) {
     EXPECT_NEAR(value, wanted, std::max(relative * std::abs(wanted), 1e-8)) << what;
 }
 
-TEST(LpcSiReference, IndexAndMapOfEveryPicture) {
+TEST(LpcSiReference, IndexAndMapOfEveryPictureMatchTheReferenceTable) {
     const auto table = referenceTable("lpc_si.csv");
     if (table.empty()) GTEST_SKIP() << test::referenceFolder().string() << " is not there";
     for (const auto& row : table) {
@@ -34,7 +34,7 @@ TEST(LpcSiReference, IndexAndMapOfEveryPicture) {
     EXPECT_EQ(table.size(), 26U);
 }
 
-TEST(LpcSiReference, WhatEveryOrientationContributes) {
+TEST(LpcSiReference, OrientationContributionsMatchTheReferenceTable) {
     const auto table = referenceTable("lpc_si_intermediate.csv");
     if (table.empty()) GTEST_SKIP() << test::referenceFolder().string() << " is not there";
     std::map<std::string, LpcSharpness> results;

@@ -9,7 +9,7 @@
 namespace mfar::eval {
 namespace {
 
-/// Edges in many places and directions, without repetition.
+/// Edges at many places, in many directions, without repetition.
 cv::Mat shapes(cv::Size size) {
     cv::Mat out(size, CV_64F, cv::Scalar(120));
     cv::RNG random(3);
@@ -25,7 +25,7 @@ cv::Mat softened(const cv::Mat& picture, double sigma) {
     return out;
 }
 
-TEST(LpcSi, FallsWithBlurInBothForms) {
+TEST(LpcSi, IndexFallsWithBlurInBothVersions) {
     cv::Mat edge(80, 96, CV_64F, cv::Scalar(50));
     edge.colRange(41, 96) = 200;
     for (const double ratio : {kLpcRelease, kLpcVariant}) {
@@ -41,7 +41,7 @@ TEST(LpcSi, EmptyPicturesAreNotSharp) {
     EXPECT_NEAR(lpcSi(cv::Mat(40, 50, CV_64F, cv::Scalar(128))), 0, 1e-9);
 }
 
-// The reason for the tiles.
+// lpcTiles() exists for this case.
 TEST(LpcTiles, DistinguishOneSharpPatchFromASharpPicture) {
     const cv::Mat sharp = shapes({320, 256});
     cv::Mat patched = softened(sharp, 3);

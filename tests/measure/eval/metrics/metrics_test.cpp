@@ -24,7 +24,7 @@ cv::Mat noise(cv::Size size = {64, 48}) {
     return out;
 }
 
-TEST(Luma, WeighsThePrimariesByRec601) {
+TEST(Luma, WeighsThePrimaryColoursByRec601) {
     const cv::Mat blue(1, 1, CV_8UC3, cv::Scalar(255, 0, 0));
     const cv::Mat green(1, 1, CV_8UC3, cv::Scalar(0, 255, 0));
     const cv::Mat red(1, 1, CV_8UC3, cv::Scalar(0, 0, 255));
@@ -45,7 +45,7 @@ TEST(Psnr, FollowsFromTheMeanSquaredError) {
     EXPECT_NEAR(psnr(constant(0), constant(255)), 0, 1e-12);
 }
 
-TEST(Psnr, EqualPicturesAreInfinitelyGood) {
+TEST(Psnr, EqualPicturesHaveInfinitePsnr) {
     EXPECT_EQ(psnr(noise(), noise()), std::numeric_limits<double>::infinity());
 }
 
@@ -53,7 +53,7 @@ TEST(Ssim, EqualPicturesScoreOne) {
     EXPECT_NEAR(ssim(noise(), noise()), 1, 1e-12);
 }
 
-TEST(Ssim, ConstantPicturesLeaveTheLuminanceTerm) {
+TEST(Ssim, ConstantPicturesScoreTheLuminanceTerm) {
     const double c1 = 6.5025, x = 100, y = 150;
     EXPECT_NEAR(ssim(constant(x), constant(y)), (2 * x * y + c1) / (x * x + y * y + c1), 1e-9);
 }
@@ -67,9 +67,9 @@ TEST(HarmRate, CountsPixelsWorseThanBicubicByMoreThanTwo) {
     const cv::Mat truth = constant(100, {10, 10}), bicubic = constant(104, {10, 10});
     cv::Mat picture = truth.clone();
     EXPECT_EQ(harmRate(picture, bicubic, truth), 0);
-    picture.at<double>(0, 0) = 106;  // two levels above the bicubic error: still allowed
+    picture.at<double>(0, 0) = 106;  // two levels above bicubic's error: within the tolerance
     picture.at<double>(0, 1) = 106.5;
-    picture.at<double>(0, 2) = 93;  // the error's sign does not matter
+    picture.at<double>(0, 2) = 93;  // the sign of the error does not matter
     EXPECT_DOUBLE_EQ(harmRate(picture, bicubic, truth), 0.02);
 }
 
@@ -78,7 +78,7 @@ TEST(TilesBelow, CountsWholeTilesThatAreWorseByMoreThanAQuarter) {
     cv::Mat picture = truth - 3.2;  // within the tolerance
     EXPECT_EQ(tilesBelow(picture, bicubic, truth), 0);
     picture(cv::Rect(64, 64, 64, 64)) = 96;
-    picture(cv::Rect(5 * 64, 0, 63, 129)) = 0;  // part of a tile
+    picture(cv::Rect(5 * 64, 0, 63, 129)) = 0;  // the rest of an incomplete tile
     picture(cv::Rect(0, 2 * 64, 64, 1)) = 0;
     EXPECT_DOUBLE_EQ(tilesBelow(picture, bicubic, truth), 0.1);
     EXPECT_EQ(tilesBelow(picture, bicubic, truth, 2), 0);
@@ -130,7 +130,7 @@ TEST(FlowSparsification, LowConfidenceShouldMeanLargeErrors) {
     EXPECT_GT(flowSparsification(flow, truth, 1 - right).ausePerRandom, 1);
 }
 
-TEST(FlowError, UnknownTruthIsLeftOutAndMissingAnswersAreBad) {
+TEST(FlowError, UnknownTruthIsIgnoredAndMissingResultsCountAsWrong) {
     cv::Mat truth(1, 4, CV_32FC2, cv::Scalar(0, 0)), flow = truth.clone();
     truth.at<cv::Vec2f>(0, 0) = {1.6e9F, 1.6e9F};
     truth.at<cv::Vec2f>(0, 1) = {std::nanf(""), 0};

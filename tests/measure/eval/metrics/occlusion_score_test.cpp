@@ -25,8 +25,8 @@ TEST(OcclusionScore, TheTruthScoresPerfectly) {
 TEST(OcclusionScore, AMoveByTwoPixelsIsSeen) {
     const OcclusionScore score = occlusionScore(rectangle({7, 6, 10, 8}), rectangle({5, 6, 10, 8}));
     EXPECT_DOUBLE_EQ(score.overlap, 8.0 / 12);
-    // From its right side inwards: errors of 2 px, and 1 px in the column before; from its left:
-    // the distance to the nearest side of the true boundary.
+    // Mean over boundary pixels. Right side: 8 pixels with an error of 2 px and 2 with 1 px. Left
+    // side: distances to the nearest side of the true boundary.
     const double right = 8 * 2 + 2 * 1, left = 0 + 1 + 2 + 2 + 2 + 2 + 1 + 0;
     EXPECT_NEAR(score.boundary, (right + left) / 32, 1e-6);
 }
@@ -45,7 +45,7 @@ TEST(OcclusionScore, FlickerCountsPixelsThatChangeClass) {
     before(cv::Rect(0, 0, 20, 10)).setTo(1);
     now = before.clone();
     EXPECT_EQ(flicker(before, now, 200), 0);
-    now(cv::Rect(0, 0, 4, 1)).setTo(0.51);  // smaller visible shares, but still shown
+    now(cv::Rect(0, 0, 4, 1)).setTo(0.51);  // smaller visible shares, but still above a half
     EXPECT_EQ(flicker(before, now, 200), 0);
     now(cv::Rect(0, 5, 3, 1)).setTo(0.49);
     now(cv::Rect(30, 20, 1, 1)).setTo(0.5);

@@ -42,7 +42,7 @@ int lattice(int x, int y, int c, int k) {
            (c * c);
 }
 
-/// Objects on the ground, rules 2 to 5; `v` where there is no object.
+/// Value of the objects in front of the ground, rules 2 to 5; `v` where no object is.
 int objectAt(int x, int y, int s, int v) {
     const auto within = [&](int x0, int x1, int y0, int y1) {
         return x >= x0 * s && x < x1 * s && y >= y0 * s && y < y1 * s;
@@ -58,7 +58,7 @@ int objectAt(int x, int y, int s, int v) {
     return v;
 }
 
-/// Weights [1/5] of source pixels along one axis of the picture that is 3.6 times smaller.
+/// Weights [1/5] of the source pixels along one axis, for a picture that is 3.6 times smaller.
 std::vector<std::vector<std::pair<int, int>>> areaShares(int out) {
     std::vector<std::vector<std::pair<int, int>>> shares(static_cast<std::size_t>(out));
     for (int i = 0; i < out; ++i)
@@ -84,7 +84,8 @@ cv::Mat areaAveraged(const cv::Mat& scene) {
     return out;
 }
 
-/// Bilinear interpolation along one axis: a first sample, and the weight of the next over 2 n.
+/// Bilinear interpolation along one axis. Returns the first of two samples, and the weight of the
+/// second in units of 1 / (2 n).
 std::pair<int, int> bilinearAt(int x, int from, int to) {
     const int at = std::clamp((2 * x + 1) * from - to, 0, 2 * to * (from - 1));
     return {std::min(at / (2 * to), from - 2), at - std::min(at / (2 * to), from - 2) * 2 * to};

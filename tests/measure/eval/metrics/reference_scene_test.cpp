@@ -17,8 +17,8 @@ double differenceFrom(const std::string& name, const cv::Mat& picture) {
     return cv::norm(referencePicture(name), cv::Mat_<double>(picture), cv::NORM_INF);
 }
 
-// The tests at full size rely on this.
-TEST(ReferenceScene, IsTheOneOfThePictures) {
+// The tests at full size rely on this agreement.
+TEST(ReferenceScene, SceneMatchesTheReferencePictures) {
     if (referenceTable("lpc_si.csv").empty())
         GTEST_SKIP() << referenceFolder().string() << " is not there";
     const cv::Mat scene = referenceScene(1);
@@ -27,7 +27,7 @@ TEST(ReferenceScene, IsTheOneOfThePictures) {
     EXPECT_EQ(differenceFrom("blur2", blurred(scene, 2)), 0);
 }
 
-// 2304x1728: the size of a still.
+// The picture has the size of a still, 2304x1728.
 TEST(FullSize, QualityAndSharpnessMatchTheTable) {
     const auto table = referenceTable("fullsize_2304x1728.csv");
     if (table.empty()) GTEST_SKIP() << referenceFolder().string() << " is not there";

@@ -5,21 +5,21 @@
 
 namespace mfar::eval {
 
-/// Whether a method knows where it is wrong (Ilg et al. 2018): pixels are removed in the order of
-/// their uncertainty, the most uncertain first, and the mean error of the rest is recorded.
+/// Tells whether a method knows where it is wrong (Ilg et al. 2018). Pixels are removed by their
+/// uncertainty, the most uncertain first; the mean error of the remaining ones is recorded.
 struct Sparsification {
-    static constexpr int kSteps = 100;  ///< of the removed share
+    static constexpr int kSteps = 100;  ///< number of steps of the removed share
 
-    std::vector<double> byConfidence;  ///< mean error of the remaining pixels over that of all,
-                                       ///< starting at 1
-    std::vector<double> byError;       ///< the same in the best possible order
-    double ause = 0;                   ///< area between both curves; 0: the best order
-    double ausePerRandom = 0;          ///< the same as a share of the area for a random order
+    std::vector<double> byConfidence;  ///< remaining mean error over that of all; starts at 1
+    std::vector<double> byError;       ///< the same in the best order: largest errors removed first
+    double ause = 0;                   ///< area between both curves; 0: the order is the best
+    double ausePerRandom = 0;          ///< `ause` over the area for a random order
 };
 
-/// `error` and `confidence` of each pixel: both finite, errors not negative. Only the order of the
-/// confidences matters; equal ones are removed evenly. Areas are NaN and curves empty if there is
-/// no error at all. Throws std::invalid_argument for spans of different length and invalid values.
+/// `error`, `confidence`: values of each pixel, finite; errors are not negative. Only the order of
+/// the confidences matters; pixels with equal confidence are removed evenly. Without any error, the
+/// areas are NaN and the curves empty. Throws std::invalid_argument for spans of different length
+/// and for invalid values.
 [[nodiscard]] Sparsification sparsification(std::span<const float> error,
                                             std::span<const float> confidence);
 

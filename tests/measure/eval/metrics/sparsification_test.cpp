@@ -16,7 +16,7 @@ std::vector<float> ramp(std::size_t n) {
     return out;
 }
 
-TEST(Sparsification, KnowingEveryErrorLeavesNoArea) {
+TEST(Sparsification, PerfectConfidenceGivesNoArea) {
     const auto error = ramp(1000);
     std::vector<float> confidence;
     for (const float e : error)
@@ -24,31 +24,31 @@ TEST(Sparsification, KnowingEveryErrorLeavesNoArea) {
     const Sparsification got = sparsification(error, confidence);
     EXPECT_NEAR(got.ause, 0, 1e-12);
     EXPECT_DOUBLE_EQ(got.byConfidence.front(), 1);
-    // Errors 1 to n without the worst half have half the mean.
+    // Without the worse half of the errors 1 to n, their mean halves.
     EXPECT_NEAR(got.byConfidence[50], 501.0 / 1001, 1e-9);
 }
 
-TEST(Sparsification, TheSameConfidenceEverywhereIsARandomOrder) {
+TEST(Sparsification, EqualConfidencesGiveTheAreaOfARandomOrder) {
     const auto error = ramp(1000);
     const Sparsification got = sparsification(error, std::vector<float>(1000, 0.5F));
     for (const double left : got.byConfidence)
         EXPECT_NEAR(left, 1, 1e-12);
     EXPECT_NEAR(got.ausePerRandom, 1, 1e-12);
-    EXPECT_NEAR(got.ause, 0.5, 0.01);  // the area below 1 and above a straight line to 0
+    EXPECT_NEAR(got.ause, 0.5, 0.01);  // the area between 1 and a straight line from 1 to 0
 }
 
-TEST(Sparsification, TheWrongOrderIsWorseThanNone) {
+TEST(Sparsification, AReversedOrderIsWorseThanARandomOne) {
     const auto error = ramp(100);
     EXPECT_GT(sparsification(error, error).ausePerRandom, 1.5);
 }
 
-TEST(Sparsification, NoErrorNoArea) {
+TEST(Sparsification, WithoutErrorsTheAreaIsNan) {
     EXPECT_TRUE(std::isnan(sparsification({}, {}).ause));
     const std::vector<float> none(5, 0);
     EXPECT_TRUE(std::isnan(sparsification(none, ramp(5)).ause));
 }
 
-TEST(Sparsification, RefusesUnsoundValues) {
+TEST(Sparsification, InvalidValuesAreRefused) {
     const std::vector<float> one{1}, two{1, 2}, less{-1};
     const std::vector<float> nan{std::numeric_limits<float>::quiet_NaN()};
     EXPECT_THROW((void)sparsification(one, two), std::invalid_argument);

@@ -23,7 +23,7 @@ cv::Mat windowMean(const cv::Mat& values) {
 
 struct SsimMeans {
     double similarity = 0;
-    double structure = 0;  // with contrast, without luminance
+    double structure = 0;  // contrast and structure, without luminance
 };
 
 SsimMeans ssimMeans(const cv::Mat& picture, const cv::Mat& truth) {

@@ -7,7 +7,7 @@
 namespace mfar::eval {
 namespace {
 
-/// Compared with values that an independent program computed from the published formulas.
+/// An independent program computed the table from the published formulas.
 TEST(SsimReference, PsnrSsimAndMsSsimAgreeWithTheTable) {
     const auto table = test::referenceTable("psnr_ssim.csv");
     if (table.empty()) GTEST_SKIP() << test::referenceFolder().string() << " is not there";

@@ -5,7 +5,7 @@
 namespace mfar::eval {
 namespace {
 
-TEST(SteerableFilters, SumToWhatAPyramidNeeds) {
+TEST(SteerableFilters, FiltersHaveTheSumsThatAPyramidNeeds) {
     const SteerableFilters filters = steerableFilters();
     EXPECT_NEAR(cv::sum(filters.highPass)[0], 0, 1e-5);
     EXPECT_NEAR(cv::sum(filters.firstLowPass)[0], 1, 1e-5);
@@ -14,7 +14,7 @@ TEST(SteerableFilters, SumToWhatAPyramidNeeds) {
         EXPECT_NEAR(cv::sum(taps)[0], 0, 1e-12);
 }
 
-/// The definition, sample by sample.
+/// Correlation by its definition, for one sample.
 double correlatedAt(const cv::Mat& picture, const cv::Mat& taps, int y, int x) {
     double sum = 0;
     for (int j = 0; j < taps.rows; ++j)
@@ -30,7 +30,7 @@ double correlatedAt(const cv::Mat& picture, const cv::Mat& taps, int y, int x) {
     return sum;
 }
 
-TEST(Correlate, IsTheSumOverAMirroredPicture) {
+TEST(Correlate, MatchesTheSumOverAMirroredPicture) {
     const SteerableFilters filters = steerableFilters();
     for (const cv::Size size : {cv::Size(17, 9), cv::Size(30, 23), cv::Size(7, 40)}) {
         cv::Mat picture(size, CV_64F);
