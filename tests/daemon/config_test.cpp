@@ -224,8 +224,8 @@ TEST(Config, ADeviceOrAPipeIsNoConfiguration) {
         {"/dev/zero", "it is not a regular file"},
         {"/dev/full", "it is not a regular file"},
         // Its size is 0.
-        {"/proc/version", "it has become longer while it was read"},
-        {folder / "long", "it has 2097152 bytes, at most 1048576 are read"},
+        {"/proc/version", "it became longer while it was read"},
+        {folder / "long", "it has 2097152 bytes; the limit is 1048576 bytes"},
     };
     for (const auto& [file, what] : files) {
         try {

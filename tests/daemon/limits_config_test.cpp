@@ -81,8 +81,9 @@ TEST(Limits, ARecordingWithLongListsIsRefusedBeforeMemoryIsTaken) {
     config.limits.memoryMb = 512;
     EXPECT_EQ(refusalOf(config), "none");
     config.limits.memoryMb = 64;
-    EXPECT_THAT(refusalOf(config), AllOf(StartsWith(list.string() + ":5"),
-                                         HasSubstr("the lists take more than 42 MB")));
+    EXPECT_THAT(refusalOf(config),
+                AllOf(StartsWith(list.string() + ":5"),
+                      HasSubstr("the lists of this recording take more than 42 MB")));
 }
 
 TEST(Limits, CamerasWithLargePicturesAreRefused) {

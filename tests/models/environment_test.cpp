@@ -98,7 +98,7 @@ TEST(EnvironmentMap, LargePicturesAreAveraged) {
 
 TEST(EnvironmentMap, FaultsAreOneClearLine) {
     const Bytes pixel = {8, 8, 8, 136};
-    EXPECT_THAT(environmentFault({}), HasSubstr("sky.hdr: neither PNG nor JPEG"));
+    EXPECT_THAT(environmentFault({}), HasSubstr("sky.hdr: is neither PNG nor JPEG"));
     EXPECT_THAT(environmentFault(hdr("#?RADIANCE\n", {})), HasSubstr("broken header"));
     EXPECT_THAT(environmentFault(hdr("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 2\n", pixel)),
                 HasSubstr("xyze is not read"));

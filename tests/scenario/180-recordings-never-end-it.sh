@@ -43,7 +43,7 @@ rm -rf films
 printf '%s\nmost_mb = 0.05\n' "$quiet" >mfard.toml
 start --config mfard.toml --control control
 until_true started
-ended() { grep -q 'the recording has ended: films/.*: has become longer than' err; }
+ended() { grep -q 'the recording has ended: films/.*: the recording has become larger than' err; }
 until_true ended
 says <(status) '^recording +null$'
 goes_on

@@ -119,7 +119,7 @@ for buffers in 1 3; do
     says_of video91 buffers $buffers
     begin
     goes_on
-    until_true warned "/dev/video90: the driver gives $buffers of 6 buffers, pictures are copied"
+    until_true warned "/dev/video90: the driver allocated only $buffers of 6 buffers, so every picture is copied"
     stats
     stop_now 1500
 done

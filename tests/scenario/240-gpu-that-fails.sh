@@ -35,7 +35,7 @@ begin --engine gles --mode detail
 gpu_says "lost once"
 until_true failed_times 1
 until_true status_says \
-    '"state":"degraded","cause":"the GPU failed and was restarted \(the context of OpenGL ES is lost\)"'
+    '"state":"degraded","cause":"the GPU failed and was restarted \(the OpenGL ES context is lost\)"'
 goes_on
 until_true says err 'the GPU failed and was restarted \(.*\): within [0-9]{1,4} ms'
 

@@ -152,7 +152,7 @@ TEST(TagMap, ATextWithoutEndIsRefusedBeforeItIsParsed) {
     EXPECT_EQ(refusal([&] { (void)tagMapFromToml("a = " + open, "t.toml"); }),
               "t.toml:1: brackets are nested deeper than 32");
     EXPECT_EQ(refusal([&] { (void)tagMapFromRosYaml("a: " + open, "t.yaml"); }),
-              "t.yaml:1: nested deeper than 16");
+              "t.yaml:1: the file is nested more than 16 levels deep");
 }
 
 TEST(TagMap, TooLargeIntegersAreReportedWithTheirPlace) {
