@@ -197,7 +197,7 @@ std::shared_ptr<Recorder> Rig::recorder() const {
 
 // The caller holds the lock.
 void Rig::requireNoRecorder() const {
-    if (recorder_) throw Failure(ExitCode::OutputFailed, "a recording is under way already");
+    if (recorder_) throw Failure(ExitCode::OutputFailed, "a recording is already running");
 }
 
 std::function<std::shared_ptr<Recorder>()>

@@ -60,7 +60,7 @@ echo "a recording"
 refused 1 record ../outside
 asks record walk
 refused 1 record again
-says err.ctl 'under way'
+says err.ctl 'already running'
 until_true grep -q png walk/cam0/data.csv
 asks record --stop
 says answer '^video +[1-9]'

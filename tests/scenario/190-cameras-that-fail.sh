@@ -108,7 +108,7 @@ stop_now 1500
 echo "a camera at half its rate drops nothing and is named"
 says_of video90 rate 15
 begin
-until_true warned 'video camera: sends 1[45]\.[0-9] frames per second, 30 are configured'
+until_true warned 'video camera: sends 1[45]\.[0-9] frames per second instead of the configured 30'
 stats
 [ "$(counts video missed)" -le 3 ] || fail "missed $(counts video missed) at half the rate"
 stop_now 1500

@@ -17,17 +17,17 @@ export NOTIFY_SOCKET=$PWD/notify STATE_DIRECTORY=$PWD/state
 mkdir state
 run 69 "${missing[@]}"
 says err 'nowhere/control: No such file or directory'
-says err 'mfard: a device or OpenGL ES is not there; if it stays away, .*engine.use'
-says err 'failed once in a row; exits in 0 s, then systemd restarts it'
+says err 'mfard: a device or OpenGL ES is not available; if this does not change, .*engine.use'
+says err 'mfard failed once in a row; it exits in 0 s, then systemd restarts it'
 run 69 "${missing[@]}"
-says err 'failed 2 times in a row; exits in 1 s, then systemd restarts it'
+says err 'mfard failed 2 times in a row; it exits in 1 s, then systemd restarts it'
 run 69 "${missing[@]}"
-says err 'failed 3 times in a row; exits in 3 s, then systemd restarts it'
+says err 'mfard failed 3 times in a row; it exits in 3 s, then systemd restarts it'
 says heard '^STATUS=.*nowhere/control: No such file or directory; restart in 3 s'
 
 echo "SIGTERM does not wait"
 start "${missing[@]}"
-waits() { grep -q 'failed 4 times in a row; exits in 7 s' err; }
+waits() { grep -q 'mfard failed 4 times in a row; it exits in 7 s' err; }
 until_true waits
 kill -TERM "$pid"
 ends_with 69 1500
