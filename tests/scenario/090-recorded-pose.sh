@@ -31,7 +31,7 @@ run 0 --recording run --summary summary.json
 says err 'poses from the first tag, whose edge is 0.1 m; '
 summary_has measured "$frames"
 
-echo "without poses there are none to take"
+echo "a recording without poses is refused"
 rm -r run/state_groundtruth_estimate0
 run 65 --recording run --pose recorded
 says err 'recording run: has no poses'

@@ -38,7 +38,7 @@ for count in 1 2; do
     [ "$(find films -mindepth 1 -maxdepth 1 | wc -l)" = "$count" ] || fail "not $count folders"
 done
 
-echo "one that has become too long"
+echo "a recording that has become too large"
 rm -rf films
 printf '%s\nmost_mb = 0.05\n' "$quiet" >mfard.toml
 start --config mfard.toml --control control
@@ -54,7 +54,7 @@ stop_it
 run 0 --recording films/* --frames 1
 run 0 --recording more --frames 1
 
-echo "a disk without space, and no folder"
+echo "a recording on a full disk, and a recording without a folder"
 printf '%s\nleast_free_mb = 1e9\n' "$quiet" >mfard.toml
 start --config mfard.toml --control control
 ended() { grep -q 'the recording has ended: films/.*MB are free on the disk' err; }

@@ -51,7 +51,7 @@ until_true fault_is null
 says_of video91 hang
 until_true fault_is 'still camera: its driver does not answer'
 goes_on
-echo "and it does not hold up the end"
+echo "the still driver that hangs does not delay the end"
 stop_now 1500
 summary_has exit_code 0
 says_of video91
@@ -64,21 +64,21 @@ says_of video91
 until_true fault_is null
 goes_on
 
-echo "a still camera that sends nothing is named"
+echo "status names a still camera that sends nothing"
 says_of video91 silent
 until_true fault_is 'still camera: sends no pictures'
 goes_on
 says_of video91
 until_true fault_is null
 
-echo "the video driver hangs: it is the one that is named"
+echo "the video driver hangs: status names the video camera"
 says_of video90 hang
 until_true fault_is 'video camera: its driver does not answer'
 says_of video90
 until_true fault_is null
 goes_on
 
-echo "one picture for ever"
+echo "the video camera repeats one picture for ever"
 says_of video90 repeat
 until_true warned 'video camera: repeats the same picture'
 says_of video90
