@@ -36,10 +36,10 @@ Bytes read(const std::filesystem::path& file, std::size_t most, FileTrust trust)
     if (fstat(fd.get(), &about) != 0) fail("cannot be read");
     if (!S_ISREG(about.st_mode)) throw std::runtime_error("is not a regular file");
     if (trust == FileTrust::OwnFile && about.st_uid != geteuid())
-        throw std::runtime_error("is another user's");
+        throw std::runtime_error("belongs to another user");
     const auto size = static_cast<std::uintmax_t>(about.st_size);
     if (size > most)
-        throw std::runtime_error(fmt::format("has {} bytes, at most {} are read", size, most));
+        throw std::runtime_error(fmt::format("has {} bytes; the limit is {} bytes", size, most));
     Bytes bytes;
     bytes.resize(static_cast<std::size_t>(size));
     std::size_t at = 0;
@@ -47,14 +47,14 @@ Bytes read(const std::filesystem::path& file, std::size_t most, FileTrust trust)
         const ssize_t got = ::read(fd.get(), bytes.data() + at, bytes.size() - at);
         if (got < 0 && errno == EINTR) continue;
         if (got < 0) fail("cannot be read");
-        if (got == 0) throw std::runtime_error("has become shorter while it was read");
+        if (got == 0) throw std::runtime_error("became shorter while it was read");
         at += static_cast<std::size_t>(got);
     }
     // One more read(): files in /proc and /sys report a size of 0 but have content.
     char more = 0;
     const ssize_t got = ::read(fd.get(), &more, 1);
     if (got < 0) fail("cannot be read");
-    if (got > 0) throw std::runtime_error("has become longer while it was read");
+    if (got > 0) throw std::runtime_error("became longer while it was read");
     return bytes;
 }
 

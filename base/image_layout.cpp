@@ -26,11 +26,11 @@ std::string faultOf(const ImageView& picture) {
     const auto [width, height] = picture.size;
     const auto is = std::to_string(width) + "x" + std::to_string(height);
     if (width < 1 || height < 1 || width > kMaxPictureSide || height > kMaxPictureSide)
-        return is + " is no size of a picture";
+        return is + " is not a valid picture size";
     const std::string format(nameOf(picture.format));
     if ((sharesColumns(picture.format) && width % 2 != 0) ||
         (sharesRows(picture.format) && height % 2 != 0))
-        return is + " is odd, which " + format + " cannot be";
+        return is + " has an odd side, which " + format + " does not allow";
     for (int i = 0; i < planeCount(picture.format); ++i) {
         const PlaneView plane = planeOf(picture, i);
         const auto name = "plane " + std::to_string(i) + " of " + format;
@@ -38,7 +38,7 @@ std::string faultOf(const ImageView& picture) {
         const std::size_t needed = planeSize(picture.format, picture.size, i).rowBytes;
         if (plane.stride < needed)
             return name + " has rows of " + std::to_string(plane.stride) +
-                   " bytes, a row of the picture has " + std::to_string(needed);
+                   " bytes, but a row of the picture needs " + std::to_string(needed);
     }
     return {};
 }

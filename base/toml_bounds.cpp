@@ -26,7 +26,7 @@ public:
             if (depth_ > kDeepestToml)
                 return here(fmt::format("brackets are nested deeper than {}", kDeepestToml));
             if (values_ > kMostTomlValues)
-                return here(fmt::format("more than {} values", kMostTomlValues));
+                return here(fmt::format("the file has more than {} values", kMostTomlValues));
         }
         return std::nullopt;
     }

@@ -141,12 +141,14 @@ void App::onHangUp() {
     if (options_.config)
         (void)reload();  // the log reports the result
     else
-        log_.warning("SIGHUP: started without --config, nothing to read again");
+        log_.warning(
+            "SIGHUP: mfard was started without --config, so there is no file to read again");
 }
 
 std::shared_future<std::string> App::reload() {
     if (!options_.config)
-        throw std::runtime_error("started without --config, nothing to read again");
+        throw std::runtime_error(
+            "mfard was started without --config, so there is no file to read again");
     if (reload_) {
         if (!nextReload_) nextReload_.emplace();
         return nextReload_->answer;
@@ -177,7 +179,7 @@ void App::onRead() {
     try {
         done.said.set_value(take(done.config.get()));
     } catch (const std::exception& error) {
-        log_.error(fmt::format("{}\nthe old configuration stays", error.what()),
+        log_.error(fmt::format("{}\nthe old configuration stays in use", error.what()),
                    {message::kReloadRefused});
         done.said.set_exception(std::current_exception());
     }
@@ -198,7 +200,7 @@ std::string App::take(const Config& wanted) {
     setTicks();
     if (running_) running_->description.mode = name(config_.superres.mode);
     std::string said = options_.config->string() + ": read again" +
-                       (restart.empty() ? "" : "; after a restart only: " + restart);
+                       (restart.empty() ? "" : "; changed only after a restart: " + restart);
     log_.notice(said, {message::kReloaded});
     return said;
 }

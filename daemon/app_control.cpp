@@ -27,7 +27,8 @@ ControlActions App::controlActions() {
     actions.reload = [here] {
         const std::shared_future<std::string> answer = here([](App& app) { return app.reload(); });
         if (answer.wait_for(kAnswerTime) != std::future_status::ready)
-            throw std::runtime_error("the configuration is still being read, the log tells more");
+            throw std::runtime_error(
+                "the configuration is still being read; the log will report the result");
         return answer.get();
     };
     actions.snapshot = [session](bool screen) {

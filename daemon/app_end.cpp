@@ -35,7 +35,7 @@ void App::onSignal(int signal) {
     if (signal == SIGHUP) return onHangUp();
     if (stopSignal_) {
         log_.endStatus();
-        log_.warning(fmt::format("second {}, ended at once", signalName(signal)), {},
+        log_.warning(fmt::format("second {} received; ended at once", signalName(signal)), {},
                      {message::kEnded});
         std::_Exit(128 + signal);
     }

@@ -29,7 +29,7 @@ std::optional<Frame> CameraReader::next(std::chrono::milliseconds timeout) {
     const Size size = frame->view().size;
     if (size != expected_)
         throw Failure(failure_,
-                      fmt::format("{}: sent a picture of {}x{}, the calibration is for {}x{}",
+                      fmt::format("{}: sent a picture of {}x{}, but the calibration is for {}x{}",
                                   camera_.info().name, size.width, size.height, expected_.width,
                                   expected_.height));
     return frame;

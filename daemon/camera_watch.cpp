@@ -70,8 +70,9 @@ void CameraWatch::checkRate(Timestamp now) {
     if (!wrongSince_) wrongSince_ = now;
     if (rateTold_ || now - *wrongSince_ < kRateTime) return;
     rateTold_ = true;
-    warnings_.push_back(fmt::format("{}: sends {:.1f} frames per second, {:g} are configured",
-                                    name_, state_.rateHz, wanted));
+    warnings_.push_back(
+        fmt::format("{}: sends {:.1f} frames per second instead of the configured {:g}", name_,
+                    state_.rateHz, wanted));
 }
 
 void CameraWatch::checkRepeats(const Frame& frame, Timestamp now) {
@@ -87,7 +88,7 @@ void CameraWatch::checkRepeats(const Frame& frame, Timestamp now) {
     if (state_.repeats || ++repeats_ < kRepeats || now - *state_.lastDistinct < kRepeatTime) return;
     state_.repeats = true;
     warnings_.push_back(fmt::format(
-        "{}: repeats the same picture for {} s now", name_,
+        "{}: repeats the same picture, for {} s so far", name_,
         std::chrono::duration_cast<std::chrono::seconds>(now - *state_.lastDistinct).count()));
 }
 

@@ -31,21 +31,21 @@ json parsed(std::string_view request) {
             fmt::format("the request is longer than {} bytes", ControlSocket::kLongestRequest));
     json out = json::parse(request, nullptr, false);
     if (!out.is_object() || !out.contains("command") || !out["command"].is_string())
-        throw BadRequest(R"(a request is one line like {"command": "status"})");
+        throw BadRequest(R"(a request must be one line of JSON like {"command": "status"})");
     return out;
 }
 
 void allowOnly(const json& request, std::initializer_list<std::string_view> arguments) {
     for (const auto& [key, value] : request.items())
         if (key != "command" && std::ranges::find(arguments, key) == arguments.end())
-            throw BadRequest(
-                fmt::format("{} takes no \"{}\"", request["command"].get<std::string>(), key));
+            throw BadRequest(fmt::format("command {} takes no argument \"{}\"",
+                                         request["command"].get<std::string>(), key));
 }
 
 bool flag(const json& request, const char* key) {
     const auto found = request.find(key);
     if (found == request.end()) return false;
-    if (!found->is_boolean()) throw BadRequest(fmt::format("\"{}\" is true or false", key));
+    if (!found->is_boolean()) throw BadRequest(fmt::format("\"{}\" must be true or false", key));
     return found->get<bool>();
 }
 
@@ -77,18 +77,19 @@ ControlAnswer record(const ControlActions& actions, const json& request) {
     allowOnly(request, {"name", "stop"});
     const auto name = request.find("name");
     if (flag(request, "stop") != (name == request.end()))
-        throw BadRequest(R"(record takes a "name" to begin, or "stop": true)");
+        throw BadRequest(
+            R"(record needs a "name" to start a recording, or "stop": true to end it)");
     if (name == request.end()) return line(with(actions.stopRecording()));
     if (!name->is_string() || !isFolderName(name->get<std::string>()))
-        throw BadRequest("a recording's name has letters, digits, '.', '-' and '_', and no '.' at "
-                         "its beginning");
+        throw BadRequest("a recording's name must consist of letters, digits, '.', '-' and '_', "
+                         "and must not begin with '.'");
     actions.record(name->get<std::string>());
     return line(with());
 }
 
 ControlAnswer learn(const ControlActions& actions, const json& request) {
     allowOnly(request, {"reset"});
-    if (!flag(request, "reset")) throw BadRequest(R"(learn takes "reset": true)");
+    if (!flag(request, "reset")) throw BadRequest(R"(learn needs "reset": true)");
     actions.resetLearning();
     return line(with());
 }
@@ -102,8 +103,8 @@ void requireRole(const std::string& command, ControlRole role) {
 ControlAnswer done(const ControlActions& actions, const json& request, ControlRole role) {
     const auto command = request["command"].get<std::string>();
     if (std::ranges::find(kCommands, command) == std::end(kCommands))
-        throw BadRequest(
-            fmt::format("no command \"{}\"; there are {}", command, fmt::join(kCommands, ", ")));
+        throw BadRequest(fmt::format("unknown command \"{}\"; expected one of {}", command,
+                                     fmt::join(kCommands, ", ")));
     requireRole(command, role);
     if (command == "snapshot") return snapshot(actions, request);
     if (command == "record") return record(actions, request);

@@ -43,7 +43,7 @@ int streamSocket() {
 void removeDead(const std::filesystem::path& path, const sockaddr_un& address) {
     struct stat there{};
     if (lstat(path.c_str(), &there) != 0) return;
-    if (!S_ISSOCK(there.st_mode)) throw cannotListen(path, "exists and is not a socket");
+    if (!S_ISSOCK(there.st_mode)) throw cannotListen(path, "the path exists and is not a socket");
     const OwnedFd probe = opened(streamSocket(), "socket");
     const auto* generic = reinterpret_cast<const sockaddr*>(&address);
     if (connect(probe.get(), generic, sizeof address) == 0 || errno != ECONNREFUSED)

@@ -43,12 +43,13 @@ std::filesystem::path learnedFiltersFile(const std::string& sensors) {
 
 std::string describe(const LearningCounts& counts) {
     const EnlargerLearner::Counts& of = counts.learner;
-    std::string out =
-        fmt::format("{} stills, {} of {} classes, {:.2f} dB over bicubic ({:.2f} as shipped)",
-                    of.stills, of.classes, enlarge::kUnique, of.gainDb, of.priorDb);
+    std::string out = fmt::format(
+        "{} stills, {} of {} classes, {:.2f} dB better than bicubic (shipped filters: {:.2f} dB)",
+        of.stills, of.classes, enlarge::kUnique, of.gainDb, of.priorDb);
     if (of.guidance.any())
-        out += fmt::format("; guidance {:.2f} of the still, {:.2f} of the video: {:.2f} dB",
-                           of.guidance.still, of.guidance.video, of.guidanceGainDb);
+        out += fmt::format(
+            "; guidance {:.2f} of the still, {:.2f} of the video, which gains {:.2f} dB",
+            of.guidance.still, of.guidance.video, of.guidanceGainDb);
     return out;
 }
 

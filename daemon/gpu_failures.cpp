@@ -21,8 +21,8 @@ void GpuFailures::forgetOld(Timestamp now) {
 
 std::optional<std::string> GpuFailures::fault(Timestamp now) {
     if (givenUp_)
-        return fmt::format("the GPU failed {} times within a minute, the CPU draws ({})", kMost,
-                           why_);
+        return fmt::format("the GPU failed {} times within a minute, so the CPU draws now ({})",
+                           kMost, why_);
     forgetOld(now);
     if (times_.empty()) return std::nullopt;
     return fmt::format("the GPU failed and was restarted ({})", why_);

@@ -73,7 +73,7 @@ private:
             if (name == "showpiece") return showpiece();
             return loadGltf(folder_ / name, limitsWithin(memory_.left()));
         } catch (const std::bad_alloc&) {
-            throw ModelError((folder_ / name).string() + ": needs more memory than there is");
+            throw ModelError((folder_ / name).string() + ": needs more memory than is available");
         }
     }
 
@@ -151,7 +151,7 @@ std::vector<std::string> leftOut(const std::vector<PlacedObject>& objects, const
                                       object.tag->id, info(object.tag->family).name));
         else if (object.model && !shapesAlone.empty())
             out.push_back(who +
-                          fmt::format("{} is a model, and {}", object.modelName, shapesAlone));
+                          fmt::format("{} is a model, but {}", object.modelName, shapesAlone));
     }
     return out;
 }

@@ -47,34 +47,35 @@ constexpr OptionRange kSide{16, 8192, "px"}, kCameraRate{0, 1000, "Hz"}, kThread
 constexpr OptionRange kShare{0, 1, ""}, kMegabytes{0, 1e9, "MB"};
 
 constexpr Option kTop[] = {
-    argument(
-        "--source",
-        text("source", R"("cameras")",
-             "Where pictures come from: \"cameras\" (section [cameras]), or a simulated board: "
-             "\"synthetic\", \"synthetic:SCENE\" or \"synthetic:SCENE,PATH\". Scenes: office "
-             "shelf outdoor flat moving still calibration. Paths: handheld pan orbit forward "
-             "rotate rest survey.")),
+    argument("--source",
+             text("source", R"("cameras")",
+                  "Where pictures come from: \"cameras\" (section [cameras]), or a simulated "
+                  "board: \"synthetic\", \"synthetic:SCENE\" or \"synthetic:SCENE,PATH\". SCENE is "
+                  "one of: office shelf outdoor flat moving still calibration. PATH is how the "
+                  "camera moves, one of: handheld pan orbit forward rotate rest survey.")),
     argument("--recording", text("recording", R"("")",
-                                 "Recording (folder in EuRoC layout) to play instead of the "
-                                 "source. Empty: none.")),
+                                 "Recording (folder in EuRoC layout) to play instead of `source`. "
+                                 "Empty: no recording.")),
     argument("--display",
              text("display", R"("auto")",
                   "Where finished pictures go: \"auto\", the first screen that is found; \"kms\", "
                   "\"kms:card1\" or \"kms:card0,HDMI-A-1,1920x1080@60\" for a card, connector and "
                   "mode; \"fbdev\" or \"fbdev:/dev/fb1\" for a framebuffer; \"png:FOLDER\", one "
-                  "file for each frame; \"y4m:FILE\", one video file or named pipe; \"none\". "
-                  "mfard waits for a screen that is missing.")),
-    argument("--size",
-             text("size", R"("screen")",
-                  "Size of the pictures: \"screen\", as large as the screen at the start shows "
-                  "them (without a screen: as \"still\"); \"still\", the still's resolution; or a "
-                  "size to fit into, like \"1280x720\". Never below the video's size or above the "
-                  "still's. Smaller pictures take less time.")),
-    argument("--pace", word("pace", "auto realtime consumer", R"("auto")",
-                            "Speed of the source: \"realtime\", as its time stamps say, late "
-                            "frames are dropped; \"consumer\", as fast as frames are processed, "
-                            "none is dropped; \"auto\", consumer for recordings, otherwise "
-                            "realtime.")),
+                  "file for each frame; \"y4m:FILE\", one video file or named pipe; \"none\", "
+                  "nowhere. mfard waits for a screen that is missing.")),
+    argument(
+        "--size",
+        text("size", R"("screen")",
+             "Size of the pictures: \"screen\", the size at which the screen that is connected at "
+             "the start shows them (\"still\" if there is no screen); \"still\", the still's "
+             "resolution; or a size that they must fit into, like \"1280x720\". They are never "
+             "smaller than the video or larger than the still. Smaller pictures take less time.")),
+    argument(
+        "--pace",
+        word("pace", "auto realtime consumer", R"("auto")",
+             "Speed of the source: \"realtime\", by its time stamps, and late frames are dropped; "
+             "\"consumer\", as fast as frames are processed, and no frame is dropped; \"auto\", "
+             "consumer for recordings and realtime for all other sources.")),
     argument("--seed", whole("seed", {}, "1",
                              "Seed of the synthetic source's random numbers, at least 0: the same "
                              "seed gives the same pictures.")),
@@ -83,29 +84,30 @@ constexpr Option kTop[] = {
 constexpr Option kCameras[] = {
     text("calibration", R"("")",
          "Calibration of both sensors: a folder with rig.yaml as mfar-calibrate writes it, a "
-         "Kalibr camchain or an OpenCV file; relative to this file. Empty: nominal lenses of 60 "
-         "degrees, 14 mm apart, good enough to enlarge the video, too inexact for poses and "
-         "depth."),
+         "Kalibr camchain or an OpenCV file; relative to this file. Empty: nominal lenses with a "
+         "horizontal field of view of 60 degrees, 14 mm apart. They are good enough to enlarge the "
+         "video, but too inexact for poses and depth."),
 };
 
 constexpr Option kVideo[] = {
     word("driver", "libcamera v4l2", R"("libcamera")",
-         "\"libcamera\", or \"v4l2\" for USB cameras and boards without libcamera."),
+         "Driver of the camera: \"libcamera\", or \"v4l2\" for USB cameras and boards without "
+         "libcamera."),
     text("camera", R"("")",
          "Which camera: libcamera's id, model or location (\"cam --list\" prints them); for v4l2 "
          "\"/dev/videoN\" or the card's name. Empty: any other than the still camera; of several, "
          "the one with the smallest pictures. mfard waits for a camera that is missing."),
-    whole("width", kSide, "640", "Width of its pictures."),
-    whole("height", kSide, "480", "Height of its pictures."),
+    whole("width", kSide, "640", "Width of the camera's pictures."),
+    whole("height", kSide, "480", "Height of the camera's pictures."),
     number("rate_hz", kCameraRate, "30.0",
            "Frame rate, at least 0.01; 0: the camera sends a picture for each trigger pulse."),
     text("format", R"("auto")",
          "Pixel format: \"auto\"; for v4l2 also the four characters of a format, like \"YUYV\"."),
     flag("allow_crop", "false",
-         "libcamera only: accept a sensor mode that shows a part of the field of view."),
+         "Accept a sensor mode that shows only a part of the field of view; for libcamera only."),
     {"controls", OptionType::Values, "{}",
-     "Controls by the camera's own names, set in this order before the first picture, like "
-     "{ ExposureTime = 8000, AnalogueGain = 2.0 }."},
+     "Controls under the names that the camera gives them, set in this order before the first "
+     "picture, like { ExposureTime = 8000, AnalogueGain = 2.0 }."},
 };
 
 constexpr Option kStill[] = {
@@ -125,21 +127,25 @@ constexpr Option kLine[] = {
     text("line", R"("")",
          "The GPIO line that triggers the still sensor: its number or name. Empty: no trigger "
          "line, every still that the camera sends is used."),
-    text("chip", R"("")", "The line's chip: label, name or path. Empty: found by the line's name."),
-    flag("active_low", "false", "The line is active when low."),
-    number("pulse_ms", {0.001, 10000, "ms"}, "1.0", "Length of a pulse."),
+    text("chip", R"("")",
+         "GPIO chip of the line: its label, name or path. Empty: the chip that has a line of this "
+         "name."),
+    flag("active_low", "false", "The line is active when its level is low."),
+    number("pulse_ms", {0.001, 10000, "ms"}, "1.0", "Length of a trigger pulse."),
     flag("pulse_is_exposure", "false", "The sensor exposes as long as the pulse lasts."),
     text("loopback", R"("")",
-         "An input that is wired to the line, to measure the time of pulses. Empty: none."),
-    text("loopback_chip", R"("")", "Its chip. Empty: the line's chip."),
+         "GPIO input that is wired to the trigger line and measures the time of its pulses. Empty: "
+         "no such input."),
+    text("loopback_chip", R"("")",
+         "GPIO chip of the loopback input. Empty: the chip of the trigger line."),
     number("delay_ms", {-1000, 10000, "ms"}, "0.0",
-           "Time from the pulse to the exposure by the camera's time stamps. A first guess; mfard "
-           "learns the value."),
+           "Time from the pulse to the exposure, as the camera's time stamps show it. This is a "
+           "first guess; mfard learns the value."),
     number("jitter_ms", {0.001, 1000, "ms"}, "1.0",
-           "Error of the camera's time stamps: 1 for a sensor's clock, more for a camera whose "
-           "pictures are stamped on arrival, like USB cameras."),
+           "Error of the camera's time stamps: 1 if the sensor stamps its pictures, more if "
+           "pictures are stamped on arrival, as with USB cameras."),
     number("arrival_ms", {1, 60000, "ms"}, "500.0",
-           "A still that has not arrived after this time is lost."),
+           "A still that has not arrived this long after its pulse is lost."),
 };
 
 constexpr std::string_view kEngines = "auto gles simd", kAuto = R"("auto")";
@@ -147,13 +153,13 @@ constexpr Option kEngine[] = {
     argument("--engine",
              word("use", kEngines, kAuto,
                   "What computes the pictures: \"gles\", shaders on the GPU; \"simd\", the CPU's "
-                  "vector units, without OpenGL ES; \"auto\", simd without OpenGL ES 3.1 or with a "
-                  "software renderer, on a GPU the faster of both, measured once.")),
+                  "vector units, without OpenGL ES; \"auto\", simd if OpenGL ES 3.1 is missing or "
+                  "is a software renderer, otherwise the faster of both, which is measured once.")),
     word("still", kEngines, kAuto,
          "Engine of the step that prepares a new still; \"auto\": as `use`."),
     word("pyramid", kEngines, kAuto, "Engine of the image pyramids."),
     word("flow", kEngines, kAuto, "Engine of the matching of video and still."),
-    word("weigh", kEngines, kAuto, "Engine of the confidence."),
+    word("weigh", kEngines, kAuto, "Engine that computes the confidence of matches."),
     word("detail", kEngines, kAuto, "Engine that draws the picture."),
     word("occlusion", kEngines, kAuto, "Engine of depth and occlusion."),
 };
@@ -165,27 +171,28 @@ constexpr std::string_view kModeMeaning =
     "in by confidence (the method of the paper), \"off\" only enlarges the video.";
 constexpr Option kSuperres[] = {
     argument("--mode", word("mode", kModes, R"("detail")", kModeMeaning)),
-    flag("skip_unchanged", "true", "Parts of the picture that did not change are not recomputed."),
+    flag("skip_unchanged", "true", "Do not recompute parts of the picture that did not change."),
     flag("learn", "true",
          "Learn in the background, from matched stills, how to enlarge the video of these two "
-         "sensors; kept in the service's state folder."),
+         "sensors. The learned filters are kept in the service's state folder."),
 };
 
 constexpr Option kTrigger[] = {
     word("mode", "demand rate off", R"("demand")",
          "When the still sensor takes a picture: \"demand\", when the current still no longer "
          "explains the video; \"rate\", at a fixed rate; \"off\", never."),
-    number("rate_hz", {0.01, 60, "Hz"}, "2.0", "Mode rate: stills per second."),
+    number("rate_hz", {0.01, 60, "Hz"}, "2.0", "For mode \"rate\": stills per second."),
     number("explained_below", kShare, "0.6",
-           "Mode demand: take a new still when the current one explains less than this share of "
-           "the picture."),
+           "For mode \"demand\": take a new still when the current one explains less than this "
+           "share of the picture."),
     number("max_age_s", {0.1, 86400, "s"}, "10.0",
-           "Mode demand: take a new still when the current one is older than this and the picture "
-           "has changed."),
+           "For mode \"demand\": take a new still when the current one is older than this and the "
+           "picture has changed."),
     number("min_interval_s", {0, 3600, "s"}, "0.3",
-           "Mode demand: shortest time between two stills."),
+           "For mode \"demand\": shortest time between two stills."),
     number("timeout_s", {0.05, 60, "s"}, "3.0",
-           "A still that has not arrived after this time is lost and requested once more."),
+           "A still that has not arrived this long after its request is lost and is requested once "
+           "more."),
 };
 
 constexpr std::string_view kFamilies = "tag36h11 tag25h9 tag16h5 tagStandard41h12";
@@ -199,25 +206,26 @@ constexpr Option kPose[] = {
     text("tags", R"("")",
          "Map of the tags: a tags.toml, or the tags.yaml of apriltag_ros; relative to this file. "
          "Empty: the tags.toml of the recording or the tags of the synthetic board; without a map, "
-         "the largest tag of the first picture with one defines the world."),
-    {"families", OptionType::Texts, R"(["tag36h11"])", "Families that are searched without a map.",
-     kFamilies},
-    number("tag_size", kTagSize, "0.1", "Without a map: edge of the tag that defines the world."),
+         "the largest tag of the first picture that shows a tag defines the world."),
+    {"families", OptionType::Texts, R"(["tag36h11"])",
+     "Tag families that are searched when there is no map.", kFamilies},
+    number("tag_size", kTagSize, "0.1",
+           "Edge length of the tag that defines the world when there is no map."),
     number("decimation", {1, 8, ""}, "2.0",
-           "The video is searched for tags at this reduction, 1.5 or a whole number. A higher one "
-           "is faster and misses small tags."),
+           "Factor by which the video is reduced before it is searched for tags: 1.5 or a whole "
+           "number. A larger factor is faster but misses small tags."),
     whole("threads", kThreads, "1", "Threads of the tag detector."),
     whole("full_search_interval", {1, 1'000'000, "frames"}, "15",
           "Interval at which the whole picture is searched, not only the expected places."),
     whole("bridge_frames", {0, 300, "frames"}, "12",
-          "The pose is predicted for this many frames without a tag."),
+          "For this many frames without a tag, the pose is predicted."),
 };
 
 constexpr Option kGovernor[] = {
     number("deadline_ms", {0, 10000, "ms"}, "0.0",
-           "Time limit of a frame. mfard uses the most accurate level of the table that meets it "
-           "in 95 % of the frames. 0: no limit, the highest accuracy."),
-    text("pin", R"("")", "Name of a level that is always used. Empty: none."),
+           "Time limit of a frame. mfard uses the most accurate level of the table that meets this "
+           "limit in 95 % of the frames. 0: no limit, the highest accuracy."),
+    text("pin", R"("")", "Name of a level that is always used. Empty: mfard chooses the level."),
     text("table", R"("")",
          "File with the levels, as \"mfar-bench pareto --table FILE\" writes it; relative to this "
          "file. Empty: levels that were measured on two x86-64 cores without a GPU."),
@@ -225,64 +233,69 @@ constexpr Option kGovernor[] = {
 
 constexpr Option kRecord[] = {
     text("directory", R"("")",
-         "Folder in which each start makes a new one, named by the time (UTC). Empty: nothing is "
-         "recorded."),
+         "Folder in which each start of mfard creates a recording, a folder named by the time "
+         "(UTC). Empty: nothing is recorded."),
     number("least_free_mb", kMegabytes, "512",
-           "A recording ends, and mfard goes on without it, before less than this is free on the "
-           "disk. 0: no limit."),
+           "A recording ends before less than this disk space is free; mfard goes on without it. "
+           "0: no limit."),
     number("most_mb", kMegabytes, "0", "Largest size of a recording. 0: no limit."),
 };
 
 constexpr Option kLimits[] = {
     number("memory_mb", {0, 1048576, "MB"}, "0",
-           "Memory for pictures, models and all other files; at least 64. A recording, camera, "
-           "model or picture that needs more is refused. 0: three quarters of the machine's "
-           "memory, or of the service's MemoryMax= if that is less, and at most 4096."),
+           "Memory limit for pictures, models and all other files; at least 64. A recording, "
+           "camera, model or picture that needs more is refused. 0: three quarters of the "
+           "machine's memory, or of the service's MemoryMax= if that is less, and at most 4096."),
 };
 
 constexpr Option kStatus[] = {
     number("interval_s", {0.1, 3600, "s"}, "1.0", "Time between two status lines on a terminal."),
     argument("--measure", flag("measure", "false",
                                "Wait for the GPU after each stage, so that stage times are exact. "
-                               "Costs some speed.")),
+                               "This costs some speed.")),
 };
 
 constexpr Option kVirtual[] = {
     word("rendering", "path-traced preview", R"("path-traced")",
-         "\"path-traced\", with soft shadows on the real surface, or \"preview\", which costs "
-         "little."),
+         "How virtual objects are drawn: \"path-traced\", with soft shadows on the real surface, "
+         "or \"preview\", which takes little time."),
     number("budget_ms", {0.1, 1000, "ms"}, "8.0",
-           "Time of the path tracer in each frame. A picture is made over many frames."),
+           "Time that the path tracer may use in each frame. One path-traced picture takes many "
+           "frames."),
     word("slicing", "time space", R"("time")",
-         "Work of each frame: \"time\", some samples of all pixels; \"space\", all samples of some "
-         "tiles."),
+         "What is path-traced in each frame: \"time\", some samples of all pixels; \"space\", all "
+         "samples of some tiles."),
     whole("samples", {1, 65536, ""}, "64",
-          "Samples per pixel of a finished picture. More are smoother and take longer."),
+          "Samples per pixel of a finished path-traced picture. More samples make it smoother and "
+          "take longer."),
     number("resolution", {0.05, 1, ""}, "0.28",
-           "Side of the path-traced picture as a share of the still's; limited to the shown size."),
+           "Width and height of the path-traced picture as a share of the still's. The picture is "
+           "never larger than it is shown."),
     word("holes", "push-pull re-render both none", R"("both")",
-         "What fills places that come into view between two pictures: \"push-pull\", their "
-         "surroundings; \"re-render\", the path tracer with few samples; \"both\"; or \"none\"."),
+         "What fills places that come into view between two path-traced pictures: \"push-pull\", "
+         "their surroundings; \"re-render\", the path tracer with few samples; \"both\"; or "
+         "\"none\"."),
     whole("threads", kThreads, "1", "Threads of the path tracer."),
     flag("filter", "true", "Smooth the noise of pictures with few samples, but not their edges."),
-    number("turn_deg", {0.1, 90, "degrees"}, "4.0",
-           "A new picture is made at the latest when the view has turned by this angle."),
+    number(
+        "turn_deg", {0.1, 90, "degrees"}, "4.0",
+        "A new path-traced picture is made at the latest when the view has turned by this angle."),
 };
 
 constexpr Option kLight[] = {
     text("environment", R"("studio")",
          "Light on virtual objects: \"studio\", \"sky\", \"camera\" (the light that the video "
-         "shows), or a latitude-longitude picture, relative to this file: .hdr, or PNG and JPEG, "
-         "whose white is 1."),
+         "shows), or a latitude-longitude picture, a .hdr, PNG or JPEG file relative to this file. "
+         "White in PNG and JPEG is a radiance of 1."),
     number("exposure", {0.001, 1000, ""}, "1.0", "Brightness of virtual objects."),
 };
 
 constexpr Option kSun[] = {
     numbers("direction", 3, {-1000, 1000, ""}, "[0.406, -0.304, 0.862]",
-            "Direction to the sun: x, y, z, of any length but 0."),
+            "Direction to the sun in the world: a vector x, y, z of any length but 0."),
     numbers("irradiance", 3, {0, 10000, ""}, "[1.0, 1.0, 1.0]",
             "Irradiance of a surface that faces the sun: red, green, blue."),
-    number("radius_deg", {0.05, 45, "degrees"}, "1.146", "Angular radius."),
+    number("radius_deg", {0.05, 45, "degrees"}, "1.146", "Angular radius of the sun."),
 };
 
 constexpr Option kObjects[] = {
@@ -291,18 +304,18 @@ constexpr Option kObjects[] = {
                 "simple shape.")),
     number("scale", {0.0001, 10000, ""}, "1.0", "Scale of a model."),
     absent(whole("tag", {0, 2114, ""}, "0",
-                 "The tag that the object stands on: x right and y up in its print, z out of it. "
-                 "Absent: the object is in the world of the tag map. The upper limit depends on "
-                 "the family.")),
-    word("family", kFamilies, R"("tag36h11")", "Family of that tag."),
+                 "Id of the tag that the object stands on. The object's axes are then x right and "
+                 "y up in the tag's print, z out of it. Absent: the object is in the world of the "
+                 "tag map. The upper limit depends on the family.")),
+    word("family", kFamilies, R"("tag36h11")", "Family of the tag that the object stands on."),
     numbers("position", 3, {-1000, 1000, "m"}, "[0.0, 0.0, 0.0]",
-            "Position in the world or on the tag."),
+            "Position of the object in the world or on its tag."),
     numbers("orientation", 4, {-1, 1, ""}, "[1.0, 0.0, 0.0, 0.0]",
-            "Quaternion w, x, y, z of length 1."),
-    word("shape", "box sphere quad", R"("box")", "Simple shape, about its centre."),
+            "Orientation of the object: a quaternion w, x, y, z of length 1."),
+    word("shape", "box sphere quad", R"("box")", "Simple shape. `position` is its centre."),
     numbers("size", 3, {0.001, 100, "m"}, "[0.1, 0.1, 0.1]", "Size of a shape along its axes."),
     absent(numbers("colour", 3, kShare, "[0.9, 0.9, 0.9]",
-                   "Red, green, blue. Absent: the two colours of a checkerboard.")),
+                   "Colour of a shape: red, green, blue. Absent: a checkerboard of two colours.")),
     absent(numbers("second_colour", 3, kShare, "[0.8, 0.2, 0.1]",
                    "Colour of every other square of a checkerboard. Absent: as `colour`.")),
     whole("squares", {1, 256, ""}, "4", "Squares of the checkerboard along each side."),
@@ -325,40 +338,50 @@ constexpr OptionSection kConfig[] = {
     {"status", kStatus, "", true},
     {"virtual", kVirtual, "How virtual objects are drawn."},
     {"light", kLight, "", true},
-    {"light.sun", kSun, "A sun beside the environment.", true, OptionSection::Kind::Absent},
-    {"objects", kObjects, "Virtual objects, a section each, at most 64.", true,
+    {"light.sun", kSun, "A sun in addition to the environment's light.", true,
+     OptionSection::Kind::Absent},
+    {"objects", kObjects, "Virtual objects: one section for each, at most 64.", true,
      OptionSection::Kind::List},
 };
 
 constexpr OptionRange kFew{0, 8, ""}, kSmall{0, 2, ""};
 constexpr Option kLevel[] = {
-    absent(text("name", R"("fast")", "Name, for `pin`; required.")),
+    absent(text("name", R"("fast")", "Name of the level, for `pin`; required.")),
     absent(number("ms", {0.001, 60000, "ms"}, "10.0",
-                  "Time of a frame in which everything moves; required.")),
-    number("psnr_db", {0, 200, "dB"}, "0.0", "PSNR of its pictures."),
+                  "Time that a frame takes when everything in it moves; required.")),
+    number("psnr_db", {0, 200, "dB"}, "0.0", "PSNR of the pictures at this level."),
     word("mode", kModes, R"("detail")", kModeMeaning),
     flag("cubic", "true", "Enlarge by bicubic instead of linear interpolation."),
-    flag("learned", "true", "Enlarge by learned filters; mode detail."),
-    flag("along_lines", "true", "Search along epipolar lines where poses are known."),
+    flag("learned", "true", "Enlarge by learned filters; for mode \"detail\" only."),
+    flag("along_lines", "true", "Search matches along epipolar lines where poses are known."),
     number("detail_share", {0.001, 1, ""}, "1.0",
            "Upper limit of the share of tiles that are matched."),
     number("second_share", kShare, "0.25",
-           "Upper limit of the share of tiles that are matched with the second still; 0: none is "
-           "kept."),
-    whole("depth_every", {1, 60, "frames"}, "1", "Interval at which real depth is measured."),
-    whole("flow2d.search_radius", {0, 40, "px"}, "10", "Search radius at the coarsest level."),
-    whole("flow2d.candidates", {1, 4, ""}, "4", "Vectors of the coarser level that a cell tries."),
-    whole("flow2d.steps", {0, 16, ""}, "4", "Gauss-Newton steps after the best candidate."),
-    whole("flow2d.propagations", kFew, "0", "Propagation rounds at the finest level."),
-    whole("flow2d.coarsest_propagations", kFew, "4", "Propagation rounds at the coarsest level."),
-    whole("flow2d.plane_fits", kSmall, "2", "Rounds of plane fits after the median."),
+           "Upper limit of the share of tiles that are matched with the second still. 0: no second "
+           "still is kept."),
+    whole("depth_every", {1, 60, "frames"}, "1",
+          "Interval at which the depth of real things is measured."),
+    whole("flow2d.search_radius", {0, 40, "px"}, "10",
+          "Search radius at the coarsest pyramid level."),
+    whole("flow2d.candidates", {1, 4, ""}, "4",
+          "Number of vectors of the coarser pyramid level that a cell tries."),
+    whole("flow2d.steps", {0, 16, ""}, "4", "Gauss-Newton steps that refine the best candidate."),
+    whole("flow2d.propagations", kFew, "0", "Propagation rounds at the finest pyramid level."),
+    whole("flow2d.coarsest_propagations", kFew, "4",
+          "Propagation rounds at the coarsest pyramid level."),
+    whole("flow2d.plane_fits", kSmall, "2", "Rounds of plane fits after the median filter."),
     whole("epipolar.window_radius", {0, 8, "px"}, "2",
-          "Radius of the window around a coarser label."),
-    whole("epipolar.step_penalty", {1, 30, ""}, "12", "Smoothness: penalty of one label."),
-    whole("epipolar.jump_penalty", {1, 60, ""}, "60", "Smoothness: penalty of more labels."),
-    whole("epipolar.finest", kSmall, "0", "Finest level: all, half or a quarter of the pixels."),
-    whole("epipolar.most_predicted", {0, 60, "frames"}, "7",
-          "Upper limit of consecutive frames searched only around the previous result."),
+          "Radius of the search window around the label of the coarser pyramid level."),
+    whole("epipolar.step_penalty", {1, 30, ""}, "12",
+          "Smoothness: penalty where neighbours differ by one label."),
+    whole("epipolar.jump_penalty", {1, 60, ""}, "60",
+          "Smoothness: penalty where neighbours differ by more labels."),
+    whole("epipolar.finest", kSmall, "0",
+          "Finest pyramid level that is searched: 0, 1 and 2 have the full, half and quarter width "
+          "and height."),
+    whole(
+        "epipolar.most_predicted", {0, 60, "frames"}, "7",
+        "Largest number of consecutive frames that are searched only around the previous result."),
 };
 
 constexpr OptionSection kLevels[] = {{"level", kLevel, "", false, OptionSection::Kind::List}};

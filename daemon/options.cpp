@@ -63,7 +63,7 @@ void addOthers(CLI::App& app, Options& options, bool& printConfig) {
     app.set_version_flag("--version", "mfard " MFAR_VERSION, "Print the version");
     app.add_option("--config", options.config, "Configuration file (TOML)")->type_name("FILE");
     app.add_flag("--check-config", options.checkConfig,
-                 "Only check the configuration: prints ok, or every fault with its line");
+                 "Only check the configuration: print ok, or every fault with its line");
     app.add_flag("--print-config", printConfig,
                  "Only print a configuration file with every key, its meaning and default");
     app.add_flag("--release-trigger", options.releaseTrigger,
@@ -78,11 +78,11 @@ void addOthers(CLI::App& app, Options& options, bool& printConfig) {
                    "Write what the run measured to this file at the end (JSON; - prints it)")
         ->type_name("FILE");
     app.add_option("--control", options.control,
-                   "Listen for mfarctl at this socket; the group may use it, too")
+                   "Listen for mfarctl at this socket, which the socket's group may use, too")
         ->type_name("SOCKET");
     app.add_flag("--validate", options.validate,
-                 "Check everything that the engine writes for NaN, infinity and range; faults are\n"
-                 "logged. About ten times slower");
+                 "Check all values that the engine writes for NaN, infinity and range, and log\n"
+                 "faults. mfard becomes about ten times slower");
 }
 
 /// The command line parser and the values that it sets.

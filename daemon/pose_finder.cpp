@@ -16,8 +16,8 @@ std::string describe(const PoseConfig& config, const TagMap& map) {
     case PoseOrigin::Recorded: return "recorded poses";
     case PoseOrigin::Tags: break;
     }
-    if (!map.empty()) return fmt::format("poses from {} tags", map.tags().size());
-    return fmt::format("poses from the first tag, {:g} m", config.tagSize);
+    if (!map.empty()) return fmt::format("poses from a map of {} tags", map.tags().size());
+    return fmt::format("poses from the first tag, whose edge is {:g} m", config.tagSize);
 }
 
 }  // namespace
@@ -30,7 +30,7 @@ PoseFinder::PoseFinder(const PoseConfig& config, PoseInputs inputs, Stats& stats
     if (config.source == PoseOrigin::Recorded) {
         if (!inputs.recorded)
             throw Failure(ExitCode::BadData,
-                          inputs.source + ": has no poses, and pose.source is \"recorded\"");
+                          inputs.source + ": has no poses, but pose.source is \"recorded\"");
         recorded_ = std::move(inputs.recorded);
     }
 }

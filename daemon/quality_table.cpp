@@ -56,14 +56,14 @@ QualityLevel readLevel(TomlReader& file, const std::string& prefix) {
 }
 
 void requireWhole(const std::vector<QualityLevel>& levels, const std::string& file) {
-    if (levels.empty()) throw ConfigError(file + ":1:1: no [[level]]");
+    if (levels.empty()) throw ConfigError(file + ":1:1: the table has no [[level]]");
     for (std::size_t i = 0; i < levels.size(); ++i) {
         const auto same = [&](const QualityLevel& other) { return other.name == levels[i].name; };
         if (levels[i].name.empty() || !(levels[i].ms > 0))
-            throw ConfigError(fmt::format("{}:1:1: level[{}] needs a name and ms", file, i));
+            throw ConfigError(fmt::format("{}:1:1: level[{}] needs the keys name and ms", file, i));
         if (std::ranges::count_if(levels, same) > 1)
             throw ConfigError(
-                fmt::format("{}:1:1: level \"{}\" is there twice", file, levels[i].name));
+                fmt::format("{}:1:1: level \"{}\" occurs twice", file, levels[i].name));
     }
 }
 

@@ -40,12 +40,13 @@ std::string textOf(const std::filesystem::path& file) {
 
 std::string_view hint(ExitCode code) {
     if (code == ExitCode::Unavailable)
-        return "a device or OpenGL ES is not there; if it stays away, choose others in the "
-               "configuration (engine.use = \"simd\" needs no OpenGL ES, cameras may be absent)";
+        return "a device or OpenGL ES is not available; if this does not change, choose another "
+               "device in the configuration, or engine.use = \"simd\", which needs no OpenGL ES "
+               "(cameras may be absent)";
     if (code == ExitCode::OutputFailed)
-        return "look at `display` and [record] in the configuration, at free space and at the "
+        return "check `display` and [record] in the configuration, the free disk space, and the "
                "program that reads the pipe";
-    return "this is a fault of mfard itself: the lines above belong into a report";
+    return "this is a fault of mfard itself: please report it together with the lines above";
 }
 
 }  // namespace
@@ -90,7 +91,7 @@ void pauseBeforeRestart(ExitCode code, const std::string& error, Timestamp start
     const RestartPause::Next next =
         RestartPause(RestartPause::defaultFile()).failed(started, Timestamp::now());
     log.notice(fmt::format(
-        "{}\nfailed {} in a row; exits in {} s, then systemd restarts it", hint(code),
+        "{}\nmfard failed {} in a row; it exits in {} s, then systemd restarts it", hint(code),
         next.inARow == 1 ? "once" : fmt::format("{} times", next.inARow), next.wait.count()));
     service.status(fmt::format("{}; restart in {} s", error, next.wait.count()));
     sigset_t ends;

@@ -197,7 +197,7 @@ std::shared_ptr<Recorder> Rig::recorder() const {
 
 // mutex_ must be locked.
 void Rig::requireNoRecorder() const {
-    if (recorder_) throw Failure(ExitCode::OutputFailed, "a recording is under way already");
+    if (recorder_) throw Failure(ExitCode::OutputFailed, "a recording is already running");
 }
 
 std::function<std::shared_ptr<Recorder>()>

@@ -50,13 +50,14 @@ std::optional<std::string> sourceFault(std::string_view source) {
     if (source == kCameras) return std::nullopt;
     const SourceWords words = sourceWords(source);
     if (words.kind != "synthetic")
-        return fmt::format("no source \"{}\"; there are cameras and synthetic[:scene[,path]], and "
-                           "--recording for recordings",
+        return fmt::format("unknown source \"{}\"; expected cameras or synthetic[:scene[,path]]; "
+                           "--recording plays recordings",
                            words.kind);
     if (words.scene && !synthetic::sceneNamed(*words.scene))
-        return fmt::format("no scene \"{}\"; there are {}", *words.scene, names(kScenes));
+        return fmt::format("unknown scene \"{}\"; expected one of {}", *words.scene,
+                           names(kScenes));
     if (words.path && !synthetic::pathNamed(*words.path))
-        return fmt::format("no path \"{}\"; there are {}", *words.path, names(kPaths));
+        return fmt::format("unknown path \"{}\"; expected one of {}", *words.path, names(kPaths));
     return std::nullopt;
 }
 
@@ -69,9 +70,8 @@ std::optional<std::string> displayFault(std::string_view display) {
     if (isScreen(display)) return screenFault(display);
     for (const std::string_view kind : {"png:", "y4m:"})
         if (display.starts_with(kind) && display.size() > kind.size()) return std::nullopt;
-    return fmt::format("no display \"{}\"; there are auto, kms, fbdev, none, png:FOLDER and "
-                       "y4m:FILE",
-                       display);
+    return fmt::format(
+        "unknown display \"{}\"; expected auto, kms, fbdev, none, png:FOLDER or y4m:FILE", display);
 }
 
 }  // namespace mfar

@@ -40,7 +40,7 @@ Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
       policy_(config.trigger), levels_(governedLevels(config.governor)), tags_(poses_.tags()),
       sensors_(sensorsOf(config, rig_)) {
     if (!gl_.without.empty())
-        stats_.warn("OpenGL ES is not available, the CPU computes the pictures: " + gl_.without);
+        stats_.warn("OpenGL ES is not available, so the CPU computes the pictures: " + gl_.without);
     try {
         makeDrawing();
     } catch (const std::runtime_error& error) {

@@ -54,7 +54,8 @@ void Session::makeDrawingAnew(std::string why) {
             continue;
         }
         const double ms = static_cast<double>((Timestamp::now() - begun).count()) * 1e-6;
-        stats_.warn(fmt::format("{}: within {:.0f} ms", *gpuFault(), ms), {message::kGpu});
+        stats_.warn(fmt::format("{}; the restart took {:.0f} ms", *gpuFault(), ms),
+                    {message::kGpu});
         stats_.rendering(rendering());
     }
 }

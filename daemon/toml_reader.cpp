@@ -183,7 +183,7 @@ void TomlReader::texts(std::string_view key, std::vector<std::string>& out, cons
     for (const toml::node& element : *list) {
         if (!element.is_string())
             return fault(element.source(),
-                         fmt::format("{} must be a list of texts in quotes, and not hold {}", key,
+                         fmt::format("{} must be a list of texts in quotes, but contains {}", key,
                                      kind(element)));
         std::string value = element.value<std::string>().value();
         if (const std::optional<std::string> wrong = check ? check(value) : std::nullopt)
@@ -243,12 +243,12 @@ std::vector<std::string> TomlReader::sections(std::string_view key, std::size_t 
     if (node == nullptr) return out;
     const toml::array* list = node->as_array();
     if (list == nullptr || !list->is_homogeneous(toml::node_type::table)) {
-        fault(node->source(), fmt::format("{} must be sections [[{}]]", key, key));
+        fault(node->source(), fmt::format("{} must be written as sections [[{}]]", key, key));
         return out;
     }
     if (list->size() > most) {
-        fault(node->source(),
-              fmt::format("{} sections [[{}]], at most {} are allowed", list->size(), key, most));
+        fault(node->source(), fmt::format("found {} sections [[{}]]; at most {} are allowed",
+                                          list->size(), key, most));
         return out;
     }
     for (std::size_t i = 0; i < list->size(); ++i)
@@ -259,7 +259,8 @@ std::vector<std::string> TomlReader::sections(std::string_view key, std::size_t 
 void TomlReader::finish() {
     refuseUnknown(root_, "");
     if (faults_.empty()) return;
-    if (faults_.size() == kMostFaults) faults_.push_back({faults_.back().at, "and perhaps more"});
+    if (faults_.size() == kMostFaults)
+        faults_.push_back({faults_.back().at, "more faults may follow"});
     std::string all;
     for (const Fault& one : faults_)
         all += (all.empty() ? "" : "\n") + place(file_, one.at) + one.message;

@@ -8,7 +8,8 @@ std::vector<std::string_view> TriggerReports::newSince(const Seen& seen) {
         out.push_back(seen.repeats ? "no still arrived after a pulse; it is requested again"
                                    : "no still arrived after a pulse");
     if (seen.missedEdges > reported_.missedEdges)
-        out.push_back("the loopback missed an edge of a pulse, exposure unverified");
+        out.push_back("the loopback input missed an edge of a pulse, so the time of the exposure "
+                      "is unverified");
     reported_ = seen;
     return out;
 }

@@ -36,7 +36,7 @@ void ignore(png_structp /*png*/, png_const_charp /*text*/) {}
 struct PngReader {
     PngReader() : png(png_create_read_struct(PNG_LIBPNG_VER_STRING, &error, fail, ignore)) {
         if (png != nullptr) info = png_create_info_struct(png);
-        if (info == nullptr) throw std::runtime_error("libpng has no memory");
+        if (info == nullptr) throw std::runtime_error("libpng cannot allocate memory");
     }
     PngReader(const PngReader&) = delete;
     PngReader& operator=(const PngReader&) = delete;
@@ -50,7 +50,7 @@ struct PngReader {
 struct PngWriter {
     PngWriter() : png(png_create_write_struct(PNG_LIBPNG_VER_STRING, &error, fail, ignore)) {
         if (png != nullptr) info = png_create_info_struct(png);
-        if (info == nullptr) throw std::runtime_error("libpng has no memory");
+        if (info == nullptr) throw std::runtime_error("libpng cannot allocate memory");
     }
     PngWriter(const PngWriter&) = delete;
     PngWriter& operator=(const PngWriter&) = delete;
@@ -63,7 +63,7 @@ struct PngWriter {
 
 void readBytes(png_structp png, png_bytep to, std::size_t count) {
     auto* left = static_cast<std::span<const std::uint8_t>*>(png_get_io_ptr(png));
-    if (count > left->size()) png_error(png, "it ends too early");
+    if (count > left->size()) png_error(png, "the picture ends too early");
     std::memcpy(to, left->data(), count);
     *left = left->subspan(count);
 }
@@ -138,7 +138,7 @@ void decodeJpeg(std::span<const std::uint8_t> file, const TargetOf& targetOf) {
                             &sampling, &space) != 0)
         throw std::runtime_error(tjGetErrorStr2(decoder.get()));
     if (std::int64_t{size.width} * size.height > kMostProgressive && isProgressive(file))
-        throw std::runtime_error("a progressive JPEG of more than 16 million pixels");
+        throw std::runtime_error("a progressive JPEG may have at most 16 million pixels");
     const PixelTarget target = targetOf(size);
     // A warning counts as an error, because it means that data are damaged or missing.
     if (tjDecompress2(decoder.get(), file.data(), file.size(), target.rgba, size.width,
@@ -176,7 +176,7 @@ void decodeImage(std::span<const std::uint8_t> file, const TargetOf& targetOf, I
         return decodePng(file, targetOf, alpha);
     if (file.size() >= 3 && file[0] == 0xff && file[1] == 0xd8 && file[2] == 0xff)
         return decodeJpeg(file, targetOf);
-    throw std::runtime_error("neither PNG nor JPEG");
+    throw std::runtime_error("is neither PNG nor JPEG");
 }
 
 void encodePng(const std::uint8_t* pixels, std::size_t stride, Size size, PngPixels format,
@@ -188,7 +188,7 @@ void encodePng(const std::uint8_t* pixels, std::size_t stride, Size size, PngPix
     PngWriter writer;
     std::vector<png_bytep> rows = rowsOf(pixels, stride, size.height);
     if (!write(writer, size, format, rows.data(), out))
-        throw std::runtime_error("cannot be encoded: " + writer.error.text);
+        throw std::runtime_error("the picture cannot be encoded as PNG: " + writer.error.text);
 }
 
 }  // namespace mfar

@@ -81,7 +81,8 @@ std::shared_ptr<Camera> ReopeningCamera::tryOpen() {
     try {
         std::shared_ptr<Camera> camera = open_();
         if (const Size size = camera->info().size; size != info_.size)
-            throw std::runtime_error("gives " + sizeText(size) + ", not " + sizeText(info_.size));
+            throw std::runtime_error("delivers pictures of " + sizeText(size) + " instead of " +
+                                     sizeText(info_.size));
         camera->start();
         return camera;
     } catch (const std::exception& error) {

@@ -39,8 +39,9 @@ StillMatcher::StillMatcher(const StillMatcherOptions& options) : options_(option
     require(isLength(options.timeout),
             "still matching: the timeout must be above 0 and at most an hour");
     require(options.guess >= -kLongest && options.guess <= kLongest,
-            "still matching: the guess must be at most an hour");
-    require(options.learnFrom > 0, "still matching: it takes at least one pulse to learn");
+            "still matching: the guessed delay must be at most an hour, early or late");
+    require(options.learnFrom > 0,
+            "still matching: the number of pulses to learn from must be at least 1");
 }
 
 void StillMatcher::pulseFired(Timestamp edge, Pulse kind) {

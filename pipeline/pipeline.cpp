@@ -19,7 +19,7 @@ void requireFit(const ImageView& view, Size size, const char* what) {
         return;
     }
     throw std::invalid_argument(std::string(what) + " is " + std::to_string(view.size.width) + "x" +
-                                std::to_string(view.size.height) + ", the calibration says " +
+                                std::to_string(view.size.height) + ", but the calibration says " +
                                 std::to_string(size.width) + "x" + std::to_string(size.height));
 }
 

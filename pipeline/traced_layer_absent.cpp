@@ -12,8 +12,8 @@ bool TracedLayer::isAvailable() {
 }
 
 TracedLayer::TracedLayer(const CameraModel&, Engine&, const TracedLayerOptions&) {
-    throw std::runtime_error("this build has no path tracer: virtual objects can be shown as a "
-                             "preview only");
+    throw std::runtime_error(
+        "this build has no path tracer, so virtual objects can be shown only as a preview");
 }
 TracedLayer::~TracedLayer() = default;
 

@@ -9,7 +9,7 @@ debianSuite() {
     local ID='' VERSION_CODENAME=''
     # shellcheck source=/dev/null
     . /etc/os-release
-    [[ $ID == debian ]] || die "needs Debian, this is ${ID:-unknown}"
+    [[ $ID == debian ]] || die "this script needs Debian, but this machine runs ${ID:-unknown}"
     echo "$VERSION_CODENAME"
 }
 

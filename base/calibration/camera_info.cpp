@@ -14,7 +14,11 @@ void readInfoLens(const YamlReader& in, CameraModel& camera) {
     const YAML::Node name = in.at("distortion_model");
     const std::string model = in.word(name, "distortion_model");
     if (model != "plumb_bob" && model != "rational_polynomial")
-        in.fail(name, fmt::format("distortion_model '{}' is not supported, plumb_bob is", model));
+        in.fail(
+            name,
+            fmt::format(
+                "distortion_model '{}' is not supported; expected plumb_bob or rational_polynomial",
+                model));
     const YAML::Node node = in.at("distortion_coefficients");
     const YAML::Node data = in.data(node, "distortion_coefficients");
     plausible::setDistortion(in, data, in.numbers(data, "distortion_coefficients"), camera);

@@ -13,7 +13,8 @@ void readChainLens(const YamlReader& in, const YAML::Node& map, CameraModel& cam
     const std::string model = in.word(name, "distortion_model");
     if (model == "none") return;
     if (model != "radtan")
-        in.fail(name, fmt::format("distortion_model '{}' is not supported, radtan is", model));
+        in.fail(name, fmt::format("distortion_model '{}' is not supported; expected radtan or none",
+                                  model));
     const YAML::Node node = in.at(map, "distortion_coeffs");
     plausible::setDistortion(in, node, in.numbers(node, "distortion_coeffs"), camera);
 }
@@ -21,15 +22,15 @@ void readChainLens(const YamlReader& in, const YAML::Node& map, CameraModel& cam
 CameraModel readCamera(const YamlReader& in, const YAML::Node& map, std::optional<Size> wanted) {
     const YAML::Node name = in.at(map, "camera_model");
     if (const std::string model = in.word(name, "camera_model"); model != "pinhole")
-        in.fail(name, fmt::format("camera_model '{}' is not supported, pinhole is", model));
+        in.fail(name, fmt::format("camera_model '{}' is not supported; expected pinhole", model));
     CameraModel out;
     const YAML::Node resolution = in.at(map, "resolution");
     const std::vector<double> sides = in.numbers(resolution, "resolution");
-    if (sides.size() != 2) in.fail(resolution, "resolution needs width and height");
+    if (sides.size() != 2) in.fail(resolution, "resolution must be [width, height]");
     out.size = plausible::size(in, resolution, sides[0], sides[1], wanted);
     const YAML::Node node = in.at(map, "intrinsics");
     const std::vector<double> v = in.numbers(node, "intrinsics");
-    if (v.size() != 4) in.fail(node, "intrinsics need fu, fv, pu, pv");
+    if (v.size() != 4) in.fail(node, "intrinsics must be [fu, fv, pu, pv]");
     plausible::setIntrinsics(in, node, {v[0], v[1], v[2], v[3]}, out);
     readChainLens(in, map, out);
     return out;
@@ -45,7 +46,8 @@ RigidTransform readExtrinsics(const YamlReader& in, const YAML::Node& video,
                               const YAML::Node& still) {
     const bool direct = still["T_cn_cnm1"].IsDefined();
     const char* key = direct ? "T_cn_cnm1" : "T_cam_imu";
-    if (!direct && !still[key].IsDefined()) in.fail(still, "has no T_cn_cnm1");
+    if (!direct && !still[key].IsDefined())
+        in.fail(still, "has no T_cn_cnm1, the transform from cam0 to cam1");
     const RigidTransform T =
         direct ? readTransform(in, still, key)
                : readTransform(in, still, key) * readTransform(in, video, key).inverse();
@@ -66,7 +68,8 @@ double readOffset(const YamlReader& in, const YAML::Node& video, const YAML::Nod
 
 RigCalibration kalibr(const YamlReader& in, const WantedSizes& wanted) {
     const YAML::Node video = in.at("cam0");
-    if (!in.has("cam1")) in.fail("has no cam1: a rig has two cameras, the video is cam0");
+    if (!in.has("cam1"))
+        in.fail("has no cam1: a rig needs cam0 (video sensor) and cam1 (still sensor)");
     const YAML::Node still = in.at("cam1");
     RigCalibration out;
     out.rig.video = readCamera(in, video, wanted.video);

@@ -47,7 +47,7 @@ std::optional<Size> readSize(const YamlReader& in, int camera, std::optional<Siz
         if (!node && in.has(key)) node = in.at(key);
     if (node) {
         const std::vector<double> v = in.numbers(*node, "the image size");
-        if (v.size() != 2) in.fail(*node, "the image size needs width and height");
+        if (v.size() != 2) in.fail(*node, "the image size must be [width, height]");
         return plausible::size(in, *node, v[0], v[1], wanted);
     }
     if (!in.has("image_width")) return std::nullopt;
@@ -61,17 +61,19 @@ std::optional<Size> readSize(const YamlReader& in, int camera, std::optional<Siz
 void checkGuessedSize(const YamlReader& in, const YAML::Node& node, const CameraModel& c) {
     const auto central = [](double at, int side) { return at > 0.3 * side && at < 0.7 * side; };
     if (!central(c.cx, c.size.width) || !central(c.cy, c.size.height))
-        in.fail(node, fmt::format("the principal point ({}, {}) is far from the middle of {}x{}, "
-                                  "and the file does not say what size it is for",
+        in.fail(node, fmt::format("the file states no image size, and the principal point ({}, {}) "
+                                  "is far from the middle of the sensor's {}x{} pixels",
                                   c.cx, c.cy, c.size.width, c.size.height));
 }
 
 CameraModel readCamera(const YamlReader& in, int camera, std::optional<Size> wanted) {
-    const char* const name = camera == 1 ? "the video's matrix" : "the still's matrix";
+    const char* const name =
+        camera == 1 ? "the video's camera matrix" : "the still's camera matrix";
     const YAML::Node matrix = in.data(need(in, kMatrixKeys, camera), name);
     CameraModel out;
     const std::optional<Size> size = readSize(in, camera, wanted);
-    if (!size && !wanted) in.fail("has no image_size, so it is not known what size it is for");
+    if (!size && !wanted)
+        in.fail("has no image_size, so the picture size of this calibration is unknown");
     out.size = size ? *size : *wanted;
     plausible::setCameraMatrix(in, matrix, in.matrix(matrix, 3, 3, name), out);
     if (!size) checkGuessedSize(in, matrix, out);

@@ -62,8 +62,9 @@ Size size(const YamlReader& in, const YAML::Node& node, double width, double hei
                     fmt::format("resolution {} is not a whole number from {}", side, text(kSide)));
     const Size out{static_cast<int>(width), static_cast<int>(height)};
     if (wanted && out != *wanted)
-        in.fail(node, fmt::format("is the calibration of {}x{}, the sensor gives {}x{}", out.width,
-                                  out.height, wanted->width, wanted->height));
+        in.fail(node,
+                fmt::format("is a calibration for {}x{} pixels, but the sensor delivers {}x{}",
+                            out.width, out.height, wanted->width, wanted->height));
     return out;
 }
 
@@ -71,15 +72,16 @@ void setIntrinsics(const YamlReader& in, const YAML::Node& node, const Eigen::Ve
                    CameraModel& camera) {
     for (int i = 0; i < 2; ++i)
         if (!kFocal.holds(values[i] / camera.size.width))
-            in.fail(node, fmt::format("focal length {} px is impossible for a width of {} px, {} "
-                                      "is plausible",
-                                      values[i], camera.size.width, text(kFocal)));
+            in.fail(node,
+                    fmt::format(
+                        "focal length {} px is not plausible for a picture {} px wide; expected {}",
+                        values[i], camera.size.width, text(kFocal)));
     if (!kPrincipal.holds(values[2] / camera.size.width) ||
         !kPrincipal.holds(values[3] / camera.size.height))
-        in.fail(node, fmt::format("principal point ({}, {}) lies far outside the picture of {}x{}, "
-                                  "{} is plausible",
-                                  values[2], values[3], camera.size.width, camera.size.height,
-                                  text(kPrincipal)));
+        in.fail(node,
+                fmt::format(
+                    "principal point ({}, {}) lies far outside the picture of {}x{}; expected {}",
+                    values[2], values[3], camera.size.width, camera.size.height, text(kPrincipal)));
     camera.fx = values[0];
     camera.fy = values[1];
     camera.cx = values[2];
@@ -90,34 +92,35 @@ void setCameraMatrix(const YamlReader& in, const YAML::Node& node, const Eigen::
                      CameraModel& camera) {
     if (!(std::abs(matrix.determinant()) > 1e-9)) in.fail(node, "the camera matrix is singular");
     if (!matrix.row(2).isApprox(Eigen::RowVector3d(0, 0, 1), 1e-9) || matrix(1, 0) != 0)
-        in.fail(node, "the camera matrix is not fx 0 cx, 0 fy cy, 0 0 1");
+        in.fail(node, "the camera matrix does not have the form [fx 0 cx, 0 fy cy, 0 0 1]");
     if (std::abs(matrix(0, 1)) > 1e-6 * std::abs(matrix(0, 0)))
-        in.fail(node, fmt::format("the camera matrix has a skew of {}", matrix(0, 1)));
+        in.fail(node, fmt::format("the camera matrix has a skew of {}; expected 0", matrix(0, 1)));
     setIntrinsics(in, node, {matrix(0, 0), matrix(1, 1), matrix(0, 2), matrix(1, 2)}, camera);
 }
 
 void setDistortion(const YamlReader& in, const YAML::Node& node, const std::vector<double>& values,
                    CameraModel& camera) {
     if (values.size() < 4)
-        in.fail(node, fmt::format("{} distortion coefficients, 4 or 5 (k1 k2 p1 p2 k3) are needed",
-                                  values.size()));
+        in.fail(node,
+                fmt::format("found {} distortion coefficients; expected 4 or 5 (k1 k2 p1 p2 k3)",
+                            values.size()));
     for (std::size_t i = 0; i < values.size(); ++i) {
         if (!kCoefficient.holds(values[i]))
-            in.fail(node, fmt::format("distortion coefficient {} is impossible, {} is plausible",
+            in.fail(node, fmt::format("distortion coefficient {} is not plausible; expected {}",
                                       values[i], text(kCoefficient)));
         if (i < camera.distortion.size())
             camera.distortion[i] = values[i];
         else if (values[i] != 0)
-            in.fail(node, fmt::format("distortion coefficient {} is {}: only the first five (k1 k2 "
-                                      "p1 p2 k3) are supported",
+            in.fail(node, fmt::format("distortion coefficient {} is {}; only the first five (k1 k2 "
+                                      "p1 p2 k3) may differ from 0",
                                       i + 1, values[i]));
     }
     if (foldsInside(camera))
-        in.fail(node, "the distortion folds the picture over inside its own edges");
+        in.fail(node, "the distortion folds the picture over: several rays map to one pixel");
     const double corner = mostUnlikelyCorner(camera);
     if (!kCorner.holds(corner))
-        in.fail(node, fmt::format("the distortion moves a corner of the picture to {} of its "
-                                  "distance from the principal point, {} is plausible",
+        in.fail(node, fmt::format("the distortion multiplies the distance of a picture corner from "
+                                  "the principal point by {}; expected {}",
                                   corner, text(kCorner)));
 }
 
@@ -126,7 +129,7 @@ Eigen::Quaterniond rotation(const YamlReader& in, const YAML::Node& node,
     const double skew =
         (matrix * matrix.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
     if (!(skew < kRotationTolerance) || !(matrix.determinant() > 0))
-        in.fail(node, fmt::format("{} is not a rotation", what));
+        in.fail(node, fmt::format("{} is not a rotation matrix", what));
     return Eigen::Quaterniond(matrix).normalized();
 }
 
@@ -142,15 +145,16 @@ RigidTransform transform(const YamlReader& in, const YAML::Node& node,
 void checkBaseline(const YamlReader& in, const YAML::Node& node, const RigidTransform& T) {
     const double baseline = T.translation.norm();
     if (!kBaseline.holds(baseline))
-        in.fail(node, fmt::format("the sensors stand {} m apart, {} is plausible: is the unit "
-                                  "metres?",
-                                  baseline, text(kBaseline)));
+        in.fail(node,
+                fmt::format(
+                    "the sensors are {} m apart; expected {}. Is the translation given in metres?",
+                    baseline, text(kBaseline)));
 }
 
 double timeOffset(const YamlReader& in, const YAML::Node& node, const char* what) {
     const double offset = in.number(node, what);
     if (!kTimeOffset.holds(offset))
-        in.fail(node, fmt::format("{} of {} s is impossible, {} is plausible", what, offset,
+        in.fail(node, fmt::format("{} of {} s is not plausible; expected {}", what, offset,
                                   text(kTimeOffset)));
     return offset;
 }
@@ -158,7 +162,7 @@ double timeOffset(const YamlReader& in, const YAML::Node& node, const char* what
 double rate(const YamlReader& in, const YAML::Node& node, const char* what) {
     const double value = in.number(node, what);
     if (value != 0 && !kRate.holds(value))
-        in.fail(node, fmt::format("{} of {} Hz is impossible, 0 or {} is plausible", what, value,
+        in.fail(node, fmt::format("{} of {} Hz is not plausible; expected 0 or {}", what, value,
                                   text(kRate)));
     return value;
 }

@@ -22,7 +22,8 @@ fs::path neighbour(const YamlReader& in, const char* key) {
     const YAML::Node node = in.at(key);
     const fs::path name = in.word(node, key);
     if (name.empty() || name != name.filename() || name == "." || name == "..")
-        in.fail(node, fmt::format("{} is not the plain name of a file beside this one", key));
+        in.fail(node,
+                fmt::format("{} must name a file in the folder of this file, without a path", key));
     return in.file().parent_path() / name;
 }
 
@@ -54,7 +55,7 @@ RigCalibration readFolder(const fs::path& folder, const WantedSizes& wanted) {
     if (fs::is_regular_file(folder / kRigFile)) return loadRig(folder / kRigFile, wanted);
     if (fs::is_regular_file(folder / "cam0" / "sensor.yaml"))
         return readEuroc(folder / "cam0" / "sensor.yaml", folder / "cam1" / "sensor.yaml", wanted);
-    calibrationFault(folder, 0, "holds neither rig.yaml nor cam0/sensor.yaml");
+    calibrationFault(folder, 0, "contains neither rig.yaml nor cam0/sensor.yaml");
 }
 
 RigCalibration readOne(const YamlReader& in, const WantedSizes& wanted) {
@@ -62,8 +63,8 @@ RigCalibration readOne(const YamlReader& in, const WantedSizes& wanted) {
     if (in.has("cam0")) return rig_formats::kalibr(in, wanted);
     if (rig_formats::isOpenCv(in)) return rig_formats::openCv(in, in, wanted);
     if (in.has("camera_matrix") || in.has("camera_model"))
-        in.fail("describes one camera: a rig needs both and T_still_video");
-    in.fail("is no calibration of a known format (rig.yaml, Kalibr camchain, OpenCV, EuRoC)");
+        in.fail("describes only one camera: a rig needs both cameras and T_still_video");
+    in.fail("is not a calibration in a known format (rig.yaml, Kalibr camchain, OpenCV, EuRoC)");
 }
 
 RigCalibration readTwo(const fs::path& first, const fs::path& second, const WantedSizes& wanted) {
@@ -74,8 +75,8 @@ RigCalibration readTwo(const fs::path& first, const fs::path& second, const Want
             euroc = a.has("T_BS") && b.has("T_BS");
             if (euroc) return;
             if (!rig_formats::isOpenCv(a) || !rig_formats::isOpenCv(b))
-                a.fail(fmt::format("and {} are no pair: two sensor.yaml, or intrinsics and "
-                                   "extrinsics of OpenCV, are",
+                a.fail(fmt::format("does not belong together with {}; expected two sensor.yaml "
+                                   "files, or the intrinsics and the extrinsics file of OpenCV",
                                    second.string()));
             out =
                 a.has("R") ? rig_formats::openCv(b, a, wanted) : rig_formats::openCv(a, b, wanted);
@@ -88,7 +89,9 @@ RigCalibration readTwo(const fs::path& first, const fs::path& second, const Want
 void refuseXml(const fs::path& file) {
     std::ifstream in(file);
     if (in.peek() == '<')
-        calibrationFault(file, 1, "is XML: let OpenCV's FileStorage write a file named .yml");
+        calibrationFault(file, 1,
+                         "is XML, which is not supported: OpenCV's FileStorage writes YAML into a "
+                         "file named *.yml");
 }
 
 void write(const fs::path& file, const std::string& text) {
@@ -122,7 +125,7 @@ RigCalibration loadRig(std::span<const fs::path> paths, const WantedSizes& wante
     for (const fs::path& path : paths)
         if (fs::is_regular_file(path)) refuseXml(path);
     if (paths.size() == 2) return readTwo(paths[0], paths[1], wanted);
-    if (paths.size() != 1) throw CalibrationError("a calibration is one path or two");
+    if (paths.size() != 1) throw CalibrationError("a calibration consists of one or two paths");
     if (fs::is_directory(paths[0])) return readFolder(paths[0], wanted);
     RigCalibration out;
     readYaml(paths[0], [&](const YamlReader& in) { out = readOne(in, wanted); });

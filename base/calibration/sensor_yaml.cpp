@@ -12,7 +12,7 @@ namespace {
 
 Eigen::Vector4d readIntrinsics(const YamlReader& in, const YAML::Node& node) {
     const std::vector<double> v = in.numbers(node, "intrinsics");
-    if (v.size() != 4) in.fail(node, "intrinsics need fu, fv, cu, cv");
+    if (v.size() != 4) in.fail(node, "intrinsics must be [fu, fv, cu, cv]");
     return {v[0], v[1], v[2], v[3]};
 }
 
@@ -21,8 +21,9 @@ void readSensorLens(const YamlReader& in, CameraModel& camera) {
     const std::string model = in.word(name, "distortion_model");
     if (model == "none") return;
     if (model != "radial-tangential" && model != "radtan")
-        in.fail(name,
-                fmt::format("distortion_model '{}' is unknown, radial-tangential is read", model));
+        in.fail(name, fmt::format("distortion_model '{}' is not supported; expected "
+                                  "radial-tangential, radtan or none",
+                                  model));
     const YAML::Node node = in.at("distortion_coefficients");
     plausible::setDistortion(in, node, in.numbers(node, "distortion_coefficients"), camera);
 }
@@ -35,11 +36,11 @@ double readRate(const YamlReader& in) {
 SensorYaml readSensor(const YamlReader& in, std::optional<Size> wanted) {
     const YAML::Node name = in.at("camera_model");
     if (const std::string model = in.word(name, "camera_model"); model != "pinhole")
-        in.fail(name, fmt::format("camera_model '{}' is unknown, pinhole is read", model));
+        in.fail(name, fmt::format("camera_model '{}' is not supported; expected pinhole", model));
     SensorYaml out;
     const YAML::Node resolution = in.at("resolution");
     const std::vector<double> sides = in.numbers(resolution, "resolution");
-    if (sides.size() != 2) in.fail(resolution, "resolution needs width and height");
+    if (sides.size() != 2) in.fail(resolution, "resolution must be [width, height]");
     out.camera.size = plausible::size(in, resolution, sides[0], sides[1], wanted);
     const YAML::Node intrinsics = in.at("intrinsics");
     plausible::setIntrinsics(in, intrinsics, readIntrinsics(in, intrinsics), out.camera);

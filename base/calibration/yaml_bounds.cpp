@@ -15,7 +15,7 @@ public:
     void OnDocumentEnd() override {}
     void OnNull(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) override { count(mark); }
     void OnAlias(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) override {
-        throw YAML::ParserException(mark, "aliases are not read");
+        throw YAML::ParserException(mark, "YAML aliases are not supported");
     }
     void OnScalar(const YAML::Mark& mark, const std::string& /*tag*/, YAML::anchor_t /*anchor*/,
                   const std::string& /*value*/) override {
@@ -37,12 +37,14 @@ private:
 
     void count(const YAML::Mark& mark) {
         if (++values_ > kMostValues)
-            throw YAML::ParserException(mark, fmt::format("more than {} values", kMostValues));
+            throw YAML::ParserException(
+                mark, fmt::format("the file has more than {} values", kMostValues));
     }
     void begin(const YAML::Mark& mark) {
         count(mark);
         if (++depth_ > kDeepest)
-            throw YAML::ParserException(mark, fmt::format("nested deeper than {}", kDeepest));
+            throw YAML::ParserException(
+                mark, fmt::format("the file is nested more than {} levels deep", kDeepest));
     }
 
     int depth_ = 0, values_ = 0;

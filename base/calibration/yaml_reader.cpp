@@ -31,7 +31,8 @@ YamlReader::YamlReader(const std::filesystem::path& file) : file_(file) {
         fail(fmt::format("{}, so this camera has no calibration", error.what()));
     }
     root_ = boundedYaml(text);
-    if (!root_.IsMap()) calibrationFault(file_, 1, "holds no calibration");
+    if (!root_.IsMap())
+        calibrationFault(file_, 1, "holds no calibration: the file must be a YAML map");
 }
 
 YAML::Node YamlReader::at(const YAML::Node& map, const char* key) const {
@@ -59,14 +60,14 @@ std::vector<double> YamlReader::numbers(const YAML::Node& node, const char* what
 }
 
 std::string YamlReader::word(const YAML::Node& node, const char* what) const {
-    if (!node.IsScalar()) fail(node, fmt::format("{} is not a word", what));
+    if (!node.IsScalar()) fail(node, fmt::format("{} must be a single value", what));
     return node.Scalar();
 }
 
 YAML::Node YamlReader::data(const YAML::Node& node, const char* what) const {
     if (!node.IsMap()) return node;
     YAML::Node values = node["data"];
-    if (!values.IsDefined()) fail(node, fmt::format("{} has no data", what));
+    if (!values.IsDefined()) fail(node, fmt::format("{} has no key \"data\"", what));
     return values;
 }
 
@@ -78,15 +79,16 @@ Eigen::MatrixXd YamlReader::matrix(const YAML::Node& node, int rows, int columns
         for (const YAML::Node& row : list) {
             const std::vector<double> some = numbers(row, what);
             if (static_cast<int>(some.size()) != columns)
-                fail(row,
-                     fmt::format("{} has a row of {} numbers, not {}", what, some.size(), columns));
+                fail(row, fmt::format("{} has a row of {} numbers; expected {}", what, some.size(),
+                                      columns));
             values.insert(values.end(), some.begin(), some.end());
         }
     } else {
         values = numbers(list, what);
     }
     if (static_cast<int>(values.size()) != rows * columns)
-        fail(list, fmt::format("{} has {} numbers, not {}", what, values.size(), rows * columns));
+        fail(list,
+             fmt::format("{} has {} numbers; expected {}", what, values.size(), rows * columns));
     using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     return Eigen::Map<const RowMajor>(values.data(), rows, columns);
 }

@@ -10,7 +10,7 @@
 namespace mfar::gpu {
 
 Buffer::Buffer(std::size_t bytes) : bytes_(bytes) {
-    checkErrors("before Buffer");
+    checkErrors("a call before Buffer()");
     glGenBuffers(1, &id_);
     glBindBuffer(GL_SHADER_STORAGE_BUFFER, id_);
     std::vector<std::uint8_t> contents(bytes);
@@ -49,7 +49,7 @@ void Buffer::readBytes(void* out, std::size_t bytes, std::size_t offset) const {
     glBindBuffer(GL_SHADER_STORAGE_BUFFER, id_);
     const void* mapped = glMapBufferRange(GL_SHADER_STORAGE_BUFFER, static_cast<GLintptr>(offset),
                                           static_cast<GLsizeiptr>(bytes), GL_MAP_READ_BIT);
-    if (mapped == nullptr) throw GlError("buffer could not be mapped for reading");
+    if (mapped == nullptr) throw GlError("the GPU buffer cannot be mapped for reading");
     std::memcpy(out, mapped, bytes);
     glUnmapBuffer(GL_SHADER_STORAGE_BUFFER);
 }

@@ -69,8 +69,9 @@ void finishLink(GLuint program, const std::string& name, std::size_t paramsBytes
     glGetActiveUniformBlockiv(program, block, GL_UNIFORM_BLOCK_DATA_SIZE, &bytes);
     // Some drivers include the padding after the block's last member in its size, others do not.
     if ((static_cast<std::size_t>(bytes) + 15) / 16 * 16 != paramsBytes)
-        throw GlError("shader " + name + ": block Params has " + std::to_string(bytes) +
-                      " bytes, the program expects " + std::to_string(paramsBytes));
+        throw GlError("shader " + name + ": the shader's block Params has " +
+                      std::to_string(bytes) + " bytes, but the program expects " +
+                      std::to_string(paramsBytes));
     glUniformBlockBinding(program, block, 0);
 }
 

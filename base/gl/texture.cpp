@@ -9,12 +9,12 @@ namespace mfar::gpu {
 
 Texture::Texture(Size size, TexelFormat format, Filter filter, int levels)
     : size_(size), format_(format) {
-    checkErrors("before Texture");
+    checkErrors("a call before Texture()");
     GLint most = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
     if (size.width > most || size.height > most)
         throw GlError("a picture of " + std::to_string(size.width) + "x" +
-                      std::to_string(size.height) + " pixels is larger than this GPU allows, " +
+                      std::to_string(size.height) + " pixels exceeds this GPU's limit of " +
                       std::to_string(most) + "x" + std::to_string(most));
     glGenTextures(1, &id_);
     glBindTexture(GL_TEXTURE_2D, id_);
@@ -137,7 +137,7 @@ std::vector<float> Texture::readRgba32F() const {
 }
 
 Framebuffer::Framebuffer(std::span<const Texture* const> colour, const Texture* depth) {
-    checkErrors("before Framebuffer");
+    checkErrors("a call before Framebuffer()");
     glGenFramebuffers(1, &id_);
     glBindFramebuffer(GL_FRAMEBUFFER, id_);
     std::array<GLenum, 4> buffers{};
@@ -153,7 +153,8 @@ Framebuffer::Framebuffer(std::span<const Texture* const> colour, const Texture* 
     }
     glDrawBuffers(static_cast<GLsizei>(colour.size()), buffers.data());
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-        throw GlError("framebuffer incomplete: a texture's format cannot be drawn into");
+        throw GlError("the framebuffer is incomplete: this GPU cannot draw into the format of one "
+                      "of its textures");
     checkErrors("Framebuffer");
 }
 

@@ -65,7 +65,7 @@ std::string describe(const ValidationFault& f) {
                   f.output.c_str(), f.x, f.y, f.component, f.value);
     std::string out = text.data();
     if (stated) {
-        std::snprintf(text.data(), text.size(), ", not in %g..%g", f.range.low, f.range.high);
+        std::snprintf(text.data(), text.size(), ", expected %g..%g", f.range.low, f.range.high);
         out += text.data();
     }
     return out + ", frame " + std::to_string(f.frame);
@@ -129,7 +129,7 @@ void Validation::checkStorage(const std::string& pass, const PassOutput& output,
     const std::size_t bytes = guarded != guarded_.end() ? guarded->second : whole;
     const auto* data = static_cast<const std::uint8_t*>(
         glMapBufferRange(GL_COPY_READ_BUFFER, 0, whole, GL_MAP_READ_BIT));
-    if (data == nullptr) throw GlError("buffer could not be mapped for validation");
+    if (data == nullptr) throw GlError("the GPU buffer cannot be mapped for validation");
     if (bytes >= output.offset + 4UL * output.components) {
         const std::size_t room = (bytes - output.offset) / output.stride;
         const std::size_t count = output.count > 0 ? std::min(output.count, room) : room;

@@ -30,7 +30,8 @@ public:
         : path_(socket), fd_(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
         sockaddr_un address{};
         address.sun_family = AF_UNIX;
-        if (path_.native().size() >= sizeof address.sun_path) fail("the path is too long");
+        if (path_.native().size() >= sizeof address.sun_path)
+            fail("the path of the socket is too long");
         path_.native().copy(address.sun_path, path_.native().size());
         setsockopt(fd_.get(), SOL_SOCKET, SO_RCVTIMEO, &kPatience, sizeof kPatience);
         setsockopt(fd_.get(), SOL_SOCKET, SO_SNDTIMEO, &kPatience, sizeof kPatience);

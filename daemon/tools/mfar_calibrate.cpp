@@ -25,30 +25,36 @@ struct Arguments {
 };
 
 void declare(CLI::App& app, Arguments& a) {
-    app.add_option("recording", a.recording, "folder in EuRoC layout, cam0 video, cam1 stills")
+    app.add_option("recording", a.recording,
+                   "recording to read: folder in EuRoC layout, cam0 video, cam1 stills")
         ->required();
     auto* grid = app.add_option("--aprilgrid", a.aprilGridFile,
                                 "target: Kalibr's description of an aprilgrid (YAML)");
     auto* board =
-        app.add_option("--checkerboard", a.board, "target: inner corners of a board, like 9x6");
-    auto* square = app.add_option("--square", a.square, "edge of a square of the board [m]");
+        app.add_option("--checkerboard", a.board,
+                       "target: checkerboard with this number of inner corners, like 9x6");
+    auto* square =
+        app.add_option("--square", a.square, "edge length of a square of the checkerboard [m]");
     grid->excludes(board);
     board->needs(square);
     square->needs(board);
-    app.add_option("--out", a.out, "folder for rig.yaml, video.yaml, still.yaml, residuals.png")
+    app.add_option("--out", a.out,
+                   "folder to write: rig.yaml, video.yaml, still.yaml, residuals.png")
         ->required();
     app.add_option("--max-offset", a.solve.maxOffset,
-                   "search range of the clock offset, +- [s]; 0: no offset")
+                   "largest clock offset that is searched, positive or negative [s]; 0: the offset "
+                   "is taken as 0")
         ->check(CLI::Range(0.0, 2.0))
         ->capture_default_str();
-    app.add_flag("--k3", a.solve.k3, "estimate the third radial coefficient, for wide lenses");
+    app.add_flag("--k3", a.solve.k3,
+                 "estimate the third radial distortion coefficient as well, for wide lenses");
 }
 
 Target targetOf(const Arguments& a) {
     if (!a.aprilGridFile.empty()) return readAprilGrid(a.aprilGridFile);
     if (!a.board.empty()) return checkerboard(a.board, a.square);
-    throw std::runtime_error("the target is needed: --aprilgrid FILE or --checkerboard 9x6 "
-                             "--square 0.025");
+    throw std::runtime_error(
+        "a target is needed: --aprilgrid FILE or --checkerboard 9x6 --square 0.025");
 }
 
 /// Searches for the target in all pictures. On a terminal, the coverage map is redrawn after each

@@ -44,29 +44,31 @@ struct Arguments {
 };
 
 void declare(CLI::App& app, Arguments& a) {
-    app.add_option("--scene", a.scene, "what to look at")
+    app.add_option("--scene", a.scene, "scene in front of the cameras")
         ->check(CLI::IsMember(names(kScenes)))
         ->capture_default_str();
     app.add_option("--path", a.path,
                    "how the camera moves (default: handheld; rest in scene still, "
                    "survey in calibration)")
         ->check(CLI::IsMember(names(kPaths)));
-    app.add_option("--seconds", a.seconds, "length of the recording")
+    app.add_option("--seconds", a.seconds, "length of the recording [s]")
         ->check(CLI::Range(0.01, 3600.0))
         ->capture_default_str();
     app.add_option("--rate", a.rateHz, "video frames per second")
         ->check(CLI::Range(1.0, 1000.0))
         ->capture_default_str();
-    app.add_option("--stills", a.sim.stillsHz, "stills per second, 0: none")
+    app.add_option("--stills", a.sim.stillsHz, "stills per second; 0: no stills")
         ->check(CLI::Range(0.0, 10.0))
         ->capture_default_str();
-    app.add_option("--seed", a.board.seed, "same seed, same bytes")->capture_default_str();
-    app.add_option("--noise", a.board.noise, "scales the sensors' noise")
+    app.add_option("--seed", a.board.seed,
+                   "seed of the random numbers: the same seed gives the same bytes")
+        ->capture_default_str();
+    app.add_option("--noise", a.board.noise, "factor of the sensors' noise")
         ->check(CLI::Range(0.0, 100.0))
         ->capture_default_str();
-    app.add_option("--out", a.sim.out, "folder to write, new or empty");
-    app.add_flag("--no-truth", a.noTruth, "leave truth/ out");
-    app.add_flag("--list", a.list, "print the scenes and paths and end");
+    app.add_option("--out", a.sim.out, "folder to write the recording into, new or empty");
+    app.add_flag("--no-truth", a.noTruth, "do not write truth/, the ground truth");
+    app.add_flag("--list", a.list, "print the names of all scenes and paths, then exit");
 }
 
 void showProgress(int done, int total) {
@@ -127,7 +129,7 @@ int main(int argc, char** argv) {
     CLI11_PARSE(app, argc, argv);
     try {
         if (arguments.list) return mfar::list();
-        if (arguments.sim.out.empty()) throw std::runtime_error("--out DIR is needed");
+        if (arguments.sim.out.empty()) throw std::runtime_error("the option --out DIR is needed");
         return mfar::simulate(arguments);
     } catch (const std::exception& e) {
         fmt::print(stderr, "mfar-sim: {}\n", e.what());

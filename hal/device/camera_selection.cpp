@@ -40,7 +40,7 @@ std::size_t anyOf(const std::vector<ListedCamera>& cameras, const CameraWish& wi
         left.clear();
     if (left.empty())
         throw std::runtime_error(
-            fmt::format("there is no camera beside the other one, {}", describe(cameras)));
+            fmt::format("no second camera was found; available: {}", describe(cameras)));
     const auto [least, most] = std::ranges::minmax(
         left, {}, [&](std::size_t i) { return std::pair(cameras[i].pixels, cameras[i].id); });
     return wish.largest ? most : least;
@@ -57,17 +57,17 @@ std::string describe(const std::vector<ListedCamera>& cameras) {
 
 std::size_t chooseCamera(const std::vector<ListedCamera>& cameras, const CameraWish& wish) {
     if (cameras.empty())
-        throw std::runtime_error("libcamera finds no camera; cameras that it does not serve may "
-                                 "work with driver \"v4l2\"");
+        throw std::runtime_error("libcamera finds no camera; try driver \"v4l2\" for cameras that "
+                                 "libcamera does not support");
     if (wish.name.empty()) return anyOf(cameras, wish);
     const std::vector<std::size_t> found = named(cameras, wish.name);
     if (found.size() == 1) return found[0];
     if (found.size() > 1)
         throw std::runtime_error(
-            fmt::format("{} cameras are meant by '{}', give an id: there are {}", found.size(),
+            fmt::format("{} cameras match '{}'; choose one by its id. Available: {}", found.size(),
                         wish.name, describe(cameras)));
     throw std::runtime_error(
-        fmt::format("no camera has the id, location or model '{}': there are {}", wish.name,
+        fmt::format("no camera has the id, location or model '{}'; available: {}", wish.name,
                     describe(cameras)));
 }
 

@@ -46,10 +46,10 @@ private:
 
 V4l2Layout negotiated(const V4l2Device& device, const V4l2Wish& wish) {
     if (wish.size.width < 1 || wish.size.height < 1)
-        throw std::runtime_error(device.path() + ": a size is needed");
+        throw std::runtime_error(device.path() + ": the picture size must be at least 1x1");
     if (!(wish.rateHz >= 0 && wish.rateHz <= 1e4))
-        throw std::runtime_error(
-            fmt::format("{}: {} frames a second are impossible", device.path(), wish.rateHz));
+        throw std::runtime_error(fmt::format("{}: the frame rate of {} Hz is not in 0 to 10000 Hz",
+                                             device.path(), wish.rateHz));
     return setFormat(device, chooseFormat(device, wish), wish.size);
 }
 
@@ -69,12 +69,12 @@ CameraV4l2::CameraV4l2(const CameraV4l2Options& options, V4l2Api& api) : options
         decoder_ = std::make_unique<JpegDecoder>(layout_.size, options.buffers);
     if (!decoder_ && stream_->buffers() < std::min(options.buffers, kEnoughBuffers)) {
         copies_.emplace(layout_.size, layout_.format.picture, options.buffers);
-        warnings_.push_back(
-            fmt::format("{}: the driver gives {} of {} buffers, pictures are copied",
-                        stream_->device().path(), stream_->buffers(), options.buffers));
+        warnings_.push_back(fmt::format(
+            "{}: the driver allocated only {} of {} buffers, so every picture is copied",
+            stream_->device().path(), stream_->buffers(), options.buffers));
     }
     wake_ = OwnedFd(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
-    if (wake_.get() < 0) throw std::runtime_error("no further file can be opened");
+    if (wake_.get() < 0) throw std::runtime_error("an eventfd cannot be created");
 }
 
 CameraV4l2::~CameraV4l2() {

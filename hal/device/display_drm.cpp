@@ -179,12 +179,13 @@ DrmCard::DrmCard(const std::string& path) : path_(path), fd_(openCard(path)) {
     if (!isMaster(fd()) && dropMasterOfThisProcess(path)) fd_ = openCard(path);
     const Resources all = resources(fd());
     if (!all || all->count_connectors == 0)
-        throw std::runtime_error(path + ": has no connectors, it renders only");
+        throw std::runtime_error(path + ": has no connectors, this GPU only renders");
     if (drmSetClientCap(fd(), DRM_CLIENT_CAP_ATOMIC, 1) != 0)
         throw std::runtime_error(
-            path + ": its driver has no atomic mode setting, which is needed for kms");
+            path + ": its driver lacks atomic mode setting, which display \"kms\" needs");
     if (!isMaster(fd()))
-        throw std::runtime_error(path + ": another program (a desktop?) holds the screen");
+        throw std::runtime_error(path +
+                                 ": another program, perhaps a desktop, controls the screen");
 }
 
 std::optional<DrmOutput> DrmCard::findOutput(const ScreenSpec& spec, bool probe) const {

@@ -26,7 +26,7 @@ public:
         if (drmModeCreateDumbBuffer(fd, static_cast<std::uint32_t>(size.width),
                                     static_cast<std::uint32_t>(size.height), 32, 0, &handle_,
                                     &pitch_, &bytes_) != 0)
-            throw refused("no dumb buffer");
+            throw refused("a dumb buffer cannot be allocated");
         std::uint64_t offset = 0;
         void* memory = MAP_FAILED;
         if (drmModeMapDumbBuffer(fd, handle_, &offset) == 0)
@@ -99,7 +99,7 @@ DrmFramebuffer::DrmFramebuffer(int fd, Size size, std::uint32_t handle, std::uin
     if (drmModeAddFB2(fd, static_cast<std::uint32_t>(size.width),
                       static_cast<std::uint32_t>(size.height), DRM_FORMAT_XRGB8888, handles.data(),
                       pitches.data(), offsets.data(), &id_, 0) != 0)
-        throw refused("the display driver refuses the buffer");
+        throw refused("the display driver does not accept the buffer as a framebuffer");
 }
 
 DrmFramebuffer::~DrmFramebuffer() {

@@ -40,7 +40,8 @@ PixelLayout checkedLayout(const fb_var_screeninfo& var, const fb_fix_screeninfo&
         (fix.visual != FB_VISUAL_TRUECOLOR && fix.visual != FB_VISUAL_DIRECTCOLOR) ||
         var.grayscale != 0 || !layout.valid())
         throw std::runtime_error(
-            fmt::format("{} bits a pixel in a format that is not true colour of 16, 24 or 32 bits",
+            fmt::format("the pixel format with {} bits per pixel is not supported; expected true "
+                        "colour with 16, 24 or 32 bits",
                         var.bits_per_pixel));
     return layout;
 }
@@ -54,8 +55,9 @@ FbGeometry checkedGeometry(const fb_var_screeninfo& var, const fb_fix_screeninfo
     };
     if (!inside(var.xres) || !inside(var.yres) || var.xoffset > std::uint32_t{kMaxScreenSide} ||
         var.yoffset > std::uint32_t{kMaxScreenSide})
-        throw std::runtime_error(fmt::format("a screen of {}x{} at ({}, {}) is impossible",
-                                             var.xres, var.yres, var.xoffset, var.yoffset));
+        throw std::runtime_error(
+            fmt::format("the driver reports an invalid screen of {}x{} pixels at offset ({}, {})",
+                        var.xres, var.yres, var.xoffset, var.yoffset));
     FbGeometry g{{static_cast<int>(var.xres), static_cast<int>(var.yres)},
                  layout,
                  fix.line_length,
@@ -74,17 +76,19 @@ FbGeometry checkedGeometry(const fb_var_screeninfo& var, const fb_fix_screeninfo
     g.page0 = var.xoffset * layout.bytes();
     if (rowEnd > g.stride || std::size_t{var.xoffset} + var.xres > var.xres_virtual ||
         !holds(std::size_t{var.yoffset} + var.yres))
-        throw std::runtime_error(fmt::format(
-            "{}x{} pixels at ({}, {}) in rows of {} bytes do not fit into {} bytes of {}x{}",
-            var.xres, var.yres, var.xoffset, var.yoffset, fix.line_length, fix.smem_len,
-            var.xres_virtual, var.yres_virtual));
+        throw std::runtime_error(
+            fmt::format("a screen of {}x{} pixels at offset ({}, {}) in rows of {} bytes does not "
+                        "fit into a framebuffer of {} bytes and {}x{} pixels",
+                        var.xres, var.yres, var.xoffset, var.yoffset, fix.line_length, fix.smem_len,
+                        var.xres_virtual, var.yres_virtual));
     return g;
 }
 
 FbdevScreen::Mapping::Mapping(int fd, std::size_t bytes) : data_(nullptr), bytes_(bytes) {
     void* memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
     if (memory == MAP_FAILED)  // NOLINT(performance-no-int-to-ptr): the system's own constant
-        throw std::runtime_error(fmt::format("cannot be mapped: {}", std::strerror(errno)));
+        throw std::runtime_error(
+            fmt::format("the framebuffer cannot be mapped: {}", std::strerror(errno)));
     data_ = static_cast<std::uint8_t*>(memory);
 }
 
@@ -104,7 +108,7 @@ void FbdevScreen::open(const std::string& path) {
     if (!fd) throw std::runtime_error(framebufferFault(path));
     fb_fix_screeninfo fix{};
     if (!readInfo(fd.get(), var_, fix))
-        throw std::runtime_error(path + " is no framebuffer: " + std::strerror(errno));
+        throw std::runtime_error(path + " is not a framebuffer: " + std::strerror(errno));
     try {
         geometry_ = checkedGeometry(var_, fix);
         mapping_ = std::make_unique<Mapping>(fd.get(), geometry_.bytes);

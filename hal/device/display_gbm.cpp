@@ -47,10 +47,11 @@ struct Importer {
     Importer() {
         if (display == EGL_NO_DISPLAY) throw std::runtime_error("there is no GL context");
         const char* egl = eglExtensions(display);
-        if (isSoftware(glText(GL_RENDERER))) throw std::runtime_error("the renderer is no GPU");
+        if (isSoftware(glText(GL_RENDERER)))
+            throw std::runtime_error("OpenGL ES runs in software, not on a GPU");
         if (!hasExtension(egl, "EGL_EXT_image_dma_buf_import") ||
             !hasExtension(glText(GL_EXTENSIONS).data(), "GL_OES_EGL_image"))
-            throw std::runtime_error("the GPU's driver imports no buffers");
+            throw std::runtime_error("the GPU's driver cannot import buffers");
         modifiers = hasExtension(egl, "EGL_EXT_image_dma_buf_import_modifiers");
         load(createImage, "eglCreateImageKHR");
         load(destroyImage, "eglDestroyImageKHR");
@@ -70,7 +71,7 @@ class NativeFences {
 public:
     explicit NativeFences(EGLDisplay display) : display_(display) {
         if (!hasExtension(eglExtensions(display), "EGL_ANDROID_native_fence_sync"))
-            throw std::runtime_error("the GPU's driver exports no fences");
+            throw std::runtime_error("the GPU's driver cannot export fences");
         Importer::load(create_, "eglCreateSyncKHR");
         Importer::load(destroy_, "eglDestroySyncKHR");
         Importer::load(dup_, "eglDupNativeFenceFDANDROID");
@@ -78,11 +79,11 @@ public:
     /// Returns a fence that is signalled when the GPU has executed all commands so far.
     [[nodiscard]] OwnedFd insert() const {
         const EGLSyncKHR sync = create_(display_, EGL_SYNC_NATIVE_FENCE_ANDROID, nullptr);
-        if (sync == EGL_NO_SYNC_KHR) throw std::runtime_error("EGL makes no fence");
+        if (sync == EGL_NO_SYNC_KHR) throw std::runtime_error("EGL cannot create a fence");
         glFlush();  // a fence has a file descriptor only after a flush
         OwnedFd fd(dup_(display_, sync));
         destroy_(display_, sync);
-        if (!fd) throw std::runtime_error("EGL exports no fence");
+        if (!fd) throw std::runtime_error("EGL cannot export a fence");
         return fd;
     }
 
@@ -98,7 +99,7 @@ GbmBuffer allocate(gbm_device* device, Size size) {
     GbmBuffer buffer(gbm_bo_create(device, static_cast<std::uint32_t>(size.width),
                                    static_cast<std::uint32_t>(size.height), GBM_FORMAT_XRGB8888,
                                    GBM_BO_USE_SCANOUT | GBM_BO_USE_RENDERING | GBM_BO_USE_LINEAR));
-    if (!buffer) throw std::runtime_error("GBM allocates no buffer for the screen");
+    if (!buffer) throw std::runtime_error("GBM cannot allocate a buffer for the screen");
     return buffer;
 }
 
@@ -111,7 +112,7 @@ public:
                    gbm_bo_get_stride(buffer_.get())),
           image_(import(size)) {
         if (image_ == EGL_NO_IMAGE_KHR)
-            throw std::runtime_error("the GPU's driver does not import the screen's buffer");
+            throw std::runtime_error("the GPU's driver cannot import the screen's buffer");
         const KeptTarget kept;
         glGenRenderbuffers(1, &renderbuffer_);
         glBindRenderbuffer(GL_RENDERBUFFER, renderbuffer_);
@@ -198,7 +199,7 @@ public:
 private:
     static GbmDevice openDevice(int fd) {
         GbmDevice device(gbm_create_device(fd));
-        if (!device) throw std::runtime_error("GBM does not know the display's driver");
+        if (!device) throw std::runtime_error("GBM does not support the display's driver");
         return device;
     }
 

@@ -32,7 +32,8 @@ class ModeBlob {
 public:
     ModeBlob(int fd, const drmModeModeInfo& mode) : fd_(fd) {
         if (drmModeCreatePropertyBlob(fd, &mode, sizeof mode, &id_) != 0)
-            throw std::runtime_error(fmt::format("the mode is refused: {}", std::strerror(errno)));
+            throw std::runtime_error(
+                fmt::format("the display driver refuses the mode: {}", std::strerror(errno)));
     }
     ModeBlob(const ModeBlob&) = delete;
     ModeBlob& operator=(const ModeBlob&) = delete;
@@ -178,8 +179,9 @@ void KmsScreen::commit(ScanoutBuffers::Ready ready, Commit kind) {
         flags = DRM_MODE_ATOMIC_ALLOW_MODESET;
     }
     if (drmModeAtomicCommit(card_->fd(), request.get(), flags, &flipPending_) != 0)
-        throw std::runtime_error(fmt::format("{}, {}: the picture is refused: {}", card_->path(),
-                                             output_->connectorName, std::strerror(errno)));
+        throw std::runtime_error(fmt::format("{}, {}: the display driver refuses the picture: {}",
+                                             card_->path(), output_->connectorName,
+                                             std::strerror(errno)));
     flipPending_ = kind == Commit::Flip;
 }
 
@@ -187,7 +189,8 @@ void KmsScreen::waitForLastFlip() {
     if (waitForFlip(card_->fd(), flipPending_, kFlipTimeout)) return;
     flipPending_ = false;  // the event may never come: do not wait for it again
     throw std::runtime_error(
-        fmt::format("{}, {}: shows no new picture", card_->path(), output_->connectorName));
+        fmt::format("{}, {}: the display driver did not show the new picture in time",
+                    card_->path(), output_->connectorName));
 }
 
 void KmsScreen::releaseGl() {
@@ -230,7 +233,7 @@ std::string KmsScreen::status() const {
                     output_->mode.vdisplay, refreshHz(output_->mode));
     if (buffers_) text += fmt::format(", {}", name(method_));
     if (spec_.mode && !fulfils(output_->mode, *spec_.mode))
-        text += ", which is not the wanted mode: the screen does not offer it";
+        text += "; the screen does not offer the configured mode";
     return text;
 }
 

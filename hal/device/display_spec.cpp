@@ -61,10 +61,10 @@ void takeKmsWord(ScreenSpec& spec, std::string_view word) {
     } else if (const auto mode = parseMode(word); mode && !spec.mode) {
         spec.mode = mode;
     } else {
-        throw std::runtime_error(fmt::format("kms: \"{}\" is no card (card0), connector (HDMI-A-1) "
-                                             "or mode (1280x720@60), or one too "
-                                             "many",
-                                             word));
+        throw std::runtime_error(
+            fmt::format("kms: \"{}\" is not a card (like card0), a connector (like HDMI-A-1) or a "
+                        "mode (like 1280x720@60), or it is the second of its kind",
+                        word));
     }
 }
 
@@ -85,7 +85,8 @@ ScreenSpec parseFbdev(std::string_view options) {
     options.remove_prefix(1);
     constexpr std::string_view kFolder = "/dev/fb";
     if (!options.starts_with(kFolder) || !isDigits(options.substr(kFolder.size())))
-        throw std::runtime_error(fmt::format("fbdev: \"{}\" is no /dev/fb0", options));
+        throw std::runtime_error(
+            fmt::format("fbdev: \"{}\" is not a framebuffer device like /dev/fb0", options));
     spec.device = options;
     return spec;
 }
@@ -98,8 +99,8 @@ ScreenSpec parseScreenSpec(std::string_view spec) {
     if (kind == "auto" && options.empty()) return {};
     if (kind == "kms") return parseKms(options);
     if (kind == "fbdev" && !options.starts_with(',')) return parseFbdev(options);
-    throw std::runtime_error(fmt::format("no screen \"{}\"; there are auto, "
-                                         "kms[:cardN][,CONNECTOR][,WxH[@Hz]] and fbdev[:/dev/fbN]",
+    throw std::runtime_error(fmt::format("unknown screen \"{}\"; expected auto, "
+                                         "kms[:cardN][,CONNECTOR][,WxH[@Hz]] or fbdev[:/dev/fbN]",
                                          spec));
 }
 

@@ -57,7 +57,7 @@ public:
         const EGLImageKHR image =
             create_(display_, EGL_NO_CONTEXT, EGL_LINUX_DMA_BUF_EXT, nullptr, attributes.data());
         if (image == EGL_NO_IMAGE_KHR)
-            throw std::runtime_error("the GPU's driver does not import the camera's memory");
+            throw std::runtime_error("the GPU's driver cannot import the camera's buffer");
         (void)gpu::takeError();
         GLuint texture = 0;
         glGenTextures(1, &texture);
@@ -66,7 +66,7 @@ public:
         images_[texture] = image;
         if (glGetError() == GL_NO_ERROR) return texture;
         forget(texture);
-        throw std::runtime_error("the GPU's driver reads no texture from the camera's memory");
+        throw std::runtime_error("the GPU's driver cannot use the camera's buffer as a texture");
     }
     void forget(unsigned texture) override {
         glDeleteTextures(1, &texture);

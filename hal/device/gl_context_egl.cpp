@@ -87,7 +87,7 @@ OpenedDisplay openDisplay(bool software) {
     const auto platformDisplay =
         eglProc<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
     if (platformDisplay == nullptr)
-        throw std::runtime_error("EGL: no EGL_EXT_platform_base, a newer EGL is needed");
+        throw std::runtime_error("EGL: EGL_EXT_platform_base is missing; a newer EGL is needed");
     if (!software && hasExtension(client, "EGL_EXT_platform_device")) {
         const auto queryDevices = eglProc<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
         const auto queryString = eglProc<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
@@ -174,11 +174,12 @@ public:
     PlaneImporter* planeImporter() override { return importer_.get(); }
     std::optional<std::string> takeFault() override {
         const GLenum status = resetStatus_ != nullptr ? resetStatus_() : GL_NO_ERROR;
-        if (status == kGuiltyReset) return "the GPU was reset, as work of this program hung";
-        if (status == kInnocentReset) return "the GPU was reset, as work of another program hung";
+        if (status == kGuiltyReset) return "the GPU was reset because work of this program hung";
+        if (status == kInnocentReset)
+            return "the GPU was reset because work of another program hung";
         if (status != GL_NO_ERROR) return "the GPU was reset";
         const GLenum error = gpu::takeError();
-        if (error == gpu::kContextLost) return "the context of OpenGL ES is lost";
+        if (error == gpu::kContextLost) return "the OpenGL ES context is lost";
         if (error != GL_NO_ERROR) return "OpenGL ES reports error " + gpu::errorCode(error);
         return std::nullopt;
     }

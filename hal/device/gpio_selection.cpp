@@ -43,7 +43,7 @@ std::string listChips(const std::vector<GpioChip>& chips) {
     std::vector<std::string> texts;
     for (const GpioChip& chip : chips)
         texts.push_back(describe(chip));
-    return fmt::format("there are {}", fmt::join(texts, ", "));
+    return fmt::format("available GPIO chips: {}", fmt::join(texts, ", "));
 }
 
 std::string listNames(const std::vector<const GpioChip*>& chips) {
@@ -57,7 +57,7 @@ std::string listNames(const std::vector<const GpioChip*>& chips) {
         else if (chip->error != 0)
             texts.push_back(describe(*chip));
     }
-    if (texts.empty()) return "no line has a name, use numbers";
+    if (texts.empty()) return "no GPIO line has a name, give the line by its number";
     return fmt::format("named lines: {}", fmt::join(texts, "; "));
 }
 
@@ -87,7 +87,7 @@ GpioAddress byNumber(const std::vector<const GpioChip*>& chips, std::string_view
                      unsigned wanted) {
     if (chip.empty())
         throw std::runtime_error(
-            fmt::format("GPIO line {} is a number, which needs a chip beside it", wanted));
+            fmt::format("GPIO line {} is given by its number, which needs a chip as well", wanted));
     if (chips.size() > 1)
         throw std::runtime_error(fmt::format(
             "{} GPIO chips have the label '{}': give a name or path instead", chips.size(), chip));
@@ -122,7 +122,8 @@ GpioAddress findGpioLine(const std::vector<GpioChip>& chips, std::string_view ch
     if (line.empty()) throw std::runtime_error("no GPIO line is given for the trigger");
     const std::vector<const GpioChip*> candidates = chipsFor(chips, chip);
     if (candidates.empty())
-        throw std::runtime_error(fmt::format("no GPIO line '{}': {}", line, listChips(chips)));
+        throw std::runtime_error(
+            fmt::format("GPIO line '{}' cannot be found: {}", line, listChips(chips)));
     const std::optional<unsigned> offset = number(line);
     return offset ? byNumber(candidates, chip, *offset) : byName(candidates, line);
 }

@@ -114,14 +114,14 @@ ControlValues parseControls(const ControlInfoMap& camera, const NamedValues& wan
     for (const auto& [name, text] : wanted) {
         const auto* control = find(camera, name);
         if (!control)
-            throw std::runtime_error(
-                fmt::format("the camera has no control '{}', it has: {}", name, listNames(camera)));
+            throw std::runtime_error(fmt::format("the camera has no control '{}'; available: {}",
+                                                 name, listNames(camera)));
         const auto& [id, info] = *control;
         const auto value = parse<bool, std::uint8_t, std::uint16_t, std::uint32_t, std::int32_t,
                                  std::int64_t, float>(*id, info, text);
         if (!value)
-            throw std::runtime_error(fmt::format("control {}: '{}' is not possible, only {}", name,
-                                                 text, info.toString()));
+            throw std::runtime_error(fmt::format(
+                "control {}: '{}' is not a valid value; expected {}", name, text, info.toString()));
         values.emplace_back(id->id(), *value);
     }
     return values;

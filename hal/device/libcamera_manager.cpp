@@ -68,7 +68,8 @@ std::shared_ptr<CameraManager> libcameraManager() {
     one.gone.wait(lock, [&] { return !one.exists; });
     auto fresh = std::make_unique<CameraManager>();
     if (const int error = fresh->start(); error != 0)
-        throw std::runtime_error("libcamera does not start (error " + std::to_string(-error) + ")");
+        throw std::runtime_error("libcamera cannot be started (error " + std::to_string(-error) +
+                                 ")");
     one.exists = true;
     const std::shared_ptr<CameraManager> manager(fresh.release(), end);
     one.manager = manager;

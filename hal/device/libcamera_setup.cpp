@@ -58,12 +58,12 @@ std::unique_ptr<CameraConfiguration> generate(libcamera::Camera& camera,
     for (const auto& format : stream.formats().pixelformats())
         formats.push_back(format.toString());
     if (!became.empty())
-        throw std::runtime_error(fmt::format("camera '{}' does not give {}x{}: {}", camera.id(),
+        throw std::runtime_error(fmt::format("camera '{}' does not support {}x{}: {}", camera.id(),
                                              size.width, size.height, fmt::join(became, ", ")));
     const bool jpeg = offers(stream, libcamera::formats::MJPEG);
-    throw std::runtime_error(fmt::format("camera '{}' offers {}, none of which can be used here{}",
-                                         camera.id(), fmt::join(formats, ", "),
-                                         jpeg ? "; for MJPEG use driver \"v4l2\"" : ""));
+    throw std::runtime_error(fmt::format(
+        "camera '{}' offers the pixel formats {}, none of which mfar supports{}", camera.id(),
+        fmt::join(formats, ", "), jpeg ? "; for MJPEG use driver \"v4l2\"" : ""));
 }
 
 struct Chosen {
@@ -237,8 +237,8 @@ std::optional<std::string> cropFault(const libcamera::Camera& camera,
     if (options.allowCrop || !crop || !active) return std::nullopt;
     const Size shown{static_cast<int>(crop->width), static_cast<int>(crop->height)};
     if (showsWholeField(shown, *active, options.size)) return std::nullopt;
-    return fmt::format("camera '{}' would show {}x{} of its {}x{} pixels, a part of its field of "
-                       "view; choose another size or allow the crop",
+    return fmt::format("camera '{}' would show only {}x{} of its {}x{} pixels, a part of its field "
+                       "of view; choose another size or set allow_crop = true",
                        camera.id(), shown.width, shown.height, active->width, active->height);
 }
 

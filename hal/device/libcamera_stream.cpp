@@ -27,14 +27,16 @@ void check(const LibcameraOptions& options) {
     };
     const Size size = options.size;
     if (size.width < 2 || size.height < 2 || size.width % 2 != 0 || size.height % 2 != 0)
-        throw std::runtime_error(fmt::format(
-            "a camera cannot give {}x{}: it takes positive even numbers", size.width, size.height));
+        throw std::runtime_error(
+            fmt::format("picture size {}x{} is invalid: width and height must be positive and even",
+                        size.width, size.height));
     if (!sound(options.rateHz, 0, 1000) || !sound(options.exposureUs, 1, 1e8) ||
         !sound(options.gain, 0, 1000) || !sound(options.focusDioptres, 0, 100))
-        throw std::runtime_error("a camera's rate must be in 0 to 1000 Hz, its exposure in 1 us to "
-                                 "100 s, its gain in 0 to 1000, its focus in 0 to 100 dioptres");
+        throw std::runtime_error(
+            "a camera's rate must be from 0 to 1000 Hz, its exposure from 1 us to 100 s, its gain "
+            "from 0 to 1000, its focus from 0 to 100 dioptres");
     if (options.buffers < kLeastBuffers || options.buffers > 64)
-        throw std::runtime_error("a camera takes 2 to 64 buffers");
+        throw std::runtime_error("the number of buffers of a camera must be from 2 to 64");
 }
 
 /// Returns whether this process has opened a video device whose node is deleted. The kernel deletes
@@ -62,8 +64,9 @@ LibcameraCamera::Stream::Stream(const LibcameraOptions& options) : options_(opti
     if (const int error = camera_->acquire(); error != 0)
         throw std::runtime_error(
             fmt::format("camera '{}' is {}", id_,
-                        error == -EBUSY ? "in use by another program or another camera of this one"
-                                        : fmt::format("not to be had (error {})", -error)));
+                        error == -EBUSY ? "in use by another program, or cannot run together with "
+                                          "the other camera of this program"
+                                        : fmt::format("not available (error {})", -error)));
     try {
         open();
     } catch (...) {
@@ -86,13 +89,14 @@ void LibcameraCamera::Stream::open() {
 void LibcameraCamera::Stream::allocate() {
     allocator_ = std::make_unique<libcamera::FrameBufferAllocator>(camera_);
     if (const int count = allocator_->allocate(stream_); count < static_cast<int>(kLeastBuffers))
-        throw std::runtime_error(
-            fmt::format("camera '{}' gives no buffers for its pictures ({})", id_, count));
+        throw std::runtime_error(fmt::format(
+            "camera '{}' did not allocate enough picture buffers (result {})", id_, count));
     for (const auto& buffer : allocator_->buffers(stream_)) {
         Slot slot;
         slot.request = camera_->createRequest(slots_.size());
         if (!slot.request || slot.request->addBuffer(stream_, buffer.get()) != 0)
-            throw std::runtime_error(fmt::format("camera '{}' takes no requests", id_));
+            throw std::runtime_error(
+                fmt::format("camera '{}': a capture request cannot be created", id_));
         slot.picture = std::make_shared<MappedPicture>(*buffer, configured_.layout);
         slots_.push_back(std::move(slot));
         cycle_.add();
@@ -122,7 +126,8 @@ void LibcameraCamera::Stream::start() {
     for (const auto& [id, value] : controls_)
         initial.set(id, value);
     if (const int error = camera_->start(&initial); error != 0) {
-        const std::string text = fmt::format("camera '{}' does not start (error {})", id_, -error);
+        const std::string text =
+            fmt::format("camera '{}' cannot be started (error {})", id_, -error);
         if (error == -ENODEV) throw DeviceLost(text);
         throw std::runtime_error(text);
     }

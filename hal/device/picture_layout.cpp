@@ -41,7 +41,7 @@ void check(const PictureLayout& layout) {
     const bool sound = layout.size.width > 1 && layout.size.height > 1;
     const auto row = static_cast<std::size_t>(layout.size.width) * bytesPerPixel(layout.format);
     if (!sound || layout.stride < row)
-        throw std::runtime_error(fmt::format("a picture of {}x{} with {} bytes a row is impossible",
+        throw std::runtime_error(fmt::format("a picture of {}x{} cannot have {} bytes per row",
                                              layout.size.width, layout.size.height, layout.stride));
 }
 

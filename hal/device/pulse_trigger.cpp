@@ -37,8 +37,8 @@ PulseTrigger::PulseTrigger(std::string name, std::unique_ptr<OutputLine> line,
       pulse_(pulse) {
     line_->set(false);
     if (pulse < microseconds{1} || pulse > kLongest)
-        throw std::runtime_error(fmt::format(
-            "a trigger pulse of {} us is not possible, only 1 us to 10 s", pulse.count()));
+        throw std::runtime_error(
+            fmt::format("a trigger pulse of {} us is not in 1 us to 10 s", pulse.count()));
     ender_ = std::jthread([this](const std::stop_token& stop) { endLater(stop); });
 }
 
@@ -55,7 +55,7 @@ PulseTrigger::~PulseTrigger() {
 Timestamp PulseTrigger::fire() {
     std::lock_guard lock(mutex_);
     if (failure_) throw std::runtime_error(*std::exchange(failure_, std::nullopt));
-    if (running_) throw TriggerBusy(name_ + ": the last pulse is still on");
+    if (running_) throw TriggerBusy(name_ + ": the previous pulse has not ended yet");
     while (loopback_ && loopback_->next(microseconds{0})) {
     }
     leading_.reset();

@@ -84,7 +84,7 @@ void RequestCycle::queue(std::size_t request) {
     const int error = driver_.queue(request);
     if (error == 0) return;
     requests_[request] = State::Idle;
-    loseLocked(fmt::format("{} takes no more requests (error {})", name_, -error));
+    loseLocked(fmt::format("{} accepts no more requests (error {})", name_, -error));
 }
 
 /// mutex_ must be locked.
@@ -140,8 +140,8 @@ void RequestCycle::planRestart() {
     const Timestamp now = clock_();
     earlyEnds_ = now - begun_ < limits_.early ? earlyEnds_ + 1 : 0;
     if (earlyEnds_ >= limits_.most)
-        return loseLocked(fmt::format("{} gives its requests back unfilled, {} times in a row",
-                                      name_, earlyEnds_));
+        return loseLocked(fmt::format(
+            "{} returned its requests without a picture {} times in a row", name_, earlyEnds_));
     restartAt_ = now;
     if (earlyEnds_ > 1) restartAt_ = now + limits_.firstPause * (1 << (earlyEnds_ - 2));
 }

@@ -121,10 +121,10 @@ std::string describe(const V4l2Control& control) {
         range = fmt::format("{}, default {}", entriesText(control), control.standard);
         break;
     case Kind::Button: range = "button"; break;
-    case Kind::Other: range = "of a kind that cannot be set here"; break;
+    case Kind::Other: range = "has a type that cannot be set"; break;
     }
     return fmt::format("{}: {}{}{}", control.folded, range, control.readOnly ? ", read-only" : "",
-                       control.inactive ? ", without effect now" : "");
+                       control.inactive ? ", inactive now" : "");
 }
 
 V4l2Controls::V4l2Controls(const V4l2Device& device) : device_(&device) {
@@ -178,8 +178,8 @@ const V4l2Control& V4l2Controls::require(std::string_view name) const {
     std::string all;
     for (const V4l2Control& control : controls_)
         all += fmt::format("{}{}", all.empty() ? "" : ", ", control.folded);
-    throw std::runtime_error(fmt::format("{}: no control '{}'; it has {}", device_->path(), name,
-                                         all.empty() ? "none" : all));
+    throw std::runtime_error(fmt::format("{}: there is no control '{}'; available: {}",
+                                         device_->path(), name, all.empty() ? "none" : all));
 }
 
 std::int64_t V4l2Controls::get(std::string_view name) const {
@@ -201,8 +201,8 @@ std::int64_t V4l2Controls::get(std::string_view name) const {
 std::int64_t V4l2Controls::set(std::string_view name, std::int64_t value) const {
     const V4l2Control& control = require(name);
     if (control.kind == Kind::Other)
-        throw std::runtime_error(
-            fmt::format("{}: control {} cannot be set here", device_->path(), control.folded));
+        throw std::runtime_error(fmt::format("{}: control {} has a type that cannot be set",
+                                             device_->path(), control.folded));
     const bool known = control.kind != Kind::Menu ||
                        std::any_of(control.entries.begin(), control.entries.end(),
                                    [&](const V4l2Control::Entry& e) { return e.index == value; });
@@ -227,7 +227,7 @@ void V4l2Controls::press(std::string_view name) const {
     const V4l2Control& control = require(name);
     if (control.kind != Kind::Button)
         throw std::runtime_error(
-            fmt::format("{}: control {} is no button", device_->path(), control.folded));
+            fmt::format("{}: control {} is not a button", device_->path(), control.folded));
     write(control, 1);
 }
 
@@ -249,12 +249,11 @@ std::int64_t V4l2Controls::write(const V4l2Control& control, std::int64_t value)
     }
     const std::string where = fmt::format("{}: control {}", device_->path(), control.folded);
     if (error == EACCES)
-        throw std::runtime_error(
-            where + (control.readOnly
-                         ? " is read-only"
-                         : " cannot be set as it is now: another control, an automatic one "
-                           "mostly, has to be set before it"));
-    if (error == EBUSY) throw std::runtime_error(where + " is busy, it cannot be set now");
+        throw std::runtime_error(where + (control.readOnly
+                                              ? " is read-only"
+                                              : " cannot be set now; first set the control that "
+                                                "blocks it, usually an automatic mode"));
+    if (error == EBUSY) throw std::runtime_error(where + " is busy and cannot be set now");
     if (error == ERANGE)
         throw std::runtime_error(
             fmt::format("{} cannot be {}; {}", where, value, describe(control)));

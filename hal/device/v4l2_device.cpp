@@ -64,7 +64,7 @@ V4l2Device::V4l2Device(V4l2Api& api, const std::string& path) : api_(&api), path
     if (fd_.get() < 0) throw V4l2Error(fmt::format("{}: {}", path, reason(errno)), errno);
     v4l2_capability about{};
     if (const int error = tryCall(VIDIOC_QUERYCAP, &about))
-        throw V4l2Error(fmt::format("{}: is no V4L2 device ({})", path, reason(error)), error);
+        throw V4l2Error(fmt::format("{}: is not a V4L2 device ({})", path, reason(error)), error);
     card_ = fieldText(about.card, sizeof about.card);
     bus_ = fieldText(about.bus_info, sizeof about.bus_info);
     capabilities_ =

@@ -67,7 +67,8 @@ Answer askFormat(const V4l2Device& device, const V4l2PixelFormat& format, Size s
 }
 
 [[noreturn]] void impossible(const V4l2Device& device, const std::string& what) {
-    throw std::runtime_error(fmt::format("{}: the driver says {}", device.path(), what));
+    throw std::runtime_error(
+        fmt::format("{}: the driver reports an invalid format: {}", device.path(), what));
 }
 
 void setColours(const Answer& answer, V4l2Layout& out) {
@@ -115,7 +116,7 @@ void place(const V4l2Device& device, const Answer& answer, V4l2Layout& out) {
     for (int i = 0; i < out.memoryPlanes; ++i) {
         const auto p = static_cast<std::size_t>(i);
         if (answer.bytes[p] < out.bytes[p])
-            impossible(device, fmt::format("a picture has {} bytes, its rows need {}",
+            impossible(device, fmt::format("a picture has {} bytes, but its rows need {}",
                                            answer.bytes[p], out.bytes[p]));
     }
     const std::uint8_t somewhere = 0;
@@ -144,10 +145,10 @@ ImageView V4l2Layout::view(const std::array<const std::uint8_t*, 3>& memory) con
 V4l2Layout setFormat(const V4l2Device& device, const V4l2PixelFormat& format, Size size) {
     const Answer answer = askFormat(device, format, size);
     if (answer.fourcc != format.fourcc || answer.size != size)
-        throw std::runtime_error(fmt::format("{}: '{}' makes {}x{} {} of {}x{} {}", device.path(),
-                                             device.card(), answer.size.width, answer.size.height,
-                                             fourccText(answer.fourcc), size.width, size.height,
-                                             fourccText(format.fourcc)));
+        throw std::runtime_error(fmt::format("{}: camera '{}' offers {}x{} {} instead of {}x{} {}",
+                                             device.path(), device.card(), answer.size.width,
+                                             answer.size.height, fourccText(answer.fourcc),
+                                             size.width, size.height, fourccText(format.fourcc)));
     V4l2Layout out;
     out.format = format;
     out.size = size;

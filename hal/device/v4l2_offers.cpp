@@ -119,10 +119,11 @@ std::vector<Offer> offersOf(const V4l2Device& device, Size wanted) {
     std::string all;
     for (const Offer& o : offers)
         all += fmt::format("\n  {}: {}", fourccText(o.fourcc), o.sizes);
-    throw std::runtime_error(fmt::format(
-        "{}: '{}' has no {}x{} in {}; it offers{}", device.path(), device.card(), wish.size.width,
-        wish.size.height, wish.format.empty() ? "a format that can be used" : wish.format,
-        all.empty() ? " nothing" : all));
+    throw std::runtime_error(
+        fmt::format("{}: camera '{}' does not offer {}x{} in {}; it offers{}", device.path(),
+                    device.card(), wish.size.width, wish.size.height,
+                    wish.format.empty() ? "a format that can be used" : wish.format,
+                    all.empty() ? " nothing" : all));
 }
 
 }  // namespace
@@ -182,7 +183,8 @@ double setRate(const V4l2Device& device, double rateHz) {
     auto& capture = parameters.parm.capture;
     if (rateHz > 0 && (capture.capability & V4L2_CAP_TIMEPERFRAME) != 0) {
         capture.timeperframe = {1000, static_cast<std::uint32_t>(std::lround(rateHz * 1000))};
-        device.call(VIDIOC_S_PARM, &parameters, fmt::format("setting {} frames a second", rateHz));
+        device.call(VIDIOC_S_PARM, &parameters,
+                    fmt::format("setting the frame rate to {} Hz", rateHz));
     }
     const double rate = rateOf(capture.timeperframe);
     return rate > 0 && rate < 1e5 ? rate : 0;

@@ -36,7 +36,7 @@ Captures capturesOf(V4l2Api& api) {
             out.listed += fmt::format("\n  {}", error.what());
         }
     }
-    if (out.listed.empty()) out.listed = " no video devices at all";
+    if (out.listed.empty()) out.listed = " no video devices";
     return out;
 }
 
@@ -50,7 +50,7 @@ V4l2Device anyOf(Captures captures, const CameraWish& wish) {
     if (!wish.except.empty())
         std::erase_if(devices, [&](const V4l2Device& one) { return isNamed(one, wish.except); });
     if (devices.empty())
-        throw std::runtime_error("there is no camera beside the other one among" + captures.listed);
+        throw std::runtime_error("no second camera was found; available:" + captures.listed);
     const auto size = [](const V4l2Device& one) {
         return std::pair(largestPicture(one), one.path());
     };
@@ -65,7 +65,7 @@ V4l2Device openCapture(V4l2Api& api, const CameraWish& wish) {
         V4l2Device device(api, wish.name);
         if (!device.captures())
             throw std::runtime_error(
-                fmt::format("{}: '{}' delivers no pictures", wish.name, device.card()));
+                fmt::format("{}: '{}' is not a capture device", wish.name, device.card()));
         return device;
     }
     Captures captures = capturesOf(api);
@@ -73,13 +73,14 @@ V4l2Device openCapture(V4l2Api& api, const CameraWish& wish) {
     std::erase_if(captures.devices,
                   [&](const V4l2Device& one) { return !isNamed(one, wish.name); });
     if (captures.devices.empty())
-        throw std::runtime_error(fmt::format("no camera '{}' among{}", wish.name, captures.listed));
+        throw std::runtime_error(
+            fmt::format("camera '{}' was not found; available:{}", wish.name, captures.listed));
     std::string fitting;
     for (const V4l2Device& device : captures.devices)
         fitting += lineOf(device);
     if (captures.devices.size() > 1)
         throw std::runtime_error(fmt::format(
-            "several cameras are '{}', name one by its path or bus:{}", wish.name, fitting));
+            "several cameras match '{}'; choose one by its path or bus:{}", wish.name, fitting));
     return std::move(captures.devices.front());
 }
 

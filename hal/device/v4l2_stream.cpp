@@ -37,7 +37,7 @@ struct V4l2Stream::Argument {
 V4l2Stream::V4l2Stream(V4l2Device device, const V4l2Layout& layout, int buffers)
     : device_(std::move(device)), type_(bufferType(*device_)), pieces_(layout.memoryPlanes),
       wake_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
-    if (wake_.get() < 0) throw std::runtime_error("no further file can be opened");
+    if (wake_.get() < 0) throw std::runtime_error("an eventfd cannot be created");
     allocate(buffers);
     returned_.reserve(buffers_.size());
     for (int i = 0; i < static_cast<int>(buffers_.size()); ++i) {
@@ -45,8 +45,8 @@ V4l2Stream::V4l2Stream(V4l2Device device, const V4l2Layout& layout, int buffers)
         for (int p = 0; p < pieces_; ++p)
             if (memoryBytes(i, p) < layout.bytes[static_cast<std::size_t>(p)])
                 throw std::runtime_error(fmt::format(
-                    "{}: the driver's buffers have {} bytes, a picture needs {}", device_->path(),
-                    memoryBytes(i, p), layout.bytes[static_cast<std::size_t>(p)]));
+                    "{}: the driver's buffers have {} bytes, but a picture needs {}",
+                    device_->path(), memoryBytes(i, p), layout.bytes[static_cast<std::size_t>(p)]));
         exportBuffer(i, layout);
     }
 }
@@ -67,17 +67,18 @@ void V4l2Stream::allocate(int buffers) {
     if (error != 0) device_->fail("allocating buffers", error);
     if (request.count < 1 || request.count > kMost)
         throw std::runtime_error(
-            fmt::format("{}: the driver gives {} buffers", device_->path(), request.count));
+            fmt::format("{}: the driver allocated {} buffers, which is an invalid number",
+                        device_->path(), request.count));
     buffers_.resize(request.count);
 }
 
 void V4l2Stream::mapBuffer(int index) {
     Argument argument(type_, index);
-    device_->call(VIDIOC_QUERYBUF, &argument.buffer, "asking for a buffer");
+    device_->call(VIDIOC_QUERYBUF, &argument.buffer, "querying a buffer");
     const std::uint32_t clock = argument.buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK;
     if (clock != V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC)
         throw std::runtime_error(
-            fmt::format("{}: the driver's timestamps are not of CLOCK_MONOTONIC", device_->path()));
+            fmt::format("{}: the driver's timestamps do not use CLOCK_MONOTONIC", device_->path()));
     for (int p = 0; p < pieces_; ++p) {
         const auto i = static_cast<std::size_t>(p);
         const bool multi = argument.multi();
@@ -130,7 +131,7 @@ void V4l2Stream::start() {
     for (std::size_t i = 0; i < buffers_.size(); ++i)
         if (buffers_[i].holder == Holder::Nobody)
             if (const int error = queue(static_cast<int>(i)))
-                device_->fail("handing a buffer to the driver", error);
+                device_->fail("queueing a buffer", error);
     device_->call(VIDIOC_STREAMON, &type_, "starting");
     running_ = true;
 }
@@ -168,11 +169,11 @@ std::optional<V4l2Filled> V4l2Stream::take() {
         if (error == EAGAIN) return std::nullopt;
         // EIO also means that the device is lost: drivers report recoverable errors with a flag of
         // the buffer.
-        throw DeviceLost(fmt::format("{}: no more pictures ({})", device_->path(),
-                                     std::generic_category().message(error)));
+        throw DeviceLost(fmt::format("{}: the camera has stopped delivering pictures ({})",
+                                     device_->path(), std::generic_category().message(error)));
     }
     if (buffer.index >= buffers_.size() || buffers_[buffer.index].holder != Holder::Driver)
-        throw DeviceLost(fmt::format("{}: the driver fills buffer {}, which it does not have",
+        throw DeviceLost(fmt::format("{}: the driver returned buffer {}, which was not queued",
                                      device_->path(), buffer.index));
     buffers_[buffer.index].holder = Holder::Picture;
     V4l2Filled out{static_cast<int>(buffer.index), buffer.flags, buffer.sequence,

@@ -121,7 +121,7 @@ private:
     };
 
     [[nodiscard]] std::string takesNothing() const {
-        return fmt::format("{}: {} takes nothing", name(), consumer());
+        return fmt::format("{}: {} accepts no data", name(), consumer());
     }
 
     // Returns whether writing one picture has taken longer than `time` so far.
@@ -202,13 +202,14 @@ class PngDisplay final : public FileDisplay {
 public:
     PngDisplay(fs::path folder, std::stop_token cancel, const FileDisplayPolicy& policy)
         : FileDisplay(2, std::move(cancel), policy), folder_(std::move(folder)) {
-        if (folder_.empty()) throw std::runtime_error("png: needs a folder, png:DIR");
+        if (folder_.empty())
+            throw std::runtime_error("png: the folder is missing; expected png:FOLDER");
         std::error_code error;
         fs::create_directories(folder_, error);
         if (error)
             throw std::runtime_error(fmt::format("{}: {}", folder_.string(), error.message()));
         if (access(folder_.c_str(), W_OK | X_OK) != 0)
-            throw std::runtime_error(folder_.string() + ": folder is not writable");
+            throw std::runtime_error(folder_.string() + ": the folder is not writable");
     }
     ~PngDisplay() override { finishQuietly(); }
     [[nodiscard]] std::string name() const override { return "png:" + folder_.string(); }
@@ -270,11 +271,11 @@ std::unique_ptr<Display> openFileDisplay(std::string_view spec, double rateHz,
     if (spec.starts_with("y4m:")) {
         if (!(rateHz >= 0.001 && rateHz < 1e6))
             throw std::runtime_error(
-                fmt::format("y4m: a frame rate of {} Hz is impossible", rateHz));
+                fmt::format("y4m: the frame rate of {} Hz is not in 0.001 to 1000000 Hz", rateHz));
         return std::make_unique<Y4mDisplay>(spec.substr(4), rateHz, std::move(cancel), policy);
     }
     throw std::runtime_error(
-        fmt::format("display '{}' is unknown: png:DIR, y4m:FILE, y4m:- or none", spec));
+        fmt::format("unknown display '{}'; expected png:FOLDER, y4m:FILE, y4m:- or none", spec));
 }
 
 }  // namespace mfar

@@ -36,14 +36,15 @@ std::string wholeFile(const fs::path& file) {
 void checkSize(const fs::path& file, Size size) {
     if (size.width < 1 || size.height < 1 || size.width > kMaxImageSide ||
         size.height > kMaxImageSide)
-        throw ImageFileError(file, fmt::format("size {}x{} is impossible, 1 to {} can be read",
-                                               size.width, size.height, kMaxImageSide));
+        throw ImageFileError(
+            file, fmt::format("size {}x{} is invalid: width and height must be from 1 to {}",
+                              size.width, size.height, kMaxImageSide));
 }
 
 void checkBytes(const fs::path& file, std::size_t got, std::size_t needed) {
     if (got != needed)
         throw ImageFileError(file,
-                             fmt::format("has {} bytes of values, {} are needed", got, needed));
+                             fmt::format("has {} bytes of pixel values; expected {}", got, needed));
 }
 
 std::size_t pixelCount(Size size) {
@@ -55,7 +56,7 @@ class PfmHeader {
 public:
     PfmHeader(const fs::path& file, std::string_view text) : file_(file), text_(text) {
         if (const std::string_view magic = word(); magic != "Pf")
-            throw ImageFileError(file_, magic == "PF" ? "is a colour PFM, one channel is needed"
+            throw ImageFileError(file_, magic == "PF" ? "is a colour PFM file; expected one channel"
                                                       : "is not a PFM file");
         number(size.width);
         number(size.height);
@@ -63,7 +64,7 @@ public:
         ++at_;
         checkSize(file_, size);
         if (!std::isfinite(scale) || scale == 0)
-            throw ImageFileError(file_, "PFM scale is 0 or not finite");
+            throw ImageFileError(file_, "the scale in the PFM header is 0 or not finite");
     }
     [[nodiscard]] std::string_view values() const {
         return at_ < text_.size() ? text_.substr(at_) : std::string_view{};
@@ -87,7 +88,7 @@ private:
         const std::string_view w = word();
         const auto [end, error] = std::from_chars(w.data(), w.data() + w.size(), value);
         if (error != std::errc{} || end != w.data() + w.size())
-            throw ImageFileError(file_, "PFM header is malformed");
+            throw ImageFileError(file_, "the PFM header is malformed");
     }
 
     const fs::path& file_;

@@ -26,7 +26,8 @@ public:
                                         0};
         context_ = OSMesaCreateContextAttribs(wanted.data(), nullptr);
         if (context_ == nullptr)
-            throw std::runtime_error("OSMesa: no OpenGL 4.5 context, Mesa 17 or later is needed");
+            throw std::runtime_error(
+                "OSMesa: an OpenGL 4.5 context cannot be created; Mesa 17 or later is needed");
         makeCurrent();
         description_ = std::string("OSMesa: ") +
                        reinterpret_cast<const char*>(glGetString(GL_RENDERER)) + ", OpenGL " +

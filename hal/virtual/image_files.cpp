@@ -62,8 +62,8 @@ StoredImage loadImage(const fs::path& file) {
 void loadImageInto(const fs::path& file, Size expected, std::uint8_t* rgba, std::size_t stride) {
     decode(file, mostBytes(expected), [&](Size size) -> PixelTarget {
         if (size != expected)
-            throw ImageFileError(file, fmt::format("is {}x{}, not {}x{}", size.width, size.height,
-                                                   expected.width, expected.height));
+            throw ImageFileError(file, fmt::format("is {}x{}; expected {}x{}", size.width,
+                                                   size.height, expected.width, expected.height));
         return {rgba, stride};
     });
 }

@@ -56,7 +56,7 @@ Size pngSize(const std::filesystem::path& file) {
     if (got < start.size()) throw std::runtime_error("is a truncated PNG file");
     const std::uint32_t width = bigEndian(&start[16]), height = bigEndian(&start[20]);
     if (width == 0 || height == 0 || width > kMaxImageSide || height > kMaxImageSide)
-        throw std::runtime_error("is a PNG file of impossible size");
+        throw std::runtime_error("is a PNG file with an invalid size");
     std::array<std::uint8_t, 12> end{};
     const off_t last = about.st_size - static_cast<off_t>(end.size());
     if (readAt(fd.get(), last, end) != end.size() || end != kEnd)

@@ -25,7 +25,8 @@ constexpr const char* kPoseHeader = "#timestamp,p_RS_R_x [m],p_RS_R_y [m],p_RS_R
 fs::path emptyFolder(const fs::path& root) {
     fs::create_directories(root);
     if (!fs::is_empty(root))
-        throw std::runtime_error(root.string() + ": is not empty, a recording needs a new folder");
+        throw std::runtime_error(root.string() +
+                                 ": the folder is not empty; a recording needs a new one");
     return root;
 }
 
@@ -154,8 +155,8 @@ void Recorder::checkSpace(std::uintmax_t bytes) {
         throw std::runtime_error(fmt::format("{}: less than {} MB are free on the disk",
                                              root_.string(), options_.leastFreeBytes >> 20));
     if (options_.mostBytes > 0 && bytes_ > options_.mostBytes)
-        throw std::runtime_error(fmt::format("{}: has become longer than {} MB", root_.string(),
-                                             options_.mostBytes >> 20));
+        throw std::runtime_error(fmt::format("{}: the recording has become larger than {} MB",
+                                             root_.string(), options_.mostBytes >> 20));
 }
 
 void Recorder::writePose(const Pose& pose) {

@@ -31,7 +31,8 @@ public:
 
     void take(std::size_t bytes, const CsvRow& row) {
         if (bytes > left_)
-            row.fail(fmt::format("the lists take more than {} MB of memory", most_ >> 20U));
+            row.fail(fmt::format("the lists of this recording take more than {} MB of memory",
+                                 most_ >> 20U));
         left_ -= bytes;
     }
 
@@ -42,7 +43,8 @@ private:
 void checkIncreasing(const CsvRow& row, Timestamp previous, Timestamp t) {
     if (t == previous) row.fail(fmt::format("timestamp {} occurs twice", t.ns));
     if (t < previous)
-        row.fail(fmt::format("timestamp {} comes after {}: not sorted", t.ns, previous.ns));
+        row.fail(
+            fmt::format("timestamp {} follows {}; timestamps must increase", t.ns, previous.ns));
 }
 
 // Returns whether a file name contains no folder. A recording from elsewhere must not refer to
@@ -54,10 +56,10 @@ bool isPlainName(std::string_view name) {
 
 RecordedImage readImageRow(const CsvRow& row, const fs::path& folder, Size expected) {
     if (row.size() != 2)
-        row.fail(fmt::format("{} columns, timestamp and file name are needed", row.size()));
+        row.fail(fmt::format("found {} columns; expected timestamp and file name", row.size()));
     RecordedImage image{row.time(0), {}};
     if (!isPlainName(row.text(1)))
-        row.fail(fmt::format("file name '{}' is not a plain name", row.text(1)));
+        row.fail(fmt::format("file name '{}' must not contain a path", row.text(1)));
     image.file = folder / row.text(1);
     Size size;
     try {
@@ -66,7 +68,7 @@ RecordedImage readImageRow(const CsvRow& row, const fs::path& folder, Size expec
         row.fail(fmt::format("picture {} {}", image.file.string(), e.what()));
     }
     if (size != expected)
-        row.fail(fmt::format("picture {} is {}x{}, sensor.yaml says {}x{}", image.file.string(),
+        row.fail(fmt::format("picture {} is {}x{}, but sensor.yaml says {}x{}", image.file.string(),
                              size.width, size.height, expected.width, expected.height));
     return image;
 }
@@ -95,13 +97,13 @@ std::vector<RecordedImage> readImages(const fs::path& camera, Size expected, Lis
 
 Pose readPoseRow(const CsvRow& row, const RigidTransform& T_body_video) {
     if (row.size() < 8)
-        row.fail(fmt::format("{} columns, time, position and quaternion (w x y z) are needed",
+        row.fail(fmt::format("found {} columns; expected time, position and quaternion (w x y z)",
                              row.size()));
     RigidTransform T_world_body;
     T_world_body.translation = {row.number(1), row.number(2), row.number(3)};
     const Eigen::Quaterniond q(row.number(4), row.number(5), row.number(6), row.number(7));
     if (!(std::abs(q.norm() - 1) < kUnitTolerance))
-        row.fail(fmt::format("the quaternion has length {}, not 1", q.norm()));
+        row.fail(fmt::format("the quaternion has length {}; expected 1", q.norm()));
     T_world_body.rotation = q.normalized();
     return {row.time(0), T_world_body * T_body_video};
 }
@@ -121,7 +123,7 @@ std::vector<Pose> readPoses(const fs::path& folder, const RigidTransform& T_body
 }
 
 void requireFolder(const fs::path& folder) {
-    if (!fs::is_directory(folder)) recordingFault(folder, 0, "folder is missing");
+    if (!fs::is_directory(folder)) recordingFault(folder, 0, "the folder is missing");
 }
 
 std::optional<fs::path> existing(fs::path file) {
@@ -137,7 +139,7 @@ Recording load(const fs::path& root, std::size_t most) {
     const SensorYaml video = readSensorYaml(videoFolder / "sensor.yaml");
     const SensorYaml still = readSensorYaml(stillFolder / "sensor.yaml");
     if (!(video.rateHz > 0))
-        recordingFault(videoFolder / "sensor.yaml", 0, "the video needs a rate_hz above 0");
+        recordingFault(videoFolder / "sensor.yaml", 0, "rate_hz of the video must be above 0");
 
     Recording out;
     out.root = root;
@@ -145,7 +147,7 @@ Recording load(const fs::path& root, std::size_t most) {
     out.rig = {video.camera, still.camera, still.T_body_sensor.inverse() * video.T_body_sensor};
     ListMemory memory(most);
     out.video = readImages(videoFolder, video.camera.size, memory);
-    if (out.video.empty()) recordingFault(videoFolder / "data.csv", 0, "lists no picture");
+    if (out.video.empty()) recordingFault(videoFolder / "data.csv", 0, "lists no pictures");
     out.stills = readImages(stillFolder, still.camera.size, memory);
     out.poses = readPoses(root / "state_groundtruth_estimate0", video.T_body_sensor, memory);
     return out;

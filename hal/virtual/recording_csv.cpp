@@ -86,7 +86,7 @@ void forEachCsvRow(const std::filesystem::path& file,
     std::array<char, kLongestLine + 1> text{};
     for (int line = 1; in.getline(text.data(), text.size()); ++line) {
         if (line > kMostLines)
-            recordingFault(file, line, fmt::format("more than {} lines", kMostLines));
+            recordingFault(file, line, fmt::format("the file has more than {} lines", kMostLines));
         std::string_view row(text.data(), static_cast<std::size_t>(in.gcount()));
         if (row.ends_with('\0')) row.remove_suffix(1);  // a zero instead of the line end
         if (line == 1 && row.starts_with("\xEF\xBB\xBF")) row.remove_prefix(3);

@@ -117,7 +117,7 @@ bool RecordingPlayer::Stream::isOpen(Timestamp t) const {
 void RecordingPlayer::Stream::start() {
     const std::lock_guard lock(timeline_.mutex);
     if (stopped_ || decoder_.joinable())
-        throw std::runtime_error(info_.name + ": a recording is started once");
+        throw std::runtime_error(info_.name + ": a recording can be started only once");
     if (!timeline_.begin) timeline_.begin = Clock::now();
     decoder_ = std::thread([this] { decode(); });
 }
@@ -223,7 +223,7 @@ RecordingPlayer::RecordingPlayer(Recording recording, const PlayerOptions& optio
     : recording_(std::move(recording)), timeline_(std::make_unique<Timeline>()),
       trigger_([this] { return now(); }) {
     if (options.videoBuffers < 2 || options.stillBuffers < 2)
-        throw std::invalid_argument("a recording player needs at least two buffers a camera");
+        throw std::invalid_argument("a recording player needs at least two buffers per camera");
     const auto& video = recording_.video;
     const auto& stills = recording_.stills;
     Timestamp last = video.back().time;

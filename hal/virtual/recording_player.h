@@ -36,7 +36,7 @@ public:
         return now_();
     }
     [[nodiscard]] std::string name() const override {
-        return "recording (its stills come by themselves)";
+        return "recording (stills arrive without a trigger)";
     }
     [[nodiscard]] std::uint64_t fired() const { return fired_.load(std::memory_order_relaxed); }
 

@@ -65,7 +65,7 @@ ByteSink::ByteSink(std::string_view target, std::stop_token cancel)
     struct stat info{};
     const bool known = fstat(fd_.get(), &info) == 0;
     isPipe_ = known && (S_ISFIFO(info.st_mode) || S_ISSOCK(info.st_mode));
-    if (isatty(fd_.get()) != 0) fail("is a terminal, a video stream needs a pipe or a file");
+    if (isatty(fd_.get()) != 0) fail("is a terminal; a video stream needs a pipe or a file");
 }
 
 int ByteSink::open(const char* path) const {
@@ -97,7 +97,7 @@ void ByteSink::write(std::span<const std::uint8_t> bytes) {
 void ByteSink::waitForReader() const {
     pollfd writable{fd_.get(), POLLOUT, 0};
     while (poll(&writable, 1, kCancelPollMs) <= 0)
-        if (cancel_.stop_requested()) fail("stopped while the reading program took nothing");
+        if (cancel_.stop_requested()) fail("stopped while the reading program accepted no data");
 }
 
 void ByteSink::fail(std::string_view what) const {

@@ -11,8 +11,8 @@ void require(const char* name, double value, double least) {
     constexpr double kMost = 1000;
     if (!(value >= least && value <= kMost))
         throw std::invalid_argument("composite option " + std::string(name) + " is " +
-                                    std::to_string(value) + ", not from " + std::to_string(least) +
-                                    " to 1000");
+                                    std::to_string(value) + ", but must be from " +
+                                    std::to_string(least) + " to 1000");
 }
 
 }  // namespace

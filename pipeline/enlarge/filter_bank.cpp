@@ -80,10 +80,10 @@ FilterBank::FilterBank(std::span<const Filter> unique, const Guidance& guidance,
                        const FineMatch& fineMatch)
     : number_(nextNumber()), guidance_(guidance), fineMatch_(fineMatch), cubic_({kFilterSize, 1}) {
     if (unique.size() != kUnique)
-        throw FilterBankError("filters of " + std::to_string(unique.size()) +
-                              " classes, expected " + std::to_string(kUnique));
-    if (!guidance.isValid()) throw FilterBankError("guidance is out of range");
-    if (!fineMatch.isValid()) throw FilterBankError("the usual match is out of range");
+        throw FilterBankError("found filters of " + std::to_string(unique.size()) +
+                              " classes; expected " + std::to_string(kUnique));
+    if (!guidance.isValid()) throw FilterBankError("the guidance is out of range");
+    if (!fineMatch.isValid()) throw FilterBankError("the share of the usual match is out of range");
     for (std::size_t i = 0; i < unique.size(); ++i)
         if (!fits(unique[i]))
             throw FilterBankError("weights of class " + std::to_string(i) + " are too large");
@@ -121,17 +121,19 @@ std::vector<FilterBank::Filter> readFilters(std::span<const std::uint8_t> bytes,
                                             const std::string& name) {
     const auto refuse = [&](const std::string& why) { throw FilterBankError(name + ": " + why); };
     if (bytes.size() < kHeaderSize || std::memcmp(bytes.data(), kMagic, kMagicSize) != 0)
-        refuse("not a file of filters");
+        refuse("is not a file of filters");
     const std::uint64_t version = getNumber(bytes.data() + kMagicSize, 4);
     if (version != kHeader[0])
-        refuse("version " + std::to_string(version) + ", expected " + std::to_string(kHeader[0]));
+        refuse("has version " + std::to_string(version) + "; expected " +
+               std::to_string(kHeader[0]));
     for (std::size_t i = 1; i < kHeader.size(); ++i)
         if (getNumber(bytes.data() + kMagicSize + 4 * i, 4) != kHeader[i])
-            refuse("other classes or sizes of filters than this program's");
+            refuse("has other classes or sizes of filters than this program");
     if (bytes.size() != kStoredSize)
-        refuse(std::to_string(bytes.size()) + " bytes, expected " + std::to_string(kStoredSize));
+        refuse("has " + std::to_string(bytes.size()) + " bytes; expected " +
+               std::to_string(kStoredSize));
     if (getNumber(bytes.data() + kStoredSize - 4, 4) != fnv1a(bytes.first(kStoredSize - 4)))
-        refuse("wrong checksum");
+        refuse("has a wrong checksum");
     std::vector<FilterBank::Filter> out(kUnique);
     const std::uint8_t* from = bytes.data() + kHeaderSize;
     for (FilterBank::Filter& filter : out)

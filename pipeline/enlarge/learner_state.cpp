@@ -60,14 +60,14 @@ public:
         : bytes_(bytes), name_(name) {
         if (bytes.size() < kMagicSize + kChecksumSize ||
             std::memcmp(bytes.data(), kMagic, kMagicSize) != 0)
-            refuse("not a file of learned filters");
+            refuse("is not a file of learned filters");
         at_ = kMagicSize;
         version_ = bytes_.size() >= at_ + 8 ? getNumber(&bytes_[at_], 8) : kHeader[0];
         if (version_ < kWithoutGuidance || version_ > kHeader[0])
-            refuse("another version than this program's");
+            refuse("has a version that this program does not support");
         bytes_ = bytes.first(bytes.size() - kChecksumSize);
         if (getNumber(bytes.data() + bytes_.size(), kChecksumSize) != fnv1a(bytes_))
-            refuse("damaged, the checksum is wrong");
+            refuse("is damaged: the checksum is wrong");
     }
     [[noreturn]] void refuse(const std::string& why) const {
         throw FilterBankError(name_ + ": " + why);
@@ -89,7 +89,7 @@ public:
     }
     std::string text() {
         const std::uint64_t size = number();
-        if (size > kMostKeySize) refuse("has a name of sensors that is too long");
+        if (size > kMostKeySize) refuse("names its sensors with too many characters");
         const std::uint8_t* from = take(size);
         return {from, from + size};
     }
@@ -112,12 +112,12 @@ public:
         return out;
     }
     void finish() const {
-        if (at_ != bytes_.size()) refuse("has other sizes than this program's");
+        if (at_ != bytes_.size()) refuse("is longer than this program expects");
     }
 
 private:
     const std::uint8_t* take(std::size_t size) {
-        if (size > bytes_.size() - at_) refuse("is too short");
+        if (size > bytes_.size() - at_) refuse("is shorter than this program expects");
         at_ += size;
         return bytes_.data() + at_ - size;
     }
@@ -156,7 +156,7 @@ EnlargerLearner EnlargerLearner::restored(std::span<const std::uint8_t> bytes,
     Reader in(bytes, name);
     for (const std::uint64_t value : {in.version(), kHeader[1], kHeader[2], kHeader[3]})
         if (in.number() != value)
-            in.refuse("other classes or sizes of filters than this program's");
+            in.refuse("has other classes or sizes of filters than this program");
     if (in.text() != key) in.refuse("was learned from other sensors");
     EnlargerLearner out;
     for (std::uint64_t* value : {&out.counts_.stills, &out.counts_.repeated, &out.counts_.refused})
@@ -177,7 +177,7 @@ EnlargerLearner EnlargerLearner::restored(std::span<const std::uint8_t> bytes,
         in.refuse("has a guidance that is out of range");
     if (in.version() == kHeader[0] &&
         !out.fineMatch_.restore(in.reals<FineMatchLearner::kNumbers>()))
-        in.refuse("has a usual match that is out of range");
+        in.refuse("has a share of the usual match that is out of range");
     in.finish();
     if (!out.putInPlace(weights, learned)) in.refuse("has weights that are too large");
     out.measure();

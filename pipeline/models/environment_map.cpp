@@ -21,12 +21,14 @@ constexpr int kMostHdrWidth = 16384, kMostLdrWidth = 8192;
 
 void requireLatLong(Size size, int mostWidth) {
     if (size.width < 2 || size.height < 1 || size.width > mostWidth || size.height > mostWidth)
-        throw std::runtime_error(fmt::format("{}x{} pixels, at most {} a side are read", size.width,
-                                             size.height, mostWidth));
+        throw std::runtime_error(
+            fmt::format("the picture has {}x{} pixels; at most {} per side are supported",
+                        size.width, size.height, mostWidth));
     if (std::abs(size.width - 2 * size.height) > std::max(size.width / 100, 1))
-        throw std::runtime_error(fmt::format("{}x{} pixels are no latitude-longitude picture, "
-                                             "which is twice as wide as high",
-                                             size.width, size.height));
+        throw std::runtime_error(
+            fmt::format("the picture of {}x{} pixels is not a latitude-longitude picture, which "
+                        "must be twice as wide as high",
+                        size.width, size.height));
 }
 
 /// Throws if the decoded picture and the resulting environment together need more memory than
@@ -37,9 +39,9 @@ void requireMemory(Size size, std::size_t memory) {
         std::min<std::size_t>(pixels, static_cast<std::size_t>(kMostKept.width) * kMostKept.height);
     const std::size_t needed = 4 * pixels + sizeof(Eigen::Vector3f) * kept;
     if (needed > memory)
-        throw std::runtime_error(fmt::format("{}x{} pixels need {} MB of memory, {} MB are left",
-                                             size.width, size.height, needed >> 20U,
-                                             memory >> 20U));
+        throw std::runtime_error(fmt::format(
+            "the picture of {}x{} pixels needs {} MB of memory, but only {} MB are left",
+            size.width, size.height, needed >> 20U, memory >> 20U));
 }
 
 /// Averages rows as they are read, so that a large picture is never in memory as a whole.

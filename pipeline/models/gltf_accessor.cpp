@@ -86,13 +86,16 @@ ElementView elementsIn(const GltfDocument& document, int bufferView, std::uint64
     const std::span<const std::uint8_t> view = document.view(bufferView, place);
     wanted.stride = stride == 0 ? one : stride;
     if (wanted.stride < one)
-        document.refuse(place, fmt::format("stride {} of elements of {} bytes", stride, one));
+        document.refuse(
+            place,
+            fmt::format("the stride of {} bytes is invalid for elements of {} bytes", stride, one));
     const std::uint64_t left = offset > view.size() ? 0 : view.size() - offset;
     // Counts are below 2^32 and element sizes below 2^8, so the product cannot overflow.
     const std::uint64_t needed = std::uint64_t{wanted.count - 1} * wanted.stride + one;
     if (needed > left)
-        document.refuse(place, fmt::format("needs {} bytes from {} of bufferView {}, which has {}",
-                                           needed, offset, bufferView, view.size()));
+        document.refuse(
+            place, fmt::format("needs {} bytes at offset {} of bufferView {}, which has only {}",
+                               needed, offset, bufferView, view.size()));
     wanted.bytes = view.subspan(offset);
     return wanted;
 }
@@ -103,10 +106,10 @@ const Accessor& checkedAccessor(const GltfDocument& document, int index, int com
                                 std::size_t most, std::string_view place) {
     const Accessor& accessor = document.at(document.gltf.accessors, index, place);
     if (bytesOf(accessor.componentType) == 0 || componentsOf(accessor.type) != components)
-        document.refuse(place, fmt::format("accessor {} is of another type", index));
+        document.refuse(place, fmt::format("accessor {} has an unexpected type", index));
     if (accessor.count == 0 || accessor.count > most)
-        document.refuse(place, fmt::format("accessor {} has {} elements, 1 to {} are read", index,
-                                           accessor.count, most));
+        document.refuse(place, fmt::format("accessor {} has {} elements; 1 to {} are supported",
+                                           index, accessor.count, most));
     return accessor;
 }
 
@@ -137,7 +140,7 @@ void replaceSparse(const GltfDocument& document, const Accessor& accessor, int c
     const auto& sparse = accessor.sparse;
     if (sparse.count < 1 || static_cast<std::size_t>(sparse.count) > accessor.count ||
         !isIndexType(sparse.indices.componentType))
-        document.refuse(place, "sparse elements are not sound");
+        document.refuse(place, "the sparse elements are invalid");
     const auto count = static_cast<std::size_t>(sparse.count);
     const ElementView indices = elementsIn(document, sparse.indices.bufferView,
                                            static_cast<std::uint64_t>(sparse.indices.byteOffset), 0,
@@ -148,7 +151,8 @@ void replaceSparse(const GltfDocument& document, const Accessor& accessor, int c
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t index = unsignedAt(indices.at(i), indices.componentType);
         if (index >= accessor.count)
-            document.refuse(place, fmt::format("sparse index {} of {}", index, accessor.count));
+            document.refuse(place, fmt::format("the sparse index {} is not below the count of {}",
+                                               index, accessor.count));
         copyFloats(values, accessor.normalized, i, &out[std::size_t{index} * components]);
     }
 }
@@ -178,7 +182,7 @@ std::vector<std::uint32_t> accessorIndices(const GltfDocument& document, int acc
                                            std::size_t most, std::string_view place) {
     const Accessor& source = checkedAccessor(document, accessor, 1, most, place);
     if (!isIndexType(source.componentType) || source.sparse.isSparse)
-        document.refuse(place, fmt::format("accessor {} holds no plain indices", accessor));
+        document.refuse(place, fmt::format("accessor {} does not hold plain indices", accessor));
     const ElementView elements = elementsOf(document, source, 1, place);
     std::vector<std::uint32_t> out(source.count);
     for (std::size_t i = 0; i < out.size(); ++i)

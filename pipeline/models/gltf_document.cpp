@@ -29,13 +29,16 @@ std::string_view jsonOf(std::span<const std::uint8_t> bytes) {
     const auto* text = reinterpret_cast<const char*>(bytes.data());
     if (!isBinary(bytes)) return {text, bytes.size()};
     if (bytes.size() < kGlbHeader + kChunkHeader)
-        throw std::runtime_error("ends in the header of a .glb");
+        throw std::runtime_error("ends within the header of a .glb file");
     const std::uint32_t version = littleEndian(&bytes[4]);
-    if (version != 2) throw std::runtime_error(fmt::format("version {} of .glb", version));
+    if (version != 2)
+        throw std::runtime_error(
+            fmt::format("version {} of .glb is not supported; expected 2", version));
     const std::uint32_t length = littleEndian(&bytes[kGlbHeader]);
     const std::size_t left = bytes.size() - kGlbHeader - kChunkHeader;
     if (length > left)
-        throw std::runtime_error(fmt::format("JSON of {} bytes in a .glb with {}", length, left));
+        throw std::runtime_error(
+            fmt::format("the .glb states {} bytes of JSON but has only {}", length, left));
     return {text + kGlbHeader + kChunkHeader, length};
 }
 
@@ -112,8 +115,8 @@ void parse(std::span<const std::uint8_t> bytes, GltfDocument& document) {
 
 void requireVersionAndExtensions(const GltfDocument& document) {
     if (!document.gltf.asset.version.starts_with("2."))
-        document.refuse("asset.version",
-                        fmt::format("\"{}\", 2.0 is read", document.gltf.asset.version));
+        document.refuse("asset.version", fmt::format("\"{}\" is not supported; expected 2.0",
+                                                     document.gltf.asset.version));
     for (const std::string& name : document.gltf.extensionsRequired)
         if (name != "KHR_texture_transform" && name != "KHR_materials_emissive_strength")
             document.refuse("extensionsRequired", fmt::format("{} is not supported", name));
@@ -130,7 +133,7 @@ std::span<const std::uint8_t> GltfDocument::view(int bufferView, std::string_vie
     const std::span<const std::uint8_t> buffer = at(gltf.buffers, view.buffer, place).data;
     // The JSON was validated, but tinygltf made the buffer, which may be smaller.
     if (view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset)
-        refuse(place, fmt::format("bufferView {} is not in its buffer", bufferView));
+        refuse(place, fmt::format("bufferView {} reaches beyond its buffer", bufferView));
     return buffer.subspan(view.byteOffset, view.byteLength);
 }
 
@@ -141,7 +144,7 @@ GltfDocument readDocument(std::span<const std::uint8_t> bytes, const std::string
         const auto most = std::min<std::uint64_t>(limits.bytes, UINT32_MAX);
         if (bytes.size() > most)
             throw std::runtime_error(
-                fmt::format("has {} bytes, at most {} are read", bytes.size(), most));
+                fmt::format("has {} bytes; the limit is {} bytes", bytes.size(), most));
         requireSoundJson(jsonOf(bytes), limits);
         parse(bytes, document);
     } catch (const std::exception& error) {

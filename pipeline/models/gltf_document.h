@@ -27,7 +27,8 @@ struct GltfDocument {
     template <class T>
     [[nodiscard]] const T& at(const std::vector<T>& list, int index, std::string_view place) const {
         if (index < 0 || static_cast<std::size_t>(index) >= list.size())
-            refuse(place, "index " + std::to_string(index) + " of " + std::to_string(list.size()));
+            refuse(place, "index " + std::to_string(index) + " is not below the count of " +
+                              std::to_string(list.size()));
         return list[static_cast<std::size_t>(index)];
     }
     /// The bytes of a bufferView.

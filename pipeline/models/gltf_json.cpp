@@ -22,9 +22,10 @@ json parseBounded(std::string_view text, std::size_t most) {
     std::size_t values = 0;
     const auto count = [&](int depth, json::parse_event_t /*event*/, json& /*parsed*/) {
         if (depth > kDeepestJson)
-            throw std::runtime_error(fmt::format("JSON is nested deeper than {}", kDeepestJson));
+            throw std::runtime_error(
+                fmt::format("the JSON is nested more than {} levels deep", kDeepestJson));
         if (++values > most)
-            throw std::runtime_error(fmt::format("JSON has more than {} values", most));
+            throw std::runtime_error(fmt::format("the JSON has more than {} values", most));
         return true;
     };
     try {
@@ -40,7 +41,7 @@ std::uint64_t bytesAt(const json& object, const char* key, std::uint64_t missing
                       std::string_view place) {
     const auto it = object.find(key);
     if (it == object.end()) return missing;
-    if (!it->is_number_unsigned()) wrong(place, fmt::format("{} is no count of bytes", key));
+    if (!it->is_number_unsigned()) wrong(place, fmt::format("{} must be a number of bytes", key));
     return it->get<std::uint64_t>();
 }
 
@@ -57,12 +58,12 @@ void checkLists(const json& root, const ModelLimits& limits) {
                                    "scenes",    "skins",      "textures"};
     for (const char* key : kLists) {
         const json& list = listOf(root, key);
-        if (!list.is_array()) wrong(key, "is no list");
+        if (!list.is_array()) wrong(key, "must be a list");
         if (list.size() > limits.elements)
-            wrong(key,
-                  fmt::format("{} entries, at most {} are read", list.size(), limits.elements));
+            wrong(key, fmt::format("has {} entries; at most {} are supported", list.size(),
+                                   limits.elements));
         for (std::size_t i = 0; i < list.size(); ++i)
-            if (!list[i].is_object()) wrong(fmt::format("{}[{}]", key, i), "is no object");
+            if (!list[i].is_object()) wrong(fmt::format("{}[{}]", key, i), "must be an object");
     }
 }
 
@@ -73,8 +74,9 @@ void checkBuffers(const json& buffers, const ModelLimits& limits) {
         const std::uint64_t length = bytesAt(buffers[i], "byteLength", 0, place);
         if (length == 0) wrong(place, "has no byteLength");
         if (length > left)
-            wrong(place, fmt::format("byteLength {}: buffers hold more than {} bytes", length,
-                                     limits.bytes));
+            wrong(place,
+                  fmt::format("byteLength {}: all buffers together exceed the limit of {} bytes",
+                              length, limits.bytes));
         left -= length;
     }
 }
@@ -84,13 +86,14 @@ void checkViews(const json& views, const json& buffers) {
         const std::string place = fmt::format("bufferViews[{}]", i);
         const std::uint64_t buffer =
             bytesAt(views[i], "buffer", std::numeric_limits<std::uint64_t>::max(), place);
-        if (buffer >= buffers.size()) wrong(place, "names no buffer");
+        if (buffer >= buffers.size()) wrong(place, "must name an existing buffer");
         const std::uint64_t holds = bytesAt(buffers[buffer], "byteLength", 0, place);
         const std::uint64_t offset = bytesAt(views[i], "byteOffset", 0, place);
         const std::uint64_t length = bytesAt(views[i], "byteLength", 0, place);
         if (length == 0) wrong(place, "has no byteLength");
         if (offset > holds || length > holds - offset)
-            wrong(place, fmt::format("{} bytes from {} of a buffer of {}", length, offset, holds));
+            wrong(place, fmt::format("{} bytes at offset {} reach beyond the buffer of {} bytes",
+                                     length, offset, holds));
     }
 }
 
@@ -103,7 +106,7 @@ void checkSparse(const json& accessors) {
         for (const char* part : {"indices", "values"}) {
             const std::string place = fmt::format("accessors[{}].sparse.{}", i, part);
             if (!sparse->is_object() || !sparse->contains(part) || !(*sparse)[part].is_object())
-                wrong(place, "is no object");
+                wrong(place, "must be an object");
             static_cast<void>(bytesAt((*sparse)[part], "byteOffset", 0, place));
         }
     }
@@ -115,7 +118,7 @@ void checkImages(const json& images, const json& views) {
         if (it == images[i].end()) continue;
         const std::string place = fmt::format("images[{}]", i);
         if (bytesAt(images[i], "bufferView", 0, place) >= views.size())
-            wrong(place, "names no bufferView");
+            wrong(place, "must name an existing bufferView");
     }
 }
 
@@ -123,7 +126,7 @@ void checkImages(const json& images, const json& views) {
 
 void requireSoundJson(std::string_view text, const ModelLimits& limits) {
     const json root = parseBounded(text, limits.jsonValues);
-    if (!root.is_object()) throw std::runtime_error("JSON is no object");
+    if (!root.is_object()) throw std::runtime_error("the JSON must be an object");
     checkLists(root, limits);
     checkBuffers(listOf(root, "buffers"), limits);
     checkViews(listOf(root, "bufferViews"), listOf(root, "buffers"));

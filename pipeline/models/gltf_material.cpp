@@ -40,7 +40,7 @@ void readPair(const GltfDocument& document, const tinygltf::Value& object, const
     if (!object.Has(key)) return;
     const tinygltf::Value& list = object.Get(key);
     if (!list.IsArray() || list.ArrayLen() != 2)
-        document.refuse(place, fmt::format("{} is no pair of numbers", key));
+        document.refuse(place, fmt::format("{} must be a pair of numbers", key));
     out = {mappingNumber(document, list.Get(0), place),
            mappingNumber(document, list.Get(1), place)};
 }
@@ -154,7 +154,8 @@ void GltfMaterials::takeMapping(const TextureMapping& wanted, const std::string&
 int GltfMaterials::picture(int image, bool srgb, const std::string& place) {
     if (const auto it = pictures_.find({image, srgb}); it != pictures_.end()) return it->second;
     if (textures_.size() == document_.limits.textures)
-        document_.refuse(place, fmt::format("more than {} textures", document_.limits.textures));
+        document_.refuse(
+            place, fmt::format("the model has more than {} textures", document_.limits.textures));
     const tinygltf::Image& from = document_.at(document_.gltf.images, image, place);
     textures_.push_back(decode(from, fmt::format("images[{}]", image)));
     textures_.back().srgb = srgb;
@@ -169,11 +170,13 @@ SurfaceTexture GltfMaterials::decode(const tinygltf::Image& image, const std::st
         const ModelLimits& limits = document_.limits;
         if (size.width < 1 || size.height < 1 || size.width > limits.textureSide ||
             size.height > limits.textureSide)
-            throw std::runtime_error(fmt::format("{}x{} pixels, at most {} a side are read",
-                                                 size.width, size.height, limits.textureSide));
+            throw std::runtime_error(
+                fmt::format("the picture has {}x{} pixels; at most {} per side are supported",
+                            size.width, size.height, limits.textureSide));
         const std::size_t texels = static_cast<std::size_t>(size.width) * size.height;
         if (texels > limits.texels - texels_)
-            throw std::runtime_error(fmt::format("textures of more than {} pixels", limits.texels));
+            throw std::runtime_error(
+                fmt::format("the textures of the model have more than {} pixels", limits.texels));
         texels_ += texels;
         out.size = size;
         out.texels.resize(texels);

@@ -65,20 +65,25 @@ std::vector<Triangle> readTriangles(const GltfDocument& document, const Primitiv
                                   place);
         for (const std::uint32_t index : indices)
             if (index >= vertices)
-                document.refuse(place, fmt::format("index {} of {} vertices", index, vertices));
+                document.refuse(place,
+                                fmt::format("index {} is not below the number of vertices, {}",
+                                            index, vertices));
     } else {
         indices.resize(vertices);
         std::iota(indices.begin(), indices.end(), 0U);
     }
     const bool whole = source.primitive.mode != TINYGLTF_MODE_TRIANGLES || indices.size() % 3 == 0;
-    if (!whole) document.refuse(place, fmt::format("{} indices are no triangles", indices.size()));
+    if (!whole)
+        document.refuse(place, fmt::format("{} indices are not a multiple of 3, as triangles need",
+                                           indices.size()));
     return trianglesOf(source.primitive.mode, indices);
 }
 
 void requireSameCount(const GltfDocument& document, const PrimitiveSource& source,
                       std::size_t count, std::size_t wanted, const char* name) {
     if (count != 0 && count != wanted)
-        document.refuse(source.place, fmt::format("{} {} for {} vertices", count, name, wanted));
+        document.refuse(source.place,
+                        fmt::format("found {} {} for {} vertices", count, name, wanted));
 }
 
 void normalize(std::vector<Eigen::Vector3f>& normals) {
@@ -105,7 +110,7 @@ void readCoordinates(const GltfDocument& document, const PrimitiveSource& source
     for (Eigen::Vector2f& uv : mesh.uvs) {
         uv = source.mapping(uv);
         if (!(uv.cwiseAbs().maxCoeff() < kFarthestUv))
-            document.refuse(source.place, "texture coordinates out of range");
+            document.refuse(source.place, "texture coordinates are out of range");
     }
     // Without texture coordinates, textures show their first texel.
     if (mesh.uvs.empty()) mesh.uvs.assign(mesh.positions.size(), Eigen::Vector2f::Zero());
@@ -135,8 +140,8 @@ std::optional<Mesh> readPrimitive(const GltfDocument& document, const PrimitiveS
     if (mesh.positions.empty()) return std::nullopt;
     mesh.triangles = readTriangles(document, source, mesh.positions.size());
     if (mesh.triangles.size() > document.limits.triangles)
-        document.refuse(source.place,
-                        fmt::format("more than {} triangles", document.limits.triangles));
+        document.refuse(source.place, fmt::format("the model has more than {} triangles",
+                                                  document.limits.triangles));
     readCoordinates(document, source, mesh);
     readFrames(document, source, mesh);
     return mesh;

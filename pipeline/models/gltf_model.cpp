@@ -30,7 +30,7 @@ Eigen::Affine3d transformOf(const GltfDocument& document, const tinygltf::Node& 
     };
     if (!sizeIs(node.matrix, 16) || !sizeIs(node.translation, 3) || !sizeIs(node.rotation, 4) ||
         !sizeIs(node.scale, 3))
-        document.refuse(place, "its transform is not sound");
+        document.refuse(place, "its transform has the wrong number of values");
     if (!node.matrix.empty()) {
         const Eigen::Map<const Eigen::Matrix4d> matrix(node.matrix.data());
         T.matrix().topRows<3>() = matrix.topRows<3>();
@@ -38,7 +38,8 @@ Eigen::Affine3d transformOf(const GltfDocument& document, const tinygltf::Node& 
         if (!node.translation.empty()) T.translate(Eigen::Vector3d(node.translation.data()));
         if (!node.rotation.empty()) {
             const Eigen::Quaterniond q(Eigen::Vector4d(node.rotation.data()));
-            if (!(q.norm() > 1e-6)) document.refuse(place, "its rotation is not sound");
+            if (!(q.norm() > 1e-6))
+                document.refuse(place, "its rotation is a quaternion of length 0");
             T.rotate(q.normalized());
         }
         if (!node.scale.empty()) T.scale(Eigen::Vector3d(node.scale.data()));
@@ -55,7 +56,7 @@ public:
     Model build() {
         for (const int root : roots())
             addNode(root, upright(), 0);
-        if (model_.meshes.empty()) document_.refuse("scene", "shows no triangles");
+        if (model_.meshes.empty()) document_.refuse("scene", "contains no triangles");
         model_.materials = materials_.takeMaterials();
         model_.textures = materials_.takeTextures();
         return std::move(model_);
@@ -83,9 +84,10 @@ private:
         const tinygltf::Node& node = document_.at(document_.gltf.nodes, index, place);
         if (onPath_[index]) document_.refuse(place, "is its own ancestor");
         if (depth == document_.limits.nodeDepth)
-            document_.refuse(place, fmt::format("is nested deeper than {}", depth));
+            document_.refuse(place, fmt::format("is nested more than {} levels deep", depth));
         if (++nodesShown_ > document_.limits.elements)
-            document_.refuse(place, fmt::format("more than {} nodes", document_.limits.elements));
+            document_.refuse(
+                place, fmt::format("the model has more than {} nodes", document_.limits.elements));
         onPath_[index] = true;
         const Eigen::Affine3d T = T_model_parent * transformOf(document_, node, place);
         if (node.mesh >= 0) addMesh(node.mesh, T, place);
@@ -126,15 +128,16 @@ private:
 
     void count(std::size_t& sum, std::size_t more, std::size_t most, const char* what,
                const std::string& place) const {
-        if (more > most - sum) document_.refuse(place, fmt::format("more than {} {}", most, what));
+        if (more > most - sum)
+            document_.refuse(place, fmt::format("the model has more than {} {}", most, what));
         sum += more;
     }
 
     void requireNear(const Mesh& mesh, const std::string& place) const {
         for (const Eigen::Vector3f& p : mesh.positions)
             if (!(p.cwiseAbs().maxCoeff() <= document_.limits.farthest))
-                document_.refuse(
-                    place, fmt::format("reaches farther than {} m", document_.limits.farthest));
+                document_.refuse(place, fmt::format("the model reaches farther than {} m",
+                                                    document_.limits.farthest));
     }
 
     const GltfDocument& document_;

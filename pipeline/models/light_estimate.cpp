@@ -111,7 +111,7 @@ LightEstimator::LightEstimator(const LightEstimatorOptions& options)
     : options_(options), map_(static_cast<std::size_t>(kMap.width) * kMap.height) {
     if (!(options.smoothingS > 0) || !(options.memoryS > 0) ||
         !(options.surfaceAlbedo > 0 && options.surfaceAlbedo <= 1))
-        throw std::invalid_argument("options of the light estimate out of range");
+        throw std::invalid_argument("options of the light estimate are out of range");
 }
 
 void LightEstimator::add(const ImageView& frame, const CameraModel& camera,

@@ -20,7 +20,7 @@ std::string percentDecoded(std::string_view uri) {
         unsigned value = 0;
         const auto end = std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
         if (digits.size() != 2 || end.ptr != digits.data() + 2)
-            throw std::runtime_error("broken percent-encoding");
+            throw std::runtime_error("the percent-encoding is invalid");
         out += static_cast<char>(value);
         i += 2;
     }
@@ -28,7 +28,7 @@ std::string percentDecoded(std::string_view uri) {
 }
 
 fs::path fileInFolder(const fs::path& folder, const std::string& name) {
-    if (folder.empty()) throw std::runtime_error("other files are not read here");
+    if (folder.empty()) throw std::runtime_error("references to other files are not allowed here");
     const fs::path path(name);
     const bool up = std::find(path.begin(), path.end(), fs::path("..")) != path.end();
     if (name.empty() || name.find('\0') != std::string::npos || path.is_absolute() || up)

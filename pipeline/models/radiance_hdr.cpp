@@ -17,7 +17,7 @@ namespace {
 using Rgbe = std::array<std::uint8_t, 4>;
 
 [[noreturn]] void endsEarly() {
-    throw std::runtime_error("it ends too early");
+    throw std::runtime_error("the picture ends too early");
 }
 
 class HdrBytes {
@@ -35,7 +35,8 @@ public:
         constexpr std::size_t kLongest = 2048;
         const auto end = std::find(left_.begin(), left_.end(), '\n');
         const auto length = static_cast<std::size_t>(end - left_.begin());
-        if (end == left_.end() || length > kLongest) throw std::runtime_error("broken header");
+        if (end == left_.end() || length > kLongest)
+            throw std::runtime_error("the header is invalid");
         const std::string_view text(reinterpret_cast<const char*>(left_.data()), length);
         left_ = left_.subspan(length + 1);
         return text;
@@ -64,10 +65,11 @@ double readHeader(HdrBytes& in) {
     double exposure = 1;
     for (std::string_view line = in.line(); !line.empty(); line = in.line()) {
         if (line.starts_with("FORMAT=") && !line.starts_with("FORMAT=32-bit_rle_rgbe"))
-            throw std::runtime_error(fmt::format("{} is not read", line));
+            throw std::runtime_error(fmt::format("{} is not supported", line));
         if (!line.starts_with("EXPOSURE=")) continue;
         exposure *= numberIn(line.substr(9)).value_or(0);
-        if (!(exposure >= 1e-9 && exposure <= 1e9)) throw std::runtime_error("impossible exposure");
+        if (!(exposure >= 1e-9 && exposure <= 1e9))
+            throw std::runtime_error("the exposure is not from 1e-9 to 1e9");
     }
     return exposure;
 }
@@ -81,7 +83,7 @@ Size readResolution(std::string_view line) {
         if (rest.starts_with(" +X ")) std::from_chars(rest.data() + 4, end, size.width);
     }
     if (size.width < 1 || size.height < 1)
-        throw std::runtime_error(fmt::format("its order of rows, \"{}\", is not read", line));
+        throw std::runtime_error(fmt::format("the row order \"{}\" is not supported", line));
     return size;
 }
 
@@ -92,7 +94,8 @@ void readSplitRow(HdrBytes& in, std::span<Rgbe> row) {
         for (std::size_t x = 0; x < row.size();) {
             const int code = in.byte();
             const auto count = static_cast<std::size_t>(code > kRun ? code - kRun : code);
-            if (count == 0 || count > row.size() - x) throw std::runtime_error("broken row");
+            if (count == 0 || count > row.size() - x)
+                throw std::runtime_error("a row of pixels is invalid");
             const std::uint8_t same = code > kRun ? in.byte() : std::uint8_t{0};
             for (std::size_t i = 0; i < count; ++i)
                 row[x++][channel] = code > kRun ? same : in.byte();
@@ -112,7 +115,8 @@ void readOldRow(HdrBytes& in, std::span<Rgbe> row) {
             continue;
         }
         const std::size_t count = shift < 32 ? std::size_t{pixel[3]} << shift : 0;
-        if (x == 0 || count > row.size() - x) throw std::runtime_error("broken row");
+        if (x == 0 || count > row.size() - x)
+            throw std::runtime_error("a row of pixels is invalid");
         std::fill_n(row.begin() + static_cast<std::ptrdiff_t>(x), count, row[x - 1]);
         x += count;
         shift += 8;
@@ -127,7 +131,7 @@ void readRow(HdrBytes& in, std::span<Rgbe> row) {
                        (*mark)[1] == 2 && (*mark)[2] < 128;
     if (!split) return readOldRow(in, row);
     if ((std::size_t{(*mark)[2]} << 8U | (*mark)[3]) != row.size())
-        throw std::runtime_error("broken row");
+        throw std::runtime_error("a row of pixels is invalid");
     in.skip(4);
     readSplitRow(in, row);
 }

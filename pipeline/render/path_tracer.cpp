@@ -39,7 +39,7 @@ Eigen::Vector2f filtered(PixelFilter filter, const Eigen::Vector2f& u) {
 
 void validate(const PathTracerOptions& o) {
     const auto require = [](bool sound, const char* name) {
-        if (!sound) throw std::invalid_argument(std::string(name) + " is out of its range");
+        if (!sound) throw std::invalid_argument(std::string(name) + " is out of range");
     };
     require(o.maxDepth >= 1 && o.maxDepth <= 64, "maxDepth");
     require(o.rouletteDepth >= 1, "rouletteDepth");
@@ -166,7 +166,7 @@ private:
 
 PathTracer::PathTracer(std::shared_ptr<const Scene> scene, const PathTracerOptions& options) {
     validate(options);
-    if (!scene) throw std::invalid_argument("scene: none");
+    if (!scene) throw std::invalid_argument("the scene is missing");
     validate(*scene);
     parts_ = std::make_unique<const Parts>(std::move(scene), options);
 }
@@ -176,9 +176,9 @@ PathTracer::~PathTracer() = default;
 namespace {
 
 void requireSound(const RenderView& view) {
-    if (!isSound(view.camera)) throw std::invalid_argument("view: the camera is not sound");
+    if (!isSound(view.camera)) throw std::invalid_argument("view: the camera is invalid");
     if (!isFinite(view.T_world_camera) || !(view.T_world_camera.rotation.norm() > 0))
-        throw std::invalid_argument("view: the pose is not sound");
+        throw std::invalid_argument("view: the pose is invalid");
 }
 
 }  // namespace
@@ -186,11 +186,12 @@ void requireSound(const RenderView& view) {
 void PathTracer::trace(const RenderView& view, std::span<const std::uint32_t> pixels, int samples,
                        Film& film, const LightHistory* history) const {
     requireSound(view);
-    if (!(film.size() == view.camera.size)) throw std::invalid_argument("film: another size");
+    if (!(film.size() == view.camera.size))
+        throw std::invalid_argument("film: its size differs from the view's size");
     const auto count = static_cast<std::uint32_t>(film.size().width) *
                        static_cast<std::uint32_t>(film.size().height);
     if (!std::ranges::all_of(pixels, [count](std::uint32_t p) { return p < count; }))
-        throw std::invalid_argument("film: no such pixel");
+        throw std::invalid_argument("film: a pixel lies outside of the film");
     Batch batch(*parts_, view, film, history);
     for (const std::uint32_t pixel : pixels) {
         const std::uint32_t taken = film.samples(pixel);

@@ -164,10 +164,10 @@ void RayScene::Release::operator()(RTCSceneTy* scene) const {
 RayScene::RayScene(int buildThreads) {
     const std::string settings = "threads=" + std::to_string(buildThreads);
     device_.reset(rtcNewDevice(settings.c_str()));
-    if (!device_) check(nullptr, "the start");
-    if (!device_) throw std::runtime_error("Embree: no device");
+    if (!device_) check(nullptr, "starting");
+    if (!device_) throw std::runtime_error("Embree: a device cannot be created");
     scene_.reset(rtcNewScene(device_.get()));
-    check(device_.get(), "a new scene");
+    check(device_.get(), "creating a scene");
     packetWidth_ = packetWidthOf(device_.get());
     // Without this flag, rays slip through between triangles that share an edge.
     rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
@@ -204,7 +204,7 @@ std::uint32_t RayScene::add(std::span<const Eigen::Vector3f> positions,
 
 void RayScene::commit() {
     rtcCommitScene(scene_.get());
-    check(device_.get(), "the search structure");
+    check(device_.get(), "building the search structure");
 }
 
 RayHit RayScene::first(const Ray& ray) const {

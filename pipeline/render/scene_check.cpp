@@ -47,23 +47,25 @@ void checkMesh(const Mesh& mesh, std::size_t materials) {
     require(fits(mesh.normals.size()) && fits(mesh.uvs.size()) && fits(mesh.tangents.size()),
             "vertex arrays differ in length");
     require(mesh.material >= 0 && static_cast<std::size_t>(mesh.material) < materials,
-            "a mesh has no such material");
+            "a mesh names a material that the model does not have");
     requireIndices(mesh.triangles, n, "a mesh");
 }
 
 void checkMaterial(const Material& m, std::size_t textures) {
-    require(m.baseColour.allFinite() && m.baseColour.minCoeff() >= 0, "a colour is not sound");
-    require(isShare(m.metallic) && isShare(m.roughness), "metallic, roughness: not in [0, 1]");
-    require(isRadiance(m.emission), "an emission is not sound");
+    require(m.baseColour.allFinite() && m.baseColour.minCoeff() >= 0,
+            "a material's colour is negative or not finite");
+    require(isShare(m.metallic) && isShare(m.roughness), "metallic or roughness is not in [0, 1]");
+    require(isRadiance(m.emission), "a material's emission is negative or not finite");
     require(std::isfinite(m.normalScale) && std::isfinite(m.alphaCutoff),
-            "a material's number is not finite");
+            "a material's normal scale or alpha cut-off is not finite");
     for (const int index :
          {m.baseColourTexture, m.metallicRoughnessTexture, m.normalTexture, m.emissionTexture})
-        require(index >= -1 && index < static_cast<int>(textures), "no such texture");
+        require(index >= -1 && index < static_cast<int>(textures),
+                "a material names a texture that the model does not have");
 }
 
 void checkModel(const Model& model) {
-    require(!model.materials.empty(), "a model without material");
+    require(!model.materials.empty(), "a model has no material");
     for (const Mesh& mesh : model.meshes)
         checkMesh(mesh, model.materials.size());
     for (const Material& material : model.materials)
@@ -72,7 +74,7 @@ void checkModel(const Model& model) {
         require(t.size.width >= 1 && t.size.height >= 1 &&
                     t.texels.size() == static_cast<std::size_t>(t.size.width) *
                                            static_cast<std::size_t>(t.size.height),
-                "a texture's size is not that of its texels");
+                "the size of a texture differs from its number of texels");
 }
 
 void checkLighting(const Lighting& lighting) {
@@ -81,28 +83,32 @@ void checkLighting(const Lighting& lighting) {
         require(e.size.width >= 1 && e.size.height >= 1 &&
                     e.radiance.size() == static_cast<std::size_t>(e.size.width) *
                                              static_cast<std::size_t>(e.size.height),
-                "the environment's size is not that of its radiance");
-        require(std::ranges::all_of(e.radiance, isRadiance), "an environment's radiance");
+                "the size of the environment differs from its number of radiances");
+        require(std::ranges::all_of(e.radiance, isRadiance),
+                "a radiance of the environment is negative or not finite");
     }
     if (!lighting.sun) return;
     const Sun& sun = *lighting.sun;
-    require(std::abs(sun.towards.norm() - 1) < kUnitTolerance, "the sun's direction");
-    require(isRadiance(sun.irradiance), "the sun's irradiance");
-    require(sun.angularRadius > 0 && sun.angularRadius < kHalfTurn, "the sun's radius");
+    require(std::abs(sun.towards.norm() - 1) < kUnitTolerance,
+            "the sun's direction does not have length 1");
+    require(isRadiance(sun.irradiance), "the sun's irradiance is negative or not finite");
+    require(sun.angularRadius > 0 && sun.angularRadius < kHalfTurn,
+            "the sun's angular radius is out of range");
 }
 
 }  // namespace
 
 void validate(const Scene& scene) {
-    require(scene.objects.size() <= kMostObjects, "more than 250 objects");
+    require(scene.objects.size() <= kMostObjects, "the scene has more than 250 objects");
     for (const SceneObject& object : scene.objects) {
-        require(object.model != nullptr, "an object without model");
+        require(object.model != nullptr, "an object has no model");
         require(isFinite(object.T_world_object), "an object's pose is not finite");
-        require(std::isfinite(object.scale) && object.scale > 0, "an object's scale");
+        require(std::isfinite(object.scale) && object.scale > 0,
+                "an object's scale is not positive");
         checkModel(*object.model);
     }
     checkLighting(scene.lighting);
-    require(allFinite(scene.catcher.positions), "the catcher is not finite");
+    require(allFinite(scene.catcher.positions), "a position of the catcher is not finite");
     require(isRadiance(scene.catcher.albedo) && scene.catcher.albedo.maxCoeff() <= 1,
             "the catcher's albedo is not in [0, 1]");
     requireIndices(scene.catcher.triangles, scene.catcher.positions.size(), "the catcher");

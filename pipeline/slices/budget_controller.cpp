@@ -30,7 +30,7 @@ double valid(double ms) {
 
 BudgetController::BudgetController(double msPerFrame) : budget_(msPerFrame), balance_(msPerFrame) {
     if (!(std::isfinite(msPerFrame) && msPerFrame > 0))
-        throw std::invalid_argument("a budget is a time above 0");
+        throw std::invalid_argument("the budget must be a time above 0");
 }
 
 void BudgetController::beginFrame(bool workWaits) {

@@ -30,10 +30,11 @@ ReferenceOptions checked(const ReferenceOptions& o) {
     validate(o.tracer);
     if (!positive(o.policy.limits.turnDegrees) || !positive(o.policy.limits.zoom) ||
         !(o.lightChange >= 0) || o.policy.samplesToReplace < 1)
-        throw std::invalid_argument("what makes a new reference picture is out of range");
+        throw std::invalid_argument(
+            "an option that decides when a new reference picture is made is out of range");
     if (!(o.holeShare >= 0 && o.holeShare <= 1))
         throw std::invalid_argument("the share of holes is not in [0, 1]");
-    if (!positive(o.exposure.scale)) throw std::invalid_argument("an exposure is above 0");
+    if (!positive(o.exposure.scale)) throw std::invalid_argument("the exposure must be above 0");
     return o;
 }
 

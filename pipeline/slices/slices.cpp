@@ -51,8 +51,10 @@ std::uint32_t rankOf(std::uint32_t pixel, int width) {
 
 Slices::Slices(const SliceOptions& options) : options_(options) {
     if (options.samples < 1 || options.samplesPerTurn < 1 || options.leastSamples < 2)
-        throw std::invalid_argument("slices need samples, and two to know an error");
-    if (!(options.threshold >= 0)) throw std::invalid_argument("an error is not negative");
+        throw std::invalid_argument(
+            "slices need at least one sample, and at least two to estimate the error");
+    if (!(options.threshold >= 0))
+        throw std::invalid_argument("the error threshold must not be negative");
 }
 
 void Slices::begin(const PixelRect& bounds, Size picture,

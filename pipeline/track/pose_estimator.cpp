@@ -49,7 +49,8 @@ double distanceTo(std::span<const TagObservation> tags, const std::vector<bool>&
 PlanarChoice::PlanarChoice(const PlanarChoiceOptions& o) : options_(o) {
     if (!(o.errorSigma > 0 && std::isfinite(o.errorSigma)) || !(o.threshold > 0) ||
         !(o.memory >= 0 && o.memory < 1))
-        throw std::invalid_argument("planar choice: an option is out of its range");
+        throw std::invalid_argument(
+            "choice between the two planar poses: an option is out of range");
 }
 
 const CameraPose& PlanarChoice::choose(const CameraPoses& poses,

@@ -25,7 +25,7 @@ bool positive(double v) {
 PoseFilter::PoseFilter(const PoseFilterOptions& o) : options_(o) {
     if (!positive(o.angularAcceleration) || !positive(o.linearAcceleration) || !positive(o.gate) ||
         o.jumpFrames < 1 || o.bridge.count() < 0 || o.bridgeFrames < 0)
-        throw std::invalid_argument("pose filter: an option is out of its range");
+        throw std::invalid_argument("pose filter: an option is out of range");
 }
 
 PoseFilter::State PoseFilter::started(const Pose& measured, double distance) const {

@@ -74,7 +74,7 @@ void require(bool good, const char* what) {
 }
 
 void check(const DetectorOptions& o) {
-    require(!o.families.empty(), "no tag family is asked for");
+    require(!o.families.empty(), "no tag family is given");
     const double d = o.decimation;
     require(d == 1.5 || (d >= 1 && d <= 8 && d == std::floor(d)),
             "decimation must be 1, 1.5 or a whole number up to 8");
@@ -125,7 +125,7 @@ TagDetector::TagDetector(const DetectorOptions& options)
     : library_(std::make_unique<Library>()), options_(options) {
     check(options);
     library_->detector.reset(apriltag_detector_create());
-    if (!library_->detector) throw std::runtime_error("libapriltag: no memory");
+    if (!library_->detector) throw std::runtime_error("libapriltag cannot allocate memory");
     apriltag_detector_t& detector = *library_->detector;
     detector.nthreads = options.threads;
     detector.quad_decimate = static_cast<float>(options.decimation);
@@ -149,7 +149,7 @@ TagDetector& TagDetector::operator=(TagDetector&&) noexcept = default;
 
 std::vector<TagDetection> TagDetector::detect(const ImageView& luma,
                                               std::optional<PixelRect> region) {
-    require(luma.format == PixelFormat::Gray8, "the picture must be luma");
+    require(luma.format == PixelFormat::Gray8, "the picture must have the format Gray8");
     require(luma.size.width <= kLargestSide && luma.size.height <= kLargestSide,
             "the picture is too large");
     const PixelRect part = searched(luma.size, region, options_.decimation);
@@ -188,7 +188,8 @@ std::vector<TagDetection> TagDetector::detect(const ImageView& luma,
 }
 
 TagPicture drawTag(TagKey tag) {
-    require(tag.id >= 0 && tag.id < info(tag.family).count, "the family has no such id");
+    require(tag.id >= 0 && tag.id < info(tag.family).count,
+            "the id does not exist in this tag family");
     const FamilyHandle family = makeFamily(tag.family);
     const std::unique_ptr<image_u8_t, ImageDeleter> image(apriltag_to_image(family.get(), tag.id));
     TagPicture out;

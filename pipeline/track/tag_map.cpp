@@ -24,9 +24,9 @@ std::string readAll(const std::filesystem::path& file) {
 TagMap::TagMap(const std::vector<MappedTag>& tags) {
     for (const MappedTag& one : tags) {
         if (!(one.size > 0) || !std::isfinite(one.size) || !isFinite(one.T_world_tag))
-            throw std::invalid_argument("tag map: a tag without a size or a place");
+            throw std::invalid_argument("tag map: a tag has no valid size or position");
         if (!tags_.emplace(one.tag, one).second)
-            throw std::invalid_argument("tag map: a tag is there twice");
+            throw std::invalid_argument("tag map: a tag occurs twice");
     }
 }
 

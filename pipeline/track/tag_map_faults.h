@@ -32,10 +32,10 @@ struct RawTag {
 inline std::optional<std::string> wrongWith(const RawTag& raw, std::set<TagKey>& seen) {
     const TagFamilyInfo& family = info(raw.family);
     if (raw.id < 0 || raw.id >= family.count)
-        return fmt::format("id must be from 0 to {} in {}, not {}", family.count - 1, family.name,
-                           raw.id);
+        return fmt::format("id must be from 0 to {} in family {}, not {}", family.count - 1,
+                           family.name, raw.id);
     if (!(raw.size > 0) || !std::isfinite(raw.size))
-        return fmt::format("size must be positive [m], not {}", raw.size);
+        return fmt::format("size must be a positive length [m], not {}", raw.size);
     if (!plausible::kTagSize.holds(raw.size))
         return fmt::format("size must be from {} to {} m, not {}", plausible::kTagSize.least,
                            plausible::kTagSize.most, raw.size);
@@ -48,7 +48,7 @@ inline std::optional<std::string> wrongWith(const RawTag& raw, std::set<TagKey>&
     if (!(std::abs(raw.wxyz.norm() - 1) < 1e-3))
         return fmt::format("the quaternion must have length 1, not {}", raw.wxyz.norm());
     if (!seen.insert({raw.family, static_cast<int>(raw.id)}).second)
-        return fmt::format("tag {} of {} is there twice", raw.id, family.name);
+        return fmt::format("tag {} of family {} occurs twice", raw.id, family.name);
     return std::nullopt;
 }
 

@@ -27,7 +27,7 @@ public:
     TagMap read() {
         refuseUnknown(root_, {"family", "tags"});
         const toml::node* list = root_.get("tags");
-        if (list == nullptr) tagMapFault(file_, 0, "no [[tags]]");
+        if (list == nullptr) tagMapFault(file_, 0, "the map has no [[tags]]");
         if (!list->is_array()) fail(*list, "tags must be a list [[tags]]");
         std::vector<MappedTag> tags;
         for (const toml::node& node : *list->as_array()) {
@@ -36,7 +36,7 @@ public:
             if (const auto wrong = wrongWith(raw, seen_)) fail(node, *wrong);
             tags.push_back(mapped(raw));
         }
-        if (tags.empty()) fail(*list, "no tag");
+        if (tags.empty()) fail(*list, "the map has no tag");
         return TagMap(tags);
     }
 
@@ -49,14 +49,14 @@ private:
                        std::initializer_list<std::string_view> known) const {
         for (const auto& [key, value] : table)
             if (std::find(known.begin(), known.end(), key.str()) == known.end())
-                tagMapFault(
-                    file_, static_cast<int>(key.source().begin.line),
-                    fmt::format("unknown key {}; known are {}", key.str(), fmt::join(known, ", ")));
+                tagMapFault(file_, static_cast<int>(key.source().begin.line),
+                            fmt::format("unknown key {}; expected one of {}", key.str(),
+                                        fmt::join(known, ", ")));
     }
 
     [[nodiscard]] const toml::node& get(const toml::table& table, std::string_view key) const {
         const toml::node* node = table.get(key);
-        if (node == nullptr) fail(table, fmt::format("a tag without {}", key));
+        if (node == nullptr) fail(table, fmt::format("a tag has no key {}", key));
         return *node;
     }
 
@@ -85,7 +85,7 @@ private:
     [[nodiscard]] TagFamily family(const toml::table& tag) const {
         const toml::node* node = tag.get("family");
         if (node == nullptr) node = root_.get("family");
-        if (node == nullptr) fail(tag, "a tag without family");
+        if (node == nullptr) fail(tag, "a tag has no key family");
         const auto name = node->value<std::string>();
         const auto out = name ? tagFamilyNamed(*name) : std::nullopt;
         if (!out)

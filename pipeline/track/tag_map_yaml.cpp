@@ -26,15 +26,16 @@ public:
     }
 
     TagMap read() {
-        if (!root_.IsMap()) tagMapFault(file_, 0, "no tag_bundles and no standalone_tags");
+        if (!root_.IsMap())
+            tagMapFault(file_, 0, "the map has neither tag_bundles nor standalone_tags");
         checkKeys(root_, {"standalone_tags", "tag_bundles"});
         const std::vector<MappedTag> alone = readList(root_["standalone_tags"], false);
         const YAML::Node bundles = root_["tag_bundles"];
         if (isThere(bundles)) return TagMap(readBundles(bundles));
-        if (alone.empty()) tagMapFault(file_, 0, "no tag");
+        if (alone.empty()) tagMapFault(file_, 0, "the map has no tag");
         if (alone.size() > 1)
-            fail(root_["standalone_tags"], "several standalone tags and no bundle: nothing says "
-                                           "how they stand to each other");
+            fail(root_["standalone_tags"], "there are several standalone tags but no bundle, so "
+                                           "their relative positions are unknown");
         return TagMap(alone);
     }
 
@@ -50,25 +51,25 @@ private:
     void checkKeys(const YAML::Node& map, std::initializer_list<std::string_view> known) const {
         std::set<std::string> seen;
         for (const auto& entry : map) {
-            if (!entry.first.IsScalar()) fail(entry.first, "a key must be a word");
+            if (!entry.first.IsScalar()) fail(entry.first, "a key must be a single value");
             const std::string& key = entry.first.Scalar();
             if (std::find(known.begin(), known.end(), key) == known.end())
-                fail(entry.first,
-                     fmt::format("unknown key {}; known are {}", key, fmt::join(known, ", ")));
-            if (!seen.insert(key).second) fail(entry.first, fmt::format("{} is there twice", key));
+                fail(entry.first, fmt::format("unknown key {}; expected one of {}", key,
+                                              fmt::join(known, ", ")));
+            if (!seen.insert(key).second) fail(entry.first, fmt::format("{} occurs twice", key));
         }
     }
 
     std::vector<MappedTag> readBundles(const YAML::Node& bundles) {
         if (!bundles.IsSequence()) fail(bundles, "tag_bundles must be a list");
         if (bundles.size() > 1)
-            fail(bundles[1], "a second bundle: each has a frame of its own, and only one can be "
-                             "the world");
+            fail(bundles[1], "a second bundle is not supported: each bundle has its own coordinate "
+                             "frame, and only one can be the world");
         const YAML::Node bundle = bundles[0];
-        if (!bundle.IsMap()) fail(bundle, "a bundle must have name and layout");
+        if (!bundle.IsMap()) fail(bundle, "a bundle must have the keys name and layout");
         checkKeys(bundle, {"name", "layout"});
         std::vector<MappedTag> tags = readList(bundle["layout"], true);
-        if (tags.empty()) fail(bundle, "no tag");
+        if (tags.empty()) fail(bundle, "the map has no tag");
         return tags;
     }
 
@@ -77,7 +78,7 @@ private:
         if (!isThere(list)) return out;
         if (!list.IsSequence()) fail(list, "tags must be a list");
         for (const YAML::Node& node : list) {
-            if (!node.IsMap()) fail(node, "a tag must have id and size");
+            if (!node.IsMap()) fail(node, "a tag must have the keys id and size");
             const RawTag raw = readTag(node, placed);
             if (const auto wrong = wrongWith(raw, seen_)) fail(node, *wrong);
             MappedTag tag = mapped(raw);
@@ -106,7 +107,7 @@ private:
 
     [[nodiscard]] YAML::Node required(const YAML::Node& map, const std::string& key) const {
         YAML::Node node = map[key];
-        if (!node.IsDefined()) fail(map, fmt::format("a tag without {}", key));
+        if (!node.IsDefined()) fail(map, fmt::format("a tag has no key {}", key));
         return node;
     }
 

@@ -120,7 +120,7 @@ std::vector<TagObservation> Tracker::placed(const std::vector<TagDetection>& tag
 }
 
 std::optional<Pose> Tracker::track(const ImageView& picture, Timestamp time) {
-    require(picture.size == rig_.video.size, "a frame of another size than the calibration");
+    require(picture.size == rig_.video.size, "the size of the frame differs from the calibration");
     const auto begin = std::chrono::steady_clock::now();
     detections_ = searchVideo(picture, time);
     const std::scoped_lock lock(mutex_);
@@ -135,7 +135,7 @@ std::optional<Pose> Tracker::track(const ImageView& picture, Timestamp time) {
 }
 
 std::optional<Pose> Tracker::trackStill(const ImageView& still, Timestamp time) {
-    require(still.size == rig_.still.size, "a still of another size than the calibration");
+    require(still.size == rig_.still.size, "the size of the still differs from the calibration");
     const auto observe = [&](const std::vector<PixelRect>& regions) {
         const auto tags = search(still_, still, regions);
         const std::scoped_lock lock(mutex_);

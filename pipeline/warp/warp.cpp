@@ -163,11 +163,11 @@ void Warp::answer(const HoleAnswer& answer) {
     if (answer.colour.size() != pixels.size() || answer.depth.size() != pixels.size() ||
         answer.id.size() != pixels.size() ||
         (!answer.light.empty() && answer.light.size() != pixels.size()))
-        throw std::invalid_argument("an answer's fields are of unequal length");
+        throw std::invalid_argument("the fields of an answer differ in length");
     if (std::ranges::any_of(pixels, [&](std::uint32_t p) { return p >= count; }))
-        throw std::invalid_argument("an answer has a pixel outside of the layer");
+        throw std::invalid_argument("a pixel of an answer lies outside of the layer");
     if (!isFinite(answer.view.T_world_camera))
-        throw std::invalid_argument("an answer's pose is not finite");
+        throw std::invalid_argument("the pose of an answer is not finite");
     if (answer.scene != scene_) return;
     asked_ = false;
     if (pixels.empty()) return;

@@ -9,8 +9,8 @@ namespace {
 void requireOption(const char* name, double value, double least, double most) {
     if (!(value >= least && value <= most))
         throw std::invalid_argument("warp option " + std::string(name) + " is " +
-                                    std::to_string(value) + ", not from " + std::to_string(least) +
-                                    " to " + std::to_string(most));
+                                    std::to_string(value) + ", but must be from " +
+                                    std::to_string(least) + " to " + std::to_string(most));
 }
 
 }  // namespace

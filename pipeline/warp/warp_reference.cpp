@@ -29,10 +29,11 @@ void requireFiniteCamera(const CameraModel& c, const RigidTransform& T) {
     const auto finite = [](double v) { return std::isfinite(v); };
     if (c.size.width < 1 || c.size.height < 1 || c.size.width > kMostSide ||
         c.size.height > kMostSide)
-        throw std::invalid_argument("a rendered picture has no size from 1 to 16384");
+        throw std::invalid_argument(
+            "width and height of a rendered picture must be from 1 to 16384");
     if (!(c.fx > 0) || !(c.fy > 0) || !finite(c.fx) || !finite(c.fy) || !finite(c.cx) ||
         !finite(c.cy) || !std::ranges::all_of(c.distortion, finite) || !isFinite(T))
-        throw std::invalid_argument("a rendered picture's camera or pose is not finite");
+        throw std::invalid_argument("the camera or pose of a rendered picture is not finite");
 }
 
 /// The picture as a grid; pixels outside are empty.
@@ -200,7 +201,8 @@ WarpReference warpReference(const RenderedPicture& picture) {
     const std::size_t count = static_cast<std::size_t>(size.width) * size.height;
     if (picture.colour.size() != count || picture.depth.size() != count ||
         picture.id.size() != count || (!picture.light.empty() && picture.light.size() != count))
-        throw std::invalid_argument("a rendered picture's fields are not of its camera's size");
+        throw std::invalid_argument(
+            "the fields of a rendered picture do not have its camera's size");
     WarpReference r{picture.camera,
                     picture.T_world_camera,
                     picture.colour,

@@ -18,7 +18,7 @@ check=(python3 -B "$boards/report.py" --compile-shaders "$1" --check "${drivers[
 if [[ ${2:-} != planted ]]; then exec "${check[@]}"; fi
 
 found=$("${check[@]}" --budget "$here/planted.csv" --file "$here/planted.comp") && {
-    echo "a shader with a large local array is within the budget"
+    echo "a shader with a large local array was not reported as over its budget"
     exit 1
 }
 printf '%s\n' "$found"

@@ -76,7 +76,7 @@ TEST(MfarCalibrate, ARecordingOfOneViewIsRefusedAndNothingIsWritten) {
     EXPECT_EQ(ran.status, 1);
     EXPECT_NE(ran.text.find("mfar-calibrate: too few views"), std::string::npos) << ran.text;
     EXPECT_FALSE(fs::exists(out));
-    EXPECT_NE(calibrate("").text.find("the target is needed"), std::string::npos);
+    EXPECT_NE(calibrate("").text.find("a target is needed"), std::string::npos);
     EXPECT_NE(calibrate("--checkerboard 8x6 --square 0.02").text.find("upside down"),
               std::string::npos);
     EXPECT_NE(calibrate("--aprilgrid none.yaml").text.find("none.yaml: is missing"),

@@ -118,11 +118,13 @@ TEST(RigFiles, ACalibrationOfAnotherSizeIsRefusedInEveryFormat) {
     };
     for (const auto& [file, video, still] : where) {
         const std::string ofVideo = fault(file, {Size{1280, 960}, {}});
-        EXPECT_EQ(ofVideo, (folder / video).string() + "is the calibration of 640x480, the sensor "
-                                                       "gives 1280x960");
+        EXPECT_EQ(ofVideo,
+                  (folder / video).string() +
+                      "is a calibration for 640x480 pixels, but the sensor delivers 1280x960");
         const std::string ofStill = fault(file, {{}, Size{640, 480}});
-        EXPECT_EQ(ofStill, (folder / still).string() + "is the calibration of 2304x1728, the "
-                                                       "sensor gives 640x480");
+        EXPECT_EQ(ofStill,
+                  (folder / still).string() +
+                      "is a calibration for 2304x1728 pixels, but the sensor delivers 640x480");
     }
 }
 

@@ -34,7 +34,7 @@ TEST(Target, ImpossibleDescriptionsAreRefusedWithTheirLine) {
         const char *from, *to, *where, *what;
     };
     constexpr Fault kFaults[] = {
-        {"'aprilgrid'", "'circlegrid'", ":1: ", "'circlegrid' is not aprilgrid"},
+        {"'aprilgrid'", "'circlegrid'", ":1: ", "'circlegrid' is not supported"},
         {"tagCols: 6", "tagCols: 6.5", ":2: ", "whole number"},
         {"tagCols: 6", "tagCols: 0", ":2: ", "whole number"},
         {"tagRows: 5", "tagCos: 5", ": ", "has no tagRows"},

@@ -45,8 +45,9 @@ TEST(CameraWatch, AWrongRateIsReportedOnceAndOnlyAfterAWhile) {
     EXPECT_THAT(camera.watch.takeWarnings(), IsEmpty()) << "a moment says nothing";
     for (int i = 0; i < 100; ++i)
         camera.send(66'666'667ns);
-    EXPECT_THAT(camera.watch.takeWarnings(),
-                ElementsAre("video camera: sends 15.0 frames per second, 30 are configured"));
+    EXPECT_THAT(
+        camera.watch.takeWarnings(),
+        ElementsAre("video camera: sends 15.0 frames per second instead of the configured 30"));
     for (int i = 0; i < 100; ++i)
         camera.send(66'666'667ns);
     EXPECT_THAT(camera.watch.takeWarnings(), IsEmpty());

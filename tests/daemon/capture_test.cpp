@@ -149,7 +149,7 @@ TEST(CaptureThread, AnInvalidStillEndsTheRunOnAnyThread) {
         capture.still().send(1, 0, Size{4, 4});
         capture.video().send(2);
         EXPECT_EQ(endOf(capture),
-                  "fake still: sent a picture of 4x4, the calibration is for 16x12");
+                  "fake still: sent a picture of 4x4, but the calibration is for 16x12");
     }
 }
 

@@ -52,7 +52,7 @@ TEST_F(Control, ExecutesEveryCommand) {
     EXPECT_EQ(triggered, 1);
     EXPECT_EQ(ask(R"({"command": "learn", "reset": true})"), (json{{"ok", true}}));
     EXPECT_EQ(resets, 1);
-    EXPECT_THAT(errorOf(R"({"command": "learn"})"), HasSubstr("takes \"reset\": true"));
+    EXPECT_THAT(errorOf(R"({"command": "learn"})"), HasSubstr("needs \"reset\": true"));
     EXPECT_EQ(resets, 1);
     EXPECT_EQ(ask(R"({"command": "record", "name": "walk-1"})"), (json{{"ok", true}}));
     EXPECT_EQ(recorded, "walk-1");
@@ -71,19 +71,19 @@ TEST_F(Control, SnapshotIsRedGreenBlueAlphaAfterTheLine) {
 TEST_F(Control, InvalidRequestsGetOneError) {
     for (const char* text : {"", "status", "{", "[]", "7", "null", R"({"command": 7})", R"({})",
                              R"({"command": "status"} x)", "\xff\xfe", "{\"command\": \"status"})
-        EXPECT_THAT(errorOf(text), HasSubstr("a request is one line")) << text;
-    EXPECT_THAT(errorOf(R"({"command": "explode"})"), HasSubstr("no command \"explode\""));
-    EXPECT_THAT(errorOf(R"({"command": "status", "x": 1})"), HasSubstr("takes no \"x\""));
+        EXPECT_THAT(errorOf(text), HasSubstr("a request must be one line")) << text;
+    EXPECT_THAT(errorOf(R"({"command": "explode"})"), HasSubstr("unknown command \"explode\""));
+    EXPECT_THAT(errorOf(R"({"command": "status", "x": 1})"), HasSubstr("takes no argument \"x\""));
     EXPECT_THAT(errorOf(R"({"command": "snapshot", "screen": 1})"), HasSubstr("true or false"));
-    EXPECT_THAT(errorOf(std::string(100, '[')), HasSubstr("a request is one line"));
+    EXPECT_THAT(errorOf(std::string(100, '[')), HasSubstr("a request must be one line"));
     EXPECT_THAT(errorOf(std::string(5000, ' ')), HasSubstr("longer than 4096"));
-    EXPECT_THAT(errorOf("{\"command\": \"\xff\"}"), HasSubstr("a request is one line"));
+    EXPECT_THAT(errorOf("{\"command\": \"\xff\"}"), HasSubstr("a request must be one line"));
 }
 
 TEST_F(Control, RecordsUnderASimpleNameOnly) {
     for (const char* request :
          {R"({"command": "record"})", R"({"command": "record", "name": "a", "stop": true})"})
-        EXPECT_THAT(errorOf(request), HasSubstr("record takes")) << request;
+        EXPECT_THAT(errorOf(request), HasSubstr("record needs")) << request;
     for (const char* name : {"", ".", "..", "../x", "/tmp/x", "a/b", ".hidden", "a b", "a\\nb"})
         EXPECT_THAT(errorOf(json{{"command", "record"}, {"name", name}}.dump()),
                     HasSubstr("a recording's name"))

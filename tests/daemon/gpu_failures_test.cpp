@@ -28,7 +28,8 @@ TEST(GpuFailures, ThreeWithinAMinuteAreTooMany) {
     EXPECT_FALSE(failures.add(kStart, "reset"));
     EXPECT_FALSE(failures.add(kStart + seconds(30), "reset"));
     EXPECT_TRUE(failures.add(kStart + seconds(60), "error 1"));
-    const std::string said = "the GPU failed 3 times within a minute, the CPU draws (error 1)";
+    const std::string said =
+        "the GPU failed 3 times within a minute, so the CPU draws now (error 1)";
     EXPECT_EQ(failures.fault(kStart + seconds(60)), said);
     EXPECT_EQ(failures.banner(kStart + seconds(120)), said);
     EXPECT_EQ(failures.banner(kStart + seconds(121)), std::nullopt);

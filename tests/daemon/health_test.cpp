@@ -138,7 +138,7 @@ TEST_F(HealthTest, WaitingForAReaderIsReported) {
 
 TEST_F(HealthTest, DisplayThatSkipsPicturesIsDegraded) {
     picture = now;
-    display = "y4m:pipe: the reader of the pipe takes nothing";
+    display = "y4m:pipe: the reader of the pipe accepts no data";
     (void)look();
     pass(seconds(1));
     EXPECT_EQ(look().state, HealthState::Degraded);

@@ -81,8 +81,9 @@ TEST(Limits, ARecordingWithLongListsIsRefusedBeforeMemoryIsTaken) {
     config.limits.memoryMb = 512;
     EXPECT_EQ(refusalOf(config), "none");
     config.limits.memoryMb = 64;
-    EXPECT_THAT(refusalOf(config), AllOf(StartsWith(list.string() + ":5"),
-                                         HasSubstr("the lists take more than 42 MB")));
+    EXPECT_THAT(refusalOf(config),
+                AllOf(StartsWith(list.string() + ":5"),
+                      HasSubstr("the lists of this recording take more than 42 MB")));
 }
 
 TEST(Limits, CamerasWithLargePicturesAreRefused) {
@@ -105,7 +106,8 @@ TEST(Limits, AModelThatDoesNotFitIsReportedWithItsPlace) {
     EXPECT_EQ(configFaults("[limits]\nmemory_mb = 512\n" + object), "");
     EXPECT_THAT(configFaults("[limits]\nmemory_mb = 64\n" + object),
                 AllOf(StartsWith("test.toml:4:9: objects[0].model"),
-                      HasSubstr("large.glb: images["), HasSubstr("textures of more than")));
+                      HasSubstr("large.glb: images["),
+                      HasSubstr("the textures of the model have more than")));
 }
 
 // Eight objects share one model and take the memory of one model.
@@ -127,7 +129,7 @@ TEST(Limits, AnEnvironmentThatDoesNotFitIsReportedWithItsPlace) {
     EXPECT_THAT(configFaults("[limits]\nmemory_mb = 64\n[light]\nenvironment = \"" +
                              (folder / "sky.hdr").string() + "\"\n"),
                 AllOf(StartsWith("test.toml:4:15: light.environment"),
-                      HasSubstr("sky.hdr: 2048x1024 pixels need 32 MB")));
+                      HasSubstr("sky.hdr: the picture of 2048x1024 pixels needs 32 MB")));
 }
 
 }  // namespace

@@ -163,7 +163,7 @@ TEST(ObjectsConfig, OmittedObjectsAreReported) {
                                      "which is not in the tag map"));
     EXPECT_THAT(leftOut({model}, map, "there is no tracer"),
                 testing::ElementsAre(
-                    "objects[0] is not shown: jar.glb is a model, and there is no tracer"));
+                    "objects[0] is not shown: jar.glb is a model, but there is no tracer"));
     onTag.tag = TagKey{TagFamily::Tag36h11, 5};
     EXPECT_TRUE(leftOut({shape, onTag}, map, "there is no tracer").empty());
 }

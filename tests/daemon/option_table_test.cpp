@@ -251,10 +251,11 @@ TEST(OptionDefaults, LevelDefaultsMatchTheParser) {
 
 TEST(OptionDefaults, TheSourceNamesEverySceneAndPath) {
     const std::string about = describe(overriddenBy("--source"));
-    for (const auto& [wrong, start] : {std::pair("synthetic:attic", "Scenes: "),
-                                       std::pair("synthetic:office,jump", "Paths: ")}) {
+    for (const auto& [wrong, start] :
+         {std::pair("synthetic:attic", "SCENE is one of: "),
+          std::pair("synthetic:office,jump", "PATH is how the camera moves, one of: ")}) {
         const std::string fault = sourceFault(wrong).value();
-        EXPECT_THAT(about, HasSubstr(start + fault.substr(fault.find("there are ") + 10) + "."));
+        EXPECT_THAT(about, HasSubstr(start + fault.substr(fault.find("one of ") + 7) + "."));
     }
 }
 

@@ -53,7 +53,7 @@ double rotationError(const Pose& pose, double at) {
 TEST(PoseFinder, TagsGiveFramesAndStillsTheirPose) {
     Stats stats;
     PoseFinder finder({}, inputs(), stats);
-    EXPECT_EQ(finder.description(), "poses from 1 tags");
+    EXPECT_EQ(finder.description(), "poses from a map of 1 tags");
     for (int i = 0; i < 4; ++i)
         EXPECT_LT(rotationError(video(finder, i).value(), i), 0.01) << i;
     const std::optional<Pose> sharp = still(finder, 2.5, true);
@@ -109,7 +109,7 @@ TEST(PoseFinder, WithoutAMapTheFirstTagIsTheWorld) {
     PoseInputs unknown = inputs();
     unknown.tags = {};
     PoseFinder finder({}, unknown, stats);
-    EXPECT_EQ(finder.description(), "poses from the first tag, 0.1 m");
+    EXPECT_EQ(finder.description(), "poses from the first tag, whose edge is 0.1 m");
     EXPECT_TRUE(finder.mayFindTags());
     EXPECT_FALSE(video(finder, 0, false));
     EXPECT_FALSE(finder.takeFoundTags());

@@ -57,9 +57,9 @@ std::string faultOf(const std::string& toml) {
 TEST(QualityTable, FaultsAreReportedWithTheirPlace) {
     const std::string level = "[[level]]\nname = \"a\"\nms = 1\n";
     EXPECT_EQ(faultOf(level), "");
-    EXPECT_EQ(faultOf(""), "file:1:1: no [[level]]");
-    EXPECT_EQ(faultOf("[[level]]\nms = 1\n"), "file:1:1: level[0] needs a name and ms");
-    EXPECT_EQ(faultOf(level + level), "file:1:1: level \"a\" is there twice");
+    EXPECT_EQ(faultOf(""), "file:1:1: the table has no [[level]]");
+    EXPECT_EQ(faultOf("[[level]]\nms = 1\n"), "file:1:1: level[0] needs the keys name and ms");
+    EXPECT_EQ(faultOf(level + level), "file:1:1: level \"a\" occurs twice");
     EXPECT_EQ(faultOf(level + "flow2d.steps = 17\n").substr(0, 9), "file:4:16");
     EXPECT_EQ(faultOf(level + "ms2 = 1\n").substr(0, 8), "file:4:1");
     EXPECT_EQ(faultOf("[[level]]\nname = \"a\"\nms = nan\n").substr(0, 8), "file:3:6");

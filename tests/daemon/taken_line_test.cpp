@@ -63,7 +63,7 @@ TEST(TakenLine, OtherContentIsIgnored) {
         {"chip=a\x01\nline=1\nactive_low=true\n", "chip= is not a valid name"},
         {"chip=" + std::string(300, 'a') + "\nline=1\nactive_low=true\n",
          "chip= is not a valid name"},
-        {std::string(2000, 'a'), "has 2000 bytes, at most 1024"},
+        {std::string(2000, 'a'), "has 2000 bytes; the limit is 1024"},
     };
     for (const auto& [text, what] : texts) {
         test::writeFile(file, text);
@@ -72,7 +72,7 @@ TEST(TakenLine, OtherContentIsIgnored) {
     if (geteuid() != 0) GTEST_SKIP() << "only root can make another user's file";
     test::writeFile(file, test::readFile(sound));
     ASSERT_EQ(chown(file.c_str(), 1234, 1234), 0);
-    EXPECT_THAT(faultOf(), HasSubstr("is another user's"));
+    EXPECT_THAT(faultOf(), HasSubstr("belongs to another user"));
 }
 
 }  // namespace

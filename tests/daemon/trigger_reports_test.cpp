@@ -17,7 +17,8 @@ TEST(TriggerReports, EachEventIsReportedOnce) {
                 ElementsAre("no still arrived after a pulse; it is requested again"));
     EXPECT_THAT(reports.newSince({1, 0, false}), IsEmpty());
     EXPECT_THAT(reports.newSince({1, 2, false}),
-                ElementsAre("the loopback missed an edge of a pulse, exposure unverified"));
+                ElementsAre("the loopback input missed an edge of a pulse, so the time of the "
+                            "exposure is unverified"));
     EXPECT_THAT(reports.newSince({2, 2, false}), ElementsAre("no still arrived after a pulse"));
     EXPECT_THAT(reports.newSince({2, 2, false}), IsEmpty());
 }

@@ -92,7 +92,8 @@ DemoRun runDemo(const Recording& recording, const std::function<void(int, int)>&
         progress(++done, static_cast<int>(recording.video.size()));
     }
     if (run.quality.frames == 0)
-        throw std::runtime_error(recording.root.string() + ": no frame has truth and a still");
+        throw std::runtime_error(recording.root.string() +
+                                 ": no frame has both a truth and a still");
     divideByFrames(run.quality);
     return run;
 }

@@ -30,7 +30,7 @@ Header readHeader(std::istream& in, const std::filesystem::path& file) {
     const int read = std::sscanf(line.c_str(), "YUV4MPEG2 W%d H%d F%d:%d", &header.width,
                                  &header.height, &numerator, &denominator);
     const bool halved = line.find(" C420") != std::string::npos;
-    if (read != 4 || !halved || denominator <= 0) refuse(file, "not a 4:2:0 Y4M file");
+    if (read != 4 || !halved || denominator <= 0) refuse(file, "is not a 4:2:0 Y4M file");
     if (header.width <= 0 || header.height <= 0 || header.width % 4 != 0 || header.height % 4 != 0)
         refuse(file, "width and height must be multiples of 4");
     header.rateHz = static_cast<double>(numerator) / denominator;

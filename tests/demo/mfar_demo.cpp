@@ -57,7 +57,7 @@ void printTable(const Quality& q) {
     row("PSNR [dB]", fmt::format("{:.2f}", q.upscaledPsnrDb),
         fmt::format("{:.2f}", q.resultPsnrDb));
     row("SSIM", fmt::format("{:.4f}", q.upscaledSsim), fmt::format("{:.4f}", q.resultSsim));
-    row("pixels made worse [%]", "", fmt::format("{:.2f}", 100 * q.harmRate));
+    row("pixels that became worse [%]", "", fmt::format("{:.2f}", 100 * q.harmRate));
     row("confidence", "", fmt::format("{:.3f}", q.meanConfidence));
     row("time of a frame [ms]", "", fmt::format("{:.1f}", q.frameMs));
     for (std::size_t i = 0; i < mfar::kTileClasses; ++i) {
@@ -78,7 +78,7 @@ void printTable(const OcclusionQuality& q) {
 
 void runObjects(const Request& request, const mfar::Recording& recording) {
     const auto scene = mfar::synthetic::sceneNamed(request.scene);
-    if (!scene) throw std::runtime_error("there is no scene '" + request.scene + "'");
+    if (!scene) throw std::runtime_error("unknown scene '" + request.scene + "'");
     const auto objects = mfar::placedShapes(mfar::loadConfig(request.objects).objects, {});
     const OcclusionRun run = mfar::demo::runOcclusion(recording, *scene, objects, showProgress);
     mfar::eval::savePicture(request.folder / "depth.png", mfar::demo::depthPicture(run));
@@ -95,10 +95,10 @@ void runPathTraced(const Request& request, const mfar::Recording& recording) {
         mfar::demo::runVirtual(recording, mfar::loadConfig(request.pathTraced), showProgress);
     mfar::eval::savePicture(request.folder / "virtual.png", mfar::demo::virtualPicture(run));
     fmt::print("\n");
-    row("samples, while the camera moved", "", fmt::format("{}", run.moved.render.samples));
-    row("samples, in all", "", fmt::format("{}", run.rested.render.samples));
+    row("samples while the camera moved", "", fmt::format("{}", run.moved.render.samples));
+    row("samples in total", "", fmt::format("{}", run.rested.render.samples));
     row("frames with a warped picture", "", fmt::format("{}", run.rested.warped));
-    row("pixels rendered for themselves", "", fmt::format("{}", run.rested.answered));
+    row("pixels rendered to fill holes", "", fmt::format("{}", run.rested.answered));
 }
 
 void run(const Request& request) {
@@ -121,11 +121,11 @@ void run(const Request& request) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Shows what the pipeline makes of a recording with truth/highres");
+    CLI::App app("Draws pictures of the pipeline's results on a recording with truth/highres");
     Request request;
     app.add_option("RECORDING", request.recording, "folder of the recording")->required();
-    app.add_option("FOLDER", request.folder, "where the pictures go")->required();
-    app.add_option("--video", request.video, "Y4M file that becomes FOLDER/video.avi");
+    app.add_option("FOLDER", request.folder, "folder to write the pictures into")->required();
+    app.add_option("--video", request.video, "Y4M file to convert into FOLDER/video.avi");
     auto* scene = app.add_option("--scene", request.scene, "synthetic scene that was recorded");
     app.add_option("--objects", request.objects, "configuration whose [[objects]] are shown in it")
         ->needs(scene);

@@ -45,9 +45,9 @@ TEST(CameraSelection, LargestNeverTakesTheOnlyCamera) {
     EXPECT_EQ(chooseCamera(one, {}), 0U);
     EXPECT_THAT(
         [&] { (void)chooseCamera(one, {.largest = true}); },
-        ThrowsMessage<std::runtime_error>(HasSubstr("no camera beside the other one, 'a'")));
+        ThrowsMessage<std::runtime_error>(HasSubstr("no second camera was found; available: 'a'")));
     EXPECT_THAT([&] { (void)chooseCamera(one, {.except = "a"}); },
-                ThrowsMessage<std::runtime_error>(HasSubstr("no camera beside the other one")));
+                ThrowsMessage<std::runtime_error>(HasSubstr("no second camera was found")));
     EXPECT_EQ(chooseCamera(one, {.except = "not there", .largest = true}), 0U);
 }
 

@@ -100,9 +100,9 @@ TEST(CameraV4l2Buffers, FewBuffersSufficeForManyPictures) {
             options.buffers = 6;
             CameraV4l2 camera(options, fake);
             EXPECT_EQ(camera.takeWarnings(),
-                      std::vector<std::string>{"/dev/video0: the driver gives " +
+                      std::vector<std::string>{"/dev/video0: the driver allocated only " +
                                                std::to_string(buffers) +
-                                               " of 6 buffers, pictures are copied"});
+                                               " of 6 buffers, so every picture is copied"});
             EXPECT_TRUE(camera.takeWarnings().empty()) << "once";
             camera.start();
             std::vector<Frame> held;

@@ -73,11 +73,12 @@ TEST(CameraV4l2, RefusedSizesListTheOfferedOnes) {
     FakeV4l2 fake;
     fake.formats = {{V4L2_PIX_FMT_YUYV, {{64, 48}, {160, 120}}}, {V4L2_PIX_FMT_SBGGR8, {kSize}}};
     EXPECT_EQ(errorOf([&] { CameraV4l2(wanted(), fake); }),
-              "/dev/video0: 'Fake Camera' has no 32x24 in a format that can be used; it offers\n"
+              "/dev/video0: camera 'Fake Camera' does not offer 32x24 in a format that can be "
+              "used; it offers\n"
               "  YUYV: 64x48 160x120\n"
               "  BA81: 32x24");
-    EXPECT_EQ(errorOf([&] { CameraV4l2(wanted("NV12"), fake); }).substr(0, 50),
-              "/dev/video0: 'Fake Camera' has no 32x24 in NV12; i");
+    EXPECT_EQ(errorOf([&] { CameraV4l2(wanted("NV12"), fake); }).substr(0, 65),
+              "/dev/video0: camera 'Fake Camera' does not offer 32x24 in NV12; i");
 }
 
 TEST(CameraV4l2, ADriverThatRoundsTheSizeIsRefused) {
@@ -85,7 +86,7 @@ TEST(CameraV4l2, ADriverThatRoundsTheSizeIsRefused) {
     fake.formats = {{V4L2_PIX_FMT_YUYV, {}}};
     fake.rounds = true;
     EXPECT_EQ(errorOf([&] { CameraV4l2(wanted(), fake); }),
-              "/dev/video0: 'Fake Camera' makes 16x16 YUYV of 32x24 YUYV");
+              "/dev/video0: camera 'Fake Camera' offers 16x16 YUYV instead of 32x24 YUYV");
 }
 
 TEST(CameraV4l2, InvalidDriverDataIsRefused) {
@@ -95,11 +96,12 @@ TEST(CameraV4l2, InvalidDriverDataIsRefused) {
         return errorOf([&] { CameraV4l2(wanted(), fake); });
     };
     EXPECT_EQ(errorWith([](FakeV4l2& f) { f.sizeFault = -1; }),
-              "/dev/video0: the driver says a picture has 1535 bytes, its rows need 1536");
+              "/dev/video0: the driver reports an invalid format: a picture has 1535 bytes, but "
+              "its rows need 1536");
     EXPECT_EQ(errorWith([](FakeV4l2& f) { f.padding = std::size_t{2} << 20; }),
-              "/dev/video0: the driver says a row has 2097216 bytes");
+              "/dev/video0: the driver reports an invalid format: a row has 2097216 bytes");
     EXPECT_EQ(errorWith([](FakeV4l2& f) { f.clock = V4L2_BUF_FLAG_TIMESTAMP_UNKNOWN; }),
-              "/dev/video0: the driver's timestamps are not of CLOCK_MONOTONIC");
+              "/dev/video0: the driver's timestamps do not use CLOCK_MONOTONIC");
 }
 
 TEST(CameraV4l2, ABusyDeviceIsReported) {
@@ -118,14 +120,14 @@ TEST(CameraV4l2, DeviceIsFoundByCardAndBus) {
     }
     options.device.name = "Other";
     EXPECT_EQ(errorOf([&] { CameraV4l2(options, fake); }),
-              "no camera 'Other' among\n  /dev/video0: 'Fake Camera' at fake:1");
+              "camera 'Other' was not found; available:\n  /dev/video0: 'Fake Camera' at fake:1");
     fake.secondPath = "/dev/video2";
     options.device.name = "Fake Camera";
-    EXPECT_EQ(errorOf([&] { CameraV4l2(options, fake); }).substr(0, 63),
-              "several cameras are 'Fake Camera', name one by its path or bus:");
+    EXPECT_EQ(errorOf([&] { CameraV4l2(options, fake); }).substr(0, 67),
+              "several cameras match 'Fake Camera'; choose one by its path or bus:");
     options.device.name = "/dev/video1";
     EXPECT_EQ(errorOf([&] { CameraV4l2(options, fake); }),
-              "/dev/video1: 'Fake Camera' delivers no pictures");
+              "/dev/video1: 'Fake Camera' is not a capture device");
     options.device.name = "/dev/video9";
     EXPECT_EQ(errorOf([&] { CameraV4l2(options, fake); }),
               "/dev/video9: No such file or directory");
@@ -137,9 +139,8 @@ TEST(CameraV4l2, WithoutANameTheExcludedCameraIsNotChosen) {
     options.device = {};
     EXPECT_EQ(CameraV4l2(options, fake).info().name, "Fake Camera (/dev/video0)");
     options.device.largest = true;
-    EXPECT_EQ(
-        errorOf([&] { CameraV4l2(options, fake); }),
-        "there is no camera beside the other one among\n  /dev/video0: 'Fake Camera' at fake:1");
+    EXPECT_EQ(errorOf([&] { CameraV4l2(options, fake); }),
+              "no second camera was found; available:\n  /dev/video0: 'Fake Camera' at fake:1");
     fake.secondPath = "/dev/video2";  // equal picture sizes: ordered by path
     EXPECT_EQ(CameraV4l2(options, fake).info().name, "Fake Camera (/dev/video2)");
     options.device.except = "/dev/video2";

@@ -76,7 +76,8 @@ TEST_F(KmsScreenTest, AFlipThatNeverCompletesIsReportedAfterHalfASecondAndRetrie
     driver_.flips = false;
     show();
     milliseconds took{};
-    EXPECT_EQ(faultOfShow(took), card() + ", HDMI-A-1: shows no new picture");
+    EXPECT_EQ(faultOfShow(took),
+              card() + ", HDMI-A-1: the display driver did not show the new picture in time");
     EXPECT_GE(took, milliseconds(500));
     EXPECT_LT(took, milliseconds(1000)) << "other events extend the wait";
     screen_.close();
@@ -103,7 +104,8 @@ TEST_F(KmsScreenTest, ARefusedFlipNamesTheScreenAndTheReason) {
     driver_.refusesFlips = true;
     milliseconds took{};
     EXPECT_EQ(faultOfShow(took),
-              card() + ", HDMI-A-1: the picture is refused: Device or resource busy");
+              card() +
+                  ", HDMI-A-1: the display driver refuses the picture: Device or resource busy");
 }
 
 TEST_F(KmsScreenTest, FollowsConnectionAndModeOfTheMonitor) {

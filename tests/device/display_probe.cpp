@@ -107,7 +107,8 @@ private:
 double number(std::string_view text) {
     double value = -1;
     std::from_chars(text.data(), text.data() + text.size(), value);
-    if (!(value >= 0 && value < 1e6)) throw std::runtime_error("PICTURES, SECONDS: a number");
+    if (!(value >= 0 && value < 1e6))
+        throw std::runtime_error("PICTURES and SECONDS must be numbers");
     return value;
 }
 

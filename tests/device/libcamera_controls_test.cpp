@@ -22,9 +22,9 @@ protected:
         return parseControls(camera_, {{name, text}}).at(0).second;
     }
     void expectRefused(const char* name, const char* text) const {
-        EXPECT_THAT(
-            [&] { (void)one(name, text); },
-            ThrowsMessage<std::runtime_error>(AllOf(HasSubstr(name), HasSubstr("is not possible"))))
+        EXPECT_THAT([&] { (void)one(name, text); },
+                    ThrowsMessage<std::runtime_error>(
+                        AllOf(HasSubstr(name), HasSubstr("is not a valid value"))))
             << text;
     }
 

@@ -154,7 +154,7 @@ TEST(RequestCycle, EarlyEndsInARowAreRestartedLaterAndLaterUntilTheDeviceIsLost)
             why = lost.what();
         }
     }
-    EXPECT_EQ(why, "camera 'fake' gives its requests back unfilled, 5 times in a row");
+    EXPECT_EQ(why, "camera 'fake' returned its requests without a picture 5 times in a row");
     EXPECT_EQ(camera.cycle.restarts(), 4U);
     const std::vector<Timestamp> starts = camera.starts();
     ASSERT_EQ(starts.size(), 5U);

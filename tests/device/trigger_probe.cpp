@@ -43,7 +43,7 @@ void run(char** argv) {
     LibcameraOptions camera;
     camera.camera.name = argv[1];
     if (std::sscanf(argv[2], "%dx%d", &camera.size.width, &camera.size.height) != 2)
-        throw std::runtime_error("a size is WIDTHxHEIGHT");
+        throw std::runtime_error("the size must be WIDTHxHEIGHT");
     camera.rateHz = 0;
     camera.still = true;
     TriggerOptions trigger;

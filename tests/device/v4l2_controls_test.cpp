@@ -72,7 +72,7 @@ TEST_F(V4l2ControlsTest, ListHasAllControlsExceptTitlesAndDisabledOnes) {
                    "sensor_temperature: -40 to 125 in steps of 1, default 31, read-only\n"
                    "exposure_us: 1 to 10000000000 in steps of 1, default 20000\n"
                    "held_gain: 1 to 8 in steps of 1, default 2\n"
-                   "region: of a kind that cannot be set here\n");
+                   "region: has a type that cannot be set\n");
 }
 
 TEST_F(V4l2ControlsTest, ValuesAreSetAndReadBack) {
@@ -102,16 +102,17 @@ TEST_F(V4l2ControlsTest, ButtonsArePressed) {
     controls.press("single trigger");
     EXPECT_EQ(fake_.control("single_trigger"), 0) << "a button of step 0 keeps no value";
     EXPECT_EQ(errorOf([&] { controls.press("brightness"); }),
-              "/dev/video0: control brightness is no button");
+              "/dev/video0: control brightness is not a button");
     EXPECT_EQ(errorOf([&] { static_cast<void>(controls.get("single_trigger")); }),
               "/dev/video0: control single_trigger cannot be read");
 }
 
 TEST_F(V4l2ControlsTest, EachRefusalStatesItsReason) {
     const V4l2Controls controls(device_);
-    EXPECT_EQ(errorOf([&] { controls.set("contrast", 3); }),
-              "/dev/video0: no control 'contrast'; it has brightness, horizontal_flip, "
-              "trigger_mode, single_trigger, sensor_temperature, exposure_us, held_gain, region");
+    EXPECT_EQ(
+        errorOf([&] { controls.set("contrast", 3); }),
+        "/dev/video0: there is no control 'contrast'; available: brightness, horizontal_flip, "
+        "trigger_mode, single_trigger, sensor_temperature, exposure_us, held_gain, region");
     EXPECT_EQ(errorOf([&] { controls.set("brightness", 256); }),
               "/dev/video0: control brightness cannot be 256; "
               "brightness: 0 to 255 in steps of 5, default 100");
@@ -124,9 +125,9 @@ TEST_F(V4l2ControlsTest, EachRefusalStatesItsReason) {
     EXPECT_EQ(errorOf([&] { controls.set("sensor_temperature", 20); }),
               "/dev/video0: control sensor_temperature is read-only");
     EXPECT_EQ(errorOf([&] { controls.set("held_gain", 3); }),
-              "/dev/video0: control held_gain is busy, it cannot be set now");
+              "/dev/video0: control held_gain is busy and cannot be set now");
     EXPECT_EQ(errorOf([&] { controls.set("region", 1); }),
-              "/dev/video0: control region cannot be set here");
+              "/dev/video0: control region has a type that cannot be set");
     EXPECT_EQ(fake_.control("Brightness"), 100);
 }
 

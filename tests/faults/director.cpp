@@ -140,7 +140,7 @@ void checkGrowth(std::uint64_t moreBytes = grows()) {
         if (Judge::get().holdsNoMore(moreBytes)) return;
         sleepFor(70 * kMs);
     }
-    Judge::get().fail("memory, descriptors or threads have grown");
+    Judge::get().fail("the number of descriptors or threads, or the memory, has grown");
 }
 
 void checkLine() {
@@ -148,7 +148,7 @@ void checkLine() {
         if (Board::get().lineRests()) return;
         sleepFor(70 * kMs);  // a pulse may be in progress
     }
-    Judge::get().fail("the trigger's line does not rest");
+    Judge::get().fail("the trigger line is still active");
 }
 
 void checkInQuiet() {
@@ -246,14 +246,15 @@ void awaitReady() {
     const Ns begin = Scheduler::get().now();
     while (!Judge::get().isReady())
         sleepFor(10 * kMs);
-    if (Scheduler::get().now() - begin > kReadyTime) Judge::get().fail("it is ready late");
+    if (Scheduler::get().now() - begin > kReadyTime) Judge::get().fail("mfard is ready too late");
 }
 
 /// The run in a folder whose previous process was killed.
 [[noreturn]] void runAfterKill() {
     awaitReady();
     sleepFor(kQuiet);
-    if (Judge::get().frames() == 0) Judge::get().fail("there is no picture after a kill");
+    if (Judge::get().frames() == 0)
+        Judge::get().fail("mfard has shown no picture after the start that follows a kill");
     checkInQuiet();
     terminate();
 }

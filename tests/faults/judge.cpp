@@ -133,7 +133,7 @@ void Judge::ends(const Fault& fault) {
 
 void Judge::shows(Ns taken) {
     ++frames_;
-    if (shown_ && taken < *shown_) fail("an older picture follows a newer one");
+    if (shown_ && taken < *shown_) fail("an older picture follows a newer one on the screen");
     shown_ = taken;
 }
 
@@ -180,24 +180,24 @@ void Judge::judgeState(const ordered_json& said, Ns asked) {
     const bool isKnown = (calm_[Screen].active == 0 || stalled > kWriter) &&
                          (!repeats || calm_[VideoDevice].lasts(kRepeats, asked));
     if (age(asked) > kStale + kSlack && isFine && isKnown)
-        fail("the screen's picture is " + seconds(age(asked)) + " old, status says ok");
+        fail("the screen's picture is " + seconds(age(asked)) + " old, but status says ok");
     // mfard checks cameras only between pictures.
     if (missing(asked) > kMarked + kSlack && isFine && calm_[Drawing].lasts(kMarked, asked))
         fail("the video camera has sent nothing for " + seconds(missing(asked)) +
-             ", status says ok");
+             ", but status says ok");
     if (unfinished(Gpu, asked) > kPicture + kSlack && isFine)
         fail("the GPU has finished no picture for " + seconds(unfinished(Gpu, asked)) +
-             ", status says ok");
+             ", but status says ok");
     if (!calm_[All].lasts(kBack + kSlack, asked) || frames_ < kProvenFrames) return;
     // The status reports a failed GPU for a minute, or permanently.
     const bool namesGpu = hadGpuFaults_ && cause.find("the GPU failed") != cause.npos;
     if (!isFine && !namesGpu)
-        fail(fmt::format("nothing has been wrong for {}, status says {}: {} {}",
+        fail(fmt::format("no fault has been active for {}, but status says {}: {} {}",
                          seconds(asked - calm_[All].since), state, fault,
                          said.value("health", ordered_json::object()).dump()));
     if (age(asked) > kOnScreen)
-        fail("nothing has been wrong for " + seconds(asked - calm_[All].since) +
-             ", the screen's picture is " + seconds(age(asked)) + " old");
+        fail("no fault has been active for " + seconds(asked - calm_[All].since) +
+             ", but the screen's picture is " + seconds(age(asked)) + " old");
 }
 
 // Checks that a fault of one camera is not attributed to the other.
@@ -206,17 +206,18 @@ void Judge::judgeBlame(const std::string& fault, Ns asked) {
     const bool video = calm_[Video].lasts(kBack + kSlack, asked);
     const bool still = calm_[Still].lasts(kBack + kSlack, asked);
     if (video && fault.find("video camera") != fault.npos)
-        fail("the video camera is blamed: " + fault);
+        fail("status blames the video camera, which has no fault: " + fault);
     if (still && fault.find("still camera") != fault.npos)
-        fail("the still camera is blamed: " + fault);
+        fail("status blames the still camera, which has no fault: " + fault);
     if (video && calm_[Screen].lasts(kBack, asked) && calm_[Gpu].lasts(kBack, asked) && shown_ &&
         age(asked) > kOnScreen)
-        fail("the video camera is sound, the screen's picture is " + seconds(age(asked)) + " old");
+        fail("the video camera has no fault, but the screen's picture is " + seconds(age(asked)) +
+             " old");
 }
 
 void Judge::answersNot(const std::string& why, Ns asked) {
     if (isEnding() || !isReady() || !calm_[Slow].lasts(kBack, now())) return;
-    fail(fmt::format("no answer after {}: {}", seconds(now() - asked), why));
+    fail(fmt::format("mfard gave no answer within {}: {}", seconds(now() - asked), why));
 }
 
 void Judge::serviceHears(std::string_view text) {
@@ -236,15 +237,17 @@ void Judge::fed() {
     fed_ = now();
     if (frames_ < kProvenFrames || !calm_[Slow].lasts(kBack, now())) return;
     if (now() - before > kLookTime + kSlack && calm_[All].lasts(kBack + kSlack + kLookTime, now()))
-        fail("nothing is wrong, and the watchdog was not fed for " + seconds(now() - before));
+        fail("no fault is active, but the watchdog was not fed for " + seconds(now() - before));
     if (hangs_ && missing(now()) > kVideoBudget + kSlack)
-        fail("the watchdog is fed while the video driver hangs for " + seconds(missing(now())));
+        fail("the watchdog is fed although the video driver has hung for " +
+             seconds(missing(now())));
     if (unfinished(Drawing, now()) > kPicture + kSlack)
-        fail("the watchdog is fed while drawing hangs for " + seconds(unfinished(Drawing, now())));
+        fail("the watchdog is fed although drawing has hung for " +
+             seconds(unfinished(Drawing, now())));
     const bool isNamed = !calm_[Video].lasts(kBack, now()) || !calm_[Screen].lasts(kBack, now()) ||
                          !calm_[Gpu].lasts(kBack, now());
     if (age(now()) > kStale + kSlack && !isNamed)
-        fail("the watchdog is fed with a picture that is " + seconds(age(now())) + " old");
+        fail("the watchdog is fed although the picture is " + seconds(age(now())) + " old");
 }
 
 // Answers to requests are logged every time.
@@ -259,7 +262,7 @@ void Judge::logSays(std::string_view text) {
         std::regex_replace(all, std::regex(R"( \((degraded|stalled|once)[^)]*\))"), "");
     const auto before = logged_.find(event);
     if (before != logged_.end() && now() - before->second < kSameLine - kSlack)
-        fail("the log says the same after " + seconds(now() - before->second));
+        fail("the log repeats the same message after " + seconds(now() - before->second));
     logged_[event] = now();
 }
 
@@ -269,8 +272,8 @@ void Judge::terminated() {
 }
 
 void Judge::ended(int code, bool inTime) {
-    if (!inTime) fail("it does not end");
-    if (code != 0) fail(fmt::format("it ends with {}", code));
+    if (!inTime) fail("mfard does not end in time");
+    if (code != 0) fail(fmt::format("mfard ends with exit code {}", code));
     if (terminated_)
         count("ms from SIGTERM to the end",
               static_cast<std::uint64_t>((now() - *terminated_) / kMs));
@@ -292,12 +295,13 @@ void Judge::stats(const ordered_json& said) {
         std::int64_t gain = 0;
         known(device, &broken, &badTimes, &gain, &ungained);
         if (gain != Board::kGain || ungained > 0)
-            fail(fmt::format("the {} camera's gain is {}, {} is configured; {} pictures without it",
+            fail(fmt::format("the {} camera's gain is {}, but {} is configured; {} pictures were "
+                             "taken without it",
                              camera, gain, Board::kGain, ungained));
         const ordered_json& counted = said.at("cameras").at(camera);
         if (counted.at("broken") != broken || counted.at("bad_times") != badTimes)
-            fail(fmt::format("the {} camera has sent {} broken pictures and {} bad times, counted "
-                             "are {} and {}",
+            fail(fmt::format("the {} camera has sent {} broken pictures and {} bad times, but "
+                             "mfard counted {} and {}",
                              camera, broken, badTimes, counted.at("broken").dump(),
                              counted.at("bad_times").dump()));
     }
@@ -313,19 +317,19 @@ void Judge::recording(const std::string& folder) {
         const std::string name = line.substr(line.find(',') + 1);
         std::error_code error;
         if (std::filesystem::file_size(camera / "data" / name, error) == 0 || error)
-            fail("a recording names " + name + ", which is not there");
+            fail("a recording lists " + name + ", which is missing or empty");
         ++pictures;
     }
-    note(fmt::format("{} has {} pictures", folder, pictures));
+    note(fmt::format("the recording {} has {} pictures", folder, pictures));
 }
 
 bool Judge::holdsNoMore(std::uint64_t moreBytes) {
     const Held is{openFiles(), entries("/proc/self/task"), residentBytes()};
     if (!first_) first_ = is;
     const Held& first = *first_;
-    note(fmt::format("has {} descriptors, {} threads, {} KB; at first {}, {}, {}", is.files.size(),
-                     is.threads, is.bytes >> 10U, first.files.size(), first.threads,
-                     first.bytes >> 10U));
+    note(fmt::format("mfard has {} descriptors, {} threads, {} KB; at the start {}, {}, {}",
+                     is.files.size(), is.threads, is.bytes >> 10U, first.files.size(),
+                     first.threads, first.bytes >> 10U));
     const bool moreFiles = is.files.size() > first.files.size();
     if (moreFiles) {
         std::vector<std::string> added;

@@ -30,16 +30,20 @@ struct Options {
 
 Options parse(int argc, char** argv) {
     Options o;
-    CLI::App app("mfar-faults: mfard under schedules of faults, on a simulated clock");
+    CLI::App app("mfar-faults: runs mfard under random faults on a simulated clock and checks what "
+                 "it promises");
     o.run.addOptions(app);
-    app.add_option("--episodes", o.trial.episodes,
-                   "of one start of mfard, each with one or two faults (default 10)")
+    app.add_option(
+           "--episodes", o.trial.episodes,
+           "number of episodes of one start of mfard, each with one or two faults (default 10)")
         ->check(CLI::PositiveNumber);
-    app.add_option("--only", o.trial.only, "of faults whose names contain this");
-    app.add_flag("--gpu", o.trial.hasGpu, "with OpenGL ES, which may fail, instead of SIMD");
-    app.add_option("--soak", o.trial.soakFrames, "no faults; ends after so many pictures");
-    app.add_flag("--twice", o.twice, "runs each seed twice, and compares");
-    app.add_option("--mfard", o.trial.program, "the program")->check(CLI::ExistingFile);
+    app.add_option("--only", o.trial.only, "use only faults whose names contain this text");
+    app.add_flag("--gpu", o.trial.hasGpu, "use OpenGL ES, which may fail, instead of SIMD");
+    app.add_option("--soak", o.trial.soakFrames,
+                   "inject no faults and end after this many pictures");
+    app.add_flag("--twice", o.twice, "run each seed twice and compare both runs");
+    app.add_option("--mfard", o.trial.program, "path of the program mfard")
+        ->check(CLI::ExistingFile);
     mfar::stress::parseOrExit(app, argc, argv);
     if (o.trial.soakFrames > 0 && !o.run.seed) o.run.seed = 1;
     return o;
@@ -80,7 +84,7 @@ Tally drawSeeds(const Options& o, std::uint64_t seed) {
             const std::string again = runTrial(o.trial, seed).course;
             failed = again != result.course;
             if (failed)
-                fmt::print("FAILED seed {}: the second run took another course\n{}", seed,
+                fmt::print("FAILED seed {}: the second run differs from the first\n{}", seed,
                            difference(result.course, again));
         }
         sum.failures += failed ? 1 : 0;

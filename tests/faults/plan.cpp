@@ -82,7 +82,7 @@ const Kind& drawnKind(std::mt19937_64& random, std::string_view only, bool hasGp
     const auto isMeant = [&](const Kind& kind) { return kind.name.find(only) != only.npos; };
     const auto kinds = std::span(kKinds).first(kKinds.size() - (hasGpu ? 0 : kOfGpu));
     if (std::ranges::none_of(kinds, isMeant))
-        throw std::runtime_error(fmt::format("no fault is called '{}'", only));
+        throw std::runtime_error(fmt::format("unknown fault '{}'", only));
     for (;;) {
         const Kind& kind = kinds[random() % kinds.size()];
         if (!isMeant(kind)) continue;

@@ -129,7 +129,7 @@ void Scheduler::advance() {
         return;
     }
     if (++idle_ > kMostIdle) {
-        std::fprintf(stderr, "faults: every thread waits for ever\n");
+        std::fprintf(stderr, "faults: deadlock: every thread waits for ever\n");
         std::abort();
     }
     real().poll(nullptr, 0, kIdleMs);

@@ -38,7 +38,7 @@ private:
         const std::size_t end = text_.find('\n', at_);
         if (width_ > 0 || end == text_.npos) return false;
         if (std::sscanf(text_.c_str() + at_, "YUV4MPEG2 W%d H%d", &width_, &height_) != 2)
-            Judge::get().fail("the screen gets no video");
+            Judge::get().fail("the screen receives no valid video header");
         at_ = end + 1;
         return true;
     }
@@ -48,7 +48,7 @@ private:
         const std::size_t whole = kFrame.size() + luma + luma / 2;
         if (width_ == 0 || text_.size() < at_ + whole) return false;
         if (text_.compare(at_, kFrame.size(), kFrame) != 0)
-            Judge::get().fail("the screen gets no picture");
+            Judge::get().fail("the screen receives no valid picture");
         const auto* pixels =
             reinterpret_cast<const std::uint8_t*>(text_.data()) + at_ + kFrame.size();
         at_ += whole;
@@ -59,7 +59,7 @@ private:
             Judge::get().shows((now - ((now - *ms) & kMask)) * kMs);
         } else {
             ++unread_;
-            if (unread_ == 1) Judge::get().note("a picture without a time");
+            if (unread_ == 1) Judge::get().note("a picture carries no time");
         }
         return true;
     }

@@ -103,13 +103,13 @@ std::string waitFor(pid_t child, std::chrono::minutes most) {
         if (std::chrono::steady_clock::now() > end) {
             kill(child, SIGKILL);
             waitpid(child, &status, 0);
-            return fmt::format("it has taken more than {} min of real time", most.count());
+            return fmt::format("mfard has taken more than {} min of real time", most.count());
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
-    if (WIFSIGNALED(status)) return fmt::format("it was ended by signal {}", WTERMSIG(status));
+    if (WIFSIGNALED(status)) return fmt::format("mfard was ended by signal {}", WTERMSIG(status));
     const int code = WEXITSTATUS(status);
-    return code == 0 ? "" : fmt::format("it ended with {}", code);
+    return code == 0 ? "" : fmt::format("mfard ended with exit code {}", code);
 }
 
 std::string textOf(const fs::path& file) {
@@ -168,7 +168,8 @@ TrialResult runTrial(const TrialOptions& options, std::uint64_t seed) {
         const std::size_t last = line.rfind(' ');
         out.counts[line.substr(6, last - 6)] += std::stol(line.substr(last));
     }
-    if (why.empty() && report.find("ENDED with 0") == report.npos) why = "it has not told its end";
+    if (why.empty() && report.find("ENDED with 0") == report.npos)
+        why = "mfard has not reported its end";
     if (why.empty() && std::ranges::none_of(lines, tellsFailure)) return out;
     const std::string repeat =
         options.soakFrames > 0
@@ -176,7 +177,7 @@ TrialResult runTrial(const TrialOptions& options, std::uint64_t seed) {
             : fmt::format("--seed {} --episodes {} --only '{}'{}", seed, options.episodes,
                           options.only, options.hasGpu ? " --gpu" : "");
     out.failure = fmt::format("FAILED seed {}: {}\n{}repeat: ./run stress --faults {}\n", seed,
-                              why.empty() ? "a promise is broken" : why, excerpt(lines), repeat);
+                              why.empty() ? "a check failed" : why, excerpt(lines), repeat);
     if (!why.empty()) out.failure += textOf(folder.path() / "err");
     return out;
 }

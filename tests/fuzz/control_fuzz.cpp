@@ -37,6 +37,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto body = nlohmann::json::parse(answer.line);
     test::requireThat(body.at("ok").is_boolean(), "ok or not");
     test::requireThat(body.value("bytes", std::size_t{0}) == answer.data.size(),
-                      "bytes as announced");
+                      "number of bytes as announced");
     return 0;
 }

@@ -19,7 +19,7 @@ fs::path newFolder() {
     const fs::path top =
         fs::is_directory("/dev/shm", error) ? fs::path("/dev/shm") : fs::temp_directory_path();
     std::string name = (top / "mfar-fuzz-XXXXXX").string();
-    requireThat(mkdtemp(name.data()) != nullptr, "no folder for an input");
+    requireThat(mkdtemp(name.data()) != nullptr, "a folder for the input files cannot be created");
     return name;
 }
 

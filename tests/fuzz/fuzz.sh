@@ -32,7 +32,7 @@ fuzzRoom() {
     recording) echo 'hal/virtual/(recording\.|recording_csv|png_header|image_files|float_files)' ;;
     tags) echo 'pipeline/track/tag_map' ;;
     v4l2) echo 'hal/device/(camera_v4l2|v4l2_)' ;;
-    *) die "no room is known for the fuzz target $1" ;;
+    *) die "the folder of the fuzz target $1 is unknown" ;;
     esac
 }
 
@@ -103,7 +103,7 @@ fuzz() {
             seconds=$(awk -v m="$2" 'BEGIN { print int(m * 60) }'); shift 2 ;;
         --coverage) coverage=1; shift ;;
         --instrument-libraries) preset=fuzz-libraries; shift ;;
-        *) fuzzTargets | grep -qx -- "$1" || die "no fuzz target '$1'; there are $(fuzzTargets | xargs)"
+        *) fuzzTargets | grep -qx -- "$1" || die "unknown fuzz target '$1'; expected one of $(fuzzTargets | xargs)"
             targets+=("$1"); shift ;;
         esac
     done

@@ -70,7 +70,7 @@ checkInclude() {
     name=${name//[<>]/}
     homeOf "$name"
     if [[ -n $home && ! $file =~ ^($home) ]]; then
-        fault "$file:$line: <$name> belongs into ${home//|/ or } alone"
+        fault "$file:$line: <$name> may be included only in ${home//|/ or }"
     fi
 }
 
@@ -88,7 +88,7 @@ checkLengths() {
     local lines file
     while read -r lines file; do
         if [[ $file != total && $lines -gt $maxLines ]]; then
-            fault "$file: $lines lines, at most $maxLines: split it by job"
+            fault "$file: $lines lines, at most $maxLines are allowed: split it by purpose"
         fi
     done < <(find run "${rooms[@]}" -type f \( -name run -o -name '*.h' -o -name '*.cpp' \
         -o -name '*.sh' -o -name '*.comp' -o -name '*.frag' -o -name '*.vert' -o -name '*.glsl' \
@@ -99,7 +99,7 @@ checkTopLevel() {
     local name
     while read -r name; do
         if [[ "${topLevel//$'\n'/ } $ignored" != *" $name "* ]]; then
-            fault "$name: no such thing belongs at the top level"
+            fault "$name: is not allowed at the top level"
         fi
     done < <(ls -A)
 }

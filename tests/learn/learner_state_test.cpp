@@ -59,11 +59,11 @@ TEST(LearnerState, DamagedStatesAreRefused) {
     for (const std::size_t at : {std::size_t{16}, whole.size() / 2, whole.size() - 1}) {
         auto damaged = whole;
         damaged[at] ^= 16;
-        EXPECT_EQ(faultOf(damaged), "state: damaged, the checksum is wrong") << at;
+        EXPECT_EQ(faultOf(damaged), "state: is damaged: the checksum is wrong") << at;
     }
     auto damaged = whole;
     damaged[8] = 9;
-    EXPECT_EQ(faultOf(damaged), "state: another version than this program's");
+    EXPECT_EQ(faultOf(damaged), "state: has a version that this program does not support");
 }
 
 TEST(LearnerState, NonFiniteNumbersAreRefusedThoughTheChecksumIsRight) {
@@ -124,10 +124,10 @@ TEST(LearnerState, AWrongLengthIsRefusedThoughTheChecksumIsRight) {
     auto longer = bytes;
     longer.push_back(0);
     enlarge::putNumber(longer, enlarge::fnv1a(longer), 4);
-    EXPECT_THAT(faultOf(longer), HasSubstr("other sizes"));
+    EXPECT_THAT(faultOf(longer), HasSubstr("longer than this program expects"));
     bytes.pop_back();
     enlarge::putNumber(bytes, enlarge::fnv1a(bytes), 4);
-    EXPECT_THAT(faultOf(bytes), HasSubstr("too short"));
+    EXPECT_THAT(faultOf(bytes), HasSubstr("shorter than this program expects"));
 }
 
 }  // namespace

@@ -99,13 +99,13 @@ TEST(EnvironmentMap, LargePicturesAreAveraged) {
 
 TEST(EnvironmentMap, FaultsAreReportedInOneLine) {
     const Bytes pixel = {8, 8, 8, 136};
-    EXPECT_THAT(environmentFault({}), HasSubstr("sky.hdr: neither PNG nor JPEG"));
-    EXPECT_THAT(environmentFault(hdr("#?RADIANCE\n", {})), HasSubstr("broken header"));
+    EXPECT_THAT(environmentFault({}), HasSubstr("sky.hdr: is neither PNG nor JPEG"));
+    EXPECT_THAT(environmentFault(hdr("#?RADIANCE\n", {})), HasSubstr("the header is invalid"));
     EXPECT_THAT(environmentFault(hdr("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 2\n", pixel)),
-                HasSubstr("xyze is not read"));
-    EXPECT_THAT(environmentFault(hdr(kHeader + "+Y 1 +X 2\n", pixel)), HasSubstr("order of rows"));
+                HasSubstr("xyze is not supported"));
+    EXPECT_THAT(environmentFault(hdr(kHeader + "+Y 1 +X 2\n", pixel)), HasSubstr("the row order"));
     EXPECT_THAT(environmentFault(hdr(kHeader + "-Y 1 +X 99999999999\n", pixel)),
-                HasSubstr("order of rows"));
+                HasSubstr("the row order"));
     EXPECT_THAT(environmentFault(hdr(kHeader + "-Y 1 +X 2\n", pixel)), HasSubstr("too early"));
     EXPECT_THAT(environmentFault(hdr(kHeader + "-Y 20000 +X 40000\n", pixel)),
                 HasSubstr("at most 16384"));
@@ -114,9 +114,9 @@ TEST(EnvironmentMap, FaultsAreReportedInOneLine) {
     EXPECT_THAT(environmentFault(hdr(kHeader + "-Y 10 +X 10\n", pixel)),
                 HasSubstr("twice as wide as high"));
     EXPECT_THAT(environmentFault(hdr(kHeader + "-Y 1 +X 2\n", {1, 1, 1, 2})),
-                HasSubstr("broken row"));
+                HasSubstr("a row of pixels is invalid"));
     EXPECT_THAT(environmentFault(hdr(kHeader + "-Y 4 +X 8\n", {2, 2, 0, 8, 255, 1, 0, 0})),
-                HasSubstr("broken row"));
+                HasSubstr("a row of pixels is invalid"));
     EXPECT_THAT(environmentFault(hdr("#?RGBE\nEXPOSURE=0\n\n-Y 1 +X 2\n", pixel)),
                 HasSubstr("exposure"));
     const test::TempFolder folder;

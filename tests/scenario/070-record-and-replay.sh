@@ -22,7 +22,7 @@ echo "its tags and the poses they gave are recorded, too"
 poses=run/state_groundtruth_estimate0/data.csv
 [ "$(grep -vc '^#' $poses)" -ge 8 ] || fail "poses are missing"
 run 0 --recording run --summary summary.json
-says err 'poses from [0-9]+ tags; '
+says err 'poses from a map of [0-9]+ tags; '
 run 0 --recording run --pose recorded --record copy --summary summary.json
 summary_has tracked 8
 summary_has stills_tracked 1

@@ -4,7 +4,7 @@
 . "$(dirname "$0")/lib.sh"
 
 run 0 --source synthetic:office --pace consumer --frames 8 --summary summary.json
-says err 'poses from [0-9]+ tags; '
+says err 'poses from a map of [0-9]+ tags; '
 summary_has asked 8
 summary_has tracked 8
 summary_has measured 8

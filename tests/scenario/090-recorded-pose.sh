@@ -18,7 +18,7 @@ says summary.json '"epipolar_frames": [1-9]'
 
 echo "its tags are known, too"
 run 0 --recording run --summary summary.json
-says err 'poses from [0-9]+ tags; '
+says err 'poses from a map of [0-9]+ tags; '
 summary_has measured "$frames"
 
 echo "a tags.toml that is wrong is refused with its place"
@@ -29,10 +29,10 @@ says err 'run/tags.toml:[0-9]+: size must be positive'
 echo "without a map its largest tag is the world"
 rm run/tags.toml
 run 0 --recording run --summary summary.json
-says err 'poses from the first tag, 0.1 m; '
+says err 'poses from the first tag, whose edge is 0.1 m; '
 summary_has measured "$frames"
 
-echo "without poses there are none to take"
+echo "a recording without poses is refused"
 rm -r run/state_groundtruth_estimate0
 run 65 --recording run --pose recorded
 says err 'recording run: has no poses'

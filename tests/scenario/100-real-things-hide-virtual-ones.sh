@@ -44,7 +44,7 @@ for id in 0 1 2 3 4 5; do printf '[[objects]]\nsize = [0.1, 0.1, 0.1]\ntag = %d\
 run 0 --recording mapless --config standing.toml --display y4m:standing.y4m
 tail -c $((2304 * 1728 * 3 / 2)) standing.y4m >standing.raw
 [ "$(differing standing)" -gt 20000 ] || fail "nothing stands on the tag"
-[ "$(grep -c 'is not shown: it stands on tag' err)" = 5 ] || fail "the others are not told"
+[ "$(grep -c 'is not shown: it stands on tag' err)" = 5 ] || fail "the objects on other tags are not reported"
 
 echo "with nothing in it the configuration costs nothing"
 head -n 2 near.toml >none.toml

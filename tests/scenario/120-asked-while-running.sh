@@ -35,11 +35,11 @@ until_true shows
 asks snapshot picture.png
 says answer 'picture.png: 2304x1728'
 file=$(od -An -tx1 -N8 picture.png | tr -d ' ')
-[ "$file" = 89504e470d0a1a0a ] || fail "the snapshot is no PNG"
+[ "$file" = 89504e470d0a1a0a ] || fail "the snapshot is not a PNG file"
 refused 1 snapshot --screen x.png
 says err.ctl 'there is no screen'
 
-echo "a still, which nothing else asks for"
+echo "a still that nothing else requests"
 asks stats
 says answer '"triggered": 0'
 asks trigger
@@ -60,7 +60,7 @@ echo "a recording"
 refused 1 record ../outside
 asks record walk
 refused 1 record again
-says err.ctl 'under way'
+says err.ctl 'already running'
 until_true grep -q png walk/cam0/data.csv
 asks record --stop
 says answer '^video +[1-9]'

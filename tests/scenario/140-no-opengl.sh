@@ -29,7 +29,7 @@ for library in libEGL.so.1 libGLESv2.so.2; do
         rm -r "shown-$engine"
     done
     run 0 --recording take --frames 1 --display none
-    says err "warning: OpenGL ES is not available, the CPU computes the pictures: $missing"
+    says err "warning: OpenGL ES is not available, so the CPU computes the pictures: $missing"
     rm "hidden/$library"
 done
 run 0 --recording take --frames 1 --display none

@@ -10,8 +10,8 @@ run 0 --engine simd --recording run --display "png:shown" --size still --frames 
 says err "first picture [0-9]+ ms after the start, [0-9]+ MB resident"
 grep -A3 first_picture summary.json
 resident=$(sed -n 's/.*"resident_mb": \([0-9]*\).*/\1/p' summary.json)
-[ -n "$resident" ] || fail "the summary does not tell the memory"
-[ "$resident" -gt 20 ] || fail "$resident MB are too little to be true"
+[ -n "$resident" ] || fail "the summary does not report the memory"
+[ "$resident" -gt 20 ] || fail "$resident MB of memory are implausibly little"
 # About 90 MB are used on x86-64, 30 of them for programs and libraries. With all buffers of a run
 # touched, it would be 310 MB.
 [ "$resident" -lt 180 ] || fail "$resident MB are in use at the first picture"

@@ -16,17 +16,17 @@ file=$(ls state/filters-*.learned)
 
 echo "after a restart"
 learn --frames 6
-[ "$(stills)" -gt "$first" ] || fail "it began anew"
+[ "$(stills)" -gt "$first" ] || fail "learning began anew"
 
-echo "what is cut off is reported and replaced"
+echo "a file of filters that is cut off is reported and replaced"
 truncate -s 5000 "$file"
 learn --frames 6
 says err 'filters-.*\.learned: .*; learning starts again'
 [ "$(stills)" = "$first" ] || fail "$(stills) stills instead of $first"
 learn --frames 1
-if grep -q 'begins anew' err; then fail "the file was not replaced"; fi
+if grep -q 'learning starts again' err; then fail "the file was not replaced"; fi
 
-echo "nothing is learned where that is not wanted"
+echo "nothing is learned when learning is switched off"
 printf '[superres]\nlearn = false\n' >>mfard.toml
 learn --frames 6
 summary_has stills_learned 0
@@ -40,7 +40,7 @@ learn --frames 10
 sed -i 's/"gles"/"simd"/' mfard.toml
 mv kept "$file"
 
-echo "on demand it is forgotten"
+echo "what was learned is deleted on request"
 start --config mfard.toml --source synthetic:office,rest --control control
 until_true started
 "$ctl" --socket control status >answer

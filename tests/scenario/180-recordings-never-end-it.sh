@@ -39,12 +39,12 @@ for count in 1 2; do
     [ "$(find films -mindepth 1 -maxdepth 1 | wc -l)" = "$count" ] || fail "not $count folders"
 done
 
-echo "one that has become too long"
+echo "a recording that has become too large"
 rm -rf films
 printf '%s\nmost_mb = 0.05\n' "$quiet" >mfard.toml
 start --config mfard.toml --control control
 until_true started
-ended() { grep -q 'the recording has ended: films/.*: has become longer than' err; }
+ended() { grep -q 'the recording has ended: films/.*: the recording has become larger than' err; }
 until_true ended
 says <(status) '^recording +null$'
 goes_on
@@ -55,7 +55,7 @@ stop_it
 run 0 --recording films/* --frames 1
 run 0 --recording more --frames 1
 
-echo "a disk without space, and no folder"
+echo "a recording on a full disk, and a recording without a folder"
 printf '%s\nleast_free_mb = 1e9\n' "$quiet" >mfard.toml
 start --config mfard.toml --control control
 ended() { grep -q 'the recording has ended: films/.*MB are free on the disk' err; }

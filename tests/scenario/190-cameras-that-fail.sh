@@ -51,7 +51,7 @@ until_true fault_is null
 says_of video91 hang
 until_true fault_is 'still camera: its driver does not answer'
 goes_on
-echo "and it does not hold up the end"
+echo "the still driver that hangs does not delay the end"
 stop_now 1500
 summary_has exit_code 0
 says_of video91
@@ -64,21 +64,21 @@ says_of video91
 until_true fault_is null
 goes_on
 
-echo "a still camera that sends nothing is named"
+echo "status names a still camera that sends nothing"
 says_of video91 silent
 until_true fault_is 'still camera: sends no pictures'
 goes_on
 says_of video91
 until_true fault_is null
 
-echo "the video driver hangs: it is the one that is named"
+echo "the video driver hangs: status names the video camera"
 says_of video90 hang
 until_true fault_is 'video camera: its driver does not answer'
 says_of video90
 until_true fault_is null
 goes_on
 
-echo "one picture for ever"
+echo "the video camera repeats one picture for ever"
 says_of video90 repeat
 until_true warned 'video camera: repeats the same picture'
 says_of video90
@@ -108,7 +108,7 @@ stop_now 1500
 echo "a camera at half its rate drops nothing and is named"
 says_of video90 rate 15
 begin
-until_true warned 'video camera: sends 1[45]\.[0-9] frames per second, 30 are configured'
+until_true warned 'video camera: sends 1[45]\.[0-9] frames per second instead of the configured 30'
 stats
 [ "$(counts video missed)" -le 3 ] || fail "missed $(counts video missed) at half the rate"
 stop_now 1500
@@ -119,7 +119,7 @@ for buffers in 1 3; do
     says_of video91 buffers $buffers
     begin
     goes_on
-    until_true warned "/dev/video90: the driver gives $buffers of 6 buffers, pictures are copied"
+    until_true warned "/dev/video90: the driver allocated only $buffers of 6 buffers, so every picture is copied"
     stats
     stop_now 1500
 done

@@ -17,12 +17,12 @@ exec 3<>pipe
 start --config mfard.toml --source synthetic:flat,rest --display y4m:pipe --control control \
     --summary summary.json 3>&-
 until_true started
-until_true status_says '"state":"degraded","cause":"y4m:pipe: the reader of the pipe takes nothing"'
+until_true status_says '"state":"degraded","cause":"y4m:pipe: the reader of the pipe accepts no data"'
 shown=$(frames)
 more() { [ "$(frames)" -gt $((shown + 20)) ]; }
 until_true more
-until_true status_says '^line .*the reader of the pipe takes nothing.* [0-9]+ not written'
-says err 'warning: y4m:pipe: the reader of the pipe takes nothing \(degraded'
+until_true status_says '^line .*the reader of the pipe accepts no data.* [0-9]+ not written'
+says err 'warning: y4m:pipe: the reader of the pipe accepts no data \(degraded'
 
 echo "it reads again"
 cat <pipe >/dev/null 3>&- &

@@ -8,7 +8,7 @@ listener=$3
 missing=(--source synthetic:flat --control nowhere/control --frames 1)
 
 run 69 "${missing[@]}"
-grep -q 'started again' err && fail "nobody starts it again"
+grep -q 'systemd restarts it' err && fail "mfard announces a restart although no service manager runs it"
 
 "$listener" notify heard &
 pids+=($!)
@@ -17,25 +17,25 @@ export NOTIFY_SOCKET=$PWD/notify STATE_DIRECTORY=$PWD/state
 mkdir state
 run 69 "${missing[@]}"
 says err 'nowhere/control: No such file or directory'
-says err 'mfard: a device or OpenGL ES is not there; if it stays away, .*engine.use'
-says err 'failed once in a row; exits in 0 s, then systemd restarts it'
+says err 'mfard: a device or OpenGL ES is not available; if this does not change, .*engine.use'
+says err 'mfard failed once in a row; it exits in 0 s, then systemd restarts it'
 run 69 "${missing[@]}"
-says err 'failed 2 times in a row; exits in 1 s, then systemd restarts it'
+says err 'mfard failed 2 times in a row; it exits in 1 s, then systemd restarts it'
 run 69 "${missing[@]}"
-says err 'failed 3 times in a row; exits in 3 s, then systemd restarts it'
+says err 'mfard failed 3 times in a row; it exits in 3 s, then systemd restarts it'
 says heard '^STATUS=.*nowhere/control: No such file or directory; restart in 3 s'
 
 echo "SIGTERM does not wait"
 start "${missing[@]}"
-waits() { grep -q 'failed 4 times in a row; exits in 7 s' err; }
+waits() { grep -q 'mfard failed 4 times in a row; it exits in 7 s' err; }
 until_true waits
 kill -TERM "$pid"
 ends_with 69 1500
 
 echo "a wrong configuration is not started again"
 run 64 --no-such-option
-grep -q 'started again' err && fail "it would help nobody"
+grep -q 'systemd restarts it' err && fail "mfard announces a restart, which would not help"
 echo "nonsense = 1" >bad.toml
 run 78 --config bad.toml
-grep -q 'started again' err && fail "it would help nobody"
+grep -q 'systemd restarts it' err && fail "mfard announces a restart, which would not help"
 true

@@ -51,12 +51,12 @@ until_true heard '^STATUS=the .*capture thread hangs \(stalled for [0-9.]+ s, la
 says err 'warning: the .*capture thread hangs \(stalled for'
 is_hungry "the driver hangs"
 
-echo "it returns after all"
+echo "the driver returns after all"
 : >cameras/video90
 until_true status_says '"state":"ok"'
 is_fed
 
-echo "SIGTERM while it hangs"
+echo "SIGTERM while the driver hangs"
 echo hang >cameras/video90
 until_true status_says '"state":"stalled"'
 kill -TERM "$pid"
@@ -87,7 +87,7 @@ ends_with 0 6000
 summary_has frames 40
 : >cameras/video91
 
-echo "one that fails while it hangs keeps its exit code"
+echo "a run that fails while the driver hangs keeps its exit code"
 mkfifo pipe
 mkdir state
 echo hang >cameras/video91
@@ -98,7 +98,7 @@ ends_with 74 6000
 : >cameras/video91
 says summary.json '"exit_code": 74'
 
-echo "a camera that is away is waited for, and that is alive"
+echo "waiting for a camera that is absent counts as alive"
 sed -i 's/video90/video92/' mfard.toml
 LD_PRELOAD=$pretended start --config mfard.toml --display none --control control
 until_true started

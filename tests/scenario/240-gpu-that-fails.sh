@@ -27,37 +27,37 @@ begin() {
         MFAR_FAULTY_GL=$PWD/gl start --config mfard.toml --display none \
         --control control --summary summary.json "$@"
     until_true frames 12
-    status_says '"state":"ok"' || fail "it is not ok"
+    status_says '"state":"ok"' || fail "the state is not ok"
 }
 
-echo "its context is lost"
+echo "the OpenGL ES context is lost"
 begin --engine gles --mode detail
 gpu_says "lost once"
 until_true failed_times 1
 until_true status_says \
-    '"state":"degraded","cause":"the GPU failed and was restarted \(the context of OpenGL ES is lost\)"'
+    '"state":"degraded","cause":"the GPU failed and was restarted \(the OpenGL ES context is lost\)"'
 goes_on
-until_true says err 'the GPU failed and was restarted \(.*\): within [0-9]{1,4} ms'
+until_true says err 'the GPU failed and was restarted \(.*\); the restart took [0-9]{1,4} ms'
 
-echo "it does not finish a picture"
+echo "the GPU does not finish a picture"
 gpu_says never
 until_true failed_times 2
 gpu_says ""
 goes_on
 status_says '"cause":"the GPU failed and was restarted \(the GPU does not finish a picture\)"' ||
-    fail "that is not told"
-status_says '^engine +gles' || fail "it does not draw any more"
+    fail "the hang is not reported"
+status_says '^engine +gles' || fail "the GLES engine does not draw any more"
 control snapshot before.png
 
-echo "the third time the CPU draws"
+echo "after the third failure the CPU draws"
 gpu_says "lost again"
 until_true status_says '^engine +simd'
 goes_on
-status_says '"state":"degraded","cause":"the GPU failed 3 times within a minute, the CPU draws' ||
-    fail "health does not say so"
-status_says '^renderer +without OpenGL ES' || fail "it still has a renderer"
+status_says '"state":"degraded","cause":"the GPU failed 3 times within a minute, so the CPU draws now' ||
+    fail "health does not say that the CPU draws"
+status_says '^renderer +without OpenGL ES' || fail "the status still names a renderer"
 control snapshot after.png
-! cmp -s before.png after.png || fail "the picture does not say so"
+! cmp -s before.png after.png || fail "the picture does not say that the CPU draws"
 kill -TERM "$pid"
 ends_with 0 1000
 summary_has gpu_failures 3

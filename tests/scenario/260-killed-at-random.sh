@@ -55,7 +55,7 @@ for round in $(seq "$times"); do
     export LD_PRELOAD=$pretended
     run 0 --release-trigger
     unset LD_PRELOAD
-    if is_active; then fail "round $round: the line does not rest"; fi
+    if is_active; then fail "round $round: the trigger line is still active"; fi
 done
 [ $active -ge $((times / 10)) ] || fail "only $active kills were in a pulse"
 begin

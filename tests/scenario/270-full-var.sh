@@ -50,7 +50,7 @@ begin() {
     until_true started
 }
 
-echo "it becomes full under a recording"
+echo "the disk becomes full during a recording"
 begin
 film=$(until_true test -d var/films && ls -d var/films/*)
 listed() { [ "$(grep -c '^[0-9]' "$film/cam0/data.csv" 2>/dev/null)" -gt 3 ]; }
@@ -71,7 +71,7 @@ ends_with 0 1500
 run 0 --recording "${film#var/}" --frames 1
 says err 'first picture'
 
-echo "it is full from the start"
+echo "the disk is full from the start"
 fill
 begin
 refused() { grep -Eq "(nothing is recorded|the recording has ended): .*$no_room" err; }
@@ -80,7 +80,7 @@ goes_on
 kill -TERM "$pid"
 ends_with 0 1500
 
-echo "there is room again"
+echo "the disk has space again"
 rm -f var/fill
 begin
 until_true listed
@@ -88,7 +88,7 @@ goes_on
 kill -TERM "$pid"
 ends_with 0 1500
 
-echo "filters that cannot be kept are named"
+echo "filters that cannot be stored are reported"
 rm -rf var/films
 printf '[engine]\nuse = "simd"\n[trigger]\nmode = "rate"\nrate_hz = 10.0\nmin_interval_s = 0.0\n' >learn.toml
 fill

@@ -60,7 +60,7 @@ echo "$(stat --format %s log.whole) bytes of log"
 readable=0
 for cut in $(seq "$cuts"); do
     safe=$(python3 -B "$tools/disk_after_cut.py" start.img log.whole marks $((seed + cut)) cut.img)
-    mount -t ext4 -o loop cut.img after || fail "cut $cut: no file system"
+    mount -t ext4 -o loop cut.img after || fail "cut $cut: the file system cannot be mounted"
     film=$(ls -d after/films/* 2>/dev/null || true)
     rows=0
     # The list may end with rows whose data was not written; they do not look like rows.

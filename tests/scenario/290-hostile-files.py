@@ -254,7 +254,7 @@ def while_it_runs():
             time.sleep(0.01)
 
     try:
-        wait_for(lambda: 'display ' in said(), 'it does not start')
+        wait_for(lambda: 'display ' in said(), 'mfard does not start')
         for name, text in CONFIGURATIONS.items():
             before = answers()
             # Written to another file and renamed, because mfard could otherwise read a partly
@@ -268,7 +268,7 @@ def while_it_runs():
         print(f'read again {answers()} times: {peak:.0f} MB')
         require(peak <= RUNNING_MB, f'{peak:.0f} MB were in use, {RUNNING_MB} MB are configured')
         process.terminate()
-        require(process.wait(LONGEST) == 0, f'it ended with {process.returncode}')
+        require(process.wait(LONGEST) == 0, f'mfard ended with {process.returncode}')
     finally:
         process.kill()
 

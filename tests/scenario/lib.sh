@@ -62,7 +62,7 @@ start() {
 until_true() {
     local end=$(($(milliseconds) + 30000 * patience))
     until "$@"; do
-        [ "$(milliseconds)" -lt "$end" ] || fail "it never came true: $*"
+        [ "$(milliseconds)" -lt "$end" ] || fail "this condition did not become true in time: $*"
         sleep 0.05
     done
 }
@@ -74,7 +74,7 @@ started() { grep -q 'display ' err; }
 # Checks the output of Vulkan's validation layer, which is written to standard output.
 no_complaint() {
     if [ -f out ] && grep -aE 'Validation (Error|Warning|Performance)' out >&2; then
-        fail "Vulkan's validation layer complains"
+        fail "Vulkan's validation layer reports errors"
     fi
 }
 
@@ -92,9 +92,9 @@ ends_with() {
     kill -0 "$pid" 2>/dev/null && fail "mfard does not end"
     wait "$pid" || code=$?
     echo "ended with $code after $took ms"
-    [ "$code" = "$1" ] || fail "ended with $code instead of $1"
+    [ "$code" = "$1" ] || fail "mfard ended with exit code $code instead of $1"
     no_complaint
-    [ "$took" -le $(($2 * patience)) ] || fail "took $took ms, limit $2 ms times $patience"
+    [ "$took" -le $(($2 * patience)) ] || fail "the end took $took ms; the limit is $2 ms times $patience"
 }
 
 # two_cameras [TOML]: writes a configuration with two V4L2 cameras and these lines.
@@ -129,7 +129,7 @@ pretended_cameras() {
 }
 
 # says FILE PATTERN: a line of the file must match the pattern.
-says() { grep -Eq -- "$2" "$1" || fail "$1 does not say: $2"; }
+says() { grep -Eq -- "$2" "$1" || fail "$1 has no line that matches: $2"; }
 
 # summary_has KEY VALUE: checks a number or word in summary.json, whose keys are unique.
 summary_has() { says summary.json "\"$1\": $2,?\$"; }

@@ -32,18 +32,19 @@ struct Options {
 
 Options parse(int argc, char** argv) {
     Options o;
-    CLI::App app("mfar-stress: runs every part of the pipeline on hostile input");
+    CLI::App app("mfar-stress: runs every part of the pipeline on extreme and invalid input");
     o.run.addOptions(app);
-    app.add_option("--case", o.cases, "these cases alone")->delimiter(',');
-    app.add_option("--plant", o.plant, "plants a fault of --list-planted first");
-    app.add_flag("--small", o.small, "small pictures alone, as in the tests");
-    app.add_flag("--full", o.full, "pictures of the product's size alone")->excludes("--small");
+    app.add_option("--case", o.cases, "run only these cases")->delimiter(',');
+    app.add_option("--plant", o.plant, "plant this fault of --list-planted first");
+    app.add_flag("--small", o.small, "use only small pictures, as in the tests");
+    app.add_flag("--full", o.full, "use only pictures of mfard's usual size")->excludes("--small");
     app.add_option("--pixels", o.pixels,
-                   "three quarters of the time bring as many through each pass (default 10^8)")
+                   "number of pixels that should go through each pass (default 10^8); three "
+                   "quarters of the time are used for this")
         ->check(CLI::NonNegativeNumber);
-    app.add_flag("--precision", o.precision, "prints the errors of single and half precision");
-    app.add_flag("--list-planted", o.listPlanted, "prints the faults that can be planted");
-    app.add_flag("--list-cases", o.listCases, "prints the names of the cases");
+    app.add_flag("--precision", o.precision, "print the errors of single and half precision");
+    app.add_flag("--list-planted", o.listPlanted, "print the faults that can be planted");
+    app.add_flag("--list-cases", o.listCases, "print the names of the cases");
     parseOrExit(app, argc, argv);
     return o;
 }
@@ -53,7 +54,7 @@ std::vector<Case> chosen(const Options& o) {
     for (const Case& one : allCases())
         if (o.cases.empty() || std::ranges::find(o.cases, one.name) != o.cases.end())
             out.push_back(one);
-    if (out.empty()) throw std::invalid_argument("no such case; see --list-cases");
+    if (out.empty()) throw std::invalid_argument("unknown case; see --list-cases");
     return out;
 }
 
@@ -119,7 +120,7 @@ void Run::fillUp(std::uint64_t seed, double until) {
 }
 
 void Run::progress(std::uint64_t seed) const {
-    fmt::print("{:6.1f} min, {} cases of {} seeds, the last {}, {} failures\n", minutes(), ran_,
+    fmt::print("{:6.1f} min, {} cases of {} seeds, last seed {}, {} failures\n", minutes(), ran_,
                seeds_, seed, failures_);
     std::fflush(stdout);
 }

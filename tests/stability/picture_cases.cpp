@@ -110,7 +110,7 @@ void changePlan(Context& c) {
         for (std::size_t k = 0; k < 3; ++k)
             c.checks.within(energy[k] / (1 + twin.energy[k]) -
                                 twin.energy[k] / (1 + twin.energy[k]),
-                            -1e-3, 1e-3, "what a tile's difference varies by");
+                            -1e-3, 1e-3, "variance of a tile's difference");
     }
     // These are the thresholds of WorkPlan::update() before anything was measured.
     const auto wanted = twin::changedTiles(twins, tiles.width, {1 + 2 * 0.29, 1.5 + 4 * 0.29});

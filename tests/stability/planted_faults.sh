@@ -56,7 +56,7 @@ compile() {
 inHost() {
     local source=$1 from=$2 to=$3 what=$4 cases=$5 unit=${6:-$1} link
     if [[ $(grep -cF -- "$from" "$source") != 1 ]]; then
-        printf 'MISSED  %s does not contain once: %s\n' "$source" "$from"
+        printf 'MISSED  %s does not contain exactly once: %s\n' "$source" "$from"
         missed=$((missed + 1))
         return
     fi
@@ -121,7 +121,7 @@ kernelFaults() {
     inHost $simd/patch_sums.cpp 'hn::MulFixedPoint15(hn::Sub(b, a), f)' 'hn::MulFixedPoint15(hn::Sub(a, b), f)' \
         'wrong sign between pixels' engines
     inHost $simd/detail_kernels.cpp 'hn::Sub(hn::LoadU(d16, warped.luma + x), shown)' \
-        'hn::LoadU(d16, warped.luma + x)' 'a mean that is not taken off' engines
+        'hn::LoadU(d16, warped.luma + x)' 'a mean that is not subtracted' engines
     inHost $simd/sharpen_kernels.cpp 'kNearTap = params::kSharpenNear' 'kNearTap = -params::kSharpenNear' 'wrong sign of a tap' engines
     inHost $simd/patch_search.cpp 'hn::NegMulAdd(hn::Add(gain, gain), covariance, energy)' \
         'hn::MulAdd(hn::Add(gain, gain), covariance, energy)' 'wrong sign in a cost' pipeline-truth

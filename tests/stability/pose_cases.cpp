@@ -71,7 +71,7 @@ void exactTag(Context& c) {
     const double off = (poses->best.T_world_camera.translation - truth.translation).norm() / unit;
     c.checks.within(poses->best.rms(), 0, 1e-4, "error of exact corners [px]");
     c.checks.within(turn, 0, 1e-4, "turn of an exact pose [rad]");
-    c.checks.within(off, 0, 1e-4, "place of an exact pose");
+    c.checks.within(off, 0, 1e-4, "position of an exact pose");
     checkPose(c, poses->best.T_world_camera, poses->best.covariance);
 }
 
@@ -159,7 +159,8 @@ void lenses(Context& c) {
         // Where the lens model folds over before the picture's corner, unproject() returns the
         // nearest ray instead.
         if (camera.projectJacobian(ray).determinant() > 0.1 * camera.fx * camera.fy)
-            c.checks.within((camera.project(ray) - pixel).norm(), 0, 1e-6, "a pixel's way [px]");
+            c.checks.within((camera.project(ray) - pixel).norm(), 0, 1e-6,
+                            "movement of a pixel [px]");
         const double z = c.hostile.pick({1.0, 1e-6, -1e-6, -1.0, 1e6, 1e-30});
         const Eigen::Vector3d p = lens({c.hostile.real(-2, 2), c.hostile.real(-2, 2), z});
         c.checks.require(p.allFinite() && p.z() == z, "a projected point");

@@ -9,15 +9,17 @@ namespace mfar::stress {
 
 void SeededRun::addOptions(CLI::App& app) {
     jobs = static_cast<int>(std::max(std::thread::hardware_concurrency(), 1U));
-    app.add_option("--minutes", minutes, "how long new seeds are drawn (default 1)")
+    app.add_option("--minutes", minutes,
+                   "number of minutes during which new seeds are drawn (default 1)")
         ->check(CLI::NonNegativeNumber);
-    app.add_option("--seed", seed, "runs this seed alone");
-    app.add_option("--first", first, "the first seed (default: by the clock)");
-    app.add_option("--rounds", rounds, "ends after so many seeds in each process")
+    app.add_option("--seed", seed, "run only this seed");
+    app.add_option("--first", first, "the first seed (default: taken from the clock)");
+    app.add_option("--rounds", rounds, "end after this many seeds in each process")
         ->check(CLI::NonNegativeNumber);
-    app.add_option("--jobs", jobs, "processes, each with seeds of its own (default: one a core)")
+    app.add_option("--jobs", jobs,
+                   "number of processes, each with its own seeds (default: one per core)")
         ->check(CLI::Range(1, 1024));
-    app.add_flag("--keep-going", keepGoing, "goes on after a failure");
+    app.add_flag("--keep-going", keepGoing, "continue after a failure");
 }
 
 bool SeededRun::goesOn(long seeds, double spentMinutes, long failures) const {

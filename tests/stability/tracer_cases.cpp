@@ -104,7 +104,7 @@ void checkFilm(Context& c, const Film& film, const RenderView& view) {
         for (const Vector3f& mean : {means.object, means.with, means.without})
             c.checks.require(mean.allFinite() && mean.minCoeff() >= 0, "a mean radiance");
     }
-    c.checks.require(film.dropped() == 0, "samples that are no light");
+    c.checks.require(film.dropped() == 0, "samples that are not valid radiances");
 }
 
 bool refuses(const std::shared_ptr<const Scene>& scene) {
@@ -120,7 +120,7 @@ void hostileTracer(Context& c) {
     const std::shared_ptr<Scene> scene = sceneOf(c);
     if (c.hostile.chance(0.1)) {
         spoilScene(c, *scene);
-        c.checks.require(refuses(scene), "an unsound scene was taken");
+        c.checks.require(refuses(scene), "an invalid scene was accepted");
         return;
     }
     PathTracerOptions options;
@@ -146,7 +146,8 @@ void hostileTracer(Context& c) {
         tracer.trace(view, {pixels.begin(), half}, 1, other);
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         const Film::Means a = film.means(i), b = other.means(i);
-        c.checks.require(a.object == b.object && a.with == b.with, "a pixel cut into calls");
+        c.checks.require(a.object == b.object && a.with == b.with,
+                         "a pixel rendered in several calls");
     }
 }
 

@@ -172,7 +172,7 @@ void plant(const PlantedFault& fault) {
     std::string text(embedded_shaders::source(fault.shader));
     if (replaceAll(text, fault.from, fault.to) != 1)
         throw std::runtime_error(std::string(fault.shader) +
-                                 " does not contain once: " + fault.from);
+                                 " does not contain exactly once: " + fault.from);
     planted = &fault;
 }
 
@@ -187,7 +187,7 @@ std::span<const Source> all() {
 std::string_view source(std::string_view name) {
     for (const Source& s : all())
         if (s.name == name) return s.text;
-    throw std::out_of_range("no shader " + std::string(name));
+    throw std::out_of_range("there is no shader " + std::string(name));
 }
 
 }  // namespace mfar::shaders

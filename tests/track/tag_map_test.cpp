@@ -67,22 +67,22 @@ TEST(TagMap, ReadsToml) {
 TEST(TagMap, BrokenTomlIsRefusedWithFileAndLine) {
     const std::vector<std::tuple<std::string, std::string, std::string>> cases{
         {"id = 3", "id = ", "t.toml:5: "},
-        {"id = 3", "id = 587", "t.toml:4: id must be from 0 to 586 in tag36h11, not 587"},
+        {"id = 3", "id = 587", "t.toml:4: id must be from 0 to 586 in family tag36h11, not 587"},
         {"id = 3", "id = -1", "t.toml:4: id must be"},
         {"id = 3", "id = 3.5", "t.toml:5: id must be a whole number"},
-        {"id = 3", "ident = 3", "t.toml:5: unknown key ident; known are id, size"},
+        {"id = 3", "ident = 3", "t.toml:5: unknown key ident; expected one of id, size"},
         {"size = 0.08", "size = 0", "t.toml:4: size must be positive"},
         {"size = 0.08", "size = nan", "t.toml:6: size must be a finite number"},
         {"size = 0.08", "size = \"big\"", "t.toml:6: size must be a finite number"},
-        {"size = 0.08\n", "", "t.toml:4: a tag without size"},
+        {"size = 0.08\n", "", "t.toml:4: a tag has no key size"},
         {"0.1, -0.2, 1", "0.1, -0.2", "t.toml:7: position must be a list of 3"},
         {"0.1, -0.2, 1", "0.1, -0.2, inf", "t.toml:7: position must be a finite number"},
         {"0.5, 0.5, -0.5, 0.5", "0.5, 0.5, -0.5, 0.6",
          "t.toml:4: the quaternion must have length 1"},
         {"0.5, 0.5, -0.5, 0.5", "0, 0, 0, 0", "t.toml:4: the quaternion must have length 1"},
-        {"family = \"tag16h5\"\n", "", "t.toml:10: tag 3 of tag36h11 is there twice"},
+        {"family = \"tag16h5\"\n", "", "t.toml:10: tag 3 of family tag36h11 occurs twice"},
         {"family = \"tag16h5\"", "family = \"tag\"", "t.toml:12: family must be one of"},
-        {"family = \"tag36h11\"\n", "", "t.toml:3: a tag without family"},
+        {"family = \"tag36h11\"\n", "", "t.toml:3: a tag has no key family"},
         {"# a comment", "units = \"mm\"", "t.toml:1: unknown key units"},
     };
     for (const auto& [from, to, message] : cases) {
@@ -116,11 +116,11 @@ TEST(TagMap, OneStandaloneTagIsTheWorld) {
 
 TEST(TagMap, BrokenBundlesAreRefusedWithFileAndLine) {
     const std::vector<std::tuple<std::string, std::string, std::string>> cases{
-        {"id: 2", "id: 1", "t.yaml:7: tag 1 of tag36h11 is there twice"},
-        {"id: 2", "id: 9", "t.yaml:7: tag 9 of tag36h11 is there twice"},
+        {"id: 2", "id: 1", "t.yaml:7: tag 1 of family tag36h11 occurs twice"},
+        {"id: 2", "id: 9", "t.yaml:7: tag 9 of family tag36h11 occurs twice"},
         {"id: 2", "id: two", "t.yaml:7: id must be a whole number"},
-        {"id: 2", "id: 2, id: 3", "t.yaml:7: id is there twice"},
-        {"id: 2,", "", "t.yaml:7: a tag without id"},
+        {"id: 2", "id: 2, id: 3", "t.yaml:7: id occurs twice"},
+        {"id: 2,", "", "t.yaml:7: a tag has no key id"},
         {"id: 2", "idd: 2", "t.yaml:7: unknown key idd"},
         {"size: 0.2", "size: -0.2", "t.yaml:2: size must be positive"},
         {"x: 0.1", "x: .nan", "t.yaml:7: x must be a finite number"},
@@ -153,7 +153,7 @@ TEST(TagMap, AnEndlessTextIsRefusedBeforeItIsParsed) {
     EXPECT_EQ(refusal([&] { (void)tagMapFromToml("a = " + open, "t.toml"); }),
               "t.toml:1: brackets are nested deeper than 32");
     EXPECT_EQ(refusal([&] { (void)tagMapFromRosYaml("a: " + open, "t.yaml"); }),
-              "t.yaml:1: nested deeper than 16");
+              "t.yaml:1: the file is nested more than 16 levels deep");
 }
 
 TEST(TagMap, TooLargeIntegersAreReportedWithTheirPlace) {

@@ -244,7 +244,8 @@ TEST_F(PipeDisplays, LivePicturesDoNotWaitForAStalledReader) {
     const auto display = openFileDisplay("y4m:" + pipe.string(), 30, {}, live);
     show(*display, plain(kSize, 0), {0});
     EXPECT_TRUE(comesTrue([&] { return display->fault().has_value(); }));
-    EXPECT_EQ(display->fault(), "y4m:" + pipe.string() + ": the reader of the pipe takes nothing");
+    EXPECT_EQ(display->fault(),
+              "y4m:" + pipe.string() + ": the reader of the pipe accepts no data");
     for (int i = 1; i <= 50; ++i)
         show(*display, plain(kSize, static_cast<std::uint8_t>(5 * i)), {i});
     // One picture is being written, and one waits in each buffer.
@@ -278,7 +279,7 @@ TEST_F(PipeDisplays, LivePicturesAreDiscardedAtTheEnd) {
         display->finish();
         FAIL() << "nobody has read it";
     } catch (const std::runtime_error& e) {
-        EXPECT_EQ(e.what(), "y4m:" + pipe.string() + ": the reader of the pipe takes nothing");
+        EXPECT_EQ(e.what(), "y4m:" + pipe.string() + ": the reader of the pipe accepts no data");
     }
 }
 
@@ -333,15 +334,15 @@ TEST(OpenFileDisplay, ErrorsAreReported) {
     const TempFolder folder;
     test::writeFile(folder / "file", "x");
     EXPECT_EQ(refusal("jpg:/tmp"),
-              "display 'jpg:/tmp' is unknown: png:DIR, y4m:FILE, y4m:- or none");
-    EXPECT_EQ(refusal(""), "display '' is unknown: png:DIR, y4m:FILE, y4m:- or none");
-    EXPECT_EQ(refusal("png:"), "png: needs a folder, png:DIR");
+              "unknown display 'jpg:/tmp'; expected png:FOLDER, y4m:FILE, y4m:- or none");
+    EXPECT_EQ(refusal(""), "unknown display ''; expected png:FOLDER, y4m:FILE, y4m:- or none");
+    EXPECT_EQ(refusal("png:"), "png: the folder is missing; expected png:FOLDER");
     EXPECT_EQ(refusal("y4m:"), "y4m: needs a file name, or - for standard output");
     const std::string under = (folder / "file/under").string();
     EXPECT_EQ(refusal("png:" + under), under + ": Not a directory");
     EXPECT_EQ(refusal("y4m:" + under), under + ": Not a directory");
     EXPECT_EQ(refusal("y4m:" + (folder / "a").string(), 0),
-              "y4m: a frame rate of 0 Hz is impossible");
+              "y4m: the frame rate of 0 Hz is not in 0.001 to 1000000 Hz");
 }
 
 TEST(Y4mHeader, GivesCommonRatesAsTheirFractions) {

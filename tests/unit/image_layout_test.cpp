@@ -63,29 +63,29 @@ TEST(ImageLayout, EachFaultIsReported) {
     const PaddedPicture nv12(PixelFormat::Nv12, {22, 14}, 1), yuyv(PixelFormat::Yuyv, {22, 14}, 1);
     ImageView view = nv12.view();
     view.size = {21, 14};
-    EXPECT_EQ(faultOf(view), "still: 21x14 is odd, which NV12 cannot be");
+    EXPECT_EQ(faultOf(view), "still: 21x14 has an odd side, which NV12 does not allow");
     view.size = {22, 13};
-    EXPECT_EQ(faultOf(view), "still: 22x13 is odd, which NV12 cannot be");
+    EXPECT_EQ(faultOf(view), "still: 22x13 has an odd side, which NV12 does not allow");
     view.size = {22, 0};
-    EXPECT_EQ(faultOf(view), "still: 22x0 is no size of a picture");
+    EXPECT_EQ(faultOf(view), "still: 22x0 is not a valid picture size");
     view.size = {2, std::numeric_limits<int>::max()};
-    EXPECT_EQ(faultOf(view), "still: 2x2147483647 is no size of a picture");
+    EXPECT_EQ(faultOf(view), "still: 2x2147483647 is not a valid picture size");
     view = nv12.view();
     view.chroma[0].data = nullptr;
     EXPECT_EQ(faultOf(view), "still: plane 1 of NV12 is missing");
     view = nv12.view();
     view.chroma[0].stride = 21;
-    EXPECT_EQ(faultOf(view), "still: plane 1 of NV12 has rows of 21 bytes, a row of the picture "
-                             "has 22");
+    EXPECT_EQ(faultOf(view),
+              "still: plane 1 of NV12 has rows of 21 bytes, but a row of the picture needs 22");
     view = nv12.view();
     view.stride = 21;
-    EXPECT_EQ(faultOf(view), "still: plane 0 of NV12 has rows of 21 bytes, a row of the picture "
-                             "has 22");
+    EXPECT_EQ(faultOf(view),
+              "still: plane 0 of NV12 has rows of 21 bytes, but a row of the picture needs 22");
     view = yuyv.view();
     view.stride = 43;
-    EXPECT_EQ(faultOf(view), "still: plane 0 of YUYV has rows of 43 bytes, a row of the picture "
-                             "has 44");
-    EXPECT_EQ(faultOf({}), "still: 0x0 is no size of a picture");
+    EXPECT_EQ(faultOf(view),
+              "still: plane 0 of YUYV has rows of 43 bytes, but a row of the picture needs 44");
+    EXPECT_EQ(faultOf({}), "still: 0x0 is not a valid picture size");
 }
 
 TEST(ImageLayout, LumaPlaneIsNotCopied) {

@@ -333,8 +333,9 @@ TEST(ReopeningCamera, ACameraOfAnotherSizeCountsAsMissing) {
     socket.size = {2, 2};
     ReopeningCamera camera = cameraOn(socket);
     camera.start();
-    EXPECT_TRUE(drivenUntil(
-        camera, [&](bool) { return camera.fault() == "video camera: gives 2x2, not 4x2"; }));
+    EXPECT_TRUE(drivenUntil(camera, [&](bool) {
+        return camera.fault() == "video camera: delivers pictures of 2x2 instead of 4x2";
+    }));
     EXPECT_EQ(socket.open, 0);
 }
 

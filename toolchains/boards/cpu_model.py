@@ -52,7 +52,7 @@ def code_address(readelf):
         words = line.split()
         if words[:1] == ['LOAD'] and 'E' in words[6:-1]:
             return int(words[2], 16)
-    raise ValueError('no executable segment')
+    raise ValueError('the program has no executable segment')
 
 
 def instruction_text(line):

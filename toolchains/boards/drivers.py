@@ -30,5 +30,5 @@ def compile_shaders(libraries, gpu, program, files=()):
         raise RuntimeError(f'{gpu["name"]}: mfar-compile-shaders ended with {run.returncode} after '
                            f'{named[-1] if named else "no shader"}: {" | ".join(lines[-3:])[:500]}')
     if gpu['renderer'] not in run.stdout:
-        raise RuntimeError(f'{gpu["name"]}: its driver does not call it "{gpu["renderer"]}"')
+        raise RuntimeError(f'{gpu["name"]}: its driver does not report the renderer name "{gpu["renderer"]}"')
     return shader_stats.parse(lines)

@@ -32,7 +32,7 @@ def trips_of(shader, params, loops):
     for entry in loops:
         if entry['shader'] == shader.name and lying in entry['trips']:
             return [evaluate(expression, params) for expression in entry['trips'][lying]]
-    raise UnknownLoops(f'{shader.key}: model.toml has no trips for loops that lie "{lying}"')
+    raise UnknownLoops(f'{shader.key}: model.toml has no trip counts for loops that lie "{lying}"')
 
 
 def unit_cycles(shader, trips, gpu):

@@ -10,7 +10,7 @@ def step_of_shader(name, steps):
     for step, begins in steps.items():
         if name.startswith(tuple(begins)):
             return step
-    raise ValueError(f'{name} belongs to no step of model.toml')
+    raise ValueError(f'{name} does not belong to any step of model.toml')
 
 
 def passes(board, works, shaders, model):

@@ -144,12 +144,12 @@ def parse():
     parser.add_argument('--frame-work')
     parser.add_argument('--arm-frame-work')
     parser.add_argument('--sysroot')
-    parser.add_argument('--no-host', action='store_true', help='leaves out the check on this machine')
+    parser.add_argument('--no-host', action='store_true', help='skip the check of the model on this machine')
     parser.add_argument('--out', default='out/boards')
-    parser.add_argument('--check', action='store_true', help='of the budget alone')
+    parser.add_argument('--check', action='store_true', help='only compare all shaders with their budgets')
     parser.add_argument('--update-budget', action='store_true')
     parser.add_argument('--budget', default=BUDGET)
-    parser.add_argument('--file', action='append', default=[], help='this shader instead, with --check')
+    parser.add_argument('--file', action='append', default=[], help='with --check: compare only this shader')
     return parser.parse_args()
 
 

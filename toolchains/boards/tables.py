@@ -121,18 +121,18 @@ def host_table(host):
     text = table(['step', 'predicted [ms]', 'measured [ms]', 'measured / predicted'], rows)
     spread = host['frame']
     text += (f'\nOne thread, AVX2, moving, 640x480 to 2304x1728, {host["name"]} at {host["clock"] / 1e3:.2f} GHz, '
-             f'llvm-mca for {host["mca"]}. Measured: the shortest of {host["frames"]} frames, by step; whole frames took '
-             f'{ms(spread["least"])} to {ms(spread["most"])} ms, median {ms(spread["median"])} ms.\n')
+             f'llvm-mca for {host["mca"]}. Measured: the shortest time of each step in {host["frames"]} frames; '
+             f'whole frames took {ms(spread["least"])} to {ms(spread["most"])} ms, median {ms(spread["median"])} ms.\n')
     return text
 
 
 def markdown(model, compiled, results):
     width = model['frame']['readme_output']
     parts = ['# Predicted: mfar on boards\n',
-             'Frames a second of 640x480 to outputs of so many columns, 4:3. Predicted from what compilers made of '
-             'shaders and loops (toolchains/boards/README.md); nothing here was measured on a board.\n',
+             'Frames per second from 640x480 to outputs with these numbers of columns, 4:3. Predicted from the code that '
+             'compilers generate for shaders and loops (toolchains/boards/README.md), not measured on a board.\n',
              frames_table(model, results), f'## Steps of a moving frame to {width} columns [ms]\n',
-             steps_table(model, results, width), '## Dearest shaders\n', dearest_passes(model, results, width),
+             steps_table(model, results, width), '## Most expensive shaders\n', dearest_passes(model, results, width),
              '## Instructions\n', instructions_table(results), '## Spills\n', spills_table(model, compiled)]
     if results['host']:
         parts += ['## The model of processors on this machine\n', host_table(results['host'])]

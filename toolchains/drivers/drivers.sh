@@ -28,7 +28,7 @@ testDriver() {
     case $driver in
     zink)
         icd=$(find /usr/share/vulkan/icd.d -name 'lvp_icd.*' | head -n 1)
-        [[ -n $icd ]] || die "there is no lavapipe in /usr/share/vulkan/icd.d"
+        [[ -n $icd ]] || die "the driver lavapipe is missing in /usr/share/vulkan/icd.d"
         export VK_ICD_FILENAMES=$icd VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation
         export VK_LAYER_SETTINGS_PATH=$PWD/toolchains/drivers
         ;;

@@ -124,7 +124,7 @@ def scenario_files(only):
     if only:
         files = [f for f in files if any(f.name.startswith(o) for o in only)]
         if not files:
-            sys.exit(f'no such scenario: {" ".join(only)}')
+            sys.exit(f'unknown scenario: {" ".join(only)}')
     return files
 
 
@@ -190,11 +190,11 @@ def run_boot(options, boot, scenarios):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--image', type=Path, required=True, help='folder made by image.sh')
-    parser.add_argument('--package', type=Path, required=True, help='the arm64 .deb')
+    parser.add_argument('--package', type=Path, required=True, help='the arm64 package (.deb)')
     parser.add_argument('--programs', type=Path,
-                        help='folder with arm64 programs, which the guest has in /share')
-    parser.add_argument('--film', type=Path, help='folder made by mfar-film; none: patterns')
-    parser.add_argument('scenario', nargs='*', help='numbers of scenarios; none: all')
+                        help='folder with arm64 programs, which the guest sees in /share')
+    parser.add_argument('--film', type=Path, help='folder made by mfar-film; without it, the cameras send test patterns')
+    parser.add_argument('scenario', nargs='*', help='numbers of the scenarios to run (default: all)')
     options = parser.parse_args()
 
     begin = time.monotonic()

@@ -17,7 +17,7 @@ class Fault:
 
     def __init__(self, kind, seconds=0.0):
         if kind not in ('missing', 'late', 'torn', 'long', 'error'):
-            raise ValueError(f'no such fault: {kind}')
+            raise ValueError(f'unknown fault: {kind}')
         self.kind = kind
         self.seconds = seconds
 

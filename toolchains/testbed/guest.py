@@ -72,10 +72,10 @@ class Shell:
             try:
                 part = self._connection.recv(65536)
             except TimeoutError:
-                raise GuestError(f'no end after {limit:.0f} s: {command}\n'
+                raise GuestError(f'the command does not end within {limit:.0f} s: {command}\n'
                                  + data.decode(errors='replace')) from None
             if not part:
-                raise GuestError(f'the guest has gone: {command}')
+                raise GuestError(f'the guest has ended during: {command}')
             data += part
 
 
@@ -93,7 +93,7 @@ class Monitor:
         while True:
             line = self._lines.readline()
             if not line:
-                raise GuestError(f'QEMU has gone: {command}')
+                raise GuestError(f'QEMU has ended during: {command}')
             answer = json.loads(line)
             if 'error' in answer:
                 raise GuestError(f'{command}: {answer["error"]["desc"]}')
@@ -204,7 +204,7 @@ class Guest:
                 '>/dev/null 2>&1; echo $(( $(date +%s%N) - begin ))')
         result = self._shell.run(f'( {loop} )', limit + 60)
         if result.status != 0:
-            raise GuestError(f'not within {limit} s: {command}')
+            raise GuestError(f'did not succeed within {limit} s: {command}')
         return int(result.output.split()[-1]) / 1e9
 
     def clock(self):
@@ -218,7 +218,7 @@ class Guest:
         with open(path, 'rb') as file:
             magic, size, depth = (file.readline() for _ in range(3))
             if (magic, depth) != (b'P6\n', b'255\n'):
-                raise GuestError(f'not a screendump: {magic!r}')
+                raise GuestError(f'the screendump has an unknown format: {magic!r}')
             width, height = map(int, size.split())
             return width, height, file.read()
 

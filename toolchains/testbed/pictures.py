@@ -49,7 +49,7 @@ class Film:
         with open(f'{path}.nv12', 'rb') as file:
             self._data = memoryview(mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ))
         if len(self._data) != len(self._times) * self._bytes:
-            raise ValueError(f'{path}.nv12: not {len(self._times)} pictures of {width}x{height}')
+            raise ValueError(f'{path}.nv12: does not hold {len(self._times)} pictures of {width}x{height}')
 
     def index(self, time):
         """The number of the picture nearest to this time."""

@@ -8,7 +8,7 @@ def read_png(path):
     """(width, height, bytes of R G B)"""
     with open(path, 'rb') as file:
         data = file.read()
-    assert data[:8] == b'\x89PNG\r\n\x1a\n', f'{path}: no PNG'
+    assert data[:8] == b'\x89PNG\r\n\x1a\n', f'{path}: is not a PNG file'
     at, packed, header = 8, b'', None
     while at < len(data):
         length, kind = struct.unpack('>I4s', data[at:at + 8])

@@ -72,10 +72,11 @@ std::string resultText(const Calibration& calibration) {
                        "stills\n",
                        1000 * baseline, 1000 * baselineDeviation,
                        Eigen::AngleAxisd(T.rotation).angle() / kDegree, calibration.pairs);
-    out += fmt::format("  video seen by still ({:.3f}, {:.3f}, {:.3f}) +- ({:.3f}, {:.3f}, {:.3f}) "
-                       "mm, rotation +- {:.4f} degrees\n",
-                       1000 * t.x(), 1000 * t.y(), 1000 * t.z(), 1000 * d[3], 1000 * d[4],
-                       1000 * d[5], d.head<3>().maxCoeff() / kDegree);
+    out +=
+        fmt::format("  position of the video sensor as seen by the still sensor ({:.3f}, {:.3f}, "
+                    "{:.3f}) +- ({:.3f}, {:.3f}, {:.3f}) mm, rotation +- {:.4f} degrees\n",
+                    1000 * t.x(), 1000 * t.y(), 1000 * t.z(), 1000 * d[3], 1000 * d[4], 1000 * d[5],
+                    d.head<3>().maxCoeff() / kDegree);
     if (calibration.offsetKnown)
         return out + fmt::format(
                          "clocks: add {:.3f} ms to still times to get video times, +- {:.3f} ms\n",

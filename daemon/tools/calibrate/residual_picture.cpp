@@ -182,7 +182,7 @@ void drawScatter(Canvas& canvas, cv::Rect2d area, const SensorResult& sensor) {
     }
     canvas.box(area, kFaint, false);
     canvas.text({area.x, area.y + area.height + 24},
-                fmt::format("all residuals, sigma {:.3f} px a coordinate", sigma), 0.42, kInk);
+                fmt::format("all residuals, sigma {:.3f} px per coordinate", sigma), 0.42, kInk);
 }
 
 void drawSensor(Canvas& canvas, int top, const SensorResult& sensor, const std::string& name) {

@@ -213,7 +213,7 @@ void RigBundle::solve(const std::array<double, 2>& sigma, const std::array<bool,
     const Eigen::MatrixXd covariance =
         factor.solve(Eigen::MatrixXd::Identity(columns(), kShared)).topRows(kShared);
     if (factor.info() != Eigen::Success || !covariance.allFinite() || !std::isfinite(now))
-        throw Unsuitable("the views do not determine the board's two cameras");
+        throw Unsuitable("the views do not determine the geometry of the board's two cameras");
     for (int k = 0; k < kShared; ++k)
         deviations_[k] = fixed[k] ? 0 : std::sqrt(std::max(0., covariance(k, k)));
 }

@@ -45,9 +45,9 @@ public:
             if (stillFit_.poses[i]) stills.push_back({still_.views[i].time, *stillFit_.poses[i]});
         start_ = startOfRig(track_, stills, options_.maxOffset);
         if (start_.stills < kLeastPairs)
-            throw Unsuitable(fmt::format("only {} stills were taken while the video saw the "
-                                         "target, at least {} are needed",
-                                         start_.stills, kLeastPairs));
+            throw Unsuitable(fmt::format(
+                "only {} stills were taken while the video saw the target; at least {} are needed",
+                start_.stills, kLeastPairs));
     }
 
     Calibration run() {
@@ -130,9 +130,9 @@ private:
         for (const int view : stillFit_.chosen)
             addStill(bundle, view, offset);
         if (pairs_ < kLeastPairs)
-            throw Unsuitable(fmt::format("only {} stills were taken while the video saw the "
-                                         "target, at least {} are needed",
-                                         pairs_, kLeastPairs));
+            throw Unsuitable(fmt::format(
+                "only {} stills were taken while the video saw the target; at least {} are needed",
+                pairs_, kLeastPairs));
         return bundle;
     }
 
@@ -221,7 +221,7 @@ void checkCertainty(const Calibration& c) {
     const double baseline = c.extrinsicDeviations.tail<3>().maxCoeff();
     if (!(baseline <= kMaxBaselineDeviation))
         throw Unsuitable(fmt::format("the views leave the distance of the sensors uncertain by "
-                                     "{:.1f} mm: take more stills, close to the target",
+                                     "{:.1f} mm: take more stills close to the target",
                                      1000 * baseline));
 }
 

@@ -51,14 +51,15 @@ Target aprilGrid(int columns, int rows, double tagSize, double spacing, int firs
 Target checkerboard(int columns, int rows, double square) {
     if (!(columns >= 3 && columns <= kMaxSide && rows >= 3 && rows <= kMaxSide))
         throw std::runtime_error(
-            fmt::format("a checkerboard needs 3 to {} inner corners a side", kMaxSide));
+            fmt::format("a checkerboard needs 3 to {} inner corners along each side", kMaxSide));
     if ((columns + rows) % 2 == 0)
         throw std::runtime_error(
             fmt::format("a checkerboard of {}x{} inner corners looks the same upside down: one "
                         "number must be odd, the other even",
                         columns, rows));
     if (!(square > 0 && square <= 10))
-        throw std::runtime_error(fmt::format("a square of {} m is impossible", square));
+        throw std::runtime_error(
+            fmt::format("the edge of a square, {} m, is not above 0 and at most 10 m", square));
     Target out{TargetKind::Checkerboard, columns, rows, square, 0, 0, {}};
     for (int row = 0; row < rows; ++row)
         for (int column = 0; column < columns; ++column)
@@ -73,8 +74,9 @@ Target checkerboard(std::string_view corners, double square) {
     const bool cross = first.ec == std::errc{} && first.ptr != end && *first.ptr == 'x';
     const auto second = cross ? std::from_chars(first.ptr + 1, end, rows) : first;
     if (!cross || second.ec != std::errc{} || second.ptr != end)
-        throw std::runtime_error(
-            fmt::format("checkerboard '{}' is not like 9x6, its inner corners", corners));
+        throw std::runtime_error(fmt::format(
+            "checkerboard '{}' is invalid; expected the numbers of inner corners, like 9x6",
+            corners));
     return checkerboard(columns, rows, square);
 }
 
@@ -83,11 +85,13 @@ Target readAprilGrid(const std::filesystem::path& file) {
     readYaml(file, [&](const YamlReader& in) {
         const YAML::Node kind = in.at("target_type");
         if (const std::string type = in.word(kind, "target_type"); type != "aprilgrid")
-            in.fail(kind, fmt::format("target_type '{}' is not aprilgrid", type));
+            in.fail(kind,
+                    fmt::format("target_type '{}' is not supported; expected aprilgrid", type));
         const int columns = wholeNumber(in, "tagCols", 1, kMaxSide);
         const int rows = wholeNumber(in, "tagRows", 1, kMaxSide);
         if (columns * rows > kFamilySize)
-            in.fail(fmt::format("{} tags, family 36h11 has {}", columns * rows, kFamilySize));
+            in.fail(fmt::format("the target has {} tags, but family 36h11 has only {}",
+                                columns * rows, kFamilySize));
         const int first = in.has("codeOffset")
                               ? wholeNumber(in, "codeOffset", 0, kFamilySize - columns * rows)
                               : 0;

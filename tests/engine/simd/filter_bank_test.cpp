@@ -64,20 +64,20 @@ TEST(FilterBank, DamagedFiltersAreRefusedAndTheMessageSaysWhy) {
     EXPECT_EQ(faultOf(whole), "");
     auto damaged = whole;
     damaged[0] ^= 1;
-    EXPECT_EQ(faultOf(damaged), "some.filters: not a file of filters");
+    EXPECT_EQ(faultOf(damaged), "some.filters: is not a file of filters");
     damaged = whole;
     damaged[8] = 9;
-    EXPECT_EQ(faultOf(damaged), "some.filters: version 9, expected 1");
+    EXPECT_EQ(faultOf(damaged), "some.filters: has version 9; expected 1");
     damaged = whole;
     damaged[12] ^= 1;
     EXPECT_NE(faultOf(damaged).find("other classes"), std::string::npos);
-    EXPECT_NE(faultOf(std::span(whole).first(whole.size() - 1)).find("bytes, expected"),
+    EXPECT_NE(faultOf(std::span(whole).first(whole.size() - 1)).find("bytes; expected"),
               std::string::npos);
     EXPECT_NE(faultOf(std::span(whole).first(10)).find("not a file"), std::string::npos);
     for (const std::size_t at : {std::size_t{28}, whole.size() / 2, whole.size() - 1}) {
         damaged = whole;
         damaged[at] ^= 64;
-        EXPECT_EQ(faultOf(damaged), "some.filters: wrong checksum") << at;
+        EXPECT_EQ(faultOf(damaged), "some.filters: has a wrong checksum") << at;
     }
 }
 

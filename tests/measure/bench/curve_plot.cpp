@@ -63,7 +63,7 @@ std::string curvesSvg(const Curves& curves) {
         eval::PlotPanel panel = panelOf(curves, method, title);
         if (!panel.lines.empty()) panels.push_back(std::move(panel));
     }
-    return eval::plotSvg("Time against error of the flow, one knob at a time", panels,
+    return eval::plotSvg("Time against error of the flow, one option varied at a time", panels,
                          fmt::format("Diamonds: OpenCV, one direction. Samples: {}",
                                      fmt::join(curves.samples, ", ")));
 }

@@ -105,7 +105,7 @@ Curve measure(const Knob& knob, const std::vector<CurveSample>& samples,
 }  // namespace
 
 Curves measureCurves(const std::vector<CurveSample>& samples) {
-    if (samples.empty()) throw std::invalid_argument("nothing to measure the curves on");
+    if (samples.empty()) throw std::invalid_argument("there is no sample to measure the curves on");
     Curves out;
     for (const CurveSample& sample : samples)
         out.samples.push_back(sample.name);

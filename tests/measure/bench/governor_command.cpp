@@ -10,22 +10,26 @@
 namespace mfar::bench {
 
 GovernorCommand::GovernorCommand(CLI::App& app)
-    : command_(app.add_subcommand(
-          "governor", "how deadlines are kept: four scenes one after the other under the governor, "
-                      "for each deadline p95, late frames, frames until it settled, and levels")) {
-    command_->add_option("--deadlines", request_.deadlinesMs, "of a frame [ms] (default 33,66,133)")
+    : command_(app.add_subcommand("governor",
+                                  "shows how the governor keeps deadlines: runs four scenes one "
+                                  "after the other and prints for each deadline the 95th "
+                                  "percentile, late frames, frames until it settled, and levels")) {
+    command_
+        ->add_option("--deadlines", request_.deadlinesMs,
+                     "deadlines of a frame [ms] (default 33,66,133)")
         ->delimiter(',')
         ->check(CLI::Range(0.1, 10000.0));
-    command_->add_option("--frames", request_.frames, "of each scene")
+    command_->add_option("--frames", request_.frames, "number of frames of each scene")
         ->check(CLI::Range(2, 100000))
         ->capture_default_str();
-    command_->add_option("--table", table_, "levels, of mfar-bench pareto --table FILE");
+    command_->add_option("--table", table_,
+                         "file with the levels, as mfar-bench pareto --table FILE writes it");
     const std::map<std::string, Clock> clocks{{"wall", Clock::Wall},
                                               {"processor", Clock::Processor}};
     command_
         ->add_option("--clock", request_.clock,
-                     "wall, or processor: its time over the number of cores, for a machine "
-                     "that others use as well")
+                     "clock of the measurement: wall, or processor (processor time divided by the "
+                     "number of cores), for a machine that other programs use as well")
         ->transform(CLI::CheckedTransformer(clocks));
 }
 

@@ -26,14 +26,15 @@ using namespace mfar;
 using namespace mfar::bench;
 
 constexpr const char* kHelp =
-    "mfar-bench: run time of every stage and of the whole super-resolution frame.\n"
-    "moving: every frame differs from the one before, no poses; handheld: the synthetic board's "
-    "office by a hand-held camera with its exact poses, or the recording's frames with its poses; "
-    "rest: the same frame again; rest-noise: the same view with sensor noise of sigma 2.\n"
-    "The product has learned from stills before. "
-    "Whole frames run undisturbed until the picture is finished; stages are timed in a run of "
-    "their own. "
-    "The peers are the paper's method on OpenCV (DIS medium, DIS fast), run in turn with ours.";
+    "mfar-bench: measures the run time of every stage and of whole super-resolved frames.\n"
+    "Cases:\n"
+    "moving: every frame differs from the one before, and there are no poses; handheld: the "
+    "synthetic office seen by a hand-held camera with its exact poses, or the recording's frames "
+    "with its poses; rest: the same frame again and again; rest-noise: the same view with sensor "
+    "noise of sigma 2.\n"
+    "mfar has learned its filters from stills before. Whole frames are timed without interruption "
+    "until the picture is finished; stages are timed in a separate run. The peers are the paper's "
+    "method on OpenCV (DIS medium, DIS fast), which run in turn with mfar.";
 
 struct Options {
     std::string recording, json, mode = "detail", engine = "auto";
@@ -91,25 +92,28 @@ void writeJson(const std::string& file, const nlohmann::json& value) {
 }
 
 void addOptions(CLI::App& app, Options& o) {
-    app.add_option("--recording", o.recording, "frames and stills of a recording instead");
-    app.add_option("--frames", o.frames, "frames per case (default 40, quick 4)")
+    app.add_option("--recording", o.recording,
+                   "use the frames and stills of this recording instead of the synthetic board's");
+    app.add_option("--frames", o.frames, "number of frames per case (default 40, with --quick 4)")
         ->check(CLI::Range(1, 100000));
-    app.add_option("--mode", o.mode, "of the super-resolution")
+    app.add_option("--mode", o.mode, "mode of the super-resolution")
         ->check(CLI::IsMember({"detail", "blend"}))
         ->capture_default_str();
     app.add_option("--engine", o.engine,
-                   "of all steps; auto: simd where GLES is a software renderer")
+                   "engine of all steps; auto: simd if GLES is a software renderer")
         ->check(CLI::IsMember({"auto", "gles", "simd"}))
         ->capture_default_str();
-    app.add_flag("--as-shipped", o.shipped, "with the shipped filters, as before the first still");
-    app.add_flag("--scaling", o.scaling, "also one thread against two at three output sizes");
-    app.add_option("--json", o.json, "file for all results");
-    app.add_flag("--quick", o.quick, "few small frames: shows that it runs, not how fast");
+    app.add_flag("--as-shipped", o.shipped,
+                 "use the shipped filters, as mfar does before the first still");
+    app.add_flag("--scaling", o.scaling, "also compare one thread with two at three output sizes");
+    app.add_option("--json", o.json, "file to write all results into");
+    app.add_flag("--quick", o.quick,
+                 "measure few small frames, only to check that the program runs");
     app.add_option("--curves", o.curves,
-                   "folder for curves.csv and curves.svg: time against error of the flow for each "
-                   "of its knobs, instead of the other measurements");
+                   "write curves.csv and curves.svg into this folder instead of the other "
+                   "measurements: time against error of the flow for each of its options");
     app.add_option("--data", o.data,
-                   "what the curves are measured on: recordings or pairs as for mfar-eval flow, "
+                   "recordings or pairs, as for mfar-eval flow, on which the curves are measured, "
                    "with --frames samples of each (default 2). Default: the stereo pairs of "
                    "../shared/data or, where they are absent and with --quick, synthetic scenes")
         ->needs("--curves");

@@ -51,35 +51,38 @@ std::vector<QualityLevel> levelsOf(const ParetoStage& superres) {
 
 ParetoCommand::ParetoCommand(CLI::App& app)
     : command_(app.add_subcommand("pareto",
-                                  "run time against error: every setting of flow, "
-                                  "super-resolution, depth, slicing and warp and every peer as a "
-                                  "point (median time, error), measured in turn in one run")) {
+                                  "run time against error: measures every setting of flow, "
+                                  "super-resolution, depth, slicing and warp, and every peer, in "
+                                  "turn in one run; each is a point (median time, error)")) {
     command_->add_option("--stages", stages_, fmt::format("of {}", fmt::join(stages_, ", ")))
         ->delimiter(',')
         ->check(CLI::IsMember(stages_));
     command_->add_option("--data", data_,
-                         "what flow and depth are measured on: recordings or pairs as for "
-                         "mfar-eval depth. Default: the stereo pairs of ../shared/data or, where "
-                         "they are absent and with --quick, synthetic scenes");
+                         "recordings or pairs, as for mfar-eval depth, on which flow and depth are "
+                         "measured. Default: the stereo pairs of ../shared/data or, where they are "
+                         "absent and with --quick, synthetic scenes");
     command_
-        ->add_option("--frames", frames_,
-                     "samples of each folder (default 2), frames of a sequence (12)")
+        ->add_option(
+            "--frames", frames_,
+            "number of samples of each folder (default 2) and of frames of a sequence (default 12)")
         ->check(CLI::Range(1, 1000));
-    command_->add_option("--rounds", run_.rounds, "every way is timed so often")
+    command_->add_option("--rounds", run_.rounds, "number of times that each point is timed")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
     const std::map<std::string, Clock> clocks{{"wall", Clock::Wall},
                                               {"processor", Clock::Processor}};
     command_
         ->add_option("--clock", run_.clock,
-                     "wall, or processor: its time over the number of cores, for a machine "
-                     "that others use as well")
+                     "clock of the measurement: wall, or processor (processor time divided by the "
+                     "number of cores), for a machine that other programs use as well")
         ->transform(CLI::CheckedTransformer(clocks));
-    command_->add_option("--csv", csv_, "file for all points");
-    command_->add_option("--svg", svg_, "file for a plot with the fronts");
-    command_->add_option("--table", table_,
-                         "file for the governor's levels: the front of super-resolution");
-    command_->add_flag("--quick", quick_, "few small frames: shows that it runs, not how fast");
+    command_->add_option("--csv", csv_, "file to write all points into");
+    command_->add_option("--svg", svg_, "file to write a plot with the Pareto fronts into");
+    command_->add_option(
+        "--table", table_,
+        "file to write the governor's levels into: the Pareto front of super-resolution");
+    command_->add_flag("--quick", quick_,
+                       "measure few small frames, only to check that the program runs");
 }
 
 bool ParetoCommand::wants(const char* stage) const {
@@ -127,7 +130,7 @@ std::vector<ParetoStage> ParetoCommand::measure() const {
 
 void ParetoCommand::run() const {
     if (!table_.empty() && !wants("superres"))
-        throw eval::EvalError("--table needs the stage superres");
+        throw eval::EvalError("--table needs the stage superres in --stages");
     const auto context = createGlContext();
     const std::vector<ParetoStage> stages = measure();
     fmt::print("{}\n\n{}", context->description(), paretoSummary(stages));

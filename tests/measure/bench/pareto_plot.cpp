@@ -110,8 +110,8 @@ std::string paretoSvg(const std::vector<ParetoStage>& stages) {
         left += kWide + kBetween;
     }
     body += draw::text(kMarginLeft, 24, "start",
-                       "Run time against error: discs ours (the default ringed), diamonds peers, "
-                       "the line what nothing dominates",
+                       "Run time against error. Discs: mfar (ring: default). Diamonds: peers. "
+                       "Line: points that no other dominates.",
                        16);
     return draw::document(left, kMarginTop + kHigh + kMarginBelow, body);
 }

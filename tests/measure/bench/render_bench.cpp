@@ -165,10 +165,10 @@ std::vector<SamplingError> errors(bool quick) {
     scene->objects.push_back(sunlit(square(4, 0))->objects.front());
     auto outside = std::make_shared<Scene>(*scene);
     outside->lighting.environment = unevenLight();
-    return {errorOf("sun, surfaces alone", scene, 1, close, quick),
+    return {errorOf("sun, surfaces only", scene, 1, close, quick),
             errorOf("sun, whole picture", scene, 1, wide, quick),
             errorOf("sun, indirect", scene, 5, wide, quick),
-            errorOf("sun, indirect, surfaces alone", scene, 5, close, quick),
+            errorOf("sun, indirect, surfaces only", scene, 5, close, quick),
             errorOf("sun and environment", outside, 1, wide, quick),
             errorOf("sun and environment, indirect", outside, 5, wide, quick)};
 }

@@ -12,25 +12,25 @@ namespace mfar::bench {
 
 SkipCommand::SkipCommand(CLI::App& app)
     : command_(app.add_subcommand(
-          "skip", "what each kind of work that is left out saves and which error it adds: every "
-                  "case with all of them and with each switched off, frame by frame in turn")) {
-    command_->add_option("--cases", request_.cases, "of these alone")
+          "skip", "shows what each kind of skipped work saves and which error it adds: runs every "
+                  "case with all skips and with each skip switched off, in turn for each frame")) {
+    command_->add_option("--cases", request_.cases, "only these cases")
         ->delimiter(',')
         ->check(CLI::IsMember(skipCaseNames()));
-    command_->add_option("--skips", request_.skips, "these alone")
+    command_->add_option("--skips", request_.skips, "only these skips")
         ->delimiter(',')
         ->check(CLI::IsMember(skipNames()));
-    command_->add_option("--frames", request_.frames, "frames that count, of each case")
+    command_->add_option("--frames", request_.frames, "number of measured frames of each case")
         ->check(CLI::Range(1, 100000))
         ->capture_default_str();
     const std::map<std::string, Clock> clocks{{"wall", Clock::Wall},
                                               {"processor", Clock::Processor}};
     command_
         ->add_option("--clock", request_.clock,
-                     "wall, or processor: its time over the number of cores, for a machine "
-                     "that others use as well")
+                     "clock of the measurement: wall, or processor (processor time divided by the "
+                     "number of cores), for a machine that other programs use as well")
         ->transform(CLI::CheckedTransformer(clocks));
-    command_->add_option("--csv", csv_, "file for all results");
+    command_->add_option("--csv", csv_, "file to write all results into");
 }
 
 void SkipCommand::run() const {

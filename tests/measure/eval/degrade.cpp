@@ -39,7 +39,7 @@ void assign(Degradation& out, const std::string& option, const std::string& part
         out.noise = value;
     else
         throw std::invalid_argument(
-            fmt::format("{}: unknown '{}' (valid: gain, gamma, blur, noise)", option, key));
+            fmt::format("{}: '{}' is unknown; expected gain, gamma, blur or noise", option, key));
     if (factor ? !(value > 0) : !(value >= 0))
         throw std::invalid_argument(fmt::format("{}: '{}' is out of range", option, part));
 }

@@ -50,7 +50,8 @@ void addRow(Report& report, const SampleRow& row, const DepthMethod::Result& res
     const DepthError all = within(truth.all), edge = within(truth.edges),
                      inner = within(truth.inner);
     if (all.pixels == 0)
-        throw EvalError(fmt::format("{}: no depth is known", row.sample.truth.string()));
+        throw EvalError(fmt::format("{}: the ground truth has no pixel with a known depth",
+                                    row.sample.truth.string()));
     const auto measured = [](double value) {
         return std::isnan(value) ? std::nullopt : std::optional(value);
     };

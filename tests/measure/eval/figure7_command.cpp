@@ -20,30 +20,32 @@ constexpr const char* kFigure7Help =
 }  // namespace
 
 CLI::App* addFigure7Command(CLI::App& app, Figure7Request& request, std::string& csv) {
-    CLI::App* sub = app.add_subcommand("figure7", "quality and sharpness as in the paper's figure");
+    CLI::App* sub =
+        app.add_subcommand("figure7", "measure quality and sharpness as in Figure 7 of the paper");
     sub->footer(std::string(kFigure7Help) + kPictureMetricsHelp);
-    sub->add_option("recording", request.recordings, "folders with truth/highres");
-    addNames(*sub, "--scenes", request.scenes, "of mfar-sim's (default: office,shelf,outdoor)",
-             synthetic::sceneNamed);
+    sub->add_option("recording", request.recordings, "recordings, folders with truth/highres");
+    addNames(*sub, "--scenes", request.scenes,
+             "synthetic scenes of mfar-sim (default: office,shelf,outdoor)", synthetic::sceneNamed);
     sub->add_flag_callback(
-           "--recordings-only", [&request] { request.scenes.clear(); }, "no synthetic scenes")
+           "--recordings-only", [&request] { request.scenes.clear(); },
+           "measure no synthetic scenes")
         ->excludes("--scenes");
-    sub->add_option("--frames", request.frames, "of each scene, at most")
+    sub->add_option("--frames", request.frames, "number of frames of each scene, at most")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
     sub->add_option("--learn", request.learn,
-                    "let the product learn from so many stills of each before")
+                    "let mfar learn from this many stills of each scene or recording before")
         ->check(CLI::Range(0, 1000));
     addMetricParameters(*sub, request.metrics);
-    sub->add_option("--svg", request.svg, "file for the figure");
-    sub->add_option("--save", request.save, "folder for the pictures");
-    sub->add_option("--csv", csv, "file for the table");
+    sub->add_option("--svg", request.svg, "file to write the figure into");
+    sub->add_option("--save", request.save, "folder to write the pictures into");
+    sub->add_option("--csv", csv, "file to write the table into");
     return sub;
 }
 
 Report runFigure7(const Figure7Request& request) {
     const auto scenes = evaluateFigure7(request);
-    if (scenes.empty()) throw EvalError("figure7 needs a scene or a recording");
+    if (scenes.empty()) throw EvalError("figure7 needs a scene or a recording; both are missing");
     if (!request.svg.empty()) {
         std::ofstream out(request.svg);
         out << figure7Svg(scenes, request.metrics);

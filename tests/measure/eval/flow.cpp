@@ -16,7 +16,8 @@ void addRow(Report& report, const SampleRow& row, const FlowMethod::Result& resu
             const cv::Mat& truth) {
     const FlowError error = flowError(result.flow, truth);
     if (error.known == 0)
-        throw EvalError(fmt::format("{}: no vector is known", row.sample.truth.string()));
+        throw EvalError(fmt::format("{}: the ground truth has no pixel with a known flow vector",
+                                    row.sample.truth.string()));
     // A method without any result has no time either.
     const bool answered = error.coverage > 0;
     const auto ofAnswers = [&](double value) {

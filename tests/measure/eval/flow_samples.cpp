@@ -109,7 +109,8 @@ struct RecordedFlows {
         const RecordedImage* still = pictureAt(recording.stills, *to);
         const RecordedImage* video = pictureAt(recording.video, *to);
         if (!frame || (!still && !video))
-            throw EvalError(fmt::format("{}: no picture was taken at these times", truth.string()));
+            throw EvalError(fmt::format("{}: the recording has no pictures of these two times",
+                                        truth.string()));
         if (!still)
             toVideo.push_back(sampleOf(recording, *frame, *video, truth));
         else if (!showsOwnView(recording, still->time, frame->time))
@@ -148,9 +149,9 @@ FlowSet samplesOfRecording(const fs::path& folder) {
         out.rig = {recording.rig.video, recording.rig.video, {}};
     }
     if (out.samples.empty())
-        throw EvalError(fmt::format("{}: no truth: neither truth/flow nor truth/inverse_depth "
-                                    "tells where a frame lies in a still",
-                                    folder.string()));
+        throw EvalError(fmt::format(
+            "{}: no truth: neither truth/flow nor truth/inverse_depth maps a frame to a still",
+            folder.string()));
     std::sort(out.samples.begin(), out.samples.end(), [](const FlowSample& x, const FlowSample& y) {
         return std::pair(x.videoTime, x.stillTime) < std::pair(y.videoTime, y.stillTime);
     });
@@ -164,8 +165,8 @@ void requireFolder(const fs::path& folder) {
 
 void requireSize(const fs::path& file, Size got, Size wanted) {
     if (got != wanted)
-        throw EvalError(fmt::format("{}: has {}x{} pixels, not {}x{}", file.string(), got.width,
-                                    got.height, wanted.width, wanted.height));
+        throw EvalError(fmt::format("{}: has {}x{} pixels; expected {}x{}", file.string(),
+                                    got.width, got.height, wanted.width, wanted.height));
 }
 
 Shot shotOf(const fs::path& file, Timestamp time, const std::optional<Pose>& pose, Size wanted) {

@@ -27,49 +27,57 @@ using namespace mfar;
 using namespace mfar::eval;
 
 constexpr const char* kSuperResHelp =
-    "Brings every video frame with truth/highres to the still's resolution and compares it "
+    "Enlarges every video frame with truth/highres to the still's resolution and compares it\n"
     "with the truth.\n"
-    "Luma (Rec. 601), 32 px of border left out. harm_rate: share of pixels whose error "
+    "Luma (Rec. 601), 32 px of border left out. harm_rate: share of pixels whose error\n"
     "exceeds bicubic's by more than 2 grey levels. psnr_rgb_db: over red, green and blue.\n"
-    "tiles_below: share of the 64x64 output tiles whose root mean square error exceeds bicubic's\n"
-    "by more than 0.25 grey levels; incomplete tiles at the right and bottom are left out.\n"
+    "tiles_below: share of the 64x64 output tiles whose root mean square error exceeds\n"
+    "bicubic's by more than 0.25 grey levels; incomplete tiles at the right and bottom are\n"
+    "left out.\n"
     "flicker: deviation of the error from one frame to the next along the true motion [grey\n"
     "levels], where truth/flow has it.\n"
-    "--classes adds for pixels outside the still's view, unmatched (hidden there, or confidence\n"
-    "below 0.5) and matched their share and what each method gains there over bicubic.\n"
-    "The reference of a frame is the still nearest to it in time that does not show the "
-    "frame's very own view: a still whose pose relative to the frame is below 1e-6 (from the "
-    "rig at equal times, from the recorded poses otherwise) is never used.\n"
-    "ms: a second run on the same frame, every tile computed; work per still is not in it.\n";
+    "--classes adds three classes of pixels: outside of the still's view, unmatched (hidden\n"
+    "in the still, or confidence below 0.5), and matched; for each class its share and the\n"
+    "gain of every method over bicubic.\n"
+    "The reference of a frame is the still nearest to it in time that does not show the\n"
+    "frame's own view: a still whose pose relative to the frame is below 1e-6 (from the rig\n"
+    "at equal times, from the recorded poses otherwise) is never used.\n"
+    "ms: time of a second run on the same frame with every tile computed, without the work\n"
+    "per still.\n";
 
 constexpr const char* kFlowHelp =
     "Takes recordings with truth/flow from video frames to stills, or else with\n"
-    "truth/inverse_depth and known poses (a scene at rest; occluded pixels found by projecting\n"
-    "the truth into the still), or else with truth/flow between video frames; and folders with\n"
-    "frameNN.png frameMM.png flowNN.flo.\n"
-    "Flow is in video pixels, to the still at the video's geometry (rotation of the rig and both\n"
-    "lenses, no parallax); the reference of a frame is chosen as for superres.\n"
+    "truth/inverse_depth and known poses (a scene at rest; occluded pixels are found by\n"
+    "projecting the truth into the still), or else with truth/flow between video frames; and\n"
+    "folders with frameNN.png frameMM.png flowNN.flo.\n"
+    "Flow is in video pixels, to the still at the video's geometry (rotation of the rig and\n"
+    "both lenses, no parallax); the reference of a frame is chosen as for superres.\n"
     "epe_px: mean end-point error where truth and answer are known; bad1, bad2: share of the\n"
-    "pixels with known truth off by more than 1, 2 px, no answer is off; ms: median of 3 runs\n"
-    "after one to warm up, without work per still. flow2d and dis-medium-both compute both\n"
-    "directions; that of sgbm and stereobm is that of rectifying and matching.\n"
-    "sgbm and stereobm need poses; they have no answer where the camera moves into the picture or\n"
-    "not at all, and fill what they leave open with the farther neighbour.\n"
-    "angular_deg: mean angle between both as (u, v, 1). ause: area between two curves of the mean\n"
-    "error of what is left as pixels are taken away, by confidence (eq. 2) and by error, 1 where\n"
-    "all are left; 0: the least confident are the worst. ause_rel: over what a random order gets.";
+    "pixels with known truth that are off by more than 1, 2 px or have no answer; ms: median\n"
+    "of 3 runs after one to warm up, without work per still. flow2d and dis-medium-both\n"
+    "compute both directions; the time of sgbm and stereobm covers rectifying and matching.\n"
+    "sgbm and stereobm need poses; they have no answer where the camera does not move or the\n"
+    "two pictures cannot be rectified, and fill pixels without a match with the farther\n"
+    "neighbour.\n"
+    "angular_deg: mean angle between truth and answer as vectors (u, v, 1). ause: area\n"
+    "between two curves of the mean error of the remaining pixels while pixels are removed,\n"
+    "one in the order of confidence (eq. 2), one in the order of error; both are 1 when no\n"
+    "pixel is removed. 0: the least confident pixels are the worst. ause_rel: ause divided by\n"
+    "that of a random order.";
 
 constexpr const char* kDepthHelp =
-    "Takes recordings with truth/inverse_depth and known poses (a scene at rest); frames, their\n"
-    "references, what is hidden, and time as for flow. Every method's flow is triangulated:\n"
-    "flow: the product's, along epipolar lines, in closed form; midpoint: the same by the paper's\n"
-    "shortest line between both rays; sgbm, stereobm: as for flow.\n"
-    "absrel: median of |z - true z| / true z where depth and truth are known; bad1: share of the\n"
-    "pixels with known truth that are off by more than 1 px of disparity (focal length times\n"
-    "baseline times inverse depth), no depth is off; completeness: share of them with a depth;\n"
-    "edge_, inner_: within 4 px of an edge, where true depths side by side differ by a tenth, and\n"
-    "elsewhere; delta1, 2, 3: share with both depths within a factor of 1.25, its square, its\n"
-    "cube; ause, ause_rel: as for flow, of disparities by the variance that the depth states.";
+    "Takes recordings with truth/inverse_depth and known poses (a scene at rest); frames,\n"
+    "their references, what is hidden, and time as for flow. Every method's flow is\n"
+    "triangulated:\n"
+    "flow: the product's, along epipolar lines, in closed form; midpoint: the same by the\n"
+    "paper's shortest line between both rays; sgbm, stereobm: as for flow.\n"
+    "absrel: median of |z - true z| / true z where depth and truth are known; bad1: share of\n"
+    "the pixels with known truth that are off by more than 1 px of disparity (focal length\n"
+    "times baseline times inverse depth) or have no depth; completeness: share of them with a\n"
+    "depth; edge_: within 4 px of an edge, where neighbouring true depths differ by a tenth;\n"
+    "inner_: elsewhere; delta1, 2, 3: share of the pixels whose two depths are within a\n"
+    "factor of 1.25, its square, its cube; ause, ause_rel: as for flow, with the error of\n"
+    "disparities and the variance that the depth states.";
 
 std::string joined(const std::vector<std::string>& names) {
     return fmt::format("{}", fmt::join(names, ", "));
@@ -97,26 +105,28 @@ struct Options {
 std::string isAngle(const std::string& text) {
     double degrees = -1;
     const bool number = CLI::detail::lexical_cast(text, degrees);
-    return number && degrees >= 0 && degrees <= 180 ? "" : text + " is not in [0, 180]";
+    return number && degrees >= 0 && degrees <= 180 ? "" : text + " is not from 0 to 180";
 }
 
 /// Adds the options for disturbances, which all tasks share.
 void addDisturbances(CLI::App& sub, Options& o) {
     sub.add_option("--degrade", o.degrade,
-                   "make the still worse: gain=0.7,gamma=1.3,blur=0.7,noise=4; applied as blur "
+                   "degrade the still: gain=0.7,gamma=1.3,blur=0.7,noise=4; applied as blur "
                    "(sigma, still px), gain, v^gamma, noise (sigma, grey levels)");
     sub.add_option("--pose-noise-deg", o.poseNoise.degrees,
-                   "turn the pose of every frame by so much about a random axis; the same in each "
-                   "run")
+                   "rotate the pose of every frame by this angle about a random axis; all runs use "
+                   "the same axes")
         ->check(isAngle);
-    sub.add_option("--pose-noise-seed", o.poseNoise.seed, "another number draws other axes");
+    sub.add_option("--pose-noise-seed", o.poseNoise.seed, "seed of the random axes");
 }
 
 CLI::App* addSuperRes(CLI::App& app, Options& o) {
-    CLI::App* sub = app.add_subcommand("superres", "super-resolved frames against truth/highres");
+    CLI::App* sub =
+        app.add_subcommand("superres", "compare super-resolved frames with truth/highres");
     sub->footer(std::string(kSuperResHelp) + kPictureMetricsHelp);
     o.superres.methods = superResMethodNames();
-    sub->add_option("recording", o.superres.recordings, "folders in the EuRoC layout")->required();
+    sub->add_option("recording", o.superres.recordings, "recordings, folders in the EuRoC layout")
+        ->required();
     sub->add_option("--methods", o.superres.methods, "of: " + joined(superResMethodNames()))
         ->delimiter(',');
     sub->add_option(
@@ -124,30 +134,37 @@ CLI::App* addSuperRes(CLI::App& app, Options& o) {
         "files of OpenCV's dnn_superres as further peers: EDSR_x4.pb, or ESPCN, FSRCNN, "
         "LapSRN and their factor");
     sub->add_flag("--classes", o.superres.classes,
-                  "tell apart what the still shows, what it does not and what lies outside");
+                  "report separately the pixels that the still shows, that it does not show, and "
+                  "that lie outside of its view");
     addPoseSource(*sub, o.superres.poses);
     addDisturbances(*sub, o);
     sub->add_option("--degrade-video", o.degradeVideo,
-                    "make the video worse, in the same way [video px]");
+                    "degrade the video in the same way [video px]");
     addPictureMetrics(*sub, o.superres.metrics);
-    sub->add_option("--alpha", o.superres.alpha,
-                    "of the peer `paper`: two-way error at which its confidence is zero [video px]")
+    sub->add_option(
+           "--alpha", o.superres.alpha,
+           "for the peer `paper`: two-way error at which its confidence is zero [video px]")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     sub->add_flag("--no-still", o.superres.noStill,
                   "give no still to any method, and leave out those that need one")
         ->excludes("--classes");
-    sub->add_option("--stills", o.superres.stills,
-                    "2: give the product a second still, next to the reference in time")
+    sub->add_option(
+           "--stills", o.superres.stills,
+           "number of stills; 2: give mfar a second still, the one next to the reference in time")
         ->check(CLI::Range(1, 2));
-    sub->add_option("--learn", o.superres.learn,
-                    "learn filters from so many matched stills of the recording before")
+    sub->add_option(
+           "--learn", o.superres.learn,
+           "before the measurement, learn filters from this many matched stills of the recording")
         ->check(CLI::Range(1, 100000));
-    sub->add_option("--learn-from", o.superres.learnFrom,
-                    "learn them from these recordings; without --learn from each still once");
-    sub->add_option("--frames", o.superres.frames, "at most so many frames of each recording")
+    sub->add_option(
+        "--learn-from", o.superres.learnFrom,
+        "learn filters from these recordings; without --learn, from each of their stills once");
+    sub->add_option("--frames", o.superres.frames,
+                    "measure at most this many frames of each recording")
         ->check(CLI::Range(1, 1000000));
-    sub->add_option("--save", o.superres.save, "folder for the pictures of every method and truth");
+    sub->add_option("--save", o.superres.save,
+                    "folder to write the pictures of every method and of the truth into");
     sub->add_option("--csv", o.csv, "file for the table");
     return sub;
 }
@@ -157,11 +174,11 @@ CLI::App* addSamples(CLI::App& app, const char* name, const char* what, const ch
     CLI::App* sub = app.add_subcommand(name, what);
     sub->footer(help);
     request.methods = methods;
-    sub->add_option("folder", request.folders, "recordings or two-frame pairs")->required();
+    sub->add_option("folder", request.folders, "recordings, or pairs of two frames")->required();
     sub->add_option("--methods", request.methods, "of: " + joined(methods))->delimiter(',');
     addPoseSource(*sub, request.poses);
     addDisturbances(*sub, o);
-    sub->add_option("--frames", request.frames, "at most so many frames of each folder")
+    sub->add_option("--frames", request.frames, "measure at most this many frames of each folder")
         ->check(CLI::Range(1, 1000000));
     sub->add_option("--csv", o.csv, "file for the table");
     return sub;
@@ -199,11 +216,11 @@ std::vector<EvalCommand> addCommands(CLI::App& app, Options& o) {
     };
     add(addSuperRes(app, o), [&o] { return runSuperRes(o); });
     add(addPoseCommand(app, o.pose, o.csv), [&o] { return runPose(o); });
-    add(addSamples(app, "depth", "depth against the true one", kDepthHelp, depthMethodNames(),
-                   o.depth, o),
+    add(addSamples(app, "depth", "compare depth with the ground truth", kDepthHelp,
+                   depthMethodNames(), o.depth, o),
         [&o] { return evaluateDepth(completed(o.depth, depthMethodNames(), o)); });
-    add(addSamples(app, "flow", "dense flow against the true one", kFlowHelp, flowMethodNames(),
-                   o.flow, o),
+    add(addSamples(app, "flow", "compare dense flow with the ground truth", kFlowHelp,
+                   flowMethodNames(), o.flow, o),
         [&o] { return evaluateFlow(completed(o.flow, flowMethodNames(), o)); });
     add(addOcclusionCommand(app, o.occlusion, o.csv),
         [&o] { return evaluateOcclusion(o.occlusion); });
@@ -213,7 +230,7 @@ std::vector<EvalCommand> addCommands(CLI::App& app, Options& o) {
 }
 
 int run(int argc, char** argv) {
-    CLI::App app("mfar-eval: accuracy and run time of this product and its peers on recordings");
+    CLI::App app("mfar-eval: measures accuracy and run time of mfar and its peers on recordings");
     app.require_subcommand(1);
     Options o;
     const std::vector<EvalCommand> commands = addCommands(app, o);

@@ -28,7 +28,7 @@ void scoreColours(const cv::Mat& test, const cv::Mat& reference, const HdrVdpDis
 }  // namespace
 
 CLI::App* addMetricCommand(CLI::App& app, MetricRequest& request, std::string& csv) {
-    CLI::App* sub = app.add_subcommand("metric", "one picture against another of its size");
+    CLI::App* sub = app.add_subcommand("metric", "compare two pictures of the same size");
     sub->footer(std::string("Of luma (Rec. 601), whole pictures. ") + kPictureMetricsHelp);
     sub->add_option("test", request.test, "PNG or JPEG file")->required();
     sub->add_option("reference", request.reference, "PNG or JPEG file")->required();
@@ -36,14 +36,14 @@ CLI::App* addMetricCommand(CLI::App& app, MetricRequest& request, std::string& c
     sub->add_flag("--colour", request.colour,
                   "hdrvdp of the colours on an sRGB display (LCD with fluorescent light), which "
                   "has no --gamma");
-    sub->add_option("--csv", csv, "file for the table");
+    sub->add_option("--csv", csv, "file to write the table into");
     return sub;
 }
 
 Report evaluateMetric(const MetricRequest& request) {
     const cv::Mat test = loadPicture(request.test), reference = loadPicture(request.reference);
     if (test.size() != reference.size())
-        throw EvalError(fmt::format("{} has {}x{} pixels, {} has {}x{}", request.test.string(),
+        throw EvalError(fmt::format("{} has {}x{} pixels, but {} has {}x{}", request.test.string(),
                                     test.cols, test.rows, request.reference.string(),
                                     reference.cols, reference.rows));
     PictureMetrics metrics = request.metrics;

@@ -111,7 +111,8 @@ std::vector<VirtualObject> objectsFor(const OcclusionRequest& request, synthetic
     if (out.empty() && request.objects.empty())
         throw EvalError(fmt::format("no objects are known for scene {}: name a file with --objects",
                                     synthetic::name(scene)));
-    if (out.empty()) throw EvalError(fmt::format("{}: no [[objects]]", request.objects.string()));
+    if (out.empty())
+        throw EvalError(fmt::format("{}: the file has no [[objects]]", request.objects.string()));
     return out;
 }
 
@@ -119,7 +120,7 @@ std::vector<VirtualObject> objectsFor(const OcclusionRequest& request, synthetic
 
 Report evaluateOcclusion(const OcclusionRequest& request) {
     if (request.poses == PoseSource::None)
-        throw EvalError("without poses no object is shown: --poses recorded or tags");
+        throw EvalError("without poses no object is shown; use --poses recorded or tags");
     Report report(
         {{"depth_ms", 2}, {"composite_ms", 2}, {"iou", 4}, {"boundary_px", 3}, {"flicker", 6}});
     const auto context = createGlContext();

@@ -23,11 +23,13 @@ CLI::Validator within(double least, double most) {
 }  // namespace
 
 const char* const kPictureMetricsHelp =
-    "msssim: five scales. lpc_si: local phase coherence (Hassen et al. 2013), release 1.0; the\n"
-    "sharpest few pixels decide it, so lpc_si_tiles gives quantiles over 8x8 tiles beside it.\n"
+    "msssim: five scales. lpc_si: local phase coherence (Hassen et al. 2013), release 1.0;\n"
+    "the sharpest few pixels decide it, so lpc_si_tiles gives quantiles over 8x8 tiles beside\n"
+    "it.\n"
     "hdrvdp: hdrvdp_q is Q of HDR-VDP 2.2.1 and 2.2.2 (100: no difference, no lower bound),\n"
-    "hdrvdp_qmos Q_MOS of 2.2.0; luma V shown as black + (peak - black) (V/255)^gamma in a\n"
-    "surround of 1e-5 cd/m2. Compare either only at one ppd and size.";
+    "hdrvdp_qmos Q_MOS of 2.2.0; luma V is shown as black + (peak - black) (V/255)^gamma in a\n"
+    "surround of 1e-5 cd/m2. Compare either of them only between pictures of the same ppd and\n"
+    "size.";
 
 void addMetricParameters(CLI::App& sub, PictureMetrics& metrics) {
     HdrVdpDisplay& display = metrics.display;
@@ -40,7 +42,7 @@ void addMetricParameters(CLI::App& sub, PictureMetrics& metrics) {
     sub.add_option("--black", display.black, "luminance of black [cd/m2]")
         ->check(within(1e-4, 1000))
         ->capture_default_str();
-    sub.add_option("--gamma", display.gamma, "of the display")
+    sub.add_option("--gamma", display.gamma, "gamma of the display")
         ->check(within(0.5, 4))
         ->capture_default_str();
     sub.add_option("--lpc-ratio", metrics.lpcRatio,

@@ -18,7 +18,7 @@ inline std::string isBudget(const std::string& text) {
 
 /// Adds the options --width and --height, for the size of `what`.
 inline void addSize(CLI::App& sub, Size& size, const char* what) {
-    const std::string help = fmt::format("of the {} [px]", what);
+    const std::string help = fmt::format("size of the {} [px]", what);
     for (const auto& [name, side] : {std::pair("--width", &size.width), {"--height", &size.height}})
         sub.add_option(name, *side, help)->check(CLI::Range(16, 4096))->capture_default_str();
 }

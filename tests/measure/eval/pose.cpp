@@ -129,7 +129,8 @@ public:
         : request_(request), recording_(loadRecording(folder)),
           map_(loadTagMap(folder / "tags.toml")), tracker_(recording_.rig, trackerOptions()) {
         if (recording_.poses.empty())
-            throw EvalError(fmt::format("{}: no poses to compare with", folder.string()));
+            throw EvalError(
+                fmt::format("{}: the recording has no poses to compare with", folder.string()));
         for (const std::string& method : request.methods)
             series_.emplace(method, Series(report, label, method));
     }

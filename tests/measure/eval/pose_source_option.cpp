@@ -10,9 +10,8 @@ void addPoseSource(CLI::App& sub, PoseSource& source) {
         {"recorded", PoseSource::Recorded}, {"tags", PoseSource::Tags}, {"none", PoseSource::None}};
     sub.add_option_function<std::string>(
            "--poses", [&source, sources](const std::string& name) { source = sources.at(name); },
-           "what methods are told: recorded poses (default), tags (the tracker's, from the "
-           "pictures "
-           "and tags.toml; that of a still from itself) or none")
+           "poses that the methods get: recorded (default), tags (found by the tracker in the "
+           "pictures with tags.toml; a still's pose is found in the still itself) or none")
         ->check(CLI::IsMember({"recorded", "tags", "none"}))
         ->option_text("recorded|tags|none");
 }

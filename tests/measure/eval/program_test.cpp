@@ -242,7 +242,7 @@ TEST(MfarEval, TruthOfAnotherSizeIsRefused) {
     const Outcome outcome = execute(folder, fmt::format("{} superres {}/tiny --methods bicubic",
                                                         MFAR_EVAL, folder.path().string()));
     EXPECT_EQ(outcome.status, 2);
-    EXPECT_NE(outcome.text.find("1000.png: truth has 576x400 pixels, the output 576x432"),
+    EXPECT_NE(outcome.text.find("1000.png: truth has 576x400 pixels, but the output has 576x432"),
               std::string::npos)
         << outcome.text;
 }

@@ -200,7 +200,7 @@ private:
         const auto end = std::chrono::steady_clock::now() + kPatience;
         while (!layer_.rests()) {
             if (std::chrono::steady_clock::now() > end)
-                throw EvalError("the path tracer does not come to rest");
+                throw EvalError("the path tracer does not finish its picture");
             std::this_thread::sleep_for(std::chrono::microseconds(200));
         }
         if (const auto error = layer_.takeError()) throw EvalError(*error);

@@ -10,50 +10,57 @@ namespace mfar::eval {
 namespace {
 
 constexpr const char* kTracedHelp =
-    "Moves the camera as the synthetic board does, path traces the objects within the budget of\n"
-    "each frame as mfard does, and compares what is shown with a picture traced in that view.\n"
-    "Methods: product; independent: the same budget and filter, random numbers without order and\n"
-    "no light kept from one picture to the next.\n"
-    "psnr_db: of red, green and blue where the truth shows an object; shadow_psnr_db: where it\n"
-    "shows a shadow or light of the objects on the real surface; flicker [grey levels]: change\n"
-    "of the luma error of objects from a frame to the next along their motion, root mean square\n"
-    "over the square root of two; pictures: shown so far; warp_ms: drawing of the layer. Frames\n"
-    "of the first half second are not scored.";
+    "Moves the camera as the synthetic board does, path-traces the objects within the budget\n"
+    "of each frame as mfard does, and compares what is shown with a picture traced in that\n"
+    "view.\n"
+    "Methods: product; independent: the same budget and filter, but random numbers without\n"
+    "order and no light kept from one picture to the next.\n"
+    "psnr_db: of red, green and blue where the truth shows an object; shadow_psnr_db: where\n"
+    "it shows a shadow or light of the objects on the real surface; flicker [grey levels]:\n"
+    "change of the luma error of objects from a frame to the next along their motion, root\n"
+    "mean square over the square root of two; pictures: number of pictures shown so far;\n"
+    "warp_ms: time of drawing the layer. Frames of the first half second are not scored.";
 
 }  // namespace
 
 CLI::App* addTracedCommand(CLI::App& app, TracedRequest& request) {
-    CLI::App* sub = app.add_subcommand("traced", "virtual objects while the camera moves");
+    CLI::App* sub = app.add_subcommand(
+        "traced", "compare virtual objects with the truth while the camera moves");
     sub->footer(kTracedHelp);
     request.scenes = warpSceneNames();
     request.paths = {synthetic::Path::Handheld, synthetic::Path::Orbit, synthetic::Path::Forward};
     request.methods = tracedMethodNames();
-    sub->add_option("--scenes", request.scenes,
-                    fmt::format("of {}, or files of glTF", fmt::join(warpSceneNames(), ", ")))
+    sub->add_option(
+           "--scenes", request.scenes,
+           fmt::format("scenes, any of {}, or glTF files", fmt::join(warpSceneNames(), ", ")))
         ->delimiter(',');
-    addNames(*sub, "--paths", request.paths, "of the camera (default: handheld,orbit,forward)",
-             synthetic::pathNamed);
+    addNames(*sub, "--paths", request.paths,
+             "paths of the camera (default: handheld,orbit,forward)", synthetic::pathNamed);
     sub->add_option("--methods", request.methods,
                     fmt::format("of {}", fmt::join(tracedMethodNames(), ", ")))
         ->delimiter(',')
         ->check(CLI::IsMember(tracedMethodNames()));
     addSize(*sub, request.size, "layer");
-    sub->add_option("--budget", request.budgetMs, "processor time of the path tracer a frame [ms]")
+    sub->add_option("--budget", request.budgetMs,
+                    "processor time of the path tracer per frame [ms]")
         ->check(isBudget)
         ->capture_default_str();
-    sub->add_option("--frames", request.frames, "of each path, 30 a second")
+    sub->add_option("--frames", request.frames,
+                    "number of frames of each path, at 30 frames per second")
         ->check(CLI::Range(1, 100000))
         ->capture_default_str();
-    sub->add_option("--every", request.every, "so many frames, one and the next are compared")
+    sub->add_option("--every", request.every,
+                    "every this many frames, a frame and the next one are compared")
         ->check(CLI::Range(1, 100000))
         ->capture_default_str();
-    sub->add_option("--truth-samples", request.truthSamples, "a pixel of the truth")
+    sub->add_option("--truth-samples", request.truthSamples, "samples per pixel of the truth")
         ->check(CLI::Range(1, 65536))
         ->capture_default_str();
-    sub->add_option("--truth", request.truth, "folder that keeps the truth from run to run");
-    sub->add_option("--save", request.save, "folder for the compared frames and their truth");
+    sub->add_option("--truth", request.truth, "folder that keeps the truth for later runs");
+    sub->add_option("--save", request.save,
+                    "folder to write the compared frames and their truth into");
     sub->add_option("--video", request.video,
-                    "folder for a y4m of each path, methods side by side");
+                    "folder to write a Y4M video of each path into, with the methods side by side");
     return sub;
 }
 

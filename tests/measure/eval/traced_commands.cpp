@@ -18,7 +18,7 @@ std::vector<EvalCommand> addTracedCommands(CLI::App& app, std::string& csv) {
         {addWarpCommand(app, *warp, *files), [=] { return runWarpCommand(*warp, *files); }},
         {addTracedCommand(app, *traced), [=] { return runTracedCommand(*traced); }}};
     for (const EvalCommand& each : out)
-        each.command->add_option("--csv", csv, "file for the table");
+        each.command->add_option("--csv", csv, "file to write the table into");
     return out;
 }
 

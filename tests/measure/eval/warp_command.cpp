@@ -13,51 +13,54 @@ namespace mfar::eval {
 namespace {
 
 constexpr const char* kWarpHelp =
-    "Path traces a picture of each scene, turns the camera about it, and compares what becomes of\n"
-    "the picture with one that is path traced there.\n"
-    "Methods: none, push-pull, re-render, both: what fills the pixels that the picture does not\n"
-    "show; inpaint: Telea's method in OpenCV, in the holes of none; full: the picture is traced\n"
-    "anew.\n"
-    "psnr_db: of red, green and blue where the truth shows an object; hole_share: such pixels and\n"
-    "those of the shadow over those of the objects; reray_share: rays for pixels that are rendered "
-    "for\n"
-    "themselves over those that full takes, and over those of the objects' pixels alone; ms: of "
-    "the warp\n"
-    "once all has arrived, of inpaint alone, of tracing.";
+    "Path-traces a picture of each scene, turns the camera about it, warps the picture to the\n"
+    "new view, and compares it with a picture that is path-traced in that view.\n"
+    "Methods: none, push-pull, re-render, both: what fills the pixels that the picture does\n"
+    "not show; inpaint: Telea's method in OpenCV, in the holes of none; full: the picture is\n"
+    "traced anew.\n"
+    "psnr_db: of red, green and blue where the truth shows an object; hole_share: pixels that\n"
+    "the picture does not show, of objects and shadow, divided by the pixels of the objects;\n"
+    "reray_share: rays for pixels that are rendered to fill holes, divided by the rays of\n"
+    "full, and divided by those of the objects' pixels only; ms: time of the warp once all\n"
+    "pixels have arrived, of inpaint only, of tracing.";
 
 std::string isTurn(const std::string& text) {
     double degrees = -1;
     const bool number = CLI::detail::lexical_cast(text, degrees);
-    return number && degrees > 0 && degrees <= 180 ? "" : text + " is not in (0, 180]";
+    return number && degrees > 0 && degrees <= 180 ? "" : text + " is not above 0 and at most 180";
 }
 
 }  // namespace
 
 CLI::App* addWarpCommand(CLI::App& app, WarpRequest& request, WarpFiles& files) {
-    CLI::App* sub = app.add_subcommand("warp", "a path-traced picture, seen from elsewhere");
+    CLI::App* sub = app.add_subcommand(
+        "warp", "compare a path-traced picture that is warped to another view with the truth");
     sub->footer(kWarpHelp);
     request.scenes = warpSceneNames();
     request.methods = warpMethodNames();
-    sub->add_option("--scenes", request.scenes,
-                    fmt::format("of {}, or files of glTF", fmt::join(warpSceneNames(), ", ")))
+    sub->add_option(
+           "--scenes", request.scenes,
+           fmt::format("scenes, any of {}, or glTF files", fmt::join(warpSceneNames(), ", ")))
         ->delimiter(',');
     sub->add_option("--methods", request.methods,
                     fmt::format("of {}", fmt::join(warpMethodNames(), ", ")))
         ->delimiter(',')
         ->check(CLI::IsMember(warpMethodNames()));
-    sub->add_option("--degrees", request.degrees, "turns of the view")
+    sub->add_option("--degrees", request.degrees, "angles by which the view is turned [degrees]")
         ->delimiter(',')
         ->check(isTurn)
         ->capture_default_str();
     addSize(*sub, request.size, "picture");
-    sub->add_option("--samples", request.referenceSamples, "a pixel of the picture")
+    sub->add_option("--samples", request.referenceSamples, "samples per pixel of the picture")
         ->check(CLI::Range(1, 65536));
-    sub->add_option("--truth-samples", request.truthSamples, "a pixel of the truth")
+    sub->add_option("--truth-samples", request.truthSamples, "samples per pixel of the truth")
         ->check(CLI::Range(1, 65536));
-    sub->add_option("--hole-samples", request.holeSamples, "a pixel rendered for itself")
+    sub->add_option("--hole-samples", request.holeSamples,
+                    "samples per pixel of pixels that are rendered to fill holes")
         ->check(CLI::Range(1, 256));
-    sub->add_option("--save", request.save, "folder for the pictures of every method and truth");
-    sub->add_option("--svg", files.svg, "file for a plot");
+    sub->add_option("--save", request.save,
+                    "folder to write the pictures of every method and of the truth into");
+    sub->add_option("--svg", files.svg, "file to write a plot into");
     return sub;
 }
 

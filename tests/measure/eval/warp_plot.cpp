@@ -101,7 +101,7 @@ std::string warpSvg(const WarpRequest& request, const Report& report) {
         body += svg::text(at + 30, legend, "start", request.methods[i]);
         at += 110;
     }
-    body += svg::text(kLeftOf, 26, "start", "A path-traced picture, seen from elsewhere", 17);
+    body += svg::text(kLeftOf, 26, "start", "A path-traced picture, warped to another view", 17);
     return svg::document(std::max(left, at), legend + 20, body);
 }
 

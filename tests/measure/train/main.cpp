@@ -18,8 +18,8 @@ constexpr const char* kHelp =
     "Learns the filters that the product ships (pipeline/enlarge/prior.filters) from the sharp\n"
     "pictures of recordings (truth/highres, as mfar-sim writes them): each is reduced to the\n"
     "video's size by the mean over a pixel's area, without noise, with noise of sigma 0.7 and\n"
-    "1.5, and slightly blurred. Every fourth picture is held out: a class whose filter does not\n"
-    "better the cubic there gets none. The same recordings give the same file.\n";
+    "1.5, and slightly blurred. Every fourth picture is held out: a class gets no filter if its\n"
+    "filter is not better than the bicubic one there. The same recordings give the same file.\n";
 
 constexpr double kRidge = 20;
 constexpr int kHeldOutOf = 4;  // one picture in four is held out
@@ -58,8 +58,8 @@ void learn(const Options& options) {
     const auto gain = [&](int by) {
         return 10 * std::log10(outcome.cubicError[by] / outcome.error[by]);
     };
-    fmt::print("{} pictures, {} of {} classes; on those held out {:.2f} dB better than the cubic "
-               "by gradient, {:.2f} by curvature\n",
+    fmt::print("{} pictures, {} of {} classes; on held-out pictures {:.2f} dB better than bicubic "
+               "with classes by gradient, {:.2f} dB by curvature\n",
                pictures, outcome.used, enlarge::kUnique, gain(0), gain(1));
     const FilterBank checked(outcome.filters);
     const std::vector<std::uint8_t> bytes = storedFilters(outcome.filters);
@@ -72,11 +72,12 @@ void learn(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("mfar-train-enlarger: the filters that the product ships");
+    CLI::App app("mfar-train-enlarger: learns the filters that mfar ships");
     app.footer(kHelp);
     Options options;
-    app.add_option("recording", options.recordings, "folders in the EuRoC layout")->required();
-    app.add_option("--out", options.out, "file to write")->required();
+    app.add_option("recording", options.recordings, "recordings, folders in the EuRoC layout")
+        ->required();
+    app.add_option("--out", options.out, "file to write the filters into")->required();
     CLI11_PARSE(app, argc, argv);
     try {
         learn(options);

@@ -52,7 +52,8 @@ double pixelsPerDegree(double diagonal, cv::Size resolution, double distance) {
 
 cv::Mat displayedLight(const cv::Mat& picture, const HdrVdpDisplay& display) {
     if (!(display.black > 0 && display.peak > display.black && display.peak < 1e5))
-        throw std::invalid_argument("a display must be brighter than its black, which has light");
+        throw std::invalid_argument(
+            "a display's white must be brighter than its black, and its black brighter than 0");
     if (!(display.gamma > 0 && display.gamma < 10))
         throw std::invalid_argument("a display's gamma must be in (0, 10)");
     if (picture.depth() != CV_64F || !cv::checkRange(picture, true, nullptr, 0, 255 + 1e-9))
@@ -76,7 +77,7 @@ HdrVdpResult hdrVdp(const cv::Mat& test, const cv::Mat& reference, double pixels
     requireLight(test);
     requireLight(reference);
     if (test.type() != reference.type() || test.size() != reference.size())
-        throw std::invalid_argument("HDR-VDP-2: both pictures must have one size and type");
+        throw std::invalid_argument("HDR-VDP-2: both pictures must have the same size and type");
     if (!(pixelsPerDegree > 0 && pixelsPerDegree < 1e4))
         throw std::invalid_argument("HDR-VDP-2: pixels per degree must be in (0, 10000)");
     const cv::Mat mask = differs(test, reference);

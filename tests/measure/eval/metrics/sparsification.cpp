@@ -53,10 +53,11 @@ double areaUnder(const std::vector<double>& curve) {
 
 Sparsification sparsification(std::span<const float> error, std::span<const float> confidence) {
     if (error.size() != confidence.size())
-        throw std::invalid_argument("sparsification: as many confidences as errors are needed");
+        throw std::invalid_argument(
+            "sparsification: the numbers of confidences and errors must be equal");
     for (std::size_t i = 0; i < error.size(); ++i)
         if (!(error[i] >= 0 && std::isfinite(error[i]) && std::isfinite(confidence[i])))
-            throw std::invalid_argument("sparsification: an error or confidence is not sound");
+            throw std::invalid_argument("sparsification: an error or a confidence is invalid");
     if (std::all_of(error.begin(), error.end(), [](float e) { return e == 0; }))
         return {{}, {}, kNoArea, kNoArea};
     Sparsification out;
