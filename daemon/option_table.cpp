@@ -353,7 +353,7 @@ constexpr Option kLevel[] = {
     word("mode", kModes, R"("detail")", kModeMeaning),
     flag("cubic", "true", "Enlarge by bicubic instead of linear interpolation."),
     flag("learned", "true", "Enlarge by learned filters; for mode \"detail\" only."),
-    flag("along_lines", "true", "Search matches along epipolar lines where poses are known."),
+    flag("along_lines", "true", "If poses are known, search for matches along epipolar lines."),
     number("detail_share", {0.001, 1, ""}, "1.0",
            "Upper limit of the share of tiles that are matched."),
     number("second_share", kShare, "0.25",

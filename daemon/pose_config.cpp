@@ -26,7 +26,7 @@ std::optional<std::string> familyFault(std::string_view family) {
 
 std::optional<std::string> decimationFault(double value) {
     if (value == 1.5 || value == std::round(value)) return std::nullopt;
-    return "must be 1, 1.5 or a whole number";
+    return "must be 1.5 or a whole number";
 }
 
 }  // namespace

@@ -43,8 +43,8 @@ float bendAt(ivec2 c) {
     return sqrt(dot(dx, dx) + dot(dy, dy)) / 8.0;
 }
 
-// Second difference of the flow at the cell [px]. Rotations and zooms change the flow, but not its
-// first difference.
+// Magnitude of the second difference of the flow at the cell [px]. It is zero for rotations and
+// zooms, because their flow has the same first difference everywhere.
 float tearAt(ivec2 c) {
     vec2 here = 2.0 * flowAt(c);
     vec2 dx = flowAt(c + ivec2(1, 0)) + flowAt(c - ivec2(1, 0)) - here;

@@ -20,7 +20,8 @@ namespace mfar {
 /// error and not thousands.
 class BackgroundWriter {
 public:
-    /// `watched`: how each thread is registered at Heartbeats; the budget is for one job.
+    /// `watched`: how each thread is registered with Heartbeats; its budget is the longest time of
+    /// one job.
     explicit BackgroundWriter(int threads, const WatchedThread& watched = {});
     BackgroundWriter(const BackgroundWriter&) = delete;
     BackgroundWriter& operator=(const BackgroundWriter&) = delete;

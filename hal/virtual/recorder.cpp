@@ -46,7 +46,8 @@ Recorder::Recorder(const fs::path& root, const StereoRig& rig, double videoRateH
       poses_{root / "state_groundtruth_estimate0"}, syncer_(1, options.writer),
       writer_(1, options.writer) {
     if (!(videoRateHz > 0)) throw std::runtime_error("a recording needs a video rate above 0 Hz");
-    beginCamera(video_.folder, {rig.video, {}, videoRateHz}, "video sensor, body frame");
+    beginCamera(video_.folder, {rig.video, {}, videoRateHz},
+                "video sensor; its axes are the body's coordinates");
     beginCamera(still_.folder, {rig.still, rig.T_still_video.inverse(), 0}, "still sensor");
     syncFileSystem(root_);
 }

@@ -19,13 +19,14 @@ namespace mfar {
 
 /// Learns the filters of the enlarger from stills that were matched to the video, by recursive
 /// least squares in information form, for each class separately. Older pictures are gradually
-/// forgotten; the shipped filters are the prior. The tiles of the picture form three parts. Filters
-/// are learned on the first part. On the second part, each class chooses between its new filter,
-/// the shipped filter and a zero filter, which leaves the cubic unchanged. A class with few pixels
-/// keeps the shipped filter. The third part checks the chosen filters before they are used: each
-/// class against the cubic, and all of them together against the filters in use. An enlarged
-/// picture is the mean of two residuals. If neither is worse than the cubic, their mean is no worse
-/// either. The same pictures in the same order give the same filters.
+/// forgotten; the shipped filters are the prior. The tiles of the picture are divided into three
+/// parts. Filters are learned on the first part. On the second part, each class chooses between its
+/// new filter, the shipped filter and a zero filter, which leaves the cubic unchanged; a class with
+/// few pixels keeps the shipped filter. The third part checks the chosen filters before they are
+/// used: each class against the cubic, and all of them together against the filters in use. Each
+/// pixel belongs to two classes, and the mean of their two residuals is added to the cubic. If
+/// neither residual makes the cubic worse, their mean does not either. The same pictures in the
+/// same order give the same filters.
 class EnlargerLearner {
 public:
     EnlargerLearner();

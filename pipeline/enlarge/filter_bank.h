@@ -32,9 +32,9 @@ struct Guidance {
     bool operator==(const Guidance&) const = default;
 };
 
-/// The variance of the video's finest detail that a correctly matched still usually leaves
-/// unexplained: noise + share * (variance of that detail); see params::kFineRoom. If noise is 0,
-/// this is unknown.
+/// How much of the video's finest structure a correctly matched still usually fails to explain, as
+/// a variance: noise + share * (variance of the finest structure); see params::kFineRoom. If noise
+/// is 0, the unexplained variance is not known.
 struct FineMatch {
     float noise = 0;  ///< [grey levels^2], [0, kMostNoise]
     float share = 0;  ///< [0, 1]
@@ -47,8 +47,8 @@ struct FineMatch {
     bool operator==(const FineMatch&) const = default;
 };
 
-/// The filters of the learned enlarger, one per class (see filter_layout.h), with the guidance and
-/// the variance that a still usually leaves unexplained. Immutable.
+/// The filters of the learned enlarger, one per class (see filter_layout.h), with the Guidance and
+/// the FineMatch that belong to them. Immutable.
 class FilterBank {
 public:
     /// Weights of a class. A weight of one is stored as 16384; weights are halved, because the

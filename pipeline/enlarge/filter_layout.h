@@ -42,7 +42,8 @@ inline constexpr int kWeightScale = 16384;  ///< stored weight of one, for the s
 /// Classes of the structure tensor, which sums the products of the gradient over 5x5 pixels. Angle:
 /// that of the tensor's main axis. Strength: s1, the square root of the larger eigenvalue [grey
 /// levels per px]. Coherence: (s1 - s2) / (s1 + s2), where s2 is the square root of the smaller
-/// eigenvalue. Number of a class: (angle * strengths + strength) * coherences + coherence.
+/// eigenvalue. Each of the three is divided into bins. Index of a class: (angle bin * number of
+/// strength bins + strength bin) * number of coherence bins + coherence bin.
 struct GradientClasses {
     static constexpr int kAngles = params::kGradientAngles;
     static constexpr std::array<float, 3> kStrengthFrom{params::kWeakFrom, params::kMediumFrom,
@@ -53,9 +54,9 @@ struct GradientClasses {
     static_assert(kKinds == (kStrengthFrom.size() + 1) * (kCoherenceFrom.size() + 1));
     static constexpr int kCount = kAngles * kKinds;
 };
-/// Classes of the second derivatives: angle of the main axis, Laplacian, and difference of the
-/// eigenvalues [grey levels per px^2]. Number of a class: (angle * Laplacians + Laplacian) *
-/// differences + difference.
+/// Classes of the Hessian, the matrix of the second derivatives: angle of its main axis, Laplacian,
+/// and difference of its eigenvalues [grey levels per px^2]. Index of a class: (angle bin * number
+/// of Laplacian bins + Laplacian bin) * number of difference bins + difference bin.
 struct CurvatureClasses {
     static constexpr int kAngles = params::kCurvatureAngles;
     static constexpr std::array<float, 6> kLaplacianFrom{

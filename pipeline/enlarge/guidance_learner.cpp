@@ -194,7 +194,7 @@ bool GuidanceLearner::add(const TrustedPairs& truth, const MatchedPictures& olde
             if (!truth.trusts(x, y) || !frame.knows(x, y) || isSaturated(older, x, y)) continue;
             frame.addedTo(x, y, added);
             const Phases missing = truth.target(x, y) - added.unguided;
-            // Every third tile is held out. As with the filters, these tiles never change.
+            // Every third tile is held out, the same tiles in every picture.
             FactorSums& to = (x / kTileSize + y / kTileSize) % 3 == 0 ? held : learn;
             to.add({added.still.squaredNorm(), added.video.squaredNorm(), missing.squaredNorm(),
                     added.still.dot(added.video), added.still.dot(missing),

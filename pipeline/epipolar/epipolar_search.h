@@ -68,8 +68,8 @@ public:
     /// s [1/unit of length] of each pixel of the area, see EpipolarLens. It is negative where noise
     /// or errors of the pose move the best match beyond infinity.
     [[nodiscard]] const std::vector<float>& inverseDepth() const { return inverseDepth_; }
-    /// Largest motion of a pixel per unit of s [px]; zero if there is no parallax and nothing was
-    /// searched.
+    /// Largest motion of any pixel along its epipolar line [px] per unit of inverseDepth(); zero if
+    /// there is no parallax: then nothing was searched.
     [[nodiscard]] double pixelsPerUnit() const { return pixelsPerUnit_; }
     /// Translation of points from the frame to the still, in the frame's orientation.
     [[nodiscard]] const Eigen::Vector3f& translation() const { return translation_; }
@@ -102,8 +102,9 @@ private:
     void searchAround(std::span<const float> predicted);
     void refine(const Matrix6& covariance, std::span<const float> predicted);
     void prepare(int index);
-    /// Approximate labels of a coarser level. `scale`: labels of the finer level per label of
-    /// these. Each value covers 2^shift pixels of the finer level along each axis.
+    /// Approximate labels (steps of s, see simd::LabelLines), either predicted or found at the next
+    /// coarser level of the pyramid. A label times `scale` is a label of the finer level. Each
+    /// value covers 2^shift pixels of the finer level along each axis.
     struct Coarser {
         const std::vector<float>& labels;
         Size size;

@@ -13,9 +13,8 @@ public:
 
     void store(const PatchPictures::StoredRows& rows);
     [[nodiscard]] const gpu::Texture& colour() const { return colour_; }  ///< RGBA8
-    [[nodiscard]] const gpu::Texture& surface() const {
-        return surface_;
-    }  ///< Rgba32F with the members of WarpSurface
+    /// Rgba32F; its channels are the members of WarpSurface.
+    [[nodiscard]] const gpu::Texture& surface() const { return surface_; }
 
 private:
     Size layer_;

@@ -96,8 +96,8 @@ std::optional<Sun> sunOf(const LightEstimate& estimate) {
         !(estimate.mainDirection.z() > kLeastElevation))
         return std::nullopt;
     const Eigen::Vector3f& d = estimate.mainDirection;
-    // Linear coefficients along the main direction, for each channel. A sun of irradiance E
-    // contributes E * Y(d).
+    // For each colour channel, the coefficient of the spherical harmonic of degree 1 whose axis is
+    // the main direction. A sun of irradiance E in that direction adds E * kY1 to the coefficient.
     const Eigen::Vector3f along =
         (estimate.radiance.row(3) * d.x() + estimate.radiance.row(1) * d.y() +
          estimate.radiance.row(2) * d.z())

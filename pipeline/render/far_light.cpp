@@ -206,7 +206,8 @@ Eigen::Vector3f FarLight::mirrored(const Eigen::Vector3f& direction, float rough
     const auto i = static_cast<std::size_t>(
         std::min<std::ptrdiff_t>(above - kMirrorLevels.begin(), kMirrorLevels.size() - 1));
     if (i == 0) {
-        // The share in the interpolation is proportional to the width of the lobe.
+        // Interpolates between a perfect mirror and the first level. The level's share is
+        // proportional to the width of the reflection lobe.
         const float share =
             alphaOf(std::max(roughness, 0.0F)) / alphaOf(kMirrorLevels.front().roughness);
         const Eigen::Vector3f sharp = radiance(direction, environment_.radiance(direction));

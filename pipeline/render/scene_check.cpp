@@ -108,10 +108,10 @@ void validate(const Scene& scene) {
         checkModel(*object.model);
     }
     checkLighting(scene.lighting);
-    require(allFinite(scene.catcher.positions), "a position of the catcher is not finite");
+    require(allFinite(scene.catcher.positions), "a vertex of the shadow catcher is not finite");
     require(isRadiance(scene.catcher.albedo) && scene.catcher.albedo.maxCoeff() <= 1,
-            "the catcher's albedo is not in [0, 1]");
-    requireIndices(scene.catcher.triangles, scene.catcher.positions.size(), "the catcher");
+            "the shadow catcher's albedo is not in [0, 1]");
+    requireIndices(scene.catcher.triangles, scene.catcher.positions.size(), "the shadow catcher");
 }
 
 }  // namespace mfar

@@ -9,7 +9,7 @@
 
 namespace mfar::simd {
 
-/// Result of looking up a pixel of the layer.
+/// What the reference picture and the re-rendered patches show at one pixel of the virtual layer.
 struct RestPixel {
     std::uint32_t colour;  ///< RGBA8 premultiplied
     float depth;

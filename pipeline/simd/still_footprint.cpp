@@ -117,7 +117,8 @@ struct TapLanes {
     }
 };
 
-/// Returns the pixels to the left and right of each tap in a row.
+/// Returns the two pixels of a row that each tap lies between. `at`: indices of these pixels in
+/// `window`.
 HWY_INLINE hn::Vec<Taps16> tapsOf(const std::uint8_t* window,
                                   hn::VFromD<hn::FixedTag<std::uint8_t, 2 * kTaps>> at) {
     const hn::FixedTag<std::uint8_t, kWindow> dWindow;

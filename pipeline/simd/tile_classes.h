@@ -17,8 +17,9 @@ struct TileSummary {
     std::array<int, kTileClasses> tiles{};  ///< number of tiles of each TileClass
     int unexplained = 0;                    ///< number of tiles that no still explains
     int second = 0;                         ///< number of tiles that show the second still
-    /// Sum of the confidence (eq. 2 of the paper) over the cells of all tiles, in 1/16, rounded
-    /// down for each tile. A tile with full confidence counts 256. Zero without a still.
+    /// Sum of the confidence (eq. 2 of the paper) over the cells of all tiles, in units of 1/16;
+    /// the sum of each tile is rounded down. A tile has 16 cells, so full confidence adds 256. Zero
+    /// without a still.
     double confidence = 0;
 };
 

@@ -29,7 +29,7 @@ inline const std::array<Eigen::Vector2d, 4> kTagCorners{{{-1, 1}, {1, 1}, {1, -1
 struct DetectorOptions {
     std::vector<TagFamily> families{TagFamily::Tag36h11};
     /// Factor by which the picture is reduced for the search for quads. Bits and edges are read in
-    /// the full picture. 1, 1.5 or a whole number up to 8.
+    /// the full picture. 1.5 or a whole number from 1 to 8.
     double decimation = 2;
     int threads = 1;     ///< number of threads, 1 to 64
     double blur = 0;     ///< sigma of the blur before the search for quads [decimated px], 0 to 5

@@ -49,8 +49,8 @@ public:
     /// See WarpStep::takesLight().
     [[nodiscard]] bool takesLight() const { return step_->takesLight(); }
 
-    /// Returns an empty picture without a scene, without a reference picture, or if the pose is not
-    /// finite. The result is valid until the next call of any member.
+    /// The returned picture is empty if there is no scene or no reference picture, or if the pose
+    /// is not finite. The result is valid until the next call of any member.
     LayerPicture& run(const RigidTransform& T_world_camera);
 
     /// Must be called once per frame, including frames that are not drawn because the camera rests.

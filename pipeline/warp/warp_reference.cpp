@@ -201,8 +201,8 @@ WarpReference warpReference(const RenderedPicture& picture) {
     const std::size_t count = static_cast<std::size_t>(size.width) * size.height;
     if (picture.colour.size() != count || picture.depth.size() != count ||
         picture.id.size() != count || (!picture.light.empty() && picture.light.size() != count))
-        throw std::invalid_argument(
-            "the fields of a rendered picture do not have its camera's size");
+        throw std::invalid_argument("a rendered picture must have a colour, a depth and an id for "
+                                    "each pixel of its camera");
     WarpReference r{picture.camera,
                     picture.T_world_camera,
                     picture.colour,

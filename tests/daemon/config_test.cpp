@@ -254,7 +254,7 @@ TEST(Config, EveryPoseKeyIsChecked) {
         {"families = [\"tag36h10\"]", "2:13: pose.families \"tag36h10\": must be one of"},
         {"tag_size = 0.0", "2:12: pose.tag_size must be from 0.001 to 100"},
         {"tag_size = nan", "2:12: pose.tag_size must be from 0.001 to 100"},
-        {"decimation = 2.5", "2:14: pose.decimation = 2.5: must be 1, 1.5 or a whole number"},
+        {"decimation = 2.5", "2:14: pose.decimation = 2.5: must be 1.5 or a whole number"},
         {"decimation = 9", "2:14: pose.decimation must be from 1 to 8"},
         {"threads = 0", "2:11: pose.threads must be from 1 to 64"},
         {"threads = 1.5", "2:11: pose.threads must be a whole number"},

@@ -26,7 +26,8 @@ struct OcclusionShown {
     cv::Mat depth, trueDepth;
     cv::Mat overlaid;  ///< the true picture with the object over everything
     cv::Mat composite, trueComposite;
-    cv::Mat visible, hidden;  ///< CV_8U at output size; 255: the object is truly visible, hidden
+    cv::Mat visible;  ///< CV_8U at output size; 255 where the object can truly be seen
+    cv::Mat hidden;   ///< CV_8U at output size; 255 where something truly covers the object
 };
 
 struct OcclusionRun {

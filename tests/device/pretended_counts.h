@@ -45,7 +45,8 @@ public:
         const std::lock_guard lock(mutex_);
         counts_[camera].gain = value;
     }
-    /// `lastGood`: time of the last acceptable picture since the camera was opened.
+    /// `lastGood`: time of the last acceptable picture [us, CLOCK_MONOTONIC]; empty if there was
+    /// none since the camera was opened. It is updated if this picture is acceptable.
     void add(const std::string& camera, const v4l2_buffer& taken, std::size_t whole,
              std::optional<std::int64_t>& lastGood) {
         constexpr std::int64_t kAhead = 50'000, kOldest = 10'000'000;

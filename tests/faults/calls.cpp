@@ -337,7 +337,7 @@ MFAR_TAKES_OVER long syscall(long number, ...) noexcept {
     return real().syscall(number, a[0], a[1], a[2], a[3], a[4], a[5]);
 }
 
-// Replacements for files.
+// Replacements of the system calls that wait for files, signals and timers.
 
 MFAR_TAKES_OVER int poll(pollfd* fds, nfds_t count, int ms) {
     Scheduler& all = Scheduler::get();

@@ -52,7 +52,7 @@ double missed(std::span<const float> predicted, const std::vector<float>& expect
     return missed / static_cast<double>(all);
 }
 
-TEST(FieldPrediction, CarriesSurfacesOverByThePoses) {
+TEST(FieldPrediction, InverseDepthsMoveToTheNextFrameAccordingToThePoses) {
     const EpipolarLens cells(barrelCamera(), 2);
     const RigidTransform before = motion({1, -2, 3}, {-0.2, 0.05, 0.1});
     const RigidTransform after = motion({1.5, -2.6, 1.5}, {-0.26, 0.07, 0.16});

@@ -9,9 +9,9 @@
 namespace mfar::test {
 
 /// A folder of files, made from one input. A file begins with a line "#@ NAME", followed by its
-/// bytes. It ends with the line end before the next such line, or with the input. Only files whose
-/// names are in `known` are written. The folder is in memory if the machine has a file system for
-/// that. It is removed at the end.
+/// bytes. The file ends before the newline that precedes the next such line, or at the end of the
+/// input. Only files whose names are in `known` are written. The folder is in memory if the machine
+/// has a file system for that. The destructor removes the folder.
 class FileBundle {
 public:
     FileBundle(const std::uint8_t* data, std::size_t size, const std::vector<std::string>& known);

@@ -170,8 +170,8 @@ TEST(ReferenceRenderer, SleepsWhenTheFramesBudgetIsUsedUp) {
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
     frames.frame(view);  // its counters describe the time before it
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    // The limit is the time of a few frames that the counters did not include yet. Threads that do
-    // not sleep would use that of hundreds.
+    // The limit is the budget of 20 frames, because the counters did not include the last frames
+    // yet. Threads that did not sleep would use the budget of hundreds of frames.
     EXPECT_LE(frames.renderer.counters().cpuMs - used, 20 * options.budgetMs);
 }
 

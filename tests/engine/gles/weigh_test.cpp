@@ -282,7 +282,7 @@ TEST_F(Classify, AWholeFrameListsNothing) {
         EXPECT_EQ(command[1], 0U);
 }
 
-TEST_F(Classify, AnEnlargedFrameListsTheTilesWithDetail) {
+TEST_F(Classify, TilesWithDetailAreListedIfTheWholeFrameIsEnlarged) {
     const twin::Cells field = mixedField();
     std::array<std::set<std::uint32_t>, 4> wanted;
     for (int i = 0; i < static_cast<int>(kTileCount); ++i) {

@@ -6,8 +6,8 @@
 
 namespace mfar::bench {
 
-/// Time per frame [ms] to warp a picture of two balls on a plane by 2 degrees, until all work is
-/// finished.
+/// Times per frame [ms], measured until all work is finished. If a member does not say otherwise, a
+/// picture of two balls on a plane is warped to a camera that has turned by 2 degrees.
 struct WarpTimes {
     Summary objects;    ///< balls that cover a ninth of the picture, with their shadows
     Summary whole;      ///< one ball that is larger than the picture

@@ -9,7 +9,8 @@ namespace mfar::eval {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr double kNearPlane = 1e-3;    // nearer points are rejected; share of the point's own depth
+// A point is rejected if its depth from the still is at most this share of its depth in the frame.
+constexpr double kNearPlane = 1e-3;
 constexpr double kSplatWeight = 0.25;  // a pixel with a greater bilinear weight counts as covered
 
 /// Where the still shows a point of the frame, in the video's lens, and the point's inverse depth

@@ -7,14 +7,14 @@
 
 namespace mfar::eval {
 
-/// Where the poses come from that methods get.
+/// Source of the poses that are given to the evaluated methods.
 enum class PoseSource {
     Recorded,  ///< the recording, see posesOf()
     Tags,      ///< the product's tracker, from the tags in frames and stills
     None,      ///< methods get no poses
 };
 
-/// The poses of one recording that methods get. The truth always uses the recorded poses.
+/// The poses of one recording, for the evaluated methods. The truth always uses the recorded poses.
 class KnownPoses {
 public:
     /// `recording` must outlive this object. With Tags, all pictures are processed in the order of

@@ -40,7 +40,7 @@ CLI::App* addWarpCommand(CLI::App& app, WarpRequest& request, WarpFiles& files) 
     request.methods = warpMethodNames();
     sub->add_option(
            "--scenes", request.scenes,
-           fmt::format("scenes, any of {}, or glTF files", fmt::join(warpSceneNames(), ", ")))
+           fmt::format("scenes: any of {}, or glTF files", fmt::join(warpSceneNames(), ", ")))
         ->delimiter(',');
     sub->add_option("--methods", request.methods,
                     fmt::format("of {}", fmt::join(warpMethodNames(), ", ")))

@@ -28,8 +28,9 @@ struct Errors {
     int compared = 0;
 };
 
-/// Compares with double precision. Both get the same cameras, pose and flow, rounded to single
-/// precision. Uses every kComparedEvery-th pixel whose flow ends in view b.
+/// Compares triangulated() with `oracle`, which computes in double precision. Both functions get
+/// the same cameras, pose and flow, rounded to single precision. Every kComparedEvery-th pixel is
+/// compared if its flow ends in view b.
 template <class Oracle>
 Errors compare(const twin::TwoViews& views, const std::vector<float>& flow,
                TriangulationMethod method, Oracle oracle) {

@@ -57,7 +57,8 @@ Sparsification sparsification(std::span<const float> error, std::span<const floa
             "sparsification: the numbers of confidences and errors must be equal");
     for (std::size_t i = 0; i < error.size(); ++i)
         if (!(error[i] >= 0 && std::isfinite(error[i]) && std::isfinite(confidence[i])))
-            throw std::invalid_argument("sparsification: an error or a confidence is invalid");
+            throw std::invalid_argument("sparsification: errors must be finite and not negative, "
+                                        "confidences must be finite");
     if (std::all_of(error.begin(), error.end(), [](float e) { return e == 0; }))
         return {{}, {}, kNoArea, kNoArea};
     Sparsification out;
