@@ -47,6 +47,12 @@ App::App(const Options& options, Log& log)
     // With SIGPIPE ignored, writing to a closed display pipe returns an error and does not end the
     // process.
     signal(SIGPIPE, SIG_IGN);
+    if (options_.report) {
+        stats_.keepHistory();
+        // Written now: a failure after a long run would lose the report.
+        orFail(ExitCode::OutputFailed,
+               [this] { writeReport(results("the run has not ended", 0)); });
+    }
     if (options_.control)
         control_.emplace(
             *options_.control,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "daemon/argument_text.h"
 #include "daemon/config.h"
 
 #include <cstdint>
@@ -28,6 +29,7 @@ struct Options {
     std::optional<std::uint64_t> frames;           ///< end after this number of pictures
     std::optional<double> seconds;                 ///< end after this time
     std::optional<std::filesystem::path> summary;  ///< "-" = standard output
+    std::optional<std::filesystem::path> report;   ///< the same as a page of HTML
     std::optional<std::filesystem::path> control;  ///< socket for mfarctl
     bool measure = false;
     bool validate = false;
@@ -39,12 +41,7 @@ struct CommandLine {
     std::optional<std::string> print;  ///< --help, --version, --print-config
 };
 
-/// One option, for the manual page and shell completion.
-struct ArgumentText {
-    std::string names;  ///< "-h,--help"
-    std::string value;  ///< "FILE"; empty: a flag
-    std::string meaning;
-};
+/// For the manual page and shell completion.
 [[nodiscard]] std::vector<ArgumentText> argumentTexts();
 
 /// Throws Failure(Usage).

@@ -132,6 +132,8 @@ private:
     void govern();
     void showFault();
     void finishDisplay();
+    /// Small copies of the last picture and still, if there will be a report.
+    void leavePictures();
     [[nodiscard]] FileDisplayPolicy displayPolicy();
     void setLearning(bool wanted);
     void takeFilters();
@@ -161,8 +163,8 @@ private:
     std::unique_ptr<Drawing> drawing_;  ///< reports to learning_, so it is destroyed first
     StillPolicy policy_;
     std::optional<CapturedStill> newestStill_;  ///< not used yet
-    // Set where steps run on GLES: the newest still in use, the one that the pipeline keeps next to
-    // it, and the previous one, whose memory is reused.
+    // Set where steps run on GLES or a report is written: the newest still in use, the one that the
+    // pipeline keeps next to it, and the previous one, whose memory is reused.
     std::optional<UsedStill> usedStill_, secondStill_, formerStill_;
     TriggerReports triggerReports_;
     std::vector<QualityLevel> levels_;  ///< empty: the quality is as configured

@@ -80,9 +80,10 @@ Rendering Session::rendering() const {
     return out;
 }
 
-// Keeps a copy for a loss of the GPU: the next still may come late or never.
+// Keeps a copy for a loss of the GPU: the next still may come late or never; and for the report.
 void Session::keepUsedStill(const CapturedStill& still) {
-    if (!gl_.context || !drawing_->engines.uses(EngineKind::Gles)) return;
+    const bool mayBeLost = gl_.context && drawing_->engines.uses(EngineKind::Gles);
+    if (!mayBeLost && !stats_.keepsHistory()) return;
     std::swap(usedStill_, formerStill_);
     if (!usedStill_) usedStill_.emplace();
     const ImageView& view = still.frame.view();

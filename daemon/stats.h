@@ -8,6 +8,7 @@
 #include "daemon/pose_counts.h"
 #include "daemon/process_use.h"
 #include "daemon/quality_counts.h"
+#include "daemon/run_history.h"
 #include "hal/still_matcher.h"
 #include "pipeline/results.h"
 #include "pipeline/stage_clock.h"
@@ -185,12 +186,23 @@ public:
 
     [[nodiscard]] Counted count(Timestamp now = Timestamp::now());
 
+    /// From now on the course of the run is kept for a report.
+    void keepHistory();
+    [[nodiscard]] bool keepsHistory();
+    /// Empty where it is not kept.
+    [[nodiscard]] RunHistory history();
+    /// Pictures for the report.
+    void pictures(RunPictures pictures);
+    [[nodiscard]] RunPictures pictures();
+
 private:
     void total(Timestamp now);
     /// Updates the ages of what the cameras sent.
     void age(Timestamp now);
     /// Adds the counters of virtual objects. The mutex is held.
     void objects(const FrameStats& frame);
+    /// Adds the picture to the history. The mutex is held.
+    void remember(const FinishedPicture& picture);
 
     std::mutex mutex_;
     Counted counted_;
@@ -202,6 +214,8 @@ private:
     Timestamp lastShown_;
     PictureRate rate_;
     std::vector<Warning> warnings_;
+    std::optional<RunHistory> history_;
+    RunPictures pictures_;
     Heartbeats heartbeats_;
 };
 

@@ -2,7 +2,7 @@
 
 #include "tests/measure/eval/log_axis.h"
 #include "tests/measure/eval/report.h"
-#include "tests/measure/eval/svg.h"
+#include "base/svg.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,26 @@
+#include "daemon/tools/calibrate/arguments.h"
+
+namespace mfar::calibration {
+
+CalibrateParser::CalibrateParser() {
+    CalibrateArguments& a = arguments;
+    app.add_option("recording", a.recording, "folder in EuRoC layout, cam0 video, cam1 stills")
+        ->required();
+    auto* grid = app.add_option("--aprilgrid", a.aprilGridFile,
+                                "target: Kalibr's description of an aprilgrid (YAML)");
+    auto* board =
+        app.add_option("--checkerboard", a.board, "target: inner corners of a board, like 9x6");
+    auto* square = app.add_option("--square", a.square, "edge of a square of the board [m]");
+    grid->excludes(board);
+    board->needs(square);
+    square->needs(board);
+    app.add_option("--out", a.out, "folder for rig.yaml, video.yaml, still.yaml, residuals.png")
+        ->required();
+    app.add_option("--max-offset", a.solve.maxOffset,
+                   "search range of the clock offset, +- [s]; 0: no offset")
+        ->check(CLI::Range(0.0, 2.0))
+        ->capture_default_str();
+    app.add_flag("--k3", a.solve.k3, "estimate the third radial coefficient, for wide lenses");
+}
+
+}  // namespace mfar::calibration
