@@ -42,7 +42,7 @@ int simulate(SimArguments a) {
     const SimCounts counts = writeSimulation(board, a.sim, [&](int done) {
         const auto count = static_cast<std::size_t>(a.board.frames);
         ProgressPart(progress).show(static_cast<std::size_t>(done), count,
-                                    frameOf(static_cast<std::size_t>(done), count));
+                                    fmt::format("{} of {} frames", done, count));
     });
     progress.clear();
     if (a.board.scene == synthetic::Scene::Calibration) writeGrid(a.sim.out / "aprilgrid.yaml");

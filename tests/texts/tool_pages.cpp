@@ -4,6 +4,8 @@
 #include "tests/texts/pages.h"
 #include "tests/texts/troff.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 namespace mfar::test {
@@ -25,9 +27,10 @@ std::string synopsis(const CLI::App& app) {
     for (const ArgumentText& argument : argumentTexts(app)) {
         if (argument.names.find("--help") != std::string::npos) continue;
         std::string one = argument.names;
-        if (!argument.isPositional() && !argument.value.empty()) one += " " + argument.value;
-        if (!argument.isRequired) one = "[" + one + "]";
-        (argument.isPositional() ? positional : options) += " " + one;
+        if (!argument.isPositional() && !argument.value.empty())
+            one.append(" ").append(argument.value);
+        if (!argument.isRequired) one = fmt::format("[{}]", one);
+        (argument.isPositional() ? positional : options).append(" ").append(one);
     }
     return options + positional;
 }
@@ -51,7 +54,7 @@ std::string arguments(const CLI::App& app, const std::string& path) {
 }
 
 std::string page(const CLI::App& app, const Tool& tool) {
-    const std::string name = app.get_name();
+    const std::string& name = app.get_name();
     const bool hasCommands = !app.get_subcommands([](const CLI::App*) { return true; }).empty();
     std::string out = head(name, 1, tool.about, tool.source);
     out += ".SH SYNOPSIS\n.B " + troff(name) + "\n";

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/progress.h"
 #include "pipeline/pipeline.h"
 #include "tests/measure/bench/depth_bench.h"
 #include "tests/measure/bench/render_bench.h"
@@ -67,9 +68,11 @@ struct BenchResult {
 /// Needs a current GL context, described by `renderer`. The first frames warm up and do not count.
 /// Uses the poses of `posed`, not those of `moving`; `posed` without frames is skipped.
 [[nodiscard]] BenchResult runBench(const Workload& moving, const Workload& posed, SuperResMode mode,
-                                   EngineKind engine, const std::string& renderer);
+                                   EngineKind engine, const std::string& renderer,
+                                   const ProgressPart& progress = {});
 /// With one and two threads, at three output sizes.
 [[nodiscard]] std::vector<ScalingResult> runScaling(const Workload& moving, const Workload& posed,
-                                                    SuperResMode mode, EngineKind engine);
+                                                    SuperResMode mode, EngineKind engine,
+                                                    const ProgressPart& progress = {});
 
 }  // namespace mfar::bench

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/progress.h"
 #include "tests/measure/bench/curve_samples.h"
 
 #include <string>
@@ -39,6 +40,7 @@ struct Curves {
 /// known. Needs a current GL context. flow2d computes both directions, as in the product, and
 /// starts without the last frame's field; work per still is not timed. Throws std::invalid_argument
 /// without samples.
-[[nodiscard]] Curves measureCurves(const std::vector<CurveSample>& samples);
+[[nodiscard]] Curves measureCurves(const std::vector<CurveSample>& samples,
+                                   const ProgressPart& progress = {});
 
 }  // namespace mfar::bench

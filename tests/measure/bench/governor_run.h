@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/progress.h"
 #include "daemon/quality_table.h"
 #include "tests/measure/bench/clock.h"
 
@@ -27,6 +28,7 @@ struct GovernorRequest {
     std::vector<double> deadlinesMs{33, 66, 133};
     int frames = 120;  ///< per scene
     Clock clock = Clock::Wall;
+    ProgressPart progress{};  ///< what is shown while it runs
 };
 
 /// Runs the frames at one deadline after the other, each under its own governor that starts with
@@ -43,5 +45,7 @@ struct GovernorRequest {
 
 /// Human-readable: a line for each scene of each deadline.
 [[nodiscard]] std::string governorTable(std::span<const GovernedRun> runs);
+/// The time of each frame as lines, a chart for each deadline.
+[[nodiscard]] std::string governorSvg(std::span<const GovernedRun> runs);
 
 }  // namespace mfar::bench

@@ -17,7 +17,6 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 namespace {
@@ -39,7 +38,7 @@ struct Options {
     std::string recording, json, mode = "detail", engine = "auto";
     int frames = 0;
     bool quick = false, scaling = false, shipped = false;
-    std::filesystem::path curves;
+    std::filesystem::path curves, svg;
     std::vector<std::filesystem::path> data;
 };
 
@@ -76,18 +75,13 @@ std::vector<CurveSample> curveSamplesFor(const Options& o) {
     return curveSamplesOf(folders, o.frames > 0 ? static_cast<std::size_t>(o.frames) : 2);
 }
 
-void drawCurves(const Options& o) {
+void drawCurves(const Options& o, Progress& progress) {
     const std::vector<CurveSample> samples = curveSamplesFor(o);
     const auto context = createGlContext();
-    const Curves curves = measureCurves(samples);
+    const Curves curves = measureCurves(samples, ProgressPart(progress));
+    progress.clear();
     writeCurves(curves, o.curves);
     fmt::print("{}\n{}", context->description(), curvesCsv(curves));
-}
-
-void writeJson(const std::string& file, const nlohmann::json& value) {
-    std::ofstream out(file);
-    out << value.dump(2) << '\n';
-    if (!out.flush()) throw eval::EvalError(fmt::format("{}: cannot be written", file));
 }
 
 void addOptions(CLI::App& app, Options& o) {
@@ -104,6 +98,7 @@ void addOptions(CLI::App& app, Options& o) {
     app.add_flag("--as-shipped", o.shipped, "with the shipped filters, as before the first still");
     app.add_flag("--scaling", o.scaling, "also one thread against two at three output sizes");
     app.add_option("--json", o.json, "file for all results");
+    app.add_option("--svg", o.svg, "file for a plot of the times");
     app.add_flag("--quick", o.quick, "few small frames: shows that it runs, not how fast");
     app.add_option("--curves", o.curves,
                    "folder for curves.csv and curves.svg: time against error of the flow for each "
@@ -127,10 +122,13 @@ int run(int argc, char** argv) {
     } catch (const CLI::ParseError& e) {
         return app.exit(e) == 0 ? 0 : eval::kWrongInput;
     }
-    if (pareto.asked()) return pareto.run(), 0;
-    if (skip.asked()) return skip.run(), 0;
-    if (governor.asked()) return governor.run(), 0;
-    if (!o.curves.empty()) return drawCurves(o), 0;
+    Progress progress;
+    const ProgressPart all(progress);
+    if (pareto.asked()) return pareto.run(progress), 0;
+    if (skip.asked()) return skip.run(progress), 0;
+    if (governor.asked()) return governor.run(progress), 0;
+    if (!o.curves.empty()) return drawCurves(o, progress), 0;
+    all.show(0, 1, "making the frames");
     auto [moving, posed] = workloadsFor(o);
     const auto context = createGlContext();
     if (!o.shipped)
@@ -142,11 +140,16 @@ int run(int argc, char** argv) {
                                   : EngineKind::Gles;
     BenchResult result =
         runBench(moving, posed, mode, engine,
-                 fmt::format("engine {}; {}", nameOf(engine), context->description()));
-    if (o.scaling) result.scaling = runScaling(moving, posed, mode, engine);
+                 fmt::format("engine {}; {}", nameOf(engine), context->description()),
+                 all.part(0, o.scaling ? 2 : 1, ""));
+    if (o.scaling)
+        result.scaling = runScaling(moving, posed, mode, engine, all.part(1, 2, "scaling"));
+    all.part(9, 10, "").show(0, 1, "path tracer");
     result.render = measureRender(o.quick);
+    progress.clear();
     fmt::print("{}", toTable(result));
-    if (!o.json.empty()) writeJson(o.json, toJson(result));
+    if (!o.json.empty()) eval::writeText(o.json, toJson(result).dump(2) + "\n");
+    if (!o.svg.empty()) eval::writeText(o.svg, benchSvg(result));
     return 0;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/progress.h"
 #include "tests/measure/bench/clock.h"
 
 #include <optional>
@@ -39,6 +40,7 @@ struct SkipRequest {
     std::vector<std::string> cases, skips;  ///< empty: all
     int frames = 20;                        ///< number of frames that count
     Clock clock = Clock::Wall;
+    ProgressPart progress{};  ///< what is shown while it runs
 };
 
 [[nodiscard]] std::vector<std::string> skipNames();
@@ -53,5 +55,7 @@ struct SkipRequest {
 [[nodiscard]] std::string skipTable(const SkipReport& report);
 /// case,skip,ms,ms_without,saved_ms,psnr_lost_db,bad1_added,overlap_lost
 [[nodiscard]] std::string skipCsv(const SkipReport& report);
+/// Time saved and PSNR lost as bars, two panels for each case.
+[[nodiscard]] std::string skipSvg(const SkipReport& report);
 
 }  // namespace mfar::bench

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/progress.h"
 #include "hal/virtual/synthetic_scene.h"
 #include "tests/measure/eval/figure7_report.h"
 
@@ -16,6 +17,7 @@ struct Figure7Request {
     int learn = 0;  ///< stills per scene from which the product learns before; 0: default filters
     PictureMetrics metrics{{"psnr", "lpc_si", "lpc_si_tiles", "hdrvdp"}, {}};
     std::filesystem::path svg, save;  ///< files for the figure and the pictures; empty: not written
+    ProgressPart progress{};          ///< what is shown while it runs
 };
 
 /// Reproduces Figure 7 of the paper: accuracy and sharpness of super-resolved frames, in synthetic

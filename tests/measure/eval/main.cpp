@@ -1,3 +1,4 @@
+#include "tests/measure/eval/bars.h"
 #include "tests/measure/eval/depth.h"
 #include "tests/measure/eval/depth_methods.h"
 #include "tests/measure/eval/figure7_command.h"
@@ -20,6 +21,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 
 namespace {
 
@@ -91,6 +93,7 @@ struct Options {
     std::string degrade, degradeVideo;
     PoseNoise poseNoise;
     std::string csv;
+    std::filesystem::path svg;
 };
 
 /// CLI::Range accepts NaN.
@@ -194,21 +197,31 @@ Report runPose(const Options& o) {
 /// All subcommands; they store their options in `o`.
 std::vector<EvalCommand> addCommands(CLI::App& app, Options& o) {
     std::vector<EvalCommand> out = addTracedCommands(app, o.csv);
-    const auto add = [&](CLI::App* command, std::function<Report()> evaluate) {
-        out.push_back({command, std::move(evaluate)});
+    // `request` gets the progress before `evaluate` uses it.
+    const auto add = [&](CLI::App* command, auto& request, auto evaluate) {
+        out.push_back({command, [&request, evaluate](const ProgressPart& progress) {
+                           request.progress = progress;
+                           return evaluate();
+                       }});
     };
-    add(addSuperRes(app, o), [&o] { return runSuperRes(o); });
-    add(addPoseCommand(app, o.pose, o.csv), [&o] { return runPose(o); });
+    add(addSuperRes(app, o), o.superres, [&o] { return runSuperRes(o); });
+    add(addPoseCommand(app, o.pose, o.csv), o.pose, [&o] { return runPose(o); });
     add(addSamples(app, "depth", "depth against the true one", kDepthHelp, depthMethodNames(),
                    o.depth, o),
-        [&o] { return evaluateDepth(completed(o.depth, depthMethodNames(), o)); });
+        o.depth, [&o] { return evaluateDepth(completed(o.depth, depthMethodNames(), o)); });
     add(addSamples(app, "flow", "dense flow against the true one", kFlowHelp, flowMethodNames(),
                    o.flow, o),
-        [&o] { return evaluateFlow(completed(o.flow, flowMethodNames(), o)); });
-    add(addOcclusionCommand(app, o.occlusion, o.csv),
+        o.flow, [&o] { return evaluateFlow(completed(o.flow, flowMethodNames(), o)); });
+    add(addOcclusionCommand(app, o.occlusion, o.csv), o.occlusion,
         [&o] { return evaluateOcclusion(o.occlusion); });
-    add(addMetricCommand(app, o.metric, o.csv), [&o] { return evaluateMetric(o.metric); });
-    add(addFigure7Command(app, o.figure7, o.csv), [&o] { return runFigure7(o.figure7); });
+    add(addMetricCommand(app, o.metric, o.csv), o.metric,
+        [&o] { return evaluateMetric(o.metric); });
+    add(addFigure7Command(app, o.figure7, o.csv), o.figure7,
+        [&o] { return runFigure7(o.figure7); });
+    out.back().hasOwnPlot = true;
+    for (const EvalCommand& each : out)
+        if (!each.hasOwnPlot)
+            each.command->add_option("--svg", o.svg, "file for a plot of the means");
     return out;
 }
 
@@ -224,9 +237,15 @@ int run(int argc, char** argv) {
     }
     const auto used = std::ranges::find_if(
         commands, [](const EvalCommand& command) { return command.command->parsed(); });
-    const Report report = used->evaluate();
+    Progress progress;
+    const Report report = used->evaluate(ProgressPart(progress));
+    progress.clear();
     fmt::print("{}", report.table());
     if (!o.csv.empty()) report.writeCsv(o.csv);
+    if (!o.svg.empty())
+        writeText(o.svg, barsSvg("mfar-eval " + used->command->get_name(), barsOf(report),
+                                 "Bars and large points: means. Small circles: recordings, or "
+                                 "frames of a single one."));
     return 0;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/progress.h"
 #include "tests/measure/eval/picture_metrics.h"
 #include "tests/measure/eval/report.h"
 
@@ -13,7 +14,8 @@ namespace mfar::eval {
 struct MetricRequest {
     std::filesystem::path test, reference;
     PictureMetrics metrics{pictureMetricNames(), {}};
-    bool colour = false;  ///< HDR-VDP-2 of the colours instead of luma
+    bool colour = false;      ///< HDR-VDP-2 of the colours instead of luma
+    ProgressPart progress{};  ///< what is shown while it runs
 };
 
 /// `mfar-eval metric`: metrics of one picture against another.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/progress.h"
 #include "pipeline/track/tracker.h"
 #include "tests/measure/eval/report.h"
 
@@ -16,6 +17,7 @@ struct PoseRequest {
     std::vector<std::string> methods;  ///< of poseMethodNames(), for recordings
     int frames = 0;                    ///< per folder, 0 = all
     TrackerOptions tracker;            ///< each recording replaces the map by its own
+    ProgressPart progress{};           ///< what is shown while it runs
 };
 
 /// The product's poses: of every video frame, the filter's pose and the pose from the last frame's

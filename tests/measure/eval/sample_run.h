@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/progress.h"
 #include "tests/measure/eval/degrade.h"
 #include "tests/measure/eval/flow_samples.h"
 #include "tests/measure/eval/pose_source.h"
@@ -17,8 +18,9 @@ struct SampleRequest {
     std::vector<std::string> methods;
     Degradation degradation;  ///< applied to every still or second picture
     PoseSource poses = PoseSource::Recorded;
-    PoseNoise poseNoise;  ///< of every frame
-    int frames = 0;       ///< per folder, 0 = all that have truth
+    PoseNoise poseNoise;      ///< of every frame
+    int frames = 0;           ///< per folder, 0 = all that have truth
+    ProgressPart progress{};  ///< what is shown while it runs
 };
 
 /// The samples of one folder, with the poses and pictures that the request asks for.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/image_view.h"
+#include "base/progress.h"
 #include "tests/measure/eval/report.h"
 
 #include <filesystem>
@@ -9,14 +10,15 @@ namespace mfar::eval {
 
 struct SlicingRequest {
     Size size{320, 240};
-    int samples = 64;            ///< per pixel of a finished picture
-    int truthSamples = 512;      ///< per pixel of the picture that it is compared with, with
-                                 ///< another seed
-    double budgetMs = 4;         ///< processor time per frame
-    int frames = 300;            ///< frames under the budget
-    int threads = 2;             ///< for these frames and for the truth; everything else is timed
-                                 ///< on one thread
-    std::filesystem::path plot;  ///< SVG of error against time; empty: not written
+    int samples = 64;           ///< per pixel of a finished picture
+    int truthSamples = 512;     ///< per pixel of the picture that it is compared with, with
+                                ///< another seed
+    double budgetMs = 4;        ///< processor time per frame
+    int frames = 300;           ///< frames under the budget
+    int threads = 2;            ///< for these frames and for the truth; everything else is timed
+                                ///< on one thread
+    std::filesystem::path svg;  ///< SVG of error against time; empty: not written
+    ProgressPart progress{};    ///< what is shown while it runs
 };
 
 /// Measures a picture of a few balls and boxes on a plane by time slices, by spatial slices and as

@@ -43,7 +43,7 @@ CLI::App* addSlicingCommand(CLI::App& app, SlicingRequest& request) {
     sub->add_option("--threads", request.threads, "for the frames under the budget")
         ->check(CLI::Range(1, 64))
         ->capture_default_str();
-    sub->add_option("--plot", request.plot, "SVG of error against time");
+    sub->add_option("--svg", request.svg, "file for a plot of error against time");
     return sub;
 }
 

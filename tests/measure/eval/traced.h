@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/geometry.h"
+#include "base/progress.h"
 #include "hal/virtual/synthetic_scene.h"
 #include "tests/measure/eval/report.h"
 
@@ -23,6 +24,7 @@ struct TracedRequest {
     std::filesystem::path truth;         ///< folder in which the truth is kept; empty: traced again
     std::filesystem::path save;          ///< folder for compared frames and truth; empty: not saved
     std::filesystem::path video;         ///< folder for a y4m of each path; empty: not written
+    ProgressPart progress{};             ///< what is shown while it runs
 };
 
 [[nodiscard]] std::vector<std::string> tracedMethodNames();
