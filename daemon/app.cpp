@@ -47,6 +47,13 @@ App::App(const Options& options, Log& log)
     // SIGPIPE is ignored, so that writing to a closed pipe returns an error and does not end the
     // process.
     signal(SIGPIPE, SIG_IGN);
+    if (options_.report) {
+        stats_.keepHistory();
+        // The report is written at the start too, so that a file that cannot be written is noticed
+        // before a long run and not after it.
+        orFail(ExitCode::OutputFailed,
+               [this] { writeReport(results("the run has not ended", 0)); });
+    }
     if (options_.control)
         control_.emplace(
             *options_.control,

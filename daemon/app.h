@@ -47,8 +47,8 @@ public:
     /// Throws ConfigError, Failure.
     App(const Options& options, Log& log);
 
-    /// Runs until the end. Writes the summary, even if the run fails. Throws the error that ended
-    /// the run.
+    /// Runs until the end. Writes the summary and the report, even if the run fails. Throws the
+    /// error that ended the run.
     [[nodiscard]] ExitCode run();
 
 private:
@@ -107,7 +107,10 @@ private:
     void takeChanges(const Counted& counted);
     void showStatus(const Counted& counted, const Health& health);
     [[nodiscard]] ExitCode finish(std::future<std::string>& end);
-    [[nodiscard]] bool writeSummary(const std::string& reason, ExitCode code);
+    [[nodiscard]] bool writeResults(const std::string& reason, ExitCode code);
+    [[nodiscard]] nlohmann::ordered_json results(const std::string& reason, int code);
+    /// Throws std::runtime_error.
+    void writeReport(const nlohmann::ordered_json& results);
 
     const Timestamp started_ = Timestamp::now();
     LastResort lastResort_;  ///< first member: it also watches the destruction of the others

@@ -1,17 +1,22 @@
 // The three ways in which a run ends: after a signal, by itself, or by force because a device
 // hangs.
 
+#include "base/whole_file.h"
 #include "daemon/app.h"
 #include "daemon/budgets.h"
+#include "daemon/report.h"
 #include "daemon/restart_pause.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <signal.h>
 
 #include <cstdlib>
+#include <ctime>
 #include <iostream>
+#include <stdexcept>
 #include <utility>
 
 namespace mfar {
@@ -83,7 +88,7 @@ void App::leave(const std::string& why) {
     log_.warning(why, {}, {message::kEnded});
     if (ended_ && ended_->error && !stopSignal_) leaveFailed(ended_->error);
     const std::string reason = stopReason_.value_or(ended_ ? ended_->reason : "");
-    const bool written = writeSummary(reason, ExitCode::Ok);
+    const bool written = writeResults(reason, ExitCode::Ok);
     removeControl();
     const ExitCode code = written || stopSignal_ ? ExitCode::Ok : ExitCode::OutputFailed;
     std::_Exit(static_cast<int>(code));
@@ -101,7 +106,7 @@ void App::leaveFailed(const std::exception_ptr& error) {
         std::rethrow_exception(error);
     } catch (const std::exception& failure) {
         const ExitCode code = exitCode(failure);
-        (void)writeSummary(fmt::format("error: {}", failure.what()), code);
+        (void)writeResults(fmt::format("error: {}", failure.what()), code);
         log_.error(failure.what(), {message::kFailed});
         removeControl();
         pauseBeforeRestart(code, failure.what(), started_, log_);
@@ -131,7 +136,7 @@ ExitCode App::finish(std::future<std::string>& end) {
     log_.endStatus();
     try {
         const std::string reason = end.get();
-        const ExitCode code = writeSummary(stopReason_.value_or(reason), ExitCode::Ok)
+        const ExitCode code = writeResults(stopReason_.value_or(reason), ExitCode::Ok)
                                   ? ExitCode::Ok
                                   : ExitCode::OutputFailed;
         // Reading a configuration cannot be interrupted. The process ends without waiting for it,
@@ -143,10 +148,10 @@ ExitCode App::finish(std::future<std::string>& end) {
         if (cancel_.stop_requested() || (stopSignal_ && counted.displayFault)) {
             log_.warning(fmt::format("not everything was written: {}", error.what()), {},
                          {message::kEnded});
-            (void)writeSummary(*stopReason_, ExitCode::Ok);
+            (void)writeResults(*stopReason_, ExitCode::Ok);
             return ExitCode::Ok;
         }
-        (void)writeSummary(fmt::format("error: {}", error.what()), exitCode(error));
+        (void)writeResults(fmt::format("error: {}", error.what()), exitCode(error));
         if (!stopSignal_) throw;
         // There is no pause before the end: after a signal, mfard is not restarted.
         log_.error(error.what());
@@ -154,19 +159,47 @@ ExitCode App::finish(std::future<std::string>& end) {
     }
 }
 
-bool App::writeSummary(const std::string& reason, ExitCode code) {
-    const Counted counted = stats_.count();
+bool App::writeResults(const std::string& reason, ExitCode code) {
+    const nlohmann::ordered_json all = results(reason, static_cast<int>(code));
     if (log_.style() == Log::Style::Terminal)
-        log_.notice(fmt::format("{} pictures in {:.1f} s, {:.1f} fps: {}", counted.frames,
-                                counted.seconds, counted.fps, reason));
-    if (!options_.summary) return true;
+        log_.notice(fmt::format("{} pictures in {:.1f} s, {:.1f} fps: {}",
+                                all["frames"].get<std::uint64_t>(), all["seconds"].get<double>(),
+                                all["fps"].get<double>(), reason));
+    bool isWritten = true;
+    if (options_.report) {
+        try {
+            writeReport(all);
+        } catch (const std::runtime_error& error) {
+            log_.error(error.what());
+            isWritten = false;
+        }
+    }
+    if (!options_.summary) return isWritten;
     std::ostream& out = summary_.is_open() ? summary_ : std::cout;
-    const RunDescription description = running_ ? running_->description : RunDescription{};
-    out << summary(counted, description, reason, static_cast<int>(code)).dump(2) << "\n"
-        << std::flush;
+    out << all.dump(2) << "\n" << std::flush;
     if (!out)
         log_.error(fmt::format("{}: the summary cannot be written", options_.summary->string()));
-    return static_cast<bool>(out);
+    return out && isWritten;
+}
+
+nlohmann::ordered_json App::results(const std::string& reason, int code) {
+    const RunDescription description = running_ ? running_->description : RunDescription{};
+    return summary(stats_.count(), description, reason, code);
+}
+
+// Does not wait until the disk has the file, because there is little time after a signal.
+void App::writeReport(const nlohmann::ordered_json& results) {
+    const std::string written =
+        fmt::format("{:%Y-%m-%d %H:%M:%S} UTC", fmt::gmtime(std::time(nullptr)));
+    const std::string page =
+        reportPage(results, stats_.history(), stats_.pictures(), "written " + written);
+    try {
+        writeWholeFile(*options_.report,
+                       {reinterpret_cast<const std::uint8_t*>(page.data()), page.size()},
+                       Durability::WithSync);
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(fmt::format("the report cannot be written: {}", error.what()));
+    }
 }
 
 }  // namespace mfar

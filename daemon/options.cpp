@@ -77,6 +77,9 @@ void addOthers(CLI::App& app, Options& options, bool& printConfig) {
     app.add_option("--summary", options.summary,
                    "Write what the run measured to this file at the end (JSON; - prints it)")
         ->type_name("FILE");
+    app.add_option("--report", options.report,
+                   "Write the summary with charts and pictures to this file at the end (HTML)")
+        ->type_name("FILE");
     app.add_option("--control", options.control,
                    "Listen for mfarctl at this socket, which the socket's group may use, too")
         ->type_name("SOCKET");
@@ -104,16 +107,7 @@ struct Parser {
 }  // namespace
 
 std::vector<ArgumentText> argumentTexts() {
-    const Parser parser;
-    std::vector<ArgumentText> out;
-    for (const CLI::Option* option : parser.app.get_options()) {
-        const bool isFlag = option->get_items_expected_max() == 0;
-        // CLI11 appends the names of the checks after a colon.
-        const std::string value = option->get_type_name();
-        out.push_back({option->get_name(false, true),
-                       isFlag ? "" : value.substr(0, value.find(':')), option->get_description()});
-    }
-    return out;
+    return argumentTexts(Parser().app);
 }
 
 CommandLine parseCommandLine(int argc, const char* const* argv) {

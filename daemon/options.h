@@ -1,5 +1,6 @@
 #pragma once
 
+#include "daemon/argument_text.h"
 #include "daemon/config.h"
 
 #include <cstdint>
@@ -28,6 +29,7 @@ struct Options {
     std::optional<std::uint64_t> frames;           ///< number of pictures after which the run ends
     std::optional<double> seconds;                 ///< time after which the run ends
     std::optional<std::filesystem::path> summary;  ///< file for the summary; "-": standard output
+    std::optional<std::filesystem::path> report;   ///< HTML file for the report of the run
     std::optional<std::filesystem::path> control;  ///< path of the socket for mfarctl
     bool measure = false;
     bool validate = false;
@@ -39,12 +41,7 @@ struct CommandLine {
     std::optional<std::string> print;  ///< set for --help, --version and --print-config
 };
 
-/// The texts of one option, for the manual page and shell completion.
-struct ArgumentText {
-    std::string names;  ///< e.g. "-h,--help"
-    std::string value;  ///< e.g. "FILE"; empty: the option is a flag
-    std::string meaning;
-};
+/// Returns the texts of mfard's options, for the manual page and shell completion.
 [[nodiscard]] std::vector<ArgumentText> argumentTexts();
 
 /// Parses the command line. Throws Failure(Usage).

@@ -19,10 +19,12 @@ struct QualityCounts {
     std::vector<std::pair<std::string, std::uint64_t>>
         framesOf;  ///< number of frames of each level
 
+    [[nodiscard]] bool isLate(double ms) const { return deadlineMs > 0 && ms > deadlineMs; }
+
     void add(double ms) {
         frameMs.add(ms);
         ++frames;
-        if (deadlineMs > 0 && ms > deadlineMs) ++late;
+        if (isLate(ms)) ++late;
         const auto known =
             std::ranges::find(framesOf, level, &std::pair<std::string, std::uint64_t>::first);
         if (known == framesOf.end())

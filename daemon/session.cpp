@@ -130,6 +130,7 @@ std::string Session::showFrames(Mailbox<CapturedFrame>& mailbox, CaptureThread& 
     capture.join();
     checkRecording();
     stats_.recorderDropped(rig_.notRecorded());
+    leavePictures();
     finishDisplay();
     return enough ? "the requested number of frames is shown" : "end of the source";
 }

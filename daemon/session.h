@@ -136,6 +136,8 @@ private:
     void govern();
     void showFault();
     void finishDisplay();
+    /// Makes small copies of the last picture and the last still, if a report will be written.
+    void leavePictures();
     [[nodiscard]] FileDisplayPolicy displayPolicy();
     void setLearning(bool wanted);
     void takeFilters();
@@ -166,8 +168,9 @@ private:
     std::unique_ptr<Drawing> drawing_;  ///< uses learning_, so it is declared after it
     StillPolicy policy_;
     std::optional<CapturedStill> newestStill_;  ///< a still that the pipeline has not got yet
-    // Copies of stills, for a loss of the GPU; set if steps run on GLES. They are the newest still
-    // in use, the pipeline's second still, and the previous one, whose memory is reused.
+    // Copies of stills, for a loss of the GPU and for the report; set if steps run on GLES or a
+    // report is written. They are the newest still in use, the pipeline's second still, and the
+    // previous one, whose memory is reused.
     std::optional<UsedStill> usedStill_, secondStill_, formerStill_;
     TriggerReports triggerReports_;
     std::vector<QualityLevel> levels_;  ///< empty: the quality is as configured

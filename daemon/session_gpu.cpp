@@ -81,9 +81,11 @@ Rendering Session::rendering() const {
     return out;
 }
 
-// Keeps a copy of the still for a loss of the GPU, because the next still may come late or never.
+// Keeps a copy of the still for the report and for a loss of the GPU, after which the next still
+// may come late or never.
 void Session::keepUsedStill(const CapturedStill& still) {
-    if (!gl_.context || !drawing_->engines.uses(EngineKind::Gles)) return;
+    const bool mayBeLost = gl_.context && drawing_->engines.uses(EngineKind::Gles);
+    if (!mayBeLost && !stats_.keepsHistory()) return;
     std::swap(usedStill_, formerStill_);
     if (!usedStill_) usedStill_.emplace();
     const ImageView& view = still.frame.view();

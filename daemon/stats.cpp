@@ -72,6 +72,26 @@ void Stats::picture(const FinishedPicture& picture) {
     counted_.last = picture.stats;
     counted_.lastStages = picture.stages;
     counted_.stillAgeS = picture.stillAgeS;
+    if (history_) remember(picture);
+}
+
+void Stats::remember(const FinishedPicture& picture) {
+    const Drops& drops = counted_.drops;
+    const StillCounts& stills = counted_.stills;
+    const PoseCounts& poses = counted_.poses;
+    RunMoment moment{picture.shown, picture.ms, milliseconds(picture.shown - picture.arrived)};
+    moment.isLate = counted_.quality.isLate(picture.ms);
+    if (picture.stats.usedStill) moment.confidence = picture.stats.meanConfidence;
+    moment.totals = {drops.sensor + drops.mailbox,
+                     drops.recorder,
+                     drops.display,
+                     stills.received,
+                     stills.used,
+                     stills.lost,
+                     poses.frames,
+                     poses.tracked,
+                     counted_.learning ? counted_.learning->learner.gainDb : 0};
+    history_->add(moment, picture.stages);
 }
 
 void Stats::firstPicture(const ProcessUse& use) {
@@ -221,6 +241,31 @@ Counted Stats::count(Timestamp now) {
     const std::lock_guard lock(mutex_);
     total(now);
     return counted_;
+}
+
+void Stats::keepHistory() {
+    const std::lock_guard lock(mutex_);
+    if (!history_) history_.emplace();
+}
+
+bool Stats::keepsHistory() {
+    const std::lock_guard lock(mutex_);
+    return history_.has_value();
+}
+
+RunHistory Stats::history() {
+    const std::lock_guard lock(mutex_);
+    return history_.value_or(RunHistory{});
+}
+
+void Stats::pictures(RunPictures pictures) {
+    const std::lock_guard lock(mutex_);
+    pictures_ = std::move(pictures);
+}
+
+RunPictures Stats::pictures() {
+    const std::lock_guard lock(mutex_);
+    return pictures_;
 }
 
 void Stats::age(Timestamp now) {

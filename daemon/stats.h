@@ -8,6 +8,7 @@
 #include "daemon/pose_counts.h"
 #include "daemon/process_use.h"
 #include "daemon/quality_counts.h"
+#include "daemon/run_history.h"
 #include "hal/still_matcher.h"
 #include "pipeline/results.h"
 #include "pipeline/stage_clock.h"
@@ -187,12 +188,23 @@ public:
 
     [[nodiscard]] Counted count(Timestamp now = Timestamp::now());
 
+    /// Keeps the history of the run from now on, for a report.
+    void keepHistory();
+    [[nodiscard]] bool keepsHistory();
+    /// Returns the history, which is empty if it is not kept.
+    [[nodiscard]] RunHistory history();
+    /// Takes the pictures for the report.
+    void pictures(RunPictures pictures);
+    [[nodiscard]] RunPictures pictures();
+
 private:
     void total(Timestamp now);
     /// Updates CameraState::distinctAgeS.
     void age(Timestamp now);
     /// Adds the counters of virtual objects. mutex_ must be locked.
     void objects(const FrameStats& frame);
+    /// Adds the picture to the history. The caller holds the mutex.
+    void remember(const FinishedPicture& picture);
 
     std::mutex mutex_;
     Counted counted_;
@@ -204,6 +216,8 @@ private:
     Timestamp lastShown_;
     PictureRate rate_;
     std::vector<Warning> warnings_;
+    std::optional<RunHistory> history_;
+    RunPictures pictures_;
     Heartbeats heartbeats_;
 };
 

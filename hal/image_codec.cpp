@@ -1,6 +1,7 @@
 #include "hal/image_codec.h"
 
 #include <algorithm>
+#include <array>
 #include <csetjmp>
 #include <cstring>
 #include <memory>
@@ -149,7 +150,7 @@ void decodeJpeg(std::span<const std::uint8_t> file, const TargetOf& targetOf) {
 
 // Only one filter and run-length coding are used: this takes 8 ms for 648x432. zlib's level 1 takes
 // 22 ms and makes files of photographs no smaller.
-bool write(PngWriter& writer, Size size, PngPixels format, png_bytepp rows,
+bool write(PngWriter& writer, Size size, PixelBytes format, png_bytepp rows,
            std::vector<std::uint8_t>& out) {
     if (setjmp(writer.error.back) != 0) return false;
     png_set_write_fn(writer.png, &out, appendBytes, flushNothing);
@@ -158,12 +159,12 @@ bool write(PngWriter& writer, Size size, PngPixels format, png_bytepp rows,
     png_set_filter(writer.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
     png_set_IHDR(writer.png, writer.info, static_cast<png_uint_32>(size.width),
                  static_cast<png_uint_32>(size.height), 8,
-                 format == PngPixels::Grey ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB,
+                 format == PixelBytes::Grey ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB,
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_write_info(writer.png, writer.info);
-    if (format == PngPixels::Rgbx || format == PngPixels::Bgrx)
+    if (format == PixelBytes::Rgbx || format == PixelBytes::Bgrx)
         png_set_filler(writer.png, 0, PNG_FILLER_AFTER);
-    if (format == PngPixels::Bgr || format == PngPixels::Bgrx) png_set_bgr(writer.png);
+    if (format == PixelBytes::Bgr || format == PixelBytes::Bgrx) png_set_bgr(writer.png);
     png_write_image(writer.png, rows);
     png_write_end(writer.png, writer.info);
     return true;
@@ -179,7 +180,7 @@ void decodeImage(std::span<const std::uint8_t> file, const TargetOf& targetOf, I
     throw std::runtime_error("is neither PNG nor JPEG");
 }
 
-void encodePng(const std::uint8_t* pixels, std::size_t stride, Size size, PngPixels format,
+void encodePng(const std::uint8_t* pixels, std::size_t stride, Size size, PixelBytes format,
                std::vector<std::uint8_t>& out) {
     out.clear();
     // More memory than any picture needs is reserved, because a growing vector would copy the data
@@ -189,6 +190,24 @@ void encodePng(const std::uint8_t* pixels, std::size_t stride, Size size, PngPix
     std::vector<png_bytep> rows = rowsOf(pixels, stride, size.height);
     if (!write(writer, size, format, rows.data(), out))
         throw std::runtime_error("the picture cannot be encoded as PNG: " + writer.error.text);
+}
+
+std::vector<std::uint8_t> encodeJpeg(const std::uint8_t* pixels, std::size_t stride, Size size,
+                                     PixelBytes format, int quality) {
+    const std::unique_ptr<void, decltype(&tjDestroy)> encoder(tjInitCompress(), tjDestroy);
+    if (!encoder) throw std::runtime_error(tjGetErrorStr2(nullptr));
+    constexpr std::array kFormats{TJPF_GRAY, TJPF_BGR, TJPF_RGBX, TJPF_BGRX};
+    const int sampling = format == PixelBytes::Grey ? TJSAMP_GRAY : TJSAMP_420;
+    unsigned char* bytes = nullptr;
+    unsigned long count = 0;
+    const int failed = tjCompress2(encoder.get(), pixels, size.width, static_cast<int>(stride),
+                                   size.height, kFormats[static_cast<std::size_t>(format)], &bytes,
+                                   &count, sampling, quality, 0);
+    const std::unique_ptr<unsigned char, decltype(&tjFree)> owned(bytes, tjFree);
+    if (failed != 0)
+        throw std::runtime_error(std::string("cannot be encoded: ") +
+                                 tjGetErrorStr2(encoder.get()));
+    return {bytes, bytes + count};
 }
 
 }  // namespace mfar

@@ -31,11 +31,16 @@ void decodeImage(std::span<const std::uint8_t> file, const TargetOf& targetOf,
                  ImageAlpha alpha = ImageAlpha::Opaque);
 
 /// The order of a pixel's bytes in memory; X is ignored.
-enum class PngPixels : std::uint8_t { Grey, Bgr, Rgbx, Bgrx };
+enum class PixelBytes : std::uint8_t { Grey, Bgr, Rgbx, Bgrx };
 
 /// Encodes a picture as PNG, in grey or in colour without alpha. The encoder is optimised for
 /// speed, not for size. `out` is replaced. Throws std::runtime_error.
-void encodePng(const std::uint8_t* pixels, std::size_t stride, Size size, PngPixels format,
+void encodePng(const std::uint8_t* pixels, std::size_t stride, Size size, PixelBytes format,
                std::vector<std::uint8_t>& out);
+
+/// Encodes a picture as JPEG, in grey or in colour. `quality` is from 1 to 100. Throws
+/// std::runtime_error.
+[[nodiscard]] std::vector<std::uint8_t> encodeJpeg(const std::uint8_t* pixels, std::size_t stride,
+                                                   Size size, PixelBytes format, int quality);
 
 }  // namespace mfar

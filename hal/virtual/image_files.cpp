@@ -70,19 +70,19 @@ void loadImageInto(const fs::path& file, Size expected, std::uint8_t* rgba, std:
 
 void encodePng(const ImageView& image, std::vector<std::uint8_t>& out) {
     requireSound(image, "picture to be written");
-    const auto encode = [&](PngPixels format) {
+    const auto encode = [&](PixelBytes format) {
         encodePng(image.data, image.stride, image.size, format, out);
     };
     switch (image.format) {
-    case PixelFormat::Gray8: return encode(PngPixels::Grey);
-    case PixelFormat::Rgba8: return encode(PngPixels::Rgbx);
-    case PixelFormat::Bgra8: return encode(PngPixels::Bgrx);
+    case PixelFormat::Gray8: return encode(PixelBytes::Grey);
+    case PixelFormat::Rgba8: return encode(PixelBytes::Rgbx);
+    case PixelFormat::Bgra8: return encode(PixelBytes::Bgrx);
     case PixelFormat::Yuyv:
     case PixelFormat::Nv12:
     case PixelFormat::Yuv420: break;
     }
     const cv::Mat bgr = bgrPicture(image);
-    encodePng(bgr.ptr(), bgr.step, image.size, PngPixels::Bgr, out);
+    encodePng(bgr.ptr(), bgr.step, image.size, PixelBytes::Bgr, out);
 }
 
 void savePng(const fs::path& file, const ImageView& image) {

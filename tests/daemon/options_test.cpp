@@ -39,16 +39,17 @@ TEST(Options, WithoutArgumentsAllOptionsHaveTheirDefaults) {
 
 TEST(Options, EveryOptionIsRead) {
     const Options options =
-        parse({"--recording", "/data/run", "--display", "png:out",   "--record",
-               "new",         "--mode",    "blend",     "--pace",    "consumer",
-               "--seed",      "7",         "--frames",  "12",        "--seconds",
-               "2.5",         "--summary", "-",         "--measure", "--check-config",
-               "--pose",      "recorded",  "--validate"})
+        parse({"--recording", "/data/run", "--display",  "png:out",   "--record",
+               "new",         "--mode",    "blend",      "--pace",    "consumer",
+               "--seed",      "7",         "--frames",   "12",        "--seconds",
+               "2.5",         "--summary", "-",          "--measure", "--check-config",
+               "--pose",      "recorded",  "--validate", "--report",  "run.html"})
             .options;
     EXPECT_TRUE(options.checkConfig);
     EXPECT_EQ(options.frames, 12U);
     EXPECT_EQ(options.seconds, 2.5);
     EXPECT_EQ(options.summary, "-");
+    EXPECT_EQ(options.report, "run.html");
     const Config config = effectiveConfig(options);
     EXPECT_EQ(config.recording, "/data/run");
     EXPECT_EQ(config.display, "png:out");

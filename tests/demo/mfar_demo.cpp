@@ -1,3 +1,4 @@
+#include "base/progress.h"
 #include "daemon/config.h"
 #include "hal/gl_context.h"
 #include "hal/virtual/recording.h"
@@ -11,8 +12,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-
-#include <unistd.h>
 
 #include <cstdio>
 #include <exception>
@@ -38,14 +37,6 @@ struct Request {
     fs::path pathTraced;  ///< configuration with path-traced objects; empty: none
     std::string scene;    ///< recorded scene; the truth of objects needs it
 };
-
-void showProgress(int done, int all) {
-    constexpr int kWidth = 40;
-    const int full = kWidth * done / all;
-    if (isatty(STDERR_FILENO) == 0 && done != all) return;
-    fmt::print(stderr, "\r  [{:=<{}}{: <{}}] {}/{} frames{}", "", full, "", kWidth - full, done,
-               all, done == all ? "\n" : "");
-}
 
 void row(const std::string& what, const std::string& upscaled, const std::string& ours) {
     fmt::print("  {:<34}{:>16}{:>12}\n", what, upscaled, ours);
@@ -76,23 +67,33 @@ void printTable(const OcclusionQuality& q) {
     row("error of its boundary [video px]", "", fmt::format("{:.2f}", q.boundary));
 }
 
-void runObjects(const Request& request, const mfar::Recording& recording) {
+/// Returns a function that shows how many frames of a part of the work are done.
+auto shownBy(const mfar::ProgressPart& part) {
+    return [part](int done, int all) {
+        part.show(static_cast<std::size_t>(done), static_cast<std::size_t>(all),
+                  fmt::format("{} of {} frames", done, all));
+    };
+}
+
+void runObjects(const Request& request, const mfar::Recording& recording,
+                const mfar::ProgressPart& part) {
     const auto scene = mfar::synthetic::sceneNamed(request.scene);
     if (!scene) throw std::runtime_error("unknown scene '" + request.scene + "'");
     const auto objects = mfar::placedShapes(mfar::loadConfig(request.objects).objects, {});
-    const OcclusionRun run = mfar::demo::runOcclusion(recording, *scene, objects, showProgress);
+    const OcclusionRun run = mfar::demo::runOcclusion(recording, *scene, objects, shownBy(part));
     mfar::eval::savePicture(request.folder / "depth.png", mfar::demo::depthPicture(run));
     mfar::eval::savePicture(request.folder / "occlusion.png", mfar::demo::occlusionPicture(run));
     printTable(run.quality);
 }
 
-void runPathTraced(const Request& request, const mfar::Recording& recording) {
+void runPathTraced(const Request& request, const mfar::Recording& recording,
+                   const mfar::ProgressPart& part) {
     if (!mfar::TracedLayer::isAvailable()) {
         fmt::print("This build has no path tracer: no virtual.png\n");
         return;
     }
     const VirtualRun run =
-        mfar::demo::runVirtual(recording, mfar::loadConfig(request.pathTraced), showProgress);
+        mfar::demo::runVirtual(recording, mfar::loadConfig(request.pathTraced), shownBy(part));
     mfar::eval::savePicture(request.folder / "virtual.png", mfar::demo::virtualPicture(run));
     fmt::print("\n");
     row("samples while the camera moved", "", fmt::format("{}", run.moved.render.samples));
@@ -105,7 +106,9 @@ void run(const Request& request) {
     fs::create_directories(request.folder);
     const auto context = mfar::createGlContext();
     const mfar::Recording recording = mfar::loadRecording(request.recording);
-    const DemoRun run = mfar::demo::runDemo(recording, showProgress);
+    mfar::Progress progress;
+    const mfar::ProgressPart all(progress);
+    const DemoRun run = mfar::demo::runDemo(recording, shownBy(all.part(0, 3, "resolution")));
     mfar::eval::savePicture(request.folder / "comparison.png",
                             mfar::demo::comparisonPicture(run.last));
     mfar::eval::savePicture(request.folder / "confidence.png",
@@ -113,9 +116,12 @@ void run(const Request& request) {
     mfar::eval::savePicture(request.folder / "tile_classes.png",
                             mfar::demo::tileClassPicture(run.last));
     if (!request.video.empty()) mfar::demo::writeVideo(request.video, request.folder / "video.avi");
+    progress.clear();
     printTable(run.quality);
-    if (!request.objects.empty()) runObjects(request, recording);
-    if (!request.pathTraced.empty()) runPathTraced(request, recording);
+    if (!request.objects.empty()) runObjects(request, recording, all.part(1, 3, "occlusion"));
+    progress.clear();
+    if (!request.pathTraced.empty())
+        runPathTraced(request, recording, all.part(2, 3, "path tracing"));
 }
 
 }  // namespace

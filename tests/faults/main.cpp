@@ -1,5 +1,6 @@
 // mfar-faults runs mfard with schedules of faults until the time is over or mfard breaks one of its
 // promises.
+#include "base/progress.h"
 #include "tests/faults/plan.h"
 #include "tests/faults/trial.h"
 #include "tests/stability/seeded_run.h"
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
@@ -70,8 +72,16 @@ void print(const Tally& tally, double seconds) {
 /// Runs seeds one after the other.
 Tally drawSeeds(const Options& o, std::uint64_t seed) {
     const auto begin = Clock::now();
+    mfar::Progress progress;
     Tally sum;
     for (bool more = true; more; ++seed) {
+        // Only the first process shows its progress: all processes end at the same time.
+        const std::chrono::duration<double, std::ratio<60>> before = Clock::now() - begin;
+        if (o.trial.job == 0)
+            progress.show(o.run.seed ? std::nan("") : before.count() / o.run.minutes,
+                          fmt::format("{} starts, {} episodes, {} failures in the first of {} "
+                                      "processes",
+                                      sum.seeds, sum.cases, sum.failures, o.run.jobs));
         const TrialResult result = runTrial(o.trial, seed);
         ++sum.seeds;
         if (const auto episodes = result.counts.find("episodes"); episodes != result.counts.end())
@@ -79,7 +89,10 @@ Tally drawSeeds(const Options& o, std::uint64_t seed) {
         for (const auto& [what, number] : result.counts)
             sum.inputs[what] += number;
         bool failed = !result.failure.empty();
-        if (failed) fmt::print("{}", result.failure);
+        if (failed) {
+            progress.clear();
+            fmt::print("{}", result.failure);
+        }
         if (!failed && o.twice) {
             const std::string again = runTrial(o.trial, seed).course;
             failed = again != result.course;

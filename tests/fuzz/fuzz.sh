@@ -52,6 +52,7 @@ fuzzOne() {
     local options=(-max_total_time="$seconds" -timeout=25 -rss_limit_mb=1024 -print_final_stats=1
         -artifact_prefix="$found-failed-")
     [[ ! -f $dictionary ]] || options+=(-dict="$dictionary")
+    clearProgress
     say "fuzz $target: $seconds s, from $(find "$seeds" "$found" -type f | wc -l) inputs"
     ASAN_SYMBOLIZER_PATH=$(command -v llvm-symbolizer-19) UBSAN_OPTIONS=print_stacktrace=1 \
         "$build/tests/fuzz/mfar-fuzz-$target" "${options[@]}" "$found" "$seeds" \
@@ -59,6 +60,7 @@ fuzzOne() {
         tail -n 60 "$build/$target.log" >&2
         return 1
     }
+    clearProgress
     awk -v target="$target" '
         /^stat::number_of_executed_units:/ { runs = $2 }
         /^stat::average_exec_per_sec:/     { rate = $2 }
@@ -96,7 +98,7 @@ instrumentLibraries() {
 # fuzz [TARGET...] [--minutes N] [--coverage] [--instrument-libraries]: runs all targets if none is
 # given; N is 1 by default.
 fuzz() {
-    local preset=fuzz seconds=60 coverage='' targets=() running=0 status=0 target
+    local preset=fuzz seconds=60 coverage='' targets=() running=0 status=0 target ticker rounds
     while [[ $# -gt 0 ]]; do
         case $1 in
         --minutes) [[ $# -ge 2 ]] || die "--minutes needs a number"
@@ -116,6 +118,9 @@ fuzz() {
     fi
     if [[ $preset == fuzz-libraries ]]; then instrumentLibraries; fi
     build "$preset" "${targets[@]/#/mfar-fuzz-}" >&2
+    rounds=$(((${#targets[@]} + jobs - 1) / jobs))
+    tick $((rounds * seconds)) "fuzz, ${#targets[@]} targets" &
+    ticker=$!
     for target in "${targets[@]}"; do
         if ((running == jobs)); then
             wait -n || status=1
@@ -125,5 +130,7 @@ fuzz() {
         running=$((running + 1))
     done
     for (( ; running > 0; --running)); do wait -n || status=1; done
+    kill "$ticker"
+    clearProgress
     return "$status"
 }

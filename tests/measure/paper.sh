@@ -6,6 +6,7 @@ build=$1
 out=$2
 bench=$build/tests/measure/bench/mfar-bench
 eval=$build/tests/measure/eval/mfar-eval
+step=0 steps=6
 times=() slicing=() warp=() figure7=() occlusion=() traced=() note=''
 if [[ ${3:-} == --quick ]]; then
     note=$'\n**A quick run on tiny pictures: no number here is a measurement.**'
@@ -24,7 +25,9 @@ mkdir -p "$out"
 measured() {
     local file=$out/$1
     shift
-    printf '%s\n' "${*/#"$build"\//}" | tee "$file.command" >&2
+    step=$((step + 1))
+    printf '%s\n' "${*/#"$build"\//}" >"$file.command"
+    printf '%s of %s: %s\n' "$step" "$steps" "$(<"$file.command")" >&2
     if [[ ${*: -1} == none ]]; then
         echo "not measured by --quick" >"$file"
     else
@@ -46,7 +49,7 @@ section() {
 }
 
 measured times.txt "$bench" "${times[@]}"
-measured slicing.txt "$eval" slicing --plot "$out/slicing.svg" "${slicing[@]}"
+measured slicing.txt "$eval" slicing --svg "$out/slicing.svg" "${slicing[@]}"
 measured warp.txt "$eval" warp --svg "$out/warp.svg" "${warp[@]}"
 measured occlusion.txt "$eval" occlusion "${occlusion[@]}"
 measured traced.txt "$eval" traced "${traced[@]}"

@@ -76,7 +76,9 @@ for group in video render gpio; do holds "mfar is in $group" inGroup "$group"; d
 holds "the service is enabled" test -L "$enabled"
 holds "the unit is sound" inside systemd-analyze verify --man=no mfard.service
 holds "the licence is there" test -s "$root/usr/share/doc/mfar/copyright"
-for page in man1/mfard.1 man5/mfard.toml.5; do holds "$page is there" test -s "$root/usr/share/man/$page"; done
+for page in man1/mfard.1 man1/mfarctl.1 man1/mfar-sim.1 man1/mfar-calibrate.1 man5/mfard.toml.5; do
+    holds "$page is there" test -s "$root/usr/share/man/$page"
+done
 holds "the completion is there" test -s "$root/usr/share/bash-completion/completions/mfard"
 holds "programs are stripped" isNot grep -q debug_info <(readelf -S "$root/usr/bin/mfard")
 

@@ -1,4 +1,5 @@
 // mfar-stress runs hostile cases with new seeds until the time is over or a case fails.
+#include "base/progress.h"
 #include "tests/stability/balance.h"
 #include "tests/stability/cases.h"
 #include "tests/stability/precision.h"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
@@ -71,8 +73,9 @@ void print(const Tally& tally) {
 /// Runs the cases, one seed after the other.
 class Run {
 public:
-    explicit Run(const Options& options)
-        : options_(options), cases_(chosen(options)), balance_(cases_) {}
+    /// `job`: number of this process among all.
+    Run(const Options& options, int job)
+        : options_(options), isFirst_(job == 0), cases_(chosen(options)), balance_(cases_) {}
 
     [[nodiscard]] Tally drawSeeds(std::uint64_t first);
 
@@ -83,9 +86,12 @@ private:
     [[nodiscard]] bool stops() const { return options_.run.stops(failures_); }
     void runCase(const Case& one, std::uint64_t seed, Scale scale);
     void fillUp(std::uint64_t seed, double until);
-    void progress(std::uint64_t seed) const;
+    /// Only the first process shows its progress: all processes end at the same time.
+    void showProgress(const char* part);
 
     Options options_;
+    bool isFirst_;
+    Progress progress_;
     std::vector<Case> cases_;
     Balance balance_;
     GlWatch gl_;
@@ -95,11 +101,13 @@ private:
 };
 
 void Run::runCase(const Case& one, std::uint64_t seed, Scale scale) {
+    showProgress(one.name);
     const auto before = checks_.pixels();
     const double start = minutes();
     const auto faults = run(one, seed, checks_, gl_, scale);
     balance_.ran(one, before, checks_.pixels(), 60 * (minutes() - start), scale);
     ++ran_;
+    if (!faults.empty()) progress_.clear();
     for (const std::string& fault : faults)
         fmt::print("FAILED {}\n", fault);
     failures_ += faults.empty() ? 0 : 1;
@@ -119,10 +127,12 @@ void Run::fillUp(std::uint64_t seed, double until) {
     }
 }
 
-void Run::progress(std::uint64_t seed) const {
-    fmt::print("{:6.1f} min, {} cases of {} seeds, last seed {}, {} failures\n", minutes(), ran_,
-               seeds_, seed, failures_);
-    std::fflush(stdout);
+void Run::showProgress(const char* part) {
+    if (!isFirst_) return;
+    const double share = options_.run.seed ? std::nan("") : minutes() / options_.run.minutes;
+    progress_.show(share, fmt::format("{}; {} cases, {} seeds, {} failures in the first of {} "
+                                      "processes",
+                                      part, ran_, seeds_, failures_, options_.run.jobs));
 }
 
 Tally Run::drawSeeds(std::uint64_t first) {
@@ -131,7 +141,6 @@ Tally Run::drawSeeds(std::uint64_t first) {
     const Scale scale = options_.full    ? Scale::Product
                         : options_.small ? Scale::Tests
                                          : Scale::Mixed;
-    double told = 0;
     for (bool more = true; more; ++seed) {
         const double start = minutes();
         for (const Case& one : cases_) {
@@ -143,16 +152,14 @@ Tally Run::drawSeeds(std::uint64_t first) {
             fillUp(seed, std::min(4 * minutes() - 3 * start, options_.run.minutes));
         ++seeds_;
         more = options_.run.goesOn(seeds_, minutes(), failures_);
-        if (minutes() < told && more) continue;
-        told = minutes() + 0.25;
-        progress(seed);
     }
+    progress_.clear();
     return {checks_.pixels(), checks_.inputs(), ran_, seeds_, failures_};
 }
 
 Tally runAll(Options o) {
     if (!o.run.seed) o.pixels /= o.run.jobs;
-    return o.run.run([&o](std::uint64_t first, int) { return Run(o).drawSeeds(first); });
+    return o.run.run([&o](std::uint64_t first, int job) { return Run(o, job).drawSeeds(first); });
 }
 
 int listPlanted() {

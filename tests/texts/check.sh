@@ -53,6 +53,13 @@ completes() {
 [[ $(completes mfard --print) == '--print-config ' ]] || fault "completion of --print"
 [[ $(completes --config "$work/tree/do") == "$work/tree/docs " ]] || fault "completion of a file"
 
+# Each installed program has a manual page, which the package installs.
+while IFS= read -r program; do
+    [[ -s $work/tree/docs/man/$program.1 ]] || fault "$program has no manual page"
+    grep -q "[( ]$program[ )]" "$sources/systemd/CMakeLists.txt" || fault "$program.1 is not installed"
+done < <(sed -n 's/^install(TARGETS \(.*\) RUNTIME.*/\1/p' "$sources"/daemon/CMakeLists.txt \
+    "$sources"/daemon/tools/CMakeLists.txt | tr ' ' '\n')
+
 if command -v groff >/dev/null; then
     for page in "$work"/tree/docs/man/*; do
         said=$(groff -man -Tascii -wall "$page" 2>&1 >"$work/page") || fault "groff: $said"

@@ -1,6 +1,7 @@
 #include "daemon/option_text.h"
 #include "daemon/options.h"
 #include "tests/texts/pages.h"
+#include "tests/texts/troff.h"
 
 #include <fmt/format.h>
 
@@ -8,32 +9,6 @@
 
 namespace mfar::test {
 namespace {
-
-/// A paragraph in which groff takes no character as a command.
-std::string troff(std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-        if (c == '\\')
-            out += "\\e";
-        else if (c == '-')
-            out += "\\-";
-        else if (c == '\n')
-            out += ' ';
-        else
-            out += c;
-    }
-    return out.starts_with('.') || out.starts_with('\'') ? "\\&" + out : out;
-}
-
-std::string head(std::string_view name, int number, std::string_view about) {
-    return fmt::format(".\\\" Printed by mfar-texts from daemon/option_table.cpp and options.cpp.\n"
-                       ".TH {0} {1} \"\" mfar\n.SH NAME\n{0} \\- {2}\n",
-                       name, number, troff(about));
-}
-
-std::string entry(std::string_view key, std::string_view text) {
-    return fmt::format(".TP\n.B {}\n{}\n", troff(key), troff(text));
-}
 
 /// Returns "--help" for "-h,--help".
 std::string longName(const ArgumentText& argument) {
@@ -51,11 +26,11 @@ std::string valuesOf(const ArgumentText& argument) {
 
 std::string programManPage() {
     std::string out =
-        head("mfard", 1, "lifts a fast video sensor to the resolution of a still sensor");
+        head("mfard", 1, "lifts a fast video sensor to the resolution of a still sensor",
+             "daemon/option_table.cpp and options.cpp");
     out += ".SH SYNOPSIS\n.B mfard\n[OPTIONS]\n.SH OPTIONS\n";
     for (const ArgumentText& argument : argumentTexts())
-        out += entry(argument.names + (argument.value.empty() ? "" : " " + argument.value),
-                     argument.meaning);
+        out += entry(argument);
     out += ".SH SIGNALS\nTERM and INT end it, HUP reads the configuration file again.\n"
            ".SH \"EXIT STATUS\"\n" +
            entry("0", "success") + entry("64", "wrong command line") +
@@ -68,7 +43,7 @@ std::string programManPage() {
 }
 
 std::string configManPage() {
-    std::string out = head("mfard.toml", 5, "configuration of mfard");
+    std::string out = head("mfard.toml", 5, "configuration of mfard", "daemon/option_table.cpp");
     out += ".SH DESCRIPTION\n" +
            troff("A TOML file. Every key is optional. Changes take effect with a restart, in "
                  "sections marked (reload) also with a reload. Names of files are relative to "

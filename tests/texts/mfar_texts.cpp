@@ -53,6 +53,9 @@ int main(int argc, char** argv) {
         write(folder / "tests/fuzz/quality.dict",
               mfar::test::fuzzDictionary(mfar::levelOptions(), kLevelValues));
         write(folder / "docs/man/mfard.1", mfar::test::programManPage());
+        write(folder / "docs/man/mfarctl.1", mfar::test::controlManPage());
+        write(folder / "docs/man/mfar-sim.1", mfar::test::simManPage());
+        write(folder / "docs/man/mfar-calibrate.1", mfar::test::calibrateManPage());
         write(folder / "docs/man/mfard.toml.5", mfar::test::configManPage());
     } catch (const std::exception& error) {
         fmt::print(stderr, "mfar-texts: {}\n", error.what());

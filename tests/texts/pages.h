@@ -14,6 +14,10 @@ namespace mfar::test {
 /// Manual pages in the language of groff's -man.
 [[nodiscard]] std::string programManPage();
 [[nodiscard]] std::string configManPage();
+/// The manual pages of mfarctl, mfar-sim and mfar-calibrate, from their parsers.
+[[nodiscard]] std::string controlManPage();
+[[nodiscard]] std::string simManPage();
+[[nodiscard]] std::string calibrateManPage();
 
 /// Completion of mfard's command line in bash.
 [[nodiscard]] std::string bashCompletion();

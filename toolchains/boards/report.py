@@ -16,6 +16,10 @@ import predict
 import tables
 
 HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.append(os.path.dirname(HERE))
+from progress import Progress  # noqa: E402 (its folder has to be known)
+
+PROGRESS = Progress()
 BUDGET = os.path.join(HERE, 'budget.csv')
 
 
@@ -24,19 +28,17 @@ def read_model():
         return tomllib.load(file)
 
 
-def say(text):
-    print(text, file=sys.stderr, flush=True)
-
-
 def compile_all(model, folders, program, files=()):
     """Kind of GPU: its shaders, or these files, where its drivers are there. `folders`: suite: libraries."""
     out = {}
-    for kind, gpu in model['gpus'].items():
+    for done, (kind, gpu) in enumerate(model['gpus'].items()):
+        PROGRESS.show(done, len(model['gpus']), f'compiling for {gpu["name"]}')
         if gpu['mesa'] not in folders:
+            PROGRESS.clear()
             print(f'skipped: {gpu["name"]}: the drivers of {gpu["mesa"]} are not built')
             continue
-        say(f'Compiling for {gpu["name"]}')
         out[kind] = drivers.compile_shaders(folders[gpu['mesa']], gpu, program, files)
+    PROGRESS.clear()
     return out
 
 
@@ -86,7 +88,7 @@ def check_host(args, model, plugin):
     name, mca = collect.host_processor()
     if mca is None:
         return None
-    say(f'Checking the model on this machine ({name})')
+    PROGRESS.show(9, 10, f'checking the model on this machine ({name})')
     width = max(model['frame']['outputs'])
     counts = collect.frame_counts(['qemu-x86_64', '-cpu', 'max'], plugin, args.frame_work, 'moving', width)
     entry = {'name': name, 'mca': mca, 'in_order': False}
@@ -110,9 +112,10 @@ def report(args, model, compiled):
     os.makedirs(args.out, exist_ok=True)
     plugin = collect.build_plugin(os.path.join(HERE, 'block_counts.c'), os.path.join(args.out, 'block_counts.so'))
     works, cycles = {}, {}
+    count = len(collect.CASES) * len(model['frame']['outputs'])
     for case in collect.CASES:
         for width in model['frame']['outputs']:
-            say(f'{case}, {width} columns: passes, instructions')
+            PROGRESS.show(len(works), count + 1, f'{case}, {width} columns: passes, instructions')
             works[case, width] = collect.gpu_work(args.frame_work, case, width)
             counts = collect.frame_counts(['qemu-aarch64', '-cpu', 'max', '-L', args.sysroot], plugin,
                                           args.arm_frame_work, case, width)
@@ -122,6 +125,7 @@ def report(args, model, compiled):
                           for key, board in model['boards'].items()},
                'instructions': {f'{case} {width}': one['instructions'] for (case, width), one in cycles.items()},
                'host': None if args.no_host else check_host(args, model, plugin)}
+    PROGRESS.clear()
     text = tables.markdown(model, compiled, results)
     write(args.out, 'boards.md', text)
     write(args.out, 'passes.csv', tables.passes_csv(model, compiled, results))

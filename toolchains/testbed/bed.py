@@ -12,6 +12,9 @@ import time
 import traceback
 from pathlib import Path
 
+sys.path.append(str(Path(__file__).resolve().parent.parent))
+from progress import Progress  # noqa: E402 (its folder has to be known)
+
 from camera import Camera
 from guest import Guest, GuestError
 from pictures import Film, Pattern, film_times
@@ -167,8 +170,10 @@ def install(bed):
     print(f'ok      {"install":40}{time.monotonic() - begin:7.1f} s', flush=True)
 
 
-def run_boot(options, boot, scenarios):
-    """Starts the guest once and runs all scenarios for this start: (passed, failed)."""
+def run_boot(options, boot, scenarios, show):
+    """Starts the guest once and runs all scenarios for this start: (passed, failed). Calls `show`
+    before each step, with the number of finished scenarios and the name of the step."""
+    show(0, 'boot')
     print(f'boot    {boot or ""}', flush=True)
     try:
         bed = Bed(options, boot)
@@ -177,8 +182,12 @@ def run_boot(options, boot, scenarios):
         return 0, len(scenarios)
     try:
         print(f'ok      {"boot":40}{bed.guest.boot_seconds:7.1f} s', flush=True)
+        show(0, 'install')
         install(bed)
-        passed = sum(run_scenario(bed, scenario) for scenario in scenarios)
+        passed = 0
+        for done, scenario in enumerate(scenarios):
+            show(done, scenario.name)
+            passed += run_scenario(bed, scenario)
         return passed, len(scenarios) - passed
     except GuestError as error:
         print(f'FAILED  {error}')
@@ -201,8 +210,11 @@ def main():
     scenarios = [load(file) for file in scenario_files(options.scenario)]
     wish = lambda scenario: sorted(getattr(scenario, 'BOOT', {}).items())
     passed = failed = 0
+    progress = Progress()
     for boot, group in itertools.groupby(sorted(scenarios, key=wish), key=wish):
-        good, bad = run_boot(options, dict(boot), list(group))
+        before = passed + failed
+        show = lambda done, what: progress.show(before + done, len(scenarios), what)
+        good, bad = run_boot(options, dict(boot), list(group), show)
         passed, failed = passed + good, failed + bad
     print(f'{time.monotonic() - begin:.0f} s on {os.cpu_count()} processors')
     print(f'{passed} passed, {failed} failed')

@@ -8,6 +8,7 @@
 #include "tests/measure/eval/stopwatch.h"
 
 #include <GLES3/gl31.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
@@ -169,7 +170,8 @@ private:
 using Peers = std::vector<std::unique_ptr<Peer>>;
 
 CaseResult measureCase(const std::string& name, Ours& ours, const Workload& work,
-                       const Peers& peers, std::vector<PeerResult>& results) {
+                       const Peers& peers, std::vector<PeerResult>& results,
+                       const ProgressPart& progress) {
     const std::size_t frames = work.frames.size();
     CaseResult result;
     result.name = name;
@@ -179,6 +181,7 @@ CaseResult measureCase(const std::string& name, Ours& ours, const Workload& work
         peer->run(0);
     std::vector<double> ms;
     for (std::size_t i = 0; i < frames; ++i) {
+        progress.show(i, frames, frameOf(i, frames));
         ms.push_back(ours.run(i));
         addTiles(result, ours.stats());
         for (const auto& peer : peers)
@@ -192,12 +195,12 @@ CaseResult measureCase(const std::string& name, Ours& ours, const Workload& work
 }
 
 void measureAgainstPeers(const std::string& name, Ours& ours, const Workload& work,
-                         BenchResult& out) {
+                         BenchResult& out, const ProgressPart& progress) {
     const Size output = ours.pipeline().outputSize();
     Peers peers;
     peers.push_back(std::make_unique<Peer>("paper", eval::DisPreset::Medium, work, output));
     peers.push_back(std::make_unique<Peer>("paper-fast", eval::DisPreset::Fast, work, output));
-    out.cases.push_back(measureCase(name, ours, work, peers, out.peers));
+    out.cases.push_back(measureCase(name, ours, work, peers, out.peers, progress));
 }
 
 }  // namespace
@@ -221,7 +224,8 @@ std::shared_ptr<const FilterBank> learnedFrom(const Workload& work) {
 }
 
 BenchResult runBench(const Workload& moving, const Workload& posed, SuperResMode mode,
-                     EngineKind engine, const std::string& renderer) {
+                     EngineKind engine, const std::string& renderer, const ProgressPart& progress) {
+    constexpr std::size_t kParts = 7;
     const Workload blind = withoutPoses(moving);
     Ours ours(blind, mode, engine);
     BenchResult out;
@@ -237,19 +241,23 @@ BenchResult runBench(const Workload& moving, const Workload& posed, SuperResMode
         ms = ours.setStill(0);
     out.setStill = summarise(std::move(setStill));
 
-    measureAgainstPeers("moving", ours, blind, out);
+    measureAgainstPeers("moving", ours, blind, out, progress.part(0, kParts, "moving"));
     if (!posed.frames.empty()) {
         Ours handheld(posed, mode, engine);
-        measureAgainstPeers("handheld", handheld, posed, out);
+        measureAgainstPeers("handheld", handheld, posed, out, progress.part(1, kParts, "handheld"));
     }
     for (const double noise : {0.0, kRestNoise}) {
         const Workload rest = atRest(blind, noise);
         Ours resting(rest, mode, engine);
-        out.cases.push_back(
-            measureCase(noise > 0 ? "rest-noise" : "rest", resting, rest, {}, out.peers));
+        const char* name = noise > 0 ? "rest-noise" : "rest";
+        out.cases.push_back(measureCase(name, resting, rest, {}, out.peers,
+                                        progress.part(noise > 0 ? 3 : 2, kParts, name)));
     }
+    progress.show(4, kParts, "depth");
     out.depth = measureDepth(posed);
+    progress.show(5, kParts, "warp");
     out.warp = measureWarp(out.video, static_cast<int>(moving.frames.size()), engine);
+    progress.show(6, kParts, "triangulation");
     out.triangulation = measureTriangulation(out.video);
     return out;
 }
@@ -270,7 +278,8 @@ Summary framesOf(const Workload& work, SuperResMode mode, EngineKind engine, int
 }  // namespace
 
 std::vector<ScalingResult> runScaling(const Workload& moving, const Workload& posed,
-                                      SuperResMode mode, EngineKind engine) {
+                                      SuperResMode mode, EngineKind engine,
+                                      const ProgressPart& progress) {
     const Workload blind = withoutPoses(moving);
     const Size full = Pipeline::fullSize(moving.rig);
     std::vector<ScalingResult> out;
@@ -278,6 +287,8 @@ std::vector<ScalingResult> runScaling(const Workload& moving, const Workload& po
         for (const double share : {5.0 / 9, 5.0 / 6, 1.0}) {
             const Size output{static_cast<int>(std::lround(full.width * share)),
                               static_cast<int>(std::lround(full.height * share))};
+            progress.show(out.size(), 6,
+                          fmt::format("{} threads, {}x{}", threads, output.width, output.height));
             out.push_back({threads, output, framesOf(blind, mode, engine, threads, output),
                            framesOf(posed, mode, engine, threads, output)});
         }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/progress.h"
 #include "pipeline/pipeline.h"
 #include "tests/measure/bench/depth_bench.h"
 #include "tests/measure/bench/render_bench.h"
@@ -67,9 +68,11 @@ struct BenchResult {
 /// `moving`: its poses are not used. `posed`: its poses are used; it is skipped if it has no
 /// frames.
 [[nodiscard]] BenchResult runBench(const Workload& moving, const Workload& posed, SuperResMode mode,
-                                   EngineKind engine, const std::string& renderer);
+                                   EngineKind engine, const std::string& renderer,
+                                   const ProgressPart& progress = {});
 /// Measures with one and with two threads, at three output sizes.
 [[nodiscard]] std::vector<ScalingResult> runScaling(const Workload& moving, const Workload& posed,
-                                                    SuperResMode mode, EngineKind engine);
+                                                    SuperResMode mode, EngineKind engine,
+                                                    const ProgressPart& progress = {});
 
 }  // namespace mfar::bench

@@ -12,5 +12,7 @@ namespace mfar::bench {
 [[nodiscard]] nlohmann::json toJson(const BenchResult& result);
 /// Human-readable: one line per case, stage and peer.
 [[nodiscard]] std::string toTable(const BenchResult& result);
+/// Draws the times of whole frames, stages and peers as bars.
+[[nodiscard]] std::string benchSvg(const BenchResult& result);
 
 }  // namespace mfar::bench

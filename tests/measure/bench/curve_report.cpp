@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-
 namespace mfar::bench {
 namespace {
 
@@ -13,12 +11,6 @@ namespace fs = std::filesystem;
 
 std::string measured(const CurvePoint& p) {
     return fmt::format("{:.3f},{:.4f},{:.6f}\n", p.ms, p.epe, p.bad1);
-}
-
-void write(const fs::path& file, const std::string& text) {
-    std::ofstream out(file);
-    out << text;
-    if (!out.flush()) throw eval::EvalError(fmt::format("{}: cannot be written", file.string()));
 }
 
 }  // namespace
@@ -38,8 +30,8 @@ std::string curvesCsv(const Curves& curves) {
 void writeCurves(const Curves& curves, const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error);  // an error shows when a file is opened
-    write(folder / "curves.csv", curvesCsv(curves));
-    write(folder / "curves.svg", curvesSvg(curves));
+    eval::writeText(folder / "curves.csv", curvesCsv(curves));
+    eval::writeText(folder / "curves.svg", curvesSvg(curves));
 }
 
 }  // namespace mfar::bench

@@ -104,14 +104,16 @@ Curve measure(const Knob& knob, const std::vector<CurveSample>& samples,
 
 }  // namespace
 
-Curves measureCurves(const std::vector<CurveSample>& samples) {
+Curves measureCurves(const std::vector<CurveSample>& samples, const ProgressPart& progress) {
     if (samples.empty()) throw std::invalid_argument("there is no sample to measure the curves on");
     Curves out;
     for (const CurveSample& sample : samples)
         out.samples.push_back(sample.name);
     const bool anyPoses = std::ranges::any_of(samples, &CurveSample::hasPoses);
     const CurvePoint defaults[] = {mean(samples, {}, false), mean(samples, {}, true)};
+    std::size_t done = 0;
     for (const Knob& knob : flowKnobs()) {
+        progress.show(done++, flowKnobs().size(), fmt::format("{} {}", knob.method, knob.name));
         const bool alongLines = knob.method == "epipolar";
         if (!alongLines || anyPoses)
             out.curves.push_back(measure(knob, samples, defaults[alongLines ? 1 : 0], alongLines));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/progress.h"
 #include "tests/measure/bench/curve_samples.h"
 
 #include <string>
@@ -39,6 +40,7 @@ struct Curves {
 /// if poses are known. As in the product, flow2d computes both directions, but it starts without
 /// the field of the last frame. Work per still is not timed. Needs a current GL context. Throws
 /// std::invalid_argument if there are no samples.
-[[nodiscard]] Curves measureCurves(const std::vector<CurveSample>& samples);
+[[nodiscard]] Curves measureCurves(const std::vector<CurveSample>& samples,
+                                   const ProgressPart& progress = {});
 
 }  // namespace mfar::bench

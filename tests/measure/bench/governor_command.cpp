@@ -2,6 +2,7 @@
 
 #include "daemon/governor_config.h"
 #include "hal/gl_context.h"
+#include "tests/measure/eval/report.h"
 
 #include <fmt/format.h>
 
@@ -22,6 +23,7 @@ GovernorCommand::GovernorCommand(CLI::App& app)
     command_->add_option("--frames", request_.frames, "number of frames of each scene")
         ->check(CLI::Range(2, 100000))
         ->capture_default_str();
+    command_->add_option("--svg", svg_, "file to write a plot of the times of all frames into");
     command_->add_option("--table", table_,
                          "file with the levels, as mfar-bench pareto --table FILE writes it");
     const std::map<std::string, Clock> clocks{{"wall", Clock::Wall},
@@ -33,14 +35,17 @@ GovernorCommand::GovernorCommand(CLI::App& app)
         ->transform(CLI::CheckedTransformer(clocks));
 }
 
-void GovernorCommand::run() const {
+void GovernorCommand::run(Progress& progress) {
+    request_.progress = ProgressPart(progress);
     GovernorConfig config;
     config.deadlineMs = request_.deadlinesMs.front();
     config.table = table_;
     const std::vector<QualityLevel> levels = governedLevels(config);
     const auto context = createGlContext();
     const auto runs = measureGovernor(request_, levels);
+    progress.clear();
     fmt::print("{}\n\n{}", context->description(), governorTable(runs));
+    if (!svg_.empty()) eval::writeText(svg_, governorSvg(runs));
 }
 
 }  // namespace mfar::bench

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/progress.h"
 #include "tests/measure/bench/governor_run.h"
 
 #include <CLI/CLI.hpp>
@@ -15,10 +16,11 @@ public:
 
     [[nodiscard]] bool asked() const { return command_->parsed(); }
     /// Throws ConfigError for a faulty table, Failure for an unreadable one.
-    void run() const;
+    void run(Progress& progress);
 
 private:
     CLI::App* command_;
+    std::filesystem::path svg_;
     GovernorRequest request_;
     std::filesystem::path table_;
 };

@@ -105,10 +105,14 @@ std::vector<GovernedRun> measureGovernor(const GovernorRequest& request,
     scenes.push_back(shotsOf(Scene::Moving, Path::Handheld, "moving", distinct, rig));
     std::vector<GovernedRun> out;
     for (const double deadline : request.deadlinesMs) {
+        const ProgressPart progress = request.progress.part(
+            out.size(), request.deadlinesMs.size(), fmt::format("deadline {:g} ms", deadline));
         GovernedRun& run = out.emplace_back(GovernedRun{deadline, {}});
         Governed governed(rig, levels, deadline, request.clock);
-        for (const Shots& shots : scenes)
+        for (const Shots& shots : scenes) {
+            progress.show(run.scenes.size(), scenes.size(), shots.name);
             run.scenes.push_back(governed.show(shots, request.frames));
+        }
     }
     return out;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/progress.h"
 #include "daemon/quality_table.h"
 #include "tests/measure/bench/clock.h"
 
@@ -26,6 +27,7 @@ struct GovernorRequest {
     std::vector<double> deadlinesMs{33, 66, 133};
     int frames = 120;  ///< frames per scene
     Clock clock = Clock::Wall;
+    ProgressPart progress{};  ///< shows the progress while the command runs
 };
 
 /// Runs the frames at one deadline after the other. Each deadline has its own governor, which
@@ -42,5 +44,7 @@ struct GovernorRequest {
 
 /// A text for people: one line for each scene at each deadline.
 [[nodiscard]] std::string governorTable(std::span<const GovernedRun> runs);
+/// Draws the time of each frame as lines, in a chart for each deadline.
+[[nodiscard]] std::string governorSvg(std::span<const GovernedRun> runs);
 
 }  // namespace mfar::bench

@@ -17,7 +17,6 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 namespace {
@@ -40,7 +39,7 @@ struct Options {
     std::string recording, json, mode = "detail", engine = "auto";
     int frames = 0;
     bool quick = false, scaling = false, shipped = false;
-    std::filesystem::path curves;
+    std::filesystem::path curves, svg;
     std::vector<std::filesystem::path> data;
 };
 
@@ -77,18 +76,13 @@ std::vector<CurveSample> curveSamplesFor(const Options& o) {
     return curveSamplesOf(folders, o.frames > 0 ? static_cast<std::size_t>(o.frames) : 2);
 }
 
-void drawCurves(const Options& o) {
+void drawCurves(const Options& o, Progress& progress) {
     const std::vector<CurveSample> samples = curveSamplesFor(o);
     const auto context = createGlContext();
-    const Curves curves = measureCurves(samples);
+    const Curves curves = measureCurves(samples, ProgressPart(progress));
+    progress.clear();
     writeCurves(curves, o.curves);
     fmt::print("{}\n{}", context->description(), curvesCsv(curves));
-}
-
-void writeJson(const std::string& file, const nlohmann::json& value) {
-    std::ofstream out(file);
-    out << value.dump(2) << '\n';
-    if (!out.flush()) throw eval::EvalError(fmt::format("{}: cannot be written", file));
 }
 
 void addOptions(CLI::App& app, Options& o) {
@@ -107,6 +101,7 @@ void addOptions(CLI::App& app, Options& o) {
                  "use the shipped filters, as mfar does before the first still");
     app.add_flag("--scaling", o.scaling, "also compare one thread with two at three output sizes");
     app.add_option("--json", o.json, "file to write all results into");
+    app.add_option("--svg", o.svg, "file to write a plot of the times into");
     app.add_flag("--quick", o.quick,
                  "measure few small frames, only to check that the program runs");
     app.add_option("--curves", o.curves,
@@ -131,10 +126,13 @@ int run(int argc, char** argv) {
     } catch (const CLI::ParseError& e) {
         return app.exit(e) == 0 ? 0 : eval::kWrongInput;
     }
-    if (pareto.asked()) return pareto.run(), 0;
-    if (skip.asked()) return skip.run(), 0;
-    if (governor.asked()) return governor.run(), 0;
-    if (!o.curves.empty()) return drawCurves(o), 0;
+    Progress progress;
+    const ProgressPart all(progress);
+    if (pareto.asked()) return pareto.run(progress), 0;
+    if (skip.asked()) return skip.run(progress), 0;
+    if (governor.asked()) return governor.run(progress), 0;
+    if (!o.curves.empty()) return drawCurves(o, progress), 0;
+    all.show(0, 1, "making the frames");
     auto [moving, posed] = workloadsFor(o);
     const auto context = createGlContext();
     if (!o.shipped)
@@ -146,11 +144,16 @@ int run(int argc, char** argv) {
                                   : EngineKind::Gles;
     BenchResult result =
         runBench(moving, posed, mode, engine,
-                 fmt::format("engine {}; {}", nameOf(engine), context->description()));
-    if (o.scaling) result.scaling = runScaling(moving, posed, mode, engine);
+                 fmt::format("engine {}; {}", nameOf(engine), context->description()),
+                 all.part(0, o.scaling ? 2 : 1, ""));
+    if (o.scaling)
+        result.scaling = runScaling(moving, posed, mode, engine, all.part(1, 2, "scaling"));
+    all.part(9, 10, "").show(0, 1, "path tracer");
     result.render = measureRender(o.quick);
+    progress.clear();
     fmt::print("{}", toTable(result));
-    if (!o.json.empty()) writeJson(o.json, toJson(result));
+    if (!o.json.empty()) eval::writeText(o.json, toJson(result).dump(2) + "\n");
+    if (!o.svg.empty()) eval::writeText(o.svg, benchSvg(result));
     return 0;
 }
 

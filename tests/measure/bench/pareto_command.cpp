@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <utility>
 
@@ -17,13 +16,6 @@ namespace mfar::bench {
 namespace {
 
 namespace fs = std::filesystem;
-
-void writeText(const fs::path& file, const std::string& text) {
-    if (file.empty()) return;
-    std::ofstream out(file);
-    out << text;
-    if (!out.flush()) throw eval::EvalError(fmt::format("{}: cannot be written", file.string()));
-}
 
 // A level replaces the level before it, which is less accurate, unless it is slower by this factor.
 // Otherwise the governor could hardly gain time by choosing the less accurate one.
@@ -98,48 +90,56 @@ std::vector<fs::path> ParetoCommand::folders() const {
     return out;
 }
 
-std::vector<ParetoStage> ParetoCommand::measure() const {
+std::vector<ParetoStage> ParetoCommand::measure(const ProgressPart& progress) {
+    std::size_t begun = 0;
+    const auto isNext = [&](const char* stage) {
+        if (!wants(stage)) return false;
+        run_.progress = progress.part(begun++, stages_.size(), stage);
+        run_.progress.show(0, 1, "");
+        return true;
+    };
     const Size video = quick_ ? Size{160, 120} : Size{640, 480};
     const Size still = quick_ ? Size{576, 432} : Size{2304, 1728};
     const auto given = folders();
     const std::size_t scenes = quick_ ? 1 : 2;
     const auto samples = static_cast<std::size_t>(frames_ > 0 ? frames_ : 2);
     std::vector<ParetoStage> out;
-    if (wants("flow")) {
+    if (isNext("flow")) {
         auto shots =
             given.empty() ? syntheticCurveSamples(video, scenes) : curveSamplesOf(given, samples);
         if (quick_) shots.resize(1);
-        out.push_back(flowStage(shots, true, run_));
-        out.push_back(flowStage(shots, false, run_));
+        out.push_back(flowStage(shots, true, run_.part(0, 2, "with poses")));
+        out.push_back(flowStage(shots, false, run_.part(1, 2, "without poses")));
     }
-    if (wants("superres")) {
+    if (isNext("superres")) {
         const int frames = frames_ > 0 ? frames_ : (quick_ ? 3 : 12);
         out.push_back(superResStage(syntheticSequences(video, still, frames, scenes), run_));
     }
-    if (wants("depth")) {
+    if (isNext("depth")) {
         auto shots =
             given.empty() ? syntheticDepthSamples(video, scenes) : depthSamplesOf(given, samples);
         if (quick_) shots.resize(1);
         out.push_back(depthStage(shots, run_));
     }
-    if (wants("slicing")) out.push_back(slicingStage(quick_));
-    if (wants("warp")) out.push_back(warpStage(quick_));
+    if (isNext("slicing")) out.push_back(slicingStage(quick_));
+    if (isNext("warp")) out.push_back(warpStage(quick_));
     std::erase_if(out, [](const ParetoStage& stage) { return stage.points.empty(); });
     return out;
 }
 
-void ParetoCommand::run() const {
+void ParetoCommand::run(Progress& progress) {
     if (!table_.empty() && !wants("superres"))
         throw eval::EvalError("--table needs the stage superres in --stages");
     const auto context = createGlContext();
-    const std::vector<ParetoStage> stages = measure();
+    const std::vector<ParetoStage> stages = measure(ProgressPart(progress));
+    progress.clear();
     fmt::print("{}\n\n{}", context->description(), paretoSummary(stages));
-    writeText(csv_, paretoCsv(stages));
-    writeText(svg_, paretoSvg(stages));
+    if (!csv_.empty()) eval::writeText(csv_, paretoCsv(stages));
+    if (!svg_.empty()) eval::writeText(svg_, paretoSvg(stages));
     for (const ParetoStage& stage : stages)
-        if (stage.name == "super-resolution")
-            writeText(table_, "# Measured by mfar-bench pareto: " + context->description() +
-                                  "\n\n" + toToml(levelsOf(stage)));
+        if (!table_.empty() && stage.name == "super-resolution")
+            eval::writeText(table_, "# Measured by mfar-bench pareto: " + context->description() +
+                                        "\n\n" + toToml(levelsOf(stage)));
 }
 
 }  // namespace mfar::bench

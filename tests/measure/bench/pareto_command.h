@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/progress.h"
 #include "tests/measure/bench/pareto_stages.h"
 
 #include <CLI/CLI.hpp>
@@ -16,11 +17,11 @@ public:
 
     [[nodiscard]] bool asked() const { return command_->parsed(); }
     /// Throws EvalError, RecordingError and ImageFileError.
-    void run() const;
+    void run(Progress& progress);
 
 private:
     [[nodiscard]] bool wants(const char* stage) const;
-    [[nodiscard]] std::vector<ParetoStage> measure() const;
+    [[nodiscard]] std::vector<ParetoStage> measure(const ProgressPart& progress);
     [[nodiscard]] std::vector<std::filesystem::path> folders() const;
 
     CLI::App* command_;

@@ -110,6 +110,7 @@ void measureSample(const DepthSample& sample, const std::vector<DepthSetting>& s
     for (const DepthSetting& setting : settings)
         ways.push_back(std::make_unique<DepthWay>(sample, setting));
     for (int round = 0; round <= run.rounds; ++round) {
+        run.showRound(round);
         for (std::size_t i = 0; i < ways.size(); ++i)
             ways[i]->measure(run, round == 0, times[i]);
         for (std::size_t i = 0; i < peers.size(); ++i)
@@ -169,8 +170,9 @@ ParetoStage depthStage(const std::vector<DepthSample>& samples, const ParetoRun&
     std::vector<WayTimes> times(settings.size() + std::size(kDepthPeers));
     std::vector<std::string> names;
     for (const DepthSample& sample : samples) {
+        const ParetoRun one = run.part(names.size(), samples.size(), sample.shots.name);
         names.push_back(sample.shots.name);
-        measureSample(sample, settings, run, times);
+        measureSample(sample, settings, one, times);
     }
     if (names.empty()) return {"depth", "bad-1 [%]", "", {}};
     std::vector<std::string> ours;

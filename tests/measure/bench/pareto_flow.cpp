@@ -115,13 +115,14 @@ public:
         times_.resize(settings_.size() + peers_.size());
     }
 
-    void measure(const CurveSample& sample) {
+    void measure(const CurveSample& sample, const ParetoRun& run) {
         FlowSampleRun one(sample, withPoses_, run_);
         eval::FlowFactory factory;
         std::vector<std::unique_ptr<eval::FlowMethod>> peers;
         for (const std::string& name : peers_)
             peers.push_back(factory.create(name, sample.rig));
-        for (int round = 0; round <= run_.rounds; ++round) {
+        for (int round = 0; round <= run.rounds; ++round) {
+            run.showRound(round);
             for (std::size_t i = 0; i < settings_.size(); ++i)
                 one.ours(settings_[i].options, round == 0, times_[i]);
             for (std::size_t i = 0; i < peers.size(); ++i)
@@ -154,7 +155,7 @@ ParetoStage flowStage(const std::vector<CurveSample>& samples, bool withPoses,
     std::vector<std::string> names;
     for (const CurveSample& sample : samples) {
         if (withPoses && !sample.hasPoses()) continue;
-        all.measure(sample);
+        all.measure(sample, run.part(names.size(), samples.size(), sample.name));
         names.push_back(sample.name);
     }
     ParetoStage out{withPoses ? "flow with poses" : "flow without poses",

@@ -1,6 +1,6 @@
+#include "base/svg.h"
 #include "tests/measure/bench/pareto.h"
 #include "tests/measure/eval/log_axis.h"
-#include "tests/measure/eval/svg.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 namespace mfar::bench {
 namespace {
 
-namespace draw = eval::svg;
+namespace draw = svg;
 
 constexpr double kWide = 520, kHigh = 400, kMarginLeft = 80, kMarginTop = 60, kBetween = 90,
                  kMarginBelow = 60;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/progress.h"
 #include "pipeline/quality.h"
 #include "tests/measure/bench/clock.h"
 #include "tests/measure/bench/curve_samples.h"
@@ -10,6 +11,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace mfar::bench {
@@ -19,6 +21,16 @@ namespace mfar::bench {
 struct ParetoRun {
     Clock clock = Clock::Wall;
     int rounds = 3;
+    ProgressPart progress{};  ///< shows the progress while the command runs
+
+    /// Returns this run with the progress of one of several samples.
+    [[nodiscard]] ParetoRun part(std::size_t index, std::size_t count,
+                                 std::string_view name) const {
+        return {clock, rounds, progress.part(index, count, name)};
+    }
+    void showRound(int round) const {
+        progress.show(static_cast<std::size_t>(round), static_cast<std::size_t>(rounds) + 1, "");
+    }
 };
 
 /// Run time and bad-1 of the flow of single frames after a new still. Methods: every setting of

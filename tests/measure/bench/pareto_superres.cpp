@@ -120,9 +120,11 @@ void measureSequence(const SequenceSample& sample, const std::vector<QualitySett
     ways.push_back(bicubicWay(sample.work, ours.output()));
     ways.push_back(paperWay(sample.work, ours.output(), eval::DisPreset::Medium));
     ways.push_back(paperWay(sample.work, ours.output(), eval::DisPreset::Fast));
-    for (int round = 0; round <= run.rounds; ++round)
+    for (int round = 0; round <= run.rounds; ++round) {
+        run.showRound(round);
         for (std::size_t i = 0; i < ways.size(); ++i)
             measureWay(sample, ways[i], run, round == 0, times[i]);
+    }
     for (WayTimes& way : times)
         way.endSample();
 }
@@ -153,8 +155,9 @@ ParetoStage superResStage(const std::vector<SequenceSample>& samples, const Pare
     std::vector<WayTimes> times(settings.size() + std::size(kPictures));
     std::vector<std::string> names;
     for (const SequenceSample& sample : samples) {
+        const ParetoRun one = run.part(names.size(), samples.size(), sample.work.name);
         names.push_back(sample.work.name);
-        measureSequence(sample, settings, run, times);
+        measureSequence(sample, settings, one, times);
     }
     if (samples.empty()) return {"super-resolution", "RMS error [grey levels]", "", {}};
     std::vector<std::string> ours;

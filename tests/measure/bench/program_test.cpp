@@ -19,10 +19,11 @@ namespace {
 
 TEST(MfarBench, QuickRunWritesEveryPartOfItsJson) {
     const mfar::test::TempFolder folder;
-    const auto file = folder / "bench.json";
-    const std::string command =
-        fmt::format("{} --quick --json '{}' >/dev/null", MFAR_BENCH, file.string());
+    const auto file = folder / "bench.json", svg = folder / "bench.svg";
+    const std::string command = fmt::format("{} --quick --json '{}' --svg '{}' >/dev/null",
+                                            MFAR_BENCH, file.string(), svg.string());
     ASSERT_EQ(std::system(command.c_str()), 0);
+    EXPECT_TRUE(test::isWellFormed(mfar::test::readFile(svg)));
     const auto result = nlohmann::json::parse(mfar::test::readFile(file));
     for (const char* key : {"workload", "renderer", "opencv", "opencv_threads", "set_still"})
         EXPECT_TRUE(result.contains(key)) << key;
@@ -162,12 +163,13 @@ TEST(MfarBench, ParetoHasOursAndPeersAndATableThatTheDaemonReads) {
 
 TEST(MfarBench, SkipMeasuresTheRequestedCasesAndSkips) {
     const mfar::test::TempFolder folder;
-    const auto csv = folder / "skip.csv";
+    const auto csv = folder / "skip.csv", svg = folder / "skip.svg";
     const std::string command =
         fmt::format("{} skip --cases still --skips unchanged-tiles --frames 2 --csv '{}' "
-                    ">/dev/null",
-                    MFAR_BENCH, csv.string());
+                    "--svg '{}' >/dev/null",
+                    MFAR_BENCH, csv.string(), svg.string());
     ASSERT_EQ(std::system(command.c_str()), 0);
+    EXPECT_TRUE(test::isWellFormed(mfar::test::readFile(svg)));
     std::istringstream lines(mfar::test::readFile(csv));
     std::string line;
     std::getline(lines, line);
@@ -182,10 +184,12 @@ TEST(MfarBench, SkipMeasuresTheRequestedCasesAndSkips) {
 
 TEST(MfarBench, GovernorIsMeasuredAtTheRequestedDeadline) {
     const mfar::test::TempFolder folder;
-    const auto out = folder / "governor.txt";
+    const auto out = folder / "governor.txt", svg = folder / "governor.svg";
     const std::string command =
-        fmt::format("{} governor --deadlines 5000 --frames 2 >'{}'", MFAR_BENCH, out.string());
+        fmt::format("{} governor --deadlines 5000 --frames 2 --svg '{}' >'{}'", MFAR_BENCH,
+                    svg.string(), out.string());
     ASSERT_EQ(std::system(command.c_str()), 0);
+    EXPECT_TRUE(test::isWellFormed(mfar::test::readFile(svg)));
     const std::string said = mfar::test::readFile(out);
     EXPECT_NE(said.find("deadline 5000 ms: p95"), std::string::npos) << said;
     for (const char* scene : {"office", "still", "flat", "moving"})

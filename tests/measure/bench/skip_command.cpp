@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <map>
 
 namespace mfar::bench {
@@ -31,16 +30,17 @@ SkipCommand::SkipCommand(CLI::App& app)
                      "number of cores), for a machine that other programs use as well")
         ->transform(CLI::CheckedTransformer(clocks));
     command_->add_option("--csv", csv_, "file to write all results into");
+    command_->add_option("--svg", svg_, "file to write a plot into");
 }
 
-void SkipCommand::run() const {
+void SkipCommand::run(Progress& progress) {
+    request_.progress = ProgressPart(progress);
     const auto context = createGlContext();
     const SkipReport report = measureSkips(request_);
+    progress.clear();
     fmt::print("{}\n\n{}", context->description(), skipTable(report));
-    if (csv_.empty()) return;
-    std::ofstream out(csv_);
-    out << skipCsv(report);
-    if (!out.flush()) throw eval::EvalError(fmt::format("{}: cannot be written", csv_.string()));
+    if (!csv_.empty()) eval::writeText(csv_, skipCsv(report));
+    if (!svg_.empty()) eval::writeText(svg_, skipSvg(report));
 }
 
 }  // namespace mfar::bench

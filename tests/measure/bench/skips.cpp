@@ -257,7 +257,8 @@ SkipResult resultOf(const SkipWay& usual, const SkipWay& without, const Skip& sk
     return out;
 }
 
-void measureCase(const Case& one, const SkipRequest& request, SkipReport& report) {
+void measureCase(const Case& one, const SkipRequest& request, SkipReport& report,
+                 const ProgressPart& progress) {
     SyntheticOptions options;
     options.scene = one.scene;
     options.path = one.path;
@@ -271,6 +272,7 @@ void measureCase(const Case& one, const SkipRequest& request, SkipReport& report
     for (const Skip& skip : skips)
         ways.push_back(std::make_unique<SkipWay>(one, rig, &skip, request.clock));
     for (std::size_t i = 0; i < frames.size(); ++i) {
+        progress.show(i, frames.size(), frameOf(i, frames.size()));
         for (const auto& way : ways) {
             way->run(frames[i].shots, i >= kSettled);
             if (frames[i].truth) way->score(*frames[i].truth);
@@ -299,8 +301,12 @@ std::vector<std::string> skipCaseNames() {
 
 SkipReport measureSkips(const SkipRequest& request) {
     SkipReport out;
-    for (const Case& one : chosen(allCases(), request.cases))
-        measureCase(one, request, out);
+    const auto cases = chosen(allCases(), request.cases);
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        const ProgressPart progress = request.progress.part(i, cases.size(), cases[i].name);
+        progress.show(0, 1, "");
+        measureCase(cases[i], request, out, progress);
+    }
     return out;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/progress.h"
 #include "tests/measure/bench/clock.h"
 
 #include <optional>
@@ -40,6 +41,7 @@ struct SkipRequest {
     std::vector<std::string> cases, skips;  ///< names to measure; empty: all
     int frames = 20;                        ///< number of frames that are measured
     Clock clock = Clock::Wall;
+    ProgressPart progress{};  ///< shows the progress while the command runs
 };
 
 [[nodiscard]] std::vector<std::string> skipNames();
@@ -54,5 +56,7 @@ struct SkipRequest {
 [[nodiscard]] std::string skipTable(const SkipReport& report);
 /// Columns: case,skip,ms,ms_without,saved_ms,psnr_lost_db,bad1_added,overlap_lost.
 [[nodiscard]] std::string skipCsv(const SkipReport& report);
+/// Draws the time saved and the PSNR lost as bars, in two panels for each case.
+[[nodiscard]] std::string skipSvg(const SkipReport& report);
 
 }  // namespace mfar::bench

@@ -26,8 +26,8 @@ constexpr int kScoredFrame = 5;  // number of frames from the request for a stil
 class Figure7Run {
 public:
     Figure7Run(const Figure7Request& request, std::string name, const StereoRig& rig,
-               SuperResFactory& factory)
-        : request_(request) {
+               SuperResFactory& factory, const ProgressPart& progress)
+        : request_(request), progress_(progress) {
         scene_.name = std::move(name);
         for (const Figure7Method& method : figure7Methods())
             if (method.name != std::string("truth"))
@@ -44,7 +44,8 @@ public:
 
     void measure(const Shot& frame, const cv::Mat& truth) {
         const std::string name = std::to_string(frame.time.ns);
-        fmt::print(stderr, "mfar-eval: {}, frame {}\n", scene_.name, name);
+        const auto done = scene_.frames.size(), all = static_cast<std::size_t>(request_.frames);
+        progress_.show(done, all, frameOf(done, all));
         scene_.frames.push_back(name);
         const cv::Mat wanted = luma(withoutBorder(truth));
         for (std::size_t i = 0; i < scene_.scores.size(); ++i) {
@@ -67,6 +68,7 @@ private:
     }
 
     const Figure7Request& request_;
+    ProgressPart progress_;
     Figure7Scene scene_;
     std::vector<std::unique_ptr<SuperResMethod>> methods_;
     std::optional<Timestamp> stillTime_;
@@ -89,12 +91,12 @@ std::shared_ptr<const FilterBank> learnedFrom(SceneRun& board, int stills) {
 }
 
 Figure7Scene ofScene(const Figure7Request& request, synthetic::Scene scene,
-                     SuperResFactory& factory) {
+                     SuperResFactory& factory, const ProgressPart& progress) {
     SyntheticOptions options;
     options.scene = scene;
     SceneRun board(options, PoseSource::Recorded);
     if (request.learn > 0) factory.setFilters(learnedFrom(board, request.learn));
-    Figure7Run run(request, std::string(synthetic::name(scene)), board.rig(), factory);
+    Figure7Run run(request, std::string(synthetic::name(scene)), board.rig(), factory, progress);
     for (int i = 0; i < kStillEvery * (request.frames - 1) + kScoredFrame + 1; ++i) {
         const SceneRun::Shots shots = board.next();
         if (i % kStillEvery == 0) board.fire();
@@ -109,14 +111,15 @@ Figure7Scene ofScene(const Figure7Request& request, synthetic::Scene scene,
 }
 
 Figure7Scene ofRecording(const Figure7Request& request, const std::filesystem::path& folder,
-                         const std::string& name, SuperResFactory& factory) {
+                         const std::string& name, SuperResFactory& factory,
+                         const ProgressPart& progress) {
     const Recording recording = loadRecording(folder);
     if (request.learn > 0) {
         SuperResRequest asFor;
         asFor.learn = request.learn;
         factory.setFilters(learnedFilters(asFor, {folder}));
     }
-    Figure7Run run(request, name, recording.rig, factory);
+    Figure7Run run(request, name, recording.rig, factory, progress);
     for (const SuperResSample& sample : superResSamplesOf(recording, request.frames)) {
         const PosePair poses = posesOf(recording, sample.video.time, sample.still.time);
         run.setStill({loadPicture(sample.still.file), sample.still.time, poses.still});
@@ -132,11 +135,18 @@ std::vector<Figure7Scene> evaluateFigure7(const Figure7Request& request) {
     SuperResFactory factory(2);  // the paper's alpha, as in its experiments [video px]
     if (request.learn > 0) factory.requireContext();
     std::vector<Figure7Scene> out;
-    for (const synthetic::Scene scene : request.scenes)
-        out.push_back(ofScene(request, scene, factory));
     const auto labels = labelsOf(request.recordings);
+    const std::size_t all = request.scenes.size() + labels.size();
+    const auto next = [&](std::string_view what) {
+        const ProgressPart part = request.progress.part(out.size(), all, what);
+        part.show(0, 1, "");
+        return part;
+    };
+    for (const synthetic::Scene scene : request.scenes)
+        out.push_back(ofScene(request, scene, factory, next(synthetic::name(scene))));
     for (std::size_t i = 0; i < labels.size(); ++i)
-        out.push_back(ofRecording(request, request.recordings[i], labels[i], factory));
+        out.push_back(
+            ofRecording(request, request.recordings[i], labels[i], factory, next(labels[i])));
     return out;
 }
 

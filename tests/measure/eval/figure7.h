@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/progress.h"
 #include "hal/virtual/synthetic_scene.h"
 #include "tests/measure/eval/figure7_report.h"
 
@@ -16,6 +17,7 @@ struct Figure7Request {
     int learn = 0;  ///< stills per scene to learn from first; 0: default filters
     PictureMetrics metrics{{"psnr", "lpc_si", "lpc_si_tiles", "hdrvdp"}, {}};
     std::filesystem::path svg, save;  ///< files for figure and pictures; empty: not written
+    ProgressPart progress{};          ///< shows the progress while the command runs
 };
 
 /// Repeats Figure 7 of the paper: accuracy and sharpness of super-resolved frames, in synthetic

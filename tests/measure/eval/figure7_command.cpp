@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-
 namespace mfar::eval {
 namespace {
 
@@ -46,12 +44,7 @@ CLI::App* addFigure7Command(CLI::App& app, Figure7Request& request, std::string&
 Report runFigure7(const Figure7Request& request) {
     const auto scenes = evaluateFigure7(request);
     if (scenes.empty()) throw EvalError("figure7 needs a scene or a recording; both are missing");
-    if (!request.svg.empty()) {
-        std::ofstream out(request.svg);
-        out << figure7Svg(scenes, request.metrics);
-        if (!out.flush())
-            throw EvalError(fmt::format("{}: cannot be written", request.svg.string()));
-    }
+    if (!request.svg.empty()) writeText(request.svg, figure7Svg(scenes, request.metrics));
     fmt::print("{}", figure7Summary(scenes));
     return figure7Report(scenes, request.metrics);
 }

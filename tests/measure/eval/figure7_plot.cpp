@@ -1,5 +1,5 @@
+#include "base/svg.h"
 #include "tests/measure/eval/figure7_report.h"
-#include "tests/measure/eval/svg.h"
 
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+#include "tests/measure/eval/bars.h"
 #include "tests/measure/eval/depth.h"
 #include "tests/measure/eval/depth_methods.h"
 #include "tests/measure/eval/figure7_command.h"
@@ -20,6 +21,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 
 namespace {
 
@@ -99,6 +101,7 @@ struct Options {
     std::string degrade, degradeVideo;
     PoseNoise poseNoise;
     std::string csv;
+    std::filesystem::path svg;
 };
 
 /// Needed because CLI::Range accepts NaN.
@@ -211,21 +214,31 @@ Report runPose(const Options& o) {
 /// Adds all subcommands. They store their options in `o`.
 std::vector<EvalCommand> addCommands(CLI::App& app, Options& o) {
     std::vector<EvalCommand> out = addTracedCommands(app, o.csv);
-    const auto add = [&](CLI::App* command, std::function<Report()> evaluate) {
-        out.push_back({command, std::move(evaluate)});
+    // `evaluate` uses `request`, which gets the progress before.
+    const auto add = [&](CLI::App* command, auto& request, auto evaluate) {
+        out.push_back({command, [&request, evaluate](const ProgressPart& progress) {
+                           request.progress = progress;
+                           return evaluate();
+                       }});
     };
-    add(addSuperRes(app, o), [&o] { return runSuperRes(o); });
-    add(addPoseCommand(app, o.pose, o.csv), [&o] { return runPose(o); });
+    add(addSuperRes(app, o), o.superres, [&o] { return runSuperRes(o); });
+    add(addPoseCommand(app, o.pose, o.csv), o.pose, [&o] { return runPose(o); });
     add(addSamples(app, "depth", "compare depth with the ground truth", kDepthHelp,
                    depthMethodNames(), o.depth, o),
-        [&o] { return evaluateDepth(completed(o.depth, depthMethodNames(), o)); });
+        o.depth, [&o] { return evaluateDepth(completed(o.depth, depthMethodNames(), o)); });
     add(addSamples(app, "flow", "compare dense flow with the ground truth", kFlowHelp,
                    flowMethodNames(), o.flow, o),
-        [&o] { return evaluateFlow(completed(o.flow, flowMethodNames(), o)); });
-    add(addOcclusionCommand(app, o.occlusion, o.csv),
+        o.flow, [&o] { return evaluateFlow(completed(o.flow, flowMethodNames(), o)); });
+    add(addOcclusionCommand(app, o.occlusion, o.csv), o.occlusion,
         [&o] { return evaluateOcclusion(o.occlusion); });
-    add(addMetricCommand(app, o.metric, o.csv), [&o] { return evaluateMetric(o.metric); });
-    add(addFigure7Command(app, o.figure7, o.csv), [&o] { return runFigure7(o.figure7); });
+    add(addMetricCommand(app, o.metric, o.csv), o.metric,
+        [&o] { return evaluateMetric(o.metric); });
+    add(addFigure7Command(app, o.figure7, o.csv), o.figure7,
+        [&o] { return runFigure7(o.figure7); });
+    out.back().hasOwnPlot = true;
+    for (const EvalCommand& each : out)
+        if (!each.hasOwnPlot)
+            each.command->add_option("--svg", o.svg, "file to write a plot of the means into");
     return out;
 }
 
@@ -241,9 +254,15 @@ int run(int argc, char** argv) {
     }
     const auto used = std::ranges::find_if(
         commands, [](const EvalCommand& command) { return command.command->parsed(); });
-    const Report report = used->evaluate();
+    Progress progress;
+    const Report report = used->evaluate(ProgressPart(progress));
+    progress.clear();
     fmt::print("{}", report.table());
     if (!o.csv.empty()) report.writeCsv(o.csv);
+    if (!o.svg.empty())
+        writeText(o.svg, barsSvg("mfar-eval " + used->command->get_name(), barsOf(report),
+                                 "Bars and large points are means. Small circles are recordings, "
+                                 "or frames if there is only one recording."));
     return 0;
 }
 

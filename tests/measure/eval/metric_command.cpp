@@ -46,6 +46,7 @@ Report evaluateMetric(const MetricRequest& request) {
         throw EvalError(fmt::format("{} has {}x{} pixels, but {} has {}x{}", request.test.string(),
                                     test.cols, test.rows, request.reference.string(),
                                     reference.cols, reference.rows));
+    request.progress.show(0, 1, "metrics of " + request.test.filename().string());
     PictureMetrics metrics = request.metrics;
     const bool colours = request.colour && metrics.has("hdrvdp");
     if (colours) std::erase(metrics.names, "hdrvdp");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/progress.h"
 #include "tests/measure/eval/picture_metrics.h"
 #include "tests/measure/eval/report.h"
 
@@ -13,7 +14,8 @@ namespace mfar::eval {
 struct MetricRequest {
     std::filesystem::path test, reference;
     PictureMetrics metrics{pictureMetricNames(), {}};
-    bool colour = false;  ///< compute HDR-VDP-2 from colours instead of luma
+    bool colour = false;      ///< compute HDR-VDP-2 from colours instead of luma
+    ProgressPart progress{};  ///< shows the progress while the command runs
 };
 
 /// `mfar-eval metric`: compares one picture with another.

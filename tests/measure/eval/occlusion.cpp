@@ -58,9 +58,11 @@ public:
         pipeline_.setObjects({placement_.object});
     }
 
-    void run(Report& report) {
+    void run(Report& report, const ProgressPart& progress) {
+        const int all = kSettling + request_.frames;
         cv::Mat before;
-        for (int frame = 0; frame < kSettling + request_.frames; ++frame) {
+        for (int frame = 0; frame < all; ++frame) {
+            progress.show(static_cast<std::size_t>(frame), static_cast<std::size_t>(all), "");
             const SceneRun::Shots shots = scene_.next();
             if (frame == 0) scene_.fire();
             runOn(pipeline_, shots);
@@ -124,15 +126,20 @@ Report evaluateOcclusion(const OcclusionRequest& request) {
     Report report(
         {{"depth_ms", 2}, {"composite_ms", 2}, {"iou", 4}, {"boundary_px", 3}, {"flicker", 6}});
     const auto context = createGlContext();
-    for (const synthetic::Scene scene : request.scenes) {
+    const std::size_t scenes = request.scenes.size(), paths = request.paths.size();
+    for (std::size_t s = 0; s < scenes; ++s) {
+        const synthetic::Scene scene = request.scenes[s];
         const auto objects = objectsFor(request, scene);
-        for (const Path path : request.paths) {
+        for (std::size_t p = 0; p < paths; ++p) {
+            const Path path = request.paths[p];
+            const ProgressPart progress = request.progress.part(s * paths + p, scenes * paths, "");
             for (std::size_t i = 0; i < objects.size(); ++i) {
                 context->makeCurrent();
                 const std::string label =
                     fmt::format("{}/{}/{}-{}", synthetic::name(scene), synthetic::name(path),
                                 nameOf(objects[i].shape), i + 1);
-                PlacementRun(request, {label, scene, path, objects[i]}).run(report);
+                PlacementRun(request, {label, scene, path, objects[i]})
+                    .run(report, progress.part(i, objects.size(), label));
             }
         }
     }

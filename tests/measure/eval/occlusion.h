@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/progress.h"
 #include "hal/virtual/synthetic_scene.h"
 #include "tests/measure/eval/pose_source.h"
 #include "tests/measure/eval/report.h"
@@ -15,8 +16,9 @@ struct OcclusionRequest {
     std::vector<synthetic::Path> paths{synthetic::Path::Handheld, synthetic::Path::Rest};
     std::filesystem::path objects;  ///< configuration of mfard; empty: sceneObjects()
     PoseSource poses = PoseSource::Recorded;
-    int frames = 24;   ///< scored frames per run
-    double noise = 1;  ///< sensor noise of both sensors, see SyntheticOptions
+    int frames = 24;          ///< scored frames per run
+    double noise = 1;         ///< sensor noise of both sensors, see SyntheticOptions
+    ProgressPart progress{};  ///< shows the progress while the command runs
 };
 
 /// Measures every object alone in every scene, on every path. A row is named SCENE/PATH/OBJECT; its

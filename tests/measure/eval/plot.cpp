@@ -1,14 +1,12 @@
 #include "tests/measure/eval/plot.h"
 
+#include "base/svg.h"
 #include "tests/measure/eval/log_axis.h"
-#include "tests/measure/eval/report.h"
-#include "tests/measure/eval/svg.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 namespace mfar::eval {
 namespace {
@@ -130,12 +128,6 @@ std::string plotSvg(const std::string& title, const std::vector<PlotPanel>& pane
     const double width = left, height = DrawnPanel::legendAt(legend) + 14;
     body += svg::text(kLeft, DrawnPanel::legendAt(legend), "start", footnote);
     return svg::document(width, height, svg::text(kLeft, 26, "start", title, 17) + body);
-}
-
-void writePlot(const std::filesystem::path& file, const std::string& svg) {
-    std::ofstream out(file);
-    out << svg;
-    if (!out.flush()) throw EvalError(fmt::format("{}: cannot be written", file.string()));
 }
 
 }  // namespace mfar::eval

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,8 +31,5 @@ struct PlotPanel {
 /// vision.
 [[nodiscard]] std::string plotSvg(const std::string& title, const std::vector<PlotPanel>& panels,
                                   const std::string& footnote);
-
-/// Throws EvalError if the file cannot be written.
-void writePlot(const std::filesystem::path& file, const std::string& svg);
 
 }  // namespace mfar::eval

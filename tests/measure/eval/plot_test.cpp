@@ -73,12 +73,12 @@ TEST(PlotSvg, LeavesOutInvalidPoints) {
     EXPECT_EQ(svg.find("inf"), std::string::npos);
 }
 
-TEST(WritePlot, AFailedWriteNamesTheFile) {
+TEST(WriteText, AFailedWriteNamesTheFile) {
     const mfar::test::TempFolder folder;
-    writePlot(folder / "plot.svg", "<svg/>");
+    writeText(folder / "plot.svg", "<svg/>");
     EXPECT_EQ(mfar::test::readFile(folder / "plot.svg"), "<svg/>");
     try {
-        writePlot(folder / "absent" / "plot.svg", "<svg/>");
+        writeText(folder / "absent" / "plot.svg", "<svg/>");
         FAIL() << "there is no such folder";
     } catch (const EvalError& e) {
         EXPECT_NE(std::string(e.what()).find("plot.svg"), std::string::npos);

@@ -135,11 +135,13 @@ public:
             series_.emplace(method, Series(report, label, method));
     }
 
-    void run() {
+    void run(const ProgressPart& progress) {
         int frames = 0;
         auto still = recording_.stills.begin();
         for (const RecordedImage& image : recording_.video) {
             if (request_.frames > 0 && frames >= request_.frames) break;
+            const auto done = static_cast<std::size_t>(frames), all = recording_.video.size();
+            progress.show(done, all, frameOf(done, all));
             frame(image);
             ++frames;
             for (; still != recording_.stills.end() && still->time <= image.time; ++still)
@@ -224,12 +226,14 @@ Report evaluatePose(const PoseRequest& request) {
     std::vector<std::unique_ptr<RecordingRun>> runs;
     for (std::size_t i = 0; i < labels.size(); ++i) {
         const fs::path& folder = request.folders[i];
+        const ProgressPart progress = request.progress.part(i, labels.size(), labels[i]);
+        progress.show(0, 1, "");
         if (fs::is_directory(folder) && !fs::exists(folder / "cam0")) {
             evaluatePictures(report, request, folder, labels[i]);
             continue;
         }
         runs.push_back(std::make_unique<RecordingRun>(report, request, folder, labels[i]));
-        runs.back()->run();
+        runs.back()->run(progress);
     }
     report.addMeans();
     for (const auto& run : runs)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/progress.h"
 #include "pipeline/track/tracker.h"
 #include "tests/measure/eval/report.h"
 
@@ -16,6 +17,7 @@ struct PoseRequest {
     std::vector<std::string> methods;  ///< names out of poseMethodNames(); only for recordings
     int frames = 0;                    ///< number of frames per folder, 0: all
     TrackerOptions tracker;            ///< a recording replaces the tag map by its own
+    ProgressPart progress{};           ///< shows the progress while the command runs
 };
 
 /// The product's poses. For a video frame: the pose of the filter, and the pose from the tags of

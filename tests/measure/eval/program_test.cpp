@@ -1,3 +1,4 @@
+#include "tests/measure/bench/xml_check.h"
 #include "tests/measure/eval/tiny_recording.h"
 
 #include <array>
@@ -70,9 +71,11 @@ TEST(MfarEval, Figure7OfARecordingIsReportedAndDrawn) {
 TEST(MfarEval, FlowMeasuresAKnownShift) {
     const TempFolder folder;
     writePair(folder / "shift");
-    const Outcome outcome = execute(folder, fmt::format("{0} flow {1}/shift --csv {1}/out.csv",
-                                                        MFAR_EVAL, folder.path().string()));
+    const Outcome outcome =
+        execute(folder, fmt::format("{0} flow {1}/shift --csv {1}/out.csv --svg {1}/out.svg",
+                                    MFAR_EVAL, folder.path().string()));
     ASSERT_EQ(outcome.status, 0) << outcome.text;
+    EXPECT_TRUE(bench::test::isWellFormed(test::readFile(folder / "out.svg")));
     const auto rows = readCsv(folder / "out.csv");
     ASSERT_EQ(rows.size(), 1U + 10 + 10) << outcome.text;
     EXPECT_EQ(rows[0], split("recording,frame,method,ms,epe_px,bad1,bad2,coverage,angular_deg,"

@@ -45,6 +45,12 @@ std::string layOut(const std::vector<std::vector<std::string>>& lines) {
 
 }  // namespace
 
+void writeText(const std::filesystem::path& file, const std::string& text) {
+    std::ofstream out(file);
+    out << text;
+    if (!out.flush()) throw EvalError(fmt::format("{}: cannot be written", file.string()));
+}
+
 void Report::add(const std::string& recording, const std::string& frame, const std::string& method,
                  std::vector<std::optional<double>> values) {
     assert(values.size() == columns_.size());
@@ -135,9 +141,7 @@ std::string Report::csv() const {
 }
 
 void Report::writeCsv(const std::filesystem::path& file) const {
-    std::ofstream out(file);
-    out << csv();
-    if (!out.flush()) throw EvalError(fmt::format("{}: cannot be written", file.string()));
+    writeText(file, csv());
 }
 
 }  // namespace mfar::eval

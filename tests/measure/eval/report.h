@@ -14,6 +14,9 @@ class EvalError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// Writes a text, like a table or a plot. Throws EvalError if the file cannot be written.
+void writeText(const std::filesystem::path& file, const std::string& text);
+
 struct Column {
     std::string name;  ///< its name in the CSV
     int decimals;      ///< number of decimals in the table; the CSV always has six
@@ -48,6 +51,7 @@ public:
         bool ofFrames = false;  ///< a mean or median over frames
     };
     [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
+    [[nodiscard]] const std::vector<Column>& columns() const { return columns_; }
 
 private:
     using Summary = double (*)(std::vector<double>& values);

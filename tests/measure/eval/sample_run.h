@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/progress.h"
 #include "tests/measure/eval/degrade.h"
 #include "tests/measure/eval/flow_samples.h"
 #include "tests/measure/eval/pose_source.h"
@@ -17,8 +18,9 @@ struct SampleRequest {
     std::vector<std::string> methods;
     Degradation degradation;  ///< applied to every still, or to the second picture of a pair
     PoseSource poses = PoseSource::Recorded;
-    PoseNoise poseNoise;  ///< applied to the pose of every frame
-    int frames = 0;       ///< number of frames per folder, 0: all that have truth
+    PoseNoise poseNoise;      ///< applied to the pose of every frame
+    int frames = 0;           ///< number of frames per folder, 0: all that have truth
+    ProgressPart progress{};  ///< shows the progress while the command runs
 };
 
 /// The samples of one folder, with the poses and degradations of the request.

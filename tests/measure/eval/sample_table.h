@@ -31,12 +31,17 @@ void measureSamples(const SampleRequest& request, const SamplesOf& samplesOf,
         std::vector<decltype(factory.create(labels[f], run.set().rig))> methods;
         for (const std::string& name : request.methods)
             methods.push_back(factory.create(name, run.set().rig));
+        const ProgressPart progress = request.progress.part(f, labels.size(), labels[f]);
+        const std::size_t count = run.set().samples.size();
+        std::size_t done = 0;
         run.each(
             [&](const Shot& still) {
                 for (const auto& method : methods)
                     method->setStill(still);
             },
             [&](const FlowSample& sample, const Shot& frame) {
+                progress.show(done, count, frameOf(done, count));
+                ++done;
                 const auto truth = truthOf(run.set(), sample);
                 for (std::size_t i = 0; i < methods.size(); ++i)
                     addRow(SampleRow{run.label(), sample, request.methods[i]},

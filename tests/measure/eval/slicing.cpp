@@ -82,30 +82,44 @@ Report evaluateSlicing(const SlicingRequest& request) {
                    {"frame_max", 3},
                    {"budget_mean", 3},
                    {"budget_p95_off", 3}});
+    // Steps: the truth; error against time of four methods and of a full rendering; times of two
+    // methods; the budget of two methods.
+    constexpr std::size_t kSteps = 10;
+    std::size_t step = 0;
+    const auto next = [&](const char* what, const char* method) {
+        request.progress.show(step++, kSteps, fmt::format("{} {}", what, method));
+    };
+    next("the picture that all", "are compared with");
     const SlicedScene scene(request.size, request.truthSamples, request.threads);
     PlotPanel panel;
     panel.title = "balls and boxes with sun and environment";
     panel.xLabel = "processor time [ms]";
     panel.yLabel = "RMSE [grey levels]";
-    for (const SlicingMethod& method : kSlicingMethods)
+    for (const SlicingMethod& method : kSlicingMethods) {
+        next("error of", method.name);
         addErrors(report, method.name, slicedErrors(scene, slicesOf(method, request.samples, 1)),
                   panel);
+    }
+    next("error of", "full");
     addErrors(report, "full", wholeErrors(scene, request.samples), panel);
-    for (const SlicingMethod& method : kSlicingMethods)
-        if (!method.adaptive)
-            addFrames(report, method.name,
-                      frameTimes(scene, slicesOf(method, request.samples, 1), kFramesOfPicture));
     for (const SlicingMethod& method : kSlicingMethods) {
         if (method.adaptive) continue;
+        next("frames of", method.name);
+        addFrames(report, method.name,
+                  frameTimes(scene, slicesOf(method, request.samples, 1), kFramesOfPicture));
+    }
+    for (const SlicingMethod& method : kSlicingMethods) {
+        if (method.adaptive) continue;
+        next("budget of", method.name);
         const BudgetRun run =
             budgetRun(slicesOf(method, request.samples, 2), request.size, request.budgetMs,
                       request.threads, request.frames, kTurnPerSecond);
         report.add(kSceneName, "budget", method.name,
                    {run.mean * request.budgetMs, {}, {}, {}, {}, {}, run.mean, run.deviation});
     }
-    if (!request.plot.empty())
-        writePlot(
-            request.plot,
+    if (!request.svg.empty())
+        writeText(
+            request.svg,
             plotSvg("Error against time of slices and of full renderings", {panel},
                     fmt::format("{}x{}, one thread; truth: {} samples of another seed",
                                 request.size.width, request.size.height, request.truthSamples)));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/image_view.h"
+#include "base/progress.h"
 #include "tests/measure/eval/report.h"
 
 #include <filesystem>
@@ -9,12 +10,13 @@ namespace mfar::eval {
 
 struct SlicingRequest {
     Size size{320, 240};
-    int samples = 64;            ///< samples per pixel of a finished picture
-    int truthSamples = 512;      ///< samples per pixel of the truth, with another seed
-    double budgetMs = 4;         ///< processor time per frame [ms]
-    int frames = 300;            ///< number of frames under the budget
-    int threads = 2;             ///< for these frames and the truth; all else uses one
-    std::filesystem::path plot;  ///< SVG of error against time; empty: not written
+    int samples = 64;           ///< samples per pixel of a finished picture
+    int truthSamples = 512;     ///< samples per pixel of the truth, with another seed
+    double budgetMs = 4;        ///< processor time per frame [ms]
+    int frames = 300;           ///< number of frames under the budget
+    int threads = 2;            ///< for these frames and the truth; all else uses one
+    std::filesystem::path svg;  ///< SVG of error against time; empty: not written
+    ProgressPart progress{};    ///< shows the progress while the command runs
 };
 
 /// Traces a picture of a few balls and boxes on a plane in time slices, in spatial slices, and as a

@@ -48,7 +48,7 @@ CLI::App* addSlicingCommand(CLI::App& app, SlicingRequest& request) {
                     "number of threads for the frames under the budget")
         ->check(CLI::Range(1, 64))
         ->capture_default_str();
-    sub->add_option("--plot", request.plot, "SVG file to write a plot of error against time into");
+    sub->add_option("--svg", request.svg, "file to write a plot of error against time into");
     return sub;
 }
 

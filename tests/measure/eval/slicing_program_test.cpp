@@ -38,7 +38,7 @@ TEST(MfarEvalSlicing, MeasuresEachWayAndDrawsIt) {
     const std::string dir = folder.path().string();
     const Outcome outcome = execute(
         folder, fmt::format("'{}' slicing --width 48 --height 36 --samples 16 --truth-samples 64 "
-                            "--frames 5 --csv '{}/out.csv' --plot '{}/out.svg'",
+                            "--frames 5 --csv '{}/out.csv' --svg '{}/out.svg'",
                             MFAR_EVAL, dir, dir));
     ASSERT_EQ(outcome.status, 0) << outcome.text;
     const std::string csv = test::readFile(folder / "out.csv");
@@ -75,7 +75,7 @@ TEST(MfarEvalSlicing, WrongRequestsEndWithOneLineAndStatus2) {
     }
     const Outcome outcome =
         execute(folder, fmt::format("'{}' slicing --width 16 --height 16 --samples 1 "
-                                    "--truth-samples 1 --frames 1 --plot '{}/absent/out.svg'",
+                                    "--truth-samples 1 --frames 1 --svg '{}/absent/out.svg'",
                                     MFAR_EVAL, folder.path().string()));
     EXPECT_EQ(outcome.status, 2);
     EXPECT_NE(outcome.text.find("cannot be written"), std::string::npos) << outcome.text;

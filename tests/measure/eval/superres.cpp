@@ -169,13 +169,17 @@ Report evaluateSuperRes(const SuperResRequest& request) {
     const bool learnsElsewhere = request.learn != 0 && !request.learnFrom.empty();
     if (learnsElsewhere) factory.setFilters(learnedFilters(request, request.learnFrom));
     for (std::size_t i = 0; i < labels.size(); ++i) {
+        const ProgressPart progress = request.progress.part(i, labels.size(), labels[i]);
+        progress.show(0, 1, request.learn != 0 ? "learning" : "");
         if (request.learn != 0 && !learnsElsewhere)
             factory.setFilters(learnedFilters(request, {request.recordings[i]}));
         const Recording recording = loadRecording(request.recordings[i]);
         const auto samples = superResSamplesOf(recording, request.frames);
         SuperResRun run(request, recording, labels[i], factory);
-        for (const SuperResSample& sample : samples)
-            run.measure(sample, report);
+        for (std::size_t k = 0; k < samples.size(); ++k) {
+            progress.show(k, samples.size(), frameOf(k, samples.size()));
+            run.measure(samples[k], report);
+        }
     }
     report.addMeans();
     return report;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/progress.h"
 #include "tests/measure/eval/degrade.h"
 #include "tests/measure/eval/picture_metrics.h"
 #include "tests/measure/eval/pose_source.h"
@@ -30,6 +31,7 @@ struct SuperResRequest {
     int frames = 0;              ///< number of frames per recording, 0: all that have truth
     std::filesystem::path save;  ///< folder for the pictures; empty: not saved
     PictureMetrics metrics{{"psnr", "ssim"}, {}};
+    ProgressPart progress{};  ///< shows the progress while the command runs
 };
 
 /// Measures every method on every frame with truth/highres. Prints one line per skipped frame to

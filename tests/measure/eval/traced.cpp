@@ -223,28 +223,33 @@ void savePicture(const std::filesystem::path& folder, const std::string& name, S
 class TracedRun {
 public:
     TracedRun(const TracedRequest& request, const std::string& scene, synthetic::Path path,
-              Report& report)
+              Report& report, const ProgressPart& progress)
         : request_(request), course_(scene, path, request.size), report_(report),
+          progress_(progress),
           label_(fmt::format("{}/{}", std::filesystem::path(scene).stem().string(),
                              synthetic::name(path))),
           truth_(course_.scene(), request.truthSamples, request.truth, label_) {}
 
     void run() {
         std::vector<std::vector<Picture>> shown;  // frames for the video, indexed by method
-        for (const std::string& method : request_.methods)
-            shown.push_back(run(method));
+        for (std::size_t i = 0; i < request_.methods.size(); ++i)
+            shown.push_back(run(request_.methods[i],
+                                progress_.part(i, request_.methods.size(), request_.methods[i])));
         if (!request_.video.empty()) writeVideo(shown);
     }
 
 private:
     [[nodiscard]] bool isCompared(int frame) const { return frame % request_.every == 0; }
 
-    std::vector<Picture> run(const std::string& method) {
+    std::vector<Picture> run(const std::string& method, const ProgressPart& progress) {
+        const auto count = static_cast<std::size_t>(request_.frames);
         ShownFrames frames(course_, optionsOf(request_, method));
         std::vector<Picture> all;
         std::optional<Picture> errorBefore;
         const RenderedPicture* truthBefore = nullptr;
         for (int i = 0; i < request_.frames; ++i) {
+            const auto done = static_cast<std::size_t>(i);
+            progress.show(done, count, frameOf(done, count));
             const Picture shown = frames.next();
             if (!request_.video.empty()) all.push_back(shown);
             const bool follows = i > 0 && isCompared(i - 1);
@@ -311,6 +316,7 @@ private:
     const TracedRequest& request_;
     Course course_;
     Report& report_;
+    ProgressPart progress_;
     std::string label_;
     TracedTruth truth_;
 };
@@ -324,9 +330,14 @@ std::vector<std::string> tracedMethodNames() {
 Report evaluateTraced(const TracedRequest& request) {
     Report report(
         {{"psnr_db", 2}, {"shadow_psnr_db", 2}, {"flicker", 3}, {"pictures", 0}, {"warp_ms", 2}});
-    for (const std::string& scene : request.scenes)
-        for (const synthetic::Path path : request.paths)
-            TracedRun(request, scene, path, report).run();
+    const std::size_t scenes = request.scenes.size(), paths = request.paths.size();
+    for (std::size_t s = 0; s < scenes; ++s)
+        for (std::size_t p = 0; p < paths; ++p)
+            TracedRun(request, request.scenes[s], request.paths[p], report,
+                      request.progress.part(s * paths + p, scenes * paths,
+                                            fmt::format("{}/{}", request.scenes[s],
+                                                        synthetic::name(request.paths[p]))))
+                .run();
     report.addMeans();
     return report;
 }

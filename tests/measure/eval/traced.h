@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/geometry.h"
+#include "base/progress.h"
 #include "hal/virtual/synthetic_scene.h"
 #include "tests/measure/eval/report.h"
 
@@ -22,6 +23,7 @@ struct TracedRequest {
     std::filesystem::path truth;         ///< folder that keeps the truth; empty: traced again
     std::filesystem::path save;          ///< folder for compared frames and truth; empty: not saved
     std::filesystem::path video;         ///< folder for a y4m file of each path; empty: not written
+    ProgressPart progress{};             ///< shows the progress while the command runs
 };
 
 [[nodiscard]] std::vector<std::string> tracedMethodNames();

@@ -14,9 +14,22 @@ std::vector<EvalCommand> addTracedCommands(CLI::App& app, std::string& csv) {
     const auto files = std::make_shared<WarpFiles>();
     const auto traced = std::make_shared<TracedRequest>();
     std::vector<EvalCommand> out{
-        {addSlicingCommand(app, *slicing), [slicing] { return evaluateSlicing(*slicing); }},
-        {addWarpCommand(app, *warp, *files), [=] { return runWarpCommand(*warp, *files); }},
-        {addTracedCommand(app, *traced), [=] { return runTracedCommand(*traced); }}};
+        {addSlicingCommand(app, *slicing),
+         [=](const ProgressPart& progress) {
+             slicing->progress = progress;
+             return evaluateSlicing(*slicing);
+         },
+         true},
+        {addWarpCommand(app, *warp, *files),
+         [=](const ProgressPart& progress) {
+             warp->progress = progress;
+             return runWarpCommand(*warp, *files);
+         },
+         true},
+        {addTracedCommand(app, *traced), [=](const ProgressPart& progress) {
+             traced->progress = progress;
+             return runTracedCommand(*traced);
+         }}};
     for (const EvalCommand& each : out)
         each.command->add_option("--csv", csv, "file to write the table into");
     return out;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/progress.h"
 #include "tests/measure/eval/report.h"
 
 #include <CLI/CLI.hpp>
@@ -13,7 +14,8 @@ namespace mfar::eval {
 /// A subcommand and the function that runs it.
 struct EvalCommand {
     CLI::App* command;
-    std::function<Report()> evaluate;
+    std::function<Report(const ProgressPart&)> evaluate;
+    bool hasOwnPlot = false;  ///< the command has its own option --svg
 };
 
 /// Adds the subcommands that need the path tracer. Empty if the path tracer is not built. They set

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/geometry.h"
+#include "base/progress.h"
 #include "tests/measure/eval/report.h"
 
 #include <filesystem>
@@ -16,6 +17,7 @@ struct WarpRequest {
     Size size{640, 480};
     int referenceSamples = 64, truthSamples = 256, holeSamples = 16;
     std::filesystem::path save;  ///< folder for the pictures; empty: not saved
+    ProgressPart progress{};     ///< shows the progress while the command runs
 };
 
 [[nodiscard]] std::vector<std::string> warpMethodNames();

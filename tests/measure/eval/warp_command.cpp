@@ -7,8 +7,6 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-
 namespace mfar::eval {
 namespace {
 
@@ -69,11 +67,7 @@ Report runWarpCommand(const WarpRequest& request, const WarpFiles& files) {
     const bool gles = EngineChoice::fromEnvironment().occlusion == EngineKind::Gles;
     const auto context = gles ? createGlContext() : nullptr;
     Report report = evaluateWarp(request);
-    if (!files.svg.empty()) {
-        std::ofstream out(files.svg);
-        out << warpSvg(request, report);
-        if (!out.flush()) throw EvalError(fmt::format("{}: cannot be written", files.svg.string()));
-    }
+    if (!files.svg.empty()) writeText(files.svg, warpSvg(request, report));
     return report;
 }
 

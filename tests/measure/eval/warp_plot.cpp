@@ -1,4 +1,4 @@
-#include "tests/measure/eval/svg.h"
+#include "base/svg.h"
 #include "tests/measure/eval/warp.h"
 
 #include <fmt/format.h>

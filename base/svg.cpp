@@ -1,8 +1,8 @@
-#include "tests/measure/eval/svg.h"
+#include "base/svg.h"
 
 #include <fmt/format.h>
 
-namespace mfar::eval::svg {
+namespace mfar::svg {
 
 std::string escaped(std::string_view text) {
     std::string out;
@@ -46,4 +46,4 @@ std::string document(double width, double height, std::string_view body) {
            std::string(body) + "</svg>\n";
 }
 
-}  // namespace mfar::eval::svg
+}  // namespace mfar::svg

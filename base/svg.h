@@ -6,7 +6,7 @@
 
 /// Elements of SVG documents for charts. Lengths are in px; y points downwards. Every element ends
 /// with a newline.
-namespace mfar::eval::svg {
+namespace mfar::svg {
 
 /// The colours of Okabe and Ito, which can be told apart with any colour vision.
 inline constexpr std::array<const char*, 7> kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
@@ -26,4 +26,4 @@ inline constexpr std::array<const char*, 7> kColours{"#0072b2", "#d55e00", "#009
 /// A whole document from its elements, on a white background.
 [[nodiscard]] std::string document(double width, double height, std::string_view body);
 
-}  // namespace mfar::eval::svg
+}  // namespace mfar::svg

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mfar {
+
+/// A line of a chart.
+struct ChartLine {
+    std::string name;       ///< its text in the legend
+    std::vector<double> y;  ///< a value for each x of the chart; NaN makes a gap
+};
+
+/// A chart of lines that share their values of x. Both axes are linear.
+struct LineChart {
+    std::string title, xLabel;
+    std::vector<double> x;  ///< in ascending order
+    std::vector<ChartLine> lines{};
+    bool fills = false;               ///< shades the area between the first two lines
+    std::optional<double> mostY{};    ///< upper end of the vertical axis; if not set, the lines fit
+    std::optional<ChartLine> rule{};  ///< a dashed horizontal line at y[0]
+};
+
+/// Draws the chart as an SVG element of 460x210 px. The vertical axis begins at 0, or at the lowest
+/// value if that is negative.
+[[nodiscard]] std::string chartSvg(const LineChart& chart);
+
+/// Returns about `count` round values from `least` to `most`, at equal distances.
+[[nodiscard]] std::vector<double> linearTicks(double least, double most, int count);
+
+}  // namespace mfar

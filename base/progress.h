@@ -1,0 +1,66 @@
+#pragma once
+
+#include <chrono>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace mfar {
+
+/// Shows on standard error what a long command does and how far it is. On a terminal, it rewrites
+/// one line at most ten times a second; otherwise it prints a line every ten seconds. Not
+/// thread-safe.
+class Progress {
+public:
+    using Clock = std::chrono::steady_clock;
+
+    explicit Progress(std::FILE* out = stderr);
+    /// For tests: `isTerminal` says how to write, whatever `out` is.
+    Progress(std::FILE* out, bool isTerminal);
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+    /// Erases the line.
+    ~Progress() { clear(); }
+
+    /// Shows that `share` of the whole work, from 0 to 1, is done, and that `what` is next. If the
+    /// share is NaN, it is unknown and not shown.
+    void show(double share, std::string_view what, Clock::time_point now = Clock::now());
+    /// Erases the line, so that other output can follow. The next show() draws it again.
+    void clear();
+
+private:
+    std::FILE* out_;
+    bool isTerminal_;
+    bool isVisible_ = false;
+    Clock::time_point begin_ = Clock::now();
+    std::optional<Clock::time_point> shown_;
+};
+
+/// The progress of a part of the work, which can have parts itself. It can be copied. One that is
+/// made without a Progress shows nothing, so that a function can be called without a Progress.
+class ProgressPart {
+public:
+    ProgressPart() = default;
+    explicit ProgressPart(Progress& all) : all_(&all) {}
+
+    /// Returns part number `index` of `count` equal parts. Its text is this part's with `what`
+    /// appended.
+    [[nodiscard]] ProgressPart part(std::size_t index, std::size_t count,
+                                    std::string_view what) const;
+    /// Shows that part number `index` of `count` equal parts begins.
+    void show(std::size_t index, std::size_t count, std::string_view what) const;
+
+private:
+    Progress* all_ = nullptr;
+    double begin_ = 0, length_ = 1;  ///< as shares of the whole work
+    std::string what_{};
+};
+
+/// Returns "frame 3 of 29" for index 2 and count 29.
+[[nodiscard]] std::string frameOf(std::size_t index, std::size_t count);
+
+/// Returns a line such as "34 %  superres office, frame 3 of 29; 0:12, about 0:25 left".
+[[nodiscard]] std::string progressText(double share, std::string_view what, double seconds);
+
+}  // namespace mfar

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace mfar {
+
+/// The texts of one option or positional argument, for the manual page and shell completion.
+struct ArgumentText {
+    std::string names;  ///< e.g. "-h,--help"; a positional argument has no dashes
+    std::string value;  ///< e.g. "FILE"; empty: the option is a flag
+    std::string meaning;
+    bool isRequired = false;
+
+    [[nodiscard]] bool isPositional() const { return !names.starts_with('-'); }
+};
+
+/// Returns the arguments of a parser, without those of its subcommands. If the parser knows the
+/// valid values, the range or the default of an argument, the meaning has them.
+[[nodiscard]] std::vector<ArgumentText> argumentTexts(const CLI::App& app);
+
+}  // namespace mfar

@@ -1,0 +1,23 @@
+// Copies pictures of the session for the report.
+
+#include "daemon/rig_thumbnail.h"
+#include "daemon/session.h"
+
+#include <stdexcept>
+
+namespace mfar {
+
+// A failure to read a picture back is only a warning, so that the run can end successfully.
+void Session::leavePictures() {
+    if (!stats_.keepsHistory()) return;
+    RunPictures pictures;
+    try {
+        if (drawing_->shown) pictures.frame = thumbnail(copyOf(*drawing_->shown).view());
+        if (usedStill_) pictures.still = thumbnail(usedStill_->view);
+    } catch (const std::runtime_error& error) {
+        stats_.warn(std::string("the report has no picture: ") + error.what());
+    }
+    stats_.pictures(std::move(pictures));
+}
+
+}  // namespace mfar

@@ -1,0 +1,32 @@
+#include "daemon/tools/calibrate/arguments.h"
+
+namespace mfar::calibration {
+
+CalibrateParser::CalibrateParser() {
+    CalibrateArguments& a = arguments;
+    app.add_option("recording", a.recording,
+                   "recording to read: folder in EuRoC layout, cam0 video, cam1 stills")
+        ->required();
+    auto* grid = app.add_option("--aprilgrid", a.aprilGridFile,
+                                "target: Kalibr's description of an aprilgrid (YAML)");
+    auto* board =
+        app.add_option("--checkerboard", a.board,
+                       "target: checkerboard with this number of inner corners, like 9x6");
+    auto* square =
+        app.add_option("--square", a.square, "edge length of a square of the checkerboard [m]");
+    grid->excludes(board);
+    board->needs(square);
+    square->needs(board);
+    app.add_option("--out", a.out,
+                   "folder to write: rig.yaml, video.yaml, still.yaml, residuals.png")
+        ->required();
+    app.add_option("--max-offset", a.solve.maxOffset,
+                   "largest clock offset that is searched, positive or negative [s]; 0: the offset "
+                   "is taken as 0")
+        ->check(CLI::Range(0.0, 2.0))
+        ->capture_default_str();
+    app.add_flag("--k3", a.solve.k3,
+                 "estimate the third radial distortion coefficient as well, for wide lenses");
+}
+
+}  // namespace mfar::calibration

@@ -1,0 +1,29 @@
+#include "daemon/tools/ctl_arguments.h"
+
+namespace mfar {
+
+CtlParser::CtlParser() {
+    CtlArguments& a = arguments;
+    app.add_option("--socket", a.socket, "Socket on which mfard listens (its option --control)")
+        ->capture_default_str()
+        ->type_name("SOCKET");
+    app.add_subcommand("status", "Show the state of mfard");
+    app.add_subcommand("stats", "Show everything that mfard has measured since its start (JSON)");
+    app.add_subcommand("reload", "Read the configuration file again");
+    app.add_subcommand("trigger", "Take one still");
+    CLI::App* snapshot = app.add_subcommand("snapshot", "Save the last picture of mfard");
+    snapshot->add_option("FILE", a.snapshot, "PNG file")->required();
+    snapshot->add_flag("--screen", a.screen, "Save the picture as the screen shows it");
+    CLI::App* record = app.add_subcommand("record", "Record video and stills");
+    CLI::Option* name = record->add_option("NAME", a.record,
+                                           "New folder in mfard's working directory, which is\n"
+                                           "/var/lib/mfar for the service");
+    record->add_flag("--stop", a.stop, "End the recording")->excludes(name);
+    app.add_subcommand("learn", "Manage the filters learned from both sensors")
+        ->require_subcommand(1)
+        ->add_subcommand("reset", "Forget the learned filters and start learning again");
+    app.require_subcommand(1);
+    app.set_version_flag("--version", "mfarctl " MFAR_VERSION);
+}
+
+}  // namespace mfar

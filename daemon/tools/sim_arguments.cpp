@@ -1,0 +1,64 @@
+#include "daemon/tools/sim_arguments.h"
+
+#include <array>
+
+namespace mfar {
+namespace {
+
+using synthetic::Path;
+
+constexpr std::array kScenes{synthetic::Scene::Office,     synthetic::Scene::Shelf,
+                             synthetic::Scene::Outdoor,    synthetic::Scene::Flat,
+                             synthetic::Scene::Moving,     synthetic::Scene::Still,
+                             synthetic::Scene::Calibration};
+constexpr std::array kPaths{Path::Handheld, Path::Pan,  Path::Orbit, Path::Forward,
+                            Path::Rotate,   Path::Rest, Path::Survey};
+
+template <class T, std::size_t N>
+std::vector<std::string> names(const std::array<T, N>& values) {
+    std::vector<std::string> out;
+    for (const T v : values)
+        out.emplace_back(synthetic::name(v));
+    return out;
+}
+
+}  // namespace
+
+std::vector<std::string> simSceneNames() {
+    return names(kScenes);
+}
+
+std::vector<std::string> simPathNames() {
+    return names(kPaths);
+}
+
+SimParser::SimParser() {
+    SimArguments& a = arguments;
+    app.add_option("--scene", a.scene, "scene in front of the cameras")
+        ->check(CLI::IsMember(simSceneNames()))
+        ->capture_default_str();
+    app.add_option("--path", a.path,
+                   "how the camera moves (default: handheld; rest in scene still, "
+                   "survey in calibration)")
+        ->check(CLI::IsMember(simPathNames()));
+    app.add_option("--seconds", a.seconds, "length of the recording [s]")
+        ->check(CLI::Range(0.01, 3600.0))
+        ->capture_default_str();
+    app.add_option("--rate", a.rateHz, "video frames per second")
+        ->check(CLI::Range(1.0, 1000.0))
+        ->capture_default_str();
+    app.add_option("--stills", a.sim.stillsHz, "stills per second; 0: no stills")
+        ->check(CLI::Range(0.0, 10.0))
+        ->capture_default_str();
+    app.add_option("--seed", a.board.seed,
+                   "seed of the random numbers: the same seed gives the same bytes")
+        ->capture_default_str();
+    app.add_option("--noise", a.board.noise, "factor of the sensors' noise")
+        ->check(CLI::Range(0.0, 100.0))
+        ->capture_default_str();
+    app.add_option("--out", a.sim.out, "folder to write the recording into, new or empty");
+    app.add_flag("--no-truth", a.noTruth, "do not write truth/, the ground truth");
+    app.add_flag("--list", a.list, "print the names of all scenes and paths, then exit");
+}
+
+}  // namespace mfar

@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# mfard --report writes one page with the numbers of the summary and with pictures, however the run
+# ends.
+. "$(dirname "$0")/lib.sh"
+
+# has_report PATTERN...: checks that the page is complete and that each pattern is in it.
+has_report() {
+    local pattern
+    for pattern in '^<!DOCTYPE html>' '^</html>$' "$@"; do says run.html "$pattern"; done
+    [ "$(find . -name '*.part' | wc -l)" = 0 ] || fail "a temporary file is left"
+}
+
+echo "a run that ends by itself"
+run 0 --source synthetic:office --pace consumer --display none --frames 12 --engine simd \
+    --summary summary.json --report run.html
+has_report '<tr><th>frames</th><td>12</td></tr>' 'Time of each stage' 'flow \[ms\]' \
+    'alt="last picture shown" src="data:image/jpeg;base64,/9j/' \
+    'alt="last still used" src="data:image/jpeg;base64,/9j/'
+summary_has frames 12
+[ "$(stat -c %s run.html)" -lt 500000 ] || fail "the page is too large"
+
+echo "a run that a signal ends"
+start --source synthetic:flat --display none --report run.html
+until_true started
+has_report 'the run has not ended'
+kill -TERM "$pid"
+ends_with 0 1500
+has_report SIGTERM
+
+echo "a run that fails"
+run 66 --recording absent --display none --report run.html
+has_report 'error: .*absent'
+
+echo "a page that cannot be written"
+run 74 --source synthetic:flat --display none --frames 1 --report absent/run.html
+says err 'the report cannot be written: absent/run.html: No such file or directory'

@@ -1,0 +1,114 @@
+#include "daemon/tools/calibrate/arguments.h"
+#include "daemon/tools/ctl_arguments.h"
+#include "daemon/tools/sim_arguments.h"
+#include "tests/texts/pages.h"
+#include "tests/texts/troff.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace mfar::test {
+namespace {
+
+/// Texts of a manual page that the parser does not have.
+struct Tool {
+    const char* about;
+    const char* source;
+    const char* description;
+    std::vector<std::pair<const char*, const char*>> exitStatus;
+};
+
+constexpr const char* kParser = "wrong command line";
+
+/// Returns the arguments of a command in short, e.g. " [--screen] FILE".
+std::string synopsis(const CLI::App& app) {
+    std::string options, positional;
+    for (const ArgumentText& argument : argumentTexts(app)) {
+        if (argument.names.find("--help") != std::string::npos) continue;
+        std::string one = argument.names;
+        if (!argument.isPositional() && !argument.value.empty())
+            one.append(" ").append(argument.value);
+        if (!argument.isRequired) one = fmt::format("[{}]", one);
+        (argument.isPositional() ? positional : options).append(" ").append(one);
+    }
+    return options + positional;
+}
+
+/// Returns entries of all arguments, and of all commands with their arguments. `path`: the names of
+/// the commands that contain those of `app`.
+std::string arguments(const CLI::App& app, const std::string& path) {
+    std::string out;
+    for (const ArgumentText& argument : argumentTexts(app))
+        if (path.empty() || argument.names.find("--help") == std::string::npos)
+            out += entry(argument);
+    const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
+    if (commands.empty()) return out;
+    if (path.empty()) out += ".SH COMMANDS\n";
+    for (const CLI::App* command : commands) {
+        const std::string name = path + command->get_name();
+        out += entry(name + synopsis(*command), command->get_description());
+        const std::string own = arguments(*command, name + " ");
+        if (!own.empty()) out += ".RS\n" + own + ".RE\n";
+    }
+    return out;
+}
+
+std::string page(const CLI::App& app, const Tool& tool) {
+    const std::string& name = app.get_name();
+    const bool hasCommands = !app.get_subcommands([](const CLI::App*) { return true; }).empty();
+    std::string out = head(name, 1, tool.about, tool.source);
+    out += ".SH SYNOPSIS\n.B " + troff(name) + "\n";
+    out += hasCommands ? "[OPTIONS] COMMAND\n" : "[OPTIONS]";
+    for (const ArgumentText& argument : argumentTexts(app))
+        if (!hasCommands && argument.isPositional()) out += " " + troff(argument.names);
+    if (!hasCommands) out += "\n";
+    out += ".SH DESCRIPTION\n" + troff(tool.description) + "\n.SH OPTIONS\n" + arguments(app, "");
+    out += ".SH \"EXIT STATUS\"\n";
+    for (const auto& [code, meaning] : tool.exitStatus)
+        out += entry(code, meaning);
+    return out + ".SH \"SEE ALSO\"\n.BR mfard (1),\n.BR mfard.toml (5)\n";
+}
+
+}  // namespace
+
+std::string controlManPage() {
+    return page(
+        CtlParser().app,
+        {"queries and controls a running mfard",
+         "daemon/tools/ctl_arguments.cpp",
+         "Sends one command to mfard through its control socket and prints the answer. root and "
+         "members of the group mfar may use status and stats; all other commands need root "
+         "or the group mfar-operators.",
+         {{"0", "success"},
+          {"1", "mfard refused the command"},
+          {"64", kParser},
+          {"69", "no mfard listens at the socket"},
+          {"74", "a file cannot be written"}}});
+}
+
+std::string simManPage() {
+    return page(
+        SimParser().app,
+        {"writes a recording of the synthetic board",
+         "daemon/tools/sim_arguments.cpp",
+         "Draws what both sensors of a simulated board see and writes it as a recording in "
+         "EuRoC layout, with poses, tags, calibration and, in truth/, the exact pictures, "
+         "depth and flow.",
+         {{"0", "success"}, {"1", "the recording cannot be written"}, {"100 and more", kParser}}});
+}
+
+std::string calibrateManPage() {
+    return page(calibration::CalibrateParser().app,
+                {"calibrates both sensors of a board",
+                 "daemon/tools/calibrate/arguments.cpp",
+                 "Finds an AprilGrid or a checkerboard in a recording of both sensors and writes "
+                 "lenses, their mutual pose and the offset of their clocks. Either --aprilgrid or "
+                 "--checkerboard and --square are needed. Name the written folder as calibration "
+                 "in mfard.toml.",
+                 {{"0", "success"},
+                  {"1", "the recording cannot be read, or it is not sufficient for a calibration"},
+                  {"100 and more", kParser}}});
+}
+
+}  // namespace mfar::test
