@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -46,7 +47,11 @@ void Progress::show(double share, std::string_view what, Clock::time_point now) 
         return;
     shown_ = now;
     const std::chrono::duration<double> spent = now - begin_;
-    const std::string text = progressText(share, what, spent.count());
+    std::string text = progressText(share, what, spent.count());
+    // A line that wraps could not be erased.
+    winsize size{};
+    if (isTerminal_ && ioctl(fileno(out_), TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
+        text.resize(std::min<std::size_t>(text.size(), size.ws_col - 1U));
     if (isTerminal_)
         fmt::print(out_, "{}{}", kErase, text);
     else
