@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/mirror_light.h"
 #include "pipeline/render/environment_light.h"
 #include "pipeline/scene/scene.h"
 
@@ -59,6 +60,9 @@ public:
     /// Mean about `direction` over the lobe that a surface of this roughness reflects, seen along
     /// its normal (Karis 2013). Off the normal the lobe is longer, so this is an approximation.
     [[nodiscard]] Eigen::Vector3f mirrored(const Eigen::Vector3f& direction, float roughness) const;
+
+    /// Tables of mirrored() and, for a mirror, of the light itself; without the sun.
+    [[nodiscard]] MirrorLight tables() const;
 
 private:
     /// Light by direction, at decreasing resolution; the tables are computed from it.

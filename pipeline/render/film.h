@@ -84,6 +84,8 @@ public:
     /// Whether setCentre() was called.
     [[nodiscard]] bool isSeen(std::size_t pixel) const { return at(pixel).isSeen; }
     [[nodiscard]] const SeenSurface& centre(std::size_t pixel) const { return at(pixel).seen; }
+    /// Of the object at the pixel's centre; empty if there is none.
+    [[nodiscard]] GlossWords gloss(std::size_t pixel) const;
     /// Adds light of the surface at the pixel's centre from an earlier picture; it has the weight
     /// of its number of samples.
     void carry(std::size_t pixel, const KnownLight& light) { begun(pixel).carried = light; }

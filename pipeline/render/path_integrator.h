@@ -33,6 +33,9 @@ public:
     [[nodiscard]] SurfaceLight far(const SurfacePoint& point,
                                    const Eigen::Vector3f& direction) const;
 
+    /// Distant light for the surfaces of pictures.
+    [[nodiscard]] MirrorLight mirrorLight() const;
+
     /// Radiance of the catcher with and without the objects, from the same random numbers:
     /// bit-identical if no object was met.
     struct OfCatcher {

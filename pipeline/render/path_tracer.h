@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/mirror_light.h"
 #include "pipeline/render/film.h"
 #include "pipeline/render/light_history.h"
 #include "pipeline/render/path_tracer_options.h"
@@ -36,6 +37,9 @@ public:
     /// Light in the film of an earlier picture of these objects; trace() carries it over.
     [[nodiscard]] LightHistory historyOf(const Film& film, const RenderView& view,
                                          float mostSamples) const;
+
+    /// Distant light that the objects mirror.
+    [[nodiscard]] const std::shared_ptr<const MirrorLight>& mirrorLight() const;
 
     /// The point of the catcher behind a pixel, ignoring objects.
     [[nodiscard]] std::optional<Eigen::Vector3f> catcherAt(const RenderView& view,

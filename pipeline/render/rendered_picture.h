@@ -2,6 +2,7 @@
 
 #include "base/geometry.h"
 #include "base/light_word.h"
+#include "base/mirror_light.h"
 #include "pipeline/scene/scene.h"
 
 #include <array>
@@ -26,6 +27,11 @@ struct RenderedPicture {
     std::vector<std::uint8_t> id;  ///< owner of `depth`: SceneObject's number, 0: nothing
     /// Light on an object's pixels, without their paint; empty if the renderer does not provide it.
     std::vector<LightWords> light;
+    /// How object pixels mirror the distant light `mirrors`, times `exposure`; empty if the
+    /// renderer does not provide it.
+    std::vector<GlossWords> gloss;
+    std::shared_ptr<const MirrorLight> mirrors;
+    float exposure = 1;
     std::shared_ptr<const Scene> scene;  ///< the scene that it shows, if the renderer provides it
     double samples = 0;                  ///< mean over the pixels with an id
 };

@@ -22,9 +22,10 @@ struct RestPixel {
 /// real surface are two layers, the shadow below (warp_rest.comp).
 class RestPixels {
 public:
+    /// `lights`: those of the reference, for this view.
     RestPixels(const ViewLookUp::Input& input, const WarpReference& reference,
-               const ViewLookUpInput& plain, const LensProjection& layer,
-               const RigidTransform& T_world_camera);
+               std::span<const LightWords> lights, const ViewLookUpInput& plain,
+               const LensProjection& layer, const RigidTransform& T_world_camera);
 
     /// A pixel of the layer.
     struct Asked {

@@ -79,6 +79,7 @@ bool takeFromNeighbours(const PictureGrid& grid, std::span<const LightWords> lig
     const int own = grid.id(x, y);
     std::array<int, 4> sum{};
     UnpackedLight sumOfLight;
+    GlossWords gloss;  // of one of them: directions have no mean on the octahedral map
     int count = 0;
     for (int j = -1; j <= 1; ++j)
         for (int i = -1; i <= 1; ++i) {
@@ -90,6 +91,7 @@ bool takeFromNeighbours(const PictureGrid& grid, std::span<const LightWords> lig
             for (std::size_t c = 0; c < 4; ++c)
                 sum[c] += r.picture[at][c];
             if (!r.light.empty()) addShare(sumOfLight, 1, unpackedWords(light[at]));
+            if (!r.gloss.empty()) gloss = r.gloss[at];
             ++count;
         }
     if (count == 0) return false;
@@ -101,6 +103,7 @@ bool takeFromNeighbours(const PictureGrid& grid, std::span<const LightWords> lig
         addShare(mean, 1 / static_cast<float>(count), sumOfLight);
         r.light[at] = packedWords(mean);
     }
+    if (!r.gloss.empty()) r.gloss[at] = gloss;
     return true;
 }
 
@@ -197,7 +200,8 @@ WarpReference warpReference(const RenderedPicture& picture) {
     const Size size = picture.camera.size;
     const std::size_t count = static_cast<std::size_t>(size.width) * size.height;
     if (picture.colour.size() != count || picture.depth.size() != count ||
-        picture.id.size() != count || (!picture.light.empty() && picture.light.size() != count))
+        picture.id.size() != count || (!picture.light.empty() && picture.light.size() != count) ||
+        (!picture.gloss.empty() && picture.gloss.size() != count))
         throw std::invalid_argument("a rendered picture's fields are not of its camera's size");
     WarpReference r{picture.camera,
                     picture.T_world_camera,
@@ -205,6 +209,9 @@ WarpReference warpReference(const RenderedPicture& picture) {
                     {},
                     picture.colour,
                     picture.light,
+                    picture.gloss,
+                    picture.mirrors,
+                    picture.exposure,
                     {},
                     {},
                     {},

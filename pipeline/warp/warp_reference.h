@@ -35,6 +35,10 @@ struct WarpReference {
     std::vector<std::array<std::uint8_t, 4>> colour;
     /// Of the same pixels, where an object is; empty: colours alone are known.
     std::vector<LightWords> light;
+    /// How these pixels mirror `mirrors`, times `exposure`; empty: unknown.
+    std::vector<GlossWords> gloss;
+    std::shared_ptr<const MirrorLight> mirrors;
+    float exposure = 1;
     std::vector<WarpSurface> surface;
     /// z and number in a word, packed as in warp_surface.glsl; kUnknownId where nothing is known.
     std::vector<std::uint32_t> packed;
