@@ -200,6 +200,27 @@ void FarLight::makeMirrored(const Pyramid& light) {
     }
 }
 
+MirrorLight FarLight::tables() const {
+    MirrorLight out;
+    const auto add = [&](float roughness, const DirectionTable& table) {
+        out.tables.push_back(
+            {roughness, table.edge(), static_cast<std::uint32_t>(out.texels.size())});
+        for (int row = 0; row < table.edge(); ++row)
+            for (int column = 0; column < table.edge(); ++column) {
+                const Eigen::Vector3f& light = table.at(column, row);
+                out.texels.push_back(packedLight({light.x(), light.y(), light.z()}));
+            }
+    };
+    if (dark_) {
+        add(0, DirectionTable(2));
+        return out;
+    }
+    add(0, pyramid().front());
+    for (std::size_t i = 0; i < mirrored_.size(); ++i)
+        add(kMirrorLevels[i].roughness, mirrored_[i]);
+    return out;
+}
+
 Eigen::Vector3f FarLight::mirrored(const Eigen::Vector3f& direction, float roughness) const {
     const auto above = std::ranges::find_if(
         kMirrorLevels, [roughness](const MirrorLevel& l) { return l.roughness >= roughness; });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/mirror_light.h"
 #include "pipeline/render/environment_light.h"
 #include "pipeline/scene/scene.h"
 
@@ -61,6 +62,10 @@ public:
     /// reflects when seen along its normal (Karis 2013). At other angles the true lobe is longer,
     /// so the result is an approximation.
     [[nodiscard]] Eigen::Vector3f mirrored(const Eigen::Vector3f& direction, float roughness) const;
+
+    /// Returns tables of mirrored() and, for roughness 0, of the light itself. The sun is not in
+    /// them.
+    [[nodiscard]] MirrorLight tables() const;
 
 private:
     /// Light by direction, at decreasing resolution. The other tables are computed from the

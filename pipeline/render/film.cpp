@@ -61,6 +61,7 @@ const Film::Pixel Film::kNothing{};
 namespace {
 
 const Eigen::Vector3f kNoFar{1, 1, 1};
+constexpr double kTrustedCentre = 8, kManyHits = 16;
 
 /// Weights of a sample's diffuse and specular light: the shares that the paint reflects.
 struct PaintWeights {
@@ -194,7 +195,12 @@ SurfaceLight Film::farOf(const Pixel& p) {
                              ((sum.far + weight * centre.cast<double>()) / all).cast<float>())
                        : centre;
     };
-    const auto [diffuse, specular] = weightsOf(p.seen.paint);
+    // The centre's far light has no noise. While there are few samples, it gets a larger weight.
+    const double fewer = std::max(0.0, 1 - p.object.hits / kManyHits);
+    const double trust = 1 + kTrustedCentre * fewer;
+    auto [diffuse, specular] = weightsOf(p.seen.paint);
+    diffuse *= trust;
+    specular *= trust;
     return {mean(p.object.first, diffuse, p.seen.far.diffuse),
             mean(p.object.second, specular, p.seen.far.specular)};
 }

@@ -89,6 +89,8 @@ public:
     /// Whether setCentre() was called for this pixel.
     [[nodiscard]] bool isSeen(std::size_t pixel) const { return at(pixel).isSeen; }
     [[nodiscard]] const SeenSurface& centre(std::size_t pixel) const { return at(pixel).seen; }
+    /// How the object at the pixel's centre mirrors light; zero if there is no object.
+    [[nodiscard]] GlossWords gloss(std::size_t pixel) const;
     /// Adds light from an earlier picture to the surface at the pixel's centre. The weight of this
     /// light is its number of samples.
     void carry(std::size_t pixel, const KnownLight& light) { begun(pixel).carried = light; }

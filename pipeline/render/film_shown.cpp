@@ -1,5 +1,6 @@
 // The part of Film that makes pictures from the samples.
 #include "pipeline/render/film.h"
+#include "pipeline/render/luminance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +15,13 @@ std::uint8_t quantised(float value) {
 }
 
 }  // namespace
+
+GlossWords Film::gloss(std::size_t pixel) const {
+    const SeenSurface& seen = at(pixel).seen;
+    if (seen.hit.id == 0 || seen.hit.id == kCatcherId) return {};
+    return packedGloss({seen.normal.x(), seen.normal.y(), seen.normal.z()}, seen.roughness,
+                       luminanceOf<float>(seen.paint.facing), seen.paint.albedo.full());
+}
 
 Film::Shown Film::shown(const Means& m, const Exposure& exposure) {
     Shown out{m.objectShare * displayed(m.object, exposure), m.objectShare};

@@ -304,6 +304,18 @@ SurfaceLight PathIntegrator::far(const SurfacePoint& point,
     return out;
 }
 
+MirrorLight PathIntegrator::mirrorLight() const {
+    MirrorLight out = far_.tables();
+    out.least = leastFar_;
+    out.leastSunAlpha = sun_.angularRadius();
+    if (sun_.dark() || !sunIsKnown_) return out;
+    for (int c = 0; c < 3; ++c) {
+        out.towardsSun[static_cast<std::size_t>(c)] = sun_.towards()[c];
+        out.sunIrradiance[static_cast<std::size_t>(c)] = sun_.irradiance()[c];
+    }
+    return out;
+}
+
 PathIntegrator::OfCatcher PathIntegrator::ofCatcher(const RayHit& hit,
                                                     const Eigen::Vector3f& direction,
                                                     const PixelSampler& sampler) const {

@@ -35,6 +35,9 @@ public:
     [[nodiscard]] SurfaceLight far(const SurfacePoint& point,
                                    const Eigen::Vector3f& direction) const;
 
+    /// The distant light that the surfaces of pictures mirror.
+    [[nodiscard]] MirrorLight mirrorLight() const;
+
     /// Radiance of the shadow catcher with and without the objects, computed from the same random
     /// numbers. Both are bit-identical if the path did not hit an object.
     struct OfCatcher {

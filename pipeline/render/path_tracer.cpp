@@ -18,6 +18,7 @@ namespace mfar {
 namespace {
 
 constexpr std::size_t kBatch = 64;  // rays that Embree traces in one call
+constexpr float kLeastMean = 0.1F;  // a shorter mean of normals has no reliable direction
 
 /// A sample of a pixel, or the ray through the pixel's centre that is traced before the samples.
 struct CameraSample {
@@ -50,7 +51,8 @@ void validate(const PathTracerOptions& o) {
 
 struct PathTracer::Parts {
     Parts(std::shared_ptr<const Scene> sound, const PathTracerOptions& o)
-        : options(o), scene(std::move(sound), o.buildThreads), integrator(scene, options) {}
+        : options(o), scene(std::move(sound), o.buildThreads), integrator(scene, options),
+          mirrors(std::make_shared<const MirrorLight>(integrator.mirrorLight())) {}
 
     /// Ray table of the lens. It is kept until the camera changes.
     [[nodiscard]] std::shared_ptr<const LensRays> lensOf(const CameraModel& camera) const {
@@ -63,6 +65,7 @@ struct PathTracer::Parts {
     PathTracerOptions options;
     TracedScene scene;
     PathIntegrator integrator;
+    std::shared_ptr<const MirrorLight> mirrors;
     mutable std::mutex lensMutex;
     mutable std::shared_ptr<const LensRays> lens;
 };
@@ -137,7 +140,8 @@ private:
         const TracedScene& scene = parts_.scene;
         SeenSurface seen;
         if (object.found()) {
-            const SurfacePoint point = scene.objectPoint(object, ray.direction);
+            SurfacePoint point = scene.objectPoint(object, ray.direction);
+            smooth(pixel, scene.idOf(object), point);
             seen = {{object.t, scene.idOf(object)},
                     point.shading,
                     point.paint(ray.direction),
@@ -149,6 +153,32 @@ private:
         film_.setCentre(pixel, seen);
         if (history_ != nullptr)
             film_.carry(pixel, history_->at(seen, eye_ + seen.hit.depth * ray.direction, eye_));
+    }
+
+    /// Replaces the normal by the mean of the normals in the pixel's quarters, and widens the
+    /// mirrored lobe by their spread (Toksvig 2005). On a fine relief, the light for a single
+    /// normal would be noise.
+    void smooth(std::uint32_t pixel, std::uint8_t id, SurfacePoint& point) const {
+        const TracedScene& scene = parts_.scene;
+        Eigen::Vector3f sum = point.shading;
+        float count = 1;
+        for (const Eigen::Vector2f& to :
+             {Eigen::Vector2f(-0.25F, -0.25F), {0.25F, -0.25F}, {-0.25F, 0.25F}, {0.25F, 0.25F}}) {
+            const Eigen::Vector2f at = Eigen::Vector2f(pixel % width_, pixel / width_) + to;
+            const Ray ray{eye_, rotation_ * lens_->at(at.x(), at.y()).homogeneous()};
+            const RayHit hit = scene.shown(ray, scene.objects().first(ray));
+            if (!hit.found() || scene.idOf(hit) != id) continue;
+            sum += scene.objectPoint(hit, ray.direction).shading;
+            ++count;
+        }
+        const float length = sum.norm();
+        if (!(length > kLeastMean * count)) return;
+        point.shading = sum / length;
+        // The factor count / (count - 1) makes up for the small number of normals, whose spread is
+        // too small on average.
+        const float spread = count > 1 ? (1 - length / count) * count / (count - 1) : 0;
+        const float alpha = alphaOf(point.look.roughness);
+        point.look.roughness = std::min(1.0F, std::sqrt(std::sqrt(alpha * alpha + 2 * spread)));
     }
 
     const Parts& parts_;
@@ -205,6 +235,10 @@ void PathTracer::trace(const RenderView& view, std::span<const std::uint32_t> pi
 LightHistory PathTracer::historyOf(const Film& film, const RenderView& view,
                                    float mostSamples) const {
     return {film, view, parts_->lensOf(view.camera), mostSamples};
+}
+
+const std::shared_ptr<const MirrorLight>& PathTracer::mirrorLight() const {
+    return parts_->mirrors;
 }
 
 std::optional<Eigen::Vector3f> PathTracer::catcherAt(const RenderView& view,

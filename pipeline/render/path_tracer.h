@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/mirror_light.h"
 #include "pipeline/render/film.h"
 #include "pipeline/render/light_history.h"
 #include "pipeline/render/path_tracer_options.h"
@@ -39,6 +40,9 @@ public:
     /// Light in the film of an earlier picture of the same objects. trace() reuses this light.
     [[nodiscard]] LightHistory historyOf(const Film& film, const RenderView& view,
                                          float mostSamples) const;
+
+    /// The distant light that the objects mirror.
+    [[nodiscard]] const std::shared_ptr<const MirrorLight>& mirrorLight() const;
 
     /// The point of the shadow catcher that a pixel shows, ignoring objects.
     [[nodiscard]] std::optional<Eigen::Vector3f> catcherAt(const RenderView& view,

@@ -24,6 +24,8 @@ void PictureResolver::begin(const Film& film, const RenderView& view, const Pixe
     out.depth.resize(pixels);
     out.id.resize(pixels);
     out.light.resize(pixels);
+    out.gloss.resize(pixels);
+    out.exposure = exposure.scale;
     taken_.assign(static_cast<std::size_t>(size.height), 0);
     seen_ = taken_;
     if (filters_) filter_.begin(size, traced_);
@@ -88,6 +90,7 @@ void PictureResolver::write(int row) {
     std::fill_n(out_->depth.begin() + static_cast<std::ptrdiff_t>(begin), width, 0.0F);
     std::fill_n(out_->id.begin() + static_cast<std::ptrdiff_t>(begin), width, std::uint8_t{0});
     std::fill_n(out_->light.begin() + static_cast<std::ptrdiff_t>(begin), width, LightWords{});
+    std::fill_n(out_->gloss.begin() + static_cast<std::ptrdiff_t>(begin), width, GlossWords{});
     if (row < traced_.y0 || row >= traced_.y1) return;
     for (int x = traced_.x0; x < traced_.x1; ++x) {
         const std::size_t i = begin + x;
@@ -98,6 +101,7 @@ void PictureResolver::write(int row) {
         out_->light[i] = onObject;
         out_->id[i] = hit.id;
         if (hit.id == 0) continue;
+        if (hit.id != kCatcherId) out_->gloss[i] = film_->gloss(i);
         taken_[static_cast<std::size_t>(row)] += film_->samples(i);
         seen_[static_cast<std::size_t>(row)] += 1;
     }

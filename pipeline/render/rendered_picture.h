@@ -2,6 +2,7 @@
 
 #include "base/geometry.h"
 #include "base/light_word.h"
+#include "base/mirror_light.h"
 #include "pipeline/scene/scene.h"
 
 #include <array>
@@ -28,6 +29,11 @@ struct RenderedPicture {
     /// Light on the object in each pixel, without the object's paint. Empty if the renderer does
     /// not provide it.
     std::vector<LightWords> light;
+    /// How object pixels mirror the distant light `mirrors`, multiplied by `exposure`. Empty if the
+    /// renderer does not provide it.
+    std::vector<GlossWords> gloss;
+    std::shared_ptr<const MirrorLight> mirrors;
+    float exposure = 1;
     std::shared_ptr<const Scene> scene;  ///< the scene in this picture; may be null
     double samples = 0;                  ///< samples per pixel, averaged over the pixels with an id
 };

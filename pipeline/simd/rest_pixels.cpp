@@ -89,15 +89,11 @@ float coveredOf(const Quarters& quarters) {
 }  // namespace
 
 RestPixels::RestPixels(const ViewLookUp::Input& input, const WarpReference& reference,
-                       const ViewLookUpInput& plain, const LensProjection& layer,
-                       const RigidTransform& T_world_camera)
-    : plain_(plain), layerLens_(pointLensOf(layer)), reference_{reference.surface,
-                                                                reference.colour,
-                                                                reference.light,
-                                                                reference.camera.size,
-                                                                plain.toReference,
-                                                                &plain_.lens,
-                                                                1} {
+                       std::span<const LightWords> lights, const ViewLookUpInput& plain,
+                       const LensProjection& layer, const RigidTransform& T_world_camera)
+    : plain_(plain), layerLens_(pointLensOf(layer)),
+      reference_{reference.surface, reference.colour, lights, reference.camera.size,
+                 plain.toReference, &plain_.lens,     1} {
     // The patches are ordered by slot, because of patches with equal shares the first one is shown.
     std::array<const PatchPictures::Patch*, PatchPictures::kPatches> bySlot{};
     for (const PatchPictures::Patch& patch : input.patches.patches())

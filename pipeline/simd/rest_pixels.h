@@ -22,9 +22,10 @@ struct RestPixel {
 /// shadow on the real surface are two layers; the shadow is the lower one (warp_rest.comp).
 class RestPixels {
 public:
+    /// `lights`: light of the reference's pixels for this view.
     RestPixels(const ViewLookUp::Input& input, const WarpReference& reference,
-               const ViewLookUpInput& plain, const LensProjection& layer,
-               const RigidTransform& T_world_camera);
+               std::span<const LightWords> lights, const ViewLookUpInput& plain,
+               const LensProjection& layer, const RigidTransform& T_world_camera);
 
     /// A pixel of the layer to be looked up.
     struct Asked {

@@ -41,7 +41,8 @@ void PatchStore::store(const PatchPictures::StoredRows& rows) {
 
 ViewLookUp::ViewLookUp(const LensProjection& layer, std::shared_ptr<Workers> workers)
     : layer_(layer), workers_(std::move(workers)), rayX_(layer.camera.size),
-      rayY_(layer.camera.size), depth_(layer.camera.size), colour_(layer.camera.size),
+      rayY_(layer.camera.size), depth_(layer.camera.size),
+      mirrors_(layer.camera, rayX_.rows(), rayY_.rows(), workers_), colour_(layer.camera.size),
       state_(layer.camera.size),
       scratch_(workers_ ? workers_->count() : 1,
                [&] {
@@ -61,6 +62,7 @@ ViewLookUp::ViewLookUp(const LensProjection& layer, std::shared_ptr<Workers> wor
 
 void ViewLookUp::setReference(const WarpReference& reference) {
     reference_ = &reference;
+    mirrors_.setReference(reference);
     referenceLens_ = pointLensOf(LensProjection(reference.camera));
 }
 
@@ -74,16 +76,17 @@ void ViewLookUp::clear(const PixelRect& where) {
 
 void ViewLookUp::run(const Input& input, const RigidTransform& T_world_camera,
                      const PixelRect& where) {
+    const std::span<const LightWords> lights = mirrors_.lightFor(T_world_camera.translation);
     const ViewLookUpInput plain{
         pointTransformOf(reference_->T_world_camera.inverse() * T_world_camera),
         referenceLens_,
         reference_->camera.size,
         reference_->packed.data(),
         reinterpret_cast<const std::uint32_t*>(reference_->colour.data()),
-        reference_->light.empty() ? nullptr : &reference_->light.front().diffuse,
+        lights.empty() ? nullptr : &lights.front().diffuse,
         planeIn(input.plane, T_world_camera),
         1 - kShadowLift};
-    const RestPixels rest(input, *reference_, plain, layer_, T_world_camera);
+    const RestPixels rest(input, *reference_, lights, plain, layer_, T_world_camera);
     const auto rows = [&](int y, int end) {
         scratch_.with([&](Scratch& scratch) {
             for (; y < end; ++y)

@@ -2,6 +2,7 @@
 
 #include "base/rows.h"
 #include "base/workers.h"
+#include "pipeline/simd/moving_mirrors.h"
 #include "pipeline/simd/scratch_slots.h"
 #include "pipeline/simd/view_rows.h"
 #include "pipeline/warp/patch_pictures.h"
@@ -89,6 +90,7 @@ private:
     const WarpReference* reference_ = nullptr;
     PointLens referenceLens_;
     AlignedRows<float> rayX_, rayY_, depth_;
+    MovingMirrors mirrors_;
     AlignedRows<std::uint32_t> colour_, state_;
     ScratchSlots<Scratch> scratch_;
     std::vector<std::vector<Hole>> rowHoles_;

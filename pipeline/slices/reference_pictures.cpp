@@ -225,6 +225,7 @@ void ReferencePictures::beginShow(const Exposure& exposure, RenderedPicture& out
 void ReferencePictures::endShow(RenderedPicture& out) {
     Picture& picture = pictures_[working()];
     out.scene = picture.scene->source;
+    out.mirrors = picture.scene->tracer->mirrorLight();
     picture.touched.set(out);
     picture.shownSamples = picture.slices.samples();
     picture.shownTurns = picture.slices.turns();

@@ -119,8 +119,8 @@ void ReferenceWorkers::takeTick() {
 void ReferenceWorkers::look() {
     toLook_ = false;
     pictures_.setScene(scene_);
-    if (!scene_ || !tick_.view) return;
-    pictures_.look(*tick_.view, predictedView(), tick_.time);
+    if (scene_ && tick_.view) pictures_.look(*tick_.view, predictedView(), tick_.time);
+    publishCounters();
     if (hasWork()) wakeOthers();
 }
 
@@ -322,7 +322,8 @@ void ReferenceWorkers::publishCounters() {
     counters_.frame = tick_.time;
     counters_.msPerSample = budget_.msPerSample();
     counters_.budget = budget_.kept();
-    counters_.idle = !hasWork();
+    // A new scene or view must be looked at first, because it may need work.
+    counters_.idle = !hasWork() && !toLook_;
     if (!holesExclusive_) counters_.holePixels = holes_.answered();
     if (!exclusive_) {
         counters_.pictures = pictures_.finished();

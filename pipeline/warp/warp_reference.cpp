@@ -82,6 +82,7 @@ bool takeFromNeighbours(const PictureGrid& grid, std::span<const LightWords> lig
     const int own = grid.id(x, y);
     std::array<int, 4> sum{};
     UnpackedLight sumOfLight;
+    GlossWords gloss;  // from one neighbour, because octahedral directions have no mean
     int count = 0;
     for (int j = -1; j <= 1; ++j)
         for (int i = -1; i <= 1; ++i) {
@@ -93,6 +94,7 @@ bool takeFromNeighbours(const PictureGrid& grid, std::span<const LightWords> lig
             for (std::size_t c = 0; c < 4; ++c)
                 sum[c] += r.picture[at][c];
             if (!r.light.empty()) addShare(sumOfLight, 1, unpackedWords(light[at]));
+            if (!r.gloss.empty()) gloss = r.gloss[at];
             ++count;
         }
     if (count == 0) return false;
@@ -104,6 +106,7 @@ bool takeFromNeighbours(const PictureGrid& grid, std::span<const LightWords> lig
         addShare(mean, 1 / static_cast<float>(count), sumOfLight);
         r.light[at] = packedWords(mean);
     }
+    if (!r.gloss.empty()) r.gloss[at] = gloss;
     return true;
 }
 
@@ -200,7 +203,8 @@ WarpReference warpReference(const RenderedPicture& picture) {
     const Size size = picture.camera.size;
     const std::size_t count = static_cast<std::size_t>(size.width) * size.height;
     if (picture.colour.size() != count || picture.depth.size() != count ||
-        picture.id.size() != count || (!picture.light.empty() && picture.light.size() != count))
+        picture.id.size() != count || (!picture.light.empty() && picture.light.size() != count) ||
+        (!picture.gloss.empty() && picture.gloss.size() != count))
         throw std::invalid_argument("a rendered picture must have a colour, a depth and an id for "
                                     "each pixel of its camera");
     WarpReference r{picture.camera,
@@ -209,6 +213,9 @@ WarpReference warpReference(const RenderedPicture& picture) {
                     {},
                     picture.colour,
                     picture.light,
+                    picture.gloss,
+                    picture.mirrors,
+                    picture.exposure,
                     {},
                     {},
                     {},

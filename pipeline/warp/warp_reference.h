@@ -35,6 +35,10 @@ struct WarpReference {
     std::vector<std::array<std::uint8_t, 4>> colour;
     /// Light on objects in the same pixels. Empty if only colours are known.
     std::vector<LightWords> light;
+    /// How these pixels mirror the light `mirrors`, multiplied by `exposure`. Empty if unknown.
+    std::vector<GlossWords> gloss;
+    std::shared_ptr<const MirrorLight> mirrors;
+    float exposure = 1;
     std::vector<WarpSurface> surface;
     /// z and number of the surface in one word, in the format of warp_surface.glsl. Unknown pixels
     /// have kUnknownId.

@@ -41,6 +41,47 @@ Eigen::Vector3f meanRadiance(const Film& film) {
     return sum / static_cast<float>(pixels);
 }
 
+/// A horizontal square of 2x2 m. Its texture is repeated 32 times along each side.
+Mesh flatSquare() {
+    Mesh mesh;
+    mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    mesh.normals.assign(4, {0, 0, 1});
+    mesh.tangents.assign(4, {1, 0, 0, 1});
+    mesh.uvs = {{0, 0}, {32, 0}, {32, 32}, {0, 32}};
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    return mesh;
+}
+
+// A pixel is about three bumps wide.
+TEST(PathTracer, AFineReliefIsSeenAsAWiderLobeAboutItsMeanNormal) {
+    const auto seen = [](bool bumpy) {
+        Material material = materialOf({0.9F, 0.9F, 0.9F}, 1, 0.2F);
+        Model model = modelOf(flatSquare(), material);
+        model.textures.push_back({{4, 1}, false, {}});
+        for (const std::uint8_t x : {50, 128, 205, 128})
+            model.textures.back().texels.push_back({x, 128, 230, 255});
+        if (bumpy) model.materials.front().normalTexture = 0;
+        auto scene = std::make_shared<Scene>();
+        scene->objects.push_back(objectOf(std::move(model)));
+        scene->lighting.environment = evenLight(1);
+        const RenderView view = lookingAt({0, 0, 4}, {0, 0, 0}, {16, 16}, 20);
+        const PathTracer tracer(scene);
+        Film film(view.camera.size);
+        tracer.trace(view, allPixels(film.size()), 0, film);
+        return std::pair(film.centre(8 * 16 + 8), film.gloss(8 * 16 + 8));
+    };
+    const auto [flat, flatGloss] = seen(false);
+    const auto [bumpy, bumpyGloss] = seen(true);
+    EXPECT_NEAR(flat.roughness, 0.2F, 0.01F);
+    EXPECT_GT(flat.normal.z(), 0.999F);
+    EXPECT_GT(bumpy.roughness, 0.3F);
+    EXPECT_NEAR(bumpy.normal.norm(), 1, 1e-4F);
+    EXPECT_GT(bumpy.normal.z(), 0.85F);
+    EXPECT_NE(flatGloss.look, 0U);
+    EXPECT_EQ(flatGloss.look & 0xFFU, 51U);
+    EXPECT_GT(bumpyGloss.look & 0xFFU, 76U);
+}
+
 TEST(PathTracer, AWhiteSphereInUniformLightIsInvisible) {
     for (const float metallic : {0.0F, 1.0F})
         for (const float roughness : {0.2F, 0.6F, 1.0F}) {

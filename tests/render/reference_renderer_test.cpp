@@ -140,6 +140,23 @@ TEST(ReferenceRenderer, IsIdleOnceConvergedAndUnmoved) {
     EXPECT_EQ(before.progress, 1);
 }
 
+TEST(ReferenceRenderer, IsNotIdleBeforeTheFirstPictureIsFinished) {
+    const RenderView view = render_scenes::viewFrom(kRenderSize, 20);
+    for (int i = 0; i < 20; ++i) {
+        Frames frames(quick());
+        frames.renderer.setScene(render_scenes::stillLife());
+        frames.renderer.update(view, frames.now());
+        const auto end = steady_clock::now() + std::chrono::seconds(60);
+        RenderCounters counters;
+        while (counters.pictures == 0 && steady_clock::now() < end) {
+            counters = frames.renderer.counters();
+            const bool seen = counters.frame >= frames.now();
+            ASSERT_FALSE(seen && counters.idle && counters.pictures == 0);
+        }
+        EXPECT_EQ(counters.pictures, 1U);
+    }
+}
+
 TEST(ReferenceRenderer, AtRestThePictureNeverGetsNoisier) {
     Frames frames(quick());
     frames.renderer.setScene(render_scenes::stillLife());

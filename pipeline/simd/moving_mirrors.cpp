@@ -1,0 +1,132 @@
+#include "pipeline/simd/moving_mirrors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace mfar::simd {
+namespace {
+
+constexpr int kMirrorRows = 8;
+constexpr std::size_t kSpare = 8;  // number of entries that vectors may read behind the last row
+constexpr int kRoughnesses = 256;
+constexpr float kLeastAlpha = 1e-3F;
+
+bool sameRays(const CameraModel& a, const CameraModel& b) {
+    return a.size == b.size && a.fx == b.fx && a.fy == b.fy && a.cx == b.cx && a.cy == b.cy &&
+           a.distortion == b.distortion;
+}
+
+template <class T>
+void copyPadded(const std::vector<T>& from, std::vector<T>& to) {
+    to.resize(from.size() + kSpare);
+    std::ranges::copy(from, to.begin());
+}
+
+}  // namespace
+
+MovingMirrors::MovingMirrors(const CameraModel& layer, Rows<const float> rayX,
+                             Rows<const float> rayY, std::shared_ptr<Workers> workers)
+    : layer_(layer), rayX_(rayX), rayY_(rayY), workers_(std::move(workers)) {}
+
+void MovingMirrors::setReference(const WarpReference& reference) {
+    reference_ = &reference;
+    moves_ = !reference.light.empty() && !reference.gloss.empty() && reference.mirrors &&
+             sameRays(reference.camera, layer_);
+    if (!moves_) return;
+    if (mirrors_ != reference.mirrors) {
+        mirrors_ = reference.mirrors;
+        prepareTables();
+    }
+    copyPadded(reference.packed, packed_);
+    copyPadded(reference.gloss, gloss_);
+    copyPadded(reference.light, light_);
+    parts_.assign(light_.size(), {});
+    eye_ = reference.T_world_camera.translation;
+    const MirrorInput input = inputFor(eye_);
+    forRows([&](int y) { splitMirrored(rowAt(y), input, firstOf(light_, y), firstOf(parts_, y)); });
+}
+
+std::span<const LightWords> MovingMirrors::lightFor(const Eigen::Vector3d& eye) {
+    if (!moves_) return reference_->light;
+    if (eye != eye_) {
+        eye_ = eye;
+        const MirrorInput input = inputFor(eye);
+        forRows(
+            [&](int y) { joinMirrored(rowAt(y), input, firstOf(parts_, y), firstOf(light_, y)); });
+    }
+    return std::span(light_).first(reference_->light.size());
+}
+
+void MovingMirrors::prepareTables() {
+    const std::vector<MirrorLight::Table>& tables = mirrors_->tables;
+    tables_.clear();
+    for (const MirrorLight::Table& table : tables) {
+        tables_.push_back(static_cast<std::int32_t>(table.first));
+        tables_.push_back(table.edge);
+    }
+    tableOf_.assign(kRoughnesses, 0);
+    shareOf_.assign(kRoughnesses, 0);
+    alphaOf_.assign(kRoughnesses, 0);
+    for (std::size_t i = 0; i < kRoughnesses; ++i) {
+        const float roughness = static_cast<float>(i) / (kRoughnesses - 1);
+        alphaOf_[i] = std::max({roughness * roughness, mirrors_->leastSunAlpha, kLeastAlpha});
+        std::size_t low = 0;
+        while (low + 2 < tables.size() && tables[low + 1].roughness < roughness)
+            ++low;
+        tableOf_[i] = static_cast<std::int32_t>(low);
+        if (tables.size() < 2) continue;
+        // Below the roughness of the second table, light is interpolated by the width of the lobe,
+        // as in FarLight::mirrored().
+        const float from = tables[low].roughness, to = tables[low + 1].roughness;
+        const float share =
+            low == 0 ? roughness * roughness / (to * to) : (roughness - from) / (to - from);
+        shareOf_[i] = std::clamp(share, 0.0F, 1.0F);
+    }
+}
+
+MirrorInput MovingMirrors::inputFor(const Eigen::Vector3d& eye) const {
+    MirrorInput out{mirrors_->texels.data(),
+                    tables_.data(),
+                    tableOf_.data(),
+                    shareOf_.data(),
+                    alphaOf_.data(),
+                    {},
+                    {},
+                    mirrors_->least,
+                    reference_->exposure,
+                    {},
+                    {}};
+    const RigidTransform& T = reference_->T_world_camera;
+    const Eigen::Matrix3d axes = T.rotation.normalized().toRotationMatrix();
+    for (int i = 0; i < 3; ++i) {
+        out.sun[i] = mirrors_->towardsSun[static_cast<std::size_t>(i)];
+        out.irradiance[i] = mirrors_->sunIrradiance[static_cast<std::size_t>(i)];
+        out.eye[i] = static_cast<float>(eye[i] - T.translation[i]);
+        for (int axis = 0; axis < 3; ++axis)
+            out.axes[axis][i] = static_cast<float>(axes(i, axis));
+    }
+    return out;
+}
+
+MirrorRow MovingMirrors::rowAt(int y) const {
+    const PixelRect& where = reference_->bounds;
+    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(y) * layer_.size.width + where.x0;
+    return {where.x1 - where.x0, packed_.data() + first, gloss_.data() + first, rayX_[y] + where.x0,
+            rayY_[y] + where.x0};
+}
+
+template <class Body>
+void MovingMirrors::forRows(const Body& body) const {
+    const PixelRect& where = reference_->bounds;
+    const auto rows = [&](int y, int end) {
+        for (; y < end; ++y)
+            body(where.y0 + y);
+    };
+    if (workers_)
+        workers_->forRange(where.y1 - where.y0, kMirrorRows, rows);
+    else
+        rows(0, where.y1 - where.y0);
+}
+
+}  // namespace mfar::simd
