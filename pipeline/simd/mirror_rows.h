@@ -36,7 +36,8 @@ struct MirrorParts {
     std::uint32_t share = 0, rest = 0;
 };
 
-// Both skip pixels without gloss. Rows need 7 entries to spare.
+// Both skip pixels without gloss. Surfaces, gloss, rays and parts need 7 entries to spare; none are
+// written.
 /// Splits specular light, seen from the reference's eye.
 void splitMirrored(const MirrorRow& row, const MirrorInput& input, const LightWords* light,
                    MirrorParts* out);
