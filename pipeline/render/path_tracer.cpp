@@ -77,6 +77,7 @@ public:
         : parts_(parts), lens_(parts.lensOf(view.camera)),
           rotation_(view.T_world_camera.rotation.normalized().toRotationMatrix().cast<float>()),
           eye_(view.T_world_camera.translation.cast<float>()),
+          focal_(static_cast<float>(view.camera.fx)),
           width_(static_cast<std::uint32_t>(view.camera.size.width)), film_(film),
           history_(history) {}
 
@@ -141,7 +142,10 @@ private:
         SeenSurface seen;
         if (object.found()) {
             SurfacePoint point = scene.objectPoint(object, ray.direction);
-            smooth(pixel, scene.idOf(object), point);
+            // A first picture is needed soon.
+            const float width = object.t / focal_;
+            if (history_ != nullptr && !scene.isEven(object, width))
+                smooth(pixel, scene.idOf(object), point);
             seen = {{object.t, scene.idOf(object)},
                     point.shading,
                     point.paint(ray.direction),
@@ -185,6 +189,7 @@ private:
     std::shared_ptr<const LensRays> lens_;
     Eigen::Matrix3f rotation_;
     Eigen::Vector3f eye_;
+    float focal_;
     std::uint32_t width_;
     Film& film_;
     const LightHistory* history_;

@@ -175,6 +175,20 @@ Eigen::Vector3f TracedScene::shadingNormal(const TracedMesh& mesh, const RayHit&
     return mapped(mesh, hit, normal);
 }
 
+bool TracedScene::isEven(const RayHit& hit, float width) const {
+    constexpr float kTurn = 0.1F;  // [rad]
+    const TracedMesh& mesh = *meshes_[hit.mesh];
+    if (mesh.texture(mesh.material().normalTexture) != nullptr) return false;
+    if (mesh.mesh->normals.empty()) return true;
+    const auto& corners = mesh.mesh->triangles[hit.triangle];
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t a = corners[i], b = corners[(i + 1) % 3];
+        const float turn = (mesh.mesh->normals[a] - mesh.mesh->normals[b]).norm();
+        if (turn * width > kTurn * (mesh.positions[a] - mesh.positions[b]).norm()) return false;
+    }
+    return true;
+}
+
 SurfacePoint TracedScene::objectPoint(const RayHit& hit, const Eigen::Vector3f& direction) const {
     const TracedMesh& mesh = *meshes_[hit.mesh];
     const auto& corners = mesh.mesh->triangles[hit.triangle];

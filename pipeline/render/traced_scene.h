@@ -43,6 +43,8 @@ public:
     [[nodiscard]] RayHit shown(const Ray& ray, RayHit hit) const;
     [[nodiscard]] std::uint8_t idOf(const RayHit& hit) const { return meshes_[hit.mesh]->id; }
 
+    /// True if the normal hardly turns over this width [m] of the triangle that was hit.
+    [[nodiscard]] bool isEven(const RayHit& hit, float width) const;
     /// `direction` is the direction of the ray, of any length.
     [[nodiscard]] SurfacePoint objectPoint(const RayHit& hit,
                                            const Eigen::Vector3f& direction) const;

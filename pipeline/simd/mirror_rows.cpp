@@ -1,5 +1,7 @@
 #include "pipeline/simd/mirror_rows.h"
 
+#include <algorithm>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/mirror_rows.cpp"
 
@@ -206,6 +208,31 @@ HWY_INLINE void ForGloss(const MirrorRow& row, const MirrorInput& in, const Body
     }
 }
 
+// Entries behind a row belong to the next one, which another thread may change.
+struct Pair {
+    VU first, second;
+};
+HWY_INLINE Pair LoadPairs(const LightWords* from, int count) {
+    const DU du;
+    LightWords spare[8];
+    if (count < static_cast<int>(hn::Lanes(du))) {
+        std::copy_n(from, count, spare);
+        from = spare;
+    }
+    Pair out;
+    hn::LoadInterleaved2(du, reinterpret_cast<const std::uint32_t*>(from), out.first, out.second);
+    return out;
+}
+template <class Words>
+HWY_INLINE void StorePairs(const Pair& pair, int count, Words* to) {
+    const DU du;
+    Words spare[8];
+    const bool fits = count >= static_cast<int>(hn::Lanes(du));
+    auto* words = reinterpret_cast<std::uint32_t*>(fits ? to : spare);
+    hn::StoreInterleaved2(pair.first, pair.second, du, words);
+    if (!fits) std::copy_n(spare, count, to);
+}
+
 HWY_INLINE V Luminance(const V3& light) {
     return hn::MulAdd(F(0.2126F), light.x,
                       hn::MulAdd(F(0.7152F), light.y, hn::Mul(F(0.0722F), light.z)));
@@ -223,9 +250,7 @@ void SplitMirrored(const MirrorRow& row, const MirrorInput& in, const LightWords
                    MirrorParts* out) {
     const DU du;
     ForGloss(row, in, [&](int x, const FarParts& far, auto known) HWY_ATTR {
-        VU diffuse, specular;
-        hn::LoadInterleaved2(du, reinterpret_cast<const std::uint32_t*>(light + x), diffuse,
-                             specular);
+        const VU specular = LoadPairs(light + x, row.count - x).second;
         const V3 all = Unpacked(specular), sun = Sunlight(in, far.sun);
         const V3 share{ShareOf(all.x, far.sky.x), ShareOf(all.y, far.sky.y),
                        ShareOf(all.z, far.sky.z)};
@@ -242,9 +267,9 @@ void SplitMirrored(const MirrorRow& row, const MirrorInput& in, const LightWords
         const VU bits = hn::BitCast(du, hn::NearestInt(hn::Mul(sunShare, F(kMostSunShare))));
         const VU high = hn::ShiftLeft<kLightFreeBit>(hn::ShiftRight<3>(bits));
         const VU low = hn::ShiftLeft<kLightFreeBit>(hn::And(bits, hn::Set(du, 7)));
-        hn::StoreInterleaved2(hn::IfThenElseZero(known, hn::Or(Packed(share), high)),
-                              hn::IfThenElseZero(known, hn::Or(Packed(rests), low)), du,
-                              reinterpret_cast<std::uint32_t*>(out + x));
+        StorePairs({hn::IfThenElseZero(known, hn::Or(Packed(share), high)),
+                    hn::IfThenElseZero(known, hn::Or(Packed(rests), low))},
+                   row.count - x, out + x);
     });
 }
 
@@ -252,9 +277,8 @@ void JoinMirrored(const MirrorRow& row, const MirrorInput& in, const MirrorParts
                   LightWords* light) {
     const DU du;
     ForGloss(row, in, [&](int x, const FarParts& far, auto known) HWY_ATTR {
-        VU diffuse, specular, share, rest;
-        auto* words = reinterpret_cast<std::uint32_t*>(light + x);
-        hn::LoadInterleaved2(du, words, diffuse, specular);
+        VU share, rest;
+        const auto [diffuse, specular] = LoadPairs(light + x, row.count - x);
         hn::LoadInterleaved2(du, reinterpret_cast<const std::uint32_t*>(parts + x), share, rest);
         const VU bits = hn::Or(hn::ShiftLeft<3>(hn::ShiftRight<kLightFreeBit>(share)),
                                hn::ShiftRight<kLightFreeBit>(rest));
@@ -266,8 +290,8 @@ void JoinMirrored(const MirrorRow& row, const MirrorInput& in, const MirrorParts
                hn::MulAdd(shares.y, far.sky.y, hn::Add(sum.y, sun.y)),
                hn::MulAdd(shares.z, far.sky.z, hn::Add(sum.z, sun.z))};
         const VU veil = hn::ShiftLeft<kLightFreeBit>(hn::ShiftRight<kLightFreeBit>(specular));
-        specular = hn::IfThenElse(known, hn::Or(Packed(sum), veil), specular);
-        hn::StoreInterleaved2(diffuse, specular, du, words);
+        StorePairs({diffuse, hn::IfThenElse(known, hn::Or(Packed(sum), veil), specular)},
+                   row.count - x, light + x);
     });
 }
 

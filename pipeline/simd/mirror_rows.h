@@ -36,7 +36,8 @@ struct MirrorParts {
     std::uint32_t share = 0, rest = 0;
 };
 
-// Both functions skip pixels without gloss. Rows need 7 more entries than pixels.
+// Both functions skip pixels without gloss. Surfaces, gloss, rays and parts need 7 more entries
+// than pixels; these are read but not written.
 /// Splits the specular light that the reference's eye sees.
 void splitMirrored(const MirrorRow& row, const MirrorInput& input, const LightWords* light,
                    MirrorParts* out);

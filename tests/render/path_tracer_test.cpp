@@ -67,7 +67,9 @@ TEST(PathTracer, AFineReliefIsSeenAsAWiderLobeAboutItsMeanNormal) {
         const RenderView view = lookingAt({0, 0, 4}, {0, 0, 0}, {16, 16}, 20);
         const PathTracer tracer(scene);
         Film film(view.camera.size);
-        tracer.trace(view, allPixels(film.size()), 0, film);
+        const Film none(view.camera.size);
+        const LightHistory history = tracer.historyOf(none, view, 1);
+        tracer.trace(view, allPixels(film.size()), 0, film, &history);
         return std::pair(film.centre(8 * 16 + 8), film.gloss(8 * 16 + 8));
     };
     const auto [flat, flatGloss] = seen(false);

@@ -14,11 +14,11 @@
 namespace mfar::simd {
 namespace {
 
-constexpr Size kPicture{21, 6};
+constexpr Size kPicture{21, 40};
 constexpr float kTwice = 2;  // light of the rough table divided by that of the sharp one
 
 CameraModel camera() {
-    return {kPicture, 30, 30, 9.5, 2.5, {-0.1, 0.02, 0, 0, 0}};
+    return {kPicture, 30, 30, 9.5, 18.5, {-0.1, 0.02, 0, 0, 0}};
 }
 
 Eigen::Vector3f lightFrom(const Eigen::Vector3f& direction) {
@@ -101,9 +101,10 @@ Eigen::Vector3f specularOf(const LightWords& words) {
 /// The mirrors of a picture, with the rays of its camera.
 struct Mirrors {
     AlignedRows<float> rayX{kPicture}, rayY{kPicture};
-    MovingMirrors mirrors{camera(), rayX.rows(), rayY.rows(), std::make_shared<Workers>(1)};
+    MovingMirrors mirrors;
 
-    explicit Mirrors(const WarpReference& reference) {
+    explicit Mirrors(const WarpReference& reference, int threads = 1)
+        : mirrors(camera(), rayX.rows(), rayY.rows(), std::make_shared<Workers>(threads)) {
         for (int y = 0; y < kPicture.height; ++y)
             for (int x = 0; x < kPicture.width; ++x) {
                 const Eigen::Vector2d ray = camera().unproject(Eigen::Vector2d(x, y));
@@ -196,6 +197,19 @@ TEST(MovingMirrors, HighlightsOfTheSunMove) {
             << i;
     }
     EXPECT_GT(bright, 10);
+}
+
+TEST(MovingMirrors, ThreadsChangeNothing) {
+    Surfaces s(smoothLight());
+    for (std::size_t i = 0; i < s.points.size(); ++i)
+        s.setLight(i, {1, 2, 3});
+    Mirrors one(s.reference);
+    const Eigen::Vector3d eye = s.reference.T_world_camera.translation + kMoved;
+    const auto alone = one.mirrors.lightFor(eye);
+    for (int i = 0; i < 50; ++i) {
+        Mirrors many(s.reference, 4);
+        ASSERT_TRUE(std::ranges::equal(many.mirrors.lightFor(eye), alone)) << i;
+    }
 }
 
 TEST(MovingMirrors, UnknownSurfacesKeepTheirLight) {
