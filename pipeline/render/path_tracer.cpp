@@ -118,6 +118,7 @@ private:
             look(sample.pixel, ray, object, real);
             return;
         }
+        if (sample.number == 0 && history_ == nullptr) lookAgain(sample.pixel);
         FilmSample out;
         if (object.found()) out.hit = {object.t, scene.idOf(object)};
         if (real.found()) out.hit = {real.t, kCatcherId};
@@ -140,23 +141,36 @@ private:
     void look(std::uint32_t pixel, const Ray& ray, const RayHit& object, const RayHit& real) {
         const TracedScene& scene = parts_.scene;
         SeenSurface seen;
-        if (object.found()) {
-            SurfacePoint point = scene.objectPoint(object, ray.direction);
-            // A first picture is needed soon.
-            const float width = object.t / focal_;
-            if (history_ != nullptr && !scene.isEven(object, width))
-                smooth(pixel, scene.idOf(object), point);
-            seen = {{object.t, scene.idOf(object)},
-                    point.shading,
-                    point.paint(ray.direction),
-                    point.look.roughness,
-                    parts_.integrator.far(point, ray.direction)};
-        } else if (real.found()) {
+        if (object.found())
+            // A first picture must be ready soon: lookAgain() smooths it later.
+            seen = surfaceOf(pixel, ray, object, history_ != nullptr);
+        else if (real.found())
             seen = {{real.t, kCatcherId}, scene.catcherPoint(real, ray.direction).shading, {}, 1};
-        }
         film_.setCentre(pixel, seen);
         if (history_ != nullptr)
             film_.carry(pixel, history_->at(seen, eye_ + seen.hit.depth * ray.direction, eye_));
+    }
+
+    /// Smooths the surface that look() stored for a pixel of a first picture.
+    void lookAgain(std::uint32_t pixel) {
+        const std::uint8_t id = film_.centre(pixel).hit.id;
+        if (id == 0 || id == kCatcherId) return;
+        const Ray ray = rayOf({pixel, 0, true});
+        const RayHit object = parts_.scene.shown(ray, parts_.scene.objects().first(ray));
+        if (object.found()) film_.setCentre(pixel, surfaceOf(pixel, ray, object, true));
+    }
+
+    [[nodiscard]] SeenSurface surfaceOf(std::uint32_t pixel, const Ray& ray, const RayHit& object,
+                                        bool smoothly) const {
+        const TracedScene& scene = parts_.scene;
+        SurfacePoint point = scene.objectPoint(object, ray.direction);
+        if (smoothly && !scene.isEven(object, object.t / focal_))
+            smooth(pixel, scene.idOf(object), point);
+        return {{object.t, scene.idOf(object)},
+                point.shading,
+                point.paint(ray.direction),
+                point.look.roughness,
+                parts_.integrator.far(point, ray.direction)};
     }
 
     /// Replaces the normal by the mean of the normals in the pixel's quarters, and widens the
