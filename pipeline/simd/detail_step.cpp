@@ -154,7 +154,8 @@ void DetailStep::cut(const Frame& frame, int row, int begin, int end, Scratch& s
                   to = std::min(end, columnsAt_[column + 1]);
         if (from >= to) continue;
         const Show show = shows_[static_cast<std::size_t>(row) * tiles_.width + column];
-        const bool learned = frame.bank != nullptr && frame.in.work.at(column, row).matched != 0;
+        const bool learned = frame.bank != nullptr && frame.in.work.at(column, row).matched != 0 &&
+                             !(show == Show::Detail && classes_.showsStillAlone(column, row));
         if (!segments.empty() && segments.back().show == show && segments.back().learned == learned)
             segments.back().end = to;
         else

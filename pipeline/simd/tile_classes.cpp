@@ -32,6 +32,7 @@ struct TileClasses::Fields {
     /// The neighbouring cells count, too, because the tile's pixels interpolate between them and
     /// the tile's own cells.
     [[nodiscard]] bool showsSecond(int column, int row) const;
+    [[nodiscard]] bool showsStillAlone(int column, int row) const;
     [[nodiscard]] bool secondExplains(int x, int y) const {
         return second.weighed.data != nullptr && at(second.trust, x, y).unexplained < 0.5F &&
                at(second.weighed, x, y).weight > at(weighed, x, y).weight + params::kSecondFrom;
@@ -89,6 +90,14 @@ bool TileClasses::Fields::showsSecond(int column, int row) const {
     return false;
 }
 
+// A NaN weight counts as zero.
+bool TileClasses::Fields::showsStillAlone(int column, int row) const {
+    const int x0 = kCells * column - 1, y0 = kCells * row - 1;
+    for (int i = 0; i < kWithBorder * kWithBorder; ++i)
+        if (!(at(weighed, x0 + i % kWithBorder, y0 + i / kWithBorder).weight >= 1)) return false;
+    return true;
+}
+
 float TileClasses::Fields::confidence(int column, int row) const {
     float sum = 0;
     for (int i = 0; i < kCells * kCells; ++i)
@@ -98,7 +107,8 @@ float TileClasses::Fields::confidence(int column, int row) const {
 
 TileClasses::TileClasses(Size video)
     : tiles_(tilesOf(video)), classes_(static_cast<std::size_t>(tiles_.width) * tiles_.height),
-      unexplained_(classes_.size()), second_(classes_.size()), rowSums_(tiles_.height) {}
+      unexplained_(classes_.size()), second_(classes_.size()), alone_(classes_.size()),
+      rowSums_(tiles_.height) {}
 
 void TileClasses::classifyRow(const TileWork& work, const Fields& fields, int row) {
     TileSummary sum;
@@ -112,6 +122,8 @@ void TileClasses::classifyRow(const TileWork& work, const Fields& fields, int ro
             unexplained_[index] =
                 fields.known() ? fields.unexplainedCells(column, row) : kCells * kCells;
             second_[index] = fields.known() && fields.showsSecond(column, row) ? 1 : 0;
+            alone_[index] =
+                fields.known() && tile.matched != 0 && fields.showsStillAlone(column, row);
             if (second_[index] != 0) kind = TileClass::Blended;
             sum.second += second_[index];
         }

@@ -46,6 +46,11 @@ public:
         return classes_[static_cast<std::size_t>(row) * tiles_.width + column];
     }
 
+    /// True if every weight of the tile is at least one: then the still's detail replaces the
+    /// video's completely, and learned filters would add nothing.
+    [[nodiscard]] bool showsStillAlone(int column, int row) const {
+        return alone_[static_cast<std::size_t>(row) * tiles_.width + column] != 0;
+    }
     /// True if the second still's weight exceeds the first's somewhere in the tile.
     [[nodiscard]] bool showsSecond(int column, int row) const {
         return second_[static_cast<std::size_t>(row) * tiles_.width + column] != 0;
@@ -57,9 +62,9 @@ private:
 
     Size tiles_;
     std::vector<TileClass> classes_;
-    std::vector<int> unexplained_;      // number of unexplained cells of each tile
-    std::vector<std::uint8_t> second_;  // one flag per tile
-    std::vector<TileSummary> rowSums_;  // one entry per row of tiles
+    std::vector<int> unexplained_;              // number of unexplained cells of each tile
+    std::vector<std::uint8_t> second_, alone_;  // one flag per tile
+    std::vector<TileSummary> rowSums_;          // one entry per row of tiles
 };
 
 }  // namespace mfar::simd

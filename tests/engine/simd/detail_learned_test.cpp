@@ -70,6 +70,28 @@ TEST(DetailStepLearned, TilesWithoutStructureAreNotEnlargedByFilters) {
         }
 }
 
+// The weight is at least one in all cells but one, the left neighbour of a tile: the tiles around
+// this cell need the filters, the others do not.
+TEST(DetailStepLearned, TilesWhoseWeightsAreAllOneMatchTheOracle) {
+    const Size output{576, 432};
+    DetailCase frame({160, 120}, {400, 300});
+    constexpr int kColumn = 15, kRow = 14;
+    for (int i = 0; i < frame.cells.width * frame.cells.height; ++i) {
+        const bool low = i == kRow * frame.cells.width + kColumn;
+        const float weight = low ? 0 : 1;
+        frame.weighed[i].weight = frame.lookUps[i].weight = weight;
+        frame.trust[i].halfWeight = 0.5F * weight;
+    }
+    const DetailOptions options{SuperResMode::Detail, true, false, true, &evenBank()};
+    const Drawn drawn(frame, output, options);
+    Wanted wanted(frame, output, options, true);
+    const Grey still = lumaPlane(drawn.still);
+    for (int y = 0; y < output.height; ++y)
+        for (int x = 0; x < output.width; ++x)
+            ASSERT_NEAR(drawn.channel(x, y, 1), wanted.withStill(x, y, 1, still), kLearnedError)
+                << x << " " << y;
+}
+
 TEST(DetailStepLearned, OtherModesDoNotUseTheFilters) {
     const Size output{191, 133};
     const DetailCase frame({53, 37}, {200, 140});
