@@ -6,6 +6,7 @@
 #include "daemon/budgets.h"
 #include "daemon/report.h"
 #include "daemon/restart_pause.h"
+#include "daemon/rig_words.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>

@@ -142,7 +142,7 @@ TEST(ReferenceRenderer, IsIdleOnceConvergedAndUnmoved) {
 
 TEST(ReferenceRenderer, IsNotIdleBeforeTheFirstPictureIsFinished) {
     const RenderView view = render_scenes::viewFrom(kRenderSize, 20);
-    for (int i = 0; i < 20; ++i) {
+    for (int i = 0; i < 6; ++i) {
         Frames frames(quick());
         frames.renderer.setScene(render_scenes::stillLife());
         frames.renderer.update(view, frames.now());

@@ -24,7 +24,7 @@ summary_has measured "$frames"
 echo "a tags.toml that is wrong is refused with its place"
 sed -i 's/^size = .*/size = 0/' run/tags.toml
 run 65 --recording run
-says err 'run/tags.toml:[0-9]+: size must be positive'
+says err 'run/tags.toml:[0-9]+: size must be a positive length'
 
 echo "without a map its largest tag is the world"
 rm run/tags.toml

@@ -59,7 +59,7 @@ until_true started
 cp near.toml live.toml
 kill -HUP "$pid"
 until_true grep -q 'read again' err
-sleep 2
+sleep 4
 kill -TERM "$pid"
 ends_with 0 1500
 says summary.json '"depth_tiles": [1-9]'

@@ -133,7 +133,7 @@ TEST(MfarEvalPose, WrongRequestsEndWithOneLineAndStatus2) {
     const std::pair<std::string, std::string> cases[] = {
         {"absent", "absent"},
         {"bare", "tags.toml: is missing"},
-        {"broken", "tags.toml:2: size must be positive"},
+        {"broken", "tags.toml:2: size must be a positive length"},
         {"empty", "neither a recording nor"},
         {"bare --methods wonder", "unknown method 'wonder' (valid: filtered, raw, still)"},
     };
