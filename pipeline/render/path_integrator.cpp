@@ -225,10 +225,9 @@ PathIntegrator::Parts PathIntegrator::walk(SurfacePoint point, Eigen::Vector3f w
         sum += sent(carried, light, depth);
     };
     for (int depth = 1;; ++depth, pair += kPairsOfVertex) {
-        const bool first = depth == 1;
+        const bool first = depth == 1, last = depth == options_.maxDepth;
         const Lobes here = first ? lobes : Lobes::Both;
-        // Light that the second surface emits into the mirrored lobe counts as direct light of the
-        // first.
+        // Emission that the first surface mirrors counts as its direct light.
         if (!first || lobes != Lobes::Mirrored) add(out.rest, point.emission, depth - 1);
         const Vertex vertex(point, wo);
         const Arrived lit = direct(vertex, here, sampler, pair, world);
@@ -246,7 +245,6 @@ PathIntegrator::Parts PathIntegrator::walk(SurfacePoint point, Eigen::Vector3f w
             !carried.survives(sampler.pair(pair + kRoulettePair).x()))
             return out;
         const Ray ray = point.leaving(direction);
-        const bool last = depth == options_.maxDepth;
         std::optional<SurfacePoint> next;
         // For the last surface, the ray only finds out whether the lights in the sampled direction
         // are visible. This is the other half of the multiple importance sampling.

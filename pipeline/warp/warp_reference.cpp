@@ -178,6 +178,14 @@ void addTile(const PictureGrid& grid, WarpReference& r, int x0, int y0) {
     r.bounds = around(r.bounds, tile.pixels);
 }
 
+void requireAllPixels(const RenderedPicture& picture, std::size_t count) {
+    if (picture.colour.size() != count || picture.depth.size() != count ||
+        picture.id.size() != count || (!picture.light.empty() && picture.light.size() != count) ||
+        (!picture.gloss.empty() && picture.gloss.size() != count))
+        throw std::invalid_argument("a rendered picture must have a colour, a depth and an id for "
+                                    "each pixel of its camera");
+}
+
 }  // namespace
 
 float toleranceAt(std::span<const WarpSurface> surface, Size size, int x, int y) {
@@ -202,11 +210,7 @@ WarpReference warpReference(const RenderedPicture& picture) {
     requireFiniteCamera(picture.camera, picture.T_world_camera);
     const Size size = picture.camera.size;
     const std::size_t count = static_cast<std::size_t>(size.width) * size.height;
-    if (picture.colour.size() != count || picture.depth.size() != count ||
-        picture.id.size() != count || (!picture.light.empty() && picture.light.size() != count) ||
-        (!picture.gloss.empty() && picture.gloss.size() != count))
-        throw std::invalid_argument("a rendered picture must have a colour, a depth and an id for "
-                                    "each pixel of its camera");
+    requireAllPixels(picture, count);
     WarpReference r{picture.camera,
                     picture.T_world_camera,
                     picture.colour,

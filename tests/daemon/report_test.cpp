@@ -46,7 +46,7 @@ std::string page(Stats& stats, const std::string& reason = "SIGTERM") {
                       stats.pictures(), "written today");
 }
 
-bool isWellFormed(std::string html) {
+bool isWellFormed(const std::string& html) {
     const std::string doctype = "<!DOCTYPE html>\n";
     if (!html.starts_with(doctype)) return false;
     return bench::test::isWellFormed(html.substr(doctype.size()));

@@ -114,6 +114,17 @@ void addOptions(CLI::App& app, Options& o) {
         ->needs("--curves");
 }
 
+EngineKind engineOf(const Options& o, const GlContext& context) {
+    const bool isSimd = o.engine == "simd" || (o.engine == "auto" && context.isSoftware());
+    return isSimd ? EngineKind::Simd : EngineKind::Gles;
+}
+
+void write(const BenchResult& result, const Options& o) {
+    fmt::print("{}", toTable(result));
+    if (!o.json.empty()) eval::writeText(o.json, toJson(result).dump(2) + "\n");
+    if (!o.svg.empty()) eval::writeText(o.svg, benchSvg(result));
+}
+
 int run(int argc, char** argv) {
     CLI::App app(kHelp);
     Options o;
@@ -139,9 +150,7 @@ int run(int argc, char** argv) {
         for (Workload* work : {&moving, &posed})
             work->filters = learnedFrom(*work);
     const SuperResMode mode = o.mode == "blend" ? SuperResMode::Blend : SuperResMode::Detail;
-    const EngineKind engine = o.engine == "simd" || (o.engine == "auto" && context->isSoftware())
-                                  ? EngineKind::Simd
-                                  : EngineKind::Gles;
+    const EngineKind engine = engineOf(o, *context);
     BenchResult result =
         runBench(moving, posed, mode, engine,
                  fmt::format("engine {}; {}", nameOf(engine), context->description()),
@@ -151,9 +160,7 @@ int run(int argc, char** argv) {
     all.part(9, 10, "").show(0, 1, "path tracer");
     result.render = measureRender(o.quick);
     progress.clear();
-    fmt::print("{}", toTable(result));
-    if (!o.json.empty()) eval::writeText(o.json, toJson(result).dump(2) + "\n");
-    if (!o.svg.empty()) eval::writeText(o.svg, benchSvg(result));
+    write(result, o);
     return 0;
 }
 

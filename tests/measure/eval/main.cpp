@@ -123,6 +123,20 @@ void addDisturbances(CLI::App& sub, Options& o) {
     sub.add_option("--pose-noise-seed", o.poseNoise.seed, "seed of the random axes");
 }
 
+void addStills(CLI::App& sub, SuperResRequest& request) {
+    sub.add_option(
+           "--stills", request.stills,
+           "number of stills; 2: give mfar a second still, the one next to the reference in time")
+        ->check(CLI::Range(1, 2));
+    sub.add_option(
+           "--learn", request.learn,
+           "before the measurement, learn filters from this many matched stills of the recording")
+        ->check(CLI::Range(1, 100000));
+    sub.add_option(
+        "--learn-from", request.learnFrom,
+        "learn filters from these recordings; without --learn, from each of their stills once");
+}
+
 CLI::App* addSuperRes(CLI::App& app, Options& o) {
     CLI::App* sub =
         app.add_subcommand("superres", "compare super-resolved frames with truth/highres");
@@ -152,17 +166,7 @@ CLI::App* addSuperRes(CLI::App& app, Options& o) {
     sub->add_flag("--no-still", o.superres.noStill,
                   "give no still to any method, and leave out those that need one")
         ->excludes("--classes");
-    sub->add_option(
-           "--stills", o.superres.stills,
-           "number of stills; 2: give mfar a second still, the one next to the reference in time")
-        ->check(CLI::Range(1, 2));
-    sub->add_option(
-           "--learn", o.superres.learn,
-           "before the measurement, learn filters from this many matched stills of the recording")
-        ->check(CLI::Range(1, 100000));
-    sub->add_option(
-        "--learn-from", o.superres.learnFrom,
-        "learn filters from these recordings; without --learn, from each of their stills once");
+    addStills(*sub, o.superres);
     sub->add_option("--frames", o.superres.frames,
                     "measure at most this many frames of each recording")
         ->check(CLI::Range(1, 1000000));

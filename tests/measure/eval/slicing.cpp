@@ -71,17 +71,23 @@ void addFrames(Report& report, const char* method, std::vector<double> ms) {
         {mean, {}, {}, std::sqrt(squares / count) / mean, p95 / mean, ms.back() / mean, {}, {}});
 }
 
+std::vector<Column> columns() {
+    return {{"ms", 2},        {"rmse", 3},      {"rmse_filtered", 3}, {"frame_cv", 3},
+            {"frame_p95", 3}, {"frame_max", 3}, {"budget_mean", 3},   {"budget_p95_off", 3}};
+}
+
+void writePlot(const SlicingRequest& request, const PlotPanel& panel) {
+    if (request.svg.empty()) return;
+    writeText(request.svg,
+              plotSvg("Error against time of slices and of full renderings", {panel},
+                      fmt::format("{}x{}, one thread; truth: {} samples of another seed",
+                                  request.size.width, request.size.height, request.truthSamples)));
+}
+
 }  // namespace
 
 Report evaluateSlicing(const SlicingRequest& request) {
-    Report report({{"ms", 2},
-                   {"rmse", 3},
-                   {"rmse_filtered", 3},
-                   {"frame_cv", 3},
-                   {"frame_p95", 3},
-                   {"frame_max", 3},
-                   {"budget_mean", 3},
-                   {"budget_p95_off", 3}});
+    Report report(columns());
     // Steps: the truth; error against time of four methods and of a full rendering; times of two
     // methods; the budget of two methods.
     constexpr std::size_t kSteps = 10;
@@ -117,12 +123,7 @@ Report evaluateSlicing(const SlicingRequest& request) {
         report.add(kSceneName, "budget", method.name,
                    {run.mean * request.budgetMs, {}, {}, {}, {}, {}, run.mean, run.deviation});
     }
-    if (!request.svg.empty())
-        writeText(
-            request.svg,
-            plotSvg("Error against time of slices and of full renderings", {panel},
-                    fmt::format("{}x{}, one thread; truth: {} samples of another seed",
-                                request.size.width, request.size.height, request.truthSamples)));
+    writePlot(request, panel);
     return report;
 }
 
