@@ -130,7 +130,7 @@ fuzz() {
         running=$((running + 1))
     done
     for (( ; running > 0; --running)); do wait -n || status=1; done
-    kill "$ticker"
+    kill "$ticker" 2>/dev/null || true
     clearProgress
     return "$status"
 }
