@@ -12,7 +12,7 @@ struct Size {
     bool operator==(const Size&) const = default;
 };
 
-/// How pixels lie in memory. Rows may be padded, see ImageView::stride.
+/// Layout of pixels in memory. Rows may be padded, see ImageView::stride.
 enum class PixelFormat : std::uint8_t {
     Gray8,   ///< one byte of luma
     Rgba8,   ///< four bytes R G B A, alpha ignored

@@ -15,8 +15,8 @@ namespace mfar {
 // and which distant light they mirror, so that this light can be computed again for the view that
 // is shown.
 
-/// How a pixel's surface mirrors light. `normal` is its normal in the world on the octahedral map
-/// (Cigolle et al. 2014), with 16 bits per axis. `look` has a byte each for the roughness, the
+/// A pixel's surface as a mirror of light. `normal` is its normal in the world on the octahedral
+/// map (Cigolle et al. 2014), with 16 bits per axis. `look` has a byte each for the roughness, the
 /// reflectance along the normal, and SpecularAlbedo::full(). If all is zero, it is unknown.
 struct GlossWords {
     std::uint32_t normal = 0, look = 0;

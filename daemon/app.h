@@ -52,13 +52,13 @@ public:
     [[nodiscard]] ExitCode run();
 
 private:
-    /// What the GL thread reports when it is set up.
+    /// Report of the GL thread after its set-up.
     struct Ready {
         RunDescription description;
         std::string startLine;
         Timestamp time;
     };
-    /// What the GL thread reports when all output is written.
+    /// Report of the GL thread after it has written all output.
     struct Over {
         std::string reason;
         std::exception_ptr error;  ///< null: there was no error

@@ -21,7 +21,7 @@
 
 namespace mfar {
 
-/// How fast a recording or the simulated board delivers frames.
+/// Rule by which a recording or the simulated board delivers its frames.
 enum class SourcePace {
     Auto,      ///< Consumer for recordings, Realtime for every other source
     Realtime,  ///< as the frames' times say; frames that are not fetched in time are dropped

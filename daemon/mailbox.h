@@ -9,7 +9,7 @@
 
 namespace mfar {
 
-/// What happens if the sender is faster than the receiver.
+/// Behaviour of a mailbox if the sender is faster than the receiver.
 enum class HandOver {
     NewestWins,  ///< the waiting item is replaced and counted as dropped (live sources)
     /// The sender waits until the receiver has taken the item and asks for the next one. So no item

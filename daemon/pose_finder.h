@@ -13,7 +13,7 @@
 
 namespace mfar {
 
-/// What a picture source knows about poses.
+/// Facts about poses that a picture source provides.
 struct PoseInputs {
     std::string source;  ///< name of the source, for messages
     StereoRig rig;

@@ -38,7 +38,7 @@ struct RunTotals {
     double learnedGainDb = 0;  ///< gain of the learned filters over bicubic
 };
 
-/// What is known about one picture of the run.
+/// Times and counts of one picture of the run.
 struct RunMoment {
     Timestamp shown;
     double frameMs = 0, latencyMs = 0;
