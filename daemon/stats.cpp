@@ -170,7 +170,7 @@ void Stats::traced(const TracedLayerCounters& counters, Timestamp frame) {
     const std::lock_guard lock(mutex_);
     counted_.traced = counters;
     counted_.referenceAgeS.reset();
-    if (const auto since = counters.render.referenceSince)
+    if (const auto since = counters.render.shownSince)
         counted_.referenceAgeS = static_cast<double>((frame - *since).count()) * 1e-9;
 }
 

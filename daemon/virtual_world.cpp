@@ -43,16 +43,16 @@ Scene sceneOf(const std::vector<PlacedObject>& objects, const LightOptions& ligh
 
 TracedLayerOptions tracedLayerOptions(const VirtualOptions& options, float exposure) {
     TracedLayerOptions out;
-    out.reference.slices.slicing = options.slicing;
-    out.reference.slices.samples = options.samples;
-    out.reference.slices.samplesPerTurn = 1;  // so that the first picture is finished soon
-    out.reference.tracer.shadowReach = kShadowReach;
-    out.reference.tracer.fireflyClamp = kBrightestCaustic / exposure;
-    out.reference.budgetMs = options.budgetMs;
-    out.reference.threads = options.threads;
-    out.reference.exposure.scale = exposure;
-    out.reference.policy.limits.turnDegrees = options.turnDeg;
-    out.reference.policy.filter = options.filter;
+    out.renderer.slices.slicing = options.slicing;
+    out.renderer.slices.samples = options.samples;
+    out.renderer.slices.samplesPerTurn = 1;  // so that the first picture is finished soon
+    out.renderer.tracer.shadowReach = kShadowReach;
+    out.renderer.tracer.fireflyClamp = kBrightestCaustic / exposure;
+    out.renderer.budgetMs = options.budgetMs;
+    out.renderer.threads = options.threads;
+    out.renderer.exposure.scale = exposure;
+    out.renderer.policy.limits.turnDegrees = options.turnDeg;
+    out.renderer.policy.filter = options.filter;
     out.warp.filling = options.holes;
     return out;
 }

@@ -1,10 +1,10 @@
 // Refines the flow of every cell by Gauss-Newton steps. The flow at the start must have an error of
 // less than a pixel. The patch is deformed according to the flow around the cell. On a surface that
 // the other camera sees from another side, a rigid patch would fit best at a wrong place.
-// In: an area of patches[]. Out: another area of patches[] with flow (x, y) [px], cost, texture
+// In: an area of cells[]. Out: another area of cells[] with flow (x, y) [px], cost, texture
 // (energy of the patch). Tiles that are not matched keep their vectors. One invocation per cell.
 // After: Baker and Matthews, Lucas-Kanade 20 years on, IJCV 2004, section 3.2.
-// Range: patches -2e4..2e4, -2e4..2e4, 0..2.02, 0..4.2e6
+// Range: cells -2e4..2e4, -2e4..2e4, 0..2.02, 0..4.2e6
 #include "luma.glsl"
 #include "pipeline/engine/params/flow.h"
 
@@ -15,8 +15,8 @@ layout(std140, binding = 0) uniform Params {
 layout(std430, binding = 0) readonly buffer Luma {
     uint luma[];
 };
-layout(std430, binding = 1) buffer Patches {
-    vec4 patches[];
+layout(std430, binding = 1) buffer Cells {
+    vec4 cells[];
 };
 
 layout(std430, binding = 2) readonly buffer Tiles {
@@ -28,7 +28,7 @@ layout(std430, binding = 2) readonly buffer Tiles {
 
 vec2 flowAt(ivec2 c) {
     c = clamp(c, ivec2(0), ivec2(params.columns, params.rows) - 1);
-    return patches[params.source + c.y * params.columns + c.x].xy;
+    return cells[params.source + c.y * params.columns + c.x].xy;
 }
 
 // Change of the flow per pixel along `step`: the smaller of the two one-sided differences, or zero
@@ -103,7 +103,7 @@ void main() {
     ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(cell, ivec2(params.columns, params.rows)))) return;
     if (tiles[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x].y == 0u) {
-        patches[params.target + cell.y * params.columns + cell.x] = vec4(flowAt(cell), 0.0, 0.0);
+        cells[params.target + cell.y * params.columns + cell.x] = vec4(flowAt(cell), 0.0, 0.0);
         return;
     }
     LumaLevel lb = params.to;
@@ -121,5 +121,5 @@ void main() {
         best = better ? u : best;
         u = better && dot(m.step, m.step) > kShortestStep ? u + m.step : best;
     }
-    patches[params.target + cell.y * params.columns + cell.x] = vec4(best, cost, momentAt(1));
+    cells[params.target + cell.y * params.columns + cell.x] = vec4(best, cost, momentAt(1));
 }

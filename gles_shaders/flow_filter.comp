@@ -2,17 +2,17 @@
 // cells. Then a plane is fitted to those vectors in 5x5 cells that agree with the median. Larger
 // medians were worse in measurements on photographs, because they flatten slanted and curved
 // surfaces.
-// In, out: two areas of patches[]. Tiles that are not matched keep their vectors. One invocation
+// In, out: two areas of cells[]. Tiles that are not matched keep their vectors. One invocation
 // per cell.
-// Range: patches -2e4..2e4, -2e4..2e4, 0..2.02, 0..4.2e6
+// Range: cells -2e4..2e4, -2e4..2e4, 0..2.02, 0..4.2e6
 #include "pipeline/engine/params/flow.h"
 
 layout(local_size_x = 4, local_size_y = 4) in;
 layout(std140, binding = 0) uniform Params {
     FilterFlow params;
 };
-layout(std430, binding = 1) buffer Patches {
-    vec4 patches[];
+layout(std430, binding = 1) buffer Cells {
+    vec4 cells[];
 };
 layout(std430, binding = 2) readonly buffer Tiles {
     uvec2 header;
@@ -21,7 +21,7 @@ layout(std430, binding = 2) readonly buffer Tiles {
 
 vec4 cellIn(ivec2 c) {
     c = clamp(c, ivec2(0), ivec2(params.columns, params.rows) - 1);
-    return patches[params.source + c.y * params.columns + c.x];
+    return cells[params.source + c.y * params.columns + c.x];
 }
 
 struct Plane {
@@ -72,7 +72,7 @@ void main() {
     ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(cell, ivec2(params.columns, params.rows)))) return;
     if (params.byTile != 0 && tiles[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x].y == 0u) {
-        patches[params.target + cell.y * params.columns + cell.x] = cellIn(cell);
+        cells[params.target + cell.y * params.columns + cell.x] = cellIn(cell);
         return;
     }
     vec2 v[9];
@@ -93,5 +93,5 @@ void main() {
     order(low, middle);
     Plane plane = Plane(middle, vec2(0.0), vec2(0.0));
     for (int i = 0; i < params.planeFits; ++i) plane = planeAt(cell, plane, i == 0 ? kFirstPlaneReach : kPlaneReach);
-    patches[params.target + cell.y * params.columns + cell.x] = vec4(plane.value, cellIn(cell).zw);
+    cells[params.target + cell.y * params.columns + cell.x] = vec4(plane.value, cellIn(cell).zw);
 }

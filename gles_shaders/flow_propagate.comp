@@ -1,7 +1,7 @@
 // Tries the vectors of each cell's four neighbours, and refines the best one if it fits better than
 // the cell's own vector.
-// In, out: two areas of patches[], in the format of flow_search.comp. One invocation per cell.
-// Range: patches -2e4..2e4, -2e4..2e4, 0..2.02, 0..4.2e6
+// In, out: two areas of cells[], in the format of flow_search.comp. One invocation per cell.
+// Range: cells -2e4..2e4, -2e4..2e4, 0..2.02, 0..4.2e6
 #include "luma.glsl"
 #include "pipeline/engine/params/flow.h"
 
@@ -12,8 +12,8 @@ layout(std140, binding = 0) uniform Params {
 layout(std430, binding = 0) readonly buffer Luma {
     uint luma[];
 };
-layout(std430, binding = 1) buffer Patches {
-    vec4 patches[];
+layout(std430, binding = 1) buffer Cells {
+    vec4 cells[];
 };
 
 #include "patch_refine.glsl"
@@ -22,7 +22,7 @@ const int kNeighbours = 4;
 
 vec4 cellIn(ivec2 c) {
     c = clamp(c, ivec2(0), ivec2(params.columns, params.rows) - 1);
-    return patches[params.source + c.y * params.columns + c.x];
+    return cells[params.source + c.y * params.columns + c.x];
 }
 
 void main() {
@@ -52,5 +52,5 @@ void main() {
     // refine() is always called, because a branch around the call would need one more register than
     // a V3D has.
     refine(known, lb, cell, moved ? params.steps : -1, best, found);
-    patches[params.target + cell.y * params.columns + cell.x] = vec4(best, found, momentAt(1));
+    cells[params.target + cell.y * params.columns + cell.x] = vec4(best, found, momentAt(1));
 }

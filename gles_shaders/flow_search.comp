@@ -1,13 +1,13 @@
 // Flow of every cell at one pyramid level: takes the best candidate and refines it by Gauss-Newton
 // steps. Candidates are the last frame's vector and the coarser level's vectors around the cell. At
 // the coarsest level they are the last frame's vector and a square of whole-pixel displacements.
-// Out: patches[] = flow (x, y) [px of this level], cost, texture (energy of the patch). One
+// Out: cells[] = flow (x, y) [px of this level], cost, texture (energy of the patch). One
 // invocation per cell.
 // After: Kroeger et al., Fast optical flow using dense inverse search, ECCV 2016, section 2.
 // LISTED: processes only the groups of 4x4 cells in lists[]. If a cell's vector leaves the epipolar
 // line, the cell's two-way error is derived from the cost of the match.
 // Variant: #define LISTED
-// Range: patches -2e4..2e4, -2e4..2e4, 0..2.02, 0..4.2e6
+// Range: cells -2e4..2e4, -2e4..2e4, 0..2.02, 0..4.2e6
 #include "luma.glsl"
 #include "pipeline/engine/params/flow.h"
 #ifdef LISTED
@@ -21,8 +21,8 @@ layout(std140, binding = 0) uniform Params {
 layout(std430, binding = 0) readonly buffer Luma {
     uint luma[];
 };
-layout(std430, binding = 1) buffer Patches {
-    vec4 patches[];
+layout(std430, binding = 1) buffer Cells {
+    vec4 cells[];
 };
 
 #ifdef LISTED
@@ -35,12 +35,12 @@ layout(std430, binding = 2) readonly buffer Lists {
 
 vec2 coarser(ivec2 c) {
     c = clamp(c, ivec2(0), ivec2(params.coarserColumns, params.coarserRows) - 1);
-    return 2.0 * patches[params.coarser + c.y * params.coarserColumns + c.x].xy;
+    return 2.0 * cells[params.coarser + c.y * params.coarserColumns + c.x].xy;
 }
 
 vec2 lastFrame(ivec2 cell) {
     ivec2 c = ivec2((vec2(cell) + 0.5) * vec2(params.lastFrameX, params.lastFrameY));
-    return params.perLastFrame * patches[params.lastFrame + c.y * params.lastFrameColumns + c.x].xy;
+    return params.perLastFrame * cells[params.lastFrame + c.y * params.lastFrameColumns + c.x].xy;
 }
 
 vec2 candidate(ivec2 cell, int k) {
@@ -81,12 +81,12 @@ void main() {
     refine(known, lb, cell, params.steps, best, found);
     int at = cell.y * params.columns + cell.x;
 #ifdef LISTED
-    vec4 line = patches[params.target + at];
+    vec4 line = cells[params.target + at];
     vec2 off = best - line.xy;
     if (params.errors >= 0 && dot(off, off) > kOnLine * kOnLine) {
         if (found > kClearlyLess * line.z) return;
-        patches[params.errors + at].x = max(found - kGoodCost, 0.0) * kErrorPerCost;
+        cells[params.errors + at].x = max(found - kGoodCost, 0.0) * kErrorPerCost;
     }
 #endif
-    patches[params.target + at] = vec4(best, found, momentAt(1));
+    cells[params.target + at] = vec4(best, found, momentAt(1));
 }

@@ -1,6 +1,6 @@
 // Statistics of the match between still and video in each cell. They are the inputs of
 // superres_weigh.comp.
-// In: the forward field (from video to still) in patches[]; also in patches[] either the backward
+// In: the forward field (from video to still) in cells[]; also in cells[] either the backward
 // field, which may have a coarser level, or two-way errors; the finest luma of both pictures.
 // Out: displacement image = flow (x, y) [video px], and its end in the still minus the scaled cell
 // centre (x, y) [still px]. Statistics image = covariance, variance of the video and of the still
@@ -19,8 +19,8 @@ layout(std140, binding = 0) uniform Params {
 layout(std430, binding = 0) readonly buffer Luma {
     uint luma[];
 };
-layout(std430, binding = 1) readonly buffer Patches {
-    vec4 patches[];
+layout(std430, binding = 1) readonly buffer Cells {
+    vec4 cells[];
 };
 layout(std430, binding = 2) readonly buffer Tiles {
     uvec2 header;
@@ -33,7 +33,7 @@ layout(rgba32f, binding = 1) uniform writeonly highp image2D statistics;
 
 vec2 backward(ivec2 c) {
     c = clamp(c, ivec2(0), ivec2(params.backwardColumns, params.backwardRows) - 1);
-    return float(params.backwardScale) * patches[params.backward + c.y * params.backwardColumns + c.x].xy;
+    return float(params.backwardScale) * cells[params.backward + c.y * params.backwardColumns + c.x].xy;
 }
 
 vec2 backwardAt(vec2 p) {
@@ -53,7 +53,7 @@ void main() {
     ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(cell, ivec2(params.columns, params.rows)))) return;
     int index = cell.y * params.columns + cell.x;
-    vec2 u = patches[params.forward + index].xy;
+    vec2 u = cells[params.forward + index].xy;
 
     vec2 centre = 4.0 * vec2(cell) + 1.5;
     vec2 q = centre + u;
@@ -61,7 +61,7 @@ void main() {
     float confidence = 0.0;
     if (inside(q, vec2(params.video.width, params.video.height)) &&
         inside(inStill, vec2(params.stillWidth, params.stillHeight))) {
-        float d = params.errorsGiven != 0 ? patches[params.backward + index].x : length(u + backwardAt(q));
+        float d = params.errorsGiven != 0 ? cells[params.backward + index].x : length(u + backwardAt(q));
         confidence = d < kTwoWayAlpha ? 1.0 - d / kTwoWayAlpha : 0.0;
     }
 

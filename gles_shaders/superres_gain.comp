@@ -14,8 +14,8 @@ layout(std140, binding = 0) uniform Params {
 layout(std430, binding = 0) readonly buffer Luma {
     uint luma[];
 };
-layout(std430, binding = 1) readonly buffer Patches {
-    vec4 patches[];
+layout(std430, binding = 1) readonly buffer Cells {
+    vec4 cells[];
 };
 layout(std430, binding = 2) readonly buffer Tiles {
     uvec2 header;
@@ -36,7 +36,7 @@ void main() {
     vec2 u = vec2(0.0);
     for (int i = 0; i < 4; ++i) {
         ivec2 c = min(2 * cell + ivec2(i & 1, i >> 1), last);
-        u += patches[params.forward + c.y * params.forwardColumns + c.x].xy;
+        u += cells[params.forward + c.y * params.forwardColumns + c.x].xy;
     }
     imageStore(statistics, cell,
                vec4(spreadOf(params.video, params.still, cell, 0.5 * 0.25 * u), 0.0));

@@ -1,5 +1,5 @@
 // The second pass of the warp, for plain pixels. In a plain pixel one surface fills the whole
-// pixel, and the reference picture shows the surface in four texels at the same depth. All other
+// pixel, and the traced picture shows the surface in four texels at the same depth. All other
 // pixels are left to warp_rest.comp. There are no branches, because a software renderer executes
 // both sides anyway.
 // In: silhouette at twice the resolution. Out: RGBA8 premultiplied; z [m], 0 = no surface; state:
@@ -33,13 +33,13 @@ void main() {
     // The corner that the four texels share. At this position, rounding in the filter cannot select
     // other texels.
     vec2 corner = floor(at.xy) + 1.0;
-    uvec4 t = textureGather(surfaces, corner / vec2(referenceSize()));
+    uvec4 t = textureGather(surfaces, corner / vec2(tracedSize()));
     vec4 off = abs(uintBitsToFloat(t & 0xffffff00u) - at.z);
     bool same = all(equal(t & 0xffu, uvec4(id))) && all(lessThan(off, vec4(kSameDepth * at.z)));
     bool bare = id == kCatcher && (t.x | t.y | t.z | t.w) == 0u;
-    bool inner = all(greaterThan(corner, vec2(0.0))) && all(lessThan(corner, vec2(referenceSize())));
+    bool inner = all(greaterThan(corner, vec2(0.0))) && all(lessThan(corner, vec2(tracedSize())));
     bool plain = whole && !empty && at.z > 0.0 && inner && (same || bare);
-    vec4 found = textureLod(colours, (at.xy + 0.5) / vec2(referenceSize()), 0.0);
+    vec4 found = textureLod(colours, (at.xy + 0.5) / vec2(tracedSize()), 0.0);
     colour = plain ? found : vec4(0.0);
     depth = plain && found.a > 0.0 ? (id == kCatcher ? (1.0 - kShadowLift) * z : z) : 0.0;
     state = empty ? vec4(0.0) : plain ? vec4(0.0, 0.0, 0.0, float(id) / 255.0) : vec4(0.0, 1.0, 0.0, 0.0);

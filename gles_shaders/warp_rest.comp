@@ -1,7 +1,7 @@
 // The second pass of the warp, for pixels that warp_look_up.frag cannot process. These are edges,
-// whose coverage is given in quarters, and pixels that the reference picture does not show but
-// patches may show. Objects and the shadow on the real surface are two layers, with the shadow
-// below.
+// whose coverage is given in quarters, and pixels that the traced picture does not show but
+// re-rendered pictures may show. Objects and the shadow on the real surface are two layers, with
+// the shadow below.
 // In: list[] of warp_rest_list.comp. Out: colour, z and state of the pixels; holes[];
 // holeCommands[].
 // State: number of the missing surface; its share of the pixel; 1 if it fills the pixel and no
@@ -21,8 +21,8 @@ layout(binding = 0) uniform usampler2D silhouette;
 layout(binding = 1) uniform sampler2D rays;
 layout(binding = 2) uniform sampler2D colours;
 layout(binding = 3) uniform sampler2D surfaces;  // WarpSurface: z [m], number, tolerance [m], known
-layout(binding = 4) uniform sampler2D patchColours;
-layout(binding = 5) uniform sampler2D patchSurfaces;
+layout(binding = 4) uniform sampler2D rerenderedColours;
+layout(binding = 5) uniform sampler2D rerenderedSurfaces;
 layout(binding = 0, rgba8) writeonly uniform image2D colour;
 layout(binding = 1, r32f) writeonly uniform image2D depth;
 layout(binding = 2, rgba8) writeonly uniform image2D state;
@@ -65,17 +65,17 @@ float lookUp(sampler2D from, sampler2D shown, ivec2 size, int firstRow, vec3 at,
 
 // Share of the colour that is known for the surface at `point`.
 float known(vec3 point, float id, out vec4 found) {
-    if (lookUp(colours, surfaces, referenceSize(), 0, inView(0, point), id, found) > 0.0) return 1.0;
-    float share_ = 0.0;  // share of the most visible patch; patches that fade in do not reduce it
-    for (int i = 0; i < params.patches; ++i) {
+    if (lookUp(colours, surfaces, tracedSize(), 0, inView(0, point), id, found) > 0.0) return 1.0;
+    float share_ = 0.0;  // share of the most visible picture; pictures that fade in do not reduce it
+    for (int i = 0; i < params.rerendered; ++i) {
         vec4 own;
         vec3 at = inView(i + 1, point);
-        if (params.views[i + 1].share <= share_ || lookUp(patchColours, patchSurfaces, layerSize(), i * params.height, at, id, own) == 0.0) continue;
+        if (params.views[i + 1].share <= share_ || lookUp(rerenderedColours, rerenderedSurfaces, layerSize(), i * params.height, at, id, own) == 0.0) continue;
         share_ = params.views[i + 1].share;
         found = own;
     }
     if (share_ > 0.0) return share_;
-    // Outside the reference picture the catcher's colour is unknown, but it is not reported as
+    // Outside the traced picture the catcher's colour is unknown, but it is not reported as
     // missing.
     found = vec4(0.0);
     return id == float(kCatcher) && !(inView(0, point).z > 0.0) ? 1.0 : 0.0;

@@ -9,7 +9,7 @@ vec3 inView(int v, vec3 point) {
     bool before = there.z > params.projections[c].nearPlane && there.z < 1e6 && point.z > 0.0;
     vec3 h = projectPoint(params.projections[c], before ? there : vec3(0.0, 0.0, 1.0));
     vec2 pixel = h.xy / h.z;
-    vec2 size = vec2(v == 0 ? referenceSize() : layerSize());
+    vec2 size = vec2(v == 0 ? tracedSize() : layerSize());
     bool within = before && all(greaterThan(pixel, vec2(-1.0))) && all(lessThan(pixel, size));
     return within ? vec3(pixel, there.z) : vec3(0.0);
 }

@@ -5,8 +5,8 @@ layout(std140, binding = 0) uniform Params {
     LookUpViews params;
 };
 
-ivec2 referenceSize() {
-    return ivec2(params.referenceWidth, params.referenceHeight);
+ivec2 tracedSize() {
+    return ivec2(params.tracedWidth, params.tracedHeight);
 }
 ivec2 layerSize() {
     return ivec2(params.width, params.height);

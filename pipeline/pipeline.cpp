@@ -230,7 +230,7 @@ Pipeline::State::Match Pipeline::State::matchStill(const VideoFrame& frame, cons
         const int tiles = forDepth.empty() ? work.matched : work.changed;
         if (tiles > 0 && !where.empty()) epipolar->run(frame.view, *pose, where);
         lap("epipolar");
-        found = &newest.flow->refine(pyramids, work, epipolar->forward(), epipolar->hidden());
+        found = &newest.flow->refine(pyramids, work, epipolar->forward(), epipolar->occlusion());
     } else {
         found = &newest.flow->run(pyramids, work,
                                   newest.lastFlow != nullptr && options.skips.knownFlow);

@@ -168,7 +168,7 @@ bool Pipeline::State::leavesLines(const PixelRect& tile, const EpipolarFlow::Cel
 
 void Pipeline::State::showObjects(const VideoFrame& frame) {
     result.stats.objectsInView = inView();
-    result.stats.objectsHidden = inView() && objects->hidden();
+    result.stats.objectsHidden = inView() && objects->isHidden();
     if (!drawsObjects()) return;
     objects->draw(depth->snap.field(), depth->snap.where(), frame, detail->output());
     lap("objects");

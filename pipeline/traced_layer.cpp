@@ -1,6 +1,6 @@
 #include "pipeline/traced_layer.h"
 
-#include "pipeline/slices/reference_renderer.h"
+#include "pipeline/slices/traced_renderer.h"
 #include "pipeline/slices/view_change.h"
 #include "pipeline/warp/warp.h"
 
@@ -11,12 +11,13 @@ namespace mfar {
 struct TracedLayer::State {
     State(const CameraModel& video, Engine& warps, const TracedLayerOptions& options)
         : camera(video.scaledTo(options.size)), warp(camera, options.size, warps, options.warp),
-          renderer(referenceOptions(options, warp)), fadeFrames(options.warp.fadeFrames) {}
+          renderer(rendererOptions(options, warp)), fadeFrames(options.warp.fadeFrames) {}
 
     // Policy `soon` is used only if the warp takes light. If the warp takes colours, a new picture
     // with few samples would be shown with its own noise.
-    static ReferenceOptions referenceOptions(const TracedLayerOptions& options, const Warp& warp) {
-        ReferenceOptions out = options.reference;
+    static TracedRendererOptions rendererOptions(const TracedLayerOptions& options,
+                                                 const Warp& warp) {
+        TracedRendererOptions out = options.renderer;
         out.policy.soon = out.policy.soon && warp.takesLight();
         return out;
     }
@@ -28,14 +29,14 @@ struct TracedLayer::State {
             scene = picture.scene;
             if (!sameModels) warp.setScene(*scene);  // other light does not change silhouettes
         }
-        warp.setReference(warpReference(picture));
+        warp.setTracedPicture(tracedPicture(picture));
         shown = &picture;
         changing = std::max(changing, 1);
     }
 
     CameraModel camera;
     Warp warp;
-    ReferenceRenderer renderer;
+    TracedRenderer renderer;
     int fadeFrames;
     std::shared_ptr<const Scene> scene;      // scene of the shown picture
     const RenderedPicture* shown = nullptr;  // only its address is compared with the next picture's

@@ -2,7 +2,7 @@
 
 #include "pipeline/engine/engine.h"
 #include "pipeline/scene/scene.h"
-#include "pipeline/slices/reference_options.h"
+#include "pipeline/slices/traced_renderer_options.h"
 #include "pipeline/warp/warp_options.h"
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace mfar {
 struct TracedLayerOptions {
     /// Size of the layer; 0x0: half the output size, rounded up.
     Size size;
-    ReferenceOptions reference{};
+    TracedRendererOptions renderer{};
     WarpOptions warp{};
     bool operator==(const TracedLayerOptions&) const = default;
 };
@@ -24,13 +24,13 @@ struct TracedLayerOptions {
 struct TracedLayerCounters {
     RenderCounters render{};
     std::uint64_t warped = 0;     ///< frames drawn by warping
-    std::uint64_t unmoved = 0;    ///< frames that showed a reference picture unchanged
+    std::uint64_t unmoved = 0;    ///< frames that showed a traced picture unchanged
     std::uint64_t requested = 0;  ///< pixels that were requested to be traced individually
     std::uint64_t answered = 0;   ///< requested pixels that were traced
     int openHoles = 0;            ///< pixels that no picture shows, in the last known frame
 };
 
-/// The path-traced virtual layer. Threads of low priority render reference pictures over many
+/// The path-traced virtual layer. Threads of low priority render traced pictures over many
 /// frames, and these pictures are warped to each frame's pose. Pixels that the pictures do not show
 /// are traced individually. No function waits for the threads.
 class TracedLayer {

@@ -66,8 +66,9 @@ public:
     /// Returns z [m], or 0 if z is unknown or too large for a surface near an object.
     [[nodiscard]] double depth(int x, int y) const {
         const std::size_t i = pixel(x, y);
-        return field_.isKnown(i) && field_.rho[i] > 1e-3F ? 1 / static_cast<double>(field_.rho[i])
-                                                          : 0;
+        return field_.isKnown(i) && field_.inverseDepth[i] > 1e-3F
+                   ? 1 / static_cast<double>(field_.inverseDepth[i])
+                   : 0;
     }
     [[nodiscard]] Eigen::Vector3d point(int x, int y) const {
         const double z = depth(x, y);

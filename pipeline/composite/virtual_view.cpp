@@ -131,7 +131,7 @@ bool VirtualView::mayHide(const PixelRect& tile, float farthest,
     const float behind = 1 / farthest;
     return holdsMore({.findings = 0, .unknown = kMostUnknown}, tile, video_, [&](std::size_t i) {
         if (!known.isKnown(i)) return Surface::Unknown;
-        const bool before = known.rho[i] + 3 * std::sqrt(known.variance[i]) >= behind;
+        const bool before = known.inverseDepth[i] + 3 * std::sqrt(known.variance[i]) >= behind;
         return before ? Surface::Finding : Surface::Other;
     });
 }
@@ -145,8 +145,8 @@ bool VirtualView::mayHideShadow(const PixelRect& tile, float nearest,
     const TileBounds most{.findings = kMostGaps, .unknown = kMostUnknown};
     return holdsMore(most, tile, video_, [&](std::size_t i) {
         const float sigma = std::sqrt(known.variance[i]);
-        if (!(sigma < kShadowLift * known.rho[i])) return Surface::Unknown;
-        return known.rho[i] - 3 * sigma > before ? Surface::Finding : Surface::Other;
+        if (!(sigma < kShadowLift * known.inverseDepth[i])) return Surface::Unknown;
+        return known.inverseDepth[i] - 3 * sigma > before ? Surface::Finding : Surface::Other;
     });
 }
 
@@ -158,7 +158,8 @@ bool VirtualView::isHidden(const PixelRect& tile, float nearest,
     return !holdsMore(most, tile, video_, [&](std::size_t i) {
         if (!known.isKnown(i)) return Surface::Unknown;
         const float sigma = std::sqrt(known.variance[i]);
-        return hiding_.hides(known.rho[i], sigma, 1 / nearest) ? Surface::Other : Surface::Finding;
+        return hiding_.hides(known.inverseDepth[i], sigma, 1 / nearest) ? Surface::Other
+                                                                        : Surface::Finding;
     });
 }
 

@@ -46,7 +46,7 @@ public:
     /// Bounds of all placed objects [video px].
     [[nodiscard]] const PixelRect& region() const { return region_; }
     /// True if the real scene hides all placed objects completely. Shadows are ignored.
-    [[nodiscard]] bool hidden() const { return hidden_; }
+    [[nodiscard]] bool isHidden() const { return hidden_; }
     /// Returns which changes of the picture make it necessary to redraw the objects. If the objects
     /// were changed, appeared or disappeared, they are always redrawn. If the camera has moved,
     /// they are redrawn with any change. Otherwise, only changes near the objects count.

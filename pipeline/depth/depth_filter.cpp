@@ -33,17 +33,17 @@ DepthFilter::DepthFilter(const CameraModel& video, EpipolarLens lens,
     : lens_(std::move(lens)), focal_(static_cast<float>(std::max(video.fx, video.fy))),
       pixelX_(static_cast<float>(1 / video.fx)), pixelY_(static_cast<float>(1 / video.fy)),
       workers_(std::move(workers)), field_(video.size), carried_(video.size),
-      points_(field_.rho.size()), carriedPoints_(field_.rho.size()) {
-    for (auto* plane : {&moved_.x, &moved_.y, &moved_.rho, &moved_.variance})
-        plane->resize(field_.rho.size());
-    moved_.pixel.resize(field_.rho.size());
+      points_(field_.inverseDepth.size()), carriedPoints_(field_.inverseDepth.size()) {
+    for (auto* plane : {&moved_.x, &moved_.y, &moved_.inverseDepth, &moved_.variance})
+        plane->resize(field_.inverseDepth.size());
+    moved_.pixel.resize(field_.inverseDepth.size());
     moved_.bounds.resize(video.size.height);
 }
 
 void DepthFilter::forget() {
     if (!fieldPose_) return;
     field_ = InverseDepthField(field_.size);
-    points_ = Points(field_.rho.size());
+    points_ = Points(field_.inverseDepth.size());
     known_ = {};
     fieldPose_.reset();
 }
@@ -66,13 +66,15 @@ bool DepthFilter::moves(const RigidTransform& T) const {
     const float turn = static_cast<float>(2 * T.rotation.vec().norm());
     float nearest = 0;
     for (int y = known_.y0; y < known_.y1; ++y) {
-        const float* row = field_.rho.data() + static_cast<std::size_t>(y) * field_.size.width;
+        const float* row =
+            field_.inverseDepth.data() + static_cast<std::size_t>(y) * field_.size.width;
         nearest = std::max(nearest, simd::greatestOf(row + known_.x0, known_.x1 - known_.x0));
     }
     return focal_ * (turn + nearest * static_cast<float>(T.translation.norm())) > kLeastMotion;
 }
 
-// Points are homogeneous, (x, y, 1, rho), so infinitely distant points (rho = 0) are only rotated.
+// Points are homogeneous, (x, y, 1, inverseDepth), so infinitely distant points (inverse depth 0)
+// are only rotated.
 void DepthFilter::carry(const RigidTransform& T_now_before, float growth) {
     const Eigen::Matrix3d R = T_now_before.rotation.toRotationMatrix();
     simd::Motion motion{};
@@ -88,10 +90,11 @@ void DepthFilter::carry(const RigidTransform& T_now_before, float growth) {
             const std::size_t i = static_cast<std::size_t>(y) * field_.size.width + known_.x0;
             simd::moveRow(lens_.lens(), field_.size, motion, rule,
                           {lens_.raysX().data() + i, lens_.raysY().data() + i, points_.x.data() + i,
-                           points_.y.data() + i, field_.rho.data() + i, field_.variance.data() + i},
+                           points_.y.data() + i, field_.inverseDepth.data() + i,
+                           field_.variance.data() + i},
                           width,
                           {moved_.pixel.data() + i, moved_.x.data() + i, moved_.y.data() + i,
-                           moved_.rho.data() + i, moved_.variance.data() + i},
+                           moved_.inverseDepth.data() + i, moved_.variance.data() + i},
                           moved_.bounds[y]);
         }
     });
@@ -119,8 +122,9 @@ void DepthFilter::takeLanded(int firstRow, int lastRow) {
         for (std::size_t i = row + known_.x0; i < row + known_.x1; ++i) {
             if (moved_.pixel[i] < first || moved_.pixel[i] >= last) continue;
             const auto to = static_cast<std::size_t>(moved_.pixel[i]);
-            if (carried_.isKnown(to) && carried_.rho[to] >= moved_.rho[i]) continue;
-            carried_.rho[to] = moved_.rho[i];
+            if (carried_.isKnown(to) && carried_.inverseDepth[to] >= moved_.inverseDepth[i])
+                continue;
+            carried_.inverseDepth[to] = moved_.inverseDepth[i];
             carried_.variance[to] = moved_.variance[i];
             carried_.filled[to] = field_.filled[i];
             carriedPoints_.x[to] = moved_.x[i];
@@ -152,10 +156,10 @@ void DepthFilter::closeCracks() {
 
 void DepthFilter::closeCrack(std::size_t i, std::size_t before, std::size_t after) {
     if (field_.isKnown(i) || !field_.isKnown(before) || !field_.isKnown(after)) return;
-    const float apart = field_.rho[after] - field_.rho[before];
+    const float apart = field_.inverseDepth[after] - field_.inverseDepth[before];
     const float sum = field_.variance[before] + field_.variance[after];
     if (apart * apart > kGate * sum) return;
-    field_.rho[i] = 0.5F * field_.rho[before] + 0.5F * field_.rho[after];
+    field_.inverseDepth[i] = 0.5F * field_.inverseDepth[before] + 0.5F * field_.inverseDepth[after];
     field_.variance[i] = 0.5F * sum + apart * apart;
     field_.filled[i] = 1;
     points_.reset(i);
@@ -167,18 +171,18 @@ void DepthFilter::fuse(const InverseDepthField& measured, const PixelRect& where
         for (int y = where.y0 + first; y < where.y0 + last; ++y) {
             const auto row = static_cast<std::size_t>(y) * field_.size.width;
             for (std::size_t i = row + where.x0; i < row + where.x1; ++i)
-                if (InverseDepthField::isSound(measured.rho[i], measured.variance[i]))
-                    fusePixel(i, measured.rho[i], measured.variance[i]);
+                if (InverseDepthField::isSound(measured.inverseDepth[i], measured.variance[i]))
+                    fusePixel(i, measured.inverseDepth[i], measured.variance[i]);
         }
     });
 }
 
-void DepthFilter::fusePixel(std::size_t i, float rho, float variance) {
+void DepthFilter::fusePixel(std::size_t i, float inverseDepth, float variance) {
     const bool known = field_.isKnown(i);
-    const float sum = field_.variance[i] + variance, apart = rho - field_.rho[i];
+    const float sum = field_.variance[i] + variance, apart = inverseDepth - field_.inverseDepth[i];
     if (known && apart * apart <= kGate * sum) {
         const float gain = field_.variance[i] / sum;
-        field_.rho[i] += gain * apart;
+        field_.inverseDepth[i] += gain * apart;
         field_.variance[i] = std::max((1 - gain) * field_.variance[i], kLeastShare * variance);
         field_.filled[i] = 0;
         points_.x[i] *= 1 - gain;
@@ -187,7 +191,7 @@ void DepthFilter::fusePixel(std::size_t i, float rho, float variance) {
         return;
     }
     if (known && ++points_.outliers[i] < kMostOutliers) return;
-    field_.rho[i] = rho;
+    field_.inverseDepth[i] = inverseDepth;
     field_.variance[i] = variance;
     field_.filled[i] = 0;
     points_.reset(i);

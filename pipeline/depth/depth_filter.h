@@ -13,11 +13,11 @@
 
 namespace mfar {
 
-/// The scene's inverse depth over time. Every pixel has a Kalman filter with state (rho, variance),
-/// which the camera's motion carries from frame to frame. Where depth is known, the scene is
-/// assumed to be static. Source: Engel et al., Semi-dense visual odometry, ICCV 2013 (filter in
-/// inverse depth); Vogiatzis and Hernandez, Video-based real-time multi-view stereo, 2011
-/// (outliers).
+/// The scene's inverse depth over time. Every pixel has a Kalman filter with state (inverse depth,
+/// variance), which the camera's motion carries from frame to frame. Where depth is known, the
+/// scene is assumed to be static. Source: Engel et al., Semi-dense visual odometry, ICCV 2013
+/// (filter in inverse depth); Vogiatzis and Hernandez, Video-based real-time multi-view stereo,
+/// 2011 (outliers).
 class DepthFilter {
 public:
     DepthFilter(const CameraModel& video, std::shared_ptr<Workers> workers)
@@ -63,7 +63,7 @@ private:
     void takeLanded(int firstRow, int lastRow);
     void closeCracks();
     void closeCrack(std::size_t i, std::size_t before, std::size_t after);
-    void fusePixel(std::size_t i, float rho, float variance);
+    void fusePixel(std::size_t i, float inverseDepth, float variance);
 
     EpipolarLens lens_;
     float focal_, pixelX_, pixelY_;  // focal length [px]; size of a pixel at z = 1
@@ -76,7 +76,7 @@ private:
     /// Result of a motion: where it moves the points of the pixels in known_.
     struct Moved {
         std::vector<std::int32_t> pixel;
-        std::vector<float> x, y, rho, variance;
+        std::vector<float> x, y, inverseDepth, variance;
         std::vector<PixelRect> bounds;  // bounds of the pixels that each row of points moves to
     };
     Moved moved_;

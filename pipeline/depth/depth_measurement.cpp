@@ -113,7 +113,7 @@ void DepthMeasurement::run(const EpipolarSearch& search, const Eigen::Matrix3f& 
             const std::size_t i = static_cast<std::size_t>(y) * lens_.size().width + where.x0;
             simd::measureRow({lens_.raysX().data() + i, lens_.raysY().data() + i, s_.data() + i,
                               landing_.data() + i, nearest_.data()},
-                             rule, count, out.rho.data() + i, out.variance.data() + i);
+                             rule, count, out.inverseDepth.data() + i, out.variance.data() + i);
             std::fill_n(out.filled.begin() + static_cast<std::ptrdiff_t>(i), count,
                         std::uint8_t{0});
         }

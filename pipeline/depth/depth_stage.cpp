@@ -52,7 +52,7 @@ void DepthStage::run(const Rows<const std::uint8_t>& luma, const Pose& pose,
     const Summary before = summaryOf(where, pose);
     source_ = before.share < 1 ? DepthSource::Carried : DepthSource::None;
     const double brightness = brightnessOf(luma);
-    if (!where.empty() && seesMore(pose, before.rho, where)) {
+    if (!where.empty() && seesMore(pose, before.inverseDepth, where)) {
         if (still && still->search.pixelsPerUnit() > 0 && still->lengthError < kMostLengthError) {
             measurement_.run(still->search, still->R_still_video, still->unit, still->cells, where,
                              measured_);
@@ -66,15 +66,15 @@ void DepthStage::run(const Rows<const std::uint8_t>& luma, const Pose& pose,
             measuredWhere_ = where;
         }
     }
-    keyframes_.add(luma, pose, brightness, before.rho);
+    keyframes_.add(luma, pose, brightness, before.inverseDepth);
 }
 
 // Measuring the same view again repeats the same errors, but would reduce the filtered variance.
-bool DepthStage::seesMore(const Pose& pose, double rho, const PixelRect& where) const {
+bool DepthStage::seesMore(const Pose& pose, double inverseDepth, const PixelRect& where) const {
     if (!measuredPose_ || around(measuredWhere_, where) != measuredWhere_) return true;
     const RigidTransform T = measuredPose_->inverse() * pose.T_world_video;
     const double turn = 2 * T.rotation.vec().norm();
-    return focal_ * (turn + rho * T.translation.norm()) >= kSameView;
+    return focal_ * (turn + inverseDepth * T.translation.norm()) >= kSameView;
 }
 
 // When the camera moves towards the scene, the area straight ahead has no parallax against a
@@ -95,8 +95,8 @@ void DepthStage::findNeeds(const Pose& pose, double brightness, double stillBase
                 edge(where.x0, where.x1, i + 1, columns), edge(where.y0, where.y1, j + 1, rows)};
             const Summary summary = summaryOf(part, pose);
             if (summary.share <= options_.enough) continue;
-            const auto choice = keyframes_.choose(pose, brightness, part, summary.rho);
-            if (choice && choice->angle > kWorth * stillBaseline * summary.rho)
+            const auto choice = keyframes_.choose(pose, brightness, part, summary.inverseDepth);
+            if (choice && choice->angle > kWorth * stillBaseline * summary.inverseDepth)
                 needs_.push_back({part, summary.share, *choice});
         }
     }
@@ -145,8 +145,8 @@ std::span<const float> DepthStage::predicted(const UnitPose& relative, const Pix
                 column >= where.x0 && column < where.x1 && row >= where.y0 && row < where.y1;
             if (counts) ++inside;
             if (field.isKnown(p)) {
-                const double rho = field.rho[p] * relative.unit;
-                last = static_cast<float>(rho / (1 + rho * z));
+                const double inverseDepth = field.inverseDepth[p] * relative.unit;
+                last = static_cast<float>(inverseDepth / (1 + inverseDepth * z));
                 if (counts) ++known;
             }
             predicted_.push_back(last);
@@ -164,15 +164,15 @@ DepthStage::Summary DepthStage::summaryOf(const PixelRect& where, const Pose& po
     for (int y = where.y0; y < where.y1; y += kSampleStep) {
         for (int x = where.x0; x < where.x1; x += kSampleStep) {
             const auto i = static_cast<std::size_t>(y) * field.size.width + x;
-            if (!field.isKnown(i) || !(field.rho[i] > 0)) continue;
-            samples_.push_back(field.rho[i]);
-            shares_.push_back(std::sqrt(field.variance[i]) / field.rho[i]);
+            if (!field.isKnown(i) || !(field.inverseDepth[i] > 0)) continue;
+            samples_.push_back(field.inverseDepth[i]);
+            shares_.push_back(std::sqrt(field.variance[i]) / field.inverseDepth[i]);
         }
     }
     // While no depth is known, use the distance to the world's origin, where a tag is.
-    out.rho = 1 / std::max(pose.T_world_video.translation.norm(), kNearest);
+    out.inverseDepth = 1 / std::max(pose.T_world_video.translation.norm(), kNearest);
     if (samples_.empty()) return out;
-    out.rho = medianOf(samples_);
+    out.inverseDepth = medianOf(samples_);
     out.share = std::min(medianOf(shares_), 1.0);
     return out;
 }

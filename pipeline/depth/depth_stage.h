@@ -43,8 +43,8 @@ public:
 
 private:
     struct Summary {
-        double rho = 0;    ///< median of the known inverse depths [1/m]
-        double share = 1;  ///< median of the relative standard deviations of inverse depth
+        double inverseDepth = 0;  ///< median of the known inverse depths [1/m]
+        double share = 1;         ///< median of the relative standard deviations of inverse depth
     };
     /// A part of the picture whose depth is too uncertain, and the keyframe that would improve it.
     struct Need {
@@ -53,7 +53,8 @@ private:
         Keyframes::Choice choice;
     };
     [[nodiscard]] Summary summaryOf(const PixelRect& where, const Pose& pose);
-    [[nodiscard]] bool seesMore(const Pose& pose, double rho, const PixelRect& where) const;
+    [[nodiscard]] bool seesMore(const Pose& pose, double inverseDepth,
+                                const PixelRect& where) const;
     void findNeeds(const Pose& pose, double brightness, double stillBaseline,
                    const PixelRect& where);
     void searchKeyframe(const Rows<const std::uint8_t>& luma, const Pose& pose);

@@ -89,7 +89,7 @@ EdgeSnap::EdgeSnap(Size video, std::shared_ptr<Workers> workers)
     high_.resize(pixels);
     const Size voters{nextVoter(video.width) / kVoters, nextVoter(video.height) / kVoters};
     for (auto* plane :
-         {&voters_.rho, &voters_.variance, &voters_.red, &voters_.green, &voters_.blue})
+         {&voters_.inverseDepth, &voters_.variance, &voters_.red, &voters_.green, &voters_.blue})
         *plane = AlignedRows<float>(voters);
 }
 
@@ -117,15 +117,15 @@ void EdgeSnap::findEdges(const InverseDepthField& in, const PixelRect& where) {
     const auto at = [&](int y) { return y * pitch + where.x0; };
     workers_->forRange(where.y1 - where.y0, 8, [&](int first, int last) {
         for (int y = where.y0 + first; y < where.y0 + last; ++y)
-            simd::rangeAlongRow(in.rho.data() + at(y), in.variance.data() + at(y), width, kBand,
-                                low_.data() + at(y), high_.data() + at(y));
+            simd::rangeAlongRow(in.inverseDepth.data() + at(y), in.variance.data() + at(y), width,
+                                kBand, low_.data() + at(y), high_.data() + at(y));
     });
     workers_->forRange(where.y1 - where.y0, 8, [&](int first, int last) {
         for (int y = where.y0 + first; y < where.y0 + last; ++y) {
             const int begin = std::max(y - kBand, where.y0);
             const int end = std::min(y + kBand + 1, where.y1);
             simd::openRow(low_.data() + at(begin), high_.data() + at(begin), pitch, end - begin,
-                          in.rho.data() + at(y), in.variance.data() + at(y), width,
+                          in.inverseDepth.data() + at(y), in.variance.data() + at(y), width,
                           {kJump, kSigmas}, open_.data() + at(y));
         }
     });
@@ -141,9 +141,9 @@ void EdgeSnap::gatherVoters(const InverseDepthField& in, const ImageView& frame,
             const auto row = static_cast<std::size_t>(y) * size_.width;
             for (int x = nextVoter(where.x0); x < where.x1; x += kVoters) {
                 const int i = x / kVoters;
-                voters_.rho[j][i] = -1;
+                voters_.inverseDepth[j][i] = -1;
                 if (open_[row + x] != 0) continue;
-                voters_.rho[j][i] = in.rho[row + x];
+                voters_.inverseDepth[j][i] = in.inverseDepth[row + x];
                 voters_.variance[j][i] = in.variance[row + x];
                 const Colour colour = colours.at(x, y);
                 voters_.red[j][i] = static_cast<float>(colour[0]);
@@ -157,8 +157,8 @@ void EdgeSnap::gatherVoters(const InverseDepthField& in, const ImageView& frame,
 void EdgeSnap::takeRow(const InverseDepthField& in, const PixelRect& where, int y) {
     const auto row = static_cast<std::size_t>(y) * size_.width;
     for (std::size_t i = row + where.x0; i < row + where.x1; ++i) {
-        const bool sound = InverseDepthField::isSound(in.rho[i], in.variance[i]);
-        out_.rho[i] = sound ? in.rho[i] : 0;
+        const bool sound = InverseDepthField::isSound(in.inverseDepth[i], in.variance[i]);
+        out_.inverseDepth[i] = sound ? in.inverseDepth[i] : 0;
         out_.variance[i] = sound ? in.variance[i] : InverseDepthField::kUnknown;
         out_.filled[i] = sound ? in.filled[i] : std::uint8_t{0};
     }
@@ -181,13 +181,13 @@ void EdgeSnap::snapRow(const ImageView& frame, const PixelRect& where, int y) {
 }
 
 void EdgeSnap::decide(const PixelRect& where, int y, std::span<simd::OpenPixel> pixels) {
-    const simd::Voters voters{voters_.rho.rows(), voters_.variance.rows(), voters_.red.rows(),
-                              voters_.green.rows(), voters_.blue.rows()};
+    const simd::Voters voters{voters_.inverseDepth.rows(), voters_.variance.rows(),
+                              voters_.red.rows(), voters_.green.rows(), voters_.blue.rows()};
     simd::votePixels(voters, {kVoteRadius, kLikeness, kLeastWeight}, where, y, pixels);
     for (const simd::OpenPixel& pixel : pixels) {
         if (!pixel.decided) continue;
         const auto i = static_cast<std::size_t>(y) * size_.width + pixel.x;
-        out_.rho[i] = pixel.rho;
+        out_.inverseDepth[i] = pixel.inverseDepth;
         out_.variance[i] = pixel.variance;
         out_.filled[i] = 1;
     }

@@ -45,10 +45,10 @@ private:
     InverseDepthField out_;
     PixelRect where_;
     std::vector<std::uint8_t> open_;  // 1: depth is decided by colour
-    std::vector<float> low_, high_;   // range of rho along a row
+    std::vector<float> low_, high_;   // range of inverse depths along a row
     /// Memory that simd::Voters refers to.
     struct {
-        AlignedRows<float> rho, variance, red, green, blue;
+        AlignedRows<float> inverseDepth, variance, red, green, blue;
     } voters_;
 };
 

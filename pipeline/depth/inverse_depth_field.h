@@ -14,23 +14,24 @@ struct InverseDepthField {
     static constexpr float kUnknown = std::numeric_limits<float>::infinity();
 
     Size size;
-    std::vector<float> rho;       ///< 1 / z along the video camera's axis [1/m]; 0: infinitely far
-    std::vector<float> variance;  ///< of rho [1/m^2]; kUnknown where rho is invalid
+    /// 1 / z along the video camera's axis [1/m]; 0: infinitely far
+    std::vector<float> inverseDepth;
+    std::vector<float> variance;       ///< of the inverse depth [1/m^2]; kUnknown: invalid
     std::vector<std::uint8_t> filled;  ///< 1: not measured, but derived from nearby pixels
 
     InverseDepthField() = default;
     explicit InverseDepthField(Size s)
-        : size(s), rho(static_cast<std::size_t>(s.width) * s.height),
-          variance(rho.size(), kUnknown), filled(rho.size()) {}
+        : size(s), inverseDepth(static_cast<std::size_t>(s.width) * s.height),
+          variance(inverseDepth.size(), kUnknown), filled(inverseDepth.size()) {}
 
     [[nodiscard]] bool isKnown(std::size_t pixel) const { return variance[pixel] < kUnknown; }
     /// True if a known pixel may have these values. The limits keep products of values, and sums
     /// over a picture, finite in single precision.
-    [[nodiscard]] static bool isSound(float rho, float variance) {
-        return rho >= 0 && rho < 1e15F && variance > 1e-30F && variance < 1e30F;
+    [[nodiscard]] static bool isSound(float inverseDepth, float variance) {
+        return inverseDepth >= 0 && inverseDepth < 1e15F && variance > 1e-30F && variance < 1e30F;
     }
     void forget(std::size_t pixel) {
-        rho[pixel] = 0;
+        inverseDepth[pixel] = 0;
         variance[pixel] = kUnknown;
         filled[pixel] = 0;
     }

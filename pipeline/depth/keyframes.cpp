@@ -36,12 +36,12 @@ void Keyframes::forget() {
 }
 
 void Keyframes::add(const Rows<const std::uint8_t>& luma, const Pose& pose, double brightness,
-                    double rho) {
+                    double inverseDepth) {
     ++count_;
     if (!frames_.empty()) {
         const RigidTransform T = frames_.front().pose.T_world_video.inverse() * pose.T_world_video;
         const double turn = 2 * T.rotation.vec().norm();
-        if (turn + rho * T.translation.norm() < kLeastStep) return;
+        if (turn + inverseDepth * T.translation.norm() < kLeastStep) return;
     }
     Keyframe frame;
     if (frames_.size() >= static_cast<std::size_t>(options_.frames)) {
@@ -56,12 +56,13 @@ void Keyframes::add(const Rows<const std::uint8_t>& luma, const Pose& pose, doub
 }
 
 Keyframes::Relation Keyframes::relationOf(const RigidTransform& T_key_now,
-                                          std::span<const Eigen::Vector2d> rays, double rho) const {
+                                          std::span<const Eigen::Vector2d> rays,
+                                          double inverseDepth) const {
     Relation out;
     const double share = 1.0 / static_cast<double>(rays.size());
     for (const Eigen::Vector2d& ray : rays) {
         const Eigen::Vector3d turned = T_key_now.rotation * ray.homogeneous();
-        const Eigen::Vector3d p = turned + rho * T_key_now.translation;
+        const Eigen::Vector3d p = turned + inverseDepth * T_key_now.translation;
         out.angle += share * std::atan2(turned.cross(p).norm(), turned.dot(p));
         if (!(p.z() > 0)) continue;
         const Eigen::Vector2d q = video_.project(p.hnormalized());
@@ -72,7 +73,8 @@ Keyframes::Relation Keyframes::relationOf(const RigidTransform& T_key_now,
 }
 
 std::optional<Keyframes::Choice> Keyframes::choose(const Pose& pose, double brightness,
-                                                   const PixelRect& part, double rho) const {
+                                                   const PixelRect& part,
+                                                   double inverseDepth) const {
     std::array<Eigen::Vector2d, static_cast<std::size_t>(kGrid) * kGrid> rays;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const std::size_t column = i % kGrid, row = i / kGrid;
@@ -88,7 +90,7 @@ std::optional<Keyframes::Choice> Keyframes::choose(const Pose& pose, double brig
         const long age = count_ + 1 - frame.number;
         if (options_.rule == KeyframeRule::Fixed && age < options_.distance) continue;
         const RigidTransform T_key_now = frame.pose.T_world_video.inverse() * pose.T_world_video;
-        const auto [angle, overlap] = relationOf(T_key_now, rays, rho);
+        const auto [angle, overlap] = relationOf(T_key_now, rays, inverseDepth);
         if (!(angle >= options_.leastAngle && overlap >= options_.leastOverlap)) continue;
         if (options_.rule == KeyframeRule::Angle && angle < options_.angle) continue;
         const double exposure = std::abs(std::log((brightness + 1) / (frame.brightness + 1)));

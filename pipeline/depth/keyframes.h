@@ -26,9 +26,10 @@ public:
     Keyframes(const CameraModel& video, const KeyframeOptions& options);
 
     void forget();
-    /// Keeps a frame if the camera has moved noticeably since the newest keyframe. `rho`: inverse
-    /// depth of a typical point of the scene [1/m]. `brightness`: mean luma.
-    void add(const Rows<const std::uint8_t>& luma, const Pose& pose, double brightness, double rho);
+    /// Keeps a frame if the camera has moved noticeably since the newest keyframe. `inverseDepth`:
+    /// inverse depth of a typical point of the scene [1/m]. `brightness`: mean luma.
+    void add(const Rows<const std::uint8_t>& luma, const Pose& pose, double brightness,
+             double inverseDepth);
 
     struct Choice {
         const Keyframe* frame;
@@ -39,16 +40,18 @@ public:
     /// sin(parallax)), which is increased for older keyframes and for different exposure. Valid
     /// until the next add().
     [[nodiscard]] std::optional<Choice> choose(const Pose& pose, double brightness,
-                                               const PixelRect& part, double rho) const;
+                                               const PixelRect& part, double inverseDepth) const;
 
 private:
-    /// Describes how a keyframe sees the points of a part, if all of them are at inverse depth rho.
+    /// Describes how a keyframe sees the points of a part, if all of them are at inverse depth
+    /// `inverseDepth`.
     struct Relation {
         double angle = 0;    ///< mean parallax [rad]
         double overlap = 0;  ///< share of the points that lie in the keyframe's picture
     };
     [[nodiscard]] Relation relationOf(const RigidTransform& T_key_now,
-                                      std::span<const Eigen::Vector2d> rays, double rho) const;
+                                      std::span<const Eigen::Vector2d> rays,
+                                      double inverseDepth) const;
 
     CameraModel video_;
     KeyframeOptions options_;

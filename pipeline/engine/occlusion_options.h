@@ -23,9 +23,9 @@ struct CompositeOptions {
 
     /// True if a single real sample (inverse depth and its sigma [1/m]) completely hides a virtual
     /// surface at inverse depth `inverse` [1/m].
-    [[nodiscard]] bool hides(double rho, double sigma, double inverse) const {
+    [[nodiscard]] bool hides(double inverseDepth, double sigma, double inverse) const {
         const double sigmas = bias + softness;
-        return rho - sigmas * sigma >= inverse * (1 + sigmas * virtualSigma);
+        return inverseDepth - sigmas * sigma >= inverse * (1 + sigmas * virtualSigma);
     }
 };
 

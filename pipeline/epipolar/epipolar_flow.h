@@ -32,7 +32,7 @@ public:
     void dropStill();
     [[nodiscard]] bool hasStill() const { return stillPose_.has_value(); }
 
-    /// Refines the relative pose and searches; needs a still. Afterwards forward(), hidden() and
+    /// Refines the relative pose and searches; needs a still. Afterwards forward(), occlusion() and
     /// search() hold the results of this frame. Only pixels in `where` [video px], and in a margin
     /// around it, are certainly searched; others may take the depth of the nearest searched pixel.
     /// `where` must not be empty.
@@ -49,7 +49,7 @@ public:
     /// Two-way error (eq. 2 of the paper) [px] in the first entry; the others are unused. A z-test
     /// determines the error: it is the parallax that a cell lacks, compared with the nearest
     /// surface that lands on the same cell of the still.
-    [[nodiscard]] const Cells& hidden() const { return hidden_; }
+    [[nodiscard]] const Cells& occlusion() const { return hidden_; }
     /// Returns the inverse depth s of every cell, chosen so that its epipolar flow comes closest to
     /// `flow`. For example, `flow` may be forward() after refinement in both dimensions.
     [[nodiscard]] const std::vector<float>& inverseDepthOf(const Cells& flow);

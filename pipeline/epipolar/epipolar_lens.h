@@ -25,7 +25,7 @@ namespace mfar {
 /// first view sees the point at ray r = (x, y) and depth Z. The second view has the same
 /// orientation; its motion moves points by t. It sees the point at r + s (t.xy - r t.z) with s = 1
 /// / (Z + t.z). This is linear in s, so equal steps of s are equal steps on the epipolar line. The
-/// inverse depth in the first view is rho = s / (1 - s t.z). Source: Hartley and Zisserman, 9.5.
+/// inverse depth in the first view is s / (1 - s t.z). Source: Hartley and Zisserman, 9.5.
 class EpipolarLens {
 public:
     /// `camera`: the camera at the finest level. `level`: number of halvings; each of them rounds

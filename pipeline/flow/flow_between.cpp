@@ -24,8 +24,8 @@ std::vector<float> flowBetween(const ImageView& a, const ImageView& b) {
     flow.run(pyramids.luma(), tiles, false);
 
     const Flow2d::Field& field = flow.forward();
-    const std::vector<float> cells = flow.patches().read<float>(
-        4UL * field.cells.width * field.cells.height, 16UL * field.offset);
+    const std::vector<float> cells =
+        flow.cells().read<float>(4UL * field.cells.width * field.cells.height, 16UL * field.offset);
     std::vector<float> out;
     out.reserve(2UL * a.size.width * a.size.height);
     for (int y = 0; y < a.size.height; ++y)

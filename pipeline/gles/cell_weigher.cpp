@@ -46,7 +46,7 @@ void CellWeigher::assess(const WeighInput& in, const TileBuffer& tiles) {
                  .stillHeight = static_cast<float>(rig_.still.size.height),
                  .scaleX = static_cast<float>(rig_.still.fx / rig_.video.fx),
                  .scaleY = static_cast<float>(rig_.still.fy / rig_.video.fy)},
-                {gpu::storage(0, in.words), gpu::storage(1, in.patches),
+                {gpu::storage(0, in.words), gpu::storage(1, in.cells),
                  gpu::storage(2, tiles.buffer()), gpu::imageWrite(0, displacement_),
                  gpu::imageWrite(1, statistics_)},
                 groupsOf(cells_, 4));
@@ -61,7 +61,7 @@ void CellWeigher::measureGain(const WeighInput& in, const TileBuffer& tiles) {
                .forwardRows = cells_.height,
                .forward = in.first,
                .tileColumns = tiles.work().tiles.width},
-              {gpu::storage(0, in.words), gpu::storage(1, in.patches),
+              {gpu::storage(0, in.words), gpu::storage(1, in.cells),
                gpu::storage(2, tiles.buffer()), gpu::imageWrite(0, halfStatistics_)},
               groupsOf(halfCells_, 4));
 }

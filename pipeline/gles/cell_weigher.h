@@ -13,8 +13,8 @@ namespace mfar {
 struct WeighInput {
     const std::vector<LumaLevel>&video, &still;
     const gpu::Buffer& words;
-    const gpu::Buffer& patches;
-    int first;               ///< forward field's index in `patches`; the backward field follows
+    const gpu::Buffer& cells;
+    int first;               ///< forward field's index in `cells`; the backward field follows
     Size forward, backward;  ///< [cells]
     int backwardLevel;       ///< pyramid level of the backward field
     bool errorsGiven;        ///< the backward field is replaced by two-way errors

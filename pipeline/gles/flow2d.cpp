@@ -48,7 +48,7 @@ Flow2d::Flow2d(Size video, const Flow2dOptions& options)
     // backward_ must also have room for refine()'s errors, which are one per cell of the video.
     backward_ = {take(forward_.cells), backwardStages_[finest].cells, finest};
     seed_ = take(forward_.cells);
-    patches_ = gpu::Buffer(static_cast<std::size_t>(next) * 4 * sizeof(float));
+    cells_ = gpu::Buffer(static_cast<std::size_t>(next) * 4 * sizeof(float));
 }
 
 void Flow2d::run(const LumaOnGpu& luma, const TileBuffer& tiles, bool usePrior) {
@@ -65,15 +65,15 @@ void Flow2d::run(const LumaOnGpu& luma, const TileBuffer& tiles, bool usePrior) 
 
 void Flow2d::refine(const LumaOnGpu& luma, const TileBuffer& tiles, Cells forward, Cells errors) {
     errorsGiven_ = true;
-    patches_.write(forward, 16UL * seed_);
-    patches_.write(errors, 16UL * backward_.offset);
+    cells_.write(forward, 16UL * seed_);
+    cells_.write(errors, 16UL * backward_.offset);
     if (tiles.work().matched == 0) {
         searched_.clear();
         return;
     }
     const Stage& stage = forwardStages_[0];
     align(seed_, luma, tiles);
-    searched_.find({patches_, stage.area[0], backward_.offset}, tiles);
+    searched_.find({cells_, stage.area[0], backward_.offset}, tiles);
     searchListed(luma);
     filter(stage, forward_, tiles);
 }
@@ -90,7 +90,7 @@ void Flow2d::searchListed(const LumaOnGpu& luma) {
         p.firstGroup = searched_.first(level);
         p.errors = level == 0 ? backward_.offset : -1;
         searchListed_.runIndirect(p,
-                                  {gpu::storage(0, luma.words), gpu::storage(1, patches_),
+                                  {gpu::storage(0, luma.words), gpu::storage(1, cells_),
                                    gpu::storage(2, searched_.lists())},
                                   searched_.commands(), 16UL * level);
     }
@@ -112,7 +112,7 @@ void Flow2d::search(const Direction& way, int level, int area, const LumaOnGpu& 
     const params::SearchFlow p = searchParams(
         way, level, area, way.usePrior ? params::kTrackingRadius : options_.searchRadius,
         way.usePrior ? forward_.offset : -1);
-    search_.run(p, {gpu::storage(0, luma.words), gpu::storage(1, patches_)},
+    search_.run(p, {gpu::storage(0, luma.words), gpu::storage(1, cells_)},
                 way.stages[level].groups);
 }
 
@@ -154,7 +154,7 @@ void Flow2d::propagate(const Direction& way, int level, int toArea, const LumaOn
                     .target = stage.area[toArea],
                     .source = stage.area[1 - toArea],
                     .steps = params::kPropagateSteps},
-                   {gpu::storage(0, luma.words), gpu::storage(1, patches_)}, stage.groups);
+                   {gpu::storage(0, luma.words), gpu::storage(1, cells_)}, stage.groups);
 }
 
 void Flow2d::align(int in, const LumaOnGpu& luma, const TileBuffer& tiles) {
@@ -167,7 +167,7 @@ void Flow2d::align(int in, const LumaOnGpu& luma, const TileBuffer& tiles) {
          .target = stage.area[0],
          .source = in,
          .steps = params::kAlignSteps},
-        {gpu::storage(0, luma.words), gpu::storage(1, patches_), gpu::storage(2, tiles.buffer())},
+        {gpu::storage(0, luma.words), gpu::storage(1, cells_), gpu::storage(2, tiles.buffer())},
         stage.groups);
 }
 
@@ -179,7 +179,7 @@ void Flow2d::filter(const Stage& stage, const Field& out, const TileBuffer& tile
                  .source = stage.area[0],
                  .planeFits = options_.planeFits,
                  .byTile = out.level == 0 ? 1 : 0},
-                {gpu::storage(1, patches_), gpu::storage(2, tiles.buffer())}, stage.groups);
+                {gpu::storage(1, cells_), gpu::storage(2, tiles.buffer())}, stage.groups);
 }
 
 }  // namespace mfar

@@ -17,7 +17,7 @@ namespace mfar {
 /// Sources: Kroeger et al., ECCV 2016 (inverse search); Barnes et al., 2009 (propagation).
 class Flow2d {
 public:
-    /// A field of flow vectors in patches(), with one vector per cell of 4x4 pixels.
+    /// A field of flow vectors in cells(), with one vector per cell of 4x4 pixels.
     struct Field {
         int offset = 0;  ///< index of the first vec4 (flow x, y [px of the level], cost, texture)
         Size cells;      ///< columns, rows
@@ -44,13 +44,13 @@ public:
     /// Lists of the tiles that the last refine() searched.
     [[nodiscard]] const TileLists& searched() const { return searched_; }
 
-    [[nodiscard]] const gpu::Buffer& patches() const { return patches_; }
+    [[nodiscard]] const gpu::Buffer& cells() const { return cells_; }
     [[nodiscard]] const Field& forward() const { return forward_; }  ///< from video to still
     /// The forward vectors: x, y [px], unused, unused. Waits for the GPU.
     [[nodiscard]] std::vector<std::array<float, 4>> readForward() const {
-        return patches_.read<std::array<float, 4>>(static_cast<std::size_t>(forward_.cells.width) *
-                                                       forward_.cells.height,
-                                                   16UL * forward_.offset);
+        return cells_.read<std::array<float, 4>>(static_cast<std::size_t>(forward_.cells.width) *
+                                                     forward_.cells.height,
+                                                 16UL * forward_.offset);
     }
     /// True after refine(). Then backward() holds the two-way errors of the video's cells.
     [[nodiscard]] bool errorsGiven() const { return errorsGiven_; }
@@ -89,7 +89,7 @@ private:
     Field forward_, backward_;
     bool errorsGiven_ = false;
     int seed_;  // index of the first vec4 of refine()'s input vectors
-    gpu::Buffer patches_;
+    gpu::Buffer cells_;
     TileLists searched_;
     gpu::ComputePass<params::SearchFlow> search_, searchListed_;
     gpu::ComputePass<params::RefineFlow> propagate_, align_;

@@ -47,7 +47,7 @@ private:
         const std::size_t last = static_cast<std::size_t>(rows.y1) * video_.width;
         for (std::size_t i = first; i < last; ++i) {
             const bool known = real.isKnown(i);
-            values_[2 * i] = known ? real.rho[i] : 0.0F;
+            values_[2 * i] = known ? real.inverseDepth[i] : 0.0F;
             values_[2 * i + 1] = known ? std::sqrt(real.variance[i]) : -1.0F;
         }
         depth_.upload(std::span(values_).subspan(2 * first, 2 * (last - first)), rows.y0);

@@ -115,7 +115,7 @@ public:
     GlesFlow(const StepSetup& setup, FrameOnGpu& frame)
         : frame_(frame), flow_(setup.rig.video.size, setup.flow2d),
           entries_(2 * flow_.forward().cells.width * flow_.forward().cells.height),
-          copy_(flow_.patches(), flow_.forward().offset, static_cast<std::size_t>(entries_),
+          copy_(flow_.cells(), flow_.forward().offset, static_cast<std::size_t>(entries_),
                 sizeof(FlowCell)),
           cells_{Field<FlowCell>({entries_, 1}, setup.transfers), flow_.forward().cells,
                  flow_.backward().cells, flow_.backward().level, false} {}

@@ -1,7 +1,7 @@
 #include "pipeline/gles/edge_refiner.h"
 #include "pipeline/gles/gles_steps.h"
 #include "pipeline/gles/model_silhouette.h"
-#include "pipeline/gles/patch_textures.h"
+#include "pipeline/gles/rerendered_textures.h"
 #include "pipeline/gles/texture_layer.h"
 #include "pipeline/gles/view_look_up.h"
 #include "pipeline/warp/warp_step.h"
@@ -16,7 +16,7 @@ class GlesWarp final : public WarpStep {
 public:
     GlesWarp(const CameraModel& layer, const WarpOptions& options, Transfers* transfers)
         : lens_(layer), options_(options), silhouette_(layer), lookUp_(lens_), filler_(layer.size),
-          patches_(layer.size, fadeFrames(options)), patchTextures_(layer.size),
+          rerendered_(layer.size, fadeFrames(options)), rerenderedTextures_(layer.size),
           stateCopy_(lookUp_.state()), state_({}, transfers), warped_(transfers),
           rendered_(transfers) {
         if (rerenders(options.filling) && options.sharpenShare > 0)
@@ -26,18 +26,18 @@ public:
 
     void setScene(const Scene& scene) override {
         silhouette_.setScene(scene);
-        patches_.clear();
+        rerendered_.clear();
     }
     PixelRect bounds(const RigidTransform& T_world_camera) const override {
         return silhouette_.bounds(T_world_camera);
     }
-    void setReference(const WarpReference& reference) override {
-        textures_.upload(reference);
-        reference_ = &reference;
+    void setTracedPicture(const TracedPicture& traced) override {
+        textures_.upload(traced);
+        traced_ = &traced;
     }
     bool takesLight() const override { return false; }
-    LayerPicture& reference() override {
-        return rendered_.show(textures_.picture(), textures_.depth(), reference_->bounds);
+    LayerPicture& traced() override {
+        return rendered_.show(textures_.picture(), textures_.depth(), traced_->bounds);
     }
 
     LayerPicture& run(const Frame& frame) override {
@@ -46,7 +46,7 @@ public:
         drawn_ = where;
         lookUp(frame);
         filler_.fill(lookUp_.colour(), lookUp_.state(), frame.lists);
-        patches_.age();
+        rerendered_.age();
         if (refiner_) refiner_->show(lookUp_.colour());
         state_.writtenOnDevice(stateCopy_, lookUp_.state().size());
         return warped_.show(lookUp_.colour(), lookUp_.depth(), where);
@@ -55,9 +55,10 @@ public:
     std::optional<WarpHoles> takeHoles() override { return filler_.poll(); }
     bool holesPending() const override { return filler_.isPending(); }
     void dropHoles() override { filler_.drop(); }
-    void addPatch(const HoleAnswer& answer) override {
-        patches_.add(answer,
-                     [this](const PatchPictures::StoredRows& rows) { patchTextures_.store(rows); });
+    void addRerendered(const HoleAnswer& answer) override {
+        rerendered_.add(answer, [this](const RerenderedPictures::StoredRows& rows) {
+            rerenderedTextures_.store(rows);
+        });
     }
 
     void listEdges() override {
@@ -82,12 +83,9 @@ private:
 
     void lookUp(const Frame& frame) {
         silhouette_.draw(frame.T_world_camera, frame.bounds);
-        const ViewLookUp::Input input{silhouette_.surface(),
-                                      textures_,
-                                      reference_->T_world_camera,
-                                      patches_,
-                                      patchTextures_,
-                                      silhouette_.models().plane()};
+        const ViewLookUp::Input input{silhouette_.surface(),   textures_,
+                                      traced_->T_world_camera, rerendered_,
+                                      rerenderedTextures_,     silhouette_.models().plane()};
         filler_.begin(frame.bounds, pushPulls(options_.filling));
         lookUp_.run(input, frame.T_world_camera, frame.bounds, filler_);
     }
@@ -95,13 +93,13 @@ private:
     LensProjection lens_;
     WarpOptions options_;
     ModelSilhouette silhouette_;
-    ReferenceTextures textures_;
+    TracedTextures textures_;
     ViewLookUp lookUp_;
     HoleFiller filler_;
-    PatchPictures patches_;
-    PatchTextures patchTextures_;
+    RerenderedPictures rerendered_;
+    RerenderedTextures rerenderedTextures_;
     std::optional<EdgeRefiner> refiner_;
-    const WarpReference* reference_ = nullptr;
+    const TracedPicture* traced_ = nullptr;
     PixelRect drawn_;  // outside, the look-up's pictures are empty
     TextureCopy stateCopy_;
     Field<std::uint32_t> state_;

@@ -48,7 +48,7 @@ void TileLists::find(const Field& field, const TileBuffer& tiles) {
                .field = field.vectors,
                .errors = field.errors,
                .leastTexture = static_cast<float>(texture)},
-              {gpu::storage(1, field.patches), gpu::storage(2, flags_)}, groupsOf(tiles_));
+              {gpu::storage(1, field.cells), gpu::storage(2, flags_)}, groupsOf(tiles_));
     for (int l = 0; l < static_cast<int>(levels_.size()); ++l) {
         const Level& level = levels_[l];
         // The search in a group reads the adjacent groups of the coarser level, and these in turn

@@ -14,9 +14,9 @@ namespace mfar {
 class TileLists {
 public:
     /// A field of flow vectors and their two-way errors. Each is given by the index of its first
-    /// vec4 in `patches`.
+    /// vec4 in `cells`.
     struct Field {
-        const gpu::Buffer& patches;
+        const gpu::Buffer& cells;
         int vectors, errors;
     };
 

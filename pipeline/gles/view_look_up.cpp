@@ -44,20 +44,21 @@ void ViewLookUp::clear(const PixelRect& where) const {
 
 params::LookUpViews ViewLookUp::paramsOf(const Input& input,
                                          const RigidTransform& T_world_camera) const {
-    const Size from = input.reference.picture().size(), to = colour_.size();
+    const Size from = input.traced.picture().size(), to = colour_.size();
     Params p{};
-    p.views[0].toView = transformOf(input.T_world_reference.inverse() * T_world_camera);
-    for (const PatchPictures::Patch& patch : input.patches.patches()) {
-        p.views[1 + patch.slot] = {transformOf(patch.T_world_camera.inverse() * T_world_camera),
-                                   static_cast<float>(patch.share)};
-        if (patch.share > 0) p.patches = std::max(p.patches, patch.slot + 1);
+    p.views[0].toView = transformOf(input.T_world_traced.inverse() * T_world_camera);
+    for (const RerenderedPictures::Picture& rerendered : input.rerendered.pictures()) {
+        p.views[1 + rerendered.slot] = {
+            transformOf(rerendered.T_world_camera.inverse() * T_world_camera),
+            static_cast<float>(rerendered.share)};
+        if (rerendered.share > 0) p.rerendered = std::max(p.rerendered, rerendered.slot + 1);
     }
-    p.projections[0] = projectionOf(input.reference.lens());
+    p.projections[0] = projectionOf(input.traced.lens());
     p.projections[1] = projectionOf(layer_);
     const Eigen::Vector4f plane = planeIn(input.plane, T_world_camera).cast<float>();
     p.plane = {plane.x(), plane.y(), plane.z(), plane.w()};
-    p.referenceWidth = from.width;
-    p.referenceHeight = from.height;
+    p.tracedWidth = from.width;
+    p.tracedHeight = from.height;
     p.width = to.width;
     p.height = to.height;
     return p;
@@ -72,7 +73,7 @@ void ViewLookUp::run(const Input& input, const RigidTransform& T_world_camera,
     std::ranges::copy(holes.wanted(), p.wanted);
     {
         const gpu::Scissor scissor(where);
-        const gpu::Texture &colour = input.reference.colour(), &packed = input.reference.packed();
+        const gpu::Texture &colour = input.traced.colour(), &packed = input.traced.packed();
         plain_.run(p,
                    {gpu::sampler(0, input.silhouette), gpu::sampler(1, rays_),
                     gpu::sampler(2, colour), gpu::sampler(3, packed)},
@@ -89,16 +90,16 @@ void ViewLookUp::runRest(const Params& params, const Input& input, const PixelRe
                   {gpu::sampler(0, state_), gpu::storage(0, commands_), gpu::storage(1, list_)},
                   {gpu::groupsFor((where.x1 - where.x0 + 1) / 2, kListGroup),
                    gpu::groupsFor((where.y1 - where.y0 + 1) / 2, kListGroup), 1});
-    rest_.runIndirect(params,
-                      {gpu::sampler(0, input.silhouette), gpu::sampler(1, rays_),
-                       gpu::sampler(2, input.reference.colour()),
-                       gpu::sampler(3, input.reference.surface()),
-                       gpu::sampler(4, input.patchTextures.colour()),
-                       gpu::sampler(5, input.patchTextures.surface()), gpu::imageWrite(0, colour_),
-                       gpu::imageWrite(1, depth_), gpu::imageWrite(2, state_),
-                       gpu::storage(0, commands_), gpu::storage(1, list_),
-                       gpu::storage(2, holes.commands()), gpu::storage(3, holes.entries())},
-                      commands_, 0);
+    rest_.runIndirect(
+        params,
+        {gpu::sampler(0, input.silhouette), gpu::sampler(1, rays_),
+         gpu::sampler(2, input.traced.colour()), gpu::sampler(3, input.traced.surface()),
+         gpu::sampler(4, input.rerenderedTextures.colour()),
+         gpu::sampler(5, input.rerenderedTextures.surface()), gpu::imageWrite(0, colour_),
+         gpu::imageWrite(1, depth_), gpu::imageWrite(2, state_), gpu::storage(0, commands_),
+         gpu::storage(1, list_), gpu::storage(2, holes.commands()),
+         gpu::storage(3, holes.entries())},
+        commands_, 0);
 }
 
 }  // namespace mfar

@@ -3,8 +3,8 @@
 #include "base/gl/pass.h"
 #include "pipeline/composite/lens_projection.h"
 #include "pipeline/gles/hole_filler.h"
-#include "pipeline/gles/patch_textures.h"
-#include "pipeline/gles/reference_textures.h"
+#include "pipeline/gles/rerendered_textures.h"
+#include "pipeline/gles/traced_textures.h"
 #include "pipeline/warp/pass_params.h"
 #include "pipeline/warp/warp_options.h"
 
@@ -17,19 +17,19 @@
 namespace mfar {
 
 /// The look-up of the warp (paper, eq. 5). The models' depth is rasterised at the current pose.
-/// Each layer pixel that shows a surface looks up its colour in the reference picture or, if that
-/// does not show the surface, in the patches. A draw call processes the simple pixels. A compute
-/// shader processes the list of the others, for example edges.
+/// Each layer pixel that shows a surface looks up its colour in the traced picture or, if that
+/// does not show the surface, in the re-rendered pictures. A draw call processes the simple pixels.
+/// A compute shader processes the list of the others, for example edges.
 class ViewLookUp {
 public:
     explicit ViewLookUp(const LensProjection& layer);
 
     struct Input {
         const gpu::Texture& silhouette;  ///< ModelSilhouette::surface() at the current pose
-        const ReferenceTextures& reference;
-        const RigidTransform& T_world_reference;
-        const PatchPictures& patches;
-        const PatchTextures& patchTextures;
+        const TracedTextures& traced;
+        const RigidTransform& T_world_traced;
+        const RerenderedPictures& rerendered;
+        const RerenderedTextures& rerenderedTextures;
         /// Plane of the shadow catcher: n . point = w in the world [m]. Zero: the catcher is drawn
         /// in the silhouette, or there is no catcher.
         Eigen::Vector4d plane = Eigen::Vector4d::Zero();
@@ -50,7 +50,7 @@ public:
 
 private:
     using Params = params::LookUpViews;
-    static_assert(PatchPictures::kPatches + 1 == std::size(Params{}.views));
+    static_assert(RerenderedPictures::kPictures + 1 == std::size(Params{}.views));
     static_assert(HoleFiller::kLevels == std::size(Params{}.wanted));
     void runRest(const Params& params, const Input& input, const PixelRect& where,
                  const HoleFiller& holes);

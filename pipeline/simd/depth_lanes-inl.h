@@ -14,8 +14,9 @@ namespace mfar::simd::HWY_NAMESPACE {
 
 /// InverseDepthField::isSound() for a vector of pixels.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE hn::Mask<D> isSound(D d, V rho, V variance) {
-    const auto isDepth = hn::And(hn::Ge(rho, hn::Zero(d)), hn::Lt(rho, hn::Set(d, 1e15F)));
+HWY_INLINE hn::Mask<D> isSound(D d, V inverseDepth, V variance) {
+    const auto isDepth =
+        hn::And(hn::Ge(inverseDepth, hn::Zero(d)), hn::Lt(inverseDepth, hn::Set(d, 1e15F)));
     const auto isVariance =
         hn::And(hn::Gt(variance, hn::Set(d, 1e-30F)), hn::Lt(variance, hn::Set(d, 1e30F)));
     return hn::And(isDepth, isVariance);

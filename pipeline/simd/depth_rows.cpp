@@ -78,27 +78,29 @@ void MoveRow(const Lens& lens, Size size, const Motion& motion, const MoveRule& 
         const hn::RebindToSigned<decltype(d)> dInt;
         const auto set = [d](float v) HWY_ATTR { return hn::Set(d, v); };
         const auto load = [&](const float* row) HWY_ATTR { return hn::LoadU(d, row + i); };
-        const auto one = set(1), rho = load(from.rho), before = load(from.variance);
+        const auto one = set(1), inverseDepth = load(from.inverseDepth),
+                   before = load(from.variance);
         const auto x = hn::MulAdd(set(rule.pixelX), load(from.x), load(from.raysX));
         const auto y = hn::MulAdd(set(rule.pixelY), load(from.y), load(from.raysY));
         const Turn<decltype(d)> turn(d, motion.turn.data());
         const auto turnedZ = turn.component(2, x, y, one);
-        const auto z = hn::MulAdd(rho, set(motion.move[2]), turnedZ);
+        const auto z = hn::MulAdd(inverseDepth, set(motion.move[2]), turnedZ);
         const auto inverse = hn::Div(one, z);
-        const auto u = hn::MulAdd(rho, set(motion.move[0]), turn.component(0, x, y, one));
-        const auto v = hn::MulAdd(rho, set(motion.move[1]), turn.component(1, x, y, one));
+        const auto u = hn::MulAdd(inverseDepth, set(motion.move[0]), turn.component(0, x, y, one));
+        const auto v = hn::MulAdd(inverseDepth, set(motion.move[1]), turn.component(1, x, y, one));
         const auto p = projected(d, lens, hn::Mul(u, inverse), hn::Mul(v, inverse));
         const PixelOf<decltype(d)> at(d, p, size);
-        const auto moved = hn::Mul(rho, inverse);
-        const auto slope = hn::Mul(hn::Mul(turnedZ, inverse), inverse);  // d moved / d rho
-        const auto grown = hn::MulAdd(hn::Mul(set(rule.growth), rho), rho, before);
+        const auto moved = hn::Mul(inverseDepth, inverse);
+        const auto slope = hn::Mul(hn::Mul(turnedZ, inverse), inverse);  // d moved / d inverseDepth
+        const auto grown =
+            hn::MulAdd(hn::Mul(set(rule.growth), inverseDepth), inverseDepth, before);
         const auto variance = hn::Mul(hn::Mul(grown, slope), slope);
         const auto known = hn::And(hn::Lt(before, set(kUnknown)), hn::Gt(z, set(rule.leastDepth)));
         const auto valid = hn::And(hn::And(known, at.inside), isSound(d, moved, variance));
         storePixels(d, at, valid, size.width, to.pixel + i);
         hn::StoreU(hn::Sub(p.x, hn::ConvertTo(d, at.column)), d, to.x + i);
         hn::StoreU(hn::Sub(p.y, hn::ConvertTo(d, at.row)), d, to.y + i);
-        hn::StoreU(moved, d, to.rho + i);
+        hn::StoreU(moved, d, to.inverseDepth + i);
         hn::StoreU(variance, d, to.variance + i);
         if constexpr (hn::MaxLanes(decltype(d)()) == hn::MaxLanes(decltype(dBounds)())) {
             lanes.add(at.column, at.row, hn::RebindMask(dInt, valid));
@@ -112,8 +114,8 @@ void MoveRow(const Lens& lens, Size size, const Motion& motion, const MoveRule& 
     if (!all.empty()) bounds = around(bounds, all);
 }
 
-void MeasureRow(const SearchedRow& row, const MeasureRule& rule, std::size_t count, float* rho,
-                float* variance) {
+void MeasureRow(const SearchedRow& row, const MeasureRule& rule, std::size_t count,
+                float* inverseDepth, float* variance) {
     forLanes(hn::ScalableTag<float>(), count, [&](auto d, std::size_t i) HWY_ATTR {
         const hn::RebindToSigned<decltype(d)> dInt;
         const auto set = [d](float v) HWY_ATTR { return hn::Set(d, v); };
@@ -133,7 +135,7 @@ void MeasureRow(const SearchedRow& row, const MeasureRule& rule, std::size_t cou
         const auto share = hn::Div(set(rule.error * rule.perUnit), squareDepth);
         const auto v = hn::Div(hn::Mul(share, share), square);
         const auto value = hn::Max(hn::Mul(hn::Div(s, depth), set(rule.perUnit)), hn::Zero(d));
-        hn::StoreU(hn::IfThenElseZero(known, value), d, rho + i);
+        hn::StoreU(hn::IfThenElseZero(known, value), d, inverseDepth + i);
         hn::StoreU(hn::IfThenElse(known, v, set(kUnknown)), d, variance + i);
     });
 }
@@ -190,9 +192,9 @@ void moveRow(const Lens& lens, Size size, const Motion& motion, const MoveRule& 
     HWY_DYNAMIC_DISPATCH(MoveRow)(lens, size, motion, rule, from, count, to, bounds);
 }
 
-void measureRow(const SearchedRow& row, const MeasureRule& rule, std::size_t count, float* rho,
-                float* variance) {
-    HWY_DYNAMIC_DISPATCH(MeasureRow)(row, rule, count, rho, variance);
+void measureRow(const SearchedRow& row, const MeasureRule& rule, std::size_t count,
+                float* inverseDepth, float* variance) {
+    HWY_DYNAMIC_DISPATCH(MeasureRow)(row, rule, count, inverseDepth, variance);
 }
 
 void takeCells(const CellField& field, int first, int y, const float* own, float same,

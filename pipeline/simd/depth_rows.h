@@ -24,21 +24,21 @@ void landRow(const Lens& lens, Size size, const Motion& motion, const float* ray
 struct DepthPoints {
     const float *raysX, *raysY;  ///< through the pixel centres
     const float *x, *y;          ///< offset of the point from the pixel's centre [px]
-    const float *rho, *variance;
+    const float *inverseDepth, *variance;
 };
 /// The same points, seen by another camera.
 struct MovedPoints {
     std::int32_t* pixel;  ///< row-major index of the pixel that shows it; -1: invalid
     float *x, *y;         ///< offset from that pixel's centre [px]
-    float *rho, *variance;
+    float *inverseDepth, *variance;
 };
 struct MoveRule {
     float pixelX, pixelY;  ///< change of the ray per pixel
     float leastDepth;      ///< least depth after the motion, as a share of the depth before
     float growth;          ///< added variance, as a share of the squared inverse depth
 };
-/// Moves points (x, y, 1, rho) in homogeneous coordinates. Extends `bounds` to the pixels on which
-/// they land.
+/// Moves points (x, y, 1, inverseDepth) in homogeneous coordinates. Extends `bounds` to the pixels
+/// on which they land.
 void moveRow(const Lens& lens, Size size, const Motion& motion, const MoveRule& rule,
              const DepthPoints& from, std::size_t count, const MovedPoints& to, PixelRect& bounds);
 
@@ -54,12 +54,12 @@ struct MeasureRule {
     float slack;             ///< difference of s between neighbours on one surface
     float leastDepth;        ///< least depth after the motion, as a share of the depth before
     float error;             ///< standard deviation of a match [rays]
-    float perUnit;           ///< converts s [1/unit] to rho [1/m]
+    float perUnit;           ///< converts s [1/unit] to inverse depth [1/m]
 };
-/// Inverse depth rho = s / (1 - s t.z) and its variance. They are 0 and infinity if the other
-/// picture does not show the pixel, or if a change of s does not move the pixel.
-void measureRow(const SearchedRow& row, const MeasureRule& rule, std::size_t count, float* rho,
-                float* variance);
+/// Inverse depth s / (1 - s t.z) and its variance. They are 0 and infinity if the
+/// other picture does not show the pixel, or if a change of s does not move the pixel.
+void measureRow(const SearchedRow& row, const MeasureRule& rule, std::size_t count,
+                float* inverseDepth, float* variance);
 
 /// Replaces the inverse depth `own` of pixels [first, first + count) of row y by that of the cells
 /// around each pixel (cells of 4x4 pixels, interpolated bilinearly), if the two differ by less than

@@ -13,14 +13,15 @@ namespace mfar::simd::HWY_NAMESPACE {
 
 constexpr float kLargest = hwy::HighestValue<float>();
 
-void OpenRow(const float* low, const float* high, std::ptrdiff_t pitch, int rows, const float* rho,
-             const float* variance, std::size_t width, const EdgeRule& rule, std::uint8_t* out) {
+void OpenRow(const float* low, const float* high, std::ptrdiff_t pitch, int rows,
+             const float* inverseDepth, const float* variance, std::size_t width,
+             const EdgeRule& rule, std::uint8_t* out) {
     forLanes(hn::ScalableTag<float>(), width, [&](auto d, std::size_t x) HWY_ATTR {
         const hn::RebindToSigned<decltype(d)> dInt;
         const hn::Rebind<std::uint8_t, decltype(d)> dByte;
         const auto range = rangeOver(d, low + x, high + x, pitch, rows);
         const auto v = hn::LoadU(d, variance + x);
-        const auto known = isSound(d, hn::LoadU(d, rho + x), v);
+        const auto known = isSound(d, hn::LoadU(d, inverseDepth + x), v);
         const auto noise = hn::Mul(hn::Set(d, rule.sigmas), hn::Sqrt(hn::IfThenElseZero(known, v)));
         const auto least = hn::MulAdd(hn::Set(d, rule.jump), range.high, noise);
         const auto edge = hn::Gt(hn::Sub(range.high, range.low), least);
@@ -33,27 +34,28 @@ void OpenRow(const float* low, const float* high, std::ptrdiff_t pitch, int rows
 using DVoters = hn::CappedTag<float, 16>;
 using VVoters = hn::Vec<DVoters>;
 
-/// Calls body(mask, rho, j, i) for vectors of the voters in columns [x0, x1) and rows [y0, y1).
+/// Calls body(mask, inverseDepth, j, i) for vectors of the voters in columns [x0, x1) and rows [y0,
+/// y1).
 template <class Body>
 HWY_INLINE void forVoters(const Voters& voters, const PixelRect& window, const Body& body) {
     const DVoters d;
     for (int j = window.y0; j < window.y1; ++j) {
         for (int i = window.x0; i < window.x1; i += static_cast<int>(hn::Lanes(d))) {
-            const VVoters rho = hn::LoadU(d, voters.rho[j] + i);
+            const VVoters inverseDepth = hn::LoadU(d, voters.inverseDepth[j] + i);
             const auto inside = hn::FirstN(d, static_cast<std::size_t>(window.x1 - i));
-            body(hn::And(inside, hn::Ge(rho, hn::Zero(d))), rho, j, i);
+            body(hn::And(inside, hn::Ge(inverseDepth, hn::Zero(d))), inverseDepth, j, i);
         }
     }
 }
 
 /// Sums of the votes for one of two surfaces.
 struct Side {
-    VVoters weight, rho, variance;
+    VVoters weight, inverseDepth, variance;
 
     HWY_INLINE void add(hn::Mask<DVoters> mask, VVoters w, VVoters r, VVoters v) {
         const VVoters own = hn::IfThenElseZero(mask, w);
         weight = hn::Add(weight, own);
-        rho = hn::MulAdd(own, hn::IfThenElseZero(mask, r), rho);
+        inverseDepth = hn::MulAdd(own, hn::IfThenElseZero(mask, r), inverseDepth);
         variance = hn::MulAdd(own, hn::IfThenElseZero(mask, v), variance);
     }
 };
@@ -67,9 +69,9 @@ HWY_INLINE void vote(const Voters& voters, const VoteRule& rule, const PixelRect
     const DVoters d;
     pixel.decided = false;
     VVoters lows = hn::Set(d, kLargest), highs = hn::Set(d, -kLargest);
-    forVoters(voters, window, [&](auto votes, VVoters rho, int, int) HWY_ATTR {
-        lows = hn::Min(lows, hn::IfThenElse(votes, rho, lows));
-        highs = hn::Max(highs, hn::IfThenElse(votes, rho, highs));
+    forVoters(voters, window, [&](auto votes, VVoters inverseDepth, int, int) HWY_ATTR {
+        lows = hn::Min(lows, hn::IfThenElse(votes, inverseDepth, lows));
+        highs = hn::Max(highs, hn::IfThenElse(votes, inverseDepth, highs));
     });
     const float low = hn::GetLane(hn::MinOfLanes(d, lows));
     const float high = hn::GetLane(hn::MaxOfLanes(d, highs));
@@ -79,7 +81,7 @@ HWY_INLINE void vote(const Voters& voters, const VoteRule& rule, const PixelRect
     const VVoters blue = hn::Set(d, pixel.blue);
     const VVoters scale = hn::Set(d, 1 / (rule.likeness * rule.likeness));
     Side near{hn::Zero(d), hn::Zero(d), hn::Zero(d)}, far = near;
-    forVoters(voters, window, [&](auto votes, VVoters rho, int j, int i) HWY_ATTR {
+    forVoters(voters, window, [&](auto votes, VVoters inverseDepth, int j, int i) HWY_ATTR {
         const auto apart = [&](const Rows<const float>& channel, VVoters own)
                                HWY_ATTR { return hn::Sub(hn::LoadU(d, channel[j] + i), own); };
         const VVoters r = apart(voters.red, red), g = apart(voters.green, green);
@@ -88,15 +90,15 @@ HWY_INLINE void vote(const Voters& voters, const VoteRule& rule, const PixelRect
         square = hn::Mul(square, scale);
         const VVoters weight = hn::Div(one, hn::MulAdd(square, square, one));
         const VVoters variance = hn::LoadU(d, voters.variance[j] + i);
-        const auto isNear = hn::Gt(rho, middle);
-        near.add(hn::And(votes, isNear), weight, rho, variance);
-        far.add(hn::And(votes, hn::Not(isNear)), weight, rho, variance);
+        const auto isNear = hn::Gt(inverseDepth, middle);
+        near.add(hn::And(votes, isNear), weight, inverseDepth, variance);
+        far.add(hn::And(votes, hn::Not(isNear)), weight, inverseDepth, variance);
     });
     const float nearWeight = total(near.weight), farWeight = total(far.weight);
     const bool isNear = nearWeight > farWeight;
     const float weight = isNear ? nearWeight : farWeight;
     if (!(weight >= rule.leastWeight)) return;
-    pixel.rho = total(isNear ? near.rho : far.rho) / weight;
+    pixel.inverseDepth = total(isNear ? near.inverseDepth : far.inverseDepth) / weight;
     pixel.variance = total(isNear ? near.variance : far.variance) / weight;
     pixel.decided = true;
 }
@@ -125,9 +127,10 @@ namespace mfar::simd {
 HWY_EXPORT(OpenRow);
 HWY_EXPORT(VotePixels);
 
-void openRow(const float* low, const float* high, std::ptrdiff_t pitch, int rows, const float* rho,
-             const float* variance, std::size_t width, const EdgeRule& rule, std::uint8_t* out) {
-    HWY_DYNAMIC_DISPATCH(OpenRow)(low, high, pitch, rows, rho, variance, width, rule, out);
+void openRow(const float* low, const float* high, std::ptrdiff_t pitch, int rows,
+             const float* inverseDepth, const float* variance, std::size_t width,
+             const EdgeRule& rule, std::uint8_t* out) {
+    HWY_DYNAMIC_DISPATCH(OpenRow)(low, high, pitch, rows, inverseDepth, variance, width, rule, out);
 }
 
 void votePixels(const Voters& voters, const VoteRule& rule, const PixelRect& where, int y,

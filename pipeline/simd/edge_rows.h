@@ -15,22 +15,23 @@ namespace mfar::simd {
 struct EdgeRule {
     float jump, sigmas;
 };
-void openRow(const float* low, const float* high, std::ptrdiff_t pitch, int rows, const float* rho,
-             const float* variance, std::size_t width, const EdgeRule& rule, std::uint8_t* out);
+void openRow(const float* low, const float* high, std::ptrdiff_t pitch, int rows,
+             const float* inverseDepth, const float* variance, std::size_t width,
+             const EdgeRule& rule, std::uint8_t* out);
 
 /// Voters are every kVoterStep-th column and row of a picture. Each has its inverse depth
 /// (negative: it does not vote), its variance, and the pixel's colour. 64 readable bytes follow
 /// each row.
 inline constexpr int kVoterStep = 2;
 struct Voters {
-    Rows<const float> rho, variance, red, green, blue;
+    Rows<const float> inverseDepth, variance, red, green, blue;
 };
 
 /// A pixel whose depth is decided: it belongs to the surface whose voters have a similar colour.
 struct OpenPixel {
     int x = 0;
     float red = 0, green = 0, blue = 0;
-    float rho = 0, variance = 0;  ///< result, valid if `decided`
+    float inverseDepth = 0, variance = 0;  ///< result, valid if `decided`
     bool decided = false;
 };
 

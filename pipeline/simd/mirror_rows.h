@@ -22,10 +22,10 @@ struct MirrorInput {
     float eye[3];      ///< from the reference's eye to the eye that sees the light [m]
 };
 
-/// A row of pixels of a reference picture.
+/// A row of pixels of a traced picture.
 struct MirrorRow {
     int count;
-    const std::uint32_t* packed;  ///< surfaces, see WarpReference::packed
+    const std::uint32_t* packed;  ///< surfaces, see TracedPicture::packed
     const GlossWords* gloss;
     const float *rayX, *rayY;  ///< normalised
 };

@@ -29,33 +29,33 @@ MovingMirrors::MovingMirrors(const CameraModel& layer, Rows<const float> rayX,
                              Rows<const float> rayY, std::shared_ptr<Workers> workers)
     : layer_(layer), rayX_(rayX), rayY_(rayY), workers_(std::move(workers)) {}
 
-void MovingMirrors::setReference(const WarpReference& reference) {
-    reference_ = &reference;
-    moves_ = !reference.light.empty() && !reference.gloss.empty() && reference.mirrors &&
-             sameRays(reference.camera, layer_);
+void MovingMirrors::setTracedPicture(const TracedPicture& traced) {
+    traced_ = &traced;
+    moves_ = !traced.light.empty() && !traced.gloss.empty() && traced.mirrors &&
+             sameRays(traced.camera, layer_);
     if (!moves_) return;
-    if (mirrors_ != reference.mirrors) {
-        mirrors_ = reference.mirrors;
+    if (mirrors_ != traced.mirrors) {
+        mirrors_ = traced.mirrors;
         prepareTables();
     }
-    copyPadded(reference.packed, packed_);
-    copyPadded(reference.gloss, gloss_);
-    copyPadded(reference.light, light_);
+    copyPadded(traced.packed, packed_);
+    copyPadded(traced.gloss, gloss_);
+    copyPadded(traced.light, light_);
     parts_.assign(light_.size(), {});
-    eye_ = reference.T_world_camera.translation;
+    eye_ = traced.T_world_camera.translation;
     const MirrorInput input = inputFor(eye_);
     forRows([&](int y) { splitMirrored(rowAt(y), input, firstOf(light_, y), firstOf(parts_, y)); });
 }
 
 std::span<const LightWords> MovingMirrors::lightFor(const Eigen::Vector3d& eye) {
-    if (!moves_) return reference_->light;
+    if (!moves_) return traced_->light;
     if (eye != eye_) {
         eye_ = eye;
         const MirrorInput input = inputFor(eye);
         forRows(
             [&](int y) { joinMirrored(rowAt(y), input, firstOf(parts_, y), firstOf(light_, y)); });
     }
-    return std::span(light_).first(reference_->light.size());
+    return std::span(light_).first(traced_->light.size());
 }
 
 void MovingMirrors::prepareTables() {
@@ -94,10 +94,10 @@ MirrorInput MovingMirrors::inputFor(const Eigen::Vector3d& eye) const {
                     {},
                     {},
                     mirrors_->least,
-                    reference_->exposure,
+                    traced_->exposure,
                     {},
                     {}};
-    const RigidTransform& T = reference_->T_world_camera;
+    const RigidTransform& T = traced_->T_world_camera;
     const Eigen::Matrix3d axes = T.rotation.normalized().toRotationMatrix();
     for (int i = 0; i < 3; ++i) {
         out.sun[i] = mirrors_->towardsSun[static_cast<std::size_t>(i)];
@@ -110,7 +110,7 @@ MirrorInput MovingMirrors::inputFor(const Eigen::Vector3d& eye) const {
 }
 
 MirrorRow MovingMirrors::rowAt(int y) const {
-    const PixelRect& where = reference_->bounds;
+    const PixelRect& where = traced_->bounds;
     const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(y) * layer_.size.width + where.x0;
     return {where.x1 - where.x0, packed_.data() + first, gloss_.data() + first, rayX_[y] + where.x0,
             rayY_[y] + where.x0};
@@ -118,7 +118,7 @@ MirrorRow MovingMirrors::rowAt(int y) const {
 
 template <class Body>
 void MovingMirrors::forRows(const Body& body) const {
-    const PixelRect& where = reference_->bounds;
+    const PixelRect& where = traced_->bounds;
     const auto rows = [&](int y, int end) {
         for (; y < end; ++y)
             body(where.y0 + y);

@@ -3,7 +3,7 @@
 #include "base/rows.h"
 #include "base/workers.h"
 #include "pipeline/simd/mirror_rows.h"
-#include "pipeline/warp/warp_reference.h"
+#include "pipeline/warp/traced_picture.h"
 
 #include <cstdint>
 #include <memory>
@@ -12,7 +12,7 @@
 
 namespace mfar::simd {
 
-/// Computes the light of a reference picture's objects as another eye sees it. Mirrored distant
+/// Computes the light of a traced picture's objects as another eye sees it. Mirrored distant
 /// light is computed again from each pixel's normal and roughness, so that mirror images and
 /// highlights move as they do in the scene and do not stick to the surface.
 class MovingMirrors {
@@ -22,17 +22,17 @@ public:
     MovingMirrors(const CameraModel& layer, Rows<const float> rayX, Rows<const float> rayY,
                   std::shared_ptr<Workers> workers);
 
-    /// The reference must live until the next call.
-    void setReference(const WarpReference& reference);
-    /// Returns WarpReference::light for an eye in the world. If the surfaces of the reference are
-    /// unknown or its camera is not the layer's, returns its own light. Valid until the next call.
+    /// The traced picture must live until the next call.
+    void setTracedPicture(const TracedPicture& traced);
+    /// Returns TracedPicture::light for an eye in the world. If the surfaces of the traced picture
+    /// are unknown or its camera is not the layer's, returns its own light. Valid until the next
+    /// call.
     [[nodiscard]] std::span<const LightWords> lightFor(const Eigen::Vector3d& eye);
 
 private:
     template <class T>
     [[nodiscard]] T* firstOf(std::vector<T>& of, int y) const {
-        return of.data() + static_cast<std::ptrdiff_t>(y) * layer_.size.width +
-               reference_->bounds.x0;
+        return of.data() + static_cast<std::ptrdiff_t>(y) * layer_.size.width + traced_->bounds.x0;
     }
     [[nodiscard]] MirrorInput inputFor(const Eigen::Vector3d& eye) const;
     [[nodiscard]] MirrorRow rowAt(int y) const;
@@ -43,7 +43,7 @@ private:
     CameraModel layer_;
     Rows<const float> rayX_, rayY_;
     std::shared_ptr<Workers> workers_;
-    const WarpReference* reference_ = nullptr;
+    const TracedPicture* traced_ = nullptr;
     std::shared_ptr<const MirrorLight> mirrors_;  // the light from which the tables are made
     std::vector<std::int32_t> tables_, tableOf_;  // see MirrorInput
     std::vector<float> shareOf_, alphaOf_;

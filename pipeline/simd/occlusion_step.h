@@ -32,7 +32,7 @@ struct RealDepth {
     bool squared = false;       ///< `sigma` holds variances instead
 
     [[nodiscard]] static RealDepth of(const InverseDepthField& field) {
-        return {{field.rho.data(), field.size.width, field.size},
+        return {{field.inverseDepth.data(), field.size.width, field.size},
                 {field.variance.data(), field.size.width, field.size},
                 true};
     }
@@ -57,8 +57,8 @@ public:
              Rows<std::uint32_t> picture);
 
     /// See CompositeOptions::hides().
-    [[nodiscard]] bool hides(double rho, double sigma, double inverse) const {
-        return options_.hides(rho, sigma, inverse);
+    [[nodiscard]] bool hides(double inverseDepth, double sigma, double inverse) const {
+        return options_.hides(inverseDepth, sigma, inverse);
     }
     /// The layer's visible share at each output pixel, in 1/255; valid within the last bounds.
     [[nodiscard]] Rows<const std::uint8_t> visibility() const { return visibility_.rows(); }

@@ -88,28 +88,28 @@ float coveredOf(const Quarters& quarters) {
 
 }  // namespace
 
-RestPixels::RestPixels(const ViewLookUp::Input& input, const WarpReference& reference,
+RestPixels::RestPixels(const ViewLookUp::Input& input, const TracedPicture& traced,
                        std::span<const LightWords> lights, const ViewLookUpInput& plain,
                        const LensProjection& layer, const RigidTransform& T_world_camera)
     : plain_(plain), layerLens_(pointLensOf(layer)),
-      reference_{reference.surface, reference.colour, lights, reference.camera.size,
-                 plain.toReference, &plain_.lens,     1} {
-    // The patches are ordered by slot, because of patches with equal shares the first one is shown.
-    std::array<const PatchPictures::Patch*, PatchPictures::kPatches> bySlot{};
-    for (const PatchPictures::Patch& patch : input.patches.patches())
-        bySlot[static_cast<std::size_t>(patch.slot)] = &patch;
-    for (const PatchPictures::Patch* patch : bySlot) {
-        if (patch == nullptr || !(patch->share > 0)) continue;
-        const PatchStore::Picture& picture = input.store[patch->slot];
+      traced_{traced.surface, traced.colour, lights, traced.camera.size,
+              plain.toTraced, &plain_.lens,  1} {
+    // The re-rendered pictures are ordered by slot: if two have equal shares, the first is shown.
+    std::array<const RerenderedPictures::Picture*, RerenderedPictures::kPictures> bySlot{};
+    for (const RerenderedPictures::Picture& rerendered : input.rerendered.pictures())
+        bySlot[static_cast<std::size_t>(rerendered.slot)] = &rerendered;
+    for (const RerenderedPictures::Picture* rerendered : bySlot) {
+        if (rerendered == nullptr || !(rerendered->share > 0)) continue;
+        const RerenderedStore::Picture& picture = input.store[rerendered->slot];
         if (picture.surfaces.empty()) continue;
-        patches_[static_cast<std::size_t>(patchCount_++)] = {
+        rerendered_[static_cast<std::size_t>(rerenderedCount_++)] = {
             picture.surfaces,
             picture.colours,
             picture.lights,
             layer.camera.size,
-            pointTransformOf(patch->T_world_camera.inverse() * T_world_camera),
+            pointTransformOf(rerendered->T_world_camera.inverse() * T_world_camera),
             &layerLens_,
-            static_cast<float>(patch->share)};
+            static_cast<float>(rerendered->share)};
     }
 }
 
@@ -161,28 +161,28 @@ bool RestPixels::lookUp(const View& view, const Point3& at, const Wanted& wanted
 /// Returns the share of the surface's colour that is known.
 float RestPixels::known(const Wanted& wanted, Colour& found) const {
     Point3 at;
-    const bool inReference = inView(reference_, wanted.point, at);
-    if (inReference && lookUp(reference_, at, wanted, found)) return 1;
-    float share = 0;  // share of the most visible patch; others do not reduce it
-    for (int i = 0; i < patchCount_; ++i) {
-        const View& patch = patches_[static_cast<std::size_t>(i)];
+    const bool inTraced = inView(traced_, wanted.point, at);
+    if (inTraced && lookUp(traced_, at, wanted, found)) return 1;
+    float share = 0;  // share of the most visible picture; others do not reduce it
+    for (int i = 0; i < rerenderedCount_; ++i) {
+        const View& rerendered = rerendered_[static_cast<std::size_t>(i)];
         Colour own;
-        if (patch.share <= share || !inView(patch, wanted.point, at) ||
-            !lookUp(patch, at, wanted, own))
+        if (rerendered.share <= share || !inView(rerendered, wanted.point, at) ||
+            !lookUp(rerendered, at, wanted, own))
             continue;
-        share = patch.share;
+        share = rerendered.share;
         found = own;
     }
     if (share > 0) return share;
-    // Outside the reference picture, the catcher's colour is unknown, but it is not needed there.
+    // Outside the traced picture, the catcher's colour is unknown, but it is not needed there.
     found = {};
-    return wanted.id == kCatcherId && !inView(reference_, wanted.point, at) ? 1.0F : 0.0F;
+    return wanted.id == kCatcherId && !inView(traced_, wanted.point, at) ? 1.0F : 0.0F;
 }
 
 bool RestPixels::needsPaint() const {
-    const std::span patches(patches_.data(), static_cast<std::size_t>(patchCount_));
-    return !reference_.lights.empty() ||
-           std::ranges::any_of(patches, [](const View& v) { return !v.lights.empty(); });
+    const std::span rerendered(rerendered_.data(), static_cast<std::size_t>(rerenderedCount_));
+    return !traced_.lights.empty() ||
+           std::ranges::any_of(rerendered, [](const View& v) { return !v.lights.empty(); });
 }
 
 RestPixel RestPixels::at(const Asked& asked) const {

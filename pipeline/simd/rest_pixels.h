@@ -9,7 +9,7 @@
 
 namespace mfar::simd {
 
-/// What the reference picture and the re-rendered patches show at one pixel of the virtual layer.
+/// What the traced picture and the re-rendered pictures show at one pixel of the virtual layer.
 struct RestPixel {
     std::uint32_t colour;  ///< RGBA8 premultiplied
     float depth;
@@ -18,12 +18,12 @@ struct RestPixel {
 };
 
 /// Looks up the pixels that lookUpRow() does not: edges, which are divided into quarters, and
-/// pixels that the reference picture does not show but re-rendered patches may. Objects and the
+/// pixels that the traced picture does not show but re-rendered pictures may. Objects and the
 /// shadow on the real surface are two layers; the shadow is the lower one (warp_rest.comp).
 class RestPixels {
 public:
-    /// `lights`: light of the reference's pixels for this view.
-    RestPixels(const ViewLookUp::Input& input, const WarpReference& reference,
+    /// `lights`: light of the traced picture's pixels for this view.
+    RestPixels(const ViewLookUp::Input& input, const TracedPicture& traced,
                std::span<const LightWords> lights, const ViewLookUpInput& plain,
                const LensProjection& layer, const RigidTransform& T_world_camera);
 
@@ -64,9 +64,9 @@ private:
 
     const ViewLookUpInput& plain_;
     PointLens layerLens_;
-    View reference_;
-    std::array<View, PatchPictures::kPatches> patches_;
-    int patchCount_ = 0;
+    View traced_;
+    std::array<View, RerenderedPictures::kPictures> rerendered_;
+    int rerenderedCount_ = 0;
 };
 
 }  // namespace mfar::simd

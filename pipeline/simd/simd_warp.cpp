@@ -27,7 +27,7 @@ public:
     SimdWarp(const CameraModel& layer, const WarpOptions& options, std::shared_ptr<Workers> workers,
              Transfers* transfers)
         : options_(options), raster_(layer, workers), lookUp_(LensProjection(layer), workers),
-          pyramid_(layer.size, std::move(workers)), patches_(layer.size, fadeFrames(options)),
+          pyramid_(layer.size, std::move(workers)), rerendered_(layer.size, fadeFrames(options)),
           store_(layer.size), state_({}, transfers), warped_(emptyLayer(transfers)),
           rendered_(emptyLayer(transfers)) {
         if (rerenders(options.filling) && options.sharpenShare > 0)
@@ -37,23 +37,23 @@ public:
 
     void setScene(const Scene& scene) override {
         raster_.setScene(scene);
-        patches_.clear();
+        rerendered_.clear();
     }
     PixelRect bounds(const RigidTransform& T_world_camera) const override {
         return raster_.models().bounds(T_world_camera);
     }
-    void setReference(const WarpReference& reference) override {
-        reference_ = &reference;
-        lookUp_.setReference(reference);
+    void setTracedPicture(const TracedPicture& traced) override {
+        traced_ = &traced;
+        lookUp_.setTracedPicture(traced);
         // Those who read a layer need rows with padding.
-        picture_ = copied<std::uint32_t>(reference.camera.size, reference.picture.data());
-        depth_ = copied<float>(reference.camera.size, reference.depth.data());
+        picture_ = copied<std::uint32_t>(traced.camera.size, traced.picture.data());
+        depth_ = copied<float>(traced.camera.size, traced.depth.data());
     }
     bool takesLight() const override { return true; }
-    LayerPicture& reference() override {
+    LayerPicture& traced() override {
         rendered_.colour.writtenOnHost(picture_.rows());
         rendered_.depth.writtenOnHost(depth_.rows());
-        rendered_.bounds = reference_->bounds;
+        rendered_.bounds = traced_->bounds;
         return rendered_;
     }
 
@@ -62,12 +62,12 @@ public:
         if (!(around(drawn_, where) == where)) lookUp_.clear(drawn_);
         drawn_ = where;
         raster_.draw(frame.T_world_camera, where);
-        const ViewLookUp::Input input{raster_, patches_, store_, raster_.models().plane()};
+        const ViewLookUp::Input input{raster_, rerendered_, store_, raster_.models().plane()};
         lookUp_.run(input, frame.T_world_camera, where);
         pyramid_.fill({lookUp_.colour(), lookUp_.state(), where}, lookUp_.holes(),
                       pushPulls(options_.filling));
         if (frame.lists) listHoles();
-        patches_.age();
+        rerendered_.age();
         if (sharpener_) sharpener_->show(lookUp_.colour());
         state_.writtenOnHost(lookUp_.state());
         warped_.colour.writtenOnHost(lookUp_.colour());
@@ -79,8 +79,9 @@ public:
     std::optional<WarpHoles> takeHoles() override { return std::exchange(listed_, std::nullopt); }
     bool holesPending() const override { return listed_.has_value(); }
     void dropHoles() override { listed_.reset(); }
-    void addPatch(const HoleAnswer& answer) override {
-        patches_.add(answer, [this](const PatchPictures::StoredRows& rows) { store_.store(rows); });
+    void addRerendered(const HoleAnswer& answer) override {
+        rerendered_.add(answer,
+                        [this](const RerenderedPictures::StoredRows& rows) { store_.store(rows); });
     }
 
     void listEdges() override {
@@ -121,10 +122,10 @@ private:
     SurfaceRaster raster_;
     ViewLookUp lookUp_;
     HolePyramid pyramid_;
-    PatchPictures patches_;
-    PatchStore store_;
+    RerenderedPictures rerendered_;
+    RerenderedStore store_;
     std::optional<EdgeSharpener> sharpener_;
-    const WarpReference* reference_ = nullptr;
+    const TracedPicture* traced_ = nullptr;
     AlignedRows<std::uint32_t> picture_;
     AlignedRows<float> depth_;
     std::optional<WarpHoles> listed_;

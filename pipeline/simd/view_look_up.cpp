@@ -25,7 +25,7 @@ CatcherPlane planeIn(const Eigen::Vector4d& world, const RigidTransform& T_world
 
 }  // namespace
 
-void PatchStore::store(const PatchPictures::StoredRows& rows) {
+void RerenderedStore::store(const RerenderedPictures::StoredRows& rows) {
     Picture& picture = pictures_[static_cast<std::size_t>(rows.slot)];
     const std::size_t pixels = static_cast<std::size_t>(layer_.width) * layer_.height;
     picture.colours.resize(pixels);
@@ -60,10 +60,10 @@ ViewLookUp::ViewLookUp(const LensProjection& layer, std::shared_ptr<Workers> wor
         }
 }
 
-void ViewLookUp::setReference(const WarpReference& reference) {
-    reference_ = &reference;
-    mirrors_.setReference(reference);
-    referenceLens_ = pointLensOf(LensProjection(reference.camera));
+void ViewLookUp::setTracedPicture(const TracedPicture& traced) {
+    traced_ = &traced;
+    mirrors_.setTracedPicture(traced);
+    tracedLens_ = pointLensOf(LensProjection(traced.camera));
 }
 
 void ViewLookUp::clear(const PixelRect& where) {
@@ -78,15 +78,15 @@ void ViewLookUp::run(const Input& input, const RigidTransform& T_world_camera,
                      const PixelRect& where) {
     const std::span<const LightWords> lights = mirrors_.lightFor(T_world_camera.translation);
     const ViewLookUpInput plain{
-        pointTransformOf(reference_->T_world_camera.inverse() * T_world_camera),
-        referenceLens_,
-        reference_->camera.size,
-        reference_->packed.data(),
-        reinterpret_cast<const std::uint32_t*>(reference_->colour.data()),
+        pointTransformOf(traced_->T_world_camera.inverse() * T_world_camera),
+        tracedLens_,
+        traced_->camera.size,
+        traced_->packed.data(),
+        reinterpret_cast<const std::uint32_t*>(traced_->colour.data()),
         lights.empty() ? nullptr : &lights.front().diffuse,
         planeIn(input.plane, T_world_camera),
         1 - kShadowLift};
-    const RestPixels rest(input, *reference_, lights, plain, layer_, T_world_camera);
+    const RestPixels rest(input, *traced_, lights, plain, layer_, T_world_camera);
     const auto rows = [&](int y, int end) {
         scratch_.with([&](Scratch& scratch) {
             for (; y < end; ++y)

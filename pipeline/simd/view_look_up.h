@@ -5,8 +5,8 @@
 #include "pipeline/simd/moving_mirrors.h"
 #include "pipeline/simd/scratch_slots.h"
 #include "pipeline/simd/view_rows.h"
-#include "pipeline/warp/patch_pictures.h"
-#include "pipeline/warp/warp_reference.h"
+#include "pipeline/warp/rerendered_pictures.h"
+#include "pipeline/warp/traced_picture.h"
 
 #include <Eigen/Core>
 
@@ -28,8 +28,8 @@ struct Hole {
     bool isEdge, isOpen;   ///< isOpen: nothing is known
 };
 
-/// The pixels of all re-rendered patches.
-class PatchStore {
+/// The pixels of all re-rendered pictures.
+class RerenderedStore {
 public:
     using Rgba = std::array<std::uint8_t, 4>;
     struct Picture {
@@ -37,32 +37,32 @@ public:
         std::vector<LightWords> lights;     // empty if only colours are known
         std::vector<WarpSurface> surfaces;  // like colours, empty until a pixel is stored
     };
-    explicit PatchStore(Size layer) : layer_(layer) {}
-    void store(const PatchPictures::StoredRows& rows);
+    explicit RerenderedStore(Size layer) : layer_(layer) {}
+    void store(const RerenderedPictures::StoredRows& rows);
     [[nodiscard]] const Picture& operator[](int slot) const {
         return pictures_[static_cast<std::size_t>(slot)];
     }
 
 private:
     Size layer_;
-    std::array<Picture, PatchPictures::kPatches> pictures_;
+    std::array<Picture, RerenderedPictures::kPictures> pictures_;
 };
 
 /// Looks up the colour of every pixel of the layer that shows a surface. It is taken from the
-/// reference (a traced picture) or, if that does not show the surface, from the re-rendered
-/// patches. CPU version of the GLES engine's ViewLookUp. Threads share the rows; plain pixels are
+/// traced picture or, if that does not show the surface, from the re-rendered
+/// pictures. CPU version of the GLES engine's ViewLookUp. Threads share the rows. Plain pixels are
 /// processed in vectors, edges and other complicated pixels one by one.
 class ViewLookUp {
 public:
     ViewLookUp(const LensProjection& layer, std::shared_ptr<Workers> workers);
 
-    /// `reference` must remain valid until the next call.
-    void setReference(const WarpReference& reference);
+    /// `traced` must remain valid until the next call.
+    void setTracedPicture(const TracedPicture& traced);
 
     struct Input {
         const SurfaceRaster& raster;  ///< drawn at the current pose
-        const PatchPictures& patches;
-        const PatchStore& store;
+        const RerenderedPictures& rerendered;
+        const RerenderedStore& store;
         Eigen::Vector4d plane;  ///< SilhouetteModels::plane()
     };
     /// Writes every pixel of `where`, and no others.
@@ -87,8 +87,8 @@ private:
 
     LensProjection layer_;
     std::shared_ptr<Workers> workers_;
-    const WarpReference* reference_ = nullptr;
-    PointLens referenceLens_;
+    const TracedPicture* traced_ = nullptr;
+    PointLens tracedLens_;
     AlignedRows<float> rayX_, rayY_, depth_;
     MovingMirrors mirrors_;
     AlignedRows<std::uint32_t> colour_, state_;

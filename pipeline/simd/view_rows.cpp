@@ -185,15 +185,15 @@ struct Found {
 };
 
 /// Request of a vector of pixels: the surface that each pixel shows, and its position in the
-/// reference picture.
+/// traced picture.
 struct Asked {
     V z;                           ///< in the layer's camera [m]
     VU id;                         ///< number of the surface
     M ofCatcher;                   ///< true if the surface is the catcher
     M empty;                       ///< true if the pixel shows nothing
-    M asked;                       ///< true if the reference picture is read
-    V thereZ;                      ///< z in the reference's camera [m]
-    V pixelX, pixelY, lowX, lowY;  ///< in the reference picture, exact and rounded down [px]
+    M asked;                       ///< true if the traced picture is read
+    V thereZ;                      ///< z in the traced picture's camera [m]
+    V pixelX, pixelY, lowX, lowY;  ///< in the traced picture, exact and rounded down [px]
 };
 
 HWY_INLINE Asked AskFor(const ViewLookUpInput& in, const Four& s, V rayX, V rayY) {
@@ -213,7 +213,7 @@ HWY_INLINE Asked AskFor(const ViewLookUpInput& in, const Four& s, V rayX, V rayY
     const M empty = hn::And(open, hn::Eq(z, zero));
 
     const Triples<V> point{hn::Mul(z, rayX), hn::Mul(z, rayY), z};
-    Triples<V> there = Transformed(d, in.toReference, point);
+    Triples<V> there = Transformed(d, in.toTraced, point);
     const M before = hn::And(hn::Gt(there.z, hn::Set(d, in.lens.nearest)),
                              hn::And(hn::Lt(there.z, hn::Set(d, 1e6F)), hn::Gt(z, zero)));
     there = {hn::IfThenElseZero(before, there.x), hn::IfThenElseZero(before, there.y),
@@ -221,8 +221,8 @@ HWY_INLINE Asked AskFor(const ViewLookUpInput& in, const Four& s, V rayX, V rayY
     const Triples<V> pixel = PixelsOf(d, in.lens, there);
     const V lowX = hn::Floor(pixel.x), lowY = hn::Floor(pixel.y);
     const auto last = [&](int side) HWY_ATTR { return hn::Set(d, static_cast<float>(side - 2)); };
-    const M inner = hn::And(hn::And(hn::Ge(lowX, zero), hn::Le(lowX, last(in.reference.width))),
-                            hn::And(hn::Ge(lowY, zero), hn::Le(lowY, last(in.reference.height))));
+    const M inner = hn::And(hn::And(hn::Ge(lowX, zero), hn::Le(lowX, last(in.tracedSize.width))),
+                            hn::And(hn::Ge(lowY, zero), hn::Le(lowY, last(in.tracedSize.height))));
     const M asked = hn::And(hn::And(inner, before), hn::AndNot(empty, whole));
     return {z, id, ofCatcher, empty, asked, there.z, pixel.x, pixel.y, lowX, lowY};
 }
@@ -236,17 +236,17 @@ HWY_INLINE Four GatherLights(const std::uint32_t* from, VI at, int width) {
             hn::GatherIndex(du, from + 2L * width + 2, word)};
 }
 
-/// Reads the reference picture where `a` asks for it.
+/// Reads the traced picture where `a` asks for it.
 HWY_INLINE void ReadReference(const ViewLookUpInput& in, const Asked& a, const PaintOf& paint,
                               Found& out) {
     const D d;
     const DU du;
-    const V width = hn::Set(d, static_cast<float>(in.reference.width));
+    const V width = hn::Set(d, static_cast<float>(in.tracedSize.width));
     // Pictures have at most 2^24 pixels, so indices are exact in single precision.
     const VI row = hn::ConvertTo(DI(), hn::IfThenElseZero(a.asked, a.lowY));
     const VI at = hn::Add(hn::Mul(row, hn::ConvertTo(DI(), width)),
                           hn::ConvertTo(DI(), hn::IfThenElseZero(a.asked, a.lowX)));
-    const Four t = GatherFour(in.packed, at, in.reference.width);
+    const Four t = GatherFour(in.packed, at, in.tracedSize.width);
     const V tolerance = hn::Mul(a.thereZ, hn::Set(d, kSameDepth));
     const M close =
         hn::And(hn::And(IsClose(t.a, a.thereZ, tolerance), IsClose(t.b, a.thereZ, tolerance)),
@@ -260,10 +260,10 @@ HWY_INLINE void ReadReference(const ViewLookUpInput& in, const Asked& a, const P
         VU found = hn::Zero(du);
         const M lit = in.lights == nullptr ? hn::FirstN(d, 0) : hn::AndNot(a.ofCatcher, coloured);
         if (!hn::AllFalse(d, hn::AndNot(lit, coloured)))
-            found = Blend(GatherFour(in.colours, at, in.reference.width), weights);
+            found = Blend(GatherFour(in.colours, at, in.tracedSize.width), weights);
         if (!hn::AllFalse(d, lit)) {
-            const Four diffuse = GatherLights(in.lights, at, in.reference.width);
-            const Four specular = GatherLights(in.lights + 1, at, in.reference.width);
+            const Four diffuse = GatherLights(in.lights, at, in.tracedSize.width);
+            const Four specular = GatherLights(in.lights + 1, at, in.tracedSize.width);
             const VU colour =
                 Lit(paint, BlendLight(diffuse, weights), BlendLight(specular, weights),
                     BlendVeil(diffuse, specular, weights));

@@ -26,12 +26,12 @@ struct CatcherPlane {
     }
 };
 
-/// The reference picture, in which the pixels of a row of the layer are looked up.
+/// The traced picture, in which the pixels of a row of the layer are looked up.
 struct ViewLookUpInput {
-    PointTransform toReference;    ///< from the layer's camera to the reference's
-    PointLens lens;                ///< of the reference's camera
-    Size reference;                ///< [px]
-    const std::uint32_t* packed;   ///< surfaces of the reference, row-major; number 254: unknown
+    PointTransform toTraced;       ///< from the layer's camera to the traced picture's
+    PointLens lens;                ///< of the traced picture's camera
+    Size tracedSize;               ///< size of the traced picture [px]
+    const std::uint32_t* packed;   ///< its surfaces, row-major; number 254: unknown
     const std::uint32_t* colours;  ///< RGBA8, row-major
     const std::uint32_t* lights;   ///< LightWords, two words each; null if only colours are known
     CatcherPlane plane;
@@ -52,7 +52,7 @@ struct ViewRow {
                                          ///< room for all pixels and 16 more
 };
 
-/// Looks up plain pixels: a single surface fills the pixel, and the reference picture shows it in
+/// Looks up plain pixels: a single surface fills the pixel, and the traced picture shows it in
 /// four texels at the same depth (warp_look_up.frag). Returns how many other pixels there are.
 /// Writes into the padding of rows, which must have kPadding.
 [[nodiscard]] int lookUpRow(const ViewRow& row, const ViewLookUpInput& input);

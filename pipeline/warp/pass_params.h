@@ -30,11 +30,11 @@ struct alignas(16) SilhouetteMesh {
     float cutoff;         ///< points with a smaller alpha are holes
 };
 
-/// A picture in which colours are looked up. The first is the reference picture; the others are
-/// patches.
+/// A picture in which colours are looked up. The first is the traced picture; the others are
+/// re-rendered pictures.
 struct alignas(16) View {
     Transform toView;  ///< T_view_camera
-    float share;       ///< a patch's share in the displayed colour
+    float share;       ///< a re-rendered picture's share in the displayed colour
 };
 
 /// Plane of a planar shadow catcher, in the layer's camera frame: normal . point = offset [m]. All
@@ -52,13 +52,13 @@ struct alignas(16) DispatchGroups {
 
 struct alignas(16) LookUpViews {
     View views[5];
-    Projection projections[2];  ///< reference picture; layer and patches
+    Projection projections[2];  ///< traced picture; layer and re-rendered pictures
     Plane plane;
     PixelBounds bounds;
-    DispatchGroups wanted[6];                      ///< dispatches of the pyramid's levels
-    std::int32_t referenceWidth, referenceHeight;  ///< size of the reference picture [px]
-    std::int32_t width, height;                    ///< size of the layer [px]
-    std::int32_t patches, levels;
+    DispatchGroups wanted[6];                ///< dispatches of the pyramid's levels
+    std::int32_t tracedWidth, tracedHeight;  ///< size of the traced picture [px]
+    std::int32_t width, height;              ///< size of the layer [px]
+    std::int32_t rerendered, levels;
 };
 
 /// A level of the pyramid that fills holes.

@@ -51,18 +51,18 @@ void Warp::setScene(const Scene& scene) {
     ++scene_;
     step_->setScene(scene);
     asked_ = false;
-    dropReference();
+    dropTracedPicture();
 }
 
-void Warp::setReference(WarpReference reference) {
-    dropReference();
-    reference_ = std::move(reference);
-    step_->setReference(*reference_);
+void Warp::setTracedPicture(TracedPicture traced) {
+    dropTracedPicture();
+    traced_ = std::move(traced);
+    step_->setTracedPicture(*traced_);
 }
 
-// The patches are kept, because they belong to the scene and not to a reference picture.
-void Warp::dropReference() {
-    reference_.reset();
+// The re-rendered pictures are kept, because they belong to the scene and not to a traced picture.
+void Warp::dropTracedPicture() {
+    traced_.reset();
     lastRequest_ = {};
     step_->dropHoles();
     rested({});
@@ -71,8 +71,8 @@ void Warp::dropReference() {
 LayerPicture& Warp::run(const RigidTransform& T_world_camera) {
     PixelRect bounds;
     WarpMotion motion;
-    if (reference_ && isFinite(T_world_camera)) {
-        motion = motionOf(*reference_, lens_, T_world_camera);
+    if (traced_ && isFinite(T_world_camera)) {
+        motion = motionOf(*traced_, lens_, T_world_camera);
         bounds = around(step_->bounds(T_world_camera), motion.bounds);
     }
     if (bounds.empty()) {
@@ -80,10 +80,10 @@ LayerPicture& Warp::run(const RigidTransform& T_world_camera) {
         rested({});
         return nothing_;
     }
-    if (!reference_->tiles.empty() && motion.greatest < options_.leastMotion) {
+    if (!traced_->tiles.empty() && motion.greatest < options_.leastMotion) {
         ++counters_.unmoved;
         rested({});
-        return step_->reference();
+        return step_->traced();
     }
     ++counters_.warped;
     rested(T_world_camera);
@@ -100,7 +100,7 @@ void Warp::rested(const std::optional<RigidTransform>& T_world_camera) {
 }
 
 std::optional<HoleRequest> Warp::takeRequest() {
-    if (asked_ || !reference_) return {};
+    if (asked_ || !traced_) return {};
     auto out = takeHoles();
     return out ? std::move(out) : takeEdges();
 }
@@ -136,11 +136,11 @@ std::optional<HoleRequest> Warp::request(std::vector<std::uint32_t> pixels, bool
     return out;
 }
 
-/// Whether no point of the reference picture moves by leastMotion or more.
+/// Whether no point of the traced picture moves by leastMotion or more.
 bool Warp::isUnmoved(const RigidTransform& from, const RigidTransform& to) const {
     const RigidTransform T = from.inverse() * to;
     float nearest = kFarthestSurface;
-    for (const WarpReference::Tile& tile : reference_->tiles)
+    for (const TracedPicture::Tile& tile : traced_->tiles)
         nearest = std::min(nearest, tile.nearest);
     const double turn = 2 * T.rotation.vec().norm();
     return lens_.camera.fx * (turn + T.translation.norm() / nearest) <
@@ -173,7 +173,7 @@ void Warp::answer(const HoleAnswer& answer) {
     if (pixels.empty()) return;
     counters_.answered += pixels.size();
     if (!answer.edges)
-        step_->addPatch(answer);
+        step_->addRerendered(answer);
     else if (warpedTo_ && isUnmoved(answer.view.T_world_camera, *warpedTo_))
         step_->answerEdges(answer);
 }

@@ -14,7 +14,7 @@ namespace mfar {
 /// Totals since the start and values of the newest frame.
 struct WarpCounters {
     std::uint64_t warped = 0;     ///< displayed frames that were warped
-    std::uint64_t unmoved = 0;    ///< frames that show the reference picture unchanged
+    std::uint64_t unmoved = 0;    ///< frames that show the traced picture unchanged
     std::uint64_t empty = 0;      ///< frames without anything in view
     std::uint64_t requested = 0;  ///< pixels requested for individual rendering
     std::uint64_t answered = 0;   ///< pixels that were rendered and returned
@@ -23,7 +23,7 @@ struct WarpCounters {
     int cracks = 0;               ///< pixels in one-pixel-wide cracks, in the same frame
 };
 
-/// Image-based rendering of the virtual layer. It shows a finished picture, the reference picture,
+/// Image-based rendering of the virtual layer. It shows a finished picture, the traced picture,
 /// from the camera's current pose. This takes two passes (paper, eq. 5): one for depth, and one in
 /// which each pixel looks up its colour. The result is clipped to the silhouette of the models at
 /// the current pose.
@@ -38,18 +38,18 @@ public:
     Warp(const Warp&) = delete;
     Warp& operator=(const Warp&) = delete;
 
-    /// Sets the models. Discards the reference picture and all rendered holes, because they belong
+    /// Sets the models. Discards the traced picture and all rendered holes, because they belong
     /// to another scene.
     void setScene(const Scene& scene);
-    /// Takes effect with the next run(). Replaces the reference picture. Rendered pixels (patches)
+    /// Takes effect with the next run(). Replaces the traced picture. Re-rendered pictures
     /// stay valid, but a list of holes that is still being read back is discarded.
-    void setReference(WarpReference reference);
-    void dropReference();
+    void setTracedPicture(TracedPicture traced);
+    void dropTracedPicture();
 
     /// See WarpStep::takesLight().
     [[nodiscard]] bool takesLight() const { return step_->takesLight(); }
 
-    /// The returned picture is empty if there is no scene or no reference picture, or if the pose
+    /// The returned picture is empty if there is no scene or no traced picture, or if the pose
     /// is not finite. The result is valid until the next call of any member.
     LayerPicture& run(const RigidTransform& T_world_camera);
 
@@ -82,7 +82,7 @@ private:
     LensProjection lens_;
     WarpOptions options_;
     std::unique_ptr<WarpStep> step_;
-    std::optional<WarpReference> reference_;
+    std::optional<TracedPicture> traced_;
     std::uint64_t scene_ = 0;
     bool asked_ = false;  // a request was not answered yet
     HoleRequest lastRequest_;

@@ -23,7 +23,7 @@ struct WarpOptions {
     int sharpenSamples = 40;  ///< samples per pixel, [1, 4096]
     /// Number of frames in which rendered pixels fade in, [0, 100].
     int fadeFrames = 4;
-    /// The reference picture is shown unchanged if the new pose moves all of its points by less
+    /// The traced picture is shown unchanged if the new pose moves all of its points by less
     /// than this distance [px], [0, 10].
     double leastMotion = 0.1;
     bool operator==(const WarpOptions&) const = default;

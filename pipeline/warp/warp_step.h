@@ -3,7 +3,7 @@
 #include "pipeline/engine/steps.h"
 #include "pipeline/scene/scene.h"
 #include "pipeline/slices/hole_request.h"
-#include "pipeline/warp/warp_reference.h"
+#include "pipeline/warp/traced_picture.h"
 
 #include <cstdint>
 #include <optional>
@@ -11,11 +11,11 @@
 
 namespace mfar {
 
-/// Pixels whose colour a frame did not find in the reference picture.
+/// Pixels whose colour a frame did not find in the traced picture.
 struct WarpHoles {
     std::vector<std::uint32_t> open;  ///< pixels that no picture shows; row-major, ascending
     int cracks = 0;                   ///< number of pixels in cracks; they are not listed
-    int fading = 0;                   ///< number of pixels from partly faded-in patches
+    int fading = 0;  ///< number of pixels from partly faded-in re-rendered pictures
 };
 
 /// Processes the pixels of a warp. Each engine implements it, and Warp decides when it runs. The
@@ -24,19 +24,19 @@ class WarpStep {
 public:
     virtual ~WarpStep() = default;
 
-    /// Sets the models. Discards all patches, because they belong to another scene.
+    /// Sets the models. Discards all re-rendered pictures, because they belong to another scene.
     virtual void setScene(const Scene& scene) = 0;
     /// Bounds of all models [layer px]. If a model crosses the near plane, the bounds are the whole
     /// layer.
     [[nodiscard]] virtual PixelRect bounds(const RigidTransform& T_world_camera) const = 0;
 
-    /// Must be called before run(). `reference` must stay valid until the next call.
-    virtual void setReference(const WarpReference& reference) = 0;
+    /// Must be called before run(). `traced` must stay valid until the next call.
+    virtual void setTracedPicture(const TracedPicture& traced) = 0;
     /// If true, run() takes only the light of objects from the pictures and looks up the objects'
     /// paint in their textures. If false, run() takes colours from the pictures.
     [[nodiscard]] virtual bool takesLight() const = 0;
-    /// The reference picture as it was rendered.
-    [[nodiscard]] virtual LayerPicture& reference() = 0;
+    /// The traced picture as it was rendered.
+    [[nodiscard]] virtual LayerPicture& traced() = 0;
 
     struct Frame {
         RigidTransform T_world_camera;
@@ -52,7 +52,7 @@ public:
     virtual void dropHoles() = 0;
     /// Adds individually rendered pixels; they are visible from the next run() on. `answer` must be
     /// valid and not empty.
-    virtual void addPatch(const HoleAnswer& answer) = 0;
+    virtual void addRerendered(const HoleAnswer& answer) = 0;
 
     /// Discards the previous list and its answer. Then lists the pixels with the most contrast in
     /// the last run()'s picture, because the look-up blurred them.

@@ -32,9 +32,9 @@ Scene cube() {
 /// Depth of a table at this height, as a camera above it measures it.
 InverseDepthField table(double height, double known = 1) {
     InverseDepthField field(kFollowing.size);
-    for (std::size_t i = 0; i < field.rho.size(); ++i) {
+    for (std::size_t i = 0; i < field.inverseDepth.size(); ++i) {
         if (static_cast<double>(i % 100) >= 100 * known) continue;
-        field.rho[i] = static_cast<float>(1 / (0.5 - height));
+        field.inverseDepth[i] = static_cast<float>(1 / (0.5 - height));
         field.variance[i] = 1e-8F;
     }
     return field;

@@ -36,7 +36,7 @@ InverseDepthField fieldOf(F depthAt, double sigma) {
             const double z = depthAt(x, y);
             const auto i = static_cast<std::size_t>(y) * kLens.size.width + x;
             if (!(z > 0)) continue;
-            field.rho[i] = static_cast<float>(1 / z);
+            field.inverseDepth[i] = static_cast<float>(1 / z);
             field.variance[i] = static_cast<float>(sigma * sigma);
         }
     }

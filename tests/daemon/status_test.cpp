@@ -339,7 +339,7 @@ TEST(Summary, VirtualLayerIsCountedIfItExists) {
     EXPECT_FALSE(summary(stats.count(), {}, "", 0)["virtual"].contains("path_tracer"));
     TracedLayerCounters counters;
     counters.render.samples = 123456;
-    counters.render.referenceSince = Timestamp::fromSeconds(3);
+    counters.render.shownSince = Timestamp::fromSeconds(3);
     counters.warped = 7;
     stats.traced(counters, Timestamp::fromSeconds(3.5));
     FrameStats frame;

@@ -21,8 +21,8 @@ constexpr int kSettling = 8;  // frames until depth has settled
 
 cv::Mat depthOf(const InverseDepthField& field) {
     cv::Mat out(field.size.height, field.size.width, CV_32F, cv::Scalar(0));
-    for (std::size_t i = 0; i < field.rho.size(); ++i)
-        if (field.isKnown(i)) out.ptr<float>()[i] = field.rho[i];
+    for (std::size_t i = 0; i < field.inverseDepth.size(); ++i)
+        if (field.isKnown(i)) out.ptr<float>()[i] = field.inverseDepth[i];
     return out;
 }
 

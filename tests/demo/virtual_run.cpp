@@ -18,7 +18,7 @@ namespace mfar::demo {
 namespace {
 
 constexpr std::chrono::milliseconds kFrameInterval{33};
-// The camera must rest for some frames before a reference picture of exactly its view is made.
+// The camera must rest for some frames before a traced picture of exactly its view is made.
 constexpr int kLeastLooks = 15, kMostRestFrames = 20000;
 
 bool isSettled(const TracedLayerCounters& counters) {

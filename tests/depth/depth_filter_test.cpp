@@ -20,7 +20,7 @@ DepthFilter filterOf() {
 
 InverseDepthField evenField(float rho, float sigma) {
     InverseDepthField out(kCamera.size);
-    std::fill(out.rho.begin(), out.rho.end(), rho);
+    std::fill(out.inverseDepth.begin(), out.inverseDepth.end(), rho);
     std::fill(out.variance.begin(), out.variance.end(), sigma * sigma);
     return out;
 }
@@ -36,12 +36,12 @@ TEST(DepthFilter, NoiseAveragesOut) {
     double before = 0, after = 0;
     for (int frame = 0; frame < 12; ++frame) {
         InverseDepthField measured = evenField(1, 0.05F);
-        for (float& rho : measured.rho)
+        for (float& rho : measured.inverseDepth)
             rho += noise(random);
         filter.predict({}, 1.0 / 30);
         filter.fuse(measured, kWhole);
         after = 0;
-        for (const float rho : filter.field().rho)
+        for (const float rho : filter.field().inverseDepth)
             after += std::abs(rho - 1);
         if (frame == 0) before = after;
     }
@@ -54,12 +54,12 @@ TEST(DepthFilter, OneOutlierIsIgnoredAndAChangeIsFollowed) {
     filter.predict({}, 0);
     filter.fuse(evenField(1, 0.02F), kWhole);
     filter.fuse(evenField(3, 0.02F), kWhole);
-    EXPECT_NEAR(filter.field().rho[middle()], 1, 1e-5);
+    EXPECT_NEAR(filter.field().inverseDepth[middle()], 1, 1e-5);
     filter.fuse(evenField(1, 0.02F), kWhole);
     filter.fuse(evenField(3, 0.02F), kWhole);
-    EXPECT_NEAR(filter.field().rho[middle()], 1, 1e-5);
+    EXPECT_NEAR(filter.field().inverseDepth[middle()], 1, 1e-5);
     filter.fuse(evenField(3, 0.02F), kWhole);
-    EXPECT_NEAR(filter.field().rho[middle()], 3, 1e-5);
+    EXPECT_NEAR(filter.field().inverseDepth[middle()], 3, 1e-5);
 }
 
 TEST(DepthFilter, TheNearerSurfaceOccludesTheOther) {
@@ -68,12 +68,12 @@ TEST(DepthFilter, TheNearerSurfaceOccludesTheOther) {
     InverseDepthField measured = evenField(0.5F, 0.01F);
     for (int y = 30; y < 60; ++y)
         for (int x = 40; x < 60; ++x)
-            measured.rho[static_cast<std::size_t>(y) * 120 + x] = 2;
+            measured.inverseDepth[static_cast<std::size_t>(y) * 120 + x] = 2;
     filter.fuse(measured, kWhole);
     // The camera moves 0.1 m to the right: the near square moves 22 px to the left, the background
     // 5.5 px.
     filter.predict(motion({0, 0, 0}, {0.1, 0, 0}), 0);
-    const auto at = [&](int x) { return filter.field().rho[45UL * 120 + x]; };
+    const auto at = [&](int x) { return filter.field().inverseDepth[45UL * 120 + x]; };
     EXPECT_NEAR(at(28), 2, 1e-4);
     EXPECT_NEAR(at(12), 0.5, 1e-4);
     EXPECT_NEAR(at(70), 0.5, 1e-4);
@@ -88,7 +88,7 @@ TEST(DepthFilter, DepthMovesAndScalesWithTheCamera) {
     // The camera moves half a metre towards a wall at one metre.
     filter.predict(motion({0, 0, 0}, {0, 0, 0.5}), 0);
     ASSERT_TRUE(filter.field().isKnown(middle()));
-    EXPECT_NEAR(filter.field().rho[middle()], 2, 1e-4);
+    EXPECT_NEAR(filter.field().inverseDepth[middle()], 2, 1e-4);
     EXPECT_GT(filter.field().variance[middle()], 10 * variance);
     // The camera moves through the wall.
     filter.predict(motion({0, 0, 0}, {0, 0, 1.2}), 0);
@@ -111,12 +111,12 @@ TEST(DepthFilter, SmallMotionsAddUpWithoutBlur) {
     DepthFilter filter = filterOf();
     filter.predict({}, 0);
     InverseDepthField measured = evenField(1, 0.01F);
-    measured.rho[middle()] = 2;
+    measured.inverseDepth[middle()] = 2;
     filter.fuse(measured, kWhole);
     for (int i = 1; i <= 1000; ++i)
         filter.predict(motion({0, 0, 0}, {2e-5 * i, 0, 0}), 0);
     // A motion of 2 cm at half a metre is 4.4 px.
-    EXPECT_NEAR(filter.field().rho[middle() - 4], 2, 1e-3);
+    EXPECT_NEAR(filter.field().inverseDepth[middle() - 4], 2, 1e-3);
 }
 
 }  // namespace

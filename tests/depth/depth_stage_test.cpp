@@ -60,7 +60,8 @@ public:
                 const double z =
                     panelScene().depth(pose_.inverse(), barrelCamera().unproject({x, y}));
                 if (stage_.field().isKnown(i))
-                    all.push_back(std::abs(1 / std::max(stage_.field().rho[i], 1e-6F) - z) / z);
+                    all.push_back(
+                        std::abs(1 / std::max(stage_.field().inverseDepth[i], 1e-6F) - z) / z);
             }
         }
         if (all.empty()) return {};

@@ -33,7 +33,7 @@ InverseDepthField field(int too, int unknown) {
         for (int x = 0; x < kPicture.width; ++x) {
             const auto i = static_cast<std::size_t>(y) * kPicture.width + x;
             if (x >= kEdge + too && x < kEdge + too + unknown) continue;
-            out.rho[i] = x < kEdge + too ? 2.0F : 0.5F;
+            out.inverseDepth[i] = x < kEdge + too ? 2.0F : 0.5F;
             out.variance[i] = 1e-4F;
         }
     return out;
@@ -82,7 +82,7 @@ TEST(EdgeSnap, DepthEdgesMoveToPictureEdges) {
                 for (int x = 0; x < kPicture.width; ++x) {
                     const auto i = static_cast<std::size_t>(y) * kPicture.width + x;
                     ASSERT_TRUE(out.isKnown(i));
-                    ASSERT_NEAR(out.rho[i], x < kEdge ? 2 : 0.5, 1e-4)
+                    ASSERT_NEAR(out.inverseDepth[i], x < kEdge ? 2 : 0.5, 1e-4)
                         << x << "," << y << " off " << too << " gap " << unknown;
                 }
         }
@@ -99,7 +99,7 @@ TEST(EdgeSnap, ColourOfEveryFormatDistinguishesSurfaces) {
             const InverseDepthField& out = snap.run(field(too, 0), painted.view(), kAllPixels);
             for (int y = 0; y < kPicture.height; ++y)
                 for (int x = 0; x < kPicture.width; ++x)
-                    ASSERT_NEAR(out.rho[static_cast<std::size_t>(y) * kPicture.width + x],
+                    ASSERT_NEAR(out.inverseDepth[static_cast<std::size_t>(y) * kPicture.width + x],
                                 x < kEdge ? 2 : 0.5, 1e-4)
                         << nameOf(format) << " " << x << "," << y;
         }
@@ -133,20 +133,20 @@ TEST(EdgeSnap, YuvAndItsRgbGiveTheSameField) {
             snap.run(in, packedView(rgba.data(), kPicture, PixelFormat::Rgba8), kAllPixels);
         EXPECT_GT(std::count(a.filled.begin(), a.filled.end(), 1), 100);
         int differ = 0;
-        for (std::size_t i = 0; i < a.rho.size(); ++i)
-            if (!(std::abs(a.rho[i] - b.rho[i]) < 0.01F)) ++differ;
+        for (std::size_t i = 0; i < a.inverseDepth.size(); ++i)
+            if (!(std::abs(a.inverseDepth[i] - b.inverseDepth[i]) < 0.01F)) ++differ;
         EXPECT_LE(differ, 20) << nameOf(format);
     }
 }
 
 TEST(EdgeSnap, ASlopeStaysUnchanged) {
     InverseDepthField in(kPicture);
-    for (std::size_t i = 0; i < in.rho.size(); ++i) {
-        in.rho[i] = 1 + 0.004F * static_cast<float>(i % 64);
+    for (std::size_t i = 0; i < in.inverseDepth.size(); ++i) {
+        in.inverseDepth[i] = 1 + 0.004F * static_cast<float>(i % 64);
         in.variance[i] = 1e-6F;
     }
     const InverseDepthField out = snapped(in, picture());
-    EXPECT_EQ(out.rho, in.rho);
+    EXPECT_EQ(out.inverseDepth, in.inverseDepth);
     EXPECT_EQ(out.filled, in.filled);
 }
 
@@ -158,7 +158,7 @@ TEST(EdgeSnap, UnmeasuredPixelsAreMarked) {
 
 TEST(EdgeSnap, UnknownDepthStaysUnknown) {
     const InverseDepthField out = snapped(InverseDepthField(kPicture), picture());
-    for (std::size_t i = 0; i < out.rho.size(); ++i)
+    for (std::size_t i = 0; i < out.inverseDepth.size(); ++i)
         EXPECT_FALSE(out.isKnown(i));
 }
 

@@ -48,9 +48,9 @@ public:
         return {pyramids_.video(), pyramids_.still(), pyramids_.words()};
     }
     [[nodiscard]] std::vector<Cell> read(const Flow2d::Field& field) const {
-        return glFlow_.patches().read<Cell>(static_cast<std::size_t>(field.cells.width) *
-                                                field.cells.height,
-                                            sizeof(Cell) * field.offset);
+        return glFlow_.cells().read<Cell>(static_cast<std::size_t>(field.cells.width) *
+                                              field.cells.height,
+                                          sizeof(Cell) * field.offset);
     }
     [[nodiscard]] std::vector<Cell> glForward() const { return read(glFlow_.forward()); }
     [[nodiscard]] std::vector<Cell> glBackward() const { return read(glFlow_.backward()); }

@@ -33,7 +33,8 @@ LaidOver byShaders(const twin::Scene& scene, const LaidLayer& layer,
     gpu::Texture real(video, gpu::TexelFormat::Rg32F);
     std::vector<float> samples;
     for (const twin::RealSample& s : scene.real)
-        samples.insert(samples.end(), {static_cast<float>(s.rho), static_cast<float>(s.sigma)});
+        samples.insert(samples.end(),
+                       {static_cast<float>(s.inverseDepth), static_cast<float>(s.sigma)});
     colour.upload(PlaneView{pixels.colour.view().data, pixels.colour.view().stride});
     depth.upload(pixels.z);
     real.upload(samples);
@@ -56,7 +57,7 @@ LaidOver byKernels(const twin::Scene& scene, const LaidLayer& layer,
     AlignedRows<std::uint32_t> colour(layer.size);
     for (int y = 0, i = 0; y < video.height; ++y)
         for (int x = 0; x < video.width; ++x, ++i) {
-            rho[y][x] = static_cast<float>(scene.real[i].rho);
+            rho[y][x] = static_cast<float>(scene.real[i].inverseDepth);
             sigma[y][x] = static_cast<float>(scene.real[i].sigma);
         }
     for (int y = 0; y < layer.size.height; ++y) {

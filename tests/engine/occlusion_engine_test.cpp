@@ -37,7 +37,7 @@ struct EngineScene {
             for (int x = 0; x < kVideoSize.width; ++x) {
                 const std::size_t i = static_cast<std::size_t>(y) * kVideoSize.width + x;
                 const bool isNear = x + 9 * std::sin(0.3 * y) < 85;
-                depth.rho[i] = isNear ? 0.8F : 0.4F;
+                depth.inverseDepth[i] = isNear ? 0.8F : 0.4F;
                 if (i % 13 != 0) depth.variance[i] = 0.0004F;
             }
     }
@@ -58,8 +58,8 @@ Shown onGpu(const EngineScene& s) {
     gpu::Texture z(s.layerSize, TexelFormat::R32F), real(kVideoSize, TexelFormat::Rg32F);
     z.upload(s.z);
     std::vector<float> samples;
-    for (std::size_t i = 0; i < s.depth.rho.size(); ++i)
-        samples.insert(samples.end(), {s.depth.rho[i], std::sqrt(s.depth.variance[i])});
+    for (std::size_t i = 0; i < s.depth.inverseDepth.size(); ++i)
+        samples.insert(samples.end(), {s.depth.inverseDepth[i], std::sqrt(s.depth.variance[i])});
     real.upload(samples);
     const gpu::Texture video = uploaded(s.video), picture = uploaded(s.picture);
     const gpu::Framebuffer target(picture);

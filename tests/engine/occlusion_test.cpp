@@ -45,7 +45,7 @@ TEST_P(OcclusionSizes, VisibilityMatchesTheOracle) {
         waves.shoot(video, {}), waves.shoot(output, {.step = step, .footprint = step}), {}};
     for (int i = 0; i < video.width * video.height; ++i) {
         scene.real.push_back({rho(random), sigma(random)});
-        if (unit(random) < 0.1) scene.real.back().rho = kNan;
+        if (unit(random) < 0.1) scene.real.back().inverseDepth = kNan;
         if (unit(random) < 0.1) scene.real.back().sigma = 0;
     }
     LaidLayer layer;
@@ -67,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_P(OcclusionTest, EarlyExitsGiveTheWeightedResult) {
     twin::Scene scene = plainScene({0.4, 0.01});
     for (std::size_t i = 0; i < scene.real.size(); ++i)
-        if (i % kCoarse.width > 20) scene.real[i].rho = 0.8;
+        if (i % kCoarse.width > 20) scene.real[i].inverseDepth = 0.8;
     LaidLayer layer;
     layer.z = [](int, int y) { return 1.2 + 0.01 * y; };
     const LaidOver got = run(scene, layer);
@@ -87,7 +87,7 @@ TEST_P(OcclusionTest, UnknownDepthNeverOccludes) {
 TEST_P(OcclusionTest, UnknownNeighboursNeverReduceVisibility) {
     twin::Scene scene = plainScene({1, 0.01});
     for (std::size_t i = 0; i < scene.real.size(); i += 3)
-        scene.real[i].rho = kNan;
+        scene.real[i].inverseDepth = kNan;
     expectOracles(run(scene, {}), scene, {});
 }
 
@@ -101,7 +101,7 @@ TEST_P(OcclusionTest, ExtremeKnownValuesAreCompared) {
           Case{{1e-5, 1e-12}, 9e5, 0}, Case{{9e5, 1}, 2e-4, 0}, Case{{0.5, 1e-19}, 2, 1}})
         for (const CompositeOptions& o : {CompositeOptions{}, {.virtualSigma = 0}})
             EXPECT_EQ(run(plainScene(c.real), layerAt(c.z), o).visibleEverywhere(), c.visible)
-                << c.real.rho << " " << c.real.sigma;
+                << c.real.inverseDepth << " " << c.real.sigma;
 }
 
 TEST_P(OcclusionTest, LayerWithoutDepthIsNotDrawn) {

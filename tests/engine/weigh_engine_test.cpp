@@ -38,7 +38,7 @@ TEST_F(WeighEngines, BothEnginesGiveTheSameWeights) {
     const TestPicture still = waves.shoot(kStill, {.step = step, .footprint = step});
     pyramids.buildStill(uploaded(still, gpu::Filter::Linear), rig);
     flow.run(pyramids.luma(), tiles, false);
-    weigher.run({pyramids.video(), pyramids.still(), pyramids.words(), flow.patches(),
+    weigher.run({pyramids.video(), pyramids.still(), pyramids.words(), flow.cells(),
                  flow.forward().offset, flow.forward().cells, flow.backward().cells,
                  flow.backward().level, false},
                 tiles);
@@ -50,9 +50,9 @@ TEST_F(WeighEngines, BothEnginesGiveTheSameWeights) {
         static_cast<std::size_t>(last.offset) + static_cast<std::size_t>(last.pitch) * last.height +
         kLumaSpareWords);
     const Flow2d::Field &there = flow.forward(), &back = flow.backward();
-    const auto cells = flow.patches().read<FlowCell>(
-        std::max(there.offset + there.cells.width * there.cells.height,
-                 back.offset + back.cells.width * back.cells.height));
+    const auto cells =
+        flow.cells().read<FlowCell>(std::max(there.offset + there.cells.width * there.cells.height,
+                                             back.offset + back.cells.width * back.cells.height));
     simd::WeighStep weigh(rig, nullptr);
     weigh.run({pyramids.video(),
                pyramids.still(),

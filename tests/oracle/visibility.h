@@ -20,12 +20,14 @@ struct RealSample {
 /// Visibility of a virtual surface at inverse depth `inverse`, given a real sample. An unknown
 /// sample occludes nothing.
 inline double visibleOver(const RealSample& real, double inverse, const CompositeOptions& o) {
-    const bool known =
-        real.rho > params::kLeastInverseDepth && real.rho < params::kMostInverseDepth &&
-        real.sigma > params::kLeastDepthSigma && real.sigma < params::kMostInverseDepth;
+    const bool known = real.inverseDepth > params::kLeastInverseDepth &&
+                       real.inverseDepth < params::kMostInverseDepth &&
+                       real.sigma > params::kLeastDepthSigma &&
+                       real.sigma < params::kMostInverseDepth;
     if (!known) return 1;
     const double sigma = std::hypot(real.sigma, o.virtualSigma * inverse);
-    const double t = std::clamp(((real.rho - inverse) / sigma - o.bias) / o.softness, 0.0, 1.0);
+    const double t =
+        std::clamp(((real.inverseDepth - inverse) / sigma - o.bias) / o.softness, 0.0, 1.0);
     return 1 - t * t * (3 - 2 * t);
 }
 

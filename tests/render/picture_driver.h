@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pipeline/slices/reference_pictures.h"
+#include "pipeline/slices/traced_pictures.h"
 #include "tests/render/still_life.h"
 
 #include <gtest/gtest.h>
@@ -9,13 +9,13 @@
 #include <memory>
 #include <vector>
 
-namespace mfar::reference_pictures {
+namespace mfar::traced_pictures {
 
-inline constexpr Size kReferenceSize{48, 36};
+inline constexpr Size kTracedSize{48, 36};
 
-[[nodiscard]] inline std::shared_ptr<const ReferenceScene>
+[[nodiscard]] inline std::shared_ptr<const PictureScene>
 prepared(const std::shared_ptr<const Scene>& scene, std::uint64_t objects, std::uint64_t light) {
-    auto out = std::make_shared<ReferenceScene>();
+    auto out = std::make_shared<PictureScene>();
     out->tracer = std::make_shared<PathTracer>(scene);
     out->balls = objectBalls(*scene);
     out->objects = objects;
@@ -23,19 +23,19 @@ prepared(const std::shared_ptr<const Scene>& scene, std::uint64_t objects, std::
     return out;
 }
 
-[[nodiscard]] inline std::shared_ptr<const ReferenceScene> preparedStillLife(std::uint64_t objects,
-                                                                             std::uint64_t light) {
+[[nodiscard]] inline std::shared_ptr<const PictureScene> preparedStillLife(std::uint64_t objects,
+                                                                           std::uint64_t light) {
     return prepared(render_scenes::stillLife(), objects, light);
 }
 
 /// A policy without filter and without history: every pixel is sampled.
-inline constexpr ReferencePolicy kPlain{{4, 0.2}, 8, false, false};
-inline constexpr ReferencePolicy kProduct{{4, 0.2}, 8, true, true};
+inline constexpr TracedPolicy kPlain{{4, 0.2}, 8, false, false};
+inline constexpr TracedPolicy kProduct{{4, 0.2}, 8, true, true};
 
 /// Runs the steps of a renderer's threads one by one. Keeps the picture that is shown.
 class Driver {
 public:
-    explicit Driver(const SliceOptions& slices, const ReferencePolicy& policy = kPlain)
+    explicit Driver(const SliceOptions& slices, const TracedPolicy& policy = kPlain)
         : pictures(slices, policy) {
         pictures.setScene(preparedStillLife(1, 1));
     }
@@ -61,7 +61,7 @@ public:
             pictures.endShow(out);
             return true;
         }
-        const ReferencePictures::Portion portion = pictures.next(1000);
+        const TracedPictures::Portion portion = pictures.next(1000);
         if (portion.slice.pixels.empty()) return false;
         pictures.trace(portion);
         pictures.done(portion, {});
@@ -77,16 +77,15 @@ public:
     }
     /// True if the shown picture was made for this view.
     [[nodiscard]] bool shows(double azimuth) const {
-        const RigidTransform there =
-            render_scenes::viewFrom(kReferenceSize, azimuth).T_world_camera;
+        const RigidTransform there = render_scenes::viewFrom(kTracedSize, azimuth).T_world_camera;
         return !shown.empty() && shown.back().T_world_camera.translation == there.translation;
     }
 
-    Size size = kReferenceSize;
-    ReferencePictures pictures;
+    Size size = kTracedSize;
+    TracedPictures pictures;
     std::vector<RenderedPicture> shown;
 };
 
 inline constexpr SliceOptions kThirtyTwo{Slicing::Time, 32, 1, 0, 2};
 
-}  // namespace mfar::reference_pictures
+}  // namespace mfar::traced_pictures

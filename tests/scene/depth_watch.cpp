@@ -63,10 +63,10 @@ DepthState DepthWatch::look(const Pipeline& pipeline, Timestamp time) {
         for (int x = 0; x < truth.cols; x += kStep) {
             const auto i = static_cast<std::size_t>(y) * truth.cols + x;
             const float wanted = truth.at<float>(y, x);
-            if (!(wanted > 0) || !field.isKnown(i) || !(field.rho[i] > 0)) continue;
-            rho.at<float>(y, x) = field.rho[i];
-            ratio.at<float>(y, x) = field.rho[i] / wanted;
-            sigmas.push_back(std::sqrt(field.variance[i]) / field.rho[i]);
+            if (!(wanted > 0) || !field.isKnown(i) || !(field.inverseDepth[i] > 0)) continue;
+            rho.at<float>(y, x) = field.inverseDepth[i];
+            ratio.at<float>(y, x) = field.inverseDepth[i] / wanted;
+            sigmas.push_back(std::sqrt(field.variance[i]) / field.inverseDepth[i]);
             const double before = pose_ ? ratioBefore(x, y, wanted, pose) : 0;
             if (before > 0) changes.push_back(std::abs(ratio.at<float>(y, x) - before));
         }

@@ -20,11 +20,11 @@ std::shared_ptr<Workers> depthWorkers() {
 InverseDepthField fieldOf(Context& c, Size size, double unit, double spoilt) {
     InverseDepthField out(size);
     const double rho = c.hostile.logarithmic(0.1, 10) / unit;
-    for (std::size_t i = 0; i < out.rho.size(); ++i) {
+    for (std::size_t i = 0; i < out.inverseDepth.size(); ++i) {
         if (c.hostile.chance(0.2)) continue;
-        out.rho[i] = static_cast<float>(rho * c.hostile.real(0.9, 1.1));
+        out.inverseDepth[i] = static_cast<float>(rho * c.hostile.real(0.9, 1.1));
         out.variance[i] = static_cast<float>(std::pow(rho * c.hostile.logarithmic(1e-4, 0.3), 2));
-        if (c.hostile.chance(spoilt)) out.rho[i] = static_cast<float>(c.hostile.bad());
+        if (c.hostile.chance(spoilt)) out.inverseDepth[i] = static_cast<float>(c.hostile.bad());
         if (c.hostile.chance(spoilt)) out.variance[i] = static_cast<float>(c.hostile.bad());
     }
     return out;
@@ -32,8 +32,8 @@ InverseDepthField fieldOf(Context& c, Size size, double unit, double spoilt) {
 
 /// Known values must be finite and not negative, and their variances valid.
 void checkField(Context& c, const InverseDepthField& field) {
-    for (std::size_t i = 0; i < field.rho.size(); ++i) {
-        c.checks.within(field.rho[i], 0, 3.4e38, "filtered inverse depth");
+    for (std::size_t i = 0; i < field.inverseDepth.size(); ++i) {
+        c.checks.within(field.inverseDepth[i], 0, 3.4e38, "filtered inverse depth");
         c.checks.require(field.variance[i] >= 0, "filtered variance");
         c.checks.require(field.filled[i] <= 1, "a pixel's mark");
     }
@@ -65,7 +65,7 @@ void carriedDepth(Context& c) {
     DepthFilter filter(camera, depthWorkers());
     InverseDepthField plane(size);
     const double rho = 0.5 / unit;
-    std::ranges::fill(plane.rho, static_cast<float>(rho));
+    std::ranges::fill(plane.inverseDepth, static_cast<float>(rho));
     std::ranges::fill(plane.variance, static_cast<float>(std::pow(0.01 * rho, 2)));
     filter.predict({}, 0.03);
     filter.fuse(plane, {0, 0, size.width, size.height});
@@ -76,9 +76,10 @@ void carriedDepth(Context& c) {
     filter.predict(ahead, 0.03);
     const double wanted = 1 / (2 * unit - ahead.translation.z());
     const InverseDepthField& field = filter.field();
-    for (std::size_t i = 0; i < field.rho.size(); ++i) {
+    for (std::size_t i = 0; i < field.inverseDepth.size(); ++i) {
         if (!field.isKnown(i)) continue;
-        c.checks.within(field.rho[i] / wanted, 1 - 2e-5, 1 + 2e-5, "carried inverse depth");
+        c.checks.within(field.inverseDepth[i] / wanted, 1 - 2e-5, 1 + 2e-5,
+                        "carried inverse depth");
         c.checks.within(std::sqrt(field.variance[i]) / wanted, 0.005, 0.02, "carried sigma");
     }
     c.checks.through("DepthFilter", pixelsOf(size));
@@ -118,9 +119,9 @@ void hostileEdges(Context& c) {
         const PixelRect where{x, y, c.hostile.integer(x, size.width),
                               c.hostile.integer(y, size.height)};
         const InverseDepthField& out = snap.run(in, c.hostile.picture(size).view(), where);
-        for (std::size_t p = 0; p < out.rho.size(); ++p)
+        for (std::size_t p = 0; p < out.inverseDepth.size(); ++p)
             if (out.isKnown(p)) {
-                c.checks.within(out.rho[p], 0, 3.4e38, "snapped inverse depth");
+                c.checks.within(out.inverseDepth[p], 0, 3.4e38, "snapped inverse depth");
                 c.checks.within(out.variance[p], 0, 3.4e38, "snapped variance");
             }
         c.checks.through("EdgeSnap", pixelsOf(size));

@@ -27,7 +27,7 @@ CameraModel smallCamera(Size size = {8, 6}) {
 
 InverseDepthField fieldOf(Size size, float rho, float variance) {
     InverseDepthField out(size);
-    out.rho.assign(out.rho.size(), rho);
+    out.inverseDepth.assign(out.inverseDepth.size(), rho);
     out.variance.assign(out.variance.size(), variance);
     return out;
 }
@@ -45,7 +45,7 @@ TEST(Mended, InvalidMeasurementsAreIgnored) {
         filter.fuse(fieldOf({8, 6}, 0.5F, 0.01F), whole);
         filter.fuse(fieldOf({8, 6}, rho, variance), whole);
         filter.fuse(fieldOf({8, 6}, rho, variance), whole);
-        EXPECT_EQ(filter.field().rho[20], 0.5F) << rho << ", " << variance;
+        EXPECT_EQ(filter.field().inverseDepth[20], 0.5F) << rho << ", " << variance;
         EXPECT_EQ(filter.field().variance[20], 0.01F);
     }
 }
@@ -61,7 +61,7 @@ TEST(Mended, AnInvalidPoseForgetsTheDepth) {
         EXPECT_FALSE(filter.field().isKnown(20)) << bad;
         filter.predict({}, 0.03);
         filter.fuse(fieldOf({8, 6}, 0.25F, 0.01F), {0, 0, 8, 6});
-        EXPECT_EQ(filter.field().rho[20], 0.25F);
+        EXPECT_EQ(filter.field().inverseDepth[20], 0.25F);
     }
 }
 
@@ -72,7 +72,7 @@ TEST(Mended, AnInvalidTimeAddsNoVariance) {
     RigidTransform aside;
     aside.translation.x() = 0.4;
     filter.predict(aside, kNan);
-    for (std::size_t i = 0; i < filter.field().rho.size(); ++i)
+    for (std::size_t i = 0; i < filter.field().inverseDepth.size(); ++i)
         if (filter.field().isKnown(i)) {
             EXPECT_EQ(filter.field().variance[i], 0.01F);
         }
@@ -84,7 +84,7 @@ TEST(Mended, InvalidDepthStaysUnknownAtEdges) {
     for (const auto& [rho, variance] : {std::pair(kNan, 0.01F), {kInf, 0.01F}, {0.5F, -1.0F}}) {
         const auto& out = snap.run(fieldOf({8, 6}, rho, variance), picture.view(), {0, 0, 8, 6});
         EXPECT_FALSE(out.isKnown(20)) << rho << ", " << variance;
-        EXPECT_EQ(out.rho[20], 0);
+        EXPECT_EQ(out.inverseDepth[20], 0);
     }
 }
 

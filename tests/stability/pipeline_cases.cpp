@@ -44,8 +44,8 @@ VirtualObject objectFor(Context& c, double unit) {
 
 void checkDepth(Context& c, const Pipeline& p) {
     const InverseDepthField& depth = p.inverseDepth();
-    for (std::size_t i = 0; i < depth.rho.size(); ++i) {
-        c.checks.within(depth.rho[i], 0, 1e30, "real inverse depth");
+    for (std::size_t i = 0; i < depth.inverseDepth.size(); ++i) {
+        c.checks.within(depth.inverseDepth[i], 0, 1e30, "real inverse depth");
         c.checks.require(depth.variance[i] >= 0, "variance of real inverse depth");
     }
 }

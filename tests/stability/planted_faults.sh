@@ -76,9 +76,9 @@ inHost() {
 }
 
 hostFaults() {
-    inHost pipeline/depth/depth_filter.cpp 'if (InverseDepthField::isSound(measured.rho[i], measured.variance[i]))' \
+    inHost pipeline/depth/depth_filter.cpp 'if (InverseDepthField::isSound(measured.inverseDepth[i], measured.variance[i]))' \
         '' 'removed guard against measurements that are none' depth-filter
-    inHost pipeline/depth/edge_snap.cpp 'const bool sound = InverseDepthField::isSound(in.rho[i], in.variance[i]);' \
+    inHost pipeline/depth/edge_snap.cpp 'const bool sound = InverseDepthField::isSound(in.inverseDepth[i], in.variance[i]);' \
         'const bool sound = true;' 'removed guard against depth that is none' edges
     inHost pipeline/epipolar/epipolar_search.cpp 'return label > -kBeyond ? std::min(label, longest) : static_cast<float>(-kBeyond);' \
         'return label;' 'missing clamp of a prediction' search

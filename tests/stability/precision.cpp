@@ -90,7 +90,7 @@ std::vector<float> assessedStillPixels(const StereoRig& rig) {
     const Size cells = cellsOf(rig.video.size);
     const TestPicture even(rig.video.size, PixelFormat::Rgba8, 128);
     const LevelPair pair(even, even);
-    const gpu::Buffer patches(32UL * cells.width * cells.height);
+    const gpu::Buffer cells(32UL * cells.width * cells.height);
     const gpu::Texture displacement(cells, gpu::TexelFormat::Rgba32F);
     const gpu::Texture statistics(cells, gpu::TexelFormat::Rgba32F);
     gpu::ComputePass<params::AssessCells> pass("superres_assess.comp");
@@ -109,7 +109,7 @@ std::vector<float> assessedStillPixels(const StereoRig& rig) {
               .stillHeight = 1728,
               .scaleX = 3.6F,
               .scaleY = 3.6F},
-             {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, patches),
+             {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, cells),
               gpu::storage(2, pair.tiles.buffer()), gpu::imageWrite(0, displacement),
               gpu::imageWrite(1, statistics)},
              {gpu::groupsFor(cells.width, 4), gpu::groupsFor(cells.height, 4), 1});
@@ -174,16 +174,17 @@ void carriedDepth() {
     CameraModel camera = productViews().a;
     DepthFilter filter(camera, std::make_shared<Workers>(1));
     InverseDepthField plane(camera.size);
-    std::ranges::fill(plane.rho, 0.5F);
+    std::ranges::fill(plane.inverseDepth, 0.5F);
     std::ranges::fill(plane.variance, 1e-4F);
     filter.predict({}, 0.03);
     filter.fuse(plane, {0, 0, camera.size.width, camera.size.height});
     filter.predict({Eigen::Quaterniond::Identity(), {0.05, 0.02, 0.3}}, 0.03);
     const double truth = 1 / (2 - 0.3);
     ErrorTable table("DepthFilter: carried depth", "rel");
-    for (std::size_t i = 0; i < plane.rho.size(); ++i)
+    for (std::size_t i = 0; i < plane.inverseDepth.size(); ++i)
         if (filter.field().isKnown(i))
-            table.add(std::abs(filter.field().rho[i] / truth - 1), filter.field().rho[i], truth);
+            table.add(std::abs(filter.field().inverseDepth[i] / truth - 1),
+                      filter.field().inverseDepth[i], truth);
     table.print();
 }
 

@@ -140,7 +140,7 @@ void hostileFlowOfPoses(Context& c) {
         for (const auto& v : flow.forward())
             for (const float x : v)
                 c.checks.within(x, -2e4, 2e4, "flow of a cell");
-        for (const auto& v : flow.hidden())
+        for (const auto& v : flow.occlusion())
             c.checks.within(v[0], 0, 1e4, "two-way error");
         for (const float v : flow.flow())
             c.checks.within(v, -2e4, 2e4, "flow of a pixel");

@@ -87,15 +87,15 @@ TEST(DepthFilterAccumulation, AMillionFramesStayAtDoublePrecision) {
     DoubleFilter twin{};
     double worst = 0;
     for (int frame = 0; frame < 1000000; ++frame) {
-        measured.rho[0] = static_cast<float>(0.5 + random.real(-0.04, 0.04));
+        measured.inverseDepth[0] = static_cast<float>(0.5 + random.real(-0.04, 0.04));
         measured.variance[0] = static_cast<float>(random.logarithmic(4e-4, 4e-2));
         filter.predict({}, 0.033);
         filter.fuse(measured, whole);
         if (frame == 0)
-            twin = {measured.rho[0], measured.variance[0]};
+            twin = {measured.inverseDepth[0], measured.variance[0]};
         else
-            twin.fuse(measured.rho[0], measured.variance[0], 0.09F);
-        worst = std::max(worst, std::abs(filter.field().rho[0] - twin.rho));
+            twin.fuse(measured.inverseDepth[0], measured.variance[0], 0.09F);
+        worst = std::max(worst, std::abs(filter.field().inverseDepth[0] - twin.inverseDepth));
     }
     EXPECT_LT(worst, 1e-6);
     EXPECT_NEAR(filter.field().variance[0] / twin.variance, 1, 1e-5);

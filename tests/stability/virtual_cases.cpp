@@ -68,7 +68,8 @@ void compositing(Context& c) {
     gpu::Texture real(video, TexelFormat::Rg32F);
     std::vector<float> samples;
     for (const twin::RealSample& s : scene.real)
-        samples.insert(samples.end(), {static_cast<float>(s.rho), static_cast<float>(s.sigma)});
+        samples.insert(samples.end(),
+                       {static_cast<float>(s.inverseDepth), static_cast<float>(s.sigma)});
     colour.upload(PlaneView{layer.colour.data(), 4UL * output.width});
     depth.upload(layer.z);
     real.upload(samples);

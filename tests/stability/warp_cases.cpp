@@ -98,16 +98,16 @@ void hostileWarp(Context& c) {
     const auto shoot = [&] {
         RenderedPicture picture = balls.cast({camera, from});
         spoilPicture(c, picture.depth, picture.id, picture.colour, spoilt);
-        return warpReference(picture);
+        return tracedPicture(picture);
     };
-    warp.setReference(shoot());
+    warp.setTracedPicture(shoot());
     for (int frame = 0; frame < 5; ++frame) {
         RigidTransform pose = c.hostile.chance(0.6) ? from * c.hostile.gentle(0.3) : around(c);
         if (c.hostile.chance(0.1)) pose = from * c.hostile.motion();
         if (c.hostile.chance(0.1)) pose = c.hostile.spoilt(pose);
         showFrame(c, warp, balls, pose, spoilt);
-        if (c.hostile.chance(0.1)) warp.setReference(shoot());
-        if (c.hostile.chance(0.1)) warp.dropReference();
+        if (c.hostile.chance(0.1)) warp.setTracedPicture(shoot());
+        if (c.hostile.chance(0.1)) warp.dropTracedPicture();
     }
     if (c.hostile.chance(0.5)) return;
     const RigidTransform rest = from * c.hostile.gentle(0.3);  // edges are sharpened only at rest
@@ -126,7 +126,7 @@ void knownWarp(Context& c) {
     Warp warp(camera, camera.size, *engine, options);
     warp.setScene(balls.scene());
     const double from = c.hostile.real(0, 360), by = c.hostile.real(-3, 3);
-    warp.setReference(warpReference(balls.cast({camera, test::orbit(from)}, 3)));
+    warp.setTracedPicture(tracedPicture(balls.cast({camera, test::orbit(from)}, 3)));
     const RigidTransform now = test::orbit(from + by);
     const LayerPicture& layer = warp.run(now);
     const RenderedPicture truth = balls.cast({camera, now}, 3);

@@ -17,7 +17,7 @@ struct Resting {
         : scene(test::twoBalls()),
           warp(test::bentCamera(kEdgeLayer), kEdgeLayer, *engine, options) {
         warp.setScene(scene.scene());
-        warp.setReference(warpReference(scene.cast({warp.camera(), test::orbit(0)}, 2)));
+        warp.setTracedPicture(tracedPicture(scene.cast({warp.camera(), test::orbit(0)}, 2)));
     }
     std::vector<std::uint8_t> rest(double degrees) {
         return test::bytesOf(

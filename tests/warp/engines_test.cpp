@@ -10,13 +10,13 @@ using WarpEngines = GlTest;
 
 constexpr Size kBoth{241, 183};
 
-/// The layer of one engine at `degrees` from the reference.
+/// The layer of one engine at `degrees` from the traced picture.
 struct OfEngine {
     OfEngine(EngineKind kind, double degrees, const WarpOptions& options)
         : engine(test::warpEngine(kind)), warp(test::bentCamera(kBoth), kBoth, *engine, options) {
         const test::CastScene scene = test::twoBalls();
         warp.setScene(scene.scene());
-        warp.setReference(warpReference(scene.cast({warp.camera(), test::orbit(0)}, 2)));
+        warp.setTracedPicture(tracedPicture(scene.cast({warp.camera(), test::orbit(0)}, 2)));
         const LayerPicture& layer = warp.run(test::orbit(degrees));
         colour = test::bytesOf(layer.colour);
         depth = test::valuesOf(layer.depth);

@@ -17,7 +17,7 @@ struct Turned {
         : scene(test::twoBalls()),
           warp(test::bentCamera(kHoleLayer), kHoleLayer, *engine, options) {
         warp.setScene(scene.scene());
-        warp.setReference(warpReference(scene.cast({warp.camera(), test::orbit(0)}, 2)));
+        warp.setTracedPicture(tracedPicture(scene.cast({warp.camera(), test::orbit(0)}, 2)));
     }
     std::optional<HoleRequest> requestAt(double degrees) {
         warp.run(test::orbit(degrees));
@@ -29,7 +29,7 @@ struct Turned {
     Warp warp;
 };
 
-TEST_F(WarpHolesGl, HolesOfTheReferenceAreRequested) {
+TEST_F(WarpHolesGl, HolesOfTheTracedPictureAreRequested) {
     Turned s({});
     const auto request = s.requestAt(15);
     ASSERT_TRUE(request);
@@ -126,7 +126,7 @@ TEST_F(WarpHolesGl, AppearingObjectsAreFilledAtOnce) {
     warp.setScene(scene.scene());
     const RenderedPicture before = scene.cast({warp.camera(), test::orbit(200)}, 2);
     ASSERT_EQ(std::ranges::count(before.id, 2), 0);
-    warp.setReference(warpReference(before));
+    warp.setTracedPicture(tracedPicture(before));
     const RigidTransform now = test::orbit(190);
     const auto rgba = test::bytesOf(warp.run(now).colour);
     const RenderedPicture truth = scene.cast({warp.camera(), now}, 2);

@@ -45,20 +45,20 @@ MirrorLight smoothLight() {
 struct Surfaces {
     std::vector<Eigen::Vector3f> points, normals;
     std::vector<float> roughness;
-    WarpReference reference;
+    TracedPicture traced;
 
     explicit Surfaces(const MirrorLight& mirrors) {
         std::mt19937 random(3);
         std::uniform_real_distribution<float> any(-1, 1);
-        reference.camera = camera();
-        reference.T_world_camera = {Eigen::Quaterniond(Eigen::AngleAxisd(
-                                        2.1, Eigen::Vector3d(0.3, 0.8, -0.5).normalized())),
-                                    {0.4, -0.2, 0.7}};
-        reference.mirrors = std::make_shared<const MirrorLight>(mirrors);
-        reference.exposure = 0.5F;
-        reference.bounds = {0, 0, kPicture.width, kPicture.height};
+        traced.camera = camera();
+        traced.T_world_camera = {Eigen::Quaterniond(Eigen::AngleAxisd(
+                                     2.1, Eigen::Vector3d(0.3, 0.8, -0.5).normalized())),
+                                 {0.4, -0.2, 0.7}};
+        traced.mirrors = std::make_shared<const MirrorLight>(mirrors);
+        traced.exposure = 0.5F;
+        traced.bounds = {0, 0, kPicture.width, kPicture.height};
         const Eigen::Matrix3f axes =
-            reference.T_world_camera.rotation.toRotationMatrix().cast<float>();
+            traced.T_world_camera.rotation.toRotationMatrix().cast<float>();
         for (int y = 0; y < kPicture.height; ++y)
             for (int x = 0; x < kPicture.width; ++x) {
                 const float z = std::bit_cast<float>(std::bit_cast<std::uint32_t>(2 + any(random)) &
@@ -70,13 +70,12 @@ struct Surfaces {
                 if (n.dot(ray) > 0) n = -n;
                 n = (n - 0.7F * ray.normalized()).normalized();
                 normals.push_back(n);
-                points.push_back(reference.T_world_camera.translation.cast<float>() + z * ray);
+                points.push_back(traced.T_world_camera.translation.cast<float>() + z * ray);
                 roughness.push_back(0.5F + 0.5F * any(random));
-                reference.packed.push_back(std::bit_cast<std::uint32_t>(z) | 7U);
-                reference.gloss.push_back(
-                    packedGloss({n.x(), n.y(), n.z()}, roughness.back(), 1, 1));
+                traced.packed.push_back(std::bit_cast<std::uint32_t>(z) | 7U);
+                traced.gloss.push_back(packedGloss({n.x(), n.y(), n.z()}, roughness.back(), 1, 1));
             }
-        reference.light.resize(points.size());
+        traced.light.resize(points.size());
     }
     [[nodiscard]] Eigen::Vector3f seenFrom(const Eigen::Vector3d& eye, std::size_t i) const {
         return (eye.cast<float>() - points[i]).normalized();
@@ -88,7 +87,7 @@ struct Surfaces {
         return 0.5F * (1 + width * (kTwice - 1)) * lightFrom(towards);
     }
     void setLight(std::size_t i, const Eigen::Vector3f& specular) {
-        reference.light[i] =
+        traced.light[i] =
             packedWords({{0.1F, 0.2F, 0.3F}, {specular.x(), specular.y(), specular.z()}, 0.5F});
     }
 };
@@ -103,7 +102,7 @@ struct Mirrors {
     AlignedRows<float> rayX{kPicture}, rayY{kPicture};
     MovingMirrors mirrors;
 
-    explicit Mirrors(const WarpReference& reference, int threads = 1)
+    explicit Mirrors(const TracedPicture& traced, int threads = 1)
         : mirrors(camera(), rayX.rows(), rayY.rows(), std::make_shared<Workers>(threads)) {
         for (int y = 0; y < kPicture.height; ++y)
             for (int x = 0; x < kPicture.width; ++x) {
@@ -111,7 +110,7 @@ struct Mirrors {
                 rayX[y][x] = static_cast<float>(ray.x());
                 rayY[y][x] = static_cast<float>(ray.y());
             }
-        mirrors.setReference(reference);
+        mirrors.setTracedPicture(traced);
     }
 };
 
@@ -124,7 +123,7 @@ void expectNear(const Eigen::Vector3f& a, const Eigen::Vector3f& b, std::size_t 
 
 TEST(MovingMirrors, ShowTheSkyInTheDirectionThatAnotherEyeSees) {
     Surfaces s(smoothLight());
-    const Eigen::Vector3d eye = s.reference.T_world_camera.translation;
+    const Eigen::Vector3d eye = s.traced.T_world_camera.translation;
     // The pixels see in turn the whole sky, half of it, and the sky with other light.
     const auto shown = [&](std::size_t i, const Eigen::Vector3f& sky) -> Eigen::Vector3f {
         if (i % 3 == 0) return sky;
@@ -133,32 +132,31 @@ TEST(MovingMirrors, ShowTheSkyInTheDirectionThatAnotherEyeSees) {
     };
     for (std::size_t i = 0; i < s.points.size(); ++i)
         s.setLight(i, shown(i, s.skyFor(eye, i)));
-    Mirrors moving(s.reference);
+    Mirrors moving(s.traced);
     const Eigen::Vector3d other = eye + kMoved;
     const auto light = moving.mirrors.lightFor(other);
     for (std::size_t i = 0; i < s.points.size(); ++i) {
         if (s.normals[i].dot(s.seenFrom(other, i)) < 0.05F) continue;
         expectNear(specularOf(light[i]), shown(i, s.skyFor(other, i)), i);
-        EXPECT_EQ(light[i].diffuse, s.reference.light[i].diffuse);
-        EXPECT_EQ(unpackedWords(light[i]).veil, unpackedWords(s.reference.light[i]).veil);
+        EXPECT_EQ(light[i].diffuse, s.traced.light[i].diffuse);
+        EXPECT_EQ(unpackedWords(light[i]).veil, unpackedWords(s.traced.light[i]).veil);
     }
 }
 
-TEST(MovingMirrors, TheEyeOfTheReferenceSeesItsLight) {
+TEST(MovingMirrors, TheEyeOfTheTracedPictureSeesItsLight) {
     Surfaces s(smoothLight());
-    const Eigen::Vector3d eye = s.reference.T_world_camera.translation;
+    const Eigen::Vector3d eye = s.traced.T_world_camera.translation;
     for (std::size_t i = 0; i < s.points.size(); ++i)
         s.setLight(i, Eigen::Vector3f(0.3F, 2, 0.01F) * static_cast<float>(i % 5));
-    Mirrors moving(s.reference);
+    Mirrors moving(s.traced);
     const auto before = moving.mirrors.lightFor(eye);
-    EXPECT_TRUE(std::ranges::equal(before, s.reference.light));
+    EXPECT_TRUE(std::ranges::equal(before, s.traced.light));
     const LightWords moved = moving.mirrors.lightFor(eye + kMoved)[3];
-    EXPECT_NE(moved, s.reference.light[3]);
+    EXPECT_NE(moved, s.traced.light[3]);
     const auto back = moving.mirrors.lightFor(eye);
     for (std::size_t i = 0; i < s.points.size(); ++i)
-        EXPECT_LT(
-            (specularOf(back[i]) - specularOf(s.reference.light[i])).lpNorm<Eigen::Infinity>(),
-            0.012F * specularOf(s.reference.light[i]).lpNorm<Eigen::Infinity>() + 0.002F)
+        EXPECT_LT((specularOf(back[i]) - specularOf(s.traced.light[i])).lpNorm<Eigen::Infinity>(),
+                  0.012F * specularOf(s.traced.light[i]).lpNorm<Eigen::Infinity>() + 0.002F)
             << i;
 }
 
@@ -169,7 +167,7 @@ TEST(MovingMirrors, HighlightsOfTheSunMove) {
     light.sunIrradiance = {30, 30, 30};
     light.leastSunAlpha = 0.005F;
     Surfaces s(light);
-    const Eigen::Vector3d eye = s.reference.T_world_camera.translation;
+    const Eigen::Vector3d eye = s.traced.T_world_camera.translation;
     const auto all = [&](const Eigen::Vector3d& from, std::size_t i) {
         const Eigen::Vector3f wo = s.seenFrom(from, i);
         const float o = s.normals[i].dot(wo), to = s.normals[i].dot(sun);
@@ -183,7 +181,7 @@ TEST(MovingMirrors, HighlightsOfTheSunMove) {
     };
     for (std::size_t i = 0; i < s.points.size(); ++i)
         s.setLight(i, all(eye, i));
-    Mirrors moving(s.reference);
+    Mirrors moving(s.traced);
     const Eigen::Vector3d other = eye + kMoved;
     const auto shown = moving.mirrors.lightFor(other);
     int bright = 0;
@@ -203,11 +201,11 @@ TEST(MovingMirrors, ThreadsChangeNothing) {
     Surfaces s(smoothLight());
     for (std::size_t i = 0; i < s.points.size(); ++i)
         s.setLight(i, {1, 2, 3});
-    Mirrors one(s.reference);
-    const Eigen::Vector3d eye = s.reference.T_world_camera.translation + kMoved;
+    Mirrors one(s.traced);
+    const Eigen::Vector3d eye = s.traced.T_world_camera.translation + kMoved;
     const auto alone = one.mirrors.lightFor(eye);
     for (int i = 0; i < 50; ++i) {
-        Mirrors many(s.reference, 4);
+        Mirrors many(s.traced, 4);
         ASSERT_TRUE(std::ranges::equal(many.mirrors.lightFor(eye), alone)) << i;
     }
 }
@@ -216,20 +214,20 @@ TEST(MovingMirrors, UnknownSurfacesKeepTheirLight) {
     Surfaces s(smoothLight());
     for (std::size_t i = 0; i < s.points.size(); ++i)
         s.setLight(i, {1, 2, 3});
-    s.reference.gloss[4] = {};
-    s.reference.packed[5] = 0;
-    Mirrors moving(s.reference);
+    s.traced.gloss[4] = {};
+    s.traced.packed[5] = 0;
+    Mirrors moving(s.traced);
     const auto light = moving.mirrors.lightFor(kMoved);
-    EXPECT_EQ(light[4], s.reference.light[4]);
-    EXPECT_EQ(light[5], s.reference.light[5]);
-    EXPECT_NE(light[6], s.reference.light[6]);
-    s.reference.camera.fx *= 1.01;
-    moving.mirrors.setReference(s.reference);
-    EXPECT_EQ(moving.mirrors.lightFor(kMoved).data(), s.reference.light.data());
-    s.reference.camera.fx /= 1.01;
-    s.reference.gloss.clear();
-    moving.mirrors.setReference(s.reference);
-    EXPECT_EQ(moving.mirrors.lightFor(kMoved).data(), s.reference.light.data());
+    EXPECT_EQ(light[4], s.traced.light[4]);
+    EXPECT_EQ(light[5], s.traced.light[5]);
+    EXPECT_NE(light[6], s.traced.light[6]);
+    s.traced.camera.fx *= 1.01;
+    moving.mirrors.setTracedPicture(s.traced);
+    EXPECT_EQ(moving.mirrors.lightFor(kMoved).data(), s.traced.light.data());
+    s.traced.camera.fx /= 1.01;
+    s.traced.gloss.clear();
+    moving.mirrors.setTracedPicture(s.traced);
+    EXPECT_EQ(moving.mirrors.lightFor(kMoved).data(), s.traced.light.data());
 }
 
 TEST(MovingMirrors, AWarpedMirrorBallIsNearerToTheTruth) {
@@ -252,9 +250,9 @@ TEST(MovingMirrors, AWarpedMirrorBallIsNearerToTheTruth) {
     const RenderedPicture from = tracedFrom(0), to = tracedFrom(8);
     const auto psnr = [&](const RenderedPicture& picture) {
         const auto warp = makeWarpStep(picture.camera, {}, nullptr, nullptr);
-        const WarpReference reference = warpReference(picture);
+        const TracedPicture traced = tracedPicture(picture);
         warp->setScene(*scene);
-        warp->setReference(reference);
+        warp->setTracedPicture(traced);
         const Size size = picture.camera.size;
         LayerPicture& shown =
             warp->run({to.T_world_camera, {0, 0, size.width, size.height}, false});

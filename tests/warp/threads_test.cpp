@@ -33,7 +33,7 @@ std::uint64_t hashOfWarps(int threads) {
     const auto engine = test::warpEngine(EngineChoice::fromEnvironment().occlusion, threads);
     Warp warp(test::bentCamera(size), size, *engine);
     warp.setScene(scene.scene());
-    warp.setReference(warpReference(scene.cast({warp.camera(), test::orbit(0)})));
+    warp.setTracedPicture(tracedPicture(scene.cast({warp.camera(), test::orbit(0)})));
     for (const double degrees : {1.0, 7.0, 25.0}) {
         const LayerPicture& layer = test::settled(warp, scene, test::orbit(degrees));
         hash = hashed(hash, test::bytesOf(layer.colour));

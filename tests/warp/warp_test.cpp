@@ -14,12 +14,12 @@ using WarpGl = GlTest;
 
 constexpr Size kLayer{241, 183};
 
-/// A warp of test::twoBalls() whose reference was made at 0 degrees.
+/// A warp of test::twoBalls() whose traced picture was made at 0 degrees.
 struct Shown {
     explicit Shown(const WarpOptions& options = {}, CastScene cast = test::twoBalls())
         : scene(std::move(cast)), warp(test::bentCamera(kLayer), kLayer, *engine, options) {
         warp.setScene(scene.scene());
-        warp.setReference(warpReference(scene.cast(view(0), 3)));
+        warp.setTracedPicture(tracedPicture(scene.cast(view(0), 3)));
     }
     [[nodiscard]] RenderView view(double degrees) const {
         return {warp.camera(), test::orbit(degrees)};
@@ -33,16 +33,16 @@ struct Shown {
     Warp warp;
 };
 
-TEST_F(WarpGl, UnmovedPoseShowsTheReferenceItself) {
+TEST_F(WarpGl, UnmovedPoseShowsTheTracedPictureItself) {
     Shown s;
     RigidTransform pose = test::orbit(0);
     pose.translation.x() += 2e-5;  // moves pixels by 0.01 px
     const LayerPicture& layer = s.warp.run(pose);
     const auto rgba = test::bytesOf(layer.colour);
-    const RenderedPicture reference = s.scene.cast(s.view(0), 3);
-    for (std::size_t i = 0; i < reference.colour.size(); ++i)
+    const RenderedPicture traced = s.scene.cast(s.view(0), 3);
+    for (std::size_t i = 0; i < traced.colour.size(); ++i)
         for (std::size_t c = 0; c < 4; ++c)
-            ASSERT_EQ(rgba[4 * i + c], reference.colour[i][c]);
+            ASSERT_EQ(rgba[4 * i + c], traced.colour[i][c]);
     EXPECT_EQ(s.warp.counters().unmoved, 1U);
     s.warp.run(test::orbit(0.2));
     EXPECT_EQ(s.warp.counters().warped, 1U);
@@ -127,21 +127,21 @@ TEST_F(WarpGl, HugeMotionAndOddPosesAreHarmless) {
         33);
 }
 
-TEST_F(WarpGl, FaultyAndEmptyReferencesAreHarmless) {
+TEST_F(WarpGl, FaultyAndEmptyTracedPicturesAreHarmless) {
     Shown s({.filling = HoleFilling::PushPull});
     RenderedPicture picture = s.scene.cast(s.view(0));
     for (std::size_t i = 0; i < picture.depth.size(); i += 3)
         picture.depth[i] = i % 2 == 0 ? std::numeric_limits<float>::quiet_NaN() : -1e30F;
-    s.warp.setReference(warpReference(picture));
+    s.warp.setTracedPicture(tracedPicture(picture));
     for (const float z : test::valuesOf(s.warp.run(test::orbit(3)).depth))
         ASSERT_TRUE(std::isfinite(z));
     std::ranges::fill(picture.id, std::uint8_t{0});
     std::ranges::fill(picture.depth, 0.0F);
     std::ranges::fill(picture.colour, std::array<std::uint8_t, 4>{});
-    s.warp.setReference(warpReference(picture));
+    s.warp.setTracedPicture(tracedPicture(picture));
     const auto rgba = test::bytesOf(s.warp.run(test::orbit(0)).colour);
     EXPECT_EQ(std::ranges::count(rgba, 0), static_cast<long>(rgba.size()));
-    s.warp.dropReference();
+    s.warp.dropTracedPicture();
     EXPECT_TRUE(s.warp.run(test::orbit(0)).bounds.empty());
 }
 
@@ -151,7 +151,7 @@ TEST_F(WarpGl, EmptySceneShowsNothing) {
     EXPECT_TRUE(warp.run(test::orbit(0)).bounds.empty());
     warp.setScene({});
     CastScene bare{{}, false, 1};
-    warp.setReference(warpReference(bare.cast({warp.camera(), test::orbit(0)})));
+    warp.setTracedPicture(tracedPicture(bare.cast({warp.camera(), test::orbit(0)})));
     EXPECT_TRUE(warp.run(test::orbit(1)).bounds.empty());
     EXPECT_EQ(warp.counters().empty, 2U);
 }
@@ -161,10 +161,10 @@ TEST_F(WarpGl, AnObjectLargerThanTheViewIsWarped) {
     EXPECT_GT(s.psnrAt(1), 33);
 }
 
-TEST_F(WarpGl, AReferenceOfAnotherResolutionIsAlwaysWarped) {
+TEST_F(WarpGl, ATracedPictureOfAnotherResolutionIsAlwaysWarped) {
     Shown s({.filling = HoleFilling::PushPull});
     const RenderView small{s.warp.camera().scaledTo({181, 137}), test::orbit(0)};
-    s.warp.setReference(warpReference(s.scene.cast(small, 3)));
+    s.warp.setTracedPicture(tracedPicture(s.scene.cast(small, 3)));
     const auto rgba = test::bytesOf(s.warp.run(test::orbit(0)).colour);
     EXPECT_EQ(s.warp.counters().warped, 1U);
     EXPECT_GT(psnrInside(rgba, s.scene.cast(s.view(0), 3)), 30);
@@ -176,7 +176,7 @@ TEST_F(WarpGl, OddSizesWork) {
         const auto engine = test::warpEngine();
         Warp warp(test::bentCamera(kLayer), size, *engine);
         warp.setScene(scene.scene(16));
-        warp.setReference(warpReference(scene.cast({warp.camera(), test::orbit(0)})));
+        warp.setTracedPicture(tracedPicture(scene.cast({warp.camera(), test::orbit(0)})));
         const LayerPicture& layer = test::settled(warp, scene, test::orbit(10), 3);
         EXPECT_TRUE(layer.bounds.x1 <= size.width && layer.bounds.y1 <= size.height);
     }
@@ -188,7 +188,7 @@ TEST_F(WarpGl, MeshesOfManyTrianglesAreSimplifiedAndLookTheSame) {
     Warp warp(test::bentCamera(kLayer), kLayer, *engine, {.filling = HoleFilling::PushPull});
     warp.setScene(scene.scene(720));  // a scene of half a million triangles
     const RenderView from{warp.camera(), test::orbit(0)}, to{warp.camera(), test::orbit(2)};
-    warp.setReference(warpReference(scene.cast(from, 3)));
+    warp.setTracedPicture(tracedPicture(scene.cast(from, 3)));
     EXPECT_GT(psnrInside(test::bytesOf(warp.run(to.T_world_camera).colour), scene.cast(to, 3)), 34);
 }
 

@@ -66,7 +66,7 @@ inline constexpr float kLeastPlaneWeight = 1e-4F;
 inline constexpr float kSlopeDamping = 0.5F;
 inline constexpr float kSlopeDampingPerWeight = 0.05F;
 
-/// A field is an area of patches[]. The index of its first cell identifies it.
+/// A field is an area of cells[]. The index of its first cell identifies it.
 struct alignas(16) SearchFlow {
     LumaLevel from, to;  ///< the patches' picture, and the picture that is searched
     std::int32_t columns, rows;

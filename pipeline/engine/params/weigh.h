@@ -65,7 +65,7 @@ struct alignas(16) AssessCells {
     LumaLevel video, still;  ///< finest levels, both in the video's geometry
     std::int32_t columns, rows;
     std::int32_t backwardColumns, backwardRows;  ///< of the backward field
-    std::int32_t forward, backward;              ///< index of each field's first cell in patches[]
+    std::int32_t forward, backward;              ///< index of each field's first cell in cells[]
     std::int32_t errorsGiven;                    ///< 1: given errors replace the backward field
     std::int32_t backwardScale;     ///< video pixels per pixel of the backward field's level
     float stillWidth, stillHeight;  ///< [px]
@@ -76,7 +76,7 @@ struct alignas(16) MeasureGain {
     LumaLevel video, still;      ///< second levels of both pyramids
     std::int32_t columns, rows;  ///< of half-resolution cells
     std::int32_t forwardColumns, forwardRows;
-    std::int32_t forward;  ///< index in patches[] of the forward field's first cell
+    std::int32_t forward;  ///< index in cells[] of the forward field's first cell
     std::int32_t tileColumns;
 };
 

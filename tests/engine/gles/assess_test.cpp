@@ -40,9 +40,9 @@ struct Assessed {
 };
 
 Assessed assess(const LevelPair& pair, const StereoRig& rig, const Fields& fields) {
-    gpu::Buffer patches(2 * kGridArea * 16);
-    patches.write(std::span(fields.forward));
-    patches.write(std::span(fields.backward), kGridArea * 16);
+    gpu::Buffer cells(2 * kGridArea * 16);
+    cells.write(std::span(fields.forward));
+    cells.write(std::span(fields.backward), kGridArea * 16);
     const gpu::Texture displacement(kGrid, gpu::TexelFormat::Rgba32F);
     const gpu::Texture statistics(kGrid, gpu::TexelFormat::Rgba32F);
     gpu::ComputePass<params::AssessCells> pass("superres_assess.comp");
@@ -61,7 +61,7 @@ Assessed assess(const LevelPair& pair, const StereoRig& rig, const Fields& field
               .stillHeight = static_cast<float>(rig.still.size.height),
               .scaleX = static_cast<float>(rig.still.fx / rig.video.fx),
               .scaleY = static_cast<float>(rig.still.fy / rig.video.fy)},
-             {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, patches),
+             {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, cells),
               gpu::storage(2, pair.tiles.buffer()), gpu::imageWrite(0, displacement),
               gpu::imageWrite(1, statistics)},
              {4, 3, 1});
@@ -167,8 +167,8 @@ TEST_F(Assess, GainStatisticsMatchTheOracle) {
     twin::Cells field{forward, std::vector<float>(4UL * forward.width * forward.height)};
     for (float& v : field.values)
         v = flow(random);
-    gpu::Buffer patches(field.values.size() * 4);
-    patches.write(std::span<const float>(field.values));
+    gpu::Buffer cells(field.values.size() * 4);
+    cells.write(std::span<const float>(field.values));
     const gpu::Texture out(cells, gpu::TexelFormat::Rgba32F);
     gpu::ComputePass<params::MeasureGain> pass("superres_gain.comp");
     pass.run({.video = pair.pyramids.video()[1],
@@ -179,7 +179,7 @@ TEST_F(Assess, GainStatisticsMatchTheOracle) {
               .forwardRows = forward.height,
               .forward = 0,
               .tileColumns = pair.tiles.work().tiles.width},
-             {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, patches),
+             {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, cells),
               gpu::storage(2, pair.tiles.buffer()), gpu::imageWrite(0, out)},
              {4, 3, 1});
     ASSERT_EQ(a.size, half);

@@ -46,8 +46,8 @@ std::vector<Cell> randomField(unsigned seed, float reach) {
 
 /// Runs `steps` steps of flow_search.comp. `prior` is their only start.
 std::vector<Cell> search(const LevelPair& pair, const std::vector<Cell>& prior, int steps) {
-    gpu::Buffer patches(2 * kArea * sizeof(Cell));
-    patches.write(std::span(prior), kArea * sizeof(Cell));
+    gpu::Buffer cells(2 * kArea * sizeof(Cell));
+    cells.write(std::span(prior), kArea * sizeof(Cell));
     gpu::ComputePass<params::SearchFlow> pass("flow_search.comp");
     const params::SearchFlow p{.from = pair.pyramids.video()[0],
                                .to = pair.pyramids.still()[0],
@@ -67,8 +67,8 @@ std::vector<Cell> search(const LevelPair& pair, const std::vector<Cell>& prior, 
                                .lastFrameY = 1,
                                .firstGroup = 0,
                                .errors = -1};
-    pass.run(p, {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, patches)}, {4, 3, 1});
-    return patches.read<Cell>(kArea);
+    pass.run(p, {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, cells)}, {4, 3, 1});
+    return cells.read<Cell>(kArea);
 }
 
 TEST_F(FlowPasses, CostAndTextureMatchTheOracle) {
@@ -110,12 +110,12 @@ TEST_F(FlowPasses, PropagationTakesTheBestOfTheNeighbours) {
     const LevelPair pair(waves.shoot(kSize, {}), waves.shoot(kSize, {.shift = {4, 2}}));
     const auto a = pair.first(), b = pair.second();
     const auto in = search(pair, randomField(6, 6), 0);
-    gpu::Buffer patches(2 * kArea * sizeof(Cell));
-    patches.write(std::span(in), kArea * sizeof(Cell));
+    gpu::Buffer cells(2 * kArea * sizeof(Cell));
+    cells.write(std::span(in), kArea * sizeof(Cell));
     gpu::ComputePass<params::RefineFlow> pass("flow_propagate.comp");
     pass.run(refineParams(pair, 0),
-             {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, patches)}, {4, 3, 1});
-    const auto out = patches.read<Cell>(kArea);
+             {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, cells)}, {4, 3, 1});
+    const auto out = cells.read<Cell>(kArea);
     const auto cellAt = [&](int x, int y) {
         return in[std::clamp(y, 0, kCells.height - 1) * kCells.width +
                   std::clamp(x, 0, kCells.width - 1)];
@@ -138,14 +138,14 @@ TEST_F(FlowPasses, PropagationTakesTheBestOfTheNeighbours) {
 
 /// Runs `steps` steps of flow_align.comp on the vectors `in`.
 std::vector<Cell> align(const LevelPair& pair, const std::vector<Cell>& in, int steps) {
-    gpu::Buffer patches(2 * kArea * sizeof(Cell));
-    patches.write(std::span(in), kArea * sizeof(Cell));
+    gpu::Buffer cells(2 * kArea * sizeof(Cell));
+    cells.write(std::span(in), kArea * sizeof(Cell));
     gpu::ComputePass<params::RefineFlow> pass("flow_align.comp");
     pass.run(refineParams(pair, steps),
-             {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, patches),
+             {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, cells),
               gpu::storage(2, pair.tiles.buffer())},
              {4, 3, 1});
-    return patches.read<Cell>(kArea);
+    return cells.read<Cell>(kArea);
 }
 
 TEST_F(FlowPasses, BentPatchesMatchTheOracle) {
@@ -211,8 +211,8 @@ TEST_F(FlowPasses, BentPatchesAlignWhereShiftedOnesCannot) {
 }
 
 std::vector<Cell> filtered(const std::vector<Cell>& in, int planeFits = 2) {
-    gpu::Buffer patches(2 * kArea * sizeof(Cell));
-    patches.write(std::span(in), kArea * sizeof(Cell));
+    gpu::Buffer cells(2 * kArea * sizeof(Cell));
+    cells.write(std::span(in), kArea * sizeof(Cell));
     gpu::ComputePass<params::FilterFlow> pass("flow_filter.comp");
     pass.run({.columns = kCells.width,
               .rows = kCells.height,
@@ -220,8 +220,8 @@ std::vector<Cell> filtered(const std::vector<Cell>& in, int planeFits = 2) {
               .source = kArea,
               .planeFits = planeFits,
               .byTile = 0},
-             {gpu::storage(1, patches)}, {4, 3, 1});
-    return patches.read<Cell>(kArea);
+             {gpu::storage(1, cells)}, {4, 3, 1});
+    return cells.read<Cell>(kArea);
 }
 
 TEST_F(FlowPasses, FilterMatchesTheOracle) {

@@ -37,9 +37,9 @@ std::vector<Cell> randomFields(unsigned seed) {
 }
 
 gpu::Buffer stored(const std::vector<Cell>& fields) {
-    gpu::Buffer patches(fields.size() * sizeof(Cell));
-    patches.write(std::span<const Cell>(fields));
-    return patches;
+    gpu::Buffer cells(fields.size() * sizeof(Cell));
+    cells.write(std::span<const Cell>(fields));
+    return cells;
 }
 
 /// Tiles with at least three cells that have texture, match badly and are visible in the still.
@@ -101,8 +101,8 @@ TEST_F(TileListsGl, FlagsAndListsMatchTheOracles) {
     TileBuffer tiles(kVideoSize);
     TileLists lists(kCells, kLevels);
     const auto fields = randomFields(1);
-    const gpu::Buffer patches = stored(fields);
-    lists.find({patches, 0, kCount}, tiles);
+    const gpu::Buffer cells = stored(fields);
+    lists.find({cells, 0, kCount}, tiles);
 
     const auto wanted = twinClosed(twinFlags(fields));
     EXPECT_EQ(lists.read(), wanted);
@@ -119,8 +119,8 @@ TEST_F(TileListsGl, CoarserLevelsContainAllGroupsThatFinerOnesRead) {
     for (const int tile : {0, 60, 200})  // these tiles are far apart
         for (int i = 0; i < 3; ++i)
             fields[4 * (tile / kTiles.width) * kCells.width + 4 * (tile % kTiles.width) + i][2] = 1;
-    const gpu::Buffer patches = stored(fields);
-    lists.find({patches, 0, kCount}, tiles);
+    const gpu::Buffer cells = stored(fields);
+    lists.find({cells, 0, kCount}, tiles);
 
     auto wanted = listed(lists, 0);
     EXPECT_EQ(wanted.size(), 3U);
@@ -139,13 +139,13 @@ TEST_F(TileListsGl, AnEmptyPlanListsNothing) {
     TileBuffer tiles(kVideoSize);
     TileLists lists(kCells, kLevels);
     const auto fields = randomFields(2);
-    const gpu::Buffer patches = stored(fields);
-    lists.find({patches, 0, kCount}, tiles);
+    const gpu::Buffer cells = stored(fields);
+    lists.find({cells, 0, kCount}, tiles);
     const int before = lists.count();
     TileWork atRest = tiles.work();
     atRest.changed = atRest.matched = 0;
     tiles.set(atRest);
-    lists.find({patches, 0, kCount}, tiles);
+    lists.find({cells, 0, kCount}, tiles);
     EXPECT_GT(before, 0);
     EXPECT_EQ(lists.countBefore(), before);
     EXPECT_EQ(lists.count(), 0);
@@ -188,7 +188,7 @@ public:
 
 private:
     [[nodiscard]] std::vector<Cell> read(const Flow2d::Field& field) const {
-        return flow.patches().read<Cell>(kCount, sizeof(Cell) * field.offset);
+        return flow.cells().read<Cell>(kCount, sizeof(Cell) * field.offset);
     }
     TileBuffer tiles_{kVideoSize};
     LumaPyramids pyramids_;

@@ -28,9 +28,10 @@ std::shared_ptr<const Scene> hovering() {
 
 InverseDepthField tableField(double share) {
     InverseDepthField field(kSeen);
-    for (std::size_t i = 0; i < field.rho.size(); ++i) {
-        field.rho[i] = 1 / static_cast<float>(kTable);
-        field.variance[i] = static_cast<float>(share * share) * field.rho[i] * field.rho[i];
+    for (std::size_t i = 0; i < field.inverseDepth.size(); ++i) {
+        field.inverseDepth[i] = 1 / static_cast<float>(kTable);
+        field.variance[i] =
+            static_cast<float>(share * share) * field.inverseDepth[i] * field.inverseDepth[i];
     }
     return field;
 }
@@ -80,7 +81,7 @@ TEST_F(ShadowDepthGl, NearerObjectsAreAlwaysMeasured) {
     constexpr PixelRect kThing{110, 130, 116, 136};
     for (int y = kThing.y0; y < kThing.y1; ++y)
         for (int x = kThing.x0; x < kThing.x1; ++x)
-            field.rho[static_cast<std::size_t>(y) * kSeen.width + x] *= 1.1F;
+            field.inverseDepth[static_cast<std::size_t>(y) * kSeen.width + x] *= 1.1F;
     for (const PixelRect& r : placed(field))
         EXPECT_EQ(around(r, kThing), r);
 }

@@ -56,14 +56,14 @@ OpenPixel decide(const Scene& scene, const VoteRule& rule, const PixelRect& wher
         const int u = kVoterStep * i, v = kVoterStep * j;
         return u >= where.x0 && u < where.x1 && v >= where.y0 && v < where.y1 &&
                std::abs(u - pixel.x) <= rule.radius && std::abs(v - y) <= rule.radius &&
-               scene.rho[j][i] >= 0;
+               scene.inverseDepth[j][i] >= 0;
     };
     double low = 1e30, high = -1e30, weight[2] = {}, rho[2] = {}, variance[2] = {};
     for (int j = 0; j < scene.size.height; ++j)
         for (int i = 0; i < scene.size.width; ++i)
             if (votes(i, j)) {
-                low = std::min<double>(low, scene.rho[j][i]);
-                high = std::max<double>(high, scene.rho[j][i]);
+                low = std::min<double>(low, scene.inverseDepth[j][i]);
+                high = std::max<double>(high, scene.inverseDepth[j][i]);
             }
     for (int j = 0; j < scene.size.height; ++j)
         for (int i = 0; i < scene.size.width; ++i) {
@@ -72,16 +72,16 @@ OpenPixel decide(const Scene& scene, const VoteRule& rule, const PixelRect& wher
             const double b = scene.blue[j][i] - pixel.blue;
             const double square = (r * r + g * g + b * b) / (rule.likeness * rule.likeness);
             const double w = 1 / (1 + square * square);
-            const int side = scene.rho[j][i] > 0.5 * (low + high) ? 1 : 0;
+            const int side = scene.inverseDepth[j][i] > 0.5 * (low + high) ? 1 : 0;
             weight[side] += w;
-            rho[side] += w * scene.rho[j][i];
+            rho[side] += w * scene.inverseDepth[j][i];
             variance[side] += w * scene.variance[j][i];
         }
     const int side = weight[1] > weight[0] ? 1 : 0;
     margin = std::min(std::abs(weight[1] - weight[0]), std::abs(weight[side] - rule.leastWeight));
     pixel.decided = weight[side] >= rule.leastWeight;
     if (pixel.decided) {
-        pixel.rho = static_cast<float>(rho[side] / weight[side]);
+        pixel.inverseDepth = static_cast<float>(rho[side] / weight[side]);
         pixel.variance = static_cast<float>(variance[side] / weight[side]);
     }
     return pixel;
@@ -104,7 +104,7 @@ TEST(VotePixels, PixelsGetTheSurfaceOfSimilarColour) {
                     if (margin < 1e-3) continue;
                     ASSERT_EQ(pixels[i].decided, expected.decided) << pixels[i].x;
                     if (!expected.decided) continue;
-                    ASSERT_NEAR(pixels[i].rho, expected.rho, 1e-5);
+                    ASSERT_NEAR(pixels[i].inverseDepth, expected.inverseDepth, 1e-5);
                     ASSERT_NEAR(pixels[i].variance, expected.variance, 1e-5);
                 }
             }

@@ -50,7 +50,7 @@ public:
         for (int y = 0; y < video_.height; ++y)
             for (int x = 0; x < video_.width; ++x) {
                 const twin::RealSample& s = scene.real[1UL * y * video_.width + x];
-                rho[y][x] = static_cast<float>(s.rho);
+                rho[y][x] = static_cast<float>(s.inverseDepth);
                 sigma[y][x] = static_cast<float>(squared ? s.sigma * s.sigma : s.sigma);
             }
         for (int y = 0; y < output_.height; ++y)
@@ -94,7 +94,7 @@ protected:
         twin::Scene scene{wavyPicture(video), wavyPicture(output), {}};
         for (int i = 0; i < video.width * video.height; ++i) {
             scene.real.push_back({rho(random), sigma(random)});
-            if (unit(random) < 0.1) scene.real.back().rho = kNan;
+            if (unit(random) < 0.1) scene.real.back().inverseDepth = kNan;
             if (unit(random) < 0.1) scene.real.back().sigma = 0;
         }
         return scene;

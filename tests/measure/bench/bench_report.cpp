@@ -36,7 +36,7 @@ nlohmann::json json(const WarpTimes& t) {
     return {{"objects", json(t.objects)},
             {"whole", json(t.whole)},
             {"still", json(t.still)},
-            {"reference", json(t.reference)},
+            {"new_picture", json(t.newPicture)},
             {"remap", json(t.remap)}};
 }
 
@@ -148,7 +148,7 @@ std::string toTable(const BenchResult& result) {
     out += line("warp, objects", result.warp.objects) + '\n' +
            line("warp, whole picture", result.warp.whole) + '\n' +
            line("warp, camera at rest", result.warp.still) + '\n' +
-           line("warp, new reference", result.warp.reference) + '\n' +
+           line("warp, new picture", result.warp.newPicture) + '\n' +
            line("peer cv::remap", result.warp.remap) + '\n';
     const TriangulationTimes& t = result.triangulation;
     out += fmt::format("triangulation [ns a point]: flow {:.1f}, midpoint {:.1f}, "

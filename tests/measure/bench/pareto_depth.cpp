@@ -79,8 +79,8 @@ public:
                             shareOfStages(pipeline_, {"pyramid", "epipolar", "flow", "depth"}));
         const InverseDepthField& field = pipeline_.inverseDepth();
         cv::Mat rho(frame_.size(), CV_32F, cv::Scalar(0));
-        for (std::size_t i = 0; i < field.rho.size(); ++i)
-            if (field.isKnown(i)) rho.ptr<float>()[i] = field.rho[i];
+        for (std::size_t i = 0; i < field.inverseDepth.size(); ++i)
+            if (field.isKnown(i)) rho.ptr<float>()[i] = field.inverseDepth[i];
         out.error(scoreOf(sample_, rho));
     }
 

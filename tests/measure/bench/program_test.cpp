@@ -51,7 +51,7 @@ TEST(MfarBench, QuickRunWritesEveryPartOfItsJson) {
     }
     for (const char* key : {"flow", "midpoint", "opencv"})
         EXPECT_GT(result.at("triangulation_ns_per_point").at(key).get<double>(), 0) << key;
-    for (const char* key : {"objects", "whole", "still", "reference", "remap"})
+    for (const char* key : {"objects", "whole", "still", "new_picture", "remap"})
         EXPECT_GT(result.at("warp").at(key).at("median_ms").get<double>(), 0) << key;
     const auto hasStage = [&](int i, const char* name) {
         const auto& stages = result.at("cases").at(i).at("stages");

@@ -135,7 +135,8 @@ FrameTruth truthOf(SyntheticBoard& board, const Case& one, Timestamp time) {
     cv::cvtColor(rgba, bgr, cv::COLOR_RGBA2BGR);
     out.luma = eval::luma(bgr);
     FloatImage depth = board.inverseDepth(time);
-    out.rho = cv::Mat(depth.size.height, depth.size.width, CV_32F, depth.values.data()).clone();
+    out.inverseDepth =
+        cv::Mat(depth.size.height, depth.size.width, CV_32F, depth.values.data()).clone();
     const eval::VirtualTruth objects =
         eval::virtualTruth(one.objects, board.rig().video, board.pose(time).T_world_video, depth);
     out.visible = objects.visible;
@@ -225,10 +226,10 @@ public:
 private:
     [[nodiscard]] double depthBad1(const FrameTruth& truth) const {
         const InverseDepthField& field = pipeline_.inverseDepth();
-        cv::Mat rho(truth.rho.size(), CV_32F, cv::Scalar(0));
-        for (std::size_t i = 0; i < field.rho.size(); ++i)
-            if (field.isKnown(i)) rho.ptr<float>()[i] = field.rho[i];
-        return eval::depthError(rho, truth.rho, focal_ * kBaseline, truth.undecided).bad1;
+        cv::Mat rho(truth.inverseDepth.size(), CV_32F, cv::Scalar(0));
+        for (std::size_t i = 0; i < field.inverseDepth.size(); ++i)
+            if (field.isKnown(i)) rho.ptr<float>()[i] = field.inverseDepth[i];
+        return eval::depthError(rho, truth.inverseDepth, focal_ * kBaseline, truth.undecided).bad1;
     }
 
     static PipelineOptions optionsWithout(const Skip* off) {

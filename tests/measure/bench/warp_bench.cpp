@@ -33,7 +33,7 @@ public:
           warp_(test::bentCamera(size), size, *engine_, {.filling = HoleFilling::PushPull}) {
         warp_.setScene(scene.scene());
         picture_ = scene.cast({warp_.camera(), test::orbit(0)});
-        warp_.setReference(warpReference(picture_));
+        warp_.setTracedPicture(tracedPicture(picture_));
     }
 
     Summary frames(int runs, double degrees) {
@@ -43,9 +43,9 @@ public:
             engine_->finish();
         });
     }
-    Summary references(int runs) {
+    Summary newPictures(int runs) {
         return timed(runs, [&] {
-            warp_.setReference(warpReference(picture_));
+            warp_.setTracedPicture(tracedPicture(picture_));
             engine_->finish();
         });
     }
@@ -76,7 +76,7 @@ WarpTimes measureWarp(Size size, int runs, EngineKind engine) {
     WarpCase objects(engine, test::twoBalls(), size);
     out.objects = objects.frames(runs, kTurn);
     out.still = objects.frames(runs, 0);
-    out.reference = objects.references(runs);
+    out.newPicture = objects.newPictures(runs);
     out.whole = WarpCase(engine, {{{{0, 0, 0.1}, 0.5}}, false, 1}, size).frames(runs, kTurn);
     out.remap = timeRemap(size, runs);
     return out;

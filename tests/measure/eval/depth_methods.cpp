@@ -68,8 +68,8 @@ public:
         PipelineShot(frame).run(pipeline_);
         const InverseDepthField& field = pipeline_.inverseDepth();
         Result out{cv::Mat(frame.picture.size(), CV_32F, cv::Scalar(0)), 0};
-        for (std::size_t i = 0; i < field.rho.size(); ++i)
-            if (field.isKnown(i)) out.inverseDepth.ptr<float>()[i] = field.rho[i];
+        for (std::size_t i = 0; i < field.inverseDepth.size(); ++i)
+            if (field.isKnown(i)) out.inverseDepth.ptr<float>()[i] = field.inverseDepth[i];
         out.variance = cv::Mat(frame.picture.size(), CV_32F);
         std::copy(field.variance.begin(), field.variance.end(), out.variance.begin<float>());
         for (const StageTime& stage : pipeline_.stageTimes()) {

@@ -2,7 +2,7 @@
 
 #include "base/thread_priority.h"
 #include "pipeline/render/picture_resolver.h"
-#include "pipeline/slices/reference_renderer.h"
+#include "pipeline/slices/traced_renderer.h"
 #include "tests/render/still_life.h"
 
 #include <algorithm>
@@ -142,11 +142,11 @@ std::vector<double> frameTimes(const SlicedScene& scene, const SliceOptions& opt
 BudgetRun budgetRun(const SliceOptions& slices, Size size, double budgetMs, int threads, int frames,
                     double degreesPerSecond) {
     using std::chrono::steady_clock;
-    ReferenceOptions options;
+    TracedRendererOptions options;
     options.slices = slices;
     options.budgetMs = budgetMs;
     options.threads = threads;
-    ReferenceRenderer renderer(options);
+    TracedRenderer renderer(options);
     renderer.setScene(render_scenes::stillLife());
     const auto period = std::chrono::nanoseconds(1'000'000'000 / 30);
     steady_clock::time_point next = steady_clock::now();

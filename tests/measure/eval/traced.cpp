@@ -158,7 +158,7 @@ TracedLayerOptions optionsOf(const TracedRequest& request, const std::string& me
     options.budgetMs = request.budgetMs;
     TracedLayerOptions out = tracedLayerOptions(options, 1);
     out.size = request.size;
-    out.reference.tracer.independentSamples = method == "independent";
+    out.renderer.tracer.independentSamples = method == "independent";
     return out;
 }
 

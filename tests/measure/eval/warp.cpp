@@ -78,7 +78,7 @@ public:
         : request_(request), scene_(warpScene(scene)), tracer_(scene_, asInTheProduct()),
           view_(warpView(*scene_, request.size, 0)),
           picture_(tracePicture(tracer_, view_, request.referenceSamples)),
-          reference_(warpReference(picture_)) {}
+          reference_(tracedPicture(picture_)) {}
 
     [[nodiscard]] Shot shoot(double degrees) const {
         const RenderView view = warpView(*scene_, request_.size, degrees);
@@ -115,7 +115,7 @@ private:
 
     [[nodiscard]] Warped ours(Warp& warp, const Shot& shot) const {
         warp.setScene(*scene_);
-        warp.setReference(reference_);
+        warp.setTracedPicture(reference_);
         const auto frame = [&] {
             warp.run(shot.view.T_world_camera);
             engine_->finish();
@@ -180,7 +180,7 @@ private:
     PathTracer tracer_;
     RenderView view_;
     RenderedPicture picture_;
-    WarpReference reference_;
+    TracedPicture reference_;
 };
 
 void savePicture(const WarpRequest& request, const std::string& name, const Rgba& rgba) {

@@ -2,7 +2,7 @@
 
 #include "base/gl/texture.h"
 #include "pipeline/composite/lens_projection.h"
-#include "pipeline/warp/warp_reference.h"
+#include "pipeline/warp/traced_picture.h"
 
 #include <optional>
 
@@ -11,11 +11,11 @@ namespace mfar {
 /// Rg32F texture with the normalised ray (x/z, y/z) of each pixel.
 [[nodiscard]] gpu::Texture rayTexture(const CameraModel& camera);
 
-/// The reference picture of a warp on the GPU.
-class ReferenceTextures {
+/// The traced picture of a warp on the GPU.
+class TracedTextures {
 public:
     /// Uploads the picture. Allocates textures when the size changes.
-    void upload(const WarpReference& reference);
+    void upload(const TracedPicture& traced);
 
     /// Valid after the first upload.
     [[nodiscard]] const LensProjection& lens() const { return *lens_; }

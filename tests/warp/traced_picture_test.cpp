@@ -1,5 +1,5 @@
 #include "pipeline/composite/virtual_layer.h"
-#include "pipeline/warp/warp_reference.h"
+#include "pipeline/warp/traced_picture.h"
 #include "tests/warp/cast_scene.h"
 
 #include <gtest/gtest.h>
@@ -24,8 +24,8 @@ RenderedPicture smallPicture() {
     return p;
 }
 
-TEST(WarpReference, EdgesTakeTheColourOfTheirObject) {
-    const WarpReference r = warpReference(smallPicture());
+TEST(TracedPicture, EdgesTakeTheColourOfTheirObject) {
+    const TracedPicture r = tracedPicture(smallPicture());
     for (std::size_t i = 0; i < 20; ++i) {
         const std::array<std::uint8_t, 4> object{200, 100, 0, 255}, shadow{0, 0, 0, 60};
         EXPECT_EQ(r.colour[i], i % 5 < 3 ? object : shadow) << i;
@@ -34,9 +34,9 @@ TEST(WarpReference, EdgesTakeTheColourOfTheirObject) {
     EXPECT_EQ(r.picture, smallPicture().colour);
 }
 
-TEST(WarpReference, ShadowsAreShownLiftedAndMovedUnlifted) {
+TEST(TracedPicture, ShadowsAreShownLiftedAndMovedUnlifted) {
     const RenderedPicture p = smallPicture();
-    const WarpReference r = warpReference(p);
+    const TracedPicture r = tracedPicture(p);
     for (std::size_t i = 0; i < 20; ++i) {
         const bool object = i % 5 < 3;
         EXPECT_FLOAT_EQ(r.depth[i], object ? 0.5F : 0.8F * (1 - kShadowLift)) << i;
@@ -45,14 +45,14 @@ TEST(WarpReference, ShadowsAreShownLiftedAndMovedUnlifted) {
     EXPECT_EQ(r.tiles.at(0).farthest, 0.8F);
 }
 
-TEST(WarpReference, PixelsWithInvalidDepthAreEmpty) {
+TEST(TracedPicture, PixelsWithInvalidDepthAreEmpty) {
     RenderedPicture p = smallPicture();
     p.depth[0] = std::numeric_limits<float>::quiet_NaN();
     p.depth[1] = std::numeric_limits<float>::infinity();
     p.depth[5] = -1;
     p.depth[6] = 0.001F;
     p.id[10] = 0;
-    const WarpReference r = warpReference(p);
+    const TracedPicture r = tracedPicture(p);
     for (const std::size_t i : {0, 1, 5, 6, 10}) {
         EXPECT_EQ(r.depth[i], 0);
         EXPECT_EQ(r.packed[i], 0U);
@@ -60,11 +60,11 @@ TEST(WarpReference, PixelsWithInvalidDepthAreEmpty) {
     }
 }
 
-TEST(WarpReference, InvalidPicturesAreRefused) {
+TEST(TracedPicture, InvalidPicturesAreRefused) {
     const auto refused = [](auto&& spoil) {
         RenderedPicture p = smallPicture();
         spoil(p);
-        EXPECT_THROW((void)warpReference(p), std::invalid_argument);
+        EXPECT_THROW((void)tracedPicture(p), std::invalid_argument);
     };
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     refused([](RenderedPicture& p) { p.depth.pop_back(); });
@@ -78,11 +78,11 @@ TEST(WarpReference, InvalidPicturesAreRefused) {
     refused([&](RenderedPicture& p) { p.T_world_camera.translation.x() = kNan; });
 }
 
-TEST(WarpReference, MotionBoundsContainEveryMovedPoint) {
+TEST(TracedPicture, MotionBoundsContainEveryMovedPoint) {
     const test::CastScene scene = test::twoBalls();
     const RenderView view{test::bentCamera({160, 120}), test::orbit(0)};
     const RenderedPicture picture = scene.cast(view);
-    const WarpReference r = warpReference(picture);
+    const TracedPicture r = tracedPicture(picture);
     const LensProjection lens(view.camera);
     EXPECT_LT(motionOf(r, lens, test::orbit(0)).greatest, 1e-6);
     for (const double degrees : {1.0, 10.0, 60.0}) {

@@ -1,4 +1,4 @@
-#include "pipeline/slices/reference_pictures.h"
+#include "pipeline/slices/traced_pictures.h"
 
 #include <algorithm>
 #include <limits>
@@ -6,7 +6,7 @@
 namespace mfar {
 namespace {
 
-// With ReferencePolicy::soon, a moving camera gets a new picture at this share of the limits. The
+// With TracedPolicy::soon, a moving camera gets a new picture at this share of the limits. The
 // new picture inherits the light of the previous one.
 constexpr double kSoon = 0.25;
 // The next picture is discarded if the camera returns to within this share of the change that
@@ -30,25 +30,24 @@ constexpr int kLookTurn = 1;
 
 }  // namespace
 
-ReferenceStep nextStep(std::optional<double> sinceShown, std::optional<double> sinceNext,
-                       double renewed) {
+TracedStep nextStep(std::optional<double> sinceShown, std::optional<double> sinceNext,
+                    double renewed) {
     if (!sinceNext)
-        return sinceShown && *sinceShown < renewed ? ReferenceStep::Refine : ReferenceStep::Start;
+        return sinceShown && *sinceShown < renewed ? TracedStep::Refine : TracedStep::Start;
     // The first picture is always finished, even if the camera moves away: it is better than no
     // picture.
-    if (!sinceShown) return ReferenceStep::Continue;
-    if (*sinceShown < kBack * renewed) return ReferenceStep::Drop;
-    return *sinceNext >= 1 && *sinceNext > *sinceShown ? ReferenceStep::Start
-                                                       : ReferenceStep::Continue;
+    if (!sinceShown) return TracedStep::Continue;
+    if (*sinceShown < kBack * renewed) return TracedStep::Drop;
+    return *sinceNext >= 1 && *sinceNext > *sinceShown ? TracedStep::Start : TracedStep::Continue;
 }
 
-ReferencePictures::ReferencePictures(const SliceOptions& slices, const ReferencePolicy& policy)
+TracedPictures::TracedPictures(const SliceOptions& slices, const TracedPolicy& policy)
     : slices_(slices), policy_(policy), pictures_{Picture(slices), Picture(slices)} {}
 
 // The change of the view since a picture's view. Empty if the picture is out of date, because the
 // objects or the lighting changed. For a picture in progress a change of the lighting is ignored:
 // if the lighting changed all the time, no picture would ever be finished.
-std::optional<double> ReferencePictures::changeSince(const Picture& picture) const {
+std::optional<double> TracedPictures::changeSince(const Picture& picture) const {
     const bool isShown = &picture == &pictures_[shown_];
     if (!picture.scene || picture.scene->objects != scene_->objects ||
         (isShown && picture.scene->light != scene_->light))
@@ -56,7 +55,7 @@ std::optional<double> ReferencePictures::changeSince(const Picture& picture) con
     return viewChange(picture.view, now_, scene_->balls, policy_.limits);
 }
 
-void ReferencePictures::watchRest() {
+void TracedPictures::watchRest() {
     if (pixelChange(restsAt_, now_, scene_->balls) < kRestPixels) {
         restLooks_ = std::min(restLooks_ + 1, kRestLooks);
     } else {
@@ -65,49 +64,49 @@ void ReferencePictures::watchRest() {
     }
 }
 
-ReferenceStep ReferencePictures::chosenStep() const {
+TracedStep TracedPictures::chosenStep() const {
     const std::optional<double> sinceShown = changeSince(pictures_[shown_]);
     const bool rests = restLooks_ == kRestLooks;
     const bool hasBegun = hasNext_ && !toBegin_;
-    if (hasBegun && nextRests_ && rests) return ReferenceStep::Continue;
+    if (hasBegun && nextRests_ && rests) return TracedStep::Continue;
     const bool isElsewhere =
         sinceShown && pixelChange(pictures_[shown_].view, now_, scene_->balls) > kElsewherePixels;
     const Picture& shown = pictures_[shown_];
     if (!hasBegun && rests && (isElsewhere || (shown.wasShown && !shown.rests)))
-        return ReferenceStep::Start;
-    const ReferenceStep step =
+        return TracedStep::Start;
+    const TracedStep step =
         nextStep(sinceShown, hasBegun ? changeSince(pictures_[1 - shown_]) : std::nullopt,
                  policy_.soon ? kSoon : 1);
     // If the shown picture still serves but has few samples, a new picture could not inherit light
     // from it.
     const bool serves = sinceShown && *sinceShown < 1;
-    if (step == ReferenceStep::Start && !hasBegun && serves && shown.slices.samples() == 0)
-        return ReferenceStep::Refine;
+    if (step == TracedStep::Start && !hasBegun && serves && shown.slices.samples() == 0)
+        return TracedStep::Refine;
     return step;
 }
 
-void ReferencePictures::look(const RenderView& now, const RenderView& predicted, Timestamp time) {
+void TracedPictures::look(const RenderView& now, const RenderView& predicted, Timestamp time) {
     now_ = now;
     if (!scene_) return;
     watchRest();
     const bool rests = restLooks_ == kRestLooks;
     switch (chosenStep()) {
-    case ReferenceStep::Start:
+    case TracedStep::Start:
         hasNext_ = toBegin_ = true;
         nextRests_ = rests;
         wanted_ = rests ? now : predicted;
         chosen_ = time;
         break;
-    case ReferenceStep::Refine:
-    case ReferenceStep::Drop: hasNext_ = toBegin_ = false; break;
-    case ReferenceStep::Continue: break;
+    case TracedStep::Refine:
+    case TracedStep::Drop: hasNext_ = toBegin_ = false; break;
+    case TracedStep::Continue: break;
     }
 }
 
 // Away from objects the light on the real surface is smooth. While the camera moves, samples in a
 // quarter of the pixels suffice there.
-Slices::Density ReferencePictures::densityOf(const PixelRect& tile, const Picture& picture,
-                                             const PixelRect& objects) const {
+Slices::Density TracedPictures::densityOf(const PixelRect& tile, const Picture& picture,
+                                          const PixelRect& objects) const {
     if (!common(tile, objects).empty()) return Slices::Density::Full;
     if (picture.history && pictures_[shown_].scene->light == picture.scene->light &&
         showsNothing(tile, picture.view))
@@ -116,7 +115,7 @@ Slices::Density ReferencePictures::densityOf(const PixelRect& tile, const Pictur
 }
 
 // Whether the shown picture shows neither objects nor changed light around this tile.
-bool ReferencePictures::showsNothing(const PixelRect& tile, const RenderView& view) const {
+bool TracedPictures::showsNothing(const PixelRect& tile, const RenderView& view) const {
     const Eigen::Vector2f middle(0.5F * static_cast<float>(tile.x0 + tile.x1 - 1),
                                  0.5F * static_cast<float>(tile.y0 + tile.y1 - 1));
     const auto point = scene_->tracer->catcherAt(view, middle);
@@ -127,11 +126,11 @@ bool ReferencePictures::showsNothing(const PixelRect& tile, const RenderView& vi
            pictures_[shown_].touched.isFarFrom(before.camera.project(there.hnormalized()));
 }
 
-bool ReferencePictures::toBegin() const {
+bool TracedPictures::toBegin() const {
     return toBegin_ && pictures_[0].portions == 0 && pictures_[1].portions == 0;
 }
 
-void ReferencePictures::begin() {
+void TracedPictures::begin() {
     Picture& picture = pictures_[1 - shown_];
     picture.scene = scene_;
     picture.view = wanted_;
@@ -156,7 +155,7 @@ void ReferencePictures::begin() {
     toBegin_ = false;
 }
 
-ReferencePictures::Portion ReferencePictures::next(std::int64_t mostSamples) {
+TracedPictures::Portion TracedPictures::next(std::int64_t mostSamples) {
     Picture& picture = pictures_[working()];
     if (toBegin_ || !picture.scene || toShow()) return {};
     Portion out{picture.slices.next(mostSamples), working()};
@@ -164,7 +163,7 @@ ReferencePictures::Portion ReferencePictures::next(std::int64_t mostSamples) {
     return out;
 }
 
-void ReferencePictures::trace(const Portion& portion) {
+void TracedPictures::trace(const Portion& portion) {
     Picture& picture = pictures_[portion.picture];
     picture.scene->tracer->trace(picture.view, portion.slice.pixels, portion.slice.samples,
                                  *picture.film, picture.history ? &*picture.history : nullptr);
@@ -172,7 +171,7 @@ void ReferencePictures::trace(const Portion& portion) {
 
 // While the camera rests, only samples of the pixel itself count, because carried light lacks edges
 // and textures.
-PixelState ReferencePictures::Picture::state(std::uint32_t pixel, const Exposure& exposure) const {
+PixelState TracedPictures::Picture::state(std::uint32_t pixel, const Exposure& exposure) const {
     const KnownLight known = rests ? KnownLight{} : film->known(pixel);
     return {film->error(pixel, exposure),
             std::max(std::min(known.firstCount, known.secondCount),
@@ -180,14 +179,14 @@ PixelState ReferencePictures::Picture::state(std::uint32_t pixel, const Exposure
             film->isUntouched(pixel)};
 }
 
-void ReferencePictures::done(const Portion& portion, const Exposure& exposure) {
+void TracedPictures::done(const Portion& portion, const Exposure& exposure) {
     Picture& picture = pictures_[portion.picture];
     --picture.portions;
     picture.slices.done(portion.slice,
                         [&](std::uint32_t pixel) { return picture.state(pixel, exposure); });
 }
 
-int ReferencePictures::leastSamples(const Picture& picture) const {
+int TracedPictures::leastSamples(const Picture& picture) const {
     if (picture.wasShown) return std::max(kSamplesRatio * picture.shownSamples, 1);
     const Picture& shown = pictures_[shown_];
     if (!shown.scene || shown.scene->objects != picture.scene->objects ||
@@ -198,7 +197,7 @@ int ReferencePictures::leastSamples(const Picture& picture) const {
                       : policy_.samplesToReplace;
 }
 
-bool ReferencePictures::toShow() const {
+bool TracedPictures::toShow() const {
     const Picture& picture = pictures_[working()];
     if (toBegin_ || !picture.scene || !picture.slices.turnComplete()) return false;
     // The picture that will be replaced must not have outstanding portions.
@@ -210,19 +209,19 @@ bool ReferencePictures::toShow() const {
 
 // While the camera moves, a picture with few samples and filtered light is better than a picture of
 // another view or no picture.
-bool ReferencePictures::isSparse(const Picture& picture) const {
+bool TracedPictures::isSparse(const Picture& picture) const {
     if (picture.rests || !policy_.filter || picture.slices.samples() > 0) return false;
     const Picture& shown = pictures_[shown_];
     return &picture == &shown || !shown.scene || (policy_.soon && picture.history);
 }
 
-void ReferencePictures::beginShow(const Exposure& exposure, RenderedPicture& out) {
+void TracedPictures::beginShow(const Exposure& exposure, RenderedPicture& out) {
     const Picture& picture = pictures_[working()];
     resolver_.begin(*picture.film, picture.view, picture.traced, exposure, policy_.filter, out,
                     picture.film.get());
 }
 
-void ReferencePictures::endShow(RenderedPicture& out) {
+void TracedPictures::endShow(RenderedPicture& out) {
     Picture& picture = pictures_[working()];
     out.scene = picture.scene->source;
     out.mirrors = picture.scene->tracer->mirrorLight();
@@ -240,21 +239,21 @@ void ReferencePictures::endShow(RenderedPicture& out) {
     hasNext_ = false;
 }
 
-bool ReferencePictures::settled() const {
+bool TracedPictures::settled() const {
     const Picture& picture = pictures_[working()];
     return !toBegin_ && (!picture.scene || (picture.slices.finished() && picture.counted));
 }
 
-double ReferencePictures::progress() const {
+double TracedPictures::progress() const {
     const Picture& picture = pictures_[working()];
     return picture.scene && !toBegin_ ? picture.slices.progress() : 1;
 }
 
-std::size_t ReferencePictures::pixels() const {
+std::size_t TracedPictures::pixels() const {
     return pictures_[working()].slices.pixels();
 }
 
-std::optional<Timestamp> ReferencePictures::shownSince() const {
+std::optional<Timestamp> TracedPictures::shownSince() const {
     const Picture& shown = pictures_[shown_];
     return shown.scene && shown.wasShown ? std::optional(shown.chosen) : std::nullopt;
 }

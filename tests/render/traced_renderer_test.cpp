@@ -1,5 +1,5 @@
 #include "pipeline/render/picture_resolver.h"
-#include "pipeline/slices/reference_renderer.h"
+#include "pipeline/slices/traced_renderer.h"
 #include "tests/render/still_life.h"
 
 #include <gtest/gtest.h>
@@ -24,8 +24,8 @@ using std::chrono::steady_clock;
 
 constexpr Size kRenderSize{48, 36};
 
-ReferenceOptions quick() {
-    ReferenceOptions out;
+TracedRendererOptions quick() {
+    TracedRendererOptions out;
     out.slices = {Slicing::Time, 16, 2, 0, 4};
     out.policy = {{4, 0.2}, 4};
     out.budgetMs = 1000;
@@ -35,7 +35,7 @@ ReferenceOptions quick() {
 /// A loop of frames without other work, with the times of 30 frames per second.
 class Frames {
 public:
-    explicit Frames(const ReferenceOptions& options) : renderer(options) {}
+    explicit Frames(const TracedRendererOptions& options) : renderer(options) {}
 
     void frame(const RenderView& view) {
         ++count_;
@@ -76,13 +76,13 @@ public:
         return finish(view);
     }
 
-    ReferenceRenderer renderer;
+    TracedRenderer renderer;
 
 private:
     int count_ = 0;
 };
 
-RenderView shownView(ReferenceRenderer& renderer) {
+RenderView shownView(TracedRenderer& renderer) {
     return {renderer.newest()->camera, renderer.newest()->T_world_camera};
 }
 
@@ -92,7 +92,7 @@ double degreesBetween(const RenderView& a, const RenderView& b) {
     return std::atan2(from.cross(to).norm(), from.dot(to)) * 180 / std::numbers::pi;
 }
 
-TEST(ReferenceRenderer, GivesTheSamePictureForBothWaysAndAnyThreads) {
+TEST(TracedRenderer, GivesTheSamePictureForBothWaysAndAnyThreads) {
     const RenderView view = render_scenes::viewFrom(kRenderSize, 20);
     const auto scene = render_scenes::stillLife();
     const PathTracer tracer(scene);
@@ -104,7 +104,7 @@ TEST(ReferenceRenderer, GivesTheSamePictureForBothWaysAndAnyThreads) {
     resolve(film, view, {}, truth, true);
     for (const Slicing slicing : {Slicing::Time, Slicing::Spatial})
         for (const int threads : {1, 2, 5}) {
-            ReferenceOptions options = quick();
+            TracedRendererOptions options = quick();
             options.slices.slicing = slicing;
             options.threads = threads;
             options.policy.history = false;
@@ -120,8 +120,8 @@ TEST(ReferenceRenderer, GivesTheSamePictureForBothWaysAndAnyThreads) {
         }
 }
 
-TEST(ReferenceRenderer, IsIdleOnceConvergedAndUnmoved) {
-    ReferenceOptions options = quick();
+TEST(TracedRenderer, IsIdleOnceConvergedAndUnmoved) {
+    TracedRendererOptions options = quick();
     options.slices.samples = 4096;
     options.slices.threshold = 1e6;  // every pixel is finished once its error is trusted
     Frames frames(options);
@@ -140,7 +140,7 @@ TEST(ReferenceRenderer, IsIdleOnceConvergedAndUnmoved) {
     EXPECT_EQ(before.progress, 1);
 }
 
-TEST(ReferenceRenderer, IsNotIdleBeforeTheFirstPictureIsFinished) {
+TEST(TracedRenderer, IsNotIdleBeforeTheFirstPictureIsFinished) {
     const RenderView view = render_scenes::viewFrom(kRenderSize, 20);
     for (int i = 0; i < 6; ++i) {
         Frames frames(quick());
@@ -157,7 +157,7 @@ TEST(ReferenceRenderer, IsNotIdleBeforeTheFirstPictureIsFinished) {
     }
 }
 
-TEST(ReferenceRenderer, AtRestThePictureNeverGetsNoisier) {
+TEST(TracedRenderer, AtRestThePictureNeverGetsNoisier) {
     Frames frames(quick());
     frames.renderer.setScene(render_scenes::stillLife());
     double samples = 0;
@@ -171,8 +171,8 @@ TEST(ReferenceRenderer, AtRestThePictureNeverGetsNoisier) {
     }));
 }
 
-TEST(ReferenceRenderer, SleepsWhenTheFramesBudgetIsUsedUp) {
-    ReferenceOptions options = quick();
+TEST(TracedRenderer, SleepsWhenTheFramesBudgetIsUsedUp) {
+    TracedRendererOptions options = quick();
     options.slices.samples = 1 << 20;
     options.budgetMs = 2;
     Frames frames(options);
@@ -192,8 +192,8 @@ TEST(ReferenceRenderer, SleepsWhenTheFramesBudgetIsUsedUp) {
     EXPECT_LE(frames.renderer.counters().cpuMs - used, 20 * options.budgetMs);
 }
 
-TEST(ReferenceRenderer, StopInterruptsItsWork) {
-    ReferenceOptions options = quick();
+TEST(TracedRenderer, StopInterruptsItsWork) {
+    TracedRendererOptions options = quick();
     options.slices.samples = 1 << 20;
     options.budgetMs = 1e6;
     for (const Slicing slicing : {Slicing::Time, Slicing::Spatial})
@@ -211,7 +211,7 @@ TEST(ReferenceRenderer, StopInterruptsItsWork) {
         }
 }
 
-TEST(ReferenceRenderer, FollowsACameraThatTurnsFarEnough) {
+TEST(TracedRenderer, FollowsACameraThatTurnsFarEnough) {
     Frames frames(quick());
     frames.renderer.setScene(render_scenes::stillLife());
     const RenderView first = render_scenes::viewFrom(kRenderSize, 20),
@@ -224,14 +224,14 @@ TEST(ReferenceRenderer, FollowsACameraThatTurnsFarEnough) {
     EXPECT_LT(degreesBetween(shownView(frames.renderer), other), 4);
 }
 
-TEST(ReferenceRenderer, MakesTheNextPictureForAPredictedView) {
-    ReferenceOptions options = quick();
+TEST(TracedRenderer, MakesTheNextPictureForAPredictedView) {
+    TracedRendererOptions options = quick();
     options.policy.samplesToReplace = 16;
     options.budgetMs = 1;
     Frames frames(options);
     frames.renderer.setScene(render_scenes::stillLife());
     ASSERT_TRUE(frames.finish(render_scenes::viewFrom(kRenderSize, 0)));
-    const Timestamp first = *frames.renderer.counters().referenceSince;
+    const Timestamp first = *frames.renderer.counters().shownSince;
     std::map<Timestamp, double> azimuths;
     double azimuth = 0;
     Timestamp chosen = first;
@@ -240,14 +240,14 @@ TEST(ReferenceRenderer, MakesTheNextPictureForAPredictedView) {
         frames.frame(render_scenes::viewFrom(kRenderSize, azimuth));
         azimuths[frames.now()] = azimuth;
         ASSERT_TRUE(frames.seen()) << "a camera seen now and then has no rate";
-        chosen = *frames.renderer.counters().referenceSince;
+        chosen = *frames.renderer.counters().shownSince;
     }
     ASSERT_TRUE(azimuths.contains(chosen));
     const Eigen::Vector3d at = shownView(frames.renderer).T_world_camera.translation;
     EXPECT_GT(std::atan2(at.y(), at.x()) * 180 / std::numbers::pi, azimuths[chosen] + 0.2);
 }
 
-TEST(ReferenceRenderer, AnswersHolesOfTheNewestRequest) {
+TEST(TracedRenderer, AnswersHolesOfTheNewestRequest) {
     Frames frames(quick());
     const auto scene = render_scenes::stillLife();
     frames.renderer.setScene(scene);
@@ -277,8 +277,8 @@ TEST(ReferenceRenderer, AnswersHolesOfTheNewestRequest) {
     EXPECT_EQ(frames.renderer.takeHoles(), nullptr) << "once";
 }
 
-TEST(ReferenceRenderer, HolesDoNotKeepAReferenceFromBeingFinished) {
-    ReferenceOptions options = quick();
+TEST(TracedRenderer, HolesDoNotKeepATracedPictureFromBeingFinished) {
+    TracedRendererOptions options = quick();
     options.budgetMs = 2;
     Frames frames(options);
     frames.renderer.setScene(render_scenes::stillLife());
@@ -296,7 +296,7 @@ TEST(ReferenceRenderer, HolesDoNotKeepAReferenceFromBeingFinished) {
     }));
 }
 
-TEST(ReferenceRenderer, AnInvalidSceneIsReportedAndTheOldOneStays) {
+TEST(TracedRenderer, AnInvalidSceneIsReportedAndTheOldOneStays) {
     Frames frames(quick());
     const RenderView view = render_scenes::viewFrom(kRenderSize, 20);
     frames.renderer.setScene(render_scenes::stillLife());
@@ -312,7 +312,7 @@ TEST(ReferenceRenderer, AnInvalidSceneIsReportedAndTheOldOneStays) {
     EXPECT_TRUE(frames.finish(render_scenes::viewFrom(kRenderSize, 40), 2));
 }
 
-TEST(ReferenceRenderer, NewObjectsOrLightStartAPictureButSmallChangesDoNot) {
+TEST(TracedRenderer, NewObjectsOrLightStartAPictureButSmallChangesDoNot) {
     Frames frames(quick());
     const RenderView view = render_scenes::viewFrom(kRenderSize, 20);
     auto scene = std::make_shared<Scene>(*render_scenes::stillLife());
@@ -335,7 +335,7 @@ TEST(ReferenceRenderer, NewObjectsOrLightStartAPictureButSmallChangesDoNot) {
     EXPECT_TRUE(frames.finish(view, 3));
 }
 
-TEST(ReferenceRenderer, NoSceneShowsNothing) {
+TEST(TracedRenderer, NoSceneShowsNothing) {
     Frames frames(quick());
     const RenderView view = render_scenes::viewFrom(kRenderSize, 20);
     frames.renderer.setScene(render_scenes::stillLife());
@@ -346,7 +346,7 @@ TEST(ReferenceRenderer, NoSceneShowsNothing) {
         ASSERT_EQ(id, 0);
 }
 
-TEST(ReferenceRenderer, InvalidViewsAreIgnored) {
+TEST(TracedRenderer, InvalidViewsAreIgnored) {
     Frames frames(quick());
     frames.renderer.setScene(render_scenes::stillLife());
     const RenderView view = render_scenes::viewFrom(kRenderSize, 20);
@@ -363,22 +363,22 @@ TEST(ReferenceRenderer, InvalidViewsAreIgnored) {
     EXPECT_EQ(frames.renderer.counters().pictures, 1U);
 }
 
-TEST(ReferenceRenderer, OptionsOutOfRangeAreRefused) {
-    const auto refused = [](const std::function<void(ReferenceOptions&)>& change) {
-        ReferenceOptions options;
+TEST(TracedRenderer, OptionsOutOfRangeAreRefused) {
+    const auto refused = [](const std::function<void(TracedRendererOptions&)>& change) {
+        TracedRendererOptions options;
         change(options);
-        EXPECT_THROW(ReferenceRenderer{options}, std::invalid_argument);
+        EXPECT_THROW(TracedRenderer{options}, std::invalid_argument);
     };
-    refused([](ReferenceOptions& o) { o.threads = 0; });
-    refused([](ReferenceOptions& o) { o.budgetMs = std::nan(""); });
-    refused([](ReferenceOptions& o) { o.slices.samples = 0; });
-    refused([](ReferenceOptions& o) { o.tracer.maxDepth = 0; });
-    refused([](ReferenceOptions& o) { o.policy.limits.turnDegrees = 0; });
-    refused([](ReferenceOptions& o) { o.policy.samplesToReplace = 0; });
-    refused([](ReferenceOptions& o) { o.lightChange = std::nan(""); });
-    refused([](ReferenceOptions& o) { o.holeShare = 1.5; });
-    refused([](ReferenceOptions& o) { o.exposure.scale = 0; });
-    refused([](ReferenceOptions& o) { o.prediction.seconds = -1; });
+    refused([](TracedRendererOptions& o) { o.threads = 0; });
+    refused([](TracedRendererOptions& o) { o.budgetMs = std::nan(""); });
+    refused([](TracedRendererOptions& o) { o.slices.samples = 0; });
+    refused([](TracedRendererOptions& o) { o.tracer.maxDepth = 0; });
+    refused([](TracedRendererOptions& o) { o.policy.limits.turnDegrees = 0; });
+    refused([](TracedRendererOptions& o) { o.policy.samplesToReplace = 0; });
+    refused([](TracedRendererOptions& o) { o.lightChange = std::nan(""); });
+    refused([](TracedRendererOptions& o) { o.holeShare = 1.5; });
+    refused([](TracedRendererOptions& o) { o.exposure.scale = 0; });
+    refused([](TracedRendererOptions& o) { o.prediction.seconds = -1; });
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pipeline/slices/hole_tracer.h"
-#include "pipeline/slices/reference_options.h"
+#include "pipeline/slices/traced_renderer_options.h"
 #include "pipeline/slices/triple_buffer.h"
 
 #include <array>
@@ -35,11 +35,11 @@ struct RenderMail {
     std::atomic<bool> stop{false};
 };
 
-/// State and work of the threads that belong to a ReferenceRenderer.
-class ReferenceWorkers {
+/// State and work of the threads that belong to a TracedRenderer.
+class TracedWorkers {
 public:
     /// Throws std::invalid_argument if an option is out of range. `mail` must outlive this object.
-    ReferenceWorkers(const ReferenceOptions& options, RenderMail& mail);
+    TracedWorkers(const TracedRendererOptions& options, RenderMail& mail);
 
     /// Main function of a thread. It returns when mail.stop is set.
     void work();
@@ -62,13 +62,13 @@ private:
         };
         Kind kind = Kind::None;
         BudgetGrant grant;
-        ReferencePictures::Portion portion;
+        TracedPictures::Portion portion;
         PictureResolver::Portion rows;
         std::span<const std::uint32_t> holes;
         int holeSamples = 0;  // samples per pixel
         std::shared_ptr<const Scene> source, previousSource;
-        std::shared_ptr<const ReferenceScene> scene;  // Build: before the job the previous scene,
-                                                      // after it the new one
+        std::shared_ptr<const PictureScene> scene;  // Build: before the job the previous scene,
+                                                    // after it the new one
         std::string error;
 
         [[nodiscard]] std::int64_t samples() const;
@@ -94,17 +94,17 @@ private:
     void perform(Job& job);
     void build(Job& job) const;
 
-    const ReferenceOptions options_;
+    const TracedRendererOptions options_;
     RenderMail& mail_;
 
     mutable std::mutex mutex_;
     BudgetController budget_;
     ViewPredictor predictor_;
-    ReferencePictures pictures_;
+    TracedPictures pictures_;
     HoleTracer holes_;
     RenderTick tick_;
     std::shared_ptr<const Scene> toBuild_, source_;
-    std::shared_ptr<const ReferenceScene> scene_, shownScene_, holeScene_;
+    std::shared_ptr<const PictureScene> scene_, shownScene_, holeScene_;
     bool building_ = false;   // a Build job is running
     bool exclusive_ = false;  // a Begin job is running or a picture is being resolved
     bool resolves_ = false;

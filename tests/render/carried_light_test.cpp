@@ -10,7 +10,7 @@
 namespace mfar {
 namespace {
 
-using namespace reference_pictures;
+using namespace traced_pictures;
 
 /// Root mean square error of the objects' colours within their silhouettes [grey levels], against a
 /// picture that was sampled without filter and history.
@@ -31,7 +31,7 @@ double errorOf(const RenderedPicture& picture, double azimuth) {
     return std::sqrt(squares / values);
 }
 
-TEST(ReferenceLight, FirstPictureNeedsOneSamplePerSixteenPixels) {
+TEST(CarriedLight, FirstPictureNeedsOneSamplePerSixteenPixels) {
     Driver driver(kThirtyTwo, kProduct);
     driver.look(20);
     driver.untilShown(1);
@@ -52,7 +52,7 @@ TEST(ReferenceLight, FirstPictureNeedsOneSamplePerSixteenPixels) {
     EXPECT_GT(errorOf(first, 20), errorOf(last, 20));
 }
 
-TEST(ReferenceLight, ANextPictureTakesOverTheLightOfTheOneBefore) {
+TEST(CarriedLight, ANextPictureTakesOverTheLightOfTheOneBefore) {
     Driver fresh(kThirtyTwo, kProduct), going(kThirtyTwo, kProduct);
     fresh.look(26);
     fresh.untilShown(1);
@@ -66,8 +66,8 @@ TEST(ReferenceLight, ANextPictureTakesOverTheLightOfTheOneBefore) {
     EXPECT_LT(errorOf(going.shown.back(), 26), 0.7 * errorOf(fresh.shown.back(), 26));
 }
 
-TEST(ReferenceLight, ColoursAreShownOnceSamplesSuffice) {
-    ReferencePolicy policy = kProduct;
+TEST(CarriedLight, ColoursAreShownOnceSamplesSuffice) {
+    TracedPolicy policy = kProduct;
     policy.soon = false;
     Driver driver(kThirtyTwo, policy);
     driver.look(20);
@@ -80,7 +80,7 @@ TEST(ReferenceLight, ColoursAreShownOnceSamplesSuffice) {
     EXPECT_GT(driver.shown.back().samples, 4) << "8 of objects, 2 of other surfaces";
 }
 
-TEST(ReferenceLight, CarriedLightOfOtherLightingIsSoonOutweighed) {
+TEST(CarriedLight, CarriedLightOfOtherLightingIsSoonOutweighed) {
     Driver driver(kThirtyTwo, kProduct);
     const auto dark = std::make_shared<Scene>(*render_scenes::stillLife());
     dark->lighting.sun->irradiance *= 0.2F;
@@ -98,7 +98,7 @@ TEST(ReferenceLight, CarriedLightOfOtherLightingIsSoonOutweighed) {
     EXPECT_LT(errorOf(driver.shown.back(), 20), errorOf(fresh.shown.back(), 20) + 2);
 }
 
-TEST(ReferenceLight, SurfacesThatNothingChangesAreTracedOnce) {
+TEST(CarriedLight, SurfacesThatNothingChangesAreTracedOnce) {
     Driver driver({Slicing::Time, 2, 1, 0, 2}, kProduct);
     driver.size = {192, 144};
     // A black ball in the sun. It casts a shadow and does not change other light.
@@ -121,7 +121,7 @@ TEST(ReferenceLight, SurfacesThatNothingChangesAreTracedOnce) {
     EXPECT_GE(driver.pictures.pixels(), all) << "in new light any may be changed";
 }
 
-TEST(ReferenceLight, AtRestEachPixelHasItsOwnSamples) {
+TEST(CarriedLight, AtRestEachPixelHasItsOwnSamples) {
     Driver driver(kThirtyTwo, kProduct);
     driver.look(20);
     driver.settle();
@@ -134,7 +134,7 @@ TEST(ReferenceLight, AtRestEachPixelHasItsOwnSamples) {
 }
 
 // Light cannot be carried over at silhouettes.
-TEST(ReferenceLight, AtRestSilhouettesAreAsSmoothAsWithoutHistory) {
+TEST(CarriedLight, AtRestSilhouettesAreAsSmoothAsWithoutHistory) {
     Driver driver({Slicing::Time, 64, 2, 1, 16}, kProduct), exact({Slicing::Time, 256, 16, 0, 16});
     driver.look(20);
     driver.settle();

@@ -14,9 +14,9 @@
 
 namespace mfar {
 
-/// The next action for the reference pictures. A reference picture is a rendering that the warp
+/// The next action for the traced pictures. A traced picture is a rendering that the warp
 /// shows from nearby poses.
-enum class ReferenceStep : unsigned char {
+enum class TracedStep : unsigned char {
     Refine,    ///< the shown picture gets more samples
     Continue,  ///< the next picture gets more samples
     Start,     ///< a new next picture is begun; an unfinished one is discarded
@@ -26,10 +26,10 @@ enum class ReferenceStep : unsigned char {
 /// `sinceShown` and `sinceNext` are the results of viewChange() since the views of the shown and
 /// the next picture. They are empty if the picture does not exist or shows another scene. A next
 /// picture is begun if the change reaches `renewed`.
-[[nodiscard]] ReferenceStep nextStep(std::optional<double> sinceShown,
-                                     std::optional<double> sinceNext, double renewed);
+[[nodiscard]] TracedStep nextStep(std::optional<double> sinceShown, std::optional<double> sinceNext,
+                                  double renewed);
 
-struct ReferencePolicy {
+struct TracedPolicy {
     ViewLimits limits;
     /// Samples per pixel that a picture of another view must have before it replaces the shown
     /// picture. Fewer samples suffice if the shown picture has other objects or its view is too far
@@ -42,31 +42,31 @@ struct ReferencePolicy {
     /// limits, and show the next picture before every pixel has a sample. For callers that use only
     /// the light of the picture.
     bool soon = true;
-    bool operator==(const ReferencePolicy&) const = default;
+    bool operator==(const TracedPolicy&) const = default;
 };
 
 /// The scene of a picture with a search structure.
-struct ReferenceScene {
+struct PictureScene {
     std::shared_ptr<const PathTracer> tracer;
     std::shared_ptr<const Scene> source;
     std::vector<ObjectBall> balls;
     std::uint64_t objects = 0, light = 0;  ///< versions of the objects and of the light
 };
 
-/// The two reference pictures: the shown picture, which gets more samples while it serves, and the
+/// The two traced pictures: the shown picture, which gets more samples while it serves, and the
 /// next picture, which will replace it.
 /// Only one thread at a time may call it, with two exceptions. Any number of threads may call
 /// trace() at once. trace() and done() may run during begin() and between beginShow() and
 /// endShow().
-class ReferencePictures {
+class TracedPictures {
 public:
     /// Throws std::invalid_argument if a slice option is out of range.
-    ReferencePictures(const SliceOptions& slices, const ReferencePolicy& policy);
+    TracedPictures(const SliceOptions& slices, const TracedPolicy& policy);
 
-    void setScene(std::shared_ptr<const ReferenceScene> scene) { scene_ = std::move(scene); }
-    [[nodiscard]] const ReferenceScene* scene() const { return scene_.get(); }
+    void setScene(std::shared_ptr<const PictureScene> scene) { scene_ = std::move(scene); }
+    [[nodiscard]] const PictureScene* scene() const { return scene_.get(); }
     /// Scene of the shown picture; null if there is no picture.
-    [[nodiscard]] const std::shared_ptr<const ReferenceScene>& shownScene() const {
+    [[nodiscard]] const std::shared_ptr<const PictureScene>& shownScene() const {
         return pictures_[shown_].scene;
     }
 
@@ -114,7 +114,7 @@ private:
     struct Picture {
         explicit Picture(const SliceOptions& slices) : slices(slices) {}
 
-        std::shared_ptr<const ReferenceScene> scene;  // null: there is no picture
+        std::shared_ptr<const PictureScene> scene;  // null: there is no picture
         RenderView view;
         Timestamp chosen;
         std::unique_ptr<Film> film;
@@ -132,7 +132,7 @@ private:
 
     [[nodiscard]] std::size_t working() const { return hasNext_ ? 1 - shown_ : shown_; }
     [[nodiscard]] std::optional<double> changeSince(const Picture& picture) const;
-    [[nodiscard]] ReferenceStep chosenStep() const;
+    [[nodiscard]] TracedStep chosenStep() const;
     void watchRest();
     [[nodiscard]] Slices::Density densityOf(const PixelRect& tile, const Picture& picture,
                                             const PixelRect& objects) const;
@@ -141,8 +141,8 @@ private:
     [[nodiscard]] bool isSparse(const Picture& picture) const;
 
     const SliceOptions slices_;
-    const ReferencePolicy policy_;
-    std::shared_ptr<const ReferenceScene> scene_;
+    const TracedPolicy policy_;
+    std::shared_ptr<const PictureScene> scene_;
     std::array<Picture, 2> pictures_;
     PictureResolver resolver_;
     std::size_t shown_ = 0;

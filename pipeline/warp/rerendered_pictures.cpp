@@ -1,4 +1,4 @@
-#include "pipeline/warp/patch_pictures.h"
+#include "pipeline/warp/rerendered_pictures.h"
 
 #include <algorithm>
 #include <cassert>
@@ -6,29 +6,29 @@
 
 namespace mfar {
 
-PatchPictures::PatchPictures(Size layer, int fadeFrames)
+RerenderedPictures::RerenderedPictures(Size layer, int fadeFrames)
     : layer_(layer), fadeFrames_(fadeFrames),
       colours_(static_cast<std::size_t>(layer.width) * layer.height), surfaces_(colours_.size()) {
-    for (int i = 0; i < kPatches; ++i)
-        patches_[i].slot = i;
+    for (int i = 0; i < kPictures; ++i)
+        pictures_[i].slot = i;
 }
 
-void PatchPictures::clear() {
-    for (Patch& patch : patches_)
-        patch.share = 0;
+void RerenderedPictures::clear() {
+    for (Picture& picture : pictures_)
+        picture.share = 0;
 }
 
-void PatchPictures::age() {
+void RerenderedPictures::age() {
     const double step = fadeFrames_ > 0 ? 1.0 / fadeFrames_ : 1;
-    for (Patch& patch : patches_)
-        if (patch.share > 0) patch.share = std::min(1.0, patch.share + step);
+    for (Picture& picture : pictures_)
+        if (picture.share > 0) picture.share = std::min(1.0, picture.share + step);
 }
 
-void PatchPictures::add(const HoleAnswer& answer,
-                        const std::function<void(const StoredRows&)>& store) {
+void RerenderedPictures::add(const HoleAnswer& answer,
+                             const std::function<void(const StoredRows&)>& store) {
     const auto& pixels = answer.pixels;
-    std::rotate(patches_.begin(), patches_.end() - 1, patches_.end());
-    Patch& patch = patches_.front();
+    std::rotate(pictures_.begin(), pictures_.end() - 1, pictures_.end());
+    Picture& picture = pictures_.front();
     PixelRect bounds;
     if (!answer.light.empty()) lights_.resize(surfaces_.size());
     for (std::size_t i = 0; i < pixels.size(); ++i) {
@@ -47,18 +47,19 @@ void PatchPictures::add(const HoleAnswer& answer,
         surfaces_[i].tolerance = toleranceAt(
             surfaces_, layer_, static_cast<int>(i % static_cast<unsigned>(layer_.width)),
             static_cast<int>(i / static_cast<unsigned>(layer_.width)));
-    const PixelRect rows = around(bounds, patch.bounds);  // the slot's old rows are cleared too
-    store(rowsOf(patch.slot, rows.y0, rows.y1));
+    const PixelRect rows = around(bounds, picture.bounds);  // the slot's old rows are cleared too
+    store(rowsOf(picture.slot, rows.y0, rows.y1));
     for (const std::uint32_t i : pixels) {
         surfaces_[i] = {};
         colours_[i] = {};
         if (!lights_.empty()) lights_[i] = {};
     }
-    patch = {patch.slot, answer.view.T_world_camera, bounds,
-             fadeFrames_ > 0 ? 1.0 / fadeFrames_ : 1};
+    picture = {picture.slot, answer.view.T_world_camera, bounds,
+               fadeFrames_ > 0 ? 1.0 / fadeFrames_ : 1};
 }
 
-PatchPictures::StoredRows PatchPictures::rowsOf(int slot, int firstRow, int lastRow) const {
+RerenderedPictures::StoredRows RerenderedPictures::rowsOf(int slot, int firstRow,
+                                                          int lastRow) const {
     const std::size_t width = layer_.width;
     const std::size_t first = firstRow * width, count = (lastRow - firstRow) * width;
     return {slot,

@@ -1,4 +1,4 @@
-#include "pipeline/gles/reference_textures.h"
+#include "pipeline/gles/traced_textures.h"
 
 #include <span>
 #include <vector>
@@ -21,8 +21,8 @@ gpu::Texture rayTexture(const CameraModel& camera) {
     return out;
 }
 
-void ReferenceTextures::upload(const WarpReference& reference) {
-    const Size size = reference.camera.size;
+void TracedTextures::upload(const TracedPicture& traced) {
+    const Size size = traced.camera.size;
     if (!lens_ || !(picture_.size() == size)) {
         picture_ = gpu::Texture(size, gpu::TexelFormat::Rgba8, gpu::Filter::Linear);
         depth_ = gpu::Texture(size, gpu::TexelFormat::R32F);
@@ -30,12 +30,12 @@ void ReferenceTextures::upload(const WarpReference& reference) {
         surface_ = gpu::Texture(size, gpu::TexelFormat::Rgba32F);
         packed_ = gpu::Texture(size, gpu::TexelFormat::R32Ui);
     }
-    lens_.emplace(reference.camera);
-    picture_.uploadRows(reference.picture);
-    depth_.upload(std::span(reference.depth));
-    colour_.uploadRows(reference.colour);
-    packed_.upload(reference.packed);
-    surface_.upload(std::span(&reference.surface.front().z, 4 * reference.surface.size()));
+    lens_.emplace(traced.camera);
+    picture_.uploadRows(traced.picture);
+    depth_.upload(std::span(traced.depth));
+    colour_.uploadRows(traced.colour);
+    packed_.upload(traced.packed);
+    surface_.upload(std::span(&traced.surface.front().z, 4 * traced.surface.size()));
 }
 
 }  // namespace mfar

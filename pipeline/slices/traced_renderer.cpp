@@ -1,4 +1,4 @@
-#include "pipeline/slices/reference_renderer.h"
+#include "pipeline/slices/traced_renderer.h"
 
 #include "pipeline/slices/view_change.h"
 
@@ -7,32 +7,32 @@
 
 namespace mfar {
 
-ReferenceRenderer::ReferenceRenderer(const ReferenceOptions& options) : workers_(options, mail_) {
+TracedRenderer::TracedRenderer(const TracedRendererOptions& options) : workers_(options, mail_) {
     if (options.threads < 1 || options.threads > 64)
         throw std::invalid_argument("the number of threads is not in [1, 64]");
     for (int i = 0; i < options.threads; ++i)
         threads_.emplace_back([this] { workers_.work(); });
 }
 
-ReferenceRenderer::~ReferenceRenderer() {
+TracedRenderer::~TracedRenderer() {
     mail_.stop = true;
     ++mail_.wakes;
     mail_.wakes.notify_all();
 }
 
-void ReferenceRenderer::wakeOne() {
+void TracedRenderer::wakeOne() {
     // One wake-up suffices: a thread that wakes up wakes the others if there is work for them.
     ++mail_.wakes;
     mail_.wakes.notify_one();
 }
 
-void ReferenceRenderer::setScene(std::shared_ptr<const Scene> scene) {
+void TracedRenderer::setScene(std::shared_ptr<const Scene> scene) {
     mail_.scenes.back() = scene ? std::move(scene) : std::make_shared<Scene>();
     mail_.scenes.publish();
     wakeOne();
 }
 
-void ReferenceRenderer::update(const RenderView& now, Timestamp time) {
+void TracedRenderer::update(const RenderView& now, Timestamp time) {
     if (isUsable(now)) {
         view_ = now;
         view_->T_world_camera.rotation.normalize();
@@ -42,27 +42,27 @@ void ReferenceRenderer::update(const RenderView& now, Timestamp time) {
     wakeOne();
 }
 
-const RenderedPicture* ReferenceRenderer::newest() {
+const RenderedPicture* TracedRenderer::newest() {
     if (mail_.pictures.fetch()) hasPicture_ = true;
     return hasPicture_ ? &mail_.pictures.front() : nullptr;
 }
 
-void ReferenceRenderer::requestHoles(HoleRequest& request) {
+void TracedRenderer::requestHoles(HoleRequest& request) {
     std::swap(mail_.holeRequests.back(), request);
     mail_.holeRequests.publish();
     wakeOne();
 }
 
-const HoleAnswer* ReferenceRenderer::takeHoles() {
+const HoleAnswer* TracedRenderer::takeHoles() {
     return mail_.holeAnswers.fetch() ? &mail_.holeAnswers.front() : nullptr;
 }
 
-const RenderCounters& ReferenceRenderer::counters() {
+const RenderCounters& TracedRenderer::counters() {
     mail_.counters.fetch();
     return mail_.counters.front();
 }
 
-std::optional<std::string> ReferenceRenderer::takeError() {
+std::optional<std::string> TracedRenderer::takeError() {
     if (!mail_.errors.fetch()) return {};
     return mail_.errors.front();
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pipeline/slices/reference_workers.h"
+#include "pipeline/slices/traced_workers.h"
 
 #include <memory>
 #include <optional>
@@ -10,20 +10,20 @@
 
 namespace mfar {
 
-/// Makes reference pictures of a scene in its own low-priority threads. The threads have a budget
+/// Makes traced pictures of a scene in its own low-priority threads. The threads have a budget
 /// of processor time for each call of update(). They sleep if the budget is used up or nothing is
 /// left to do. Building a scene's search structure is not part of the budget.
 /// All functions are for one thread, which handles the frames. No function waits or takes a lock,
 /// and none allocates memory after the first pictures.
-class ReferenceRenderer {
+class TracedRenderer {
 public:
     /// Throws std::invalid_argument if an option is out of range.
-    explicit ReferenceRenderer(const ReferenceOptions& options);
+    explicit TracedRenderer(const TracedRendererOptions& options);
     /// Waits until running portions of work (each takes a fraction of the budget), the conversion
     /// of a picture, and the building of a scene are finished.
-    ~ReferenceRenderer();
-    ReferenceRenderer(const ReferenceRenderer&) = delete;
-    ReferenceRenderer& operator=(const ReferenceRenderer&) = delete;
+    ~TracedRenderer();
+    TracedRenderer(const TracedRenderer&) = delete;
+    TracedRenderer& operator=(const TracedRenderer&) = delete;
 
     /// Sets a new scene; null is an empty scene. If several scenes were set, only the newest is
     /// used. Pictures of the old scene are shown until the new scene has a picture. An invalid
@@ -59,7 +59,7 @@ private:
     void wakeOne();
 
     RenderMail mail_;
-    ReferenceWorkers workers_;
+    TracedWorkers workers_;
     std::optional<RenderView> view_;
     std::uint64_t updates_ = 0;
     bool hasPicture_ = false;

@@ -10,15 +10,15 @@
 namespace mfar {
 namespace {
 
-using namespace reference_pictures;
+using namespace traced_pictures;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 TEST(NextStep, StepDependsOnHowFarTheViewChanged) {
-    using enum ReferenceStep;
+    using enum TracedStep;
     struct Case {
         std::optional<double> sinceShown, sinceNext;
-        ReferenceStep step;
+        TracedStep step;
     };
     for (const auto& [sinceShown, sinceNext, step] : std::vector<Case>{
              {{}, {}, Start},         // no picture yet
@@ -39,14 +39,14 @@ TEST(NextStep, StepDependsOnHowFarTheViewChanged) {
 }
 
 TEST(NextStep, NextPictureStartsLaterWhenColoursAreUsed) {
-    using enum ReferenceStep;
+    using enum TracedStep;
     EXPECT_EQ(nextStep(0.9, {}, 1), Refine);
     EXPECT_EQ(nextStep(1.0, {}, 1), Start);
     EXPECT_EQ(nextStep(0.4, 0.7, 1), Drop);
     EXPECT_EQ(nextStep(0.6, 0.7, 1), Continue);
 }
 
-TEST(ReferencePictures, AtRestThePictureIsRefined) {
+TEST(TracedPictures, AtRestThePictureIsRefined) {
     Driver driver(kThirtyTwo);
     EXPECT_FALSE(driver.step()) << "no view, no work";
     driver.look(20);
@@ -61,7 +61,7 @@ TEST(ReferencePictures, AtRestThePictureIsRefined) {
     EXPECT_FALSE(driver.step()) << "it serves";
 }
 
-TEST(ReferencePictures, AfterAMotionAPictureOfTheRestingViewIsStarted) {
+TEST(TracedPictures, AfterAMotionAPictureOfTheRestingViewIsStarted) {
     Driver driver(kThirtyTwo);
     driver.look(20);
     driver.settle();
@@ -82,7 +82,7 @@ TEST(ReferencePictures, AfterAMotionAPictureOfTheRestingViewIsStarted) {
     EXPECT_FALSE(driver.step());
 }
 
-TEST(ReferencePictures, APictureIsFinishedThoughTheLightKeepsChanging) {
+TEST(TracedPictures, APictureIsFinishedThoughTheLightKeepsChanging) {
     Driver driver(kThirtyTwo);
     driver.look(20);
     driver.settle();
@@ -97,7 +97,7 @@ TEST(ReferencePictures, APictureIsFinishedThoughTheLightKeepsChanging) {
     EXPECT_TRUE(driver.shows(26));
 }
 
-TEST(ReferencePictures, SpatialSlicesAreShownWhenTheyAreFinished) {
+TEST(TracedPictures, SpatialSlicesAreShownWhenTheyAreFinished) {
     SliceOptions slices = kThirtyTwo;
     slices.slicing = Slicing::Spatial;
     Driver driver(slices);
@@ -107,7 +107,7 @@ TEST(ReferencePictures, SpatialSlicesAreShownWhenTheyAreFinished) {
     EXPECT_EQ(driver.shown[0].samples, 32);
 }
 
-TEST(ReferencePictures, AnotherViewsPictureIsShownWithEnoughSamples) {
+TEST(TracedPictures, AnotherViewsPictureIsShownWithEnoughSamples) {
     Driver driver(kThirtyTwo);
     driver.look(20);
     driver.settle();
@@ -117,7 +117,7 @@ TEST(ReferencePictures, AnotherViewsPictureIsShownWithEnoughSamples) {
     EXPECT_TRUE(driver.shows(26));
 }
 
-TEST(ReferencePictures, AVeryOldPictureIsReplacedAtOnce) {
+TEST(TracedPictures, AVeryOldPictureIsReplacedAtOnce) {
     Driver driver(kThirtyTwo);
     driver.look(20);
     driver.settle();
@@ -126,7 +126,7 @@ TEST(ReferencePictures, AVeryOldPictureIsReplacedAtOnce) {
     EXPECT_EQ(driver.shown[4].samples, 1);
 }
 
-TEST(ReferencePictures, AReturningCameraGetsItsPictureAndRefinesIt) {
+TEST(TracedPictures, AReturningCameraGetsItsPictureAndRefinesIt) {
     Driver driver(kThirtyTwo);
     driver.look(20);
     driver.untilShown(3);
@@ -140,7 +140,7 @@ TEST(ReferencePictures, AReturningCameraGetsItsPictureAndRefinesIt) {
     EXPECT_TRUE(driver.shows(20));
 }
 
-TEST(ReferencePictures, PicturesArePredictedForMovingCameras) {
+TEST(TracedPictures, PicturesArePredictedForMovingCameras) {
     Driver driver(kThirtyTwo);
     driver.look(20);
     driver.settle();
@@ -154,7 +154,7 @@ TEST(ReferencePictures, PicturesArePredictedForMovingCameras) {
     EXPECT_TRUE(driver.shows(33));
 }
 
-TEST(ReferencePictures, AReversingCameraIsFollowed) {
+TEST(TracedPictures, AReversingCameraIsFollowed) {
     Driver driver(kThirtyTwo);
     driver.look(20);
     driver.settle();
@@ -166,7 +166,7 @@ TEST(ReferencePictures, AReversingCameraIsFollowed) {
     EXPECT_EQ(driver.pictures.finished(), 2U) << "that of 26 degrees was given up";
 }
 
-TEST(ReferencePictures, NewObjectsAreShownAtOnceNewLightWithEnoughSamples) {
+TEST(TracedPictures, NewObjectsAreShownAtOnceNewLightWithEnoughSamples) {
     Driver driver(kThirtyTwo);
     driver.look(20);
     driver.settle();
@@ -182,13 +182,13 @@ TEST(ReferencePictures, NewObjectsAreShownAtOnceNewLightWithEnoughSamples) {
     EXPECT_EQ(driver.shown.back().samples, 1);
 }
 
-TEST(ReferencePictures, WaitsForPortionsOfTheReplacedPicture) {
+TEST(TracedPictures, WaitsForPortionsOfTheReplacedPicture) {
     Driver driver(kThirtyTwo);
     driver.look(20);
     driver.settle();
     driver.look(26);
     driver.step();
-    const ReferencePictures::Portion out = driver.pictures.next(1000);
+    const TracedPictures::Portion out = driver.pictures.next(1000);
     driver.look(14);
     EXPECT_FALSE(driver.pictures.toBegin()) << "its film is in use";
     EXPECT_TRUE(driver.pictures.next(1000).slice.pixels.empty());
@@ -197,9 +197,9 @@ TEST(ReferencePictures, WaitsForPortionsOfTheReplacedPicture) {
     EXPECT_TRUE(driver.pictures.toBegin());
 }
 
-TEST(ReferencePictures, AnEmptyViewShowsNothing) {
+TEST(TracedPictures, AnEmptyViewShowsNothing) {
     Driver driver(kThirtyTwo);
-    RenderView away = render_scenes::viewFrom(kReferenceSize, 20);
+    RenderView away = render_scenes::viewFrom(kTracedSize, 20);
     away.T_world_camera.translation.z() += 100;
     driver.pictures.look(away, away, {});
     driver.settle();

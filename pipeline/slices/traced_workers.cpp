@@ -1,4 +1,4 @@
-#include "pipeline/slices/reference_workers.h"
+#include "pipeline/slices/traced_workers.h"
 
 #include "base/thread_priority.h"
 
@@ -25,13 +25,13 @@ double secondsBetween(Timestamp a, Timestamp b) {
     return static_cast<double>((b - a).count()) * 1e-9;
 }
 
-ReferenceOptions checked(const ReferenceOptions& o) {
+TracedRendererOptions checked(const TracedRendererOptions& o) {
     const auto positive = [](double v) { return std::isfinite(v) && v > 0; };
     validate(o.tracer);
     if (!positive(o.policy.limits.turnDegrees) || !positive(o.policy.limits.zoom) ||
         !(o.lightChange >= 0) || o.policy.samplesToReplace < 1)
         throw std::invalid_argument(
-            "an option that decides when a new reference picture is made is out of range");
+            "an option that decides when a new traced picture is made is out of range");
     if (!(o.holeShare >= 0 && o.holeShare <= 1))
         throw std::invalid_argument("the share of holes is not in [0, 1]");
     if (!positive(o.exposure.scale)) throw std::invalid_argument("the exposure must be above 0");
@@ -40,12 +40,12 @@ ReferenceOptions checked(const ReferenceOptions& o) {
 
 }  // namespace
 
-ReferenceWorkers::ReferenceWorkers(const ReferenceOptions& options, RenderMail& mail)
+TracedWorkers::TracedWorkers(const TracedRendererOptions& options, RenderMail& mail)
     : options_(checked(options)), mail_(mail), budget_(options.budgetMs),
       predictor_(options.prediction), pictures_(options.slices, options.policy),
       holes_(options.mostHolePixels) {}
 
-void ReferenceWorkers::work() {
+void TracedWorkers::work() {
     const bool lowered = lowerThreadPriority();
     std::unique_lock lock(mutex_);
     counters_.lowPriority = counters_.lowPriority && lowered;
@@ -70,12 +70,12 @@ void ReferenceWorkers::work() {
     }
 }
 
-bool ReferenceWorkers::rest(std::uint64_t number, int threads) const {
+bool TracedWorkers::rest(std::uint64_t number, int threads) const {
     const std::scoped_lock lock(mutex_);
     return tick_.number == number && asleep_ == threads && !toBuild_ && !building_;
 }
 
-void ReferenceWorkers::readMail() {
+void TracedWorkers::readMail() {
     if (mail_.scenes.fetch()) toBuild_ = std::exchange(mail_.scenes.front(), nullptr);
     if (!holesExclusive_ && holes_.idle() && scene_ && mail_.holeRequests.fetch())
         takeHoles(mail_.holeRequests.front());
@@ -84,16 +84,16 @@ void ReferenceWorkers::readMail() {
 
 // Drops a request for a picture whose scene was replaced. The next picture will cause a new
 // request.
-void ReferenceWorkers::takeHoles(HoleRequest& request) {
+void TracedWorkers::takeHoles(HoleRequest& request) {
     const std::shared_ptr<const Scene> source = std::exchange(request.source, nullptr);
-    const std::shared_ptr<const ReferenceScene>& scene =
+    const std::shared_ptr<const PictureScene>& scene =
         source && shownScene_ && shownScene_->source == source ? shownScene_ : scene_;
     if (source && scene->source != source) return;
     holes_.take(request);
     holeScene_ = scene;
 }
 
-void ReferenceWorkers::takeTick() {
+void TracedWorkers::takeTick() {
     const RenderTick last = std::exchange(tick_, mail_.ticks.front());
     const bool waits = tracing();
     for (std::uint64_t i = std::min(tick_.number - last.number, kMostMissed); i > 0; --i)
@@ -116,7 +116,7 @@ void ReferenceWorkers::takeTick() {
     if (hasWork()) wakeOthers();
 }
 
-void ReferenceWorkers::look() {
+void TracedWorkers::look() {
     toLook_ = false;
     pictures_.setScene(scene_);
     if (scene_ && tick_.view) pictures_.look(*tick_.view, predictedView(), tick_.time);
@@ -124,7 +124,7 @@ void ReferenceWorkers::look() {
     if (hasWork()) wakeOthers();
 }
 
-RenderView ReferenceWorkers::predictedView() const {
+RenderView TracedWorkers::predictedView() const {
     const RenderView& now = *tick_.view;
     double distance = std::numeric_limits<double>::infinity();
     for (const ObjectBall& ball : scene_->balls)
@@ -142,7 +142,7 @@ RenderView ReferenceWorkers::predictedView() const {
     return now;
 }
 
-ReferenceWorkers::Job ReferenceWorkers::chosenJob() {
+TracedWorkers::Job TracedWorkers::chosenJob() {
     Job job;
     if (toBuild_ && !building_) {
         building_ = true;
@@ -172,7 +172,7 @@ ReferenceWorkers::Job ReferenceWorkers::chosenJob() {
     return portion();
 }
 
-ReferenceWorkers::Job ReferenceWorkers::resolving() {
+TracedWorkers::Job TracedWorkers::resolving() {
     Job job;
     PictureResolver& resolver = pictures_.resolver();
     const double ms = resolveMs_[static_cast<std::size_t>(resolver.stage())];
@@ -186,7 +186,7 @@ ReferenceWorkers::Job ReferenceWorkers::resolving() {
     return job;
 }
 
-ReferenceWorkers::Job ReferenceWorkers::portion() {
+TracedWorkers::Job TracedWorkers::portion() {
     Job job;
     const bool holesWait = !holesExclusive_ && holes_.tracing();
     const bool picturesWait = !exclusive_ && !pictures_.settled();
@@ -214,7 +214,7 @@ ReferenceWorkers::Job ReferenceWorkers::portion() {
     return {};
 }
 
-void ReferenceWorkers::perform(Job& job) {
+void TracedWorkers::perform(Job& job) {
     switch (job.kind) {
     case Job::Kind::None: break;
     case Job::Kind::Build: build(job); break;
@@ -229,14 +229,14 @@ void ReferenceWorkers::perform(Job& job) {
     }
 }
 
-void ReferenceWorkers::build(Job& job) const {
-    const std::shared_ptr<const ReferenceScene> previous = std::exchange(job.scene, nullptr);
+void TracedWorkers::build(Job& job) const {
+    const std::shared_ptr<const PictureScene> previous = std::exchange(job.scene, nullptr);
     try {
         const bool same = job.source && previous && sameObjects(*job.source, *job.previousSource);
         if (same &&
             lightChange(job.source->lighting, job.previousSource->lighting) < options_.lightChange)
             return;
-        auto built = std::make_shared<ReferenceScene>();
+        auto built = std::make_shared<PictureScene>();
         built->tracer = std::make_shared<PathTracer>(job.source, options_.tracer);
         built->source = job.source;
         built->balls = objectBalls(*job.source);
@@ -248,12 +248,12 @@ void ReferenceWorkers::build(Job& job) const {
     }
 }
 
-std::int64_t ReferenceWorkers::Job::samples() const {
+std::int64_t TracedWorkers::Job::samples() const {
     return static_cast<std::int64_t>(portion.slice.pixels.size()) * portion.slice.samples +
            static_cast<std::int64_t>(holes.size()) * holeSamples;
 }
 
-void ReferenceWorkers::finish(const Job& job, double ms) {
+void TracedWorkers::finish(const Job& job, double ms) {
     const std::int64_t samples = job.samples();
     counters_.samples += static_cast<std::uint64_t>(samples);
     if (job.kind != Job::Kind::Build) counters_.cpuMs += ms;
@@ -285,7 +285,7 @@ void ReferenceWorkers::finish(const Job& job, double ms) {
     wakeOthers();
 }
 
-void ReferenceWorkers::finishRows(const Job& job, double ms) {
+void TracedWorkers::finishRows(const Job& job, double ms) {
     PictureResolver& resolver = pictures_.resolver();
     resolveMs_[static_cast<std::size_t>(job.rows.stage)] =
         ms / static_cast<double>(resolver.pixelsOf(job.rows));
@@ -302,7 +302,7 @@ void ReferenceWorkers::finishRows(const Job& job, double ms) {
     if (resolver.complete() || resolver.hasNext()) wakeOthers();
 }
 
-void ReferenceWorkers::finishBuild(const Job& job) {
+void TracedWorkers::finishBuild(const Job& job) {
     building_ = false;
     if (!job.error.empty()) {
         mail_.errors.back() = job.error;
@@ -314,11 +314,11 @@ void ReferenceWorkers::finishBuild(const Job& job) {
     toLook_ = true;
 }
 
-bool ReferenceWorkers::tracing() const {
+bool TracedWorkers::tracing() const {
     return exclusive_ || !pictures_.settled() || holesExclusive_ || !holes_.idle();
 }
 
-void ReferenceWorkers::publishCounters() {
+void TracedWorkers::publishCounters() {
     counters_.frame = tick_.time;
     counters_.msPerSample = budget_.msPerSample();
     counters_.budget = budget_.kept();
@@ -328,13 +328,13 @@ void ReferenceWorkers::publishCounters() {
     if (!exclusive_) {
         counters_.pictures = pictures_.finished();
         counters_.progress = pictures_.progress();
-        counters_.referenceSince = pictures_.shownSince();
+        counters_.shownSince = pictures_.shownSince();
     }
     mail_.counters.back() = counters_;
     mail_.counters.publish();
 }
 
-void ReferenceWorkers::wakeOthers() {
+void TracedWorkers::wakeOthers() {
     if (asleep_ == 0) return;
     ++mail_.wakes;
     mail_.wakes.notify_all();

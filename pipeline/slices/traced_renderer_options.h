@@ -3,8 +3,8 @@
 #include "pipeline/render/exposure.h"
 #include "pipeline/render/path_tracer.h"
 #include "pipeline/slices/budget_controller.h"
-#include "pipeline/slices/reference_pictures.h"
 #include "pipeline/slices/slices.h"
+#include "pipeline/slices/traced_pictures.h"
 #include "pipeline/slices/view_predictor.h"
 
 #include <cstddef>
@@ -13,19 +13,19 @@
 
 namespace mfar {
 
-struct ReferenceOptions {
+struct TracedRendererOptions {
     SliceOptions slices;
     PathTracerOptions tracer;
     Exposure exposure;
-    ReferencePolicy policy;
+    TracedPolicy policy;
     PredictionLimits prediction;
     double lightChange = 0.1;  ///< smaller changes of light are ignored; see lightChange()
     double budgetMs = 4;       ///< processor time [ms] of all threads between two calls of update()
     int threads = 2;           ///< number of threads, [1, 64]
-    double holeShare = 0.5;    ///< upper limit of the holes' share of the time while a reference
+    double holeShare = 0.5;    ///< upper limit of the holes' share of the time while a traced
                                ///< picture is incomplete, [0, 1]
     std::size_t mostHolePixels = 20000;  ///< per request; further pixels are dropped
-    bool operator==(const ReferenceOptions&) const = default;
+    bool operator==(const TracedRendererOptions&) const = default;
 };
 
 struct RenderCounters {
@@ -39,9 +39,9 @@ struct RenderCounters {
     std::uint64_t shown = 0;       ///< published pictures, even if the reader did not take them
     std::uint64_t holePixels = 0;  ///< number of answered pixels
     double progress = 1;           ///< of the picture in progress, in [0, 1]
-    std::optional<Timestamp> referenceSince;  ///< when the shown picture's view was chosen
-    bool idle = true;                         ///< there is no work left while the camera rests
-    bool lowPriority = true;                  ///< all threads were allowed to lower their priority
+    std::optional<Timestamp> shownSince;  ///< when the shown picture's view was chosen
+    bool idle = true;                     ///< there is no work left while the camera rests
+    bool lowPriority = true;              ///< all threads were allowed to lower their priority
 };
 
 }  // namespace mfar

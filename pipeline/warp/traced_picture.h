@@ -24,7 +24,7 @@ struct WarpSurface {
 
 /// A finished picture that was prepared on the CPU for warping. Any thread may prepare it. Each
 /// array is row-major and has camera.size pixels.
-struct WarpReference {
+struct TracedPicture {
     CameraModel camera;
     RigidTransform T_world_camera;
     std::vector<std::array<std::uint8_t, 4>> picture;  ///< rendered colours; valid where depth is
@@ -57,7 +57,7 @@ struct WarpReference {
 /// Throws std::invalid_argument if the camera or the pose is not finite, a side is longer than
 /// 16384, or an array has the wrong size. A pixel has no surface if z is not finite, not beyond the
 /// near plane, or above 1000 km.
-[[nodiscard]] WarpReference warpReference(const RenderedPicture& picture);
+[[nodiscard]] TracedPicture tracedPicture(const RenderedPicture& picture);
 
 /// Colour of a surface, computed from a partly covered pixel at an edge: the colour is divided by
 /// the coverage, and alpha becomes opaque.
@@ -67,13 +67,13 @@ struct WarpReference {
 /// surface. `surface` is row-major and has `size` pixels.
 [[nodiscard]] float toleranceAt(std::span<const WarpSurface> surface, Size size, int x, int y);
 
-/// How the points of a reference picture move if the view changes from the picture's own view to
+/// How the points of a traced picture move if the view changes from the picture's own view to
 /// another view of the layer.
 struct WarpMotion {
     double greatest = 0;  ///< [px]; infinite if a point moves behind the near plane
     PixelRect bounds;     ///< pixels of the other view that show a point
 };
-[[nodiscard]] WarpMotion motionOf(const WarpReference& reference, const LensProjection& layer,
+[[nodiscard]] WarpMotion motionOf(const TracedPicture& traced, const LensProjection& layer,
                                   const RigidTransform& T_world_camera);
 
 }  // namespace mfar

@@ -1,17 +1,17 @@
 #pragma once
 
 #include "base/gl/texture.h"
-#include "pipeline/warp/patch_pictures.h"
+#include "pipeline/warp/rerendered_pictures.h"
 
 namespace mfar {
 
-/// The pixels of all patches on the GPU, one patch below the other. Slot i begins at row i *
-/// (height of the layer).
-class PatchTextures {
+/// The pixels of all re-rendered pictures on the GPU, one re-rendered picture below the other. Slot
+/// i begins at row i * (height of the layer).
+class RerenderedTextures {
 public:
-    explicit PatchTextures(Size layer);
+    explicit RerenderedTextures(Size layer);
 
-    void store(const PatchPictures::StoredRows& rows);
+    void store(const RerenderedPictures::StoredRows& rows);
     [[nodiscard]] const gpu::Texture& colour() const { return colour_; }  ///< RGBA8
     /// Rgba32F; its channels are the members of WarpSurface.
     [[nodiscard]] const gpu::Texture& surface() const { return surface_; }

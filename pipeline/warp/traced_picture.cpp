@@ -1,4 +1,4 @@
-#include "pipeline/warp/warp_reference.h"
+#include "pipeline/warp/traced_picture.h"
 
 #include "base/se3.h"
 #include "pipeline/engine/steps.h"
@@ -16,7 +16,7 @@ namespace {
 using Rgba = std::array<std::uint8_t, 4>;
 
 constexpr int kMostSide = 16384;
-constexpr int kReferenceTile = 16;  // edge of a tile [px]
+constexpr int kTracedTile = 16;  // edge of a tile [px]
 // An object pixel with at least this alpha counts as fully covered; a few missing samples are not
 // visible.
 constexpr int kWhole = 250;
@@ -39,7 +39,7 @@ void requireFiniteCamera(const CameraModel& c, const RigidTransform& T) {
 /// The picture as a grid; pixels outside are empty.
 class PictureGrid {
 public:
-    explicit PictureGrid(WarpReference& reference) : r_(reference), size_(reference.camera.size) {}
+    explicit PictureGrid(TracedPicture& traced) : r_(traced), size_(traced.camera.size) {}
 
     [[nodiscard]] Size size() const { return size_; }
     [[nodiscard]] std::size_t index(int x, int y) const {
@@ -71,14 +71,14 @@ public:
     }
 
 private:
-    const WarpReference& r_;
+    const TracedPicture& r_;
     Size size_;
 };
 
 /// Sets the pixel's colour and light to the mean of adjacent plain pixels on the same surface.
 /// Returns false if there are no such pixels.
 bool takeFromNeighbours(const PictureGrid& grid, std::span<const LightWords> light,
-                        WarpReference& r, int x, int y) {
+                        TracedPicture& r, int x, int y) {
     const int own = grid.id(x, y);
     std::array<int, 4> sum{};
     UnpackedLight sumOfLight;
@@ -138,7 +138,7 @@ std::uint32_t packedSurface(const WarpSurface& s) {
            static_cast<std::uint32_t>(s.id);
 }
 
-void finishPixel(const PictureGrid& grid, std::span<const LightWords> light, WarpReference& r,
+void finishPixel(const PictureGrid& grid, std::span<const LightWords> light, TracedPicture& r,
                  int x, int y) {
     const std::size_t i = grid.index(x, y);
     WarpSurface& s = r.surface[i];
@@ -158,12 +158,11 @@ Eigen::Vector2d outerCorner(const PixelRect& r, std::size_t i) {
     return {((i & 1) != 0 ? r.x1 : r.x0) - 0.5, ((i & 2) != 0 ? r.y1 : r.y0) - 0.5};
 }
 
-void addTile(const PictureGrid& grid, WarpReference& r, int x0, int y0) {
-    WarpReference::Tile tile{
-        widened({x0, y0, x0 + kReferenceTile, y0 + kReferenceTile}, 0, grid.size()),
-        {},
-        std::numeric_limits<float>::max(),
-        0};
+void addTile(const PictureGrid& grid, TracedPicture& r, int x0, int y0) {
+    TracedPicture::Tile tile{widened({x0, y0, x0 + kTracedTile, y0 + kTracedTile}, 0, grid.size()),
+                             {},
+                             std::numeric_limits<float>::max(),
+                             0};
     for (int y = tile.pixels.y0; y < tile.pixels.y1; ++y)
         for (int x = tile.pixels.x0; x < tile.pixels.x1; ++x) {
             const float z = r.depth[grid.index(x, y)];
@@ -206,12 +205,12 @@ std::array<std::uint8_t, 4> filled(const std::array<std::uint8_t, 4>& premultipl
     return out;
 }
 
-WarpReference warpReference(const RenderedPicture& picture) {
+TracedPicture tracedPicture(const RenderedPicture& picture) {
     requireFiniteCamera(picture.camera, picture.T_world_camera);
     const Size size = picture.camera.size;
     const std::size_t count = static_cast<std::size_t>(size.width) * size.height;
     requireAllPixels(picture, count);
-    WarpReference r{picture.camera,
+    TracedPicture r{picture.camera,
                     picture.T_world_camera,
                     picture.colour,
                     {},
@@ -240,24 +239,24 @@ WarpReference warpReference(const RenderedPicture& picture) {
     r.packed.reserve(count);
     for (const WarpSurface& s : r.surface)
         r.packed.push_back(packedSurface(s));
-    for (int y = 0; y < size.height; y += kReferenceTile)
-        for (int x = 0; x < size.width; x += kReferenceTile)
+    for (int y = 0; y < size.height; y += kTracedTile)
+        for (int x = 0; x < size.width; x += kTracedTile)
             addTile(grid, r, x, y);
     for (std::size_t i = 0; i < count; ++i)
         if (picture.id[i] == kCatcherId) r.depth[i] *= 1 - kShadowLift;
     return r;
 }
 
-WarpMotion motionOf(const WarpReference& reference, const LensProjection& layer,
+WarpMotion motionOf(const TracedPicture& traced, const LensProjection& layer,
                     const RigidTransform& T_world_camera) {
     constexpr double kInfinite = std::numeric_limits<double>::infinity();
     const Size size = layer.camera.size;
-    const RigidTransform T = T_world_camera.inverse() * reference.T_world_camera;
-    const bool sameSize = reference.camera.size == size;
+    const RigidTransform T = T_world_camera.inverse() * traced.T_world_camera;
+    const bool sameSize = traced.camera.size == size;
     Eigen::AlignedBox2d box;
-    double greatest = reference.tiles.empty() || sameSize ? 0 : kInfinite;
+    double greatest = traced.tiles.empty() || sameSize ? 0 : kInfinite;
     bool behind = false;
-    for (const WarpReference::Tile& tile : reference.tiles)
+    for (const TracedPicture::Tile& tile : traced.tiles)
         for (std::size_t i = 0; i < 4; ++i) {
             const Eigen::Vector2d corner = outerCorner(tile.pixels, i);
             const Eigen::Vector3d ray = tile.rays[i].homogeneous();
