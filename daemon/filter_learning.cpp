@@ -144,7 +144,8 @@ std::vector<std::string> FilterLearning::takeWarnings() {
 }
 
 void FilterLearning::run(const std::stop_token& stop) {
-    lowerThreadPriority();
+    // If frames wait for the learning, a low priority would only delay them.
+    if (!options_.waits) lowerThreadPriority();
     Heartbeat heart(options_.watched);
     for (;;) {
         heart.rest();

@@ -26,17 +26,17 @@ struct FilterLearningOptions {
     std::filesystem::path file;
     std::string sensors;  ///< names and sizes of the sensors for which filters are learned
     /// True: learn from every still; finish() waits for it, so that the same pictures give the same
-    /// filters. False: skip stills that come while learning runs, or so early that learning would
-    /// use more than a tenth of a CPU.
+    /// filters. False: learn with low priority; skip stills that come while learning runs, or so
+    /// early that learning would use more than a tenth of a CPU.
     bool waits = false;
     /// If this is set, guidance is learned, too, see enlarge::GuidanceLearner.
     std::optional<StereoRig> rig = std::nullopt;
     WatchedThread watched{};  ///< the learning thread; its budget is for one still
 };
 
-/// Learns the enlarger's filters from matched stills, in a thread of low priority. This thread
-/// stores the state every minute and at the end. The thread that processes frames copies the
-/// stills, one at a time.
+/// Learns the enlarger's filters from matched stills, in a thread of its own. This thread stores
+/// the state every minute and at the end. The thread that processes frames copies the stills, one
+/// at a time.
 class FilterLearning final : public MatchListener {
 public:
     /// Reads the state from the file. If that fails, learning starts again, with a warning.

@@ -2,6 +2,7 @@
 #include "daemon/filter_learning.h"
 #include "tests/learn/sensor_pair.h"
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -46,6 +47,31 @@ TEST_F(FilterLearningTest, LearnedFiltersAreHandedOutOnce) {
     EXPECT_NE(learning.takeFilters(), nullptr);
     EXPECT_EQ(learning.takeFilters(), nullptr);
     EXPECT_THAT(learning.takeWarnings(), IsEmpty());
+}
+
+/// Returns the highest nice value of this process's threads.
+int highestNice() {
+    int highest = -20;
+    for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
+        const auto id = static_cast<id_t>(std::stoul(task.path().filename()));
+        highest = std::max(highest, ::getpriority(PRIO_PROCESS, id));
+    }
+    return highest;
+}
+
+TEST_F(FilterLearningTest, PriorityIsLowUnlessFramesWait) {
+    const int before = highestNice();
+    {
+        FilterLearning learning(options);
+        show(learning, 1, 1);
+        EXPECT_EQ(highestNice(), before);
+    }
+    options.waits = false;
+    FilterLearning learning(options);
+    showTo(learning, sharpDiscs(1), sharpDiscs(1), {.videoBlur = 1});
+    while (learning.counts().learner.stills == 0)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    EXPECT_GT(highestNice(), before);
 }
 
 StereoRig discsRig() {
