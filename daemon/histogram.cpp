@@ -4,13 +4,24 @@
 #include <cmath>
 
 namespace mfar {
+namespace {
+
+constexpr double kLeastMs = 1e-3;
+
+}  // namespace
+
+double TimeBuckets::of(double ms) const {
+    // The condition is written so that NaN gives 0.
+    return ms > kLeastMs ? std::log2(ms / kLeastMs) * perOctave : 0;
+}
+
+double TimeBuckets::middleMs(double bucket) const {
+    return kLeastMs * std::exp2((bucket + 0.5) / perOctave);
+}
 
 void Histogram::add(double ms) {
-    // The condition is written so that NaN is counted in the smallest bucket.
-    const double octaves = ms > kLeastMs ? std::log2(ms / kLeastMs) : 0;
     const double last = static_cast<double>(buckets_.size() - 1);
-    const double bucket = std::min(octaves * kBucketsPerOctave, last);
-    ++buckets_[static_cast<std::size_t>(bucket)];
+    ++buckets_[static_cast<std::size_t>(std::min(kBuckets.of(ms), last))];
     ++count_;
 }
 
@@ -23,8 +34,7 @@ double Histogram::quantile(double q) const {
         seen += buckets_[i];
         if (seen >= rank && seen > 0) break;
     }
-    const double middle = (static_cast<double>(i) + 0.5) / kBucketsPerOctave;
-    return kLeastMs * std::exp2(middle);
+    return kBuckets.middleMs(static_cast<double>(i));
 }
 
 }  // namespace mfar

@@ -5,6 +5,18 @@
 
 namespace mfar {
 
+/// Buckets for times. Each is 2^(1/perOctave) times as wide as the one before; bucket 0 begins at
+/// 1 us.
+struct TimeBuckets {
+    int perOctave;
+
+    /// Returns the bucket that holds a time, with a fraction. Times up to 1 us, also negative ones,
+    /// and NaN give 0.
+    [[nodiscard]] double of(double ms) const;
+    /// Returns the time in the middle of a bucket [ms].
+    [[nodiscard]] double middleMs(double bucket) const;
+};
+
 /// The distribution of times. It needs constant memory, because the daemon runs for months. Each
 /// bucket is 2^(1/32) times as wide as the previous one, so that the error of a quantile is at most
 /// 1.1 %.
@@ -17,11 +29,10 @@ public:
     [[nodiscard]] std::uint64_t count() const { return count_; }
 
 private:
-    static constexpr int kBucketsPerOctave = 32;
+    static constexpr TimeBuckets kBuckets{32};
     static constexpr int kOctaves = 27;  ///< the buckets cover 1 us to 134 s
-    static constexpr double kLeastMs = 1e-3;
 
-    std::array<std::uint32_t, kBucketsPerOctave * kOctaves> buckets_{};
+    std::array<std::uint32_t, kBuckets.perOctave * kOctaves> buckets_{};
     std::uint64_t count_ = 0;
 };
 

@@ -1,14 +1,15 @@
 #include "daemon/run_history.h"
 
+#include "daemon/histogram.h"
+
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace mfar {
 namespace {
 
-constexpr double kLeastMs = 1e-3, kMostMs = 6e5;
-constexpr int kBucketsPerOctave = 8;
+constexpr double kMostMs = 6e5;
+constexpr TimeBuckets kBuckets{8};
 
 void merge(RunHistory::Bin& into, const RunHistory::Bin& later) {
     into.frameMs.add(later.frameMs);
@@ -26,9 +27,8 @@ void merge(RunHistory::Bin& into, const RunHistory::Bin& later) {
 }  // namespace
 
 void TimeSpread::add(double ms) {
-    // The condition is written so that a NaN goes to the smallest bucket.
-    const double known = ms > kLeastMs ? std::min(ms, kMostMs) : kLeastMs;
-    ++counts_[static_cast<std::int16_t>(std::log2(known / kLeastMs) * kBucketsPerOctave)];
+    // std::min() returns NaN if `ms` is NaN.
+    ++counts_[static_cast<std::int16_t>(kBuckets.of(std::min(ms, kMostMs)))];
 }
 
 void TimeSpread::add(const TimeSpread& other) {
@@ -42,7 +42,7 @@ double TimeSpread::quantile(double q) const {
         all += static_cast<double>(count);
     for (const auto& [bucket, count] : counts_) {
         seen += static_cast<double>(count);
-        if (seen >= q * all) return kLeastMs * std::exp2((bucket + 0.5) / kBucketsPerOctave);
+        if (seen >= q * all) return kBuckets.middleMs(bucket);
     }
     return std::numeric_limits<double>::quiet_NaN();
 }

@@ -1,7 +1,7 @@
 // Copies pictures of the session for the report.
 
-#include "daemon/rig_thumbnail.h"
 #include "daemon/session.h"
+#include "daemon/thumbnail.h"
 
 #include <stdexcept>
 

@@ -3,8 +3,8 @@
 #include "base/bounded_file.h"
 #include "base/image_layout.h"
 #include "base/whole_file.h"
+#include "hal/bgr_picture.h"
 #include "hal/image_codec.h"
-#include "hal/virtual/bgr_picture.h"
 
 #include <fmt/format.h>
 #include <opencv2/core.hpp>

@@ -1,7 +1,7 @@
 #include "base/line_chart.h"
 #include "daemon/report.h"
-#include "daemon/rig_thumbnail.h"
 #include "daemon/status.h"
+#include "daemon/thumbnail.h"
 #include "hal/image_codec.h"
 #include "tests/measure/bench/xml_check.h"
 

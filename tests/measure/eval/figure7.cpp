@@ -1,6 +1,6 @@
 #include "tests/measure/eval/figure7.h"
 
-#include "hal/virtual/bgr_picture.h"
+#include "hal/bgr_picture.h"
 #include "tests/measure/eval/labels.h"
 #include "tests/measure/eval/metrics/luma.h"
 #include "tests/measure/eval/picture.h"

@@ -1,4 +1,4 @@
-#include "hal/virtual/bgr_picture.h"
+#include "hal/bgr_picture.h"
 
 #include "base/image_layout.h"
 

@@ -1,8 +1,8 @@
-#include "daemon/rig_thumbnail.h"
+#include "daemon/thumbnail.h"
 
 #include "base/image_layout.h"
+#include "hal/bgr_picture.h"
 #include "hal/image_codec.h"
-#include "hal/virtual/bgr_picture.h"
 
 #include <opencv2/imgproc.hpp>
 
