@@ -8,6 +8,7 @@
 #include "pipeline/slices/view_change.h"
 #include "pipeline/traced_layer.h"
 #include "tests/measure/eval/metrics/flicker.h"
+#include "tests/measure/eval/metrics/hdrvdp.h"
 #include "tests/measure/eval/stopwatch.h"
 #include "tests/measure/eval/traced_truth.h"
 #include "tests/measure/eval/warp_scenes.h"
@@ -116,6 +117,19 @@ cv::Mat lumaOf(const Picture& error, Size size) {
     for (const Rgb& rgb : error)
         *to++ = 0.299 * rgb[0] + 0.587 * rgb[1] + 0.114 * rgb[2];
     return out;
+}
+
+/// HDR-VDP-2's quality of a frame, as colours on a display.
+double hdrVdpOf(const Picture& shown, const Picture& exact, Size size) {
+    const HdrVdpDisplay display;
+    const auto lightOf = [&](const Picture& picture) {
+        cv::Mat bgr(size.height, size.width, CV_64FC3);
+        auto* to = bgr.ptr<cv::Vec3d>();
+        for (const Rgb& rgb : picture)
+            *to++ = {rgb[2], rgb[1], rgb[0]};
+        return displayedLight(bgr, display);
+    };
+    return hdrVdp(lightOf(shown), lightOf(exact), display.pixelsPerDegree).q;
 }
 
 /// Flow of the objects' pixels from a frame to the frame before it, CV_32FC2. NaN if that frame
@@ -258,10 +272,11 @@ private:
             const Picture exact = overPaper(truth);
             Picture error = differenceOf(shown, exact);
             if (isCompared(i) && i >= kFirstFrames) {
-                compare(method, i, error, truth, frames);
+                compare(method, i, {shown, exact, error}, truth, frames);
             } else if (follows && errorBefore && i > kFirstFrames) {
-                report_.add(label_, std::to_string(i), method,
-                            {{}, {}, flickerOf(*errorBefore, *truthBefore, error, truth), {}, {}});
+                report_.add(
+                    label_, std::to_string(i), method,
+                    valuesOf({.flicker = flickerOf(*errorBefore, *truthBefore, error, truth)}));
             }
             if (isCompared(i)) {
                 const auto nameOf = [&](const std::string& what) {
@@ -276,19 +291,38 @@ private:
         return all;
     }
 
-    void compare(const std::string& method, int frame, const Picture& error,
+    /// Values of one row of the report, see tracedColumns().
+    struct Values {
+        std::optional<double> psnr, shadowPsnr, flicker, pictures, warpMs, hdrVdpQ;
+    };
+    [[nodiscard]] std::vector<std::optional<double>> valuesOf(const Values& v) const {
+        std::vector<std::optional<double>> out{v.psnr, v.shadowPsnr, v.flicker, v.pictures,
+                                               v.warpMs};
+        if (request_.hdrVdp) out.push_back(v.hdrVdpQ);
+        return out;
+    }
+
+    /// A frame, the exact picture, and the difference of the two.
+    struct Compared {
+        const Picture &shown, &exact, &error;
+    };
+    void compare(const std::string& method, int frame, const Compared& compared,
                  const RenderedPicture& truth, const ShownFrames& frames) {
         MeanSquare object, shadow;
-        for (std::size_t i = 0; i < error.size(); ++i) {
+        for (std::size_t i = 0; i < compared.error.size(); ++i) {
             if (showsObject(truth, i))
-                object.add(error[i]);
+                object.add(compared.error[i]);
             else if (truth.id[i] == kCatcherId)
-                shadow.add(error[i]);
+                shadow.add(compared.error[i]);
         }
-        const RenderCounters render = frames.counters().render;
-        report_.add(
-            label_, std::to_string(frame), method,
-            {object.psnr(), shadow.psnr(), {}, static_cast<double>(render.shown), frames.warpMs()});
+        Values values;
+        values.psnr = object.psnr();
+        values.shadowPsnr = shadow.psnr();
+        values.pictures = static_cast<double>(frames.counters().render.shown);
+        values.warpMs = frames.warpMs();
+        if (request_.hdrVdp)
+            values.hdrVdpQ = hdrVdpOf(compared.shown, compared.exact, request_.size);
+        report_.add(label_, std::to_string(frame), method, valuesOf(values));
     }
 
     [[nodiscard]] std::string fileStem() const {
@@ -321,6 +355,13 @@ private:
     TracedTruth truth_;
 };
 
+std::vector<Column> tracedColumns(bool hdrVdp) {
+    std::vector<Column> out{
+        {"psnr_db", 2}, {"shadow_psnr_db", 2}, {"flicker", 3}, {"pictures", 0}, {"warp_ms", 2}};
+    if (hdrVdp) out.push_back({"hdrvdp_q", 2});
+    return out;
+}
+
 }  // namespace
 
 std::vector<std::string> tracedMethodNames() {
@@ -328,8 +369,11 @@ std::vector<std::string> tracedMethodNames() {
 }
 
 Report evaluateTraced(const TracedRequest& request) {
-    Report report(
-        {{"psnr_db", 2}, {"shadow_psnr_db", 2}, {"flicker", 3}, {"pictures", 0}, {"warp_ms", 2}});
+    constexpr int kLeastSide = 17;  // of pictures for HDR-VDP-2 [px]
+    if (request.hdrVdp && std::min(request.size.width, request.size.height) < kLeastSide)
+        throw EvalError(
+            fmt::format("--hdrvdp needs layers of at least {0}x{0} pixels", kLeastSide));
+    Report report(tracedColumns(request.hdrVdp));
     const std::size_t scenes = request.scenes.size(), paths = request.paths.size();
     for (std::size_t s = 0; s < scenes; ++s)
         for (std::size_t p = 0; p < paths; ++p)

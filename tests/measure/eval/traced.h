@@ -20,6 +20,7 @@ struct TracedRequest {
     int frames = 90;                     ///< frames per path, at 30 per second
     int every = 10;                      ///< two consecutive frames in this number are compared
     int truthSamples = 256;              ///< samples per pixel of the truth
+    bool hdrVdp = false;                 ///< also compute HDR-VDP-2 of the compared frames
     std::filesystem::path truth;         ///< folder that keeps the truth; empty: traced again
     std::filesystem::path save;          ///< folder for compared frames and truth; empty: not saved
     std::filesystem::path video;         ///< folder for a y4m file of each path; empty: not written
@@ -35,7 +36,8 @@ struct TracedRequest {
 ///
 /// Columns: psnr of the pixels where the truth shows an object [dB]; shadow_psnr of those where it
 /// shows a change of the real surface [dB]; flicker of the objects' luma [grey levels], see
-/// metrics/flicker.h; pictures, the number shown so far; warp_ms. The GLES engine needs a current
+/// metrics/flicker.h; pictures, the number shown so far; warp_ms; with `hdrVdp` hdrvdp_q, the
+/// quality of the whole frame on the display HdrVdpDisplay{}. The GLES engine needs a current
 /// context. Throws EvalError.
 [[nodiscard]] Report evaluateTraced(const TracedRequest& request);
 

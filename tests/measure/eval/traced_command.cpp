@@ -19,7 +19,8 @@ constexpr const char* kTracedHelp =
     "it shows a shadow or light of the objects on the real surface; flicker [grey levels]:\n"
     "change of the luma error of objects from a frame to the next along their motion, root\n"
     "mean square over the square root of two; pictures: number of pictures shown so far;\n"
-    "warp_ms: time of drawing the layer. Frames of the first half second are not scored.";
+    "warp_ms: time of drawing the layer; hdrvdp_q: HDR-VDP-2's quality of the whole frame,\n"
+    "100 if it equals the truth. Frames of the first half second are not scored.";
 
 }  // namespace
 
@@ -53,6 +54,7 @@ CLI::App* addTracedCommand(CLI::App& app, TracedRequest& request) {
                     "every this many frames, a frame and the next one are compared")
         ->check(CLI::Range(1, 100000))
         ->capture_default_str();
+    sub->add_flag("--hdrvdp", request.hdrVdp, "compute HDR-VDP-2 as well, which takes longer");
     sub->add_option("--truth-samples", request.truthSamples, "samples per pixel of the truth")
         ->check(CLI::Range(1, 65536))
         ->capture_default_str();

@@ -31,13 +31,14 @@ TEST(MfarEvalTraced, ComparesFramesOfEachMethodAndKeepsTheTruth) {
     const std::string root = folder.path().string();
     const auto outcome = execute(
         folder, fmt::format("'{0}' traced {1} --truth {2}/truth --save {2}/saved --video {2}/video "
-                            "--csv {2}/out.csv",
+                            "--hdrvdp --csv {2}/out.csv",
                             MFAR_EVAL, kSmall, root));
     ASSERT_EQ(outcome.status, 0) << outcome.text;
     std::istringstream in(test::readFile(folder / "out.csv"));
     std::string line;
     std::getline(in, line);
-    EXPECT_EQ(line, "recording,frame,method,psnr_db,shadow_psnr_db,flicker,pictures,warp_ms");
+    EXPECT_EQ(line,
+              "recording,frame,method,psnr_db,shadow_psnr_db,flicker,pictures,warp_ms,hdrvdp_q");
     int compared = 0;
     while (std::getline(in, line)) {
         const std::vector<std::string> row = cells(line);
@@ -47,6 +48,8 @@ TEST(MfarEvalTraced, ComparesFramesOfEachMethodAndKeepsTheTruth) {
         // the value to 35 dB.
         EXPECT_GT(std::stod(row[3]), 15) << line;
         EXPECT_LT(std::stod(row[3]), 60) << line;
+        EXPECT_GT(std::stod(row[8]), 20) << line;
+        EXPECT_LT(std::stod(row[8]), 100) << line;
     }
     EXPECT_EQ(compared, 2) << "product and independent";
     // The files are the truth of frames 0, 1, 10, 11, 20 and 21.
@@ -60,8 +63,9 @@ TEST(MfarEvalTraced, ComparesFramesOfEachMethodAndKeepsTheTruth) {
 
 TEST(MfarEvalTraced, WrongRequestsEndWithOneLineAndStatus2) {
     const TempFolder folder;
-    for (const char* arguments : {"--scenes absent", "--methods magic", "--paths away",
-                                  "--budget nan", "--frames 0", "--every 0", "--width 100000"}) {
+    for (const char* arguments :
+         {"--scenes absent", "--methods magic", "--paths away", "--budget nan", "--frames 0",
+          "--every 0", "--width 100000", "--hdrvdp --width 64 --height 16"}) {
         const auto outcome =
             execute(folder, fmt::format("'{}' traced --frames 1 {}", MFAR_EVAL, arguments));
         EXPECT_EQ(outcome.status, 2) << arguments << outcome.text;
