@@ -35,7 +35,7 @@ private:
     void take(char c) {
         if (c == '[' || c == '{') ++depth_;
         if ((c == ']' || c == '}') && depth_ > 0) --depth_;
-        // A dot counts, too, because each part of a dotted key creates a table.
+        // A dot also counts as a value, because each part of a dotted key creates a table.
         if (c == ',' || c == '=' || c == '[' || c == '{' || c == '.') ++values_;
         if (c == '.')
             ++dots_;

@@ -14,7 +14,7 @@ namespace mfar::plausible {
 namespace {
 
 constexpr double kRotationTolerance = 1e-3;  // some files round elements to four digits
-constexpr double kMaxFoldError = 0.5;        // [px]
+constexpr double kMaxFoldError = 0.5;  // [px]; a larger error of project(unproject()) shows a fold
 
 /// Formats the range for a message.
 std::string text(const Range& range) {
@@ -34,8 +34,8 @@ bool foldsInside(const CameraModel& c) {
     return false;
 }
 
-/// Computes, for each corner, its distance from the principal point with distortion divided by that
-/// without distortion. Returns the ratio that differs most from 1.
+/// Computes for each corner of the picture: its distance from the principal point with distortion,
+/// divided by the distance without distortion. Returns the ratio that differs most from 1.
 double mostUnlikelyCorner(const CameraModel& c) {
     const double right = c.size.width - 1, bottom = c.size.height - 1;
     const Eigen::Vector2d centre(c.cx, c.cy);

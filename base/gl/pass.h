@@ -40,7 +40,7 @@ class Program;
 class ProgramCache;
 class Validation;
 namespace detail {
-/// The cache that this thread uses; null: the thread does not share programs.
+/// The program cache of this thread; null: the thread does not share programs.
 inline constinit thread_local ProgramCache* programs = nullptr;
 /// The Validation that this thread uses; null: the thread's passes are not validated.
 inline constinit thread_local Validation* validation = nullptr;
@@ -113,7 +113,7 @@ private:
     Buffer params_;
 };
 
-/// The list of tiles that an instanced draw covers. A compute pass writes the list.
+/// A list of tiles, for an instanced draw with one quad per tile. A compute pass writes the list.
 struct InstanceList {
     const Buffer& commands;  ///< contains one DrawArraysIndirect command at `commandOffset`
     std::size_t commandOffset;
