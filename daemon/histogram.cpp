@@ -6,7 +6,7 @@
 namespace mfar {
 
 void Histogram::add(double ms) {
-    // The condition is written so that NaN is counted in the smallest bucket.
+    // The condition is written so that NaN is counted in the bucket of the shortest times.
     const double octaves = ms > kLeastMs ? std::log2(ms / kLeastMs) : 0;
     const double last = static_cast<double>(buckets_.size() - 1);
     const double bucket = std::min(octaves * kBucketsPerOctave, last);

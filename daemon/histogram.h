@@ -10,7 +10,8 @@ namespace mfar {
 /// 1.1 %.
 class Histogram {
 public:
-    /// Adds a time [ms]. Zero, negative values and NaN are counted in the smallest bucket, 1 us.
+    /// Adds a time [ms]. Zero, negative values and NaN are counted in the bucket of the shortest
+    /// times, 1 us.
     void add(double ms);
     /// Returns the value that a share q of all values does not exceed; 0 if there are no values.
     [[nodiscard]] double quantile(double q) const;

@@ -26,7 +26,7 @@ void merge(RunHistory::Bin& into, const RunHistory::Bin& later) {
 }  // namespace
 
 void TimeSpread::add(double ms) {
-    // The condition is written so that a NaN goes to the smallest bucket.
+    // The condition is written so that NaN is counted in the bucket of the shortest times.
     const double known = ms > kLeastMs ? std::min(ms, kMostMs) : kLeastMs;
     ++counts_[static_cast<std::int16_t>(std::log2(known / kLeastMs) * kBucketsPerOctave)];
 }
@@ -65,7 +65,8 @@ void RunHistory::add(const RunMoment& moment, const std::vector<StageTime>& stag
     bin.totals = moment.totals;
 }
 
-// Also adds bins for times without pictures, which become gaps in the charts.
+// Returns the bin of a time. Also adds empty bins for times without pictures; these become gaps in
+// the charts.
 RunHistory::Bin& RunHistory::binAt(Timestamp shown) {
     if (!first_) first_ = shown;
     const double seconds = std::max(shown.seconds() - first_->seconds(), 0.0);

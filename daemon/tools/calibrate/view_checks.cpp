@@ -11,10 +11,11 @@ namespace mfar::calibration {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-// With less tilt or depth, the focal length cannot be separated from the target's distance.
+// Smallest tilt and depth. With less, the focal length cannot be separated from the target's
+// distance.
 constexpr double kLeastTilt = 12 * kDegree;
-constexpr double kLeastDepth = 1.2;     // distance of the farthest / of the nearest corner
-constexpr double kLeastCoverage = 0.6;  // share of the cells that have a corner
+constexpr double kLeastDepth = 1.2;     // distance of the farthest / nearest corner
+constexpr double kLeastCoverage = 0.6;  // smallest share of the cells that have a corner
 constexpr double kMostlyAt = 0.9;       // quantile, on which single views have little influence
 
 double quantile(std::vector<double> values, double q) {
@@ -25,8 +26,8 @@ double quantile(std::vector<double> values, double q) {
 }
 
 struct Spread {
-    double tilt = 0;   ///< angles of the target's normals to their mean [rad]
-    double depth = 1;  ///< distance of the farthest / of the nearest corner
+    double tilt = 0;   ///< angle of the target's normals to their mean [rad]
+    double depth = 1;  ///< distance of the farthest / distance of the nearest corner
 };
 
 Spread spreadOf(const Target& target, const std::vector<TargetView>& views, Size picture) {
