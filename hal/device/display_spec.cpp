@@ -42,7 +42,8 @@ std::optional<ModeWish> parseMode(std::string_view word) {
     return wish;
 }
 
-// Returns whether a word names a connector: a type and a number, such as "HDMI-A-1" or "Virtual-1".
+// Returns whether a word is the name of a connector, which consists of a type and a number:
+// "HDMI-A-1", "Virtual-1".
 bool isConnector(std::string_view word) {
     const std::size_t dash = word.rfind('-');
     const auto nameChar = [](char c) {
