@@ -208,8 +208,9 @@ std::string App::take(const Config& wanted) {
     changes_.put(tunables(config_));
     setTicks();
     if (running_) running_->description.mode = name(config_.superres.mode);
-    std::string said = options_.config->string() + ": read again" +
-                       (restart.empty() ? "" : "; changed only after a restart: " + restart);
+    std::string said =
+        options_.config->string() + ": read again" +
+        (restart.empty() ? "" : "; these settings change only after a restart: " + restart);
     log_.notice(said, {message::kReloaded});
     return said;
 }
@@ -270,9 +271,9 @@ void App::logHealth(const Health& health) {
     if (health.state != HealthState::Ok)
         log_.warning(sentence(health), health.cause, subjectOf(health));
     else if (told_.isDevice)
-        log_.change("all devices are there", {}, {message::kRecovered});
+        log_.change("all devices are available again", {}, {message::kRecovered});
     else
-        log_.change(fmt::format("ok again after {:.1f} s", told_.sinceS), "ok again",
+        log_.change(fmt::format("works again after {:.1f} s", told_.sinceS), "works again",
                     {message::kRecovered});
     told_ = health;
 }

@@ -149,7 +149,7 @@ ExitCode App::finish(std::future<std::string>& end) {
         // If the reader of the display's pipe had read nothing before the signal, that is not a
         // failure of mfard.
         if (cancel_.stop_requested() || (stopSignal_ && counted.displayFault)) {
-            log_.warning(fmt::format("not everything was written: {}", error.what()), {},
+            log_.warning(fmt::format("not all output was written: {}", error.what()), {},
                          {message::kEnded});
             (void)writeResults(*stopReason_, ExitCode::Ok);
             return ExitCode::Ok;

@@ -74,7 +74,8 @@ private:
             if (name == "showpiece") return showpiece();
             return loadGltf(folder_ / name, limitsWithin(memory_.left()));
         } catch (const std::bad_alloc&) {
-            throw ModelError((folder_ / name).string() + ": needs more memory than is available");
+            throw ModelError((folder_ / name).string() +
+                             ": needs more memory than the machine has available");
         }
     }
 

@@ -158,7 +158,8 @@ Config effectiveConfig(const Options& options) {
     if (options.measure) config.status.measure = true;
     config.validate = options.validate;
     if (config.pose.source == PoseOrigin::Recorded && config.recording.empty())
-        throw Failure(ExitCode::BadConfig, "pose.source = \"recorded\" needs a recording");
+        throw Failure(ExitCode::BadConfig, "pose.source = \"recorded\" needs a recording to play "
+                                           "(--recording)");
     (void)configuredTags(config.pose);
     return config;
 }

@@ -56,7 +56,8 @@ QualityLevel readLevel(TomlReader& file, const std::string& prefix) {
 }
 
 void requireWhole(const std::vector<QualityLevel>& levels, const std::string& file) {
-    if (levels.empty()) throw ConfigError(file + ":1:1: the table has no [[level]]");
+    if (levels.empty())
+        throw ConfigError(file + ":1:1: the table of levels has no section [[level]]");
     for (std::size_t i = 0; i < levels.size(); ++i) {
         const auto same = [&](const QualityLevel& other) { return other.name == levels[i].name; };
         if (levels[i].name.empty() || !(levels[i].ms > 0))

@@ -331,7 +331,9 @@ ScreenPicture Session::snapshot(bool ofScreen) const {
 }
 
 void Session::askForStill() {
-    if (rig_.trigger() == nullptr) throw std::runtime_error("there is no trigger");
+    if (rig_.trigger() == nullptr)
+        throw std::runtime_error(
+            "stills cannot be requested, because the source has no trigger line");
     policy_.ask();
 }
 

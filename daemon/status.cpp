@@ -135,7 +135,8 @@ nlohmann::ordered_json virtualSummary(const Counted& counted) {
     return out;
 }
 
-// Returns "path traced 83%, 1.2 M samples/s, 120 holes", or an empty text without path tracing.
+// Returns ", path tracing 83% at 1.20 M samples/s, 120 holes", or an empty text without path
+// tracing.
 std::string tracing(const Counted& counted) {
     if (!counted.traced || !counted.last.objectsInView) return "";
     if (counted.last.objectsHidden) return ", objects hidden";

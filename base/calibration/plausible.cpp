@@ -116,7 +116,7 @@ void setDistortion(const YamlReader& in, const YAML::Node& node, const std::vect
                                       i + 1, values[i]));
     }
     if (foldsInside(camera))
-        in.fail(node, "the distortion folds the picture over: several rays map to one pixel");
+        in.fail(node, "the distortion is not plausible: it maps several rays to one pixel");
     const double corner = mostUnlikelyCorner(camera);
     if (!kCorner.holds(corner))
         in.fail(node, fmt::format("the distortion multiplies the distance of a picture corner from "

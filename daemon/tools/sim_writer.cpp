@@ -88,7 +88,8 @@ private:
     void checked(bool taken) const {
         if (!taken)
             throw std::runtime_error(
-                recorder_.error().value_or("the disk is too slow: a picture was lost"));
+                recorder_.error().value_or("a picture was lost, because the disk is too slow; "
+                                           "choose another disk with --out"));
     }
 
     SyntheticBoard& board_;

@@ -242,12 +242,14 @@ CameraFit fitCamera(const Target& target, std::vector<TargetView>& views, Size p
         try {
             fit.camera = calibrated(target, views, fit.chosen, picture);
         } catch (const cv::Exception& e) {
-            throw Unsuitable(fmt::format(
-                "the views of the {} sensor do not determine its lens ({})", sensor, e.err));
+            throw Unsuitable(fmt::format("the views of the {} sensor do not determine its lens; "
+                                         "take pictures of the target from more directions ({})",
+                                         sensor, e.err));
         }
         if (!(fit.camera.fx > 0 && fit.camera.fy > 0))
-            throw Unsuitable(
-                fmt::format("the views of the {} sensor do not determine its lens", sensor));
+            throw Unsuitable(fmt::format("the views of the {} sensor do not determine its lens; "
+                                         "take pictures of the target from more directions",
+                                         sensor));
         if (!placeViews(target, views, fit)) break;
     }
     std::erase_if(fit.chosen, [&](int i) { return !fit.poses[i]; });

@@ -159,9 +159,10 @@ void drawArea(Canvas& canvas, cv::Rect2d area, const SensorResult& sensor) {
     canvas.box(area, kFaint, false);
     const cv::Point2d corner(area.x, area.y + area.height + 24);
     canvas.arrow(corner + cv::Point2d(2, -5), corner + cv::Point2d(2 + cell, -5), kInk);
-    canvas.text(corner + cv::Point2d(cell + 12, 0),
-                fmt::format("{:g} px, mean residual of a cell (measured - expected)", unit), 0.42,
-                kInk);
+    canvas.text(
+        corner + cv::Point2d(cell + 12, 0),
+        fmt::format("{:g} px, mean residual of a cell (measured - expected position)", unit), 0.42,
+        kInk);
 }
 
 void drawScatter(Canvas& canvas, cv::Rect2d area, const SensorResult& sensor) {
@@ -191,7 +192,7 @@ void drawSensor(Canvas& canvas, int top, const SensorResult& sensor, const std::
     const auto used = std::ranges::count_if(sensor.views, &ViewResult::used);
     canvas.text({kMargin, top + 30.}, name, 0.8, kInk);
     canvas.text({kMargin + 80., top + 30.},
-                fmt::format("{}x{}, {} views, reprojection error {:.3f} px rms", size.width,
+                fmt::format("{}x{}, {} views, RMS reprojection error {:.3f} px", size.width,
                             size.height, used, sensor.rms),
                 0.5, kInk);
     const double room = kWidth - 3 * kMargin - kArea;

@@ -214,7 +214,8 @@ void RigBundle::solve(const std::array<double, 2>& sigma, const std::array<bool,
     const Eigen::MatrixXd covariance =
         factor.solve(Eigen::MatrixXd::Identity(columns(), kShared)).topRows(kShared);
     if (factor.info() != Eigen::Success || !covariance.allFinite() || !std::isfinite(now))
-        throw Unsuitable("the views do not determine the geometry of the board's two cameras");
+        throw Unsuitable("the views do not determine the lenses and the distance of the two "
+                         "sensors; take pictures of the target from more directions");
     for (int k = 0; k < kShared; ++k)
         deviations_[k] = fixed[k] ? 0 : std::sqrt(std::max(0., covariance(k, k)));
 }

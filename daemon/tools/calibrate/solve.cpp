@@ -215,15 +215,17 @@ void checkCertainty(const Calibration& c) {
     for (const SensorResult* sensor : {&c.video, &c.still}) {
         const double focal = sensor->deviations.head<2>().maxCoeff() / sensor->camera.fx;
         if (!(focal <= kMaxFocalDeviation))
-            throw Unsuitable(fmt::format("the views leave the focal length of the {} uncertain by "
-                                         "{:.1f} %: tilt the target more and come closer",
-                                         sensor == &c.video ? "video" : "still", 100 * focal));
+            throw Unsuitable(
+                fmt::format("the views leave the focal length of the {} sensor uncertain by "
+                            "{:.1f} %: tilt the target more and come closer",
+                            sensor == &c.video ? "video" : "still", 100 * focal));
     }
     const double baseline = c.extrinsicDeviations.tail<3>().maxCoeff();
     if (!(baseline <= kMaxBaselineDeviation))
-        throw Unsuitable(fmt::format("the views leave the distance of the sensors uncertain by "
-                                     "{:.1f} mm: take more stills close to the target",
-                                     1000 * baseline));
+        throw Unsuitable(
+            fmt::format("the views leave the distance between the sensors uncertain by "
+                        "{:.1f} mm: take more stills close to the target",
+                        1000 * baseline));
 }
 
 }  // namespace

@@ -61,27 +61,28 @@ void checkViews(const Target& target, const std::vector<TargetView>& views, Size
     const int count = static_cast<int>(views.size());
     if (count < leastViews)
         throw Unsuitable(fmt::format(
-            "too few views: {} pictures of the {} show the target; at least {} are needed", count,
-            sensor, leastViews));
+            "too few views: {} pictures of the {} sensor show the target; at least {} are needed",
+            count, sensor, leastViews));
     const Spread spread = spreadOf(target, views, picture);
     if (!(spread.tilt >= kLeastTilt))
-        throw Unsuitable(
-            fmt::format("the {} saw the target from nearly one direction (it was tilted by {:.0f} "
-                        "degrees; at least {:.0f} are needed): tilt it to all sides",
-                        sensor, spread.tilt / kDegree, kLeastTilt / kDegree));
+        throw Unsuitable(fmt::format(
+            "the {} sensor saw the target from nearly one direction (it was tilted by {:.0f} "
+            "degrees; at least {:.0f} are needed): tilt it to all sides",
+            sensor, spread.tilt / kDegree, kLeastTilt / kDegree));
     if (!(spread.depth >= kLeastDepth))
-        throw Unsuitable(
-            fmt::format("the {} saw the target at nearly one distance (farthest to nearest corner "
-                        "{:.2f} to 1; at least {:.2f} is needed): show it closer and farther away",
-                        sensor, spread.depth, kLeastDepth));
+        throw Unsuitable(fmt::format(
+            "the {} sensor saw the target at nearly one distance (its farthest corner was "
+            "{:.2f} times as far away as its nearest; at least {:.2f} times are needed): "
+            "show it closer and farther away",
+            sensor, spread.depth, kLeastDepth));
     Coverage coverage(picture);
     for (const TargetView& view : views)
         coverage.add(view.corners);
     if (!(coverage.share() >= kLeastCoverage))
-        throw Unsuitable(fmt::format("the target covered only {:.0f} % of the {}'s picture; at "
-                                     "least {:.0f} % are needed: show it at {}",
-                                     100 * coverage.share(), sensor, 100 * kLeastCoverage,
-                                     coverage.emptiest()));
+        throw Unsuitable(
+            fmt::format("the target covered only {:.0f} % of the {} sensor's picture; at "
+                        "least {:.0f} % are needed: show it at {}",
+                        100 * coverage.share(), sensor, 100 * kLeastCoverage, coverage.emptiest()));
 }
 
 }  // namespace mfar::calibration
