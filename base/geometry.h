@@ -26,7 +26,7 @@ struct PixelRect {
     return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
 }
 
-/// Returns the intersection, which may be empty.
+/// Returns the intersection of `a` and `b`, which may be empty.
 [[nodiscard]] inline PixelRect common(const PixelRect& a, const PixelRect& b) {
     return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
 }

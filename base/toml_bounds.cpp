@@ -60,7 +60,8 @@ private:
                 return;
             } else if (c == quote && text_.substr(at_, 3) == std::string(3, quote)) {
                 at_ += 3;
-                // A string may end with one or two quotes before the three closing ones.
+                // A multi-line string may end with one or two quotes before the three closing
+                // quotes.
                 for (int i = 0; i < 2 && at_ < text_.size() && text_[at_] == quote; ++i)
                     ++at_;
                 return;

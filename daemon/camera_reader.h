@@ -24,8 +24,8 @@ public:
     /// `rig` and `stats` must outlive this object.
     CameraReader(Rig& rig, CameraRole role, Stats& stats);
 
-    /// Returns the next frame, see Camera::next(). Throws Failure if the camera fails or a frame
-    /// has another size.
+    /// Returns the next frame, see Camera::next(). Throws Failure if the camera fails or if a frame
+    /// does not have the size in the calibration.
     [[nodiscard]] std::optional<Frame> next(std::chrono::milliseconds timeout);
     [[nodiscard]] bool ended() const { return camera_.ended(); }
 

@@ -20,7 +20,8 @@ struct CameraState {
     CameraCounters counters{};   ///< the camera's own counters, else counted from its frames
     std::uint64_t repeated = 0;  ///< number of pictures that were equal to the previous one
     std::optional<Timestamp> lastFrame{};  ///< arrival time of the last frame
-    /// Time of the last picture that differed from the previous one. Not set: not checked.
+    /// Time of the last picture that differed from the previous one. Not set: repeated pictures are
+    /// not looked for.
     std::optional<Timestamp> lastDistinct{};
     std::optional<double> distinctAgeS{};  ///< age of lastDistinct when the state was queried [s]
     bool repeats = false;  ///< whether the same picture has been sent for more than kRepeatTime

@@ -44,7 +44,7 @@ struct TriggerLineConfig {
     std::string loopback;    ///< input that is wired to the trigger line, for timing; empty: none
     double delayMs = 0;      ///< first estimate of the time from the trigger pulse to the exposure
     double jitterMs = 1;     ///< largest error of the still camera's timestamps
-    double arrivalMs = 500;  ///< a still that does not arrive within this time is lost
+    double arrivalMs = 500;  ///< a still that comes later than this after its exposure is lost
     bool operator==(const TriggerLineConfig&) const = default;
 };
 

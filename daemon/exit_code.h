@@ -29,8 +29,8 @@ public:
     const ExitCode code;
 };
 
-/// Calls `action` and returns its result. If it throws an Error, throws a Failure with `code` and
-/// the same message instead.
+/// Calls `action` and returns its result. If `action` throws an Error, throws a Failure with `code`
+/// and the same message instead.
 template <class Error = std::runtime_error, class Action>
 decltype(auto) orFail(ExitCode code, Action&& action) {
     try {

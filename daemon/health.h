@@ -30,7 +30,7 @@ struct Health {
     std::string thread{};                 ///< name of the thread that hangs; empty: none
     bool isDevice = false;                ///< whether the cause is a device that is being reopened
 
-    /// Returns whether the watchdog may be fed.
+    /// Returns whether systemd's watchdog may be fed.
     [[nodiscard]] bool isAlive() const { return state != HealthState::Stalled; }
 };
 

@@ -16,7 +16,7 @@ class TomlReader;
 /// Where the camera's poses come from.
 enum class PoseOrigin {
     Tags,      ///< AprilTags in video and stills
-    Recorded,  ///< the recording
+    Recorded,  ///< the poses in the recording
     None,      ///< there are no poses: every frame is matched in both dimensions
 };
 

@@ -20,8 +20,8 @@ public:
     /// than 10 minutes count as 10 minutes.
     void add(double ms);
     void add(const TimeSpread& other);
-    /// Returns the value that a share q of all values does not exceed, or NaN if there are no
-    /// values.
+    /// Returns the quantile q: the time [ms] that a share q of all times does not exceed. Returns
+    /// NaN if no times were added.
     [[nodiscard]] double quantile(double q) const;
 
 private:

@@ -82,7 +82,7 @@ struct Counted {
     std::uint64_t depthTiles = 0;  ///< number of tiles with measured depth, summed over all frames
     std::uint64_t depthTilesSkipped = 0;  ///< tiles not measured, as they are behind the objects
     std::uint64_t keyframeSearches = 0;   ///< frames whose depth was measured against a keyframe
-    std::uint64_t tilesSearched2d = 0;    ///< tiles that the search along lines did not explain
+    std::uint64_t tilesSearched2d = 0;    ///< tiles that epipolar lines did not explain
     std::uint64_t objectFrames = 0;       ///< number of frames with virtual objects in view
     std::uint64_t hiddenFrames = 0;       ///< objectFrames in which all virtual objects were hidden
     std::optional<TracedLayerCounters> traced;  ///< path tracer's counters; not set: none

@@ -53,7 +53,7 @@ public:
     enum class Pulse : std::uint8_t { Asked, Repetition };
 
     struct Match {
-        Timestamp pulse;    ///< leading edge
+        Timestamp pulse;    ///< time of the leading edge
         Timestamp exposed;  ///< start of the exposure: pulse + constant(), without jitter
         bool late = false;  ///< whether the pulse had been counted as lost
     };

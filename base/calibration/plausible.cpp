@@ -13,7 +13,8 @@
 namespace mfar::plausible {
 namespace {
 
-constexpr double kRotationTolerance = 1e-3;  // some files round elements to four digits
+// Largest error of an element; some files round to four digits.
+constexpr double kRotationTolerance = 1e-3;
 constexpr double kMaxFoldError = 0.5;  // [px]; a larger error of project(unproject()) shows a fold
 
 /// Formats the range for a message.

@@ -190,7 +190,7 @@ public:
         detail::drawFullScreen();
         detail::ran(program_, bindings, &target);
     }
-    /// Draws one quad for each tile of the list. The vertex shader computes its position.
+    /// Draws one quad for each tile of the list. The vertex shader computes the quad's position.
     void runTiles(const P& params, Bindings bindings, const Framebuffer& target,
                   const InstanceList& tiles) {
         target.bind();
@@ -198,7 +198,7 @@ public:
         detail::drawTiles(tiles);
         detail::ran(program_, bindings, &target);
     }
-    /// Draws the triangles of a mesh. The vertex shader computes their positions.
+    /// Draws the triangles of a mesh. The vertex shader computes the triangles' positions.
     void runMesh(const P& params, Bindings bindings, const Framebuffer& target, const Mesh& mesh) {
         target.bind();
         program_.use(&params, sizeof(P), bindings);

@@ -71,7 +71,7 @@ public:
     /// Returns the name that the driver reports for the bus and port at which the device is plugged
     /// in.
     [[nodiscard]] const std::string& bus() const { return bus_; }
-    /// Returns V4L2_CAP_... of this node.
+    /// Returns the V4L2_CAP_... flags of this node.
     [[nodiscard]] std::uint32_t capabilities() const { return capabilities_; }
     /// Returns whether the node delivers pictures through buffers.
     [[nodiscard]] bool captures() const;

@@ -20,7 +20,7 @@ struct V4l2PixelFormat {
     std::uint32_t fourcc;
     PixelFormat picture;
     bool jpeg = false;            ///< whether pictures must be decoded
-    bool separatePlanes = false;  ///< whether each plane is a V4L2 plane (multi-planar API)
+    bool separatePlanes = false;  ///< whether each plane is its own V4L2 plane (multi-planar)
     bool operator==(const V4l2PixelFormat&) const = default;
 };
 
@@ -36,7 +36,7 @@ struct V4l2PixelFormat {
 /// The wanted picture size, frame rate and format.
 struct V4l2Wish {
     Size size;
-    double rateHz = 0;   ///< 0: the driver chooses the rate
+    double rateHz = 0;   ///< frame rate [Hz]; 0: the driver chooses the rate
     std::string format;  ///< V4L2's four characters, e.g. "YUYV"; empty: automatic
 };
 

@@ -42,7 +42,8 @@ private:
 
     World world_;
     LightMap light_;
-    std::array<int, static_cast<std::size_t>(Layer::Count)> slots_{};  ///< Layer -> array index
+    /// Texture array index of each Layer.
+    std::array<int, static_cast<std::size_t>(Layer::Count)> slots_{};
     GLuint layers_ = 0;
     gpu::Texture lightMap_;
     gpu::Buffer materials_;

@@ -16,7 +16,9 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kLeastTilt = 12 * kDegree;
 constexpr double kLeastDepth = 1.2;     // distance of the farthest / nearest corner
 constexpr double kLeastCoverage = 0.6;  // smallest share of the cells that have a corner
-constexpr double kMostlyAt = 0.9;       // quantile, on which single views have little influence
+// Quantile that replaces the largest tilt or depth (1 - kMostlyAt: the smallest), because a single
+// view has little influence on it.
+constexpr double kMostlyAt = 0.9;
 
 double quantile(std::vector<double> values, double q) {
     const auto at =
