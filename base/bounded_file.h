@@ -11,7 +11,7 @@ namespace mfar {
 /// Returns all bytes of a regular file. Devices and named pipes are refused at once, without
 /// waiting. A file of more than `most` bytes is refused before memory is allocated. Throws
 /// std::runtime_error. The message names the fault but not the file: "is missing", "is not a
-/// regular file", "cannot be opened: reason", "has 9 bytes, at most 8 are read", "has become longer
+/// regular file", "cannot be opened: reason", "has 9 bytes; the limit is 8 bytes", "became longer
 /// while it was read".
 [[nodiscard]] std::vector<std::uint8_t> boundedFile(const std::filesystem::path& file,
                                                     std::size_t most);
@@ -19,7 +19,7 @@ namespace mfar {
 enum class FileTrust {
     Any,
     /// The file must belong to this user and must not be a symbolic link. Otherwise the call throws
-    /// "is another user's" or "is a symbolic link".
+    /// "belongs to another user" or "is a symbolic link".
     OwnFile,
 };
 

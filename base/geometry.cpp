@@ -20,7 +20,8 @@ Distorted distort(const Eigen::Vector2d& ray, const std::array<double, 5>& d) {
     const double x = ray.x(), y = ray.y();
     const double r2 = x * x + y * y;
     const double radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));
-    const double slope = k1 + r2 * (2 * k2 + 3 * r2 * k3);  // d radial / d r2
+    // Derivative of `radial` with respect to r2.
+    const double slope = k1 + r2 * (2 * k2 + 3 * r2 * k3);
     Distorted out;
     out.point = {x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x),
                  y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y};

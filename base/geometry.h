@@ -26,7 +26,7 @@ struct PixelRect {
     return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
 }
 
-/// Returns the intersection, which may be empty.
+/// Returns the intersection of `a` and `b`, which may be empty.
 [[nodiscard]] inline PixelRect common(const PixelRect& a, const PixelRect& b) {
     return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
 }
@@ -54,7 +54,8 @@ struct CameraModel {
     /// Far from the principal point, the lens model may fold over. There the result is the ray with
     /// the largest radius that the iterations reach before the fold.
     [[nodiscard]] Eigen::Vector2d unproject(const Eigen::Vector2d& pixel) const;
-    /// Returns the same as above, but faster; `close` is the known ray of a nearby pixel.
+    /// Returns the same ray as unproject(pixel), but faster. `close` is the known ray of a nearby
+    /// pixel.
     [[nodiscard]] Eigen::Vector2d unproject(const Eigen::Vector2d& pixel,
                                             const Eigen::Vector2d& close) const;
     /// Returns the model of the same lens for another resolution. With the scale s, a pixel
@@ -79,7 +80,7 @@ struct RigidTransform {
     }
 };
 
-/// The two sensors of the board and their relative pose.
+/// The lens models of the video camera and the still camera, and the transform between the two.
 struct StereoRig {
     CameraModel video;
     CameraModel still;
@@ -95,7 +96,7 @@ struct Pose {
     /// poses have covariance zero.
     Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
     int tags = 0;  ///< number of tags that gave the pose; 0: the pose is predicted or recorded
-    double reprojectionError = 0;  ///< root mean square error over the tags' corners [px]
+    double reprojectionError = 0;  ///< RMS reprojection error of the tags' corners [px]
 };
 
 }  // namespace mfar

@@ -20,7 +20,7 @@ enum class ThreadRole {
     Helper,  ///< e.g. a writer of files: the picture continues, and the fault is reported
 };
 
-/// The heartbeats of all threads. One thread checks them. Thread-safe. See Heartbeat.
+/// The heartbeats of all threads, see Heartbeat. One thread checks them. Thread-safe.
 class Heartbeats {
 public:
     using Clock = std::function<Timestamp()>;
@@ -34,8 +34,8 @@ public:
         ThreadRole role = ThreadRole::Vital;
         std::chrono::nanoseconds since{0};  ///< time since the thread's last beat
     };
-    /// Returns the working threads whose last beat is older than `patience` times their budget. The
-    /// thread with the oldest beat comes first.
+    /// Returns the working threads whose last beat is older than `patience` times their time budget
+    /// (Slot::budget). The thread with the oldest beat comes first.
     [[nodiscard]] std::vector<Late> late(int patience = 1) const;
 
     struct Waiting {
@@ -44,8 +44,8 @@ public:
         std::string what;
         std::chrono::nanoseconds since{0};
     };
-    /// Returns the thread that has waited longest in restFor(), which names what it waits for.
-    /// Returns nothing if no thread waits there.
+    /// Returns the thread that has been in restFor() for the longest time, and what it waits for.
+    /// Returns nothing if no thread waits in restFor().
     [[nodiscard]] std::optional<Waiting> waiting() const;
 
 private:
@@ -63,7 +63,8 @@ private:
     std::list<Slot> slots_;
 };
 
-/// Describes the thread that a class starts and registers. `all` must outlive the object.
+/// The name, role and time budget of a thread that a class starts and registers. `all` must outlive
+/// the object.
 struct WatchedThread {
     Heartbeats* all = nullptr;  ///< null: the thread is not watched
     std::string name{};

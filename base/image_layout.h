@@ -25,17 +25,18 @@ struct PlaneSize {
 /// Returns the size of a plane; 0 x 0 if the format does not have the plane.
 [[nodiscard]] PlaneSize planeSize(PixelFormat format, Size size, int plane);
 
-/// Returns the size of a picture whose planes follow each other and whose rows have no padding.
+/// Returns the number of bytes of a packed picture: its planes follow each other, and its rows have
+/// no padding.
 [[nodiscard]] std::size_t packedBytes(PixelFormat format, Size size);
-/// Returns a view of packedBytes() bytes that have this layout.
+/// Returns a view of a packed picture, which has packedBytes() bytes at `data`.
 [[nodiscard]] ImageView packedView(const std::uint8_t* data, Size size, PixelFormat format);
 /// Copies a valid picture into packedBytes() bytes at `data` and returns a view of the copy, with
 /// the same YUV matrix and range.
 [[nodiscard]] ImageView packInto(std::uint8_t* data, const ImageView& picture);
 
-/// Throws std::invalid_argument "WHAT: reason" unless all planes exist, width and height are from 1
-/// to kMaxPictureSide, the sides along which pixels share chroma are even, and each stride holds a
-/// row.
+/// Throws std::invalid_argument "WHAT: reason" if a plane is missing, if width or height is not
+/// from 1 to kMaxPictureSide, if width or height is odd although the format subsamples chroma along
+/// it, or if a stride is smaller than a row.
 void requireSound(const ImageView& picture, std::string_view what);
 
 /// Returns a Gray8 view of a valid picture's luma plane, without a copy, or nothing if the format

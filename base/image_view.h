@@ -68,7 +68,7 @@ struct ImageView {
     std::array<PlaneView, 2> chroma{};  ///< Nv12: U V in [0]; Yuv420: U in [0], V in [1]
     YuvMatrix matrix = YuvMatrix::Bt601;
     YuvRange range = YuvRange::Limited;
-    const SharedMemory* shared = nullptr;  ///< dma-bufs of the same planes; null: there are none
+    const SharedMemory* shared = nullptr;  ///< the same planes as dma-bufs; null: there are none
 };
 
 }  // namespace mfar

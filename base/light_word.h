@@ -47,8 +47,9 @@ inline constexpr float kMostLight = 65280;  ///< larger values are clamped to th
 /// Reflectance of non-metals at normal incidence, as in glTF's metallic-roughness material.
 inline constexpr float kDielectricReflectance = 0.04F;
 
-/// Two light words that describe the light on a surface, times the exposure. The surface's own
-/// colour is not included. UnpackedLight::veil is stored in the 6 free bits of the two words.
+/// The light of a surface, times the exposure: one light word for the diffuse and one for the
+/// specular light. The factor of the surface's own colour is not included. UnpackedLight::veil is
+/// stored in the 6 free bits of the two words.
 struct LightWords {
     std::uint32_t diffuse = 0, specular = 0;
     bool operator==(const LightWords&) const = default;

@@ -11,18 +11,19 @@
 
 namespace mfar {
 
-// Mirrored light changes with every motion of the camera. A picture stores how its surfaces mirror
-// and which distant light they mirror, so that this light can be computed again for the view that
-// is shown.
+// Light that surfaces mirror changes with every motion of the camera. So a traced picture stores
+// for each pixel how the surface mirrors, and also stores the distant light that is mirrored. From
+// these, the mirrored light is computed again for the view that is shown.
 
-/// A pixel's surface as a mirror of light. `normal` is its normal in the world on the octahedral
-/// map (Cigolle et al. 2014), with 16 bits per axis. `look` has a byte each for the roughness, the
-/// reflectance along the normal, and SpecularAlbedo::full(). If all is zero, it is unknown.
+/// How a pixel's surface mirrors light. `normal` is the surface normal in world coordinates on the
+/// octahedral map (Cigolle et al. 2014), with 16 bits per axis. `look` has one byte each for the
+/// roughness, the reflectance along the normal, and SpecularAlbedo::full(). If both words are zero,
+/// the surface is unknown.
 struct GlossWords {
     std::uint32_t normal = 0, look = 0;
     bool operator==(const GlossWords&) const = default;
 };
-inline constexpr std::uint32_t kIsGloss = 1U << 24;  ///< bit of `look`, set if the surface is known
+inline constexpr std::uint32_t kIsGloss = 1U << 24;  ///< bit of `look`: the surface is known
 
 [[nodiscard]] inline GlossWords packedGloss(const std::array<float, 3>& normal, float roughness,
                                             float facing, float full) {
@@ -39,19 +40,20 @@ inline constexpr std::uint32_t kIsGloss = 1U << 24;  ///< bit of `look`, set if 
             steps(roughness, 255) | steps(facing, 255) << 8 | steps(full, 255) << 16 | kIsGloss};
 }
 
-/// Distant light as surfaces mirror it. There is a table for each of some roughnesses; it has the
-/// mean light over the lobe of each direction on the octahedral map, as light words.
+/// The distant light that surfaces mirror. There is one table for each of several roughnesses. A
+/// table is an octahedral map of directions, with a light word per texel: the mean light over the
+/// lobe around that direction.
 struct MirrorLight {
     struct Table {
         float roughness = 0;
         int edge = 0;             ///< number of texels per side, with the repeated border
-        std::uint32_t first = 0;  ///< index of the first texel
+        std::uint32_t first = 0;  ///< index in `texels` of the table's first texel
     };
-    std::vector<Table> tables;  ///< by ascending roughness, which begins at 0
+    std::vector<Table> tables;  ///< sorted by roughness; the first table has roughness 0
     std::vector<std::uint32_t> texels;
     std::array<float, 3> towardsSun{0, 0, 1}, sunIrradiance{};  ///< irradiance 0: there is no sun
-    float leastSunAlpha = 0;  ///< least width of a lobe: that of the sun's disc
-    float least = 0;          ///< lower limit of the light
+    float leastSunAlpha = 0;  ///< smallest width of a lobe that mirrors the sun: its disc's
+    float least = 0;          ///< is added to the mirrored light, so that this is never 0
 };
 
 }  // namespace mfar

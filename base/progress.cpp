@@ -48,7 +48,7 @@ void Progress::show(double share, std::string_view what, Clock::time_point now) 
     shown_ = now;
     const std::chrono::duration<double> spent = now - begin_;
     std::string text = progressText(share, what, spent.count());
-    // A line that wraps could not be erased.
+    // The line is cut to the width of the terminal, because a line that wraps could not be erased.
     winsize size{};
     if (isTerminal_ && ioctl(fileno(out_), TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
         text.resize(std::min<std::size_t>(text.size(), size.ws_col - 1U));

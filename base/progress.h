@@ -16,7 +16,7 @@ public:
     using Clock = std::chrono::steady_clock;
 
     explicit Progress(std::FILE* out = stderr);
-    /// For tests: `isTerminal` says how to write, whatever `out` is.
+    /// For tests. If `isTerminal` is set, writes as on a terminal, whatever `out` is.
     Progress(std::FILE* out, bool isTerminal);
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
@@ -37,15 +37,15 @@ private:
     std::optional<Clock::time_point> shown_;
 };
 
-/// The progress of a part of the work, which can have parts itself. It can be copied. One that is
-/// made without a Progress shows nothing, so that a function can be called without a Progress.
+/// The progress of a part of the work. A part can have parts itself. A ProgressPart can be copied.
+/// If it is default-constructed, it shows nothing: so a function can be called without a Progress.
 class ProgressPart {
 public:
     ProgressPart() = default;
     explicit ProgressPart(Progress& all) : all_(&all) {}
 
-    /// Returns part number `index` of `count` equal parts. Its text is this part's with `what`
-    /// appended.
+    /// Returns part number `index` of `count` equal parts. The text of the new part is the text of
+    /// this part, followed by `what`.
     [[nodiscard]] ProgressPart part(std::size_t index, std::size_t count,
                                     std::string_view what) const;
     /// Shows that part number `index` of `count` equal parts begins.
@@ -53,7 +53,7 @@ public:
 
 private:
     Progress* all_ = nullptr;
-    double begin_ = 0, length_ = 1;  ///< as shares of the whole work
+    double begin_ = 0, length_ = 1;  ///< begin and length of this part, as shares of the whole work
     std::string what_{};
 };
 

@@ -15,7 +15,7 @@ template <class T>
 struct Rows {
     T* data = nullptr;
     std::ptrdiff_t pitch = 0;  ///< elements from one row to the next
-    Size size;                 ///< number of elements in a row, and of rows
+    Size size;                 ///< width: number of elements in a row; height: number of rows
 
     [[nodiscard]] T* operator[](int y) const { return data + y * pitch; }
     /// Converts to a read-only view.

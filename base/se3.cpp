@@ -5,8 +5,9 @@
 namespace mfar {
 namespace {
 
-/// The coefficients of V = I + a [w] + b [w]^2, where w has the norm t [rad] and [w] is skew(w).
-/// Below 1e-4 rad, series are used; their error is less than a double's rounding.
+/// The coefficients of V = I + a [w] + b [w]^2, where w has the norm t [rad] and [w] is skew(w). If
+/// t is below 1e-4 rad, they are computed with series, whose error is less than a double's
+/// rounding.
 struct VCoefficients {
     double a, b;
 };

@@ -8,7 +8,8 @@
 
 namespace mfar {
 
-/// A small motion: elements 0 to 2 are the rotation [rad], elements 3 to 5 the translation.
+/// A small motion, or its rate: elements 0 to 2 are the rotation [rad], elements 3 to 5 the
+/// translation.
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 

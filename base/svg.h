@@ -12,18 +12,20 @@ namespace mfar::svg {
 inline constexpr std::array<const char*, 7> kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                      "#e69f00", "#56b4e9", "#444444"};
 
-/// Escapes any text for use as the content of an element.
+/// Replaces the characters of a text that have a meaning in XML, for use as the content of an
+/// element.
 [[nodiscard]] std::string escaped(std::string_view text);
 
-/// `anchor`: which part of the text stands at x: start, middle or end. y is the base line.
+/// Returns a text element. `anchor` is the part of the text that is at x: start, middle or end. y
+/// is the base line of the letters.
 [[nodiscard]] std::string text(double x, double y, std::string_view anchor, std::string_view what,
                                int size = 12, std::string_view colour = "#222");
-/// Text that runs upwards, centred at (x, y).
+/// Returns a text element whose text runs upwards. Its centre is (x, y).
 [[nodiscard]] std::string textUpwards(double x, double y, std::string_view what);
 [[nodiscard]] std::string line(double x0, double y0, double x1, double y1,
                                std::string_view colour = "#ddd", double width = 1);
 
-/// A whole document from its elements, on a white background.
+/// Returns a whole document with the given elements, on a white background.
 [[nodiscard]] std::string document(double width, double height, std::string_view body);
 
 }  // namespace mfar::svg

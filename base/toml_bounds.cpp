@@ -35,7 +35,7 @@ private:
     void take(char c) {
         if (c == '[' || c == '{') ++depth_;
         if ((c == ']' || c == '}') && depth_ > 0) --depth_;
-        // A dot counts, too, because each part of a dotted key creates a table.
+        // A dot also counts as a value, because each part of a dotted key creates a table.
         if (c == ',' || c == '=' || c == '[' || c == '{' || c == '.') ++values_;
         if (c == '.')
             ++dots_;
@@ -60,7 +60,8 @@ private:
                 return;
             } else if (c == quote && text_.substr(at_, 3) == std::string(3, quote)) {
                 at_ += 3;
-                // A string may end with one or two quotes before the three closing ones.
+                // A multi-line string may end with one or two quotes before the three closing
+                // quotes.
                 for (int i = 0; i < 2 && at_ < text_.size() && text_[at_] == quote; ++i)
                     ++at_;
                 return;

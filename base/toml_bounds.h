@@ -9,7 +9,8 @@ namespace mfar {
 
 /// Limits for TOML files. A parser's recursion and memory grow with the depth and length of a text.
 /// No file of this project reaches these limits.
-inline constexpr std::size_t kDeepestToml = 32;  ///< levels of brackets, or parts of a dotted key
+/// Largest number of nested brackets, and of parts of a dotted key.
+inline constexpr std::size_t kDeepestToml = 32;
 inline constexpr std::size_t kMostTomlValues = 100'000;
 
 /// The place where a text exceeds a limit, and a message. Lines and columns count from 1.

@@ -7,7 +7,7 @@
 
 namespace mfar {
 
-/// The time from which written data is safe from a power cut.
+/// When written data become safe from a power cut.
 enum class Durability {
     OnReturn,
     WithSync,  ///< after the next syncFileSystem(); a power cut before may leave a truncated file

@@ -6,8 +6,8 @@ namespace mfar {
 namespace {
 
 constexpr int kMostThreads = 4;
-// A loop is cut into this many parts per thread. If a thread is interrupted, the others take the
-// remaining parts.
+// A loop is divided into this many parts per thread. If a thread is interrupted, the other threads
+// execute the remaining parts.
 constexpr int kPartsPerThread = 4;
 
 }  // namespace

@@ -20,9 +20,9 @@ public:
 
     [[nodiscard]] int count() const { return static_cast<int>(threads_.size()) + 1; }
 
-    /// Calls body(first, last) for consecutive parts of [0, end) and returns when all are done.
-    /// Each part except the last has at least `grain` elements. Only one thread at a time may call
-    /// this; body must not throw.
+    /// Calls body(first, last) for consecutive parts of [0, end) and returns when all parts are
+    /// done. Each part except the last has at least `grain` elements. Only one thread at a time may
+    /// call this; body must not throw.
     void forRange(int end, int grain, const std::function<void(int, int)>& body);
 
 private:

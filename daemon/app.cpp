@@ -20,8 +20,9 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-constexpr Seconds kLookTime{1};               ///< longest interval between checks of the threads
-constexpr std::uint64_t kFirstPictures = 10;  ///< number of pictures that have kFirstPatience
+constexpr Seconds kLookTime{1};  ///< longest interval between checks of the threads
+/// While fewer pictures were shown, time limits are kFirstPatience times as long.
+constexpr std::uint64_t kFirstPictures = 10;
 
 std::ofstream openSummary(const Options& options, const Config& config) {
     std::ofstream file;
@@ -195,7 +196,8 @@ void App::onRead() {
     if (reload_) readAgain();
 }
 
-// Applies the settings that can change while mfard runs. Returns a message about it.
+// Applies the settings that can change while mfard runs. Returns a message that names the settings
+// that need a restart.
 std::string App::take(const Config& wanted) {
     const std::string restart = needRestart(config_, wanted);
     config_.superres = wanted.superres;
@@ -206,8 +208,9 @@ std::string App::take(const Config& wanted) {
     changes_.put(tunables(config_));
     setTicks();
     if (running_) running_->description.mode = name(config_.superres.mode);
-    std::string said = options_.config->string() + ": read again" +
-                       (restart.empty() ? "" : "; changed only after a restart: " + restart);
+    std::string said =
+        options_.config->string() + ": read again" +
+        (restart.empty() ? "" : "; these settings change only after a restart: " + restart);
     log_.notice(said, {message::kReloaded});
     return said;
 }
@@ -225,7 +228,8 @@ void App::onTick() {
     feedWatchdog(now);
     log_.sayKept();
     leaveIfHanging();
-    // The watchdog may need more frequent ticks than the status line.
+    // Ticks may be more frequent than the interval of the status line, because the watchdog needs
+    // them.
     const Timestamp time = Timestamp::now();
     if (time.seconds() - statusShown_.seconds() < 0.9 * config_.status.intervalS) return;
     statusShown_ = time;
@@ -252,7 +256,8 @@ Health App::health(const Counted& counted) {
     return health_.judge(seen);
 }
 
-// The watchdog is fed only between start and stop, for which systemd has separate limits.
+// The watchdog is fed only between start and stop of the service, for which systemd has separate
+// limits.
 void App::feedWatchdog(const Health& health) {
     if (!running_ || !service_.watchdogPeriod()) return;
     if (isProven_ && !std::exchange(patienceEnded_, true)) service_.watchdogPatience(1);
@@ -266,14 +271,15 @@ void App::logHealth(const Health& health) {
     if (health.state != HealthState::Ok)
         log_.warning(sentence(health), health.cause, subjectOf(health));
     else if (told_.isDevice)
-        log_.change("all devices are there", {}, {message::kRecovered});
+        log_.change("all devices are available again", {}, {message::kRecovered});
     else
-        log_.change(fmt::format("ok again after {:.1f} s", told_.sinceS), "ok again",
+        log_.change(fmt::format("works again after {:.1f} s", told_.sinceS), "works again",
                     {message::kRecovered});
     told_ = health;
 }
 
-// Updates the description of the run, which was made at the start.
+// Updates the description of the run, which was made at the start of the run, and logs a change of
+// the display.
 void App::takeChanges(const Counted& counted) {
     RunDescription& run = running_->description;
     if (counted.rendering) {

@@ -52,13 +52,13 @@ public:
     [[nodiscard]] ExitCode run();
 
 private:
-    /// Report of the GL thread after its set-up.
+    /// The GL thread sends this after its set-up.
     struct Ready {
         RunDescription description;
         std::string startLine;
         Timestamp time;
     };
-    /// Report of the GL thread after it has written all output.
+    /// The GL thread sends this after it has written all output.
     struct Over {
         std::string reason;
         std::exception_ptr error;  ///< null: there was no error
@@ -68,7 +68,8 @@ private:
     struct Reload {
         Reload() : answer(said.get_future().share()) {}
 
-        std::promise<std::string> said;  ///< message about the changes, or the error
+        /// Message that names the settings that need a restart, or the error.
+        std::promise<std::string> said;
         std::shared_future<std::string> answer;
         std::future<Config> config;
         std::jthread reader;
@@ -87,8 +88,8 @@ private:
     void removeControl() const;
     [[noreturn]] void leaveFailed(const std::exception_ptr& error);
     void onHangUp();
-    /// Starts a reload of the configuration. The future is ready when it has been read. Throws
-    /// std::runtime_error if there is no configuration file.
+    /// Starts a reload of the configuration. The future becomes ready when the file has been read.
+    /// Throws std::runtime_error if mfard has no configuration file.
     std::shared_future<std::string> reload();
     void readAgain();
     [[nodiscard]] bool isReading() const;
@@ -113,7 +114,7 @@ private:
     void writeReport(const nlohmann::ordered_json& results);
 
     const Timestamp started_ = Timestamp::now();
-    LastResort lastResort_;  ///< first member: it also watches the destruction of the others
+    LastResort lastResort_;  ///< first member, so that it also limits the others' destruction
     const Options options_;
     Log& log_;
     Config config_;
@@ -124,7 +125,8 @@ private:
     Mailbox<Tunables> changes_{HandOver::NewestWins};
     CallQueue<App> calls_{[this] { events_.wake(); }};
     CallQueue<Session> sessionCalls_;
-    std::atomic<bool> finishesRecording_{false};  ///< a recording that mfarctl ended is written
+    /// Whether a recording is being completed after mfarctl ended it.
+    std::atomic<bool> finishesRecording_{false};
     std::stop_source input_;
     std::stop_source cancel_;
     std::jthread stopper_;  ///< stops the devices; this may take long
@@ -132,18 +134,19 @@ private:
     std::optional<int> stopSignal_;
     std::optional<Ready> running_;
     std::optional<Over> ended_;
-    bool isProven_ = false;       ///< all shaders are compiled: kFirstPatience is not used any more
+    /// Whether all shaders are compiled, so that kFirstPatience is not used any more.
+    bool isProven_ = false;
     bool patienceEnded_ = false;  ///< whether systemd's watchdog has its normal limit again
     HealthRecord health_;
     Timestamp statusShown_;
-    /// `nextReload_` was requested while `reload_` was running. It follows, because the file may
-    /// have changed in the meantime.
+    /// `nextReload_` was requested while `reload_` was running. It is done after `reload_`, because
+    /// the file may have changed in the meantime.
     std::optional<Reload> reload_, nextReload_;
     Health told_;                     ///< the health that was last written to the log
     bool firstPictureShown_ = false;  ///< whether the log has the line about the first picture
 
     std::mutex mutex_;
-    // The mutex guards these two. The main thread moves them to running_ and ended_.
+    // mutex_ guards ready_ and over_. The main thread moves them to running_ and ended_.
     std::optional<Ready> ready_;
     std::optional<Over> over_;
 

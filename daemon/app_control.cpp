@@ -11,7 +11,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Time limit of an answer. It is longer than one picture takes on the slowest board.
+/// Longest time in which a command of mfarctl is answered. It is longer than one picture takes on
+/// the slowest board.
 constexpr std::chrono::milliseconds kAnswerTime{10'000};
 
 }  // namespace
@@ -80,7 +81,8 @@ ordered_json App::statsNow() {
     return out;
 }
 
-// This thread creates the recording's folder, so that the session does not wait for the disk.
+// An answer thread of the control socket calls this function. It creates the recording's folder, so
+// that the session does not wait for the disk.
 void App::startRecording(const std::string& name) {
     const auto make =
         sessionCalls_.call([name](Session& s) { return s.makeRecording(name); }, kAnswerTime);
@@ -88,7 +90,8 @@ void App::startRecording(const std::string& name) {
                        kAnswerTime);
 }
 
-// This thread finishes the recording, so that the session does not wait for the disk.
+// An answer thread of the control socket calls this function. It completes the recording, so that
+// the session does not wait for the disk.
 ordered_json App::stopRecording() {
     const auto finish =
         sessionCalls_.call([](Session& s) { return s.stopRecording(); }, kAnswerTime);

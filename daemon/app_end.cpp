@@ -25,10 +25,11 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-// Times after a signal. kFlushTime is used if pictures are written; kCancelTime follows it.
-constexpr Seconds kLeaveTime{0.2};   ///< for finishing the current picture
-constexpr Seconds kFlushTime{0.4};   ///< for finishing to write
-constexpr Seconds kCancelTime{0.5};  ///< for the threads' reaction to the request to cancel
+// Time limits after a signal. If pictures are written, kFlushTime applies instead of kLeaveTime,
+// and kCancelTime comes after it.
+constexpr Seconds kLeaveTime{0.2};   ///< for finishing the current picture, if none are written
+constexpr Seconds kFlushTime{0.4};   ///< for finishing to write pictures
+constexpr Seconds kCancelTime{0.5};  ///< for ending the threads after writing was cancelled
 constexpr std::chrono::milliseconds kLastResort{2500};
 
 const char* signalName(int signal) {
@@ -46,7 +47,7 @@ void App::onSignal(int signal) {
         std::_Exit(128 + signal);
     }
     stopSignal_ = signal;
-    // No message is logged here, because writing the log may be what hangs.
+    // No message is logged here, because writing to the log may be what hangs.
     lastResort_.arm(kLastResort, [] { std::_Exit(static_cast<int>(ExitCode::Ok)); });
     stop(signalName(signal));
     events_.deadlineIn(writes() ? kFlushTime : kLeaveTime);
@@ -95,7 +96,7 @@ void App::leave(const std::string& why) {
     std::_Exit(static_cast<int>(code));
 }
 
-// The socket's file must be removed here, because its destructor does not run.
+// The control socket's file must be removed here, because ControlSocket's destructor does not run.
 void App::removeControl() const {
     std::error_code ignored;
     if (options_.control) std::filesystem::remove(*options_.control, ignored);
@@ -128,7 +129,7 @@ ExitCode App::finish(std::future<std::string>& end) {
         if (*one)
             (*one)->said.set_exception(
                 std::make_exception_ptr(std::runtime_error("mfard is ending")));
-    control_.reset();  // not earlier: its destructor may wait for these answers
+    control_.reset();  // after the lines above, which end answers that its destructor waits for
     onReady();
     const Counted counted = stats_.count();
     const Health last = health(counted);
@@ -145,16 +146,17 @@ ExitCode App::finish(std::future<std::string>& end) {
         if (isReading()) std::_Exit(static_cast<int>(code));
         return code;
     } catch (const std::exception& error) {
-        // It is not a failure of mfard if the display's reader read nothing before the signal.
+        // If the reader of the display's pipe had read nothing before the signal, that is not a
+        // failure of mfard.
         if (cancel_.stop_requested() || (stopSignal_ && counted.displayFault)) {
-            log_.warning(fmt::format("not everything was written: {}", error.what()), {},
+            log_.warning(fmt::format("not all output was written: {}", error.what()), {},
                          {message::kEnded});
             (void)writeResults(*stopReason_, ExitCode::Ok);
             return ExitCode::Ok;
         }
         (void)writeResults(fmt::format("error: {}", error.what()), exitCode(error));
         if (!stopSignal_) throw;
-        // There is no pause before the end: after a signal, mfard is not restarted.
+        // mfard does not pause before this exit, because it is not restarted after a signal.
         log_.error(error.what());
         return exitCode(error);
     }

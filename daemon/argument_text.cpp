@@ -5,7 +5,7 @@
 namespace mfar {
 namespace {
 
-/// Returns the text between two brackets, or an empty text if there are none.
+/// Returns the text between the brackets `open` and `close`, or an empty text if there are none.
 std::string between(const std::string& text, char open, char close) {
     const std::size_t begin = text.find(open), end = text.rfind(close);
     if (begin == text.npos || end == text.npos || end < begin) return "";
@@ -18,8 +18,8 @@ std::string replaced(std::string text, const std::string& what, const std::strin
     return text;
 }
 
-/// Appends the valid values and the default to a meaning. `checks` is CLI11's description of them:
-/// "{one,two}" for a set, "FLOAT in [0 - 2]" for a range.
+/// Appends the valid values and the default to the meaning of an option. `checks` is CLI11's
+/// description of the valid values: "{one,two}" for a set, "FLOAT in [0 - 2]" for a range.
 std::string withChecks(std::string meaning, const std::string& checks,
                        const std::string& byDefault) {
     const auto add = [&](const char* what, const std::string& text) {
@@ -39,7 +39,7 @@ std::vector<ArgumentText> argumentTexts(const CLI::App& app) {
     std::vector<ArgumentText> out;
     for (const CLI::Option* option : app.get_options()) {
         const bool isFlag = option->get_items_expected_max() == 0;
-        // CLI11 appends the names of the checks after a colon.
+        // In the type name, CLI11 appends the descriptions of the checks after a colon.
         const std::string type = option->get_type_name();
         const std::size_t colon = std::min(type.find(':'), type.size());
         out.push_back(

@@ -14,8 +14,8 @@ namespace {
 
 const cv::Scalar kBackground(24, 24, 24, 255), kLetters(255, 200, 64, 255);
 constexpr int kFont = cv::FONT_HERSHEY_DUPLEX;
-constexpr double kLineShare = 1.0 / 24;  // share of the picture's height
-constexpr double kLetterShare = 0.55;    // share of a line's height
+constexpr double kLineShare = 1.0 / 24;  // height of a text line, as a share of the picture's
+constexpr double kLetterShare = 0.55;    // height of the font, as a share of a line's height
 constexpr int kMostLines = 4;
 constexpr std::uint32_t kBlack = 0xff000000;  // bytes R G B A: 0 0 0 255
 
@@ -23,7 +23,7 @@ int widthOf(const std::string& text, double scale) {
     return cv::getTextSize(text, kFont, scale, 1, nullptr).width;
 }
 
-/// Breaks a text into lines, between words. Text after the last line is cut off.
+/// Breaks a text into at most kMostLines lines, between words. Further text is cut off.
 std::vector<std::string> broken(const std::string& text, double scale, int width) {
     std::vector<std::string> lines(1);
     for (std::size_t at = 0; at < text.size();) {

@@ -9,9 +9,9 @@
 
 namespace mfar {
 
-/// Draws the text of a fault over a picture. Only one thread may use it. For pictures in textures,
-/// the GL context must be current on this thread. Memory is allocated for the first fault only.
-/// Throws GlError.
+/// Draws a message about a fault over a picture. Only one thread may use it. For pictures in
+/// textures, the GL context must be current on this thread. Memory is allocated when the first
+/// fault is drawn. Throws GlError.
 class Banner {
 public:
     /// `size`: size of the pictures [px].

@@ -12,24 +12,25 @@
 
 namespace mfar {
 
-/// A queue of functions that other threads want to be called on the thread of a Target object.
+/// A queue of function calls that other threads request and the thread of a Target object executes.
 /// Thread-safe.
 template <class Target>
 class CallQueue {
 public:
-    /// `wake` notifies the Target's thread of a new call. If it is empty, that thread must poll.
+    /// `wake` notifies the Target's thread of a new call. If `wake` is empty, that thread must
+    /// poll.
     explicit CallQueue(std::function<void()> wake = {}) : wake_(std::move(wake)) {}
 
-    /// Waits until the Target's thread has called `work`, and returns its result or throws its
-    /// exception. Throws std::runtime_error after `limit` (`work` may still be called later), or if
-    /// `work` will not be called.
+    /// Waits until the Target's thread has called `work`. Returns the result of `work` or throws
+    /// its exception. Throws std::runtime_error if `limit` has passed (`work` may still be called
+    /// later), or if the queue was closed.
     template <class Work>
     std::invoke_result_t<Work, Target&> call(Work work, std::chrono::milliseconds limit) {
         using Result = std::invoke_result_t<Work, Target&>;
         auto task = std::make_shared<std::packaged_task<Result(Target&)>>(std::move(work));
         std::future<Result> result = task->get_future();
-        // The queue holds the only reference. If it discards the call, the promise is broken, and
-        // the caller's wait ends.
+        // The queue holds the only reference to the task. If it discards the task, the promise is
+        // broken, and the caller's wait ends.
         put([task = std::move(task)](Target& target) { (*task)(target); });
         if (result.wait_for(limit) != std::future_status::ready)
             throw std::runtime_error("mfard is too busy to answer");

@@ -13,8 +13,8 @@
 
 namespace mfar {
 
-/// Longest wait for a frame. After each wait, faults of the camera are reported. Stopping the
-/// camera ends a wait at once.
+/// Longest wait for a frame. After each wait, faults of the camera are reported. Camera::stop()
+/// ends a wait at once.
 inline constexpr std::chrono::milliseconds kFrameWait{50};
 
 /// Fetches the frames of one camera of a rig, refuses frames of a wrong size, and reports the
@@ -24,12 +24,12 @@ public:
     /// `rig` and `stats` must outlive this object.
     CameraReader(Rig& rig, CameraRole role, Stats& stats);
 
-    /// Returns the next frame, see Camera::next(). Throws Failure if the camera fails or a frame
-    /// has another size.
+    /// Returns the next frame, see Camera::next(). Throws Failure if the camera fails or if a frame
+    /// does not have the size in the calibration.
     [[nodiscard]] std::optional<Frame> next(std::chrono::milliseconds timeout);
     [[nodiscard]] bool ended() const { return camera_.ended(); }
 
-    /// Returns whether next() waits for the camera. Thread-safe.
+    /// Returns whether next() is waiting for the camera. Thread-safe.
     [[nodiscard]] bool isWaiting() const { return waiting_; }
 
 private:

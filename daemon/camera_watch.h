@@ -17,38 +17,40 @@ namespace mfar {
 struct CameraState {
     double configuredHz = 0;     ///< configured frame rate; 0: triggered or free-running
     double rateHz = 0;           ///< frame rate measured over the last frames; 0: unknown
-    CameraCounters counters{};   ///< reported by the camera, otherwise counted from its frames
+    CameraCounters counters{};   ///< the camera's own counters, else counted from its frames
     std::uint64_t repeated = 0;  ///< number of pictures that were equal to the previous one
     std::optional<Timestamp> lastFrame{};  ///< arrival time of the last frame
-    /// Time of the last picture that differed from the previous one. Not set: not checked.
+    /// Time of the last picture that differed from the previous one. Not set: repeated pictures are
+    /// not looked for.
     std::optional<Timestamp> lastDistinct{};
     std::optional<double> distinctAgeS{};  ///< age of lastDistinct when the state was queried [s]
     bool repeats = false;  ///< whether the same picture has been sent for more than kRepeatTime
 };
 
-/// The kind of a camera. It decides which checks apply to its frames.
+/// What a camera is. This decides which checks apply to its frames.
 enum class CameraKind {
-    Stored,  ///< a recording, of which no frame is dropped: no checks
-    Live,    ///< frames may be dropped: missing frames are counted
-    Sensor,  ///< also has a configured rate, and noise, so that no two pictures are equal
+    Stored,  ///< a recording, none of whose frames is dropped: no checks
+    Live,    ///< a source whose frames may be dropped: missing frames are counted
+    Sensor,  ///< Live, with a configured rate, and with noise: no two pictures are equal
 };
 
 /// Checks the frames of one camera: the frame rate, missing frames if the camera does not count
 /// them, and whether the camera repeats one picture. Only one thread may use it.
 class CameraWatch {
 public:
-    /// A warning is given if the frame rate differs by more than this share for longer than this
-    /// time.
+    /// The user is warned if the frame rate differs from the configured one by more than this share
+    /// for longer than this time.
     static constexpr double kRateTolerance = 0.1;
     static constexpr std::chrono::seconds kRateTime{3};
-    /// A warning is given if a picture repeats for longer than this time and at least this often.
+    /// The user is warned if the camera repeats a picture at least this often and for longer than
+    /// this time.
     static constexpr std::chrono::seconds kRepeatTime{2};
     static constexpr int kRepeats = 3;
 
     CameraWatch(const CameraInfo& info, CameraKind kind);
 
     void add(const Frame& frame, Timestamp now);
-    /// Takes the camera's own counters since its start.
+    /// Sets the camera's own counters since its start.
     void add(const CameraCounters& counters);
 
     [[nodiscard]] const CameraState& state() const { return state_; }

@@ -9,8 +9,8 @@
 namespace mfar {
 namespace {
 
-/// A camera that works reacts to stop() within this time. A camera that hangs must not delay the
-/// end of the process much longer.
+/// Longest time that a working camera needs to react to stop(). A camera that hangs must not delay
+/// the end of the process much longer.
 constexpr std::chrono::milliseconds kStopTime{100};
 
 }  // namespace
@@ -55,7 +55,8 @@ void CaptureThread::stop() {
 void CaptureThread::join() {
     if (!thread_.joinable()) return;
     while (isOver_.wait_for(kStopTime) != std::future_status::ready)
-        // The capture thread hangs in its camera and cannot finish the recording.
+        // The capture thread hangs in its camera, so it cannot finish the recording. It is finished
+        // here.
         if (rig_.handOver() == HandOver::NewestWins && video_.isWaiting())
             return rig_.finishRecording();
     thread_.join();
@@ -73,8 +74,8 @@ void CaptureThread::run() {
     }
     if (stills_) stills_->stop();
     out_.finish();
-    // The recording is finished here, while the GL thread processes the last picture. After a
-    // signal, the shutdown does not wait for that picture.
+    // This thread finishes the recording, while the GL thread processes the last picture. So after
+    // a signal, the shutdown does not wait for that picture.
     try {
         rig_.finishRecording();
     } catch (...) {
@@ -90,7 +91,7 @@ FramePairer::NextStill CaptureThread::stillSource() {
 
 bool CaptureThread::captureOne(FramePairer& pairer, Heartbeat& heart) {
     std::optional<Frame> video = video_.next(kFrameWait);
-    // This thread reports faults, because the GL thread may work on a picture for a while.
+    // Faults are reported here, because the GL thread may work on a picture for a while.
     stats_.fault(rig_.fault());
     if (stills_) stills_->check();
     if (!video) return !stopped_ && !video_.ended();
@@ -103,10 +104,12 @@ bool CaptureThread::captureOne(FramePairer& pairer, Heartbeat& heart) {
         if (!still.measured) still.measured = poses_.measure(still.frame);
         still.pose = poses_.place(*still.measured, still.frame.time());
     }
-    // Predicted poses and poses of stills are not recorded: when the recording is played, the
-    // former are predicted again, and the latter are interpolated between frames.
+    // Poses that were predicted, and poses of stills, are not recorded. When the recording is
+    // played, the predicted poses are predicted again, and the poses of stills are interpolated
+    // between frames.
     if (captured.pose && poses_.isMeasured(*captured.pose)) rig_.recordPose(*captured.pose);
-    // With a lossless source, put() waits until the picture is processed. That is not a fault.
+    // With a lossless source, put() waits until the previous picture is processed. That is not a
+    // fault.
     if (rig_.handOver() == HandOver::Lossless) heart.rest();
     const auto put = out_.put(std::move(captured));
     if (put == Mailbox<CapturedFrame>::Put::Replaced) stats_.mailboxDropped(out_.dropped());

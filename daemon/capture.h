@@ -27,7 +27,8 @@ struct CapturedFrame {
     std::optional<Pose> pose{};          ///< pose of the video frame
     std::uint64_t stillsSuperseded = 0;  ///< number of stills discarded because `still` is newer
 
-    /// Takes the still of a dropped frame that this frame replaces, unless this frame has a still.
+    /// If this frame replaces a dropped frame and has no still, it gets the still of the dropped
+    /// frame.
     void supersede(CapturedFrame&& older) {
         stillsSuperseded += older.stillsSuperseded;
         if (!still)
@@ -46,7 +47,7 @@ public:
     explicit FramePairer(NextStill nextStill) : nextStill_(std::move(nextStill)) {}
 
     /// Takes all stills that are not later than the frame. Returns the frame with the newest of
-    /// them.
+    /// these stills.
     [[nodiscard]] CapturedFrame pair(Frame video, Timestamp arrived);
 
 private:
@@ -58,15 +59,16 @@ private:
 /// the mailbox. So the search for tags runs in parallel with the GL thread's work on the previous
 /// frame.
 ///
-/// Each live camera has its own thread, so that the video continues if the still camera hangs. Of a
-/// lossless source, this thread also reads the stills, in a reproducible order.
+/// If a source is live, each camera has its own thread, so that the video continues if the still
+/// camera hangs. If a source is lossless, this thread also reads the stills, in a reproducible
+/// order.
 class CaptureThread {
 public:
     /// Starts the cameras and the thread. All arguments must outlive this object. Throws Failure.
     CaptureThread(Rig& rig, PoseFinder& poses, Stats& stats, Mailbox<CapturedFrame>& out);
     CaptureThread(const CaptureThread&) = delete;
     CaptureThread& operator=(const CaptureThread&) = delete;
-    /// Waits for the threads, even if a camera hangs.
+    /// Waits for the threads, even for one that hangs in a camera.
     ~CaptureThread();
 
     /// Stops the cameras and closes the mailbox. Thread-safe and idempotent.
@@ -91,7 +93,7 @@ private:
     std::exception_ptr failure_;
     std::optional<StillThread> stills_;  ///< used for a live source
     std::promise<void> over_;
-    std::future<void> isOver_;  ///< the future of over_
+    std::future<void> isOver_;  ///< becomes ready when the thread has ended, see over_
     std::thread thread_;
 };
 

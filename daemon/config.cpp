@@ -33,7 +33,6 @@ std::optional<E> meaning(std::span<const Word<E>> words, std::string_view word) 
     return std::nullopt;
 }
 
-/// Returns the path that a text in a configuration file means. It is relative to the file's folder.
 std::filesystem::path besides(const std::string& file, const std::filesystem::path& path) {
     return std::filesystem::path(file).parent_path() / path;
 }

@@ -21,10 +21,10 @@
 
 namespace mfar {
 
-/// Rule by which a recording or the simulated board delivers its frames.
+/// The pace at which a recording or the simulated board delivers its frames.
 enum class SourcePace {
     Auto,      ///< Consumer for recordings, Realtime for every other source
-    Realtime,  ///< as the frames' times say; frames that are not fetched in time are dropped
+    Realtime,  ///< at the times of the frames; frames that are not fetched in time are dropped
     Consumer,  ///< as fast as frames are fetched; no frame is dropped
 };
 
@@ -58,7 +58,7 @@ struct Config {
     std::string display = "auto";
     PictureSize size;
     SourcePace pace = SourcePace::Auto;
-    std::uint64_t seed = 1;          ///< seed of the simulated board
+    std::uint64_t seed = 1;          ///< seed of the random numbers of the simulated board
     std::filesystem::path recordTo;  ///< new folder to record into (--record); empty: none
     RecordConfig record;
     LimitsConfig limits;
@@ -72,7 +72,8 @@ struct Config {
     VirtualOptions virtualLayer;
     LightOptions light;
     std::vector<PlacedObject> objects;
-    bool validate = false;  ///< check the output of every pass; slow, so only on the command line
+    /// Whether the outputs of all passes are checked; slow, so only on the command line.
+    bool validate = false;
 };
 
 /// Reports that a configuration file is invalid. The message has one line per fault:
@@ -94,12 +95,12 @@ public:
 /// Failure(NoInput) if it cannot be read.
 [[nodiscard]] std::string readConfigText(const std::filesystem::path& file);
 
-/// Returns the names of the keys that differ between two configurations and need a restart, e.g.
-/// "source, display". If no restart is needed, the text is empty.
+/// Returns the names of the keys that differ between two configurations and take effect only after
+/// a restart, e.g. "source, display". If there are none, the text is empty.
 [[nodiscard]] std::string needRestart(const Config& running, const Config& wanted);
 
-/// These functions convert between values and the words of configuration and command line. For an
-/// unknown word, they return nothing.
+/// These functions convert between a value and the word for it in the configuration and on the
+/// command line. For an unknown word, they return nothing.
 [[nodiscard]] std::optional<SuperResMode> superResMode(std::string_view word);
 [[nodiscard]] std::optional<SourcePace> sourcePace(std::string_view word);
 [[nodiscard]] std::string_view name(SuperResMode mode);

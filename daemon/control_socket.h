@@ -22,28 +22,27 @@ namespace mfar {
 
 /// An answer to a request: a line, and the data that follow the line.
 struct ControlAnswer {
-    std::string line;  ///< without the end of the line
+    std::string line;  ///< without the newline
     std::vector<std::uint8_t> data{};
 };
 
 /// A Unix stream socket for requests of one line. Each connection carries one request and its
 /// answer. Several requests are read at the same time. Up to four are answered at the same time,
 /// each by its own thread, because an answer may wait for a disk. A client must send its request
-/// within 2 s and read the answer within 5 s; otherwise it is disconnected. The file's permissions
-/// let the user and the group of this process connect. roleOfPeer() decides which of them are
-/// operators.
+/// within 2 s and read the answer within 5 s; otherwise it is disconnected. The socket file's
+/// permissions let the user and the group of this process connect. roleOfPeer() decides which
+/// clients are operators.
 class ControlSocket {
 public:
-    static constexpr std::size_t kLongestRequest =
-        4096;  ///< [bytes], including the end of the line
+    static constexpr std::size_t kLongestRequest = 4096;  ///< [bytes], including the newline
 
-    /// Answers a request, which has no end of the line. Several threads may call it at the same
-    /// time. Must not throw.
+    /// Answers a request, which is passed without its newline. Several threads may call the handler
+    /// at the same time. It must not throw.
     using Handler = std::function<ControlAnswer(std::string_view request, ControlRole role)>;
 
-    /// Creates the socket and begins to listen. The socket file of a process that has died is
-    /// replaced. Throws Failure(Unavailable) if another process listens there or the path cannot be
-    /// used. The threads register at `hearts`, which must outlive this object.
+    /// Creates the socket and begins to listen. If the socket file of a process that has died
+    /// exists, it is replaced. Throws Failure(Unavailable) if another process listens at `path` or
+    /// the path cannot be used. The threads register at `hearts`, which must outlive this object.
     ControlSocket(std::filesystem::path path, Handler handler, Heartbeats* hearts = nullptr);
     ControlSocket(const ControlSocket&) = delete;
     ControlSocket& operator=(const ControlSocket&) = delete;
@@ -81,7 +80,7 @@ private:
     std::optional<gid_t> operators_;
     OwnedFd listening_;
     OwnedFd stop_;
-    OwnedFd answered_;              ///< eventfd, readable after an answer is finished
+    OwnedFd answered_;              ///< eventfd, readable when an answer thread has finished
     std::list<Answering> answers_;  ///< only thread_ uses this
     std::thread thread_;
 };

@@ -15,23 +15,23 @@
 
 namespace mfar {
 
-/// All objects that make pictures, with a GL context or without one. The display's objects are not
-/// included. If there is a context, it must be current when this is created, used and destroyed. If
-/// the context is lost, this must be created again.
+/// All objects that make pictures, with or without a GL context, except the objects of the display.
+/// If there is a GL context, it must be current when a Drawing is created, used and destroyed. If
+/// the context is lost, the Drawing must be created again.
 struct Drawing {
-    /// `gl` must outlive this object. It may be null, or become null, if GL is not used. Throws
-    /// GlError.
+    /// `gl` must outlive this object. The pointer in it may be null, or become null, if GL is not
+    /// used. Throws GlError.
     Drawing(const Config& config, const StereoRig& rig, Size output,
             const std::unique_ptr<GlContext>& gl);
 
     GpuWatch gpu;
-    std::unique_ptr<gpu::Validation> validation;  ///< checks all outputs of passes; null: it is off
+    std::unique_ptr<gpu::Validation> validation;  ///< checks all outputs of passes; null: no checks
     EngineChoice engines;
     Pipeline pipeline;
     VirtualWorld objects;
     Banner banner;
-    Picture last;  ///< the pipeline's last picture, without banner; empty before the first
-    std::optional<Picture> shown;  ///< the last picture that the display got
+    Picture last;  ///< the pipeline's last picture, without banner; empty before the first picture
+    std::optional<Picture> shown;  ///< the picture that the display got last
     std::string faultShown;        ///< text of the banner on `shown`; empty: no banner
 };
 

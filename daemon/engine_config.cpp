@@ -14,7 +14,7 @@ namespace {
 constexpr std::array<std::pair<std::string_view, EngineWish>, 3> kWishes = {
     {{"auto", EngineWish::Auto}, {"gles", EngineWish::Gles}, {"simd", EngineWish::Simd}}};
 
-/// A step: its name, its member in EngineConfig and its member in EngineChoice.
+/// A step of the pipeline: its name, its member in EngineConfig and its member in EngineChoice.
 struct Step {
     std::string_view name;
     EngineWish EngineConfig::* wish;

@@ -11,7 +11,7 @@ namespace mfar {
 
 class TomlReader;
 
-/// The configured engine of a step.
+/// The configured engine of a step of the pipeline.
 enum class EngineWish : std::uint8_t {
     Auto,  ///< mfard chooses the engine
     Gles,
@@ -25,7 +25,7 @@ struct EngineConfig {
     EngineWish still = EngineWish::Auto, pyramid = EngineWish::Auto, flow = EngineWish::Auto,
                weigh = EngineWish::Auto, detail = EngineWish::Auto, occlusion = EngineWish::Auto;
 
-    /// Returns whether every step is set to SIMD, so that GLES is not needed.
+    /// Returns whether every step of the pipeline is set to SIMD, so that GLES is not needed.
     [[nodiscard]] bool isSimdAlone() const;
     /// Returns whether a step is set to GLES, so that GLES is required.
     [[nodiscard]] bool needsGles() const;
@@ -35,13 +35,14 @@ struct EngineConfig {
 /// Reads section [engine].
 void readEngine(TomlReader& file, EngineConfig& engine);
 
-/// Returns `decided`, in which the configured engines replace those of the same steps.
+/// Returns `decided`, except for the steps whose engine is configured: these get the configured
+/// engine.
 [[nodiscard]] EngineChoice withWishes(const EngineConfig& engine, EngineChoice decided);
 
 /// Returns "simd" or "gles" if all steps run on that engine, otherwise a list of all steps: "still
 /// gles, flow simd, ...".
 [[nodiscard]] std::string describe(const EngineChoice& choice);
-/// Returns the choice that describe() describes by this text, or nothing for any other text.
+/// Returns the choice for which describe() returns this text, or nothing if there is none.
 [[nodiscard]] std::optional<EngineChoice> parseEngineChoice(std::string_view text);
 
 }  // namespace mfar

@@ -16,7 +16,8 @@
 namespace mfar {
 namespace {
 
-// Size limit of the file. Hundreds of drivers fit into it, so mfard did not write a larger file.
+// Largest size of the file. The choices for hundreds of drivers fit into it, so a larger file was
+// not written by mfard.
 constexpr std::uintmax_t kMostBytes = 65536;
 
 nlohmann::json kept(const std::filesystem::path& file) {

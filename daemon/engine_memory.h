@@ -8,17 +8,17 @@
 
 namespace mfar {
 
-/// Returns the path of the file that stores measured choices: engines.json in the service's state
-/// folder ($STATE_DIRECTORY). If there is no such folder, returns an empty path, and each start
-/// measures again.
+/// Returns the path of the file that stores the measured choices of engines: engines.json in the
+/// service's state folder ($STATE_DIRECTORY). If there is no such folder, returns an empty path,
+/// and each start measures again.
 [[nodiscard]] std::filesystem::path engineMemoryFile();
 
 /// Returns the choice that is stored for `key`, which names the driver and the picture sizes.
-/// Returns nothing if there is none or the file is damaged.
+/// Returns nothing if no choice is stored or the file is damaged.
 [[nodiscard]] std::optional<EngineChoice> rememberedEngines(const std::filesystem::path& file,
                                                             const std::string& key);
-/// Stores a choice. The choices of other keys are kept. Returns false if the file cannot be
-/// written.
+/// Stores the choice for `key`. The choices of other keys are kept. Returns false if the file
+/// cannot be written.
 bool rememberEngines(const std::filesystem::path& file, const std::string& key,
                      const EngineChoice& choice);
 

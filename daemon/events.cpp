@@ -88,7 +88,8 @@ void Events::deadlineIn(std::chrono::duration<double> time) {
 
 void Events::wake() {
     const std::uint64_t one = 1;
-    // The write fails only if the counter is full. The main thread wakes up then, too.
+    // The write fails only if the counter has its largest value. Then the main thread wakes up
+    // anyway.
     [[maybe_unused]] const ssize_t n = write(wake_.get(), &one, sizeof one);
 }
 

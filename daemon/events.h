@@ -25,7 +25,7 @@ public:
     /// Throws std::system_error.
     Events();
 
-    /// Waits for the next event. Signals come before all others.
+    /// Waits for the next event. Signals are reported before all other events.
     [[nodiscard]] Event wait();
     void tickEvery(std::chrono::duration<double> period);
     /// Sets a deadline. An earlier deadline is replaced.

@@ -7,7 +7,7 @@
 
 namespace mfar {
 
-/// Exit codes of the programs. They have the values of sysexits.h, so that a service manager can
+/// Exit codes of the programs, with the values of sysexits.h, so that a service manager can
 /// distinguish failures.
 enum class ExitCode {
     Ok = 0,
@@ -29,8 +29,8 @@ public:
     const ExitCode code;
 };
 
-/// Calls `action` and returns its result. If it throws an Error, throws a Failure with `code` and
-/// the same message instead.
+/// Calls `action` and returns its result. If `action` throws an Error, throws a Failure with `code`
+/// and the same message instead.
 template <class Error = std::runtime_error, class Action>
 decltype(auto) orFail(ExitCode code, Action&& action) {
     try {
@@ -40,7 +40,7 @@ decltype(auto) orFail(ExitCode code, Action&& action) {
     }
 }
 
-/// Returns the exit code of an error. It is Internal if the error is not a Failure.
+/// Returns the exit code of an error: Internal if the error is not a Failure.
 [[nodiscard]] inline ExitCode exitCode(const std::exception& error) {
     const auto* failure = dynamic_cast<const Failure*>(&error);
     return failure != nullptr ? failure->code : ExitCode::Internal;

@@ -19,10 +19,11 @@ namespace {
 // Learning uses at most this share of a CPU.
 constexpr double kShare = 0.1;
 constexpr std::chrono::minutes kStoreEvery{1};
-// Size limit of the file. A state has 1.2 MB, so mfard did not write a larger file.
+// Largest size of the file. The learned state has 1.2 MB, so a larger file was not written by
+// mfard.
 constexpr std::size_t kMostFilterBytes = 4 << 20;
 
-/// Reads the file. Throws FilterBankError.
+/// Reads the file of the learned state. Throws FilterBankError.
 std::vector<std::uint8_t> bytesOf(const std::filesystem::path& file) {
     try {
         return boundedFile(file, kMostFilterBytes);
@@ -43,13 +44,14 @@ std::filesystem::path learnedFiltersFile(const std::string& sensors) {
 
 std::string describe(const LearningCounts& counts) {
     const EnlargerLearner::Counts& of = counts.learner;
-    std::string out = fmt::format(
-        "{} stills, {} of {} classes, {:.2f} dB better than bicubic (shipped filters: {:.2f} dB)",
-        of.stills, of.classes, enlarge::kUnique, of.gainDb, of.priorDb);
+    std::string out =
+        fmt::format("{} stills, learned filters for {} of {} classes of pixels, {:.2f} dB better "
+                    "than bicubic (shipped filters: {:.2f} dB)",
+                    of.stills, of.classes, enlarge::kUnique, of.gainDb, of.priorDb);
     if (of.guidance.any())
-        out += fmt::format(
-            "; guidance {:.2f} of the still, {:.2f} of the video, which gains {:.2f} dB",
-            of.guidance.still, of.guidance.video, of.guidanceGainDb);
+        out += fmt::format("; guidance adds {:.2f} of the still's finest detail and removes {:.2f} "
+                           "of the video's, which gains {:.2f} dB",
+                           of.guidance.still, of.guidance.video, of.guidanceGainDb);
     return out;
 }
 
@@ -144,7 +146,7 @@ std::vector<std::string> FilterLearning::takeWarnings() {
 }
 
 void FilterLearning::run(const std::stop_token& stop) {
-    // If frames wait for the learning, a low priority would only delay them.
+    // If the picture thread waits for this thread, a low priority would only delay the frames.
     if (!options_.waits) lowerThreadPriority();
     Heartbeat heart(options_.watched);
     for (;;) {

@@ -24,22 +24,22 @@ namespace mfar {
 struct FilterLearningOptions {
     /// File that stores the learned state. Empty: the state is lost with this object.
     std::filesystem::path file;
-    std::string sensors;  ///< names and sizes of the sensors for which filters are learned
-    /// True: learn from every still; finish() waits for it, so that the same pictures give the same
-    /// filters. False: learn with low priority; skip stills that come while learning runs, or so
-    /// early that learning would use more than a tenth of a CPU.
+    std::string sensors;  ///< names and picture sizes of the sensors, which filters depend on
+    /// True: learn from every still. finish() waits until this is done, so that the same pictures
+    /// give the same filters. False: learn with low priority, and skip stills that come while
+    /// learning runs, or so early that learning would use more than a tenth of a CPU.
     bool waits = false;
-    /// If this is set, guidance is learned, too, see enlarge::GuidanceLearner.
+    /// If the rig is set, guidance is learned, too, see enlarge::GuidanceLearner.
     std::optional<StereoRig> rig = std::nullopt;
-    WatchedThread watched{};  ///< the learning thread; its budget is for one still
+    WatchedThread watched{};  ///< the learning thread; its time budget is for one still
 };
 
 /// Learns the enlarger's filters from matched stills, in a thread of its own. This thread stores
-/// the state every minute and at the end. The thread that processes frames copies the stills, one
-/// at a time.
+/// the learned state every minute and at the end. The picture thread copies the stills for it, one
+/// still at a time.
 class FilterLearning final : public MatchListener {
 public:
-    /// Reads the state from the file. If that fails, learning starts again, with a warning.
+    /// Reads the learned state from the file. If that fails, warns and learns from the beginning.
     explicit FilterLearning(FilterLearningOptions options);
     FilterLearning(const FilterLearning&) = delete;
     FilterLearning& operator=(const FilterLearning&) = delete;
@@ -49,7 +49,8 @@ public:
     /// Cancels learning from the current still and stores the state. This may wait for the disk.
     void stop();
 
-    // The thread that processes frames calls these functions. Only finish() waits for the learning.
+    // The picture thread calls the following functions. Only finish() waits for the learning
+    // thread.
     void matched(const RgbPlanes& video, Rows<const std::uint8_t> still,
                  Rows<const LookUpCell> lookUps,
                  const MatchedPictures::LookedUp& lookedUp) override;
@@ -81,13 +82,13 @@ private:
 
     const FilterLearningOptions options_;
     EnlargerLearner learner_;  // only thread_, constructor and stop() use this
-    // The new still, and the previous one with the last frame that was drawn with it. The thread
-    // that processes frames owns them; while isFull_ is set, thread_ owns them.
+    // The new still, and the still before it with the last frame that was drawn with that still.
+    // The picture thread owns them; while isFull_ is set, thread_ owns them.
     MatchedPictures pictures_, older_;
     std::optional<RgbPlanes> olderVideo_;
     bool hasOlder_ = false;    // whether `older_` is the still before the one in `pictures_`
-    bool olderTaken_ = false;  // frames' thread only: whether `older_` was set since the last still
-    MatchedPictures truth_;    // only thread_ uses this and matcher_
+    bool olderTaken_ = false;  // picture thread only: whether `older_` was set since the last still
+    MatchedPictures truth_;    // only thread_ uses truth_ and matcher_
     std::unique_ptr<FrameMatcher> matcher_;  // created when it is first needed
 
     mutable std::mutex mutex_;
@@ -99,7 +100,7 @@ private:
     std::vector<std::string> warnings_;
     Clock::time_point mayLearn_{};
     Clock::time_point stored_ = Clock::now();
-    bool isStored_ = true;  // only thread_ and stop() use this
+    bool isStored_ = true;  // whether `file` is up to date; only thread_ and stop() use this
 
     std::jthread thread_;  // last member: it uses the members above
 };

@@ -8,20 +8,24 @@
 namespace mfar {
 namespace {
 
-// A level may be chosen if it is expected to need at most this share of the deadline.
+// A level may be chosen if its expected time is at most this share of the deadline.
 constexpr double kRoom = 0.85;      // for a change to a better level
 constexpr double kDownRoom = 0.95;  // for a change to a faster level
-// Among kLateWindow frames, kMostLate may be late, and one more that brings in a still. This is one
-// frame in twenty.
+// A faster level is chosen when more than kMostLate of the last kLateWindow counted frames are
+// late. Frames that bring in a still are not counted; one of them per kStillEvery frames may be
+// late. Together, at most one frame in twenty is late.
 constexpr std::size_t kMostLate = 1;
-constexpr std::uint64_t kLateWindow = 40;  // [frames]
-constexpr std::uint64_t kSettle = 8;       // [frames] before a better level is tried
-constexpr std::uint64_t kFirstWait = 20, kLongestWait = 960;  // [frames] until a level is retried
-// If a level misses the deadline after it kept it for at least kHeld frames, the scene has changed.
-// The wait for a retry then begins with kFirstWait again.
-constexpr std::uint64_t kHeld = 100;       // [frames]
-constexpr int kAtRest = 3;                 // unchanged frames after which the picture is at rest
-constexpr std::uint64_t kStillEvery = 40;  // [frames] between late frames that bring in a still
+constexpr std::uint64_t kLateWindow = 40;  // number of counted frames
+constexpr std::uint64_t kSettle = 8;       // counted frames before a better level is tried
+// First and longest number of counted frames until a level that missed the deadline is tried again.
+constexpr std::uint64_t kFirstWait = 20, kLongestWait = 960;
+// If a level kept the deadline for at least kHeld counted frames and then misses it, the scene has
+// changed. The wait before this level is tried again then begins with kFirstWait.
+constexpr std::uint64_t kHeld = 100;  // number of counted frames
+// Number of consecutive frames without change after which the picture is at rest.
+constexpr int kAtRest = 3;
+// Smallest number of frames between two late frames that bring in a still.
+constexpr std::uint64_t kStillEvery = 40;
 
 }  // namespace
 
@@ -90,7 +94,7 @@ void Governor::goTo(std::size_t level) {
     ++changes_;
 }
 
-// Returns the best level that may be tried now and is expected to need at most `ms`.
+// Returns the best level that may be tried now and whose expected time is at most `ms`.
 std::size_t Governor::bestWithin(double ms) const {
     std::size_t best = 0;
     for (std::size_t i = 1; i < levels_.size(); ++i)

@@ -15,14 +15,14 @@ namespace mfar {
 ///
 /// The expected time of a level is its time in the table, multiplied by a factor for this machine
 /// and scene. The factor is the second largest ratio of measured time to table time among the last
-/// 20 counted frames. If two of 40 counted frames are late, a faster level is chosen: the best that
-/// is expected to keep the deadline. If a better level is expected to need at most 85 % of the
-/// deadline, that one is chosen. A level that missed the deadline is not tried again for some
-/// frames; their number doubles each time.
+/// 20 counted frames. If two of 40 counted frames are late, a faster level is chosen: the best of
+/// those that are expected to keep the deadline. If a better level is expected to need at most 85 %
+/// of the deadline, the best such level is chosen. A level that missed the deadline is not tried
+/// again for some frames. The number of these frames doubles each time.
 ///
-/// Three kinds of frames are not counted: frames in which nothing changed, frames that bring in a
+/// Three types of frames are not counted: frames in which nothing changed, frames that bring in a
 /// still, and frames without a still at a level that uses one. When the picture comes to rest, it
-/// is drawn once more at the best level. That frame may be late, but nothing moves.
+/// is drawn once more at the best level. That frame may be late, because nothing moves in it.
 class Governor {
 public:
     /// `levels` must not be empty and must be sorted by time. `deadlineMs` must be greater than
@@ -57,7 +57,7 @@ public:
     [[nodiscard]] std::uint64_t changes() const { return changes_; }
 
 private:
-    static constexpr std::size_t kWindow = 20;  // number of counted frames
+    static constexpr std::size_t kWindow = 20;  // size of ratios_ [counted frames]
 
     struct Pending {
         double ms;
@@ -74,17 +74,17 @@ private:
 
     std::vector<QualityLevel> levels_;
     double deadline_;
-    std::size_t level_ = 0;  // level of frames in which something changes
+    std::size_t level_ = 0;  // index of the level of frames in which something changes
     Choice next_;
-    std::optional<Pending> pending_;        // the previous frame, until its changes are known
+    std::optional<Pending> pending_;  // the previous frame, until it is known whether it changed
     std::array<double, kWindow> ratios_{};  // measured time / table time, ring buffer
     std::size_t ratioCount_ = 0;
     std::uint64_t frame_ = 0;            // number of counted frames
     std::uint64_t changedAt_ = 0;        // value of frame_ at the last change of the level
-    std::vector<std::uint64_t> lateAt_;  // values of frame_ at late frames since that change
+    std::vector<std::uint64_t> lateAt_;  // frame_ at each late frame since the last change of level
     struct Trial {
-        // The value of frame_ before which a level is not tried, and the length of that wait
-        // [frames].
+        // notBefore: the value of frame_ before which the level is not tried. wait: the length of
+        // the last wait before a new try [counted frames].
         std::uint64_t notBefore = 0, wait = 0;
     };
     std::vector<Trial> trials_;

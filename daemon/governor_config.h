@@ -12,7 +12,7 @@ class TomlReader;
 
 /// Section [governor] of the configuration.
 struct GovernorConfig {
-    double deadlineMs = 0;        ///< deadline of a frame; 0: there is no governor
+    double deadlineMs = 0;        ///< deadline of a frame [ms]; 0: there is no governor
     std::string pin;              ///< name of a level that is always used; empty: none
     std::filesystem::path table;  ///< file with the levels; empty: the built-in table
 
@@ -20,12 +20,12 @@ struct GovernorConfig {
     bool operator==(const GovernorConfig&) const = default;
 };
 
-/// Reads section [governor].
 void readGovernor(TomlReader& file, GovernorConfig& governor);
 
-/// Returns the levels to choose from. If a level is pinned, only that one is returned. The list is
-/// empty if there is neither a pinned level nor a deadline. Throws ConfigError if the table is
-/// invalid or does not contain the pinned level, Failure(NoInput) if the table cannot be read.
+/// Returns the levels among which the governor chooses. If a level is pinned, returns only that
+/// one. Returns an empty list if there is neither a pinned level nor a deadline. Throws ConfigError
+/// if the table is invalid or does not contain the pinned level, and Failure(NoInput) if the table
+/// cannot be read.
 [[nodiscard]] std::vector<QualityLevel> governedLevels(const GovernorConfig& governor);
 
 }  // namespace mfar

@@ -5,7 +5,8 @@
 namespace mfar {
 namespace {
 
-// The CPU may be this number of pictures ahead of the GPU. It is the number of a display's buffers.
+// The largest number of pictures that the GPU may have unfinished. It is the number of a display's
+// buffers.
 constexpr std::size_t kMostInWork = 3;
 constexpr const char* kLate = "the GPU does not finish a picture";
 

@@ -15,26 +15,26 @@ namespace mfar {
 /// Checks that the GPU finishes its pictures and was not reset. Only the GL context's thread may
 /// use it.
 ///
-/// The wait for a GPU is limited to half a second; then the GPU counts as lost. A software renderer
-/// may take longer, but a single wait for it is limited to half a second, too.
+/// A GPU that does not finish within half a second counts as lost. A software renderer may take
+/// longer and does not count as lost, but each single wait for it is limited to half a second, too.
 class GpuWatch {
 public:
     /// `context` must outlive this object. While it is null, nothing is checked.
     explicit GpuWatch(const std::unique_ptr<GlContext>& context) : context_(context) {}
 
-    /// Must be called before each picture. Waits, half a second at most, if the GPU has three
-    /// unfinished pictures or has worked on one for half a second. Returns false if a software
-    /// renderer has not finished then; nothing may be drawn. Throws GpuLost.
+    /// Must be called before each picture. If the GPU has three unfinished pictures, or has worked
+    /// on one for half a second, waits for half a second at most. Returns false if a software
+    /// renderer has not finished after this wait; nothing may be drawn then. Throws GpuLost.
     [[nodiscard]] bool isReady();
     /// Throws GpuLost if the pictures drawn so far may be wrong.
     void requireSound() const;
     /// Must be called after the GL commands of a picture, before those of the display. Throws
     /// GpuLost if the commands failed.
     void drawn();
-    /// Returns why all objects on the GPU must be created again after `error`. Returns nothing if
-    /// the GPU did not cause the error.
+    /// If the GPU caused `error`, returns the reason why all objects on the GPU must be created
+    /// again. Otherwise returns nothing.
     [[nodiscard]] std::optional<std::string> lossBehind(const std::exception& error) const;
-    /// Returns a message about the fault, or nothing.
+    /// Returns a message if a software renderer is late, or nothing.
     [[nodiscard]] std::optional<std::string> fault() const;
 
 private:

@@ -11,7 +11,7 @@
 namespace mfar {
 namespace {
 
-/// Waits that are shorter than this are not reported.
+/// Time for which a thread must have waited in Heartbeat::restFor() before the wait is reported.
 constexpr std::chrono::seconds kWorthTelling{1};
 constexpr double kStalePeriods = 5;
 
@@ -36,8 +36,8 @@ std::optional<Judged> hanging(const Observed& seen, ThreadRole role, HealthState
     return std::nullopt;
 }
 
-// Returns whether the last picture is recent. With a slow camera, it may be older, because a low
-// frame rate is not a fault.
+// Returns whether the last picture is recent. The limit grows with the frame period of the camera,
+// because a low frame rate is not a fault.
 bool isFresh(std::optional<Timestamp> shown, const Observed& seen) {
     if (!shown) return false;
     const double period = seen.rateHz > 0 ? 1 / seen.rateHz : 0;

@@ -22,9 +22,11 @@ struct TimeBuckets {
 /// 1.1 %.
 class Histogram {
 public:
-    /// Adds a time [ms]. Zero, negative values and NaN are counted in the smallest bucket, 1 us.
+    /// Adds a time [ms]. Zero, negative values and NaN are counted in the bucket of the shortest
+    /// times, 1 us.
     void add(double ms);
-    /// Returns the value that a share q of all values does not exceed; 0 if there are no values.
+    /// Returns the quantile q: the time [ms] that a share q of all times does not exceed. Returns 0
+    /// if no times were added.
     [[nodiscard]] double quantile(double q) const;
     [[nodiscard]] std::uint64_t count() const { return count_; }
 

@@ -7,8 +7,8 @@
 namespace mfar {
 
 /// Sends messages to systemd's journal, see sd_journal_sendv(3). If the journal is full, the first
-/// message waits for half a second. Further messages do not wait, until the journal has room again.
-/// Only one thread at a time may use it.
+/// message waits for half a second; after that, messages do not wait until the journal has accepted
+/// one again. Only one thread at a time may use it.
 class Journal {
 public:
     /// `socket`: path of the journal's socket.

@@ -13,7 +13,8 @@ struct LearningCounts {
     std::uint64_t leftOut = 0;  ///< number of stills skipped because they came too soon
 };
 
-/// Describes the counters: "12 stills, 71 of 104 classes, 1.02 dB over bicubic (0.54 as shipped)".
+/// Returns a text such as "12 stills, learned filters for 71 of 104 classes of pixels, 1.02 dB
+/// better than bicubic (shipped filters: 0.54 dB)".
 [[nodiscard]] std::string describe(const LearningCounts& counts);
 
 }  // namespace mfar

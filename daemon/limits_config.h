@@ -12,12 +12,13 @@ class TomlReader;
 
 /// Section [limits] of the configuration: the memory that the daemon may use for its input.
 struct LimitsConfig {
-    double memoryMb = 0;  ///< budget; 0: three quarters of machineMemory(), at most 4096
+    double memoryMb = 0;  ///< memory budget; 0: three quarters of machineMemory(), at most 4096
 
     bool operator==(const LimitsConfig&) const = default;
-    /// Returns the whole budget [bytes].
+    /// Returns the whole memory budget [bytes].
     [[nodiscard]] std::uint64_t memoryBytes() const;
-    /// Returns the part for pictures and a recording's lists: two thirds of the budget [bytes].
+    /// Returns the part of the memory budget for pictures and a recording's lists: two thirds of it
+    /// [bytes].
     [[nodiscard]] std::uint64_t pictureBytes() const;
 };
 
@@ -27,14 +28,15 @@ void readLimits(TomlReader& file, LimitsConfig& limits);
 /// [bytes].
 [[nodiscard]] std::uint64_t machineMemory();
 
-/// Refuses picture sizes that need more memory than pictureBytes(), before memory is allocated.
-/// `lists`: memory of a recording's lists [bytes]. `place` names the source in the message. Throws
-/// Failure(BadData).
+/// Throws Failure(BadData) if pictures of these sizes need more memory than pictureBytes(). Must be
+/// called before the memory is allocated. `lists`: memory of a recording's lists [bytes]. `place`
+/// names the source in the message.
 void requireMemory(const LimitsConfig& limits, Size video, Size still, std::string_view place,
                    std::size_t lists = 0);
 
-/// The memory that is left for a configuration's models and environment pictures. It begins with a
-/// sixth of the whole budget, because old files are released only after new ones have been read.
+/// The memory that is left for a configuration's models and environment pictures. At first, this is
+/// only a sixth of the memory budget, because the files of an old configuration are released only
+/// after those of the new one have been read.
 class FileMemory {
 public:
     explicit FileMemory(const LimitsConfig& limits);

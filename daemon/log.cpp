@@ -96,7 +96,8 @@ void Log::say(const RepeatLimit::Message& message) {
     put(out + status_);
 }
 
-// Returns whether a message can be written. After a message was dropped, further ones do not wait.
+// Returns whether a message can be written now. After a message was dropped, the following messages
+// do not wait until the output can be written.
 bool Log::isWritable() {
     pollfd out{fd_, POLLOUT, 0};
     const int patience = dropped_ == 0 ? kPatienceMs : 0;

@@ -11,9 +11,10 @@
 
 namespace mfar {
 
-/// Writes messages to standard error. So that no thread hangs because of its messages, a message
-/// that cannot be written within half a second is dropped; the next message reports the drop. On a
-/// terminal, the last line may be a status line, which is redrawn in place. Thread-safe.
+/// Writes messages to standard error. A message that cannot be written within half a second is
+/// dropped, so that no thread hangs because of its messages; the next message reports how many were
+/// dropped. On a terminal, the last line may be a status line, which is redrawn in place.
+/// Thread-safe.
 ///
 /// Under systemd, messages go to the journal, with the fields MESSAGE_ID, MFAR_CAMERA, MFAR_THREAD
 /// (see message_ids.h) and MFAR_COUNT, the number of events that the message reports. If the
@@ -36,19 +37,21 @@ public:
     void error(std::string_view text, const Subject& subject = {}) {
         line(3, "error: ", text, subject);
     }
-    /// Logs an event that may repeat, such as an event of a device. Each event is logged at most
-    /// once in ten seconds, see RepeatLimit. `event` identifies the event if its texts differ, for
-    /// example in a number.
+    /// Logs an event that may repeat, such as a fault of a device. Each event is logged at most
+    /// once in ten seconds, see RepeatLimit. `event` identifies the event if its messages differ,
+    /// for example in a number; if it is empty, the text identifies the event.
     void warning(std::string_view text, std::string_view event = {}, const Subject& subject = {}) {
         limited(4, "warning: ", text, event, subject);
     }
-    /// Logs a change that is not a fault, with the same limit.
+    /// Logs a change that is not a fault. Each change is logged at most once in ten seconds.
     void change(std::string_view text, std::string_view event = {}, const Subject& subject = {}) {
         limited(5, "", text, event, subject);
     }
-    /// Logs a message that comes once or on request, e.g. at the start or after a reload.
+    /// Logs a message that comes only once or that a user requested, e.g. at the start or after a
+    /// reload.
     void notice(std::string_view text, const Subject& subject = {}) { line(5, "", text, subject); }
-    /// Logs the delayed messages that are due. Must be called regularly.
+    /// Logs the messages that RepeatLimit has delayed and that may be logged now. Must be called
+    /// regularly.
     void sayKept();
 
     /// Replaces the status line. Does nothing without a terminal.
@@ -73,7 +76,7 @@ private:
     std::mutex mutex_;
     RepeatLimit limit_;
     int dropped_ = 0;     ///< number of messages dropped since the last one that was written
-    std::string status_;  ///< the visible status line, without its end
+    std::string status_;  ///< the visible status line, without line break
 };
 
 }  // namespace mfar

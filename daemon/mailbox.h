@@ -9,12 +9,12 @@
 
 namespace mfar {
 
-/// Behaviour of a mailbox if the sender is faster than the receiver.
+/// What a mailbox does if the sender is faster than the receiver.
 enum class HandOver {
     NewestWins,  ///< the waiting item is replaced and counted as dropped (live sources)
     /// The sender waits until the receiver has taken the item and asks for the next one. So no item
-    /// is lost, and a run can be repeated exactly, because both work alternately (recordings,
-    /// consumer pace).
+    /// is lost. Sender and receiver work alternately, so that a run can be repeated exactly
+    /// (recordings at the pace "consumer").
     Lossless,
 };
 
@@ -54,7 +54,8 @@ public:
         });
     }
 
-    /// Does the same, but waits at most `timeout`.
+    /// Waits for an item, at most `timeout`, and returns it. Returns nothing after the timeout or
+    /// if the mailbox is over().
     [[nodiscard]] std::optional<T> takeWithin(std::chrono::milliseconds timeout) {
         return take([&](std::unique_lock<std::mutex>& lock) {
             stored_.wait_for(lock, timeout, [&] { return closed_ || finished_ || slot_; });
@@ -73,8 +74,8 @@ public:
         return std::exchange(slot_, std::nullopt);
     }
 
-    /// Announces that the sender will put no further item. take() still returns the item in the
-    /// slot, then nothing.
+    /// Announces that the sender will put no further item. take() returns the item that is still in
+    /// the slot, and after that nothing.
     void finish() {
         {
             const std::lock_guard lock(mutex_);
@@ -83,8 +84,8 @@ public:
         stored_.notify_all();
     }
 
-    /// Closes the mailbox. Both threads wake up at once, and an item in the slot is destroyed.
-    /// Idempotent.
+    /// Closes the mailbox. Sender and receiver wake up at once, and an item in the slot is
+    /// destroyed. Idempotent.
     void close() {
         std::optional<T> left;
         {

@@ -19,7 +19,7 @@ namespace mfar {
 namespace {
 
 /// Returns the trigger line that must be released. In the service's unit, this is the line that the
-/// service had requested, even if the configuration has changed since. Otherwise, it is the
+/// service has requested, even if the configuration has changed since then. Otherwise, it is the
 /// configured line.
 TriggerLineConfig lineToRelease(const Options& options) {
     const std::filesystem::path note = takenLineFile();
@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
     using namespace mfar;
     const Timestamp started = Timestamp::now();
     Log log(STDERR_FILENO, Log::styleOf(STDERR_FILENO), &Timestamp::now, Journal());
-    // libcamera itself logs to standard error. Only its errors are wanted.
+    // libcamera logs to standard error by itself. Only its errors are wanted.
     setenv("LIBCAMERA_LOG_LEVELS", "*:ERROR", 0);
     try {
         const CommandLine line = parseCommandLine(argc, argv);

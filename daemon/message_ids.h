@@ -5,14 +5,14 @@
 
 namespace mfar {
 
-/// Ids of messages in the journal, one for each kind. "journalctl MESSAGE_ID=..." finds all
-/// messages of a kind, whatever their texts are. The ids never change. Messages of other kinds have
-/// no id.
+/// Ids of messages in the journal. "journalctl MESSAGE_ID=..." finds all messages with an id,
+/// whatever their texts are. The ids never change. Messages for which no id is listed here have
+/// none.
 namespace message {
 
 /// mfard is ready to make the first picture.
 constexpr std::string_view kStarted = "4a32439137af4e3ca1cd6f7495cab2e2";
-/// The process ended by force, e.g. without waiting for a device, or not everything was written.
+/// The process ended by force, e.g. without waiting for a device, or not all output was written.
 constexpr std::string_view kEnded = "a08dca16247e4b149fdcdd335f72d624";
 /// An error ended the process.
 constexpr std::string_view kFailed = "6ce62346af964d0ca9101085e84bfb72";

@@ -45,7 +45,8 @@ void readShape(TomlReader& file, const std::string& prefix, VirtualObject& out) 
     file.integer(prefix + "squares", out.squares);
 }
 
-/// Reads model files. Each file is read once, even if several objects show it, by different paths.
+/// Reads model files. Each file is read once, even if several objects show it and name it by
+/// different paths.
 class ModelReader {
 public:
     ModelReader(std::filesystem::path folder, FileMemory& memory)
@@ -73,7 +74,8 @@ private:
             if (name == "showpiece") return showpiece();
             return loadGltf(folder_ / name, limitsWithin(memory_.left()));
         } catch (const std::bad_alloc&) {
-            throw ModelError((folder_ / name).string() + ": needs more memory than is available");
+            throw ModelError((folder_ / name).string() +
+                             ": needs more memory than the machine has available");
         }
     }
 

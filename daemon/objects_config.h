@@ -15,9 +15,9 @@ class TomlReader;
 
 inline constexpr std::size_t kMostObjects = 64;
 
-/// Reads the sections [[objects]], which say what is shown and where. Models are read here, so that
-/// a fault of a model (missing, invalid, larger than `memory`) is reported with its place in the
-/// configuration file. Names of files are relative to `folder`.
+/// Reads the sections [[objects]], which state what is shown and where. Models are read here, too,
+/// so that a fault of a model (missing, invalid, larger than `memory`) is reported with the line of
+/// the configuration file that names it. File names are relative to `folder`.
 void readObjects(TomlReader& file, const std::filesystem::path& folder, FileMemory& memory,
                  std::vector<PlacedObject>& objects);
 
@@ -26,9 +26,9 @@ void readObjects(TomlReader& file, const std::filesystem::path& folder, FileMemo
 [[nodiscard]] std::optional<RigidTransform> worldPlace(const PlacedObject& object,
                                                        const TagMap& tags);
 
-/// Returns one line for each object that is not shown, with the reason: the object stands on a tag
-/// that is not in the map, or it is a model and models are not shown. `shapesAlone` is the reason
-/// why models are not shown; empty: they are shown.
+/// Returns one message for each object that is not shown. An object is not shown if it stands on a
+/// tag that is not in the map, or if it is a model and models are not shown. `shapesAlone` is the
+/// reason why models are not shown; empty: they are shown.
 [[nodiscard]] std::vector<std::string> leftOut(const std::vector<PlacedObject>& objects,
                                                const TagMap& tags, std::string_view shapesAlone);
 

@@ -53,9 +53,9 @@ constexpr Option kTop[] = {
                   "board: \"synthetic\", \"synthetic:SCENE\" or \"synthetic:SCENE,PATH\". SCENE is "
                   "one of: office shelf outdoor flat moving still calibration. PATH is how the "
                   "camera moves, one of: handheld pan orbit forward rotate rest survey.")),
-    argument("--recording", text("recording", R"("")",
-                                 "Recording (folder in EuRoC layout) to play instead of `source`. "
-                                 "Empty: no recording.")),
+    argument("--recording",
+             text("recording", R"("")",
+                  "Recording (folder in EuRoC layout) to play instead of `source`. Empty: none.")),
     argument("--display",
              text("display", R"("auto")",
                   "Where finished pictures go: \"auto\", the first screen that is found; \"kms\", "
@@ -66,16 +66,16 @@ constexpr Option kTop[] = {
     argument(
         "--size",
         text("size", R"("screen")",
-             "Size of the pictures: \"screen\", the size at which the screen that is connected at "
-             "the start shows them (\"still\" if there is no screen); \"still\", the still's "
-             "resolution; or a size that they must fit into, like \"1280x720\". They are never "
-             "smaller than the video or larger than the still. Smaller pictures take less time.")),
+             "Size of finished pictures: \"screen\", fit to the screen that is connected at the "
+             "start (without a screen as \"still\"); \"still\", the still's resolution; or a size "
+             "into which they must fit, like \"1280x720\". Pictures are never smaller than the "
+             "video or larger than the still. Smaller pictures take less time.")),
     argument(
         "--pace",
         word("pace", "auto realtime consumer", R"("auto")",
-             "Speed of the source: \"realtime\", by its time stamps, and late frames are dropped; "
-             "\"consumer\", as fast as frames are processed, and no frame is dropped; \"auto\", "
-             "consumer for recordings and realtime for all other sources.")),
+             "Speed of the source: \"realtime\", as its time stamps say, and frames are dropped if "
+             "mfard is too slow; \"consumer\", as fast as mfard processes frames, and no frame is "
+             "dropped; \"auto\", consumer for recordings and realtime for all other sources.")),
     argument("--seed", whole("seed", {}, "1",
                              "Seed of the synthetic source's random numbers, at least 0: the same "
                              "seed gives the same pictures.")),
@@ -83,10 +83,10 @@ constexpr Option kTop[] = {
 
 constexpr Option kCameras[] = {
     text("calibration", R"("")",
-         "Calibration of both sensors: a folder with rig.yaml as mfar-calibrate writes it, a "
-         "Kalibr camchain or an OpenCV file; relative to this file. Empty: nominal lenses with a "
-         "horizontal field of view of 60 degrees, 14 mm apart. They are good enough to enlarge the "
-         "video, but too inexact for poses and depth."),
+         "Path of the calibration of both sensors: a folder with rig.yaml as mfar-calibrate writes "
+         "it, a Kalibr camchain or an OpenCV file. Empty: nominal lenses with a horizontal field "
+         "of view of 60 degrees, 14 mm apart. These are good enough to enlarge the video, but too "
+         "inexact for poses and depth."),
 };
 
 constexpr Option kVideo[] = {
@@ -95,8 +95,8 @@ constexpr Option kVideo[] = {
          "libcamera."),
     text("camera", R"("")",
          "Which camera: libcamera's id, model or location (\"cam --list\" prints them); for v4l2 "
-         "\"/dev/videoN\" or the card's name. Empty: any other than the still camera; of several, "
-         "the one with the smallest pictures. mfard waits for a camera that is missing."),
+         "\"/dev/videoN\" or the card's name. Empty: any camera but the still camera; if there are "
+         "several, the one with the smallest pictures. mfard waits for a camera that is missing."),
     whole("width", kSide, "640", "Width of the camera's pictures."),
     whole("height", kSide, "480", "Height of the camera's pictures."),
     number("rate_hz", kCameraRate, "30.0",
@@ -106,15 +106,15 @@ constexpr Option kVideo[] = {
     flag("allow_crop", "false",
          "Accept a sensor mode that shows only a part of the field of view; for libcamera only."),
     {"controls", OptionType::Values, "{}",
-     "Controls under the names that the camera gives them, set in this order before the first "
-     "picture, like { ExposureTime = 8000, AnalogueGain = 2.0 }."},
+     "Camera controls, as the driver names them, like { ExposureTime = 8000, AnalogueGain = 2.0 }. "
+     "They are set in this order before the first picture."},
 };
 
 constexpr Option kStill[] = {
     word("driver", "libcamera v4l2", R"("libcamera")", ""),
     text("camera", R"("")",
-         "As for the video camera. Empty: any other than the video camera; of several, the one "
-         "with the largest pictures."),
+         "Which camera, as in [cameras.video]. Empty: any camera but the video camera; if there "
+         "are several, the one with the largest pictures."),
     whole("width", kSide, "2304", ""),
     whole("height", kSide, "1728", ""),
     number("rate_hz", kCameraRate, "0.0", ""),
@@ -125,53 +125,53 @@ constexpr Option kStill[] = {
 
 constexpr Option kLine[] = {
     text("line", R"("")",
-         "The GPIO line that triggers the still sensor: its number or name. Empty: no trigger "
-         "line, every still that the camera sends is used."),
+         "Number or name of the GPIO line that triggers the still sensor. Empty: there is no "
+         "trigger line, and every still that the camera sends is used."),
     text("chip", R"("")",
-         "GPIO chip of the line: its label, name or path. Empty: the chip that has a line of this "
-         "name."),
+         "Label, name or path of the line's GPIO chip. Empty: any chip with a line of this name."),
     flag("active_low", "false", "The line is active when its level is low."),
     number("pulse_ms", {0.001, 10000, "ms"}, "1.0", "Length of a trigger pulse."),
     flag("pulse_is_exposure", "false", "The sensor exposes as long as the pulse lasts."),
     text("loopback", R"("")",
-         "GPIO input that is wired to the trigger line and measures the time of its pulses. Empty: "
-         "no such input."),
+         "Number or name of a GPIO input that is wired to the trigger line, to measure the times "
+         "of its pulses. Empty: there is no such input."),
     text("loopback_chip", R"("")",
          "GPIO chip of the loopback input. Empty: the chip of the trigger line."),
     number("delay_ms", {-1000, 10000, "ms"}, "0.0",
-           "Time from the pulse to the exposure, as the camera's time stamps show it. This is a "
-           "first guess; mfard learns the value."),
+           "First estimate of the time from a trigger pulse to the exposure in the camera's time "
+           "stamps. mfard learns the exact value."),
     number("jitter_ms", {0.001, 1000, "ms"}, "1.0",
-           "Error of the camera's time stamps: 1 if the sensor stamps its pictures, more if "
-           "pictures are stamped on arrival, as with USB cameras."),
+           "Largest error of the camera's time stamps: 1 if the sensor takes them, more if they "
+           "are taken on a picture's arrival, as with USB cameras."),
     number("arrival_ms", {1, 60000, "ms"}, "500.0",
-           "A still that has not arrived this long after its pulse is lost."),
+           "A still that has not arrived this long after its exposure counts as lost."),
 };
 
 constexpr std::string_view kEngines = "auto gles simd", kAuto = R"("auto")";
 constexpr Option kEngine[] = {
-    argument("--engine",
-             word("use", kEngines, kAuto,
-                  "What computes the pictures: \"gles\", shaders on the GPU; \"simd\", the CPU's "
-                  "vector units, without OpenGL ES; \"auto\", simd if OpenGL ES 3.1 is missing or "
-                  "is a software renderer, otherwise the faster of both, which is measured once.")),
+    argument(
+        "--engine",
+        word("use", kEngines, kAuto,
+             "What computes the pictures: \"gles\", shaders on the GPU; \"simd\", the CPU's vector "
+             "units, without OpenGL ES; \"auto\", simd if OpenGL ES 3.1 is missing or is a "
+             "software renderer, otherwise the faster of the two, which mfard measures once.")),
     word("still", kEngines, kAuto,
          "Engine of the step that prepares a new still; \"auto\": as `use`."),
-    word("pyramid", kEngines, kAuto, "Engine of the image pyramids."),
-    word("flow", kEngines, kAuto, "Engine of the matching of video and still."),
-    word("weigh", kEngines, kAuto, "Engine that computes the confidence of matches."),
-    word("detail", kEngines, kAuto, "Engine that draws the picture."),
-    word("occlusion", kEngines, kAuto, "Engine of depth and occlusion."),
+    word("pyramid", kEngines, kAuto, "Engine of the step that computes image pyramids."),
+    word("flow", kEngines, kAuto, "Engine of the step that matches video and still."),
+    word("weigh", kEngines, kAuto, "Engine of the step that computes the confidence of matches."),
+    word("detail", kEngines, kAuto, "Engine of the step that adds the still's detail."),
+    word("occlusion", kEngines, kAuto,
+         "Engine of the step that measures depth and finds what hides virtual objects."),
 };
 
 constexpr std::string_view kModes = "detail blend off";
 constexpr std::string_view kModeMeaning =
     "\"detail\" adds the still's detail as far as the video confirms it, \"blend\" blends the "
-    "still "
-    "in by confidence (the method of the paper), \"off\" only enlarges the video.";
+    "still in by confidence (the published method), \"off\" only enlarges the video.";
 constexpr Option kSuperres[] = {
     argument("--mode", word("mode", kModes, R"("detail")", kModeMeaning)),
-    flag("skip_unchanged", "true", "Do not recompute parts of the picture that did not change."),
+    flag("skip_unchanged", "true", "Do not recompute parts in which the video did not change."),
     flag("learn", "true",
          "Learn in the background, from matched stills, how to enlarge the video of these two "
          "sensors. The learned filters are kept in the service's state folder."),
@@ -191,8 +191,8 @@ constexpr Option kTrigger[] = {
     number("min_interval_s", {0, 3600, "s"}, "0.3",
            "For mode \"demand\": shortest time between two stills."),
     number("timeout_s", {0.05, 60, "s"}, "3.0",
-           "A still that has not arrived this long after its request is lost and is requested once "
-           "more."),
+           "A still that has not arrived this long after its request counts as lost and is "
+           "requested once more."),
 };
 
 constexpr std::string_view kFamilies = "tag36h11 tag25h9 tag16h5 tagStandard41h12";
@@ -201,12 +201,12 @@ constexpr Option kPose[] = {
     argument("--pose", word("source", "tags recorded none", R"("tags")",
                             "Where the camera's pose comes from: \"tags\", AprilTags in the video "
                             "and in each still; \"recorded\", the recording, which must have "
-                            "poses; \"none\". With a pose, detail is searched along epipolar "
-                            "lines, otherwise in both dimensions.")),
+                            "poses; \"none\", there are no poses. With poses, frames are matched "
+                            "with the still along epipolar lines, otherwise in both dimensions.")),
     text("tags", R"("")",
-         "Map of the tags: a tags.toml, or the tags.yaml of apriltag_ros; relative to this file. "
-         "Empty: the tags.toml of the recording or the tags of the synthetic board; without a map, "
-         "the largest tag of the first picture that shows a tag defines the world."),
+         "Path of the tag map: a tags.toml, or the tags.yaml of apriltag_ros. Empty: the tags.toml "
+         "of the recording or the tags of the simulated board; if there is no map, the largest tag "
+         "of the first picture with a tag defines the world."),
     {"families", OptionType::Texts, R"(["tag36h11"])",
      "Tag families that are searched when there is no map.", kFamilies},
     number("tag_size", kTagSize, "0.1",
@@ -214,21 +214,22 @@ constexpr Option kPose[] = {
     number("decimation", {1, 8, ""}, "2.0",
            "Factor by which the video is reduced before it is searched for tags: 1.5 or a whole "
            "number. A larger factor is faster but misses small tags."),
-    whole("threads", kThreads, "1", "Threads of the tag detector."),
-    whole("full_search_interval", {1, 1'000'000, "frames"}, "15",
-          "Interval at which the whole picture is searched, not only the expected places."),
+    whole("threads", kThreads, "1", "Number of threads that search tags, for each sensor."),
+    whole(
+        "full_search_interval", {1, 1'000'000, "frames"}, "15",
+        "Interval at which the whole picture is searched for tags, not only the expected places."),
     whole("bridge_frames", {0, 300, "frames"}, "12",
-          "For this many frames without a tag, the pose is predicted."),
+          "Largest number of consecutive frames without a tag for which the pose is predicted."),
 };
 
 constexpr Option kGovernor[] = {
     number("deadline_ms", {0, 10000, "ms"}, "0.0",
-           "Time limit of a frame. mfard uses the most accurate level of the table that meets this "
+           "Time limit of a frame. mfard uses the most accurate level in `table` that meets this "
            "limit in 95 % of the frames. 0: no limit, the highest accuracy."),
-    text("pin", R"("")", "Name of a level that is always used. Empty: mfard chooses the level."),
+    text("pin", R"("")", "Name of the level that is always used. Empty: mfard chooses the level."),
     text("table", R"("")",
-         "File with the levels, as \"mfar-bench pareto --table FILE\" writes it; relative to this "
-         "file. Empty: levels that were measured on two x86-64 cores without a GPU."),
+         "Path of the file with the levels, which \"mfar-bench pareto --table FILE\" writes. "
+         "Empty: levels that were measured on two x86-64 cores without a GPU."),
 };
 
 constexpr Option kRecord[] = {
@@ -236,8 +237,8 @@ constexpr Option kRecord[] = {
          "Folder in which each start of mfard creates a recording, a folder named by the time "
          "(UTC). Empty: nothing is recorded."),
     number("least_free_mb", kMegabytes, "512",
-           "A recording ends before less than this disk space is free; mfard goes on without it. "
-           "0: no limit."),
+           "When less disk space than this would be free, the recording ends, and mfard goes on "
+           "without it. 0: no limit."),
     number("most_mb", kMegabytes, "0", "Largest size of a recording. 0: no limit."),
 };
 
@@ -260,22 +261,20 @@ constexpr Option kVirtual[] = {
          "How virtual objects are drawn: \"path-traced\", with soft shadows on the real surface, "
          "or \"preview\", which takes little time."),
     number("budget_ms", {0.1, 1000, "ms"}, "8.0",
-           "Time that the path tracer may use in each frame. One path-traced picture takes many "
-           "frames."),
+           "Time for path tracing in each frame. One path-traced picture takes many frames."),
     word("slicing", "time space", R"("time")",
-         "What is path-traced in each frame: \"time\", some samples of all pixels; \"space\", all "
-         "samples of some tiles."),
+         "Which part of a path-traced picture is computed in each frame: \"time\", some samples of "
+         "all pixels; \"space\", all samples of some tiles."),
     whole("samples", {1, 65536, ""}, "64",
-          "Samples per pixel of a finished path-traced picture. More samples make it smoother and "
-          "take longer."),
+          "Samples per pixel of a path-traced picture. More are smoother, but take longer."),
     number("resolution", {0.05, 1, ""}, "0.28",
-           "Width and height of the path-traced picture as a share of the still's. The picture is "
-           "never larger than it is shown."),
+           "Width and height of the path-traced picture as a share of the still's. The path-traced "
+           "picture is never larger than the output."),
     word("holes", "push-pull re-render both none", R"("both")",
-         "What fills places that come into view between two path-traced pictures: \"push-pull\", "
-         "their surroundings; \"re-render\", the path tracer with few samples; \"both\"; or "
-         "\"none\"."),
-    whole("threads", kThreads, "1", "Threads of the path tracer."),
+         "What fills holes, which are pixels of virtual objects that come into view between two "
+         "path-traced pictures: \"push-pull\", colours around the hole; \"re-render\", the path "
+         "tracer with few samples; \"both\"; or \"none\"."),
+    whole("threads", kThreads, "1", "Number of threads of the path tracer."),
     flag("filter", "true", "Smooth the noise of pictures with few samples, but not their edges."),
     number(
         "turn_deg", {0.1, 90, "degrees"}, "4.0",
@@ -287,7 +286,7 @@ constexpr Option kLight[] = {
          "Light on virtual objects: \"studio\", \"sky\", \"camera\" (the light that the video "
          "shows), or a latitude-longitude picture, a .hdr, PNG or JPEG file relative to this file. "
          "White in PNG and JPEG is a radiance of 1."),
-    number("exposure", {0.001, 1000, ""}, "1.0", "Brightness of virtual objects."),
+    number("exposure", {0.001, 1000, ""}, "1.0", "Factor of the brightness of virtual objects."),
 };
 
 constexpr Option kSun[] = {
@@ -302,7 +301,7 @@ constexpr Option kObjects[] = {
     absent(text("model", R"("showpiece")",
                 "\"showpiece\" or a glTF file (.glb, .gltf), relative to this file. Absent: a "
                 "simple shape.")),
-    number("scale", {0.0001, 10000, ""}, "1.0", "Scale of a model."),
+    number("scale", {0.0001, 10000, ""}, "1.0", "Factor by which a model is enlarged."),
     absent(whole("tag", {0, 2114, ""}, "0",
                  "Id of the tag that the object stands on. The object's axes are then x right and "
                  "y up in the tag's print, z out of it. Absent: the object is in the world of the "
@@ -312,13 +311,13 @@ constexpr Option kObjects[] = {
             "Position of the object in the world or on its tag."),
     numbers("orientation", 4, {-1, 1, ""}, "[1.0, 0.0, 0.0, 0.0]",
             "Orientation of the object: a quaternion w, x, y, z of length 1."),
-    word("shape", "box sphere quad", R"("box")", "Simple shape. `position` is its centre."),
+    word("shape", "box sphere quad", R"("box")", "Shape to draw. `position` is its centre."),
     numbers("size", 3, {0.001, 100, "m"}, "[0.1, 0.1, 0.1]", "Size of a shape along its axes."),
     absent(numbers("colour", 3, kShare, "[0.9, 0.9, 0.9]",
                    "Colour of a shape: red, green, blue. Absent: a checkerboard of two colours.")),
     absent(numbers("second_colour", 3, kShare, "[0.8, 0.2, 0.1]",
-                   "Colour of every other square of a checkerboard. Absent: as `colour`.")),
-    whole("squares", {1, 256, ""}, "4", "Squares of the checkerboard along each side."),
+                   "Colour of every second square of the checkerboard. Absent: as `colour`.")),
+    whole("squares", {1, 256, ""}, "4", "Number of squares of the checkerboard along each side."),
 };
 
 constexpr OptionSection kConfig[] = {
@@ -349,39 +348,39 @@ constexpr Option kLevel[] = {
     absent(text("name", R"("fast")", "Name of the level, for `pin`; required.")),
     absent(number("ms", {0.001, 60000, "ms"}, "10.0",
                   "Time that a frame takes when everything in it moves; required.")),
-    number("psnr_db", {0, 200, "dB"}, "0.0", "PSNR of the pictures at this level."),
+    number("psnr_db", {0, 200, "dB"}, "0.0", "PSNR at this level against ground truth."),
     word("mode", kModes, R"("detail")", kModeMeaning),
     flag("cubic", "true", "Enlarge by bicubic instead of linear interpolation."),
     flag("learned", "true", "Enlarge by learned filters; for mode \"detail\" only."),
     flag("along_lines", "true", "If poses are known, search for matches along epipolar lines."),
     number("detail_share", {0.001, 1, ""}, "1.0",
-           "Upper limit of the share of tiles that are matched."),
+           "Largest share of the picture's tiles that are matched with the still."),
     number("second_share", kShare, "0.25",
-           "Upper limit of the share of tiles that are matched with the second still. 0: no second "
-           "still is kept."),
+           "Largest share of tiles that are matched with a second still. 0: none is kept."),
     whole("depth_every", {1, 60, "frames"}, "1",
-          "Interval at which the depth of real things is measured."),
+          "Interval at which the depth of the real scene is measured."),
     whole("flow2d.search_radius", {0, 40, "px"}, "10",
-          "Search radius at the coarsest pyramid level."),
+          "Radius of the search for a cell's flow at the coarsest pyramid level."),
     whole("flow2d.candidates", {1, 4, ""}, "4",
-          "Number of vectors of the coarser pyramid level that a cell tries."),
-    whole("flow2d.steps", {0, 16, ""}, "4", "Gauss-Newton steps that refine the best candidate."),
-    whole("flow2d.propagations", kFew, "0", "Propagation rounds at the finest pyramid level."),
+          "Number of flow vectors of the coarser pyramid level that are compared for each cell."),
+    whole("flow2d.steps", {0, 16, ""}, "4", "Gauss-Newton steps that refine the best vector."),
+    whole("flow2d.propagations", kFew, "0",
+          "Rounds in which cells try their neighbours' flow, at the finest pyramid level."),
     whole("flow2d.coarsest_propagations", kFew, "4",
-          "Propagation rounds at the coarsest pyramid level."),
-    whole("flow2d.plane_fits", kSmall, "2", "Rounds of plane fits after the median filter."),
+          "Rounds in which cells try their neighbours' flow, at the coarsest pyramid level."),
+    whole("flow2d.plane_fits", kSmall, "2",
+          "Rounds in which planes are fitted to the flow after its median filter."),
     whole("epipolar.window_radius", {0, 8, "px"}, "2",
-          "Radius of the search window around the label of the coarser pyramid level."),
+          "Radius of the search around the match of the coarser pyramid level."),
     whole("epipolar.step_penalty", {1, 30, ""}, "12",
-          "Smoothness: penalty where neighbours differ by one label."),
+          "Smoothness: penalty where neighbouring cells differ by one candidate."),
     whole("epipolar.jump_penalty", {1, 60, ""}, "60",
-          "Smoothness: penalty where neighbours differ by more labels."),
+          "Smoothness: penalty where neighbouring cells differ by more than one candidate."),
     whole("epipolar.finest", kSmall, "0",
           "Finest pyramid level that is searched: 0, 1 and 2 have the full, half and quarter width "
           "and height."),
-    whole(
-        "epipolar.most_predicted", {0, 60, "frames"}, "7",
-        "Largest number of consecutive frames that are searched only around the previous result."),
+    whole("epipolar.most_predicted", {0, 60, "frames"}, "7",
+          "Largest number of consecutive frames that are searched only near the previous match."),
 };
 
 constexpr OptionSection kLevels[] = {{"level", kLevel, "", false, OptionSection::Kind::List}};

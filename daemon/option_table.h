@@ -17,7 +17,7 @@ enum class OptionType : unsigned char {
     Values,   ///< a table with any keys, whose values are texts, numbers and flags
 };
 
-/// The limits of a number, both included. If they are equal, there are no limits.
+/// The smallest and the largest valid number. If both are equal, any number is valid.
 struct OptionRange {
     double least = 0, most = 0;
     std::string_view unit{};  ///< empty: the number has no unit
@@ -27,13 +27,13 @@ struct OptionRange {
 struct Option {
     std::string_view name{};
     OptionType type = OptionType::Text;
-    std::string_view byDefault{};  ///< TOML text of the default; an example if isAbsent is set
-    std::string_view meaning{};    ///< sentences; empty: the same as in the previous section
+    std::string_view byDefault{};  ///< default as TOML text; if isAbsent is set, an example
+    std::string_view meaning{};    ///< sentences; empty: same meaning as in the previous section
     std::string_view words{};      ///< the allowed words, separated by spaces
-    OptionRange range{};           ///< limits of each number
+    OptionRange range{};           ///< valid range of the number, or of each number in a list
     int count = 1;                 ///< number of elements of a list
     std::string_view argument{};   ///< the command line option of mfard that overrides the key
-    bool isAbsent = false;         ///< the key is absent by default, which has its own meaning
+    bool isAbsent = false;  ///< whether the key is absent by default, with a meaning of its own
 };
 
 struct OptionSection {

@@ -48,7 +48,7 @@ std::string sectionText(const OptionSection& section) {
     std::string out = heading(section);
     bool isFirst = true;
     for (const Option& option : section.options) {
-        // There is no empty line before a key that has no text.
+        // No empty line precedes a key without a comment.
         if (!isFirst && !option.meaning.empty()) out += "\n";
         out += comment(describe(option)) + fmt::format("{} = {}\n", option.name, option.byDefault);
         isFirst = false;

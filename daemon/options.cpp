@@ -67,7 +67,7 @@ void addOthers(CLI::App& app, Options& options, bool& printConfig) {
     app.add_flag("--print-config", printConfig,
                  "Only print a configuration file with every key, its meaning and default");
     app.add_flag("--release-trigger", options.releaseTrigger,
-                 "Only release the trigger line (after a crash)");
+                 "Only set the trigger line to its inactive level, after a crash");
     app.add_option("--record", options.recordTo, "Record video and stills into this new folder")
         ->type_name("DIR");
     app.add_option("--frames", options.frames, "End after N pictures")
@@ -81,7 +81,7 @@ void addOthers(CLI::App& app, Options& options, bool& printConfig) {
                    "Write the summary with charts and pictures to this file at the end (HTML)")
         ->type_name("FILE");
     app.add_option("--control", options.control,
-                   "Listen for mfarctl at this socket, which the socket's group may use, too")
+                   "Create this socket for mfarctl; its group may use it, too")
         ->type_name("SOCKET");
     app.add_flag("--validate", options.validate,
                  "Check all values that the engine writes for NaN, infinity and range, and log\n"
@@ -158,7 +158,8 @@ Config effectiveConfig(const Options& options) {
     if (options.measure) config.status.measure = true;
     config.validate = options.validate;
     if (config.pose.source == PoseOrigin::Recorded && config.recording.empty())
-        throw Failure(ExitCode::BadConfig, "pose.source = \"recorded\" needs a recording");
+        throw Failure(ExitCode::BadConfig, "pose.source = \"recorded\" needs a recording to play "
+                                           "(--recording)");
     (void)configuredTags(config.pose);
     return config;
 }

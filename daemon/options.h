@@ -11,7 +11,8 @@
 
 namespace mfar {
 
-/// The options of mfard's command line. If a value is not set, the configuration file's is used.
+/// The options of mfard's command line. If an option is not set, the value in the configuration
+/// file is used.
 struct Options {
     std::optional<std::filesystem::path> config;
     bool checkConfig = false;
@@ -48,9 +49,9 @@ struct CommandLine {
 [[nodiscard]] CommandLine parseCommandLine(int argc, const char* const* argv);
 
 /// Returns the configuration of a run: the defaults or the file of --config, overridden by the
-/// command line. Throws ConfigError, Failure(NoInput) if the file or the tag map is missing,
-/// Failure(BadData) if the tag map is invalid, and Failure(BadConfig) if options contradict each
-/// other.
+/// command line. Throws ConfigError; Failure(NoInput) if the configuration file or the tag map is
+/// missing; Failure(BadData) if the tag map is invalid; Failure(BadConfig) if options contradict
+/// each other.
 [[nodiscard]] Config effectiveConfig(const Options& options);
 
 }  // namespace mfar

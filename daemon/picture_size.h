@@ -22,11 +22,11 @@ struct PictureSize {
 
 /// Parses "screen", "still" or a size such as "1280x720". Returns nothing for other words.
 [[nodiscard]] std::optional<PictureSize> pictureSize(std::string_view words);
-/// Returns what is wrong with such words, or nothing if they are valid.
+/// Returns what is wrong with the text of a picture size, or nothing if it is valid.
 [[nodiscard]] std::optional<std::string> pictureSizeFault(std::string_view words);
 
-/// Returns the pipeline's output size. It is the largest size with the video's aspect ratio that
-/// fits, but at most the still's size and at least the video's.
+/// Returns the pipeline's output size. It is the largest size that has the video's aspect ratio and
+/// fits into the wanted size, but at most the still's size and at least the video's.
 [[nodiscard]] Size outputSizeFor(const PictureSize& wanted, const StereoRig& rig,
                                  const std::optional<Size>& screen);
 

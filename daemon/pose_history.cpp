@@ -9,7 +9,8 @@ double secondsBetween(Timestamp a, Timestamp b) {
     return std::chrono::duration<double>(b - a).count();
 }
 
-/// Returns the mean rate of motion from a to b, in the camera's frame [rad/s, m/s].
+/// Returns the mean velocity of the camera between the poses a and b, in the camera's frame [rad/s,
+/// m/s].
 Vector6 rate(const Pose& a, const Pose& b) {
     return logarithm(a.T_world_video.inverse() * b.T_world_video) / secondsBetween(a.time, b.time);
 }
@@ -48,14 +49,14 @@ std::optional<Pose> PoseHistory::at(Timestamp t) const {
     const double s = secondsBetween(a.time, t) / span;
     const Vector6 twist = rate(a, b);
     const Vector6 change = (before ? rate(pose(next - 2), a) : rate(b, pose(next + 1))) - twist;
-    // If the rate changes by `change` within `span`, the path is a parabola. This is its distance
-    // from the chord.
+    // If the velocity changes by `change` within `span`, the path is a parabola. `arc` is the
+    // distance of the parabola from its chord.
     const Vector6 arc = s * (1 - s) / 2 * span * change;
     Pose out;
     out.time = t;
     out.T_world_video = a.T_world_video * exponential(s * span * twist);
-    // The errors of neighbouring poses are strongly correlated, so their mean is not more precise
-    // than each of them.
+    // The errors of neighbouring poses are strongly correlated, so the mean of two poses is not
+    // more precise than each of them.
     out.covariance = (1 - s) * a.covariance + s * b.covariance + arc * arc.transpose();
     return out;
 }

@@ -16,15 +16,15 @@ public:
     /// Adds a pose. Times must increase; if one does not, the history is cleared first.
     void add(const Pose& pose);
 
-    /// Returns the pose at t. Between the neighbouring poses, the rate of motion is assumed to be
-    /// constant. The possible error of this, estimated from the change of the rate to the interval
-    /// before or after, is added to the covariance. Pose::tags is 0. Returns nothing if t is not
-    /// between two poses at most kLongestGap apart, or if there is no third pose from which the
-    /// change of the rate can be estimated.
+    /// Returns the pose at t, interpolated between the poses before and after it. The camera's
+    /// velocity between these poses is assumed to be constant. The error of this assumption is
+    /// estimated from the change of the velocity to the interval before or after, and is added to
+    /// the covariance. Pose::tags is 0. Returns nothing if t is not between two poses at most
+    /// kLongestGap apart, or if there is no third pose to estimate the change of the velocity from.
     [[nodiscard]] std::optional<Pose> at(Timestamp t) const;
 
     static constexpr std::chrono::milliseconds kLongestGap{100};
-    static constexpr std::size_t kLength = 32;  ///< one second of video
+    static constexpr std::size_t kLength = 32;  ///< number of poses: one second of video
 
 private:
     [[nodiscard]] const Pose& pose(std::size_t i) const;  ///< i = 0: the oldest

@@ -17,8 +17,9 @@ double seconds(clockid_t clock) {
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-// Field 22 of /proc/self/stat is the start of the process, in ticks since the machine started; see
-// proc(5). Field 2, the program's name, may contain spaces and ends with a bracket.
+// Returns the time since the process started. Field 22 of /proc/self/stat is the start time, in
+// clock ticks since the machine started, see proc(5). Field 2, the program's name, may contain
+// spaces and ends with a bracket.
 double secondsSinceStart() {
     constexpr int kStartTime = 22;
     std::ifstream file("/proc/self/stat");

@@ -10,10 +10,10 @@
 
 namespace mfar {
 
-/// Counts met and missed deadlines, and the frames of each level.
+/// Counts met and missed deadlines, and the frames of each level of the governor.
 struct QualityCounts {
     std::string level;      ///< level of the latest frame; empty: there is no governor
-    double deadlineMs = 0;  ///< 0: there is no deadline, because the level is pinned
+    double deadlineMs = 0;  ///< deadline of a frame; 0: there is none, because the level is pinned
     Histogram frameMs;      ///< times from the start of processing to the shown picture [ms]
     std::uint64_t frames = 0, late = 0;
     std::vector<std::pair<std::string, std::uint64_t>>

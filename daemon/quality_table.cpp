@@ -14,11 +14,11 @@ namespace mfar {
 namespace {
 
 constexpr std::size_t kMostLevels = 64;
-constexpr double kShort = 1;  // shorter times are written with more digits [ms]
+constexpr double kShort = 1;  // times shorter than this are written with more digits [ms]
 constexpr std::pair<std::string_view, SuperResMode> kModes[] = {
     {"detail", SuperResMode::Detail}, {"blend", SuperResMode::Blend}, {"off", SuperResMode::Off}};
 
-/// An integer setting of a level: its key in the file and its member in Quality.
+/// An integer setting of a level: its key in the file of levels and its member in Quality.
 struct LevelKey {
     const char* name;
     int& (*in)(Quality&);
@@ -56,7 +56,8 @@ QualityLevel readLevel(TomlReader& file, const std::string& prefix) {
 }
 
 void requireWhole(const std::vector<QualityLevel>& levels, const std::string& file) {
-    if (levels.empty()) throw ConfigError(file + ":1:1: the table has no [[level]]");
+    if (levels.empty())
+        throw ConfigError(file + ":1:1: the table of levels has no section [[level]]");
     for (std::size_t i = 0; i < levels.size(); ++i) {
         const auto same = [&](const QualityLevel& other) { return other.name == levels[i].name; };
         if (levels[i].name.empty() || !(levels[i].ms > 0))
@@ -67,8 +68,8 @@ void requireWhole(const std::vector<QualityLevel>& levels, const std::string& fi
     }
 }
 
-// This is the output of `mfar-bench pareto --table FILE` for the SIMD engine. Only the best level
-// uses a second still.
+// This is the output of `mfar-bench pareto --table FILE` for the SIMD engine. Only the most
+// accurate level uses a second still.
 constexpr std::string_view kBuiltInLevels = R"(
 [[level]]
 name = "off-linear"
@@ -147,8 +148,8 @@ std::string toToml(std::span<const QualityLevel> levels) {
         Quality quality = level.quality, usual = byDefault;
         std::ostringstream quoted;
         quoted << toml::value<std::string>(level.name);
-        // A short time has more digits, because the reader would refuse a time that is rounded to
-        // 0.
+        // A short time is written with more digits, because parseQualityLevels() would refuse a
+        // time that is rounded to 0.
         const int digits = level.ms < kShort ? 3 : 1;
         out += fmt::format("[[level]]\nname = {}\nms = {:.{}f}\npsnr_db = {:.2f}\nmode = \"{}\"\n",
                            quoted.str(), level.ms, digits, level.psnrDb, name(quality.mode));
@@ -174,7 +175,7 @@ std::vector<QualityLevel> limitedTo(std::span<const QualityLevel> levels, SuperR
             level.quality.mode = best;
         if (best == SuperResMode::Off)
             level.quality = {.mode = SuperResMode::Off, .cubic = level.quality.cubic};
-        // Other modes do not use these two settings.
+        // Only mode "detail" uses `learned` and `secondShare`.
         if (level.quality.mode != SuperResMode::Detail) {
             level.quality.learned = Quality().learned;
             level.quality.secondShare = Quality().secondShare;

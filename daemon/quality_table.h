@@ -9,17 +9,17 @@
 
 namespace mfar {
 
-/// One setting between fast and accurate, with its measured time and accuracy.
+/// A level: one setting between fast and accurate, with its measured time and accuracy.
 struct QualityLevel {
     std::string name;
     double ms = 0;      ///< time of a frame in which everything moves, on the measuring machine
-    double psnrDb = 0;  ///< PSNR of the pictures against ground truth
+    double psnrDb = 0;  ///< PSNR of the pictures against ground truth [dB]
     Quality quality;
 };
 
-/// Returns the Pareto front that `mfar-bench pareto --table FILE` measured on two x86-64 cores
-/// without a GPU, from fast to accurate. The command writes the front of the machine that it runs
-/// on.
+/// Returns the built-in table of levels: the Pareto front that `mfar-bench pareto --table FILE`
+/// measured on two x86-64 cores without a GPU, from fast to accurate. On another machine, the
+/// command writes that machine's front.
 [[nodiscard]] const std::vector<QualityLevel>& builtInQualityLevels();
 
 /// Parses the text of a table with sections [[level]], whose keys levelOptions() lists. Returns the
@@ -27,11 +27,11 @@ struct QualityLevel {
 [[nodiscard]] std::vector<QualityLevel> parseQualityLevels(std::string_view toml,
                                                            const std::string& file);
 
-/// Returns a text that parseQualityLevels() reads.
+/// Returns the levels as a TOML text that parseQualityLevels() can read.
 [[nodiscard]] std::string toToml(std::span<const QualityLevel> levels);
 
-/// Returns the levels without modes that are better than `best`: such modes are replaced by `best`.
-/// If several levels become equal, only the fastest is kept.
+/// Returns the levels, with every mode that is better than `best` replaced by `best`. If several
+/// levels become equal, only the fastest of them is kept.
 [[nodiscard]] std::vector<QualityLevel> limitedTo(std::span<const QualityLevel> levels,
                                                   SuperResMode best);
 

@@ -12,10 +12,11 @@
 
 namespace mfar {
 
-/// Limits repeated messages, so that a loose plug cannot fill the disk. The first message of an
-/// event passes at once. After that, one message of the event passes in ten seconds, with the
-/// number of repetitions. The last message of an event always passes. To limit the memory, all
-/// events beyond 64 at a time are treated as one. Only one thread at a time may use it.
+/// Limits repeated messages, so that a loose plug cannot fill the disk with them. The first message
+/// about an event passes at once. After that, one message about the event passes every ten seconds,
+/// with the number of its repetitions. The last message about an event always passes. To limit the
+/// memory, all events beyond 64 at a time are treated as one event. Only one thread at a time may
+/// use it.
 class RepeatLimit {
 public:
     static constexpr std::chrono::seconds kInterval{10};
@@ -29,11 +30,11 @@ public:
         std::uint64_t count = 1;  ///< number of events that the message reports
     };
 
-    /// Returns whether the message must be logged now. If not, it is kept and replaces the kept
-    /// message of the same event.
+    /// Returns whether the message must be logged now. If not, the message is kept, and an older
+    /// kept message about the same event is dropped.
     [[nodiscard]] bool mayPass(std::string_view event, const Message& message, Timestamp now);
     /// Returns the kept messages that may be logged now, sorted by the time of their last event.
-    /// Each has the number of its repetitions: "... (7 more times in 28 s)".
+    /// Each ends with the number of its repetitions: "... (7 more times in 28 s)".
     [[nodiscard]] std::vector<Message> due(Timestamp now);
     /// Returns all kept messages, for the end of the log.
     [[nodiscard]] std::vector<Message> rest(Timestamp now);

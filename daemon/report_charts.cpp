@@ -18,12 +18,12 @@ double count(std::uint64_t value) {
     return static_cast<double>(value);
 }
 
-/// Returns part / all, or a gap if `all` is 0.
+/// Returns part / all, or kGap, a gap in the chart, if `all` is 0.
 double share(std::uint64_t part, std::uint64_t all) {
     return all > 0 ? count(part) / count(all) : kGap;
 }
 
-/// Makes charts of the values of one run against time.
+/// Draws charts of one run's values against time.
 class Charts {
 public:
     explicit Charts(const RunHistory& history) : history_(history) {
@@ -34,7 +34,7 @@ public:
             x_.push_back((static_cast<double>(i) + 0.5) * history.binS() / unitS);
     }
 
-    /// Returns a value for each bin, and a gap for bins in which no picture was shown.
+    /// Returns a value for each bin. Bins in which no picture was shown get a gap.
     [[nodiscard]] std::vector<double> each(const std::function<double(const Bin&)>& value) const {
         std::vector<double> out;
         for (const Bin& bin : history_.bins())
@@ -42,7 +42,8 @@ public:
         return out;
     }
 
-    /// Returns a value for each bin, computed from the totals of the bin and of the bin before.
+    /// Returns a value for each bin. `value` computes it from the totals of the bin and of the bin
+    /// before.
     using Change = std::function<double(const RunTotals& before, const RunTotals& now)>;
     [[nodiscard]] std::vector<double> changes(const Change& value) const {
         RunTotals before;
@@ -50,7 +51,8 @@ public:
             [&](const Bin& bin) { return value(std::exchange(before, bin.totals), bin.totals); });
     }
 
-    /// Returns how much a total grows per second. The last bin is a gap, because it is not full.
+    /// Returns for each bin how much a total grows per second. The last bin gets a gap, because it
+    /// is not full.
     [[nodiscard]] std::vector<double> rate(std::uint64_t RunTotals::* total) const {
         return full(changes([&](const RunTotals& before, const RunTotals& now) {
             return (count(now.*total) - count(before.*total)) / history_.binS();
@@ -70,8 +72,8 @@ public:
         return {std::move(title), label_, x_, std::move(lines), fills, {}, {}};
     }
 
-    /// Returns lines of the quantiles of times. `spread` returns the distribution of a bin, or null
-    /// if there is none.
+    /// Returns one chart line per quantile of a time. `spread` returns the distribution of the
+    /// times in a bin, or null if there is none.
     using Spread = std::function<const TimeSpread*(const Bin&)>;
     [[nodiscard]] std::vector<ChartLine> quantiles(const Spread& spread) const {
         const auto line = [&](const char* name, double q) {

@@ -23,8 +23,8 @@ namespace {
 constexpr std::chrono::seconds kLongestWait{30};
 constexpr std::chrono::seconds kWaitWithoutCount{5};
 constexpr std::chrono::seconds kRan{60};
-// Failures count as consecutive if at most this time is between the end of a process and the start
-// of the next. It includes RestartSec= and the delay of a busy system.
+// Two failures count as consecutive if at most this time is between the end of one process and the
+// start of the next. It includes RestartSec= and the delay of a busy system.
 constexpr std::chrono::seconds kInARow{60};
 constexpr int kMostCounted = 1000;
 constexpr std::size_t kMostBytes = 64;  // size limit of the file
@@ -57,8 +57,8 @@ std::filesystem::path RestartPause::defaultFile() {
                                                : std::filesystem::path();
 }
 
-// Reads the file. It contains the number of consecutive failures, and the time at which the last
-// process ended, on the clock that starts at boot.
+// Returns the number of consecutive failures before this process. The file contains this number and
+// the time at which the last process ended, on the clock that starts at boot.
 int RestartPause::failuresBefore(Timestamp started) const {
     std::istringstream in(textOf(file_));
     int count = 0;
@@ -100,7 +100,7 @@ void pauseBeforeRestart(ExitCode code, const std::string& error, Timestamp start
     sigaddset(&ends, SIGINT);
     const timespec second{1, 0};
     for (std::chrono::seconds left = next.wait; left.count() > 0; left -= std::chrono::seconds(1)) {
-        // The watchdog must be fed during this wait, although no pictures are made.
+        // systemd's watchdog must be fed during this wait, although no pictures are made.
         service.alive();
         if (sigtimedwait(&ends, nullptr, &second) > 0) return;
     }

@@ -36,7 +36,7 @@ struct SyntheticSource final : RigSource {
         handOver = handOverAt(options(config).pace);
         std::vector<MappedTag> known;
         for (const synthetic::Tag& tag : board.world().tags)
-            // A moving tag has no fixed pose in the world.
+            // A moving tag has no fixed pose in the world, so it is not in the tag map.
             if (!tag.moves)
                 known.push_back({{TagFamily::Tag36h11, tag.id}, tag.size, tag.T_world_tag});
         tags = TagMap(known);
@@ -85,7 +85,7 @@ struct PlayedSource final : RigSource {
     [[nodiscard]] const StereoRig& geometry() const override { return player.recording().rig; }
     [[nodiscard]] Camera& video() override { return player.video(); }
     [[nodiscard]] Camera& still() override { return player.stills(); }
-    // There is no trigger, because the stills of a recording are taken already.
+    // There is no trigger, because the stills of a recording exist already.
     [[nodiscard]] Trigger* trigger() override { return nullptr; }
     [[nodiscard]] std::string name() const override {
         return "recording " + player.recording().root.string();
@@ -291,7 +291,7 @@ void Rig::finishRecording() {
 std::filesystem::path newRecordingIn(const std::filesystem::path& directory) {
     const auto seconds = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
     const std::string name = fmt::format("{:%Y%m%d-%H%M%S}", fmt::gmtime(seconds));
-    // The name may exist already: on a board without a battery-backed clock, the time is the same
+    // The folder may exist already: on a board without a battery-backed clock, the time is the same
     // after every boot.
     std::filesystem::path folder = directory / name;
     std::error_code ignored;

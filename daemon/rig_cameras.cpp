@@ -23,9 +23,9 @@ namespace mfar {
 namespace {
 
 constexpr double kNominalView = std::numbers::pi / 3;  // horizontal field of view [rad]
-constexpr double kNominalBaseline = 0.014;             // distance of the sensors [m]
-// A camera that sends no frame for these numbers of frame periods is reported as silent, or
-// reopened.
+constexpr double kNominalBaseline = 0.014;             // distance between the sensors [m]
+// If a camera sends no frame for kSilentPeriods frame periods, it is reported as silent. After
+// kStalledPeriods frame periods, it is reopened.
 constexpr double kSilentPeriods = 4.5, kStalledPeriods = 20;
 // Assumed frame period of a free-running camera without a configured rate.
 constexpr double kUnknownPeriodMs = 500;
@@ -34,8 +34,8 @@ std::chrono::nanoseconds nanoseconds(double ms) {
     return std::chrono::nanoseconds(static_cast<std::int64_t>(ms * 1e6));
 }
 
-/// A trigger whose GPIO line may not exist yet. Every pulse tries to open the line; without pulses,
-/// rest() tries it once a second.
+/// A trigger whose GPIO line may not exist yet. Every pulse tries to open the line. If no pulses
+/// are requested, rest() tries to open it once a second.
 class WaitingTrigger final : public Trigger {
 public:
     explicit WaitingTrigger(const TriggerLineConfig& line)
@@ -89,7 +89,8 @@ private:
     void open() {
         if (open_) return;
         tried_ = Timestamp::now();
-        // The note is written before the line is opened, so that it exists after a crash.
+        // The note of the requested line is written before the line is opened, so that it exists
+        // after a crash.
         if (const auto file = takenLineFile(); !file.empty()) noteTakenLine(file, line_);
         open_ = openGpioTrigger(options_);
     }
@@ -98,13 +99,13 @@ private:
     const TriggerOptions options_;
     mutable std::mutex mutex_;
     std::unique_ptr<PulseTrigger> open_;
-    std::uint64_t missedBefore_ = 0;  ///< missedEdges() of lines that were closed
+    std::uint64_t missedBefore_ = 0;  ///< sum of missedEdges() of the lines that were closed
     std::optional<Timestamp> tried_;
     std::optional<std::string> fault_;
 };
 
-/// Returns which camera is wanted. If none is configured, it is any camera except the one that is
-/// configured for the other sensor.
+/// Returns which camera to open. If none is configured for this sensor, it is any camera except the
+/// one that is configured for the other sensor.
 CameraWish wishFor(const CameraConfig& config, const CameraConfig& other, bool largest) {
     return {config.camera, config.driver == other.driver ? other.camera : "", largest};
 }
@@ -141,7 +142,7 @@ std::unique_ptr<ReopeningCamera> waitingCamera(const CameraConfig& config, const
     const auto periods = [&](double count) {
         return std::chrono::milliseconds(std::lround(count * periodMs));
     };
-    // A triggered camera may send nothing for any time.
+    // A triggered camera may send no frame for any length of time, so it is never silent.
     options.silent = onTrigger ? std::chrono::milliseconds(0)
                                : std::max(options.silent, periods(kSilentPeriods));
     if (!onTrigger) options.stalled = std::max(options.stalled, periods(kStalledPeriods));
@@ -150,7 +151,8 @@ std::unique_ptr<ReopeningCamera> waitingCamera(const CameraConfig& config, const
         [config, wish] { return openCamera(config, wish); }, options);
 }
 
-// Lost pulses are not repeated here, because StillPolicy requests a lost still once more.
+// TriggeredStillCamera does not repeat the pulse of a lost still, because StillPolicy requests the
+// still again.
 TriggeredStillOptions stillOptions(const TriggerLineConfig& line) {
     TriggeredStillOptions out;
     out.matching.guess = nanoseconds(line.delayMs);

@@ -57,7 +57,8 @@ std::optional<std::string> sourceFault(std::string_view source) {
         return fmt::format("unknown scene \"{}\"; expected one of {}", *words.scene,
                            names(kScenes));
     if (words.path && !synthetic::pathNamed(*words.path))
-        return fmt::format("unknown path \"{}\"; expected one of {}", *words.path, names(kPaths));
+        return fmt::format("unknown camera path \"{}\"; expected one of {}", *words.path,
+                           names(kPaths));
     return std::nullopt;
 }
 

@@ -6,8 +6,9 @@
 
 namespace mfar {
 
-/// Notifies systemd of start, status, reload and end, and feeds the watchdog; see sd_notify(3).
-/// Does nothing without a service manager ($NOTIFY_SOCKET).
+/// Notifies systemd of start, status, reload and end, and feeds systemd's watchdog; see
+/// sd_notify(3). Does nothing if mfard was not started by a service manager ($NOTIFY_SOCKET is not
+/// set).
 class Service {
 public:
     Service();
@@ -22,11 +23,12 @@ public:
 
     void ready(const std::string& status) const;
     void status(const std::string& status) const;
-    /// Reports that the configuration is being read again. ready() ends this state.
+    /// Reports that the configuration is being read again. ready() reports the end of this.
     void reloading() const;
     void stopping(const std::string& status) const;
     void alive() const;
-    /// Sets the watchdog's timeout to `times` times the timeout at the start of the process.
+    /// Sets the timeout of systemd's watchdog to `times` times the timeout at the start of the
+    /// process.
     void watchdogPatience(int times) const;
 
 private:

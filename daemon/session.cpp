@@ -14,7 +14,7 @@
 namespace mfar {
 namespace {
 
-/// Returns a text that identifies the two sensors, as far as they are known.
+/// Returns a text that identifies the video sensor and the still sensor, as far as they are known.
 std::string sensorsOf(const Config& config, Rig& rig) {
     const auto [video, still] = std::pair(rig.geometry().video.size, rig.geometry().still.size);
     return fmt::format("{} {} {}x{}, {} {} {}x{}", rig.video().info().name,
@@ -28,8 +28,8 @@ constexpr std::chrono::milliseconds kFaultInterval{30};
 
 }  // namespace
 
-// The GL context is created after the rig. The simulated board creates its own context, and the
-// session's must be the one that is current on this thread in the end.
+// The GL context is created after the rig. The reason is that the simulated board creates its own
+// context, but in the end the session's context must be the current one on this thread.
 Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
                  CallQueue<Session>& calls, StopTokens stop)
     : stats_(stats), changes_(changes), calls_(calls), stop_(std::move(stop)), config_(config),
@@ -146,7 +146,8 @@ void Session::showNext(std::optional<CapturedFrame>& captured) {
     calls_.runAll(*this);
     checkRecording();
     if (!captured) return showFault();
-    // A lossless source waits for this thread, so its latency is measured from here.
+    // A lossless source waits for this thread. So the latency counts from now, not from the arrival
+    // of the frame.
     if (rig_.handOver() == HandOver::Lossless) captured->arrived = Timestamp::now();
     process(*captured);
     captured.reset();
@@ -157,7 +158,7 @@ void Session::finishDisplay() {
 }
 
 // With a lossless source, every picture is written. While this thread waits for a slow writer, it
-// reports the wait, so that it does not count as hanging.
+// reports that it waits, so that it does not count as hanging.
 FileDisplayPolicy Session::displayPolicy() {
     FileDisplayPolicy policy;
     policy.isLive = rig_.handOver() == HandOver::NewestWins;
@@ -240,7 +241,8 @@ void Session::process(CapturedFrame& captured) {
     const Timestamp time = captured.video.time();
     const FrameResult& result = drawing_->pipeline.run(captured.video.view(), time, captured.pose);
     drawing_->gpu.requireSound();
-    // The trigger fires before show(), so that the still is exposed while show() waits.
+    // The trigger fires before show(), so that the still is exposed while show() waits for the
+    // screen.
     fireIfNeeded(time, result.stats);
     previous_ = time;
     drawing_->last = result.picture;
@@ -273,7 +275,8 @@ void Session::tell(Timestamp time) {
         stats_.warn(*error + "; video frames are copied instead");
     stats_.recorderDropped(rig_.notRecorded());
     if (auto matching = rig_.matching()) {
-        // StillPolicy, not StillMatcher, repeats and counts lost stills.
+        // StillPolicy, not StillMatcher, repeats the pulses of lost stills and counts these
+        // repetitions.
         matching->repeated = static_cast<std::uint64_t>(policy_.repetitions());
         stats_.matching(*matching);
     }
@@ -304,7 +307,7 @@ void Session::takeStill(CapturedStill still) {
     useStill();
 }
 
-// Gives the newest still to the pipeline. In mode Off it is not used, but kept for a later mode.
+// Gives the newest still to the pipeline. In mode Off, keeps it for a later mode instead.
 void Session::useStill() {
     if (!newestStill_ || config_.superres.mode == SuperResMode::Off) return;
     const CapturedStill still = *std::exchange(newestStill_, std::nullopt);
@@ -328,7 +331,9 @@ ScreenPicture Session::snapshot(bool ofScreen) const {
 }
 
 void Session::askForStill() {
-    if (rig_.trigger() == nullptr) throw std::runtime_error("there is no trigger");
+    if (rig_.trigger() == nullptr)
+        throw std::runtime_error(
+            "stills cannot be requested, because the source has no trigger line");
     policy_.ask();
 }
 
@@ -341,8 +346,8 @@ void Session::fireIfNeeded(Timestamp frame, const FrameStats& stats) {
         } catch (const TriggerBusy&) {
             policy_.busy();
         } catch (const std::runtime_error& error) {
-            // If the rig waits for the trigger line, the banner reports that, and the session goes
-            // on.
+            // If the rig is waiting for the trigger line, there is a banner about it, and the
+            // session goes on.
             if (!rig_.fault())
                 throw Failure(ExitCode::Unavailable, trigger->name() + ": " + error.what());
         }
@@ -354,8 +359,8 @@ void Session::fireIfNeeded(Timestamp frame, const FrameStats& stats) {
     stats_.triggers(static_cast<std::uint64_t>(policy_.fired()), lost);
 }
 
-// While no frames arrive, shows the last picture again, with the fault in a banner. (If frames
-// arrive, their pictures have the banner.)
+// If no frames arrive, shows the last picture again, with a banner about the fault. (If frames
+// arrive, their pictures get the banner.)
 void Session::showFault() {
     const std::optional<std::string> fault = rig_.fault();
     // The fault is reported here, too, because the capture thread may wait for the faulty device.
@@ -365,7 +370,7 @@ void Session::showFault() {
     stats_.bannerShown(Timestamp::now());
 }
 
-// Shows the pipeline's last picture, with the fault, if any, in a banner.
+// Shows the pipeline's last picture. If there is a fault, the picture gets a banner about it.
 void Session::show(Timestamp time, bool unchanged) {
     const std::string fault = bannerText();
     try {

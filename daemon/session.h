@@ -45,15 +45,15 @@ struct Tunables {
     return {config.superres, config.trigger, config.status.measure, config.objects, config.light};
 }
 
-/// Two ways in which other threads can end a session.
+/// Two requests by which other threads can end a session.
 struct StopTokens {
     std::stop_token
-        input;  ///< fetch no more frames; processed pictures are still shown and written
-    std::stop_token cancel;  ///< do not wait for a slow display any more
+        input;  ///< fetch no more frames; those being processed are still shown and written
+    std::stop_token cancel;  ///< do not wait any more for a slow reader of the display's pictures
 };
 
-/// One run, from the devices to the display. It owns all objects of the GL thread. The GL thread
-/// creates, runs and destroys it.
+/// One run, from the devices to the display. It owns all objects of the GL thread, which creates,
+/// runs and destroys it.
 class Session {
 public:
     /// Opens devices, GL and display. All references must outlive this object. Throws Failure.
@@ -62,17 +62,19 @@ public:
     ~Session();
 
     [[nodiscard]] const RunDescription& description() const { return description_; }
-    /// Returns the line that is logged at the start: renderer, sensors, display, output size.
+    /// Returns the line that is logged at the start. It describes the renderer, the sensors, the
+    /// display and the output size.
     [[nodiscard]] std::string startLine() const;
 
-    /// A function that is called with the reason why the pictures ended, or with the error.
+    /// A function that is called when no more pictures are made. It gets the reason or the error.
     using Over = std::function<void(const std::string& reason, const std::exception_ptr& error)>;
-    /// Processes frames until the source ends, a stop is requested or `maxFrames` are shown. Waits
-    /// until they are written, then calls `over`. After that, only the devices must be closed,
-    /// which may hang. Returns the reason of the end. Throws Failure.
+    /// Processes frames until the source ends, a stop is requested or `maxFrames` frames are shown.
+    /// Waits until their pictures are written, then calls `over`. After that, only the devices must
+    /// be closed, which may hang. Returns the reason of the end. Throws Failure.
     [[nodiscard]] std::string run(std::optional<std::uint64_t> maxFrames, const Over& over);
 
-    // The following functions must be called through the CallQueue, which calls them between two
+    // Other threads must call the following functions through the CallQueue, which executes them
+    // between two pictures. All throw std::runtime_error.
     // pictures. All throw std::runtime_error.
     /// Returns the last picture as the display got it; with `ofScreen`, as the screen shows it.
     [[nodiscard]] ScreenPicture snapshot(bool ofScreen) const;
@@ -80,7 +82,7 @@ public:
     void askForStill();
     /// Deletes the learned filters.
     void resetLearning();
-    /// These three functions call those of Rig.
+    /// The next three functions call the functions of the same names in Rig.
     [[nodiscard]] std::function<std::shared_ptr<Recorder>()>
     makeRecording(const std::filesystem::path& folder) const {
         return rig_.makeRecording(folder);
@@ -97,31 +99,34 @@ private:
         std::optional<Pose> pose;
     };
     void beginRecording(const Config& config);
-    /// Starts the recording that beginRecording() requested, if its folder has been created by now.
+    /// If the folder of the recording that beginRecording() requested exists by now, starts the
+    /// recording.
     void takeFirstRecording();
     void checkRecording();
     [[nodiscard]] std::string showFrames(Mailbox<CapturedFrame>& mailbox, CaptureThread& capture,
                                          std::optional<std::uint64_t> maxFrames);
     void apply(const Tunables& wanted);
-    /// Applies pending changes and calls, then processes and shows the frame. Without a frame,
-    /// shows the fault, if there is one.
+    /// Applies pending changes and calls, then processes and shows the frame. If there is no frame
+    /// but a fault, shows the fault.
     void showNext(std::optional<CapturedFrame>& captured);
     /// Returns the deadline of a picture [ms]; 0: there is no deadline.
     [[nodiscard]] double deadlineMs() const;
-    /// Returns whether objects can be shown. Opens GL if they need it; reports a failure.
+    /// Returns whether virtual objects can be shown. If they need GL, opens it; a failure is
+    /// reported.
     bool canShowObjects();
     void placeObjects();
     /// Creates drawing_ with the open GL context, or without GL. All settings and the stills in use
     /// are applied to it.
     void makeDrawing();
-    /// Creates drawing_ in a new GL context after the GPU lost all objects. Throws Failure if that
-    /// fails.
+    /// Creates drawing_ in a new GL context after the GPU lost all objects. `why` is the reason of
+    /// the loss. Throws Failure if drawing_ cannot be created.
     void makeDrawingAnew(std::string why);
     [[nodiscard]] std::optional<std::string> gpuFault();
     [[nodiscard]] std::string bannerText();
     [[nodiscard]] Rendering rendering() const;
     void keepUsedStill(const CapturedStill& still);
-    /// Keeps the copy of the pipeline's second still. Must be called after Pipeline::setStill().
+    /// Keeps a copy of the still that is now the pipeline's second still. Must be called after
+    /// Pipeline::setStill().
     void keepSecondStill();
     [[nodiscard]] bool mayDraw();
     /// Processes and shows a frame. If it throws because the GPU is lost, `captured` can be
@@ -136,7 +141,8 @@ private:
     void govern();
     void showFault();
     void finishDisplay();
-    /// Makes small copies of the last picture and the last still, if a report will be written.
+    /// If a report will be written, makes small copies of the last picture and the last still for
+    /// it.
     void leavePictures();
     [[nodiscard]] FileDisplayPolicy displayPolicy();
     void setLearning(bool wanted);
@@ -152,9 +158,9 @@ private:
     Mailbox<Tunables>& changes_;
     CallQueue<Session>& calls_;
     StopTokens stop_;
-    Config config_;  ///< the configuration, with the changes since the start
+    Config config_;  ///< the configuration, with the changes made since the start
     Rig rig_;
-    std::future<std::shared_ptr<Recorder>> firstRecording_;  ///< valid while its folder is created
+    std::future<std::shared_ptr<Recorder>> firstRecording_;  ///< valid while its folder is made
     PoseFinder poses_;
     GlDevice device_ = GlDevice::Preferred;
     OpenedGl gl_;
@@ -163,24 +169,24 @@ private:
     GpuFailures failures_;
     std::unique_ptr<FilterLearning> learning_;  ///< null: filters are not learned
     std::shared_ptr<const FilterBank>
-        filters_;                       ///< learned filters; null: the shipped ones are used
-    std::optional<Quality> quality_;    ///< quality of the pipeline; not set: as configured
+        filters_;  ///< the learned filters in use; null: the shipped ones are used
+    std::optional<Quality> quality_;    ///< the pipeline's quality; not set: as configured
     std::unique_ptr<Drawing> drawing_;  ///< uses learning_, so it is declared after it
     StillPolicy policy_;
-    std::optional<CapturedStill> newestStill_;  ///< a still that the pipeline has not got yet
-    // Copies of stills, for a loss of the GPU and for the report; set if steps run on GLES or a
-    // report is written. They are the newest still in use, the pipeline's second still, and the
-    // previous one, whose memory is reused.
+    std::optional<CapturedStill> newestStill_;  ///< the newest still, until the pipeline gets it
+    // Copies of the newest still in use, of the pipeline's second still, and of the still that was
+    // in use before, whose memory is reused. The copies are needed after a loss of the GPU and for
+    // the report. Not set if no step runs on GLES and no report is written.
     std::optional<UsedStill> usedStill_, secondStill_, formerStill_;
     TriggerReports triggerReports_;
-    std::vector<QualityLevel> levels_;  ///< empty: the quality is as configured
+    std::vector<QualityLevel> levels_;  ///< levels of the governor; empty: quality as configured
     std::optional<Governor> governor_;
     Governor::Choice choice_{};          ///< the choice that the pipeline uses now
     std::vector<StageTime> stages_;      ///< times of the last picture's stages
-    std::optional<Timestamp> previous_;  ///< time of the frame of the pipeline's statistics
+    std::optional<Timestamp> previous_;  ///< frame time of the pipeline's current statistics
     std::optional<Timestamp> stillTime_;
     TagMap tags_;
-    std::string sensors_;  ///< names the sensors for which filters are learned
+    std::string sensors_;  ///< identifies the sensors for which filters are learned
     std::uint64_t pictures_ = 0;
     ValidationCounts validated_{};
     RunDescription description_;

@@ -1,4 +1,5 @@
-// Creates the objects that use the GL context of a session, also after a loss of the GPU.
+// Creates the objects that use the GL context of a session, at the start and after a loss of the
+// GPU.
 
 #include "base/image_layout.h"
 #include "daemon/exit_code.h"
@@ -35,8 +36,8 @@ void Session::makeDrawingAnew(std::string why) {
         drawing_.reset();
         display_->releaseGl();
         gl_ = {};
-        // Free pages are returned to the system. Almost the whole heap is free now, but glibc keeps
-        // its pages (45 of 157 MB were measured).
+        // Returns free pages of the heap to the system. Almost the whole heap is free now, but
+        // glibc would keep its pages (45 of 157 MB were measured).
         malloc_trim(0);
         if (isLast) {
             config_.engine = {.use = EngineWish::Simd};
@@ -65,7 +66,7 @@ std::optional<std::string> Session::gpuFault() {
     return now ? now : failures_.fault(Timestamp::now());
 }
 
-// Returns the text of the banner. A missing device is more important than a GPU that was replaced.
+// Returns the text of the banner. A missing device is more important than a lost GPU.
 std::string Session::bannerText() {
     if (const std::optional<std::string> fault = rig_.fault()) return *fault;
     return failures_.banner(Timestamp::now()).value_or("");
@@ -81,7 +82,7 @@ Rendering Session::rendering() const {
     return out;
 }
 
-// Keeps a copy of the still for the report and for a loss of the GPU, after which the next still
+// Keeps a copy of the still for the report, and for a loss of the GPU. After a loss, the next still
 // may come late or never.
 void Session::keepUsedStill(const CapturedStill& still) {
     const bool mayBeLost = gl_.context && drawing_->engines.uses(EngineKind::Gles);

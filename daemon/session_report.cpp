@@ -7,7 +7,8 @@
 
 namespace mfar {
 
-// A failure to read a picture back is only a warning, so that the run can end successfully.
+// If a picture cannot be read back from the GPU, mfard only warns, so that the run can end
+// successfully.
 void Session::leavePictures() {
     if (!stats_.keepsHistory()) return;
     RunPictures pictures;

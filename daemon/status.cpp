@@ -12,11 +12,11 @@ namespace {
 constexpr std::array<const char*, kTileClasses> kTileNames = {"unchanged", "upscaled", "trusted",
                                                               "blended", "hidden"};
 
-// Returns the share of the run that is done, or nothing if no end is planned.
+// Returns which share of the run is done, or nothing if no end is planned.
 std::optional<double> progress(const Counted& counted, const RunDescription& run, double elapsedS) {
     std::optional<double> done;
     if (run.plannedFrames && *run.plannedFrames > 0) {
-        // Dropped frames count as done.
+        // Dropped frames count as done, too.
         const auto past = counted.frames + counted.drops.mailbox + counted.drops.sensor;
         done = static_cast<double>(past) / static_cast<double>(*run.plannedFrames);
     }
@@ -82,7 +82,7 @@ nlohmann::ordered_json quantiles(const Histogram& times) {
     return {{"median", times.quantile(0.5)}, {"p99", times.quantile(0.99)}};
 }
 
-// If there are no poses, all numbers are zero.
+// If poses are not searched, all numbers are zero.
 nlohmann::ordered_json poseSummary(const Counted& counted, const std::string& from) {
     const PoseCounts& poses = counted.poses;
     return {
@@ -135,7 +135,8 @@ nlohmann::ordered_json virtualSummary(const Counted& counted) {
     return out;
 }
 
-// Returns "path traced 83%, 1.2 M samples/s, 120 holes", or an empty text without path tracing.
+// Returns ", path tracing 83% at 1.20 M samples/s, 120 holes", or an empty text without path
+// tracing.
 std::string tracing(const Counted& counted) {
     if (!counted.traced || !counted.last.objectsInView) return "";
     if (counted.last.objectsHidden) return ", objects hidden";
@@ -160,7 +161,7 @@ nlohmann::ordered_json lineSummary(const StillCounters& line) {
             {"missed_edges", line.missedEdges}};
 }
 
-// The result lacks counters that this camera does not have.
+// Counters that this camera does not have are absent from the result.
 nlohmann::ordered_json cameraSummary(const CameraState& camera) {
     const CameraCounters& c = camera.counters;
     nlohmann::ordered_json out = {{"configured_hz", camera.configuredHz},
@@ -229,7 +230,7 @@ nlohmann::ordered_json dropSummary(const Drops& drops) {
 
 }  // namespace
 
-// The parts are in order of importance, because a terminal cuts off the end of the line.
+// The most important parts come first, because a terminal cuts off the end of the line.
 std::string statusLine(const Counted& counted, const RunDescription& run, double elapsedS,
                        const Health& health) {
     std::string line;

@@ -11,7 +11,7 @@
 
 namespace mfar {
 
-/// Describes the run for people. Complete after set-up.
+/// Describes the run for the user. Complete after the set-up of the session.
 struct RunDescription {
     std::string renderer;
     std::string source;
@@ -19,23 +19,23 @@ struct RunDescription {
     std::string mode;
     std::optional<std::uint64_t> plannedFrames;  ///< length of the recording, or --frames
     std::optional<double> plannedSeconds;        ///< value of --seconds
-    std::string poses;                           ///< origin of the poses
+    std::string poses;                           ///< where the poses come from
     std::string engine{};                        ///< see describe() in engine_config.h
-    double videoRateHz = 0;                      ///< expected rate of pictures; 0: unknown
+    double videoRateHz = 0;                      ///< expected rate of pictures [Hz]; 0: unknown
 };
 
-/// Returns the status line. It has a progress bar if the end of the run is known, and the health if
-/// it is not Ok. `elapsedS`: time since mfard was ready [s].
+/// Returns the status line. It has a progress bar if the end of the run is planned, and the health
+/// if that is not Ok. `elapsedS`: time since mfard was ready [s].
 [[nodiscard]] std::string statusLine(const Counted& counted, const RunDescription& run,
                                      double elapsedS, const Health& health = {});
 
 /// Returns a line such as "first picture 430 ms after the start, 90 MB resident".
 [[nodiscard]] std::string firstPictureLine(const ProcessUse& use);
 
-/// Returns the states of the cameras, by name.
+/// Returns the states of the cameras as JSON. The keys are the cameras' names.
 [[nodiscard]] nlohmann::ordered_json cameraStatus(const Counted& counted);
 
-/// Returns the results of the run, for programs. Shares and confidences are in [0, 1], times in ms.
+/// Returns the results of the run as JSON. Shares and confidences are in [0, 1], times in ms.
 [[nodiscard]] nlohmann::ordered_json summary(const Counted& counted, const RunDescription& run,
                                              const std::string& exitReason, int exitCode);
 

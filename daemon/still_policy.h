@@ -17,7 +17,7 @@ enum class TriggerMode {
 struct TriggerConfig {
     TriggerMode mode = TriggerMode::Demand;
     double rateHz = 2;            ///< mode rate: stills per second
-    double explainedBelow = 0.6;  ///< mode demand: least share of the picture that is explained
+    double explainedBelow = 0.6;  ///< mode demand: trigger below this share of explained tiles
     double maxAgeS = 10;          ///< mode demand: an older still is replaced while the scene moves
     double minIntervalS = 0.3;    ///< mode demand: shortest time between two triggers
     double timeoutS = 3;          ///< a still that does not arrive within this time is lost
@@ -28,14 +28,15 @@ struct TriggerConfig {
 /// Decides when the still sensor is triggered. It only uses the times and statistics of video
 /// frames. Only one thread may use it.
 ///
-/// A lost still is counted and requested again at once. If the second one is lost, too, the policy
-/// waits for maxAgeS (mode demand), for the next period (mode rate) or for ask() (mode off).
+/// A lost still is counted and requested again at once. If the still of this second request is
+/// lost, too, the policy waits for maxAgeS (mode demand), for the next period (mode rate) or for
+/// ask() (mode off).
 class StillPolicy {
 public:
     explicit StillPolicy(const TriggerConfig& config) : config_(config) {}
 
-    /// Changes the configuration, which is used from the next decision on. If a still is pending,
-    /// it stays pending, unless the mode changes to Off.
+    /// Changes the configuration. It is used from the next decision on. A still that was triggered
+    /// but has not arrived stays pending, unless the mode changes to Off.
     void configure(const TriggerConfig& config);
 
     /// Decides, once per frame, whether to trigger. If this returns true, the caller must fire now.
@@ -46,18 +47,18 @@ public:
     /// Requests one still, in any mode. The next decision triggers it, unless a still is pending.
     void ask() { asked_ = true; }
 
-    /// Reports that the trigger could not fire because its last pulse is not over. The next
+    /// Reports that the trigger could not fire because its last pulse has not ended. The next
     /// decision triggers again.
     void busy();
 
     /// Reports a still that is the reference from the next frame on. If it was exposed before the
-    /// last trigger, it belongs to an earlier trigger and is late.
+    /// last trigger, it counts as the late still of an earlier trigger.
     void stillArrived(Timestamp exposed);
 
     [[nodiscard]] bool pending() const { return firedAt_ && !arrived_; }
     [[nodiscard]] int fired() const { return fired_; }
     [[nodiscard]] int lost() const { return lost_; }
-    /// Returns the number of triggers that repeated a lost still. fired() includes them.
+    /// Returns how often a lost still was triggered again. fired() includes these triggers.
     [[nodiscard]] int repetitions() const { return repetitions_; }
 
 private:
@@ -69,8 +70,8 @@ private:
     std::optional<Timestamp> still_;      ///< time of exposure of the current reference
     std::optional<Timestamp> usedSince_;  ///< time of the first frame with this reference and mode
     std::optional<Timestamp> firedAt_;    ///< time of the last trigger
-    bool arrived_ = true;    ///< whether the last trigger's still has arrived or counts as lost
-    bool repeated_ = false;  ///< whether the last trigger repeated a lost still
+    bool arrived_ = true;  ///< whether the still of the last trigger has arrived or counts as lost
+    bool repeated_ = false;  ///< whether the last trigger requested a lost still again
     bool movedSinceTrigger_ = false;
     bool movedInUse_ = false;  ///< whether the scene moved since the reference was first used
     bool asked_ = false;

@@ -19,7 +19,7 @@ std::optional<CapturedStill> nextStill(CameraReader& reader, Rig& rig, Stats& st
 
 bool StillBox::put(CapturedStill still) {
     std::optional<CapturedStill>
-        oldest;  // declared first: it is destroyed after the mutex is unlocked
+        oldest;  // declared before the lock, so that it is destroyed after the mutex is unlocked
     const std::lock_guard lock(mutex_);
     if (stills_.size() == kCapacity) {
         oldest = std::move(stills_.front());

@@ -28,8 +28,9 @@ struct CapturedStill {
 [[nodiscard]] std::optional<CapturedStill> nextStill(CameraReader& reader, Rig& rig, Stats& stats,
                                                      std::chrono::milliseconds timeout);
 
-/// A queue of stills from the still camera's thread to the video camera's, oldest first. Its
-/// capacity is small, because each still holds a buffer of the camera. Thread-safe; never waits.
+/// A queue of stills from the still camera's thread to the video camera's thread, oldest still
+/// first. Its capacity is small, because each still occupies a buffer of the camera. Thread-safe;
+/// never waits.
 class StillBox {
 public:
     static constexpr std::size_t kCapacity = 2;
@@ -43,8 +44,9 @@ private:
     std::deque<CapturedStill> stills_;
 };
 
-/// The thread that fetches stills from a live camera. It is separate, so that neither a still
-/// camera that hangs nor the search for tags in a still delays the video.
+/// The thread that fetches stills from a live still camera. It is separate from the video camera's
+/// thread, so that the video is not delayed if the still camera hangs or while tags are searched in
+/// a still.
 class StillThread {
 public:
     /// Starts the thread. The caller must start the camera before and stop it afterwards. All
@@ -57,8 +59,8 @@ public:
 
     /// Requests the end of the thread. Thread-safe; never waits.
     void stop() { stopped_ = true; }
-    /// Throws the error that ended the thread, if there is one: Failure if the camera failed or a
-    /// still had a wrong size.
+    /// If an error ended the thread, throws it: Failure if the camera failed or a still had a wrong
+    /// size.
     void check() const;
     /// Returns the next still, if one has arrived. Never waits.
     [[nodiscard]] std::optional<CapturedStill> take() { return box_.take(); }

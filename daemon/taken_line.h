@@ -8,18 +8,18 @@
 namespace mfar {
 
 /// Returns the path of the file in which the service notes the GPIO line that it has requested.
-/// After a crash, the service's stop hook reads it to release the line. The file is in
+/// After a crash, the service's stop hook reads the file to release the line. The file is in
 /// $RUNTIME_DIRECTORY, which systemd deletes when the service has ended. Returns an empty path if
 /// this variable is not an absolute path.
 [[nodiscard]] std::filesystem::path takenLineFile();
 
-/// Writes the file. It has three lines: "chip=", "line=" and "active_low=". Throws
+/// Writes this file. It has three lines: "chip=", "line=" and "active_low=". Throws
 /// std::runtime_error.
 void noteTakenLine(const std::filesystem::path& file, const TriggerLineConfig& line);
 
-/// Returns the line in the file, or nothing if there is no file. Throws Failure(BadData) if the
-/// file is too long, not a regular file, a symbolic link or owned by another user, or if it does
-/// not have exactly these three keys.
+/// Returns the GPIO line that the file names, or nothing if there is no file. Throws
+/// Failure(BadData) if the file is too long, not a regular file, a symbolic link or owned by
+/// another user, or if its keys are not exactly "chip", "line" and "active_low".
 [[nodiscard]] std::optional<TriggerLineConfig> takenLine(const std::filesystem::path& file);
 
 }  // namespace mfar

@@ -58,14 +58,14 @@ std::string_view lastPart(std::string_view key) {
     return key.substr(key.rfind('.') + 1);
 }
 
-// Returns how different two keys are. A key in the wrong section is as likely as a typing error, so
-// the last parts of the keys are compared, too.
+// Returns how different two keys are. A user may have written a key into a wrong section as likely
+// as have mistyped it, so the last parts of the keys are compared, too.
 std::size_t distance(std::string_view given, std::string_view known) {
     return std::min(editDistance(given, known), editDistance(lastPart(given), lastPart(known)) + 1);
 }
 
-/// Returns the entries of a table in the order of the file, which may matter. TOML++ sorts them by
-/// name.
+/// Returns the entries of a table in the order of the file, which may matter. TOML++ itself sorts
+/// the entries by name.
 std::vector<std::pair<std::string, const toml::node*>> asWritten(const toml::table& table) {
     std::vector<std::pair<std::string, const toml::node*>> out;
     for (const auto& [name, value] : table)
@@ -296,7 +296,7 @@ void TomlReader::refuseUnknown(const toml::table& table, const std::string& pref
 void TomlReader::refuseUnknown(const toml::key& key, const toml::node& value,
                                const std::string& name) {
     if (std::find(known_.begin(), known_.end(), name) != known_.end()) {
-        // Checks the keys of every section in a list.
+        // If the section is a list, checks the keys of each of its entries.
         if (const toml::array* list = value.as_array())
             for (std::size_t i = 0; i < list->size(); ++i)
                 if (const toml::table* section = (*list)[i].as_table())

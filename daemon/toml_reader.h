@@ -15,11 +15,11 @@
 
 namespace mfar {
 
-/// Reads typed values from a TOML text. Collects all faults with their places, so that all faults
-/// of a file are reported at once. finish() reports keys that were not read as unknown.
+/// Reads typed values from a TOML text. All faults and their places are collected, so that one
+/// message can report all faults of a file. finish() reports keys that were not read as unknown.
 class TomlReader {
 public:
-    /// Returns what is wrong with a text, or nothing if it is valid.
+    /// Returns what is wrong with the text of a value, or nothing if it is valid.
     using Check = std::function<std::optional<std::string>(std::string_view)>;
 
     /// Returns what is wrong with a number that is within its range, or nothing if it is valid.
@@ -27,9 +27,9 @@ public:
 
     using NumbersCheck = std::function<std::optional<std::string>(std::span<const double>)>;
 
-    /// `table` contains the types and ranges of all keys. Reading another key throws
-    /// std::logic_error. `file` names the file in messages. Throws ConfigError if the syntax is
-    /// invalid.
+    /// `table` contains the types and ranges of all keys. Reading a key that is not in `table`
+    /// throws std::logic_error. `file` names the file in messages. Throws ConfigError if the syntax
+    /// is invalid.
     TomlReader(std::string_view text, std::string file, std::span<const OptionSection> table);
 
     /// The following functions read the value of a key: "name", "section.name" or, in a list of
@@ -37,7 +37,7 @@ public:
     void number(std::string_view key, double& out, const NumberCheck& check = nullptr);
     void integer(std::string_view key, std::uint64_t& out);
     void integer(std::string_view key, int& out);
-    /// Reads an integer with an upper limit that is lower than the table's.
+    /// Reads an integer. `most` is its upper limit, lower than the limit in the table of keys.
     void integer(std::string_view key, int& out, int most);
     void boolean(std::string_view key, bool& out);
     /// Reads a text. It is valid if `check` returns nothing.
@@ -46,8 +46,8 @@ public:
     void texts(std::string_view key, std::vector<std::string>& out, const Check& check = nullptr);
     /// Reads a list of numbers, which must have the size of `out`.
     void numbers(std::string_view key, std::span<double> out, const NumbersCheck& check = nullptr);
-    /// Reads a table with any keys. Its values are texts, numbers and booleans and are returned as
-    /// text: "1", "0.5", "true". They are in the order of the file.
+    /// Reads a table with any keys, whose values are texts, numbers and booleans. The values are
+    /// returned as text: "1", "0.5", "true", in the order of the file.
     void values(std::string_view key, std::vector<std::pair<std::string, std::string>>& out);
     template <class E>
     void choice(std::string_view key, E& out,
@@ -66,12 +66,13 @@ private:
         std::string message;
     };
 
-    /// Returns the table's entry of this key. Throws std::logic_error if there is none of this
-    /// type.
+    /// Returns the entry for this key in the table of keys. Throws std::logic_error if there is
+    /// none of this type.
     [[nodiscard]] const Option& option(std::string_view key, OptionType type) const;
     void word(std::string_view key, OptionType type, std::string& out, const Check& check);
     const toml::node* find(std::string_view key);
-    /// Returns the node of a key if it is of the `wanted` kind. Another kind is a fault.
+    /// Returns the node of a key. If its type is not the one that `wanted` names, adds a fault and
+    /// returns null.
     const toml::node* find(std::string_view key, std::string_view wanted,
                            bool (toml::node::*is)() const);
     void fault(const toml::source_region& at, std::string message);

@@ -5,11 +5,12 @@ namespace mfar {
 std::vector<std::string_view> TriggerReports::newSince(const Seen& seen) {
     std::vector<std::string_view> out;
     if (seen.lost > reported_.lost)
-        out.push_back(seen.repeats ? "no still arrived after a pulse; it is requested again"
-                                   : "no still arrived after a pulse");
+        out.push_back(seen.repeats
+                          ? "no still arrived after a trigger pulse; the still is requested again"
+                          : "no still arrived after a trigger pulse");
     if (seen.missedEdges > reported_.missedEdges)
-        out.push_back("the loopback input missed an edge of a pulse, so the time of the exposure "
-                      "is unverified");
+        out.push_back("the loopback input missed an edge of a trigger pulse, so the time of the "
+                      "still's exposure was not measured");
     reported_ = seen;
     return out;
 }

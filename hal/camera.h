@@ -15,23 +15,25 @@ struct CameraInfo {
     std::string name;  ///< the name that messages use
     Size size;
     PixelFormat format = PixelFormat::Rgba8;
-    double rateHz = 0;  ///< frame rate; 0: the camera takes pictures on trigger only
+    double rateHz = 0;  ///< frame rate [Hz]; 0: the camera takes pictures on trigger only
 };
 
 /// Counts a camera's frames since its start. No frame is counted twice.
 struct CameraCounters {
     std::uint64_t delivered = 0;
-    /// Frames that the driver lost because it had no free buffer. Not set if the camera does not
-    /// count them.
+    /// Number of frames that the driver lost because it had no free buffer. Not set if the camera
+    /// does not count them.
     std::optional<std::uint64_t> missed{};
-    /// Frames that are incomplete or that the driver marked as broken. They are not delivered.
+    /// Number of frames that were not delivered because they are incomplete or the driver marked
+    /// them as broken.
     std::uint64_t broken = 0;
-    /// Frames whose timestamp is in the future, too old or out of order. They are not delivered.
+    /// Number of frames that were not delivered because their timestamp is in the future, too old
+    /// or out of order.
     std::uint64_t badTimes = 0;
-    std::uint64_t startup = 0;   ///< frames taken before the sensor had settled; not delivered
+    std::uint64_t startup = 0;   ///< number of frames before the sensor had settled; not delivered
     std::uint64_t untimed = 0;   ///< frames without a timestamp; their arrival time is used
-    std::uint64_t restarts = 0;  ///< restarts after the driver cancelled all requests
-    std::uint64_t reopened = 0;  ///< number of times that the device was lost
+    std::uint64_t restarts = 0;  ///< number of restarts after the driver cancelled all requests
+    std::uint64_t reopened = 0;  ///< number of times that the device was opened again after a loss
 
     CameraCounters& operator+=(const CameraCounters& other) {
         delivered += other.delivered;
@@ -70,9 +72,11 @@ public:
     /// live cameras.
     [[nodiscard]] virtual bool ended() const = 0;
 
-    /// Returns the counters. They are all zero for a camera that cannot lose frames. Thread-safe.
+    /// Returns the counters of frames. They are all zero for a camera that cannot lose frames.
+    /// Thread-safe.
     [[nodiscard]] virtual CameraCounters cameraCounters() const { return {}; }
-    /// Returns the new warnings about a device that works. Each is returned once. Thread-safe.
+    /// Returns the new warnings about the camera, while it works. Each warning is returned once.
+    /// Thread-safe.
     [[nodiscard]] virtual std::vector<std::string> takeWarnings() { return {}; }
 };
 

@@ -45,7 +45,7 @@ public:
     /// the time from the recording's file.
     [[nodiscard]] Timestamp time() const { return time_; }
 
-    /// Adds `by` to the time, to convert it to another clock.
+    /// Adds `by` to the time, to convert the time to another clock.
     void shift(std::chrono::nanoseconds by) { time_ = time_ + by; }
 
     std::chrono::nanoseconds exposure{0};  ///< length of the exposure; 0: unknown
@@ -56,7 +56,7 @@ private:
     std::function<void()> giveBack_;
 };
 
-/// A fixed set of equal buffers that are allocated once and used by Frames. A buffer that is never
+/// A fixed set of buffers of equal size for Frames. They are allocated once. A buffer that is never
 /// used takes no memory. Thread-safe. The pool may be destroyed before its frames: the memory lives
 /// until the last frame is destroyed. In a buffer, planes follow each other and rows have no
 /// padding (packedView() in image_layout.h).
@@ -64,7 +64,7 @@ class FramePool {
 public:
     FramePool(Size size, PixelFormat format, int count);
 
-    /// A buffer that the caller fills. It must then be passed to lend() or giveBack().
+    /// A buffer that the caller fills. After that, it must be passed to lend() or giveBack().
     struct Slot {
         std::uint8_t* data;
         std::size_t stride;
@@ -74,9 +74,9 @@ public:
     [[nodiscard]] std::optional<Slot> acquire(std::chrono::milliseconds timeout);
     /// Turns a filled slot into a frame. The frame's destructor returns the buffer.
     [[nodiscard]] Frame lend(const Slot& slot, Timestamp time) const;
-    /// Does the same with another view, which must lie in the slot's memory.
+    /// Turns a filled slot into a frame with another view, which must lie in the slot's memory.
     [[nodiscard]] Frame lend(const Slot& slot, const ImageView& view, Timestamp time) const;
-    /// Returns a slot that does not become a frame.
+    /// Returns the buffer of a slot that does not become a frame.
     void giveBack(const Slot& slot) const;
 
     [[nodiscard]] Size size() const { return size_; }

@@ -10,18 +10,19 @@
 
 namespace mfar {
 
-/// Counts frames that a camera did not deliver. They are counted from gaps in the driver's frame
-/// numbers. If numbers are missing, restart or do not increase, drops are counted from the times of
-/// the delivered frames. Numbers may wrap at 32 bits. The frame period is the mean of those recent
-/// intervals that are near their median, so that gaps, jitter and rate changes have only a short
-/// effect.
+/// Counts frames that a camera did not deliver. Normally, they are counted from gaps in the
+/// driver's frame numbers. If the numbers are missing, restart or do not increase, drops are
+/// counted from the times of the delivered frames. Numbers may wrap at 32 bits. To get the frame
+/// period, recent intervals that are near their median are averaged. So gaps, jitter and changes of
+/// the rate have only a short effect.
 class FrameDrops {
 public:
-    /// Adds a frame and returns the number of frames missing since the previous one. If drops are
-    /// counted from times, this is 0 while the period is unknown (the first eight intervals) and if
-    /// the time does not increase.
+    /// Adds a frame and returns the number of frames that are missing since the previous one. If
+    /// drops are counted from times, it is 0 while the period is unknown (the first eight
+    /// intervals) and if the time does not increase.
     int add(Timestamp time, std::optional<std::uint32_t> number = std::nullopt);
     /// Adds a frame whose time must not be used, because the frame is broken or was triggered.
+    /// Returns the number of frames that are missing since the previous one.
     int addUntimed(std::optional<std::uint32_t> number);
     /// Counts the last frame as dropped, because it could not be delivered.
     void lose() { ++dropped_; }
@@ -39,7 +40,7 @@ private:
 
     static constexpr std::size_t kKept = 31;
 
-    std::array<std::int64_t, kKept> intervals_{};  ///< ring buffer of intervals [ns]
+    std::array<std::int64_t, kKept> intervals_{};  ///< ring buffer of intervals between frames [ns]
     std::size_t known_ = 0;
     std::size_t next_ = 0;
     std::optional<Timestamp> last_;

@@ -23,11 +23,11 @@ public:
     virtual void release() = 0;
     /// Returns the address of an extension function; null if it does not exist.
     [[nodiscard]] virtual Proc getProcAddress(const char* name) const = 0;
-    /// Returns the importer for camera memory; null if the driver cannot import it, or if uploads
-    /// are faster, as with a software renderer.
+    /// Returns the importer of camera memory into this context. Returns null if the driver cannot
+    /// import such memory, or if uploads are faster, as with a software renderer.
     [[nodiscard]] virtual PlaneImporter* planeImporter() { return nullptr; }
-    /// Returns why the pictures drawn since the last call are invalid: the GPU was reset, or a GL
-    /// call failed. Returns nothing if there is no fault. Never waits.
+    /// Returns why the pictures that were drawn since the last call are invalid: the GPU was reset,
+    /// or a GL call failed. Returns nothing if there was no fault. Never waits.
     [[nodiscard]] virtual std::optional<std::string> takeFault() = 0;
     /// Returns whether the CPU renders instead of a GPU.
     [[nodiscard]] virtual bool isSoftware() const = 0;
@@ -37,10 +37,10 @@ public:
 };
 
 enum class GlDevice : std::uint8_t {
-    /// The GPU. If there is none or the environment has MFAR_GL_DEVICE=software, the software
-    /// renderer.
+    /// The GPU. The software renderer is used if there is no GPU or the environment has
+    /// MFAR_GL_DEVICE=software.
     Preferred,
-    Software  ///< the software renderer
+    Software  ///< the software renderer, even if there is a GPU
 };
 
 /// Creates a context and makes it current on the calling thread. Throws a std::runtime_error that

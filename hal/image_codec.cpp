@@ -14,12 +14,12 @@
 namespace mfar {
 namespace {
 
-constexpr std::int64_t kMostProgressive = 1 << 24;  // [px]
-// The header of a PNG file is certainly shorter [bytes].
+constexpr std::int64_t kMostProgressive = 1 << 24;  // [px]; larger progressive JPEGs are refused
+// Largest size of a PNG file without its pixels [bytes].
 constexpr std::size_t kMostHeader = 4096;
 
-// libpng reports an error by calling fail(), which must not return. fail() jumps back (longjmp)
-// into the function that called libpng, which then returns false. Such a function must not have
+// libpng reports an error by calling fail(), which must not return. So fail() jumps (longjmp) to
+// the function that called libpng, and that function returns false. Such a function must not have
 // objects with destructors.
 struct PngError {
     std::jmp_buf back;
@@ -78,8 +78,8 @@ void flushNothing(png_structp /*png*/) {}
 
 bool readHeader(PngReader& reader, std::span<const std::uint8_t>& left, ImageAlpha alpha) {
     if (setjmp(reader.error.back) != 0) return false;
-    // Chunks that do not affect the pixels are skipped, because a text chunk of 8 kB may be
-    // decompressed to 8 MB.
+    // Chunks of the file that do not affect the pixels are skipped, because a text chunk of 8 kB
+    // may be decompressed to 8 MB.
     png_set_keep_unknown_chunks(reader.png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
     png_set_read_fn(reader.png, &left, readBytes);
     png_read_info(reader.png, reader.info);
@@ -118,7 +118,7 @@ void decodePng(std::span<const std::uint8_t> file, const TargetOf& targetOf, Ima
 }
 
 /// Returns whether a JPEG is progressive (ITU T.81, frame SOF2 and others). The decoder keeps all
-/// coefficients of such a picture in memory, six bytes per pixel.
+/// coefficients of a progressive JPEG in memory, six bytes per pixel.
 bool isProgressive(std::span<const std::uint8_t> file) {
     constexpr std::uint8_t kStartOfScan = 0xda;
     for (std::size_t at = 2; at + 4 <= file.size() && file[at] == 0xff;) {
@@ -141,15 +141,16 @@ void decodeJpeg(std::span<const std::uint8_t> file, const TargetOf& targetOf) {
     if (std::int64_t{size.width} * size.height > kMostProgressive && isProgressive(file))
         throw std::runtime_error("a progressive JPEG may have at most 16 million pixels");
     const PixelTarget target = targetOf(size);
-    // A warning counts as an error, because it means that data are damaged or missing.
+    // A warning of the decoder counts as an error, because it means that data are damaged or
+    // missing.
     if (tjDecompress2(decoder.get(), file.data(), file.size(), target.rgba, size.width,
                       static_cast<int>(target.stride), size.height, TJPF_RGBA,
                       TJFLAG_LIMITSCANS) != 0)
         throw std::runtime_error(tjGetErrorStr2(decoder.get()));
 }
 
-// Only one filter and run-length coding are used: this takes 8 ms for 648x432. zlib's level 1 takes
-// 22 ms and makes files of photographs no smaller.
+// Only one filter and run-length coding are used. This takes 8 ms for 648x432 pixels. zlib's level
+// 1 takes 22 ms, and its files of photographs are no smaller.
 bool write(PngWriter& writer, Size size, PixelBytes format, png_bytepp rows,
            std::vector<std::uint8_t>& out) {
     if (setjmp(writer.error.back) != 0) return false;
@@ -183,8 +184,8 @@ void decodeImage(std::span<const std::uint8_t> file, const TargetOf& targetOf, I
 void encodePng(const std::uint8_t* pixels, std::size_t stride, Size size, PixelBytes format,
                std::vector<std::uint8_t>& out) {
     out.clear();
-    // More memory than any picture needs is reserved, because a growing vector would copy the data
-    // several times. Pages that are not used cost nothing.
+    // The reserved memory is enough for any picture, because a growing vector would copy the data
+    // several times. Pages of memory that are not used cost nothing.
     out.reserve(std::size_t{4} * size.width * size.height + kMostHeader);
     PngWriter writer;
     std::vector<png_bytep> rows = rowsOf(pixels, stride, size.height);

@@ -16,7 +16,7 @@ struct GlImage {
     Size size;
 };
 
-/// A finished picture, either a texture of the current GL context (GLES engine) or rows in host
+/// A finished picture: either a texture of the current GL context (GLES engine), or rows in host
 /// memory with four bytes R G B A per pixel (SIMD engine). Row 0 is the top row. Alpha is
 /// undefined. A Picture does not own its pixels: they are valid until the engine makes the next
 /// picture.
@@ -39,7 +39,7 @@ public:
         assert(!isOnHost());
         return *std::get_if<GlImage>(&pixels_);
     }
-    /// Returns the rows. Must be called only if the picture is on the host.
+    /// Returns the rows in host memory. Must be called only if the picture is on the host.
     [[nodiscard]] const Rows<const std::uint32_t>& rows() const {
         assert(isOnHost());
         return *std::get_if<HostRows>(&pixels_);

@@ -6,7 +6,7 @@
 
 namespace mfar {
 
-/// A plane of texels in memory that devices share (dma-buf).
+/// A plane of texels in memory that several devices can use (dma-buf).
 struct SharedPlane {
     int fd = -1;
     std::size_t offset = 0, stride = 0;  ///< bytes
@@ -21,9 +21,10 @@ public:
     virtual ~PlaneImporter() = default;
 
     /// Creates a texture and returns its name. The texture always shows the plane's current
-    /// content. Throws std::runtime_error if the driver refuses the memory or the layout.
+    /// content, without another call. Throws std::runtime_error if the driver refuses the memory or
+    /// the layout.
     [[nodiscard]] virtual unsigned import(const SharedPlane& plane) = 0;
-    /// Deletes the texture. Never throws.
+    /// Deletes a texture that import() has created. Never throws.
     virtual void forget(unsigned texture) = 0;
 };
 

@@ -26,8 +26,9 @@ void ReopeningCamera::start() {
     opener_ = std::thread([this] { keepOpen(); });
 }
 
-// A lost device must be closed before it can be opened again. Closing and opening may take long, so
-// this thread does both; a thread that waits for pictures is not blocked.
+// Runs on the opener's thread. A lost device must be closed before it can be opened again. Closing
+// and opening may take long, so this thread does both, and the thread that waits for pictures is
+// not blocked.
 void ReopeningCamera::keepOpen() {
     Heartbeat heart(options_.opener);
     heart.rest();
@@ -63,7 +64,8 @@ void ReopeningCamera::keepOpen() {
             rest();
         changed_.wait(lock, [&] { return stopped_ || !camera_; });
     }
-    // This thread stops the camera, because ReopeningCamera::stop() must not wait for the driver.
+    // The camera is stopped on this thread, because ReopeningCamera::stop() must not wait for the
+    // driver.
     if (const std::shared_ptr<Camera> camera = camera_) work([&] { camera->stop(); });
 }
 
@@ -131,13 +133,13 @@ void ReopeningCamera::sent() {
 }
 
 bool ReopeningCamera::hasStalled() {
-    // This is called before mutex_ is locked: busyElsewhere() may call the other camera, which may
-    // in turn call this one.
+    // busyElsewhere() is called before mutex_ is locked, because it may call the other camera,
+    // which may in turn call this one.
     const bool isExcused = options_.busyElsewhere && options_.busyElsewhere();
     const std::lock_guard lock(mutex_);
     answer_.reset();
     if (options_.silent.count() == 0) {
-        fault_.reset();  // a triggered camera may be silent: the device is open, and that is enough
+        fault_.reset();  // a triggered camera may be silent; it works if the device is open
         return false;
     }
     return Timestamp::now() - lastFrame_ >= (isExcused ? options_.excused : options_.stalled);

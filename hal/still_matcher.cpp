@@ -9,10 +9,11 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-/// Number of pulses that are remembered, far more than can wait for their stills. A still that
-/// arrives after this number of later pulses is ignored.
+/// Largest number of pulses that are remembered. It is far more than can wait for their stills. If
+/// a still arrives later than this many further pulses, it is ignored.
 constexpr std::size_t kRemembered = 64;
-/// If this number of stills in a row miss the window by about the same time, the clock has stepped.
+/// Number of consecutive stills that must miss the window by about the same time before the
+/// camera's clock counts as stepped.
 constexpr std::size_t kStepEvidence = 5;
 constexpr nanoseconds kLongest = std::chrono::hours(1);
 
@@ -67,8 +68,8 @@ nanoseconds StillMatcher::constant() const {
     return nanoseconds{median(samples_)};
 }
 
-/// Returns the pulse whose expected time is nearest. Returns nothing if the time is more than three
-/// hours away from every pulse.
+/// Returns the pulse whose expected exposure time is nearest. Returns nothing if it is more than
+/// three hours away from every pulse.
 std::optional<StillMatcher::Nearest> StillMatcher::nearest(Timestamp exposed) const {
     std::optional<Nearest> best;
     for (std::size_t i = 0; i < pulses_.size(); ++i) {

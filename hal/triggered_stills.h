@@ -17,31 +17,32 @@ namespace mfar {
 
 struct TriggeredStillOptions {
     StillMatcherOptions matching;
-    /// The exposure of stills, used if the camera does not report it. It is the length of the pulse
-    /// if the sensor exposes during the pulse. 0: unknown.
+    /// The exposure of stills if the camera does not report it. If the sensor exposes during the
+    /// pulse, it is the length of the pulse. 0: unknown.
     std::chrono::nanoseconds exposure{0};
 };
 
 /// Combines the still camera and its trigger. Delivers only stills that match a pulse, each once
-/// and in the order of their times. Repeats a pulse once if its still does not arrive.
+/// and in the order of their times. If a still does not arrive, repeats its pulse once.
 ///
-/// The time of a still is the time of its pulse + the learned constant + half the exposure. The
-/// constant is a median over twenty pulses, which removes the jitter of the camera's times; the
-/// time of a pulse is known to microseconds. fire() and counters() are thread-safe.
+/// The time of a still is the time of its pulse + the learned delay of the exposure + half the
+/// exposure. The delay is a median over twenty pulses, which removes the jitter of the camera's
+/// timestamps. The time of a pulse is known to microseconds. fire() and counters() are thread-safe.
 class TriggeredStillCamera final : public Camera, public Trigger {
 public:
     /// Throws std::invalid_argument if StillMatcher refuses the options.
     TriggeredStillCamera(std::unique_ptr<Camera> camera, std::unique_ptr<Trigger> trigger,
                          const TriggeredStillOptions& options);
 
-    /// Returns the camera's info with a frame rate of 0, because it is triggered.
+    /// Returns the info of the camera, but with a frame rate of 0, because it is triggered.
     [[nodiscard]] CameraInfo info() const override;
     void start() override;
-    /// Returns the next still. This call also repeats lost pulses, so it must be called regularly,
-    /// e.g. with timeout 0. Throws what the camera throws, and what the trigger throws when a pulse
-    /// is repeated.
+    /// Returns the next still. Also repeats lost pulses, so it must be called regularly, e.g. with
+    /// timeout 0. Throws what the camera throws, and what the trigger throws when a pulse is
+    /// repeated.
     [[nodiscard]] std::optional<Frame> next(std::chrono::milliseconds timeout) override;
-    /// Ends an active pulse, then stops the camera. fire() throws TriggerBusy until start().
+    /// Ends an active pulse, then stops the camera. From then on until start(), fire() throws
+    /// TriggerBusy.
     void stop() override;
     [[nodiscard]] bool ended() const override { return camera_->ended(); }
 
@@ -68,8 +69,8 @@ private:
     std::chrono::nanoseconds exposure_;
     std::atomic<bool> stopped_{false};
 
-    /// Guards the members below. It is locked while a pulse is fired and registered, so that its
-    /// still is not matched before.
+    /// Guards the members below. It stays locked from firing a pulse until the pulse is registered,
+    /// so that the pulse's still is not matched before that.
     mutable std::mutex mutex_;
     StillMatcher matcher_;
     std::optional<Timestamp> newest_;

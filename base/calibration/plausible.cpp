@@ -13,8 +13,9 @@
 namespace mfar::plausible {
 namespace {
 
-constexpr double kRotationTolerance = 1e-3;  // some files round elements to four digits
-constexpr double kMaxFoldError = 0.5;        // [px]
+// Largest error of an element; some files round to four digits.
+constexpr double kRotationTolerance = 1e-3;
+constexpr double kMaxFoldError = 0.5;  // [px]; a larger error of project(unproject()) shows a fold
 
 /// Formats the range for a message.
 std::string text(const Range& range) {
@@ -34,8 +35,8 @@ bool foldsInside(const CameraModel& c) {
     return false;
 }
 
-/// Computes, for each corner, its distance from the principal point with distortion divided by that
-/// without distortion. Returns the ratio that differs most from 1.
+/// Computes for each corner of the picture: its distance from the principal point with distortion,
+/// divided by the distance without distortion. Returns the ratio that differs most from 1.
 double mostUnlikelyCorner(const CameraModel& c) {
     const double right = c.size.width - 1, bottom = c.size.height - 1;
     const Eigen::Vector2d centre(c.cx, c.cy);
@@ -116,7 +117,7 @@ void setDistortion(const YamlReader& in, const YAML::Node& node, const std::vect
                                       i + 1, values[i]));
     }
     if (foldsInside(camera))
-        in.fail(node, "the distortion folds the picture over: several rays map to one pixel");
+        in.fail(node, "the distortion is not plausible: it maps several rays to one pixel");
     const double corner = mostUnlikelyCorner(camera);
     if (!kCorner.holds(corner))
         in.fail(node, fmt::format("the distortion multiplies the distance of a picture corner from "

@@ -31,7 +31,8 @@ void setDistortion(const YamlReader& in, const YAML::Node& node, const std::vect
                                        const Eigen::Matrix4d& matrix, const char* what);
 [[nodiscard]] Eigen::Quaterniond rotation(const YamlReader& in, const YAML::Node& node,
                                           const Eigen::Matrix3d& matrix, const char* what);
-/// Refuses an implausible distance between the two sensors of a board; `T`: translation in metres.
+/// Refuses an implausible distance between the video camera and the still camera. `T`: the
+/// transform between them; its translation is in metres.
 void checkBaseline(const YamlReader& in, const YAML::Node& node, const RigidTransform& T);
 /// Reads a frame rate [Hz]; 0: the sensor takes pictures on trigger only.
 [[nodiscard]] double rate(const YamlReader& in, const YAML::Node& node, const char* what);

@@ -109,7 +109,7 @@ std::string rigText(const RigCalibration& c) {
     std::string rows;
     for (int i = 0; i < 3; ++i)
         rows += fmt::format("  - [{}, {}, {}, {}]\n", r(i, 0), r(i, 1), r(i, 2), t(i));
-    return fmt::format("# How the two sensors of a board stand to each other.\n"
+    return fmt::format("# The pose of the video and still sensor relative to each other.\n"
                        "video: video.yaml  # ROS camera_info, beside this file\n"
                        "still: still.yaml\n"
                        "# Video camera coordinates -> still camera coordinates, metres.\n"

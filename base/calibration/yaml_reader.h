@@ -26,7 +26,8 @@ public:
     [[nodiscard]] double number(const YAML::Node& node, const char* what) const;
     [[nodiscard]] std::vector<double> numbers(const YAML::Node& node, const char* what) const;
     [[nodiscard]] std::string word(const YAML::Node& node, const char* what) const;
-    /// Returns the entry `data` of a matrix that is written as a map, otherwise `node` itself.
+    /// If a matrix is written as a map with an entry `data`, returns this entry, otherwise `node`
+    /// itself.
     [[nodiscard]] YAML::Node data(const YAML::Node& node, const char* what) const;
     /// Reads a matrix that is written as a list of rows, as one flat list in row-major order, or as
     /// a map whose entry `data` is such a list.
@@ -45,8 +46,8 @@ private:
     YAML::Node root_;
 };
 
-/// Opens a file and calls `read` with a reader for it. Throws CalibrationError, also in place of
-/// the YAML library's own exceptions.
+/// Opens a file and calls `read` with a YamlReader of its content. Throws CalibrationError.
+/// Exceptions of the YAML library are converted to CalibrationError as well.
 void readYaml(const std::filesystem::path& file,
               const std::function<void(const YamlReader&)>& read);
 

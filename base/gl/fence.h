@@ -7,8 +7,8 @@
 
 namespace mfar::gpu {
 
-/// A wait that takes longer means that the GPU hangs: the kernel resets a busy GPU before this
-/// time.
+/// Longest wait for the GPU. A wait that takes longer means that the GPU hangs, because the kernel
+/// resets a busy GPU before this time.
 inline constexpr std::chrono::milliseconds kLongestGpuWait{500};
 
 /// Marks a point in the stream of GL commands. Move-only.

@@ -40,7 +40,7 @@ class Program;
 class ProgramCache;
 class Validation;
 namespace detail {
-/// The cache that this thread uses; null: the thread does not share programs.
+/// The program cache of this thread; null: the thread does not share programs.
 inline constinit thread_local ProgramCache* programs = nullptr;
 /// The Validation that this thread uses; null: the thread's passes are not validated.
 inline constinit thread_local Validation* validation = nullptr;
@@ -113,7 +113,7 @@ private:
     Buffer params_;
 };
 
-/// The list of tiles that an instanced draw covers. A compute pass writes the list.
+/// A list of tiles, for an instanced draw with one quad per tile. A compute pass writes the list.
 struct InstanceList {
     const Buffer& commands;  ///< contains one DrawArraysIndirect command at `commandOffset`
     std::size_t commandOffset;
@@ -190,7 +190,7 @@ public:
         detail::drawFullScreen();
         detail::ran(program_, bindings, &target);
     }
-    /// Draws one quad for each tile of the list. The vertex shader computes its position.
+    /// Draws one quad for each tile of the list. The vertex shader computes the quad's position.
     void runTiles(const P& params, Bindings bindings, const Framebuffer& target,
                   const InstanceList& tiles) {
         target.bind();
@@ -198,7 +198,7 @@ public:
         detail::drawTiles(tiles);
         detail::ran(program_, bindings, &target);
     }
-    /// Draws the triangles of a mesh. The vertex shader computes their positions.
+    /// Draws the triangles of a mesh. The vertex shader computes the triangles' positions.
     void runMesh(const P& params, Bindings bindings, const Framebuffer& target, const Mesh& mesh) {
         target.bind();
         program_.use(&params, sizeof(P), bindings);

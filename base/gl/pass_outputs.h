@@ -28,7 +28,7 @@ struct PassOutput {
     bool isFloat = true;
     int components = 4;
     std::size_t offset = 0, stride = 0;  ///< [bytes]
-    std::size_t count = 0;               ///< elements; 0: as many as the buffer holds
+    std::size_t count = 0;               ///< number of elements; 0: as many as the buffer holds
 };
 
 /// Returns the outputs of a linked program; `text` is the source of its compute or fragment shader.

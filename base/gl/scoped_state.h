@@ -57,7 +57,7 @@ private:
     Enabled<GL_CULL_FACE> cull_;
 };
 
-/// target = drawn + (1 - drawn alpha) * target.
+/// Blends with premultiplied alpha: target = drawn colour + (1 - drawn alpha) * target.
 class PremultipliedBlend {
 public:
     PremultipliedBlend() { glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA); }

@@ -23,15 +23,15 @@ struct ValidationFault {
     int component = 0;
     double value = 0;
     ValueRange range{};  ///< the allowed range; {0, 0}: any finite value is allowed
-    long frame = 0;      ///< frame number, see nextFrame()
+    long frame = 0;      ///< number of the frame, see nextFrame()
 };
 [[nodiscard]] std::string describe(const ValidationFault& fault);
 
 /// While a Validation object exists, all outputs of its thread's passes are read back and checked.
 /// Every Buffer that is created in that time is followed by guard bytes (NaN as floats), which must
-/// not change. A pass is then ten times as slow; without a Validation, it only tests one pointer.
-/// The passes' GL context must be current; its state is restored. A thread has at most one such
-/// object.
+/// not change. This makes a pass ten times as slow. A pass without a Validation only tests one
+/// pointer. The passes' GL context must be current; its state is restored. A thread has at most one
+/// Validation.
 ///
 ///     gpu::Validation validation;     // before the Pipeline is made
 ///     ... frames ...
@@ -59,7 +59,7 @@ public:
 
     static constexpr std::size_t kGuardBytes = 256;
 
-    // The following functions are called by Buffer and the passes.
+    // Only Buffer and the passes call the following functions.
     static Validation* active();
     /// Registers a buffer whose first `bytes` bytes are followed by guard bytes.
     void guard(GLuint buffer, std::size_t bytes) { guarded_[buffer] = bytes; }

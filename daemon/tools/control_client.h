@@ -24,10 +24,10 @@ public:
 /// mfard's answer to a request, see answerControl().
 struct Reply {
     nlohmann::ordered_json body;
-    std::vector<std::uint8_t> data;  ///< "bytes" in `body` is its size
+    std::vector<std::uint8_t> data;  ///< data after the line; "bytes" in `body` is their size
 };
 
-/// Sends a request to the mfard that listens at this socket and waits up to 15 s for its answer.
+/// Sends a request to the mfard that listens at this socket, and waits up to 15 s for the answer.
 /// Throws NotReachable, Refused.
 [[nodiscard]] Reply ask(const std::filesystem::path& socket, const nlohmann::json& request);
 

@@ -10,8 +10,8 @@ CtlParser::CtlParser() {
     app.add_subcommand("status", "Show the state of mfard");
     app.add_subcommand("stats", "Show everything that mfard has measured since its start (JSON)");
     app.add_subcommand("reload", "Read the configuration file again");
-    app.add_subcommand("trigger", "Take one still");
-    CLI::App* snapshot = app.add_subcommand("snapshot", "Save the last picture of mfard");
+    app.add_subcommand("trigger", "Request one still");
+    CLI::App* snapshot = app.add_subcommand("snapshot", "Save the last picture that mfard made");
     snapshot->add_option("FILE", a.snapshot, "PNG file")->required();
     snapshot->add_flag("--screen", a.screen, "Save the picture as the screen shows it");
     CLI::App* record = app.add_subcommand("record", "Record video and stills");
@@ -19,9 +19,9 @@ CtlParser::CtlParser() {
                                            "New folder in mfard's working directory, which is\n"
                                            "/var/lib/mfar for the service");
     record->add_flag("--stop", a.stop, "End the recording")->excludes(name);
-    app.add_subcommand("learn", "Manage the filters learned from both sensors")
+    app.add_subcommand("learn", "Manage the filters that mfard has learned for the two sensors")
         ->require_subcommand(1)
-        ->add_subcommand("reset", "Forget the learned filters and start learning again");
+        ->add_subcommand("reset", "Delete the learned filters and start learning again");
     app.require_subcommand(1);
     app.set_version_flag("--version", "mfarctl " MFAR_VERSION);
 }

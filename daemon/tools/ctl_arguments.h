@@ -15,7 +15,7 @@ struct CtlArguments {
     bool stop = false;
 };
 
-/// The parser of this command line, for the program and its manual page.
+/// The command line parser of mfarctl, for the program and its manual page.
 struct CtlParser {
     CtlParser();
 

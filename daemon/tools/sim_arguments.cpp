@@ -53,7 +53,7 @@ SimParser::SimParser() {
     app.add_option("--seed", a.board.seed,
                    "seed of the random numbers: the same seed gives the same bytes")
         ->capture_default_str();
-    app.add_option("--noise", a.board.noise, "factor of the sensors' noise")
+    app.add_option("--noise", a.board.noise, "factor of the noise of both sensors; 0: no noise")
         ->check(CLI::Range(0.0, 100.0))
         ->capture_default_str();
     app.add_option("--out", a.sim.out, "folder to write the recording into, new or empty");

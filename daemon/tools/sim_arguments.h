@@ -22,7 +22,7 @@ struct SimArguments {
     SimOptions sim;
 };
 
-/// The parser of this command line, for the program and its manual page.
+/// The command line parser of mfar-sim, for the program and its manual page.
 struct SimParser {
     SimParser();
 

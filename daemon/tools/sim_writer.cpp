@@ -83,12 +83,13 @@ private:
         ++counts_.flows;
     }
 
-    /// Throws if the recorder has refused a picture. It refuses pictures instead of waiting for the
-    /// disk, but a simulation must not lose one.
+    /// Throws if `taken` is false, because the recorder then has refused a picture. The recorder
+    /// refuses pictures instead of waiting for the disk, but a simulation must not lose any.
     void checked(bool taken) const {
         if (!taken)
             throw std::runtime_error(
-                recorder_.error().value_or("the disk is too slow: a picture was lost"));
+                recorder_.error().value_or("a picture was lost, because the disk is too slow; "
+                                           "choose another disk with --out"));
     }
 
     SyntheticBoard& board_;

@@ -17,13 +17,13 @@ struct SimOptions {
     bool flow = true;     ///< whether to write truth/flow
 };
 
-/// Numbers of the files that a run has written.
+/// How many files of each type a run has written.
 struct SimCounts {
     int video = 0, stills = 0, flows = 0;
 };
 
-/// Runs a simulated board until its video ends and writes a recording with ground truth. The layout
-/// is that of recording.h. In addition, there are these files:
+/// Lets a simulated board run until its video ends, and writes a recording with ground truth. The
+/// layout of the recording's folder is that of recording.h. In addition, there are these files:
 ///   truth/highres/<t>.png         the video frame at time t, with the still's resolution
 ///   truth/inverse_depth/<t>.pfm   1 / z [1/m] of each video pixel; 0: there is no surface
 ///   truth/flow/<t0>_<t1>.flo      flow from the video frame at t0 to the next one at t1

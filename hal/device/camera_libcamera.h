@@ -23,16 +23,16 @@ struct LibcameraOptions {
     std::optional<double> exposureUs;     ///< fixed exposure; not set: automatic
     std::optional<double> gain;           ///< fixed gain, 1 = no gain; not set: automatic
     std::optional<double> focusDioptres;  ///< fixed focus, 0 = infinity; not set: camera's default
-    /// Further controls: libcamera's or the vendor's name of each, and its value. See
+    /// Further controls: for each, libcamera's or the vendor's name and the value. See
     /// parseControls().
     std::vector<std::pair<std::string, std::string>> controls;
     bool still = false;      ///< configure the camera for single pictures instead of video
     bool allowCrop = false;  ///< accept pictures that show only a part of the field of view
-    unsigned buffers = 6;    ///< requested number; the driver may choose another
+    unsigned buffers = 6;    ///< requested number of buffers; the driver may choose another
 };
 
 struct LibcameraCounters {
-    std::uint64_t frames = 0;   ///< frames that were delivered or are ready to be delivered
+    std::uint64_t frames = 0;   ///< frames delivered or ready to be delivered
     std::uint64_t dropped = 0;  ///< see FrameDrops
     std::uint64_t broken = 0;   ///< frames marked as broken or with too few bytes; not delivered
     std::uint64_t startup = 0;  ///< frames taken before the sensor had settled; not delivered
@@ -45,16 +45,17 @@ struct LibcameraCounters {
 
 /// A camera that is driven through libcamera (0.0.3 to 0.7). All cameras of the process share one
 /// libcamera manager. The picture formats are, in order of preference: NV12, YUV420, YUYV,
-/// XRGB8888, XBGR8888; the first have the fewest bytes per pixel. For MJPEG, use CameraV4l2.
+/// XRGB8888, XBGR8888. The first of these have the fewest bytes per pixel. For MJPEG, use
+/// CameraV4l2.
 ///
-/// Since libcamera 0.2, the sensor's mode can be chosen. The camera then uses the smallest mode
-/// that shows the whole field of view, is at least as large as the picture and reaches the frame
-/// rate. If pictures show only a part of the field of view, the constructor throws; next() throws
-/// if only the frames report this.
+/// Since libcamera 0.2, the sensor mode can be chosen. LibcameraCamera uses the smallest mode that
+/// shows the whole field of view, is at least as large as the picture and reaches the frame rate.
+/// If pictures would show only a part of the field of view, the constructor throws. If this is
+/// known only from the frames, next() throws.
 ///
 /// The time of a frame is libcamera's SensorTimestamp (documented as the start of the first row's
 /// exposure) plus half the exposure, if the camera reports the exposure. If a driver takes the
-/// timestamp at another moment, the result is a constant offset, which calibration finds. Frames
+/// timestamp at another moment, times have a constant offset, which the calibration finds. Frames
 /// with an implausible time are not delivered. Frames may outlive the camera.
 class LibcameraCamera final : public Camera {
 public:
@@ -70,7 +71,7 @@ public:
     void stop() override;
     [[nodiscard]] bool ended() const override { return false; }
 
-    /// Returns the counters. Thread-safe.
+    /// Returns the counters of frames. Thread-safe.
     [[nodiscard]] LibcameraCounters counters() const;
     [[nodiscard]] CameraCounters cameraCounters() const override;
 

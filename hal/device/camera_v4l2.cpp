@@ -21,16 +21,17 @@ namespace {
 using std::chrono::nanoseconds;
 using std::chrono::steady_clock;
 
-// A timestamp is plausible if it is at most kAhead in the future and at most kOldest in the past.
-// It may be in the future because clocks of CPU cores differ, and old because next() was not
-// called.
+// Largest plausible distances of a frame's timestamp from now: kAhead in the future, kOldest in the
+// past. A timestamp may be in the future because clocks of CPU cores differ. It may be old because
+// next() was not called.
 constexpr nanoseconds kAhead = std::chrono::milliseconds(50), kOldest = std::chrono::seconds(10);
 constexpr std::chrono::milliseconds kTroublePause{5};
 
-/// With fewer buffers, the driver may have no free buffer while pictures are in use.
+/// If the driver grants fewer buffers than this, it may have no free buffer while pictures are in
+/// use.
 constexpr int kEnoughBuffers = 4;
 
-/// Holds a filled buffer and returns it to the stream at destruction.
+/// Holds a filled buffer. The destructor returns the buffer to the stream.
 class Loan {
 public:
     Loan(std::shared_ptr<V4l2Stream> stream, int index)
@@ -95,7 +96,8 @@ void CameraV4l2::start() {
 void CameraV4l2::stop() {
     running_ = false;
     constexpr std::uint64_t kOne = 1;
-    // wake_ is written before the stream stops: a thread that the stop wakes must find the request.
+    // wake_ is written before the stream stops, because a thread that wakes up when the stream
+    // stops must find wake_ readable.
     static_cast<void>(!write(wake_.get(), &kOne, sizeof kOne));
     stream_->stop();
 }
@@ -111,12 +113,12 @@ std::optional<Frame> CameraV4l2::next(std::chrono::milliseconds timeout) {
         const auto filled = stream_->take();
         if (filled) {
             if (auto frame = frameOf(*filled)) return frame;
-            // Try each waiting buffer once. After that, the timeout ends the loop, because a driver
-            // may deliver broken pictures as fast as they are read.
+            // Each waiting buffer is tried once. After that, the timeout ends the loop, because a
+            // driver may deliver broken pictures as fast as they are read.
             if (++broken >= stream_->buffers() && steady_clock::now() >= until) return std::nullopt;
         } else if (waited == Wait::Trouble) {
-            // The device is not lost, or take() would have thrown. Drivers also set POLLERR if no
-            // buffer was queued since the start, because all pictures are in use.
+            // The device is not lost; otherwise take() would have thrown. Drivers also set POLLERR
+            // if no buffer was queued since the start, because all pictures are in use.
             if (steady_clock::now() >= until) return std::nullopt;
             std::this_thread::sleep_for(kTroublePause);
         }
@@ -125,7 +127,7 @@ std::optional<Frame> CameraV4l2::next(std::chrono::milliseconds timeout) {
 }
 
 CameraV4l2::Wait CameraV4l2::wait(steady_clock::time_point until) const {
-    // After stop(), the device reports an error. wake_ is readable by then, and it is checked
+    // After stop(), the device reports an error, too. wake_ is readable by then and is checked
     // first.
     std::array<pollfd, 3> fds{pollfd{stream_->device().fd(), POLLIN, 0},
                               pollfd{wake_.get(), POLLIN, 0},
@@ -133,7 +135,7 @@ CameraV4l2::Wait CameraV4l2::wait(steady_clock::time_point until) const {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - steady_clock::now());
     const int ready =
         poll(fds.data(), fds.size(), static_cast<int>(std::max<std::int64_t>(left.count(), 0)));
-    // After an interrupted poll(), take() checks whether there is a picture.
+    // If a signal interrupted poll(), take() checks whether there is a picture.
     if (ready < 0 && errno == EINTR) return Wait::Picture;
     if (ready <= 0 || fds[1].revents != 0) return Wait::Nothing;
     if (fds[0].revents == 0) return Wait::Buffer;
@@ -144,7 +146,8 @@ std::optional<Frame> CameraV4l2::frameOf(const V4l2Filled& filled) {
     const auto loan = std::make_shared<Loan>(stream_, filled.index);
     const bool whole = isWhole(filled);
     const auto time = timeOf(filled);
-    // A triggered camera has no frame rate, so its times cannot show drops.
+    // A triggered camera has no frame rate, so the times of its frames do not show whether any were
+    // dropped.
     if (whole && time && options_.wish.rateHz > 0)
         drops_.add(*time, filled.sequence);
     else
@@ -189,7 +192,7 @@ bool CameraV4l2::isWhole(const V4l2Filled& filled) const {
     if ((filled.flags & V4L2_BUF_FLAG_ERROR) != 0) return false;
     for (int p = 0; p < layout_.memoryPlanes; ++p) {
         const auto i = static_cast<std::size_t>(p);
-        // `bytes` is V4L2's bytesused, which includes the data offset.
+        // V4L2's bytesused, which is `bytes` here, includes the data offset.
         const std::size_t room = stream_->memoryBytes(filled.index, p);
         if (filled.bytes[i] > room || filled.offset[i] >= filled.bytes[i] ||
             filled.bytes[i] - filled.offset[i] < layout_.bytes[i])
@@ -213,8 +216,8 @@ std::optional<Timestamp> CameraV4l2::timeOf(const V4l2Filled& filled) {
     return out;
 }
 
-// V4L2's unit of exposure is 100 us. Drivers use one of two names for the exposure and one of two
-// for the automatic mode.
+// Returns the manual exposure, if the camera has one. V4L2's unit of exposure is 100 us. Drivers
+// use one of two names for the exposure control, and one of two for the automatic mode.
 nanoseconds CameraV4l2::manualExposure() const {
     constexpr std::int64_t kMost = 100'000;
     for (const char* automatic : {"auto_exposure", "exposure_auto"})

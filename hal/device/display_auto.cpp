@@ -13,10 +13,12 @@
 namespace mfar {
 namespace {
 
-// Interval of the checks for devices. A new device is in use at most this time and one frame later.
+// Interval of the checks for added and removed devices. A new device is used at most this time and
+// one frame later.
 constexpr std::chrono::milliseconds kLookEvery{500};
-// A screen counts as working after this number of pictures. The first sets the mode, and the third
-// waits until the second is on the screen, which proves that the screen shows new pictures.
+// A screen counts as working after it has shown this number of pictures. The first picture sets the
+// mode. The third waits until the second is on the screen, which proves that the screen shows new
+// pictures.
 constexpr int kProven = 3;
 
 }  // namespace
@@ -50,7 +52,7 @@ void ScreenDisplay::show(const Picture& picture, Timestamp) {
     if (active_ == nullptr) {
         if (picture.isOnHost()) return;
         if (scaler_) scaler_->warmUp(picture.image());
-        // Without a screen, only this wait limits the number of frames that are queued for the GPU.
+        // Without a screen, only this wait limits how many frames are queued for the GPU.
         (void)gpu::finishWithin();
         return;
     }
@@ -66,7 +68,8 @@ void ScreenDisplay::show(const Picture& picture, Timestamp) {
     }
 }
 
-// The picture is shown again until the screen has shown kProven pictures and counts as working.
+// While a screen has shown fewer than kProven pictures, an unchanged picture is shown again, so
+// that the screen comes to count as working.
 void ScreenDisplay::showAgain(const Picture& picture, Timestamp time) {
     refresh();
     if (active_ == nullptr || shown_ < kProven) show(picture, time);
@@ -86,8 +89,8 @@ void ScreenDisplay::lose(const std::string& why) {
     active_ = nullptr;
 }
 
-// While a screen works and no device has changed, only this screen is checked, because a check of
-// another screen opens its device.
+// While a screen works and no device has changed, only that screen is checked. The check of another
+// screen would open its device.
 Screen* ScreenDisplay::look(bool changed) {
     if (active_ != nullptr && !changed && active_->look(false) == Screen::Presence::Ready)
         return active_;
@@ -99,8 +102,8 @@ Screen* ScreenDisplay::look(bool changed) {
         if (presence != Screen::Presence::Absent) holder = &screen;
         if (presence == Screen::Presence::Ready) ready = &screen;
     };
-    // A device without a connected monitor is held open until one is connected. The devices after
-    // it in the list are not checked: nobody would notice pictures there.
+    // If a device has no connected monitor, it is held open until a monitor is connected. The
+    // devices after it in the list are not checked, because nobody would notice pictures there.
     for (const auto& screen : screens_)
         if (holder == nullptr && screen.get() != failed_) ask(*screen);
     if (holder == nullptr && failed_ != nullptr) ask(*failed_);
@@ -130,8 +133,8 @@ std::optional<ScreenPicture> ScreenDisplay::lastShown() const {
 
 std::unique_ptr<ScreenDisplay> openScreen(std::string_view spec) {
     const ScreenSpec words = parseScreenSpec(spec);
-    // One scaler for all screens, because compiling its shader is slow and a new screen should show
-    // a picture at once.
+    // All screens share one scaler, because compiling its shader is slow and a new screen should
+    // show a picture at once.
     auto scaler = std::make_unique<ScreenScaler>();
     std::vector<std::unique_ptr<Screen>> screens;
     if (words.kind != ScreenSpec::Kind::Fbdev)

@@ -14,7 +14,7 @@ namespace mfar {
 
 /// A display whose screen may be connected, disconnected or changed at any time. Without a screen,
 /// show() only waits for the GPU. A new screen shows the picture within a second. Devices are tried
-/// in a fixed order; a device that could not show its first pictures is tried last.
+/// in a fixed order. A device that could not show its first pictures is tried last.
 ///
 /// A missing screen never ends a run. name() reports a missing device, a missing permission or a
 /// driver that is too old. Its text changes over time, for example:
@@ -26,8 +26,9 @@ public:
     using Events = std::function<bool()>;
 
     /// `scaler` draws the pictures of all screens. `screens` are in order of preference. `changed`
-    /// returns whether a device was added, removed or changed since its last call. Lost and new
-    /// screens are noticed even if it always returns false, but changes of the mode are not.
+    /// returns whether a device was added, removed or changed since its last call. If `changed`
+    /// always returns false, lost and new screens are still noticed, but changes of a screen's mode
+    /// are not.
     ScreenDisplay(std::unique_ptr<ScreenScaler> scaler,
                   std::vector<std::unique_ptr<Screen>> screens, Clock clock, Events changed);
     ScreenDisplay(const ScreenDisplay&) = delete;
@@ -40,14 +41,14 @@ public:
     [[nodiscard]] std::optional<Size> screenSize() override;
     void showAgain(const Picture& picture, Timestamp time) override;
     [[nodiscard]] std::string name() const override;
-    /// Returns name() while there is no screen. After a screen was lost, returns the reason until
+    /// While there is no screen, returns name(). After a screen was lost, returns the reason until
     /// a screen has shown pictures again.
     [[nodiscard]] std::optional<std::string> fault() const override;
 
     /// Returns the picture that the last show() sent to the screen, in the screen's size and with
-    /// its black borders, or nothing without a screen. It equals a screenshot of a screen with 24
-    /// or 32 bits per pixel; a screen with 16 bits shows only the upper 5, 6 and 5 bits of its
-    /// colours. Waits for the GPU.
+    /// its black borders. Returns nothing without a screen. The picture equals a screenshot of a
+    /// screen with 24 or 32 bits per pixel. A screen with 16 bits shows only the upper 5, 6 and 5
+    /// bits of its red, green and blue. Waits for the GPU.
     [[nodiscard]] std::optional<ScreenPicture> lastShown() const override;
 
 private:
@@ -56,17 +57,17 @@ private:
     void lose(const std::string& why);
 
     std::unique_ptr<ScreenScaler> scaler_;
-    std::vector<std::unique_ptr<Screen>> screens_;  // they use scaler_
+    std::vector<std::unique_ptr<Screen>> screens_;  // the screens use scaler_
     Clock clock_;
     Events changed_;
     Screen* active_ = nullptr;
     Screen* failed_ = nullptr;  // the screen that could not show its first pictures
-    int shown_ = 0;             // number of pictures that active_ has shown, at most kProven
+    int shown_ = 0;             // number of pictures that active_ has shown; counts to kProven
     std::optional<Timestamp> lookedAt_;
-    std::string fault_;  // why the last screen was lost; cleared after kProven new pictures
+    std::string fault_;  // why the last screen was lost; empty after kProven new pictures
 };
 
-/// Opens a screen. `spec` is "auto" (KMS, otherwise a framebuffer),
+/// Opens a screen. `spec` is "auto" (KMS, or a framebuffer device if KMS cannot be used),
 /// "kms[:cardN][,CONNECTOR][,WxH[@Hz]]" or "fbdev[:/dev/fbN]". Once the display has shown a
 /// texture, the GL context must exist until releaseGl() or destruction. Throws std::runtime_error
 /// if `spec` is malformed, but never for a missing device.

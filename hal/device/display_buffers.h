@@ -8,23 +8,23 @@
 
 namespace mfar {
 
-/// How pixels get to the screen.
+/// How the pixels of a picture get to the screen.
 enum class ScanoutMethod {
-    GbmFenced,  ///< the GPU draws into the screen's memory; the kernel waits for its fence
+    GbmFenced,  ///< the GPU draws into the screen's memory; the kernel waits for the GPU's fence
     Gbm,        ///< the GPU draws into the screen's memory; this process waits for the GPU
     Dumb,       ///< the CPU copies the picture into the screen's memory
 };
 [[nodiscard]] const char* name(ScanoutMethod method);
 
-/// Buffers of the screen's size that the screen can show; they are used in turn. All calls come
-/// from one thread. For each picture, begin() and complete() are called. The picture must be on the
-/// screen before the next complete().
+/// Buffers of the screen's size that the screen can show. They are used in turn. All calls must
+/// come from one thread. For each picture, begin() and complete() are called. The picture must be
+/// on the screen before the next call of complete().
 class ScanoutBuffers {
 public:
     struct Ready {
         std::uint32_t framebuffer;  ///< DRM framebuffer id
-        /// This fence is signalled when the GPU has drawn the picture. Invalid: it has drawn
-        /// already.
+        /// Fence that is signalled when the GPU has drawn the picture. Invalid: the picture is
+        /// drawn already.
         OwnedFd fence;
     };
 
@@ -34,15 +34,15 @@ public:
     virtual void begin(const Picture& picture) = 0;
     /// Completes the picture of the last begin(). The previous picture must be on the screen.
     [[nodiscard]] virtual Ready complete() = 0;
-    /// Releases all GL objects, see Display::releaseGl(). begin() must not be called afterwards.
+    /// Releases all GL objects, see Display::releaseGl(). After that, begin() must not be called.
     /// The screen keeps its picture.
     virtual void releaseGl() = 0;
     /// Returns the picture of the last begin() as the screen shows it.
     [[nodiscard]] virtual ScreenPicture last() const = 0;
 };
 
-/// Allocates buffers for a method. Throws std::runtime_error if this card or the current GL context
-/// does not support the method. `scaler` must outlive the buffers.
+/// Allocates buffers for a ScanoutMethod. Throws std::runtime_error if the card or the current GL
+/// context does not support the method. `scaler` must outlive the buffers.
 [[nodiscard]] std::unique_ptr<ScanoutBuffers>
 makeScanoutBuffers(const DrmCard& card, Size size, ScanoutMethod method, ScreenScaler& scaler);
 

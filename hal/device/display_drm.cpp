@@ -77,9 +77,9 @@ bool isMaster(int fd) {
     return drmIsMaster(fd) != 0 || drmSetMaster(fd) == 0;
 }
 
-// Mesa's software renderer opens the card if it may not open a render node. If it opens the card
-// first, the kernel makes it DRM master, which it does not need. This function drops that role and
-// returns whether there was one.
+// If this process is DRM master of a card, drops this role and returns true. Mesa's software
+// renderer opens the card if it may not open a render node. If it opens the card first, the kernel
+// makes it DRM master, although it does not need that role.
 bool dropMasterOfThisProcess(const std::string& path) {
     struct stat card{};
     bool dropped = false;
@@ -152,7 +152,7 @@ bool waitForFlip(int fd, bool& pending, std::chrono::milliseconds limit) {
         if (count < 0 && errno == EINTR) continue;
         const bool told = count > 0 && (waiting.revents & POLLIN) != 0;
         if (!told || drmHandleEvent(fd, &events) != 0) return false;
-        // Events of other commits must not extend the wait.
+        // Events of other commits do not extend the wait beyond `limit`.
         if (pending && left.count() <= 0) return false;
     }
     return true;
@@ -174,8 +174,8 @@ std::uint32_t DrmProperties::id(std::string_view name) const {
 }
 
 DrmCard::DrmCard(const std::string& path) : path_(path), fd_(openCard(path)) {
-    // Without privileges, a process becomes DRM master only if it opens a card that has no master.
-    // So the card is opened again after the role was dropped.
+    // A process without privileges becomes DRM master only if it opens a card that has no master.
+    // So after this process's own role was dropped, the card is opened again.
     if (!isMaster(fd()) && dropMasterOfThisProcess(path)) fd_ = openCard(path);
     const Resources all = resources(fd());
     if (!all || all->count_connectors == 0)

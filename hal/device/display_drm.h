@@ -17,24 +17,25 @@
 
 namespace mfar {
 
-/// Returns the refresh rate [Hz]. It is computed from the mode's timing, because the mode's own
-/// number is rounded. 0: the mode has no rate.
+/// Returns the refresh rate [Hz], or 0 if the mode has none. It is computed from the mode's timing,
+/// because the mode's `vrefresh` is rounded.
 [[nodiscard]] double refreshHz(const drmModeModeInfo& mode);
 
-/// Chooses a connector's mode. If a mode fulfils the wish, that mode is chosen: progressive before
-/// interlaced, then the nearest rate (at most 0.5 Hz away), or the highest if the wish has no rate.
-/// Otherwise the preferred mode is chosen, or the first. Modes need a rate, and a width and height
-/// from 1 to 16384 pixels. Returns nothing if no mode is left.
+/// Chooses a connector's mode. If modes have the wanted size, a progressive one is preferred to an
+/// interlaced one; then the one with the nearest rate (at most 0.5 Hz away), or with the highest
+/// rate if the wish has no rate. If no mode fulfils the wish, the preferred mode is chosen, or else
+/// the first. Modes without a rate, or with a width or height that is not from 1 to 16384 pixels,
+/// are skipped. Returns nothing if no mode is left.
 [[nodiscard]] std::optional<drmModeModeInfo> chooseMode(std::span<const drmModeModeInfo> modes,
                                                         const std::optional<ModeWish>& wish);
 [[nodiscard]] bool fulfils(const drmModeModeInfo& mode, const ModeWish& wish);
 
-/// Waits until the picture of the last commit is on the screen. The commit must have got the
-/// address of `pending`; its event sets `pending` to false. Returns false if this takes longer than
-/// `limit` or if the device is lost.
+/// Waits until the picture of the last commit is on the screen. The address of `pending` must have
+/// been passed to that commit as user data; the event of the commit sets `pending` to false.
+/// Returns false if the wait takes longer than `limit` or if the device is lost.
 [[nodiscard]] bool waitForFlip(int fd, bool& pending, std::chrono::milliseconds limit);
 
-/// The ids of one KMS object's properties, found by name.
+/// The properties of one KMS object: finds a property's id by its name.
 class DrmProperties {
 public:
     DrmProperties() = default;
@@ -65,8 +66,8 @@ public:
     [[nodiscard]] int fd() const { return fd_.get(); }
     [[nodiscard]] const std::string& path() const { return path_; }
     /// Returns the wanted connector, or the first connected one, with its mode. Returns nothing if
-    /// no screen is connected. If `probe` is true, the driver queries the monitor, which may take
-    /// tens of milliseconds; otherwise the driver reports its last known state. Throws
+    /// no monitor is connected. If `probe` is true, the driver queries the monitor, which may take
+    /// tens of milliseconds. Otherwise the driver reports the last state that it knows. Throws
     /// std::runtime_error if the device is lost.
     [[nodiscard]] std::optional<DrmOutput> findOutput(const ScreenSpec& spec, bool probe) const;
     /// Returns the connectors and their states, e.g. "HDMI-A-1 disconnected, ...".

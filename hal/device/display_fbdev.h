@@ -17,7 +17,7 @@ struct FbGeometry {
     Size size;
     PixelLayout layout;
     std::size_t stride = 0;   ///< bytes from one row to the next
-    std::size_t bytes = 0;    ///< size of the whole memory
+    std::size_t bytes = 0;    ///< size of the whole memory [bytes]
     std::size_t visible = 0;  ///< bytes from the memory's start to the first visible pixel
     /// Bytes from the memory's start to the first pixel that is visible after panning to the top.
     std::size_t page0 = 0;
@@ -30,11 +30,12 @@ struct FbGeometry {
 [[nodiscard]] FbGeometry checkedGeometry(const fb_var_screeninfo& var,
                                          const fb_fix_screeninfo& fix);
 
-/// A Linux framebuffer device, /dev/fbN. A texture is scaled by the GPU, a picture on the host by
-/// the CPU. The CPU then copies it to the screen: after the vertical blank if the driver reports
-/// that, and into the hidden page if the driver can pan. close() restores the screen's previous
-/// content. A console's text cursor stays visible on the screen, because hiding it needs privileges
-/// that this program does not have; the kernel option vt.global_cursor_default=0 hides it.
+/// A Linux framebuffer device, /dev/fbN. The GPU scales pictures that are textures; the CPU scales
+/// pictures on the host. In both cases, the CPU copies the result to the screen: after the vertical
+/// blank if the driver reports it, and into the hidden page if the driver can pan. close() restores
+/// the screen's previous content. A console's text cursor stays visible on the screen, because
+/// hiding it needs privileges that this program does not have; the kernel option
+/// vt.global_cursor_default=0 hides it.
 class FbdevScreen final : public Screen {
 public:
     /// `path`: e.g. "/dev/fb0"; empty: the first usable device. `scaler` must outlive this object.

@@ -19,9 +19,9 @@ namespace {
 using GbmDevice = std::unique_ptr<gbm_device, FreedBy<gbm_device_destroy>>;
 using GbmBuffer = std::unique_ptr<gbm_bo, FreedBy<gbm_bo_destroy>>;
 
-// GBM buffers are not used with a software renderer, which is fastest in its own memory. Mesa's
-// software renderer also crashes if it cannot map an imported buffer, e.g. on the render node of a
-// card without a GPU.
+// Returns whether a renderer is software. GBM buffers are not used with a software renderer,
+// because it is fastest in its own memory. Mesa's software renderer also crashes if it cannot map
+// an imported buffer, e.g. on the render node of a card without a GPU.
 bool isSoftware(std::string_view renderer) {
     return renderer.find("llvmpipe") != renderer.npos ||
            renderer.find("softpipe") != renderer.npos || renderer.find("swrast") != renderer.npos;
@@ -65,8 +65,8 @@ struct Importer {
     }
 };
 
-/// Creates fences that are signalled when the GPU has drawn. The constructor throws if EGL does not
-/// support them.
+/// Creates fences that are signalled when the GPU has finished drawing. The constructor throws if
+/// EGL does not support such fences.
 class NativeFences {
 public:
     explicit NativeFences(EGLDisplay display) : display_(display) {
@@ -94,7 +94,8 @@ private:
     PFNEGLDUPNATIVEFENCEFDANDROIDPROC dup_ = nullptr;
 };
 
-/// Allocates a buffer with linear layout, which the card and a separate GPU both support.
+/// Allocates a buffer with a linear layout, which is supported by the card that drives the screen
+/// and by a separate GPU.
 GbmBuffer allocate(gbm_device* device, Size size) {
     GbmBuffer buffer(gbm_bo_create(device, static_cast<std::uint32_t>(size.width),
                                    static_cast<std::uint32_t>(size.height), GBM_FORMAT_XRGB8888,
@@ -149,7 +150,7 @@ private:
             static_cast<EGLint>(DRM_FORMAT_XRGB8888), EGL_DMA_BUF_PLANE0_FD_EXT, dmaBuf.get(),
             EGL_DMA_BUF_PLANE0_OFFSET_EXT, 0, EGL_DMA_BUF_PLANE0_PITCH_EXT,
             static_cast<EGLint>(gbm_bo_get_stride(buffer_.get())),
-            // If EGL does not support modifiers, EGL_NONE ends the list here.
+            // If EGL does not support modifiers, EGL_NONE ends the attribute list here.
             importer_.modifiers ? EGL_DMA_BUF_PLANE0_MODIFIER_LO_EXT : EGL_NONE,
             static_cast<EGLint>(DRM_FORMAT_MOD_LINEAR & 0xffffffffU),
             EGL_DMA_BUF_PLANE0_MODIFIER_HI_EXT, static_cast<EGLint>(DRM_FORMAT_MOD_LINEAR >> 32),
@@ -174,8 +175,8 @@ public:
         if (fences) fences_.emplace(importer_.display);
     }
 
-    // One buffer is on the screen, and another one may wait for the vertical blank. The third is
-    // free.
+    // Of the three buffers, one is on the screen, and another one may wait for the vertical blank.
+    // The third is free.
     void begin(const Picture& picture) override {
         const KeptTarget kept;
         current_ = (current_ + 1) % targets_.size();

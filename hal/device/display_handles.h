@@ -2,7 +2,7 @@
 
 namespace mfar {
 
-/// A deleter that calls a C function, e.g. std::unique_ptr<drmModeRes,
+/// A deleter for std::unique_ptr that calls a C function. Example: std::unique_ptr<drmModeRes,
 /// FreedBy<drmModeFreeResources>>.
 template <auto Free>
 struct FreedBy {

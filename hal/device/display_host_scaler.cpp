@@ -10,13 +10,12 @@ namespace {
 
 constexpr std::uint32_t kBlack = 0xff000000;  // bytes R G B A: 0 0 0 255
 constexpr int kFixedOne = 65535;
-// The picture has more strips than threads. If a thread is interrupted, the others take the
-// remaining strips.
+// A picture is divided into this many strips per thread. If a thread is interrupted, the other
+// threads take its remaining strips.
 constexpr int kStripsPerThread = 2;
 
 // Computes sum += pixel * weight in 8.8 fixed point. The pixel is the upper byte of a 16-bit
-// factor, and the upper 16 bits of the product are kept. SIMD units compute this with one
-// instruction.
+// factor, and the upper 16 bits of the product are used. SIMD units have one instruction for this.
 void addRow(const std::uint8_t* __restrict pixels, std::uint16_t weight,
             std::uint16_t* __restrict sum, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
@@ -33,8 +32,8 @@ void toReal(const std::uint16_t* __restrict sum, float* __restrict real, std::si
 
 }  // namespace
 
-// Pixels outside the picture count as copies of the edge pixel: their weight is added to its
-// weight.
+// Pixels outside the picture count as copies of the pixel at the edge: their weight is added to the
+// edge pixel's weight.
 HostScaler::Axis::Axis(int from, int to) {
     const double scale = static_cast<double>(from) / to, width = std::max(scale, 1.0);
     footprints.reserve(static_cast<std::size_t>(to));
@@ -47,8 +46,8 @@ HostScaler::Axis::Axis(int from, int to) {
         for (int p = first; p <= last; ++p) {
             const double begin = p == first ? lo : p, end = p == last ? hi : p + 1.0;
             weights.push_back(static_cast<float>((end - begin) / width));
-            // Not the weights but their running sums are rounded, so that the weights add up to
-            // exactly kFixedOne.
+            // The running sums of the weights are rounded, not the weights themselves. So the
+            // weights add up to exactly kFixedOne.
             const int upTo = static_cast<int>(std::lround((end - lo) / width * kFixedOne));
             fixed.push_back(static_cast<std::uint16_t>(upTo - before));
             before = upTo;
@@ -85,12 +84,12 @@ Rows<const std::uint32_t> HostScaler::scaled(const Rows<const std::uint32_t>& pi
     return out_.rows();
 }
 
-// The columns are averaged first. This gives a single row, which stays in the cache for the second
-// step, the average along the row.
+// First, the rows of the footprint are averaged. This gives a single row, which stays in the cache.
+// Second, the pixels along that row are averaged.
 void HostScaler::scaleRow(const Rows<const std::uint32_t>& picture, int row, Line& line) {
     const Footprint& down = rows_.footprints[static_cast<std::size_t>(row)];
-    // addRow() truncates each product, which loses half a unit on average. The sums begin with the
-    // expected loss, but with 255 at most, so that they do not overflow.
+    // addRow() truncates each product, which loses half a unit on average. So the sums begin with
+    // the expected loss. It is limited to 255, so that the sums do not overflow.
     std::ranges::fill(line.fixed, static_cast<std::uint16_t>(std::min(down.taps / 2, 255)));
     for (int tap = 0; tap < down.taps; ++tap)
         addRow(reinterpret_cast<const std::uint8_t*>(picture[down.first + tap]),

@@ -11,22 +11,25 @@
 namespace mfar {
 
 /// Scales pictures on the CPU, as ScreenScaler does on the GPU. The aspect ratio is kept, with
-/// black borders (letterbox()). A picture is shrunk by averaging areas and enlarged by linear
-/// interpolation; at equal size it is unchanged. The first scaling starts threads.
+/// black borders (letterbox()). A picture is reduced by averaging areas and enlarged by linear
+/// interpolation. A picture that fits without scaling is copied unchanged. The first scaling starts
+/// threads.
 class HostScaler {
 public:
     explicit HostScaler(Size screen) : screen_(screen) {}
 
-    /// Returns rows of the screen's size, which are valid until the next call. Alpha is undefined.
-    /// A picture of the screen's size is returned unchanged. Width and height must be positive.
+    /// Returns the picture in the screen's size. The returned rows are valid until the next call.
+    /// Alpha is undefined. If the picture has the screen's size, it is returned itself. Width and
+    /// height must be positive.
     [[nodiscard]] Rows<const std::uint32_t> scaled(const Rows<const std::uint32_t>& picture);
 
 private:
-    /// The rows (or columns) of the picture whose average is one row (or column) of the screen.
+    /// The rows (or columns) of the picture whose weighted mean is one row (or column) of the
+    /// screen.
     struct Footprint {
         int first = 0;        ///< index of the first row or column
         int taps = 0;         ///< number of rows or columns, all inside the picture
-        std::size_t begin{};  ///< index of the first weight
+        std::size_t begin{};  ///< index of the first weight in `weights`
     };
     struct Axis {
         Axis() = default;

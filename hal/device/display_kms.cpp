@@ -27,7 +27,7 @@ std::vector<std::string> cardPaths() {
     return paths;
 }
 
-/// Owns a property blob that contains a mode, the form that the kernel requires.
+/// Owns a property blob that contains a mode. The kernel requires modes in this form.
 class ModeBlob {
 public:
     ModeBlob(int fd, const drmModeModeInfo& mode) : fd_(fd) {
@@ -65,7 +65,7 @@ KmsScreen::~KmsScreen() {
     close();
 }
 
-// Prefers a card with a connected screen. Without one, keeps the first usable card.
+// Opens a card that has a connected monitor. If there is none, keeps the first usable card open.
 void KmsScreen::openCard() {
     const std::vector<std::string> paths =
         spec_.device.empty() ? cardPaths() : std::vector{spec_.device};
@@ -187,7 +187,7 @@ void KmsScreen::commit(ScanoutBuffers::Ready ready, Commit kind) {
 
 void KmsScreen::waitForLastFlip() {
     if (waitForFlip(card_->fd(), flipPending_, kFlipTimeout)) return;
-    flipPending_ = false;  // the event may never come: do not wait for it again
+    flipPending_ = false;  // the event may never come, so it must not be waited for again
     throw std::runtime_error(
         fmt::format("{}, {}: the display driver did not show the new picture in time",
                     card_->path(), output_->connectorName));
@@ -199,8 +199,8 @@ void KmsScreen::releaseGl() {
     left_ = std::move(buffers_);
 }
 
-// The console's picture is restored before the buffers are freed, because freeing a visible buffer
-// turns the screen off. Errors are ignored: a lost device refuses all requests.
+// The picture of the console is restored before the buffers are freed, because freeing a visible
+// buffer turns the screen off. Errors are ignored, because a lost device refuses all requests.
 void KmsScreen::leaveOutput() {
     if ((buffers_ || left_) && output_) {
         try {

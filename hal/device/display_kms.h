@@ -6,12 +6,13 @@
 namespace mfar {
 
 /// A monitor on a DRM/KMS driver with atomic mode setting. show() waits until the previous picture
-/// is on the screen, so the monitor's refresh rate limits it. The first ScanoutMethod that the
-/// driver accepts is used. close() restores the picture that the screen showed before.
+/// is on the screen, so pictures are shown at most at the monitor's refresh rate. The first
+/// ScanoutMethod that the driver accepts is used. close() restores the picture that the screen
+/// showed before.
 class KmsScreen final : public Screen {
 public:
-    /// If `spec.device` is empty, uses the first card with a connected screen, otherwise the first
-    /// usable card. `scaler` must outlive this object.
+    /// If `spec.device` is empty, the first card with a connected monitor is used, or else the
+    /// first usable card. `scaler` must outlive this object.
     KmsScreen(ScreenSpec spec, ScreenScaler& scaler);
     KmsScreen(const KmsScreen&) = delete;
     KmsScreen& operator=(const KmsScreen&) = delete;
@@ -47,7 +48,7 @@ private:
     Properties properties_;
     SavedCrtc saved_;
     std::unique_ptr<ScanoutBuffers> buffers_;
-    /// After releaseGl(): the old buffers. One of them is on the screen until buffers_ show a
+    /// The buffers from before releaseGl(). One of them is on the screen until buffers_ shows a
     /// picture.
     std::unique_ptr<ScanoutBuffers> left_;
     ScanoutMethod method_ = ScanoutMethod::Dumb;

@@ -10,9 +10,10 @@ constexpr std::uint32_t ones(int bits) {
     return bits >= 32 ? ~0U : (1U << bits) - 1;
 }
 
-/// Moves one colour from a pixel with 8 bits per colour into the word of the screen's pixel.
+/// Moves the bits of one colour from a pixel with 8 bits per colour to their position in the
+/// screen's pixel.
 struct Move {
-    int from, drop, to;  ///< numbers of bits: shift right, lower bits to drop, shift left
+    int from, drop, to;  ///< bits to shift right, low bits to drop, bits to shift left
 
     Move(int offset, PixelChannel channel)
         : from(offset), drop(8 - channel.length), to(channel.offset) {}

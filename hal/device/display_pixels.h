@@ -7,7 +7,7 @@
 
 namespace mfar {
 
-/// The position of one colour in the little-endian word of a pixel.
+/// The position of one colour in the little-endian word of a screen's pixel.
 struct PixelChannel {
     int offset = 0, length = 0;  ///< lowest bit, and number of bits
     bool operator==(const PixelChannel&) const = default;
@@ -21,13 +21,13 @@ struct PixelLayout {
     bool operator==(const PixelLayout&) const = default;
 
     [[nodiscard]] std::size_t bytes() const { return static_cast<std::size_t>(bits) / 8; }
-    /// Returns whether the numbers of bits are allowed and every channel lies inside the word.
+    /// Returns whether the numbers of bits are allowed and every colour lies inside the word.
     [[nodiscard]] bool valid() const;
 };
 
-/// Converts a picture (Rgba8 or Bgra8) to another pixel layout. Each colour keeps its upper bits.
-/// The rows of `out` are `stride` bytes apart. `layout` must be valid(). `out` must not overlap the
-/// picture.
+/// Converts a picture (Rgba8 or Bgra8) to the pixel layout of a screen. Of each colour, the upper
+/// bits are kept. The rows of `out` are `stride` bytes apart. `layout` must be valid(). `out` must
+/// not overlap the picture.
 void packPixels(const ImageView& picture, const PixelLayout& layout, std::uint8_t* out,
                 std::size_t stride);
 

@@ -26,9 +26,10 @@ private:
 };
 
 /// Draws pictures in the screen's size. The aspect ratio is kept, with black borders (letterbox()).
-/// A picture is shrunk by averaging areas and enlarged by linear interpolation; at equal size it is
-/// unchanged. The result depends only on the picture and the two sizes. A picture on the host is
-/// uploaded first. From the first picture on, the GL context must exist until releaseGl().
+/// A picture is reduced by averaging areas and enlarged by linear interpolation. A picture that
+/// fits without scaling is copied unchanged. The result depends only on the picture, its size and
+/// the screen's size. A picture on the host is uploaded first. From the first picture on, the GL
+/// context must exist until releaseGl().
 class ScreenScaler {
 public:
     enum class Order { Rgba, Bgra };
@@ -60,9 +61,9 @@ private:
     gpu::Texture upload_;
 };
 
-/// Scales pictures for a screen whose memory the CPU writes. A texture is scaled by the GPU and
-/// read back. A picture on the host is scaled by the CPU, without GL. The caller's framebuffers are
-/// restored. From the first texture on, the GL context must exist until releaseGl().
+/// Scales pictures for a screen whose memory the CPU writes. The GPU scales a texture, and the
+/// result is read back. The CPU scales a picture on the host, without GL. The caller's framebuffer
+/// bindings are restored. From the first texture on, the GL context must exist until releaseGl().
 class ScreenReader {
 public:
     /// `scaler` must outlive this object.
@@ -74,9 +75,9 @@ public:
     /// Starts to draw a texture and to read it back, without waiting. A picture on the host is
     /// scaled at once. Throws std::runtime_error for an empty picture.
     void begin(const Picture& picture);
-    /// Waits for the GPU and calls `take(const ImageView&)` with the pixels of the last begin().
-    /// They are Bgra8 with alpha 255, or Rgba8 for a picture on the host, and valid only during the
-    /// call. `take` must not throw.
+    /// Waits for the GPU and calls `take(const ImageView&)` with the pixels of the picture that was
+    /// passed to the last begin(). The pixels are Bgra8 with alpha 255, or Rgba8 for a picture on
+    /// the host. They are valid only during the call. `take` must not throw.
     template <class Take>
     void finish(Take take) {
         if (onHost_) {
@@ -87,10 +88,10 @@ public:
         take(map());
         unmap();
     }
-    /// Deletes all GL objects, see Display::releaseGl(). Afterwards, last() must not be called
+    /// Deletes all GL objects, see Display::releaseGl(). After that, last() must not be called
     /// unless the last picture is on the host.
     void releaseGl() { target_.reset(); }
-    /// Returns a copy of the scaled picture of the last begin(), with alpha 255.
+    /// Returns a copy, with alpha 255, of the scaled picture of the last begin().
     [[nodiscard]] ScreenPicture last() const;
 
 private:
@@ -111,10 +112,10 @@ private:
     ScreenScaler& scaler_;
     std::optional<Target> target_;  ///< created for the first texture
     HostScaler hostScaler_;
-    std::optional<Rows<const std::uint32_t>> onHost_;  ///< the last picture if it is on the host
+    std::optional<Rows<const std::uint32_t>> onHost_;  ///< the last picture, if it is on the host
 };
 
-/// Returns the stored pixels of a framebuffer. Waits for the GPU.
+/// Reads the pixels of a framebuffer back and returns them. Waits for the GPU.
 [[nodiscard]] ScreenPicture readFramebuffer(GLuint framebuffer, Size size, PixelFormat format);
 
 }  // namespace mfar

@@ -12,31 +12,33 @@ namespace mfar {
 class Screen {
 public:
     enum class Presence {
-        Absent,   ///< no usable device; another kind may be tried
+        Absent,   ///< there is no usable device; the next one may be tried
         Waiting,  ///< the device is held, but no screen is connected to it
         Ready,    ///< show() may be called
     };
 
     virtual ~Screen() = default;
 
-    /// Looks for the device; if it is open already, checks whether it has changed. With `thorough`,
-    /// this includes slow queries such as reading the monitor's data; use it only after a change.
-    /// A missing device does not throw: status() reports it.
+    /// Looks for the device. If the device is open already, checks whether it has changed. With
+    /// `thorough`, this includes slow queries such as reading the monitor's data, so use `thorough`
+    /// only after a change. If the device is missing, look() does not throw, but status() reports
+    /// it.
     virtual Presence look(bool thorough) = 0;
     /// Returns the screen's size [px]. May be called only after look() returned Ready.
     [[nodiscard]] virtual Size size() const = 0;
-    /// Shows a picture; waits as the screen's refresh rate requires. May be called only after
-    /// look() returned Ready. Throws std::runtime_error if the screen is lost; call close() then.
+    /// Shows a picture and waits as the screen's refresh rate requires. May be called only after
+    /// look() returned Ready. Throws std::runtime_error if the screen is lost; then close() must be
+    /// called.
     virtual void show(const Picture& picture) = 0;
     /// Releases all GL objects, see Display::releaseGl(). The screen keeps its picture.
     virtual void releaseGl() = 0;
     /// Restores the device's previous state and releases it. Idempotent.
     virtual void close() = 0;
-    /// Returns "kms:card0,HDMI-A-1,1280x720@60 ..." if the screen is ready, otherwise the reason
-    /// why it is not.
+    /// Returns a text such as "kms:card0,HDMI-A-1,1280x720@60 ..." if the screen is ready,
+    /// otherwise the reason why it is not ready.
     [[nodiscard]] virtual std::string status() const = 0;
-    /// Returns the picture that the last show() sent to the screen, before its bits were reduced to
-    /// the screen's pixel layout.
+    /// Returns the picture that the last show() sent to the screen, with 8 bits per colour, even if
+    /// the screen shows fewer.
     [[nodiscard]] virtual std::optional<ScreenPicture> lastShown() const = 0;
 };
 

@@ -42,7 +42,8 @@ std::optional<ModeWish> parseMode(std::string_view word) {
     return wish;
 }
 
-// Returns whether a word names a connector: a type and a number, such as "HDMI-A-1" or "Virtual-1".
+// Returns whether a word is the name of a connector, which consists of a type and a number:
+// "HDMI-A-1", "Virtual-1".
 bool isConnector(std::string_view word) {
     const std::size_t dash = word.rfind('-');
     const auto nameChar = [](char c) {
@@ -63,7 +64,7 @@ void takeKmsWord(ScreenSpec& spec, std::string_view word) {
     } else {
         throw std::runtime_error(
             fmt::format("kms: \"{}\" is not a card (like card0), a connector (like HDMI-A-1) or a "
-                        "mode (like 1280x720@60), or it is the second of its kind",
+                        "mode (like 1280x720@60), or the text has two of these",
                         word));
     }
 }

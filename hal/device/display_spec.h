@@ -21,18 +21,18 @@ struct ModeWish {
 struct ScreenSpec {
     enum class Kind { Auto, Kms, Fbdev };
     Kind kind = Kind::Auto;
-    std::string device;  ///< e.g. "/dev/dri/card0", "/dev/fb0"; empty: the first usable device
+    std::string device;  ///< e.g. "/dev/dri/card0", "/dev/fb0"; empty: the first usable one
     /// For KMS only: the connector's name as in /sys/class/drm, e.g. "HDMI-A-1"; empty: the first
-    /// one with a screen.
+    /// connector with a monitor.
     std::string connector;
-    std::optional<ModeWish> mode;  ///< for KMS only; not set: the screen's preferred mode
+    std::optional<ModeWish> mode;  ///< KMS only; not set: the monitor's preferred mode
     bool operator==(const ScreenSpec&) const = default;
 };
 
 /// Parses "auto", "kms[:cardN][,CONNECTOR][,WxH[@Hz]]" or "fbdev[:/dev/fbN]". Throws a
 /// std::runtime_error that names the wrong part.
 [[nodiscard]] ScreenSpec parseScreenSpec(std::string_view spec);
-/// Returns what is wrong with such a text, or nothing if parseScreenSpec() accepts it.
+/// Returns what is wrong with the text of a screen, or nothing if parseScreenSpec() accepts it.
 [[nodiscard]] std::optional<std::string> screenFault(std::string_view spec);
 
 /// The position and size of a picture on a screen.
@@ -42,8 +42,8 @@ struct ScreenRect {
     bool operator==(const ScreenRect&) const = default;
 };
 
-/// Returns the largest centred rectangle on the screen that has the picture's aspect ratio. Width
-/// and height are rounded and at least 1. All sides must be positive.
+/// Returns the largest centred rectangle on the screen that has the picture's aspect ratio. Its
+/// width and height are rounded and at least 1. The sides of picture and screen must be positive.
 [[nodiscard]] ScreenRect letterbox(Size picture, Size screen);
 
 }  // namespace mfar

@@ -10,7 +10,8 @@
 namespace mfar {
 namespace {
 
-// The kernel reports a new device at once. udev reports it when its permissions are set.
+// Multicast groups of uevents. The kernel's group reports a new device at once. udev's group
+// reports it when the permissions of its node are set.
 constexpr unsigned kKernelGroup = 1, kUdevGroup = 2;
 
 // Returns whether a message, such as "ACTION=change\0SUBSYSTEM=drm\0...", is about a display.
@@ -37,7 +38,7 @@ bool DisplayEvents::changed() {
     std::array<char, 8192> message{};
     while (socket_) {
         const ssize_t bytes = recv(socket_.get(), message.data(), message.size(), 0);
-        // A message that was lost may have been about a display.
+        // If a message was lost, it may have been about a display.
         const bool lost = bytes < 0 && errno == ENOBUFS;
         if (bytes <= 0 && !lost) break;
         if (lost || concernsDisplays({message.data(), static_cast<std::size_t>(bytes)})) any = true;

@@ -4,8 +4,8 @@
 
 namespace mfar {
 
-/// Listens to the kernel's uevents (AF_NETLINK) for displays that are added, removed or changed. If
-/// the process has no permission for such a socket, nothing is ever reported.
+/// Listens to uevents (AF_NETLINK) to notice that a display was added, removed or changed. If the
+/// process has no permission for such a socket, no change is ever noticed.
 class DisplayEvents {
 public:
     DisplayEvents();

@@ -50,7 +50,7 @@ ResetStatus resetStatusOf(std::string_view version, const char* glExtensions) {
     return nullptr;
 }
 
-// Returns the message for GPUs whose driver does not support OpenGL ES 3.1, such as lima, vc4 and
+// Returns the message for a GPU whose driver does not support OpenGL ES 3.1, such as lima, vc4 and
 // etnaviv.
 std::string tooOld(EGLDisplay display) {
     const char* name = nullptr;
@@ -61,8 +61,8 @@ std::string tooOld(EGLDisplay display) {
            " has no OpenGL ES 3.1; use the SIMD engine (engine.use = \"simd\")";
 }
 
-// Creates a context, which reports GPU resets if the driver supports that. The extension and
-// EGL 1.5 define different attributes for this, and some drivers know only one of them.
+// Creates a GL context. If the driver supports it, the context reports resets of the GPU. The EGL
+// extension and EGL 1.5 have different attributes for this, and some drivers know only one of them.
 EGLContext createContext(EGLDisplay display, EGLConfig config) {
     const auto create = [&](EGLint attribute, EGLint value) {
         const std::array<EGLint, 7> wanted{
@@ -79,9 +79,9 @@ EGLContext createContext(EGLDisplay display, EGLConfig config) {
     return context != EGL_NO_CONTEXT ? context : create(EGL_NONE, EGL_NONE);
 }
 
-// Opens the first EGL device that is a GPU: it does not have EGL_MESA_device_software. Otherwise
-// opens the surfaceless platform, which uses the software renderer, or possibly a GPU if EGL does
-// not support devices.
+// Opens the first EGL device that is a GPU, which means that it does not have
+// EGL_MESA_device_software. If there is none, opens the surfaceless platform. That uses the
+// software renderer, or possibly a GPU if EGL does not support devices.
 OpenedDisplay openDisplay(bool software) {
     const char* client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     const auto platformDisplay =
@@ -151,7 +151,7 @@ public:
         description_ = std::string(opened.how) + ": " + renderer + ", " + text(GL_VERSION) +
                        (software_ ? ", software" : ", hardware");
         if (!software_) importer_ = createPlaneImporter(display_);
-        // OpenGL ES 3.1 refuses indirect draws while no vertex array object is bound.
+        // OpenGL ES 3.1 refuses indirect draws if no vertex array object is bound.
         glGenVertexArrays(1, &vertexArray_);
         glBindVertexArray(vertexArray_);
     }

@@ -9,13 +9,13 @@
 #include <vector>
 
 /// The subset of a GPIO library that the trigger needs. It is implemented with libgpiod 1.6, with
-/// libgpiod 2.x, and in the tests without hardware.
+/// libgpiod 2.x, and, in the tests, without hardware.
 
 namespace mfar {
 
 struct GpioLine {
     unsigned offset = 0;
-    std::string name;      ///< empty: the line has no name on this board
+    std::string name;      ///< empty: the line has no name on this machine
     std::string consumer;  ///< the program or driver that uses the line; empty: unknown
     bool used = false;
 };
@@ -25,21 +25,22 @@ struct GpioChip {
     std::string name;   ///< e.g. "gpiochip0"
     std::string label;  ///< e.g. "pinctrl-bcm2711"
     std::vector<GpioLine> lines;
-    int error = 0;  ///< errno if the chip or a line could not be opened; 0: no error
+    int error = 0;  ///< errno of opening the chip or a line; 0: no error
 };
 
-/// Identifies a line, and names it in messages.
+/// Identifies a GPIO line, and names it in messages.
 struct GpioAddress {
     std::string path;
     unsigned offset = 0;
     bool activeLow = false;
     std::string text;  ///< for messages: "line 7 'TRIGGER' of gpiochip0 (9030000.pl061)"
-    /// The program or driver that used the line when it was looked up. Empty if nobody used the
-    /// line.
+    /// The program or driver that used the line when it was looked up. Empty: the line was not in
+    /// use.
     std::string consumer;
 };
 
-/// An output line. `active` is the logical level: the implementation inverts active-low lines.
+/// An output line. `active` is the logical level: if the line is active-low, the implementation
+/// inverts the level.
 class OutputLine {
 public:
     virtual ~OutputLine() = default;
@@ -47,12 +48,12 @@ public:
     virtual void set(bool active) = 0;
 };
 
-/// An input line. The kernel takes the times of its edges.
+/// An input line whose edges get timestamps from the kernel.
 class EdgeInput {
 public:
     virtual ~EdgeInput() = default;
-    /// Returns the time (CLOCK_MONOTONIC) of the oldest edge that was not read yet. Waits for an
-    /// edge up to `timeout`, then returns nothing. Throws std::runtime_error.
+    /// Returns the time (CLOCK_MONOTONIC) of the oldest edge that has not been read. Waits up to
+    /// `timeout` for an edge, then returns nothing. Throws std::runtime_error.
     [[nodiscard]] virtual std::optional<Timestamp> next(std::chrono::microseconds timeout) = 0;
 };
 

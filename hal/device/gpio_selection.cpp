@@ -87,7 +87,7 @@ GpioAddress byNumber(const std::vector<const GpioChip*>& chips, std::string_view
                      unsigned wanted) {
     if (chip.empty())
         throw std::runtime_error(
-            fmt::format("GPIO line {} is given by its number, which needs a chip as well", wanted));
+            fmt::format("GPIO line {} is given by its number, so `chip` must be set, too", wanted));
     if (chips.size() > 1)
         throw std::runtime_error(fmt::format(
             "{} GPIO chips have the label '{}': give a name or path instead", chips.size(), chip));
@@ -119,7 +119,9 @@ GpioAddress byName(const std::vector<const GpioChip*>& chips, std::string_view w
 
 GpioAddress findGpioLine(const std::vector<GpioChip>& chips, std::string_view chip,
                          std::string_view line) {
-    if (line.empty()) throw std::runtime_error("no GPIO line is given for the trigger");
+    if (line.empty())
+        throw std::runtime_error(
+            "no GPIO line is given for the trigger; set `line` in [cameras.trigger]");
     const std::vector<const GpioChip*> candidates = chipsFor(chips, chip);
     if (candidates.empty())
         throw std::runtime_error(

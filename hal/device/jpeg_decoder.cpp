@@ -9,7 +9,7 @@
 namespace mfar {
 namespace {
 
-/// Replaces each pair of rows by its average. `rows` is the number of pairs.
+/// Replaces each pair of rows of a plane by the mean of the two. `rows` is the number of pairs.
 void halveRows(std::uint8_t* plane, std::size_t rowBytes, int rows) {
     for (int y = 0; y < rows; ++y) {
         std::uint8_t* to = plane + y * rowBytes;
@@ -19,8 +19,8 @@ void halveRows(std::uint8_t* plane, std::size_t rowBytes, int rows) {
     }
 }
 
-// Returns whether the decoder's warning can be ignored: many cameras pad a packet before the end
-// marker, but no pixels are missing.
+// Returns whether the decoder's warning can be ignored. Many cameras add padding before the end
+// marker of a picture; no pixels are missing then.
 bool harmless(void* handle) {
     return std::string_view(tjGetErrorStr2(handle)).find("before marker 0xd9") !=
            std::string_view::npos;
@@ -42,13 +42,13 @@ JpegDecoder::JpegDecoder(Size size, int buffers) : pool_(size, PixelFormat::Yuyv
     renew();
 }
 
-// Replaces the library's decoder. After an error it may be in the middle of a picture.
+// Creates the library's decoder anew, because after an error it may be in the middle of a picture.
 void JpegDecoder::renew() {
     handle_.reset(tjInitDecompress());
     if (!handle_) throw std::runtime_error("the JPEG decoder cannot be set up");
 }
 
-/// Returns the chroma subsampling, or nothing if the picture must not be decoded.
+/// Returns the chroma subsampling of a JPEG, or nothing if the JPEG must not be decoded.
 std::optional<int> JpegDecoder::subsamplingOf(std::span<const std::uint8_t> jpeg) {
     Size size;
     int subsampling = 0, colours = 0;

@@ -9,7 +9,7 @@
 namespace mfar {
 
 /// One of a camera's buffers. It is mapped once into this process's memory and may outlive the
-/// camera. Several planes may lie in one file.
+/// camera. One file may contain several planes.
 class MappedPicture {
 public:
     /// Throws std::runtime_error if the memory cannot be mapped or is too small for the picture.
@@ -19,8 +19,8 @@ public:
     ~MappedPicture();
 
     [[nodiscard]] const ImageView& view() const { return view_; }
-    /// Must be called before and after each read, because the CPU's caches may not be coherent with
-    /// the device.
+    /// beginRead() must be called before each read and endRead() after it, because the CPU's caches
+    /// may not be coherent with the camera.
     void beginRead() const;
     void endRead() const;
 

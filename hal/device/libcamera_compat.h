@@ -6,9 +6,9 @@
 #include <string>
 #include <string_view>
 
-/// All differences between libcamera 0.0.3 (Debian 12), 0.4.0 (Debian 13) and 0.7. They are
-/// detected from libcamera's types. All functions are templates, because outside of a template an
-/// unsatisfied `requires` is an error.
+/// Handles all differences between libcamera 0.0.3 (Debian 12), 0.4.0 (Debian 13) and 0.7. The
+/// functions detect them from libcamera's types. All functions are templates, because an
+/// unsatisfied `requires` outside of a template is an error.
 namespace mfar::libcamera_compat {
 
 /// Returns whether libcamera lets its caller choose the sensor's mode (since 0.2.0).
@@ -36,7 +36,8 @@ template <typename Metadata>
         return false;
 }
 
-/// Returns the number of a control's named value. Controls have named values since 0.4.0.
+/// Returns the number for the name of a control's value, e.g. of "AfModeManual". Values have had
+/// names since libcamera 0.4.0.
 template <typename Id>
 [[nodiscard]] std::optional<std::int32_t> enumerator(const Id& control, std::string_view name) {
     if constexpr (requires { control.enumerators(); }) {
@@ -56,8 +57,8 @@ template <typename Id>
         return control.name() == "FrameDurationLimits";
 }
 
-/// Returns whether libcamera has controls of this C++ type. Unsigned ones of 16 and 32 bits exist
-/// since 0.4.0.
+/// Returns whether libcamera has controls of the C++ type T. Controls of unsigned types with 16 and
+/// 32 bits exist since 0.4.0.
 template <typename T>
 [[nodiscard]] constexpr bool hasControlType() {
     return requires { libcamera::details::control_type<T>::value; };

@@ -57,7 +57,7 @@ std::optional<T> element(const ControlId& id, std::string_view text) {
 template <typename T>
 std::optional<ControlValue> several(const ControlId& id, std::string_view text) {
     const auto count = static_cast<std::size_t>(std::ranges::count(text, ',')) + 1;
-    // std::vector cannot be used, because vector<bool> does not store an array of bool.
+    // The array is not a std::vector, because vector<bool> does not store an array of bool.
     const auto values = std::make_unique<T[]>(count);
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t comma = text.find(',');
@@ -69,8 +69,8 @@ std::optional<ControlValue> several(const ControlId& id, std::string_view text) 
     return ControlValue(libcamera::Span<const T>(values.get(), count));
 }
 
-/// Returns whether the value is in the camera's range. True if the range has another type or is an
-/// array.
+/// Returns whether the value is in the range that the camera states. Returns true if the range has
+/// another type than the value or is an array.
 template <typename T>
 bool isWithin(const ControlInfo& info, T value) {
     const auto type = libcamera::details::control_type<T>::value;
@@ -90,7 +90,7 @@ std::optional<ControlValue> parseAs(const ControlId& id, const ControlInfo& info
     return ControlValue(*value);
 }
 
-/// Parses a value with the control's type, which is one of the C++ types in the template's list.
+/// Parses the text of a value. The control's type must be one of the template's C++ types.
 template <typename T, typename... Others>
 std::optional<ControlValue> parse(const ControlId& id, const ControlInfo& info,
                                   std::string_view text) {

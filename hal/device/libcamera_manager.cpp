@@ -12,8 +12,8 @@ namespace {
 using libcamera::Camera;
 using libcamera::CameraManager;
 
-/// libcamera ends the process if a second manager is created. So a new manager is created only
-/// after the last one was destroyed.
+/// libcamera ends the process if a second manager exists. So a new manager is created only after
+/// the previous one was destroyed.
 struct OnlyOne {
     std::mutex mutex;
     std::condition_variable gone;
@@ -90,7 +90,8 @@ std::vector<ListedCamera> listCameras(const std::vector<std::shared_ptr<Camera>>
 std::shared_ptr<Camera> findLibcamera(const CameraManager& manager, const CameraWish& wish) {
     const std::vector<std::shared_ptr<Camera>> cameras = manager.cameras();
     std::vector<ListedCamera> listed = listCameras(cameras);
-    // A query of the sizes takes time, so they are queried only if they decide the choice.
+    // The largest picture sizes are queried only if they decide the choice, because a query takes
+    // time.
     for (std::size_t i = 0; i < cameras.size() && wish.name.empty() && cameras.size() > 1; ++i)
         listed[i].pixels = largestPicture(*cameras[i]);
     return cameras[chooseCamera(listed, wish)];

@@ -8,8 +8,8 @@
 
 namespace mfar {
 
-/// Returns the process's libcamera manager; libcamera allows only one. It lives as long as somebody
-/// holds the pointer. It updates its list of cameras itself. Throws std::runtime_error.
+/// Returns the process's libcamera manager, of which libcamera allows only one. It lives as long as
+/// a pointer to it exists. It keeps its list of cameras up to date. Throws std::runtime_error.
 [[nodiscard]] std::shared_ptr<libcamera::CameraManager> libcameraManager();
 
 /// Describes libcamera's cameras as ListedCamera, in the same order.

@@ -22,7 +22,8 @@ struct Offer {
     PixelFormat ours;
 };
 
-// libcamera names the colours of RGB formats from the last byte to the first.
+// The formats in order of preference. libcamera's names of RGB formats list the colours from the
+// last byte to the first.
 const std::array<Offer, 5> kPreferred{{{libcamera::formats::NV12, PixelFormat::Nv12},
                                        {libcamera::formats::YUV420, PixelFormat::Yuv420},
                                        {libcamera::formats::YUYV, PixelFormat::Yuyv},
@@ -72,7 +73,7 @@ struct Chosen {
 };
 
 /// Returns a valid configuration of exactly the wanted size, in the most preferred format that
-/// works. If none works, returns nothing if `mode` is set, otherwise throws.
+/// works. If none works and `mode` is set, returns nothing; if `mode` is not set, throws.
 std::optional<Chosen> choose(libcamera::Camera& camera, const LibcameraOptions& options,
                              const std::optional<SensorMode>& mode) {
     Chosen chosen{generate(camera, options), {}};
@@ -113,8 +114,8 @@ unsigned bitDepth(const std::string& format) {
     return depth;
 }
 
-/// Returns the sensor modes that are at least as large as `size`, smallest first. The list is empty
-/// if modes cannot be chosen.
+/// Returns the sensor modes that are at least as large as `size`, smallest first. Returns an empty
+/// list if libcamera does not allow the caller to choose the mode.
 std::vector<SensorMode> sensorModes(libcamera::Camera& camera, Size size) {
     std::vector<SensorMode> modes;
     if constexpr (!libcamera_compat::hasSensorConfiguration()) return modes;
@@ -128,8 +129,8 @@ std::vector<SensorMode> sensorModes(libcamera::Camera& camera, Size size) {
                 mode.height >= static_cast<unsigned>(size.height))
                 modes.push_back({mode, depth});
     }
-    // Among modes of equal size, the one with the greatest bit depth, which is the slowest, is
-    // first.
+    // Modes of equal size are sorted by bit depth, greatest first. The greater the bit depth, the
+    // slower the mode.
     std::ranges::sort(modes, {}, [](const SensorMode& mode) {
         return std::pair(std::uint64_t{mode.size.width} * mode.size.height, 64 - mode.bitDepth);
     });
@@ -157,8 +158,8 @@ void apply(libcamera::Camera& camera, CameraConfiguration& configuration) {
             fmt::format("camera '{}' cannot be configured (error {})", camera.id(), -error));
 }
 
-/// Configures the first sensor mode that shows the whole field of view and reaches the frame rate.
-/// If there is none, lets libcamera choose the mode.
+/// Chooses the first sensor mode that shows the whole field of view and reaches the frame rate. If
+/// there is none, lets libcamera choose the mode.
 Chosen chooseMode(libcamera::Camera& camera, const LibcameraOptions& options) {
     for (const SensorMode& mode : sensorModes(camera, options.size)) {
         auto chosen = choose(camera, options, mode);
@@ -203,8 +204,8 @@ ControlValues controlsFor(const libcamera::Camera& camera, const LibcameraOption
         wanted.emplace_back("FrameDurationLimits", fmt::format("{},{}", us, us));
     }
     if (options.exposureUs) {
-        // Since libcamera 0.5, exposure and gain have separate automatic modes. Older versions have
-        // AeEnable for both.
+        // Since libcamera 0.5, exposure and gain have separate controls for their automatic modes.
+        // Older versions have AeEnable for both.
         if (hasControl(known, "ExposureTimeMode"))
             manual("ExposureTimeMode", "1");
         else

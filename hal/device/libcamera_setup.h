@@ -11,24 +11,25 @@
 namespace mfar {
 
 struct ConfiguredCamera {
-    std::unique_ptr<libcamera::CameraConfiguration> configuration;  ///< with one stream
+    std::unique_ptr<libcamera::CameraConfiguration> configuration;  ///< has one stream
     PictureLayout layout;
 };
 
-/// Configures a camera, which must be acquired, for one stream. Throws std::runtime_error.
+/// Configures a camera for one stream. The camera must have been acquired. Throws
+/// std::runtime_error.
 [[nodiscard]] ConfiguredCamera configureLibcamera(libcamera::Camera& camera,
                                                   const LibcameraOptions& options);
 
-/// Converts the options to control values of this camera. Throws std::runtime_error.
+/// Converts the options to values of this camera's controls. Throws std::runtime_error.
 [[nodiscard]] ControlValues controlsFor(const libcamera::Camera& camera,
                                         const LibcameraOptions& options);
 
 /// Returns the size of the sensor's active area [px], or nothing if the camera does not report it.
 [[nodiscard]] std::optional<Size> activePixels(const libcamera::Camera& camera);
 
-/// Returns a message if `crop`, the used part of the sensor, shows only a part of the field of
-/// view. Returns nothing if it shows the whole field, if the camera does not report the areas, or
-/// if the options allow a crop.
+/// Returns a message if pictures show only a part of the field of view. `crop` is the used part of
+/// the sensor. Returns nothing if pictures show the whole field of view, if the camera does not
+/// report its areas, or if the options allow a crop.
 [[nodiscard]] std::optional<std::string> cropFault(const libcamera::Camera& camera,
                                                    const std::optional<libcamera::Rectangle>& crop,
                                                    const LibcameraOptions& options);

@@ -14,11 +14,12 @@
 namespace mfar {
 namespace {
 
-/// The camera fills one buffer while the user reads the other.
+/// Smallest number of buffers: the camera fills one while the user reads the other.
 constexpr std::size_t kLeastBuffers = 2;
-/// On a busy board, libcamera learns from udev within this time that a device was unplugged.
+/// Longest time that libcamera needs, on a busy machine, to learn from udev that a device was
+/// unplugged.
 constexpr std::chrono::seconds kUdevTime{30};
-/// Interval of the checks for a lost device node during this time.
+/// While waiting for kUdevTime: interval of the checks whether the device's node is still lost.
 constexpr std::chrono::milliseconds kNodeLook{100};
 
 void check(const LibcameraOptions& options) {
@@ -43,7 +44,7 @@ void check(const LibcameraOptions& options) {
 /// the node of an unplugged device before it notifies anybody.
 bool hasLostVideoNode() {
     namespace fs = std::filesystem;
-    // A destructor calls this function, so it uses the overloads that do not throw.
+    // This function uses the overloads that do not throw, because a destructor calls it.
     std::error_code ended, closed;
     for (fs::directory_iterator fd("/proc/self/fd", ended);
          !ended && fd != fs::directory_iterator(); fd.increment(ended)) {
@@ -139,16 +140,18 @@ void LibcameraCamera::Stream::start() {
 int LibcameraCamera::Stream::queue(std::size_t slot) {
     libcamera::Request& request = *slots_[slot].request;
     request.reuse(libcamera::Request::ReuseBuffers);
-    // Some drivers (uvcvideo) ignore the controls of start() and read only those of requests.
+    // Some drivers (uvcvideo) ignore the controls that start() gets and read only the controls of
+    // requests.
     for (const auto& [id, value] : controlsDue_ ? controls_ : ControlValues{})
         request.controls().set(id, value);
     controlsDue_ = false;
     return camera_->queueRequest(&request);
 }
 
-// libcamera learns from udev, with a delay, that a running device was unplugged. If the camera is
-// stopped before that while requests are queued, libcamera ends the process. So this function waits
-// while a device node is lost. The node may belong to another camera; the wait is then unnecessary.
+// Waits while a device node is lost. The reason: libcamera learns from udev, with a delay, that a
+// running device was unplugged. If the camera is stopped earlier, while requests are queued,
+// libcamera ends the process. The lost node may belong to another camera; then the wait is
+// unnecessary.
 void LibcameraCamera::Stream::prepareStop() {
     const auto end = std::chrono::steady_clock::now() + kUdevTime;
     while (hasLostVideoNode() && std::chrono::steady_clock::now() < end)

@@ -15,16 +15,17 @@
 
 namespace mfar {
 
-/// The stream of a LibcameraCamera. It owns the requests and their memory, and it checks completed
-/// pictures. A frame keeps the memory of its picture alive, but not the stream.
+/// The stream of a LibcameraCamera. It owns the requests and their memory, and it checks the
+/// pictures of completed requests. A frame keeps the memory of its picture alive, but not the
+/// stream.
 class LibcameraCamera::Stream : public std::enable_shared_from_this<Stream>, private RequestDriver {
 public:
     explicit Stream(const LibcameraOptions& options);
     Stream(const Stream&) = delete;
     Stream& operator=(const Stream&) = delete;
     ~Stream() override = default;
-    /// Releases the device. Must be called once. The destructor does not do this, because a frame
-    /// that another thread returns at this moment may delay the destructor.
+    /// Releases the device. Must be called once. The destructor does not do this: if another thread
+    /// returns a frame at the same moment, the destructor may run late, on that thread.
     void close();
 
     [[nodiscard]] CameraInfo info() const;
@@ -65,12 +66,12 @@ private:
     libcamera::Stream* stream_ = nullptr;
     std::vector<Slot> slots_;
     RequestCycle cycle_{*this};
-    bool controlsDue_ = false;  ///< the next request must set the controls
+    bool controlsDue_ = false;  ///< whether the next request must set the controls
     std::atomic<bool> unplugged_{false};
 
-    mutable std::mutex mutex_;  ///< lock order: cycle_'s mutex, then this one
+    mutable std::mutex mutex_;  ///< lock order: the mutex of cycle_, then this one
     bool viewChecked_ = false;
-    std::string viewFault_;  ///< message if frames show only a part of the field of view
+    std::string viewFault_;  ///< why frames show only a part of the field of view; empty: no fault
     LibcameraCounters counters_;
     FrameDrops drops_;
     SensorClock clock_;

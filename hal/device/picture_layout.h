@@ -25,10 +25,10 @@ struct PlaneBytes {
 /// Returns the minimum number of bytes of a picture. Its last row need not be padded.
 [[nodiscard]] std::size_t leastBytes(const PictureLayout& layout);
 
-/// Returns a view of the picture in a driver's buffer. `planes` has one element for each plane of
-/// the format, or one element that holds all planes one after the other. Chroma rows have the
-/// stride of luma rows (Nv12) or half of it (Yuv420). Throws std::runtime_error if a plane is
-/// missing or too short, or if the stride is shorter than a row.
+/// Returns a view of the picture in a driver's buffer. `planes` has one element per plane of the
+/// format, or one element that holds all planes one after the other. The stride of chroma rows is
+/// that of luma rows (Nv12) or half of it (Yuv420). Throws std::runtime_error if a plane is missing
+/// or too short, or if the stride is shorter than a row.
 [[nodiscard]] ImageView layOut(const PictureLayout& layout, std::span<const PlaneBytes> planes);
 
 }  // namespace mfar

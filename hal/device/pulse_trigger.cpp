@@ -11,12 +11,12 @@ namespace {
 using std::chrono::microseconds;
 
 constexpr microseconds kLongest{10'000'000};
-/// The caller of fire() ends pulses up to this length itself, because the time at which another
-/// thread wakes up is less accurate.
+/// Longest pulse that the caller of fire() ends itself. The time at which another thread wakes up
+/// is less accurate.
 constexpr microseconds kInCaller{1000};
-/// A sleeping thread wakes up at most this late, unless the machine is overloaded.
+/// Longest delay with which a sleeping thread wakes up, unless the machine is overloaded.
 constexpr microseconds kWakeUp{100};
-/// Longest wait for the report of an edge. The kernel reports an edge within microseconds or never.
+/// Longest wait until the kernel reports an edge. It reports an edge within microseconds or never.
 constexpr microseconds kEdgeWait{1000};
 
 std::chrono::steady_clock::time_point steady(Timestamp time) {
@@ -48,7 +48,8 @@ PulseTrigger::~PulseTrigger() {
     try {
         line_->set(false);
     } catch (const std::runtime_error&) {
-        // The GPIO chip is lost, so the line cannot be driven. A destructor cannot report errors.
+        // The GPIO chip is lost, so the line cannot be driven. Nothing is thrown, because a
+        // destructor calls this.
     }
 }
 
@@ -109,16 +110,16 @@ void PulseTrigger::end() {
 std::optional<Timestamp> PulseTrigger::edgeSince(Timestamp earliest) {
     while (loopback_) {
         const std::optional<Timestamp> edge = loopback_->next(kEdgeWait);
-        // Kernels before 5.7 use another clock than CLOCK_MONOTONIC. Such times lie in the future
-        // and are ignored.
+        // Before version 5.7, the kernel uses another clock than CLOCK_MONOTONIC for the times of
+        // edges. Such times lie in the future and are ignored.
         if (!edge || *edge > Timestamp::now()) return std::nullopt;
         if (*edge >= earliest) return edge;
     }
     return std::nullopt;
 }
 
-/// Tells the two edges apart by their times. The reported kinds (rising, falling) may be wrong,
-/// because the kernel reads the level after the edge, when a short pulse is over.
+/// Distinguishes the two edges of a pulse by their times. Their reported types (rising, falling)
+/// may be wrong, because the kernel reads the level after the edge, when a short pulse is over.
 void PulseTrigger::measure(Timestamp endDriven) {
     if (!leading_) leading_ = edgeSince(begun_);
     if (leading_ && *leading_ >= endDriven) leading_.reset();  // this is the trailing edge

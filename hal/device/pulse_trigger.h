@@ -14,7 +14,8 @@
 
 namespace mfar {
 
-/// The times of a pulse's edges on the loopback line, an input that is wired to the trigger's line.
+/// The times of a pulse's edges as the loopback line measured them. The loopback line is an input
+/// that is wired to the trigger line.
 struct MeasuredPulse {
     Timestamp start;  ///< leading edge
     Timestamp end;    ///< trailing edge; many sensors expose from start to end
@@ -24,8 +25,9 @@ struct MeasuredPulse {
 /// except during a pulse. Thread-safe.
 ///
 /// The length of a pulse must be accurate, because many sensors expose as long as the pulse lasts.
-/// If it is at most 1 ms, fire() waits and ends the pulse itself. Otherwise a thread of this object
-/// ends it: the thread sleeps until 0.1 ms before the end and then polls the clock.
+/// If the length is at most 1 ms, fire() waits and ends the pulse itself. A longer pulse is ended
+/// by a thread of this object: the thread sleeps until 0.1 ms before the end and then polls the
+/// clock.
 class PulseTrigger final : public Trigger {
 public:
     /// `loopback` may be null. Throws std::runtime_error unless `pulse` is from 1 us to 10 s.
@@ -36,18 +38,18 @@ public:
     /// Ends an active pulse at once.
     ~PulseTrigger() override;
 
-    /// Starts a pulse and returns the time of its leading edge. The time comes from the loopback
-    /// line; if that reports no edge, it is the mean of the times before and after the line was
-    /// driven. Throws TriggerBusy if a pulse is active: a second pulse is not queued, because its
-    /// edge would come too late. Throws std::runtime_error if the line cannot be driven or an
-    /// earlier pulse could not be ended.
+    /// Starts a pulse and returns the time of its leading edge, as the loopback line measured it.
+    /// If the loopback line reports no edge, returns the mean of the times before and after the
+    /// line was driven. Throws TriggerBusy if a pulse is active: a second pulse is not queued,
+    /// because its edge would come too late. Throws std::runtime_error if the line cannot be driven
+    /// or an earlier pulse could not be ended.
     Timestamp fire() override;
     void endPulse() override;
     [[nodiscard]] std::string name() const override { return name_; }
 
-    /// Returns the last pulse of which the loopback line reported both edges.
+    /// Returns the last pulse whose two edges the loopback line has reported.
     [[nodiscard]] std::optional<MeasuredPulse> measured() const;
-    /// Returns the number of pulses of which the loopback line did not report both edges.
+    /// Returns the number of pulses for which the loopback line did not report both edges.
     [[nodiscard]] std::uint64_t missedEdges() const override;
 
 private:
@@ -63,11 +65,11 @@ private:
 
     mutable std::mutex mutex_;
     std::condition_variable_any wake_;
-    bool running_ = false;              ///< a pulse is active
+    bool running_ = false;              ///< whether a pulse is active
     Timestamp begun_;                   ///< time just before the leading edge was driven
     Timestamp due_;                     ///< end of the pulse
-    std::optional<Timestamp> leading_;  ///< leading edge as the loopback line reported it
-    /// The error because of which a pulse could not be ended. The next fire() throws it.
+    std::optional<Timestamp> leading_;  ///< time of the leading edge from the loopback line
+    /// Why a pulse could not be ended. The next fire() throws this.
     std::optional<std::string> failure_;
     std::optional<MeasuredPulse> measured_;
     std::uint64_t missed_ = 0;

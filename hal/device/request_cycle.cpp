@@ -31,7 +31,7 @@ void RequestCycle::close() {
 }
 
 /// The thread of next() calls this. The driver's thread must not wait here, because it serves other
-/// cameras, too.
+/// cameras as well.
 void RequestCycle::restart() {
     const std::lock_guard life(lifecycle_);
     {
@@ -67,7 +67,7 @@ void RequestCycle::halt() {
         running_ = false;
     }
     changed_.notify_all();
-    driver_.stop();  // this completes queued requests, and the callbacks lock mutex_
+    driver_.stop();  // stop() completes queued requests, and their callbacks lock mutex_
     const std::lock_guard lock(mutex_);
     ready_.clear();
     for (State& state : requests_)
@@ -105,14 +105,14 @@ void RequestCycle::lose(const std::string& why) {
 
 void RequestCycle::giveBack(std::size_t request) {
     const std::lock_guard lock(mutex_);
-    if (request >= requests_.size()) return;  // closed
+    if (request >= requests_.size()) return;  // after close()
     requests_[request] = State::Idle;
     if (running_ && lost_.empty()) queue(request);
 }
 
 void RequestCycle::completed(std::size_t request, const Judge& judge) {
     const std::lock_guard lock(mutex_);
-    if (request >= requests_.size()) return;  // closed
+    if (request >= requests_.size()) return;  // after close()
     requests_[request] = State::Idle;
     changed_.notify_all();
     if (!running_) return;
@@ -121,20 +121,20 @@ void RequestCycle::completed(std::size_t request, const Judge& judge) {
         ready_.push_back(*done);
         ++delivered_;
     }
-    // The driver fills requests, so those that it cancelled can be queued again.
+    // Because the driver fills requests again, the requests that it cancelled can be queued again.
     queueIdle();
 }
 
 void RequestCycle::cancelled(std::size_t request) {
     const std::lock_guard lock(mutex_);
-    if (request >= requests_.size()) return;  // closed
+    if (request >= requests_.size()) return;  // after close()
     requests_[request] = State::Idle;
     changed_.notify_all();
     if (running_ && !anyQueued()) planRestart();
 }
 
-/// mutex_ must be locked. If restartAt_ is set already, a request that was returned in the meantime
-/// has been cancelled as well.
+/// mutex_ must be locked. restartAt_ may be set already: then the driver also cancelled a request
+/// that was returned after the other ones.
 void RequestCycle::planRestart() {
     if (restartAt_) return;
     const Timestamp now = clock_();

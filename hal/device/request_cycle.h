@@ -16,18 +16,19 @@
 
 namespace mfar {
 
-/// Limits for restarts of the stream, which are needed if a driver cancels all queued requests.
-/// Raspberry Pi's driver cancels them after a second without a trigger pulse. This is not a fault.
+/// Limits for restarts of the stream. A restart is needed if a driver cancels all queued requests.
+/// Raspberry Pi's driver does so after a second without a trigger pulse. This is not a fault.
 struct RestartLimits {
-    /// If a driver cancels all requests within this time after the start, the stream ended early.
+    /// If the driver cancels all requests within this time after the start, the stream has ended
+    /// early.
     std::chrono::milliseconds early{500};
-    /// Pause before the restart after two early ends in a row. It doubles with each further one.
+    /// Pause before the restart after two consecutive early ends. It doubles with each further one.
     std::chrono::milliseconds firstPause{50};
-    /// After this many early ends in a row the device counts as lost.
+    /// After this many consecutive early ends, the device counts as lost.
     int most = 5;
 };
 
-/// A camera driver that fills requests, in any order. Requests are identified by number.
+/// A camera driver, which fills requests in any order. Requests are identified by number.
 class RequestDriver {
 public:
     virtual ~RequestDriver() = default;
@@ -35,15 +36,16 @@ public:
     virtual void start() = 0;
     /// Queues a request. Returns 0 or a negative error number of errno.h. Never waits.
     [[nodiscard]] virtual int queue(std::size_t request) = 0;
-    /// This function is called before stop(), while the driver may still complete requests.
+    /// Called before stop(), while the driver may still complete requests.
     virtual void prepareStop() = 0;
     /// Stops the stream and completes all queued requests. May wait.
     virtual void stop() = 0;
 };
 
-/// Manages the requests of a camera. The driver completes a request, a user holds its picture, and
-/// when the user returns the picture, the request is queued again. Thread-safe, but only one thread
-/// may call next(). next() may call the driver's start() and stop().
+/// Manages the requests of a camera. Each request goes through a cycle: it is queued, the driver
+/// completes it, a user holds its picture, the user returns the picture, and it is queued again.
+/// Thread-safe, but only one thread may call next(). next() may call the driver's start() and
+/// stop().
 class RequestCycle {
 public:
     struct Done {
@@ -73,15 +75,15 @@ public:
     [[nodiscard]] std::optional<Done> next(std::chrono::milliseconds timeout);
     void giveBack(std::size_t request);
 
-    // The driver's thread calls the following functions.
+    // Only the driver's thread calls the following functions.
     void completed(std::size_t request, const Judge& judge);
     /// Reports that the driver returned a request without a picture.
     void cancelled(std::size_t request);
-    /// Reports that the device is lost; next() will throw.
+    /// Reports that the device is lost. From then on, next() throws.
     void lose(const std::string& why);
 
-    /// Waits until a picture comes, no request is queued or the cycle is stopped. Returns false if
-    /// none of these happens within this time.
+    /// Waits until a picture comes, until no request is queued any more, or until stop(). Returns
+    /// false if none of these happens within this time.
     [[nodiscard]] bool awaitSign(std::chrono::milliseconds within);
 
     void setName(std::string camera) { name_ = std::move(camera); }
@@ -106,7 +108,7 @@ private:
     const RestartLimits limits_;
     const Clock clock_;
     std::string name_ = "camera";
-    std::mutex lifecycle_;  ///< allows one start() or stop() at a time; locked before mutex_
+    std::mutex lifecycle_;  ///< allows one start() or stop() at a time; is locked before mutex_
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     std::vector<State> requests_;
@@ -114,7 +116,7 @@ private:
     bool running_ = false;
     std::string lost_;  ///< why the device is lost; empty: it is not lost
     Timestamp begun_;
-    int earlyEnds_ = 0;  ///< number of early ends in a row
+    int earlyEnds_ = 0;  ///< number of consecutive early ends
     std::optional<Timestamp> restartAt_;
     std::uint64_t delivered_ = 0, restarts_ = 0;
 };

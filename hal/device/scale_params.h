@@ -7,9 +7,9 @@
 namespace mfar::params {
 
 struct alignas(16) ScalePicture {
-    std::int32_t left, top, width, height;     ///< rectangle of the picture on the screen [px]
+    std::int32_t left, top, width, height;     ///< where the picture is drawn on the screen [px]
     float scaleX, scaleY;                      ///< picture pixels per screen pixel
-    float footprintX, footprintY;              ///< averaged area: scaleX and scaleY, at least 1
+    float footprintX, footprintY;              ///< averaged area: scaleX and scaleY, but at least 1
     std::int32_t pictureWidth, pictureHeight;  ///< [px]
     std::int32_t blueFirst;                    ///< 1: the output's bytes are B G R; 0: R G B
 };

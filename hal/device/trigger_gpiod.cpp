@@ -32,7 +32,7 @@ std::unique_ptr<PulseTrigger> openGpioTrigger(const TriggerOptions& options) {
 }
 
 void driveSafe(const TriggerOptions& options) {
-    // The request of the line already drives it to its inactive level.
+    // requestOutput() already drives the line to its inactive level.
     requestOutput(outputOf(options, listGpioChips()))->set(false);
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kConsumer = "mfar-trigger";
 
-/// A deleter that calls one of the library's functions.
+/// A deleter for std::unique_ptr that calls a function of libgpiod.
 template <auto Free>
 struct Freed {
     template <typename T>

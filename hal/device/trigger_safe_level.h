@@ -4,7 +4,7 @@
 
 namespace mfar {
 
-/// Drives the trigger's line to its inactive level and releases it. The service calls this after
+/// Drives the trigger line to its inactive level and releases it. The service calls this after
 /// mfard has ended, because mfard may have crashed during a pulse. Throws std::runtime_error.
 void driveSafe(const TriggerOptions& options);
 

@@ -20,12 +20,13 @@ namespace {
 
 using Kind = V4l2Control::Kind;
 
-constexpr int kMostControls = 4096;  // protects from a driver whose list never ends
+constexpr int kMostControls = 4096;  // limits the list of a faulty driver, which may never end
 constexpr std::int64_t kMostEntries = 1024;
 constexpr int kTries = 3;
 constexpr std::chrono::milliseconds kBetweenTries{20};
 
-// Returns whether a retry may succeed after this error: the device was busy, or its bus failed.
+// Returns whether setting a control may succeed later after this error: the device was busy, or its
+// bus failed.
 bool mayPassLater(int error) {
     return error == EBUSY || error == EIO || error == EAGAIN || error == ETIMEDOUT ||
            error == EPROTO || error == EPIPE;
@@ -54,7 +55,7 @@ V4l2Control controlOf(const v4l2_query_ext_ctrl& query) {
     out.maximum = query.maximum;
     out.step = static_cast<std::int64_t>(query.step);
     out.standard = query.default_value;
-    if (query.type == V4L2_CTRL_TYPE_BITMASK) {  // its bounds are unsigned 32-bit numbers
+    if (query.type == V4L2_CTRL_TYPE_BITMASK) {  // bounds of a bitmask are unsigned 32-bit numbers
         out.minimum = 0;
         out.maximum &= 0xffffffff;
     }

@@ -9,28 +9,28 @@
 
 namespace mfar {
 
-/// A control of a device.
+/// A control of a V4L2 device.
 struct V4l2Control {
     enum class Kind { Integer, Boolean, Menu, Button, Other };
 
-    /// A menu entry. In a menu of numbers, `text` is the number.
+    /// An entry of a menu. If the menu lists numbers, `text` is the number.
     struct Entry {
         std::int64_t index;
         std::string text;
     };
 
     std::uint32_t id = 0;
-    std::string name;    ///< the driver's name, e.g. "Trigger Mode"
-    std::string folded;  ///< the name in settings, e.g. "trigger_mode"
+    std::string name;    ///< the name that the driver reports, e.g. "Trigger Mode"
+    std::string folded;  ///< the name in mfard's configuration, e.g. "trigger_mode"
     Kind kind = Kind::Other;
     std::int64_t minimum = 0, maximum = 0, step = 1, standard = 0;
     bool readOnly = false, writeOnly = false;
-    bool inactive = false;  ///< has no effect at present, because of another control's value
+    bool inactive = false;  ///< has no effect now, because of another control's value
     bool wide = false;      ///< the value has 64 bits
     std::vector<Entry> entries;
 };
 
-/// Returns a control's name in settings. Letters become lower case, and each run of other
+/// Returns a control's name for the configuration. Letters become lower case, and each run of other
 /// characters becomes one underscore: "White Balance, Automatic" becomes white_balance_automatic.
 [[nodiscard]] std::string foldedName(std::string_view name);
 
@@ -38,10 +38,10 @@ struct V4l2Control {
 [[nodiscard]] std::string describe(const V4l2Control& control);
 
 /// The controls of a device. They are found by name, because vendors use the same id for different
-/// controls: 0x981901 is one vendor's trigger mode and another vendor's flash. Names are compared
-/// after foldedName().
+/// controls: 0x981901 is one vendor's trigger mode and another vendor's flash. Two names are equal
+/// if foldedName() is equal for both.
 ///
-/// If a control is busy or the bus fails, setting it is tried three times. All calls throw
+/// If a control is busy or the bus fails, a value is set up to three times. All calls throw
 /// std::runtime_error if the control is unknown (the message lists the known ones), the value is
 /// out of range (the message states the range), or the control is read-only, busy or refuses the
 /// value. They throw DeviceLost if the device is lost. The device must outlive this object.
@@ -55,11 +55,11 @@ public:
     [[nodiscard]] const V4l2Control* find(std::string_view name) const;
 
     [[nodiscard]] std::int64_t get(std::string_view name) const;
-    /// Sets an integer, a boolean, or a menu (by its entry's index). Returns the value that the
-    /// device uses.
+    /// Sets an integer, a boolean, or a menu (by the index of its entry). Returns the value that
+    /// the device reports after that.
     std::int64_t set(std::string_view name, std::int64_t value) const;
-    /// Sets a control to a value given as text: a number; true, on, yes, false, off or no; or a
-    /// menu entry's text. For a button, any text presses it.
+    /// Sets a control to a value that is given as text: a number; true, on, yes, false, off or no;
+    /// or the text of a menu entry. For a button, any text presses it.
     std::int64_t set(std::string_view name, std::string_view text) const;
     void press(std::string_view name) const;
 

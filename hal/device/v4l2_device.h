@@ -15,12 +15,12 @@
 namespace mfar {
 
 /// The system calls to a V4L2 driver. Tests replace them with a simulated driver. All functions
-/// return what the system calls return and set errno.
+/// return what the system calls return, and set errno.
 class V4l2Api {
 public:
     virtual ~V4l2Api() = default;
 
-    /// Returns the sorted paths of this machine's video device nodes.
+    /// Returns the paths of this machine's video device nodes, sorted.
     [[nodiscard]] virtual std::vector<std::string> nodes() = 0;
     [[nodiscard]] virtual int open(const char* path) = 0;
     virtual int ioctl(int fd, unsigned long request, void* argument) = 0;
@@ -54,7 +54,7 @@ public:
     /// Calls ioctl(). If it fails, throws DeviceLost if the device is lost, otherwise a V4l2Error
     /// "PATH: WHAT: reason".
     void call(unsigned long request, void* argument, std::string_view what) const;
-    /// Throws the same exception that call() throws for this error number.
+    /// Throws the exception that call() would throw for this error number.
     [[noreturn]] void fail(std::string_view what, int errorNumber) const;
 
     struct Unmap {
@@ -66,11 +66,12 @@ public:
 
     [[nodiscard]] int fd() const { return fd_.get(); }
     [[nodiscard]] const std::string& path() const { return path_; }
-    /// Returns the driver's name of the device.
+    /// Returns the name that the driver reports for the device.
     [[nodiscard]] const std::string& card() const { return card_; }
-    /// Returns the driver's name of the place where the device is plugged in.
+    /// Returns the name that the driver reports for the bus and port at which the device is plugged
+    /// in.
     [[nodiscard]] const std::string& bus() const { return bus_; }
-    /// Returns V4L2_CAP_... of this node.
+    /// Returns the V4L2_CAP_... flags of this node.
     [[nodiscard]] std::uint32_t capabilities() const { return capabilities_; }
     /// Returns whether the node delivers pictures through buffers.
     [[nodiscard]] bool captures() const;
@@ -84,7 +85,8 @@ private:
     OwnedFd fd_;
 };
 
-/// Returns the text in a driver's field of fixed size, which need not end with a zero.
+/// Returns the text in a driver's field of fixed size. The field need not contain a terminating
+/// zero.
 [[nodiscard]] std::string fieldText(const void* field, std::size_t bytes);
 
 }  // namespace mfar

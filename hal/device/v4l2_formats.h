@@ -19,8 +19,8 @@ namespace mfar {
 struct V4l2PixelFormat {
     std::uint32_t fourcc;
     PixelFormat picture;
-    bool jpeg = false;            ///< pictures must be decoded
-    bool separatePlanes = false;  ///< each plane has its own memory (multi-planar API)
+    bool jpeg = false;            ///< whether pictures must be decoded
+    bool separatePlanes = false;  ///< whether each plane is its own V4L2 plane (multi-planar)
     bool operator==(const V4l2PixelFormat&) const = default;
 };
 
@@ -29,48 +29,52 @@ struct V4l2PixelFormat {
 /// whose decoding takes time; and last grey, which has no colour.
 [[nodiscard]] std::span<const V4l2PixelFormat> usableFormats();
 
-/// Returns the four characters of a format number, e.g. "YUYV". Unprintable ones become dots.
+/// Returns the four characters of a format's number, e.g. "YUYV". Unprintable characters become
+/// dots.
 [[nodiscard]] std::string fourccText(std::uint32_t fourcc);
 
 /// The wanted picture size, frame rate and format.
 struct V4l2Wish {
     Size size;
-    double rateHz = 0;   ///< 0: the driver chooses the rate
+    double rateHz = 0;   ///< frame rate [Hz]; 0: the driver chooses the rate
     std::string format;  ///< V4L2's four characters, e.g. "YUYV"; empty: automatic
 };
 
 /// Returns the first supported format that the driver offers in exactly the wanted size and whose
-/// highest rate reaches the wanted rate. If none reaches the rate, returns the first in the wanted
-/// size. Otherwise throws a std::runtime_error that lists the driver's formats and sizes.
+/// highest frame rate reaches the wanted one. If no format reaches the rate, returns the first one
+/// that has the wanted size. If none has it, throws a std::runtime_error that lists the driver's
+/// formats and sizes.
 [[nodiscard]] V4l2PixelFormat chooseFormat(const V4l2Device& device, const V4l2Wish& wish);
 
-/// The layout of a picture in its buffer. The driver reported it, and it was validated.
+/// The layout of a picture in its buffer, as the driver reported it. It was validated.
 struct V4l2Layout {
     V4l2PixelFormat format{};
     Size size;
     YuvMatrix matrix = YuvMatrix::Bt601;
     YuvRange range = YuvRange::Limited;
-    int memoryPlanes = 1;  ///< number of memory pieces per buffer
+    int memoryPlanes = 1;  ///< number of V4L2 planes per buffer
     struct Plane {
-        int memory = 0;          ///< index of the memory piece that holds the plane
-        std::size_t offset = 0;  ///< bytes from the piece's start to the plane
+        int memory = 0;          ///< index of the V4L2 plane that contains this plane
+        std::size_t offset = 0;  ///< bytes from the start of the V4L2 plane to this plane
         std::size_t stride = 0;  ///< bytes from one row to the next
     };
     std::array<Plane, 3> planes{};
-    /// Number of bytes of each memory piece that the driver must fill for a complete picture. The
-    /// number is 0 for JPEG, whose size varies.
+    /// For each V4L2 plane, the number of bytes that the driver must fill for a complete picture.
+    /// It is 0 for JPEG, whose size varies.
     std::array<std::size_t, 3> bytes{};
 
-    /// Returns a view of the picture in these memory pieces.
+    /// Returns a view of the picture. `memory`: the first byte of each V4L2 plane.
     [[nodiscard]] ImageView view(const std::array<const std::uint8_t*, 3>& memory) const;
 };
 
-/// Sets size and format and validates the driver's answer. Throws std::runtime_error if the driver
-/// chose another size or format or if its layout is impossible. Throws DeviceLost.
+/// Sets size and format, and validates the layout that the driver reports. Throws
+/// std::runtime_error if the driver chose another size or format or if its layout is impossible.
+/// Throws DeviceLost.
 [[nodiscard]] V4l2Layout setFormat(const V4l2Device& device, const V4l2PixelFormat& format,
                                    Size size);
 
-/// Requests a frame rate and returns the driver's rate [Hz]; 0 if the driver does not report it.
+/// Requests a frame rate. Returns the rate that the driver uses [Hz]; 0 if the driver does not
+/// report it.
 [[nodiscard]] double setRate(const V4l2Device& device, double rateHz);
 
 /// Returns the number of pixels of the largest picture in a supported format; 0 if the driver lists

@@ -17,7 +17,7 @@ namespace {
 /// The capture devices of this machine.
 struct Captures {
     std::vector<V4l2Device> devices;
-    std::string listed;  ///< list for messages; it includes devices that cannot be opened
+    std::string listed;  ///< the devices as text for messages, with those that cannot be opened
 };
 
 std::string lineOf(const V4l2Device& device) {

@@ -5,9 +5,9 @@
 
 namespace mfar {
 
-/// Opens the capture device with this path, card name or bus name. If the name is empty, a device
-/// is chosen as in chooseCamera(), with the path as id. Throws a std::runtime_error that lists the
-/// devices if none or several match.
+/// Opens the capture device whose path, card name or bus name is wish.name. If that is empty, a
+/// device is chosen as in chooseCamera(), with the path as id. Throws a std::runtime_error that
+/// lists the devices if no device or several devices match.
 [[nodiscard]] V4l2Device openCapture(V4l2Api& api, const CameraWish& wish);
 
 }  // namespace mfar

@@ -11,17 +11,17 @@
 
 namespace mfar {
 
-/// What the driver reports about a buffer that it has filled. Only the index is validated.
+/// What the driver reports about a buffer that it has filled. Only `index` is validated.
 struct V4l2Filled {
     int index = 0;
     std::uint32_t flags = 0;     ///< V4L2_BUF_FLAG_...
-    std::uint32_t sequence = 0;  ///< frame number; it skips frames for which no buffer was free
+    std::uint32_t sequence = 0;  ///< number of the frame; numbers of lost frames are skipped
     std::int64_t seconds = 0, microseconds = 0;
-    std::array<std::size_t, 3> offset{}, bytes{};  ///< written part of each memory piece
+    std::array<std::size_t, 3> offset{}, bytes{};  ///< the part of each V4L2 plane that was filled
 };
 
-/// The memory-mapped buffers of a capture device. They are allocated once; the driver fills a
-/// buffer, a user holds its picture and returns it. Thread-safe. Users of pictures hold a
+/// The memory-mapped buffers of a capture device. They are allocated once. The driver fills a
+/// buffer; then a user holds its picture and returns it. Thread-safe. Users of pictures hold a
 /// shared_ptr to this object, so that a picture can be read and returned after the device was
 /// closed.
 ///
@@ -36,7 +36,8 @@ public:
     V4l2Stream& operator=(const V4l2Stream&) = delete;
     ~V4l2Stream() { close(); }
 
-    /// Queues every buffer that nobody holds and starts the driver. Throws like the constructor.
+    /// Queues every buffer whose picture is not in use and starts the driver. Throws like the
+    /// constructor.
     void start();
     /// Stops the driver. Idempotent; errors of a lost device are ignored.
     void stop() noexcept;
@@ -47,21 +48,22 @@ public:
     /// Returns a filled buffer, which the caller holds until giveBack(). Returns nothing if no
     /// buffer is filled or the stream does not run. Throws DeviceLost if no more buffers will come.
     [[nodiscard]] std::optional<V4l2Filled> take();
-    /// Returns a buffer. This does not call the driver; takeBack() does.
+    /// Returns a buffer to this object. Only takeBack() returns it to the driver.
     void giveBack(int index) noexcept;
-    /// Queues the returned buffers in the driver.
+    /// Returns the buffers that giveBack() has collected to the driver.
     void takeBack() noexcept;
-    /// Returns a file descriptor for poll(). It is readable while returned buffers wait for
-    /// takeBack(). Must not be used after close().
+    /// Returns a file descriptor for poll(). It is readable while takeBack() has buffers to return.
+    /// Must not be used after close().
     [[nodiscard]] int givenBack() const { return wake_.get(); }
 
     /// Returns the number of buffers.
     [[nodiscard]] int buffers() const { return static_cast<int>(buffers_.size()); }
-    /// Returns the memory pieces of a buffer. They may be read while the caller holds the buffer.
+    /// Returns the first byte of each V4L2 plane of a buffer. The planes may be read while the
+    /// caller holds the buffer.
     [[nodiscard]] std::array<const std::uint8_t*, 3> memory(int index) const;
     [[nodiscard]] std::size_t memoryBytes(int index, int piece) const;
 
-    /// Returns the buffer as shared memory; null if the driver does not export it.
+    /// Returns the buffer as dma-bufs; null if the driver does not export it.
     [[nodiscard]] const SharedMemory* shared(int index) const;
 
     /// Returns the device. Must not be called after close().
@@ -73,9 +75,10 @@ private:
         Holder holder = Holder::Nobody;
         std::array<V4l2Device::Mapping, 3> pieces;
         std::array<OwnedFd, 3> exported;
-        SharedMemory shared;  ///< id 0: not shared
+        SharedMemory shared;  ///< id 0: not exported
     };
-    /// The argument of an ioctl() for one buffer. It includes the planes for the multi-planar API.
+    /// The argument of an ioctl() for one buffer. It includes the V4L2 planes for the multi-planar
+    /// API.
     struct Argument;
 
     void allocate(int buffers);
@@ -91,9 +94,9 @@ private:
     bool running_ = false;
     std::vector<Buffer> buffers_;
 
-    std::mutex returnedMutex_;  ///< guards returned_ and wake_; not locked during a driver call
+    std::mutex returnedMutex_;  ///< guards returned_ and wake_; not locked during driver calls
     std::vector<int> returned_;
-    OwnedFd wake_;  ///< eventfd; closed by close()
+    OwnedFd wake_;  ///< eventfd; close() closes it
 };
 
 }  // namespace mfar

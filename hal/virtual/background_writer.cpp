@@ -77,7 +77,8 @@ void BackgroundWriter::work(const WatchedThread& watched) {
         } catch (const std::exception& e) {
             failure = e.what();
         }
-        // The job is destroyed, which returns its buffer, before the queue is reported as idle.
+        // The job is destroyed before the queue is reported as idle, because its destructor returns
+        // its buffer.
         job = nullptr;
         lock.lock();
         if (failure && !error_) error_ = std::move(failure);

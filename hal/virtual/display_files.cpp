@@ -32,8 +32,8 @@ constexpr std::chrono::milliseconds kErrorPoll{100};
 
 class NoDisplay final : public Display {
 public:
-    // Without this wait, the CPU could queue any number of frames, and the measured frame rate
-    // would be wrong.
+    // Waits for the GPU. Otherwise, the CPU could queue any number of frames for it, and the
+    // measured frame rate would be wrong.
     void show(const Picture& picture, Timestamp) override {
         // The result is ignored, because a hanging GPU is detected before the next picture.
         if (!picture.isOnHost()) (void)gpu::finishWithin();
@@ -42,7 +42,7 @@ public:
     [[nodiscard]] std::string name() const override { return "none"; }
 };
 
-/// Copies pictures into a few buffers and hands them to a writer.
+/// Copies pictures into a few buffers and passes them to a thread that writes them.
 class FileDisplay : public Display {
 public:
     FileDisplay(int threads, std::stop_token cancel, FileDisplayPolicy policy)
@@ -82,29 +82,30 @@ public:
     }
 
 protected:
-    /// Throws if the size is not supported. This function is called on the thread of show() before
-    /// the first picture of a size.
+    /// Throws if pictures of this size cannot be written. Called on the thread of show() before the
+    /// first picture of a size.
     virtual void checkSize(Size size) = 0;
-    /// Writes a picture. This function is called on a writer thread.
+    /// Writes a picture. Called on a writer thread.
     virtual void write(const Frame& picture) = 0;
-    /// Returns what show() waits for, e.g. "the disk", for messages.
+    /// Returns what show() waits for, e.g. "the disk". Messages use it.
     [[nodiscard]] virtual const char* consumer() const = 0;
-    /// Returns the token that ends a wait for a pipe's reader.
+    /// Returns the token that ends a wait for a pipe's reader if a stop is requested.
     [[nodiscard]] std::stop_token cancelled() const { return cancel_.get_token(); }
     /// Waits until all pictures are written. Destructors of derived classes must call this, because
     /// the writer's jobs call functions of these classes.
     void finishQuietly() noexcept {
         try {
-            // If writing a picture takes longer than policy_.finish, the wait for the reader ends.
+            // If writing one picture takes longer than policy_.finish, the wait for the pipe's
+            // reader ends.
             if (policy_.isLive && !drainWhileWriting()) cancel_.request_stop();
             writer_.drain();
         } catch (const std::exception&) {
-            // A destructor cannot report errors; finish() does.
+            // A destructor cannot report errors; finish() reports them.
         }
     }
 
 private:
-    /// Calls the policy's `waiting` at the start and the end of a wait.
+    /// Calls policy_.waiting at the start and at the end of a wait.
     class Waits {
     public:
         explicit Waits(const FileDisplay& of) : of_(of) {
@@ -124,13 +125,13 @@ private:
         return fmt::format("{}: {} accepts no data", name(), consumer());
     }
 
-    // Returns whether writing one picture has taken longer than `time` so far.
+    // Returns whether writing one picture has already taken longer than `time`.
     [[nodiscard]] bool writesFor(std::chrono::milliseconds time) const {
         const std::lock_guard lock(mutex_);
         return !writing_.empty() && Timestamp::now() - *writing_.begin() > time;
     }
 
-    // Waits until all pictures are written. Returns false if writing one takes longer than
+    // Waits until all pictures are written. Returns false if writing one of them takes longer than
     // policy_.finish.
     [[nodiscard]] bool drainWhileWriting() {
         while (!writer_.drainWithin(kErrorPoll))
@@ -153,8 +154,9 @@ private:
         }
     }
 
-    // Returns a free buffer. If there is none, skips the oldest picture that is not being written
-    // and returns its buffer. Returns nothing if all buffers are being written.
+    // Returns a free buffer. If there is none, skips the oldest picture whose writing has not
+    // begun, and returns its buffer. Returns nothing if the pictures in all buffers are being
+    // written.
     std::optional<FramePool::Slot> freeBuffer() {
         throwError();
         if (const auto slot = pool_->acquire(std::chrono::milliseconds(0))) return slot;
@@ -193,7 +195,7 @@ private:
     std::atomic<std::uint64_t> leftOut_{0};
     mutable std::mutex mutex_;
     std::deque<std::shared_ptr<Frame>> waiting_;  ///< pictures whose writing has not begun
-    std::multiset<Timestamp> writing_;            ///< start times of the writes in progress
+    std::multiset<Timestamp> writing_;            ///< when the writes that are in progress began
     std::stop_callback<std::function<void()>> onCancel_;
     BackgroundWriter writer_;  // must be the last member: its threads use the members above
 };

@@ -11,20 +11,20 @@
 
 namespace mfar {
 
-/// What a file display does if it writes more slowly than pictures arrive.
+/// What a file display does if pictures arrive faster than it writes them.
 struct FileDisplayPolicy {
-    /// True for a live source: show() never waits. Pictures are skipped if they come too fast, the
-    /// oldest first, and counted, see Display::leftOut(). fault() reports if writing stops.
-    /// False: every picture is written, and show() waits.
+    /// True for a live source: show() never waits. If pictures come too fast, the oldest are
+    /// skipped and counted, see Display::leftOut(). If writing stops, fault() reports it. False:
+    /// every picture is written, and show() waits.
     bool isLive = false;
-    /// show() and finish() call this when they begin to wait, with what they wait for, e.g. "the
-    /// disk", and with null when the wait is over.
+    /// show() and finish() call this at the start of a wait with the name of what they wait for,
+    /// e.g. "the disk", and at the end of the wait with null.
     std::function<void(const char* what)> waiting{};
-    /// fault() reports a fault if writing one picture takes longer than this.
+    /// If writing one picture takes longer than this, fault() reports a fault.
     std::chrono::milliseconds stalled{2000};
-    /// With a live source, finish() throws if writing one picture takes longer than this.
+    /// With a live source: if writing one picture takes longer than this, finish() throws.
     std::chrono::milliseconds finish{5000};
-    WatchedThread writer{};  ///< the writing thread; its budget is for one picture
+    WatchedThread writer{};  ///< the writing thread; its time budget is for one picture
 };
 
 /// Opens a display that needs no screen. `spec` is one of:
@@ -34,10 +34,10 @@ struct FileDisplayPolicy {
 ///   "y4m:FILE"  writes YUV4MPEG2, 4:2:0, BT.601 limited range, with `rateHz` in the header. FILE
 ///               may be "-" (standard output) or a FIFO, for whose reader the call waits up to 5 s
 /// Unless policy.isLive is set, every picture is written, and show() waits while all buffers are in
-/// use. After a write has failed, show() and finish() throw std::runtime_error. It is also a
-/// failure if a pipe's reader closes the pipe, or if `cancel` is requested while a write waits for
-/// a pipe's reader. Throws std::runtime_error if `spec` is unknown, or if the folder, file or pipe
-/// cannot be written.
+/// use. After a write has failed, show() and finish() throw std::runtime_error. A write also fails
+/// if a pipe's reader closes the pipe, or if a stop is requested through `cancel` while the write
+/// waits for a pipe's reader. Throws std::runtime_error if `spec` is unknown, or if the folder,
+/// file or pipe cannot be written.
 [[nodiscard]] std::unique_ptr<Display> openFileDisplay(std::string_view spec, double rateHz,
                                                        std::stop_token cancel = {},
                                                        const FileDisplayPolicy& policy = {});

@@ -51,7 +51,8 @@ std::size_t pixelCount(Size size) {
     return static_cast<std::size_t>(size.width) * size.height;
 }
 
-/// Parses the header of a PFM file: magic, width, height and scale, followed by one white space.
+/// Parses the header of a PFM file: the letters "Pf", width, height and scale, followed by one
+/// white space.
 class PfmHeader {
 public:
     PfmHeader(const fs::path& file, std::string_view text) : file_(file), text_(text) {

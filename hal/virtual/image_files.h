@@ -37,20 +37,21 @@ struct StoredImage {
 /// Reads a PNG or JPEG file (colour or grey, 8 or 16 bits) as RGBA8 with alpha 255. A camera's
 /// orientation tag is ignored: the pixels stay in the order of the file. Throws ImageFileError.
 [[nodiscard]] StoredImage loadImage(const std::filesystem::path& file);
-/// Reads a file as loadImage() does, but into the caller's buffer. Also throws if the picture does
-/// not have the size `expected`.
+/// Reads a file as loadImage() does, but into the caller's buffer. Also throws ImageFileError if
+/// the picture does not have the size `expected`.
 void loadImageInto(const std::filesystem::path& file, Size expected, std::uint8_t* rgba,
                    std::size_t stride);
 
 /// Encodes a picture of any format as PNG (RGB without alpha, or grey). The encoder is optimised
-/// for speed, not for size. `out` is replaced. Throws std::invalid_argument if the view is invalid
-/// (requireSound()).
+/// for speed, not for size. The content of `out` is replaced. Throws std::invalid_argument if the
+/// view is invalid (requireSound()).
 void encodePng(const ImageView& image, std::vector<std::uint8_t>& out);
 /// Writes a PNG file completely or not at all (Durability::WithSync). Throws ImageFileError, and
 /// what encodePng() throws.
 void savePng(const std::filesystem::path& file, const ImageView& image);
 
-/// One number per pixel; NaN: unknown. Rows have no padding; row 0 is the top row.
+/// A picture with one number per pixel. NaN: the number is unknown. Rows have no padding; row 0 is
+/// the top row.
 struct FloatImage {
     Size size;
     std::vector<float> values;
@@ -65,13 +66,14 @@ private:
 };
 
 /// Reads a portable float map with one channel ("Pf") of either byte order. Infinities become NaN,
-/// because some programs write them for unknown values. Throws ImageFileError.
+/// because some programs write infinity for unknown values. Throws ImageFileError.
 [[nodiscard]] FloatImage loadPfm(const std::filesystem::path& file);
 /// Writes a portable float map with little-endian values. Infinities become NaN. Throws
 /// ImageFileError.
 void savePfm(const std::filesystem::path& file, const FloatImage& image);
 
-/// One vector (x, y) [px] per pixel; NaN: unknown. Rows have no padding; row 0 is the top row.
+/// A picture with one vector (x, y) [px] per pixel. NaN: the vector is unknown. Rows have no
+/// padding; row 0 is the top row.
 struct FlowImage {
     Size size;
     std::vector<std::array<float, 2>> vectors;
@@ -87,8 +89,8 @@ private:
     }
 };
 
-/// Reads a Middlebury .flo file. A vector is unknown if one of its components is not finite or is
-/// greater than 1e9; it becomes (NaN, NaN). Throws ImageFileError.
+/// Reads a Middlebury .flo file. If a component of a vector is not finite or is greater than 1e9,
+/// the vector is unknown and becomes (NaN, NaN). Throws ImageFileError.
 [[nodiscard]] FlowImage loadFlo(const std::filesystem::path& file);
 /// Writes a .flo file. Unknown vectors are written as (1e10, 1e10). Throws ImageFileError.
 void saveFlo(const std::filesystem::path& file, const FlowImage& image);

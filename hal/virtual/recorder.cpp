@@ -71,7 +71,7 @@ bool Recorder::picture(PictureStream& stream, const ImageView& image, Timestamp 
     }
     stream.last = time;
     // The buffers have four bytes per pixel, enough for every format. The writer's thread converts
-    // the picture to RGB.
+    // the copied picture to RGB.
     const ImageView copy = packInto(slot->data, image);
     const auto loan = std::make_shared<Frame>(stream.pool.lend(*slot, time));
     writer_.post([this, &stream, loan, copy] { writePicture(stream, copy, loan->time()); });
@@ -85,7 +85,7 @@ void Recorder::writePicture(PictureStream& stream, const ImageView& picture, Tim
         checkSpace(picture.stride * picture.size.height);
         savePng(file, picture);
     } catch (const std::runtime_error&) {
-        sync();  // no more pictures will be written: list those that were
+        sync();  // no more pictures will be written, so list the last ones now
         throw;
     }
     std::error_code ignored;
@@ -117,7 +117,7 @@ void Recorder::sync() {
         if (rows.empty()) return;
         for (const auto& [file, text] : rows)
             appendToFile(file, text);
-        syncFileSystem(root_);  // makes the new rows of the lists safe, too
+        syncFileSystem(root_);  // also writes the lists' new rows to the disk
     });
 }
 

@@ -16,15 +16,16 @@
 namespace mfar {
 
 struct RecorderOptions {
-    int videoBuffers = 16;  ///< how many video frames may wait to be written
-    int stillBuffers = 3;   ///< how many stills may wait to be written
-    int poses = 256;        ///< how many poses may wait to be written
-    /// Disk space that must stay free. If less is free, the recording ends with an error.
+    int videoBuffers = 16;  ///< largest number of video frames that wait to be written
+    int stillBuffers = 3;   ///< largest number of stills that wait to be written
+    int poses = 256;        ///< largest number of poses that wait to be written
+    /// Disk space that must stay free [bytes]. If less is free, the recording ends with an error.
     std::uint64_t leastFreeBytes = 64U << 20;
-    std::uint64_t mostBytes = 0;  ///< largest size of a recording; 0: no limit
-    WatchedThread writer{};       ///< the writing thread; its budget is for one picture
-    /// Interval of the syncs to the disk, which protect against a power cut. The first picture
-    /// starts a sync. After this interval, the next picture or pose starts the next sync.
+    std::uint64_t mostBytes = 0;  ///< largest size of a recording [bytes]; 0: no limit
+    WatchedThread writer{};       ///< the writing thread; its time budget is for one picture
+    /// Interval between synchronisations of the disk, which protect the recording from a power cut.
+    /// The first picture starts the first one. After this interval, the next picture or pose starts
+    /// the next one.
     std::chrono::milliseconds syncEvery{1000};
 };
 
@@ -34,14 +35,14 @@ struct RecorderOptions {
 /// data.csv lists a picture only after its file is on the disk. At finish() and every `syncEvery`,
 /// the file system is synchronised, the new pictures are listed, and the lists are synchronised,
 /// too. So a recording can be loaded even if a power cut interrupted it at any moment; only the
-/// pictures after the last sync may be missing. The recording's body frame B is the frame of the
-/// video camera.
+/// pictures after the last synchronisation may be missing. The recording's body frame B is the
+/// frame of the video camera.
 ///
 /// Each of video(), still() and pose() must be called from one thread only, but these may be three
-/// threads. The functions return false if something is not recorded: all buffers are in use, the
-/// time is not later than the previous one, the size differs from the rig's, a pose is not finite,
-/// or a write has failed before. Pictures may have any format; the writer's thread converts them to
-/// RGB. An invalid view (requireSound()) throws std::invalid_argument.
+/// different threads. The functions return false if something is not recorded: all buffers are in
+/// use, the time is not later than the previous one, the size differs from the rig's, a pose is not
+/// finite, or a write has failed before. Pictures may have any format; the writer's thread converts
+/// them to RGB. An invalid view (requireSound()) throws std::invalid_argument.
 class Recorder {
 public:
     struct Counts {
@@ -59,7 +60,7 @@ public:
     bool video(const ImageView& image, Timestamp time) { return picture(video_, image, time); }
     bool still(const ImageView& image, Timestamp time) { return picture(still_, image, time); }
     bool pose(const Pose& pose);
-    /// Writes another file to the recording. An existing file is replaced.
+    /// Writes a text file `name` into the recording's folder. An existing file is replaced.
     void addFile(std::string_view name, std::string_view text);
 
     /// Waits until all accepted pictures and poses are written. Throws std::runtime_error with the
@@ -79,7 +80,7 @@ private:
         std::optional<Timestamp> last{};
         std::atomic<std::uint64_t> written{0};
         std::atomic<std::uint64_t> dropped{0};
-        std::string rows{};  ///< rows that data.csv lacks; only the writer's thread uses them
+        std::string rows{};  ///< rows still missing in data.csv; only the writer's thread uses them
 
         [[nodiscard]] Counts counts() const { return {written.load(), dropped.load()}; }
     };
@@ -94,14 +95,15 @@ private:
     void writePicture(PictureStream& stream, const ImageView& picture, Timestamp time);
     void writePose(const Pose& pose);
     void syncWhenDue();
-    /// Synchronises all files, lists them, and synchronises the lists.
+    /// Writes all picture files to the disk, lists them, and writes the lists to the disk.
     void sync();
-    /// Throws std::runtime_error if a picture of this size may not be written any more.
+    /// Throws std::runtime_error if a picture of `bytes` bytes must not be written, because the
+    /// disk would be too full or the recording too large.
     void checkSpace(std::uintmax_t bytes);
 
     std::filesystem::path root_;
     RecorderOptions options_;
-    // Only the writer's thread uses these two.
+    // Only the writer's thread uses bytes_ and synced_.
     std::uintmax_t bytes_ = 0;                                     // size of all pictures
     std::optional<std::chrono::steady_clock::time_point> synced_;  // start of the last sync
     PictureStream video_;

@@ -24,19 +24,19 @@ struct RecordedImage {
     std::filesystem::path file;
 };
 
-/// A recording in the EuRoC layout. Folder cam0 holds the video, cam1 the stills; both have a
-/// sensor.yaml and a data.csv. All fields are validated. Pixels are not read here, but later, one
-/// picture at a time.
+/// A recording in the EuRoC layout. Folder cam0 contains the video, cam1 the stills. Each has a
+/// sensor.yaml and a data.csv. All fields are validated. The pixels of the pictures are read later,
+/// one picture at a time.
 struct Recording {
     std::filesystem::path root;
     StereoRig rig;
     double videoRateHz = 0;
-    std::vector<RecordedImage> video;   ///< strictly increasing in time, never empty
-    std::vector<RecordedImage> stills;  ///< strictly increasing in time, may be empty
-    std::vector<Pose> poses;            ///< strictly increasing in time, may be empty
+    std::vector<RecordedImage> video;   ///< sorted by time; times differ; never empty
+    std::vector<RecordedImage> stills;  ///< sorted by time; times differ; may be empty
+    std::vector<Pose> poses;            ///< sorted by time; times differ; may be empty
 
-    /// Returns the pose at t, interpolated if necessary. Returns nothing before the first pose,
-    /// after the last one, and in gaps of more than a quarter of a second.
+    /// Returns the pose at t, interpolated if necessary. Returns nothing if t is before the first
+    /// pose, after the last pose, or in a gap of more than a quarter of a second.
     [[nodiscard]] std::optional<Pose> poseAt(Timestamp t) const;
     /// The following functions return the path of a file in truth/, or nothing if it is missing.
     [[nodiscard]] std::optional<std::filesystem::path> truthHighRes(Timestamp t) const;
@@ -51,7 +51,8 @@ struct Recording {
 [[nodiscard]] Recording loadRecording(const std::filesystem::path& root,
                                       std::size_t most = std::numeric_limits<std::size_t>::max());
 
-/// Returns how much memory the lists of a recording need at most, even while they are read [bytes].
+/// Returns the largest number of bytes that the lists of a recording need, even while they are
+/// read.
 [[nodiscard]] std::size_t memoryOf(const Recording& recording);
 
 }  // namespace mfar

@@ -15,13 +15,13 @@ namespace mfar {
 [[noreturn]] void recordingFault(const std::filesystem::path& file, int line,
                                  std::string_view what);
 
-/// A data row of a CSV file. The fields have no surrounding spaces. They are valid only while the
-/// row is visited.
+/// A row of data in a CSV file. Its fields have no surrounding spaces and are valid only during the
+/// visit of the row.
 class CsvRow {
 public:
     CsvRow(const std::filesystem::path& file, int line, std::string_view text, bool isTorn);
 
-    /// Returns whether this is the last row and has no line end or contains zeros. A power cut may
+    /// Returns whether this is the last row and has no newline or contains zeros. A power cut may
     /// have truncated such a row.
     [[nodiscard]] bool isTorn() const { return isTorn_; }
     [[nodiscard]] std::size_t size() const { return fields_.size(); }
@@ -41,8 +41,9 @@ private:
     std::vector<std::string_view> fields_;
 };
 
-/// Visits the rows of a CSV file in order. Skips blank lines, lines that begin with '#', a byte
-/// order mark and carriage returns. Throws RecordingError if the file cannot be read.
+/// Visits the rows of data in a CSV file, in the order of the file. Skips blank lines, lines that
+/// begin with '#', a byte order mark and carriage returns. Throws RecordingError if the file cannot
+/// be read.
 void forEachCsvRow(const std::filesystem::path& file,
                    const std::function<void(const CsvRow&)>& visit);
 

@@ -20,13 +20,13 @@ enum class Pace {
 
 struct PlayerOptions {
     Pace pace = Pace::Realtime;
-    bool loop = false;     ///< restart at the end; times keep increasing, see recordedTime()
-    int videoBuffers = 8;  ///< number of buffers for frames in use or decoded ahead, at least 2
-    int stillBuffers = 4;  ///< number of buffers for stills in use or decoded ahead, at least 2
+    bool loop = false;     ///< restart at the end; times go on increasing, see recordedTime()
+    int videoBuffers = 8;  ///< number of buffers for frames that are in use or decoded, at least 2
+    int stillBuffers = 4;  ///< number of buffers for stills that are in use or decoded, at least 2
     bool asksVideoFirst = false;  ///< for Pace::Consumer only, see RecordingPlayer
 };
 
-/// The trigger of a recording. It only counts calls, because the stills are recorded already.
+/// The trigger of a recording. It only counts its calls, because the stills are recorded already.
 class RecordedTrigger final : public Trigger {
 public:
     explicit RecordedTrigger(std::function<Timestamp()> now) : now_(std::move(now)) {}
@@ -50,21 +50,25 @@ private:
 /// player; frames may outlive the player. If a picture cannot be decoded, next() throws
 /// RecordingError, and the next call continues with the following picture.
 ///
-/// Pace::Realtime: both cameras share one clock, which begins with the first start(). If decoder or
-/// consumer are so slow that the following video frame is already due, the older frame is skipped
-/// and counted, as a sensor overwrites frames that are not read. Stills are never skipped.
+/// Pace::Realtime: both cameras share one clock, which begins with the first start(). If the
+/// decoder or the consumer is so slow that the following video frame is already due, the older
+/// frame is skipped and counted, as a sensor overwrites frames that are not read. Stills are never
+/// skipped.
 ///
 /// Pace::Consumer: stills().next() returns a still only if its time is not later than the time of
-/// the frame that video().next() will return next; after the end of the video, it returns any
+/// the frame that video().next() will return next. After the end of the video, it returns any
 /// still. So a thread that requests stills and frames alternately gets all pictures in the order of
-/// their times, in every run. At equal times, the still comes first. With `asksVideoFirst`, a still
-/// is returned only if its time is not later than that of the last frame that video().next()
-/// returned. This suits a thread that requests a frame and then the stills up to it. While next()
-/// waits for the decoder, the timeout does not apply; it applies while the consumer holds all
-/// buffers.
+/// their times, in every run. At equal times, the still comes first.
+///
+/// With `asksVideoFirst`, a still is returned only if its time is not later than the time of the
+/// last frame that video().next() returned. This suits a thread that requests a frame and then the
+/// stills up to it.
+///
+/// With Pace::Consumer, the timeout of next() does not include waits for the decoder. It includes
+/// only waits while the consumer holds all buffers.
 class RecordingPlayer {
 public:
-    /// Throws std::invalid_argument if the options are impossible.
+    /// Throws std::invalid_argument if an option has an impossible value.
     RecordingPlayer(Recording recording, const PlayerOptions& options);
     RecordingPlayer(const RecordingPlayer&) = delete;
     RecordingPlayer& operator=(const RecordingPlayer&) = delete;
@@ -75,13 +79,13 @@ public:
     [[nodiscard]] RecordedTrigger& trigger() { return trigger_; }
     [[nodiscard]] const Recording& recording() const { return recording_; }
 
-    /// Converts the time of a delivered frame to the time in the recording's files. The two differ
-    /// from the second loop on.
+    /// Converts the time of a delivered frame to the time in the recording's files. If the
+    /// recording loops, the two times differ from the second loop on.
     [[nodiscard]] Timestamp recordedTime(Timestamp played) const;
-    /// Returns the current time of the cameras: with Pace::Realtime from the clock, otherwise the
-    /// time of the last delivered video frame.
+    /// Returns the current time of the cameras. With Pace::Realtime, it is the time of their clock;
+    /// otherwise it is the time of the last delivered video frame.
     [[nodiscard]] Timestamp now() const;
-    /// Returns the number of late video frames that were skipped.
+    /// Returns the number of video frames that were skipped because they were late.
     [[nodiscard]] std::uint64_t skipped() const;
 
 private:

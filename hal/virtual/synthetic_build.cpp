@@ -7,14 +7,16 @@
 namespace mfar::synthetic {
 namespace {
 
-constexpr double kPlateCells = kTagCells + 2;  // includes a white rim of one cell
+// Edge of a plate: the tag and a white rim of one cell.
+constexpr double kPlateCells = kTagCells + 2;
 constexpr double kPlateThickness = 0.004;
 
 Eigen::Quaterniond aboutZ(double yaw) {
     return Eigen::Quaterniond(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()));
 }
 
-/// Returns the rotation whose columns are the tag's x, y and z axes in the plate's frame.
+/// Returns the rotation from the tag's frame to the plate's frame. `x` and `y` are the tag's axes
+/// in the plate's frame.
 Eigen::Quaterniond axes(const Eigen::Vector3d& x, const Eigen::Vector3d& y) {
     Eigen::Matrix3d m;
     m << x, y, x.cross(y);
@@ -35,7 +37,7 @@ int Builder::sheet(Layer layer, double width, double height, const Eigen::Vector
 
 int Builder::tiled(Layer layer, double perMetre, const Eigen::Vector3d& tint, double variation,
                    double gloss) {
-    // Each material has its own texture offset, so that no two surfaces look alike.
+    // Each material uses another part of its texture, so that no two surfaces look alike.
     const double shift = 0.37 * static_cast<double>(world.materials.size());
     return material({layer, {perMetre, perMetre}, {shift, 0.7 * shift}, tint, variation, gloss});
 }

@@ -7,16 +7,16 @@
 
 namespace mfar::synthetic {
 
-/// Assembles a world. Positions and sizes are in metres in the world's frame. Yaw angles [rad] are
-/// about the world's z axis.
+/// Assembles a world from solids. Positions and sizes are in metres, in the world's frame. Yaw
+/// angles [rad] are about the world's z axis.
 class Builder {
 public:
     World world;
 
     /// Adds a material and returns its index.
     int material(const Material& m);
-    /// Adds a material whose texture fills a face of this size once. Use it for +x, -y and +z
-    /// faces.
+    /// Adds a material whose texture fills a face of this size exactly once. It suits the +x, -y
+    /// and +z faces of a box.
     int sheet(Layer layer, double width, double height, const Eigen::Vector3d& tint,
               double gloss = 0);
     /// Adds a material whose texture repeats `perMetre` times per metre.
@@ -28,18 +28,19 @@ public:
     Primitive& box(const Eigen::Vector3d& centre, const Eigen::Vector3d& size, double yaw, int m) {
         return box(centre, size, yaw, {m, m, m});
     }
-    /// Adds an upright cylinder; `side` and `caps` are materials.
+    /// Adds an upright cylinder. `side` and `caps` are the indices of its materials.
     Primitive& cylinder(const Eigen::Vector3d& centre, double radius, double height, int side,
                         int caps);
-    /// Adds a cylinder between two points.
+    /// Adds a cylinder whose axis runs from one point to another. `m` is the index of its material.
     Primitive& rod(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius, int m);
     Primitive& ellipsoid(const Eigen::Vector3d& centre, const Eigen::Vector3d& radii, double yaw,
                          int m);
-    /// Add a plate with tag `id` (0..3), whose black square has the edge `size`. A standing tag
-    /// faces -y, rotated by yaw; a lying tag faces up.
+    /// These functions add a plate with tag `id` (0..3), whose black square has the edge `size`. A
+    /// standing tag faces -y, rotated by yaw. A lying tag faces up.
     void standingTag(int id, const Eigen::Vector3d& centre, double size, double yaw);
     void lyingTag(int id, const Eigen::Vector3d& centre, double size, double yaw);
-    /// Add a book. A lying book has its cover on top; a standing one has its spine towards -y.
+    /// These functions add a book. A lying book has its cover on top. A standing book has its spine
+    /// towards -y.
     void lyingBook(const Eigen::Vector3d& bottom, const Eigen::Vector3d& size, double yaw,
                    const Eigen::Vector3d& tint);
     void standingBook(const Eigen::Vector3d& bottom, const Eigen::Vector3d& size, double yaw,

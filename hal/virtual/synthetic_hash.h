@@ -22,7 +22,7 @@ namespace mfar::synthetic {
     return static_cast<double>(h >> 11) * 0x1p-53;
 }
 
-/// A sequence of reproducible random numbers.
+/// A sequence of reproducible pseudo-random numbers.
 class Random {
 public:
     explicit constexpr Random(std::uint64_t seed) : state_(mix(seed)) {}

@@ -15,17 +15,18 @@
 namespace mfar::synthetic {
 namespace {
 
-constexpr int kAtlas = 1024;     // side of the light map's texture [texels]
-constexpr double kSlack = 1e-3;  // margin around bounding spheres, for rounding errors [m]
-// Rays per texel. Neighbouring texels use different rays and are smoothed afterwards.
+constexpr int kAtlas = 1024;     // side of the light map [texels]
+constexpr double kSlack = 1e-3;  // margin around bounding spheres for rounding errors [m]
+// Number of rays per texel towards the key light and the sky. Neighbouring texels use different
+// rays and are blurred afterwards.
 constexpr int kKeyRays = 12, kSkyRays = 16;
 
 struct SurfacePoint {
     Eigen::Vector3d position, normal;  ///< in the primitive's frame [m]
 };
 
-/// Returns the point of a face at the coordinates (s, t) in [-1, 1]^2. The shader's function
-/// chart() computes the inverse.
+/// Returns the point of a primitive's face with the face coordinates (s, t) in [-1, 1]^2. The
+/// shader's function chart() is the inverse.
 SurfacePoint surfacePoint(const Primitive& p, int axis, double sign, double s, double t) {
     Eigen::Vector3d unit, normal;
     if (p.shape == Shape::Cylinder && axis < 2) {
@@ -64,7 +65,7 @@ public:
                 light(j, i) = cv::Vec3f(cv::Vec3d(e.x(), e.y(), e.z()));
             }
         }
-        // This blur removes sampling noise and hardly changes the shadows.
+        // This blur removes the noise of ray sampling and hardly changes the shadows.
         if (n >= 12) cv::GaussianBlur(light, light, {0, 0}, 0.9, 0.9, cv::BORDER_REPLICATE);
         cv::Mat4b out = map_.texels(area);
         eachPixel(out, [&](cv::Vec4b& o, const int* q) {
@@ -74,8 +75,8 @@ public:
     }
 
 private:
-    /// Returns the world without its moving objects, which neither cast shadows nor reflect light
-    /// in the light map.
+    /// Returns the world without its moving objects. In the light map, they cast no shadows and
+    /// reflect no light.
     static World still(const World& world) {
         World out = world;
         for (Primitive& p : out.primitives)
@@ -104,8 +105,8 @@ private:
         return light.key * key + skyAt(index, origin, normal, turn, shift);
     }
 
-    /// Returns the cosine-weighted light from the surroundings: the sky's light, and light that
-    /// solids within reach() reflect in their colours.
+    /// Returns the cosine-weighted light that arrives from the surroundings: light of the sky, and
+    /// light that solids within reach() reflect with their colours.
     Eigen::Vector3d skyAt(int index, const Eigen::Vector3d& origin, const Eigen::Vector3d& normal,
                           double turn, double shift) const {
         const Eigen::Vector3d side = normal.unitOrthogonal(), up = normal.cross(side);
@@ -129,7 +130,7 @@ private:
         return sum / kSkyRays;
     }
 
-    /// Returns the solids that may hide a part of the key light from a point. Their bounding
+    /// Returns the solids that may hide a part of the key light from a point: those whose bounding
     /// spheres touch the cone of rays towards the light.
     std::vector<int> towardsLight(const Eigen::Vector3d& point) const {
         std::vector<int> out;
@@ -155,7 +156,7 @@ private:
         return out;
     }
 
-    /// Returns the greatest distance at which a solid hides the sky [m]. Without this limit, closed
+    /// Returns the largest distance at which a solid hides the sky [m]. Without this limit, closed
     /// rooms would be dark.
     double reach() const { return 0.45 * (world_.target - world_.eye).norm(); }
 
@@ -165,8 +166,8 @@ private:
     Eigen::Vector3d side_, up_;
 };
 
-/// Places the 3 x 2 faces of every primitive in the light map, row after row. Returns one rectangle
-/// per primitive.
+/// Arranges the 3 x 2 faces of every primitive in the light map, row after row. Returns for each
+/// primitive the rectangle of its faces [texels].
 std::vector<cv::Rect> layOut(const World& world) {
     std::vector<cv::Rect> out;
     int x = 0, y = 0, rowHeight = 0;

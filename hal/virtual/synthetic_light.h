@@ -10,18 +10,18 @@
 namespace mfar::synthetic {
 
 /// The light that arrives at every surface: the key light with soft shadows, the ambient light with
-/// occlusion, and one bounce. It is ray traced once, for the world at time 0.
+/// occlusion, and the light of one reflection. It is ray traced once, for the world at time 0.
 struct LightMap {
-    /// Irradiance / kFullScale, times 255, per channel. The 3 x 2 faces (axis, sign) of a primitive
-    /// are side by side. Moving objects cast no shadow here.
+    /// Irradiance divided by kFullScale, times 255, per channel. The 3 x 2 faces (axis, sign) of a
+    /// primitive are side by side. Moving objects cast no shadow in the light map.
     cv::Mat4b texels;
-    /// For each primitive, in texture coordinates: x and y of its first face, width and height of a
-    /// face.
+    /// For each primitive, in texture coordinates: x and y of its first face, and width and height
+    /// of one face.
     std::vector<Eigen::Vector4f> faces;
 
     static constexpr double kFullScale = 1.6;
-    /// Returns half a texel as a fraction of a face. With this margin, bilinear look-ups stay
-    /// inside the face.
+    /// Returns half a texel as a fraction of a face's side. Bilinear look-ups that keep this margin
+    /// stay inside the face.
     [[nodiscard]] static double inset(int lightTexels) { return 0.5 / lightTexels; }
 };
 

@@ -55,7 +55,8 @@ cv::Mat4b bark(std::uint64_t seed) {
     return toBytes(colour, cv::Mat1f(colour.size(), 0.F));
 }
 
-/// Paints a leaf at (x, y) [texels]. It continues at the opposite edge of the layer.
+/// Paints a leaf at (x, y) [texels]. A leaf that crosses the edge of the layer continues at the
+/// opposite edge.
 void paintLeaf(cv::Mat3f& canvas, Random& random, double x, double y, float depth) {
     const double angle = random.range(0, 2 * std::numbers::pi);
     const double length = random.range(20, 46), width = length * random.range(0.28, 0.45);
@@ -90,7 +91,8 @@ cv::Mat4b foliage(std::uint64_t seed) {
     for (int i = 0; i < kLeaves; ++i) {
         const float depth = 0.16F + 0.95F * std::pow(static_cast<float>(i) / kLeaves, 2.F);
         const double x = random.range(0, kLayerSize), y = random.range(0, kLayerSize);
-        // Leaves are painted in clumps, so that deeper, darker leaves stay visible in the gaps.
+        // Leaves are painted in clumps, so that the deeper, darker leaves stay visible in the gaps
+        // between clumps.
         const double clump = std::sin(x * 0.0368155) * std::sin(y * 0.0429515 + 1) +
                              std::sin(x * 0.0122718 + y * 0.0184078);
         if (i > kLeaves / 3 && clump < random.range(-1.6, 0.6)) continue;
@@ -99,8 +101,8 @@ cv::Mat4b foliage(std::uint64_t seed) {
     return toBytes(colour, cv::Mat1f(colour.size(), 0.25F));
 }
 
-/// Distances to the nearest and second nearest of a set of random points, one in each cell of a
-/// grid that wraps around.
+/// Distances of a texel from the nearest and the second nearest of many random points. There is one
+/// point in each cell of a grid, which continues at the opposite edge.
 struct Cell {
     float nearest, second;
     std::uint64_t id;

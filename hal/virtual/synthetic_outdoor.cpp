@@ -19,7 +19,7 @@ void addTree(Builder& b, Random& random, const V& foot, double radius, double he
     }
 }
 
-/// Adds a brick house with windows. Its front is rotated slightly away from the path.
+/// Adds a brick house with windows. Its front is rotated slightly away from the gravel path.
 void addHouse(Builder& b) {
     const int brick = b.tiled(Layer::Brick, 1.0, {1, 1, 1}, 0.25);
     const int roof = b.tiled(Layer::Brick, 1.4, {0.7, 0.6, 0.6}, 0.2);
@@ -69,8 +69,8 @@ World makeOutdoor(std::uint64_t seed) {
     const int grass = b.tiled(Layer::Foliage, 1.3, {1.15, 1.1, 1.0}, 0.5);
     b.box({0, 30, -0.1}, {140, 70, 0.2}, 0, grass).lightTexels = 112;
     b.box({0.9, 14, 0.01}, {2.6, 36, 0.04}, 0.04, gravel).lightTexels = 96;
-    // The texture repeats four times across. If it did not, the tree line would be too coarse to
-    // have detail that only the still resolves.
+    // The texture repeats four times along the width. Otherwise the distant trees would be too
+    // coarse to have detail that only the still resolves.
     const int sky = b.sheet(Layer::Forest, 24, 44, {1.0, 1.0, 1.0});
     b.box({0, 58, 14}, {96, 0.5, 44}, 0, sky);
 

@@ -8,10 +8,10 @@
 // gles_shaders/params_to_glsl.cmake translates this header to GLSL.
 namespace mfar::params {
 
-/// Side of a tile [px]. The renderer lists the solids that each tile may show.
+/// Side of a tile [px]. The renderer lists for each tile the solids that may be visible in it.
 inline constexpr int kSyntheticTile = 16;
 
-/// A set of solids, with one bit for each of 128.
+/// A set of solids: one bit for each of at most 128 solids.
 struct alignas(16) SolidMask {
     std::uint32_t first, second, third, fourth;
 };
@@ -30,9 +30,9 @@ struct alignas(16) SyntheticWorld {
 struct alignas(16) SyntheticSensor {
     float redGain, greenGain, blueGain;
     float inverseGamma;  ///< 1 / gamma
-    std::int32_t blurs;  ///< 1: blur with 3x3 weights: centre, side and corner
+    std::int32_t blurs;  ///< 1: blur with 3x3 weights, which are `centre`, `side` and `corner`
     float centreWeight, sideWeight, cornerWeight;
-    /// 1: add noise to a linear value x, with the variance noisePerSignal * x + noiseConstant.
+    /// 1: add noise with the variance noisePerSignal * x + noiseConstant to each linear value x.
     std::int32_t noisy;
     float noisePerSignal, noiseConstant;
     std::uint32_t seed, channelSeed;

@@ -12,9 +12,9 @@
 namespace mfar::synthetic {
 namespace {
 
-// A printed sheet is drawn as a picture of ink with the aspect ratio of A4 and more than twice the
-// layer's resolution. It is then reduced to the square layer.
-constexpr int kInkWidth = 2100, kInkHeight = 2970;  // ten pixels per millimetre
+// A printed sheet is drawn as a picture of ink that has the aspect ratio of A4 and more than twice
+// the resolution of a texture layer. It is then reduced to the square layer.
+constexpr int kInkWidth = 2100, kInkHeight = 2970;  // ten ink pixels per millimetre
 constexpr unsigned char kNoInk = 0;
 
 std::string word(Random& random) {
@@ -28,12 +28,12 @@ std::string word(Random& random) {
 }
 
 struct Column {
-    int left, right, top, bottom;  ///< [ink pixels]
-    double scale;                  ///< OpenCV's scale of the font
-    int pitch;                     ///< distance of the lines [ink pixels]
+    int left, right, top, bottom;  ///< edges of the column [ink pixels]
+    double scale;                  ///< scale of the font, as OpenCV defines it
+    int pitch;                     ///< distance between text lines [ink pixels]
 };
 
-/// Fills a column with words in paragraphs.
+/// Fills a column of the sheet with paragraphs of random words.
 void setText(cv::Mat1b& ink, Random& random, const Column& column) {
     constexpr int kFont = cv::FONT_HERSHEY_COMPLEX;
     const int thickness = column.scale > 1 ? 3 : 2;
@@ -87,7 +87,7 @@ void drawDiagram(cv::Mat1b& ink, Random& random, cv::Rect box) {
     }
 }
 
-/// Returns the layer of a sheet with ink on paper.
+/// Returns the texture layer of a sheet: ink on paper.
 cv::Mat4b pressed(const cv::Mat1b& ink, std::uint64_t seed, cv::Vec3f inkColour) {
     cv::Mat1b small;
     cv::resize(ink, small, {kLayerSize, kLayerSize}, 0, 0, cv::INTER_AREA);
@@ -123,7 +123,8 @@ cv::Mat4b article(std::uint64_t seed) {
     return pressed(ink, seed, {0.04F, 0.04F, 0.06F});
 }
 
-/// Returns the layer of a book cover: gold print on linen. The material's tint colours the linen.
+/// Returns the texture layer of a book cover: gold print on linen. The material's tint colours the
+/// linen.
 cv::Mat4b bound(const cv::Mat1b& ink, std::uint64_t seed) {
     cv::Mat1b small;
     cv::resize(ink, small, {kLayerSize, kLayerSize}, 0, 0, cv::INTER_AREA);

@@ -6,7 +6,8 @@
 namespace mfar::synthetic {
 namespace {
 
-/// The part of a ray that is inside a convex solid, and the axis of the face where the ray enters.
+/// The interval of a ray that is inside a convex solid, and the axis of the face through which the
+/// ray enters.
 struct Interval {
     double enter = -std::numeric_limits<double>::infinity();
     double leave = std::numeric_limits<double>::infinity();
@@ -31,7 +32,8 @@ void clipSlab(Interval& in, double o, double d, int axis) {
     in.clip(middle - half, middle + half, axis);
 }
 
-/// Clips the interval to the unit sphere, or to an infinite cylinder of radius 1 along z.
+/// Clips the interval to the unit sphere, or, if `sphere` is false, to an infinite cylinder of
+/// radius 1 along z.
 void clipRound(Interval& in, Eigen::Vector3d o, Eigen::Vector3d d, bool sphere) {
     if (!sphere) o.z() = d.z() = 0;
     const double a = d.squaredNorm(), b = o.dot(d), c = o.squaredNorm() - 1;

@@ -10,7 +10,7 @@ namespace mfar::synthetic {
 
 struct Ray {
     Eigen::Vector3d origin;
-    Eigen::Vector3d direction;  ///< of any length; distances are multiples of this length
+    Eigen::Vector3d direction;  ///< of any length, which is the unit of distances
 };
 
 /// The solids of a world at one time, for ray casting in double precision. Thread-safe, because it
@@ -23,12 +23,14 @@ public:
     [[nodiscard]] std::optional<Hit> cast(const Ray& ray, double limit) const;
     /// Returns whether any solid except `except` is on the ray before `limit`.
     [[nodiscard]] bool blocked(const Ray& ray, double limit, int except) const;
-    /// These two functions do the same, but only with the solids `among`, in ascending order.
+    /// These two functions do the same, but only with the solids whose indices are in `among`, in
+    /// ascending order.
     [[nodiscard]] std::optional<Hit> cast(const Ray& ray, double limit,
                                           std::span<const int> among) const;
     [[nodiscard]] bool blocked(const Ray& ray, double limit, int except,
                                std::span<const int> among) const;
-    /// Returns the radius of a primitive's bounding sphere, whose centre is pose().translation [m].
+    /// Returns the radius [m] of a primitive's bounding sphere. The centre of the sphere is
+    /// pose().translation.
     [[nodiscard]] double radius(int primitive) const { return solids_[primitive].radius; }
     [[nodiscard]] const RigidTransform& pose(int primitive) const {
         return solids_[primitive].T_world_prim;
@@ -39,7 +41,7 @@ private:
     struct Solid {
         Shape shape;
         RigidTransform T_world_prim;
-        Eigen::Matrix3d toUnit;  ///< world direction -> primitive's frame, scaled to half extents 1
+        Eigen::Matrix3d toUnit;  ///< world direction -> primitive's frame, where half extents are 1
         Eigen::Vector3d half;
         double radius;  ///< radius of the bounding sphere [m]
     };

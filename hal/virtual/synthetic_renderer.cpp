@@ -12,7 +12,7 @@ namespace mfar::synthetic {
 namespace {
 
 constexpr int kTile = params::kSyntheticTile;
-constexpr int kStepPixels = 640 * 480;  // so that a video frame is rendered in one step
+constexpr int kStepPixels = 640 * 480;  // pixels per step: a video frame is rendered in one step
 
 using Four = std::array<float, 4>;
 
@@ -34,8 +34,9 @@ gpu::Binding uniform(GLuint index, const gpu::Buffer& b) {
     return {gpu::Binding::Kind::Uniform, index, b.id()};
 }
 
-/// Returns the bounds of a solid's bounding box in normalised ray coordinates. The part of the box
-/// behind the near plane is cut off. The bounds are empty (left > right) if the box is not visible.
+/// Returns the bounds of a solid's bounding box in the picture, in normalised ray coordinates. The
+/// part of the box behind the near plane is ignored. If the box is not visible, the bounds are
+/// empty (left > right).
 template <class Rect>
 Rect boundsOf(const RigidTransform& T_camera_prim, const Eigen::Vector3d& half) {
     constexpr double kNear = 0.01;
@@ -77,8 +78,8 @@ SensorView::SensorView(WorldGl& world, const CameraModel& camera, const SensorLo
 }
 
 void SensorView::findTiles() {
-    // Margin around a tile [px], for rays inside a pixel and for lens distortion between the
-    // samples.
+    // Margin around a tile [px]. It allows for rays inside a pixel, and for lens distortion between
+    // the points that are sampled.
     constexpr double kMargin = 2;
     constexpr int kSamples = 4;
     for (int ty = 0; ty < tilesY_; ++ty) {
@@ -182,8 +183,8 @@ bool SensorView::step() {
                            gpu::storage(0, tiles_)},
                           radianceTarget_);
     glDisable(GL_SCISSOR_TEST);
-    // This wait limits the work that is queued for the GPU. So stopping the board waits for one
-    // step at most, not for a whole picture.
+    // Waits for the GPU to limit the work that is queued for it. So stopping the board waits for
+    // one step at most, not for a whole picture.
     glFinish();
     row_ = until;
     return complete();

@@ -16,13 +16,13 @@
 
 namespace mfar::synthetic {
 
-/// The response, blur and noise of a sensor.
+/// The response, blur and noise of a simulated sensor.
 struct SensorLook {
     Eigen::Vector3f gain{1, 1, 1};
     float gamma = 2.2F;
     float blurSigma = 0;  ///< standard deviation of the blur [px]; 0: no blur
-    float shotNoise = 0;  ///< variance per unit of the signal (linear, 1 = white)
-    float readNoise = 0;  ///< constant part of the variance (linear)
+    float shotNoise = 0;  ///< noise variance per unit of the linear signal (1 = white)
+    float readNoise = 0;  ///< constant part of the noise variance (linear)
 };
 
 /// The GL resources that all views of a world share: textures, light map, materials and programs.
@@ -42,7 +42,8 @@ private:
 
     World world_;
     LightMap light_;
-    std::array<int, static_cast<std::size_t>(Layer::Count)> slots_{};  ///< Layer -> array index
+    /// Texture array index of each Layer.
+    std::array<int, static_cast<std::size_t>(Layer::Count)> slots_{};
     GLuint layers_ = 0;
     gpu::Texture lightMap_;
     gpu::Buffer materials_;
@@ -50,14 +51,14 @@ private:
     gpu::DrawPass<params::SyntheticSensor> sensorPass_;
 };
 
-/// Renders one sensor's pictures of a world. The WorldGl and this object must use the same GL
-/// context. A picture is rendered in steps of at most as many pixels as a video frame has, so that
-/// other work of the thread need not wait for a large picture.
+/// Renders the pictures that one sensor takes of a world. The WorldGl and this object must use the
+/// same GL context. A picture is rendered in steps. A step has at most as many pixels as a video
+/// frame, so that the thread's other work need not wait for a large picture.
 class SensorView {
 public:
     SensorView(WorldGl& world, const CameraModel& camera, const SensorLook& look);
 
-    /// Begins a picture of the world at time t [s]. `noiseSeed` 0: the picture has no noise.
+    /// Begins a picture of the world at time t [s]. If `noiseSeed` is 0, the picture has no noise.
     void begin(const RigidTransform& T_world_camera, double t, std::uint64_t noiseSeed);
     /// Renders the next step. Returns whether the picture is complete.
     bool step();

@@ -19,7 +19,7 @@ namespace mfar::synthetic {
 enum class Scene { Office, Shelf, Outdoor, Flat, Moving, Still, Calibration };
 enum class Path { Handheld, Pan, Orbit, Forward, Rotate, Rest, Survey };
 
-/// These functions convert a scene or path to its name on the command line, and back. For an
+/// These functions convert a scene or camera path to its name on the command line, and back. For an
 /// unknown name, they return nothing.
 [[nodiscard]] std::string_view name(Scene scene);
 [[nodiscard]] std::string_view name(Path path);
@@ -42,8 +42,8 @@ enum class Layer : std::uint8_t {
     Brick,
     Gravel,
     Forest,     ///< distant trees under a sky
-    Enamel,     ///< a smooth surface with fine specks
-    Clouds,     ///< low-frequency variation, which hides that other layers repeat
+    Enamel,     ///< a smooth, enamelled surface with fine specks
+    Clouds,     ///< low-frequency variation that hides the repeats of other layers
     Tags,       ///< 2 x 2 AprilTags 36h11, see kTagIds
     AprilGrid,  ///< a calibration target, see kGridTags
     Count
@@ -51,27 +51,27 @@ enum class Layer : std::uint8_t {
 
 struct Material {
     Layer layer = Layer::Enamel;
-    Eigen::Vector2d repeats{4, 4};     ///< repeats of the texture per metre; negative: mirrored
-    Eigen::Vector2d offset{0.5, 0.5};  ///< texture coordinates of the face's centre
-    Eigen::Vector3d tint{1, 1, 1};     ///< linear reflectance; the texture is multiplied by it
+    Eigen::Vector2d repeats{4, 4};     ///< texture repeats per metre; negative: mirrored
+    Eigen::Vector2d offset{0.5, 0.5};  ///< texture coordinates at the centre of a face
+    Eigen::Vector3d tint{1, 1, 1};     ///< linear reflectance, by which the texture is multiplied
     double variation = 0.15;           ///< strength of the low-frequency variation, 0..1
     double gloss = 0;                  ///< strength of the highlight, 0..1
 };
 
 enum class Shape : std::uint8_t { Box, Cylinder, Ellipsoid };
 
-/// A convex solid. Its centre is the origin of its frame; the axis of a cylinder is z.
+/// A convex solid. The centre of the solid is the origin of its frame. The axis of a cylinder is z.
 struct Primitive {
     Shape shape = Shape::Box;
     RigidTransform T_world_prim;     ///< pose at time 0
     Eigen::Vector3d half;            ///< half of the extent along each axis [m]
     std::array<int, 3> materials{};  ///< of the +-x, +-y and +-z faces; a cylinder's side uses x
-    int lightTexels = 12;            ///< side of each face in the light map [texels]
+    int lightTexels = 12;            ///< side of a face in the light map [texels]
     bool moves = false;              ///< whether the solid moves, see World::moverPose()
 };
 
-/// A tag of family 36h11 in the world. Its frame is that of libapriltag: the origin is the centre,
-/// and seen from the front, x is right, y is down and z points into the surface.
+/// A tag of family 36h11 in the world. Its frame is that of libapriltag: the origin is the tag's
+/// centre; seen from the front, x is right, y is down and z points into the surface.
 struct Tag {
     int id = 0;
     double size = 0;  ///< edge of the black square [m]
@@ -84,17 +84,17 @@ struct Hit {
     double distance = 0;  ///< in multiples of the length of Ray::direction
     int primitive = 0;
     int axis = 0;           ///< axis of the face that was hit; ellipsoid: the nearest axis
-    bool positive = false;  ///< whether the face is on the positive side of the axis
+    bool positive = false;  ///< whether the face is on the positive side of this axis
     Eigen::Vector3d local;  ///< the point in the primitive's frame [m]
 };
 
-/// A directed light (key light) of finite angular size, and the sky's ambient light.
+/// A directed key light of finite angular size, and the ambient light of the sky.
 struct Lighting {
     Eigen::Vector3d towards{0.3, -0.3, 0.9};  ///< unit vector towards the key light
     double spread = 0.1;                      ///< tangent of the key light's angular radius
     Eigen::Vector3d key{1, 1, 1};             ///< linear colour of the key light
     Eigen::Vector3d ambient{0.4, 0.4, 0.4};
-    Eigen::Vector3d background{0.6, 0.7, 0.85};  ///< radiance where no solid is hit
+    Eigen::Vector3d background{0.6, 0.7, 0.85};  ///< radiance where a ray hits no solid
 };
 
 struct World {
@@ -118,12 +118,12 @@ struct World {
 
 /// The largest number of primitives in a world. The renderer's tables have this size.
 inline constexpr int kMaxPrimitives = 128;
-/// The tags on the layer Tags, row by row.
+/// The ids of the tags in the layer Tags, row by row.
 inline constexpr std::array<int, 4> kTagIds{0, 1, 2, 3};
 
 /// The target of scene Calibration, as Kalibr describes it: 6 x 6 tags of family 36h11 with a black
-/// square at each corner of a tag. Id 0 is at the bottom left; ids increase to the right, then
-/// upwards.
+/// square at each corner of a tag. The tag with id 0 is at the bottom left. Ids increase to the
+/// right, then upwards.
 inline constexpr int kGridTags = 6;            ///< number of tags per row and column
 inline constexpr double kGridTagSize = 0.064;  ///< edge of a tag's black border [m]
 inline constexpr double kGridSpacing = 0.25;   ///< gap between tags, divided by kGridTagSize
@@ -134,7 +134,8 @@ inline constexpr double kGridSpacing = 0.25;   ///< gap between tags, divided by
 [[nodiscard]] RigidTransform cameraPose(const World& world, Path path, std::uint64_t seed,
                                         double t);
 
-/// Returns the board's cameras: video of 640x480 and stills of 2304x1728 pixels, 14 mm apart.
+/// Returns the cameras of the simulated board: video of 640x480 and stills of 2304x1728 pixels, 14
+/// mm apart.
 [[nodiscard]] StereoRig boardRig();
 
 }  // namespace mfar::synthetic

@@ -95,7 +95,7 @@ void SyntheticStudio::startVideo() {
     const std::lock_guard lock(mutex_);
     if (videoOn_) return;
     videoOn_ = true;
-    // In real time, the first start() sets the time of frame 0. If the camera is stopped and
+    // With Pace::Realtime, the first start() sets the time of frame 0. If the camera is stopped and
     // started again, the times have a gap.
     if (options_.pace == Pace::Realtime && nextIndex_ == 0) start_ = Timestamp::now();
     changed_.notify_all();
@@ -161,8 +161,8 @@ std::optional<Frame> SyntheticStudio::nextVideo(std::chrono::milliseconds timeou
     std::unique_lock lock(mutex_);
     const auto ready = [&] {
         if (video_.empty()) return false;
-        // All stills that are available at this frame's time must be complete before the frame is
-        // delivered, so that every run gives the same result.
+        // Before a frame is delivered, all stills that are available at its time must be complete,
+        // so that every run gives the same result.
         const Timestamp time = video_.front().time();
         return options_.pace == Pace::Realtime || std::ranges::all_of(stills_, [&](const Still& s) {
                    return s.frame || s.available > time;
@@ -183,9 +183,9 @@ std::optional<Frame> SyntheticStudio::nextVideo(std::chrono::milliseconds timeou
     return frame;
 }
 
-// After the end of the video, a still is delivered without its remaining latency, but only to a
-// caller that may wait. If a caller that only polls got it, its result would depend on the
-// renderer's speed.
+// After the end of the video, a still is delivered without waiting for the rest of its latency, but
+// only to a caller that may wait. A caller that only polls does not get it, because the caller's
+// result would depend on the renderer's speed.
 bool SyntheticStudio::stillReady(bool mayWait) const {
     if (stills_.empty() || !stills_.front().frame) return false;
     return now() >= stills_.front().available ||
@@ -200,7 +200,7 @@ std::optional<Frame> SyntheticStudio::nextStill(std::chrono::milliseconds timeou
         if (!stillsOn_ || (videoDone() && stills_.empty())) return std::nullopt;
         const auto left = deadline - std::chrono::steady_clock::now();
         if (left <= 0ns) return std::nullopt;
-        // The end of a finished still's latency is not signalled, so it is checked every 2 ms.
+        // The end of a complete still's latency is not signalled, so it is checked every 2 ms.
         const bool latent = !stills_.empty() && stills_.front().frame;
         changed_.wait_for(lock, latent ? std::min<std::chrono::nanoseconds>(left, 2ms) : left);
     }

@@ -12,7 +12,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::size_t kVideoAhead = 2;  // largest number of frames that wait for the consumer
+constexpr std::size_t kVideoAhead = 2;  // largest number of frames rendered in advance
 constexpr int kVideoNoise = 1, kStillNoise = 2;
 
 }  // namespace
@@ -65,8 +65,8 @@ SyntheticStudio::Work SyntheticStudio::chooseWork(std::unique_lock<std::mutex>& 
         if (quit_) return Work::Quit;
         if (!requests_.empty()) return Work::Request;
         const bool video = videoWanted(), still = stillWanted();
-        // With simulated time, a still is rendered before the next frame. With real time, a still's
-        // steps and video frames alternate.
+        // With Pace::Consumer, a still is rendered before the next frame. With Pace::Realtime,
+        // steps of a still and video frames alternate.
         const bool stillFirst = options_.pace == Pace::Consumer || stillsTurn_;
         stillsTurn_ = video && !(still && stillFirst);
         if (still && (stillFirst || !video)) return Work::Still;
@@ -142,7 +142,8 @@ void SyntheticStudio::stepStill(Views& views) {
     rendering_.reset();
     Frame frame = stillPool_.lend(*slot, time);
     frame.exposure = options_.stillExposure;
-    // If the camera was stopped in the meantime, stills_ lacks this still, and it is discarded.
+    // If the camera was stopped in the meantime, stills_ does not contain this still. Then the
+    // rendered picture is discarded.
     const auto at = std::ranges::find(stills_, time, &Still::time);
     if (at != stills_.end()) at->frame = std::move(frame);
 }

@@ -23,7 +23,7 @@ cv::Mat4b plaster(std::uint64_t seed) {
 }
 
 cv::Mat4b weave(std::uint64_t seed) {
-    constexpr int kThread = 16;  // width of a thread [texels]
+    constexpr int kThread = 16;  // width of a thread of the cloth [texels]
     constexpr int kThreads = kLayerSize / kThread;
     const cv::Mat1f fuzz = fractal(seed, 128, 128, 3, 0.7F);
     cv::Mat3f colour(kLayerSize, kLayerSize);
@@ -121,7 +121,8 @@ cv::Mat1f fractal(std::uint64_t seed, int cellsX, int cellsY, int octaves, float
         eachPixel(sum, [&](float& v, const int* at) { v += weight * (octave(at) - 0.5F); });
         total += weight;
     }
-    // The weighted mean of independent octaves varies less than each octave, so it is scaled up.
+    // The weighted mean of independent octaves varies less than each of them, so it is multiplied
+    // by 1.5.
     eachPixel(sum, [&](float& v, const int*) { v = v * 1.5F / total + 0.5F; });
     return sum;
 }

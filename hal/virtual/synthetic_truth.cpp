@@ -10,10 +10,10 @@
 namespace mfar::synthetic {
 namespace {
 
-constexpr double kFar = 1e6;  // [m]
+constexpr double kFar = 1e6;  // length of rays [m]; nothing in the world is farther away
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
-/// Calls row(y) for every row. Two threads share the rows.
+/// Calls row(y) for every row of a picture. Two threads share the rows.
 template <class Row>
 void eachRow(int rows, const Row& row) {
     const auto half = [&](int first) {
@@ -24,8 +24,8 @@ void eachRow(int rows, const Row& row) {
     half(0);
 }
 
-/// Returns the ray through a pixel. Its direction has z = 1 in the camera's frame, so distances
-/// along the ray are depths [m].
+/// Returns the ray through a pixel. Its direction has z = 1 in the camera's frame, so that
+/// distances along the ray are depths [m].
 Ray pixelRay(const Viewpoint& view, int x, int y) {
     const Eigen::Vector2d ray =
         view.camera.unproject({static_cast<double>(x), static_cast<double>(y)});
@@ -33,8 +33,8 @@ Ray pixelRay(const Viewpoint& view, int x, int y) {
             view.T_world_camera.rotation * Eigen::Vector3d(ray.x(), ray.y(), 1)};
 }
 
-/// Returns the pixel of a world point, or nothing if the point is behind the camera, outside the
-/// picture or occluded.
+/// Returns the pixel in which a point of the world is seen. Returns nothing if the point is behind
+/// the camera, outside of the picture or occluded.
 std::optional<Eigen::Vector2d> visiblePixel(const Snapshot& solids, const Viewpoint& view,
                                             const RigidTransform& T_camera_world,
                                             const Eigen::Vector3d& point) {

@@ -4,11 +4,11 @@
 #include "hal/virtual/image_files.h"
 #include "hal/virtual/synthetic_scene.h"
 
-/// Exact ground truth of the world. It is computed by casting rays in double precision through the
-/// exact lens model, not from rendered pictures.
+/// Exact ground truth of the world. It is computed with rays in double precision and the exact lens
+/// model, not from rendered pictures.
 namespace mfar::synthetic {
 
-/// A camera's pose and lens at one time.
+/// The pose and lens of a camera at one point in time.
 struct Viewpoint {
     CameraModel camera;
     RigidTransform T_world_camera;
@@ -19,8 +19,8 @@ struct Viewpoint {
 /// hits nothing.
 [[nodiscard]] FloatImage inverseDepth(const World& world, const Viewpoint& view);
 
-/// Returns, for each pixel of `from`, the offset [px] to the same point in `to`. The motion of
-/// objects is included. NaN: the point is occluded in `to` or outside the picture.
+/// Returns, for each pixel of `from`, the offset [px] to the same point in `to`, with the motion of
+/// objects. NaN: the point is occluded in `to` or outside of the picture.
 [[nodiscard]] FlowImage flowBetween(const World& world, const Viewpoint& from, const Viewpoint& to);
 
 }  // namespace mfar::synthetic

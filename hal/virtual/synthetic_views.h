@@ -8,8 +8,8 @@
 
 namespace mfar {
 
-/// All objects of a studio that belong to its GL context. Only the studio's thread creates and uses
-/// them.
+/// All objects of a SyntheticStudio that belong to its GL context. Only the studio's thread creates
+/// and uses them.
 struct SyntheticStudio::Views {
     Views(const SyntheticOptions& options, const synthetic::World& world, const StereoRig& rig);
 

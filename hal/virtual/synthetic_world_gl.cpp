@@ -9,15 +9,15 @@
 namespace mfar::synthetic {
 namespace {
 
-constexpr int kLevels = 11;  // mipmap levels from 1024 down to 1 texel
+constexpr int kLevels = 11;  // number of mipmap levels, from 1024 down to 1 texel
 static_assert(1 << (kLevels - 1) == kLayerSize);
 
-/// This structure has the layout of that in synthetic_tables.glsl.
+/// This structure has the same layout as MaterialEntry in synthetic_tables.glsl.
 struct MaterialEntry {
     std::array<float, 4> mapping, tint, look;
 };
 
-/// Paints all layers, with two threads.
+/// Paints all texture layers, with two threads.
 std::vector<cv::Mat4b> paintLayers(const std::vector<Layer>& layers, std::uint64_t seed) {
     std::vector<cv::Mat4b> out(layers.size());
     const auto paintEvery = [&](std::size_t first, std::size_t step) {

@@ -17,22 +17,22 @@ namespace mfar {
 /// a denominator of at most 1001.
 [[nodiscard]] std::string y4mHeader(Size size, double rateHz);
 
-/// Appends "FRAME" and the three planes of an RGBA8 picture: 4:2:0, BT.601 limited range, with each
-/// chroma sample in the centre of its four pixels. If width or height is odd, the last column or
-/// row is repeated for the last chroma samples.
+/// Appends "FRAME" and the three planes of an RGBA8 picture: 4:2:0, BT.601 limited range, each
+/// chroma sample in the centre of its four pixels. If the width or height is odd, the last column
+/// or row of pixels is repeated for the last chroma samples.
 void appendY4mFrame(const ImageView& rgba, std::vector<std::uint8_t>& out);
 
 /// Writes bytes to a file, a FIFO or standard output ("-"). Only one thread at a time may use it.
-/// This thread must block or ignore SIGPIPE.
+/// That thread must block or ignore SIGPIPE.
 class ByteSink {
 public:
-    /// Opens the target. Waits up to 5 s for the reader of a FIFO. Throws std::runtime_error.
+    /// Opens the target. If it is a FIFO, waits up to 5 s for a reader. Throws std::runtime_error.
     ByteSink(std::string_view target, std::stop_token cancel);
     ByteSink(const ByteSink&) = delete;
     ByteSink& operator=(const ByteSink&) = delete;
 
-    /// Writes all bytes. Waits for a pipe's reader until `cancel` is requested. Throws
-    /// std::runtime_error "target: reason".
+    /// Writes all bytes. Waits for the reader of a pipe, until a stop is requested through
+    /// `cancel`. Throws std::runtime_error "target: reason".
     void write(std::span<const std::uint8_t> bytes);
     [[nodiscard]] const std::string& name() const { return name_; }
     [[nodiscard]] bool isPipe() const { return isPipe_; }

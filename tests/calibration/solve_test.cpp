@@ -117,10 +117,11 @@ std::string refusal(const BothViews& views) {
 TEST(Calibrate, TooFewViewsAreRefused) {
     BothViews views = makeViews(kGrid, {});
     views.still.views.resize(5);
-    EXPECT_EQ(refusal(views),
-              "too few views: 5 pictures of the still show the target; at least 6 are needed");
+    EXPECT_EQ(
+        refusal(views),
+        "too few views: 5 pictures of the still sensor show the target; at least 6 are needed");
     views.video.views.resize(11);
-    EXPECT_NE(refusal(views).find("11 pictures of the video"), std::string::npos);
+    EXPECT_NE(refusal(views).find("11 pictures of the video sensor"), std::string::npos);
 }
 
 TEST(Calibrate, AllViewsFromOneDirectionAreRefused) {
@@ -152,7 +153,7 @@ TEST(Calibrate, AnUncoveredPartOfThePictureIsRefusedAndNamed) {
         std::erase_if(view.corners, [](const Corner& c) { return c.pixel.x() > 330; });
     std::erase_if(views.video.views, [](const TargetView& v) { return v.corners.size() < 12; });
     const std::string said = refusal(views);
-    EXPECT_NE(said.find("% of the video's picture; at least"), std::string::npos) << said;
+    EXPECT_NE(said.find("% of the video sensor's picture; at least"), std::string::npos) << said;
     EXPECT_NE(said.find("right"), std::string::npos) << said;
 }
 

@@ -226,9 +226,9 @@ TEST(LearnedFiltersFile, EachPairOfSensorsHasItsFileInTheStateFolder) {
 TEST(LearnedFilters, FiltersAreDescribedInOneLine) {
     LearningCounts counts;
     counts.learner = {12, 0, 0, 71, 1.02, 0.54};
-    EXPECT_EQ(
-        describe(counts),
-        "12 stills, 71 of 104 classes, 1.02 dB better than bicubic (shipped filters: 0.54 dB)");
+    EXPECT_EQ(describe(counts),
+              "12 stills, learned filters for 71 of 104 classes of pixels, 1.02 dB better than "
+              "bicubic (shipped filters: 0.54 dB)");
 }
 
 }  // namespace

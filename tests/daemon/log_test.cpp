@@ -86,7 +86,7 @@ TEST(Log, RepeatedEventsAreLoggedWithTheirCount) {
         for (int i = 0; i < 8; ++i) {
             log.warning("camera: gone");
             now = now + std::chrono::milliseconds(1);
-            log.change("all devices are there");
+            log.change("all devices are available again");
             log.notice("reloaded");
         }
         pass(9);
@@ -101,12 +101,13 @@ TEST(Log, RepeatedEventsAreLoggedWithTheirCount) {
     close(ends[0]);
     ASSERT_GT(n, 0);
     all.resize(static_cast<std::size_t>(n));
-    std::string expected = "<4>mfard: warning: camera: gone\n<5>mfard: all devices are there\n";
+    std::string expected =
+        "<4>mfard: warning: camera: gone\n<5>mfard: all devices are available again\n";
     for (int i = 0; i < 8; ++i)
         expected += "<5>mfard: reloaded\n";
     EXPECT_EQ(all, expected + "<4>mfard: warning: hangs for 1 s\n"
                               "<4>mfard: warning: camera: gone (7 more times in 10 s)\n"
-                              "<5>mfard: all devices are there (7 more times in 10 s)\n"
+                              "<5>mfard: all devices are available again (7 more times in 10 s)\n"
                               "<4>mfard: warning: hangs for 2 s (once more in 1 s)\n");
 }
 

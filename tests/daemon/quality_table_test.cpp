@@ -57,7 +57,7 @@ std::string faultOf(const std::string& toml) {
 TEST(QualityTable, FaultsAreReportedWithTheirPlace) {
     const std::string level = "[[level]]\nname = \"a\"\nms = 1\n";
     EXPECT_EQ(faultOf(level), "");
-    EXPECT_EQ(faultOf(""), "file:1:1: the table has no [[level]]");
+    EXPECT_EQ(faultOf(""), "file:1:1: the table of levels has no section [[level]]");
     EXPECT_EQ(faultOf("[[level]]\nms = 1\n"), "file:1:1: level[0] needs the keys name and ms");
     EXPECT_EQ(faultOf(level + level), "file:1:1: level \"a\" occurs twice");
     EXPECT_EQ(faultOf(level + "flow2d.steps = 17\n").substr(0, 9), "file:4:16");

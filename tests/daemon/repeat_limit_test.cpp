@@ -54,12 +54,12 @@ TEST_F(RepeatLimitTest, ALoosePlugLogsLittleAndTheLastMessageIsCorrect) {
     for (int i = 0; i < 8; ++i) {
         happen("camera", "camera: gone");
         pass(milliseconds(1750));
-        happen("back", "all devices are there");
+        happen("back", "all devices are available again");
         pass(milliseconds(1750));
     }
     EXPECT_LE(said.size(), 6U);
     pass(seconds(10));
-    EXPECT_THAT(said.back(), testing::StartsWith("all devices are there"));
+    EXPECT_THAT(said.back(), testing::StartsWith("all devices are available again"));
     EXPECT_LE(said.size(), 8U);
 }
 

@@ -13,13 +13,15 @@ using testing::IsEmpty;
 TEST(TriggerReports, EachEventIsReportedOnce) {
     TriggerReports reports;
     EXPECT_THAT(reports.newSince({}), IsEmpty());
-    EXPECT_THAT(reports.newSince({1, 0, true}),
-                ElementsAre("no still arrived after a pulse; it is requested again"));
+    EXPECT_THAT(
+        reports.newSince({1, 0, true}),
+        ElementsAre("no still arrived after a trigger pulse; the still is requested again"));
     EXPECT_THAT(reports.newSince({1, 0, false}), IsEmpty());
     EXPECT_THAT(reports.newSince({1, 2, false}),
-                ElementsAre("the loopback input missed an edge of a pulse, so the time of the "
-                            "exposure is unverified"));
-    EXPECT_THAT(reports.newSince({2, 2, false}), ElementsAre("no still arrived after a pulse"));
+                ElementsAre("the loopback input missed an edge of a trigger pulse, so the time of "
+                            "the still's exposure was not measured"));
+    EXPECT_THAT(reports.newSince({2, 2, false}),
+                ElementsAre("no still arrived after a trigger pulse"));
     EXPECT_THAT(reports.newSince({2, 2, false}), IsEmpty());
 }
 

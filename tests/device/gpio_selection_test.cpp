@@ -73,7 +73,7 @@ TEST(GpioSelection, AmbiguousNamesAreRefused) {
     EXPECT_THAT(faultOf(board(), "", "RESET"),
                 AllOf(HasSubstr("more than one"), HasSubstr("line 3 'RESET' of gpiochip0"),
                       HasSubstr("line 1 'RESET' of gpiochip1")));
-    EXPECT_THAT(faultOf(board(), "", "2"), HasSubstr("needs a chip"));
+    EXPECT_THAT(faultOf(board(), "", "2"), HasSubstr("`chip` must be set"));
     std::vector<GpioChip> twins = board();
     twins[1].label = twins[0].label;
     EXPECT_THAT(faultOf(twins, "pinctrl-bcm2711", "1"), HasSubstr("2 GPIO chips have the label"));

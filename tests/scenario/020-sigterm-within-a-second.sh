@@ -72,10 +72,10 @@ for _ in $(seq "$patience"); do
     kill -TERM "$pid"
     ends_with 0 $limit
     summary_has exit_reason '"SIGTERM"'
-    if grep -q 'not everything was written' err; then break; fi
+    if grep -q 'not all output was written' err; then break; fi
     says err "did not stop in time"
 done
-says err 'not everything was written'
+says err 'not all output was written'
 
 echo "a second signal ends it at once"
 start_blocked

@@ -15,7 +15,7 @@ says err 'mfard.toml:3:8: superres.mode'
 
 sed -i 's/best/off/; s/rest"/pan"/' mfard.toml
 kill -HUP "$pid"
-until_true lines 'mfard.toml: read again; changed only after a restart: source$' 1
+until_true lines 'mfard.toml: read again; these settings change only after a restart: source$' 1
 
 echo "a number that no double holds is a fault with its place"
 cp mfard.toml good.toml

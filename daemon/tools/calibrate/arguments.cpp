@@ -20,9 +20,10 @@ CalibrateParser::CalibrateParser() {
     app.add_option("--out", a.out,
                    "folder to write: rig.yaml, video.yaml, still.yaml, residuals.png")
         ->required();
-    app.add_option("--max-offset", a.solve.maxOffset,
-                   "largest clock offset that is searched, positive or negative [s]; 0: the offset "
-                   "is taken as 0")
+    app.add_option(
+           "--max-offset", a.solve.maxOffset,
+           "largest offset between the clocks of the two sensors that is searched, positive "
+           "or negative [s]; 0: the clocks are equal")
         ->check(CLI::Range(0.0, 2.0))
         ->capture_default_str();
     app.add_flag("--k3", a.solve.k3,

@@ -17,7 +17,7 @@ struct CalibrateArguments {
     SolveOptions solve;
 };
 
-/// The parser of this command line, for the program and its manual page.
+/// The command line parser of mfar-calibrate, for the program and its manual page.
 struct CalibrateParser {
     CalibrateParser();
 

@@ -11,10 +11,10 @@ namespace mfar::calibration {
 namespace {
 
 constexpr int kLeastCorners = 6;
-constexpr int kRounds = 4;            // rounds of fitting and removing bad corners and views
-constexpr double kCornerLimit = 6;    // longest residual of a corner [sigma]
-constexpr double kLeastSigma = 0.01;  // lower limit of sigma [px]
-constexpr double kMaxViewError = 20;  // RMS [px]; a view with more does not show the target
+constexpr int kRounds = 4;  // number of rounds; each fits, then removes bad corners and views
+constexpr double kCornerLimit = 6;    // longest residual of a corner that is kept [sigma]
+constexpr double kLeastSigma = 0.01;  // smallest sigma that is used [px]
+constexpr double kMaxViewError = 20;  // largest RMS error [px] of a view that shows the target
 
 struct Points {
     std::vector<cv::Point3f> target;
@@ -44,8 +44,8 @@ RigidTransform transformOf(const cv::Vec3d& rotation, const cv::Vec3d& translati
             {translation[0], translation[1], translation[2]}};
 }
 
-/// Features that distinguish views: the target's position in the picture, distance, tilt and
-/// rotation.
+/// The features by which views are compared: position of the target in the picture, its distance,
+/// tilt and rotation.
 using Features = Eigen::Matrix<double, 6, 1>;
 
 Features featuresOf(const TargetView& view, const RigidTransform& T, Size picture) {
@@ -59,8 +59,8 @@ Features featuresOf(const TargetView& view, const RigidTransform& T, Size pictur
     return out;
 }
 
-/// Chooses views that differ as much as possible. Starts with the view that has the most corners,
-/// then repeatedly adds the view that differs most from all chosen ones.
+/// Chooses views that differ as much as possible from each other. Starts with the view that has the
+/// most corners, then repeatedly adds the view that differs most from all chosen ones.
 std::vector<int> mostDifferent(const std::vector<TargetView>& views,
                                const std::vector<std::optional<RigidTransform>>& poses,
                                Size picture, int most) {
@@ -117,8 +117,8 @@ double median(std::vector<double> v) {
     return *middle;
 }
 
-/// Returns the robust standard deviation of a corner's coordinate over all views that have a pose
-/// [px].
+/// Returns the robust standard deviation of the residuals' coordinates over all views that have a
+/// pose [px].
 double spreadOf(const Target& target, const std::vector<TargetView>& views, const CameraFit& fit) {
     std::vector<double> components;
     for (std::size_t i = 0; i < views.size(); ++i) {
@@ -131,7 +131,7 @@ double spreadOf(const Target& target, const std::vector<TargetView>& views, cons
     return std::max(kLeastSigma, 1.4826 * median(std::move(components)));
 }
 
-/// Removes corners with large residuals, which are not where the target's corner is. Returns
+/// Removes corners with large residuals, which were not found at a corner of the target. Returns
 /// whether any corner was removed.
 bool dropCorners(const Target& target, TargetView& view, const CameraFit& fit,
                  const RigidTransform& pose) {
@@ -144,8 +144,8 @@ bool dropCorners(const Target& target, TargetView& view, const CameraFit& fit,
     return true;
 }
 
-/// Computes the poses of all views with the camera. Removes corners and views that do not fit, and
-/// returns whether there were any.
+/// Computes the target's pose in each view, with the fitted camera. Removes corners and views that
+/// do not fit. Returns whether any were removed.
 bool placeViews(const Target& target, std::vector<TargetView>& views, CameraFit& fit) {
     for (std::size_t i = 0; i < views.size(); ++i)
         if (fit.poses[i]) fit.poses[i] = targetPose(target, views[i], fit.camera);
@@ -184,7 +184,7 @@ std::optional<RigidTransform> targetPose(const Target& target, const TargetView&
                           rotation, translation))
             return std::nullopt;
     } catch (const cv::Exception&) {
-        return std::nullopt;  // OpenCV throws if all corners are on one line
+        return std::nullopt;  // OpenCV throws an exception if all corners are on one line
     }
     RigidTransform T = transformOf(rotation, translation);
     if (!(T.translation.z() > 0) || !(rms(residualsOf(target, view, camera, T)) < kMaxViewError))
@@ -242,12 +242,14 @@ CameraFit fitCamera(const Target& target, std::vector<TargetView>& views, Size p
         try {
             fit.camera = calibrated(target, views, fit.chosen, picture);
         } catch (const cv::Exception& e) {
-            throw Unsuitable(fmt::format(
-                "the views of the {} sensor do not determine its lens ({})", sensor, e.err));
+            throw Unsuitable(fmt::format("the views of the {} sensor do not determine its lens; "
+                                         "take pictures of the target from more directions ({})",
+                                         sensor, e.err));
         }
         if (!(fit.camera.fx > 0 && fit.camera.fy > 0))
-            throw Unsuitable(
-                fmt::format("the views of the {} sensor do not determine its lens", sensor));
+            throw Unsuitable(fmt::format("the views of the {} sensor do not determine its lens; "
+                                         "take pictures of the target from more directions",
+                                         sensor));
         if (!placeViews(target, views, fit)) break;
     }
     std::erase_if(fit.chosen, [&](int i) { return !fit.poses[i]; });

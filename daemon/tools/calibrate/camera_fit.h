@@ -11,7 +11,7 @@
 namespace mfar::calibration {
 
 /// Reports that the views are not sufficient for a calibration. The message is one sentence that
-/// says what is missing.
+/// states what is missing.
 class Unsuitable : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -31,22 +31,22 @@ class Unsuitable : public std::runtime_error {
 /// Returns a first estimate of a camera, with a field of view of 50 degrees.
 [[nodiscard]] CameraModel guessedCamera(Size picture);
 
-/// Throws Unsuitable unless there are at least `leastViews` views, and the views cover the picture
-/// and show the target from different directions and at different depths. `sensor` names the sensor
-/// in the message.
+/// Throws Unsuitable unless there are at least `leastViews` views that cover the picture and show
+/// the target from different directions and at different depths. `sensor` names the sensor in the
+/// message.
 void checkViews(const Target& target, const std::vector<TargetView>& views, Size picture,
                 const std::string& sensor, int leastViews);
 
 /// The calibration of a single camera.
 struct CameraFit {
     CameraModel camera;
-    /// T_camera_target of each view. Not set: the view does not fit.
+    /// T_camera_target of each view. Not set: the view does not fit the others.
     std::vector<std::optional<RigidTransform>> poses;
     std::vector<int> chosen;  ///< indices of the views that were used for the fit
     double sigma = 0;         ///< robust standard deviation of a corner's coordinate [px]
 };
 
-/// Fits intrinsics and distortion (k3 stays 0) to at most `most` views, those that differ most from
+/// Fits intrinsics and distortion (k3 stays 0) to at most `most` views: those that differ most from
 /// each other. Views that do not fit are ignored. Corners that do not fit are removed from `views`.
 /// Throws Unsuitable.
 [[nodiscard]] CameraFit fitCamera(const Target& target, std::vector<TargetView>& views,

@@ -8,10 +8,10 @@
 
 namespace mfar::calibration {
 
-/// The progress of the search for the target in a sensor's pictures.
+/// How far the search for the target in a sensor's pictures has got.
 struct Progress {
     const Coverage& coverage;
-    int done = 0, of = 0, found = 0;  ///< numbers of pictures
+    int done = 0, of = 0, found = 0;  ///< numbers of pictures: searched, in total, with the target
 };
 
 /// Searches for the target in all pictures of one sensor. `progress` is called after each picture.

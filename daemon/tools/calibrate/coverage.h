@@ -8,7 +8,7 @@
 
 namespace mfar::calibration {
 
-/// The distribution of the found corners over the picture, counted in a grid of cells.
+/// How the found corners are distributed over the picture. They are counted in a grid of cells.
 class Coverage {
 public:
     static constexpr int kColumns = 16, kRows = 12;
@@ -20,7 +20,7 @@ public:
     [[nodiscard]] double share() const;
     /// Returns a text for the part of the picture with the fewest corners, such as "the top left".
     [[nodiscard]] std::string emptiest() const;
-    /// Returns kRows lines of kColumns characters, from ' ' (no corners) to '#' (many).
+    /// Returns the grid as kRows lines of kColumns characters, from ' ' (no corners) to '#' (many).
     [[nodiscard]] std::vector<std::string> map() const;
 
 private:

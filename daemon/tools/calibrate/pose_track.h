@@ -9,9 +9,9 @@
 
 namespace mfar::calibration {
 
-/// Interpolates the pose at time t [s] from four poses at `times` [s], with cubic polynomials. For
-/// the motion of a hand at 30 Hz, the error is 0.002 degrees. Linear interpolation would have an
-/// error of 0.02 degrees, which is a pixel of the still.
+/// Interpolates the pose at time t [s] between four poses at `times` [s], with cubic polynomials.
+/// For a camera in a moving hand and 30 poses per second, the error is 0.002 degrees. The error of
+/// linear interpolation would be 0.02 degrees, which is a pixel of the still.
 [[nodiscard]] RigidTransform between(const std::array<RigidTransform, 4>& poses,
                                      const std::array<double, 4>& times, double t);
 
@@ -23,7 +23,7 @@ public:
     [[nodiscard]] int size() const { return static_cast<int>(times_.size()); }
 
     /// Returns the indices of four consecutive poses, two before and two after t. Returns nothing
-    /// if one is missing.
+    /// if one of the four is missing.
     [[nodiscard]] std::optional<std::array<int, 4>> around(Timestamp t) const;
     [[nodiscard]] Timestamp time(int index) const { return times_[index]; }
     [[nodiscard]] const RigidTransform& pose(int index) const { return poses_[index]; }

@@ -13,7 +13,8 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr int kViewsInALine = 4;
 
 std::string viewsOf(const SensorResult& sensor, const char* name) {
-    std::string out = fmt::format("{} views (time, corners, reprojection error rms)\n", name);
+    std::string out =
+        fmt::format("{} views (time, number of corners, RMS reprojection error)\n", name);
     const auto first = sensor.views.empty() ? Timestamp{} : sensor.views.front().time;
     int column = 0;
     for (const ViewResult& view : sensor.views) {
@@ -28,10 +29,10 @@ std::string viewsOf(const SensorResult& sensor, const char* name) {
 std::string cameraText(const SensorResult& sensor, const char* name) {
     const CameraModel& c = sensor.camera;
     const auto used = std::ranges::count_if(sensor.views, &ViewResult::used);
-    std::string out =
-        fmt::format("{}: {}x{}, {} views used, {} left out, reprojection error {:.3f} px rms\n",
-                    name, c.size.width, c.size.height, used,
-                    static_cast<std::ptrdiff_t>(sensor.views.size()) - used, sensor.rms);
+    std::string out = fmt::format(
+        "{}: {}x{}, {} views used, {} views left out, RMS reprojection error {:.3f} px\n", name,
+        c.size.width, c.size.height, used, static_cast<std::ptrdiff_t>(sensor.views.size()) - used,
+        sensor.rms);
     const std::array<double, 4> pinhole{c.fx, c.fy, c.cx, c.cy};
     constexpr std::array<const char*, 9> kNames{"fx", "fy", "cx", "cy", "k1",
                                                 "k2", "p1", "p2", "k3"};
@@ -68,10 +69,11 @@ std::string resultText(const Calibration& calibration) {
         baseline > 0 ? (t.cwiseProduct(d.tail<3>()) / baseline).norm() : d.tail<3>().norm();
     std::string out =
         cameraText(calibration.video, "video") + cameraText(calibration.still, "still");
-    out += fmt::format("sensors: {:.3f} +- {:.3f} mm apart, turned by {:.3f} degrees, from {} "
-                       "stills\n",
-                       1000 * baseline, 1000 * baselineDeviation,
-                       Eigen::AngleAxisd(T.rotation).angle() / kDegree, calibration.pairs);
+    out += fmt::format(
+        "sensors: {:.3f} +- {:.3f} mm apart, rotated by {:.3f} degrees; computed from {} "
+        "stills\n",
+        1000 * baseline, 1000 * baselineDeviation, Eigen::AngleAxisd(T.rotation).angle() / kDegree,
+        calibration.pairs);
     out +=
         fmt::format("  position of the video sensor as seen by the still sensor ({:.3f}, {:.3f}, "
                     "{:.3f}) +- ({:.3f}, {:.3f}, {:.3f}) mm, rotation +- {:.4f} degrees\n",

@@ -10,10 +10,10 @@ namespace mfar::calibration {
 /// Returns the coverage map with a border and a title.
 [[nodiscard]] std::string mapText(const Coverage& coverage, const std::string& title);
 
-/// Returns a list of the reprojection errors of all views. Views that were not used are marked.
+/// Returns a list of all views with their reprojection errors. Views that were not used are marked.
 [[nodiscard]] std::string viewsText(const Calibration& calibration);
 
-/// Returns a list of the parameters, their standard deviations and the remaining errors.
+/// Returns a list of the calibrated parameters, their standard deviations and the remaining errors.
 [[nodiscard]] std::string resultText(const Calibration& calibration);
 
 }  // namespace mfar::calibration

@@ -14,13 +14,14 @@
 namespace mfar::calibration {
 namespace {
 
-// The picture is drawn at twice its size and then reduced, which smooths letters and thin lines.
+// The picture is drawn at kFine times its size and then reduced, which smooths letters and thin
+// lines.
 constexpr int kFine = 2;
 constexpr int kWidth = 1320, kRow = 620, kMargin = 40, kTop = 64, kBottom = 40;
 constexpr int kArea = kRow - kTop - kBottom;  // height of a panel
 constexpr int kColumns = 16, kRows = 12;
-constexpr int kLeastCount = 4;         // a cell with fewer corners has no arrow
-constexpr double kLongestArrow = 1.3;  // longer arrows are shortened to this [cell widths]
+constexpr int kLeastCount = 4;         // smallest number of corners in a cell that has an arrow
+constexpr double kLongestArrow = 1.3;  // [cell widths]; longer arrows are shortened to this
 const cv::Scalar kPaper(255, 255, 255), kInk(40, 40, 40), kFaint(190, 190, 190),
     kPanel(248, 248, 248);
 
@@ -48,7 +49,7 @@ public:
         cv::circle(image_, fine(at), static_cast<int>(std::lround(radius * kFine)), colour, 2,
                    cv::LINE_AA);
     }
-    /// Draws a translucent dot. Many dots at one place become darker.
+    /// Draws a translucent dot. Where many dots overlap, the picture becomes darker.
     void dot(cv::Point2d at, const cv::Vec3b& colour, double strength) {
         const cv::Point p = fine(at);
         for (int y = p.y - 1; y <= p.y + 1; ++y)
@@ -110,8 +111,8 @@ Cells cellsOf(const SensorResult& sensor) {
     return out;
 }
 
-/// Returns the residual [px] that is drawn as an arrow of one cell width. Nine of ten arrows are
-/// not longer.
+/// Returns the scale of the arrows: the length of the residual [px] that is drawn one cell width
+/// long. Nine of ten arrows are not longer than that.
 double arrowUnit(const Cells& cells) {
     std::vector<double> lengths{1e-4};
     for (const auto& row : cells)
@@ -139,7 +140,7 @@ void drawArea(Canvas& canvas, cv::Rect2d area, const SensorResult& sensor) {
     });
     const double cell = area.width / kColumns;
     const Cells cells = cellsOf(sensor);
-    const double unit = arrowUnit(cells);  // residual of an arrow of one cell width [px]
+    const double unit = arrowUnit(cells);  // residual that is drawn one cell width long [px]
     for (int y = 0; y < kRows; ++y) {
         for (int x = 0; x < kColumns; ++x) {
             const Cell& c = cells[y][x];
@@ -158,9 +159,10 @@ void drawArea(Canvas& canvas, cv::Rect2d area, const SensorResult& sensor) {
     canvas.box(area, kFaint, false);
     const cv::Point2d corner(area.x, area.y + area.height + 24);
     canvas.arrow(corner + cv::Point2d(2, -5), corner + cv::Point2d(2 + cell, -5), kInk);
-    canvas.text(corner + cv::Point2d(cell + 12, 0),
-                fmt::format("{:g} px, mean residual of a cell (measured - expected)", unit), 0.42,
-                kInk);
+    canvas.text(
+        corner + cv::Point2d(cell + 12, 0),
+        fmt::format("{:g} px, mean residual of a cell (measured - expected position)", unit), 0.42,
+        kInk);
 }
 
 void drawScatter(Canvas& canvas, cv::Rect2d area, const SensorResult& sensor) {
@@ -190,7 +192,7 @@ void drawSensor(Canvas& canvas, int top, const SensorResult& sensor, const std::
     const auto used = std::ranges::count_if(sensor.views, &ViewResult::used);
     canvas.text({kMargin, top + 30.}, name, 0.8, kInk);
     canvas.text({kMargin + 80., top + 30.},
-                fmt::format("{}x{}, {} views, reprojection error {:.3f} px rms", size.width,
+                fmt::format("{}x{}, {} views, RMS reprojection error {:.3f} px", size.width,
                             size.height, used, sensor.rms),
                 0.5, kInk);
     const double room = kWidth - 3 * kMargin - kArea;

@@ -12,9 +12,9 @@
 namespace mfar::calibration {
 namespace {
 
-constexpr double kHuber = 2.5;  // residual above which a corner's cost grows linearly [sigma]
+constexpr double kHuber = 2.5;  // above this residual, a corner's cost grows linearly [sigma]
 constexpr int kIterations = 40;
-constexpr double kConverged = 1e-9;  // a smaller relative decrease of the cost ends the iteration
+constexpr double kConverged = 1e-9;  // relative decrease of the cost below which the iteration ends
 constexpr double kStep = 1e-6;  // step of numeric derivatives of interpolated poses [rad, m, s]
 
 using Vector9 = Eigen::Matrix<double, 9, 1>;
@@ -101,8 +101,9 @@ double RigBundle::cost(const std::array<double, 2>& sigma) const {
     return sum;
 }
 
-/// Returns the derivative of a view's pose, in its own frame, with respect to its parameters. These
-/// are the pose itself or, for an interpolated pose, extrinsics, clock offset and four poses.
+/// Returns the derivative of the pose of a view, in the pose's own frame, with respect to its
+/// parameters. If the view has its own pose, the parameters are this pose. If its pose is
+/// interpolated, they are the extrinsics, the clock offset and four poses.
 Eigen::MatrixXd RigBundle::poseJacobian(const View& view) const {
     if (!view.tied) return Matrix6::Identity();
     Eigen::MatrixXd out(6, 31);
@@ -213,7 +214,8 @@ void RigBundle::solve(const std::array<double, 2>& sigma, const std::array<bool,
     const Eigen::MatrixXd covariance =
         factor.solve(Eigen::MatrixXd::Identity(columns(), kShared)).topRows(kShared);
     if (factor.info() != Eigen::Success || !covariance.allFinite() || !std::isfinite(now))
-        throw Unsuitable("the views do not determine the geometry of the board's two cameras");
+        throw Unsuitable("the views do not determine the lenses and the distance of the two "
+                         "sensors; take pictures of the target from more directions");
     for (int k = 0; k < kShared; ++k)
         deviations_[k] = fixed[k] ? 0 : std::sqrt(std::max(0., covariance(k, k)));
 }

@@ -15,18 +15,18 @@ namespace {
 
 constexpr int kLeastVideoViews = 12, kLeastStillViews = 6, kLeastPairs = 5;
 constexpr double kMaxOffsetDeviation = 0.002;  // with more, the clock offset is unknown [s]
-constexpr double kLeastMotion = 1;             // motion over three frame intervals [video px]
-constexpr int kLeastMoving = 3;               // number of moving stills that the clock offset needs
-constexpr double kMaxFocalDeviation = 0.005;  // share of the focal length
-constexpr double kMaxBaselineDeviation = 0.002;  // [m]
+constexpr double kLeastMotion = 1;  // smallest motion over three frame intervals [video px]
+constexpr int kLeastMoving = 3;     // moving stills that the clock offset needs
+constexpr double kMaxFocalDeviation = 0.005;     // largest, as a share of the focal length
+constexpr double kMaxBaselineDeviation = 0.002;  // largest [m]
 
-/// A view of a sensor that is in the bundle.
+/// A view of a sensor that is part of the bundle adjustment.
 struct Member {
     int view = 0;   ///< index of the view in the sensor's views
-    int index = 0;  ///< index of the view in the bundle
+    int index = 0;  ///< index of the view in RigBundle
 };
 
-/// Calibrates each camera alone, then adjusts both together.
+/// Calibrates each camera alone, then adjusts the parameters of both cameras together.
 class Assembly {
 public:
     Assembly(const Target& target, const SensorViews& video, const SensorViews& still,
@@ -54,7 +54,7 @@ public:
         Calibration out;
         std::optional<RigBundle> bundle = adjusted(start_.offset, true, out);
         if (!out.offsetKnown) bundle = adjusted(0, false, out);
-        // Stills that contradict the video's motion are found only after the joint adjustment.
+        // Stills that contradict the video's motion can be found only after the joint adjustment.
         if (leaveOut(*bundle)) bundle = adjusted(bundle->offset(), out.offsetKnown, out);
         out.rig = {bundle->rig(), bundle->offset()};
         out.extrinsicDeviations = bundle->deviations().segment<6>(kExtrinsicAt);
@@ -66,9 +66,9 @@ public:
     }
 
 private:
-    /// Returns the number of stills during which the video's motion is larger than noise. If the
-    /// camera were at rest, noise would look like motion and give a wrong offset with a small
-    /// deviation.
+    /// Returns the number of stills during which the target moves in the video by more than noise.
+    /// If the camera were at rest, noise would look like motion, and the result would be a wrong
+    /// clock offset with a small standard deviation.
     [[nodiscard]] int movingStills() const {
         const CameraModel& camera = videoFit_.camera;
         const auto seen = [&](const RigidTransform& T, const Eigen::Vector3d& point) {
@@ -148,8 +148,9 @@ private:
     }
 
     bool leaveOut(const RigBundle& bundle) {
-        // The poses are those of the video alone. In the bundle, a still changes the video poses
-        // around it, because it is more precise, and so hides its own error.
+        // The poses that are used here come from the video alone. The reason is that in RigBundle,
+        // a still changes the video poses around it, because it is more precise, and so hides its
+        // own error.
         const auto shift = static_cast<std::int64_t>(std::llround(bundle.offset() * 1e9));
         std::vector<double> errors;
         for (const Member& m : stillMembers_) {
@@ -203,9 +204,9 @@ private:
     SolveOptions options_;
     CameraFit videoFit_, stillFit_;
     PoseTrack track_;
-    std::vector<int> trackViews_;  ///< index of the video's view for each pose of track_
+    std::vector<int> trackViews_;  ///< index in `video_.views` of each pose of track_
     RigStart start_;
-    std::map<int, int> videoPoses_;  ///< index of a video's view -> index of the bundle's pose
+    std::map<int, int> videoPoses_;  ///< index in `video_.views` -> index of its pose in RigBundle
     std::vector<Member> videoMembers_, stillMembers_;
     int pairs_ = 0;
 };
@@ -214,15 +215,17 @@ void checkCertainty(const Calibration& c) {
     for (const SensorResult* sensor : {&c.video, &c.still}) {
         const double focal = sensor->deviations.head<2>().maxCoeff() / sensor->camera.fx;
         if (!(focal <= kMaxFocalDeviation))
-            throw Unsuitable(fmt::format("the views leave the focal length of the {} uncertain by "
-                                         "{:.1f} %: tilt the target more and come closer",
-                                         sensor == &c.video ? "video" : "still", 100 * focal));
+            throw Unsuitable(
+                fmt::format("the views leave the focal length of the {} sensor uncertain by "
+                            "{:.1f} %: tilt the target more and come closer",
+                            sensor == &c.video ? "video" : "still", 100 * focal));
     }
     const double baseline = c.extrinsicDeviations.tail<3>().maxCoeff();
     if (!(baseline <= kMaxBaselineDeviation))
-        throw Unsuitable(fmt::format("the views leave the distance of the sensors uncertain by "
-                                     "{:.1f} mm: take more stills close to the target",
-                                     1000 * baseline));
+        throw Unsuitable(
+            fmt::format("the views leave the distance between the sensors uncertain by "
+                        "{:.1f} mm: take more stills close to the target",
+                        1000 * baseline));
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ struct SensorViews {
 };
 
 struct SolveOptions {
-    double maxOffset = 0.25;  ///< the still's clock offset is searched within +- this [s]
+    double maxOffset = 0.25;  ///< largest absolute clock offset of the still camera [s]
     bool k3 = false;          ///< whether the third radial coefficient is estimated
     int videoViews = 40;      ///< largest number of video views for the lens calibration
     int stillViews = 40;      ///< largest number of stills for the lens calibration
@@ -26,12 +26,12 @@ struct ViewResult {
     Timestamp time;
     std::vector<Corner> corners;
     std::vector<Eigen::Vector2d> residuals;  ///< measured minus expected positions [px]
-    bool used = false;                       ///< false: not used because its error is large
+    bool used = false;  ///< false: the view was not used, because its error is large
 };
 
 struct SensorResult {
     CameraModel camera;
-    /// Standard deviations of fx fy cx cy k1 k2 p1 p2 k3; 0: not estimated.
+    /// Standard deviations of fx fy cx cy k1 k2 p1 p2 k3; 0: the parameter was not estimated.
     Eigen::Matrix<double, 9, 1> deviations;
     std::vector<ViewResult> views;  ///< all views, used or not
     double rms = 0;                 ///< root mean square of the residuals' lengths [px]
@@ -40,14 +40,15 @@ struct SensorResult {
 struct Calibration {
     RigCalibration rig;
     SensorResult video, still;
-    /// Standard deviations of rotation [rad] and translation [m].
+    /// Standard deviations of T_still_video: rotation [rad] and translation [m].
     Eigen::Matrix<double, 6, 1> extrinsicDeviations;
     double offsetDeviation = 0;  ///< standard deviation of the clock offset [s]
-    bool offsetKnown = true;     ///< false: the motion is too small, so the offset is set to 0
+    bool offsetKnown = true;     ///< false: there is too little motion, so the offset is 0
     int pairs = 0;               ///< number of stills taken while the video saw the target
 };
 
-/// Calibrates the board. Throws Unsuitable with one sentence if the views are not sufficient.
+/// Calibrates the two cameras and the transform between them. Throws Unsuitable, whose message is
+/// one sentence, if the views are not sufficient.
 [[nodiscard]] Calibration calibrate(const Target& target, const SensorViews& video,
                                     const SensorViews& still, const SolveOptions& options);
 

@@ -13,17 +13,17 @@ namespace mfar::calibration {
 
 enum class TargetKind { AprilGrid, Checkerboard };
 
-/// A flat target whose corners can be identified. The origin of its frame is the first corner. x is
-/// along a row; y points up (AprilGrid, as Kalibr defines it) or along a column (checkerboard); z
-/// is 0.
+/// A flat target whose corners can be identified. The origin of its frame is the first corner. The
+/// x axis is along a row. The y axis points up (AprilGrid, as Kalibr defines it) or along a column
+/// (checkerboard). z is 0 for all corners.
 struct Target {
     TargetKind kind = TargetKind::AprilGrid;
-    int columns = 0, rows = 0;  ///< numbers of tags, or of inner corners of a checkerboard
+    int columns = 0, rows = 0;  ///< numbers of tags, or of a checkerboard's inner corners
     double size = 0;            ///< edge of a tag or of a square [m]
     double spacing = 0;         ///< gap between tags, divided by `size`
     int firstId = 0;            ///< id of the first tag
-    /// Positions of all corners [m]. AprilGrid: four for each tag, counter-clockwise from the lower
-    /// left.
+    /// Positions of all corners [m]. An AprilGrid has four for each tag, counter-clockwise from the
+    /// lower left.
     std::vector<Eigen::Vector3d> points;
 };
 
@@ -31,17 +31,18 @@ struct Target {
 [[nodiscard]] Target aprilGrid(int columns, int rows, double tagSize, double spacing,
                                int firstId = 0);
 /// Returns a checkerboard with `columns` x `rows` inner corners and squares of edge `square` [m].
-/// One number must be odd and the other even, because otherwise the board would look the same
-/// upside down. Throws std::runtime_error.
+/// One of the two numbers must be odd and the other even, because otherwise the checkerboard would
+/// look the same upside down. Throws std::runtime_error.
 [[nodiscard]] Target checkerboard(int columns, int rows, double square);
-/// Returns a checkerboard whose numbers of corners are given as "9x6". Throws std::runtime_error.
+/// Returns a checkerboard. `corners` are its numbers of inner corners, such as "9x6". Throws
+/// std::runtime_error.
 [[nodiscard]] Target checkerboard(std::string_view corners, double square);
 /// Parses Kalibr's description of an aprilgrid. Throws CalibrationError.
 [[nodiscard]] Target readAprilGrid(const std::filesystem::path& file);
 
 /// A corner of the target that was found in a picture.
 struct Corner {
-    int index = 0;          ///< index in Target::points
+    int index = 0;          ///< index of the corner in Target::points
     Eigen::Vector2d pixel;  ///< position [px]; pixel centres have integer coordinates
 };
 

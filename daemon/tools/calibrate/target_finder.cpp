@@ -11,10 +11,10 @@
 namespace mfar::calibration {
 namespace {
 
-constexpr int kLeastWindow = 2;  // half the side of the refinement window [px]
+constexpr int kLeastWindow = 2;  // half the side of the smallest refinement window [px]
 constexpr int kLargestWindow = 11;
-constexpr int kLargeWidth = 1000;  // wider pictures are searched at half their size [px]
-constexpr int kLeastTags = 3;      // number of tags that determine the orientation of the print
+constexpr int kLargeWidth = 1000;  // from this width on, pictures are searched at half size [px]
+constexpr int kLeastTags = 3;      // smallest number of tags that show the print's orientation
 
 cv::Mat matOf(const ImageView& luma) {
     // cv::Mat takes a non-const pointer, but the pixels are not changed.
@@ -38,9 +38,9 @@ double shortestEdge(const TagDetection& tag) {
     return out;
 }
 
-/// Returns half the side of a window around a corner that contains only the tag's border and the
-/// square in the gap. The border is at least one of eight cells wide. The factor 0.9 is for slanted
-/// edges, which leave the window earlier.
+/// Returns half the side of a window around a corner of the tag. The window contains only the tag's
+/// border and the square in the gap between tags. The border is at least one of the tag's eight
+/// cells wide. The factor 0.9 is for slanted edges, which leave the window earlier.
 int windowFor(const TagDetection& tag, const Target& target) {
     const double clear = shortestEdge(tag) * std::min(1. / 8, target.spacing);
     return std::min(kLargestWindow, static_cast<int>(0.9 * clear));
@@ -51,8 +51,8 @@ void refine(const cv::Mat& picture, std::vector<cv::Point2f>& points, int window
                      {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 40, 0.001});
 }
 
-/// Returns the target's corners at a detected tag. Corner k of the target's tag is corner
-/// (k + turn) % 4 of the detected tag.
+/// Returns the four corners of the target at a detected tag. Corner k of the tag in the target is
+/// corner (k + turn) % 4 of the detected tag.
 std::vector<Corner> cornersOf(const TagDetection& tag, int slot, int turn) {
     std::vector<Corner> out;
     for (int k = 0; k < 4; ++k)
@@ -60,7 +60,7 @@ std::vector<Corner> cornersOf(const TagDetection& tag, int slot, int turn) {
     return out;
 }
 
-/// Returns the mean distance of the corners from a homography of the target's plane [px].
+/// Returns the mean error [px] with which the corners fit a homography of the target's plane.
 double planeError(const Target& target, const std::vector<Corner>& corners) {
     std::vector<cv::Point2d> on, seen;
     for (const Corner& c : corners) {
@@ -77,12 +77,13 @@ double planeError(const Target& target, const std::vector<Corner>& corners) {
     return sum / static_cast<double>(seen.size());
 }
 
-/// Refines the corners. Keeps those whose window is inside the picture and that moved by less than
-/// `reach` [px].
+/// Refines the corners. Keeps those that moved by less than `reach` [px] and whose refinement
+/// window is inside the picture.
 void keepRefined(const cv::Mat& picture, std::vector<Corner>& corners, int window, double reach) {
     const cv::Rect inside(window + 2, window + 2, picture.cols - 2 * window - 4,
                           picture.rows - 2 * window - 4);
-    // A tag at the edge of the picture may have corners outside of it. OpenCV 4.10 refuses these.
+    // If a tag is at the edge of the picture, some of its corners may be outside. OpenCV 4.10
+    // refuses corners that are outside.
     std::erase_if(corners, [&](const Corner& c) {
         return !inside.contains(cv::Point2d(c.pixel.x(), c.pixel.y()));
     });
@@ -100,7 +101,7 @@ void keepRefined(const cv::Mat& picture, std::vector<Corner>& corners, int windo
     corners = kept;
 }
 
-/// Returns the grey level in the middle of the square between four neighbouring inner corners.
+/// Returns the grey value in the middle of the square between four neighbouring inner corners.
 int squareLevel(const cv::Mat& picture, const std::vector<cv::Point2f>& c, int at, int columns) {
     const cv::Point2f middle = 0.25F * (c[at] + c[at + 1] + c[at + columns] + c[at + columns + 1]);
     return picture.at<std::uint8_t>(cv::Point(middle));
@@ -120,8 +121,8 @@ std::vector<Corner> TargetFinder::find(const ImageView& luma) {
     return target_.kind == TargetKind::AprilGrid ? findTags(luma) : findBoard(luma);
 }
 
-// Finds the orientation of the printed tags. Kalibr prints tags in another orientation than the
-// AprilTag library, and other programs in yet others. Of the four orientations, only one fits a
+// Finds the orientation of the printed tags. Kalibr and other programs print tags in orientations
+// that differ from the AprilTag library's. Of the four possible orientations, only one fits a
 // plane.
 void TargetFinder::learnTurn(const std::vector<TagDetection>& tags) {
     double least = std::numeric_limits<double>::infinity();
@@ -137,10 +138,10 @@ void TargetFinder::learnTurn(const std::vector<TagDetection>& tags) {
     }
 }
 
-// Detects tags in a picture whose black areas are made thinner by a pixel or two. Without this,
+// Detects tags in a picture whose black areas have been made thinner by a pixel or two. Otherwise
 // black squares that meet at a corner may merge the whole grid into one shape, in which no tag is
-// found. In a clean print, 19 of 20 tags were found instead of 5. The corners are measured in the
-// unchanged picture.
+// found. In a clean print, 19 of 20 tags were found instead of 5. The positions of the corners are
+// measured in the original picture.
 std::vector<TagDetection> TargetFinder::detect(const cv::Mat& picture) {
     const int side = picture.cols >= kLargeWidth ? 4 : 2;
     cv::dilate(picture, thinned_, cv::Mat::ones(side, side, CV_8U));
@@ -153,7 +154,8 @@ std::vector<TagDetection> TargetFinder::detect(const cv::Mat& picture) {
         if (found.size() > tags.size()) tags = std::move(found);
         if (border_ < 0 && static_cast<int>(tags.size()) >= leastTags()) border_ = border;
     }
-    // The size of the dilation is even, so it shifts the picture by half a pixel.
+    // The dilation's kernel has an even size, so it shifts the picture by half a pixel. This undoes
+    // the shift.
     for (TagDetection& tag : tags)
         for (Eigen::Vector2d& corner : tag.corners)
             corner.array() -= 0.5;
@@ -192,7 +194,8 @@ std::vector<Corner> TargetFinder::findBoard(const ImageView& luma) const {
         edge = std::min(edge, static_cast<float>(cv::norm(points[i] - points[i - 1])));
     const int window = std::clamp(static_cast<int>(0.45F * edge), kLeastWindow, kLargestWindow);
     refine(picture, points, window);
-    // The first square must be dark. If it is not, OpenCV has begun at the other end.
+    // The first square must be dark. If it is not, OpenCV has begun at the other end of the
+    // checkerboard.
     const int first = squareLevel(picture, points, 0, columns);
     const int second = squareLevel(picture, points, 1, columns);
     if (first > second) std::reverse(points.begin(), points.end());

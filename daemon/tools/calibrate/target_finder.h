@@ -11,9 +11,9 @@
 
 namespace mfar::calibration {
 
-/// Finds the corners of a target in pictures of one size. In both kinds of targets, a corner is a
-/// point where two black and two white squares meet. Such a corner is symmetric under a rotation by
-/// 180 degrees, so that blur and gamma do not move it.
+/// Finds the corners of a target in pictures of one size. In an AprilGrid and in a checkerboard, a
+/// corner is a point where two black and two white squares meet. Such a corner is symmetric under a
+/// rotation by 180 degrees, so that blur and gamma do not move it.
 class TargetFinder {
 public:
     /// `target` must outlive this object.
@@ -27,7 +27,8 @@ private:
     [[nodiscard]] std::vector<Corner> findTags(const ImageView& luma);
     [[nodiscard]] std::vector<Corner> findBoard(const ImageView& luma) const;
     [[nodiscard]] std::vector<TagDetection> detect(const cv::Mat& picture);
-    /// Returns the number of tags in one picture that determine the orientation of the print.
+    /// Returns how many tags one picture must show so that they determine the orientation of the
+    /// print.
     [[nodiscard]] int leastTags() const;
     void learnTurn(const std::vector<TagDetection>& tags);
 

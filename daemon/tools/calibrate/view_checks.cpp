@@ -11,11 +11,14 @@ namespace mfar::calibration {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-// With less tilt or depth, the focal length cannot be separated from the target's distance.
+// Smallest tilt and depth. With less, the focal length cannot be separated from the target's
+// distance.
 constexpr double kLeastTilt = 12 * kDegree;
-constexpr double kLeastDepth = 1.2;     // distance of the farthest / of the nearest corner
-constexpr double kLeastCoverage = 0.6;  // share of the cells that have a corner
-constexpr double kMostlyAt = 0.9;       // quantile, on which single views have little influence
+constexpr double kLeastDepth = 1.2;     // distance of the farthest / nearest corner
+constexpr double kLeastCoverage = 0.6;  // smallest share of the cells that have a corner
+// Quantile that replaces the largest tilt or depth (1 - kMostlyAt: the smallest), because a single
+// view has little influence on it.
+constexpr double kMostlyAt = 0.9;
 
 double quantile(std::vector<double> values, double q) {
     const auto at =
@@ -25,8 +28,8 @@ double quantile(std::vector<double> values, double q) {
 }
 
 struct Spread {
-    double tilt = 0;   ///< angles of the target's normals to their mean [rad]
-    double depth = 1;  ///< distance of the farthest / of the nearest corner
+    double tilt = 0;   ///< angle of the target's normals to their mean [rad]
+    double depth = 1;  ///< distance of the farthest / distance of the nearest corner
 };
 
 Spread spreadOf(const Target& target, const std::vector<TargetView>& views, Size picture) {
@@ -60,27 +63,28 @@ void checkViews(const Target& target, const std::vector<TargetView>& views, Size
     const int count = static_cast<int>(views.size());
     if (count < leastViews)
         throw Unsuitable(fmt::format(
-            "too few views: {} pictures of the {} show the target; at least {} are needed", count,
-            sensor, leastViews));
+            "too few views: {} pictures of the {} sensor show the target; at least {} are needed",
+            count, sensor, leastViews));
     const Spread spread = spreadOf(target, views, picture);
     if (!(spread.tilt >= kLeastTilt))
-        throw Unsuitable(
-            fmt::format("the {} saw the target from nearly one direction (it was tilted by {:.0f} "
-                        "degrees; at least {:.0f} are needed): tilt it to all sides",
-                        sensor, spread.tilt / kDegree, kLeastTilt / kDegree));
+        throw Unsuitable(fmt::format(
+            "the {} sensor saw the target from nearly one direction (it was tilted by {:.0f} "
+            "degrees; at least {:.0f} are needed): tilt it to all sides",
+            sensor, spread.tilt / kDegree, kLeastTilt / kDegree));
     if (!(spread.depth >= kLeastDepth))
-        throw Unsuitable(
-            fmt::format("the {} saw the target at nearly one distance (farthest to nearest corner "
-                        "{:.2f} to 1; at least {:.2f} is needed): show it closer and farther away",
-                        sensor, spread.depth, kLeastDepth));
+        throw Unsuitable(fmt::format(
+            "the {} sensor saw the target at nearly one distance (its farthest corner was "
+            "{:.2f} times as far away as its nearest; at least {:.2f} times are needed): "
+            "show it closer and farther away",
+            sensor, spread.depth, kLeastDepth));
     Coverage coverage(picture);
     for (const TargetView& view : views)
         coverage.add(view.corners);
     if (!(coverage.share() >= kLeastCoverage))
-        throw Unsuitable(fmt::format("the target covered only {:.0f} % of the {}'s picture; at "
-                                     "least {:.0f} % are needed: show it at {}",
-                                     100 * coverage.share(), sensor, 100 * kLeastCoverage,
-                                     coverage.emptiest()));
+        throw Unsuitable(
+            fmt::format("the target covered only {:.0f} % of the {} sensor's picture; at "
+                        "least {:.0f} % are needed: show it at {}",
+                        100 * coverage.share(), sensor, 100 * kLeastCoverage, coverage.emptiest()));
 }
 
 }  // namespace mfar::calibration

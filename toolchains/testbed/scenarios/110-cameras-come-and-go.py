@@ -60,7 +60,7 @@ def back_after(bed, event):
     """Time from the kernel's message to the service's message about the device, on the guest's clock [s]."""
     since = bed.now()
     event()
-    said = f'journalctl --no-pager -q -u mfard -o short-monotonic --since "{since}" | grep "all devices are there"'
+    said = f'journalctl --no-pager -q -u mfard -o short-monotonic --since "{since}" | grep "all devices are available again"'
     bed.wait_for(said, 20)
     found = bed.run('dmesg | grep "Found UVC" | tail -n 1')
     service, kernel = (float(re.search(r'\[ *([\d.]+)\]', text)[1]) for text in (bed.run(said), found))
