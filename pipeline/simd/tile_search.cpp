@@ -94,8 +94,8 @@ void TileSearch::find(const FlowPlanes& field, std::span<const ErrorCell> errors
         }
     for (std::size_t level = 0; level < groups_.size(); ++level) {
         const int side = 1 << level;
-        // The search of a group reads the neighbouring groups of the coarser level, whose search
-        // reads their own neighbours in turn.
+        // Margin [tiles]: the search of a group reads the neighbouring groups of the coarser
+        // pyramid level, whose search reads their own neighbours in turn.
         const int margin = 2 * side - 2;
         for (int y = 0; y < divideUp(size.height, side); ++y)
             for (int x = 0; x < divideUp(size.width, side); ++x)

@@ -75,7 +75,7 @@ void WarpedStill::begin(const StillPairs& still, Rows<const LookUpCell> lookUps,
         spans->clear();
 }
 
-// Adds the columns that a span needs.
+// Adds the columns that a span of the output needs to means_, compared_ and warped_.
 void WarpedStill::spread(const PixelSpan& span) {
     const RowTaps &cubic = taps_->cubicRows, &mean = taps_->meanRows;
     const int first = cubic.first(span.begin),
