@@ -20,7 +20,7 @@ cv::Mat3f linear(const cv::Mat3f& picture) {
 
 class EveryScene : public testing::TestWithParam<synthetic::Scene> {};
 
-/// Takes frames until the still of the pulse arrives.
+/// A video frame, and the still that a trigger pulse during this frame produces.
 struct Pair {
     std::optional<Frame> video, still;
 };

@@ -136,8 +136,8 @@ class CpuModel(unittest.TestCase):
     def test_blocks_do_not_depend_on_where_the_emulator_cuts_them(self):
         texts = {0x10: ('mov x0, x1', 0), 0x14: ('add x0, x0, #1', 0), 0x18: ('add x1, x1, #1', 0),
                  0x1c: ('b.ne target', 0x14), 0x20: ('ret', 0)}
-        # The first iteration of a loop follows the code before it. Later iterations are cut in two,
-        # as at the end of a page.
+        # The emulator counts the first iteration of the loop together with the code before it. It
+        # counts later iterations as two blocks, as it does where a page of memory ends.
         counts = cpu_model.Counts('0 16 4 1\n4 8 2 9\nc 4 1 9\n10 4 1 1\n')
         blocks = cpu_model.basic_blocks(counts, 0x10, texts)
         self.assertEqual(blocks, [([0x10], 1), ([0x14, 0x18, 0x1c], 10), ([0x20], 1)])

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Sizes of the samples, for formats whose files contain no sizes.
+/// Picture sizes of the sample calibrations, for formats whose files contain no sizes.
 const WantedSizes kSizes{Size{640, 480}, Size{2304, 1728}};
 
 std::string faultOf(const fs::path& path) {

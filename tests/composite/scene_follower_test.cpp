@@ -29,7 +29,8 @@ Scene cube() {
     return scene;
 }
 
-/// Depth of a table at this height, as a camera above it measures it.
+/// Depth of a table at this height, as a camera above it measures it. `known`: share of the pixels
+/// with known depth.
 InverseDepthField table(double height, double known = 1) {
     InverseDepthField field(kFollowing.size);
     for (std::size_t i = 0; i < field.inverseDepth.size(); ++i) {

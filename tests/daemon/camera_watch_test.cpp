@@ -116,7 +116,7 @@ TEST(CameraWatch, ChecksumsDependOnEveryByte) {
     const std::uint64_t before = sparseChecksum(view);
     EXPECT_EQ(sparseChecksum(view), before);
     for (std::size_t x = 0; x < 37; ++x) {
-        pixels[2 * 40 + x] ^= 1;  // belongs to the first row that is compared
+        pixels[2 * 40 + x] ^= 1;  // in the first row that the checksum covers
         EXPECT_NE(sparseChecksum(view), before) << x;
         pixels[2 * 40 + x] ^= 1;
     }

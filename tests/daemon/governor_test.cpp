@@ -18,7 +18,7 @@ std::vector<QualityLevel> fourLevels() {
     return out;
 }
 
-/// A simulated machine on which each level has a given frame time.
+/// A simulated machine on which each quality level has a given frame time.
 class Machine {
 public:
     using Cost = std::function<double(std::size_t level)>;
@@ -51,7 +51,7 @@ private:
     std::normal_distribution<double> noise_;
 };
 
-/// The table's times, all multiplied by a factor.
+/// The frame times of fourLevels(), all multiplied by a factor.
 Machine::Cost scaled(double factor) {
     return [factor](std::size_t level) { return factor * fourLevels()[level].ms; };
 }

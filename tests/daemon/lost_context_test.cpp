@@ -1,5 +1,6 @@
-// At any moment of a frame, a lost context must be created again; pictures must then equal those of
-// a run without a loss. Uses a libGLESv2 that loses contexts, see tests/device/faulty_moments.h.
+// Whenever the GL context is lost during a frame, a new one must be created. Pictures must then
+// equal those of a run without a loss. Uses a libGLESv2 that loses contexts, see
+// tests/device/faulty_moments.h.
 
 #include "daemon/session.h"
 #include "hal/virtual/recorder.h"

@@ -16,7 +16,7 @@ struct RestartPauseTest : testing::Test {
         const Timestamp started = now;
         now = now + ran;
         const RestartPause::Next next = RestartPause(file).failed(started, now);
-        now = now + next.wait + seconds(1);  // RestartSec= of the service
+        now = now + next.wait + seconds(1);  // RestartSec= of mfard's systemd unit
         return next;
     }
 

@@ -35,7 +35,7 @@ cv::Rect outputRect(const PixelRect& video, Size frame, Size output) {
                       at(video.y1, frame.height, output.height))};
 }
 
-/// A window of the detail's size, centred on the region.
+/// The part of a picture that is magnified: centred on the region, of size detailSize().
 cv::Rect detailOf(const cv::Rect& region, cv::Size picture) {
     const cv::Size window = detailSize(picture);
     const cv::Point middle = (region.tl() + region.br()) / 2;

@@ -26,7 +26,8 @@ std::vector<std::uint8_t> picture(int left = 60, int right = 160) {
     return out;
 }
 
-/// The near surface extends `too` pixels beyond its true edge. `unknown` pixels follow it.
+/// Depth of picture(): the near surface extends `too` pixels beyond its true edge; `unknown` pixels
+/// without known depth follow it.
 InverseDepthField field(int too, int unknown) {
     InverseDepthField out(kPicture);
     for (int y = 0; y < kPicture.height; ++y)
