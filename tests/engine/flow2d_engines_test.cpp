@@ -72,7 +72,7 @@ struct Difference {
     double median = 0;  ///< median difference [px]
     double cost = 0;    ///< mean difference of the matching costs
 };
-constexpr double kClose = 0.02;  // [px]
+constexpr double kClose = 0.02;  // largest difference of two flows that count as close [px]
 
 Difference differenceOf(const std::vector<Cell>& gl, Rows<const FlowCell> host) {
     std::vector<double> off;

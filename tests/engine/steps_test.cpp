@@ -33,7 +33,7 @@ TileWork everything(Size video) {
     return work;
 }
 
-/// A level as it is stored. Checks that its margin repeats the border.
+/// Reads a pyramid level from memory. Checks that its margin repeats the border.
 twin::Grey levelOf(const LumaPyramid& pyramid, const LumaLevel& level) {
     const std::uint32_t* words = pyramid.words.host().data + level.offset;
     const auto stored = [&](int x, int y) {  // the stored columns begin at x = -8

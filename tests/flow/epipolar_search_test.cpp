@@ -48,9 +48,9 @@ EpipolarSearch searched(const View& view, int threads = 2) {
     return search;
 }
 
-// Upper limits of the median error. A cost is that of the nearest pixel. The search corrects for
-// the distance of this pixel along the line, but not for its distance from the line. Results are
-// also biased towards pixel centres.
+// Upper limits of the median error [px]. A cost is that of the nearest pixel. The search corrects
+// for the distance of this pixel along the line, but not for its distance from the line. Results
+// are also biased towards pixel centres.
 constexpr double kAcross = 0.38, kAlongAxis = 0.22;
 
 void expectErrors(const View& view, double median, double bad) {

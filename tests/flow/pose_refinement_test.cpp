@@ -67,7 +67,7 @@ struct Shots {
     Shots(const View& v) : view(v), video(v.video()), still(v.still()) {}
 };
 
-/// A search whose pose has the error `error`.
+/// A search with a pose that has the error `error`.
 EpipolarSearch searched(const Shots& shots, const RigidTransform& error,
                         const Matrix6& covariance) {
     EpipolarSearch search = test::searchWith(shots.view.camera, 2);

@@ -20,7 +20,8 @@ Matrix6 priorCovariance(double turn, double shift) {
     return diagonal.asDiagonal();
 }
 
-/// Matches of a scene. The prior has the error `motion`, in the orientation of the rays `still`.
+/// Matches between two views of random points. The prior pose has the error `motion`, in the
+/// orientation of the still's rays.
 struct Case {
     Eigen::Vector3d translation{0.2, 0.02, 0.01};
     Vector6 motion = Vector6::Zero();

@@ -38,7 +38,7 @@ TEST_F(PipelineInputs, OptionsOutOfRangeAreRefused) {
     EXPECT_THROW(Pipeline(c.rig, far), std::invalid_argument);
 }
 
-// A shift of 9 px can only be found at the coarsest level.
+// A shift of 9 px can only be found at the coarsest pyramid level.
 TEST_F(PipelineInputs, FlowUsesTheConfiguredLevels) {
     const PipelineCase c;
     const auto errorWith = [&](int levels) {

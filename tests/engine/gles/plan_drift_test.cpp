@@ -16,7 +16,7 @@ using PlanDrift = GlTest;
 constexpr Size kDriftVideo{317, 235};  // the last tiles are cut off
 constexpr std::size_t kDriftPixels = std::size_t{317} * 235;
 
-using Rgb = std::array<float, 3>;  // [grey levels]
+using Rgb = std::array<float, 3>;  // a colour [grey levels]
 using Light = std::vector<Rgb>;    // one colour per pixel
 using DriftScene = std::function<Rgb(int x, int y, int frame)>;
 

@@ -17,7 +17,7 @@ constexpr double kMeanThreshold = 1.58, kAbsoluteThreshold = 2.37;
 struct TileState {
     std::uint32_t changed, matched;
     double noise, structure;
-    std::array<double, 3> energy;  // mean squares of pixels, 2x2 means, their twist
+    std::array<double, 3> energy;  // see twin::TileChange::energy
 };
 
 std::vector<TileState> tilesOf(const WorkPlan& plan) {
@@ -233,8 +233,8 @@ TestPicture dotted(Size size, const std::vector<int>& contrasts) {
     return out;
 }
 
-/// Columns of tiles in which all tiles are matched. Returns {-1} if a column has both kinds of
-/// tiles.
+/// Columns of tiles in which all tiles are matched. Returns {-1} if a column has matched and
+/// unmatched tiles.
 std::vector<int> matchedColumns(const WorkPlan& plan) {
     const auto tiles = tilesOf(plan);
     const Size count = plan.tileCount();

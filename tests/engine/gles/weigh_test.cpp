@@ -101,8 +101,8 @@ twin::Cells constantCells(Size size, std::array<float, 4> value) {
     return out;
 }
 
-// Both sensors share half of the variance. That is enough where the flow is uniform; where it
-// changes, it costs three quarters of the weight.
+// The squared correlation of video and still is a half. Where the flow is uniform, that is enough
+// for the full weight; where the flow changes, it leaves a quarter of the weight.
 TEST_F(Weigh, ABentFlowLowersTheWeightOfAnImperfectMatch) {
     const twin::Cells half = constantCells(kHalf, {0, 0, 0, 0});
     const twin::Cells matched = constantCells(kWhole, {7.07e4F, 1e5F, 1e5F, 1});
@@ -240,7 +240,8 @@ void expectLists(const Classified& got, const std::array<std::set<std::uint32_t>
 
 TEST_F(Classify, ClassesCountsAndListsMatchTheOracle) {
     const twin::Cells field = mixedField();
-    std::array<std::set<std::uint32_t>, 4> wanted;  // tiles: all, enlarged only, trusted, blended
+    // Tiles that the four lists must contain: all, enlarged only, trusted, blended.
+    std::array<std::set<std::uint32_t>, 4> wanted;
     std::array<unsigned, 4> counts{};
     for (int i = 0; i < static_cast<int>(kTileCount); ++i) {
         const int x = i % kClassified.width, y = i / kClassified.width;

@@ -78,7 +78,7 @@ TEST(MoveRow, CarriesPointsWithTheirVariance) {
             const double z = turned.z + rho[i] * motion.move[2];
             const auto q = test::project(lens, (turned.x + rho[i] * motion.move[0]) / z,
                                          (turned.y + rho[i] * motion.move[1]) / z);
-            // Also tries rays far outside, beyond the valid circle of the lens.
+            // Near the smallest valid depth, rounding decides whether the point is valid.
             if (std::abs(z - rule.leastDepth) < 0.05) continue;
             const int expected = pixelOf(q, variance[i] < kInfinity && z > rule.leastDepth);
             if (expected == -2) continue;

@@ -5,7 +5,8 @@
 namespace mfar::simd {
 namespace {
 
-// Tolerance: luma has units of 1/8 grey level, and the limits have units of a quarter of that.
+// Tolerance [grey levels]: luma is rounded to 1/8 grey level, and the limits of the learned
+// residual are a quarter of a difference of such values.
 constexpr double kLearnedError = 1.3;
 
 TEST(DetailStepLearned, LearnedFramesMatchTheOracleWithAndWithoutAStill) {
