@@ -140,7 +140,7 @@ TEST(Calibrate, AllViewsFromOneDistanceAreRefused) {
     const BothViews views = makeViews(small, motion);
     try {
         static_cast<void>(calibrate(small, views.video, views.still, {}));
-        FAIL() << "accepted";
+        FAIL() << "calibrate() must refuse these views";
     } catch (const Unsuitable& e) {
         EXPECT_NE(std::string(e.what()).find("nearly one distance"), std::string::npos) << e.what();
     }

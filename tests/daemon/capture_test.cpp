@@ -122,7 +122,8 @@ TEST(CaptureThread, StillsThatNoFrameTakesAreCounted) {
     capture.video().send(10);
     const auto frame = capture.take();
     ASSERT_TRUE(frame && frame->still);
-    EXPECT_EQ(frame->still->frame.time(), Timestamp::fromSeconds(5)) << "the newest";
+    EXPECT_EQ(frame->still->frame.time(), Timestamp::fromSeconds(5))
+        << "the newest still must come with the frame";
     EXPECT_EQ(frame->stillsSuperseded, StillBox::kCapacity - 1);
 }
 
@@ -191,7 +192,8 @@ TEST(CaptureThread, ACameraThatIsSlowerThanConfiguredDropsNothing) {
     int i = 0;
     for (; i < 40; ++i)
         ASSERT_TRUE(send(i / 15.));
-    EXPECT_EQ(capture.stats.count().drops.sensor, 0U) << "it is configured as 30 Hz";
+    EXPECT_EQ(capture.stats.count().drops.sensor, 0U)
+        << "a rate below the configured 30 Hz is not a drop";
     EXPECT_NEAR(capture.stats.count().cameras[0].rateHz, 15, 0.01);
     EXPECT_EQ(capture.stats.count().cameras[0].configuredHz, 30);
     ASSERT_TRUE(send((i + 3) / 15.));

@@ -241,7 +241,7 @@ TEST(Config, TagMapPathsAreRelativeToTheConfiguration) {
     const char* text = "[pose]\ntags = \"maps/tags.toml\"\n";
     EXPECT_EQ(parseConfig(text, "/etc/mfar/mfard.toml").pose.tags, "/etc/mfar/maps/tags.toml");
     EXPECT_EQ(parseConfig(text, "mfard.toml").pose.tags, "maps/tags.toml");
-    EXPECT_EQ(parseConfig("", "/etc/mfar/mfard.toml").pose.tags, "") << "none named";
+    EXPECT_EQ(parseConfig("", "/etc/mfar/mfard.toml").pose.tags, "") << "no tag map is configured";
 }
 
 TEST(Config, EveryPoseKeyIsChecked) {

@@ -98,7 +98,8 @@ TEST_F(Control, FailuresAreReported) {
     actions.trigger = [] { throw std::runtime_error("there is no trigger"); };
     EXPECT_EQ(errorOf(R"({"command": "trigger"})"), "there is no trigger");
     actions.status = [] { return ordered_json{{"source", "\xff camera"}}; };
-    EXPECT_EQ(ask(R"({"command": "status"})")["ok"], true) << "a name that is no text";
+    EXPECT_EQ(ask(R"({"command": "status"})")["ok"], true)
+        << "a text that is not valid UTF-8 must not prevent the answer";
 }
 
 TEST_F(Control, AnObserverMayOnlyQueryStatus) {

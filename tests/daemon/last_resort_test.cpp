@@ -25,7 +25,7 @@ TEST(LastResort, DoesNothingOnceShutdownIsOver) {
         last.arm(hours(1), [&] { acted = true; });
         last.arm(milliseconds(0), [&] { acted = true; });
     }
-    EXPECT_FALSE(acted) << "and nobody waits for the hour";
+    EXPECT_FALSE(acted) << "the destructor must cancel the timer without waiting";
 }
 
 }  // namespace

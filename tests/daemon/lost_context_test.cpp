@@ -105,7 +105,7 @@ protected:
 
     void SetUp() override {
         if (inFaultyGl<decltype(mfarFaultyGlLoseAt)>("mfarFaultyGlLoseAt") == nullptr)
-            GTEST_SKIP() << "LD_LIBRARY_PATH does not name the libGLESv2 that fails";
+            GTEST_SKIP() << "LD_LIBRARY_PATH lacks the folder of the faulty libGLESv2";
     }
 
     /// `virtualLayer`: keys of the configuration's section [virtual].

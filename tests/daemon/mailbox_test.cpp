@@ -93,7 +93,7 @@ TEST(Mailbox, LosslessSenderAndReceiverWorkInTurn) {
     });
     for (int i = 0; i < 500; ++i) {
         box.put(i);
-        ASSERT_EQ(working, 0) << "the receiver has finished an item before the next one is made";
+        ASSERT_EQ(working, 0) << "an item was sent while the receiver was still working";
     }
     box.finish();
 }

@@ -38,14 +38,14 @@ TEST_F(RestartPauseTest, ADayOfFailuresCausesFewRestarts) {
         (void)fail();
         ++restarts;
     }
-    EXPECT_LT(restarts, 3000) << "one a second before";
+    EXPECT_LT(restarts, 3000) << "without growing pauses there would be 86400 restarts";
 }
 
 TEST_F(RestartPauseTest, ALongRunResetsTheCountOfFailures) {
     for (int i = 0; i < 4; ++i)
         (void)fail();
     EXPECT_EQ(fail(seconds(61)).wait.count(), 0);
-    EXPECT_EQ(fail().wait.count(), 1) << "and begins the next";
+    EXPECT_EQ(fail().wait.count(), 1) << "after a long run, the count of failures must start again";
 }
 
 TEST_F(RestartPauseTest, OldFailuresDoNotCount) {

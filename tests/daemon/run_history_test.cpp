@@ -55,7 +55,7 @@ TEST(RunHistory, BinsHoldWhatHappenedInThem) {
     totals.stillsUsed = 3;
     history.add({after(0), 10, 20, false, 0.5, {}}, {{"flow", 7}});
     history.add({after(0.25), 30, 40, true, {}, totals}, {{"flow", 9}, {"detail", 2}});
-    ASSERT_EQ(history.bins().size(), 3U) << "a bin has 0.1 s";
+    ASSERT_EQ(history.bins().size(), 3U) << "times 0 and 0.25 s must give three bins of 0.1 s";
     EXPECT_EQ(history.stages(), (std::vector<std::string>{"flow", "detail"}));
     const RunHistory::Bin &first = history.bins()[0], &last = history.bins()[2];
     EXPECT_NEAR(first.frameMs.quantile(0.5), 10, 0.5);

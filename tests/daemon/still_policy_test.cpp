@@ -99,7 +99,7 @@ TEST(StillPolicy, TheRedrawForANewStillDoesNotCountAsMotion) {
     board.policy.configure(config);
     board.run(kFrame, kRest);
     board.run(kFrame, frame(0.9, 1));
-    EXPECT_EQ(board.run(60, kRest), 0) << "a reload redraws, too";
+    EXPECT_EQ(board.run(60, kRest), 0) << "the redraw after a reload must not count as motion";
 }
 
 TEST(StillPolicy, StatsOlderThanTheStillAreIgnored) {
@@ -110,7 +110,8 @@ TEST(StillPolicy, StatsOlderThanTheStillAreIgnored) {
     board.run(1, kRest);
     board.latency = 6.5 * kFrame;
     EXPECT_EQ(board.run(6.5 * kFrame, kMovingUnexplained), 1);
-    EXPECT_EQ(board.run(0.5 * kFrame, kMovingUnexplained), 0) << "the still has just come";
+    EXPECT_EQ(board.run(0.5 * kFrame, kMovingUnexplained), 0)
+        << "statistics from before the still must be ignored";
     EXPECT_EQ(board.run(2, kMovingExplained), 0);
 }
 

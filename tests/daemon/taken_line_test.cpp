@@ -69,7 +69,7 @@ TEST(TakenLine, OtherContentIsIgnored) {
         test::writeFile(file, text);
         EXPECT_THAT(faultOf(), HasSubstr(what)) << text;
     }
-    if (geteuid() != 0) GTEST_SKIP() << "only root can make another user's file";
+    if (geteuid() != 0) GTEST_SKIP() << "only root can create a file of another user";
     test::writeFile(file, test::readFile(sound));
     ASSERT_EQ(chown(file.c_str(), 1234, 1234), 0);
     EXPECT_THAT(faultOf(), HasSubstr("belongs to another user"));

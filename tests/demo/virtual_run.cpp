@@ -105,7 +105,8 @@ VirtualRun runVirtual(const Recording& recording, const Config& config,
     run.moved = show.counters();
     run.region = show.region();
     if (run.region.empty())
-        throw std::runtime_error(recording.root.string() + ": no object is in view at the end");
+        throw std::runtime_error(recording.root.string() +
+                                 ": no virtual object is in view in the last frame");
     Timestamp seen = show.counters().render.frame;
     int looks = 0;  // frames that the tracer's threads have received, which may lag behind
     for (int i = 0; i < kMostRestFrames && !(looks > kLeastLooks && isSettled(show.counters()));

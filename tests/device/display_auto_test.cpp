@@ -181,7 +181,7 @@ TEST_F(AutoDisplay, ARepeatedlyLostScreenStaysReported) {
         ASSERT_THAT(display_->fault().value_or(""), HasSubstr("kms is broken")) << i;
         if (!kms_.held) kms_.refusesAfter = kms_.shown + 2;
     }
-    EXPECT_GT(kms_.shown, 30) << "it is tried anew";
+    EXPECT_GT(kms_.shown, 30) << "the screen must be tried again and again";
     kms_.refusesAfter = 1000000;
     EXPECT_GE(run(kSecond), 8);
     EXPECT_EQ(display_->fault(), std::nullopt);
@@ -228,7 +228,7 @@ TEST_F(AutoDisplay, ReleasesTheContextAndKeepsTheScreen) {
     EXPECT_TRUE(kms_.held);
     const int before = kms_.shown;
     display_->showAgain({}, now_);
-    EXPECT_EQ(kms_.shown, before + 1) << "the screen's buffers are others now";
+    EXPECT_EQ(kms_.shown, before + 1) << "a picture must be shown again in new buffers";
 }
 
 TEST_F(AutoDisplay, OpensNothingWhenTheDevicesDoNotExist) {

@@ -141,7 +141,7 @@ TEST_F(DisplayScaler, WarmUpChangesNothingThatIsShown) {
         EXPECT_EQ(shown(warm, texture, screen), shown(texture, screen)) << screen.width;
     }
     ScreenScaler scaler;
-    EXPECT_NO_THROW(scaler.warmUp({})) << "there is no picture yet";
+    EXPECT_NO_THROW(scaler.warmUp({})) << "warmUp() must work before the first picture";
 }
 
 TEST_F(DisplayScaler, DrawsOnAnotherContextOnceTheFirstIsReleased) {

@@ -134,7 +134,7 @@ TEST(PulseTrigger, SecondPulseDuringTheFirstIsRefused) {
     const auto trigger = triggerOn(wire, 10s);
     trigger->fire();
     EXPECT_THROW(trigger->fire(), TriggerBusy);
-    EXPECT_EQ(wire->all().size(), 2U) << "the refused pulse has not touched the line";
+    EXPECT_EQ(wire->all().size(), 2U) << "a refused pulse must not change the line";
 }
 
 TEST(PulseTrigger, FiresAgainOnceThePulseIsOver) {
@@ -167,7 +167,8 @@ TEST(PulseTrigger, PulseCanBeEndedEarlyAndTheNextHasItsFullLength) {
     const std::vector<Level> levels = wire->all();
     EXPECT_GE(levels.back().time - levels[levels.size() - 2].time, 100ms);
     trigger->endPulse();
-    EXPECT_EQ(wire->all().size(), levels.size()) << "driven without need";
+    EXPECT_EQ(wire->all().size(), levels.size())
+        << "endPulse() must not drive a line that is already inactive";
 }
 
 TEST(PulseTrigger, LoopbackMeasuresStartAndLength) {
@@ -201,7 +202,8 @@ TEST(PulseTrigger, MissedEdgesAreCountedAndNotConfusedWithOthers) {
             EXPECT_FALSE(trigger->measured());
             const std::vector<Level> levels = wire->all();
             EXPECT_GE(edge, before);
-            EXPECT_LT(edge, levels[2].time) << "not the trailing edge";
+            EXPECT_LT(edge, levels[2].time)
+                << "the end of the pulse must not be taken for its start";
         }
     }
 }
@@ -237,7 +239,7 @@ TEST(PulseTrigger, PulseThatCouldNotBeEndedIsReportedByTheNextFire) {
     while (fault.empty()) {
         try {
             trigger->fire();
-            FAIL() << "fired over a pulse that is still on";
+            FAIL() << "fire() must fail while the line could not be deactivated";
         } catch (const TriggerBusy&) {
             std::this_thread::sleep_for(1ms);
         } catch (const std::runtime_error& error) {

@@ -63,7 +63,7 @@ public:
     }
     int queue(std::size_t request) override {
         EXPECT_TRUE(running_);
-        EXPECT_EQ(at_[request], At::Cycle) << "queued twice: " << request;
+        EXPECT_EQ(at_[request], At::Cycle) << "a request was queued twice: " << request;
         at_[request] = At::Driver;
         isCancelled_[request] = false;
         return 0;
@@ -181,7 +181,7 @@ public:
         EXPECT_EQ(cycle.delivered(), delivered_);
         if (!running_ || isLost) return;
         for (std::size_t i = 0; i < kRequests; ++i)
-            EXPECT_TRUE(at_[i] != At::Cycle || isCancelled_[i]) << "lost: " << i;
+            EXPECT_TRUE(at_[i] != At::Cycle || isCancelled_[i]) << "a request was lost: " << i;
         EXPECT_TRUE(has(At::Driver) || has(At::Ready) || has(At::User) || restartAt);
     }
     void close() {

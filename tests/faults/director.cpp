@@ -246,7 +246,8 @@ void awaitReady() {
     const Ns begin = Scheduler::get().now();
     while (!Judge::get().isReady())
         sleepFor(10 * kMs);
-    if (Scheduler::get().now() - begin > kReadyTime) Judge::get().fail("mfard is ready too late");
+    if (Scheduler::get().now() - begin > kReadyTime)
+        Judge::get().fail("mfard became ready later than 5 s after its start");
 }
 
 /// The run in a folder whose previous process was killed.

@@ -274,7 +274,7 @@ void Judge::terminated() {
 }
 
 void Judge::ended(int code, bool inTime) {
-    if (!inTime) fail("mfard does not end in time");
+    if (!inTime) fail("mfard did not end within 3 s after SIGTERM");
     if (code != 0) fail(fmt::format("mfard ends with exit code {}", code));
     if (terminated_)
         count("ms from SIGTERM to the end",

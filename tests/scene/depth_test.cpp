@@ -52,7 +52,8 @@ struct Watched {
 void expectGood(const DepthState& state, int frame, double poseError = 0) {
     SCOPED_TRACE(frame);
     EXPECT_LE(state.absrel, kMostError + poseError);
-    EXPECT_LE(state.absrel, state.sigma + poseError) << "knows less than it says";
+    EXPECT_LE(state.absrel, state.sigma + poseError)
+        << "the reported standard deviation must not be below the error";
     EXPECT_GE(state.completeness, kLeastKnown);
     EXPECT_LE(state.change, kMostChange + poseError);
 }

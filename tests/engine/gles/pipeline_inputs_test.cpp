@@ -183,7 +183,7 @@ private:
 
 TEST_F(PipelineInputs, TheDriverHasNoSevereMessages) {
     HighMessages high(context());
-    if (!high.available()) GTEST_SKIP() << "the context has no KHR_debug";
+    if (!high.available()) GTEST_SKIP() << "the GL context lacks the extension KHR_debug";
     const PipelineCase c({100, 60});
     Pipeline p(c.rig, {});
     for (const SuperResMode mode : {SuperResMode::Off, SuperResMode::Blend, SuperResMode::Detail}) {

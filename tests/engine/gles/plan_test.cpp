@@ -107,9 +107,9 @@ TEST_F(Plan, OverdrawnTilesAreRedrawnOnceAnyOtherTileChanges) {
     EXPECT_EQ(plan.work().changed, 6);
     EXPECT_TRUE(plan.redraws());
     plan.update(planesOf(base), planesOf(base), false);
-    EXPECT_EQ(plan.work().changed, 0) << "redrawn once";
+    EXPECT_EQ(plan.work().changed, 0) << "tiles must be redrawn only once";
     plan.update(planesOf(base), planesOf(base), true);
-    EXPECT_EQ(plan.work().changed, 28) << "none counts twice";
+    EXPECT_EQ(plan.work().changed, 28) << "a tile must not be counted twice";
 }
 
 TEST_F(Plan, OverdrawnTilesAreRedrawnTogetherOnceOneOfThemChanges) {
@@ -122,7 +122,8 @@ TEST_F(Plan, OverdrawnTilesAreRedrawnTogetherOnceOneOfThemChanges) {
     EXPECT_FALSE(plan.redraws());
     plan.drawnOver({1, 0, 4, 2}, WorkPlan::Redraw::WithThem);
     plan.update(planesOf(oneTile), planesOf(base), false);
-    EXPECT_EQ(plan.work().changed, 1 + 3 * 2) << "beside them";
+    EXPECT_EQ(plan.work().changed, 1 + 3 * 2)
+        << "tiles next to the changed one must be redrawn together with it";
     EXPECT_TRUE(plan.redraws());
     plan.update(planesOf(base), planesOf(base), true);
     EXPECT_TRUE(plan.redraws());
@@ -260,14 +261,15 @@ TEST_F(Plan, TilesWithStructureAndTheirNeighboursAreMatched) {
             plan.update(planesOf(picture), planesOf(picture), true);
         return matchedColumns(plan);
     };
-    EXPECT_EQ(update().size(), 16U) << "at first everything";
+    EXPECT_EQ(update().size(), 16U) << "at first, all columns must be matched";
     plan.matchStructured(1);
     EXPECT_EQ(update(), (std::vector<int>{0, 1, 2, 4, 5, 6, 12, 13, 14}));
     EXPECT_EQ(plan.work().matched, 9 * 6);
     plan.matchStructured(6.5 / 16);
-    EXPECT_EQ(update(), (std::vector<int>{4, 5, 6, 12, 13, 14})) << "the most structure";
+    EXPECT_EQ(update(), (std::vector<int>{4, 5, 6, 12, 13, 14}))
+        << "the columns with the most structure must be matched";
     plan.matchStructured(0.05);
-    EXPECT_EQ(plan.work().matched, 6 * 6) << "with the next update";
+    EXPECT_EQ(plan.work().matched, 6 * 6) << "the new share takes effect only with the next update";
     EXPECT_TRUE(update().empty());
     plan.matchEverything();
     EXPECT_EQ(update().size(), 16U);
@@ -299,7 +301,7 @@ TEST_F(Plan, NoiseDoesNotToggleDetail) {
     }
     EXPECT_GT(plan.work().matched, 512 / 5);
     EXPECT_LE(plan.work().matched, 512 / 2);
-    EXPECT_LT(turns, 19 * 512 / 100) << "one tile of a hundred a frame";
+    EXPECT_LT(turns, 19 * 512 / 100) << "at most one tile in a hundred may change in a frame";
 }
 
 TEST_F(Plan, ChangedTilesWithoutStructureAreNotMatched) {
@@ -314,7 +316,8 @@ TEST_F(Plan, ChangedTilesWithoutStructureAreNotMatched) {
         for (int i = 0; i < 256; ++i)  // changes one tile uniformly
             now.at((inStructure ? 16 : 192) + i % 16, 32 + i / 16)[1] += 9;
         plan.update(planesOf(now), planesOf(drawn), false);
-        EXPECT_EQ(plan.work().changed, 9) << "with those beside it";
+        EXPECT_EQ(plan.work().changed, 9)
+            << "the changed tile and its eight neighbours must be redrawn";
         EXPECT_EQ(plan.work().matched, inStructure ? 9 : 0);
     }
 }

@@ -66,7 +66,8 @@ TEST_F(QualityTest, WithoutTheStillAFrameMayBeEnlargedLinearly) {
             ASSERT_NEAR(image[4 * i], wanted.values[i], 1.02) << i;
     }
     Pipeline usual(c.rig, {});
-    EXPECT_TRUE(pictureOf(detail, c, false) == pictureOf(usual, c, false)) << "of the still alone";
+    EXPECT_TRUE(pictureOf(detail, c, false) == pictureOf(usual, c, false))
+        << "the option must have no effect on a frame with a still";
 }
 
 // Only the two lowest rows of a tile change.

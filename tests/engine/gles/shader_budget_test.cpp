@@ -31,7 +31,7 @@ bool isShader(const fs::path& path) {
 void expectFault(const std::vector<std::string>& faults, const std::string& words) {
     for (const std::string& fault : faults)
         if (fault.find(words) != std::string::npos) return;
-    ADD_FAILURE() << "not found: " << words << " in " << testing::PrintToString(faults);
+    ADD_FAILURE() << "no fault contains: " << words << " in " << testing::PrintToString(faults);
 }
 
 std::string compute(const std::string& globals, const std::string& body,
@@ -141,7 +141,7 @@ TEST_F(ShaderBudgetGl, CheckerCountsStorageBlocks) {
                                     "layout(std430, binding = 0) readonly buffer B { vec4 b[]; };\n"
                                     "void main() { gl_Position = b[gl_VertexID]; }",
                                     ""),
-                "storage block in a vertex shader");
+                "a vertex shader must not use storage blocks");
 }
 
 TEST_F(ShaderBudgetGl, CheckerCountsImages) {

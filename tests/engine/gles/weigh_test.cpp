@@ -259,14 +259,14 @@ TEST_F(Classify, ClassesCountsAndListsMatchTheOracle) {
     const auto around = withNeighbours(detailed);
     wanted[0].insert(around.begin(), around.end());
     EXPECT_GT(wanted[0].size(), changed.size());
-    EXPECT_LT(wanted[0].size(), kTileCount) << "some tiles are far from all detail";
+    EXPECT_LT(wanted[0].size(), kTileCount) << "the test needs tiles that are far from all detail";
 
     const Classified got = classify(field, changes(0), true);
     expectLists(got, wanted);
     for (unsigned i = 0; i < kTileCount; ++i)
         EXPECT_EQ(got.classes[i][0], i % 3 == 0 ? 0 : classIn(field, static_cast<int>(i)));
     for (unsigned k = 0; k < 4; ++k) {
-        EXPECT_GT(counts[k], 0U) << "the field shows every class";
+        EXPECT_GT(counts[k], 0U) << "the test needs tiles of every class";
         EXPECT_EQ(got.draws.counts[k], counts[k]);
     }
     EXPECT_EQ(got.draws.counts[6],

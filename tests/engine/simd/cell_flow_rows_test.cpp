@@ -84,7 +84,7 @@ TEST(AlignCells, FollowsTheFlowAlongTheLine) {
             EXPECT_NEAR(found[i], wanted[i], 2e-4);
         found = cells.s;
         alignCells(cells.ends, cells.row(), flow.data(), start.data(), 0.01F, 1e6F, found.data());
-        EXPECT_EQ(found, cells.s) << "where a line tells nothing";
+        EXPECT_EQ(found, cells.s) << "cells whose flow hardly depends on s must keep s";
     }
 }
 

@@ -34,7 +34,7 @@ TEST(LandRow, FindsThePixelOfTheOtherPicture) {
         landRow(lens, kPicture, motion, x.data(), y.data(), s.data(), count, landing.data());
         for (std::size_t i = 0; i < count; ++i) {
             if (i == count / 2) {
-                EXPECT_EQ(landing[i], -1) << "from a depth that is no number";
+                EXPECT_EQ(landing[i], -1) << "a NaN depth must land nowhere";
                 continue;
             }
             const auto& t = motion.move;

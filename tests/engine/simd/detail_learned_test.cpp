@@ -29,7 +29,7 @@ TEST(DetailStepLearned, LearnedFramesMatchTheOracleWithAndWithoutAStill) {
                             << output.width << ": " << x << " " << y << " " << c;
                         most = std::max(most, std::abs(value - without.channel(x, y, c)));
                     }
-            EXPECT_GT(most, 4) << "the filters would show";
+            EXPECT_GT(most, 4) << "the test needs filters that change the picture";
         }
 }
 
@@ -50,7 +50,7 @@ TEST(DetailStepLearned, GuidedFramesMatchTheOracle) {
                     << output.width << ": " << x << " " << y;
                 most = std::max(most, std::abs(value - without.channel(x, y, 1)));
             }
-        EXPECT_GT(most, 4) << output.width << ": guidance would show";
+        EXPECT_GT(most, 4) << output.width << ": the test needs guidance that changes the picture";
     }
 }
 

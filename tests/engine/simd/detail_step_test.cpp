@@ -109,7 +109,7 @@ void expectDetailIn(const DetailCase& frame, const Drawn& drawn, Size output,
             ASSERT_NEAR(drawn.channel(x, y, 1), in ? with : without, 0.8) << x << " " << y;
             if (!in) most = std::max(most, std::abs(with - without));
         }
-    EXPECT_GT(most, 5) << "detail would show in the other tiles";
+    EXPECT_GT(most, 5) << "the test needs detail that would be visible in other tiles";
 }
 
 TEST(DetailStep, DetailOfAWholeFrameStaysInItsRectangle) {
