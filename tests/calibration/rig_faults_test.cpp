@@ -156,7 +156,7 @@ TEST(RigFiles, DevicesAndPipesAreRefused) {
 }
 
 // The table in docs/calibration.md must equal the one in the code.
-TEST(RigFiles, TheDocumentationHasThePlausibleRanges) {
+TEST(RigFiles, TheDocumentationListsTheAcceptedRanges) {
     const std::string page = readFile(MFAR_CALIBRATION_PAGE);
     for (const plausible::Range& range : plausible::kRanges)
         EXPECT_NE(page.find(fmt::format("| {} | {} | {} | {} |\n", range.what, range.unit,
@@ -175,7 +175,7 @@ TEST(RigFiles, AnOpenCvFileWithoutSizeMustFitTheExpectedSize) {
                  CalibrationError);
 }
 
-TEST(RigFiles, AnyDamageEitherLoadsOrIsACalibrationError) {
+TEST(RigFiles, ADamagedFileIsReadOrGivesACalibrationError) {
     const TempFolder folder;
     writeAll(folder.path());
     std::mt19937 random(11);

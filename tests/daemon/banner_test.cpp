@@ -36,7 +36,7 @@ int rowsOf(const std::vector<std::uint8_t>& pixels, std::uint8_t level) {
     return kPictureSize.height;
 }
 
-TEST_F(BannerText, StandsBelowThePictureAndLeavesItAlone) {
+TEST_F(BannerText, TheBannerLeavesTheUpperPartOfThePictureUnchanged) {
     Banner banner(kPictureSize);
     const gpu::Texture picture = plainPicture(90);
     const Picture source = GlImage{picture.id(), kPictureSize};
@@ -46,7 +46,7 @@ TEST_F(BannerText, StandsBelowThePictureAndLeavesItAlone) {
     EXPECT_EQ(rowsOf(pixelsOf(source), 90), kPictureSize.height);
 }
 
-TEST_F(BannerText, TextsDifferAndLongOnesTakeMoreLines) {
+TEST_F(BannerText, DifferentTextsLookDifferentAndLongTextsTakeMoreLines) {
     Banner banner(kPictureSize);
     const gpu::Texture picture = plainPicture(90);
     const Picture source = GlImage{picture.id(), kPictureSize};

@@ -64,7 +64,7 @@ std::string endOf(Capture& capture) {
     return "";
 }
 
-TEST(CaptureThread, TheVideoGoesOnWhileTheStillCameraHangs) {
+TEST(CaptureThread, VideoFramesArriveWhileTheStillCameraHangs) {
     Capture capture(HandOver::NewestWins);
     capture.still().hang(true);
     ASSERT_TRUE(capture.still().isHung());
@@ -96,7 +96,7 @@ TEST(CaptureThread, ShutdownDoesNotWaitForAHangingVideoCamera) {
     capture.video().hang(false);
 }
 
-TEST(CaptureThread, LiveStillsComeWithTheFirstFrameThatIsNotOlder) {
+TEST(CaptureThread, AStillIsDeliveredWithTheFirstFrameThatIsNotOlder) {
     Capture capture(HandOver::NewestWins);
     capture.still().send(1.5);
     ASSERT_TRUE(becomesTrue([&] { return capture.stats.count().stills.received == 1; }));
@@ -113,7 +113,7 @@ TEST(CaptureThread, LiveStillsComeWithTheFirstFrameThatIsNotOlder) {
     EXPECT_NE(capture.video().askers(), capture.still().askers());
 }
 
-TEST(CaptureThread, StillsThatNoFrameTakesAreCounted) {
+TEST(CaptureThread, StillsThatAreReplacedBeforeAFrameArrivesAreCounted) {
     Capture capture(HandOver::NewestWins);
     for (int i = 1; i <= 5; ++i)
         capture.still().send(i);
@@ -127,7 +127,7 @@ TEST(CaptureThread, StillsThatNoFrameTakesAreCounted) {
     EXPECT_EQ(frame->stillsSuperseded, StillBox::kCapacity - 1);
 }
 
-TEST(CaptureThread, ADroppedFramePassesItsMissedCountOn) {
+TEST(CaptureThread, TheMissedCountOfADroppedFrameIsAddedToTheNextFrame) {
     CapturedFrame older{{ImageView{}, Timestamp{1}, nullptr},
                         CapturedStill{{ImageView{}, Timestamp{1}, nullptr}},
                         {}};
@@ -200,7 +200,7 @@ TEST(CaptureThread, ACameraThatIsSlowerThanConfiguredDropsNothing) {
     EXPECT_EQ(capture.stats.count().drops.sensor, 3U);
 }
 
-TEST(CaptureThread, RepeatedPicturesAreDetectedOnlyForSensors) {
+TEST(CaptureThread, RepeatedPicturesAreDetectedOnlyForRealSensors) {
     for (const bool sensors : {true, false}) {
         Capture capture(HandOver::NewestWins, sensors);
         for (int i = 1; i <= 5; ++i) {

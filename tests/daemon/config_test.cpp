@@ -159,7 +159,7 @@ TEST(Config, FaultsAreReportedInFileOrder) {
     EXPECT_THAT(lines[3], StartsWith("test.toml:5:1: unknown key trigger.zoom"));
 }
 
-TEST(Config, AFileThatCannotBeReadIsAMissingInput) {
+TEST(Config, AnUnreadableFileGivesTheExitCodeOfAMissingInput) {
     for (const char* file : {"/nonexistent/mfard.toml", "/"}) {
         try {
             (void)loadConfig(file);
@@ -268,7 +268,7 @@ TEST(Config, EveryPoseKeyIsChecked) {
             << line;
 }
 
-TEST(Config, NeedRestartNamesWhatCannotChangeWhileRunning) {
+TEST(Config, NeedRestartNamesTheKeysThatCannotChangeWhileRunning) {
     Config wanted;
     wanted.superres.mode = SuperResMode::Off;
     wanted.trigger.maxAgeS = 1;

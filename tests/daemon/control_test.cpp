@@ -80,7 +80,7 @@ TEST_F(Control, InvalidRequestsGetOneError) {
     EXPECT_THAT(errorOf("{\"command\": \"\xff\"}"), HasSubstr("a request must be one line"));
 }
 
-TEST_F(Control, RecordsUnderASimpleNameOnly) {
+TEST_F(Control, ARecordingNameMustBeASimpleFolderName) {
     for (const char* request :
          {R"({"command": "record"})", R"({"command": "record", "name": "a", "stop": true})"})
         EXPECT_THAT(errorOf(request), HasSubstr("record needs")) << request;

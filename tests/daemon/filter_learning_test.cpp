@@ -37,7 +37,7 @@ struct FilterLearningTest : testing::Test {
                                   "video, still", true};
 };
 
-TEST_F(FilterLearningTest, LearnedFiltersAreHandedOutOnce) {
+TEST_F(FilterLearningTest, LearnedFiltersAreReturnedOnce) {
     FilterLearning learning(options);
     EXPECT_NE(learning.takeFilters(), nullptr) << "the shipped filters must be handed out";
     EXPECT_EQ(learning.takeFilters(), nullptr);

@@ -44,7 +44,7 @@ TEST(FramePairer, WithoutAStillThereIsNoPair) {
     EXPECT_EQ(captured.arrived, Timestamp{5});
 }
 
-TEST(FramePairer, AStillGoesWithTheFirstFrameThatIsNotOlder) {
+TEST(FramePairer, AStillIsPairedWithTheFirstFrameThatIsNotOlder) {
     Stills stills({2});
     FramePairer pairer(stills.source());
     EXPECT_EQ(stillTime(pairer.pair(frame(1), {})), std::nullopt);
@@ -75,7 +75,7 @@ Pose withTags(int tags) {
     return pose;
 }
 
-TEST(CapturedFrame, ADroppedFramePassesItsStillOn) {
+TEST(CapturedFrame, TheStillOfADroppedFrameGoesToTheNextFrame) {
     CapturedFrame older{frame(1), CapturedStill{frame(0.5), withTags(3)}, {}};
     CapturedFrame newer{frame(2), std::nullopt, {}};
     newer.supersede(std::move(older));

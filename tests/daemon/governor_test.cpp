@@ -92,7 +92,7 @@ TEST(Governor, SettlesWithin30FramesAfterAChangeOfScene) {
     EXPECT_EQ(machine.run(300), 0);
 }
 
-TEST(Governor, SettlesAsFastAfterManyChanges) {
+TEST(Governor, AfterManyChangesOfSceneTheGovernorStillSettlesFast) {
     Machine machine(100, scaled(0.6));
     for (int i = 0; i < 10; ++i) {
         machine.setCost(scaled(1.4));
@@ -126,7 +126,7 @@ TEST(Governor, DoesNotSwingBetweenTwoLevels) {
     }
 }
 
-TEST(Governor, OneLateFrameInFiftyChangesNothing) {
+TEST(Governor, OneLateFrameInFiftyDoesNotChangeTheLevel) {
     Governor governor(fourLevels(), 100);
     for (int i = 0; i < 400; ++i)
         governor.add({i % 50 == 49 ? 300.0 : 80.0});
@@ -134,7 +134,7 @@ TEST(Governor, OneLateFrameInFiftyChangesNothing) {
     EXPECT_EQ(governor.changes(), 0U);
 }
 
-TEST(Governor, AtRestThePictureIsRedrawnOnceAtTheBestLevel) {
+TEST(Governor, AtRestThePictureIsDrawnOnceMoreAtTheBestLevel) {
     Machine machine(66, scaled(1));
     machine.run(40);
     ASSERT_EQ(machine.level(), "a");
@@ -188,7 +188,7 @@ TEST(Governor, RequestsNoStillForALevelWithoutStills) {
     EXPECT_FALSE(governor.mayTakeStill());
 }
 
-TEST(Governor, FramesWithoutAStillDoNotRateALevelThatUsesOne) {
+TEST(Governor, FramesWithoutAStillDoNotCountForLevelsThatUseStills) {
     Governor governor(fourLevels(), 100);
     for (int i = 0; i < 100; ++i)
         governor.add({.ms = 20, .usedStill = false});

@@ -11,7 +11,7 @@ using std::chrono::hours;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-TEST(LastResort, ActsWhenShutdownHangs) {
+TEST(LastResort, RunsItsActionWhenShutdownHangs) {
     std::promise<void> acted;
     LastResort last;
     last.arm(milliseconds(1), [&] { acted.set_value(); });

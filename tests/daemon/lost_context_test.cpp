@@ -171,11 +171,11 @@ protected:
 };
 
 // Covers one moment for each step and each of its shaders.
-TEST_F(LostContext, RecoversInEveryShader) {
+TEST_F(LostContext, AContextLostInAnyShaderIsRecovered) {
     loseAtAll([](std::string_view moment) { return moment.starts_with("glUseProgram"); });
 }
 
-TEST_F(LostContext, RecoversInEveryTransfer) {
+TEST_F(LostContext, AContextLostInAnyDataTransferIsRecovered) {
     loseAtAll([](std::string_view moment) {
         return std::ranges::none_of(
             std::array{"glUseProgram", "glBufferSubData", "glDispatchCompute", "glDrawArrays"},
@@ -184,7 +184,7 @@ TEST_F(LostContext, RecoversInEveryTransfer) {
 }
 
 // Warping starts once the path tracer has a picture of the objects.
-TEST_F(LostContext, RecoversWhileTracedObjectsAreWarped) {
+TEST_F(LostContext, AContextLostDuringTheWarpIsRecovered) {
     constexpr int kSeconds = 12;
     play(30 * kSeconds,
          "rendering = \"path-traced\"\nresolution = 0.3\nsamples = 1\nbudget_ms = 30");

@@ -43,7 +43,7 @@ TEST(Mailbox, TheNewerItemInheritsFromTheReplacedOne) {
     EXPECT_EQ(parcel->kept, "ab");
 }
 
-TEST(Mailbox, LosslessHandsOverEveryItemInOrder) {
+TEST(Mailbox, InLosslessModeEveryItemIsHandedOverInOrder) {
     constexpr int kItems = 2000;
     Mailbox<int> box(HandOver::Lossless);
     std::vector<int> received;
@@ -81,7 +81,7 @@ TEST(Mailbox, UnderLoadEveryReplacedItemIsCounted) {
     EXPECT_EQ(received + static_cast<int>(box.dropped()), kItems);
 }
 
-TEST(Mailbox, LosslessSenderAndReceiverWorkInTurn) {
+TEST(Mailbox, InLosslessModeSenderAndReceiverWorkInTurn) {
     Mailbox<int> box(HandOver::Lossless);
     std::atomic<int> working{0};
     std::jthread receiver([&] {

@@ -96,7 +96,7 @@ TEST(PoseFinder, StillPosesAreInterpolatedOnlyBetweenMeasuredPoses) {
     EXPECT_EQ(stats.count().poses.measured, 3U);
 }
 
-TEST(PoseFinder, BridgingCanBeDisabled) {
+TEST(PoseFinder, PosesOfFramesWithoutTagsCanBeDisabled) {
     Stats stats;
     PoseConfig config;
     config.bridgeFrames = 0;
@@ -105,7 +105,7 @@ TEST(PoseFinder, BridgingCanBeDisabled) {
     EXPECT_FALSE(video(finder, 1, false));
 }
 
-TEST(PoseFinder, WithoutAMapTheFirstTagIsTheWorld) {
+TEST(PoseFinder, WithoutATagMapTheFirstTagIsTheOriginOfTheWorld) {
     Stats stats;
     PoseInputs unknown = inputs();
     unknown.tags = {};
@@ -159,7 +159,7 @@ TEST(PoseFinder, ASourceWithoutPosesIsRefusedByName) {
     }
 }
 
-TEST(PoseFinder, SourceNoneRunsNoTracker) {
+TEST(PoseFinder, PoseSourceNoneRunsNoTracker) {
     Stats stats;
     PoseConfig config;
     config.source = PoseOrigin::None;

@@ -62,14 +62,14 @@ TEST_F(RestartPauseTest, FailureBeforeTheSystemWasStartedDoesNotCount) {
     EXPECT_EQ(fail().inARow, 1);
 }
 
-TEST_F(RestartPauseTest, ADamagedFileCountsAsMissing) {
+TEST_F(RestartPauseTest, ADamagedStateFileCountsAsMissing) {
     for (const char* text : {"", "x", "-5 1", "2000000000 5000000000000", "3"}) {
         std::ofstream(file) << text;
         EXPECT_EQ(fail().wait.count(), 0) << text;
     }
 }
 
-TEST_F(RestartPauseTest, WithoutAFileEachWaitIsTheSame) {
+TEST_F(RestartPauseTest, WithoutAStateFileEveryPauseIsTheSame) {
     for (const std::filesystem::path& none : {folder.path() / "gone" / "restarts", {}}) {
         file = none;
         EXPECT_EQ(fail().wait.count(), 5);

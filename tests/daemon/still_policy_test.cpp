@@ -62,7 +62,7 @@ const FrameStats kRest = frame(0.95, 0);
 const FrameStats kMovingExplained = frame(0.9, 0.8);
 const FrameStats kMovingUnexplained = frame(0.2, 0.8);
 
-TEST(StillPolicy, WithoutAStillTheFirstFrameFires) {
+TEST(StillPolicy, WithoutAStillTheFirstFrameFiresTheTrigger) {
     Simulation board({});
     EXPECT_EQ(board.run(kFrame / 2, frame(0, 1)), 1);
 }
@@ -115,13 +115,13 @@ TEST(StillPolicy, StatsOlderThanTheStillAreIgnored) {
     EXPECT_EQ(board.run(2, kMovingExplained), 0);
 }
 
-TEST(StillPolicy, NewViewThatTheStillDoesNotExplainFires) {
+TEST(StillPolicy, ANewViewThatTheStillDoesNotExplainFiresTheTrigger) {
     Simulation board({});
     board.run(2, kRest);
     EXPECT_EQ(board.run(kFrame / 2, kMovingUnexplained), 1);
 }
 
-TEST(StillPolicy, MotionThatTheStillExplainsWaitsForTheAge) {
+TEST(StillPolicy, ForExplainedMotionANewStillWaitsForTheAgeLimit) {
     TriggerConfig config;
     config.maxAgeS = 5;
     Simulation board(config);
@@ -179,7 +179,7 @@ TEST(StillPolicy, KeepsTheMinimumIntervalBetweenStills) {
     EXPECT_GE(board.firedAt.size(), 18U);
 }
 
-TEST(StillPolicy, LostStillIsCountedAndRepeatedOnce) {
+TEST(StillPolicy, AfterALostStillThePulseIsRepeatedOnce) {
     TriggerConfig config;
     config.timeoutS = 1;
     config.maxAgeS = 30;
@@ -191,7 +191,7 @@ TEST(StillPolicy, LostStillIsCountedAndRepeatedOnce) {
     EXPECT_NEAR(board.firedAt[1] - board.firedAt[0], 1, 2 * kFrame);
 }
 
-TEST(StillPolicy, AfterTwoLostStillsItTriesAgainLater) {
+TEST(StillPolicy, AfterTwoLostStillsThePolicyWaitsBeforeTheNextPulse) {
     TriggerConfig config;
     config.timeoutS = 1;
     config.maxAgeS = 3;
@@ -204,7 +204,7 @@ TEST(StillPolicy, AfterTwoLostStillsItTriesAgainLater) {
     EXPECT_EQ(board.policy.lost(), 2);
 }
 
-TEST(StillPolicy, ALateStillDoesNotAnswerTheRepetition) {
+TEST(StillPolicy, ALateStillIsNotTakenForTheStillOfTheRepeatedPulse) {
     TriggerConfig config;
     config.timeoutS = 1;
     Simulation board(config);
@@ -226,14 +226,14 @@ TEST(StillPolicy, FixedRateFollowsTheTimesOfFrames) {
     EXPECT_NEAR(fired, 120, 1);
 }
 
-TEST(StillPolicy, ModeOffNeverFires) {
+TEST(StillPolicy, InModeOffThePolicyNeverFires) {
     TriggerConfig config;
     config.mode = TriggerMode::Off;
     Simulation board(config);
     EXPECT_EQ(board.run(30, kMovingUnexplained), 0);
 }
 
-TEST(StillPolicy, ModeOffRepeatsARequestedStillThatWasLost) {
+TEST(StillPolicy, InModeOffThePulseOfALostRequestedStillIsRepeated) {
     TriggerConfig config;
     config.mode = TriggerMode::Off;
     Simulation board(config);

@@ -29,7 +29,7 @@ std::size_t middle() {
     return 45UL * 120 + 60;
 }
 
-TEST(DepthFilter, NoiseAveragesOut) {
+TEST(DepthFilter, MeasurementNoiseAveragesOutOverTheFrames) {
     DepthFilter filter = filterOf();
     std::mt19937 random(1);
     std::normal_distribution<float> noise(0, 0.05F);

@@ -151,7 +151,7 @@ TEST(EdgeSnap, ASlopeStaysUnchanged) {
     EXPECT_EQ(out.filled, in.filled);
 }
 
-TEST(EdgeSnap, UnmeasuredPixelsAreMarked) {
+TEST(EdgeSnap, PixelsFilledWithoutAMeasurementAreMarked) {
     const InverseDepthField out = snapped(field(0, 5), picture());
     EXPECT_EQ(out.filled[24UL * 64 + kEdge + 2], 1);
     EXPECT_EQ(out.filled[24UL * 64 + 5], 0);

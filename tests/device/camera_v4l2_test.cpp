@@ -296,7 +296,7 @@ TEST(CameraV4l2, APollErrorAloneDoesNotMeanDeviceLost) {
     EXPECT_THROW(static_cast<void>(camera.next(1s)), DeviceLost);
 }
 
-TEST(CameraV4l2, PlanesLieWhereEachApiPutsThem) {
+TEST(CameraV4l2, PlanesAreFoundInBothBufferTypes) {
     for (const auto& [fourcc, multi, format] :
          {std::tuple{V4L2_PIX_FMT_NV12, false, PixelFormat::Nv12},
           std::tuple{V4L2_PIX_FMT_YUV420, false, PixelFormat::Yuv420},

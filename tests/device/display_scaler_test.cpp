@@ -60,7 +60,7 @@ Colour noise(int x, int y) {
             static_cast<int>(h * 69069U >> 16 & 255U)};
 }
 
-TEST_F(DisplayScaler, EqualSizeIsACopy) {
+TEST_F(DisplayScaler, APictureOfTheScreensSizeIsCopied) {
     const Size size{321, 97};
     const auto pixels = shown(picture(size, noise), size);
     for (int y = 0; y < size.height; ++y)
@@ -207,7 +207,7 @@ TEST_F(DisplayScaler, HostRowsAreDrawnLikeATexture) {
     }
 }
 
-TEST_F(DisplayScaler, ReaderTakesBothKindsOfPictures) {
+TEST_F(DisplayScaler, ScreenReaderReadsTexturesAndHostRows) {
     const Size size{230, 172}, screen{128, 72};
     const gpu::Texture texture = picture(size, noise);
     const AlignedRows<std::uint32_t> rows = noiseRows(size);

@@ -84,7 +84,7 @@ TEST(FrameDrops, AfterACounterResetTimesAreUsed) {
         << "without a number, the gap in time must be counted";
 }
 
-TEST(FrameDrops, BrokenFramesAreNotDrops) {
+TEST(FrameDrops, BrokenFramesDoNotCountAsDrops) {
     for (const bool numbered : {true, false}) {
         FrameDrops drops;
         Timestamp time{0};

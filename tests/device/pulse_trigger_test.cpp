@@ -102,7 +102,7 @@ TEST(PulseTrigger, LineIsInactiveFromTheStart) {
     EXPECT_FALSE(wire->all()[0].active);
 }
 
-TEST(PulseTrigger, PulseIsNeverShorterThanAskedAndItsEdgeIsTimed) {
+TEST(PulseTrigger, PulseIsNeverShorterThanRequestedAndItsStartIsTimed) {
     for (const microseconds pulse :
          {microseconds{20}, microseconds{1000}, microseconds{1500}, microseconds{5000}}) {
         const auto wire = std::make_shared<Wire>();
@@ -189,7 +189,7 @@ TEST(PulseTrigger, LoopbackMeasuresStartAndLength) {
     }
 }
 
-TEST(PulseTrigger, MissedEdgesAreCountedAndNotConfusedWithOthers) {
+TEST(PulseTrigger, MissedEdgesOfTheLoopbackAreCounted) {
     for (const int lost : {1, 2}) {
         for (const microseconds pulse : {microseconds{50}, microseconds{3000}}) {
             const auto wire = std::make_shared<Wire>();

@@ -249,7 +249,7 @@ TEST(EpipolarSearch, SearchingAPartGivesTheSameResultAsTheWhole) {
     EXPECT_EQ(search.inverseDepth(), whole.inverseDepth());
 }
 
-TEST(EpipolarSearch, GainAndGammaChangeLittle) {
+TEST(EpipolarSearch, GainAndGammaLowerTheAccuracyOnlyALittle) {
     const View view{plain(), stepScene(), motion({0, 2, 0}, {-0.2, 0.03, 0})};
     const LumaImage video = view.video(), still = view.still();
     const double plainBad = errorsOf(searched(view), view).bad;
@@ -268,7 +268,7 @@ TEST(EpipolarSearch, GainAndGammaChangeLittle) {
     }
 }
 
-TEST(EpipolarSearch, NoiseCostsLittle) {
+TEST(EpipolarSearch, NoiseLowersTheAccuracyOnlyALittle) {
     const View view{plain(), slantedScene(), motion({0, 2, 0}, {-0.2, 0.03, 0})};
     std::mt19937 random(4);
     std::normal_distribution<double> noise(0, 5);

@@ -173,7 +173,7 @@ TEST(RelativePose, NonFiniteInputIsRefused) {
     EXPECT_FALSE(refineRelativePose(matches, {c.translation, -kUsualCovariance}, kFocal).accepted);
 }
 
-TEST(RelativePose, SpreadCoversUncertainRotationAndParallax) {
+TEST(RelativePose, SpreadOfAMatchIncludesUncertainRotationAndTranslation) {
     const Matrix6 turn = priorCovariance(0.01, 0), shift = priorCovariance(0, 0.02);
     const RayMatch far{{0, 0}, {0, 0}}, near{{0, 0}, {0.1, 0}};
     const Eigen::Vector3d t(0.2, 0, 0);

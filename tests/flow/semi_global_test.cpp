@@ -150,7 +150,7 @@ TEST(SemiGlobal, MatchesTheOracleWithSeveralVectors) {
 
 // Sums of path costs are largest if each cost is either zero or the maximum, and penalties are at
 // their upper limits.
-TEST(SemiGlobal, SumsFitInTheirBytes) {
+TEST(SemiGlobal, SumsOfPathCostsFitIntoBytes) {
     for (unsigned seed = 1; seed <= 3; ++seed) {
         Problem p = randomProblem({40, 40}, 1, 30, seed);
         p.smoothness = {24, 60, 255};
@@ -161,7 +161,7 @@ TEST(SemiGlobal, SumsFitInTheirBytes) {
     }
 }
 
-TEST(SemiGlobal, OneClearLabelWinsEverywhere) {
+TEST(SemiGlobal, ALabelThatIsCheapestEverywhereWinsEverywhere) {
     for (int clear = 0; clear < 32; ++clear) {
         Problem p = randomProblem({20, 20}, 2, 0, 3);
         for (std::size_t i = 0; i < p.costs.size(); ++i)
@@ -213,7 +213,7 @@ TEST(SemiGlobal, IsTheSameWithAnyNumberOfThreads) {
 }
 
 // Scratch memory must not keep values of the larger problem.
-TEST(SemiGlobal, MayBeUsedAgainForSmallerProblems) {
+TEST(SemiGlobal, CanBeReusedForSmallerProblems) {
     Workers workers(2);
     SemiGlobal matcher(40UL * 30 * 3);
     for (const Problem& p : {randomProblem({40, 30}, 3, 20, 1), randomProblem({20, 15}, 1, 20, 2),

@@ -158,7 +158,7 @@ TEST(EnlargerLearner, TheSamePicturesGiveTheSameFilters) {
     EXPECT_NE(learned(pair, 3).stored("x"), learned(pair, 2).stored("x"));
 }
 
-TEST(EnlargerLearner, AStopDiscardsTheStill) {
+TEST(EnlargerLearner, AStopWhileLearningDiscardsTheStill) {
     std::stop_source stop;
     stop.request_stop();
     EnlargerLearner learner;

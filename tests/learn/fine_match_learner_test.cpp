@@ -57,7 +57,7 @@ TEST(FineMatchLearner, UnmatchedCellsAreIgnored) {
     EXPECT_FALSE(learner.fineMatch().isKnown());
 }
 
-TEST(FineMatchLearner, NumbersOutOfRangeAreNotRestored) {
+TEST(FineMatchLearner, StoredValuesOutOfRangeAreNotRestored) {
     FineMatchLearner learner;
     ASSERT_TRUE(learner.add(matchedPictures(sharpDiscs(1), {.videoNoise = 2})));
     const auto good = learner.stored();

@@ -132,7 +132,7 @@ TEST(GuidanceLearner, StillsOfAnotherSceneAreIgnored) {
     EXPECT_LT(learner.guidance().still, 0.05);
 }
 
-TEST(GuidanceLearner, NumbersOutOfRangeAreNotRestored) {
+TEST(GuidanceLearner, StoredValuesOutOfRangeAreNotRestored) {
     const auto good = learned(4, 8, 1).stored();
     GuidanceLearner learner;
     EXPECT_TRUE(learner.restore(good));

@@ -66,7 +66,7 @@ TEST(CarriedLight, ANextPictureTakesOverTheLightOfTheOneBefore) {
     EXPECT_LT(errorOf(going.shown.back(), 26), 0.7 * errorOf(fresh.shown.back(), 26));
 }
 
-TEST(CarriedLight, ColoursAreShownOnceSamplesSuffice) {
+TEST(CarriedLight, ANewPictureIsShownOnceItHasEnoughSamples) {
     TracedPolicy policy = kProduct;
     policy.soon = false;
     Driver driver(kThirtyTwo, policy);

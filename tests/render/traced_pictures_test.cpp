@@ -38,7 +38,7 @@ TEST(NextStep, StepDependsOnHowFarTheViewChanged) {
     }
 }
 
-TEST(NextStep, NextPictureStartsLaterWhenColoursAreUsed) {
+TEST(NextStep, AHigherLimitOfChangeStartsTheNextPictureLater) {
     using enum TracedStep;
     EXPECT_EQ(nextStep(0.9, {}, 1), Refine);
     EXPECT_EQ(nextStep(1.0, {}, 1), Start);

@@ -92,7 +92,7 @@ double degreesBetween(const RenderView& a, const RenderView& b) {
     return std::atan2(from.cross(to).norm(), from.dot(to)) * 180 / std::numbers::pi;
 }
 
-TEST(TracedRenderer, GivesTheSamePictureForBothWaysAndAnyThreads) {
+TEST(TracedRenderer, GivesTheSamePictureForBothSlicingsAndAnyThreads) {
     const RenderView view = render_scenes::viewFrom(kRenderSize, 20);
     const auto scene = render_scenes::stillLife();
     const PathTracer tracer(scene);

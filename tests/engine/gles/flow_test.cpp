@@ -225,7 +225,7 @@ std::vector<Cell> filtered(const std::vector<Cell>& in, int planeFits = 2) {
     return cells.read<Cell>(kArea);
 }
 
-TEST_F(FlowPasses, FilterMatchesTheOracle) {
+TEST_F(FlowPasses, CleanUpMatchesTheOracle) {
     // Flow fields of different noise: from nearly a plane to unrelated vectors.
     for (const float reach : {0.2F, 0.7F, 5.0F}) {
         auto in = randomField(8, reach);
@@ -248,7 +248,7 @@ TEST_F(FlowPasses, FilterMatchesTheOracle) {
     }
 }
 
-TEST_F(FlowPasses, FilterKeepsPlanesAndTheStepBetweenThem) {
+TEST_F(FlowPasses, CleanUpKeepsPlanesAndTheStepBetweenThem) {
     std::vector<Cell> in(kArea);
     for (int i = 0; i < kArea; ++i) {
         const int column = i % 16, row = i / 16;

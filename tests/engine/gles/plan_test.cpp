@@ -48,7 +48,7 @@ TestPicture changedIn(TestPicture base, int tiles, int by) {
     return out;
 }
 
-TEST_F(Plan, FlagsAndNoiseMatchTheOracle) {
+TEST_F(Plan, TileFlagsAndNoiseMatchTheOracle) {
     const TestPicture drawn = Waves(1, 6, 60, 30).shoot(kSize, {});
     TestPicture now = drawn;
     std::mt19937 random(7);
@@ -85,7 +85,7 @@ TEST_F(Plan, FlagsAndNoiseMatchTheOracle) {
     EXPECT_LE(changed, 26);
 }
 
-TEST_F(Plan, OverdrawnTilesAreRedrawnOnceAnyOtherTileChanges) {
+TEST_F(Plan, TilesUnderVirtualObjectsAreRedrawnOnceAnyOtherTileChanges) {
     const TestPicture base = Waves(1, 6, 60, 30).shoot(kSize, {});
     const TestPicture oneTile = changedIn(base, 1, 64);
     WorkPlan plan(kSize);
@@ -112,7 +112,7 @@ TEST_F(Plan, OverdrawnTilesAreRedrawnOnceAnyOtherTileChanges) {
     EXPECT_EQ(plan.work().changed, 28) << "a tile must not be counted twice";
 }
 
-TEST_F(Plan, OverdrawnTilesAreRedrawnTogetherOnceOneOfThemChanges) {
+TEST_F(Plan, TilesUnderVirtualObjectsAreRedrawnTogetherOnceOneChanges) {
     const TestPicture base = Waves(1, 6, 60, 30).shoot(kSize, {});
     const TestPicture oneTile = changedIn(base, 1, 64);  // only the first tile changes
     WorkPlan plan(kSize);
@@ -275,7 +275,7 @@ TEST_F(Plan, TilesWithStructureAndTheirNeighboursAreMatched) {
     EXPECT_EQ(update().size(), 16U);
 }
 
-TEST_F(Plan, NoiseDoesNotToggleDetail) {
+TEST_F(Plan, NoiseDoesNotSwitchTheDetailOfTilesOnAndOff) {
     const Size size{512, 256};  // 32x16 tiles
     TestPicture quiet(size, PixelFormat::Rgba8, 90);
     std::mt19937 random(5);

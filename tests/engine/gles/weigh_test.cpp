@@ -238,7 +238,7 @@ void expectLists(const Classified& got, const std::array<std::set<std::uint32_t>
     }
 }
 
-TEST_F(Classify, ClassesCountsAndListsMatchTheOracle) {
+TEST_F(Classify, TileClassesCountsAndListsMatchTheOracle) {
     const twin::Cells field = mixedField();
     // Tiles that the four lists must contain: all, enlarged only, trusted, blended.
     std::array<std::set<std::uint32_t>, 4> wanted;
@@ -276,7 +276,7 @@ TEST_F(Classify, ClassesCountsAndListsMatchTheOracle) {
     expectLists(classify(field, changes(0), true, 0), wanted);
 }
 
-TEST_F(Classify, AWholeFrameListsNothing) {
+TEST_F(Classify, ForAWholeFrameNoTilesAreListed) {
     const Classified got = classify(mixedField(), changes(1), true);
     EXPECT_EQ(got.draws.counts[0], 0U);
     for (const auto& command : got.draws.commands)

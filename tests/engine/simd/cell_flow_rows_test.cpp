@@ -10,7 +10,7 @@ namespace {
 
 using Row = std::vector<float>;
 
-TEST(CellDepths, CellDepthIsTheMeanOfTheMiddleTwoPixels) {
+TEST(CellDepths, CellDepthIsTheMedianOfTheFourCentralPixels) {
     for (const std::size_t count : test::kLengths) {
         const Row upper = test::randomValues<float>(4 * count, -1, 1, 1);
         const Row lower = test::randomValues<float>(4 * count, -1, 1, 2);
@@ -119,7 +119,7 @@ TEST(CellsHidden, OccludedCellsLieBehindOthersAtTheSamePixel) {
     }
 }
 
-TEST(PredictCells, CarriesCellsToTheNextFrame) {
+TEST(PredictCells, MovesCellsAndTheirInverseDepthToTheNextFrame) {
     CellMotion m{test::barrel(), {test::smallTurn(), {0.1F, 0.05F, -0.2F}}, 0.3F, 0.4F, 1.5F,
                  0.05F};
     const Size cells{100, 80};

@@ -47,7 +47,7 @@ TEST(LandRow, FindsThePixelOfTheOtherPicture) {
     }
 }
 
-TEST(MoveRow, CarriesPointsWithTheirVariance) {
+TEST(MoveRow, MovesPointsAndTheirVariance) {
     const Lens lens = test::barrel();
     const Motion motion{test::smallTurn(), {0.1F, -0.05F, -0.3F}};
     const MoveRule rule{0.01F, 0.02F, 0.05F, 0.001F};
@@ -96,7 +96,7 @@ TEST(MoveRow, CarriesPointsWithTheirVariance) {
     }
 }
 
-TEST(MeasureRow, DistinguishesVisibleAndMovingPoints) {
+TEST(MeasureRow, OnlyVisiblePointsThatMoveWithTheirDepthAreMeasured) {
     const MeasureRule rule{{0.3F, 0.1F, 0.5F}, 0.05F, 0.05F, 0.003F, 2};
     for (const std::size_t count : test::kLengths) {
         const Row raysX = test::randomValues<float>(count, -0.6, 0.6, 1);

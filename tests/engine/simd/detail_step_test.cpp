@@ -112,7 +112,7 @@ void expectDetailIn(const DetailCase& frame, const Drawn& drawn, Size output,
     EXPECT_GT(most, 5) << "the test needs detail that would be visible in other tiles";
 }
 
-TEST(DetailStep, DetailOfAWholeFrameStaysInItsRectangle) {
+TEST(DetailStep, DetailOfAWholeFrameStaysInTheGivenRectangle) {
     const Size output{576, 432};
     DetailCase frame({160, 120}, {400, 300});
     frame.work.detailTiles = {2, 1, 7, 6};
@@ -122,7 +122,7 @@ TEST(DetailStep, DetailOfAWholeFrameStaysInItsRectangle) {
     });
 }
 
-TEST(DetailStep, AWholeFrameWithAListHasDetailOnlyInMatchedTiles) {
+TEST(DetailStep, WholeEnlargedFramesHaveDetailOnlyInMatchedTiles) {
     const Size output{576, 432};
     DetailCase frame({160, 120}, {400, 300});
     frame.work.draw = TileWork::Draw::WholeEnlarged;

@@ -128,7 +128,7 @@ TEST(EnlargeRows, ClassesMatchTheOracle) {
     });
 }
 
-TEST(EnlargeRows, EveryAngleAndStrengthClassOccurs) {
+TEST(EnlargeRows, WavesOfAllDirectionsReachEveryClass) {
     // Waves of all directions, from flat to steep.
     std::vector<bool> gradient(GradientClasses::kCount), curvature(CurvatureClasses::kCount);
     for (int angle = 0; angle < 64; ++angle)
@@ -289,7 +289,7 @@ TEST(EnlargeRows, BlurredEdgesGetSharper) {
     EXPECT_LT(allAfter, 0.8 * allBefore);
 }
 
-TEST(EnlargeRows, MixedRowLiesBetweenItsInputs) {
+TEST(EnlargeRows, AMixedResidualRowLiesBetweenItsTwoInputs) {
     onEveryTarget([&] {
         AlignedRows<std::int16_t> rows({50, 2});
         AlignedRows<float> out({50, 1});

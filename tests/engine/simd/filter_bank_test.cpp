@@ -39,7 +39,7 @@ TEST(FilterBank, TapsCoverEachNeighbourOnce) {
     EXPECT_EQ(tapAt({0, 0}), -1);
 }
 
-TEST(FilterBank, BinsMapOntoOneQuadrantByMirrors) {
+TEST(FilterBank, MirroringMapsAllGradientBinsOntoOneQuadrant) {
     for (const int bins : {8, 16})
         for (int bin = 0; bin < bins; ++bin) {
             const Symmetry same = Symmetry::of(bin, bins);
@@ -98,7 +98,7 @@ TEST(FilterBank, ShippedFiltersCoverMostClasses) {
     EXPECT_GT(learned, GradientClasses::kCount / 2);
 }
 
-TEST(FilterBank, CubicKeepsFlatPictures) {
+TEST(FilterBank, TheCubicFilterKeepsFlatPictures) {
     // The weight of the pixel itself completes the sum to one. The other weights are those of Keys'
     // cubic.
     const std::int16_t* cubic = FilterBank::prior().cubic();

@@ -139,7 +139,7 @@ TEST(Flow2d, NoiseGivesBoundedFlowAtAnySize) {
     }
 }
 
-TEST(Flow2d, EveryNumberOfLevelsAndRoundsWorks) {
+TEST(Flow2d, EveryNumberOfPyramidLevelsAndPropagationRoundsWorks) {
     for (const int levels : {1, 2, 3, 6})
         for (const int rounds : {0, 1, 3}) {
             Flow2dOptions options;
@@ -259,7 +259,7 @@ TEST(Flow2d, RefinementAlignsTheSeeds) {
     EXPECT_FALSE(pair.flow.errorsGiven());
 }
 
-TEST(Flow2d, TwoWayErrorsAreKeptWhenNothingIsMatched) {
+TEST(Flow2d, WithoutMatchedTilesNoTwoWayErrorsAreGiven) {
     Pair pair(wavesMoved(kSmall, {0, 0}), wavesMoved(kSmall, {1, 0}));
     pair.refine(seedsAround({1, 0}, 0.1), std::vector<Cell>(1200));
     pair.work.matched = 0;
