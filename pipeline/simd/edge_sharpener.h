@@ -42,7 +42,8 @@ private:
     double share_, step_;
     std::size_t most_;
     bool isListed_ = false;
-    std::vector<std::array<std::uint32_t, 2>> listed_;  // pixel index and colour; ascending
+    std::vector<std::array<std::uint32_t, 2>>
+        listed_;  // index and colour of each listed pixel, ascending
     std::vector<Entry> entries_;
     double shown_ = 0;  // weight of the rendered colours; 0: there are none
 };

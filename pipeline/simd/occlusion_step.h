@@ -70,7 +70,7 @@ private:
     struct Between {
         Between(int pixels, int others);
         std::vector<std::int32_t> first;  ///< pixel before the position; -1 at the border
-        std::vector<float> share;         ///< distance from that pixel, [0, 1)
+        std::vector<float> share;         ///< distance of the position from `first`, [0, 1)
     };
     /// One of the frame's planes, including margins.
     using Plane = AlignedRows<float>;

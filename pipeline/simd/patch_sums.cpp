@@ -155,7 +155,7 @@ HWY_INLINE V16 PerBlock(const std::int32_t* values) {
                        hn::TableLookupLanes(hn::LoadU(d, values), hn::SetTableIndices(d, cell)));
 }
 
-/// Adds one row of the patch of each block's cell.
+/// Adds the products of one row of a patch, for the cell of each block of the vector.
 template <class VideoRow, class StillRow>
 HWY_INLINE void SumRows(const VideoRow& videoRow, const StillRow& stillRow, int first, V16 fx,
                         V16 fy, Partial& out) {

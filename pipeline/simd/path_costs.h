@@ -12,7 +12,7 @@ inline constexpr int kLabels = 16;  ///< number of labels in a vector
 
 /// The cheapest of a pixel's labels, and by how much the neighbouring labels cost more.
 struct Valley {
-    static constexpr std::uint8_t kUnknown = 255;  ///< that label is outside the pixel's window
+    static constexpr std::uint8_t kUnknown = 255;  ///< extra cost of a label outside the window
 
     std::int32_t label = 0;
     /// Extra costs of label - 2, label - 1, label + 1 and label + 2; each at most 254, or kUnknown.
@@ -35,8 +35,8 @@ struct PathVolume {
     std::uint8_t* sums;         ///< sums of path costs over the directions, one for each cost
 };
 
-/// Numbers of rows and columns that are processed fastest. Threads should split the work at
-/// multiples of them.
+/// Numbers of rows and of columns that are processed together. Threads should split the work at
+/// multiples of these numbers.
 inline constexpr int kRowsTogether = 4, kColumnsTogether = 32;
 
 /// Returns the number of bytes of `scratch` that pathsAlongColumns() needs for `columns` columns,

@@ -5,7 +5,7 @@
 
 namespace mfar::simd {
 
-// Sharpening and enlarging a row of one colour channel, entries [begin, end); see
+// Functions that sharpen entries [begin, end) of a row of one colour channel, see
 // superres_sharpen.frag. Rows may be read and written up to 64 bytes beyond `end`.
 
 /// Input for the strength of the sharpening: half of the weight of the still's detail, and the

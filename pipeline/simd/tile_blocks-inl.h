@@ -232,7 +232,7 @@ HWY_INLINE void ReadColumn(D d, const TilePixels& pixels, int x, Blocks& out) {
 }
 
 void ReadBlocks(const TilePixels& pixels, Blocks& out) {
-    // First vectors of several whole tiles, then vectors of one tile.
+    // Processes vectors of several whole tiles first, then vectors of one tile.
     const hn::CappedTag<std::int16_t, 4 * kSide> d;
     const hn::FixedTag<std::int16_t, kSide> tile;
     const int blocks = kSide * pixels.tiles, lanes = static_cast<int>(hn::Lanes(d));

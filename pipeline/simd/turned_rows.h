@@ -13,7 +13,7 @@ inline constexpr int kTurnedCell = 8;  ///< distance between the grid points of 
 
 /// A camera into which rays of another camera with the same centre are projected.
 struct TurnedLens {
-    Lens lens;                  ///< lens of that camera; its rim2 is ignored
+    Lens lens;                  ///< the camera's lens; its rim2 is ignored
     std::array<float, 9> turn;  ///< rotation of rays, row-major
     float rim;                  ///< radius of the outermost visible ray
 };

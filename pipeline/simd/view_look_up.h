@@ -23,7 +23,7 @@ class SurfaceRaster;
 
 /// A pixel of the layer whose colour is not completely known.
 struct Hole {
-    std::uint32_t pixel;   ///< row-major index
+    std::uint32_t pixel;   ///< row-major index of the pixel
     std::uint32_t colour;  ///< known part of the colour, RGBA8 premultiplied
     bool isEdge, isOpen;   ///< isOpen: no part of the colour is known
 };

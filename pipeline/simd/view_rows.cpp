@@ -227,7 +227,7 @@ HWY_INLINE Asked AskFor(const ViewLookUpInput& in, const Four& s, V rayX, V rayY
     return {z, id, ofCatcher, empty, asked, there.z, pixel.x, pixel.y, lowX, lowY};
 }
 
-/// Loads every second word, for the four texels around a position.
+/// Loads one of the two LightWords of each of the four texels around a position.
 HWY_INLINE Four GatherLights(const std::uint32_t* from, VI at, int width) {
     const DU du;
     const VI word = hn::Add(at, at);

@@ -28,7 +28,7 @@ struct CatcherPlane {
 
 /// The traced picture, in which the pixels of a row of the layer are looked up.
 struct ViewLookUpInput {
-    PointTransform toTraced;       ///< from the layer's camera to the traced picture's
+    PointTransform toTraced;       ///< transforms from the layer's to the traced picture's camera
     PointLens lens;                ///< lens of the traced picture's camera
     Size tracedSize;               ///< size of the traced picture [px]
     const std::uint32_t* packed;   ///< traced picture's surfaces, row-major; number 254: unknown

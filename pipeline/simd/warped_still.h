@@ -15,8 +15,8 @@ namespace mfar::simd {
 struct WarpedStillTaps {
     WarpedStillTaps(Size video, Size output);
 
-    RowTaps meanRows, meanColumns;    ///< from the output's to the video's pixels
-    RowTaps cubicRows, cubicColumns;  ///< from the video's to the output's pixels
+    RowTaps meanRows, meanColumns;    ///< resample output pixels to video pixels
+    RowTaps cubicRows, cubicColumns;  ///< resample video pixels to output pixels
     /// Number of output rows that the detail of a row reads, from that row to the last one read:
     /// without guidance (`kept`), and with it.
     int kept, keptGuided;

@@ -24,7 +24,7 @@ struct WeighInput {
     const std::vector<LumaLevel>& videoLuma;
     const std::vector<LumaLevel>& stillLuma;
     std::span<const std::uint32_t> words;  ///< must end with kLumaSpareWords
-    Rows<const FlowCell> forward;          ///< flow, video to still; cells of 4x4 video pixels
+    Rows<const FlowCell> forward;          ///< flow from video to still; 4x4 video pixels a cell
     /// Flow from still to video, in pixels of pyramid level `backwardLevel`. Read only if
     /// errors.data is null.
     Rows<const FlowCell> backward;

@@ -180,7 +180,7 @@ TEST(Calibrate, TheReportListsEveryViewAndItsPictureIsWritten) {
     std::size_t coloured = 0;
     for (std::size_t i = 0; i < picture.pixels.size(); i += 4)
         coloured += std::abs(picture.pixels[i] - picture.pixels[i + 2]) > 30 ? 1 : 0;
-    EXPECT_GT(coloured, 5000U);  // of arrows and dots
+    EXPECT_GT(coloured, 5000U);  // coloured pixels are those of arrows and dots
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ struct Request {
     fs::path video;       ///< Y4M written by the daemon; empty: none
     fs::path objects;     ///< configuration with objects; empty: none
     fs::path pathTraced;  ///< configuration with path-traced objects; empty: none
-    std::string scene;    ///< recorded scene; the truth of objects needs it
+    std::string scene;    ///< name of the synthetic scene; needed for true pictures of objects
 };
 
 void row(const std::string& what, const std::string& upscaled, const std::string& ours) {

@@ -16,7 +16,7 @@ using Colour = std::array<int, 3>;
 
 class DisplayScaler : public GlTest {
 protected:
-    // A texture. The function gives the colour of each pixel.
+    // Returns a texture whose pixel (x, y) has the colour colour(x, y).
     static gpu::Texture picture(Size size, const std::function<Colour(int, int)>& colour) {
         std::vector<std::uint8_t> pixels;
         for (int y = 0; y < size.height; ++y)

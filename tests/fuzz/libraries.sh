@@ -69,7 +69,7 @@ buildAll() {
     (cd "$folder"/zlib-*/ && CC=clang-19 CFLAGS=$flags ./configure --static --prefix="$prefix" &&
         make install)
     buildOne "$folder"/libpng1.6-*/ "$prefix" -DPNG_SHARED=OFF -DPNG_TESTS=OFF -DPNG_EXECUTABLES=OFF
-    # Without its SIMD code, which is assembly that no sanitizer can check.
+    # libjpeg-turbo is built without its SIMD code, which is assembly that no sanitizer can check.
     buildOne "$folder"/libjpeg-turbo-*/ "$prefix" -DENABLE_SHARED=OFF -DWITH_SIMD=OFF
     buildOne "$folder"/yaml-cpp-*/ "$prefix" -DYAML_CPP_BUILD_TESTS=OFF -DYAML_CPP_BUILD_TOOLS=OFF
 }

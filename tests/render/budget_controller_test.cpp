@@ -13,7 +13,7 @@
 namespace mfar {
 namespace {
 
-constexpr double kBudget = 4;  // [ms]
+constexpr double kBudget = 4;  // time budget of a frame [ms]
 
 /// Cost of a sample in a frame [ms].
 using CostTrace = std::function<double(int frame)>;

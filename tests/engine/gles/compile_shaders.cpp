@@ -194,7 +194,7 @@ void addVariants(std::string_view name, const std::string& text, std::vector<Sha
         out.push_back({std::string(name), text, defines});
 }
 
-/// The shaders in these files. Without files, all shaders of the program.
+/// Returns the shaders in `files`; all shaders of the program if there are no files.
 std::vector<Shader> wanted(const std::vector<std::string>& files) {
     std::vector<Shader> out;
     for (const std::string& path : files) {

@@ -217,7 +217,7 @@ unsigned classIn(const twin::Cells& field, int tile) {
     return twin::tileClass(field, tile % kClassified.width, tile / kClassified.width);
 }
 
-/// These tiles and all their neighbours.
+/// Returns `tiles` and all their neighbours.
 std::set<std::uint32_t> withNeighbours(const std::set<std::uint32_t>& tiles) {
     std::set<std::uint32_t> out;
     for (const std::uint32_t tile : tiles)
