@@ -53,7 +53,7 @@ TEST(Calibrate, FindsLensesBaselineAndClockOffsetInNoise) {
     EXPECT_NEAR(found.still.rms, motion.noise * std::sqrt(2), 0.02);
 }
 
-TEST(Calibrate, ClockOffsetsOfManyFramesAreFound) {
+TEST(Calibrate, ClockOffsetsOfManyFrameIntervalsAreFound) {
     Motion motion;
     motion.offset = -0.187;
     const BothViews views = makeViews(kGrid, motion);

@@ -220,7 +220,7 @@ TEST(TargetFinder, EmptyPicturesGiveNoCorners) {
     }
 }
 
-TEST(Coverage, CountsCellsAndNamesTheEmptyPart) {
+TEST(Coverage, CountsCoveredCellsAndNamesTheEmptyPartOfThePicture) {
     Coverage coverage(kPicture);
     EXPECT_EQ(coverage.share(), 0);
     std::vector<Corner> corners;

@@ -25,7 +25,7 @@ struct RestartPauseTest : testing::Test {
     Timestamp now = Timestamp::fromSeconds(5000);
 };
 
-TEST_F(RestartPauseTest, WaitsGrowUpToALimit) {
+TEST_F(RestartPauseTest, PausesGrowUpToALimit) {
     for (const int expected : {0, 1, 3, 7, 15, 30, 30, 30})
         EXPECT_EQ(fail().wait.count(), expected);
     EXPECT_EQ(fail().inARow, 9);

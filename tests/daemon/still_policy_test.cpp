@@ -247,7 +247,7 @@ TEST(StillPolicy, InModeOffThePulseOfALostRequestedStillIsRepeated) {
     EXPECT_EQ(board.policy.lost(), 2);
 }
 
-TEST(StillPolicy, ReloadToOffForgetsAPendingStill) {
+TEST(StillPolicy, AReloadToModeOffForgetsAPendingStill) {
     Simulation board({});
     board.answers = false;
     board.run(0.1, kRest);
@@ -259,7 +259,7 @@ TEST(StillPolicy, ReloadToOffForgetsAPendingStill) {
     EXPECT_EQ(board.policy.lost(), 0);
 }
 
-TEST(StillPolicy, ReloadFromOffToDemandFires) {
+TEST(StillPolicy, AReloadFromModeOffToDemandFiresTheTrigger) {
     TriggerConfig config;
     config.mode = TriggerMode::Off;
     Simulation board(config);

@@ -126,7 +126,7 @@ TEST(CameraV4l2Buffers, FewBuffersSufficeForManyPictures) {
         }
 }
 
-TEST(CameraV4l2Buffers, EnoughBuffersAreLentWithoutACopy) {
+TEST(CameraV4l2Buffers, WithEnoughBuffersPicturesAreLentWithoutACopy) {
     FakeV4l2 fake;
     fake.mostBuffers = 4;
     CameraV4l2Options options = fourBuffers();

@@ -126,7 +126,7 @@ void Board::setUp(const Plan& plan) {
         writeDevice(device);
     replace("mfard.toml", fmt::format("{}mode = \"{}\"\n", configuration_, plan.mode));
     if (mkfifo(kPipe, 0600) != 0 && errno != EEXIST)
-        throw std::runtime_error("no pipe can be made");
+        throw std::runtime_error("a pipe for the screen cannot be created");
 }
 
 void Board::writeDevice(Where which) const {

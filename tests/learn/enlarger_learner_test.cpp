@@ -49,7 +49,7 @@ TEST(EnlargerLearner, BeginsWithTheShippedFilters) {
     EXPECT_EQ(learner.counts().classes, 0);
 }
 
-TEST(EnlargerLearner, ADifferentPointSpreadIsLearned) {
+TEST(EnlargerLearner, FiltersLearnedFromBlurredVideoReduceTheError) {
     const SensorPair pair{.videoBlur = 2};
     const EnlargerLearner learner = learned(pair);
     const Errors errors = errorsOf(learner, pair);
@@ -59,7 +59,7 @@ TEST(EnlargerLearner, ADifferentPointSpreadIsLearned) {
     EXPECT_EQ(learner.counts().stills, 6U);
 }
 
-TEST(EnlargerLearner, NoiseIsLearned) {
+TEST(EnlargerLearner, FiltersLearnedFromNoisyVideoReduceTheError) {
     const SensorPair pair{.videoNoise = 6, .stillNoise = 3};
     const Errors errors = errorsOf(learned(pair), pair);
     EXPECT_LT(errors.learned, 0.97 * errors.shipped);

@@ -38,7 +38,7 @@ TEST(GuidanceLearner, StartsWithoutGuidance) {
     EXPECT_EQ(GuidanceLearner().gainDb(), 0);
 }
 
-TEST(GuidanceLearner, FindsTheBestMeanOfTwoNoisyValues) {
+TEST(GuidanceLearner, FindsTheBestWeightsOfNoisyVideoAndStill) {
     // The still is averaged over a video pixel, which leaves a quarter of its noise.
     for (const auto& [video, still] : {std::pair{4.0, 0.0}, {4.0, 8.0}, {4.0, 16.0}}) {
         const double best = video * video / (video * video + still * still / 16);

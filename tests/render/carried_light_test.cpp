@@ -80,7 +80,7 @@ TEST(CarriedLight, ANewPictureIsShownOnceItHasEnoughSamples) {
     EXPECT_GT(driver.shown.back().samples, 4) << "8 of objects, 2 of other surfaces";
 }
 
-TEST(CarriedLight, CarriedLightOfOtherLightingIsSoonOutweighed) {
+TEST(CarriedLight, LightCarriedFromOtherLightingIsSoonOutweighed) {
     Driver driver(kThirtyTwo, kProduct);
     const auto dark = std::make_shared<Scene>(*render_scenes::stillLife());
     dark->lighting.sun->irradiance *= 0.2F;

@@ -195,7 +195,7 @@ TEST_F(Draw, DetailIsAddedByItsWeight) {
     }
 }
 
-TEST_F(Draw, BlendMixesByConfidence) {
+TEST_F(Draw, ModeBlendMixesVideoAndStillByConfidence) {
     const TestPicture p = Waves(2, 6, 40, 20).shoot(kSmallVideo, {});
     const TestPicture still = Waves(3, 8, 40, 30).shoot(kSmallStill, {});
     const TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);

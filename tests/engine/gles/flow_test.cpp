@@ -85,7 +85,7 @@ TEST_F(FlowPasses, CostAndTextureMatchTheOracle) {
     }
 }
 
-TEST_F(FlowPasses, OneStepMatchesTheOracle) {
+TEST_F(FlowPasses, OneGaussNewtonStepMatchesTheOracle) {
     const Waves waves(2, 10, 60, 40);
     const LevelPair pair(waves.shoot(kSize, {}), waves.shoot(kSize, {.shift = {1.3, -0.6}}));
     const auto a = pair.first(), b = pair.second();

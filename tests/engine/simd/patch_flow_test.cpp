@@ -88,7 +88,7 @@ TEST(PatchFlow, CostAndTextureMatchTheOracle) {
     expectCostsOf(chess, chess);
 }
 
-TEST(PatchFlow, OneStepMatchesTheOracle) {
+TEST(PatchFlow, OneGaussNewtonStepMatchesTheOracle) {
     const FlowPicture first = wavesMoved(kSize, {0, 0}), second = wavesMoved(kSize, {1.3, -0.6});
     const auto vectors = randomVectors(5, 1);
     const twin::Grey a = greyOf(first), b = greyOf(second);
