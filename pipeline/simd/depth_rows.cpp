@@ -43,7 +43,7 @@ void LandRow(const Lens& lens, Size size, const Motion& motion, const float* ray
     });
 }
 
-/// The smallest rectangle around pixels, which are added one vector at a time.
+/// The smallest rectangle around all added pixels. Pixels are added one vector at a time.
 class LaneBounds {
 public:
     HWY_INLINE explicit LaneBounds(Size size)

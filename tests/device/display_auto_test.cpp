@@ -15,7 +15,7 @@ using testing::HasSubstr;
 // State of a simulated display device, with counters of calls.
 struct Device {
     Presence presence = Presence::Absent;
-    bool refuses = false;        // show() throws
+    bool refuses = false;        // true: show() throws
     int refusesAfter = 1000000;  // number of pictures after which show() throws
     int shown = 0, looks = 0, thoroughLooks = 0, released = 0;
     bool held = false;

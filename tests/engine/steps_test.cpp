@@ -162,8 +162,8 @@ TEST_P(StepsTest, WithoutAStillTheVideoIsEnlarged) {
     for (const Size output : {Size{191, 133}, Size{61, 140}, Size{424, 296}})
         for (const bool cubic : {true, false}) {
             const auto engine = engineFor(plainRig(video, output), output);
-            // Tolerance: shaders round columns to 8 bits; kernels have rows in 1/64 grey level and
-            // products in 1/32.
+            // Tolerance [grey levels]: shaders round columns to 8 bits; kernels round rows to 1/64
+            // grey level and products to 1/32 grey level.
             const double gain = cubic ? twin::kCubicGain : 1;
             const double most = isGles() ? 0.51 * (1 + gain) : 0.65;
             expectEnlarged(*engine, Waves(1, 3, 40, 20).shoot(video, {}), output, cubic, most);

@@ -130,7 +130,7 @@ void Board::setUp(const Plan& plan) {
 }
 
 void Board::writeDevice(Where which) const {
-    // Only the time of the video picture appears on the screen; so stills have none.
+    // The judge reads the time of the video picture from the screen. Stills need no time stamp.
     std::string text = which == Where::Still ? "plain " : "";
     if (which == Where::Still && hasTrigger_) text += "triggered ";
     for (const Fault* fault : active_)

@@ -128,8 +128,8 @@ DriftScene brightening(double perFrame, bool redAlone) {
     };
 }
 
-// The limit: if noise is the picture's only error, a loss of 0.1 dB is 2.3 % of the noise's
-// variance.
+// The limit of the error of stale tiles is 3 % of the noise's variance. (If noise is the picture's
+// only error, a loss of 0.1 dB is 2.3 %.)
 TEST_F(PlanDrift, SlowChangesLeaveNoStaleTiles) {
     const std::vector<std::pair<const char*, DriftScene>> scenes{
         {"slow", slopes(25, 0.05)},

@@ -97,7 +97,7 @@ public:
         }
         const double weight = lookUpAt(x, y, 2);
         double up = video_[c].at(x, y);
-        if (options_.learned != nullptr)  // reduced where the detail of the still is added
+        if (options_.learned != nullptr)  // the residual shrinks where the still adds detail
             up -= std::min(weight, 1.0) * residual_.at(x, y);
         return std::clamp(up + weight * detail_.at(x, y), 0.0, 255.0);
     }

@@ -44,7 +44,7 @@ TEST(FilterBank, MirroringMapsAllGradientBinsOntoOneQuadrant) {
         for (int bin = 0; bin < bins; ++bin) {
             const Symmetry same = Symmetry::of(bin, bins);
             const double angle = ((bin + 0.5) / bins - 0.5) * 3.14159265358979;
-            // A direction in the centre of the bin. Pixels are mapped in the same way.
+            // Mirrors a direction in the centre of the bin as the bin's pixels are mirrored.
             double x = std::cos(angle), y = std::sin(angle);
             if (same.mirrors) y = -y;
             if (same.transposes) std::swap(x, y);
