@@ -89,7 +89,7 @@ TEST_F(DisplayScaler, EveryPixelIsTheMeanOfItsFootprint) {
                     worst = std::max(worst, std::abs(got[k] - mean[k]));
             }
         // Tolerance: a linear sampler interpolates with at least 8 bits and truncates along x and
-        // along y; rounding adds half a level.
+        // along y; rounding adds half a grey level.
         EXPECT_LE(worst, 2.5) << from.width << "x" << from.height;
     }
 }
