@@ -116,7 +116,7 @@ void AlignCells(const FlowEnds& ends, const CellRow& row, const CellVector* flow
         const auto moved = hn::MulAdd(ahead, hn::Div(along, square), at);
         hn::StoreU(hn::IfThenElse(tells, moved, at), d, to);
     };
-    // This works in place, so no value may be processed twice.
+    // `s` is changed in place, so the last vector must not overlap the one before.
     const hn::ScalableTag<float> d;
     std::size_t i = 0;
     for (; i + hn::Lanes(d) <= row.count; i += hn::Lanes(d))

@@ -10,7 +10,7 @@ namespace mfar::simd {
 
 /// Returns the size with its width rounded up to whole vectors of the kernels.
 [[nodiscard]] inline Size wholeVectors(Size cells) {
-    constexpr int kLongest = 16;  // [cells]
+    constexpr int kLongest = 16;  // cells in the longest vector
     return {(cells.width + kLongest - 1) / kLongest * kLongest, cells.height};
 }
 
@@ -33,7 +33,7 @@ public:
     }
 
 private:
-    static constexpr int kMargin = 16;  // as long as a cache line
+    static constexpr int kMargin = 16;  // [cells]; as long as a cache line
     Size cells_;
     AlignedRows<float> rows_;
 };

@@ -8,9 +8,9 @@
 
 namespace mfar::simd {
 
-/// Rows of a field of cells, enlarged to the width of a picture: linear between the centres of
-/// cells, constant beyond the border. Keeps four adjacent rows. Count: number of channels of a
-/// cell, chosen by the caller.
+/// Rows of a field of cells, enlarged to the width of a picture. Values are interpolated linearly
+/// between the centres of cells, and constant beyond the outermost centres. Keeps four adjacent
+/// rows. Count: number of channels of a cell, chosen by the caller.
 template <class Cell, std::size_t Count>
 class CellRows {
 public:

@@ -43,7 +43,8 @@ HWY_INLINE V Smoothed(const RowsAround& rows, int x) {
     return hn::Mul(hn::MulAdd(Const(2), Vertical(rows, x), sides), Const(1.0F / 16));
 }
 
-/// 64 times the squared change of the flow around the cell, for one component of the flow.
+/// Squared change of one component of the flow across the cell: sum of the squared horizontal and
+/// vertical differences between the cell's two neighbours, which are 8 px apart.
 HWY_INLINE V Bend(const RowsAround& flow, int x) {
     const D d;
     const V dx = hn::Sub(hn::LoadU(d, flow.here + x + 1), hn::LoadU(d, flow.here + x - 1));
@@ -108,7 +109,7 @@ HWY_INLINE Weight WeightOf(const WeighRow& row, int x, V low, V lowStill, V conf
     const V tear = hn::Sqrt(hn::Add(Tear(row.flowX, x), Tear(row.flowY, x)));
     const V whole = hn::Sub(Const(1), SmoothStep(params::kSmoothStep, params::kTornStep, tear));
     const V weight = hn::Mul(hn::Mul(gain, trust), hn::Mul(confidence, whole));
-    // False for NaN flow, because its bend is NaN.
+    // A cell whose flow is NaN does not count: `bend` is NaN, so bend == bend is false.
     const auto counts = hn::And(hn::Gt(weight, Const(params::kSmallestWeight)), hn::Eq(bend, bend));
     const V signal = hn::Mul(hn::NegMulAdd(Const(2), noise, video), perVideo);
     const auto textured =

@@ -18,8 +18,8 @@ struct WeighRow {
     RowsAround flowX, flowY;  ///< [video px]
     RowsAround covariance, varianceVideo, varianceStill;
     const float *confidence, *lookX, *lookY;
-    /// At half resolution: the row that contains the cells, and the neighbouring row nearer to
-    /// them.
+    /// Two rows of the field at half resolution: `near` contains the cells, `other` is the one of
+    /// its neighbours that is closer to the cells.
     struct Half {
         const float *near, *other;
     };

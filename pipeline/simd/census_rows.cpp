@@ -11,8 +11,8 @@ namespace mfar::simd::HWY_NAMESPACE {
 
 constexpr int kSide = 2 * kCensusRadius + 1;
 
-/// Bits of eight neighbours, starting with number `first`, which gets the highest bit. Numbers skip
-/// the centre.
+/// Returns the census bits of eight neighbours; neighbour `first` gets the highest bit. Neighbours
+/// are numbered row by row, without the centre.
 template <class D>
 HWY_INLINE hn::Vec<D> bitsFrom(D d, int first, const std::uint8_t* const (&rows)[kSide],
                                std::size_t x, hn::Vec<D> centre) {
@@ -41,7 +41,7 @@ void CensusRow(const std::uint8_t* const (&rows)[kSide], std::size_t width,
             low = hn::IfThenZeroElse(unseen, low);
             none = hn::IfThenElseZero(unseen, hn::Set(d, 0x80));
         }
-        // The words are little-endian.
+        // The low byte is stored first, because the words of `out` are little-endian.
         hn::StoreInterleaved4(low, middle, high, none, d, reinterpret_cast<std::uint8_t*>(out + x));
     });
 }

@@ -5,7 +5,7 @@
 
 namespace mfar::simd {
 
-inline constexpr int kCensusRadius = 2;  ///< radius of the window [px]
+inline constexpr int kCensusRadius = 2;  ///< radius of the census window [px]
 inline constexpr int kCensusBits = 24;
 /// This bit marks a census pixel as invalid, because the still shows nothing there.
 inline constexpr std::uint32_t kNoCensus = 1U << 31;

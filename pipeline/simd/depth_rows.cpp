@@ -12,8 +12,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 
-constexpr float kLeastLanding = 0.05F;  // least depth after the rotation, for a ray whose depth was
-                                        // 1
+constexpr float kLeastLanding = 0.05F;  // smallest z of a ray (x, y, 1) after the rotation
 constexpr float kUnknown = std::numeric_limits<float>::infinity();
 
 /// Stores row-major indices of pixels; -1 where the bit of `valid` is not set.
@@ -44,7 +43,7 @@ void LandRow(const Lens& lens, Size size, const Motion& motion, const float* ray
     });
 }
 
-/// The smallest rectangle around pixels, which are added one vector at a time.
+/// The smallest rectangle around all added pixels. Pixels are added one vector at a time.
 class LaneBounds {
 public:
     HWY_INLINE explicit LaneBounds(Size size)

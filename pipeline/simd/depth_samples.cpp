@@ -25,7 +25,7 @@ struct Prepare {
         const V zero = hn::Zero(d);
         const V inverse = hn::LoadU(d, from.inverse + x), given = hn::LoadU(d, from.sigma + x);
         const V sigma = from.squared ? hn::Sqrt(given) : given;
-        // Positive tests, so that a sample with NaN is unknown.
+        // Every comparison with NaN is false, so a sample with NaN is unknown.
         const auto near = hn::And(hn::Gt(inverse, hn::Set(d, params::kLeastInverseDepth)),
                                   hn::Lt(inverse, hn::Set(d, params::kMostInverseDepth)));
         const auto sharp = hn::And(hn::Gt(sigma, hn::Set(d, params::kLeastDepthSigma)),
@@ -52,7 +52,7 @@ private:
     }
 };
 
-/// Processes whole vectors, then single lanes.
+/// Calls body(tag, x) for whole vectors of entries [first, last), then for single entries.
 template <class Body>
 HWY_INLINE void Along(int first, int last, const Body& body) {
     const hn::ScalableTag<float> d;

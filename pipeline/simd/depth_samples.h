@@ -7,21 +7,21 @@ namespace mfar::simd {
 
 /// Thresholds for samples of real depth, from CompositeOptions.
 struct SampleBounds {
-    float bias;    ///< [sigmas]
-    float hidden;  ///< bias and softness together [sigmas]
+    float bias;    ///< CompositeOptions::bias [standard deviations of the sample]
+    float hidden;  ///< bias + softness [standard deviations of the sample]
 };
 
 /// A row of real depth, and of the picture that it belongs to, at the video's resolution.
 struct SampleSource {
-    const float *inverse, *sigma;  ///< [1/m]
-    bool squared;                  ///< `sigma` holds variances
+    const float *inverse, *sigma;  ///< inverse depth and its standard deviation [1/m]
+    bool squared;                  ///< true: `sigma` holds variances instead
     const std::uint8_t *red, *green, *blue;
 };
 
-/// The same row in single precision, prepared for weighing. `inverse` of an unknown pixel is so
-/// small that the pixel occludes nothing. A virtual pixel with more inverse depth than `nearest` is
-/// certainly in front of the sample; one with less than `farthest` is certainly behind it. Both are
-/// 0 for an unknown pixel.
+/// A row of SampleSource in single precision, prepared for weighing. `inverse` of an unknown pixel
+/// is so small that the pixel occludes nothing. A virtual pixel with more inverse depth than
+/// `nearest` is certainly in front of the sample; one with less than `farthest` is certainly behind
+/// it. `nearest` and `farthest` are 0 for an unknown pixel.
 struct SampleRow {
     float *inverse, *variance, *red, *green, *blue;
     float *nearest, *farthest;
@@ -32,10 +32,13 @@ struct SampleRow {
 void prepareSamples(const SampleSource& from, const SampleBounds& bounds, int first, int last,
                     const SampleRow& to);
 
-/// Works in place: entry i becomes the largest (of `farthest`: the smallest) of entries i to i + 3.
+/// Replaces entry i of `nearest` by the largest of entries i to i + 3, and entry i of `farthest` by
+/// the smallest of entries i to i + 3.
 void spreadSamples(float* nearest, float* farthest, int count);
 
-/// Computes the largest and smallest value of each column over four rows of spreadSamples().
+/// Four rows that spreadSamples() has processed. rangeOfSamples() writes the largest value of each
+/// column of `nearest` to `greatest`, and the smallest value of each column of `farthest` to
+/// `least`.
 struct FourRows {
     const float* row[4];
 };

@@ -1,5 +1,5 @@
-// Conversion between display (sRGB) and linear values for vectors of pixels. The error is within
-// half a step of a byte.
+// Conversion between display (sRGB) and linear values for vectors of pixels. The error is at most
+// half a display level (levels 0 to 255).
 #if defined(MFAR_SIMD_DISPLAY_VALUES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef MFAR_SIMD_DISPLAY_VALUES_INL_H
 #undef MFAR_SIMD_DISPLAY_VALUES_INL_H
@@ -27,7 +27,7 @@ template <class D>
 HWY_INLINE hw::Vec<D> SrgbLevel(D d, hw::Vec<D> linear) {
     const auto x = hw::Min(hw::Max(linear, hw::Zero(d)), hw::Set(d, 1));
     const auto s = hw::Sqrt(x);
-    // 255 (1.055 s^(2 / 2.4) - 0.055), with an error below 0.09 (Remez approximation).
+    // Approximates 255 (1.055 s^(2 / 2.4) - 0.055) with an error below 0.09 (Remez approximation).
     auto high = hw::MulAdd(s, hw::Set(d, 132.00984F), hw::Set(d, -414.30241F));
     high = hw::MulAdd(s, high, hw::Set(d, 518.32418F));
     high = hw::MulAdd(s, high, hw::Set(d, -357.82060F));

@@ -108,8 +108,8 @@ void VotePixels(const Voters& voters, const VoteRule& rule, const PixelRect& whe
     const auto first = [](int from) { return (from + kVoterStep - 1) / kVoterStep; };
     for (OpenPixel& pixel : pixels) {
         const int x = pixel.x;
-        // The window counted in voters: from the first voter at or after the window's begin to the
-        // first voter after its end.
+        // The window's bounds, converted from pixels to indices of voters: from the first voter at
+        // or after the window's begin to the first voter at or after its end.
         const PixelRect window{first(std::max(x - rule.radius, where.x0)),
                                first(std::max(y - rule.radius, where.y0)),
                                first(std::min(x + rule.radius + 1, where.x1)),

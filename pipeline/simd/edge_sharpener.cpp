@@ -7,15 +7,15 @@
 namespace mfar::simd {
 namespace {
 
-constexpr int kLeastContrast = 3;  // of kLevels; pixels with lower contrast do not look blurred
+constexpr int kLeastContrast = 3;  // contrast level below which a pixel does not look blurred
 
 std::uint8_t channel(std::uint32_t colour, unsigned c) {
     return static_cast<std::uint8_t>(colour >> 8 * c);
 }
 
 /// Contrast level of the pixels of a row: the largest difference of a colour channel within 3x3
-/// pixels. Beyond an object's outline, the layer's colour is 0, so only the object's brightness
-/// counts there; the outline itself is sharp already.
+/// pixels. Beyond an object's outline, the layer's colour is 0, so the contrast at the outline is
+/// the object's brightness, whatever lies behind it. The outline itself is sharp already.
 class Contrasts {
 public:
     explicit Contrasts(const PixelRect& where)

@@ -10,26 +10,26 @@
 
 namespace mfar::simd {
 
-/// While the camera rests, replaces pixels that the look-up blurs. CPU version of the GLES engine's
-/// EdgeRefiner.
+/// While the camera rests, replaces pixels that ViewLookUp blurs by rendered ones. CPU version of
+/// the GLES engine's EdgeRefiner.
 class EdgeSharpener {
 public:
     static constexpr int kLevels = 64;  ///< number of contrast levels
 
-    /// See WarpOptions. `most`: upper limit of the listed pixels. It is exceeded only if more
-    /// pixels than that have the highest contrast level.
+    /// `share`, `fadeFrames`: see WarpOptions. `most`: largest number of listed pixels. It is
+    /// exceeded only if more pixels than that have the highest contrast level.
     EdgeSharpener(Size layer, double share, int most, int fadeFrames);
 
     /// Lists the pixels with the highest contrast within `where`, given the `colour` and `state` of
-    /// a look-up. Discards the previous list and answer.
+    /// ViewLookUp. Discards the previous list and its rendered colours.
     void list(Rows<const std::uint32_t> colour, Rows<const std::uint32_t> state,
               const PixelRect& where);
     /// Returns the row-major indices of the listed pixels, ascending. Each list is returned once.
     std::optional<std::vector<std::uint32_t>> take();
-    /// Stores the answer for pixels that take() has returned; other pixels are ignored.
+    /// Stores the rendered colours of pixels that take() has returned; ignores other pixels.
     void answer(const HoleAnswer& answer);
-    /// Blends the answered pixels into `colour`, which must have the same pose. Their weight rises
-    /// from frame to frame.
+    /// Blends the rendered colours into `colour`, a picture with the pose of the list. Their weight
+    /// rises from frame to frame.
     void show(Rows<std::uint32_t> colour);
     void drop();
 
@@ -42,9 +42,10 @@ private:
     double share_, step_;
     std::size_t most_;
     bool isListed_ = false;
-    std::vector<std::array<std::uint32_t, 2>> listed_;  // pixel index and colour; ascending
+    std::vector<std::array<std::uint32_t, 2>>
+        listed_;  // index and colour of each listed pixel, ascending
     std::vector<Entry> entries_;
-    double shown_ = 0;  // weight of the answer; 0: there is none
+    double shown_ = 0;  // weight of the rendered colours; 0: there are none
 };
 
 }  // namespace mfar::simd

@@ -20,8 +20,8 @@ HWY_INLINE void order(V& a, V& b) {
     a = low;
 }
 
-/// Median of nine values: sorts three columns, then takes the median of (largest low value, median
-/// of the middle values, smallest high value).
+/// Median of nine values. Sorts each of three columns; the result is the median of the largest of
+/// their low values, the median of their middle values, and the smallest of their high values.
 template <class V>
 HWY_INLINE V middleOfNine(V (&v)[9]) {
     for (int c = 0; c < 3; ++c) {
@@ -61,7 +61,8 @@ void MedianRow(const float* above, const float* here, const float* below, std::s
 
 void RangeAlongRow(const float* values, const float* variance, std::size_t width, int radius,
                    float* low, float* high) {
-    // A run of values with its neighbours. Positions beyond the row hold values that never win.
+    // A run of values with its neighbours. Positions beyond the row hold values that can be neither
+    // the smallest nor the largest.
     constexpr std::size_t kRun = 256, kAll = kRun + 2 * kMostRange;
     HWY_ALIGN float lows[kAll], highs[kAll];
     const auto beside = static_cast<std::size_t>(radius);

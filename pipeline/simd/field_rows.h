@@ -12,9 +12,9 @@ void medianRow(const float* above, const float* here, const float* below, std::s
 
 inline constexpr int kMostRange = 16;  ///< largest radius of rangeAlongRow()
 
-/// Smallest and largest value within `radius` columns. If `variance` is given, only over valid
-/// values (InverseDepthField::isSound()); if none is valid, `low` is the largest float and `high`
-/// its negative.
+/// Finds for each column the smallest and largest value within `radius` columns; with `variance`,
+/// of valid values only (InverseDepthField::isSound()). If none is valid, `low` is the largest
+/// float and `high` its negative.
 void rangeAlongRow(const float* values, const float* variance, std::size_t width, int radius,
                    float* low, float* high);
 

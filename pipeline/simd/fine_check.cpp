@@ -37,8 +37,8 @@ Rows<const float> FineCheck::run(const RgbPlanes& video, const StillPairs& still
                                  Rows<const LookUpCell> lookUps, const TileWork& work,
                                  const FineMatch& match) {
     const Frame frame{video, still, lookUps, work};
-    // The function captures only a pointer and a reference, so that std::function stores it without
-    // allocating.
+    // The lambda captures only a pointer and a reference, so that std::function stores it without
+    // allocating memory.
     workers_->forRange(work.tiles.height, 1, [this, &frame](int first, int last) {
         scratch_.with([&](Scratch& scratch) {
             for (int row = first; row < last; ++row)

@@ -50,10 +50,10 @@ private:
     void sum(const Frame& frame, Scratch& scratch, int row);
     [[nodiscard]] FineSumsNear::Pair near(CellPlane& sums, int row) const;
 
-    Size video_, cells_, sampled_;  // sampled_: number of sampled cells (not every row is)
+    Size video_, cells_, sampled_;  // sampled_: size of the field of every kFineStep-th cell row
     std::shared_ptr<Workers> workers_;
     LookUpTaps taps_;
-    CellPlane ofVideo_, ofBoth_, ofStill_;  // for the sampled rows
+    CellPlane ofVideo_, ofBoth_, ofStill_;  // FineSums of every kFineStep-th cell row
     AlignedRows<float> shares_;
     ScratchSlots<Scratch> scratch_;
 };

@@ -19,7 +19,7 @@ HWY_INLINE hn::Vec<F> Wide(hn::Vec<I16> values) {
     return hn::ConvertTo(F(), hn::PromoteTo(hn::Rebind<std::int32_t, F>(), values));
 }
 
-/// Four pixels of each cell in a row of cells, by column within the cell.
+/// One pixel row of a vector of cells: at[i] holds the pixel in column i of each cell.
 struct Quads {
     hn::Vec<I16> at[4];
 };
@@ -30,8 +30,8 @@ HWY_INLINE Quads QuadsOf(const std::int16_t* row, int cell) {
     return out;
 }
 
-/// Sums the four samples of a pixel [1/128 grey level] into the upper row. The sum fits into 16
-/// bits.
+/// Writes the sum of the four samples of each pixel to the upper row; it is their mean in 1/128
+/// grey level, and fits into 16 bits.
 HWY_INLINE void SumSamples(std::int16_t* upper, const std::int16_t* lower, int begin, int end) {
     const I16 d;
     const int lanes = static_cast<int>(hn::Lanes(d));
@@ -48,8 +48,8 @@ void FineSumsRow(const std::array<const std::int16_t*, 2>& video,
                  const FineSums& to) {
     const F d;
     const int lanes = static_cast<int>(hn::Lanes(d));
-    // Stores the sums at the front of their rows. The pixels of the first cells replace samples
-    // that are already summed.
+    // A row of sums is half as long as the row of samples that it replaces. So it overwrites only
+    // samples that have already been added.
     SumSamples(still[0], still[1], 4 * begin, 4 * end);
     SumSamples(still[2], still[3], 4 * begin, 4 * end);
     constexpr float kVideo = 1.0F / 8, kStill = 1.0F / 128;

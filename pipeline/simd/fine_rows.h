@@ -16,9 +16,9 @@ struct FineSums {
     float *video, *both, *still;
 };
 
-/// Sums the two middle pixel rows of a row of cells. `video` is in 1/8 grey level. `still` is in
-/// 1/32 grey level and has 2x2 samples per pixel, so two rows of samples for each row of the video;
-/// it is overwritten.
+/// Computes FineSums from the two middle pixel rows of a row of cells. `video` is in 1/8 grey
+/// level. `still` is in 1/32 grey level and has 2x2 samples per pixel, so two rows of samples for
+/// each row of the video; it is overwritten.
 void fineSumsRow(const std::array<const std::int16_t*, 2>& video,
                  const std::array<std::int16_t*, 4>& still, int begin, int end, const FineSums& to);
 
@@ -31,8 +31,8 @@ struct FineSumsNear {
     Pair video, both, still;
 };
 
-/// Computes the share of their weight that cells keep, from the sums averaged over three columns;
-/// see params::kFineRoom.
+/// Computes the share of its weight that each cell keeps, from the sums averaged over three columns
+/// of cells; see params::kFineRoom.
 void fineShareRow(const FineSumsNear& sums, const FineMatch& match, int count, float* to);
 
 }  // namespace mfar::simd

@@ -18,9 +18,9 @@ namespace mfar::simd {
 /// Dense flow between video and still in both directions, which does not need poses. CPU version of
 /// the GLES engine's Flow2d, with the same pyramids.
 ///
-/// Skips work whose result is not read. At the two finest levels, tiles that are not matched are
-/// searched only where neighbours use their vectors; so are unchanged tiles, if only changed tiles
-/// are drawn. Cells of the still are searched only where forward vectors end.
+/// Skips work whose result is not read. At the two finest pyramid levels, tiles that are not
+/// matched are searched only where neighbours use their vectors; so are unchanged tiles, if only
+/// changed tiles are drawn. Cells of the still are searched only where forward vectors end.
 class Flow2d {
 public:
     /// Throws std::invalid_argument if an option is out of range.
@@ -36,8 +36,9 @@ public:
         const std::vector<LumaLevel>& still;
         std::span<const std::uint32_t> words;
     };
-    /// Computes both fields; does nothing if no changed tile is matched. `usePrior`: the last
-    /// frame's field provides a candidate for every cell (not allowed after a new still).
+    /// Computes the flow in both directions; does nothing if no changed tile is matched.
+    /// `usePrior`: the last frame's flow provides a candidate for every cell (not allowed after a
+    /// new still).
     void run(const Luma& luma, const TileWork& work, bool usePrior);
 
     /// Computes the forward field by refining `forward`, one vector per cell with an error of a
@@ -48,7 +49,7 @@ public:
 
     /// Flow from video to still: one entry per cell of 4x4 pixels, row by row without gaps.
     [[nodiscard]] Rows<const FlowCell> forward() const { return rowsOf(forward_, videoCells_); }
-    /// Flow from still to video, at level backwardLevel(); valid after run().
+    /// Flow from still to video, at pyramid level backwardLevel(); valid after run().
     [[nodiscard]] Rows<const FlowCell> backward() const { return rowsOf(backward_, stillCells_); }
     [[nodiscard]] int backwardLevel() const { return backwardLevel_; }
     /// True after refine(): errors() holds the two-way errors of the video's cells.
@@ -60,15 +61,16 @@ public:
     [[nodiscard]] int searchedCount() const { return searched_.count(); }
 
 private:
-    /// One level of one direction. It has two areas, because propagation cannot work in place.
+    /// Flow of one pyramid level in one direction. It has two areas, because propagation cannot
+    /// work in place.
     struct Stage {
         FlowField areas[2];
         explicit Stage(Size cells) : areas{FlowField(cells), FlowField(cells)} {}
     };
     struct Direction {
-        int finest;  // level
+        int finest;  // finest pyramid level that is searched in this direction
         std::vector<Stage> stages;
-        AlignedRows<float> known;  // for the finest level's cells
+        AlignedRows<float> known;  // reliability of the finest level's cells, see CleanUpStep
 
         Direction(const std::vector<Size>& cells, int finestLevel);
     };
@@ -89,13 +91,13 @@ private:
 
     void chooseTiles(const TileWork& work, bool keepsUnchanged, int margin);
     void chooseBackward();
-    /// The tiles in which a level is searched; null: all tiles.
+    /// Returns the tiles in which a pyramid level is searched; null: all tiles.
     [[nodiscard]] const TileMask* maskOf(const Direction& direction, int level) const;
     [[nodiscard]] int roundsAt(const Way& way, int level) const;
     [[nodiscard]] SearchStep searchStep(const Way& way, int level, int area) const;
     void searchRow(const Way& way, int level, int row);
     void propagateRow(const Way& way, int level, int toArea, int row);
-    /// Searches one level in one or both directions.
+    /// Searches one pyramid level in one or both directions.
     void searchLevel(Ways ways, int level);
     void alignRow(const AlignStep& step, const TileWork& work, int row);
     void searchListed(const Way& way);
@@ -111,10 +113,10 @@ private:
     std::vector<FlowCell> forward_, backward_;
     std::vector<ErrorCell> errors_;
     bool errorsGiven_ = false;
-    bool wantsAll_ = false;       // true if every tile is wanted
+    bool wantsAll_ = false;       // true: wanted_ contains every tile
     TileMask wanted_;             // tiles whose results are read
-    TileMask fine_, next_;        // tiles searched at the finest level, and at the next
-    TileMask ends_, endsAround_;  // where vectors end, and the tiles searched around
+    TileMask fine_, next_;        // tiles searched at the finest pyramid level, and at the next one
+    TileMask ends_, endsAround_;  // tiles where wanted forward vectors end; the same with a margin
     TileMask between_;            // temporary memory of widen()
     TileSearch searched_;
 };

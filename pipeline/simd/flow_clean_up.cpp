@@ -12,7 +12,7 @@ namespace mfar::simd::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Vectors are no longer than the fields' margins.
+// SIMD vectors are at most as long as the fields' margins.
 using Cells = hn::CappedTag<float, kFieldMargin>;
 using Vec = hn::Vec<Cells>;
 
@@ -27,8 +27,8 @@ HWY_INLINE void order(Vec& a, Vec& b) {
     a = low;
 }
 
-/// 3x3 median: sorts the columns, then takes the median of (largest low value, median of the middle
-/// values, smallest high value).
+/// 3x3 median. Sorts each column; the result is the median of the largest of the columns' low
+/// values, the median of their middle values, and the smallest of their high values.
 HWY_INLINE Vec medianAt(const float* plane, std::ptrdiff_t pitch) {
     const Cells d;
     Vec low[3], middle[3], high[3];
@@ -51,7 +51,8 @@ HWY_INLINE Vec medianAt(const float* plane, std::ptrdiff_t pitch) {
     return centre;
 }
 
-/// Sums over the neighbours in one row: weights, and weights times the differences from the plane.
+/// Sums over the neighbours in one row, with weight w and column offset i: w, w i, w i i; with the
+/// differences x and y of the flow's components from their planes: w x, w x i, w y, w y i.
 struct RowSums {
     Vec w, wi, wii, x, xi, y, yi;
 };
@@ -83,8 +84,8 @@ HWY_INLINE RowSums sumRow(const CleanUpStep& step, std::ptrdiff_t at, const Plan
     return s;
 }
 
-/// Sums over all neighbours at offset (i, j) with weight w and difference d from the plane: w; w i,
-/// w j, w i i, w i j, w j j; w d, w d i, w d j.
+/// Sums over all neighbours at offset (i, j) with weight w: w, w i, w j, w i i, w i j, w j j; for
+/// the differences d = x and d = y of the flow's components from their planes: w d, w d i, w d j.
 struct PlaneSums {
     Vec w, wi, wj, wii, wij, wjj, x, xi, xj, y, yi, yj;
 };
@@ -120,8 +121,8 @@ HWY_INLINE Vec crossed(Vec a, Vec b, Vec c, Vec d) {
     return hn::Sub(hn::Mul(a, b), hn::Mul(c, d));
 }
 
-/// Fits planes through the neighbours. A neighbour's weight depends on how reliable it is and how
-/// close to the previous planes. So the other side of a depth edge has no influence.
+/// Fits planes through the neighbours. A neighbour's weight depends on its reliability, and on its
+/// distance from the previous planes. So neighbours beyond a depth edge have no influence.
 HWY_INLINE void fitPlanes(const CleanUpStep& step, std::ptrdiff_t at, float reach, Plane& x,
                           Plane& y) {
     const Cells d;

@@ -4,7 +4,8 @@
 
 namespace mfar::simd {
 
-/// Owns the vectors of one level's cells, with margins for the clean-up. Initially all are zero.
+/// Owns the flow vectors of one pyramid level's cells, with margins for the clean-up. Initially all
+/// vectors are zero.
 class FlowField {
 public:
     explicit FlowField(Size cells)
@@ -16,7 +17,7 @@ public:
         return {first(x_),  first(y_),    first(cost_), first(texture_),
                 x_.pitch(), cells_.width, cells_.height};
     }
-    /// Returns the first cell of another plane with this layout.
+    /// Returns the address of cell (0, 0) in a plane of size withMargins().
     [[nodiscard]] static float* first(AlignedRows<float>& plane) {
         return plane[kCleanUpRadius] + kFieldMargin;
     }

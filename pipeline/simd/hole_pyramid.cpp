@@ -13,9 +13,10 @@ std::uint32_t rounded(float value) {
     return static_cast<std::uint32_t>(above);
 }
 
-constexpr int kCrackLevels = 2;  // number of levels that filling a crack needs
+constexpr int kCrackLevels = 2;  // number of pyramid levels that filling a crack needs
 constexpr std::uint32_t kAnyObject = 254;
-constexpr int kBlockShift = HolePyramid::kLevels;  // a block is a texel of the coarsest level
+constexpr int kBlockShift =
+    HolePyramid::kLevels;  // a block is a texel of the coarsest pyramid level
 constexpr std::size_t kHolesAtATime = 32;
 
 int halved(int pixels) {
@@ -84,8 +85,8 @@ void HolePyramid::fill(const Layer& layer, std::span<Hole> holes, bool pushPull)
         body(0, count);
 }
 
-/// Marks the blocks that holes need. At each level, a hole looks up the texels around it; these lie
-/// in the hole's block and the neighbouring blocks.
+/// Marks the blocks that holes need. A hole looks up the texels around it at each pyramid level;
+/// these lie in the hole's block and the neighbouring blocks.
 void HolePyramid::markBlocks(const PixelRect& where, std::span<const Hole> holes) {
     blocks_ = {where.x0 >> kBlockShift, where.y0 >> kBlockShift,
                ((where.x1 - 1) >> kBlockShift) + 1, ((where.y1 - 1) >> kBlockShift) + 1};
@@ -101,7 +102,7 @@ void HolePyramid::markBlocks(const PixelRect& where, std::span<const Hole> holes
     }
 }
 
-/// Merges four parts of an area. An area of which half is known has the full weight.
+/// Merges four parts of an area. If at least half of the area is known, it has the full weight.
 HolePyramid::Area HolePyramid::merged(const std::array<Area, 4>& parts) {
     Area out;
     Mixture best, catcher;
@@ -166,7 +167,7 @@ void HolePyramid::pull(const Layer& layer, int level) {
             for (int x = r.x0; x < r.x1; ++x, ++out) {
                 const int u = std::min(x >> shift, blocks_.x1 - 1) - blocks_.x0;
                 if (wanted[u] == 0) {
-                    *out = {};  // treated as unknown by readers
+                    *out = {};  // weight 0: the area counts as unknown
                     continue;
                 }
                 if (level == 0) {
@@ -186,7 +187,8 @@ void HolePyramid::pull(const Layer& layer, int level) {
         rows(0, r.y1 - r.y0);
 }
 
-/// Adds the bilinear value of one level at a pixel, weighted by what the finer levels do not cover.
+/// Adds the bilinear value of one pyramid level at a pixel. Its weight is what the finer levels
+/// left uncovered there.
 void HolePyramid::addLevel(int level, int x, int y, std::uint32_t id, Sum& sum) const {
     const float scale = 1.0F / static_cast<float>(2 << level);
     const float u = (static_cast<float>(x) + 0.5F) * scale - 0.5F;
@@ -231,8 +233,9 @@ bool isCrack(const HolePyramid::Layer& layer, int x, int y, std::uint32_t id) {
 
 }  // namespace
 
-/// Fills a hole. If no colour of its object is known, it takes the colours of its surroundings. An
-/// object that has just appeared from behind others would otherwise look transparent.
+/// Fills a hole with colours of its own object. If none is known, it takes the colours of all
+/// surrounding objects, because an object that has just appeared from behind others would otherwise
+/// look transparent.
 void HolePyramid::fillHole(const Layer& layer, Hole& hole, bool pushPull) const {
     const int x = static_cast<int>(hole.pixel) % width_, y = static_cast<int>(hole.pixel) / width_;
     const std::uint32_t state = layer.state[y][x], id = state & 255U;

@@ -24,24 +24,24 @@ public:
 
     /// A layer as written by ViewLookUp.
     struct Layer {
-        Rows<std::uint32_t> colour;  ///< modified
+        Rows<std::uint32_t> colour;  ///< fill() changes the pixels of holes
         Rows<const std::uint32_t> state;
         PixelRect where;
     };
-    /// `holes`: holes of that layer, ascending. Cracks (holes with mostly neighbours of the same
-    /// surface) are always filled and marked as edges. Other holes are filled only if `pushPull` is
-    /// set.
+    /// `holes`: the layer's holes, ascending. Cracks (holes most of whose neighbours show the same
+    /// surface) are always filled, and get Hole::isEdge. Other holes are filled only if `pushPull`
+    /// is set.
     void fill(const Layer& layer, std::span<Hole> holes, bool pushPull);
 
 private:
     /// An area of the layer: the number and colour of its largest object, and the colour of the
-    /// catcher. Colours are RGBA8, premultiplied; weights are in 1/255.
+    /// shadow catcher. Colours are RGBA8, premultiplied; weights are in 1/255.
     struct Area {
         std::uint32_t object = 0, catcher = 0;
         std::uint8_t id = 0, objectWeight = 0, catcherWeight = 0;
     };
     struct Level {
-        PixelRect texels;  // bounds in texels of this level
+        PixelRect texels;  // bounds of `areas` [texels of this pyramid level]
         std::vector<Area> areas;
     };
     struct Sum {

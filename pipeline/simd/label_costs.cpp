@@ -15,17 +15,17 @@ namespace mfar::simd::HWY_NAMESPACE {
 constexpr int kSteps = kLabels - 1;
 constexpr int kUnseenCost = kCensusBits / 2;
 constexpr float kFixed = 65536.0F;
-// Number of pixels whose segments are computed at a time.
+// Number of pixels whose segments of epipolar lines are computed at a time.
 constexpr std::size_t kRun = 64;
 
 using DLabels = hn::CappedTag<std::int32_t, kLabels>;
 
-/// Segments of epipolar lines on the canvas [px], one for each pixel of a run, each of kSteps
-/// steps.
+/// Segments of epipolar lines on the still's canvas [px], one for each pixel of a run. A segment
+/// has kSteps steps, from label to label.
 struct Segments {
     HWY_ALIGN float fromX[kRun], fromY[kRun], wayX[kRun], wayY[kRun];
-    /// Start and step in fixed point [1/kFixed px], measured from the pixels' edges. Valid if both
-    /// ends are in the picture.
+    /// Start and step in fixed point [1/kFixed px], measured from the pixels' edges. Used only if
+    /// both ends of the segment are in the picture (`isInside`).
     HWY_ALIGN std::int32_t x[kRun], y[kRun], dx[kRun], dy[kRun], isInside[kRun];
 };
 
@@ -71,7 +71,8 @@ HWY_INLINE void keepBeside(D d, std::size_t i, const Segments& of, float side, S
     keepSegments(d, i, from, {hn::Add(from.x, wayX), hn::Add(from.y, wayY)}, size, out);
 }
 
-/// Stores the census differences of one vector of a pixel's labels.
+/// Stores the costs of one vector of a pixel's labels: the Hamming distances between the pixel's
+/// census `own` and the still's census `seen`.
 template <class V>
 HWY_INLINE void storeDifferences(DLabels d, V own, V seen, std::uint8_t* out) {
     const hn::RebindToUnsigned<DLabels> dBits;
@@ -131,7 +132,7 @@ HWY_INLINE void costsOf(const Segments& segments, std::size_t i, std::uint32_t o
         costsAcrossBorder(segments, i, own, still, out);
 }
 
-/// Replaces costs by those of these segments where these are smaller.
+/// Replaces the costs in `out` by those along `segments` where the latter are smaller.
 HWY_INLINE void takeLesser(const Segments& segments, std::size_t i, std::uint32_t own,
                            const CensusPicture& still, std::uint8_t* out) {
     const hn::CappedTag<std::uint8_t, kLabels> d;

@@ -11,7 +11,7 @@ namespace mfar::simd::HWY_NAMESPACE {
 
 static_assert(sizeof(Valley) == 8);
 
-constexpr float kLeastWay = 0.1F;  // least squared length of a label's step [px^2]
+constexpr float kLeastWay = 0.1F;  // smallest useful squared length of one label's step [px^2]
 
 template <class D>
 struct Valleys {
@@ -47,7 +47,8 @@ HWY_INLINE V vertices(D d, const Valleys<D>& valleys) {
     return hn::IfThenElse(isPlain, valleys.label, hn::Add(valleys.label, part));
 }
 
-/// Finds the pixels nearest to the points of labels. Labels are counted from the best label.
+/// Finds the still's pixels nearest to the points of labels. Labels are counted from the best
+/// label.
 template <class D>
 struct NearestPixels {
     using V = hn::Vec<D>;
@@ -61,7 +62,7 @@ struct NearestPixels {
 
     D d;
     Points<V> best, way;
-    V perSquare;  ///< 1 / squared length of a step
+    V perSquare;  ///< 1 / squared length of one label's step [1/px^2]
 
     HWY_INLINE Pixel at(float k) const {
         const V from = hn::Set(d, k), half = hn::Set(d, 0.5F);
@@ -70,8 +71,8 @@ struct NearestPixels {
         const V along = hn::Mul(hn::Sub(x, best.x), way.x);
         return {x, y, hn::Mul(hn::MulAdd(hn::Sub(y, best.y), way.y, along), perSquare)};
     }
-    /// Returns the next pixel on one side that differs from `own`. `near`, `far`: how much more the
-    /// next label and the one after it cost.
+    /// Returns the next pixel on one side that differs from `own`. `near`, `far`: extra costs of
+    /// the next label and of the one after it.
     HWY_INLINE Side beside(const Pixel& own, float side, V near, V far) const {
         const Pixel one = at(side), two = at(2 * side);
         const auto isNext = [&](const Pixel& p)
@@ -82,9 +83,9 @@ struct NearestPixels {
     }
 };
 
-/// Returns the minima of the valleys, counted in labels from the best label. If two labels are
-/// nearest to the same pixel, they count as one, at the point of the line that is nearest to the
-/// pixel.
+/// Returns the cost minima of the valleys, counted in labels from the best label. If two labels are
+/// nearest to the same pixel, they count as one, at the point of the epipolar line that is nearest
+/// to the pixel.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V bottoms(D d, const Valleys<D>& valleys, const NearestPixels<D>& pixels) {
     const auto own = pixels.at(0);

@@ -41,7 +41,7 @@ HWY_INLINE Points<V> projected(D d, const Lens& lens, V x, V y) {
     const auto set = [d](float v) HWY_ATTR { return hn::Set(d, v); };
     V q = hn::MulAdd(x, x, hn::Mul(y, y));
     const V rim = set(lens.rim2);
-    // A positive test, so that a NaN ray stays NaN.
+    // q <= rim is false for NaN, so NaN rays are processed here, too, and stay NaN.
     if (!hn::AllTrue(d, hn::Le(q, rim))) {
         const V c = hn::Sqrt(hn::Div(rim, hn::Max(q, rim)));
         x = hn::Mul(x, c);

@@ -14,7 +14,7 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Processes whole vectors, then single lanes.
+/// Calls body(tag, x) for whole vectors of `count` entries, then for single entries.
 template <class Body>
 HWY_INLINE void Along(int count, const Body& body) {
     const hn::ScalableTag<float> d;
@@ -37,7 +37,7 @@ HWY_INLINE hn::Vec<D> Look(D d, const hn::TFromD<D>* row, const std::int32_t* at
     const int first = at[0];
     const auto column = hn::LoadU(di, at);
     if (at[lanes - 1] - first >= lanes) {
-        // Columns beyond the part are clamped; their pixels are not used.
+        // Columns beyond the loaded part of the row are clamped; their pixels are not used.
         const auto inside = hn::Min(column, hn::Set(di, columns.last));
         return hn::GatherIndex(d, row, hn::Sub(inside, hn::Set(di, columns.origin)));
     }
@@ -141,7 +141,7 @@ void BlendLayerRows(const std::uint32_t* above, const std::uint32_t* below, std:
     const D16 d16;
     const auto even = hn::BitCast(d16, hn::Set(d, 0x00FF00FFU));
     const auto shares = hn::BitCast(d16, hn::Set(d, share));
-    // May read beyond the last entry, because rows have room there.
+    // The last vector may reach beyond the last entry; rows have kLayerSpare entries for this.
     for (int x = 0; x < count; x += static_cast<int>(hn::Lanes(d))) {
         const auto a = hn::BitCast(d16, hn::LoadU(d, above + x));
         const auto b = hn::BitCast(d16, hn::LoadU(d, below + x));

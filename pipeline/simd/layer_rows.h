@@ -10,22 +10,23 @@ inline constexpr int kLayerSpare = 64;
 /// Positions of output pixels between the columns of a part of a layer's row.
 struct LayerColumns {
     const std::int32_t *left, *right;  ///< the layer's columns on either side of a pixel, ascending
-    const std::uint32_t* share;        ///< weight of the right column, 2^15 = 1, twice in 32 bits
+    const std::uint32_t* share;        ///< weight of the right column, as twiceInAWord()
     int origin, last;                  ///< columns of the first and last entry of the part
 };
 
-/// Colours interpolated between two rows of a layer: two channels per word [1/64].
+/// Colours interpolated between two rows of a layer: two channels per word [1/64 grey level].
 struct BlendedColours {
     std::uint32_t *redBlue, *greenAlpha;
 };
 
-/// Returns a weight as 16 bits with 2^15 = 1, twice in a word. `share` is in [0, 1].
+/// Returns the weight `share`, which is in [0, 1], in units of 2^-15 in 16 bits, and stores it
+/// twice in the 32-bit word.
 [[nodiscard]] std::uint32_t twiceInAWord(float share);
 
 /// Interpolates `count` RGBA8 colours between two rows. `share`: weight of the lower row, [0, 1].
 void blendLayerRows(const std::uint32_t* above, const std::uint32_t* below, float share, int count,
                     const BlendedColours& out);
-/// Interpolates between the columns linearly, which gives `count` output pixels in RGBA8.
+/// Interpolates linearly between the layer's columns. Writes `count` output pixels in RGBA8.
 void enlargeColours(const BlendedColours& part, const LayerColumns& columns, int count,
                     std::uint32_t* out);
 /// For each output pixel, returns z of the nearest of the four surrounding layer pixels that has a

@@ -6,7 +6,7 @@ namespace mfar::simd {
 struct Lens {
     float fx = 1, fy = 1, cx = 0, cy = 0;          ///< [px]
     float k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;  ///< as CameraModel::distortion
-    float rim2 = 1;  ///< squared radius; rays beyond it are moved onto it
+    float rim2 = 1;  ///< squared radius of the outermost valid rays; others are moved inwards to it
 };
 
 }  // namespace mfar::simd

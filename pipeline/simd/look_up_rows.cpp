@@ -5,7 +5,7 @@
 namespace mfar::simd {
 namespace {
 
-// Bounds of a valid look-up. Positions beyond them are outside of any still [still px].
+// Largest coordinate [still px] and weight of a valid look-up. No still has a pixel farther away.
 constexpr float kFarthest = 1e5F, kMostWeight = 4;
 
 /// Table for linear interpolation between cells, at the output's size.

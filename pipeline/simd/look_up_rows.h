@@ -28,8 +28,8 @@ public:
     /// LookUpRows::share is the confidence instead of the weight.
     void begin(Rows<const LookUpCell> field, const LookUpTaps& taps, bool confident, int begin,
                int end);
-    /// Returns a row; valid until a row that needs other cells, four rows of cells away, is
-    /// requested.
+    /// Returns a row. It is valid until a row of the output is requested that needs a row of cells
+    /// at least four rows of cells away from this one's.
     [[nodiscard]] LookUpRows row(int y);
 
 private:

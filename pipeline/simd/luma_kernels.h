@@ -14,16 +14,16 @@ struct SmoothRows {
     Planes above, here, below;
 };
 
-/// Computes a row of the finest level with 3x3 taps, as luma_from_video.comp does. `side`: weight
-/// of each neighbour. Writes `width` pixels and reads no pixels beyond them.
+/// Computes a row of the finest pyramid level with 3x3 taps, as luma_from_video.comp. `side`:
+/// weight of each neighbour. Writes `width` pixels and reads no pixels beyond them.
 void smoothLumaRow(const SmoothRows& rows, int width, float side, std::uint8_t* to);
 
-/// Computes a row of the next coarser level as means of 2x2 pixels. Reads 2 * width pixels of both
-/// rows.
+/// Computes a row of the next coarser pyramid level as means of 2x2 pixels. Reads 2 * width pixels
+/// of both rows.
 void halveLumaRow(const std::uint8_t* upper, const std::uint8_t* lower, int width,
                   std::uint8_t* to);
 
-/// Both lenses and the rotation between them, as in rig.glsl.
+/// The lenses of video and still camera and the rotation between these cameras, as in rig.glsl.
 struct StillLens {
     float videoPinhole[4], videoDistortion[5];  ///< fx fy cx cy; k1 k2 p1 p2 k3
     float stillPinhole[4], stillDistortion[5];
@@ -37,7 +37,7 @@ void stillPixelRow(const StillLens& lens, int y, int width, float* stillX, float
 
 struct StillPicture {
     const std::uint8_t* pixels;
-    std::ptrdiff_t pitch;  ///< bytes
+    std::ptrdiff_t pitch;  ///< bytes from one row to the next
     int width, height;     ///< [px]
 };
 /// Mean of the still over the footprint [still px] of each video pixel of a row: 4x4 bilinear taps,

@@ -7,8 +7,8 @@
 namespace mfar::simd {
 namespace {
 
-constexpr int kMargin = 4 * kLumaMarginWords;  // [bytes]
-// Levels with fewer rows are processed in one thread, because waking others takes longer.
+constexpr int kMargin = 4 * kLumaMarginWords;  // bytes on each side of a row
+// Pyramid levels with fewer rows are processed in one thread, because waking others takes longer.
 constexpr int kSharedRows = 200;
 
 StillLens lensOf(const StereoRig& rig) {
@@ -112,7 +112,7 @@ void LumaPyramids::buildStill(Rows<const std::uint8_t> luma, const StereoRig& ri
     buildCoarse(still_);
 }
 
-// An odd width is extended by a margin that repeats the last column.
+// If the width of `fine` is odd, its last column is averaged with the margin, which repeats it.
 void LumaPyramids::halve(const LumaLevel& fine, const LumaLevel& coarse, int first, int last) {
     for (int y = first; y < last; ++y) {
         halveLumaRow(rowOf(fine, 2 * y), rowOf(fine, std::min(2 * y + 1, fine.height - 1)),

@@ -31,7 +31,7 @@ public:
     /// Builds the still's pyramid from luma that already has the video's geometry, for flow between
     /// two frames.
     void buildSecond(Rows<const std::uint8_t> luma);
-    /// Builds the video's pyramid from luma.
+    /// Builds the video's pyramid from the luma of a frame.
     void buildFirst(Rows<const std::uint8_t> luma);
 
     [[nodiscard]] const std::vector<LumaLevel>& video() const { return video_; }

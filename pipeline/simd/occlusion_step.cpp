@@ -34,14 +34,14 @@ void repeatBorder(float* row, int width) {
 
 }  // namespace
 
-/// The parameters of a run.
+/// The arguments of run(), and what follows from them.
 struct OcclusionStep::Task {
     const LayerRowsView& layer;
     const RealDepth& real;
     const RgbPlanes& video;
     Rows<std::uint32_t> picture;
-    PixelRect bounds;  // output pixels
-    int first, last;   // columns of samples that these pixels need
+    PixelRect bounds;  // output pixels that the layer covers
+    int first, last;   // columns [first, last) of samples that these pixels need
 };
 
 /// A part of those output rows that lie between the same two rows of samples.
@@ -49,8 +49,8 @@ struct OcclusionStep::Strip {
     int x = 0, count = 0;
     std::array<float, kVisibilityChunk + kSpare> greatest{}, least{}, z{}, inverse{};
     std::array<std::uint32_t, kVisibilityChunk + kSpare> colours{};
-    // Used for an enlarged layer: the layer's columns around the strip in the two rows, and the
-    // result of interpolating between these rows.
+    // Used if the layer is enlarged: the layer's columns around the strip in the layer's rows above
+    // and below, and the colours interpolated between these rows.
     std::array<float, kVisibilityChunk + kSpare> depthAbove{}, depthBelow{};
     std::array<std::uint32_t, kVisibilityChunk + kSpare> above{}, below{}, redBlue{}, greenAlpha{};
     std::array<std::uint8_t, kVisibilityChunk + kSpare> visibility{};
@@ -75,7 +75,7 @@ OcclusionStep::OcclusionStep(Size video, Size output, Size layer, const Composit
       greatest_({withMargin(video).width, video.height + 1}),
       least_({withMargin(video).width, video.height + 1}), visibility_(output) {
     validate(options);
-    // Short enough that the layer's columns of a strip fit, too.
+    // A strip is so short that the layer's columns around it fit into Strip's arrays, too.
     const double columnsPerPixel = static_cast<double>(layer.width) / output.width;
     longestStrip_ =
         std::clamp(static_cast<int>((kVisibilityChunk - 2) / columnsPerPixel), 1, kVisibilityChunk);
@@ -90,7 +90,7 @@ OcclusionStep::OcclusionStep(Size video, Size output, Size layer, const Composit
         layerRight_.push_back(std::clamp(left + 1, 0, layer.width - 1));
         layerShare_.push_back(twiceInAWord(layerColumns_.share[static_cast<std::size_t>(x)]));
     }
-    // Vectors read beyond the last pixel.
+    // Padding for vectors that read beyond the last pixel.
     layerLeft_.resize(layerLeft_.size() + kLayerSpare, layer.width - 1);
     layerRight_.resize(layerRight_.size() + kLayerSpare, layer.width - 1);
     layerShare_.resize(layerShare_.size() + kLayerSpare);
@@ -103,8 +103,8 @@ void OcclusionStep::run(const LayerRowsView& layer, const RealDepth& real, const
     assert(layer.colour.size == layer_ && layer.depth.size == layer_);
     const PixelRect bounds = layerInOutput(layer.bounds, layer_, output_);
     if (bounds.empty()) return;
-    // The four samples around each pixel along one axis. Pixels beyond the border use those around
-    // the outermost sample.
+    // Range of the samples that the bounds need along one axis: two before and two after each
+    // pixel. Pixels beyond the border use those around the outermost sample.
     const auto samples = [](int firstBase, int lastBase, int count) {
         return std::pair(std::max(std::min(firstBase, count - 1) - 1, 0),
                          std::min(std::max(lastBase, 0) + 2, count - 1) + 1);
@@ -165,7 +165,7 @@ void OcclusionStep::drawRows(const Task& task, int base) {
     const auto rowAt = [&](auto place) { return static_cast<int>(place - rows_.first.begin()); };
     const int top = std::max(rowAt(found.begin()), task.bounds.y0);
     const int bottom = std::min(rowAt(found.end()), task.bounds.y1);
-    if (top >= bottom) return;  // if the output is smaller than the video, no row lies here
+    if (top >= bottom) return;  // no output row lies here, as the output is smaller than the video
     FourRows nearest{}, farthest{};
     const int middle = std::clamp(base, 0, video_.height - 1);
     for (int j = 0; j < 4; ++j) {

@@ -16,8 +16,8 @@
 
 namespace mfar::simd {
 
-/// A picture of the virtual objects alone, seen by the video camera. The counterpart of
-/// VirtualLayer in host memory; does not own it.
+/// A picture of the virtual objects alone, seen by the video camera. Corresponds to VirtualLayer,
+/// but is in host memory, which it does not own.
 struct LayerRowsView {
     Rows<const std::uint32_t> colour;  ///< RGBA8, premultiplied by coverage
     Rows<const float>
@@ -27,9 +27,9 @@ struct LayerRowsView {
 
 /// The real depth at every video pixel. Does not own its memory.
 struct RealDepth {
-    Rows<const float> inverse;  ///< [1/m]
-    Rows<const float> sigma;    ///< of `inverse` [1/m]
-    bool squared = false;       ///< `sigma` holds variances instead
+    Rows<const float> inverse;  ///< inverse depth [1/m]
+    Rows<const float> sigma;    ///< standard deviation of `inverse` [1/m]
+    bool squared = false;       ///< true: `sigma` holds variances instead
 
     [[nodiscard]] static RealDepth of(const InverseDepthField& field) {
         return {{field.inverseDepth.data(), field.size.width, field.size},
@@ -60,7 +60,8 @@ public:
     [[nodiscard]] bool hides(double inverseDepth, double sigma, double inverse) const {
         return options_.hides(inverseDepth, sigma, inverse);
     }
-    /// The layer's visible share at each output pixel, in 1/255; valid within the last bounds.
+    /// How much of the layer is visible at each output pixel [1/255]; valid within the output
+    /// pixels that the last layer's bounds cover.
     [[nodiscard]] Rows<const std::uint8_t> visibility() const { return visibility_.rows(); }
 
 private:
@@ -68,8 +69,8 @@ private:
     /// + share.
     struct Between {
         Between(int pixels, int others);
-        std::vector<std::int32_t> first;  ///< pixel before the position, may be -1
-        std::vector<float> share;         ///< [0, 1)
+        std::vector<std::int32_t> first;  ///< pixel before the position; -1 at the border
+        std::vector<float> share;         ///< distance of the position from `first`, [0, 1)
     };
     /// One of the frame's planes, including margins.
     using Plane = AlignedRows<float>;

@@ -14,19 +14,20 @@ namespace mfar::simd::HWY_NAMESPACE {
 namespace {
 
 constexpr float kSteepest = params::kSteepestFlow;
-// Number of pixels of a row that share one position: four, or all eight if the flow changes little
-// along the row. Then the error of eight is no larger than that of four at the steepest flow.
+// Number of pixels of a patch's row that share one flow vector: four, or all eight if the flow
+// changes by less than kGentle per pixel along the row. The error of eight is then no larger than
+// that of four at the steepest flow.
 constexpr int kHalf = 4;
 constexpr float kGentle = 1.0F / 10;
-// A patch with less change of the flow counts as flat. Its corners move by a hundredth of a pixel,
-// which is less than the uncertainty of the flow's slope.
+// If the flow changes by less per pixel, the patch does not bend. Bending would move its corners by
+// a hundredth of a pixel, which is less than the uncertainty of the flow's slope.
 constexpr float kFlat = 1.0F / 256;
-// Weights of pixels have this number of bits. In 16 bits, this leaves room for the change along the
-// row.
+// Number of bits of interpolation weights. They are stored in 16 bits, which leaves room for the
+// weights' change along the row.
 constexpr int kShareBits = 14;
 constexpr float kShare = 1 << kShareBits;
-// Limit of (pixel value - 128) [1/32 grey level], so that sums of squares fit into 32 bits. Larger
-// values occur only where the flow is steep and the contrast high.
+// Values (pixel - 128) [1/32 grey level] are clamped to +-kMostValue, so that sums of their squares
+// fit into 32 bits. Larger values occur only where the flow is steep and the contrast high.
 constexpr std::int16_t kMostValue = 5792;
 
 /// Change of the flow per pixel, along x and along y.
@@ -43,7 +44,7 @@ HWY_INLINE float slopeOf(float before, float here, float after) {
     return bounded(least / 8, -kSteepest, kSteepest);
 }
 
-/// Replaces NaN, and vectors longer than any picture, by zero.
+/// Replaces a NaN component of a flow vector, and one longer than any picture, by zero.
 HWY_INLINE float soundOf(float v) {
     constexpr float kMost = 2e4F;
     return std::abs(v) < kMost ? v : 0;
@@ -64,12 +65,12 @@ HWY_INLINE Bend bendAt(const AlignStep& step, int column, int row, Vector2 here)
             slope(seedAt(step, column, row - 2), seedAt(step, column, row + 2))};
 }
 
-/// Positions in the other picture of the parts of a patch's rows, row by row.
+/// Positions in the other picture of a patch's rows, or of the two halves of each row (kParts = 2).
 template <int kParts>
 struct BentPlaces {
     static constexpr int kCount = kPatch * kParts;
-    std::int32_t upper[kCount], lower[kCount];  // of the first pixel [bytes]
-    // Weights of the next pixel, each stored twice in 32 bits.
+    std::int32_t upper[kCount], lower[kCount];  // byte offsets of the first pixel in the two rows
+    // Weights of the next column and of the lower row, each stored twice in 32 bits.
     std::int32_t shareX[kCount], shareY[kCount];
 };
 
@@ -131,8 +132,8 @@ HWY_INLINE void placeParts(const PatchPicture& p, int column, int row, Vector2 u
     }
 }
 
-/// Loads the parts of a row, starting `next` pixels after `parts`. On the scalar target, loads only
-/// the pixel in column c.
+/// Loads a patch's row from its parts; each starts `next` pixels after its address in `parts`. On
+/// the scalar target, loads only the pixel in column c.
 template <int kParts>
 HWY_INLINE Vec16 loadParts(const std::uint8_t* const* parts, int next, int c) {
     if constexpr (kParts == 1) return loadPixels(parts[0] + next + c);
@@ -225,7 +226,8 @@ HWY_INLINE void addUpParts(const Patch& patch, const std::uint8_t* pixels,
 }
 
 #if HWY_MAX_BYTES >= 32
-/// The same as addUpParts() for rows with a single position; processes two rows at once.
+/// Does the work of addUpParts() for rows with a single position (kParts = 1); processes two rows
+/// at once.
 HWY_INLINE void addUpTwoRows(const Patch& patch, const std::uint8_t* pixels,
                              const BentPlaces<1>& places, std::int16_t slopeX, std::int16_t slopeY,
                              int cell, CompareSums& out) {
@@ -272,7 +274,7 @@ HWY_INLINE void compareBent(const Patch& patch, const PatchPicture& p, int colum
         addUpParts<kParts>(patch, p.pixels, places, slopeX, slopeY, cell, out);
 }
 
-/// A batch and its sums.
+/// A batch of cells, the sums over their patches, and the change of the flow at each cell.
 struct AlignRoom {
     Batch batch;
     PatchSums patchSums;
@@ -280,7 +282,8 @@ struct AlignRoom {
     Bend bend[kBatch];
 };
 
-/// Finds the best of the seeds and of the positions that Gauss-Newton steps reach from them.
+/// Finds for each cell the best of its seed vector and of the vectors that Gauss-Newton steps reach
+/// from it.
 HWY_INLINE void alignBatch(const AlignStep& step, AlignRoom& room) {
     Batch& batch = room.batch;
     loadPatches(step.from, room.patchSums, batch);

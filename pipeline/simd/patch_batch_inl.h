@@ -1,5 +1,5 @@
-// Comparison of patches between two luma levels for a batch of cells. It does not depend on offset
-// and gain of either level. Included once per instruction set.
+// Comparison of patches between two luma pictures (levels of two pyramids) for a batch of cells. It
+// does not depend on offset and gain of either picture. Included once per instruction set.
 #if defined(MFAR_PATCH_BATCH_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef MFAR_PATCH_BATCH_INL_H
 #undef MFAR_PATCH_BATCH_INL_H
@@ -42,8 +42,7 @@ struct Batch {
     int count = 0;
     int column[kBatch], row[kBatch];
     Patch patch[kBatch];
-    Each mean, variance;  // of the patch's pixels; variance: sum of squared differences from the
-                          // mean
+    Each mean, variance;  // of the patch's pixels; variance: sum of (pixel - mean)^2
     Each2 sumG, sumAG;    // sums of the gradients, and of (pixel - mean) times gradient
     Each inverseXx, inverseXy, inverseYy;  // inverse of the Hessian
 
@@ -52,7 +51,7 @@ struct Batch {
     Each2 descent;  // right-hand side of the Gauss-Newton step
 
     Each2 trial;  // the vector that is tried next
-    Each active;  // 1 before a comparison: try the cell; 1 after it: the trial was better; else 0
+    Each active;  // 1: `trial` is to be compared; after a comparison, 1: it was better than `best`
 
     HWY_INLINE void add(int c, int r) {
         column[count] = c;

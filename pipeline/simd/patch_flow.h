@@ -16,7 +16,7 @@ struct PatchPicture {
     int width = 0, height = 0;             ///< [px]
 };
 
-/// Vectors of one level's cells, one plane per channel: flow x, y [px of the level], cost, texture.
+/// Flow field of one pyramid level, one plane per channel: x, y [px of the level], cost, texture.
 /// All planes have the same pitch, and kFieldMargin writable elements on each side of their rows.
 struct FlowPlanes {
     float *x = nullptr, *y = nullptr, *cost = nullptr, *texture = nullptr;  ///< of cell (0, 0)
@@ -25,30 +25,32 @@ struct FlowPlanes {
 };
 inline constexpr int kFieldMargin = 16;
 
-/// A field of another frame or step. Its vectors are candidates at every level.
+/// A flow field of another frame or step. Its vectors are candidates at every pyramid level.
 struct PriorField {
     const float *x = nullptr, *y = nullptr;
     std::ptrdiff_t step = 1, pitch = 0;         ///< elements from cell to cell, from row to row
-    float scale = 1;                            ///< pixels of this level per pixel of the field
-    float columnsPerCell = 1, rowsPerCell = 1;  ///< cells of the field per cell of this level
+    float scale = 1;                            ///< pixels of the searched level per field pixel
+    float columnsPerCell = 1, rowsPerCell = 1;  ///< field cells per cell of the searched level
 };
 
-/// Parameters of searching one level in one direction, as flow_search.comp does.
+/// Parameters of searching one pyramid level in one direction, as flow_search.comp does.
 struct SearchStep {
     PatchPicture from, to;  ///< patches of `from` are searched in `to`
     FlowPlanes out;
-    FlowPlanes coarser;  ///< its vectors are candidates; without rows: this is the coarsest level
-    PriorField prior;    ///< without a prior, x is null
-    int radius = 0;      ///< radius of whole-pixel candidates at the coarsest level, <= 40
+    FlowPlanes
+        coarser;       ///< next coarser level, whose vectors are candidates; 0 rows: there is none
+    PriorField prior;  ///< if x is null, there is no prior field
+    int radius = 0;    ///< radius of whole-pixel candidates at the coarsest level, <= 40
     int candidates = 0;  ///< number of candidates from the coarser level
     int steps = 0;       ///< number of Gauss-Newton steps
 };
 /// Searches cells [first, end) of a row.
 void searchCells(const SearchStep& step, int row, int first, int end);
 
-/// Parameters of the LISTED variant of flow_search.comp: a cell replaces its vector in `out` only
-/// if the new cost is clearly smaller. `errors`: four floats per cell, of which the first is
-/// replaced. If it is null, this is not the finest level, and every cell takes the result.
+/// Parameters of the LISTED variant of flow_search.comp. At the finest pyramid level, a cell
+/// replaces its vector in `out` only if the new cost is clearly smaller. `errors`: two-way errors;
+/// four floats per cell, of which the first is replaced. At coarser levels, `errors` is null, and
+/// every cell takes the new vector.
 struct ListedStep {
     SearchStep search;
     float* errors = nullptr;
@@ -57,7 +59,8 @@ struct ListedStep {
 /// Searches a group of 4x4 cells, or the part of it that lies in the field.
 void searchListedGroup(const ListedStep& step, int groupX, int groupY);
 
-/// Parameters of flow_propagate.comp: each cell tries its neighbours' vectors of `in`.
+/// Parameters of flow_propagate.comp: the vectors of a cell's neighbours in `in` are its
+/// candidates.
 struct PropagateStep {
     PatchPicture from, to;
     FlowPlanes out, in;
@@ -65,8 +68,8 @@ struct PropagateStep {
 };
 void propagateCells(const PropagateStep& step, int row, int first, int end);
 
-/// Parameters of flow_align.comp: Gauss-Newton steps from `seed`, with patches that bend with the
-/// field.
+/// Parameters of flow_align.comp: Gauss-Newton steps from the flow vectors `seed`. Patches bend as
+/// the flow changes over them.
 struct AlignStep {
     PatchPicture from, to;
     FlowPlanes out;

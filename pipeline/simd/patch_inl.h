@@ -1,4 +1,4 @@
-// Sums over an 8x8 patch of one luma level and over pixels of another level: patch.glsl in
+// Sums over an 8x8 patch of one luma picture and over pixels of the other picture: patch.glsl in
 // integers. Included once per instruction set. 128 is subtracted from pixels, so that sums of
 // squares fit into 32 bits; this offset cancels in every result.
 #if defined(MFAR_PATCH_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -21,8 +21,8 @@ namespace mfar::simd::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr int kPatch = 8;     // [px], along each axis
-constexpr int kCellSize = 4;  // [px]; the cell's patch begins 2 px to the left and above
+constexpr int kPatch = 8;     // side of a patch [px]
+constexpr int kCellSize = 4;  // side of a cell [px]; its patch begins 2 px to the left and above
 constexpr float kPixels = params::kPatchPixels;
 // Interpolated pixels of the other picture are stored in 1/32 grey level.
 constexpr int kValueBits = 5;
@@ -131,7 +131,8 @@ private:
     std::uint8_t copy_[10 * kWidth];
 };
 
-/// The sums that loadPatch() computes.
+/// The sums over a patch that loadPatch() computes: of its pixels (a), of twice their gradient
+/// (x, y), and of the products of these.
 struct PatchSums {
     Parts a, x, y, aa, ax, ay, xx, xy, yy;
 };
@@ -196,13 +197,13 @@ HWY_INLINE void loadPatch(const PatchPicture& p, int column, int row, int cell, 
     products.store(sums, cell);
 }
 
-/// Sums of the other picture's pixels, of their squares, and of their products with the patch's
-/// pixels and gradients.
+/// Sums of the other picture's pixels (b), of their squares, and of their products with the patch's
+/// pixels (a) and gradients (x, y).
 struct CompareSums {
     Parts b, bb, ab, xb, yb;
 };
 
-/// All sums of CompareSums except the first, row by row.
+/// Adds up all sums of CompareSums except b, row by row.
 template <class D16>
 struct RowProducts {
     ProductSum<D16> bb, ab, xb, yb;
@@ -282,7 +283,7 @@ HWY_INLINE void addUpRows(const Patch& patch, const PatchRows& rows, std::int16_
         for (int r = 0; r < kPatch; ++r) {
             const auto below = between(rows[r + 1] + c);
             const auto v = hn::Add(above, hn::MulFixedPoint15(hn::Sub(below, above), down));
-            columns = hn::Add(columns, v);  // at most eight times 4096
+            columns = hn::Add(columns, v);  // at most 8 * 4096
             products.add(patch, kPatch * r + c, v);
             above = below;
         }
@@ -293,8 +294,8 @@ HWY_INLINE void addUpRows(const Patch& patch, const PatchRows& rows, std::int16_
 }
 #endif
 
-/// Compares the patch with a level, displaced by u [px]. Positions outside are clamped to the
-/// border.
+/// Compares the patch of a cell with the picture `p`, displaced by u [px]. Positions outside are
+/// clamped to the border.
 HWY_INLINE void comparePatch(const Patch& patch, const PatchPicture& p, int column, int row,
                              Vector2 u, int cell, CompareSums& out) {
     const float x = bounded(static_cast<float>(kCellSize * column - 2) + u.x, -7.0F,

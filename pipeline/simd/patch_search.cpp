@@ -16,13 +16,13 @@ namespace {
 constexpr int kMostRadius = 40;
 constexpr std::size_t kMostSide = 2 * kMostRadius + 1, kSideRoom = kMostSide + 15;
 
-/// A batch and its sums.
+/// A batch of cells, and the sums over their patches.
 struct SearchRoom {
     Batch batch;
     PatchSums patchSums;
     CompareSums sums;
 
-    /// Starts a batch with the cells that were added.
+    /// Loads the patches of the cells that were added to the batch; no vector is found yet.
     HWY_INLINE void load(const PatchPicture& from) {
         loadPatches(from, patchSums, batch);
         for (int i = 0; i < batch.count; ++i) {
@@ -65,7 +65,7 @@ HWY_INLINE Vector2 vectorOf(const FlowPlanes& field, int column, int row) {
     return {field.x[at], field.y[at]};
 }
 
-/// Sums of patches at whole pixels, for a row of displacements.
+/// Sums as in CompareSums, and the costs, for a row of displacements by whole pixels.
 struct WholeSums {
     alignas(64) float b[kSideRoom], bb[kSideRoom], ab[kSideRoom], cost[kSideRoom];
 };
@@ -118,7 +118,7 @@ struct WholeBest {
     float x, y, cost;
 };
 
-/// Tries all displacements of a row. Of equal costs, the first wins.
+/// Compares the patch at all displacements of a row. Of equal costs, the first wins.
 HWY_INLINE void searchWholeRow(const Batch& batch, int cell, const PatchPicture& to, int firstDx,
                                int endDx, int dy, WholeSums& sums, WholeBest& best) {
     const int y = std::clamp(kCellSize * batch.row[cell] - 2 + dy, -7, to.height - 2);
@@ -138,8 +138,8 @@ HWY_INLINE void searchWholeRow(const Batch& batch, int cell, const PatchPicture&
     }
 }
 
-/// Tries a square of displacements. Zero is tried first, so it wins if the patch has no texture.
-/// The best displacement becomes the trial.
+/// Compares the patch at a square of displacements. Zero comes first, so it wins if the patch has
+/// no texture. The best displacement becomes the cell's trial.
 void searchWhole(Batch& batch, int cell, const PatchPicture& to, int radius) {
     WholeSums sums{};
     WholeBest best{batch.best.x.of[cell], batch.best.y.of[cell], batch.cost.of[cell]};
@@ -168,7 +168,8 @@ HWY_INLINE void tryPrior(const SearchStep& step, SearchRoom& room) {
     room.compare(step.to);
 }
 
-/// Tries the coarser level's vectors around the cells: the k-th of four, the nearest of them first.
+/// Compares the patch of each cell at one vector of the coarser pyramid level: the k-th of the four
+/// vectors around the cell, of which the nearest is k = 0.
 HWY_INLINE void tryCoarser(const SearchStep& step, int k, SearchRoom& room) {
     Batch& batch = room.batch;
     for (int i = 0; i < batch.count; ++i) {
@@ -216,7 +217,7 @@ void SearchCells(const SearchStep& step, int row, int first, int end) {
 
 void SearchListedGroup(const ListedStep& step, int groupX, int groupY) {
     using params::kClearlyLess, params::kErrorPerCost, params::kGoodCost, params::kOnLine;
-    constexpr int kSide = 4;  // [cells]
+    constexpr int kSide = 4;  // side of a group [cells]
     static_assert(kSide * kSide == kBatch);
     const FlowPlanes& out = step.search.out;
     SearchRoom room;

@@ -20,13 +20,15 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr float kOne = 64;
 constexpr float kPixels = params::kPatchPixels;
 constexpr int kRows = 8;
-constexpr int kChunk = 16;  // number of cells with four partial sums each, which are then added for
-                            // several cells at once
+// Number of cells that are processed together. Each first gets four partial sums; then, these are
+// added for several cells at once.
+constexpr int kChunk = 16;
 
 /// First pixel of the still's patch for each cell.
 struct Origins {
     HWY_ALIGN std::array<std::int32_t, 2 * kChunk> x, y;
-    HWY_ALIGN std::array<std::int32_t, 2 * kChunk> fx, fy;  // weights in 2^-15, twice in 32 bits
+    // Interpolation weights [2^-15] of the next column and row, stored twice in 32 bits.
+    HWY_ALIGN std::array<std::int32_t, 2 * kChunk> fx, fy;
 };
 
 /// Four partial sums per cell.
@@ -153,7 +155,7 @@ HWY_INLINE V16 PerBlock(const std::int32_t* values) {
                        hn::TableLookupLanes(hn::LoadU(d, values), hn::SetTableIndices(d, cell)));
 }
 
-/// Adds one row of the patch of each block's cell.
+/// Adds the products of one row of a patch, for the cell of each block of the vector.
 template <class VideoRow, class StillRow>
 HWY_INLINE void SumRows(const VideoRow& videoRow, const StillRow& stillRow, int first, V16 fx,
                         V16 fy, Partial& out) {

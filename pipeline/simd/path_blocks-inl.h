@@ -1,7 +1,7 @@
-// Path costs in registers, for windows of one vector of labels. A block of 16 bytes belongs to a
-// pixel; a vector holds several blocks, one for each of its pixels. Path costs are stored as their
-// complement, so that the zeros that shifts and look-ups insert outside a window never win.
-// Included once per instruction set.
+// Aggregation of costs along paths (see path_costs.h) in registers, for windows of one vector of
+// labels. A block of 16 bytes holds the path costs of one pixel's labels; a vector holds several
+// blocks. Path costs are stored as their complement, so that the zeros that shifts and look-ups
+// insert outside a window never win. Included once per instruction set.
 #include "pipeline/simd/path_costs.h"
 
 #include <algorithm>
@@ -58,7 +58,7 @@ HWY_INLINE void storeApart(VBlocks<Blocks> v, std::uint8_t* to, std::ptrdiff_t a
     }
 }
 
-/// Makes steps along paths; keeps the constants for this in registers.
+/// Advances path costs from pixel to pixel; keeps the constants for this in registers.
 template <int Blocks>
 class Stepper {
 public:
@@ -89,8 +89,8 @@ public:
         }
     }
 
-    /// Advances the complement of path costs by one step. `shifts` (motion of the window) and
-    /// `jumps` (penalties) have one byte per block.
+    /// Advances the complement of path costs by one pixel. `shifts` (difference of the two windows'
+    /// first labels) and `jumps` (penalties of jumps) have one byte per block.
     HWY_INLINE V advance(V path, const std::uint8_t* shifts, const std::uint8_t* jumps,
                          V cost) const {
         std::uint32_t moved = 0;
@@ -134,13 +134,14 @@ private:
 };
 
 /// Computes what a step between two neighbouring pixels depends on: the penalty of a jump, and the
-/// motion of the window.
+/// difference of the two windows' first labels.
 class Neighbours {
 public:
     explicit Neighbours(const PathVolume& volume)
         : jumps_(volume.jumps), chunks_((volume.jumpDifferences + 15) / 16) {}
 
-    /// Works on `count` pixels, at most kMost, and their neighbours. Writes whole vectors.
+    /// Computes the penalties of jumps between `count` pixels, at most kMost, and their neighbours.
+    /// Writes whole vectors.
     static constexpr int kMost = 64, kRoom = 2 * kMost;
     HWY_INLINE void penalties(const std::uint8_t* to, const std::uint8_t* from, int count,
                               std::uint8_t* out) const {
@@ -160,7 +161,7 @@ public:
                     hn::StoreU(jump, d, out + i);
                 });
     }
-    /// The shift is clamped to one more than a window.
+    /// Computes the differences of first labels, clamped to one more than a window's length.
     HWY_INLINE static void shifts(const std::int16_t* to, const std::int16_t* from, int count,
                                   std::uint8_t* out) {
         for (int i = 0; i < count; ++i)
@@ -228,8 +229,8 @@ private:
     }
 };
 
-/// Computes the paths along rows in both directions at once. A step waits for the one before, so
-/// two independent chains keep the CPU busy.
+/// Computes the path costs along rows in both directions at once. A step needs the result of the
+/// one before, so two independent chains of steps keep the CPU busy.
 template <int Blocks>
 HWY_INLINE void blocksAlongRows(const PathVolume& v, int y) {
     static_assert(Blocks == 1 || Blocks == 2 || Blocks == 4);
@@ -265,7 +266,8 @@ HWY_INLINE void blocksAlongRows(const PathVolume& v, int y) {
     }
 }
 
-/// Finds the cheapest labels. `sums` lack one path, which is given as its complement.
+/// Finds the cheapest label of each pixel. `sums`: path costs of all directions but one. `path`:
+/// complement of that direction's path costs.
 template <int Blocks>
 HWY_INLINE void valleysOf(const Stepper<Blocks>& stepper, VBlocks<Blocks> sums,
                           VBlocks<Blocks> path, const std::int16_t* base, Valley* out) {

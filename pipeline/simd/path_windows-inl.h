@@ -1,5 +1,6 @@
-// Path costs in memory, for windows of several vectors of labels, as used at the coarsest level.
-// The costs have margins on both sides. Included once per instruction set.
+// Aggregation of costs along paths (see path_costs.h) in memory, for windows of several vectors of
+// labels, as at the coarsest pyramid level. A pixel's path costs have margins on both sides.
+// Included once per instruction set.
 #include "pipeline/simd/path_costs.h"
 
 #include <algorithm>
@@ -17,12 +18,12 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Value in the margins around the labels. It never wins, so labels outside the last pixel's window
-/// are ignored.
+/// Path cost in the margins around a window. It never wins, so labels outside the previous pixel's
+/// window are ignored.
 constexpr std::uint8_t kNever = 200;
 
 /// Returns the size of the margin on either side. It suffices for a window that shares no label
-/// with the last one.
+/// with the previous pixel's window.
 HWY_INLINE std::size_t marginOf(int vectors) {
     return static_cast<std::size_t>(kLabels) * (vectors + 1);
 }
@@ -31,9 +32,9 @@ HWY_INLINE std::size_t strideOf(int vectors) {
     return static_cast<std::size_t>(kLabels) * vectors + 2 * marginOf(vectors);
 }
 
-/// Makes one step of a path. `from`: path costs of the last pixel. `shift`: difference of the two
-/// windows' first labels. The smallest path cost is subtracted, so that costs remain bounded and
-/// the sums of paths can be compared.
+/// Advances path costs by one pixel. `from`: path costs of the previous pixel. `shift`: difference
+/// of the two windows' first labels. The smallest path cost is subtracted, so that path costs
+/// remain bounded and their sums over the directions can be compared.
 HWY_INLINE void windowStep(const std::uint8_t* from, int shift, std::uint8_t stepPenalty,
                            std::uint8_t jumpPenalty, const std::uint8_t* cost, std::uint8_t* to,
                            int labels) {
@@ -63,7 +64,7 @@ HWY_INLINE void addLabels(const std::uint8_t* path, int labels, std::uint8_t* su
         hn::StoreU(hn::Add(hn::LoadU(d, sums + k), hn::LoadU(d, path + k)), d, sums + k);
 }
 
-/// Makes a step from pixel `from` to pixel `to`, which are adjacent or the same.
+/// Advances path costs from pixel `from` to pixel `to`, which are adjacent or the same.
 HWY_INLINE void windowMove(const PathVolume& v, std::ptrdiff_t from, std::ptrdiff_t to,
                            const std::uint8_t* last, std::uint8_t* now) {
     const int labels = kLabels * v.vectors;

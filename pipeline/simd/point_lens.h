@@ -11,7 +11,7 @@ struct PointLens {
     float k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;  ///< as CameraModel::distortion
     float rim = 1;                                 ///< radius of the outermost valid ray
     float rimRadial = 1;                           ///< radial factor of the distortion at the rim
-    float nearest = 0.01F;                         ///< least z of a visible point [m]
+    float nearest = 0.01F;                         ///< smallest z of a visible point [m]
 };
 
 /// The rows of [R | t], which transforms points [m].

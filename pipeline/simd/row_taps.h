@@ -9,16 +9,17 @@
 
 namespace mfar::simd {
 
-/// Rows and their weights [1/16384]; the sum of the weights is 1.
+/// Four rows of the source and their weights [1/16384] in one row of the result; the sum of the
+/// weights is 1.
 struct ColumnTaps {
     std::array<int, 4> rows;
     std::array<std::int16_t, 4> weights;
 };
 
 /// A resampling table. Entry x of the result is the weighted sum of `taps` entries of the source,
-/// starting with first(x). Source entries beyond the ends repeat the outermost ones, which the
-/// table takes into account. Entry x of the result has its centre at (x + 0.5) step - 0.5 of the
-/// source. The table also serves for columns; then entries are rows.
+/// starting with first(x). Beyond its ends, the source counts as constant; the weights take this
+/// into account. Entry x of the result has its centre at (x + 0.5) step - 0.5 of the source. The
+/// table also serves for columns; then entries are rows.
 class RowTaps {
 public:
     /// Keys' cubic with a = -0.75, as in cubic.glsl.
@@ -29,8 +30,8 @@ public:
     /// A tent that is as wide as two entries of the result, as in still_reduce.frag. `to` must not
     /// exceed `from`.
     [[nodiscard]] static RowTaps tent(int from, int to);
-    /// Mean of four linear samples, as in superres_sharpen.frag. Their distance is a quarter of
-    /// `footprint` entries of the result.
+    /// Mean of four linearly interpolated samples, as in superres_sharpen.frag. The distance
+    /// between samples is a quarter of `footprint` entries of the result.
     [[nodiscard]] static RowTaps mean(int from, int to, double footprint);
 
     [[nodiscard]] int taps() const { return weights_.size().height; }

@@ -5,12 +5,12 @@
 
 namespace mfar::simd {
 
-// Sharpening and enlarging a row of one colour channel, entries [begin, end); see
+// Functions that sharpen entries [begin, end) of a row of one colour channel, see
 // superres_sharpen.frag. Rows may be read and written up to 64 bytes beyond `end`.
 
-/// Input for the strength of the sharpening: half of the detail's weight, and the signal's share,
-/// both in [0, 1] and at the video's width. Each is given as two rows and the position between
-/// them. The strength is scaled by 32767.
+/// Input for the strength of the sharpening: half of the weight of the still's detail, and the
+/// share of the video's contrast that is not noise (`signal`); both in [0, 1] and at the video's
+/// width. Each is given as two rows and the position between them. The strength is scaled by 32767.
 struct TrustRows {
     std::array<const float*, 2> halfWeight, signal;
     float t;  ///< 0: the first row, 1: the second row

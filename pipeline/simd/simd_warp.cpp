@@ -45,7 +45,7 @@ public:
     void setTracedPicture(const TracedPicture& traced) override {
         traced_ = &traced;
         lookUp_.setTracedPicture(traced);
-        // Those who read a layer need rows with padding.
+        // The steps that read a layer need rows with padding.
         picture_ = copied<std::uint32_t>(traced.camera.size, traced.picture.data());
         depth_ = copied<float>(traced.camera.size, traced.depth.data());
     }
@@ -129,7 +129,7 @@ private:
     AlignedRows<std::uint32_t> picture_;
     AlignedRows<float> depth_;
     std::optional<WarpHoles> listed_;
-    PixelRect drawn_;  // where the look-up's pictures are not empty
+    PixelRect drawn_;  // pixels outside of it are empty in lookUp_'s pictures
     Field<std::uint32_t> state_;
     LayerPicture warped_, rendered_;
 };

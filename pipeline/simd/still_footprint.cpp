@@ -55,7 +55,8 @@ constexpr int kTaps = params::kFootprintTaps;
 constexpr int kShareBits = 14;
 constexpr float kShare = 1 << kShareBits;
 
-/// The taps along one axis: first pixels, and weights of the pixels after them.
+/// The taps of a footprint along one axis. A tap interpolates between pixel `first` and the next
+/// one, which has the weight `share`.
 struct Taps {
     int first[kTaps], share[kTaps];
 };
@@ -104,7 +105,7 @@ using Four = hn::FixedTag<float, kTaps>;
 using FourInt = hn::FixedTag<std::int32_t, kTaps>;
 using Taps16 = hn::FixedTag<std::int16_t, 2 * kTaps>;
 
-/// The taps along one axis, one per lane.
+/// The taps of a footprint along one axis (see Taps), one per lane.
 struct TapLanes {
     hn::Vec<FourInt> first, share;
 
@@ -117,8 +118,8 @@ struct TapLanes {
     }
 };
 
-/// Returns the two pixels of a row that each tap lies between. `at`: indices of these pixels in
-/// `window`.
+/// Returns for each tap the two pixels of a row that it lies between. `at`: indices of these pixels
+/// in `window`.
 HWY_INLINE hn::Vec<Taps16> tapsOf(const std::uint8_t* window,
                                   hn::VFromD<hn::FixedTag<std::uint8_t, 2 * kTaps>> at) {
     const hn::FixedTag<std::uint8_t, kWindow> dWindow;
@@ -213,7 +214,7 @@ void FootprintRow(const StillPicture& still, float footprint, const float* still
     const auto offsets = hn::Mul(hn::Sub(hn::Iota(d, 0.5F), hn::Set(d, kTaps / 2.0F)),
                                  hn::Set(d, footprint / kTaps));
     const float reach = footprint * (kTaps - 1) / (2 * kTaps);
-    // False for NaN.
+    // Returns false if q is NaN.
     const auto within = [&](float q, int room, int size) {
         return q - reach >= 0 && q - reach + static_cast<float>(room) <= static_cast<float>(size) &&
                q + reach + 2 <= static_cast<float>(size);

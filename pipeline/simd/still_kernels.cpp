@@ -33,8 +33,8 @@ HWY_INLINE hn::Vec<U8> LumaOf(hn::Vec<I16> y, const std::int16_t* chroma, const 
     return Bytes(chroma == nullptr ? sum : hn::Add(sum, hn::LoadU(d, chroma)));
 }
 
-/// Processes whole vectors with `kStep` bytes per pixel. The last vector is read from a copy,
-/// because cameras' rows have no padding.
+/// Computes luma in whole vectors from rows with `kStep` bytes per pixel. The last vector is read
+/// from a copy, because cameras' rows have no padding.
 template <int kStep, class Load>
 HWY_INLINE void LumaRows(const std::uint8_t* from, const std::int16_t* chroma, const LumaGain& by,
                          std::size_t pixels, std::uint8_t* luma, const Load& load) {
@@ -65,7 +65,7 @@ void LumaOfPairs(const std::uint8_t* yAndChroma, const std::int16_t* chroma, con
     });
 }
 
-/// The result is in 1/32 grey level.
+/// Returns luma with raised detail [1/32 grey level], see raisedRow().
 HWY_INLINE hn::Vec<I16> Raised(const std::array<const std::uint8_t*, 3>& luma, hn::Vec<I16> share,
                                std::size_t x) {
     const std::uint8_t* at = luma[1] + x;
@@ -97,8 +97,8 @@ void PairRows(const std::uint8_t* upper, const std::uint8_t* lower, std::size_t 
 
 void PackRow(const std::array<const std::uint8_t*, 3>& rgb, std::size_t pixels,
              std::uint32_t* rgba) {
-    // Number of pixels that fit into one vector of the result. This limits what is written beyond
-    // the end.
+    // Processes only as many pixels at a time as fit into one vector of the result, so that at most
+    // one vector is written beyond the end.
     const hn::Rebind<std::uint16_t, hn::ScalableTag<std::uint32_t>> d;
     const hn::Rebind<std::uint8_t, decltype(d)> d8;
     const std::size_t lanes = hn::Lanes(d);

@@ -12,7 +12,8 @@ namespace mfar::simd {
 namespace {
 
 constexpr std::array<float, 3> kRec601{params::kLumaRed, params::kLumaGreen, params::kLumaBlue};
-// Chroma with smaller coefficients changes luma by less than a tenth of a grey level.
+// Chroma is ignored if its coefficients are smaller, because it then changes luma by less than a
+// tenth of a grey level.
 constexpr float kLeastChroma = 1e-3F;
 
 bool isYuv(PixelFormat format) {
@@ -29,7 +30,7 @@ StillLuma::StillLuma(const ImageView& picture) : picture_(picture) {
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 4; ++j)
             by[j] += kRec601[i] * rows[i][j];
-    // Chroma is used relative to its middle value.
+    // The offset makes chroma relative to its middle value, 128.
     gain_ = {static_cast<std::int16_t>(std::lround(by[0] * 16384)),
              static_cast<std::int16_t>(std::lround(32 * (by[3] + 128 * (by[1] + by[2]))))};
     needsChroma_ = std::max(std::abs(by[1]), std::abs(by[2])) > kLeastChroma;

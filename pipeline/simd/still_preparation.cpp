@@ -77,7 +77,7 @@ void StillPreparation::keep(const ImageView& still) {
     unmade_ = to;
 }
 
-// Resamples along the columns for one row of the result, into scratch.wide.
+// Resamples the columns of a picture for row y of the result, into scratch.wide.
 template <class RowAt>
 void StillPreparation::weighColumn(const RowTaps& taps, int y, Size from, const RowAt& rowAt,
                                    Scratch& scratch) {

@@ -25,11 +25,11 @@ public:
     /// `output`: size of the whole enlarged video.
     StillPreparation(const StereoRig& rig, Size output, std::shared_ptr<Workers> workers);
 
-    /// Sets a valid picture of the still camera's size, in any format. `keepsPicture`: copies the
-    /// picture for picture(), which is grey otherwise.
+    /// Sets a valid picture of the still camera's size, in any pixel format. `keepsPicture`: copies
+    /// the still's colours for picture(); otherwise, picture() returns a grey picture.
     void set(const ImageView& still, bool keepsPicture = true);
 
-    /// The rig with the still camera that pairs() belongs to: the same lens, possibly fewer pixels.
+    /// The rig whose still camera has the size of pairs(): the same lens, possibly fewer pixels.
     [[nodiscard]] const StereoRig& rig() const { return rig_; }
     /// Rec. 601 luma of the whole still.
     [[nodiscard]] Rows<const std::uint8_t> luma() const { return luma_.rows(); }
@@ -65,7 +65,7 @@ private:
         StillLuma::Scratch luma;
         AlignedRows<float> wide;                // a row of the still
         AlignedRows<std::uint8_t> raised, rgb;  // raised: two rows; rgb: three rows
-        std::vector<const std::uint8_t*> rows;  // rows of a weighted sum
+        std::vector<const std::uint8_t*> rows;  // the rows of which a weighted sum is computed
         std::vector<float> weights;
     };
     /// Reduction to fewer pixels without aliasing, see still_reduce.frag.

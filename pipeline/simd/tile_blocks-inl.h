@@ -1,5 +1,5 @@
-// Sums over blocks of 2x2 pixels for a group of tiles, in both pictures. Included once per
-// instruction set.
+// Sums over blocks of 2x2 pixels for a group of tiles, in the new frame and in the one that was
+// drawn last. Included once per instruction set.
 #include "pipeline/engine/params/luma.h"
 #include "pipeline/simd/tile_rows.h"
 
@@ -28,18 +28,18 @@ constexpr int kRowBlocks = kSide * kTileGroup;
 constexpr int kRowCells = kCells * kTileGroup;
 
 /// Measurements of a group of tiles: sums over the pixels of blocks, and twists. The twist of the
-/// block a b above c d is a - b - c + d, which is 0 on slopes. Values beyond the last tile are not
-/// initialised.
+/// block a b above c d is a - b - c + d, which is 0 where brightness changes linearly. "Difference"
+/// means new frame minus last drawn frame. Values beyond the last tile are not initialised.
 struct Blocks {
     using Values = std::array<std::array<float, kRowBlocks>, kSide>;
     using CellSums = std::array<std::array<std::int32_t, kRowCells>, kCells>;
     HWY_ALIGN Values light;                 // means of the video's luma over blocks
     HWY_ALIGN Values rough;                 // absolute value of half the video's twist
-    HWY_ALIGN Values lumaSum, lumaTwist;    // of the difference of both pictures
-    HWY_ALIGN CellSums redSum, blueSum;     // of the difference of both pictures
+    HWY_ALIGN Values lumaSum, lumaTwist;    // sums and twists of the luma's difference
+    HWY_ALIGN CellSums redSum, blueSum;     // sums of the difference of red and of blue
     HWY_ALIGN CellSums farthest, absolute;  // maxima over the channels: of |sum of the difference|,
                                             // and of the sum of |difference|
-    // Sums of squared twists of the difference, four per tile.
+    // Sums of squared twists of the difference of red and of blue, four per tile.
     HWY_ALIGN std::array<std::int32_t, kRowCells> redTwist, blueTwist;
 };
 
@@ -232,7 +232,7 @@ HWY_INLINE void ReadColumn(D d, const TilePixels& pixels, int x, Blocks& out) {
 }
 
 void ReadBlocks(const TilePixels& pixels, Blocks& out) {
-    // First vectors of several whole tiles, then vectors of one tile.
+    // Processes vectors of several whole tiles first, then vectors of one tile.
     const hn::CappedTag<std::int16_t, 4 * kSide> d;
     const hn::FixedTag<std::int16_t, kSide> tile;
     const int blocks = kSide * pixels.tiles, lanes = static_cast<int>(hn::Lanes(d));

@@ -34,7 +34,7 @@ void widen(const TileMask& in, int margin, TileMask& between, TileMask& out);
 class TileSearch {
 public:
     struct Group {
-        int x, y;  ///< [groups]
+        int x, y;  ///< column and row of the group, counted in groups
     };
 
     TileSearch(Size cells, int levels);
@@ -47,7 +47,7 @@ public:
     [[nodiscard]] std::span<const Group> groups(int level) const {
         return groups_[static_cast<std::size_t>(level)];
     }
-    /// groups(0) as one flag per tile.
+    /// One flag per tile: true if groups(0) contains the tile.
     [[nodiscard]] const std::vector<bool>& tiles() const { return listed_; }
     [[nodiscard]] int count() const { return static_cast<int>(groups_[0].size()); }
 

@@ -62,8 +62,8 @@ private:
     using DInt = hn::RebindToSigned<DPixels>;
     using DBits = hn::RebindToUnsigned<DPixels>;
 
-    /// Interpolates along a row. Loads four bytes from the pixel on, or from before it if this
-    /// would read past the picture's end.
+    /// Interpolates between the pixel at `offset` and the next one. Loads four bytes that begin at
+    /// the pixel, or before it if they would reach past the picture's end.
     HWY_INLINE VPixels between(hn::Vec<DInt> offset, VPixels share) const {
         const auto from = hn::Min(offset, hn::Set(dInt_, last_));
         const auto words =

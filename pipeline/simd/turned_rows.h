@@ -9,11 +9,11 @@
 
 namespace mfar::simd {
 
-inline constexpr int kTurnedCell = 8;  ///< distance of the points of a grid [px]
+inline constexpr int kTurnedCell = 8;  ///< distance between the grid points of TurnedCells [px]
 
-/// A camera with the same centre but another orientation. Rays are projected into it.
+/// A camera into which rays of another camera with the same centre are projected.
 struct TurnedLens {
-    Lens lens;                  ///< lens of that camera; its rim2 is ignored
+    Lens lens;                  ///< the camera's lens; its rim2 is ignored
     std::array<float, 9> turn;  ///< rotation of rays, row-major
     float rim;                  ///< radius of the outermost visible ray
 };
@@ -22,14 +22,16 @@ struct TurnedLens {
 void turnedPoints(const TurnedLens& lens, const float* raysX, const float* raysY, std::size_t count,
                   float* x, float* y);
 
-/// Two adjacent rows of a grid of points in the source, one point for every kTurnedCell pixels.
+/// Two adjacent rows of a grid of points in the source picture. There is one point for every
+/// kTurnedCell pixels of the drawn picture.
 struct TurnedCells {
     const float *x, *y, *nextX, *nextY;
 };
 
-/// Draws a row of a picture that lies `v` of a cell below the first row of the grid. Points are
-/// interpolated bilinearly in the grid; at each point, the source is sampled bilinearly. `seen` is
-/// 1 where the source has a pixel, else 0. The source must have at least two columns and two rows.
+/// Draws a row of a picture that lies `v` grid cells below the first row of the grid, [0, 1). The
+/// point of each pixel is interpolated bilinearly in the grid, and the source is sampled bilinearly
+/// there. `seen` is 1 where the source has a pixel, else 0. The source must have at least two
+/// columns and two rows.
 void turnedRow(const Rows<const std::uint8_t>& source, const TurnedCells& cells, float v,
                std::size_t width, std::uint8_t* out, std::uint8_t* seen);
 

@@ -9,7 +9,7 @@
 namespace mfar::simd {
 namespace {
 
-constexpr float kFixed = 64;  // number of steps per grey level
+constexpr float kFixed = 64;  // fixed-point units per grey level
 
 }  // namespace
 

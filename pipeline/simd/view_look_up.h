@@ -21,11 +21,11 @@ namespace mfar::simd {
 class RestPixels;
 class SurfaceRaster;
 
-/// A pixel that is not completely known.
+/// A pixel of the layer whose colour is not completely known.
 struct Hole {
-    std::uint32_t pixel;   ///< row-major index
-    std::uint32_t colour;  ///< what is known so far, RGBA8 premultiplied
-    bool isEdge, isOpen;   ///< isOpen: nothing is known
+    std::uint32_t pixel;   ///< row-major index of the pixel
+    std::uint32_t colour;  ///< known part of the colour, RGBA8 premultiplied
+    bool isEdge, isOpen;   ///< isOpen: no part of the colour is known
 };
 
 /// The pixels of all re-rendered pictures.
@@ -35,7 +35,7 @@ public:
     struct Picture {
         std::vector<Rgba> colours;
         std::vector<LightWords> lights;     // empty if only colours are known
-        std::vector<WarpSurface> surfaces;  // like colours, empty until a pixel is stored
+        std::vector<WarpSurface> surfaces;  // empty, as `colours`, until a pixel is stored
     };
     explicit RerenderedStore(Size layer) : layer_(layer) {}
     void store(const RerenderedPictures::StoredRows& rows);
@@ -48,10 +48,10 @@ private:
     std::array<Picture, RerenderedPictures::kPictures> pictures_;
 };
 
-/// Looks up the colour of every pixel of the layer that shows a surface. It is taken from the
-/// traced picture or, if that does not show the surface, from the re-rendered
-/// pictures. CPU version of the GLES engine's ViewLookUp. Threads share the rows. Plain pixels are
-/// processed in vectors, edges and other complicated pixels one by one.
+/// Looks up the colour of every pixel of the layer that shows a surface. The colour is taken from
+/// the traced picture or, if that does not show the surface, from the re-rendered pictures. CPU
+/// version of the GLES engine's ViewLookUp. Threads share the rows. Plain pixels (see lookUpRow())
+/// are processed in vectors, edges and other complicated pixels one by one.
 class ViewLookUp {
 public:
     ViewLookUp(const LensProjection& layer, std::shared_ptr<Workers> workers);
@@ -60,14 +60,14 @@ public:
     void setTracedPicture(const TracedPicture& traced);
 
     struct Input {
-        const SurfaceRaster& raster;  ///< drawn at the current pose
+        const SurfaceRaster& raster;  ///< the surfaces, drawn at the current pose
         const RerenderedPictures& rerendered;
         const RerenderedStore& store;
         Eigen::Vector4d plane;  ///< SilhouetteModels::plane()
     };
     /// Writes every pixel of `where`, and no others.
     void run(const Input& input, const RigidTransform& T_world_camera, const PixelRect& where);
-    /// Makes these pixels empty.
+    /// Makes the pixels of `where` empty.
     void clear(const PixelRect& where);
 
     /// The holes of the last run, ascending.

@@ -35,7 +35,7 @@ HWY_INLINE M AsFloats(hn::Mask<DU> mask) {
     return hn::RebindMask(D(), mask);
 }
 
-/// True where all four words show the number.
+/// True where the lowest byte of all four words, the number of a surface, equals `number`.
 HWY_INLINE M AllShow(const Four& s, VU number) {
     const VU differ = hn::Or(hn::Or(hn::Xor(s.a, number), hn::Xor(s.b, number)),
                              hn::Or(hn::Xor(s.c, number), hn::Xor(s.d, number)));
@@ -66,7 +66,7 @@ HWY_INLINE VU Blend(const Four& texels, const Four& weights) {
 /// Linear red, green and blue.
 using Light = Triples<V>;
 
-/// Returns 2^exponent of light words, times their weights.
+/// Returns the common factor 2^exponent of the channels of LightWords, times the weights `share`.
 HWY_INLINE V LightScale(VU words, VU share) {
     const DU du;
     const D d;
@@ -84,7 +84,7 @@ HWY_INLINE V LightChannel(VU words) {
     return hn::ConvertTo(D(), hn::BitCast(DI(), bits));
 }
 
-/// Interpolates four light words bilinearly.
+/// Decodes four LightWords and interpolates them bilinearly.
 HWY_INLINE Light BlendLight(const Four& words, const Four& weights) {
     Light out{hn::Zero(D()), hn::Zero(D()), hn::Zero(D())};
     const auto add = [&](VU word, VU share) HWY_ATTR {
@@ -118,7 +118,7 @@ struct PaintOf {
     VU diffuse, facing;
 };
 
-/// Returns the radiance of the surface as display bytes.
+/// Returns one channel of the surface's colour (paint times light) as a display byte.
 template <int kShift>
 HWY_INLINE VU LitChannel(const PaintOf& paint, V diffuse, V specular, V veil) {
     const D d;
@@ -168,7 +168,7 @@ HWY_INLINE V PlaneDepth(const CatcherPlane& plane, V rayX, V rayY, float nearest
     return hn::IfThenElseZero(seen, z);
 }
 
-/// Loads the quarters of pixels, which are alternate words of two rows.
+/// Loads the surfaces of each pixel's four quarters, which are alternate words of two rows.
 HWY_INLINE Four QuartersOf(const ViewRow& row, int x) {
     Four s;
     hn::LoadInterleaved2(DU(), row.upper + 2L * x, s.a, s.b);
@@ -187,13 +187,13 @@ struct Found {
 /// Request of a vector of pixels: the surface that each pixel shows, and its position in the
 /// traced picture.
 struct Asked {
-    V z;                           ///< in the layer's camera [m]
+    V z;                           ///< z of the surface in the layer's camera [m]
     VU id;                         ///< number of the surface
-    M ofCatcher;                   ///< true if the surface is the catcher
+    M ofCatcher;                   ///< true if the surface is the shadow catcher
     M empty;                       ///< true if the pixel shows nothing
     M asked;                       ///< true if the traced picture is read
-    V thereZ;                      ///< z in the traced picture's camera [m]
-    V pixelX, pixelY, lowX, lowY;  ///< in the traced picture, exact and rounded down [px]
+    V thereZ;                      ///< z of the surface in the traced picture's camera [m]
+    V pixelX, pixelY, lowX, lowY;  ///< position in the traced picture, exact and rounded down [px]
 };
 
 HWY_INLINE Asked AskFor(const ViewLookUpInput& in, const Four& s, V rayX, V rayY) {
@@ -227,7 +227,7 @@ HWY_INLINE Asked AskFor(const ViewLookUpInput& in, const Four& s, V rayX, V rayY
     return {z, id, ofCatcher, empty, asked, there.z, pixel.x, pixel.y, lowX, lowY};
 }
 
-/// Loads every second word, for the four texels around a position.
+/// Loads one of the two LightWords of each of the four texels around a position.
 HWY_INLINE Four GatherLights(const std::uint32_t* from, VI at, int width) {
     const DU du;
     const VI word = hn::Add(at, at);

@@ -8,17 +8,17 @@
 
 namespace mfar::simd {
 
-/// Number of the catcher in words that are packed as in warp_surface.glsl.
+/// Number of the shadow catcher in words that are packed as in warp_surface.glsl.
 inline constexpr std::uint32_t kCatcherNumber = 255;  ///< = kCatcherId
-/// Two surfaces are the same if z differs by at most this share of z.
+/// Largest difference of z, as a share of z, at which two pixels show the same surface.
 inline constexpr float kSameDepth = 0.003F;
 
-/// The catcher, if it is a plane: n . point = w in the layer's camera [m]. All zero if it is not a
-/// plane.
+/// The shadow catcher, if it is a plane: (x, y, z) . point = w in the layer's camera [m]. All zero
+/// if it is not a plane.
 struct CatcherPlane {
     float x = 0, y = 0, z = 0, w = 0;
 
-    /// Returns z [m] along a ray; 0 if the plane is not visible there.
+    /// Returns z [m] of the plane on the ray (rayX, rayY, 1); 0 if the plane is not visible there.
     [[nodiscard]] float depthAlong(float rayX, float rayY, float nearest) const {
         const float facing = x * rayX + y * rayY + z;
         const float depth = w / (facing == 0 ? 1 : facing);
@@ -28,22 +28,22 @@ struct CatcherPlane {
 
 /// The traced picture, in which the pixels of a row of the layer are looked up.
 struct ViewLookUpInput {
-    PointTransform toTraced;       ///< from the layer's camera to the traced picture's
-    PointLens lens;                ///< of the traced picture's camera
+    PointTransform toTraced;       ///< transforms from the layer's to the traced picture's camera
+    PointLens lens;                ///< lens of the traced picture's camera
     Size tracedSize;               ///< size of the traced picture [px]
-    const std::uint32_t* packed;   ///< its surfaces, row-major; number 254: unknown
-    const std::uint32_t* colours;  ///< RGBA8, row-major
+    const std::uint32_t* packed;   ///< traced picture's surfaces, row-major; number 254: unknown
+    const std::uint32_t* colours;  ///< traced picture's colours, RGBA8, row-major
     const std::uint32_t* lights;   ///< LightWords, two words each; null if only colours are known
     CatcherPlane plane;
-    float shownDepth;  ///< factor of the catcher's z: 1 - kShadowLift
+    float shownDepth;  ///< factor of the shadow catcher's z in the result: 1 - kShadowLift
 };
 
 /// A row of pixels of the layer, and its results.
 struct ViewRow {
     int count;
     const std::uint32_t *upper, *lower;  ///< surfaces at twice the layer's resolution
-    const PaintWords* paint;             ///< see SurfaceRaster::paintRow(); read only if there are
-                                         ///< lights
+    const PaintWords* paint;             ///< see SurfaceRaster::paintRow(); read only if
+                                         ///< ViewLookUpInput::lights is not null
     const float *rayX, *rayY;            ///< rays with z = 1
     std::uint32_t* colour;               ///< RGBA8 premultiplied
     float* depth;                        ///< z [m]; 0: empty

@@ -48,8 +48,8 @@ bool Decide(const DecideRow& row, const VisibilityParams& params) {
     return anyOpen;
 }
 
-/// Returns e^x for x <= 0, with an error below 1e-5, as a power of 2; its fraction is computed by a
-/// polynomial.
+/// Returns e^x for x <= 0, with an error below 1e-5. Computes it as a power of 2; a polynomial
+/// handles the fraction of the exponent.
 HWY_INLINE V Exp(V x) {
     const hn::RebindToSigned<D> di;
     const V power = hn::Max(hn::Mul(x, Const(1.44269504F)), Const(-100));
@@ -68,7 +68,7 @@ HWY_INLINE V ReciprocalSqrt(V v) {
     return hn::Mul(first, hn::NegMulAdd(hn::Mul(halved, first), first, Const(1.5F)));
 }
 
-/// The samples that all pixels between these samples share.
+/// The 4x4 samples around a pixel. All pixels between the same samples share them.
 struct Taps {
     using Values = std::array<float, kTaps>;
     HWY_ALIGN Values inverse, variance, red, green, blue;

@@ -16,18 +16,18 @@ inline constexpr int kVisibilityChunk = 256;
 struct VisibilityParams {
     explicit VisibilityParams(const CompositeOptions& options);
     SampleBounds bounds;
-    float perSoftness;   ///< [1 / sigma]
-    float virtualSigma;  ///< [share of the depth]
-    float likeness;      ///< [1 / grey level^2]
+    float perSoftness;   ///< 1 / CompositeOptions::softness [1 / sigma]
+    float virtualSigma;  ///< CompositeOptions::virtualSigma [share of the depth]
+    float likeness;      ///< factor of a squared colour difference [1 / grey level^2]
 };
 
 /// Input and result of decideRow() for a part of an output row.
 struct DecideRow {
     int count;
-    const float* z;                 ///< of the virtual layer [m]
+    const float* z;                 ///< z of the virtual layer [m]
     const float *greatest, *least;  ///< see rangeOfSamples(), for each pixel
     std::uint8_t* visibility;       ///< 0, 255 or kOpen; written up to 16 pixels beyond the last
-    float* inverse;                 ///< inverse depth of the layer [1/m]; also written beyond
+    float* inverse;                 ///< layer's inverse depth [1/m]; written as far as `visibility`
 };
 inline constexpr std::uint8_t kOpen = 1;  ///< this pixel's samples have to be weighed
 
@@ -39,7 +39,7 @@ bool decideRow(const DecideRow& row, const VisibilityParams& params);
 inline constexpr int kSampleMargin = 2;
 struct SampleWindow {
     std::array<SampleRow, 4> rows;
-    std::array<float, 4> weights;  ///< of the rows, by their distance
+    std::array<float, 4> weights;  ///< weights of the rows, by their distance from the output row
 };
 
 /// A part of an output row whose open pixels are weighed.

@@ -16,9 +16,9 @@ constexpr int kMargin = 16;  // columns on each side of a row; as long as a cach
 constexpr float kMeanScale = 32;
 
 /// Taps of the mean over a video pixel along one axis. The warped still is interpolated linearly,
-/// which widens the footprint. To keep the total spread, the samples are closer together.
+/// which widens the footprint. To keep its total variance, the samples are closer together.
 RowTaps meanOf(int output, int video) {
-    constexpr double kWidened = 2.0 + 2.0 / 15;  // (spread of a tent) / (spread of four samples)
+    constexpr double kWidened = 2.0 + 2.0 / 15;  // variance of a tent / variance of four samples
     const double pitch = static_cast<double>(video) / output, seen = params::kSeen;
     return RowTaps::mean(output, video,
                          std::sqrt(std::max(seen * seen - kWidened * pitch * pitch, 0.0)));
@@ -75,7 +75,7 @@ void WarpedStill::begin(const StillPairs& still, Rows<const LookUpCell> lookUps,
         spans->clear();
 }
 
-// Adds the columns that a span needs.
+// Adds the columns that a span of the output needs to means_, compared_ and warped_.
 void WarpedStill::spread(const PixelSpan& span) {
     const RowTaps &cubic = taps_->cubicRows, &mean = taps_->meanRows;
     const int first = cubic.first(span.begin),

@@ -15,10 +15,10 @@ namespace mfar::simd {
 struct WarpedStillTaps {
     WarpedStillTaps(Size video, Size output);
 
-    RowTaps meanRows, meanColumns;    ///< from the output's to the video's pixels
-    RowTaps cubicRows, cubicColumns;  ///< from the video's to the output's pixels
-    /// Number of output rows from a row to the last one that its detail reads, without and with
-    /// guidance.
+    RowTaps meanRows, meanColumns;    ///< resample output pixels to video pixels
+    RowTaps cubicRows, cubicColumns;  ///< resample video pixels to output pixels
+    /// Number of output rows that the detail of a row reads, from that row to the last one read:
+    /// without guidance (`kept`), and with it.
     int kept, keptGuided;
 };
 
@@ -38,12 +38,12 @@ public:
         Guidance guidance;
     };
 
-    /// Starts with a new still and a new field of look-ups. Only these pixels of the output are
-    /// computed. No pixels are covered until cover() is called.
+    /// Starts with a new still and a new field of look-ups. `pixels`: columns of the output that
+    /// cover() may choose from. No pixels are computed until cover() is called.
     void begin(const StillPairs& still, Rows<const LookUpCell> lookUps,
                const LookUpTaps& lookUpTaps, const WarpedStillTaps& taps, const PixelSpan& pixels,
                const Guide& guide);
-    /// From now on, only these pixels are computed. `pixels` must be ascending.
+    /// From now on, row() computes only these columns. `pixels` must be ascending.
     void cover(const PixelSpans& pixels);
     /// Returns the detail of the covered pixels of a row; valid until the next call. Rows must be
     /// requested in ascending order.
@@ -65,9 +65,8 @@ private:
     LookUpRowCache lookUps_;
     PixelSpans covered_;
     PixelSpans means_, warped_;    // means_: columns of the video; warped_: pixels of the output
-    PixelSpans compared_;          // columns of the video: means_, and with guidance also those
-                                   // around
-    std::vector<int> warpedRows_;  // row stored in each slot
+    PixelSpans compared_;          // columns of the video: means_; with guidance, more on each side
+    std::vector<int> warpedRows_;  // output row stored in each slot of luma_
     std::array<int, 4> lowRows_{};
     std::vector<const std::int16_t*> weighed_;
     std::vector<float> weights_;
@@ -79,7 +78,7 @@ private:
     Guidance guidance_;
     Rows<const LookUpCell> field_{};
     int slots_ = 0;                                   // number of rows of luma_ in use
-    std::array<int, GuideRows::kRows> comparedRows_;  // row stored in each slot
+    std::array<int, GuideRows::kRows> comparedRows_;  // video row stored in each slot of seen_
     AlignedRows<std::int16_t> videoLuma_;             // a row of the video [1/8 grey level]
     // Rows of the video with a margin, one per slot [1/32 grey level]; see GuideRows.
     AlignedRows<float> seen_, differences_, trusted_;

@@ -19,16 +19,17 @@ namespace mfar::simd {
 
 /// Input for the weights of a frame. Must remain valid during the call.
 struct WeighInput {
-    /// Levels of the pyramids in `words`, at least two each. The photometric gain between the
+    /// Pyramid levels in `words`, at least two of each picture. The photometric gain between the
     /// sensors is measured at the second level.
     const std::vector<LumaLevel>& videoLuma;
     const std::vector<LumaLevel>& stillLuma;
     std::span<const std::uint32_t> words;  ///< must end with kLumaSpareWords
-    Rows<const FlowCell> forward;          ///< video to still; cells of 4x4 video pixels
-    /// Still to video, in pixels of level `backwardLevel`. Read only if errors.data is null.
+    Rows<const FlowCell> forward;          ///< flow from video to still; 4x4 video pixels a cell
+    /// Flow from still to video, in pixels of pyramid level `backwardLevel`. Read only if
+    /// errors.data is null.
     Rows<const FlowCell> backward;
     int backwardLevel = 0;
-    Rows<const ErrorCell> errors;  ///< two-way errors of the cells of `forward`; or without data
+    Rows<const ErrorCell> errors;  ///< two-way errors of the cells of `forward`; data may be null
     const TileWork& work;
 };
 

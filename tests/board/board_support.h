@@ -10,7 +10,8 @@
 
 namespace mfar::test {
 
-/// The board of a scene at the pace of its consumer. It lives until the program ends.
+/// Returns the simulated board of a scene. It delivers pictures as fast as they are fetched, and
+/// lives until the program ends.
 SyntheticBoard& sharedBoard(synthetic::Scene scene);
 
 /// Grey copy of a picture.
@@ -21,7 +22,8 @@ cv::Mat3f colour(const StoredImage& image);
 /// Corners [px] of the 36h11 tags that libapriltag finds, by id. They are in the library's order:
 /// bottom left, bottom right, and so on.
 std::map<int, std::array<Eigen::Vector2d, 4>> detectTags(const cv::Mat1b& picture);
-/// True places of these corners, computed from the poses of tag and camera.
+/// True positions [px] of a tag's corners, in the order of detectTags(), computed from the poses of
+/// tag and camera.
 std::array<Eigen::Vector2d, 4> projectedCorners(const synthetic::Tag& tag,
                                                 const CameraModel& camera,
                                                 const RigidTransform& T_world_camera);

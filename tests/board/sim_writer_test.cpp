@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST(SimWriter, WrittenRecordingLoadsWithAllItsTruth) {
+TEST(SimWriter, ARecordingIsReadBackWithItsGroundTruth) {
     const TempFolder folder;
     SyntheticOptions options;
     options.scene = synthetic::Scene::Flat;

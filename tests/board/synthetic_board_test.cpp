@@ -55,7 +55,7 @@ Delivery runBoard(SyntheticBoard& board, const std::vector<std::size_t>& pulses)
     return out;
 }
 
-TEST(SyntheticBoard, EqualSeedsGiveEqualBytesAndOtherSeedsGiveOthers) {
+TEST(SyntheticBoard, EqualSeedsGiveEqualPicturesAndOtherSeedsDifferentOnes) {
     SyntheticBoard a(flat(Pace::Consumer, 5, 4)), b(flat(Pace::Consumer, 5, 4)),
         c(flat(Pace::Consumer, 5, 5));
     const Delivery first = runBoard(a, {1}), second = runBoard(b, {1}), other = runBoard(c, {1});
@@ -66,7 +66,7 @@ TEST(SyntheticBoard, EqualSeedsGiveEqualBytesAndOtherSeedsGiveOthers) {
     EXPECT_NE(first.pictures, other.pictures);
 }
 
-TEST(SyntheticBoard, AStillComesOnlyAfterAPulseAndItsLatency) {
+TEST(SyntheticBoard, AStillArrivesOneLatencyAfterItsTriggerPulse) {
     SyntheticBoard board(flat(Pace::Consumer, 8));
     const Delivery run = runBoard(board, {2});
     ASSERT_EQ(run.videoTimes.size(), 8U);
@@ -111,7 +111,7 @@ TEST(SyntheticBoard, FramesOutliveTheBoard) {
     EXPECT_FALSE(bytes(*frame).empty());
 }
 
-TEST(SyntheticBoard, HoldingEveryFrameTimesOutInsteadOfBlocking) {
+TEST(SyntheticBoard, NextTimesOutWhileAllVideoBuffersAreHeld) {
     SyntheticOptions options = flat(Pace::Consumer);
     options.videoBuffers = 2;
     SyntheticBoard board(options);

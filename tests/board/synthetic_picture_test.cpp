@@ -20,7 +20,7 @@ cv::Mat3f linear(const cv::Mat3f& picture) {
 
 class EveryScene : public testing::TestWithParam<synthetic::Scene> {};
 
-/// Takes frames until the still of the pulse arrives.
+/// A video frame, and the still that a trigger pulse during this frame produces.
 struct Pair {
     std::optional<Frame> video, still;
 };
@@ -61,7 +61,7 @@ TEST_P(EveryScene, BothSensorsShowTheTagsAtTheirTruePositions) {
     expectTags(board, pair.still->view(), rig.still, T_world_still, 0.8);
 }
 
-TEST_P(EveryScene, HighResTruthAveragesToTheVideo) {
+TEST_P(EveryScene, TrueHighResolutionPictureAveragesToTheVideo) {
     SyntheticBoard& board = sharedBoard(GetParam());
     const Timestamp t = board.epoch() + 700ms;
     const cv::Mat3f video = linear(colour(board.cleanVideo(t)));

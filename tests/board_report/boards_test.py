@@ -31,7 +31,7 @@ def shader(**values):
 
 
 class Predictions(unittest.TestCase):
-    def test_every_board_with_shaders_has_its_row(self):
+    def test_every_board_with_a_gpu_has_its_row_of_predictions(self):
         path = os.path.join(HERE, '..', '..', 'pipeline', 'predicted_frames.inc')
         with open(path, encoding='utf-8') as file:
             rows = [line.strip('{},\n').split(', ') for line in file if line.startswith('{')]
@@ -42,22 +42,22 @@ class Predictions(unittest.TestCase):
 
 
 class RecordedStatistics(unittest.TestCase):
-    def test_v3d(self):
+    def test_statistics_of_the_v3d_driver_are_read(self):
         one = recorded('v3d-4')
         self.assertEqual((one.instructions, one.threads, one.registers, one.spills, one.fills), (35, 4, 5, 0, 0))
 
-    def test_bifrost(self):
+    def test_statistics_of_the_bifrost_driver_are_read(self):
         one = recorded('mali-bifrost')
         self.assertEqual((one.instructions, one.threads), (24, 2))
         self.assertAlmostEqual(one.cycles['arith'], 0.708333)
         self.assertEqual(one.cycles['ldst'], 3)
 
-    def test_valhall(self):
+    def test_statistics_of_the_valhall_driver_are_read(self):
         one = recorded('mali-valhall')
         self.assertEqual(one.instructions, 31)
         self.assertEqual((one.cycles['t'], one.cycles['ls']), (0.25, 3))
 
-    def test_adreno(self):
+    def test_statistics_of_the_adreno_driver_are_read(self):
         one = recorded('adreno-6')
         self.assertEqual((one.instructions, one.registers, one.fills), (57, 4, 0))
 
@@ -76,7 +76,7 @@ class RecordedStatistics(unittest.TestCase):
 
 
 class Weights(unittest.TestCase):
-    def test_loops_multiply(self):
+    def test_instructions_count_once_for_each_trip_of_their_loops(self):
         loop = shader_stats.Loop
         one = shader(loops=[loop(0, -1, 10, 1, 0), loop(1, 0, 5, 0, 1), loop(2, 1, 2, 3, 0)])
         self.assertEqual(one.executed('arithmetic', [4, 3]), 10 + 4 * 5 + 12 * 2)
@@ -105,19 +105,19 @@ class GpuModel(unittest.TestCase):
         self.assertAlmostEqual(ms, 0.8 + 0.1)
         self.assertEqual(limit, 'arithmetic')
 
-    def test_bytes_limit(self):
+    def test_memory_bandwidth_limits_the_time(self):
         work = dict(self.WORK, written=50_000_000)
         ms, limit, _ = self.time(work, instructions=100, threads=4)
         self.assertEqual(limit, 'bandwidth')
         self.assertAlmostEqual(ms, 50e6 / (10e6 * MODEL['gpu_model']['bandwidth_share']) + 0.1)
 
-    def test_one_wave_alone_waits_for_memory(self):
+    def test_a_single_wave_waits_for_memory(self):
         work = dict(self.WORK, invocations=16)
         ms, limit, _ = self.time(work, instructions=100, threads=4, loops=[shader_stats.Loop(0, -1, 90, 10)])
         self.assertEqual(limit, 'waiting')
         self.assertAlmostEqual(ms, (100 * 4 + 10 * MODEL['gpu_model']['memory_latency']) / 500e3 + 0.1)
 
-    def test_trips_come_from_parameters(self):
+    def test_numbers_of_loop_trips_come_from_parameters(self):
         loop = shader_stats.Loop
         one = shader(loops=[loop(0), loop(1, 0), loop(2, 1)])
         self.assertEqual(gpu_model.trips_of(one, {'planeFits': 2}, MODEL['loops']), [2, 5])
@@ -126,7 +126,7 @@ class GpuModel(unittest.TestCase):
 
 
 class CpuModel(unittest.TestCase):
-    def test_frames_without_what_comes_before(self):
+    def test_counts_before_the_frames_are_subtracted(self):
         before = cpu_model.Counts('10 8 2 100\nother 5\n')
         after = cpu_model.Counts('10 8 2 300\n20 4 1 50\n10 8 2 100\nother 25\n')
         frame = after.less(before, 0.5)
@@ -136,8 +136,8 @@ class CpuModel(unittest.TestCase):
     def test_blocks_do_not_depend_on_where_the_emulator_cuts_them(self):
         texts = {0x10: ('mov x0, x1', 0), 0x14: ('add x0, x0, #1', 0), 0x18: ('add x1, x1, #1', 0),
                  0x1c: ('b.ne target', 0x14), 0x20: ('ret', 0)}
-        # The first iteration of a loop follows the code before it. Later iterations are cut in two,
-        # as at the end of a page.
+        # The emulator counts the first iteration of the loop together with the code before it. It
+        # counts later iterations as two blocks, as it does where a page of memory ends.
         counts = cpu_model.Counts('0 16 4 1\n4 8 2 9\nc 4 1 9\n10 4 1 1\n')
         blocks = cpu_model.basic_blocks(counts, 0x10, texts)
         self.assertEqual(blocks, [([0x10], 1), ([0x14, 0x18, 0x1c], 10), ([0x20], 1)])
@@ -145,18 +145,18 @@ class CpuModel(unittest.TestCase):
         self.assertFalse(cpu_model.is_loop(blocks[2][0], texts))
         self.assertEqual(cpu_model.hottest(blocks, 0.9), [blocks[1]])
 
-    def test_branches_lose_their_targets(self):
+    def test_branch_targets_are_removed_from_instruction_texts(self):
         line = '   23f10: \tb.ne\t0x23f00 <name+0x10>'
         self.assertEqual(cpu_model.instruction_text(line), (0x23f10, 'b.ne target', 0x23f00))
         self.assertEqual(cpu_model.instruction_text('  10: \tldr\tq0, [x1, #0x20]'), (0x10, 'ldr q0, [x1, #0x20]', 0))
         self.assertIsNone(cpu_model.instruction_text('0000000000001000 <name>:'))
 
-    def test_answer_of_llvm_mca(self):
+    def test_cycles_are_read_from_the_answer_of_llvm_mca(self):
         answer = '{"CodeRegions": [{"Name": "b0", "SummaryView": {"TotalCycles": 150, "Iterations": 50, ' \
                  '"BlockRThroughput": 2}}, {"Name": "b1"}]}'
         self.assertEqual(cpu_model.mca_cycles(answer), {'b0': (3, 2)})
 
-    def test_executable_segment(self):
+    def test_address_of_the_code_is_read_from_program_headers(self):
         text = '  LOAD  0x000000 0x0000000000000000 0x0 0x1c368 0x1c368 R   0x1000\n' \
                '  LOAD  0x01d000 0x000000000001d000 0x1 0x35e3b 0x35e3b R E 0x1000\n'
         self.assertEqual(cpu_model.code_address(text), 0x1d000)
@@ -165,13 +165,13 @@ class CpuModel(unittest.TestCase):
 class Predictions(unittest.TestCase):
     BOARD = {'name': 'Board', 'cpu': {'kind': 'a72', 'cores': 4, 'clock': 1000}, 'memory': 10}
 
-    def test_threads_share_all_but_a_part(self):
+    def test_threads_share_the_parallel_part_of_the_work(self):
         one, four = (predict.cpu_steps(self.BOARD, {'flow': 10}, (1280, 960), MODEL, n)['flow'] for n in (1, 4))
         self.assertAlmostEqual(one, 10)
         share = MODEL['cpu_model']['parallel_share']
         self.assertAlmostEqual(four, 10 * (1 - share + share / 4))
 
-    def test_bytes_do_not_shrink_with_threads(self):
+    def test_memory_bandwidth_limits_any_number_of_threads(self):
         ms = predict.cpu_steps(self.BOARD, {'detail': 0.001}, (2304, 1728), MODEL, 4)['detail']
         self.assertGreater(ms, 2304 * 1728 * 4 / 10e6)
 
@@ -185,7 +185,7 @@ class Predictions(unittest.TestCase):
                          {'pyramid': 'simd', 'flow': 'simd', 'weigh': 'simd', 'detail': 'gles'})
         self.assertEqual(predict.placements(cpu, None), {'simd': 58})
 
-    def test_errors(self):
+    def test_error_table_compares_predicted_and_measured_times(self):
         self.assertEqual(predict.error_table({'flow': 2.0, 'x': 1.0}, {'flow': 3.0}),
                          [('flow', 2.0, 3.0, 1.5), ('all of these', 2.0, 3.0, 1.5)])
 
@@ -204,11 +204,11 @@ class Budget(unittest.TestCase):
     def faults(self, **changed):
         return budget.faults([dict(self.ROW, **changed)], self.ALLOWED)
 
-    def test_five_percent_are_allowed(self):
+    def test_five_percent_more_instructions_are_allowed(self):
         self.assertEqual(self.faults(instructions=105), [])
         self.assertEqual(self.faults(instructions=106), ['a.comp on v3d-4: 106 instructions, the budget is 100'])
 
-    def test_spills_and_local_arrays_are_not(self):
+    def test_more_spills_or_local_arrays_are_refused(self):
         self.assertEqual(self.faults(spills=1), ['a.comp on v3d-4: 1 spills, the budget is 0'])
         self.assertEqual(self.faults(scratch=3), ['a.comp on v3d-4: 3 scratch, the budget is 2'])
 
@@ -221,7 +221,7 @@ class Budget(unittest.TestCase):
 
 
 class Outputs(unittest.TestCase):
-    """Of made-up results in the shape of real ones."""
+    """Tests tables and plots of made-up results that look like real ones."""
 
     @staticmethod
     def results():
@@ -235,7 +235,7 @@ class Outputs(unittest.TestCase):
             boards[key] = {case: {w: one for w in MODEL['frame']['outputs']} for case in ('moving', 'rest')}
         return {'boards': boards, 'host': None, 'instructions': {'moving 1920': {'flow': 3.0}}}
 
-    def test_what_is_measured_is_marked(self):
+    def test_measured_rows_of_the_table_are_marked(self):
         results = self.results()
         widths = MODEL['frame']['outputs']
         results['host'] = {'name': 'CPU', 'mca': 'cpu', 'clock': 4000, 'errors': [('flow', 2.0, 3.0, 1.5)],

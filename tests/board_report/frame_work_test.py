@@ -30,7 +30,7 @@ class FrameWork(unittest.TestCase):
         self.assertEqual(sum(work['invocations'] for work in drawn), WIDTH * HEIGHT)
         self.assertEqual(sum(work['written'] for work in drawn), 4 * WIDTH * HEIGHT)
 
-    def test_the_search_has_a_cell_of_four_pixels_and_its_parameters(self):
+    def test_the_search_runs_once_per_cell_of_4x4_pixels(self):
         finest = max(self.works('flow_search.comp'), key=lambda work: work['invocations'])
         width, height = MODEL['frame']['video']
         self.assertEqual(finest['invocations'], width * height // 16)
@@ -42,7 +42,7 @@ class FrameWork(unittest.TestCase):
         for work in self.moving:
             self.assertIn(predict.step_of_shader(work['shader'], MODEL['shader_steps']), predict.STEPS)
 
-    def test_what_stills_teach_is_part_of_a_frame(self):
+    def test_passes_that_use_learned_values_are_part_of_a_frame(self):
         for shader in ('superres_fine.comp', 'superres_confirm.comp', 'superres_guide.frag'):
             self.assertEqual(len(self.works(shader)), 1, shader)
 

@@ -1,5 +1,5 @@
-// samples/ has the statistics of this shader: a texture read and a sum in storage inside a loop,
-// and another after it.
+// samples/ has the drivers' statistics of this shader. It reads a texture and adds to storage
+// inside a loop, and once more after the loop.
 layout(local_size_x = 4, local_size_y = 4) in;
 layout(std430, binding = 0) buffer Sums {
     int count;

@@ -45,7 +45,7 @@ TEST(PoseTrack, HandTremorIsInterpolatedToThousandthsOfADegree) {
     }
 }
 
-TEST(PoseTrack, EndsAndNeighboursOfAMissingFrameHaveNoPose) {
+TEST(PoseTrack, EndsOfTheTrackAndNeighboursOfAMissingFrameHaveNoPose) {
     PoseTrack track;
     EXPECT_FALSE(track.at(at(0)));
     for (const int i : {0, 1, 2, 3, 4, 6, 7, 8, 9, 10})

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Sizes of the samples, for formats whose files contain no sizes.
+/// Picture sizes of the sample calibrations, for formats whose files contain no sizes.
 const WantedSizes kSizes{Size{640, 480}, Size{2304, 1728}};
 
 std::string faultOf(const fs::path& path) {
@@ -156,7 +156,7 @@ TEST(RigFiles, DevicesAndPipesAreRefused) {
 }
 
 // The table in docs/calibration.md must equal the one in the code.
-TEST(RigFiles, TheDocumentationHasThePlausibleRanges) {
+TEST(RigFiles, TheDocumentationListsTheAcceptedRanges) {
     const std::string page = readFile(MFAR_CALIBRATION_PAGE);
     for (const plausible::Range& range : plausible::kRanges)
         EXPECT_NE(page.find(fmt::format("| {} | {} | {} | {} |\n", range.what, range.unit,
@@ -175,7 +175,7 @@ TEST(RigFiles, AnOpenCvFileWithoutSizeMustFitTheExpectedSize) {
                  CalibrationError);
 }
 
-TEST(RigFiles, AnyDamageEitherLoadsOrIsACalibrationError) {
+TEST(RigFiles, ADamagedFileIsReadOrGivesACalibrationError) {
     const TempFolder folder;
     writeAll(folder.path());
     std::mt19937 random(11);

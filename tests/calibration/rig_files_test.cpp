@@ -40,7 +40,7 @@ TEST(RigFiles, KalibrsCamchainIsRead) {
     expectSameRig(loadRig(folder / "camchain.yaml"), sampleRig(), 0.0025);
 }
 
-TEST(RigFiles, KalibrsCamerasMayBePlacedByTheInertialSensor) {
+TEST(RigFiles, KalibrsPosesRelativeToTheInertialSensorAreRead) {
     const TempFolder folder;
     const fs::path file = folder / "camchain.yaml";
     writeFile(file, kKalibrText);

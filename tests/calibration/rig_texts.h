@@ -7,7 +7,7 @@
 
 #include <string>
 
-/// The same calibration in every format.
+/// Texts of calibration files: the same calibration in every format.
 namespace mfar::test {
 
 inline RigCalibration sampleRig() {

@@ -53,7 +53,7 @@ TEST(Calibrate, FindsLensesBaselineAndClockOffsetInNoise) {
     EXPECT_NEAR(found.still.rms, motion.noise * std::sqrt(2), 0.02);
 }
 
-TEST(Calibrate, ClockOffsetsOfManyFramesAreFound) {
+TEST(Calibrate, ClockOffsetsOfManyFrameIntervalsAreFound) {
     Motion motion;
     motion.offset = -0.187;
     const BothViews views = makeViews(kGrid, motion);
@@ -141,7 +141,7 @@ TEST(Calibrate, AllViewsFromOneDistanceAreRefused) {
     const BothViews views = makeViews(small, motion);
     try {
         static_cast<void>(calibrate(small, views.video, views.still, {}));
-        FAIL() << "accepted";
+        FAIL() << "calibrate() must refuse these views";
     } catch (const Unsuitable& e) {
         EXPECT_NE(std::string(e.what()).find("nearly one distance"), std::string::npos) << e.what();
     }
@@ -181,7 +181,7 @@ TEST(Calibrate, TheReportListsEveryViewAndItsPictureIsWritten) {
     std::size_t coloured = 0;
     for (std::size_t i = 0; i < picture.pixels.size(); i += 4)
         coloured += std::abs(picture.pixels[i] - picture.pixels[i + 2]) > 30 ? 1 : 0;
-    EXPECT_GT(coloured, 5000U);  // of arrows and dots
+    EXPECT_GT(coloured, 5000U);  // coloured pixels are those of arrows and dots
 }
 
 }  // namespace

@@ -9,9 +9,9 @@ namespace mfar::test {
 /// Motion of the simulated board in front of the target.
 struct Motion {
     double tilt = 0.5;       ///< greatest tilt [rad]
-    double distance = 0.25;  ///< relative change of the distance
+    double distance = 0.25;  ///< largest relative change of the distance to the target
     double aside = 0.12;     ///< greatest sideways motion [m]
-    double offset = 0;       ///< a still's time + offset = video time [s]
+    double offset = 0;       ///< added to a still's time, gives the video's time [s]
     double seconds = 12;
     double stillsHz = 2;
     bool rests = false;  ///< the board rests while stills are taken and moves in between

@@ -173,7 +173,7 @@ TEST(TargetFinder, AprilGridCornersAreFoundForAnyRotationOfItsTags) {
         expectGridFound(turn, 1);
 }
 
-TEST(TargetFinder, KalibrsWideBordersAreRead) {
+TEST(TargetFinder, TagsWithKalibrsWideBordersAreFound) {
     expectGridFound(2, 2);
 }
 
@@ -195,7 +195,7 @@ TEST(TargetFinder, CheckerboardCornersKeepTheirOrderUpsideDown) {
     }
 }
 
-TEST(TargetFinder, TagsCutByThePicturesEdgeGiveCornersInside) {
+TEST(TargetFinder, CornersOfTagsCutByThePicturesEdgeLieInsideThePicture) {
     const Target grid = aprilGrid(5, 4, 0.08, 0.25);
     const Scene scene = photographOfGrid(grid, 0, 1, 0.3);
     TargetFinder finder(grid, kPicture);
@@ -220,7 +220,7 @@ TEST(TargetFinder, EmptyPicturesGiveNoCorners) {
     }
 }
 
-TEST(Coverage, CountsCellsAndNamesTheEmptyPart) {
+TEST(Coverage, CountsCoveredCellsAndNamesTheEmptyPartOfThePicture) {
     Coverage coverage(kPicture);
     EXPECT_EQ(coverage.share(), 0);
     std::vector<Corner> corners;

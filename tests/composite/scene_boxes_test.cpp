@@ -72,7 +72,7 @@ TEST(SceneBoxes, BoxesCoverTheTileOfEveryVisibleVertex) {
     EXPECT_GT(seen, 1000);
 }
 
-TEST(SceneBoxes, BoxesAreFewAndTight) {
+TEST(SceneBoxes, AFewTightBoxesCoverAModel) {
     const Scene scene = sceneAt({0, 0, 3});
     SceneBoxes boxes(scene);
     EXPECT_LT(boxes.world().size(), 217U);

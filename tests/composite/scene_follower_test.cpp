@@ -29,7 +29,8 @@ Scene cube() {
     return scene;
 }
 
-/// Depth of a table at this height, as a camera above it measures it.
+/// Depth of a table at this height, as a camera above it measures it. `known`: share of the pixels
+/// with known depth.
 InverseDepthField table(double height, double known = 1) {
     InverseDepthField field(kFollowing.size);
     for (std::size_t i = 0; i < field.inverseDepth.size(); ++i) {
@@ -50,7 +51,7 @@ bool isFlatAt(const ShadowCatcher& c, float z) {
                        [&](auto& p) { return std::abs(p.z() - z) < 1e-4F; });
 }
 
-TEST(SceneFollower, ShadowsFallOntoThePlaneUntilDepthIsKnown) {
+TEST(SceneFollower, ShadowsFallOntoAPlaneUntilDepthIsKnown) {
     SceneFollower follower({.settling = 3});
     const auto first = follower.set(cube());
     EXPECT_TRUE(isFlatAt(first->catcher, 0));
@@ -68,7 +69,7 @@ TEST(SceneFollower, ShadowsFallOntoThePlaneUntilDepthIsKnown) {
     EXPECT_EQ(measured->objects.size(), 1U);
 }
 
-TEST(SceneFollower, CatcherIsRebuiltLaterWhenTheViewChanges) {
+TEST(SceneFollower, ShadowCatcherIsRebuiltLaterWhenTheViewChanges) {
     SceneFollower follower({.settling = 1, .leastKnown = 0.5, .turn = 0.3, .leastInterval = 4});
     follower.set(cube());
     const auto follow = [&](double angle, int s) {
@@ -82,7 +83,7 @@ TEST(SceneFollower, CatcherIsRebuiltLaterWhenTheViewChanges) {
     EXPECT_NE(follow(0, 105), nullptr);
 }
 
-TEST(SceneFollower, WithoutObjectsInThePictureNothingChanges) {
+TEST(SceneFollower, WithoutObjectsInThePictureTheCatcherIsNotRebuilt) {
     SceneFollower follower({.settling = 0});
     EXPECT_EQ(follower.follow(table(0), kFollowing, downAt(0), kPicture, atSecond(1)), nullptr);
     EXPECT_TRUE(follower.set({})->catcher.positions.empty());

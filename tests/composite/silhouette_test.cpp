@@ -66,7 +66,7 @@ TEST(Silhouette, EveryPixelNearASurfacePointIsCovered) {
     }
 }
 
-TEST(Silhouette, TilesAwayFromObjectsStayFree) {
+TEST(Silhouette, TilesAwayFromObjectsAreNotCovered) {
     // A sphere of radius 0.1 at 2 m has a radius of about 8 px around the principal point.
     Silhouette silhouette(kCamera, 0);
     const auto& ranges =
@@ -88,7 +88,7 @@ TEST(Silhouette, TilesAwayFromObjectsStayFree) {
     EXPECT_GT(covered(ranges), 1);
 }
 
-TEST(Silhouette, MarginWidensTheSilhouette) {
+TEST(Silhouette, TheConfiguredMarginWidensTheSilhouette) {
     const std::vector objects{at({0, 0, 2}, VirtualShape::Sphere, 0.2)};
     int before = 0;
     for (const int margin : {0, 20, 40, 1000}) {

@@ -32,7 +32,7 @@ TEST(ShapeMesh, TrianglesFaceOutwardsAndHaveTheirVerticesNormals) {
     }
 }
 
-TEST(ShapeMesh, SurfacesHaveTheirAreaAndSolidsTheirVolume) {
+TEST(ShapeMesh, AreasAndVolumesMatchTheShapes) {
     const auto measure = [](VirtualShape shape) {
         double area = 0, volume = 0;
         const ShapeMesh mesh = shapeMesh(shape);

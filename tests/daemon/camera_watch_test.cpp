@@ -42,7 +42,8 @@ TEST(CameraWatch, AWrongRateIsReportedOnceAndOnlyAfterAWhile) {
     for (int i = 0; i < 20; ++i)
         camera.send(66'666'667ns);
     EXPECT_NEAR(camera.watch.state().rateHz, 15, 0.01);
-    EXPECT_THAT(camera.watch.takeWarnings(), IsEmpty()) << "a moment says nothing";
+    EXPECT_THAT(camera.watch.takeWarnings(), IsEmpty())
+        << "a short measurement must not give a warning";
     for (int i = 0; i < 100; ++i)
         camera.send(66'666'667ns);
     EXPECT_THAT(
@@ -72,7 +73,7 @@ TEST(CameraWatch, AFrozenPictureIsReportedOnceEachTime) {
         EXPECT_EQ(camera.watch.state().lastDistinct, last);
         for (int i = 0; i < 59; ++i)
             camera.send(33'333'333ns, false);
-        EXPECT_THAT(camera.watch.takeWarnings(), IsEmpty()) << "not yet two seconds";
+        EXPECT_THAT(camera.watch.takeWarnings(), IsEmpty()) << "no warning before two seconds";
         for (int i = 0; i < 90; ++i)
             camera.send(33'333'333ns, false);
         EXPECT_THAT(camera.watch.takeWarnings(), ElementsAre(HasSubstr("the same picture")));
@@ -116,12 +117,12 @@ TEST(CameraWatch, ChecksumsDependOnEveryByte) {
     const std::uint64_t before = sparseChecksum(view);
     EXPECT_EQ(sparseChecksum(view), before);
     for (std::size_t x = 0; x < 37; ++x) {
-        pixels[2 * 40 + x] ^= 1;  // belongs to the first row that is compared
+        pixels[2 * 40 + x] ^= 1;  // in the first row that the checksum covers
         EXPECT_NE(sparseChecksum(view), before) << x;
         pixels[2 * 40 + x] ^= 1;
     }
     pixels[2 * 40 + 37] ^= 1;
-    EXPECT_EQ(sparseChecksum(view), before) << "padding";
+    EXPECT_EQ(sparseChecksum(view), before) << "bytes of the padding must not change the checksum";
 }
 
 }  // namespace

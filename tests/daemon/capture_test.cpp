@@ -64,7 +64,7 @@ std::string endOf(Capture& capture) {
     return "";
 }
 
-TEST(CaptureThread, TheVideoGoesOnWhileTheStillCameraHangs) {
+TEST(CaptureThread, VideoFramesArriveWhileTheStillCameraHangs) {
     Capture capture(HandOver::NewestWins);
     capture.still().hang(true);
     ASSERT_TRUE(capture.still().isHung());
@@ -96,7 +96,7 @@ TEST(CaptureThread, ShutdownDoesNotWaitForAHangingVideoCamera) {
     capture.video().hang(false);
 }
 
-TEST(CaptureThread, LiveStillsComeWithTheFirstFrameThatIsNotOlder) {
+TEST(CaptureThread, AStillIsDeliveredWithTheFirstFrameThatIsNotOlder) {
     Capture capture(HandOver::NewestWins);
     capture.still().send(1.5);
     ASSERT_TRUE(becomesTrue([&] { return capture.stats.count().stills.received == 1; }));
@@ -113,7 +113,7 @@ TEST(CaptureThread, LiveStillsComeWithTheFirstFrameThatIsNotOlder) {
     EXPECT_NE(capture.video().askers(), capture.still().askers());
 }
 
-TEST(CaptureThread, StillsThatNoFrameTakesAreCounted) {
+TEST(CaptureThread, StillsThatAreReplacedBeforeAFrameArrivesAreCounted) {
     Capture capture(HandOver::NewestWins);
     for (int i = 1; i <= 5; ++i)
         capture.still().send(i);
@@ -122,11 +122,12 @@ TEST(CaptureThread, StillsThatNoFrameTakesAreCounted) {
     capture.video().send(10);
     const auto frame = capture.take();
     ASSERT_TRUE(frame && frame->still);
-    EXPECT_EQ(frame->still->frame.time(), Timestamp::fromSeconds(5)) << "the newest";
+    EXPECT_EQ(frame->still->frame.time(), Timestamp::fromSeconds(5))
+        << "the newest still must come with the frame";
     EXPECT_EQ(frame->stillsSuperseded, StillBox::kCapacity - 1);
 }
 
-TEST(CaptureThread, ADroppedFramePassesItsMissedCountOn) {
+TEST(CaptureThread, TheMissedCountOfADroppedFrameIsAddedToTheNextFrame) {
     CapturedFrame older{{ImageView{}, Timestamp{1}, nullptr},
                         CapturedStill{{ImageView{}, Timestamp{1}, nullptr}},
                         {}};
@@ -191,14 +192,15 @@ TEST(CaptureThread, ACameraThatIsSlowerThanConfiguredDropsNothing) {
     int i = 0;
     for (; i < 40; ++i)
         ASSERT_TRUE(send(i / 15.));
-    EXPECT_EQ(capture.stats.count().drops.sensor, 0U) << "it is configured as 30 Hz";
+    EXPECT_EQ(capture.stats.count().drops.sensor, 0U)
+        << "a rate below the configured 30 Hz is not a drop";
     EXPECT_NEAR(capture.stats.count().cameras[0].rateHz, 15, 0.01);
     EXPECT_EQ(capture.stats.count().cameras[0].configuredHz, 30);
     ASSERT_TRUE(send((i + 3) / 15.));
     EXPECT_EQ(capture.stats.count().drops.sensor, 3U);
 }
 
-TEST(CaptureThread, RepeatedPicturesAreDetectedOnlyForSensors) {
+TEST(CaptureThread, RepeatedPicturesAreDetectedOnlyForRealSensors) {
     for (const bool sensors : {true, false}) {
         Capture capture(HandOver::NewestWins, sensors);
         for (int i = 1; i <= 5; ++i) {

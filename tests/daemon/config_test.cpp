@@ -159,7 +159,7 @@ TEST(Config, FaultsAreReportedInFileOrder) {
     EXPECT_THAT(lines[3], StartsWith("test.toml:5:1: unknown key trigger.zoom"));
 }
 
-TEST(Config, AFileThatCannotBeReadIsAMissingInput) {
+TEST(Config, AnUnreadableFileGivesTheExitCodeOfAMissingInput) {
     for (const char* file : {"/nonexistent/mfard.toml", "/"}) {
         try {
             (void)loadConfig(file);
@@ -241,7 +241,7 @@ TEST(Config, TagMapPathsAreRelativeToTheConfiguration) {
     const char* text = "[pose]\ntags = \"maps/tags.toml\"\n";
     EXPECT_EQ(parseConfig(text, "/etc/mfar/mfard.toml").pose.tags, "/etc/mfar/maps/tags.toml");
     EXPECT_EQ(parseConfig(text, "mfard.toml").pose.tags, "maps/tags.toml");
-    EXPECT_EQ(parseConfig("", "/etc/mfar/mfard.toml").pose.tags, "") << "none named";
+    EXPECT_EQ(parseConfig("", "/etc/mfar/mfard.toml").pose.tags, "") << "no tag map is configured";
 }
 
 TEST(Config, EveryPoseKeyIsChecked) {
@@ -268,7 +268,7 @@ TEST(Config, EveryPoseKeyIsChecked) {
             << line;
 }
 
-TEST(Config, NeedRestartNamesWhatCannotChangeWhileRunning) {
+TEST(Config, NeedRestartNamesTheKeysThatCannotChangeWhileRunning) {
     Config wanted;
     wanted.superres.mode = SuperResMode::Off;
     wanted.trigger.maxAgeS = 1;

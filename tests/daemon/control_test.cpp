@@ -80,7 +80,7 @@ TEST_F(Control, InvalidRequestsGetOneError) {
     EXPECT_THAT(errorOf("{\"command\": \"\xff\"}"), HasSubstr("a request must be one line"));
 }
 
-TEST_F(Control, RecordsUnderASimpleNameOnly) {
+TEST_F(Control, ARecordingNameMustBeASimpleFolderName) {
     for (const char* request :
          {R"({"command": "record"})", R"({"command": "record", "name": "a", "stop": true})"})
         EXPECT_THAT(errorOf(request), HasSubstr("record needs")) << request;
@@ -98,7 +98,8 @@ TEST_F(Control, FailuresAreReported) {
     actions.trigger = [] { throw std::runtime_error("there is no trigger"); };
     EXPECT_EQ(errorOf(R"({"command": "trigger"})"), "there is no trigger");
     actions.status = [] { return ordered_json{{"source", "\xff camera"}}; };
-    EXPECT_EQ(ask(R"({"command": "status"})")["ok"], true) << "a name that is no text";
+    EXPECT_EQ(ask(R"({"command": "status"})")["ok"], true)
+        << "a text that is not valid UTF-8 must not prevent the answer";
 }
 
 TEST_F(Control, AnObserverMayOnlyQueryStatus) {

@@ -16,7 +16,7 @@ EngineChoice matchingOnSimd() {
     return choice;
 }
 
-TEST(EngineConfig, WithoutConfiguredEnginesTheDecisionIsKept) {
+TEST(EngineConfig, WithoutConfiguredEnginesTheMeasuredPlacementIsUsed) {
     EXPECT_EQ(withWishes({}, matchingOnSimd()), matchingOnSimd());
     EXPECT_FALSE(EngineConfig{}.needsGles());
     EXPECT_FALSE(EngineConfig{}.isSimdAlone());
@@ -34,7 +34,7 @@ TEST(EngineConfig, TheEngineOfAStepOverridesTheEngineOfAllSteps) {
 TEST(EngineConfig, AnUnknownEngineIsRefusedWithItsPlace) {
     try {
         (void)parseConfig("[engine]\nflow = \"cuda\"\n", "test");
-        FAIL() << "accepted";
+        FAIL() << "the unknown engine was accepted";
     } catch (const ConfigError& error) {
         EXPECT_THAT(error.what(), testing::HasSubstr("test:2:8"));
         EXPECT_THAT(error.what(), testing::HasSubstr("\"auto\", \"gles\", \"simd\""));

@@ -15,7 +15,7 @@ using testing::SizeIs;
 const EngineChoice kSimd = EngineChoice::all(EngineKind::Simd),
                    kGles = EngineChoice::all(EngineKind::Gles);
 
-TEST(EngineGuess, AnUnknownGpuGetsEveryPlacement) {
+TEST(EngineGuess, OnAnUnknownGpuEveryPlacementIsMeasured) {
     EXPECT_THAT(promisingEngines("EGL device, some GPU, OpenGL ES 3.2"), SizeIs(4));
     EXPECT_THAT(promisingEngines(""), SizeIs(4));
 }

@@ -13,7 +13,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-TEST(Events, WakeFromAnotherThreadArrives) {
+TEST(Events, AnotherThreadCanWakeTheWaitingThread) {
     Events events;
     std::jthread other([&] { events.wake(); });
     EXPECT_EQ(events.wait().kind, Event::Kind::Wake);

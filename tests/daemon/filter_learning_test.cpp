@@ -37,9 +37,9 @@ struct FilterLearningTest : testing::Test {
                                   "video, still", true};
 };
 
-TEST_F(FilterLearningTest, LearnedFiltersAreHandedOutOnce) {
+TEST_F(FilterLearningTest, LearnedFiltersAreReturnedOnce) {
     FilterLearning learning(options);
-    EXPECT_NE(learning.takeFilters(), nullptr) << "the shipped ones";
+    EXPECT_NE(learning.takeFilters(), nullptr) << "the shipped filters must be handed out";
     EXPECT_EQ(learning.takeFilters(), nullptr);
     show(learning, 1, 2);
     EXPECT_EQ(learning.counts().learner.stills, 2U);
@@ -96,13 +96,14 @@ TEST_F(FilterLearningTest, GuidanceIsLearnedFromTheOlderStillAndKept) {
     {
         FilterLearning learning(options);
         show(learning, 1, 1);
-        EXPECT_EQ(learning.counts().learner.pairs, 0U) << "there was no still before";
+        EXPECT_EQ(learning.counts().learner.pairs, 0U) << "guidance needs an older still";
         replace(learning, 2);
         EXPECT_EQ(learning.counts().learner.pairs, 1U);
         EXPECT_GT(learning.counts().learner.guidance.still, 0.5F);
         EXPECT_GT(learning.takeFilters()->guidance().video, 0.5F);
         show(learning, 3, 3);
-        EXPECT_EQ(learning.counts().learner.pairs, 1U) << "nothing was said of the still before";
+        EXPECT_EQ(learning.counts().learner.pairs, 1U)
+            << "without a replaced still, no guidance is learned";
     }
     FilterLearning learning(options);
     EXPECT_EQ(learning.counts().learner.pairs, 1U);
@@ -210,7 +211,7 @@ TEST_F(FilterLearningTest, LearningThatTakesTooLongIsOverItsBudget) {
     EXPECT_TRUE(isLate);
     for (int i = 0; i < 10'000 && !hearts.late().empty(); ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    EXPECT_TRUE(hearts.late().empty()) << "it waits for a still";
+    EXPECT_TRUE(hearts.late().empty()) << "a thread that waits for a still is not late";
 }
 
 TEST(LearnedFiltersFile, EachPairOfSensorsHasItsFileInTheStateFolder) {

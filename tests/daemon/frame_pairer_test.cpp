@@ -44,12 +44,14 @@ TEST(FramePairer, WithoutAStillThereIsNoPair) {
     EXPECT_EQ(captured.arrived, Timestamp{5});
 }
 
-TEST(FramePairer, AStillGoesWithTheFirstFrameThatIsNotOlder) {
+TEST(FramePairer, AStillIsPairedWithTheFirstFrameThatIsNotOlder) {
     Stills stills({2});
     FramePairer pairer(stills.source());
     EXPECT_EQ(stillTime(pairer.pair(frame(1), {})), std::nullopt);
-    EXPECT_EQ(stillTime(pairer.pair(frame(2), {})), 2) << "equal times belong together";
-    EXPECT_EQ(stillTime(pairer.pair(frame(3), {})), std::nullopt) << "handed over once";
+    EXPECT_EQ(stillTime(pairer.pair(frame(2), {})), 2)
+        << "a still and a frame of the same time belong together";
+    EXPECT_EQ(stillTime(pairer.pair(frame(3), {})), std::nullopt)
+        << "each still is paired with only one frame";
 }
 
 TEST(FramePairer, TheNewestOfSeveralStillsWins) {
@@ -73,17 +75,17 @@ Pose withTags(int tags) {
     return pose;
 }
 
-TEST(CapturedFrame, ADroppedFramePassesItsStillOn) {
+TEST(CapturedFrame, TheStillOfADroppedFrameGoesToTheNextFrame) {
     CapturedFrame older{frame(1), CapturedStill{frame(0.5), withTags(3)}, {}};
     CapturedFrame newer{frame(2), std::nullopt, {}};
     newer.supersede(std::move(older));
     EXPECT_EQ(stillTime(newer), 0.5);
-    EXPECT_EQ(newer.still->pose.value().tags, 3) << "and the still its pose";
-    EXPECT_FALSE(newer.pose) << "which is not the frame's";
+    EXPECT_EQ(newer.still->pose.value().tags, 3) << "the still must keep its own pose";
+    EXPECT_FALSE(newer.pose) << "the still's pose must not become the frame's";
     CapturedFrame newest{frame(3), CapturedStill{frame(2.5), withTags(1)}, {}};
     newest.supersede(std::move(newer));
-    EXPECT_EQ(stillTime(newest), 2.5) << "the newer still wins";
-    EXPECT_EQ(newest.still->pose.value().tags, 1) << "with its own pose";
+    EXPECT_EQ(stillTime(newest), 2.5) << "of two stills, the newer one must be kept";
+    EXPECT_EQ(newest.still->pose.value().tags, 1) << "the newer still must keep its own pose";
 }
 
 }  // namespace

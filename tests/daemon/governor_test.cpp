@@ -18,7 +18,7 @@ std::vector<QualityLevel> fourLevels() {
     return out;
 }
 
-/// A simulated machine on which each level has a given frame time.
+/// A simulated machine on which each quality level has a given frame time.
 class Machine {
 public:
     using Cost = std::function<double(std::size_t level)>;
@@ -51,7 +51,7 @@ private:
     std::normal_distribution<double> noise_;
 };
 
-/// The table's times, all multiplied by a factor.
+/// The frame times of fourLevels(), all multiplied by a factor.
 Machine::Cost scaled(double factor) {
     return [factor](std::size_t level) { return factor * fourLevels()[level].ms; };
 }
@@ -92,7 +92,7 @@ TEST(Governor, SettlesWithin30FramesAfterAChangeOfScene) {
     EXPECT_EQ(machine.run(300), 0);
 }
 
-TEST(Governor, SettlesAsFastAfterManyChanges) {
+TEST(Governor, AfterManyChangesOfSceneTheGovernorStillSettlesFast) {
     Machine machine(100, scaled(0.6));
     for (int i = 0; i < 10; ++i) {
         machine.setCost(scaled(1.4));
@@ -114,7 +114,7 @@ TEST(Governor, AtMostFourFramesAreLateWhenEverythingBecomesSlower) {
 TEST(Governor, HoldsTheDeadlineThoughTheTableIsWrong) {
     Machine machine(100, [](std::size_t level) { return level == 2 ? 110.0 : 20.0 + 25 * level; });
     machine.run(60);
-    EXPECT_LE(machine.run(2000), 0.05) << "level b takes more than c, which the table denies";
+    EXPECT_LE(machine.run(2000), 0.05) << "here, level b is slower than c, unlike in the table";
     EXPECT_LE(machine.governor().changes(), 60U);
 }
 
@@ -126,7 +126,7 @@ TEST(Governor, DoesNotSwingBetweenTwoLevels) {
     }
 }
 
-TEST(Governor, OneLateFrameInFiftyChangesNothing) {
+TEST(Governor, OneLateFrameInFiftyDoesNotChangeTheLevel) {
     Governor governor(fourLevels(), 100);
     for (int i = 0; i < 400; ++i)
         governor.add({i % 50 == 49 ? 300.0 : 80.0});
@@ -134,7 +134,7 @@ TEST(Governor, OneLateFrameInFiftyChangesNothing) {
     EXPECT_EQ(governor.changes(), 0U);
 }
 
-TEST(Governor, AtRestThePictureIsRedrawnOnceAtTheBestLevel) {
+TEST(Governor, AtRestThePictureIsDrawnOnceMoreAtTheBestLevel) {
     Machine machine(66, scaled(1));
     machine.run(40);
     ASSERT_EQ(machine.level(), "a");
@@ -147,7 +147,7 @@ TEST(Governor, AtRestThePictureIsRedrawnOnceAtTheBestLevel) {
         }
     }
     EXPECT_EQ(redrawn, 1);
-    EXPECT_EQ(machine.level(), "a") << "what rest costs says nothing about the levels";
+    EXPECT_EQ(machine.level(), "a") << "frames at rest must not rate the levels";
     machine.run(10);
     EXPECT_EQ(machine.level(), "a");
     EXPECT_EQ(machine.governor().changes(), 0U);
@@ -166,10 +166,11 @@ TEST(Governor, StillsThatMakeFramesLateAreAllowedOnceInFortyFrames) {
     }
     governor.add({80});
     EXPECT_TRUE(governor.mayTakeStill());
-    EXPECT_EQ(governor.level().name, "b") << "the still's frame says nothing about the level";
+    EXPECT_EQ(governor.level().name, "b") << "a frame with a new still must not rate the level";
     governor.add({.ms = 90, .newStill = true});
     governor.add({80});
-    EXPECT_TRUE(governor.mayTakeStill()) << "in time";
+    EXPECT_TRUE(governor.mayTakeStill())
+        << "a still whose frame was in time does not forbid the next one";
 }
 
 TEST(Governor, TimeOfAStillIsNotChargedToTheLevel) {
@@ -187,7 +188,7 @@ TEST(Governor, RequestsNoStillForALevelWithoutStills) {
     EXPECT_FALSE(governor.mayTakeStill());
 }
 
-TEST(Governor, FramesWithoutAStillDoNotRateALevelThatUsesOne) {
+TEST(Governor, FramesWithoutAStillDoNotCountForLevelsThatUseStills) {
     Governor governor(fourLevels(), 100);
     for (int i = 0; i < 100; ++i)
         governor.add({.ms = 20, .usedStill = false});
@@ -195,7 +196,7 @@ TEST(Governor, FramesWithoutAStillDoNotRateALevelThatUsesOne) {
     Governor fast(fourLevels(), 30);
     for (int i = 0; i < 100; ++i)
         fast.add({.ms = 2, .usedStill = false});
-    EXPECT_EQ(fast.level().name, "c") << "enlarging needs none";
+    EXPECT_EQ(fast.level().name, "c") << "level off uses no still, so its frames must rate it";
 }
 
 TEST(Governor, IgnoresInvalidTimes) {

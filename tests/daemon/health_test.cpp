@@ -92,19 +92,20 @@ TEST_F(HealthTest, BannerWithoutAFaultOrNoLongerDrawnDoesNotCountAsAlive) {
     EXPECT_TRUE(look().isAlive());
     pass(kStalePicture);
     banner = now;
-    EXPECT_FALSE(look().isAlive()) << "nobody knows why there are no pictures";
+    EXPECT_FALSE(look().isAlive()) << "a banner without a fault does not count as alive";
     EXPECT_EQ(look().cause, "no new picture");
     fault = "video camera: is not there";
     EXPECT_TRUE(look().isAlive());
     pass(kStalePicture + milliseconds(1));
-    EXPECT_FALSE(look().isAlive()) << "the thread that draws it does not come back";
+    EXPECT_FALSE(look().isAlive()) << "a banner that is no longer drawn does not count as alive";
 }
 
 TEST_F(HealthTest, FirstPicturesMayTakeLonger) {
     Heartbeat drawing(hearts, "picture", budget::kPicture);
     patience = kFirstPatience;
     pass(5 * budget::kPicture);
-    EXPECT_TRUE(look().isAlive()) << "shaders are compiled";
+    EXPECT_TRUE(look().isAlive())
+        << "the first picture may take longer, because shaders are compiled";
     pass(kFirstPatience * kStalePicture);
     EXPECT_FALSE(look().isAlive());
     EXPECT_EQ(look().thread, "picture");
@@ -145,7 +146,7 @@ TEST_F(HealthTest, DisplayThatSkipsPicturesIsDegraded) {
     EXPECT_NEAR(look().sinceS, 1, 1e-6);
     display.reset();
     EXPECT_EQ(look().state, HealthState::Ok);
-    EXPECT_NEAR(look().sinceS, 0, 1e-6) << "counted anew";
+    EXPECT_NEAR(look().sinceS, 0, 1e-6) << "the time in the new state must start at 0";
 }
 
 TEST_F(HealthTest, AllCausesAreReported) {

@@ -34,7 +34,7 @@ TEST_F(HeartbeatsTest, ThreadThatIsOverItsBudgetIsNamedWithItsTime) {
     ASSERT_THAT(late(), ElementsAre("capture"));
     EXPECT_EQ(all.late().front().since, milliseconds(1800));
     EXPECT_EQ(all.late().front().role, ThreadRole::Vital);
-    EXPECT_THAT(late(2), IsEmpty()) << "patience stretches budgets";
+    EXPECT_THAT(late(2), IsEmpty()) << "a patience of 2 must double the time budgets";
     capture.beat();
     EXPECT_THAT(late(), IsEmpty());
 }
@@ -53,9 +53,9 @@ TEST_F(HeartbeatsTest, ThreadThatWaitsForWorkIsNotLate) {
     control.rest();
     now = now + seconds(1000);
     EXPECT_THAT(late(), IsEmpty());
-    EXPECT_FALSE(all.waiting().has_value()) << "nobody wants to know of it";
+    EXPECT_FALSE(all.waiting().has_value()) << "a wait without a name must not be reported";
     control.beat();
-    EXPECT_THAT(late(), IsEmpty()) << "the wait does not count";
+    EXPECT_THAT(late(), IsEmpty()) << "the time of waiting must not count";
     now = now + seconds(2);
     EXPECT_THAT(late(), ElementsAre("control"));
 }

@@ -11,7 +11,7 @@ using std::chrono::hours;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-TEST(LastResort, ActsWhenShutdownHangs) {
+TEST(LastResort, RunsItsActionWhenShutdownHangs) {
     std::promise<void> acted;
     LastResort last;
     last.arm(milliseconds(1), [&] { acted.set_value(); });
@@ -25,7 +25,7 @@ TEST(LastResort, DoesNothingOnceShutdownIsOver) {
         last.arm(hours(1), [&] { acted = true; });
         last.arm(milliseconds(0), [&] { acted = true; });
     }
-    EXPECT_FALSE(acted) << "and nobody waits for the hour";
+    EXPECT_FALSE(acted) << "the destructor must cancel the timer without waiting";
 }
 
 }  // namespace

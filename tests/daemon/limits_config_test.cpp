@@ -40,7 +40,7 @@ std::string refusalOf(const Config& config) {
     }
 }
 
-TEST(Limits, TheBudgetComesFromTheMachineOrTheConfiguration) {
+TEST(Limits, TheMemoryBudgetComesFromTheMachineOrTheConfiguration) {
     EXPECT_GT(machineMemory(), 100U << 20U);
     EXPECT_LT(LimitsConfig{}.memoryBytes(), machineMemory());
     EXPECT_EQ(LimitsConfig{100}.memoryBytes(), 100U << 20U);

@@ -150,7 +150,7 @@ TEST(Log, MessagesThatTheJournalRefusesGoToStandardError) {
     EXPECT_EQ(all.substr(0, static_cast<std::size_t>(n)), "<4>mfard: warning: late\n");
 }
 
-TEST(Log, UnreadMessagesDoNotBlockAThread) {
+TEST(Log, MessagesThatNobodyReadsDoNotBlockAThread) {
     std::array<int, 2> ends{};
     ASSERT_EQ(pipe2(ends.data(), O_CLOEXEC | O_NONBLOCK), 0);
     const std::string part(4096, 'x');

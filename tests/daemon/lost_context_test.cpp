@@ -1,5 +1,6 @@
-// At any moment of a frame, a lost context must be created again; pictures must then equal those of
-// a run without a loss. Uses a libGLESv2 that loses contexts, see tests/device/faulty_moments.h.
+// Whenever the GL context is lost during a frame, a new one must be created. Pictures must then
+// equal those of a run without a loss. Uses a libGLESv2 that loses contexts, see
+// tests/device/faulty_moments.h.
 
 #include "daemon/session.h"
 #include "hal/virtual/recorder.h"
@@ -104,7 +105,7 @@ protected:
 
     void SetUp() override {
         if (inFaultyGl<decltype(mfarFaultyGlLoseAt)>("mfarFaultyGlLoseAt") == nullptr)
-            GTEST_SKIP() << "LD_LIBRARY_PATH does not name the libGLESv2 that fails";
+            GTEST_SKIP() << "LD_LIBRARY_PATH lacks the folder of the faulty libGLESv2";
     }
 
     /// `virtualLayer`: keys of the configuration's section [virtual].
@@ -170,11 +171,11 @@ protected:
 };
 
 // Covers one moment for each step and each of its shaders.
-TEST_F(LostContext, RecoversInEveryShader) {
+TEST_F(LostContext, AContextLostInAnyShaderIsRecovered) {
     loseAtAll([](std::string_view moment) { return moment.starts_with("glUseProgram"); });
 }
 
-TEST_F(LostContext, RecoversInEveryTransfer) {
+TEST_F(LostContext, AContextLostInAnyDataTransferIsRecovered) {
     loseAtAll([](std::string_view moment) {
         return std::ranges::none_of(
             std::array{"glUseProgram", "glBufferSubData", "glDispatchCompute", "glDrawArrays"},
@@ -183,7 +184,7 @@ TEST_F(LostContext, RecoversInEveryTransfer) {
 }
 
 // Warping starts once the path tracer has a picture of the objects.
-TEST_F(LostContext, RecoversWhileTracedObjectsAreWarped) {
+TEST_F(LostContext, AContextLostDuringTheWarpIsRecovered) {
     constexpr int kSeconds = 12;
     play(30 * kSeconds,
          "rendering = \"path-traced\"\nresolution = 0.3\nsamples = 1\nbudget_ms = 30");

@@ -43,7 +43,7 @@ TEST(Mailbox, TheNewerItemInheritsFromTheReplacedOne) {
     EXPECT_EQ(parcel->kept, "ab");
 }
 
-TEST(Mailbox, LosslessHandsOverEveryItemInOrder) {
+TEST(Mailbox, InLosslessModeEveryItemIsHandedOverInOrder) {
     constexpr int kItems = 2000;
     Mailbox<int> box(HandOver::Lossless);
     std::vector<int> received;
@@ -81,7 +81,7 @@ TEST(Mailbox, UnderLoadEveryReplacedItemIsCounted) {
     EXPECT_EQ(received + static_cast<int>(box.dropped()), kItems);
 }
 
-TEST(Mailbox, LosslessSenderAndReceiverWorkInTurn) {
+TEST(Mailbox, InLosslessModeSenderAndReceiverWorkInTurn) {
     Mailbox<int> box(HandOver::Lossless);
     std::atomic<int> working{0};
     std::jthread receiver([&] {
@@ -93,7 +93,7 @@ TEST(Mailbox, LosslessSenderAndReceiverWorkInTurn) {
     });
     for (int i = 0; i < 500; ++i) {
         box.put(i);
-        ASSERT_EQ(working, 0) << "the receiver has finished an item before the next one is made";
+        ASSERT_EQ(working, 0) << "an item was sent while the receiver was still working";
     }
     box.finish();
 }

@@ -46,7 +46,8 @@ colour = [0.5, 0.5, 0.5]
     const VirtualObject& second = config.objects[1].shape;
     EXPECT_EQ(second.shape, VirtualShape::Box);
     EXPECT_EQ(second.size, Eigen::Vector3d(0.1, 0.1, 0.1));
-    EXPECT_EQ(second.colours[1], Eigen::Vector3f(0.5F, 0.5F, 0.5F)) << "one alone is the whole's";
+    EXPECT_EQ(second.colours[1], Eigen::Vector3f(0.5F, 0.5F, 0.5F))
+        << "a single colour must apply to the whole object";
 }
 
 TEST(ObjectsConfig, FaultsAreReportedWithLineAndColumn) {
@@ -88,7 +89,8 @@ model = "thing.glb"
 )",
                                       (folder / "test.toml").string());
     ASSERT_EQ(config.objects.size(), 3U);
-    EXPECT_EQ(config.objects[0].model, config.objects[2].model) << "read once";
+    EXPECT_EQ(config.objects[0].model, config.objects[2].model)
+        << "a file with two names must be read once";
     const PlacedObject& thing = config.objects[0];
     ASSERT_TRUE(thing.model);
     EXPECT_EQ(thing.model->meshes.size(), 1U);
@@ -147,7 +149,7 @@ TEST(ObjectsConfig, ObjectsAreAnchoredToTheirTag) {
     EXPECT_LT((placedShapes({object}, map)[0].T_world_object.translation - T.translation).norm(),
               1e-12);
     object.tag->id = 6;
-    EXPECT_FALSE(worldPlace(object, map)) << "it is not in the map";
+    EXPECT_FALSE(worldPlace(object, map)) << "a tag that is not in the map gives no place";
     EXPECT_TRUE(placedShapes({object}, map).empty());
 }
 

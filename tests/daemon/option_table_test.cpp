@@ -52,7 +52,7 @@ std::string with(const Key& key, std::string_view value) {
         key.section->name.empty()
             ? ""
             : fmt::format("{}{}{}\n", isList ? "[[" : "[", key.section->name, isList ? "]]" : "]");
-    std::string needed;  // keys that a level must also have
+    std::string needed;  // lines with other keys that a quality level must have
     if (isLevel(key) && key.option->name != "name") needed += "name = \"a\"\n";
     if (isLevel(key) && key.option->name != "ms") needed += "ms = 1.0\n";
     return head + needed + fmt::format("{} = {}\n", key.option->name, value);
@@ -157,7 +157,7 @@ void theParserHasTheWords(const Key& key) {
     const std::vector<std::string> words = wordsOf(*key.option);
     for (const std::string& word : words)
         EXPECT_THAT(faults(key, value(word)), IsEmpty());
-    // Exactly these words must be accepted, in any order.
+    // The message about a wrong word must list exactly the table's words, in any order.
     const std::string refused = faults(key, value("no-such-word"));
     const std::string list = refused.substr(refused.find("one of "));
     EXPECT_EQ(std::ranges::count(list, '"'), 2 * static_cast<std::ptrdiff_t>(words.size()));

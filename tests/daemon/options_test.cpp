@@ -72,7 +72,7 @@ TEST(Options, TheCommandLineOverridesTheFile) {
         parse({"--config", file.c_str(), "--source", "synthetic:flat", "--mode", "detail"})
             .options);
     EXPECT_EQ(both.source, "synthetic:flat");
-    EXPECT_EQ(both.recording, "") << "a source given by hand replaces the file's recording";
+    EXPECT_EQ(both.recording, "") << "--source must replace the file's recording";
     EXPECT_EQ(both.superres.mode, SuperResMode::Detail);
     EXPECT_EQ(both.seed, 5U);
 }

@@ -76,7 +76,7 @@ TEST(PoseFinder, AStillWithoutTagsIsInterpolatedBetweenFrames) {
     ASSERT_TRUE(between);
     EXPECT_EQ(between->tags, 0);
     EXPECT_LT(rotationError(*between, 1.5), 0.01);
-    EXPECT_FALSE(still(finder, -1, false)) << "before all that is known";
+    EXPECT_FALSE(still(finder, -1, false)) << "there is no pose before the first frame";
     const PoseCounts counts = stats.count().poses;
     EXPECT_EQ(counts.stills, 2U);
     EXPECT_EQ(counts.stillsTracked, 1U);
@@ -89,13 +89,14 @@ TEST(PoseFinder, StillPosesAreInterpolatedOnlyBetweenMeasuredPoses) {
     for (int i = 0; i < 3; ++i)
         (void)video(finder, i);
     for (int i = 3; i < 6; ++i)
-        EXPECT_TRUE(video(finder, i, false)) << "bridged";
+        EXPECT_TRUE(video(finder, i, false))
+            << "a short loss of the tags must be bridged by prediction";
     EXPECT_FALSE(still(finder, 4.5, false));
     EXPECT_EQ(stats.count().poses.tracked, 6U);
     EXPECT_EQ(stats.count().poses.measured, 3U);
 }
 
-TEST(PoseFinder, BridgingCanBeDisabled) {
+TEST(PoseFinder, PosesOfFramesWithoutTagsCanBeDisabled) {
     Stats stats;
     PoseConfig config;
     config.bridgeFrames = 0;
@@ -104,7 +105,7 @@ TEST(PoseFinder, BridgingCanBeDisabled) {
     EXPECT_FALSE(video(finder, 1, false));
 }
 
-TEST(PoseFinder, WithoutAMapTheFirstTagIsTheWorld) {
+TEST(PoseFinder, WithoutATagMapTheFirstTagIsTheOriginOfTheWorld) {
     Stats stats;
     PoseInputs unknown = inputs();
     unknown.tags = {};
@@ -133,14 +134,15 @@ TEST(PoseFinder, RecordedPosesAreUsedUnchanged) {
                     .T_world_video = {Eigen::Quaterniond::Identity(), {0, 0, t.seconds()}}};
     };
     PoseFinder finder(config, recording, stats);
-    EXPECT_FALSE(video(finder, 0)) << "not recorded, although the tag is seen";
+    EXPECT_FALSE(video(finder, 0))
+        << "only recorded poses may be used, although the tag is visible";
     EXPECT_EQ(video(finder, 2).value().T_world_video.translation.z(), frameTime(2).seconds());
     EXPECT_EQ(still(finder, 1.5, true).value().T_world_video.translation.z(),
               frameTime(1.5).seconds());
     const PoseCounts counts = stats.count().poses;
     EXPECT_EQ(counts.tracked, 1U);
     EXPECT_EQ(counts.stillsTracked, 1U);
-    EXPECT_EQ(counts.tracker.frames, 0) << "no tags were sought";
+    EXPECT_EQ(counts.tracker.frames, 0) << "tags must not be searched";
     EXPECT_EQ(counts.ms.count() + counts.stillMs.count(), 0U);
 }
 
@@ -157,7 +159,7 @@ TEST(PoseFinder, ASourceWithoutPosesIsRefusedByName) {
     }
 }
 
-TEST(PoseFinder, SourceNoneRunsNoTracker) {
+TEST(PoseFinder, PoseSourceNoneRunsNoTracker) {
     Stats stats;
     PoseConfig config;
     config.source = PoseOrigin::None;

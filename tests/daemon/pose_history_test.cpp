@@ -60,11 +60,11 @@ TEST(PoseHistory, NoPoseOutsideTheKnownSpan) {
     EXPECT_FALSE(history.at(timeOf(0)));
     history.add(steady(0));
     history.add(steady(1));
-    EXPECT_FALSE(history.at(timeOf(0.5))) << "two poses do not tell how steady the motion is";
+    EXPECT_FALSE(history.at(timeOf(0.5))) << "two poses are too few to estimate the acceleration";
     history.add(steady(2));
     EXPECT_TRUE(history.at(timeOf(0.5)));
     EXPECT_FALSE(history.at(timeOf(-0.1)));
-    EXPECT_FALSE(history.at(timeOf(2.1))) << "that would be a prediction";
+    EXPECT_FALSE(history.at(timeOf(2.1))) << "poses after the last one must not be extrapolated";
 }
 
 TEST(PoseHistory, ALongGapIsNotBridged) {
@@ -91,7 +91,8 @@ TEST(PoseHistory, AChangeOfRateRaisesTheCovariance) {
     const double error = std::abs(found.T_world_video.translation.x() -
                                   accelerated(1.5).T_world_video.translation.x());
     EXPECT_GT(error, 1e-4);
-    EXPECT_NEAR(std::sqrt(found.covariance(3, 3)), error, 1e-9) << "one sigma is the arc";
+    EXPECT_NEAR(std::sqrt(found.covariance(3, 3)), error, 1e-9)
+        << "the standard deviation must equal the error of linear interpolation";
     EXPECT_EQ(found.covariance(4, 4), 0);
 }
 

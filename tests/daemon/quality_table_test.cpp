@@ -38,7 +38,7 @@ TEST(QualityTable, WrittenTablesAreReadBack) {
     const std::vector<QualityLevel> levels{{"slow", 20, 30, {}}, {"fast", 10.5, 25.25, fast}};
     const auto read = parseQualityLevels(toToml(levels), "file");
     ASSERT_EQ(read.size(), 2U);
-    EXPECT_EQ(read[0].name, "fast") << "in rising order of time";
+    EXPECT_EQ(read[0].name, "fast") << "levels must be sorted by increasing time";
     EXPECT_EQ(read[0].ms, 10.5);
     EXPECT_EQ(read[0].psnrDb, 25.25);
     EXPECT_EQ(read[0].quality, fast);

@@ -33,13 +33,13 @@ TEST_F(RepeatLimitTest, FirstEventIsLoggedAtOnceAndRepetitionsWithTheirCount) {
         happen("plug", "gone");
     EXPECT_THAT(said, ElementsAre("gone"));
     pass(milliseconds(9900));
-    EXPECT_THAT(said, ElementsAre("gone")) << "not before ten seconds";
+    EXPECT_THAT(said, ElementsAre("gone")) << "repetitions must not be logged before ten seconds";
     pass(milliseconds(100));
     EXPECT_THAT(said, ElementsAre("gone", "gone (7 more times in 10 s)"));
     pass(seconds(100));
-    EXPECT_EQ(said.size(), 2U) << "nothing has happened since";
+    EXPECT_EQ(said.size(), 2U) << "without a new event nothing may be logged";
     happen("plug", "gone");
-    EXPECT_EQ(said.back(), "gone") << "long after, it is news";
+    EXPECT_EQ(said.back(), "gone") << "an event long after the last one must be logged at once";
 }
 
 TEST_F(RepeatLimitTest, ASingleRepetitionIsWrittenInWords) {
@@ -68,7 +68,8 @@ TEST_F(RepeatLimitTest, NewestTextOfAnEventIsKept) {
     happen("plug", "gone from /dev/video2");
     happen("plug", "gone from /dev/video4");
     happen("disk", "full");
-    EXPECT_THAT(said, ElementsAre("gone from /dev/video0", "full")) << "events are told apart";
+    EXPECT_THAT(said, ElementsAre("gone from /dev/video0", "full"))
+        << "different events must be counted separately";
     pass(seconds(10));
     EXPECT_EQ(said.back(), "gone from /dev/video4 (2 more times in 10 s)");
 }
@@ -89,7 +90,7 @@ TEST_F(RepeatLimitTest, StormOfDifferentEventsIsBounded) {
     pass(seconds(10));
     EXPECT_THAT(said.back(), testing::StartsWith("error 9999 ("));
     happen("another", "later");
-    EXPECT_EQ(said.back(), "later") << "old events are forgotten";
+    EXPECT_EQ(said.back(), "later") << "old events must be forgotten, so that a new one is logged";
 }
 
 TEST_F(RepeatLimitTest, PendingRepetitionsAreLoggedAtTheEnd) {

@@ -72,7 +72,7 @@ TEST(Report, IsWellFormedAndNeedsNoOtherFile) {
         EXPECT_THAT(html, Not(HasSubstr(outside)));
 }
 
-TEST(Report, HoldsTheNumbersOfTheSummary) {
+TEST(Report, ThePageHoldsTheNumbersOfTheSummary) {
     Stats stats;
     stats.keepHistory();
     show(stats, 300);
@@ -103,7 +103,7 @@ TEST(Report, NamesTheEngineOfEachStep) {
     EXPECT_EQ(cellOf(html, "flow"), "simd");
 }
 
-TEST(Report, ChartsFollowTheRun) {
+TEST(Report, ChartsShowTheValuesOfTheRun) {
     Stats stats;
     stats.keepHistory();
     show(stats, 300);
@@ -174,7 +174,7 @@ TEST(LineChart, GapsDivideALine) {
     EXPECT_THAT(svg, Not(HasSubstr("nan")));
 }
 
-TEST(LineChart, OddValuesAreDrawn) {
+TEST(LineChart, EmptyInfiniteAndExtremeValuesGiveAValidChart) {
     const double inf = std::numeric_limits<double>::infinity();
     for (const std::vector<double>& y : {std::vector<double>{}, {inf}, {0.0}, {-1.0}, {1e300}}) {
         const std::string svg = chartSvg({"<&>", "", {7}, {{"a", y}}, true, {}, {}});

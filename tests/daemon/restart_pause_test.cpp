@@ -16,7 +16,7 @@ struct RestartPauseTest : testing::Test {
         const Timestamp started = now;
         now = now + ran;
         const RestartPause::Next next = RestartPause(file).failed(started, now);
-        now = now + next.wait + seconds(1);  // RestartSec= of the service
+        now = now + next.wait + seconds(1);  // RestartSec= of mfard's systemd unit
         return next;
     }
 
@@ -25,7 +25,7 @@ struct RestartPauseTest : testing::Test {
     Timestamp now = Timestamp::fromSeconds(5000);
 };
 
-TEST_F(RestartPauseTest, WaitsGrowUpToALimit) {
+TEST_F(RestartPauseTest, PausesGrowUpToALimit) {
     for (const int expected : {0, 1, 3, 7, 15, 30, 30, 30})
         EXPECT_EQ(fail().wait.count(), expected);
     EXPECT_EQ(fail().inARow, 9);
@@ -38,14 +38,14 @@ TEST_F(RestartPauseTest, ADayOfFailuresCausesFewRestarts) {
         (void)fail();
         ++restarts;
     }
-    EXPECT_LT(restarts, 3000) << "one a second before";
+    EXPECT_LT(restarts, 3000) << "without growing pauses there would be 86400 restarts";
 }
 
 TEST_F(RestartPauseTest, ALongRunResetsTheCountOfFailures) {
     for (int i = 0; i < 4; ++i)
         (void)fail();
     EXPECT_EQ(fail(seconds(61)).wait.count(), 0);
-    EXPECT_EQ(fail().wait.count(), 1) << "and begins the next";
+    EXPECT_EQ(fail().wait.count(), 1) << "after a long run, the count of failures must start again";
 }
 
 TEST_F(RestartPauseTest, OldFailuresDoNotCount) {
@@ -62,14 +62,14 @@ TEST_F(RestartPauseTest, FailureBeforeTheSystemWasStartedDoesNotCount) {
     EXPECT_EQ(fail().inARow, 1);
 }
 
-TEST_F(RestartPauseTest, ADamagedFileCountsAsMissing) {
+TEST_F(RestartPauseTest, ADamagedStateFileCountsAsMissing) {
     for (const char* text : {"", "x", "-5 1", "2000000000 5000000000000", "3"}) {
         std::ofstream(file) << text;
         EXPECT_EQ(fail().wait.count(), 0) << text;
     }
 }
 
-TEST_F(RestartPauseTest, WithoutAFileEachWaitIsTheSame) {
+TEST_F(RestartPauseTest, WithoutAStateFileEveryPauseIsTheSame) {
     for (const std::filesystem::path& none : {folder.path() / "gone" / "restarts", {}}) {
         file = none;
         EXPECT_EQ(fail().wait.count(), 5);

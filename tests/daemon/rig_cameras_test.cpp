@@ -80,7 +80,8 @@ TEST_F(RigOfCameras, RecorderWhoseDiskHangsIsOverItsBudget) {
     }));
     std::ifstream reader(csv);
     rig.finishRecording();
-    EXPECT_TRUE(becomesTrue([&] { return hearts.late().empty(); })) << "it waits for work";
+    EXPECT_TRUE(becomesTrue([&] { return hearts.late().empty(); }))
+        << "a recorder that waits for work is not late";
 }
 
 /// Resources that this process uses: open files, threads, allocated bytes.
@@ -153,7 +154,7 @@ TEST_F(RigOfCameras, DriverWhoseOpenNeverReturnsIsOverItsBudget) {
     says("video90", "");
     says("video91", "");
     EXPECT_TRUE(becomesTrue([&] { return rig.video().next(50ms).has_value(); }));
-    EXPECT_TRUE(hearts.late().empty()) << "it is open";
+    EXPECT_TRUE(hearts.late().empty()) << "a thread whose camera is open is not late";
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ TEST(TimeSpread, QuantilesStayWithinTheBucketWidth) {
         EXPECT_NEAR(spread.quantile(q) / (100 * q), 1, 0.05) << q;
 }
 
-TEST(TimeSpread, SumHasTheValuesOfBoth) {
+TEST(TimeSpread, AddingASpreadAddsItsValues) {
     TimeSpread fast, slow;
     fast.add(1);
     slow.add(100);
@@ -36,11 +36,11 @@ TEST(TimeSpread, SumHasTheValuesOfBoth) {
     EXPECT_NEAR(fast.quantile(1), 100, 5);
 }
 
-TEST(TimeSpread, WithoutValuesIsAGap) {
+TEST(TimeSpread, AnEmptySpreadIsAGap) {
     EXPECT_TRUE(std::isnan(TimeSpread{}.quantile(0.5)));
 }
 
-TEST(TimeSpread, TakesWhateverADeviceReports) {
+TEST(TimeSpread, AcceptsEveryValueThatADeviceMayReport) {
     TimeSpread spread;
     for (const double ms : {0.0, -1.0, 1e300, std::numeric_limits<double>::infinity(),
                             std::numeric_limits<double>::quiet_NaN()})
@@ -49,13 +49,13 @@ TEST(TimeSpread, TakesWhateverADeviceReports) {
     EXPECT_TRUE(std::isfinite(spread.quantile(1)));
 }
 
-TEST(RunHistory, BinsHoldWhatHappenedInThem) {
+TEST(RunHistory, EachBinHoldsTheEventsOfItsTime) {
     RunHistory history;
     RunTotals totals;
     totals.stillsUsed = 3;
     history.add({after(0), 10, 20, false, 0.5, {}}, {{"flow", 7}});
     history.add({after(0.25), 30, 40, true, {}, totals}, {{"flow", 9}, {"detail", 2}});
-    ASSERT_EQ(history.bins().size(), 3U) << "a bin has 0.1 s";
+    ASSERT_EQ(history.bins().size(), 3U) << "times 0 and 0.25 s must give three bins of 0.1 s";
     EXPECT_EQ(history.stages(), (std::vector<std::string>{"flow", "detail"}));
     const RunHistory::Bin &first = history.bins()[0], &last = history.bins()[2];
     EXPECT_NEAR(first.frameMs.quantile(0.5), 10, 0.5);
@@ -97,7 +97,7 @@ TEST(RunHistory, ALongPauseIsAGap) {
     EXPECT_EQ(history.bins().back().frames, 1U);
 }
 
-TEST(RunHistory, ATimeBeforeTheFirstCountsForTheFirstBin) {
+TEST(RunHistory, AnEventBeforeTheFirstOneCountsForTheFirstBin) {
     RunHistory history;
     history.add({after(0), 20, 30}, {});
     history.add({after(-5), 20, 30}, {});
@@ -105,7 +105,7 @@ TEST(RunHistory, ATimeBeforeTheFirstCountsForTheFirstBin) {
     EXPECT_EQ(history.bins()[0].frames, 2U);
 }
 
-TEST(RunHistory, FoldingEndsWithEnoughPicturesInABin) {
+TEST(RunHistory, FoldingMergesBinsUntilEachHasEnoughPictures) {
     RunHistory history;
     for (int i = 0; i < 40; ++i)
         history.add({after(0.5 * i), 20, 30}, {});

@@ -38,7 +38,7 @@ TEST(Stats, RatesLatencyAndSharesMatchThePictures) {
     EXPECT_NEAR(counted.fps, 20, 1e-6);
     EXPECT_NEAR(counted.recentFps, 20, 1e-6);
     EXPECT_NEAR(counted.latencyMs.quantile(0.5), 20, 0.3);
-    EXPECT_NEAR(counted.meanConfidence, 0.8, 1e-9) << "frames without still do not count";
+    EXPECT_NEAR(counted.meanConfidence, 0.8, 1e-9) << "frames without a still must not count";
 }
 
 TEST(Stats, WithoutShownPicturesAllValuesAreZero) {
@@ -53,7 +53,7 @@ TEST(Stats, RecentRateFallsWhenPicturesStop) {
     Stats stats;
     showPictures(stats, 21);
     const auto fpsAt = [&](double s) { return stats.count(Timestamp::fromSeconds(s)).recentFps; };
-    EXPECT_NEAR(fpsAt(11.07), 20, 1e-6) << "the next one is due now";
+    EXPECT_NEAR(fpsAt(11.07), 20, 1e-6) << "the rate may fall only once a picture is overdue";
     EXPECT_NEAR(fpsAt(11.12), 10, 1e-6);
     EXPECT_NEAR(fpsAt(21.02), 0.1, 1e-6);
     EXPECT_LT(fpsAt(1000), 0.01);
@@ -109,7 +109,8 @@ TEST(Status, SummaryHoldsTheRunsMeasurements) {
     EXPECT_EQ(json["stills"]["triggered"], 3);
     EXPECT_EQ(json["stills"]["received"], 1);
     EXPECT_EQ(json["stills"]["lost"], 2);
-    EXPECT_EQ(json["stills"]["tiles_matched_second"], 55) << "of 11 frames with a still";
+    EXPECT_EQ(json["stills"]["tiles_matched_second"], 55)
+        << "5 tiles in each of 11 frames with a still";
     EXPECT_EQ(json["stills"]["tiles_show_second"], 44);
     EXPECT_EQ(json["drops"]["mailbox"], 4);
     EXPECT_EQ(json["drops"]["sensor"], 5);
@@ -154,7 +155,8 @@ TEST(Status, ReportsTheStateOfTheCameras) {
     EXPECT_EQ(camera["reopened"], 9);
     EXPECT_EQ(camera["repeated_pictures"], 6);
     EXPECT_NEAR(camera["distinct_age_s"].get<double>(), 7, 1);
-    EXPECT_FALSE(json["cameras"]["still"].contains("missed")) << "nobody counts them";
+    EXPECT_FALSE(json["cameras"]["still"].contains("missed"))
+        << "no count of missed stills may be reported";
     EXPECT_FALSE(json["cameras"]["still"].contains("distinct_age_s"));
     EXPECT_EQ(json["trigger_line"]["overtaken"], 3);
     EXPECT_EQ(json["trigger_line"]["missed_edges"], 4);
@@ -229,8 +231,8 @@ TEST(Status, SummaryReportsTheSourcesOfPoses) {
     EXPECT_EQ(pose["tracked"], 2);
     EXPECT_EQ(pose["measured"], 1);
     EXPECT_NEAR(pose["tracked_share"].get<double>(), 2. / 3, 1e-9);
-    EXPECT_EQ(pose["epipolar_frames"], 2) << "half of the pictures";
-    EXPECT_EQ(pose["tiles_searched_2d"], 6) << "three of each";
+    EXPECT_EQ(pose["epipolar_frames"], 2) << "each of 2 frames with lines";
+    EXPECT_EQ(pose["tiles_searched_2d"], 6) << "3 tiles in each of 2 frames with lines";
     EXPECT_EQ(pose["tags"], 6) << "frames without tags do not count";
     EXPECT_EQ(pose["reprojection_px"], 0.25);
     EXPECT_EQ(pose["full_searches"], 1);
@@ -277,7 +279,8 @@ TEST(Status, ReportsTheEpipolarError) {
 TEST(Status, LineReportsTheSourceOfTheLastPose) {
     Stats stats;
     showPictures(stats, 2);
-    EXPECT_THAT(statusLine(stats.count(), {}, 1), Not(HasSubstr("tracked"))) << "not asked for";
+    EXPECT_THAT(statusLine(stats.count(), {}, 1), Not(HasSubstr("tracked")))
+        << "without poses the line must not mention tracking";
     const TrackStats tracker{.frames = 1, .lastMs = 2};
     stats.framePose(fromTags(6, 0.25), tracker);
     EXPECT_THAT(statusLine(stats.count(), {}, 1),
@@ -306,7 +309,7 @@ TEST(Status, LineShowsTheLastFrame) {
                 AllOf(HasSubstr("20.0 fps"), HasSubstr("flow 30.0"), HasSubstr("confidence 0.80"),
                       HasSubstr("still 1.5 s"), HasSubstr("unchanged 50%"), HasSubstr("0 dropped"),
                       Not(HasSubstr("hidden"))));
-    EXPECT_THAT(line, Not(HasSubstr("["))) << "no bar where the end is unknown";
+    EXPECT_THAT(line, Not(HasSubstr("["))) << "there must be no bar if the end is unknown";
 }
 
 TEST(Status, LineBeginsWithFaults) {

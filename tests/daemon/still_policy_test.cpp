@@ -62,7 +62,7 @@ const FrameStats kRest = frame(0.95, 0);
 const FrameStats kMovingExplained = frame(0.9, 0.8);
 const FrameStats kMovingUnexplained = frame(0.2, 0.8);
 
-TEST(StillPolicy, WithoutAStillTheFirstFrameFires) {
+TEST(StillPolicy, WithoutAStillTheFirstFrameFiresTheTrigger) {
     Simulation board({});
     EXPECT_EQ(board.run(kFrame / 2, frame(0, 1)), 1);
 }
@@ -99,7 +99,7 @@ TEST(StillPolicy, TheRedrawForANewStillDoesNotCountAsMotion) {
     board.policy.configure(config);
     board.run(kFrame, kRest);
     board.run(kFrame, frame(0.9, 1));
-    EXPECT_EQ(board.run(60, kRest), 0) << "a reload redraws, too";
+    EXPECT_EQ(board.run(60, kRest), 0) << "the redraw after a reload must not count as motion";
 }
 
 TEST(StillPolicy, StatsOlderThanTheStillAreIgnored) {
@@ -110,17 +110,18 @@ TEST(StillPolicy, StatsOlderThanTheStillAreIgnored) {
     board.run(1, kRest);
     board.latency = 6.5 * kFrame;
     EXPECT_EQ(board.run(6.5 * kFrame, kMovingUnexplained), 1);
-    EXPECT_EQ(board.run(0.5 * kFrame, kMovingUnexplained), 0) << "the still has just come";
+    EXPECT_EQ(board.run(0.5 * kFrame, kMovingUnexplained), 0)
+        << "statistics from before the still must be ignored";
     EXPECT_EQ(board.run(2, kMovingExplained), 0);
 }
 
-TEST(StillPolicy, NewViewThatTheStillDoesNotExplainFires) {
+TEST(StillPolicy, ANewViewThatTheStillDoesNotExplainFiresTheTrigger) {
     Simulation board({});
     board.run(2, kRest);
     EXPECT_EQ(board.run(kFrame / 2, kMovingUnexplained), 1);
 }
 
-TEST(StillPolicy, MotionThatTheStillExplainsWaitsForTheAge) {
+TEST(StillPolicy, ForExplainedMotionANewStillWaitsForTheAgeLimit) {
     TriggerConfig config;
     config.maxAgeS = 5;
     Simulation board(config);
@@ -178,7 +179,7 @@ TEST(StillPolicy, KeepsTheMinimumIntervalBetweenStills) {
     EXPECT_GE(board.firedAt.size(), 18U);
 }
 
-TEST(StillPolicy, LostStillIsCountedAndRepeatedOnce) {
+TEST(StillPolicy, AfterALostStillThePulseIsRepeatedOnce) {
     TriggerConfig config;
     config.timeoutS = 1;
     config.maxAgeS = 30;
@@ -190,7 +191,7 @@ TEST(StillPolicy, LostStillIsCountedAndRepeatedOnce) {
     EXPECT_NEAR(board.firedAt[1] - board.firedAt[0], 1, 2 * kFrame);
 }
 
-TEST(StillPolicy, AfterTwoLostStillsItTriesAgainLater) {
+TEST(StillPolicy, AfterTwoLostStillsThePolicyWaitsBeforeTheNextPulse) {
     TriggerConfig config;
     config.timeoutS = 1;
     config.maxAgeS = 3;
@@ -203,7 +204,7 @@ TEST(StillPolicy, AfterTwoLostStillsItTriesAgainLater) {
     EXPECT_EQ(board.policy.lost(), 2);
 }
 
-TEST(StillPolicy, ALateStillDoesNotAnswerTheRepetition) {
+TEST(StillPolicy, ALateStillIsNotTakenForTheStillOfTheRepeatedPulse) {
     TriggerConfig config;
     config.timeoutS = 1;
     Simulation board(config);
@@ -225,14 +226,14 @@ TEST(StillPolicy, FixedRateFollowsTheTimesOfFrames) {
     EXPECT_NEAR(fired, 120, 1);
 }
 
-TEST(StillPolicy, ModeOffNeverFires) {
+TEST(StillPolicy, InModeOffThePolicyNeverFires) {
     TriggerConfig config;
     config.mode = TriggerMode::Off;
     Simulation board(config);
     EXPECT_EQ(board.run(30, kMovingUnexplained), 0);
 }
 
-TEST(StillPolicy, ModeOffRepeatsARequestedStillThatWasLost) {
+TEST(StillPolicy, InModeOffThePulseOfALostRequestedStillIsRepeated) {
     TriggerConfig config;
     config.mode = TriggerMode::Off;
     Simulation board(config);
@@ -246,7 +247,7 @@ TEST(StillPolicy, ModeOffRepeatsARequestedStillThatWasLost) {
     EXPECT_EQ(board.policy.lost(), 2);
 }
 
-TEST(StillPolicy, ReloadToOffForgetsAPendingStill) {
+TEST(StillPolicy, AReloadToModeOffForgetsAPendingStill) {
     Simulation board({});
     board.answers = false;
     board.run(0.1, kRest);
@@ -258,7 +259,7 @@ TEST(StillPolicy, ReloadToOffForgetsAPendingStill) {
     EXPECT_EQ(board.policy.lost(), 0);
 }
 
-TEST(StillPolicy, ReloadFromOffToDemandFires) {
+TEST(StillPolicy, AReloadFromModeOffToDemandFiresTheTrigger) {
     TriggerConfig config;
     config.mode = TriggerMode::Off;
     Simulation board(config);

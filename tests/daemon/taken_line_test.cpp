@@ -15,7 +15,7 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-TEST(TakenLine, IsReadBackAsWritten) {
+TEST(TakenLine, ANoteAboutTheTriggerLineIsReadBackAsWritten) {
     const test::TempFolder folder;
     const std::filesystem::path file = folder / "trigger";
     EXPECT_FALSE(takenLine(file));
@@ -33,7 +33,7 @@ TEST(TakenLine, IsReadBackAsWritten) {
     EXPECT_THROW(noteTakenLine(folder / "none/trigger", {}), std::runtime_error);
 }
 
-TEST(TakenLine, OtherContentIsIgnored) {
+TEST(TakenLine, AFileWithOtherContentIsIgnored) {
     const test::TempFolder folder;
     const std::filesystem::path file = folder / "trigger", sound = folder / "sound";
     test::writeFile(sound, "chip=a\nline=1\nactive_low=false\n");
@@ -69,7 +69,7 @@ TEST(TakenLine, OtherContentIsIgnored) {
         test::writeFile(file, text);
         EXPECT_THAT(faultOf(), HasSubstr(what)) << text;
     }
-    if (geteuid() != 0) GTEST_SKIP() << "only root can make another user's file";
+    if (geteuid() != 0) GTEST_SKIP() << "only root can create a file of another user";
     test::writeFile(file, test::readFile(sound));
     ASSERT_EQ(chown(file.c_str(), 1234, 1234), 0);
     EXPECT_THAT(faultOf(), HasSubstr("belongs to another user"));

@@ -10,8 +10,8 @@ namespace mfar::demo {
 
 [[nodiscard]] std::string_view name(TileClass tileClass);
 
-/// Enlarged video, result and truth side by side. Below each, the place at which the video lacks
-/// most of the truth's detail is magnified.
+/// Enlarged video, result and true picture side by side. Below each, the area in which the video
+/// lacks most of the true picture's detail is magnified.
 [[nodiscard]] cv::Mat comparisonPicture(const Shown& shown);
 
 /// Confidence (eq. 2 of the paper) over the video, from dark (0) to light (1), with a scale.

@@ -93,7 +93,7 @@ DemoRun runDemo(const Recording& recording, const std::function<void(int, int)>&
     }
     if (run.quality.frames == 0)
         throw std::runtime_error(recording.root.string() +
-                                 ": no frame has both a truth and a still");
+                                 ": no frame has both a true picture (truth/highres) and a still");
     divideByFrames(run.quality);
     return run;
 }

@@ -11,20 +11,21 @@
 
 namespace mfar::demo {
 
-/// Means over the frames with a truth, computed from luma without a border of 32 px.
+/// Means over the frames that have a true picture, computed from luma without a border of 32 px.
 struct Quality {
     int frames = 0;
     double upscaledPsnrDb = 0;
     double resultPsnrDb = 0;
     double upscaledSsim = 0;
     double resultSsim = 0;
-    double harmRate = 0;        ///< share of pixels worse than enlarged video by > 2 levels
-    double meanConfidence = 0;  ///< eq. 2 of the paper, [0, 1]
+    double harmRate = 0;        ///< share of pixels with > 2 grey levels more error than upscaled
+    double meanConfidence = 0;  ///< mean of eq. 2 of the paper, [0, 1]
     double frameMs = 0;         ///< time of the whole pipeline until all work is finished
     std::array<double, kTileClasses> tileShares{};
 };
 
-/// One frame with all that the pictures show. Pictures are CV_8UC3, B G R, at output size.
+/// One frame, with all data that the demonstration's pictures show. Pictures are CV_8UC3, B G R, at
+/// output size.
 struct Shown {
     cv::Mat upscaled;
     cv::Mat result;
@@ -36,12 +37,12 @@ struct Shown {
 
 struct DemoRun {
     Quality quality;
-    Shown last;  ///< the last frame with a truth
+    Shown last;  ///< the last frame that has a true picture
 };
 
 /// Runs the pipeline over the frames, each with the newest still that was taken before it.
 /// `progress` gets the number of frames done and the total. Needs a current GL context. Throws
-/// std::runtime_error if no frame of the recording has a truth.
+/// std::runtime_error if no frame of the recording has a true picture.
 [[nodiscard]] DemoRun runDemo(const Recording& recording,
                               const std::function<void(int, int)>& progress);
 

@@ -15,12 +15,12 @@ namespace {
 constexpr double kMostError = 0.05;  // relative depth error at the end of the scale
 const cv::Scalar kUnknown(120, 120, 120);
 
-/// Nearest and farthest depth of a colour scale [1/m].
+/// Inverse depth at both ends of a colour scale [1/m].
 struct Range {
     double far, near;
 };
 
-// The range without the farthest and the nearest 1 % of the pixels.
+// Range of the inverse depth `rho`, without the farthest and the nearest 1 % of the pixels.
 Range rangeOf(const cv::Mat& rho) {
     std::vector<float> values;
     for (const float value : cv::Mat_<float>(rho))
@@ -29,7 +29,8 @@ Range rangeOf(const cv::Mat& rho) {
     return {values[values.size() / 100], values[values.size() - 1 - values.size() / 100]};
 }
 
-/// Colours of the map Turbo, from blue (0) to red (1). Where `known` is 0, a colour for unknown.
+/// Converts `shares` to the colours of the map Turbo, from blue (0) to red (1). Pixels for which
+/// `known` is 0 get another colour.
 cv::Mat colours(const cv::Mat& shares, const cv::Mat& known) {
     cv::Mat levels, out;
     shares.convertTo(levels, CV_8U, 255);
@@ -47,7 +48,7 @@ cv::Mat errorColours(const cv::Mat& rho, const cv::Mat& truth) {
     return colours(cv::abs(truth / rho - 1) / kMostError, known);
 }
 
-/// Draws a bar of the colours with labels at its ends.
+/// Draws the colour scale as a bar, with the texts `from` and `to` at its ends.
 void addScale(cv::Mat& canvas, cv::Point corner, const std::string& from, const std::string& to) {
     constexpr int kLabel = 90;
     cv::Mat ramp(kMargin, 256, CV_32F);

@@ -6,7 +6,7 @@
 
 namespace mfar::demo {
 
-/// Depth, true depth and the error, with their scales.
+/// Measured depth, true depth and the error of depth, with their colour scales.
 [[nodiscard]] cv::Mat depthPicture(const OcclusionRun& run);
 
 /// Three pictures: the object over everything, the result, and the truth. Below each, the place at

@@ -117,7 +117,8 @@ OcclusionRun runOcclusion(const Recording& recording, synthetic::Scene scene,
         sceneTruth.fill(run.last, frame.time, *pose);
     }
     if (run.last.composite.empty())
-        throw std::runtime_error(recording.root.string() + ": the last frame has no truth");
+        throw std::runtime_error(recording.root.string() +
+                                 ": the last frame has no true depth and picture");
     divideByFrames(run.quality);
     return run;
 }

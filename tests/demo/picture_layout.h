@@ -24,7 +24,7 @@ struct Column {
     cv::Mat picture;
 };
 
-/// Size of a window that, magnified, fills a panel.
+/// Size of the part of a picture that fills a panel when it is magnified.
 [[nodiscard]] cv::Size detailSize(cv::Size picture);
 /// Panels side by side. Below each, the same detail is magnified.
 [[nodiscard]] cv::Mat columnsWithDetail(std::span<const Column> columns, const cv::Rect& detail);

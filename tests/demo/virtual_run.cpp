@@ -35,7 +35,7 @@ cv::Rect outputRect(const PixelRect& video, Size frame, Size output) {
                       at(video.y1, frame.height, output.height))};
 }
 
-/// A window of the detail's size, centred on the region.
+/// The part of a picture that is magnified: centred on the region, of size detailSize().
 cv::Rect detailOf(const cv::Rect& region, cv::Size picture) {
     const cv::Size window = detailSize(picture);
     const cv::Point middle = (region.tl() + region.br()) / 2;
@@ -105,7 +105,8 @@ VirtualRun runVirtual(const Recording& recording, const Config& config,
     run.moved = show.counters();
     run.region = show.region();
     if (run.region.empty())
-        throw std::runtime_error(recording.root.string() + ": no object is in view at the end");
+        throw std::runtime_error(recording.root.string() +
+                                 ": no virtual object is in view in the last frame");
     Timestamp seen = show.counters().render.frame;
     int looks = 0;  // frames that the tracer's threads have received, which may lag behind
     for (int i = 0; i < kMostRestFrames && !(looks > kLeastLooks && isSettled(show.counters()));

@@ -29,7 +29,7 @@ std::size_t middle() {
     return 45UL * 120 + 60;
 }
 
-TEST(DepthFilter, NoiseAveragesOut) {
+TEST(DepthFilter, MeasurementNoiseAveragesOutOverTheFrames) {
     DepthFilter filter = filterOf();
     std::mt19937 random(1);
     std::normal_distribution<float> noise(0, 0.05F);
@@ -77,7 +77,8 @@ TEST(DepthFilter, TheNearerSurfaceOccludesTheOther) {
     EXPECT_NEAR(at(28), 2, 1e-4);
     EXPECT_NEAR(at(12), 0.5, 1e-4);
     EXPECT_NEAR(at(70), 0.5, 1e-4);
-    EXPECT_FALSE(filter.field().isKnown(45UL * 120 + 45)) << "came to light";
+    EXPECT_FALSE(filter.field().isKnown(45UL * 120 + 45))
+        << "the uncovered background must be unknown";
 }
 
 TEST(DepthFilter, DepthMovesAndScalesWithTheCamera) {

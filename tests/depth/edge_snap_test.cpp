@@ -26,7 +26,8 @@ std::vector<std::uint8_t> picture(int left = 60, int right = 160) {
     return out;
 }
 
-/// The near surface extends `too` pixels beyond its true edge. `unknown` pixels follow it.
+/// Depth of picture(): the near surface extends `too` pixels beyond its true edge; `unknown` pixels
+/// without known depth follow it.
 InverseDepthField field(int too, int unknown) {
     InverseDepthField out(kPicture);
     for (int y = 0; y < kPicture.height; ++y)
@@ -150,7 +151,7 @@ TEST(EdgeSnap, ASlopeStaysUnchanged) {
     EXPECT_EQ(out.filled, in.filled);
 }
 
-TEST(EdgeSnap, UnmeasuredPixelsAreMarked) {
+TEST(EdgeSnap, PixelsFilledWithoutAMeasurementAreMarked) {
     const InverseDepthField out = snapped(field(0, 5), picture());
     EXPECT_EQ(out.filled[24UL * 64 + kEdge + 2], 1);
     EXPECT_EQ(out.filled[24UL * 64 + 5], 0);

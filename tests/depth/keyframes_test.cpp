@@ -32,7 +32,7 @@ Keyframes walked(const KeyframeOptions& options, int brightness = 100) {
     return out;
 }
 
-TEST(Keyframes, FixedRuleTakesAFixedFrameDistance) {
+TEST(Keyframes, FixedRuleChoosesTheKeyframeAFixedNumberOfFramesBack) {
     const Keyframes frames = walked({.rule = KeyframeRule::Fixed, .distance = 4});
     const auto choice = frames.choose(poseAt(0.1), 100, kAll, 1);
     ASSERT_TRUE(choice);

@@ -42,7 +42,7 @@ TEST(CameraV4l2Buffers, EveryBufferMayBeLentAtOnce) {
         ASSERT_TRUE(frame.has_value());
         held.push_back(std::move(*frame));
     }
-    EXPECT_FALSE(fake.deliver()) << "no buffer is left";
+    EXPECT_FALSE(fake.deliver()) << "all buffers are lent, so no picture can be delivered";
     EXPECT_FALSE(camera.next(5ms).has_value());
     for (int i = 0; i < 4; ++i)
         EXPECT_EQ(held[static_cast<std::size_t>(i)].view().data[100], i);
@@ -126,7 +126,7 @@ TEST(CameraV4l2Buffers, FewBuffersSufficeForManyPictures) {
         }
 }
 
-TEST(CameraV4l2Buffers, EnoughBuffersAreLentWithoutACopy) {
+TEST(CameraV4l2Buffers, WithEnoughBuffersPicturesAreLentWithoutACopy) {
     FakeV4l2 fake;
     fake.mostBuffers = 4;
     CameraV4l2Options options = fourBuffers();

@@ -60,12 +60,14 @@ TEST(CameraV4l2, FormatsAreTakenInTheOrderOfPreference) {
     EXPECT_EQ(chosen(), PixelFormat::Bgra8);
     fake.formats.push_back({V4L2_PIX_FMT_YUYV, {{64, 48}, kSize}, 5});
     EXPECT_EQ(chosen(), PixelFormat::Yuyv);
-    EXPECT_EQ(chosen({}, 30), PixelFormat::Bgra8) << "the only colour that is fast enough";
-    EXPECT_EQ(chosen({}, 60), PixelFormat::Yuyv) << "none is: the best of all";
+    EXPECT_EQ(chosen({}, 30), PixelFormat::Bgra8)
+        << "only the BGRA format is fast enough and has colours";
+    EXPECT_EQ(chosen({}, 60), PixelFormat::Yuyv)
+        << "no format is fast enough, so the preferred one is used";
     fake.formats.push_back({V4L2_PIX_FMT_YUV420, {kSize}});
     EXPECT_EQ(chosen(), PixelFormat::Yuv420);
     fake.formats.push_back({V4L2_PIX_FMT_NV12, {{64, 48}}});
-    EXPECT_EQ(chosen(), PixelFormat::Yuv420) << "NV12 has another size only";
+    EXPECT_EQ(chosen(), PixelFormat::Yuv420) << "NV12 is not offered in the wanted size";
     EXPECT_EQ(chosen("GREY"), PixelFormat::Gray8);
 }
 
@@ -169,7 +171,7 @@ TEST(CameraV4l2, BrokenPicturesAreCountedAndNeverDelivered) {
         EXPECT_FALSE(camera.next(0ms).has_value());
     }
     EXPECT_EQ(camera.cameraCounters().broken, 20U);
-    EXPECT_EQ(fake.queued(), 4) << "their buffers are back";
+    EXPECT_EQ(fake.queued(), 4) << "the buffers of broken pictures must be queued again";
     ASSERT_TRUE(fake.deliver({.level = 3}));
     EXPECT_EQ(camera.next(1s)->view().data[0], 3);
     EXPECT_EQ(camera.cameraCounters().delivered, 1U);
@@ -185,7 +187,8 @@ TEST(CameraV4l2, ImpossibleTimesAreCountedAndNeverDelivered) {
     fake.deliver({.ageMs = 10});
     EXPECT_TRUE(camera.next(1s).has_value());
     fake.deliver({.ageMs = 500});
-    EXPECT_FALSE(camera.next(0ms).has_value()) << "before the one before";
+    EXPECT_FALSE(camera.next(0ms).has_value())
+        << "a picture older than the previous one must be refused";
     EXPECT_EQ(camera.cameraCounters().badTimes, 3U);
 }
 
@@ -241,7 +244,7 @@ TEST(CameraV4l2, RunsAgainAfterStop) {
     fake.deliver({.ageMs = 20, .level = 5});  // stays in the queue until stop()
     camera.stop();
     camera.start();
-    EXPECT_EQ(fake.queued(), 3) << "all but the one that is held";
+    EXPECT_EQ(fake.queued(), 3) << "all buffers must be queued except the one that is held";
     fake.deliver({.ageMs = 10, .level = 9});
     EXPECT_EQ(camera.next(1s)->view().data[0], 9);
     held.reset();
@@ -293,7 +296,7 @@ TEST(CameraV4l2, APollErrorAloneDoesNotMeanDeviceLost) {
     EXPECT_THROW(static_cast<void>(camera.next(1s)), DeviceLost);
 }
 
-TEST(CameraV4l2, PlanesLieWhereEachApiPutsThem) {
+TEST(CameraV4l2, PlanesAreFoundInBothBufferTypes) {
     for (const auto& [fourcc, multi, format] :
          {std::tuple{V4L2_PIX_FMT_NV12, false, PixelFormat::Nv12},
           std::tuple{V4L2_PIX_FMT_YUV420, false, PixelFormat::Yuv420},

@@ -15,7 +15,7 @@ using testing::HasSubstr;
 // State of a simulated display device, with counters of calls.
 struct Device {
     Presence presence = Presence::Absent;
-    bool refuses = false;        // show() throws
+    bool refuses = false;        // true: show() throws
     int refusesAfter = 1000000;  // number of pictures after which show() throws
     int shown = 0, looks = 0, thoroughLooks = 0, released = 0;
     bool held = false;
@@ -181,7 +181,7 @@ TEST_F(AutoDisplay, ARepeatedlyLostScreenStaysReported) {
         ASSERT_THAT(display_->fault().value_or(""), HasSubstr("kms is broken")) << i;
         if (!kms_.held) kms_.refusesAfter = kms_.shown + 2;
     }
-    EXPECT_GT(kms_.shown, 30) << "it is tried anew";
+    EXPECT_GT(kms_.shown, 30) << "the screen must be tried again and again";
     kms_.refusesAfter = 1000000;
     EXPECT_GE(run(kSecond), 8);
     EXPECT_EQ(display_->fault(), std::nullopt);
@@ -228,7 +228,7 @@ TEST_F(AutoDisplay, ReleasesTheContextAndKeepsTheScreen) {
     EXPECT_TRUE(kms_.held);
     const int before = kms_.shown;
     display_->showAgain({}, now_);
-    EXPECT_EQ(kms_.shown, before + 1) << "the screen's buffers are others now";
+    EXPECT_EQ(kms_.shown, before + 1) << "a picture must be shown again in new buffers";
 }
 
 TEST_F(AutoDisplay, OpensNothingWhenTheDevicesDoNotExist) {

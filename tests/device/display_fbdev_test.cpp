@@ -82,7 +82,8 @@ TEST(FbGeometry, GeometryBeyondTheMemoryIsRefused) {
         [](Info& i) { i.fix.line_length = 0xffffffff; },
     };
     for (std::size_t i = 0; i < lies.size(); ++i)
-        EXPECT_THROW((void)geometry(lies[i]), std::runtime_error) << "lie " << i;
+        EXPECT_THROW((void)geometry(lies[i]), std::runtime_error)
+            << "accepted impossible geometry " << i;
 }
 
 TEST(FbGeometry, OnlyPackedTrueColourIsAccepted) {
@@ -98,7 +99,8 @@ TEST(FbGeometry, OnlyPackedTrueColourIsAccepted) {
         [](Info& i) { i.var.blue.msb_right = 1; },
     };
     for (std::size_t i = 0; i < others.size(); ++i)
-        EXPECT_THROW((void)geometry(others[i]), std::runtime_error) << "other " << i;
+        EXPECT_THROW((void)geometry(others[i]), std::runtime_error)
+            << "accepted invalid layout " << i;
 }
 
 }  // namespace

@@ -65,7 +65,7 @@ TEST(HostScaler, EveryPixelIsTheMeanOfItsFootprint) {
                                       {{700, 500}, {1, 1}},
                                       {{17, 400}, {31, 23}}}) {
         HostScaler scaler(screen);
-        // Tolerance: rounding by half a level, and products that are truncated.
+        // Tolerance: rounding by half a grey level, and products that are truncated.
         EXPECT_LE(worstError(scaler, noisy(from), screen), 0.55)
             << from.width << "x" << from.height;
     }

@@ -58,14 +58,14 @@ TEST_F(KmsScreenTest, ShowsPicturesAndGivesTheScreenBack) {
     show();
     show();
     EXPECT_EQ(driver_.modeSets, 1);
-    EXPECT_EQ(driver_.flipped, 1) << "one picture is in flight";
-    EXPECT_EQ(driver_.shown, first) << "there are two buffers";
+    EXPECT_EQ(driver_.flipped, 1) << "the second flip must still be pending";
+    EXPECT_EQ(driver_.shown, first) << "with two buffers, the third picture reuses the first";
     for (const std::uint32_t pixel : test::shownPixels())
         ASSERT_EQ(pixel & 0xffffffU, 0x102030U);
     EXPECT_NE(screen_.status().find("HDMI-A-1,64x48@60"), std::string::npos) << screen_.status();
     screen_.close();
     EXPECT_TRUE(driver_.console);
-    EXPECT_EQ(driver_.flipped, 2) << "the console's picture waits for the last flip";
+    EXPECT_EQ(driver_.flipped, 2) << "close() must wait for the last flip";
     EXPECT_EQ(driver_.buffers, 0);
     EXPECT_EQ(driver_.framebuffers, 0);
 }
@@ -79,7 +79,8 @@ TEST_F(KmsScreenTest, AFlipThatNeverCompletesIsReportedAfterHalfASecondAndRetrie
     EXPECT_EQ(faultOfShow(took),
               card() + ", HDMI-A-1: the display driver did not show the new picture in time");
     EXPECT_GE(took, milliseconds(500));
-    EXPECT_LT(took, milliseconds(1000)) << "other events extend the wait";
+    EXPECT_LT(took, milliseconds(1000))
+        << "the wait must end after half a second despite other events";
     screen_.close();
     test::pretendedDrm(card());
     ASSERT_EQ(screen_.look(true), Presence::Ready);
@@ -137,7 +138,7 @@ TEST_F(KmsScreenTest, ThePictureStaysWhileTheContextIsRecreated) {
     EXPECT_FALSE(driver_.console);
     show();
     EXPECT_EQ(driver_.modeSets, 2);
-    EXPECT_EQ(driver_.framebuffers, 2) << "old buffers are kept";
+    EXPECT_EQ(driver_.framebuffers, 2) << "there must be only the two new framebuffers";
     screen_.close();
     EXPECT_TRUE(driver_.console);
 }

@@ -110,7 +110,8 @@ TEST(WaitForFlip, EndsWithTheEventOfTheFlip) {
     card.tell(DRM_EVENT_FLIP_COMPLETE, pending);
     EXPECT_TRUE(waitForFlip(card.told.get(), pending, std::chrono::seconds(60)));
     EXPECT_FALSE(pending);
-    EXPECT_TRUE(waitForFlip(card.told.get(), pending, std::chrono::seconds(60))) << "none pending";
+    EXPECT_TRUE(waitForFlip(card.told.get(), pending, std::chrono::seconds(60)))
+        << "without a pending flip there is nothing to wait for";
 }
 
 TEST(WaitForFlip, AMissingFlipEndsAtTheLimitDespiteOtherEvents) {

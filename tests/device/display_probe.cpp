@@ -73,7 +73,7 @@ public:
     }
     void save(const std::string& path) {
         const std::optional<ScreenPicture> picture = display_->lastShown();
-        if (!picture) throw std::runtime_error("nothing is shown");
+        if (!picture) throw std::runtime_error("no picture has been shown yet");
         savePpm(path, *picture);
         say("saved " + path);
     }

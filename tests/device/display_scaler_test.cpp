@@ -16,7 +16,7 @@ using Colour = std::array<int, 3>;
 
 class DisplayScaler : public GlTest {
 protected:
-    // A texture. The function gives the colour of each pixel.
+    // Returns a texture whose pixel (x, y) has the colour colour(x, y).
     static gpu::Texture picture(Size size, const std::function<Colour(int, int)>& colour) {
         std::vector<std::uint8_t> pixels;
         for (int y = 0; y < size.height; ++y)
@@ -60,7 +60,7 @@ Colour noise(int x, int y) {
             static_cast<int>(h * 69069U >> 16 & 255U)};
 }
 
-TEST_F(DisplayScaler, EqualSizeIsACopy) {
+TEST_F(DisplayScaler, APictureOfTheScreensSizeIsCopied) {
     const Size size{321, 97};
     const auto pixels = shown(picture(size, noise), size);
     for (int y = 0; y < size.height; ++y)
@@ -89,7 +89,7 @@ TEST_F(DisplayScaler, EveryPixelIsTheMeanOfItsFootprint) {
                     worst = std::max(worst, std::abs(got[k] - mean[k]));
             }
         // Tolerance: a linear sampler interpolates with at least 8 bits and truncates along x and
-        // along y; rounding adds half a level.
+        // along y; rounding adds half a grey level.
         EXPECT_LE(worst, 2.5) << from.width << "x" << from.height;
     }
 }
@@ -141,7 +141,7 @@ TEST_F(DisplayScaler, WarmUpChangesNothingThatIsShown) {
         EXPECT_EQ(shown(warm, texture, screen), shown(texture, screen)) << screen.width;
     }
     ScreenScaler scaler;
-    EXPECT_NO_THROW(scaler.warmUp({})) << "there is no picture yet";
+    EXPECT_NO_THROW(scaler.warmUp({})) << "warmUp() must work before the first picture";
 }
 
 TEST_F(DisplayScaler, DrawsOnAnotherContextOnceTheFirstIsReleased) {
@@ -207,7 +207,7 @@ TEST_F(DisplayScaler, HostRowsAreDrawnLikeATexture) {
     }
 }
 
-TEST_F(DisplayScaler, ReaderTakesBothKindsOfPictures) {
+TEST_F(DisplayScaler, ScreenReaderReadsTexturesAndHostRows) {
     const Size size{230, 172}, screen{128, 72};
     const gpu::Texture texture = picture(size, noise);
     const AlignedRows<std::uint32_t> rows = noiseRows(size);

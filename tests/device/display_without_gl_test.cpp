@@ -33,7 +33,7 @@ protected:
         const int& calls = reinterpret_cast<FakeGl* (*)()>(dlsym(library, "fakeGl"))()->others;
         const int before = calls;
         glFlush();
-        EXPECT_EQ(calls, before + 1) << "calls are not counted";
+        EXPECT_EQ(calls, before + 1) << "the fake GL library must count calls";
         action();
         return calls - before - 1;
     }

@@ -31,8 +31,8 @@ struct FakeControl {
     std::int64_t minimum, maximum, step, value;
     std::vector<std::string> menu{};
     std::uint32_t flags = 0;
-    int refusals = 0;   ///< this number of attempts to set it fail with `error`
-    int error = EBUSY;  ///< the error of these attempts
+    int refusals = 0;   ///< number of next attempts to set the control that fail
+    int error = EBUSY;  ///< error code of the attempts that fail
 };
 
 /// What the driver reports about the next picture.

@@ -7,7 +7,8 @@ namespace {
 
 TEST(FieldOfView, UncroppedModeShowsTheWholeField) {
     EXPECT_TRUE(showsWholeField({4056, 3040}, {4056, 3040}, {640, 480}));
-    EXPECT_TRUE(showsWholeField({4032, 3024}, {4056, 3040}, {640, 480})) << "aligned mode";
+    EXPECT_TRUE(showsWholeField({4032, 3024}, {4056, 3040}, {640, 480}))
+        << "a mode that is cropped only for alignment";
 }
 
 TEST(FieldOfView, CroppingInOneDirectionIsAllowed) {

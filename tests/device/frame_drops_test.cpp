@@ -71,16 +71,20 @@ TEST(FrameDrops, AfterACounterResetTimesAreUsed) {
     std::uint32_t number = 50000;
     for (int i = 0; i < 40; ++i)
         EXPECT_EQ(drops.add(time = time + kPeriod, number++), 0);
-    EXPECT_EQ(drops.add(time = time + kPeriod, 0), 0) << "back to zero, nothing missing";
+    EXPECT_EQ(drops.add(time = time + kPeriod, 0), 0)
+        << "a counter reset without a gap in time is not a drop";
     EXPECT_EQ(drops.add(time = time + kPeriod, 1), 0);
-    EXPECT_EQ(drops.add(time = time + 3 * kPeriod, 0), 2) << "the same behind a gap";
-    EXPECT_EQ(drops.add(time = time + kPeriod, 5000), 0) << "forward, which no time confirms";
-    EXPECT_EQ(drops.add(time = time + kPeriod, 5000), 0) << "a count that stands still";
+    EXPECT_EQ(drops.add(time = time + 3 * kPeriod, 0), 2)
+        << "at a counter reset, the gap in time must be counted";
+    EXPECT_EQ(drops.add(time = time + kPeriod, 5000), 0)
+        << "a jump of the number without a gap in time is not a drop";
+    EXPECT_EQ(drops.add(time = time + kPeriod, 5000), 0) << "a repeated number is not a drop";
     EXPECT_EQ(drops.add(time = time + 2 * kPeriod, 5000), 1);
-    EXPECT_EQ(drops.add(time = time + 2 * kPeriod), 1) << "no number at all";
+    EXPECT_EQ(drops.add(time = time + 2 * kPeriod), 1)
+        << "without a number, the gap in time must be counted";
 }
 
-TEST(FrameDrops, BrokenFramesAreNotDrops) {
+TEST(FrameDrops, BrokenFramesDoNotCountAsDrops) {
     for (const bool numbered : {true, false}) {
         FrameDrops drops;
         Timestamp time{0};
@@ -97,7 +101,8 @@ TEST(FrameDrops, BrokenFramesAreNotDrops) {
         }
         number += 3;
         EXPECT_EQ(drops.addUntimed(next()), numbered ? 3 : 0);
-        EXPECT_EQ(drops.add(time + 5 * kPeriod, next()), numbered ? 0 : 3) << "each once";
+        EXPECT_EQ(drops.add(time + 5 * kPeriod, next()), numbered ? 0 : 3)
+            << "each missing frame must be counted once";
         EXPECT_EQ(drops.dropped(), 3U);
     }
 }

@@ -123,7 +123,7 @@ TEST(JpegDecoder, DamagedPicturesAreDroppedAndReleaseTheirBuffer) {
         EXPECT_FALSE(decoder.decode({jpeg.data(), bytes}, {}).has_value()) << bytes;
     EXPECT_FALSE(decoder.decode(encoded(TJSAMP_444), {}).has_value());
     JpegDecoder other({kJpegSize.width, kJpegSize.height + 2}, 1);
-    EXPECT_FALSE(other.decode(jpeg, {}).has_value()) << "another size";
+    EXPECT_FALSE(other.decode(jpeg, {}).has_value()) << "a picture of another size must be refused";
     EXPECT_TRUE(decoder.decode(jpeg, {}).has_value());
 }
 

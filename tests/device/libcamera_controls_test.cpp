@@ -66,7 +66,7 @@ TEST_F(LibcameraControls, AnUnknownNameListsTheControls) {
     EXPECT_TRUE(hasControl(camera_, "ExposureTime"));
 }
 
-TEST_F(LibcameraControls, ValuesOutOfTypeOrRangeAreRefused) {
+TEST_F(LibcameraControls, ValuesOfTheWrongTypeOrOutOfRangeAreRefused) {
     for (const char* text : {"99", "66001", "", "8000.5", "8000us", "4294967396", "x"})
         expectRefused("ExposureTime", text);
     for (const char* text : {"nan", "inf", "0.5", "17", "1.0x"})

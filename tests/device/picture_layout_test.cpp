@@ -33,7 +33,7 @@ TEST_F(PictureLayoutTest, PlanesOfOneMemoryFollowEachOther) {
     EXPECT_EQ(yuv.chroma[1].stride, 40U);
 }
 
-TEST_F(PictureLayoutTest, SeparatePlanesAreTakenAsTheyAre) {
+TEST_F(PictureLayoutTest, SeparatePlanesKeepTheirLayout) {
     const std::array<PlaneBytes, 3> planes{PlaneBytes{&memory_[50'000], 80 * 48},
                                            PlaneBytes{&memory_[0], 40 * 24},
                                            PlaneBytes{&memory_[9'000], 40 * 24}};

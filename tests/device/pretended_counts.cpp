@@ -1,7 +1,7 @@
 #include "tests/device/pretended_counts.h"
 
-/// For another library in the same program: the number of pictures that the program should have
-/// refused, the gain that it set, and the number of pictures that it took before it set the gain.
+/// Tells another library in the same program about the use of `camera`: how many pictures the
+/// program should have refused, the gain that it set, and how many pictures it took before that.
 /// NOLINTNEXTLINE(readability-identifier-naming)
 extern "C" void mfar_pretended_known(const char* camera, std::uint64_t* broken,
                                      std::uint64_t* badTimes, std::int64_t* gain,

@@ -18,7 +18,7 @@ namespace {
 
 using mfar::test::PretendedDrm;
 
-// Ids of the objects. The id of a property is its index in kProperties.
+// Ids of the KMS objects. The id of a property is its index in kProperties.
 constexpr std::uint32_t kCrtc = 10, kConnector = 20, kPlane = 30, kEncoder = 40;
 constexpr std::uint32_t kConsole = 99, kFirstProperty = 100;
 constexpr std::array<std::string_view, 12> kProperties = {"CRTC_ID", "MODE_ID", "ACTIVE", "FB_ID",

@@ -102,7 +102,7 @@ TEST(PulseTrigger, LineIsInactiveFromTheStart) {
     EXPECT_FALSE(wire->all()[0].active);
 }
 
-TEST(PulseTrigger, PulseIsNeverShorterThanAskedAndItsEdgeIsTimed) {
+TEST(PulseTrigger, PulseIsNeverShorterThanRequestedAndItsStartIsTimed) {
     for (const microseconds pulse :
          {microseconds{20}, microseconds{1000}, microseconds{1500}, microseconds{5000}}) {
         const auto wire = std::make_shared<Wire>();
@@ -134,7 +134,7 @@ TEST(PulseTrigger, SecondPulseDuringTheFirstIsRefused) {
     const auto trigger = triggerOn(wire, 10s);
     trigger->fire();
     EXPECT_THROW(trigger->fire(), TriggerBusy);
-    EXPECT_EQ(wire->all().size(), 2U) << "the refused pulse has not touched the line";
+    EXPECT_EQ(wire->all().size(), 2U) << "a refused pulse must not change the line";
 }
 
 TEST(PulseTrigger, FiresAgainOnceThePulseIsOver) {
@@ -167,7 +167,8 @@ TEST(PulseTrigger, PulseCanBeEndedEarlyAndTheNextHasItsFullLength) {
     const std::vector<Level> levels = wire->all();
     EXPECT_GE(levels.back().time - levels[levels.size() - 2].time, 100ms);
     trigger->endPulse();
-    EXPECT_EQ(wire->all().size(), levels.size()) << "driven without need";
+    EXPECT_EQ(wire->all().size(), levels.size())
+        << "endPulse() must not drive a line that is already inactive";
 }
 
 TEST(PulseTrigger, LoopbackMeasuresStartAndLength) {
@@ -188,7 +189,7 @@ TEST(PulseTrigger, LoopbackMeasuresStartAndLength) {
     }
 }
 
-TEST(PulseTrigger, MissedEdgesAreCountedAndNotConfusedWithOthers) {
+TEST(PulseTrigger, MissedEdgesOfTheLoopbackAreCounted) {
     for (const int lost : {1, 2}) {
         for (const microseconds pulse : {microseconds{50}, microseconds{3000}}) {
             const auto wire = std::make_shared<Wire>();
@@ -201,7 +202,8 @@ TEST(PulseTrigger, MissedEdgesAreCountedAndNotConfusedWithOthers) {
             EXPECT_FALSE(trigger->measured());
             const std::vector<Level> levels = wire->all();
             EXPECT_GE(edge, before);
-            EXPECT_LT(edge, levels[2].time) << "not the trailing edge";
+            EXPECT_LT(edge, levels[2].time)
+                << "the end of the pulse must not be taken for its start";
         }
     }
 }
@@ -237,7 +239,7 @@ TEST(PulseTrigger, PulseThatCouldNotBeEndedIsReportedByTheNextFire) {
     while (fault.empty()) {
         try {
             trigger->fire();
-            FAIL() << "fired over a pulse that is still on";
+            FAIL() << "fire() must fail while the line could not be deactivated";
         } catch (const TriggerBusy&) {
             std::this_thread::sleep_for(1ms);
         } catch (const std::runtime_error& error) {

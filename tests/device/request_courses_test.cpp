@@ -63,7 +63,7 @@ public:
     }
     int queue(std::size_t request) override {
         EXPECT_TRUE(running_);
-        EXPECT_EQ(at_[request], At::Cycle) << "queued twice: " << request;
+        EXPECT_EQ(at_[request], At::Cycle) << "a request was queued twice: " << request;
         at_[request] = At::Driver;
         isCancelled_[request] = false;
         return 0;
@@ -174,13 +174,14 @@ public:
         EXPECT_FALSE(has(At::Driver));
     }
 
-    /// A request that nobody holds is lost, unless it was cancelled.
+    /// Compares the cycle with the model. A request that neither the driver nor the user holds, nor
+    /// is ready, must have been cancelled; otherwise it is lost.
     void check() const {
         EXPECT_EQ(cycle.restarts(), restarts_);
         EXPECT_EQ(cycle.delivered(), delivered_);
         if (!running_ || isLost) return;
         for (std::size_t i = 0; i < kRequests; ++i)
-            EXPECT_TRUE(at_[i] != At::Cycle || isCancelled_[i]) << "lost: " << i;
+            EXPECT_TRUE(at_[i] != At::Cycle || isCancelled_[i]) << "a request was lost: " << i;
         EXPECT_TRUE(has(At::Driver) || has(At::Ready) || has(At::User) || restartAt);
     }
     void close() {
@@ -214,7 +215,8 @@ private:
         return cycle.next(milliseconds(0));
     }
     [[nodiscard]] bool has(At where) const { return std::ranges::find(at_, where) != at_.end(); }
-    /// Takes a random request from this place and hands it to the cycle.
+    /// Chooses a random one of the requests at `where` and hands it to the cycle. Returns its
+    /// index; empty if there is none.
     std::optional<std::size_t> take(At where) {
         std::vector<std::size_t> those;
         for (std::size_t i = 0; i < kRequests; ++i)
@@ -228,7 +230,7 @@ private:
     Chance& chance_;
     std::thread stopper_;
     std::array<At, kRequests> at_{};
-    std::array<bool, kRequests> isCancelled_{};  ///< requests cancelled since one was completed
+    std::array<bool, kRequests> isCancelled_{};  ///< cancelled, and none was completed since then
     std::deque<std::size_t> ready_;
     bool running_ = false;
     Timestamp begun_;
@@ -330,7 +332,7 @@ private:
     std::uint64_t served_ = 0;
 };
 
-TEST(RequestCourses, LoseNoRequestAndDisturbNoOtherCamera) {
+TEST(RequestCourses, RandomCoursesLoseNoRequestAndDisturbNoOtherCamera) {
     Seen seen;
     for (std::uint32_t seed = 1; seed <= kSeeds && !HasFailure(); ++seed) {
         SCOPED_TRACE(testing::Message() << "seed " << seed);

@@ -140,7 +140,7 @@ TEST(RequestCycle, PartialCancellationDoesNotRestart) {
     EXPECT_EQ(camera.cycle.restarts(), 0U);
 }
 
-TEST(RequestCycle, EarlyEndsInARowAreRestartedLaterAndLaterUntilTheDeviceIsLost) {
+TEST(RequestCycle, PausesBeforeRestartsGrowUntilTheDeviceCountsAsLost) {
     constexpr RestartLimits kLimits{
         .early = milliseconds(60'000), .firstPause = milliseconds(10), .most = 5};
     FakeDriver camera(kLimits);

@@ -31,13 +31,13 @@ TEST(SensorClock, FutureMonotonicTimesSelectBoottime) {
     }
     EXPECT_EQ(clock.kind(), SensorClock::Kind::Boottime);
     EXPECT_EQ(clock.toMonotonic(kNow + 5h - 30ms, sleptFor(5h)), kNow - 30ms)
-        << "the machine has slept again";
+        << "another suspend must not change the clock";
 }
 
 TEST(SensorClock, AShortSuspendIsDetectedByAnyOfTheFirstFrames) {
     SensorClock clock;
     EXPECT_EQ(clock.toMonotonic(kNow + 20ms - 30ms, sleptFor(20ms)), kNow - 10ms)
-        << "cannot be told";
+        << "this short suspend cannot be detected from this frame";
     EXPECT_EQ(clock.toMonotonic(kNow + 20ms - 5ms, sleptFor(20ms)), kNow - 5ms);
     EXPECT_EQ(clock.kind(), SensorClock::Kind::Boottime);
 }

@@ -78,7 +78,8 @@ TEST_F(V4l2ControlsTest, ListHasAllControlsExceptTitlesAndDisabledOnes) {
 TEST_F(V4l2ControlsTest, ValuesAreSetAndReadBack) {
     const V4l2Controls controls(device_);
     EXPECT_EQ(controls.get("brightness"), 100);
-    EXPECT_EQ(controls.set("BRIGHTNESS", 203), 200) << "what the driver made of it";
+    EXPECT_EQ(controls.set("BRIGHTNESS", 203), 200)
+        << "set() must return the value that the driver chose";
     EXPECT_EQ(controls.get("Brightness"), 200);
     EXPECT_EQ(controls.set("exposure us", std::int64_t{5'000'000'000}), 5'000'000'000);
     EXPECT_EQ(controls.get("exposure_us"), 5'000'000'000);
@@ -100,7 +101,7 @@ TEST_F(V4l2ControlsTest, ValuesMayBeNumbersWordsOrMenuEntries) {
 TEST_F(V4l2ControlsTest, ButtonsArePressed) {
     const V4l2Controls controls(device_);
     controls.press("single trigger");
-    EXPECT_EQ(fake_.control("single_trigger"), 0) << "a button of step 0 keeps no value";
+    EXPECT_EQ(fake_.control("single_trigger"), 0) << "a button must not keep a value";
     EXPECT_EQ(errorOf([&] { controls.press("brightness"); }),
               "/dev/video0: control brightness is not a button");
     EXPECT_EQ(errorOf([&] { static_cast<void>(controls.get("single_trigger")); }),
@@ -147,7 +148,7 @@ TEST_F(V4l2ControlsTest, BusyControlsAreTriedThreeTimes) {
     gain.error = EINVAL;
     gain.refusals = 3;
     EXPECT_NE(errorOf([&] { controls.set("held_gain", 4); }), "no error");
-    EXPECT_EQ(gain.refusals, 2) << "an answer that will not change";
+    EXPECT_EQ(gain.refusals, 2) << "a permanent refusal must not be tried again";
 }
 
 TEST_F(V4l2ControlsTest, LostDeviceIsReported) {

@@ -141,7 +141,8 @@ TEST_P(DetailEngineTest, WholeFrameMatchesTheOracleAtAnySize) {
     }
 }
 
-/// Error statistics of a picture over all channels. `of` returns the wanted value of a channel.
+/// Expects that each channel of each pixel has the value of(x, y, channel), with an error of at
+/// most `most`.
 template <class F>
 void expectPicture(Rows<const std::uint32_t> drawn, F&& of, double most) {
     for (int y = 0; y < drawn.size.height; ++y)
@@ -151,7 +152,8 @@ void expectPicture(Rows<const std::uint32_t> drawn, F&& of, double most) {
                     << drawn.size.width << ": " << x << " " << y << " " << c;
 }
 
-// Tolerance: luma has units of 1/8 grey level, and the limits have units of a quarter of that.
+// Tolerance [grey levels]: luma is rounded to 1/8 grey level, and the limits of the learned
+// residual are a quarter of a difference of such values.
 constexpr double kLearnedError = 1.3;
 
 TEST_P(DetailEngineTest, LearnedFramesMatchTheOracleWithAndWithoutAStill) {
@@ -259,7 +261,8 @@ void expectOnlyChangedTiles(const StepEngines& engines, const simd::Sizes& sizes
             most = std::max(most, std::abs(static_cast<int>(channel(all, x, y, 1)) -
                                            static_cast<int>(channel(old, x, y, 1))));
         }
-    EXPECT_TRUE(most > 5 || output == video) << "what the still shows moves: " << most;
+    EXPECT_TRUE(most > 5 || output == video)
+        << "the test needs a still that changes the picture; change: " << most;
 }
 
 TEST_P(DetailEngineTest, OnlyChangedTilesAreDrawnAndMatchAWholeFrame) {
@@ -316,7 +319,8 @@ TEST_P(DetailEngineTest, OnlyChangedTilesShowASecondStill) {
                 ASSERT_EQ(drawn[y][x], changed ? wanted[y][x] : before) << x << " " << y;
                 differs += wanted[y][x] != before ? 1 : 0;
             }
-        EXPECT_GT(differs, output.width * output.height / 10) << "the second still shows nothing";
+        EXPECT_GT(differs, output.width * output.height / 10)
+            << "the second still must change the picture";
         EXPECT_GT(some.summary().second, 0);
         EXPECT_LT(some.summary().second, all.summary().second);
         // The next frame uses only one still; the second still must leave nothing behind.
@@ -339,7 +343,8 @@ void expectNear(Rows<const std::uint32_t> a, Rows<const std::uint32_t> b, double
     EXPECT_LE(std::sqrt(squares / (3.0 * a.size.width * a.size.height)), rms) << a.size.width;
 }
 
-// The kernels average the warped still; so the still must be finer than the video.
+// The kernels average the warped still, the shaders the still itself. Both give the same mean only
+// if the output is finer than the video.
 void expectTheSamePicture(const FilterBank* filters, double most, double rms) {
     for (const auto& [video, stillSize, output] : simd::kSizes) {
         if (2 * output.width < 3 * video.width) continue;

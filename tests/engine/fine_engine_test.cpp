@@ -147,11 +147,11 @@ protected:
     }
 };
 
-TEST_F(FineEngines, HostSharesMatchTheOracle) {
+TEST_F(FineEngines, WeightSharesOfTheFineCheckOnTheHostMatchTheOracle) {
     expectTheOracles(onHost);
 }
 
-TEST_F(FineEngines, GpuSharesMatchTheOracle) {
+TEST_F(FineEngines, WeightSharesOfTheFineCheckOnTheGpuMatchTheOracle) {
     expectTheOracles(onGpu);
 }
 

@@ -72,7 +72,7 @@ struct Difference {
     double median = 0;  ///< median difference [px]
     double cost = 0;    ///< mean difference of the matching costs
 };
-constexpr double kClose = 0.02;  // [px]
+constexpr double kClose = 0.02;  // largest difference of two flows that count as close [px]
 
 Difference differenceOf(const std::vector<Cell>& gl, Rows<const FlowCell> host) {
     std::vector<double> off;
@@ -118,7 +118,7 @@ TEST_F(Flow2dEngines, BothEnginesFindTheSameFlow) {
 
 TEST_F(Flow2dEngines, BothEnginesFindTheSameFlowOnAPhotograph) {
     const std::filesystem::path folder = std::filesystem::path(MFAR_SHARED_DATA) / "rubberwhale";
-    if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is absent";
+    if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " does not exist";
     const auto load = [&](const char* name) {
         const cv::Mat grey = cv::imread((folder / name).string(), cv::IMREAD_GRAYSCALE);
         TestPicture out({grey.cols, grey.rows}, PixelFormat::Gray8);

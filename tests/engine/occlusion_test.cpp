@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(
                                      Sides{{40, 30}, {160, 120}})));
 
 // Real depth has a step: most pixels need no weights, and all kinds of results occur.
-TEST_P(OcclusionTest, EarlyExitsGiveTheWeightedResult) {
+TEST_P(OcclusionTest, PixelsThatAreDecidedEarlyEqualWeighedOnes) {
     twin::Scene scene = plainScene({0.4, 0.01});
     for (std::size_t i = 0; i < scene.real.size(); ++i)
         if (i % kCoarse.width > 20) scene.real[i].inverseDepth = 0.8;
@@ -91,7 +91,7 @@ TEST_P(OcclusionTest, UnknownNeighboursNeverReduceVisibility) {
     expectOracles(run(scene, {}), scene, {});
 }
 
-TEST_P(OcclusionTest, ExtremeKnownValuesAreCompared) {
+TEST_P(OcclusionTest, ExtremeValidDepthsAreComparedCorrectly) {
     struct Case {
         twin::RealSample real;
         double z, visible;

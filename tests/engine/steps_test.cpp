@@ -33,7 +33,7 @@ TileWork everything(Size video) {
     return work;
 }
 
-/// A level as it is stored. Checks that its margin repeats the border.
+/// Reads a pyramid level from memory. Checks that its margin repeats the border.
 twin::Grey levelOf(const LumaPyramid& pyramid, const LumaLevel& level) {
     const std::uint32_t* words = pyramid.words.host().data + level.offset;
     const auto stored = [&](int x, int y) {  // the stored columns begin at x = -8
@@ -45,7 +45,7 @@ twin::Grey levelOf(const LumaPyramid& pyramid, const LumaLevel& level) {
     for (int y = 0; y < level.height; ++y)
         for (int x = -8; x < 4 * level.pitch - 8; ++x)
             if (stored(x, y) != out.at(x, y)) {
-                ADD_FAILURE() << "margin at " << x << ", " << y;
+                ADD_FAILURE() << "the margin does not repeat the border at " << x << ", " << y;
                 return out;
             }
     return out;
@@ -162,8 +162,8 @@ TEST_P(StepsTest, WithoutAStillTheVideoIsEnlarged) {
     for (const Size output : {Size{191, 133}, Size{61, 140}, Size{424, 296}})
         for (const bool cubic : {true, false}) {
             const auto engine = engineFor(plainRig(video, output), output);
-            // Tolerance: shaders round columns to 8 bits; kernels have rows in 1/64 grey level and
-            // products in 1/32.
+            // Tolerance [grey levels]: shaders round columns to 8 bits; kernels round rows to 1/64
+            // grey level and products to 1/32 grey level.
             const double gain = cubic ? twin::kCubicGain : 1;
             const double most = isGles() ? 0.51 * (1 + gain) : 0.65;
             expectEnlarged(*engine, Waves(1, 3, 40, 20).shoot(video, {}), output, cubic, most);

@@ -24,7 +24,8 @@
 namespace mfar::faults {
 namespace {
 
-/// The settings of the still camera's trigger and of super-resolution are appended.
+/// Start of the configuration file. setUp() appends the settings of the still camera's trigger and
+/// of super-resolution.
 constexpr std::string_view kConfiguration = R"(source = "cameras"
 [record]
 least_free_mb = 0
@@ -55,7 +56,7 @@ rate_hz = 2.0
 )";
 constexpr std::string_view kNoTrigger = "rate_hz = 5.0\n";
 
-/// The mode is appended.
+/// Section [superres]; its key `mode` is appended.
 constexpr std::string_view kSuperRes = R"([superres]
 learn = false
 )";
@@ -125,11 +126,11 @@ void Board::setUp(const Plan& plan) {
         writeDevice(device);
     replace("mfard.toml", fmt::format("{}mode = \"{}\"\n", configuration_, plan.mode));
     if (mkfifo(kPipe, 0600) != 0 && errno != EEXIST)
-        throw std::runtime_error("no pipe can be made");
+        throw std::runtime_error("a pipe for the screen cannot be created");
 }
 
 void Board::writeDevice(Where which) const {
-    // Only the time of the video picture appears on the screen; so stills have none.
+    // The judge reads the time of the video picture from the screen. Stills need no time stamp.
     std::string text = which == Where::Still ? "plain " : "";
     if (which == Where::Still && hasTrigger_) text += "triggered ";
     for (const Fault* fault : active_)
@@ -178,7 +179,7 @@ void Board::disturb(const Fault& fault, int by) {
         return Scheduler::get().stepWall(by * kSteps[static_cast<std::size_t>(fault.number)]);
     case Where::Disk: (fault.number == 0 ? diskFull_ : diskHangs_) += by; return;
     case Where::Descriptors:
-        // If two such faults overlap, both end with the first.
+        // If two faults of this kind overlap, both end as soon as the first one ends.
         if (by > 0) return limitDescriptors(fault.number);
         if (descriptors_) setrlimit(RLIMIT_NOFILE, &*descriptors_);
         return descriptors_.reset();

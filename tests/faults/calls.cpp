@@ -169,7 +169,7 @@ void sleepUntil(Ns deadline) {
 
 using namespace mfar::faults;
 
-// Replacements for clocks.
+// Replacements of the C library's functions that read clocks.
 
 MFAR_TAKES_OVER int clock_gettime(clockid_t clock, timespec* out) noexcept {
     if (!isOurs(clock)) return real().clock(clock, out);
@@ -213,7 +213,7 @@ MFAR_TAKES_OVER int sched_yield() noexcept {
     return 0;
 }
 
-// Replacements for threads.
+// Replacements of the C library's functions for threads.
 
 MFAR_TAKES_OVER int pthread_create(pthread_t* thread, const pthread_attr_t* attributes,
                                    void* (*start)(void*), void* argument) noexcept {

@@ -30,7 +30,7 @@ constexpr Ns kUs = 1000;
 constexpr Ns kEndTime = 3 * kSecond;  ///< longest time from SIGTERM to the end
 /// Longest time from the start to READY, whatever the devices do.
 constexpr Ns kReadyTime = 5 * kSecond;
-/// Pause between episodes. In it, late effects end, and mfard is checked without faults.
+/// Pause between episodes, in which late effects of faults end and mfard is checked without faults.
 constexpr Ns kQuiet = 4500 * kMs;
 
 long numberOf(const char* variable, long otherwise) {
@@ -246,7 +246,8 @@ void awaitReady() {
     const Ns begin = Scheduler::get().now();
     while (!Judge::get().isReady())
         sleepFor(10 * kMs);
-    if (Scheduler::get().now() - begin > kReadyTime) Judge::get().fail("mfard is ready too late");
+    if (Scheduler::get().now() - begin > kReadyTime)
+        Judge::get().fail("mfard became ready later than 5 s after its start");
 }
 
 /// The run in a folder whose previous process was killed.

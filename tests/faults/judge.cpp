@@ -23,11 +23,12 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// What the product promises, see daemon/budgets.h and the service's unit.
+// Time limits that mfard promises to keep, see daemon/budgets.h and its systemd unit: age of a
+// stale picture, time until a silent camera is reported, time until all is well after a fault.
 constexpr Ns kStale = 3 * kSecond, kMarked = 250 * kMs, kBack = 3 * kSecond;
 constexpr Ns kVideoBudget = 1500 * kMs, kWriter = 2500 * kMs;
 constexpr Ns kPicture = 2000 * kMs;
-constexpr Ns kRepeats = 200 * kMs;  ///< the duration of some pictures
+constexpr Ns kRepeats = 200 * kMs;  ///< time in which a repeated picture is recognised
 constexpr Ns kLookTime = kSecond;   ///< how often mfard checks its threads
 constexpr Ns kSameLine = 10 * kSecond;
 constexpr std::uint64_t kProvenFrames = 10;
@@ -115,7 +116,8 @@ void Judge::change(const Fault& fault, int by) {
 }
 
 void Judge::begins(const Fault& fault) {
-    // If the device is closed, mfard is opening it, which may hang far longer.
+    // Opening a device may hang far longer than reading from it. So a hanging driver is timed only
+    // if the camera worked before, when mfard has it open.
     const bool wasSound = calm_[VideoDevice].lasts(kBack, now());
     const int before = calm_[VideoDevice].active;
     change(fault, 1);
@@ -142,15 +144,15 @@ Ns Judge::age(Ns at) const {
     return shown_ ? at - *shown_ : 0;
 }
 
-/// How long a fault of the video camera has kept it from sending.
+/// How long the video camera has sent nothing because of a fault.
 Ns Judge::missing(Ns at) const {
     const Calm& device = calm_[VideoDevice];
     return device.active > 0 ? std::min(age(at), at - device.since) : 0;
 }
 
-/// How long a fault of the GPU has kept it from finishing a picture. 0 in three cases: during the
-/// first pictures, which may take longer; without a camera; after mfard has given up the GPU, which
-/// then draws nothing.
+/// How long the GPU has finished no picture because of a fault. 0 in three cases: during the first
+/// pictures, which may take longer; without a camera; after mfard has given up the GPU, which then
+/// draws nothing.
 Ns Judge::unfinished(Watched gpu, Ns at) const {
     if (calm_[gpu].active == 0 || calm_[Video].active > 0) return 0;
     if (frames_ < kProvenFrames || isGpuGivenUp_) return 0;
@@ -172,8 +174,8 @@ void Judge::judgeState(const ordered_json& said, Ns asked) {
     isGpuGivenUp_ = isGpuGivenUp_ || cause.find("the CPU draws") != cause.npos;
     const std::string fault = textOf(said, "fault");
     const bool isFine = state == "ok" && fault.empty();
-    // A pipe without a reader takes some pictures. The next picture may wait for the whole budget
-    // of the writer.
+    // A pipe without a reader still holds some pictures. The next picture may wait as long as the
+    // writing thread's time budget allows.
     const Ns stalled = asked - std::max(calm_[Screen].since, calm_[Video].since);
     // A repeated picture is recognised only after several pictures.
     const bool repeats = calm_[Video].active > calm_[VideoDevice].active;
@@ -272,7 +274,7 @@ void Judge::terminated() {
 }
 
 void Judge::ended(int code, bool inTime) {
-    if (!inTime) fail("mfard does not end in time");
+    if (!inTime) fail("mfard did not end within 3 s after SIGTERM");
     if (code != 0) fail(fmt::format("mfard ends with exit code {}", code));
     if (terminated_)
         count("ms from SIGTERM to the end",

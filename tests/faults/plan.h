@@ -40,7 +40,7 @@ struct Kind {
     Where where;
     Effect effect;
     std::string_view words;   ///< words for the file of the camera or GPU; a number replaces *
-    int least = 0, most = 0;  ///< range of this number
+    int least = 0, most = 0;  ///< range of the number that replaces *
 };
 
 struct Fault {
@@ -54,16 +54,17 @@ struct Fault {
 using Episode = std::vector<Fault>;
 
 struct Plan {
-    bool beginsBroken = false;                  ///< the first episode begins before the program
+    bool beginsBroken = false;                  ///< the first episode begins before mfard starts
     std::string_view mode;                      ///< super-resolution mode
     [[nodiscard]] bool recordsAtStart() const;  ///< true if the disk is also faulty at the start
     std::vector<Episode> episodes;
-    Ns endAfter = 0;               ///< time of the signal after the start of the last episode
+    Ns endAfter = 0;               ///< time from the start of the last episode to the end signal
     bool hasTrigger = false;       ///< the still camera waits for trigger pulses
     bool endsBeforeReady = false;  ///< mfard ends before or soon after READY
     bool isKilled = false;         ///< ended with SIGKILL instead of SIGTERM, then started again
 
-    /// Draws from the kinds whose names contain `only`. Throws std::runtime_error if no name does.
+    /// Chooses random faults of the kinds whose names contain `only`. Throws std::runtime_error if
+    /// no name does.
     [[nodiscard]] static Plan drawn(std::uint64_t seed, int episodes, std::string_view only,
                                     bool hasGpu);
 };

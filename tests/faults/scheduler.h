@@ -45,7 +45,7 @@ public:
     int waitForFiles(pollfd* fds, nfds_t count, Ns deadline);
     /// Gives other tasks a turn.
     void yield();
-    /// Yields in some of the calls.
+    /// Gives other tasks a turn in a random share of the calls.
     void maybeYield();
 
     /// Makes a timer's descriptor readable at `first` (0: never), and then every `period` (0: only

@@ -99,7 +99,7 @@ TEST(Census, IsInvariantToRisingToneCurves) {
 }
 
 // Where a curve makes neighbours equal, bits may be cleared, but no bit may be set.
-TEST(Census, FlatterCurvesNeverReverseAnOrder) {
+TEST(Census, FlatterToneCurvesClearBitsButNeverSetOnes) {
     const LumaImage picture = randomPicture({31, 23}, 0, 255, 9);
     const auto bits = censusOf(picture);
     const auto flat = censusOf(toned(picture, [](double v) { return 100 + v / 5; }));
@@ -111,7 +111,7 @@ TEST(Census, FlatterCurvesNeverReverseAnOrder) {
     EXPECT_GT(gone, 0);
 }
 
-TEST(Census, RowsMayBeComputedApart) {
+TEST(Census, RowsComputedSeparatelyGiveTheSameCensus) {
     const LumaImage picture = randomPicture({19, 14}, 0, 255, 11);
     const auto whole = censusOf(picture);
     std::vector<std::uint32_t> parts(picture.pixels.size(), 0xFFFFFFFFU);

@@ -149,7 +149,7 @@ TEST(EpipolarLens, RaysFarBesideThePictureStayOutsideIt) {
     }
 }
 
-TEST(EpipolarLens, StateIsTheInverseDepthOfTheSecondView) {
+TEST(EpipolarLens, SIsTheInverseDepthInTheSecondView) {
     std::mt19937 random(9);
     std::uniform_real_distribution<double> unit(-1, 1);
     for (const CameraModel& camera : {test::oddPlain(), test::oddBarrel()}) {

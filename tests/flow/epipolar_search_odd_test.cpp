@@ -1,4 +1,4 @@
-// Hostile pictures and poses; independence of earlier frames.
+// Tests EpipolarSearch with extreme pictures and poses, and that earlier frames have no influence.
 #include "pipeline/epipolar/epipolar_search.h"
 #include "tests/flow/flow_scene.h"
 

@@ -48,9 +48,9 @@ EpipolarSearch searched(const View& view, int threads = 2) {
     return search;
 }
 
-// Upper limits of the median error. A cost is that of the nearest pixel. The search corrects for
-// the distance of this pixel along the line, but not for its distance from the line. Results are
-// also biased towards pixel centres.
+// Upper limits of the median error [px]. A cost is that of the nearest pixel. The search corrects
+// for the distance of this pixel along the line, but not for its distance from the line. Results
+// are also biased towards pixel centres.
 constexpr double kAcross = 0.38, kAlongAxis = 0.22;
 
 void expectErrors(const View& view, double median, double bad) {
@@ -249,7 +249,7 @@ TEST(EpipolarSearch, SearchingAPartGivesTheSameResultAsTheWhole) {
     EXPECT_EQ(search.inverseDepth(), whole.inverseDepth());
 }
 
-TEST(EpipolarSearch, GainAndGammaChangeLittle) {
+TEST(EpipolarSearch, GainAndGammaLowerTheAccuracyOnlyALittle) {
     const View view{plain(), stepScene(), motion({0, 2, 0}, {-0.2, 0.03, 0})};
     const LumaImage video = view.video(), still = view.still();
     const double plainBad = errorsOf(searched(view), view).bad;
@@ -268,7 +268,7 @@ TEST(EpipolarSearch, GainAndGammaChangeLittle) {
     }
 }
 
-TEST(EpipolarSearch, NoiseCostsLittle) {
+TEST(EpipolarSearch, NoiseLowersTheAccuracyOnlyALittle) {
     const View view{plain(), slantedScene(), motion({0, 2, 0}, {-0.2, 0.03, 0})};
     std::mt19937 random(4);
     std::normal_distribution<double> noise(0, 5);

@@ -64,10 +64,10 @@ TEST(FieldPrediction, InverseDepthsMoveToTheNextFrameAccordingToThePoses) {
     // Only cells at the panel's edges may be missed.
     EXPECT_LT(missed(predicted, expected, cells.size()), 0.03);
     EXPECT_GT(missed(truth(cells, before, slantedStep()), expected, cells.size()), 0.2)
-        << "what to beat";
+        << "the test needs a motion that changes the field";
 }
 
-TEST(FieldPrediction, EveryFrameHasItsOwnUnit) {
+TEST(FieldPrediction, EveryFrameHasItsOwnUnitOfLength) {
     const EpipolarLens cells(barrelCamera(), 2);
     const RigidTransform before = motion({1, -2, 3}, {-0.2, 0.05, 0.1});
     const RigidTransform after = motion({1.5, -2.6, 1.5}, {-0.26, 0.07, 0.16});
@@ -93,7 +93,7 @@ TEST(FieldPrediction, TheNearestSurfaceOccludesOthers) {
     const auto predicted = prediction.in(motion({0, 0, 0}, {-2 * 2 / 62.0, 0, 0}), 1);
     ASSERT_FALSE(predicted.empty());
     EXPECT_FLOAT_EQ(predicted[middle + 2], 0.5F);
-    EXPECT_EQ(predicted[middle], 0) << "what comes to light is the background";
+    EXPECT_EQ(predicted[middle], 0) << "the uncovered cell must show the background";
 }
 
 TEST(FieldPrediction, UnseenCellsHaveNoPrediction) {

@@ -84,7 +84,7 @@ TEST(EpipolarOptions, ChangesBetweenFramesActAsInitialOptions) {
     search.setOptions({.levels = 1, .finest = 1});
     ASSERT_TRUE(search.run(video, view.T_still_video));
     EXPECT_EQ(test::errorsOf(search, view).median, errorsWith({.finest = 1}).median)
-        << "levels stay";
+        << "a change of `levels` between frames must have no effect";
     search.setOptions({});
     ASSERT_TRUE(search.run(video, view.T_still_video));
     EXPECT_EQ(test::errorsOf(search, view).median, errorsWith({}).median);

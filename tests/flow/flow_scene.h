@@ -18,8 +18,7 @@ struct Surface {
     Eigen::Vector2d least{-1e9, -1e9}, greatest{1e9, 1e9};
 };
 
-/// A scene of surfaces of unit size. `grain`: cells of texture that the camera sees on such a
-/// surface.
+/// A scene of plane, textured surfaces.
 struct Scene {
     std::vector<Surface> surfaces;
     double grain = 20;     ///< cells of the finest texture per unit of length
@@ -52,7 +51,7 @@ using mfar::viewOf;
 /// A search for two cameras with equal lenses.
 [[nodiscard]] EpipolarSearch searchWith(const CameraModel& camera, int threads);
 
-/// The place in the still that a search finds for a pixel of the frame.
+/// The position in the still that a search finds for a pixel of the frame.
 [[nodiscard]] Eigen::Vector2d landing(const EpipolarSearch& search, const View& view, int x, int y);
 
 /// Errors of the flow that a search found [px], over the pixels that the still shows.
@@ -63,7 +62,7 @@ struct FlowErrors {
 };
 [[nodiscard]] FlowErrors errorsOf(const EpipolarSearch& search, const View& view);
 
-/// True if the whole field is finite.
+/// True if all flow vectors of the search's result are finite.
 [[nodiscard]] bool isFinite(const EpipolarSearch& search);
 
 /// Rotates by the angles [degrees] about x, then y, then z. Then translates.

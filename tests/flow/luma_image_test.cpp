@@ -75,7 +75,7 @@ TEST(LumaOf, BgraIsRgbaWithRedAndBlueExchanged) {
     }
 }
 
-TEST(LumaOf, PicturesWithLumaKeepIt) {
+TEST(LumaOf, TheLumaPlaneOfYuvPicturesIsCopied) {
     Workers workers(2);
     for (const PixelFormat format : {PixelFormat::Yuyv, PixelFormat::Nv12, PixelFormat::Yuv420}) {
         const test::PaddedPicture picture(format, {22, 14}, 3);
@@ -132,7 +132,7 @@ TEST(Halve, IsTheMeanOfFourWithTheBorderRepeated) {
     }
 }
 
-TEST(Halve, KeepsTheExtremes) {
+TEST(Halve, KeepsBlackAndWhite) {
     LumaImage coarse;
     for (const int grey : {0, 1, 254, 255}) {
         halve(pictureOf({9, 7}, [&](int, int) { return grey; }), coarse);

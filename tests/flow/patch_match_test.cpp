@@ -34,7 +34,7 @@ std::optional<Eigen::Vector2d> placed(const PatchMatcher& matcher, PatchPlace pl
     return found ? matcher.polish(place, *found) : std::nullopt;
 }
 
-TEST(TexturedPlaces, PlacesLieWhereTheTextureIs) {
+TEST(TexturedPlaces, PlacesAreChosenWhereThePictureHasTexture) {
     const LumaImage picture =
         drawn({160, 120}, [](double x, double y) { return x < 80 ? waves(x, y) : 90; });
     const auto places = texturedPlaces(picture, 0);
@@ -113,7 +113,7 @@ TEST(PatchMatcher, MissingPatchesAreRefused) {
     EXPECT_FALSE(PatchMatcher(from, from, nothing).polish(place, place.middle()));
 }
 
-TEST(PatchMatcher, StaysWithinThePicture) {
+TEST(PatchMatcher, MatchesStayWithinThePicture) {
     const LumaImage from = drawn({40, 30}, waves), to = drawn({24, 20}, waves);
     const auto seen = allSeen(to);
     const PatchMatcher matcher(from, to, seen);

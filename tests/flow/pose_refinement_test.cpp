@@ -67,7 +67,7 @@ struct Shots {
     Shots(const View& v) : view(v), video(v.video()), still(v.still()) {}
 };
 
-/// A search whose pose has the error `error`.
+/// A search with a pose that has the error `error`.
 EpipolarSearch searched(const Shots& shots, const RigidTransform& error,
                         const Matrix6& covariance) {
     EpipolarSearch search = test::searchWith(shots.view.camera, 2);
@@ -112,7 +112,8 @@ TEST(PoseRefinement, CorrectsEpipolarLinesToAQuarterPixel) {
             const RigidTransform error = motion(off, {0, 0, 0});
             const EpipolarSearch search = searched(shots, error, kUsual);
             const double before = missOf(view.T_still_video * error, view);
-            EXPECT_LT(missOf(search.pose(), view), 0.25) << off.transpose() << ", was " << before;
+            EXPECT_LT(missOf(search.pose(), view), 0.25)
+                << off.transpose() << ", error before the refinement: " << before;
             EXPECT_LT(search.refinement().normalAfter, 0.25);
             EXPECT_NEAR(search.refinement().normalBefore, before, 0.2 + 0.25 * before);
             EXPECT_LT(test::errorsOf(search, view).bad, 0.06);

@@ -20,7 +20,8 @@ Matrix6 priorCovariance(double turn, double shift) {
     return diagonal.asDiagonal();
 }
 
-/// Matches of a scene. The prior has the error `motion`, in the orientation of the rays `still`.
+/// Matches between two views of random points. The prior pose has the error `motion`, in the
+/// orientation of the still's rays.
 struct Case {
     Eigen::Vector3d translation{0.2, 0.02, 0.01};
     Vector6 motion = Vector6::Zero();
@@ -172,13 +173,14 @@ TEST(RelativePose, NonFiniteInputIsRefused) {
     EXPECT_FALSE(refineRelativePose(matches, {c.translation, -kUsualCovariance}, kFocal).accepted);
 }
 
-TEST(RelativePose, SpreadCoversUncertainRotationAndParallax) {
+TEST(RelativePose, SpreadOfAMatchIncludesUncertainRotationAndTranslation) {
     const Matrix6 turn = priorCovariance(0.01, 0), shift = priorCovariance(0, 0.02);
     const RayMatch far{{0, 0}, {0, 0}}, near{{0, 0}, {0.1, 0}};
     const Eigen::Vector3d t(0.2, 0, 0);
     EXPECT_NEAR(spreadOf(far, {t, turn})(1, 1), 1e-4, 1e-12);
     EXPECT_NEAR(spreadOf(far, {t, shift})(1, 1), 0, 1e-12);
-    EXPECT_NEAR(spreadOf(near, {t, shift})(1, 1), 1e-4, 1e-12) << "at depth 2";
+    EXPECT_NEAR(spreadOf(near, {t, shift})(1, 1), 1e-4, 1e-12)
+        << "a shift of 0.02 at depth 2 must give a spread of 0.01";
 }
 
 }  // namespace

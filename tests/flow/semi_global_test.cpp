@@ -62,9 +62,9 @@ std::vector<float> solve(const Problem& p, int threads) {
     return solve(p, matcher, workers);
 }
 
-/// Adds the costs of the paths in direction (dx, dy), computed from the recurrence L(p, k) = C(p,
-/// k) + min(L(q, k), L(q, k +- 1) + step, jump) - min L(p, .), normalised so that min L(q, .) = 0.
-/// q is the pixel before p. Labels are compared by their absolute number.
+/// Adds the path costs L in direction (dx, dy) to `sums`. For pixel p, label k and the pixel q
+/// before p: L(p, k) = C(p, k) + min(L(q, k), L(q, k +- 1) + step, jump) - min L(p, .), normalised
+/// so that min L(q, .) = 0. A label has the same number k in the windows of p and q.
 void addPath(const Problem& p, int dx, int dy, std::vector<int>& sums) {
     const auto [w, h] = p.guide.size;
     const int labels = p.labels();
@@ -148,8 +148,9 @@ TEST(SemiGlobal, MatchesTheOracleWithSeveralVectors) {
             expectTwin(randomProblem({33, 19}, vectors, reach, 10 + vectors));
 }
 
-// Sums are largest if costs are zero or the maximum and penalties are at their upper limits.
-TEST(SemiGlobal, SumsFitInTheirBytes) {
+// Sums of path costs are largest if each cost is either zero or the maximum, and penalties are at
+// their upper limits.
+TEST(SemiGlobal, SumsOfPathCostsFitIntoBytes) {
     for (unsigned seed = 1; seed <= 3; ++seed) {
         Problem p = randomProblem({40, 40}, 1, 30, seed);
         p.smoothness = {24, 60, 255};
@@ -160,7 +161,7 @@ TEST(SemiGlobal, SumsFitInTheirBytes) {
     }
 }
 
-TEST(SemiGlobal, OneClearLabelWinsEverywhere) {
+TEST(SemiGlobal, ALabelThatIsCheapestEverywhereWinsEverywhere) {
     for (int clear = 0; clear < 32; ++clear) {
         Problem p = randomProblem({20, 20}, 2, 0, 3);
         for (std::size_t i = 0; i < p.costs.size(); ++i)
@@ -212,7 +213,7 @@ TEST(SemiGlobal, IsTheSameWithAnyNumberOfThreads) {
 }
 
 // Scratch memory must not keep values of the larger problem.
-TEST(SemiGlobal, MayBeUsedAgainForSmallerProblems) {
+TEST(SemiGlobal, CanBeReusedForSmallerProblems) {
     Workers workers(2);
     SemiGlobal matcher(40UL * 30 * 3);
     for (const Problem& p : {randomProblem({40, 30}, 3, 20, 1), randomProblem({20, 15}, 1, 20, 2),

@@ -49,8 +49,8 @@ Canvas turned(const CameraModel& camera, const Eigen::Matrix3d& rotation) {
     return out;
 }
 
-/// The place in the picture that shows a pixel of the rotated camera; far outside if that point is
-/// not visible.
+/// The position in the picture that shows a pixel of the rotated camera; far outside if that point
+/// is not visible.
 Eigen::Vector2d source(const CameraModel& camera, const Eigen::Matrix3d& rotation,
                        const Eigen::Vector2d& pixel) {
     constexpr double kNowhere = -1e6;

@@ -12,11 +12,14 @@ using namespace mfar;
 
 /// Every accepted calibration must have these properties.
 void requireSound(const CameraModel& camera) {
-    test::requireThat(camera.size.width > 0 && camera.size.height > 0, "a size");
-    test::requireThat(camera.fx > 0 && camera.fy > 0, "a focal length");
+    test::requireThat(camera.size.width > 0 && camera.size.height > 0,
+                      "an accepted camera has no picture size");
+    test::requireThat(camera.fx > 0 && camera.fy > 0,
+                      "an accepted camera has no positive focal length");
     const Eigen::Vector2d corner(camera.size.width - 1, camera.size.height - 1);
     for (const Eigen::Vector2d& p : {Eigen::Vector2d(0, 0), corner})
-        test::requireThat(camera.unproject(p).allFinite(), "a ray");
+        test::requireThat(camera.unproject(p).allFinite(),
+                          "a corner of the picture has no finite ray");
 }
 
 void load(std::span<const std::filesystem::path> paths) {
@@ -24,8 +27,10 @@ void load(std::span<const std::filesystem::path> paths) {
         const RigCalibration out = loadRig(paths, {Size{640, 480}, Size{2304, 1728}});
         requireSound(out.rig.video);
         requireSound(out.rig.still);
-        test::requireThat(out.rig.T_still_video.translation.norm() <= 2, "a distance");
-        test::requireThat(std::isfinite(out.stillTimeOffset), "an offset");
+        test::requireThat(out.rig.T_still_video.translation.norm() <= 2,
+                          "the accepted distance between the cameras is above 2 m");
+        test::requireThat(std::isfinite(out.stillTimeOffset),
+                          "the accepted time offset of the stills is not finite");
     } catch (const CalibrationError&) {
         return;
     }

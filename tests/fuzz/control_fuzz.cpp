@@ -20,7 +20,7 @@ ControlActions actions() {
     out.reload = [] { return std::string("read again"); };
     out.record = [](const std::string& name) {
         test::requireThat(isFolderName(name) && name.find('/') == name.npos,
-                          "a name of one folder");
+                          "a recording name that is not a single folder name was accepted");
     };
     out.stopRecording = []() -> ordered_json { throw std::runtime_error("nothing is recorded"); };
     out.trigger = [] {};
@@ -33,10 +33,11 @@ ControlActions actions() {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     static const ControlActions kActions = actions();
     const ControlAnswer answer = answerControl(kActions, test::textOf(data, size));
-    test::requireThat(answer.line.find('\n') == std::string::npos, "one line");
+    test::requireThat(answer.line.find('\n') == std::string::npos,
+                      "the answer has more than one line");
     const auto body = nlohmann::json::parse(answer.line);
-    test::requireThat(body.at("ok").is_boolean(), "ok or not");
+    test::requireThat(body.at("ok").is_boolean(), "the answer's \"ok\" is not true or false");
     test::requireThat(body.value("bytes", std::size_t{0}) == answer.data.size(),
-                      "number of bytes as announced");
+                      "the answer's \"bytes\" differs from the number of bytes sent");
     return 0;
 }

@@ -10,9 +10,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const Environment out = parseEnvironment({data, size}, "fuzz", kMemory);
         test::requireThat(out.radiance.size() ==
                               static_cast<std::size_t>(out.size.width) * out.size.height,
-                          "another size");
+                          "the number of pixels does not match the environment's size");
         for (const Eigen::Vector3f& radiance : out.radiance)
-            test::requireThat(radiance.allFinite() && radiance.minCoeff() >= 0, "radiance");
+            test::requireThat(radiance.allFinite() && radiance.minCoeff() >= 0,
+                              "an environment pixel is negative or not finite");
     } catch (const ModelError&) {
         return 0;
     }

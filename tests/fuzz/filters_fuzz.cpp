@@ -46,8 +46,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     try {
         const EnlargerLearner learner =
             EnlargerLearner::restored(edited(kWhole, {data, size}), "fuzz", "file");
-        test::requireThat(learner.filters() != nullptr, "filters in place");
-        test::requireThat(std::isfinite(learner.counts().gainDb), "a gain");
+        test::requireThat(learner.filters() != nullptr,
+                          "the learner has no filters after it read its state");
+        test::requireThat(std::isfinite(learner.counts().gainDb),
+                          "the learned gain in dB is not finite");
     } catch (const FilterBankError&) {
         return 0;
     }

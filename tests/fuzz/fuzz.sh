@@ -16,7 +16,7 @@ EOF
 
 fuzzTargets() { sed -n 's/^ *mfar_fuzz_target(\([a-z0-9]*\).*/\1/p' tests/fuzz/CMakeLists.txt | sort -u; }
 
-# fuzzRoom TARGET: a regular expression for the sources whose coverage counts.
+# fuzzRoom TARGET: prints a regular expression for the source files whose coverage counts.
 fuzzRoom() {
     case $1 in
     calibration) echo 'base/calibration/' ;;
@@ -36,7 +36,7 @@ fuzzRoom() {
     esac
 }
 
-# The folder of inputs that were found before. It lies next to other results that take long to make.
+# Prints the folder of a target's inputs that earlier runs found, in the cache of slow results.
 fuzzFolder() {
     local folder
     folder=$(cacheFolder)/fuzz/$1
@@ -44,7 +44,7 @@ fuzzFolder() {
     echo "$folder"
 }
 
-# fuzzOne PRESET TARGET SECONDS: keeps an input that fails and prints its path.
+# fuzzOne PRESET TARGET SECONDS: runs a target. Keeps an input that fails and prints its path.
 fuzzOne() {
     local build=.build/$1 target=$2 seconds=$3 seeds=tests/fuzz/corpus/$2 found
     local dictionary=tests/fuzz/$2.dict

@@ -17,14 +17,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                     if (found.width < 1 || found.height < 1 || found.width > kMostSide ||
                         found.height > kMostSide)
                         throw std::runtime_error("too large");
-                    test::requireThat(!asked, "asked twice");
+                    test::requireThat(!asked, "the decoder requested memory twice");
                     asked = true;
                     const std::size_t stride = std::size_t{4} * found.width;
                     rgba.resize(stride * found.height);
                     return {rgba.data(), stride};
                 },
                 alpha);
-            test::requireThat(asked, "a picture without pixels");
+            test::requireThat(asked, "the decoder accepted a picture without requesting memory");
         } catch (const std::runtime_error&) {
             continue;
         }

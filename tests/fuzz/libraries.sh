@@ -11,12 +11,13 @@ here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 cache=$1
 
 sources=(zlib libpng1.6 libjpeg-turbo yaml-cpp)
-# What is installed changes with these. The sources may be newer: an archive keeps one version.
+# If one of these packages changes, the libraries are built again. The downloaded sources may be
+# newer than the packages, because an archive keeps only one version.
 # shellcheck disable=SC2016 # dpkg-query expands
 versions=$(dpkg-query -W -f '${Version} ' zlib1g-dev libpng-dev libturbojpeg0-dev libyaml-cpp-dev)
 
-# The same options as in the preset "fuzz". C libraries call functions through pointers of other
-# types.
+# The same options as in the preset "fuzz", but without -fsanitize=function: C libraries call
+# functions through pointers of other types.
 sanitizers=-fsanitize=fuzzer-no-link,address,undefined
 flags="-O1 -g1 -fno-omit-frame-pointer -fno-sanitize-recover=all $sanitizers -fno-sanitize=function"
 
@@ -34,8 +35,8 @@ tryFetching() {
         (cd "$folder" && apt-get -qq "${options[@]}" source "${sources[@]}")
 }
 
-# fetch FOLDER: gets the sources into a new folder. Not every mirror has the sources of security
-# updates.
+# fetch FOLDER: downloads the sources into a new folder; without those of security updates if the
+# mirror lacks them.
 fetch() {
     local folder=$1 files
     mapfile -t files < <(debianSources)
@@ -68,7 +69,7 @@ buildAll() {
     (cd "$folder"/zlib-*/ && CC=clang-19 CFLAGS=$flags ./configure --static --prefix="$prefix" &&
         make install)
     buildOne "$folder"/libpng1.6-*/ "$prefix" -DPNG_SHARED=OFF -DPNG_TESTS=OFF -DPNG_EXECUTABLES=OFF
-    # Without its SIMD code, which is assembly that no sanitizer can check.
+    # libjpeg-turbo is built without its SIMD code, which is assembly that no sanitizer can check.
     buildOne "$folder"/libjpeg-turbo-*/ "$prefix" -DENABLE_SHARED=OFF -DWITH_SIMD=OFF
     buildOne "$folder"/yaml-cpp-*/ "$prefix" -DYAML_CPP_BUILD_TESTS=OFF -DYAML_CPP_BUILD_TOOLS=OFF
 }

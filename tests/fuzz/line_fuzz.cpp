@@ -12,7 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         if (!line) return 0;
         noteTakenLine(bundle.folder() / "again", *line);
         test::requireThat(takenLine(bundle.folder() / "again") == line,
-                          "what is noted is not what was");
+                          "a saved note about the trigger line differs when read again");
     } catch (const Failure&) {
         return 0;
     }

@@ -11,7 +11,8 @@ std::uint32_t bigEndian(const std::uint8_t* p) {
 }
 
 void mendChecksums(std::vector<std::uint8_t>& file) {
-    constexpr std::size_t kSignature = 8, kAround = 12;  // kAround: all of a chunk but its data
+    constexpr std::size_t kSignature = 8,
+                          kAround = 12;  // kAround: bytes of a chunk except its data
     if (file.size() < kSignature || file[1] != 'P' || file[2] != 'N' || file[3] != 'G') return;
     for (std::size_t at = kSignature; at + kAround <= file.size();) {
         const std::size_t length = bigEndian(&file[at]);

@@ -12,8 +12,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         return 0;
     }
     for (const SuperResMode best : {SuperResMode::Off, SuperResMode::Blend, SuperResMode::Detail})
-        test::requireThat(!limitedTo(levels, best).empty(), "a table without a level");
+        test::requireThat(!limitedTo(levels, best).empty(),
+                          "an accepted table has no level for a mode");
     test::requireThat(parseQualityLevels(toToml(levels), "again").size() == levels.size(),
-                      "what is written is not what was read");
+                      "a saved table has another number of levels when read again");
     return 0;
 }

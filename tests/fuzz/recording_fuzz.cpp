@@ -27,12 +27,14 @@ void readPicture(const RecordedImage& image, Size size) {
 }
 
 void read(const Recording& recording) {
-    test::requireThat(!recording.video.empty() && recording.videoRateHz > 0, "a video");
+    test::requireThat(!recording.video.empty() && recording.videoRateHz > 0,
+                      "an accepted recording has no video frames or no frame rate");
     const Timestamp first = recording.video.front().time;
     readPicture(recording.video.front(), recording.rig.video.size);
     if (!recording.stills.empty()) readPicture(recording.stills.front(), recording.rig.still.size);
     if (const auto pose = recording.poseAt(first))
-        test::requireThat(pose->T_world_video.translation.allFinite(), "a pose");
+        test::requireThat(pose->T_world_video.translation.allFinite(),
+                          "an accepted recorded pose is not finite");
     if (const auto file = recording.truthInverseDepth(first))
         tryTo([&] { static_cast<void>(loadPfm(*file)); });
     if (const auto file = recording.truthFlow(first, first))

@@ -8,14 +8,14 @@ template <class Read>
 void tryTo(const Read& read) {
     try {
         const mfar::TagMap map = read();
-        mfar::test::requireThat(!map.empty(), "a map without tags");
+        mfar::test::requireThat(!map.empty(), "an accepted tag map has no tags");
         for (const auto& [key, tag] : map.tags())
             mfar::test::requireThat(tag.size > 0 && tag.T_world_tag.translation.allFinite() &&
                                         tag.T_world_tag.rotation.coeffs().allFinite(),
-                                    "a tag without a place");
+                                    "an accepted tag has no positive size or no finite pose");
         mfar::test::requireThat(mfar::tagMapFromToml(mfar::tomlOf(map), "again").tags().size() ==
                                     map.tags().size(),
-                                "what is written is not what was read");
+                                "a saved tag map differs when read again");
     } catch (const mfar::TagMapError&) {
         return;
     }

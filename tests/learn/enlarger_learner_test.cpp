@@ -49,7 +49,7 @@ TEST(EnlargerLearner, BeginsWithTheShippedFilters) {
     EXPECT_EQ(learner.counts().classes, 0);
 }
 
-TEST(EnlargerLearner, ADifferentPointSpreadIsLearned) {
+TEST(EnlargerLearner, FiltersLearnedFromBlurredVideoReduceTheError) {
     const SensorPair pair{.videoBlur = 2};
     const EnlargerLearner learner = learned(pair);
     const Errors errors = errorsOf(learner, pair);
@@ -59,7 +59,7 @@ TEST(EnlargerLearner, ADifferentPointSpreadIsLearned) {
     EXPECT_EQ(learner.counts().stills, 6U);
 }
 
-TEST(EnlargerLearner, NoiseIsLearned) {
+TEST(EnlargerLearner, FiltersLearnedFromNoisyVideoReduceTheError) {
     const SensorPair pair{.videoNoise = 6, .stillNoise = 3};
     const Errors errors = errorsOf(learned(pair), pair);
     EXPECT_LT(errors.learned, 0.97 * errors.shipped);
@@ -158,7 +158,7 @@ TEST(EnlargerLearner, TheSamePicturesGiveTheSameFilters) {
     EXPECT_NE(learned(pair, 3).stored("x"), learned(pair, 2).stored("x"));
 }
 
-TEST(EnlargerLearner, AStopDiscardsTheStill) {
+TEST(EnlargerLearner, AStopWhileLearningDiscardsTheStill) {
     std::stop_source stop;
     stop.request_stop();
     EnlargerLearner learner;

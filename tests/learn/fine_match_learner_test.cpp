@@ -24,8 +24,8 @@ TEST(FineMatchLearner, StartsWithoutAFineMatch) {
 TEST(FineMatchLearner, FindsTheNoiseOfTheVideo) {
     EXPECT_LT(learned({}).noise, 0.5);
     for (const double noise : {2.0, 4.0}) {
-        // Three quarters of the noise are in the finest detail. A tenth of the cells has less than
-        // half of that.
+        // Three quarters of the noise's variance are in the finest detail. The learner measures a
+        // low quantile: a tenth of the cells has less than half of that.
         const double fine = 0.75 * noise * noise;
         const float found = learned({.videoNoise = noise}).noise;
         EXPECT_GT(found, 0.4 * fine) << noise;
@@ -57,7 +57,7 @@ TEST(FineMatchLearner, UnmatchedCellsAreIgnored) {
     EXPECT_FALSE(learner.fineMatch().isKnown());
 }
 
-TEST(FineMatchLearner, NumbersOutOfRangeAreNotRestored) {
+TEST(FineMatchLearner, StoredValuesOutOfRangeAreNotRestored) {
     FineMatchLearner learner;
     ASSERT_TRUE(learner.add(matchedPictures(sharpDiscs(1), {.videoNoise = 2})));
     const auto good = learner.stored();

@@ -38,7 +38,7 @@ TEST(GuidanceLearner, StartsWithoutGuidance) {
     EXPECT_EQ(GuidanceLearner().gainDb(), 0);
 }
 
-TEST(GuidanceLearner, FindsTheBestMeanOfTwoNoisyValues) {
+TEST(GuidanceLearner, FindsTheBestWeightsOfNoisyVideoAndStill) {
     // The still is averaged over a video pixel, which leaves a quarter of its noise.
     for (const auto& [video, still] : {std::pair{4.0, 0.0}, {4.0, 8.0}, {4.0, 16.0}}) {
         const double best = video * video / (video * video + still * still / 16);
@@ -65,7 +65,8 @@ TEST(GuidanceLearner, FindsTheGuidanceForEachExposure) {
 
 TEST(GuidanceLearner, NoiseOfTheStillAloneGivesNoGuidance) {
     EXPECT_FALSE(learned(0, 16).guidance().any());
-    EXPECT_FALSE(learned(1, 24).guidance().any()) << "it would gain less than it may cost";
+    EXPECT_FALSE(learned(1, 24).guidance().any())
+        << "guidance that gains too little must not be used";
 }
 
 TEST(GuidanceLearner, GuidanceIsDroppedWhenItNoLongerHelps) {
@@ -91,16 +92,17 @@ TEST(GuidanceLearner, UnusablePicturesAreIgnored) {
         for (int y = 0; y < of.older.lookUps.size().height; ++y)
             for (int x = 0; x < of.older.lookUps.size().width; ++x)
                 of.older.lookUps[y][x].*part = nan;
-        EXPECT_TRUE(ignores(of)) << "look-ups that are not numbers";
+        EXPECT_TRUE(ignores(of)) << "NaN look-ups must be ignored";
     }
-    EXPECT_TRUE(ignores(Stills(4, 8, 2, {.weight = 0}))) << "nothing is trusted";
+    EXPECT_TRUE(ignores(Stills(4, 8, 2, {.weight = 0})))
+        << "a still without weight must be ignored";
     Stills bright(4, 8, 2);
     for (int y = 0; y < bright.older.luma.size().height; ++y)
         std::fill_n(bright.older.luma[y], bright.older.luma.size().width, 255 * kLumaScale);
-    EXPECT_TRUE(ignores(bright)) << "a saturated video";
+    EXPECT_TRUE(ignores(bright)) << "a saturated picture must be ignored";
     Stills small(4, 8, 2);
     small.older = matchedPictures(sharpDiscs(2, {128, 96}), {});
-    EXPECT_TRUE(ignores(small)) << "another size";
+    EXPECT_TRUE(ignores(small)) << "pictures of another size must be ignored";
     std::stop_source stop;
     stop.request_stop();
     const Stills good(4, 8, 2);
@@ -130,7 +132,7 @@ TEST(GuidanceLearner, StillsOfAnotherSceneAreIgnored) {
     EXPECT_LT(learner.guidance().still, 0.05);
 }
 
-TEST(GuidanceLearner, NumbersOutOfRangeAreNotRestored) {
+TEST(GuidanceLearner, StoredValuesOutOfRangeAreNotRestored) {
     const auto good = learned(4, 8, 1).stored();
     GuidanceLearner learner;
     EXPECT_TRUE(learner.restore(good));
@@ -162,7 +164,7 @@ TEST(EnlargerLearner, GuidanceIsLearnedAndKeptWithTheFilters) {
     EXPECT_EQ(learner.counts().guidance, learner.filters()->guidance());
     EXPECT_GT(learner.counts().guidanceGainDb, 0);
     learner.add(of.truth);
-    EXPECT_GT(learner.filters()->guidance().still, 0.5) << "with new filters, too";
+    EXPECT_GT(learner.filters()->guidance().still, 0.5) << "new filters must keep the guidance";
     EXPECT_EQ(learner.addOlder(matchedPictures(sharpDiscs(1), sharpDiscs(2), {}), of.older),
               EnlargerLearner::Outcome::Refused);
 }

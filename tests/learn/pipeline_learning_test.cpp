@@ -77,13 +77,13 @@ TEST_P(PipelineLearning, EachMatchedStillIsReportedOnce) {
     Heard heard;
     pipeline_.setMatchListener(&heard);
     (void)picture(pipeline_);
-    EXPECT_EQ(heard.times, 0) << "no still";
+    EXPECT_EQ(heard.times, 0) << "without a still, the listener must not be called";
     setStill(pipeline_);
-    EXPECT_EQ(heard.times, 0) << "no frame";
+    EXPECT_EQ(heard.times, 0) << "without a frame, the listener must not be called";
     (void)picture(pipeline_);
     (void)picture(pipeline_);
     EXPECT_EQ(heard.times, 1);
-    EXPECT_GT(heard.weighed, 1000) << "of 3072 cells";
+    EXPECT_GT(heard.weighed, 1000) << "at least 1000 of 3072 cells must have a weight";
     setStill(pipeline_);
     (void)picture(pipeline_);
     EXPECT_EQ(heard.times, 2);
@@ -101,14 +101,15 @@ TEST_P(PipelineLearning, AReplacedStillIsReportedWithTheLastPicture) {
     pipeline_.setMatchListener(&heard);
     setStill(pipeline_);
     setStill(pipeline_);
-    EXPECT_EQ(heard.replacements, 0) << "no frame was matched to it";
+    EXPECT_EQ(heard.replacements, 0)
+        << "a still that no frame was matched with must not be reported";
     (void)picture(pipeline_);
     (void)picture(pipeline_);
     EXPECT_EQ(heard.replacements, 0);
     setStill(pipeline_);
     EXPECT_EQ(heard.replacements, 1);
     EXPECT_EQ(heard.lastLuma, video_[0]);
-    EXPECT_GT(heard.weighed, 1000) << "of 3072 cells";
+    EXPECT_GT(heard.weighed, 1000) << "at least 1000 of 3072 cells must have a weight";
     pipeline_.dropStill();
     setStill(pipeline_);
     pipeline_.setMode(SuperResMode::Off);

@@ -11,7 +11,7 @@
 /// Oracles of the luma passes, in double precision.
 namespace mfar::twin {
 
-// Parameters of the finest level. kSmoothing: weight of each of the two neighbours along an axis.
+// Parameters of the finest pyramid level. kSmoothing: weight of each of both neighbours on an axis.
 // kBoxWidening: factor by which a pixel's box is widened, so that its variance is that of the box
 // and this smoothing together.
 inline constexpr double kSmoothing = params::kLumaSmoothing;

@@ -17,9 +17,9 @@ struct TileChange {
     /// the channel in which it is largest.
     std::array<double, 16> mean{}, absolute{};
     double cellNoise = 0;  ///< variance of a cell's mean, in the noisiest channel
-    double noise = 0;      ///< [grey levels]
-    /// Squared mean and slopes of the difference over their variance, of the channel in which this
-    /// is largest.
+    double noise = 0;      ///< standard deviation of the video's noise [grey levels]
+    /// Sum of the difference's squared mean and slopes, each divided by its variance, in the
+    /// channel in which the sum is largest.
     double moments = 0;
     /// Mean squares of three measures of the luma's difference: the twist of pixels, 2x2 means, and
     /// the twist of 2x2 means. They are scaled so that each equals a pixel's variance for white
@@ -117,7 +117,7 @@ inline double structureOf(const Grey& grey, int x0, int y0) {
     return out;
 }
 
-/// `grey`: luma of `now`.
+/// Oracle of measureTiles() for one tile. `grey`: luma of `now`.
 inline TileChange tileChange(const TestPicture& now, const TestPicture& drawn, const Grey& grey,
                              int tileX, int tileY, double grain = 1) {
     TileChange out;

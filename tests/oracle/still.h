@@ -6,9 +6,8 @@
 /// grey levels.
 namespace mfar::twin {
 
-/// What the pixels of a grid see: a pixel is the mean of 4x4 samples that are a quarter of
-/// `footprint` pixels apart. `at(x, y)` gives the value at a position; the centre of the first
-/// pixel is (0.5, 0.5).
+/// Samples at(x, y) with a grid of pixels: a pixel is the mean of 4x4 samples that are a quarter of
+/// footprintX and footprintY pixels apart. The centre of the first pixel is (0.5, 0.5).
 template <class At>
 Grey seen(Size grid, const At& at, double footprintX = params::kSeen,
           double footprintY = params::kSeen) {

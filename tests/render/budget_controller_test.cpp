@@ -13,7 +13,7 @@
 namespace mfar {
 namespace {
 
-constexpr double kBudget = 4;  // [ms]
+constexpr double kBudget = 4;  // time budget of a frame [ms]
 
 /// Cost of a sample in a frame [ms].
 using CostTrace = std::function<double(int frame)>;
@@ -46,7 +46,7 @@ int framesOff(const std::vector<double>& used, double share) {
         used, [&](double ms) { return !(std::abs(ms / kBudget - 1) <= share); }));
 }
 
-TEST(BudgetController, KeepsASteadyCostToAMillisecond) {
+TEST(BudgetController, WithConstantCostEveryFrameUsesItsBudget) {
     BudgetController budget(kBudget);
     const std::vector<double> used = usedIn(budget, 300, 1000, [](int) { return 0.003; });
     EXPECT_NEAR(meanShare(used), 1, 0.001);
@@ -72,7 +72,7 @@ TEST(BudgetController, KeepsWithinATenthOver300FramesOfNoiseAndSteps) {
     }
 }
 
-TEST(BudgetController, OutliersNeitherMoveTheCostNorTheMean) {
+TEST(BudgetController, OutliersChangeNeitherTheCostEstimateNorTheMean) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> uniform(0, 1);
     BudgetController budget(kBudget);
@@ -89,7 +89,7 @@ TEST(BudgetController, OutliersNeitherMoveTheCostNorTheMean) {
     EXPECT_NEAR(meanShare(used), 1, 0.02) << "what an outlier takes is paid back";
 }
 
-TEST(BudgetController, FollowsAStepWithinOneFrame) {
+TEST(BudgetController, FollowsASuddenChangeOfCostWithinOneFrame) {
     BudgetController budget(kBudget);
     const std::vector<double> used =
         usedIn(budget, 60, 1000, [](int frame) { return frame < 30 ? 0.001 : 0.008; });
@@ -100,7 +100,7 @@ TEST(BudgetController, FollowsAStepWithinOneFrame) {
     EXPECT_LT(used[30] + used[31] + used[32], 3.2 * kBudget);
 }
 
-TEST(BudgetController, PortionsLeaveTheFrameInSmallParts) {
+TEST(BudgetController, AGrantIsASmallPartOfTheFramesBudget) {
     BudgetController budget(kBudget);
     (void)usedIn(budget, 2, 1000, [](int) { return 0.001; });
     budget.beginFrame(true);
@@ -136,7 +136,7 @@ TEST(BudgetController, IdleFramesSaveNoBudget) {
     EXPECT_EQ(budget.kept().frames, 9) << "idle frames do not count";
 }
 
-TEST(BudgetController, ConversionsAreRepaidInSmallParts) {
+TEST(BudgetController, TimeSpentElsewhereIsRepaidInSmallParts) {
     BudgetController budget(kBudget);
     const auto cheap = [](int) { return 0.001; };
     (void)usedIn(budget, 2, 1000, cheap);

@@ -40,8 +40,8 @@ TEST(CarriedLight, FirstPictureNeedsOneSamplePerSixteenPixels) {
     EXPECT_GT(driver.shown.size(), 4U);
     const RenderedPicture &first = driver.shown.front(), &last = driver.shown.back();
     for (std::size_t i = 0; i < first.id.size(); ++i) {
-        // The first id is that of the pixel's centre. Later samples may also hit a neighbouring
-        // object.
+        // In the first picture, a pixel has the id of what its centre shows. Later samples of the
+        // pixel may also hit the surface beside it.
         if (first.id[i] == 0 || first.id[i] == kCatcherId || last.id[i] == kCatcherId) continue;
         ASSERT_EQ(first.id[i], last.id[i]) << "objects are whole at once";
     }
@@ -66,7 +66,7 @@ TEST(CarriedLight, ANextPictureTakesOverTheLightOfTheOneBefore) {
     EXPECT_LT(errorOf(going.shown.back(), 26), 0.7 * errorOf(fresh.shown.back(), 26));
 }
 
-TEST(CarriedLight, ColoursAreShownOnceSamplesSuffice) {
+TEST(CarriedLight, ANewPictureIsShownOnceItHasEnoughSamples) {
     TracedPolicy policy = kProduct;
     policy.soon = false;
     Driver driver(kThirtyTwo, policy);
@@ -80,7 +80,7 @@ TEST(CarriedLight, ColoursAreShownOnceSamplesSuffice) {
     EXPECT_GT(driver.shown.back().samples, 4) << "8 of objects, 2 of other surfaces";
 }
 
-TEST(CarriedLight, CarriedLightOfOtherLightingIsSoonOutweighed) {
+TEST(CarriedLight, LightCarriedFromOtherLightingIsSoonOutweighed) {
     Driver driver(kThirtyTwo, kProduct);
     const auto dark = std::make_shared<Scene>(*render_scenes::stillLife());
     dark->lighting.sun->irradiance *= 0.2F;

@@ -81,7 +81,7 @@ TEST(Film, AMillionSamplesKeepDoublePrecision) {
     EXPECT_NEAR(film.error(0) / (slope * deviation), 1, 1e-3);
 }
 
-TEST(Film, DepthIsTakenAtThePixelsCentre) {
+TEST(Film, DepthIsThatOfThePixelsCentre) {
     Film film({1, 1});
     film.setCentre(0, {{1.5F, 2}});
     film.add(0, objectSample(0.1F, 1.0F, 1));

@@ -90,7 +90,8 @@ TEST(NoiseFilter, KeepsDifferencesAboveNoise) {
     EXPECT_GT(errorOf(known, flat), 0.95 * kSigma);
 }
 
-// A step of two standard errors without noise. Only a guide can distinguish it from noise.
+// A step of two standard errors, without noise. The filter can distinguish it from noise only if
+// both sides differ in another property, which `mark` sets.
 template <class Mark>
 double errorAtStep(Mark mark) {
     Pixels pixels = noisyPicture(step, 0);
@@ -146,7 +147,8 @@ TEST(NoiseFilter, FillsPixelsWithoutSamples) {
         ASSERT_TRUE(p.firstCount > 0 && p.secondCount > 0);
 }
 
-// If the neighbours of one part differ by more than noise, the other part must still be filtered.
+// If neighbouring pixels differ by more than noise in one part of their light, the other part must
+// still be filtered.
 TEST(NoiseFilter, FiltersBothLightPartsSeparately) {
     Pixels pixels = noisyPicture(flat);
     for (std::size_t i = 0; i < pixels.size(); ++i)

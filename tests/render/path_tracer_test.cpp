@@ -54,7 +54,8 @@ Mesh flatSquare() {
 
 // A pixel is about three bumps wide.
 TEST(PathTracer, AFineReliefIsSeenAsAWiderLobeAboutItsMeanNormal) {
-    // With an earlier picture by the ray through the centre, without one by the first sample.
+    // Returns the surface and gloss in the picture's middle. With an earlier picture (hasHistory),
+    // the ray through the pixel's centre finds them; without one, the first sample does.
     const auto seen = [](bool bumpy, bool hasHistory, int samples) {
         Material material = materialOf({0.9F, 0.9F, 0.9F}, 1, 0.2F);
         Model model = modelOf(flatSquare(), material);

@@ -15,7 +15,7 @@ namespace mfar::render_scenes {
 [[nodiscard]] Mesh sphere(const Eigen::Vector3f& centre, float radius, int rings = 32);
 /// A square with the corners (-side, -side) and (side, side) at height z. It faces up.
 [[nodiscard]] Mesh square(float side, float z);
-/// The same square as a shadow catcher.
+/// A shadow catcher that is the square of square(side, 0).
 [[nodiscard]] ShadowCatcher ground(float side, float albedo);
 [[nodiscard]] Model modelOf(Mesh mesh, const Material& material);
 [[nodiscard]] SceneObject objectOf(Model model);

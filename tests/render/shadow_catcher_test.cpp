@@ -111,7 +111,7 @@ TEST(ShadowCatcher, ContactIsDarkAndShadowFades) {
     EXPECT_GT(before, 0.95F);
 }
 
-TEST(ShadowCatcher, ColourBouncesBothWays) {
+TEST(ShadowCatcher, ColourBouncesBetweenObjectAndGroundInBothDirections) {
     auto scene = sphereOverGround(0.5F, 0.5F);
     Material red;
     red.baseColour = {0.9F, 0.05F, 0.05F, 1};

@@ -294,7 +294,7 @@ TEST(Slices, OnlyNoisyPixelsGetAllSamples) {
     EXPECT_EQ(many, 9);
 }
 
-TEST(Slices, NanErrorsKeepAPixelActive) {
+TEST(Slices, APixelWhoseErrorIsNanIsSampledOn) {
     Slices slices({Slicing::Spatial, 32, 4, 1, 4});
     slices.begin({0, 0, 8, 8}, {8, 8});
     const auto states = [](std::uint32_t) {

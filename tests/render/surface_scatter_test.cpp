@@ -98,7 +98,7 @@ TEST(SurfaceScatter, SamplesFollowTheirDensity) {
         }
 }
 
-TEST(SurfaceScatter, WeightIsValueOverDensity) {
+TEST(SurfaceScatter, TheWeightOfASampleIsReflectanceOverDensity) {
     const SurfaceScatter scatter({{0.9F, 0.7F, 0.2F}, 0.7F, 0.4F, false}, directionAt(0.5F, 1));
     for (std::uint32_t i = 0; i < 64; ++i) {
         const ScatterSample s = scatter.sample(PixelSampler(5, 1, i, false).pair(3));

@@ -38,7 +38,7 @@ TEST(NextStep, StepDependsOnHowFarTheViewChanged) {
     }
 }
 
-TEST(NextStep, NextPictureStartsLaterWhenColoursAreUsed) {
+TEST(NextStep, AHigherLimitOfChangeStartsTheNextPictureLater) {
     using enum TracedStep;
     EXPECT_EQ(nextStep(0.9, {}, 1), Refine);
     EXPECT_EQ(nextStep(1.0, {}, 1), Start);
@@ -107,7 +107,7 @@ TEST(TracedPictures, SpatialSlicesAreShownWhenTheyAreFinished) {
     EXPECT_EQ(driver.shown[0].samples, 32);
 }
 
-TEST(TracedPictures, AnotherViewsPictureIsShownWithEnoughSamples) {
+TEST(TracedPictures, APictureOfAnotherViewIsShownOnceItHasEnoughSamples) {
     Driver driver(kThirtyTwo);
     driver.look(20);
     driver.settle();
@@ -166,7 +166,7 @@ TEST(TracedPictures, AReversingCameraIsFollowed) {
     EXPECT_EQ(driver.pictures.finished(), 2U) << "that of 26 degrees was given up";
 }
 
-TEST(TracedPictures, NewObjectsAreShownAtOnceNewLightWithEnoughSamples) {
+TEST(TracedPictures, NewObjectsAreShownAtOnceAndNewLightOnceItHasEnoughSamples) {
     Driver driver(kThirtyTwo);
     driver.look(20);
     driver.settle();

@@ -92,7 +92,7 @@ double degreesBetween(const RenderView& a, const RenderView& b) {
     return std::atan2(from.cross(to).norm(), from.dot(to)) * 180 / std::numbers::pi;
 }
 
-TEST(TracedRenderer, GivesTheSamePictureForBothWaysAndAnyThreads) {
+TEST(TracedRenderer, GivesTheSamePictureForBothSlicingsAndAnyThreads) {
     const RenderView view = render_scenes::viewFrom(kRenderSize, 20);
     const auto scene = render_scenes::stillLife();
     const PathTracer tracer(scene);
@@ -185,7 +185,7 @@ TEST(TracedRenderer, SleepsWhenTheFramesBudgetIsUsedUp) {
     EXPECT_LE(frames.renderer.counters().budget.mean, 1.1);
     const double used = frames.renderer.counters().cpuMs;
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
-    frames.frame(view);  // its counters describe the time before it
+    frames.frame(view);  // updates the counters, which do not include this frame yet
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     // The limit is the budget of 20 frames, because the counters did not include the last frames
     // yet. Threads that did not sleep would use the budget of hundreds of frames.

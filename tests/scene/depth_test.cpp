@@ -19,11 +19,12 @@ namespace {
 using namespace eval;
 using synthetic::Path;
 
-constexpr int kSettling = 12;  // frames
+constexpr int kSettling = 12;  // frames until depth has settled
 constexpr double kMostError = 0.015, kLeastKnown = 0.85;
-/// A larger change is a jump. One match with the still has an error of 4.5 % of the inverse depth
-/// here. In equilibrium the filter gives it a weight of 1/12; that is 0.26 % per frame in the
-/// median. The limit is three times as large.
+/// Largest relative change of inverse depth from frame to frame that is not a jump. One match with
+/// the still has an error of 4.5 % of the inverse depth here. In equilibrium the filter gives the
+/// match a weight of 1/12, which leaves 0.26 % per frame in the median. The limit is three times as
+/// large.
 constexpr double kMostChange = 0.0075;
 
 /// A scene with an object. Its depth is measured in the whole picture.
@@ -51,7 +52,8 @@ struct Watched {
 void expectGood(const DepthState& state, int frame, double poseError = 0) {
     SCOPED_TRACE(frame);
     EXPECT_LE(state.absrel, kMostError + poseError);
-    EXPECT_LE(state.absrel, state.sigma + poseError) << "knows less than it says";
+    EXPECT_LE(state.absrel, state.sigma + poseError)
+        << "the reported standard deviation must not be below the error";
     EXPECT_GE(state.completeness, kLeastKnown);
     EXPECT_LE(state.change, kMostChange + poseError);
 }

@@ -11,8 +11,8 @@
 namespace mfar::test {
 namespace {
 
-constexpr int kStep = 3;       // [px]
-constexpr double kFar = 1000;  // [m]
+constexpr int kStep = 3;       // distance between measured pixels [px]
+constexpr double kFar = 1000;  // surfaces beyond this distance do not count [m]
 
 double medianOf(std::vector<double>& values) {
     if (values.empty()) return 0;

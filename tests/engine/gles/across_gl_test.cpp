@@ -35,7 +35,8 @@ std::vector<std::uint8_t> pipelinePictures() {
 TEST_F(AcrossGl, BothRenderersDrawTheSamePictures) {
     const char* out = std::getenv("MFAR_PICTURES_OUT");
     const char* in = std::getenv("MFAR_PICTURES_IN");
-    if (out == nullptr && in == nullptr) GTEST_SKIP() << "needs the file of the other GL (CTest)";
+    if (out == nullptr && in == nullptr)
+        GTEST_SKIP() << "run by CTest, which sets MFAR_PICTURES_OUT or MFAR_PICTURES_IN";
     const auto mine = pipelinePictures();
     if (out != nullptr) {
         std::ofstream file(out, std::ios::binary | std::ios::trunc);

@@ -73,7 +73,7 @@ private:
         if (ok != GL_TRUE) {
             std::array<char, 2048> text{};
             glGetShaderInfoLog(id, text.size(), nullptr, text.data());
-            log_ = std::string("does not compile: ") + text.data();
+            log_ = std::string("the shader does not compile: ") + text.data();
         }
         glAttachShader(id_, id);
         glDeleteShader(id);
@@ -158,7 +158,7 @@ private:
 /// message if the shader does not compile or link.
 std::string drawn(const Shader& shader, Use& use) {
     const bool vertex = shader.name.ends_with(".vert");
-    std::string log = "has no partner";
+    std::string log = "no shader of the other stage links with it";
     for (const shaders::Source& s : shaders::all()) {
         if (!s.name.ends_with(vertex ? ".frag" : ".vert")) continue;
         const LinkedProgram program(
@@ -194,7 +194,7 @@ void addVariants(std::string_view name, const std::string& text, std::vector<Sha
         out.push_back({std::string(name), text, defines});
 }
 
-/// The shaders in these files. Without files, all shaders of the program.
+/// Returns the shaders in `files`; all shaders of the program if there are no files.
 std::vector<Shader> wanted(const std::vector<std::string>& files) {
     std::vector<Shader> out;
     for (const std::string& path : files) {

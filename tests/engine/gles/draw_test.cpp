@@ -15,8 +15,8 @@ using gpu::TexelFormat;
 constexpr Size kSmallVideo{53, 37};  // 4x3 tiles, 14x10 cells
 constexpr Size kOutput{191, 133};
 constexpr Size kSmallStill{200, 140};
-// Tolerances: of a result that is rounded once, and of a result from columns that were rounded to 8
-// bits before.
+// Tolerances [grey levels]: of a result that is rounded once (kOnce), and of a result from columns
+// that were rounded to 8 bits before (kTwice).
 constexpr double kOnce = 0.51, kTwice = 0.51 * (1 + twin::kCubicGain);
 // Tolerance: kTwice plus a bilinear look-up with weights of 8 bits and positions in half precision.
 constexpr double kLookUp = kTwice + 1.2;
@@ -195,7 +195,7 @@ TEST_F(Draw, DetailIsAddedByItsWeight) {
     }
 }
 
-TEST_F(Draw, BlendMixesByConfidence) {
+TEST_F(Draw, ModeBlendMixesVideoAndStillByConfidence) {
     const TestPicture p = Waves(2, 6, 40, 20).shoot(kSmallVideo, {});
     const TestPicture still = Waves(3, 8, 40, 30).shoot(kSmallStill, {});
     const TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);

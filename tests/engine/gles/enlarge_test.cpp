@@ -88,8 +88,8 @@ void expectResidual(const Grey& residual, const Grey& luma, int x, int y, const 
     if (!(gradient.margin > 1e-3 && curvature.margin > 1e-3)) return;
     ++compared.pixels;
     for (int phase = 0; phase < enlarge::kPhases; ++phase)
-        // Tolerance: a quarter of the range is computed in whole eighths of a grey level, and
-        // weights have eleven bits.
+        // Tolerance [grey levels]: the residual's limit, a quarter of the range of the pixels
+        // around, is rounded to whole eighths of a grey level; filter weights have eleven bits.
         ASSERT_NEAR(residual.at(4 * x + phase % 4, 4 * y + phase / 4),
                     twin::residualAt(luma, x, y, phase, gradient.number, curvature.number, bank),
                     0.32)
@@ -97,7 +97,7 @@ void expectResidual(const Grey& residual, const Grey& luma, int x, int y, const 
 }
 
 TEST_F(Enlarge, ResidualMatchesTheOracleForEqualClasses) {
-    // Tries small weights, and weights so large that the limits take effect.
+    // Tries small filter weights, and weights so large that the residual reaches its limits.
     for (const int most : {500, 8000}) {
         const FilterBank bank = randomBank(most, 11);
         Compared compared;

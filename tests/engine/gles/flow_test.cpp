@@ -15,7 +15,7 @@ using Eigen::Vector2d;
 
 // Tolerance of cost and texture, which are sums of 64 squares of up to 255 in single precision.
 constexpr double kTolerance = 2e-3;
-constexpr Size kSize{61, 45};  // one level; the picture cuts off the last cells
+constexpr Size kSize{61, 45};  // one pyramid level; the picture cuts off the last cells
 constexpr Size kCells{16, 12};
 constexpr int kArea = 16 * 12;
 
@@ -44,7 +44,8 @@ std::vector<Cell> randomField(unsigned seed, float reach) {
     return out;
 }
 
-/// Runs `steps` steps of flow_search.comp. `prior` is their only start.
+/// Runs flow_search.comp with `steps` Gauss-Newton steps. The vectors of `prior` are its only
+/// candidates.
 std::vector<Cell> search(const LevelPair& pair, const std::vector<Cell>& prior, int steps) {
     gpu::Buffer cells(2 * kArea * sizeof(Cell));
     cells.write(std::span(prior), kArea * sizeof(Cell));
@@ -84,7 +85,7 @@ TEST_F(FlowPasses, CostAndTextureMatchTheOracle) {
     }
 }
 
-TEST_F(FlowPasses, OneStepMatchesTheOracle) {
+TEST_F(FlowPasses, OneGaussNewtonStepMatchesTheOracle) {
     const Waves waves(2, 10, 60, 40);
     const LevelPair pair(waves.shoot(kSize, {}), waves.shoot(kSize, {.shift = {1.3, -0.6}}));
     const auto a = pair.first(), b = pair.second();
@@ -136,7 +137,7 @@ TEST_F(FlowPasses, PropagationTakesTheBestOfTheNeighbours) {
     EXPECT_GT(moved, kArea / 4);
 }
 
-/// Runs `steps` steps of flow_align.comp on the vectors `in`.
+/// Runs flow_align.comp with `steps` Gauss-Newton steps from the vectors `in`.
 std::vector<Cell> align(const LevelPair& pair, const std::vector<Cell>& in, int steps) {
     gpu::Buffer cells(2 * kArea * sizeof(Cell));
     cells.write(std::span(in), kArea * sizeof(Cell));
@@ -224,8 +225,8 @@ std::vector<Cell> filtered(const std::vector<Cell>& in, int planeFits = 2) {
     return cells.read<Cell>(kArea);
 }
 
-TEST_F(FlowPasses, FilterMatchesTheOracle) {
-    // Fields from a nearly plane one of reliable cells to one of unrelated vectors.
+TEST_F(FlowPasses, CleanUpMatchesTheOracle) {
+    // Flow fields of different noise: from nearly a plane to unrelated vectors.
     for (const float reach : {0.2F, 0.7F, 5.0F}) {
         auto in = randomField(8, reach);
         std::mt19937 random(9);
@@ -247,7 +248,7 @@ TEST_F(FlowPasses, FilterMatchesTheOracle) {
     }
 }
 
-TEST_F(FlowPasses, FilterKeepsPlanesAndTheStepBetweenThem) {
+TEST_F(FlowPasses, CleanUpKeepsPlanesAndTheStepBetweenThem) {
     std::vector<Cell> in(kArea);
     for (int i = 0; i < kArea; ++i) {
         const int column = i % 16, row = i / 16;

@@ -22,7 +22,7 @@ inline twin::Grey readLevel(const LumaPyramids& pyramids, const LumaLevel& level
     for (int y = 0; y < level.height; ++y)
         for (int x = -8; x < 4 * level.pitch - 8; ++x)
             if (stored(x, y) != out.at(x, y)) {
-                ADD_FAILURE() << "margin at " << x << ", " << y;
+                ADD_FAILURE() << "the margin does not repeat the border at " << x << ", " << y;
                 return out;
             }
     return out;

@@ -17,7 +17,7 @@ void expectNear(const twin::Grey& gpu, const twin::Grey& twin, double tolerance)
     EXPECT_LE(worst, tolerance);
 }
 
-TEST_F(Luma, VideoMatchesTheOracle) {
+TEST_F(Luma, LumaOfTheVideoMatchesTheOracle) {
     for (const Size size : {Size{64, 48}, Size{101, 59}})
         for (const PixelFormat format : {PixelFormat::Rgba8, PixelFormat::Gray8}) {
             const TestPicture a = randomPicture(size, 1, format),

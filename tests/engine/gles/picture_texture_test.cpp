@@ -101,7 +101,8 @@ TEST_F(PictureTexture, EachUploadReplacesThePicture) {
         const PaddedPicture source(PixelFormat::Yuv420, kEvenSize, seed);
         picture.upload(source.view());
         expectTwin(picture, source.view(), kChroma);
-        EXPECT_TRUE(id == 0 || id == picture.texture().id()) << "allocated again";
+        EXPECT_TRUE(id == 0 || id == picture.texture().id())
+            << "the texture must not be allocated again";
         id = picture.texture().id();
     }
 }
@@ -172,7 +173,7 @@ TEST_F(PictureTexture, SharedMemoryIsReadWithoutACopy) {
                 picture.upload(source.shown);
                 expectTwin(picture, source.view, kChroma);
             }
-            EXPECT_EQ(importer.imports, planeCount(format)) << "once for a buffer";
+            EXPECT_EQ(importer.imports, planeCount(format)) << "each buffer must be imported once";
             picture.finishReading();
             EXPECT_EQ(picture.takeImportFault(), std::nullopt);
         }
@@ -216,7 +217,7 @@ TEST_F(PictureTexture, MemoryThatTheDriverRefusesIsCopied) {
 TEST_F(PictureTexture, APictureLargerThanTheGpuAllowsIsReported) {
     try {
         const gpu::Texture texture({1 << 20, 8}, gpu::TexelFormat::Rgba8);
-        FAIL() << "no GPU has textures that wide";
+        FAIL() << "a texture wider than any GPU allows was accepted";
     } catch (const gpu::GlError& e) {
         EXPECT_NE(std::string(e.what()).find("1048576x8 pixels exceeds this GPU's limit"),
                   std::string::npos)

@@ -16,7 +16,7 @@ struct PipelineCase {
         return waves.shoot(rig.video.size, {.shift = shift});
     }
     [[nodiscard]] TestPicture still() const { return fine(rig.still.size, {0, 0}); }
-    /// The same view at another resolution.
+    /// The view of video() at another resolution.
     [[nodiscard]] TestPicture fine(Size size, const Eigen::Vector2d& shift) const {
         const double step = static_cast<double>(rig.video.size.width) / size.width;
         return waves.shoot(size, {.step = step, .shift = shift, .footprint = step});

@@ -38,7 +38,7 @@ TEST_F(PipelineInputs, OptionsOutOfRangeAreRefused) {
     EXPECT_THROW(Pipeline(c.rig, far), std::invalid_argument);
 }
 
-// A shift of 9 px can only be found at the coarsest level.
+// A shift of 9 px can only be found at the coarsest pyramid level.
 TEST_F(PipelineInputs, FlowUsesTheConfiguredLevels) {
     const PipelineCase c;
     const auto errorWith = [&](int levels) {
@@ -183,7 +183,7 @@ private:
 
 TEST_F(PipelineInputs, TheDriverHasNoSevereMessages) {
     HighMessages high(context());
-    if (!high.available()) GTEST_SKIP() << "the context has no KHR_debug";
+    if (!high.available()) GTEST_SKIP() << "the GL context lacks the extension KHR_debug";
     const PipelineCase c({100, 60});
     Pipeline p(c.rig, {});
     for (const SuperResMode mode : {SuperResMode::Off, SuperResMode::Blend, SuperResMode::Detail}) {

@@ -87,7 +87,7 @@ TEST_F(PipelinePose, SearchStartsFromThePreviousFrame) {
     EXPECT_FALSE(predicted(0));
     for (int frame = 1; frame <= 7; ++frame)
         EXPECT_TRUE(predicted(frame)) << frame;
-    EXPECT_FALSE(predicted(8)) << "what is new is looked for at intervals";
+    EXPECT_FALSE(predicted(8)) << "every 8th frame must be searched without a prediction";
     EXPECT_TRUE(predicted(9));
     p.setStill(c.still().view(), {}, poseAt(Vector3d::Zero()));
     EXPECT_FALSE(predicted(10));

@@ -16,7 +16,7 @@ using PlanDrift = GlTest;
 constexpr Size kDriftVideo{317, 235};  // the last tiles are cut off
 constexpr std::size_t kDriftPixels = std::size_t{317} * 235;
 
-using Rgb = std::array<float, 3>;  // [grey levels]
+using Rgb = std::array<float, 3>;  // a colour [grey levels]
 using Light = std::vector<Rgb>;    // one colour per pixel
 using DriftScene = std::function<Rgb(int x, int y, int frame)>;
 
@@ -128,8 +128,8 @@ DriftScene brightening(double perFrame, bool redAlone) {
     };
 }
 
-// The limit: if noise is the picture's only error, a loss of 0.1 dB is 2.3 % of the noise's
-// variance.
+// The limit of the error of stale tiles is 3 % of the noise's variance. (If noise is the picture's
+// only error, a loss of 0.1 dB is 2.3 %.)
 TEST_F(PlanDrift, SlowChangesLeaveNoStaleTiles) {
     const std::vector<std::pair<const char*, DriftScene>> scenes{
         {"slow", slopes(25, 0.05)},

@@ -17,7 +17,7 @@ constexpr double kMeanThreshold = 1.58, kAbsoluteThreshold = 2.37;
 struct TileState {
     std::uint32_t changed, matched;
     double noise, structure;
-    std::array<double, 3> energy;  // mean squares of pixels, 2x2 means, their twist
+    std::array<double, 3> energy;  // see twin::TileChange::energy
 };
 
 std::vector<TileState> tilesOf(const WorkPlan& plan) {
@@ -48,7 +48,7 @@ TestPicture changedIn(TestPicture base, int tiles, int by) {
     return out;
 }
 
-TEST_F(Plan, FlagsAndNoiseMatchTheOracle) {
+TEST_F(Plan, TileFlagsAndNoiseMatchTheOracle) {
     const TestPicture drawn = Waves(1, 6, 60, 30).shoot(kSize, {});
     TestPicture now = drawn;
     std::mt19937 random(7);
@@ -85,7 +85,7 @@ TEST_F(Plan, FlagsAndNoiseMatchTheOracle) {
     EXPECT_LE(changed, 26);
 }
 
-TEST_F(Plan, OverdrawnTilesAreRedrawnOnceAnyOtherTileChanges) {
+TEST_F(Plan, TilesUnderVirtualObjectsAreRedrawnOnceAnyOtherTileChanges) {
     const TestPicture base = Waves(1, 6, 60, 30).shoot(kSize, {});
     const TestPicture oneTile = changedIn(base, 1, 64);
     WorkPlan plan(kSize);
@@ -107,12 +107,12 @@ TEST_F(Plan, OverdrawnTilesAreRedrawnOnceAnyOtherTileChanges) {
     EXPECT_EQ(plan.work().changed, 6);
     EXPECT_TRUE(plan.redraws());
     plan.update(planesOf(base), planesOf(base), false);
-    EXPECT_EQ(plan.work().changed, 0) << "redrawn once";
+    EXPECT_EQ(plan.work().changed, 0) << "tiles must be redrawn only once";
     plan.update(planesOf(base), planesOf(base), true);
-    EXPECT_EQ(plan.work().changed, 28) << "none counts twice";
+    EXPECT_EQ(plan.work().changed, 28) << "a tile must not be counted twice";
 }
 
-TEST_F(Plan, OverdrawnTilesAreRedrawnTogetherOnceOneOfThemChanges) {
+TEST_F(Plan, TilesUnderVirtualObjectsAreRedrawnTogetherOnceOneChanges) {
     const TestPicture base = Waves(1, 6, 60, 30).shoot(kSize, {});
     const TestPicture oneTile = changedIn(base, 1, 64);  // only the first tile changes
     WorkPlan plan(kSize);
@@ -122,7 +122,8 @@ TEST_F(Plan, OverdrawnTilesAreRedrawnTogetherOnceOneOfThemChanges) {
     EXPECT_FALSE(plan.redraws());
     plan.drawnOver({1, 0, 4, 2}, WorkPlan::Redraw::WithThem);
     plan.update(planesOf(oneTile), planesOf(base), false);
-    EXPECT_EQ(plan.work().changed, 1 + 3 * 2) << "beside them";
+    EXPECT_EQ(plan.work().changed, 1 + 3 * 2)
+        << "tiles next to the changed one must be redrawn together with it";
     EXPECT_TRUE(plan.redraws());
     plan.update(planesOf(base), planesOf(base), true);
     EXPECT_TRUE(plan.redraws());
@@ -233,8 +234,8 @@ TestPicture dotted(Size size, const std::vector<int>& contrasts) {
     return out;
 }
 
-/// Columns of tiles in which all tiles are matched. Returns {-1} if a column has both kinds of
-/// tiles.
+/// Columns of tiles in which all tiles are matched. Returns {-1} if a column has matched and
+/// unmatched tiles.
 std::vector<int> matchedColumns(const WorkPlan& plan) {
     const auto tiles = tilesOf(plan);
     const Size count = plan.tileCount();
@@ -260,20 +261,21 @@ TEST_F(Plan, TilesWithStructureAndTheirNeighboursAreMatched) {
             plan.update(planesOf(picture), planesOf(picture), true);
         return matchedColumns(plan);
     };
-    EXPECT_EQ(update().size(), 16U) << "at first everything";
+    EXPECT_EQ(update().size(), 16U) << "at first, all columns must be matched";
     plan.matchStructured(1);
     EXPECT_EQ(update(), (std::vector<int>{0, 1, 2, 4, 5, 6, 12, 13, 14}));
     EXPECT_EQ(plan.work().matched, 9 * 6);
     plan.matchStructured(6.5 / 16);
-    EXPECT_EQ(update(), (std::vector<int>{4, 5, 6, 12, 13, 14})) << "the most structure";
+    EXPECT_EQ(update(), (std::vector<int>{4, 5, 6, 12, 13, 14}))
+        << "the columns with the most structure must be matched";
     plan.matchStructured(0.05);
-    EXPECT_EQ(plan.work().matched, 6 * 6) << "with the next update";
+    EXPECT_EQ(plan.work().matched, 6 * 6) << "the new share takes effect only with the next update";
     EXPECT_TRUE(update().empty());
     plan.matchEverything();
     EXPECT_EQ(update().size(), 16U);
 }
 
-TEST_F(Plan, NoiseDoesNotToggleDetail) {
+TEST_F(Plan, NoiseDoesNotSwitchTheDetailOfTilesOnAndOff) {
     const Size size{512, 256};  // 32x16 tiles
     TestPicture quiet(size, PixelFormat::Rgba8, 90);
     std::mt19937 random(5);
@@ -299,7 +301,7 @@ TEST_F(Plan, NoiseDoesNotToggleDetail) {
     }
     EXPECT_GT(plan.work().matched, 512 / 5);
     EXPECT_LE(plan.work().matched, 512 / 2);
-    EXPECT_LT(turns, 19 * 512 / 100) << "one tile of a hundred a frame";
+    EXPECT_LT(turns, 19 * 512 / 100) << "at most one tile in a hundred may change in a frame";
 }
 
 TEST_F(Plan, ChangedTilesWithoutStructureAreNotMatched) {
@@ -314,7 +316,8 @@ TEST_F(Plan, ChangedTilesWithoutStructureAreNotMatched) {
         for (int i = 0; i < 256; ++i)  // changes one tile uniformly
             now.at((inStructure ? 16 : 192) + i % 16, 32 + i / 16)[1] += 9;
         plan.update(planesOf(now), planesOf(drawn), false);
-        EXPECT_EQ(plan.work().changed, 9) << "with those beside it";
+        EXPECT_EQ(plan.work().changed, 9)
+            << "the changed tile and its eight neighbours must be redrawn";
         EXPECT_EQ(plan.work().matched, inStructure ? 9 : 0);
     }
 }

@@ -162,7 +162,7 @@ TEST_F(Preview, BoundsEncloseCoveredPixelsTightly) {
     PreviewRenderer renderer(lens(), kOutput);
     struct Case {
         Eigen::Vector2d shift;
-        int most;  // cells that the picture's border cuts off are this large [px]
+        int most;  // largest slack: the size of cells that the picture's border cuts off [px]
     };
     for (const Case& c :
          {Case{{0, 0}, 3}, Case{{-0.7, 0.1}, 16}, Case{{0.7, -0.5}, 16}, Case{{0.1, 0.6}, 16}}) {

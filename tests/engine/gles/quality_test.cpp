@@ -66,7 +66,8 @@ TEST_F(QualityTest, WithoutTheStillAFrameMayBeEnlargedLinearly) {
             ASSERT_NEAR(image[4 * i], wanted.values[i], 1.02) << i;
     }
     Pipeline usual(c.rig, {});
-    EXPECT_TRUE(pictureOf(detail, c, false) == pictureOf(usual, c, false)) << "of the still alone";
+    EXPECT_TRUE(pictureOf(detail, c, false) == pictureOf(usual, c, false))
+        << "the option must have no effect on a frame with a still";
 }
 
 // Only the two lowest rows of a tile change.
@@ -169,7 +170,7 @@ int mostDifference(const Image& a, const Image& b) {
     return out;
 }
 
-TEST_F(QualityTest, DisablingSkipsDrawsTheSamePicture) {
+TEST_F(QualityTest, WithoutSkippedWorkThePictureIsTheSame) {
     const PipelineCase c;
     Pipeline usual(c.rig, {});
     const Image wanted = pictureOf(usual, c, false);
@@ -194,7 +195,7 @@ TestPicture evenButForAPatch(TestPicture picture, int grey) {
 }
 
 // The patch is searched along epipolar lines and drawn with detail.
-TEST_F(QualityTest, APatchIsDrawnAsWellAsAWholePicture) {
+TEST_F(QualityTest, APatchWithDetailIsDrawnAsWellAsAWholePicture) {
     const PipelineCase c;
     const auto frame = [&](double shift) {
         return evenButForAPatch(c.video({shift, 0}), 90 + static_cast<int>(4 * shift));
@@ -235,7 +236,7 @@ std::vector<TileClass> classesAfterAChange(const SkipOptions& skips) {
     return p.readTileClasses();
 }
 
-TEST_F(QualityTest, WithSkipsDisabledAllWorkIsDone) {
+TEST_F(QualityTest, WithSkippingDisabledAllTilesAreProcessed) {
     const auto count = [](const std::vector<TileClass>& classes, TileClass which) {
         return std::ranges::count(classes, which);
     };

@@ -40,7 +40,7 @@ TEST(RgbPlanes, EveryFormatMatchesTheOracleUpToTheRepeatedBorder) {
     }
 }
 
-TEST(RgbPlanes, TheSmallestPicturesOfEveryFormatAreTaken) {
+TEST(RgbPlanes, TheSmallestPicturesOfEveryFormatAreConverted) {
     for (const PixelFormat format : test::kEveryFormat) {
         const test::PaddedPicture source(format, {2, 2}, 7);
         EXPECT_LE(worstAgainstTwin(source.view()), 0.8) << nameOf(format);

@@ -105,9 +105,9 @@ private:
 
 void checkStorage(const LinkedShader& shader, bool vertex, Faults& faults) {
     const GLint blocks = shader.count(GL_SHADER_STORAGE_BLOCK);
-    if (vertex && blocks > 0) faults.push_back("storage block in a vertex shader");
+    if (vertex && blocks > 0) faults.push_back("a vertex shader must not use storage blocks");
     if (blocks > ShaderBudget::kStorageBlocks)
-        faults.push_back(std::to_string(blocks) + " storage blocks");
+        faults.push_back(std::to_string(blocks) + " storage blocks; 4 are guaranteed");
     for (GLint i = 0; i < blocks; ++i) {
         const GLint binding = shader.property(GL_SHADER_STORAGE_BLOCK, i, GL_BUFFER_BINDING);
         if (binding >= ShaderBudget::kStorageBlocks)
@@ -144,8 +144,9 @@ void checkImageCount(const LinkedShader& shader, bool vertex, Faults& faults) {
         if (binding + elements > ShaderBudget::kImages)
             faults.push_back("image " + name + " at binding " + std::to_string(binding));
     }
-    if (vertex && images > 0) faults.push_back("image in a vertex shader");
-    if (images > ShaderBudget::kImages) faults.push_back(std::to_string(images) + " images");
+    if (vertex && images > 0) faults.push_back("a vertex shader must not use images");
+    if (images > ShaderBudget::kImages)
+        faults.push_back(std::to_string(images) + " images; 4 are guaranteed");
 }
 
 void checkGroup(const LinkedShader& shader, Faults& faults) {
@@ -153,7 +154,8 @@ void checkGroup(const LinkedShader& shader, Faults& faults) {
     glGetProgramiv(shader.id(), GL_COMPUTE_WORK_GROUP_SIZE, size.data());
     const GLint invocations = size[0] * size[1] * size[2];
     if (invocations > ShaderBudget::kInvocations)
-        faults.push_back(std::to_string(invocations) + " invocations a group");
+        faults.push_back(std::to_string(invocations) +
+                         " invocations a work group; 128 are guaranteed");
 }
 
 // OpenGL ES does not report the size of shared variables. They are moved into storage blocks, whose

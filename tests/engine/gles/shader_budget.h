@@ -9,8 +9,8 @@ namespace mfar {
 /// Limits that every OpenGL ES 3.1 driver guarantees (the portable floor). The software renderer
 /// accepts far more; so tests check each shader against these numbers.
 struct ShaderBudget {
-    static constexpr int kStorageBlocks = 4;  ///< also the highest binding + 1
-    static constexpr int kImages = 4;         ///< also the highest binding + 1
+    static constexpr int kStorageBlocks = 4;  ///< number of blocks, and highest binding + 1
+    static constexpr int kImages = 4;         ///< number of images, and highest binding + 1
     static constexpr int kInvocations = 128;  ///< invocations of a work group
     static constexpr int kSharedBytes = 16 * 1024;
     static constexpr int kFileLines = 150;

@@ -31,7 +31,7 @@ bool isShader(const fs::path& path) {
 void expectFault(const std::vector<std::string>& faults, const std::string& words) {
     for (const std::string& fault : faults)
         if (fault.find(words) != std::string::npos) return;
-    ADD_FAILURE() << "not found: " << words << " in " << testing::PrintToString(faults);
+    ADD_FAILURE() << "no fault contains: " << words << " in " << testing::PrintToString(faults);
 }
 
 std::string compute(const std::string& globals, const std::string& body,
@@ -77,7 +77,7 @@ TEST_F(ShaderBudgetGl, EveryVariantStaysWithinThePortableFloor) {
                 ADD_FAILURE() << s.name << " " << defines << ": " << fault;
 }
 
-TEST(ShaderBudgetChecker, FindsFaultsOfFiles) {
+TEST(ShaderBudgetChecker, FindsFaultsOfNameHeaderAndLengthOfFiles) {
     const std::string good = "// Fills.\nvoid main() {\n}\n";
     EXPECT_TRUE(shaderFileFaults("test_fill.comp", good).empty());
     EXPECT_TRUE(shaderFileFaults("test_shared.glsl", "// Shared.\n").empty());
@@ -141,7 +141,7 @@ TEST_F(ShaderBudgetGl, CheckerCountsStorageBlocks) {
                                     "layout(std430, binding = 0) readonly buffer B { vec4 b[]; };\n"
                                     "void main() { gl_Position = b[gl_VertexID]; }",
                                     ""),
-                "storage block in a vertex shader");
+                "a vertex shader must not use storage blocks");
 }
 
 TEST_F(ShaderBudgetGl, CheckerCountsImages) {
@@ -159,7 +159,7 @@ TEST_F(ShaderBudgetGl, CheckerCountsImages) {
     expectFault(faults, "image i4 at binding 4");
 }
 
-TEST_F(ShaderBudgetGl, CheckerMeasuresGroupsAndSharedMemory) {
+TEST_F(ShaderBudgetGl, CheckerMeasuresWorkGroupsAndSharedMemory) {
     const std::string block = "layout(std430, binding = 0) buffer B { float b[]; };\n";
     const std::string use = "s[gl_LocalInvocationIndex] = 1.0; barrier(); b[0] = s[3];";
     const std::string fits = block + "const int N = 64;\nshared float s[N * 64];\n";

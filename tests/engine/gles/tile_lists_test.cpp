@@ -135,7 +135,7 @@ TEST_F(TileListsGl, CoarserLevelsContainAllGroupsThatFinerOnesRead) {
     EXPECT_LT(listed(lists, 1).size(), 40U);
 }
 
-TEST_F(TileListsGl, AnEmptyPlanListsNothing) {
+TEST_F(TileListsGl, WithoutMatchedTilesNothingIsListed) {
     TileBuffer tiles(kVideoSize);
     TileLists lists(kCells, kLevels);
     const auto fields = randomFields(2);
@@ -227,7 +227,7 @@ TEST_F(TileListsGl, WithoutMotionNothingIsSearched) {
     EXPECT_EQ(r.flow.searched().read(), std::vector<bool>(kTiles.width * kTiles.height));
 }
 
-TEST_F(TileListsGl, TilesWithUnrelatedContentAreSearchedAndWeighedByCost) {
+TEST_F(TileListsGl, ErrorsOfUnrelatedTilesFollowTheMatchingCost) {
     const Refined r(randomPicture(kVideoSize, 1), randomPicture(kVideoSize, 2));
     EXPECT_EQ(r.flow.searched().count(), kTiles.width * kTiles.height);
     const auto vectors = r.vectors(), errors = r.errors();
@@ -241,7 +241,7 @@ TEST_F(TileListsGl, TilesWithUnrelatedContentAreSearchedAndWeighedByCost) {
         EXPECT_NEAR(errors[i][0], 5 * (vectors[i][2] - 0.1F), 1e-3) << "cell " << i;
     }
     EXPECT_GT(offLine, 0);
-    EXPECT_LT(offLine, kCount / 2) << "noise fits noise better by chance, but not that often";
+    EXPECT_LT(offLine, kCount / 2) << "fewer than half of the cells may leave their line";
 }
 
 }  // namespace

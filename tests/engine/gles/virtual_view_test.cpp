@@ -41,7 +41,7 @@ class ShadowDepthGl : public GlTest {
 protected:
     void SetUp() override {
         GlTest::SetUp();
-        if (!TracedLayer::isAvailable()) GTEST_SKIP() << "no path tracer in this build";
+        if (!TracedLayer::isAvailable()) GTEST_SKIP() << "this build has no path tracer";
         engine_ = makeGlesEngine({.rig = {kAbove, kAbove, {}}, .output = kSeen});
         view_ = std::make_unique<VirtualView>(kAbove, *engine_, TracedLayerOptions{.size = kSeen});
         view_->setScene(hovering());

@@ -101,8 +101,8 @@ twin::Cells constantCells(Size size, std::array<float, 4> value) {
     return out;
 }
 
-// Both sensors share half of the variance. That is enough where the flow is uniform; where it
-// changes, it costs three quarters of the weight.
+// The squared correlation of video and still is a half. Where the flow is uniform, that is enough
+// for the full weight; where the flow changes, it leaves a quarter of the weight.
 TEST_F(Weigh, ABentFlowLowersTheWeightOfAnImperfectMatch) {
     const twin::Cells half = constantCells(kHalf, {0, 0, 0, 0});
     const twin::Cells matched = constantCells(kWhole, {7.07e4F, 1e5F, 1e5F, 1});
@@ -217,7 +217,7 @@ unsigned classIn(const twin::Cells& field, int tile) {
     return twin::tileClass(field, tile % kClassified.width, tile / kClassified.width);
 }
 
-/// These tiles and all their neighbours.
+/// Returns `tiles` and all their neighbours.
 std::set<std::uint32_t> withNeighbours(const std::set<std::uint32_t>& tiles) {
     std::set<std::uint32_t> out;
     for (const std::uint32_t tile : tiles)
@@ -238,9 +238,10 @@ void expectLists(const Classified& got, const std::array<std::set<std::uint32_t>
     }
 }
 
-TEST_F(Classify, ClassesCountsAndListsMatchTheOracle) {
+TEST_F(Classify, TileClassesCountsAndListsMatchTheOracle) {
     const twin::Cells field = mixedField();
-    std::array<std::set<std::uint32_t>, 4> wanted;  // tiles: all, enlarged only, trusted, blended
+    // Tiles that the four lists must contain: all, enlarged only, trusted, blended.
+    std::array<std::set<std::uint32_t>, 4> wanted;
     std::array<unsigned, 4> counts{};
     for (int i = 0; i < static_cast<int>(kTileCount); ++i) {
         const int x = i % kClassified.width, y = i / kClassified.width;
@@ -258,14 +259,14 @@ TEST_F(Classify, ClassesCountsAndListsMatchTheOracle) {
     const auto around = withNeighbours(detailed);
     wanted[0].insert(around.begin(), around.end());
     EXPECT_GT(wanted[0].size(), changed.size());
-    EXPECT_LT(wanted[0].size(), kTileCount) << "some tiles are far from all detail";
+    EXPECT_LT(wanted[0].size(), kTileCount) << "the test needs tiles that are far from all detail";
 
     const Classified got = classify(field, changes(0), true);
     expectLists(got, wanted);
     for (unsigned i = 0; i < kTileCount; ++i)
         EXPECT_EQ(got.classes[i][0], i % 3 == 0 ? 0 : classIn(field, static_cast<int>(i)));
     for (unsigned k = 0; k < 4; ++k) {
-        EXPECT_GT(counts[k], 0U) << "the field shows every class";
+        EXPECT_GT(counts[k], 0U) << "the test needs tiles of every class";
         EXPECT_EQ(got.draws.counts[k], counts[k]);
     }
     EXPECT_EQ(got.draws.counts[6],
@@ -275,7 +276,7 @@ TEST_F(Classify, ClassesCountsAndListsMatchTheOracle) {
     expectLists(classify(field, changes(0), true, 0), wanted);
 }
 
-TEST_F(Classify, AWholeFrameListsNothing) {
+TEST_F(Classify, ForAWholeFrameNoTilesAreListed) {
     const Classified got = classify(mixedField(), changes(1), true);
     EXPECT_EQ(got.draws.counts[0], 0U);
     for (const auto& command : got.draws.commands)

@@ -10,7 +10,7 @@ namespace {
 
 using Row = std::vector<float>;
 
-TEST(CellDepths, CellDepthIsTheMeanOfTheMiddleTwoPixels) {
+TEST(CellDepths, CellDepthIsTheMedianOfTheFourCentralPixels) {
     for (const std::size_t count : test::kLengths) {
         const Row upper = test::randomValues<float>(4 * count, -1, 1, 1);
         const Row lower = test::randomValues<float>(4 * count, -1, 1, 2);
@@ -84,7 +84,7 @@ TEST(AlignCells, FollowsTheFlowAlongTheLine) {
             EXPECT_NEAR(found[i], wanted[i], 2e-4);
         found = cells.s;
         alignCells(cells.ends, cells.row(), flow.data(), start.data(), 0.01F, 1e6F, found.data());
-        EXPECT_EQ(found, cells.s) << "where a line tells nothing";
+        EXPECT_EQ(found, cells.s) << "cells whose flow hardly depends on s must keep s";
     }
 }
 
@@ -119,7 +119,7 @@ TEST(CellsHidden, OccludedCellsLieBehindOthersAtTheSamePixel) {
     }
 }
 
-TEST(PredictCells, CarriesCellsToTheNextFrame) {
+TEST(PredictCells, MovesCellsAndTheirInverseDepthToTheNextFrame) {
     CellMotion m{test::barrel(), {test::smallTurn(), {0.1F, 0.05F, -0.2F}}, 0.3F, 0.4F, 1.5F,
                  0.05F};
     const Size cells{100, 80};

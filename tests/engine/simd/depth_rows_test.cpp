@@ -34,7 +34,7 @@ TEST(LandRow, FindsThePixelOfTheOtherPicture) {
         landRow(lens, kPicture, motion, x.data(), y.data(), s.data(), count, landing.data());
         for (std::size_t i = 0; i < count; ++i) {
             if (i == count / 2) {
-                EXPECT_EQ(landing[i], -1) << "from a depth that is no number";
+                EXPECT_EQ(landing[i], -1) << "a NaN depth must land nowhere";
                 continue;
             }
             const auto& t = motion.move;
@@ -47,7 +47,7 @@ TEST(LandRow, FindsThePixelOfTheOtherPicture) {
     }
 }
 
-TEST(MoveRow, CarriesPointsWithTheirVariance) {
+TEST(MoveRow, MovesPointsAndTheirVariance) {
     const Lens lens = test::barrel();
     const Motion motion{test::smallTurn(), {0.1F, -0.05F, -0.3F}};
     const MoveRule rule{0.01F, 0.02F, 0.05F, 0.001F};
@@ -78,7 +78,7 @@ TEST(MoveRow, CarriesPointsWithTheirVariance) {
             const double z = turned.z + rho[i] * motion.move[2];
             const auto q = test::project(lens, (turned.x + rho[i] * motion.move[0]) / z,
                                          (turned.y + rho[i] * motion.move[1]) / z);
-            // Also tries rays far outside, beyond the valid circle of the lens.
+            // Near the smallest valid depth, rounding decides whether the point is valid.
             if (std::abs(z - rule.leastDepth) < 0.05) continue;
             const int expected = pixelOf(q, variance[i] < kInfinity && z > rule.leastDepth);
             if (expected == -2) continue;
@@ -96,7 +96,7 @@ TEST(MoveRow, CarriesPointsWithTheirVariance) {
     }
 }
 
-TEST(MeasureRow, DistinguishesVisibleAndMovingPoints) {
+TEST(MeasureRow, OnlyVisiblePointsThatMoveWithTheirDepthAreMeasured) {
     const MeasureRule rule{{0.3F, 0.1F, 0.5F}, 0.05F, 0.05F, 0.003F, 2};
     for (const std::size_t count : test::kLengths) {
         const Row raysX = test::randomValues<float>(count, -0.6, 0.6, 1);

@@ -5,7 +5,8 @@
 namespace mfar::simd {
 namespace {
 
-// Tolerance: luma has units of 1/8 grey level, and the limits have units of a quarter of that.
+// Tolerance [grey levels]: luma is rounded to 1/8 grey level, and the limits of the learned
+// residual are a quarter of a difference of such values.
 constexpr double kLearnedError = 1.3;
 
 TEST(DetailStepLearned, LearnedFramesMatchTheOracleWithAndWithoutAStill) {
@@ -28,7 +29,7 @@ TEST(DetailStepLearned, LearnedFramesMatchTheOracleWithAndWithoutAStill) {
                             << output.width << ": " << x << " " << y << " " << c;
                         most = std::max(most, std::abs(value - without.channel(x, y, c)));
                     }
-            EXPECT_GT(most, 4) << "the filters would show";
+            EXPECT_GT(most, 4) << "the test needs filters that change the picture";
         }
 }
 
@@ -49,7 +50,7 @@ TEST(DetailStepLearned, GuidedFramesMatchTheOracle) {
                     << output.width << ": " << x << " " << y;
                 most = std::max(most, std::abs(value - without.channel(x, y, 1)));
             }
-        EXPECT_GT(most, 4) << output.width << ": guidance would show";
+        EXPECT_GT(most, 4) << output.width << ": the test needs guidance that changes the picture";
     }
 }
 

@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-/// Frames drawn by the detail step, and the results that the oracle wants.
+/// Frames drawn by the detail step (Drawn), and the pictures that the oracle expects (Wanted).
 namespace mfar::simd {
 
 using twin::Grey;
@@ -73,8 +73,8 @@ public:
     [[nodiscard]] double blended(int x, int y, int c, const Grey& still) const {
         return std::lerp(enlarged(x, y, c), there(x, y, still), lookUpAt(x, y, 3));
     }
-    /// From this call on, video pixels see the mean of the still itself, as in the shaders. By
-    /// default they see the mean of the warped still.
+    /// From this call on, the mean that is subtracted from the still is computed over the still
+    /// itself, as in the shaders. By default, it is computed over the warped still.
     void seeStill() {
         ofWarped_ = false;
         detail_ = {};
@@ -97,7 +97,7 @@ public:
         }
         const double weight = lookUpAt(x, y, 2);
         double up = video_[c].at(x, y);
-        if (options_.learned != nullptr)  // reduced where the detail of the still is added
+        if (options_.learned != nullptr)  // the residual shrinks where the still adds detail
             up -= std::min(weight, 1.0) * residual_.at(x, y);
         return std::clamp(up + weight * detail_.at(x, y), 0.0, 255.0);
     }
@@ -108,15 +108,16 @@ private:
         return lookUp_[channel].bilinear((x + 0.5) * video.width / output_.width / 4 - 0.5,
                                          (y + 0.5) * video.height / output_.height / 4 - 0.5);
     }
-    /// The value of the still at the place that an output position looks up.
+    /// The value of the still at the position that an output position looks up.
     [[nodiscard]] double there(double x, double y, const Grey& still) const {
         const double px = (x + 0.5) * still.size.width / output_.width + lookUpAt(x, y, 0) - 0.5,
                      py = (y + 0.5) * still.size.height / output_.height + lookUpAt(x, y, 1) - 0.5;
         return still.bilinear(std::clamp(px, -1.0, double(still.size.width)),
                               std::clamp(py, -1.0, double(still.size.height)));
     }
-    /// Subtracts what guidance adds and removes. Values are relative to the mean over those of the
-    /// 5x5 pixels around whose cells have a weight.
+    /// Subtracts from `seen` the still's detail that guidance adds, and adds the video's detail
+    /// that guidance removes. Detail is the difference of a pixel from the mean of the 5x5 pixels
+    /// around it, as far as their cells have a weight.
     [[nodiscard]] Grey guided(const Grey& seen) const {
         const Guidance guidance =
             options_.learned != nullptr ? options_.learned->guidance() : Guidance{};

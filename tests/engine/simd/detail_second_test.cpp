@@ -88,7 +88,8 @@ TEST(DetailStepSecond, ASecondStillWithHigherWeightBlendsWithoutASeam) {
         const DrawnWithBoth both(stills);
         const Drawn first(stills.frame, kOutput, withFilters()),
             second(stills.other, kOutput, withFilters());
-        EXPECT_EQ(both.summary.second, 5 * 8) << "columns 4 to 8 of ten";
+        EXPECT_EQ(both.summary.second, 5 * 8)
+            << "tile columns 4 to 8 of ten must show the second still";
         int differs = 0;
         for (int y = 0; y < kOutput.height; ++y)
             for (int x = 0; x < kOutput.width; ++x) {
@@ -104,7 +105,7 @@ TEST(DetailStepSecond, ASecondStillWithHigherWeightBlendsWithoutASeam) {
                     ASSERT_EQ(got, a) << x << " " << y;
                 }
             }
-        EXPECT_GT(differs, 5000) << "both stills show the same: the test says nothing";
+        EXPECT_GT(differs, 5000) << "the test needs stills that show different pictures";
     });
 }
 
@@ -127,7 +128,8 @@ TEST(DetailStepSecond, ATileExplainedByTheSecondStillCountsAsExplained) {
     for (TrustCell& cell : stills.frame.trust)
         cell.unexplained = 1;
     const DrawnWithBoth both(stills);
-    EXPECT_EQ(both.summary.unexplained, 10 * 8 - 3 * 8) << "three columns of tiles are explained";
+    EXPECT_EQ(both.summary.unexplained, 10 * 8 - 3 * 8)
+        << "the second still must explain three columns of tiles";
     for (TrustCell& cell : stills.other.trust)
         cell.unexplained = 1;
     EXPECT_EQ(DrawnWithBoth(stills).summary.unexplained, 10 * 8);

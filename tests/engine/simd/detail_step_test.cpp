@@ -109,10 +109,10 @@ void expectDetailIn(const DetailCase& frame, const Drawn& drawn, Size output,
             ASSERT_NEAR(drawn.channel(x, y, 1), in ? with : without, 0.8) << x << " " << y;
             if (!in) most = std::max(most, std::abs(with - without));
         }
-    EXPECT_GT(most, 5) << "detail would show in the other tiles";
+    EXPECT_GT(most, 5) << "the test needs detail that would be visible in other tiles";
 }
 
-TEST(DetailStep, DetailOfAWholeFrameStaysInItsRectangle) {
+TEST(DetailStep, DetailOfAWholeFrameStaysInTheGivenRectangle) {
     const Size output{576, 432};
     DetailCase frame({160, 120}, {400, 300});
     frame.work.detailTiles = {2, 1, 7, 6};
@@ -122,7 +122,7 @@ TEST(DetailStep, DetailOfAWholeFrameStaysInItsRectangle) {
     });
 }
 
-TEST(DetailStep, AWholeFrameWithAListHasDetailOnlyInMatchedTiles) {
+TEST(DetailStep, WholeEnlargedFramesHaveDetailOnlyInMatchedTiles) {
     const Size output{576, 432};
     DetailCase frame({160, 120}, {400, 300});
     frame.work.draw = TileWork::Draw::WholeEnlarged;

@@ -30,7 +30,7 @@ TEST(OpenRow, PixelsAreOpenAtEdgesAndWhereDepthIsUnknown) {
 }
 
 struct Scene {
-    Size size{61, 47};  // in a picture that has voters
+    Size size{61, 47};  // number of voters in each direction
     AlignedRows<float> rho{size}, variance{size}, red{size}, green{size}, blue{size};
 
     explicit Scene(double invalidShare) {
@@ -49,7 +49,8 @@ struct Scene {
     }
 };
 
-/// Decides by the rule, in double precision. `margin`: how far the input is from another decision.
+/// Oracle of votePixels(), in double precision. `margin`: how far the input is from another
+/// decision.
 OpenPixel decide(const Scene& scene, const VoteRule& rule, const PixelRect& where, int y,
                  OpenPixel pixel, double& margin) {
     const auto votes = [&](int i, int j) {

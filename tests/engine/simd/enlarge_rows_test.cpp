@@ -128,7 +128,7 @@ TEST(EnlargeRows, ClassesMatchTheOracle) {
     });
 }
 
-TEST(EnlargeRows, EveryAngleAndStrengthClassOccurs) {
+TEST(EnlargeRows, WavesOfAllDirectionsReachEveryClass) {
     // Waves of all directions, from flat to steep.
     std::vector<bool> gradient(GradientClasses::kCount), curvature(CurvatureClasses::kCount);
     for (int angle = 0; angle < 64; ++angle)
@@ -175,7 +175,7 @@ struct Residual {
 };
 
 TEST(EnlargeRows, ResidualMatchesTheOracleForEqualClasses) {
-    // Tries small weights, and weights so large that the limits take effect.
+    // Tries small filter weights, and weights so large that the residual reaches its limits.
     for (const int most : {500, 8000}) {
         const FilterBank bank(randomFilters(most, 11));
         onEveryTarget([&] {
@@ -191,7 +191,7 @@ TEST(EnlargeRows, ResidualMatchesTheOracleForEqualClasses) {
                                                               residual.classes.gradient[y][x],
                                                               residual.classes.curvature[y][x],
                                                               bank),
-                                        // tolerance: a quarter of the range in whole eighths
+                                        // tolerance [1/32 grey level]: see gles/enlarge_test.cpp
                                         8.6)
                                 << x << " " << y << " " << phase;
                         }
@@ -289,7 +289,7 @@ TEST(EnlargeRows, BlurredEdgesGetSharper) {
     EXPECT_LT(allAfter, 0.8 * allBefore);
 }
 
-TEST(EnlargeRows, MixedRowLiesBetweenItsInputs) {
+TEST(EnlargeRows, AMixedResidualRowLiesBetweenItsTwoInputs) {
     onEveryTarget([&] {
         AlignedRows<std::int16_t> rows({50, 2});
         AlignedRows<float> out({50, 1});

@@ -39,12 +39,12 @@ TEST(FilterBank, TapsCoverEachNeighbourOnce) {
     EXPECT_EQ(tapAt({0, 0}), -1);
 }
 
-TEST(FilterBank, BinsMapOntoOneQuadrantByMirrors) {
+TEST(FilterBank, MirroringMapsAllGradientBinsOntoOneQuadrant) {
     for (const int bins : {8, 16})
         for (int bin = 0; bin < bins; ++bin) {
             const Symmetry same = Symmetry::of(bin, bins);
             const double angle = ((bin + 0.5) / bins - 0.5) * 3.14159265358979;
-            // A direction in the centre of the bin. Pixels are mapped in the same way.
+            // Mirrors a direction in the centre of the bin as the bin's pixels are mirrored.
             double x = std::cos(angle), y = std::sin(angle);
             if (same.mirrors) y = -y;
             if (same.transposes) std::swap(x, y);
@@ -98,7 +98,7 @@ TEST(FilterBank, ShippedFiltersCoverMostClasses) {
     EXPECT_GT(learned, GradientClasses::kCount / 2);
 }
 
-TEST(FilterBank, CubicKeepsFlatPictures) {
+TEST(FilterBank, TheCubicFilterKeepsFlatPictures) {
     // The weight of the pixel itself completes the sum to one. The other weights are those of Keys'
     // cubic.
     const std::int16_t* cubic = FilterBank::prior().cubic();
@@ -106,7 +106,7 @@ TEST(FilterBank, CubicKeepsFlatPictures) {
     for (int phase = 0; phase < kPhases; ++phase)
         far += std::abs(cubic[filterIndex(tapAt({-2, -2}), phase)]);
     EXPECT_GT(far, 0);
-    EXPECT_EQ(cubic[filterIndex(tapAt({2, 2}), 0)], 0) << "upper left sub-pixel";
+    EXPECT_EQ(cubic[filterIndex(tapAt({2, 2}), 0)], 0) << "tap of the upper left sub-pixel";
 }
 
 }  // namespace

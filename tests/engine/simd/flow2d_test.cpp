@@ -139,7 +139,7 @@ TEST(Flow2d, NoiseGivesBoundedFlowAtAnySize) {
     }
 }
 
-TEST(Flow2d, EveryNumberOfLevelsAndRoundsWorks) {
+TEST(Flow2d, EveryNumberOfPyramidLevelsAndPropagationRoundsWorks) {
     for (const int levels : {1, 2, 3, 6})
         for (const int rounds : {0, 1, 3}) {
             Flow2dOptions options;
@@ -209,11 +209,12 @@ TEST(Flow2d, SkippedTilesDoNotAffectOthers) {
                 }
             } else {
                 left += got.texture == 0 ? 1 : 0;
-                EXPECT_NEAR(got.x, 5.3F, 5) << "as the coarser level has it";
+                EXPECT_NEAR(got.x, 5.3F, 5)
+                    << "a skipped cell must have the coarser level's vector";
             }
         }
     EXPECT_GT(same, 300);
-    EXPECT_GT(left, 300) << "nothing was left out";
+    EXPECT_GT(left, 300) << "the test needs skipped cells";
 }
 
 TEST(Flow2d, TilesThatDidNotChangeKeepTheirVectors) {
@@ -249,7 +250,8 @@ TEST(Flow2d, RefinementAlignsTheSeeds) {
     Pair pair(wavesMoved(kSmall, {0, 0}), wavesMoved(kSmall, {4.3, -2.2}));
     pair.refine(seedsAround({4.3, -2.2}, 0.3), std::vector<Cell>(1200));
     EXPECT_TRUE(pair.flow.errorsGiven());
-    EXPECT_LE(pair.flow.searchedCount(), 2) << "in corners that the other picture does not show";
+    EXPECT_LE(pair.flow.searchedCount(), 2)
+        << "only tiles that the other picture does not show may be searched";
     const Errors e = errorsOf(pair.flow.forward(), {4.3, -2.2}, 4);
     EXPECT_LT(e.mean, 0.05);
     EXPECT_LT(e.worst, 0.3);
@@ -257,12 +259,13 @@ TEST(Flow2d, RefinementAlignsTheSeeds) {
     EXPECT_FALSE(pair.flow.errorsGiven());
 }
 
-TEST(Flow2d, TwoWayErrorsAreKeptWhenNothingIsMatched) {
+TEST(Flow2d, WithoutMatchedTilesNoTwoWayErrorsAreGiven) {
     Pair pair(wavesMoved(kSmall, {0, 0}), wavesMoved(kSmall, {1, 0}));
     pair.refine(seedsAround({1, 0}, 0.1), std::vector<Cell>(1200));
     pair.work.matched = 0;
     pair.run();
-    EXPECT_FALSE(pair.flow.errorsGiven()) << "vectors would be read as errors";
+    EXPECT_FALSE(pair.flow.errorsGiven())
+        << "after run(), vectors must not be read as two-way errors";
     pair.refine(seedsAround({1, 0}, 0.1), std::vector<Cell>(1200));
     EXPECT_TRUE(pair.flow.errorsGiven());
 }

@@ -130,7 +130,7 @@ bool isNearBorder(const Problem& p, std::size_t x, int label) {
     return false;
 }
 
-TEST(LabelPlaces, SubLabelPositionsAreMeasuredFromPixelFeet) {
+TEST(LabelPlaces, FractionsAreMeasuredBetweenLinePointsNearestToThePixels) {
     for (const std::size_t width : {1UL, 16UL, 37UL, 200UL}) {
         const Problem p(width, 20);
         const auto rises = test::randomValues<std::uint8_t>(4 * width, 0, 60, 9);
@@ -153,7 +153,7 @@ TEST(LabelPlaces, SubLabelPositionsAreMeasuredFromPixelFeet) {
     }
 }
 
-TEST(LabelVertices, VerticesAreThoseOfTwoLines) {
+TEST(LabelVertices, TheFractionOfALabelIsTheVertexOfTwoLines) {
     for (const std::size_t count : test::kLengths) {
         std::vector<Valley> valleys(count);
         for (std::size_t i = 0; i < count; ++i)

@@ -16,7 +16,7 @@ Bytes bytes(std::size_t count, unsigned seed) {
     return test::randomValues<std::uint8_t>(count, 0, 255.9, seed);
 }
 
-TEST(LumaFilters, HalvesTakeTheRoundedMeanOfFour) {
+TEST(LumaFilters, HalvedRowsAreRoundedMeansOfFourPixels) {
     for (const std::size_t width : kLengths) {
         const Bytes a = bytes(2 * width, 1), b = bytes(2 * width, 2);
         Bytes out(width + 1, 99);
@@ -57,7 +57,7 @@ TEST(LumaFilters, SmoothedRowsApplyTheTapsInBothDirections) {
     }
 }
 
-TEST(LumaFilters, NoiseIsTheResponseToTheMask) {
+TEST(LumaFilters, NoiseColumnsAreResponsesToTheNoiseMask) {
     constexpr Size kSize{140, 18};
     for (const bool extreme : {false, true}) {
         Bytes picture = bytes(140UL * 18, 7);

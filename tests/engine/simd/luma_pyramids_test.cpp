@@ -9,7 +9,7 @@ namespace {
 // Tolerance: half an 8-bit step, plus single precision for values between two steps.
 constexpr double kRounding = 0.501;
 
-/// A level as it is stored; its columns begin at x = -8.
+/// A pyramid level as it is stored; its columns begin at x = -8.
 class Stored {
 public:
     Stored(const LumaPyramids& pyramids, const LumaLevel& level)
@@ -67,7 +67,7 @@ TEST(LumaPyramids, LumaOfColoursFollowsRec601) {
             ASSERT_EQ(level.at(x, y), std::lround(0.299 * 200 + 0.587 * 100 + 0.114 * 30));
 }
 
-TEST(LumaPyramids, VideoFramesAreTheirLuma) {
+TEST(LumaPyramids, PyramidOfAVideoFrameIsThatOfItsLuma) {
     const FlowPicture picture = noiseOf({101, 59}, 3);
     LumaPyramids fromPlanes(picture.size, twoWorkers()), fromLuma(picture.size, twoWorkers());
     fromPlanes.buildVideo(planesOf(picture));
@@ -110,7 +110,7 @@ StereoRig bentRigOf(Size video, Size still) {
 }
 
 TEST(LumaPyramids, StillsAreResampledToTheVideosGeometry) {
-    // The footprint of the largest still does not fit into one window.
+    // With the largest still, a video pixel's footprint does not fit into the kernel's window.
     for (const Size size : {Size{345, 259}, Size{96, 72}, Size{1000, 750}}) {
         const FlowPicture still = wavesMoved(size, {0, 0});
         const Size video{96, 72};

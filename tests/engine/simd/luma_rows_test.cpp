@@ -32,7 +32,7 @@ TEST(LumaRows, IsRec601ToAGreyLevelAtAnyLength) {
     }
 }
 
-TEST(LumaRows, WhiteStaysWhiteAndBlueCountsLeastInBothOrders) {
+TEST(LumaRows, WhiteStaysWhiteAndBlueCountsLeastInBothChannelOrders) {
     const std::vector<std::uint8_t> texels{255, 255, 255, 0, 0, 0, 255, 0};
     std::vector<std::uint8_t> luma(2);
     lumaRow(texels.data(), false, 2, luma.data());

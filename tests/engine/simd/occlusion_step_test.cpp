@@ -101,7 +101,7 @@ protected:
     }
 };
 
-TEST_P(OcclusionSizes, ThreadsAndBoundsChangeNothingInside) {
+TEST_P(OcclusionSizes, PixelsInsideTheBoundsDoNotDependOnBoundsOrThreads) {
     const auto& [video, output] = GetParam();
     const twin::Scene scene = roughScene();
     Layer layer;

@@ -47,7 +47,7 @@ std::vector<float> randomVectors(unsigned seed, float reach) {
     return out;
 }
 
-/// Searches with `steps` Gauss-Newton steps. `vectors` are the only start.
+/// Searches with `steps` Gauss-Newton steps. `vectors` are the only candidates.
 FlowField searched(const Level& a, const Level& b, const std::vector<float>& vectors, int steps) {
     FlowField out(kCells), coarser({8, 6});
     SearchStep step;
@@ -88,7 +88,7 @@ TEST(PatchFlow, CostAndTextureMatchTheOracle) {
     expectCostsOf(chess, chess);
 }
 
-TEST(PatchFlow, OneStepMatchesTheOracle) {
+TEST(PatchFlow, OneGaussNewtonStepMatchesTheOracle) {
     const FlowPicture first = wavesMoved(kSize, {0, 0}), second = wavesMoved(kSize, {1.3, -0.6});
     const auto vectors = randomVectors(5, 1);
     const twin::Grey a = greyOf(first), b = greyOf(second);
@@ -164,7 +164,8 @@ TEST(PatchFlow, PropagationTakesTheBestOfTheNeighbours) {
     EXPECT_GT(moved, kCells.width * kCells.height / 4);
 }
 
-/// Checks the costs of seeds that lie on a plane. Cells at the border do not count.
+/// Checks the costs of seed vectors that change by dx and dy per pixel. `span`: see
+/// compareBentPatch(). Cells at the border do not count.
 void expectBentCosts(const Vector2d& dx, const Vector2d& dy, int span) {
     const FlowPicture first = wavesMoved(kSize, {0, 0}), second = noiseOf(kSize, 3);
     const Level a(first), b(second);

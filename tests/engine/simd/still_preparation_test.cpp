@@ -152,7 +152,7 @@ TEST(StillPreparation, CameraFormatsGiveTheLumaOfTheirColours) {
             }
 }
 
-TEST(StillPreparation, GreyAndBlueFirstAreRead) {
+TEST(StillPreparation, GreyAndBgrStillsAreRead) {
     Still s({40, 25}, {90, 60}, {90, 60});
     const auto bytes = mixedBytes(4UL * 90 * 60, 3, 3);
     s.preparation.set({bytes.data(), {90, 60}, 90, PixelFormat::Gray8});
@@ -205,7 +205,7 @@ TEST(StillPreparation, ReducedPictureMatchesTheOracle) {
     }
 }
 
-TEST(StillPreparation, AnyNumberOfThreadsGivesTheSame) {
+TEST(StillPreparation, ResultsDoNotDependOnTheNumberOfThreads) {
     const TestPicture picture({200, 140});
     Still one({50, 35}, {200, 140}, {200, 140}, 1), four({50, 35}, {200, 140}, {200, 140}, 4);
     one.preparation.set(picture.view);

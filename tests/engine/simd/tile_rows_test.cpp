@@ -83,7 +83,7 @@ TEST_P(TileRows, EveryTileMatchesTheOracle) {
     }
 }
 
-TEST_P(TileRows, InstructionSetsAndThreadsMeasureTheSameBits) {
+TEST_P(TileRows, ResultsAreIdenticalForAllInstructionSetsAndThreads) {
     const TestPicture now = tilePicture(GetParam(), 1, 1.3),
                       drawn = tilePicture(GetParam(), 2, 1.3);
     const auto wanted = measured(now, drawn);

@@ -234,7 +234,7 @@ bool same(Rows<const T> rows, const std::vector<T>& values) {
            std::memcmp(now.data(), values.data(), sizeof(T) * values.size()) == 0;
 }
 
-TEST(WeighStep, ThreadsChangeNothing) {
+TEST(WeighStep, ResultsDoNotDependOnTheNumberOfThreads) {
     WeighCase c({149, 83}, {300, 170}, true, 0);
     c.run();
     for (const int threads : {1, 2, 3}) {
@@ -246,7 +246,7 @@ TEST(WeighStep, ThreadsChangeNothing) {
     }
 }
 
-TEST(WeighStep, DoesNothingWhereNoTileChanged) {
+TEST(WeighStep, WithoutChangedTilesNothingIsComputed) {
     WeighCase c = plainCase();
     c.run();
     const auto before = copied(c.step.weighed());
