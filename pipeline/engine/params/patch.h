@@ -7,10 +7,11 @@ namespace mfar::params {
 inline constexpr float kPatchPixels = 64.0F;
 /// Energy of the noise in a patch [grey levels^2]. A patch with less energy is flat.
 inline constexpr float kPatchNoise = 128.0F;
-/// Added to the diagonal of the Hessian to limit steps where there is no gradient.
+/// Added to the diagonal of the Hessian. It limits the Gauss-Newton steps where there is no
+/// gradient.
 inline constexpr float kPatchDamping = 64.0F;
-/// Squared length [px^2] below which a step ends the search, and squared distance below which two
-/// candidates count as equal.
+/// Squared length [px^2] of a Gauss-Newton step below which the refinement ends, and squared
+/// distance [px^2] below which two candidate vectors count as equal.
 inline constexpr float kShortestStep = 2.5e-5F;
 inline constexpr float kSameCandidate = 0.25F;
 

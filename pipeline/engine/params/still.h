@@ -6,8 +6,9 @@
 // gles_shaders/params_to_glsl.cmake translates this header for the shaders.
 namespace mfar::params {
 
-/// Weight of each neighbour in the filter that raises the finest detail of a still, because linear
-/// look-ups lose some of it. Not used for a still that was reduced; see still_raise.frag.
+/// Weight of each neighbour in the filter that amplifies the finest detail of a still, because
+/// linear look-ups lose some of this detail. Not used for a still that was reduced; see
+/// still_raise.frag.
 inline constexpr float kLinearLoss = 0.08F;
 
 struct alignas(16) ReduceStill {
