@@ -29,9 +29,7 @@ struct TracedLayer::State {
         if (picture.scene != scene) {
             const bool sameModels = scene && sameObjects(*scene, *picture.scene);
             scene = picture.scene;
-            if (!sameModels)
-                warp.setScene(*scene);  // a change of light alone does not change
-                                        // silhouettes
+            if (!sameModels) warp.setScene(*scene);  // light alone does not change silhouettes
         }
         warp.setTracedPicture(tracedPicture(picture));
         shown = &picture;

@@ -30,19 +30,12 @@ public:
     /// Computes weighed(), lookUps() and trust(). Does nothing if no tile has changed.
     void run(const WeighInput& in, const TileBuffer& tiles);
 
-    [[nodiscard]] const gpu::Texture& weighed() const {
-        return weighed_;
-    }  ///< WeighedCell;
-       ///< Rgba32F
-    [[nodiscard]] const gpu::Texture& lookUps() const {
-        return lookUps_;
-    }  ///< LookUpCell;
-       ///< Rgba16F, linear
-       ///< filter
-    [[nodiscard]] const gpu::Texture& trust() const {
-        return trust_;
-    }  ///< TrustCell; Rgba8,
-       ///< linear filter
+    /// WeighedCell of each cell; Rgba32F.
+    [[nodiscard]] const gpu::Texture& weighed() const { return weighed_; }
+    /// LookUpCell of each cell; Rgba16F, linear filter.
+    [[nodiscard]] const gpu::Texture& lookUps() const { return lookUps_; }
+    /// TrustCell of each cell; Rgba8, linear filter.
+    [[nodiscard]] const gpu::Texture& trust() const { return trust_; }
 
 private:
     void assess(const WeighInput& in, const TileBuffer& tiles);

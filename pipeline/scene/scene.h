@@ -32,8 +32,8 @@ struct Material {
     /// opaque.
     float alphaCutoff = 0;
     bool doubleSided = false;
-    int baseColourTexture = -1, metallicRoughnessTexture = -1;  ///< the second: roughness in G,
-                                                                ///< metallic in B
+    /// The texture of metallicRoughnessTexture has roughness in G and metallic in B.
+    int baseColourTexture = -1, metallicRoughnessTexture = -1;
     int normalTexture = -1, emissionTexture = -1;
 };
 
