@@ -21,7 +21,7 @@
 #endif
 #include "upscale.glsl"
 
-layout(binding = 1) uniform sampler2D still;  // raised luma
+layout(binding = 1) uniform sampler2D still;  // luma with amplified finest detail
 #ifdef SECOND
 layout(binding = 5) uniform sampler2D newestField;
 

@@ -1,8 +1,9 @@
 // Refines the flow of every cell by Gauss-Newton steps. The error of the initial flow must be less
 // than a pixel. The patch is deformed according to the flow around the cell: on a surface that the
 // other camera sees from a different direction, a rigid patch would fit best at a wrong position.
-// In: a field in cells[]. Out: another field in cells[]: flow (x, y) [px], cost, texture (energy of
-// the patch). Tiles that are not matched keep their flow vectors. One invocation per cell.
+// In: a field in cells[]. Out: another field in cells[]: flow (x, y) [px], cost, texture (sum of
+// the squared deviations of the patch from its mean). Tiles that are not matched keep their flow
+// vectors. One invocation per cell.
 // After: Baker and Matthews, Lucas-Kanade 20 years on, IJCV 2004, section 3.2.
 // Range: cells -2e4..2e4, -2e4..2e4, 0..2.02, 0..4.2e6
 #include "luma.glsl"

@@ -2,8 +2,8 @@
 // steps. Candidates are the last frame's vector and the vectors of the next coarser pyramid level
 // around the cell. At the coarsest pyramid level they are the last frame's vector and all
 // whole-pixel displacements within a square.
-// Out: cells[] = flow (x, y) [px of this pyramid level], cost, texture (energy of the patch). One
-// invocation per cell.
+// Out: cells[] = flow (x, y) [px of this pyramid level], cost, texture (sum of the squared
+// deviations of the patch from its mean). One invocation per cell.
 // After: Kroeger et al., Fast optical flow using dense inverse search, ECCV 2016, section 2.
 // LISTED: processes only the groups of 4x4 cells in lists[]. If the vector that is found is off the
 // cell's epipolar line, the cell's two-way error is derived from the cost of the match.

@@ -1,6 +1,6 @@
 // Computes the mean luma of the still over the area of a video pixel. Needs tile_params.glsl.
 layout(binding = 2) uniform sampler2D lookupField;
-layout(binding = 3) uniform sampler2D still;  // raised luma
+layout(binding = 3) uniform sampler2D still;  // luma with amplified finest detail
 
 // Position in the still (texture coordinates) of the position p in the video [px].
 vec2 inStill(vec2 p) {

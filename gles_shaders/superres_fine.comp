@@ -1,6 +1,6 @@
 // Compares the finest detail of video and still in each cell; see kFineRoom. The finest detail is
 // the difference between a pixel and the mean of its 2x2 block.
-// In: states of the tiles, look-ups, raised luma of the still, video.
+// In: states of the tiles, look-ups, luma of the still with amplified finest detail, video.
 // Out: means, over the middle two rows of the cell, of the products of the details: video * video,
 // video * still, still * still [grey levels^2]. Zero in tiles that are not matched and in cells
 // that are only partly inside the frame.
@@ -20,7 +20,7 @@ layout(std430, binding = 0) readonly buffer Tiles {
 };
 layout(binding = 0) uniform sampler2D picture;
 layout(binding = 1) uniform sampler2D lookupField;
-layout(binding = 2) uniform sampler2D still;  // raised luma
+layout(binding = 2) uniform sampler2D still;  // luma with amplified finest detail
 layout(rgba32f, binding = 0) uniform writeonly highp image2D fineField;
 
 // Mean luma of the still over the area of a video pixel, from 2x2 samples.

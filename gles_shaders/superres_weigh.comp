@@ -2,8 +2,8 @@
 // In: images of superres_assess.comp.
 // Out: cells image = flow (x, y) [video px], weight of the detail, confidence (eq. 2). Look-up
 // image = the position in the still to which the flow leads minus the scaled cell centre (x, y)
-// [still px], weight, confidence. Weights image = weight / 2, confidence, signal's share of the
-// video's variance (for the sharpening), 1 if the cell is unexplained.
+// [still px], weight, confidence. Weights image = weight / 2, confidence, share of the video's
+// variance that is signal and not noise (for the sharpening), 1 if the cell is unexplained.
 // The weight of the detail is the photometric gain between the sensors times the trust in the
 // match. The gain is covariance / (variance of the still + noise). It is measured at half
 // resolution where the contrast there suffices.

@@ -1,10 +1,10 @@
 // Tables of the synthetic world, and functions that intersect rays with it. A solid is a box, a
-// cylinder or an ellipsoid. Rays are transformed to the solid's frame, which is scaled so that the
-// solid becomes a unit cube, unit cylinder or unit sphere.
+// cylinder or an ellipsoid. Rays are transformed to the solid's coordinate system, which is scaled
+// so that the solid becomes a unit cube, unit cylinder or unit sphere.
 
 struct Solid {
     vec4 x, y, z;  // rows of the matrix from camera directions to scaled coordinates; w: camera
-                   // position in these
+                   // position in scaled coordinates
 };
 struct Surface {
     vec4 size;        // half extents [m]; w: 0 box, 1 cylinder, 2 ellipsoid

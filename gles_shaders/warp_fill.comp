@@ -1,5 +1,6 @@
 // Fills the listed holes (pixels whose colour is unknown) from the pyramid of warp_pull.comp. Goes
-// from fine to coarse pyramid levels; each fills the share that the finer ones leave open.
+// from fine to coarse pyramid levels; each fills the share of a pixel that the finer levels leave
+// unfilled.
 // An object of which no colour is known gets the colour of the objects around it. An object that
 // has just emerged from behind others is therefore neither a hole nor transparent.
 // A hole is a crack if it is at an edge, or if most of its neighbours show the same surface. Cracks

@@ -11,19 +11,20 @@ namespace mfar {
 struct FlowCell {
     float x = 0, y = 0;  ///< flow [px of the field's pyramid level]; p matches p + flow
     float cost = 0;      ///< 0: patches equal up to gain and offset; 1: unrelated; 2: negatives
-    float texture = 0;   ///< energy of the 8x8 patch around the cell [grey levels^2]
+    float texture = 0;   ///< sum of the squared deviations of the 8x8 patch around the cell from
+                         ///< its mean [grey levels^2]
 };
 
 /// Two-way error of a cell (eq. 2 of the paper), determined by the search along epipolar lines.
 struct ErrorCell {
-    float error = 0;  ///< [px]
+    float error = 0;  ///< two-way error [px]
     float unused[3] = {};
 };
 
 /// How far the still is trusted at a cell.
 struct WeighedCell {
     float x = 0, y = 0;    ///< flow [video px]
-    float weight = 0;      ///< of the still's detail, [0, 2.31]
+    float weight = 0;      ///< weight of the still's detail, [0, 2.31]
     float confidence = 0;  ///< eq. 2 of the paper, [0, 1]
 };
 

@@ -39,11 +39,11 @@ struct VideoFrame {
 struct StillPictures {
     std::uint64_t number = 0;  ///< each still has its own number
     StereoRig rig;             ///< its still camera has the resolution of the fields below
-    Field<std::uint8_t> luma;  ///< of the whole still
+    Field<std::uint8_t> luma;  ///< luma of the whole still
     // Luma whose finest detail is amplified, see params::kLinearLoss. An engine fills the one of
     // these two fields that has its format, and leaves the other empty.
     Field<std::uint8_t> raised;    ///< from the GLES engine
-    Field<std::uint16_t> pairs;    ///< from the SIMD engine: a pixel, and in the high byte the
+    Field<std::uint16_t> pairs;    ///< from the SIMD engine; low byte: a pixel; high byte: the
                                    ///< pixel below it
     Field<std::uint32_t> picture;  ///< RGBA8; only for SuperResMode::Blend
 };
@@ -126,7 +126,7 @@ public:
     virtual const CellWeights& run(const LumaPyramid& luma, const FlowCells& flow,
                                    const TileWork& work) = 0;
     /// Lowers the weights of cells where the still shows less of the video's finest detail than
-    /// expected. Must be called after run() on the same frame. `match` says what is expected, see
+    /// expected. Must be called after run() on the same frame. `match`: how much is expected, see
     /// params::kFineRoom.
     virtual const CellWeights& confirm(const VideoFrame& frame, const StillPictures& still,
                                        const TileWork& work, const FineMatch& match) = 0;

@@ -21,7 +21,7 @@ constexpr double kLeastPixels = 400;
 constexpr double kForgetting = 0.95;
 // The shipped filter counts as much as this number of pixels of the class.
 constexpr double kPriorPixels = 300;
-constexpr double kRidge = 20;  // [grey levels^2]
+constexpr double kRidge = 20;  // added to the diagonal of the normal equations [grey levels^2]
 // Smallest share of the picture's pixels that must be trusted. If the share is smaller, matching
 // has failed.
 constexpr double kLeastTrusted = 0.05;

@@ -36,8 +36,8 @@ struct Guidance {
 /// unexplained variance is noise + share * (variance of the finest detail); see params::kFineRoom.
 /// If noise is 0, the usual unexplained variance is not known.
 struct FineMatch {
-    float noise = 0;  ///< [grey levels^2], [0, kMostNoise]
-    float share = 0;  ///< [0, 1]
+    float noise = 0;  ///< part that does not depend on the detail [grey levels^2], [0, kMostNoise]
+    float share = 0;  ///< unexplained share of the detail's variance, [0, 1]
 
     static constexpr float kMostNoise = 4096;
     [[nodiscard]] bool isKnown() const { return noise > 0; }

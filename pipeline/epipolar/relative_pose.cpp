@@ -37,7 +37,7 @@ struct Estimate {
 
 /// Residual of a match under an estimated pose, at the inverse depth that fits best.
 struct Residual {
-    Eigen::Vector2d error;  // [rays]
+    Eigen::Vector2d error;  // predicted minus matched ray (x/z, y/z)
     Matrix26 jacobian;      // derivatives by rotation and translation, with inverse depth
                             // eliminated
 };
@@ -161,7 +161,7 @@ private:
     Estimate at_;
     Vector6 motion_ = Vector6::Zero();
     std::vector<std::optional<Residual>> residuals_;
-    std::vector<double> errors_;    // [px]
+    std::vector<double> errors_;    // error of each match [px]
     double scale_ = kNotExplained;  // standard deviation of the inliers [px]
 };
 

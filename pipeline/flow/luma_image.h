@@ -47,7 +47,7 @@ void lumaOf(const ImageView& picture, LumaImage& out);
 /// pixel of `out` is the mean of the area of the picture that it covers.
 void shrinkLuma(const ImageView& picture, Size size, Workers& workers, LumaImage& out);
 
-/// Shrinks a luma picture to `size`, in the same way as the function above.
+/// Like the other shrinkLuma(), for a picture that is luma already.
 void shrinkLuma(const Rows<const std::uint8_t>& luma, Size size, Workers& workers, LumaImage& out);
 
 /// Copies the rectangle `pixels` of a picture. It must be completely inside the picture.

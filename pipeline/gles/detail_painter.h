@@ -24,11 +24,12 @@ public:
 
     /// A still on the GPU and its match with the video.
     struct Matched {
-        const gpu::Texture& still;    ///< raised luma, or in mode Blend the still itself; linear
-                                      ///< filter
-        const gpu::Texture& weighed;  ///< Rgba32F, one texel per cell
-        const gpu::Texture& lookUps;  ///< Rgba16F, linear filter
-        const gpu::Texture& trust;    ///< Rgba8, linear filter
+        const gpu::Texture& still;    ///< luma with amplified finest detail
+                                      ///< (StillReference::raised()), or in mode Blend the still
+                                      ///< itself; linear filter
+        const gpu::Texture& weighed;  ///< WeighedCell of each cell; Rgba32F
+        const gpu::Texture& lookUps;  ///< LookUpCell of each cell; Rgba16F, linear filter
+        const gpu::Texture& trust;    ///< TrustCell of each cell; Rgba8, linear filter
         /// A second still, which is shown where its weight is larger than that of the first still;
         /// null: there is none. Used only in mode Detail with learned filters.
         const Matched* second = nullptr;

@@ -19,8 +19,8 @@ public:
     struct Weights {
         const gpu::Texture &weighed, &lookUps, &trust;
     };
-    /// Computes weights() from `weights`, the results of CellWeigher for this frame. `still`:
-    /// raised luma of the still, with a linear filter.
+    /// Computes weights() from `weights`, the results of CellWeigher for this frame. `still`: luma
+    /// of the still with amplified finest detail, with a linear filter.
     void run(const gpu::Texture& video, const gpu::Texture& still, const Weights& weights,
              const TileBuffer& tiles, const FineMatch& match);
 

@@ -104,7 +104,9 @@ void Flow2d::run(const Direction& way, const LumaOnGpu& luma) {
         int rounds = 1;
         if (level == way.finest) rounds = way.finestPropagations;
         if (level == coarsest) rounds = options_.coarsestPropagations;
-        search(way, level, rounds % 2, luma);  // with this, the last round writes area 0
+        // Each round writes the other area. The search begins with the one for which the last round
+        // writes area 0.
+        search(way, level, rounds % 2, luma);
         for (int round = rounds; round > 0; --round)
             propagate(way, level, (round - 1) % 2, luma);
     }

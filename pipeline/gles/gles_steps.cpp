@@ -15,8 +15,8 @@
 namespace mfar::gles {
 namespace {
 
-/// Returns the still's raised luma. If the SIMD engine made it, the texture has a second channel
-/// with the pixel below.
+/// Returns the still's luma with amplified finest detail. If the SIMD engine made it, the texture
+/// has a second channel with the pixel below.
 const gpu::Texture& raisedOf(const StillPictures& still) {
     const auto linear = gpu::Filter::Linear;
     return still.raised.isEmpty() ? textureOf(still.pairs, gpu::TexelFormat::Rg8, linear).texture()

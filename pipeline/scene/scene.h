@@ -70,7 +70,7 @@ struct Environment {
 struct Sun {
     /// Direction to the sun in the world, of unit length.
     Eigen::Vector3f towards{0.40562F, -0.30421F, 0.86194F};
-    Eigen::Vector3f irradiance{1, 1, 1};  ///< on a surface that faces the sun
+    Eigen::Vector3f irradiance{1, 1, 1};  ///< irradiance of a surface that faces the sun
     float angularRadius = 0.02F;          ///< [rad], above 0
 };
 

@@ -34,7 +34,7 @@ struct RefinedPose {
     Matrix6 information;      ///< information matrix J^T J of a motion in camera coordinates
                               ///< [px^2], without the part that an edge shift explains
     double squaredError = 0;  ///< weighted sum of the squared errors [px^2]
-    double edgeShift = 0;     ///< [px]
+    double edgeShift = 0;     ///< estimated edge shift [px], see refinePose()
 };
 
 /// A weight of the squared edge shift, relative to that of a corner, that is so large that the edge

@@ -2,9 +2,9 @@
 
 #include <cstdint>
 
-// The classes of tiles, and how each class is drawn: superres_classify.comp, superres_sharpen.frag,
-// superres_vertical.frag, composite_*.frag, tile_rect.vert and the SIMD code of the same steps.
-// gles_shaders/params_to_glsl.cmake translates this header for the shaders.
+// Parameters for classifying and drawing tiles, used by superres_classify.comp,
+// superres_sharpen.frag, superres_vertical.frag, composite_*.frag, tile_rect.vert and the SIMD code
+// of the same steps. gles_shaders/params_to_glsl.cmake translates this header for the shaders.
 namespace mfar::params {
 
 /// The values of the enumeration TileClass, as numbers.

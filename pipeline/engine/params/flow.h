@@ -28,7 +28,7 @@ inline constexpr int kAlignSteps = 2;
 inline constexpr int kBackwardFinest = 1;
 inline constexpr int kBackwardPropagations = 1;
 
-/// The cost of an 8x8 patch is meaningful if the patch's energy [grey levels^2] exceeds this factor
+/// The cost of an 8x8 patch is meaningful if the patch's texture (see FlowCell) exceeds this factor
 /// times the variance of the noise. The factor is eight times the number of pixels of a patch.
 inline constexpr float kTexturePerVariance = 8.0F * kPatchPixels;
 inline constexpr float kUnexplainedCost = 0.4F;
@@ -61,7 +61,7 @@ inline constexpr int kCleanUpRadius = 2;
 /// plane is not known yet.
 inline constexpr float kFirstPlaneReach = 1.2F;
 inline constexpr float kPlaneReach = 0.5F;
-/// Texture energy of a patch [grey levels^2] at which its cell has half of the full weight.
+/// Texture of a patch (see FlowCell) [grey levels^2] at which its cell has half of the full weight.
 inline constexpr float kHalfTrusted = 2000.0F;
 /// Weight of a cell that has no texture or whose match has a high cost.
 inline constexpr float kLeastPlaneWeight = 1e-4F;
@@ -110,7 +110,8 @@ struct alignas(16) FlagTiles {
     std::int32_t tileColumns, tileRows;
     std::int32_t columns, rows;  ///< number of cells
     std::int32_t field, errors;
-    float leastTexture;  ///< smallest patch energy at which the cost is meaningful [grey levels^2]
+    float leastTexture;  ///< smallest texture of a patch (see FlowCell) at which the cost is
+                         ///< meaningful [grey levels^2]
 };
 
 struct alignas(16) ListTiles {

@@ -4,9 +4,9 @@
 
 #include <cstdint>
 
-// Luma pyramids: luma_from_video.comp, luma_from_still.comp, luma_down.comp, the SIMD code of the
-// same steps, and all programs that read the pyramids. gles_shaders/params_to_glsl.cmake translates
-// this header for the shaders.
+// Parameters of the luma pyramids, used by luma_from_video.comp, luma_from_still.comp,
+// luma_down.comp, the SIMD code of the same steps, and all programs that read the pyramids.
+// gles_shaders/params_to_glsl.cmake translates this header for the shaders.
 namespace mfar::params {
 
 /// One level of a luma pyramid: 8 bits per pixel, four pixels per word, the leftmost pixel in the
@@ -25,8 +25,8 @@ inline constexpr float kLumaRed = 0.299F;
 inline constexpr float kLumaGreen = 0.587F;
 inline constexpr float kLumaBlue = 0.114F;
 
-/// Weight of each neighbour in the smoothing of the finest level. Compared with no smoothing, a
-/// weight of 0.18 gains 0.3 dB on printed text and costs 0.05 dB on photographs.
+/// Weight of each neighbour in the smoothing of the finest pyramid level. Compared with no
+/// smoothing, a weight of 0.18 gains 0.3 dB on printed text and costs 0.05 dB on photographs.
 inline constexpr float kLumaSmoothing = 0.18F;
 
 /// Number of bilinear samples of the still along each axis of a video pixel. They cover a footprint

@@ -23,7 +23,7 @@ inline constexpr float kLikenessFloor = 1e-3F;
 struct alignas(16) Visibility {
     std::int32_t videoWidth, videoHeight;    ///< [px]
     std::int32_t outputWidth, outputHeight;  ///< [px]
-    std::int32_t layerWidth, layerHeight;    ///< of the virtual layer [px]
+    std::int32_t layerWidth, layerHeight;    ///< size of the virtual layer [px]
     float scaleX, scaleY;                    ///< video pixels per output pixel
     float layerScaleX, layerScaleY;          ///< layer pixels per output pixel
     float bias, softness;                    ///< as in CompositeOptions [sigmas]

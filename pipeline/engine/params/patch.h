@@ -1,11 +1,12 @@
 #pragma once
 
-// Comparison of 8x8 patches: patch.glsl and the SIMD code of the same step.
-// gles_shaders/params_to_glsl.cmake translates this header for the shaders.
+// Parameters of the comparison of 8x8 patches, used by patch.glsl and by the SIMD code of the same
+// step. gles_shaders/params_to_glsl.cmake translates this header for the shaders.
 namespace mfar::params {
 
 inline constexpr float kPatchPixels = 64.0F;
-/// Energy of the noise in a patch [grey levels^2]. A patch with less energy is flat.
+/// Sum of the squared deviations from the mean that noise causes in a patch [grey levels^2]. A
+/// patch with a smaller sum is flat.
 inline constexpr float kPatchNoise = 128.0F;
 /// Added to the diagonal of the Hessian. It limits the Gauss-Newton steps where there is no
 /// gradient.

@@ -2,8 +2,9 @@
 
 #include <cstdint>
 
-// Preparation of a still: still_reduce.frag, still_raise.frag and the SIMD code of the same steps.
-// gles_shaders/params_to_glsl.cmake translates this header for the shaders.
+// Parameters of the preparation of a still, used by still_reduce.frag, still_raise.frag and the
+// SIMD code of the same steps. gles_shaders/params_to_glsl.cmake translates this header for the
+// shaders.
 namespace mfar::params {
 
 /// Weight of each neighbour in the filter that amplifies the finest detail of a still, because

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-// Parameters of weighing the still at each cell: superres_assess.comp, superres_gain.comp,
+// Parameters for weighing the still at each cell, used by superres_assess.comp, superres_gain.comp,
 // superres_weigh.comp and the SIMD code of the same steps. gles_shaders/params_to_glsl.cmake
 // translates this header for the shaders.
 namespace mfar::params {
@@ -47,10 +47,10 @@ inline constexpr float kTexturedContrast = 8.0F;
 inline constexpr float kUnexplainedMatch = 0.25F;
 
 /// The finest detail is the difference of pixels from the mean of their 2x2 block. The video's
-/// finest detail is compared with the still's at the same place, because only this comparison shows
-/// look-up errors of a fraction of a pixel. The comparison determines the variance that the still
-/// leaves unexplained. A cell keeps its weight while this variance is at most kFineRoom times the
-/// usual noise plus kFineShareRoom times the usual share of the detail's variance (FineMatch).
+/// finest detail is compared with the still's at the same position, because only this comparison
+/// shows look-up errors of a fraction of a pixel. The comparison determines the variance that the
+/// still leaves unexplained. A cell keeps its weight while this variance is at most kFineRoom times
+/// the usual noise plus kFineShareRoom times the usual share of the detail's variance (FineMatch).
 /// Above this limit, the weight is multiplied by limit / variance. kFineRoom = 4 allows twice the
 /// usual deviation. kFineShareRoom is smaller, because otherwise edges that only the still shows
 /// would be accepted.
@@ -64,13 +64,14 @@ inline constexpr float kFineLeast = 0.1F;
 
 struct alignas(16) AssessCells {
     Rig rig;
-    LumaLevel video, still;  ///< finest levels, both in the video's geometry
+    LumaLevel video, still;  ///< finest pyramid levels, both in the video's geometry
     std::int32_t columns, rows;
     std::int32_t backwardColumns, backwardRows;  ///< size of the backward field
     std::int32_t forward, backward;              ///< index of the first cell of each field in
                                                  ///< cells[]
     std::int32_t errorsGiven;                    ///< 1: `backward` is a field of two-way errors
-    std::int32_t backwardScale;     ///< video pixels per pixel of the backward field's level
+    std::int32_t backwardScale;     ///< video pixels per pixel of the backward field's pyramid
+                                    ///< level
     float stillWidth, stillHeight;  ///< [px]
     float scaleX, scaleY;           ///< still pixels per video pixel
 };
@@ -98,7 +99,8 @@ struct alignas(16) SumFine {
 
 struct alignas(16) ConfirmCells {
     std::int32_t columns, rows;  ///< number of cells
-    float noise, share;          ///< what is expected, see FineMatch
+    float noise, share;          ///< variance that the still is expected to leave unexplained; see
+                                 ///< FineMatch
 };
 
 }  // namespace mfar::params
