@@ -94,8 +94,9 @@ ElementView elementsIn(const GltfDocument& document, int bufferView, std::uint64
     const std::uint64_t needed = std::uint64_t{wanted.count - 1} * wanted.stride + one;
     if (needed > left)
         document.refuse(
-            place, fmt::format("needs {} bytes at offset {} of bufferView {}, which has only {}",
-                               needed, offset, bufferView, view.size()));
+            place,
+            fmt::format("needs {} bytes at offset {} of bufferView {}, which has only {} bytes",
+                        needed, offset, bufferView, view.size()));
     wanted.bytes = view.subspan(offset);
     return wanted;
 }

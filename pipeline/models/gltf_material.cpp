@@ -148,7 +148,9 @@ int GltfMaterials::texture(const tinygltf::TextureInfo& info, bool srgb, const s
 void GltfMaterials::takeMapping(const TextureMapping& wanted, const std::string& place) {
     if (!mapping_) mapping_ = wanted;
     if (*mapping_ != wanted)
-        document_.refuse(place, "textures of one material must have the same coordinates");
+        document_.refuse(place,
+                         "all textures of a material must have the same coordinates: texCoord and "
+                         "KHR_texture_transform");
 }
 
 int GltfMaterials::picture(int image, bool srgb, const std::string& place) {

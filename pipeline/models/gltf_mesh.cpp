@@ -111,7 +111,7 @@ void readCoordinates(const GltfDocument& document, const PrimitiveSource& source
     for (Eigen::Vector2f& uv : mesh.uvs) {
         uv = source.mapping(uv);
         if (!(uv.cwiseAbs().maxCoeff() < kFarthestUv))
-            document.refuse(source.place, "texture coordinates are out of range");
+            document.refuse(source.place, "texture coordinates must be between -1e6 and 1e6");
     }
     // Without texture coordinates, textures show their first texel.
     if (mesh.uvs.empty()) mesh.uvs.assign(mesh.positions.size(), Eigen::Vector2f::Zero());

@@ -17,7 +17,7 @@ namespace {
 using Rgbe = std::array<std::uint8_t, 4>;
 
 [[noreturn]] void endsEarly() {
-    throw std::runtime_error("the picture ends too early");
+    throw std::runtime_error("the file ends before the picture is complete");
 }
 
 class HdrBytes {
@@ -96,7 +96,7 @@ void readSplitRow(HdrBytes& in, std::span<Rgbe> row) {
             const int code = in.byte();
             const auto count = static_cast<std::size_t>(code > kRun ? code - kRun : code);
             if (count == 0 || count > row.size() - x)
-                throw std::runtime_error("a row of pixels is invalid");
+                throw std::runtime_error("a row of pixels is invalid: wrong run length");
             const std::uint8_t same = code > kRun ? in.byte() : std::uint8_t{0};
             for (std::size_t i = 0; i < count; ++i)
                 row[x++][channel] = code > kRun ? same : in.byte();
@@ -117,7 +117,7 @@ void readOldRow(HdrBytes& in, std::span<Rgbe> row) {
         }
         const std::size_t count = shift < 32 ? std::size_t{pixel[3]} << shift : 0;
         if (x == 0 || count > row.size() - x)
-            throw std::runtime_error("a row of pixels is invalid");
+            throw std::runtime_error("a row of pixels is invalid: wrong run length");
         std::fill_n(row.begin() + static_cast<std::ptrdiff_t>(x), count, row[x - 1]);
         x += count;
         shift += 8;
@@ -132,7 +132,7 @@ void readRow(HdrBytes& in, std::span<Rgbe> row) {
                        (*mark)[1] == 2 && (*mark)[2] < 128;
     if (!split) return readOldRow(in, row);
     if ((std::size_t{(*mark)[2]} << 8U | (*mark)[3]) != row.size())
-        throw std::runtime_error("a row of pixels is invalid");
+        throw std::runtime_error("a row of pixels is invalid: it is not as wide as the picture");
     in.skip(4);
     readSplitRow(in, row);
 }

@@ -107,7 +107,8 @@ TEST(EnvironmentMap, FaultsAreReportedInOneLine) {
     EXPECT_THAT(environmentFault(hdr(kHeader + "+Y 1 +X 2\n", pixel)), HasSubstr("the row order"));
     EXPECT_THAT(environmentFault(hdr(kHeader + "-Y 1 +X 99999999999\n", pixel)),
                 HasSubstr("the row order"));
-    EXPECT_THAT(environmentFault(hdr(kHeader + "-Y 1 +X 2\n", pixel)), HasSubstr("too early"));
+    EXPECT_THAT(environmentFault(hdr(kHeader + "-Y 1 +X 2\n", pixel)),
+                HasSubstr("ends before the picture is complete"));
     EXPECT_THAT(environmentFault(hdr(kHeader + "-Y 20000 +X 40000\n", pixel)),
                 HasSubstr("at most 16384"));
     EXPECT_THAT(environmentFault(hdr(kHeader + "-Y 2147483647 +X 2\n", pixel)),
