@@ -1,5 +1,5 @@
-// The paper's method (mode `blend`): blends the enlarged video with the warped still. The still's
-// share is its confidence (eq. 2).
+// Mode `blend`, the paper's method: blends the enlarged video with the warped still. The weight of
+// the still is the confidence of the match (eq. 2).
 // Variant: #define PLAIN_TILE
 #include "tile_params.glsl"
 #include "look_up.glsl"

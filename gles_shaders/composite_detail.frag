@@ -1,9 +1,10 @@
 // Mode `detail`: out = up(video) + weight * (still - up(mean of the still over each video pixel)),
-// where up() enlarges.
-// LEARNED: also adds the learned enlarger's residual times 1 - weight (at least 0), because the
-// still is the better source where its weight is large.
-// SECOND: as LEARNED, but for a second still. Its share of the blend rises with the excess of its
-// weight over the first still's weight.
+// where up() enlarges to the output's size.
+// LEARNED: also adds the learned enlarger's residual times max(1 - weight, 0), because the still is
+// the better source of detail where its weight is large.
+// SECOND: draws with LEARNED, but from the second still, and blends the result over the picture
+// that shows the first still. Its opacity rises with the difference between the weight of the
+// second still and that of the first.
 // Variant: #define PLAIN_TILE
 // Variant: #define LEARNED
 // Variant: #define SECOND
@@ -20,11 +21,11 @@
 #endif
 #include "upscale.glsl"
 
-layout(binding = 1) uniform sampler2D still;  // raised luma
+layout(binding = 1) uniform sampler2D still;  // luma with amplified finest detail
 #ifdef SECOND
 layout(binding = 5) uniform sampler2D newestField;
 
-// The weight of the first still's detail, which is already drawn.
+// The weight of the first still's detail. The picture already contains this detail.
 float newestShare() {
     return textureLod(newestField, gl_FragCoord.xy * vec2(params.scaleX, params.scaleY) / vec2(4 * cellCount()), 0.0).z;
 }

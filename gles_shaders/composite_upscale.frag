@@ -1,5 +1,6 @@
-// Output where the still adds nothing: the video, enlarged by the cubic or linearly. LEARNED:
-// enlarged by the cubic, plus the learned enlarger's residual.
+// Output pixels to which the still adds nothing: the video, enlarged by Keys' cubic. LINEAR:
+// enlarged by linear interpolation instead. LEARNED: Keys' cubic plus the learned enlarger's
+// residual.
 // Variant: #define LINEAR
 // Variant: #define LEARNED
 #include "tile_params.glsl"

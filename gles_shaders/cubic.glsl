@@ -1,4 +1,5 @@
-// Keys' cubic: weights of the four samples around a position whose fraction is t.
+// Keys' cubic interpolation: weights of the four samples around a position. t is the position's
+// distance from the second sample, in sample spacings.
 #include "pipeline/engine/params/detail.h"
 
 vec4 cubicWeights(float t) {

@@ -1,11 +1,12 @@
 // Shows a picture on a screen, scaled into a rectangle. The rest of the screen is black.
 // Each screen pixel is the mean of the picture over the pixel's footprint, which is at least one
-// picture pixel wide. This is an area filter for reduction (no aliasing), linear interpolation for
-// enlargement, and a copy at equal size. One fetch reads two neighbouring texels, weighted by the
-// sampling position between them. The sampler must therefore be linear and clamp to the edge.
-// Stored values are averaged without decoding them.
-// PAIRS: upper limit of the texel pairs per row in a footprint. It is a constant, so that loops can
-// be unrolled. 0: a copy.
+// picture pixel wide. A picture that is reduced is thus filtered by area (no aliasing), one that is
+// enlarged is interpolated linearly, and one of equal size is copied. One texture fetch reads two
+// neighbouring texels; the sampling position between them determines their weights. The sampler
+// must therefore filter linearly and clamp to the edge. Gamma-encoded values are averaged as they
+// are stored.
+// PAIRS: largest number of texel pairs in a row of a footprint. It is a constant, so that the
+// compiler can unroll the loops. 0: the picture is copied.
 // Variant: #define PAIRS 0
 // Variant: #define PAIRS 2
 #ifndef PAIRS
@@ -47,7 +48,8 @@ void main() {
             float x = first.x + float(2 * i);
             vec2 wx = overlap(x, lo.x, hi.x);
             float weightX = wx.x + wx.y;
-            // Outside the footprint the weight is zero, so the position does not matter there.
+            // If both texels are outside the footprint, their weight is zero, and the sampling
+            // position does not matter. The limit 1.0e-6 only avoids a division by zero.
             vec2 between = vec2(wx.y, wy.y) / max(vec2(weightX, weightY), 1.0e-6);
             vec2 at = (vec2(x, y) + 0.5 + between) * texel;
             sum += weightX * weightY * textureLod(picture, at, 0.0).rgb;

@@ -1,8 +1,9 @@
-// Refines the flow of every cell by Gauss-Newton steps. The flow at the start must have an error of
-// less than a pixel. The patch is deformed according to the flow around the cell. On a surface that
-// the other camera sees from another side, a rigid patch would fit best at a wrong place.
-// In: an area of cells[]. Out: another area of cells[] with flow (x, y) [px], cost, texture
-// (energy of the patch). Tiles that are not matched keep their vectors. One invocation per cell.
+// Refines the flow of every cell by Gauss-Newton steps. The error of the initial flow must be less
+// than a pixel. The patch is deformed according to the flow around the cell: on a surface that the
+// other camera sees from a different direction, a rigid patch would fit best at a wrong position.
+// In: a field in cells[]. Out: another field in cells[]: flow (x, y) [px], cost, texture (sum of
+// the squared deviations of the patch from its mean). Tiles that are not matched keep their flow
+// vectors. One invocation per cell.
 // After: Baker and Matthews, Lucas-Kanade 20 years on, IJCV 2004, section 3.2.
 // Range: cells -2e4..2e4, -2e4..2e4, 0..2.02, 0..4.2e6
 #include "luma.glsl"
@@ -21,7 +22,7 @@ layout(std430, binding = 1) buffer Cells {
 
 layout(std430, binding = 2) readonly buffer Tiles {
     uvec2 header;
-    uvec2 tiles[];  // changed, matched; one workgroup per tile
+    uvec2 tiles[];  // x: 1 if the tile changed; y: 1 if it is matched; one workgroup per tile
 };
 
 #include "patch_template.glsl"
@@ -32,8 +33,8 @@ vec2 flowAt(ivec2 c) {
 }
 
 // Change of the flow per pixel along `step`: the smaller of the two one-sided differences, or zero
-// if they have different signs. The differences are taken over two cells, because between adjacent
-// cells the noise is larger than the change.
+// if they have different signs. The differences span two cells, because the flow of adjacent cells
+// differs more by noise than by its true change.
 vec2 slopeAt(ivec2 cell, ivec2 step) {
     vec2 here = flowAt(cell);
     vec2 before = here - flowAt(cell - 2 * step), after = flowAt(cell + 2 * step) - here;
@@ -41,8 +42,8 @@ vec2 slopeAt(ivec2 cell, ivec2 step) {
     return clamp(mix(vec2(0.0), least / 8.0, greaterThan(before * after, vec2(0.0))), -kSteepestFlow, kSteepestFlow);
 }
 
-// Row y from word column `wx` on (the columns include the margin), shifted by `shift` bits: eight
-// pixels minus the first shift / 8.
+// Reads two words (eight pixels) of row y, beginning with word number `wx` of the row including its
+// margin. Removes the first `shift` bits, that is, shift / 8 pixels.
 uvec2 fetchShort(LumaLevel l, int wx, int y, uint shift) {
     int at = l.offset + clamp(y, 0, l.height - 1) * l.pitch + wx;
     uvec2 w = uvec2(luma[at], luma[at + 1]);
@@ -50,8 +51,9 @@ uvec2 fetchShort(LumaLevel l, int wx, int y, uint shift) {
     return uvec2((w.x >> shift) | (w.y << (32u - shift)), w.y >> shift);
 }
 
-// Four pixels of the patch, beginning at `first`. The flow changes by dx and dy per pixel. All four
-// share a base position, from which the columns differ by less than half a pixel.
+// Four pixels of the deformed patch, beginning at `first`. The flow changes by dx and dy per pixel.
+// The words are read once for all four pixels, because the deformation moves each of them by less
+// than half a pixel.
 vec4 bentRow(LumaLevel l, ivec2 cell, vec2 u, vec2 dx, vec2 dy, vec2 first) {
     const vec4 along = vec4(-1.5, -0.5, 0.5, 1.5);
     vec2 middle = first - vec2(2.0, 3.5);
@@ -69,8 +71,8 @@ vec4 bentRow(LumaLevel l, ivec2 cell, vec2 u, vec2 dx, vec2 dy, vec2 first) {
     return upper + (lower - upper) * fy;
 }
 
-// Adds four pixels b of row r to the sums. They are the left half (side 0) or the right half (side
-// 1) of the row.
+// Adds four pixels b of the searched picture to the sums: the left half (side 0) or the right half
+// (side 1) of row r of the patch.
 void addHalf(inout Sums sums, int r, int side, vec4 b) {
     int at = 3 * r + 3;
     vec4 a = unpackPixels(templateWords[at + side]);
@@ -85,7 +87,7 @@ void addHalf(inout Sums sums, int r, int side, vec4 b) {
     sums.gb += vec2(dot(gx, b), dot(gy, b));
 }
 
-// Compares the template with the other picture. The flow changes by dx and dy per pixel of the
+// Compares the template with the searched picture. The flow changes by dx and dy per pixel of the
 // patch.
 Match compareBent(LumaLevel l, ivec2 cell, vec2 u, vec2 dx, vec2 dy) {
     Sums sums = Sums(0.0, 0.0, 0.0, vec2(0.0));

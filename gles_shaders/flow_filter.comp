@@ -1,9 +1,9 @@
-// Robust clean-up of a field of cells. First each component is replaced by its median over 3x3
-// cells. Then a plane is fitted to those vectors in 5x5 cells that agree with the median. Larger
-// medians were worse in measurements on photographs, because they flatten slanted and curved
-// surfaces.
-// In, out: two areas of cells[]. Tiles that are not matched keep their vectors. One invocation
-// per cell.
+// Removes outliers and noise from a flow field. First, x and y of each flow vector are replaced by
+// their medians over 3x3 cells. Then a plane is fitted to those vectors of the surrounding 5x5
+// cells that are close to the median. Medians over more cells were worse in measurements on
+// photographs, because they flatten slanted and curved surfaces.
+// In, out: two fields in cells[]. Tiles that are not matched keep their flow vectors. One
+// invocation per cell.
 // Range: cells -2e4..2e4, -2e4..2e4, 0..2.02, 0..4.2e6
 #include "pipeline/engine/params/flow.h"
 
@@ -16,7 +16,7 @@ layout(std430, binding = 1) buffer Cells {
 };
 layout(std430, binding = 2) readonly buffer Tiles {
     uvec2 header;
-    uvec2 tiles[];  // changed, matched
+    uvec2 tiles[];  // x: 1 if the tile changed; y: 1 if it is matched
 };
 
 vec4 cellIn(ivec2 c) {
@@ -28,8 +28,10 @@ struct Plane {
     vec2 value, dx, dy;  // flow at the cell [px], change of the flow per cell
 };
 
-// Fits a plane to the neighbours. They are weighted by their reliability and by their distance from
-// `about`, so that the other side of a depth edge has no influence.
+// Fits a plane to the flow vectors of the neighbours. `about` is the plane of the round before. A
+// neighbour's weight is smaller the less reliable it is and the more it differs from `about`. From
+// a difference of `reach` [px] on, the weight is zero, so that the other side of a depth edge has
+// no influence.
 Plane planeAt(ivec2 cell, Plane about, float reach) {
     float w0 = 0.0;
     vec2 wx = vec2(0.0), u0 = vec2(0.0), ux = vec2(0.0), uy = vec2(0.0);
@@ -77,8 +79,8 @@ void main() {
     }
     vec2 v[9];
     for (int i = 0; i < 9; ++i) v[i] = cellIn(cell + ivec2(i % 3 - 1, i / 3 - 1)).xy;
-    // The median of 9: sorts the columns, then takes the median of the largest minimum, the median
-    // of the medians, and the smallest maximum.
+    // The median of 3x3 values: sorts each column of three. The median is then the median of these
+    // three values: the largest minimum, the median of the middle values, and the smallest maximum.
     for (int c = 0; c < 3; ++c) {
         order(v[c], v[c + 3]);
         order(v[c + 3], v[c + 6]);

@@ -1,6 +1,6 @@
-// Tries the vectors of each cell's four neighbours, and refines the best one if it fits better than
-// the cell's own vector.
-// In, out: two areas of cells[], in the format of flow_search.comp. One invocation per cell.
+// Evaluates the flow vectors of each cell's four neighbours at the cell. If one of them costs less
+// than the cell's own vector, refines the best one.
+// In, out: two fields in cells[], in the format of flow_search.comp. One invocation per cell.
 // Range: cells -2e4..2e4, -2e4..2e4, 0..2.02, 0..4.2e6
 #include "luma.glsl"
 #include "pipeline/engine/params/flow.h"

@@ -1,11 +1,11 @@
-// Second half (along rows) of the learned enlarger's contribution to an output pixel. The input is
-// the result of superres_vertical.frag with LEARNED. Needs tile_params.glsl.
+// The learned enlarger's residual at an output pixel. superres_vertical.frag (variant LEARNED)
+// interpolated it along columns; this code interpolates it along rows. Needs tile_params.glsl.
 #include "pipeline/engine/params/enlarge.h"
 
 layout(binding = 0) uniform isampler2D columns;
 layout(binding = 3) uniform isampler2D residuals;     // written by superres_vertical.frag
-layout(binding = 4) uniform sampler2D learnedTiles;   // one texel per tile; above 0: enlarged by
-                                                      // filters
+layout(binding = 4) uniform sampler2D learnedTiles;   // one texel per tile; above 0: the tile is
+                                                      // enlarged by learned filters
 
 vec4 columnAt(ivec2 p) {
     return vec4(texelFetch(columns, p, 0)) / (255.0 * float(kPassScale));

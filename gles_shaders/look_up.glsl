@@ -1,13 +1,14 @@
 // Position of this output pixel in the still, and the still's weight there. Needs tile_params.glsl.
-// In a plain tile the look-up is one linear function over the tile. In other tiles it is
-// interpolated in the field of cells.
+// In a plain tile, both are linear functions over the whole tile. In other tiles, they are
+// interpolated between the cells.
 #ifdef PLAIN_TILE
 in vec4 plainLookUp;
 #else
 layout(binding = 2) uniform sampler2D lookupField;
 #endif
 
-// Returns offset (x, y) [still px], weight of the detail, confidence (eq. 2).
+// Returns the offset (x, y) [still px] of superres_weigh.comp, the weight of the detail, and the
+// confidence (eq. 2). `uv` is the position in the still, in texture coordinates.
 vec4 lookUp(out vec2 uv) {
 #ifdef PLAIN_TILE
     vec4 l = plainLookUp;

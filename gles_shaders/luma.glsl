@@ -1,6 +1,6 @@
 // Luma pyramids in one storage buffer. A word holds four 8-bit pixels, the leftmost in the low
-// byte. Each row has a margin of kLumaMarginWords words on both sides, which repeats the border
-// pixel.
+// byte. Each row has a margin of kLumaMarginWords words at either end. The margin repeats the row's
+// outermost pixel.
 #include "pipeline/engine/params/luma.h"
 
 vec4 unpackPixels(uint word) {

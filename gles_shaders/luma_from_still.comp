@@ -1,5 +1,5 @@
-// The finest pyramid level of the still, in the geometry and scale of the video. Each value is the
-// still's luma, averaged over the area of a video pixel.
+// Computes the finest pyramid level of the still, in the geometry and resolution of the video. Each
+// value is the still's luma, averaged over the area of a video pixel.
 // In: still, RGBA8. Out: words of luma. One invocation per word.
 #include "luma.glsl"
 #include "rig.glsl"

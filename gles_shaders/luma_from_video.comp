@@ -1,5 +1,6 @@
-// The finest pyramid level of the video frame: luma, smoothed over 3x3 pixels. Text and fabric
-// alias at the video's resolution. Without smoothing, patches would lock to whole pixels there.
+// Computes the finest pyramid level of the video frame: its luma, smoothed over 3x3 pixels. Text
+// and fabric alias at the video's resolution. Without smoothing, displacements would tend to whole
+// pixels in such areas.
 // In: picture, RGBA8 or grey. Out: words of luma. One invocation per word, including margins.
 #include "luma.glsl"
 

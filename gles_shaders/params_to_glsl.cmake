@@ -7,7 +7,8 @@
 #   };
 # T is float, int, std::int32_t or std::uint32_t. EXPR contains literals and constants of type T,
 # + - * / and parentheses. Scalars are aligned to 4 bytes and structures to 16, so that std140 and
-# C++ have the same layout. Arrays of scalars have another stride in std140 and are not supported.
+# C++ have the same layout. Arrays of scalars are not supported, because their stride in std140
+# differs from that in C++.
 # #pragma once, #include <...>, namespace mfar::params, static_assert and comments are ignored.
 # Every other construct is reported as an error, with file and line.
 cmake_policy(VERSION 3.25)
@@ -22,7 +23,8 @@ function(params_glsl_type type out_var)
     set(${out_var} "${type}" PARENT_SCOPE)
 endfunction()
 
-# Translates an expression in which all constants have this GLSL type.
+# Translates the C++ expression `text` to GLSL. All its literals and constants must have the GLSL
+# type `type`.
 function(params_expression where type text out_var)
     set(literal_float "([0-9]+\\.[0-9]*|[0-9]+(\\.[0-9]*)?e-?[0-9]+)F")
     set(literal_int "([0-9]+)")
@@ -37,7 +39,8 @@ function(params_expression where type text out_var)
         if(rest MATCHES "^k[A-Z][A-Za-z0-9]*")
             get_property(known GLOBAL PROPERTY "params_constant_${CMAKE_MATCH_0}")
             if(NOT known STREQUAL type)
-                params_fault("${where}" "${CMAKE_MATCH_0} is no constant of type ${type}" "${text}")
+                params_fault("${where}" "${CMAKE_MATCH_0} is not a constant of type ${type}"
+                             "${text}")
             endif()
             set(part "${CMAKE_MATCH_0}")
             set(translated "${part}")
@@ -48,7 +51,7 @@ function(params_expression where type text out_var)
             set(part "${CMAKE_MATCH_0}")
             set(translated "${part}")
         else()
-            params_fault("${where}" "no expression of type ${type}" "${text}")
+            params_fault("${where}" "not an expression of type ${type}" "${text}")
         endif()
         string(APPEND glsl "${translated}")
         string(LENGTH "${part}" length)
@@ -57,11 +60,12 @@ function(params_expression where type text out_var)
     set(${out_var} "${glsl}" PARENT_SCOPE)
 endfunction()
 
-# Defines a name. Each name may be defined only once in all headers, because GLSL has no namespaces.
+# Records that a header defines `name`. Each name must be unique among all headers, because GLSL has
+# no namespaces.
 function(params_define where kind name value)
     get_property(known GLOBAL PROPERTY "params_${kind}_${name}" SET)
     if(known)
-        params_fault("${where}" "defined before" "${name}")
+        params_fault("${where}" "the name is defined twice" "${name}")
     endif()
     set_property(GLOBAL PROPERTY "params_${kind}_${name}" "${value}")
 endfunction()
@@ -79,7 +83,8 @@ function(params_member where statement out_var)
         endif()
         set(${out_var} "    ${statement}\n" PARENT_SCOPE)
     else()
-        params_fault("${where}" "no member that std140 and C++ lay out alike" "${statement}")
+        params_fault("${where}" "unsupported member, see the head of params_to_glsl.cmake"
+                     "${statement}")
     endif()
 endfunction()
 
@@ -103,12 +108,12 @@ function(params_outside where root statement out_var)
         params_define("${where}" struct "${CMAKE_MATCH_1}" TRUE)
         set(${out_var} "struct ${CMAKE_MATCH_1} {\n" PARENT_SCOPE)
     else()
-        params_fault("${where}" "GLSL has no such thing, or its translation is unknown"
+        params_fault("${where}" "unsupported statement, see the head of params_to_glsl.cmake"
                      "${statement}")
     endif()
 endfunction()
 
-# Translates ROOT/NAME to GLSL. Its lines #include "x.h" stay.
+# Translates the header ROOT/NAME to GLSL. Lines #include "x.h" are kept as they are.
 function(params_to_glsl root name out_var)
     get_property(done GLOBAL PROPERTY "params_text_${name}" SET)
     if(done)
@@ -155,7 +160,7 @@ function(params_to_glsl root name out_var)
         set(statement "")
     endwhile()
     if(in_struct OR NOT statement STREQUAL "")
-        params_fault("${where}" "ends too early" "${statement}")
+        params_fault("${where}" "the header ends within a statement" "${statement}")
     endif()
     set_property(GLOBAL PROPERTY "params_text_${name}" "${glsl}")
     set(${out_var} "${glsl}" PARENT_SCOPE)

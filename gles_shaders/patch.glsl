@@ -1,12 +1,12 @@
-// Patches of 8x8 pixels of a luma level, read row by row. A cell has 4x4 pixels. Its patch has the
-// same centre, so it begins 2 px to the left of the cell and 2 px above it.
+// Reads patches of 8x8 pixels of a luma pyramid level, row by row. A cell has 4x4 pixels. Its patch
+// has the same centre, so it begins 2 px to the left of the cell and 2 px above it.
 // Needs: `uint luma[]` and the functions of luma.glsl.
 
 #include "pipeline/engine/params/patch.h"
 
 const int kRows = 8;
 
-// Eight pixels of a patch's row.
+// One row of a patch: eight pixels.
 struct Row {
     vec4 left, right;
 };
@@ -17,8 +17,8 @@ float sumOf(Row a) {
 float product(Row a, Row b) {
     return dot(a.left, b.left) + dot(a.right, b.right);
 }
-// Index of a word in row y. `column` is counted in words from the level's left edge, without the
-// margin.
+// Index in luma[] of a word in row y of a pyramid level. `column` is counted in words from the
+// level's left edge, without the margin.
 int wordAt(LumaLevel l, int column, int y) {
     return l.offset + clamp(y, 0, l.height - 1) * l.pitch + kLumaMarginWords + column;
 }
@@ -26,29 +26,30 @@ uvec3 fetchWords(int at) {
     return uvec3(luma[at], luma[at + 1], luma[at + 2]);
 }
 
-// A row of eight pixels of a cell's patch, in two words. `w` begins four pixels to the left of the
-// cell, and the row two pixels.
+// Extracts a row of a cell's patch: eight pixels, in two words. The three words `w` begin four
+// pixels to the left of the cell; the row begins two pixels to the left of it.
 uvec2 cellRow(uvec3 w) {
     return uvec2((w.x >> 16) | (w.y << 16), (w.y >> 16) | (w.z << 16));
 }
 
-// State for reading a patch at a position between pixels.
+// State while reading, row by row, a patch whose position is between pixels.
 struct Window {
     int first, y;   // index of the patch's first word in the level's first row; row of `above`
-    uint shift;     // bits of that word that are to the left of the patch
-    vec2 f;         // fraction by which the patch is to the right of and below whole pixels
+    uint shift;     // bits of the patch's first word that are to the left of the patch
+    vec2 f;         // fractional part of the patch's position (x, y) [px]
     uvec3 above;    // nine pixels of the row that was read last
 };
 
 uvec3 fetchPixels(LumaLevel l, Window w) {
     uvec3 words = fetchWords(w.first + clamp(w.y, 0, l.height - 1) * l.pitch);
-    uint up = 31u - w.shift;  // one less than needed, because a shift by 32 is undefined
+    uint up = 31u - w.shift;  // one less than needed, as a shift by 32 is undefined; `<< 1` adds
+                              // the rest
     return uvec3((words.x >> w.shift) | (words.y << 1 << up), (words.y >> w.shift) | (words.z << 1 << up),
                  words.z >> w.shift);
 }
 
-// Begins reading a cell's patch that is displaced by u pixels. Positions outside the level are
-// clamped to the level's border.
+// Starts reading the patch of a cell, displaced by u pixels. Positions outside the pyramid level
+// are clamped to its border.
 Window windowAt(LumaLevel l, ivec2 cell, vec2 u) {
     vec2 origin = clamp(vec2(4 * cell - 2) + u, vec2(-7.0), vec2(l.width - 2, l.height - 2));
     vec2 whole = floor(origin);
@@ -58,8 +59,8 @@ Window windowAt(LumaLevel l, ivec2 cell, vec2 u) {
     return w;
 }
 
-// The next row of the patch, interpolated between pixels. Interpolates along y first, so that the
-// row read last can be kept as words.
+// Reads the next row of the patch, interpolated between pixels. Interpolates along y first, so that
+// `above` can stay packed in words.
 Row nextRow(inout Window w, LumaLevel l) {
     ++w.y;
     uvec3 below = fetchPixels(l, w);
@@ -70,8 +71,9 @@ Row nextRow(inout Window w, LumaLevel l) {
     return Row(q0 + (vec4(q0.yzw, q1.x) - q0) * w.f.x, q1 + (vec4(q1.yzw, q2) - q1) * w.f.x);
 }
 
-// Covariance and both variances (as sums over the pixels) of two patches: the cell's patch in level
-// a, and the patch in level b that is displaced by u pixels.
+// Compares two patches: the cell's patch in pyramid level a, and the patch in pyramid level b that
+// is displaced by u pixels. Returns their covariance, the variance in a and the variance in b, each
+// as a sum over the pixels.
 vec3 spreadOf(LumaLevel a, LumaLevel b, ivec2 cell, vec2 u) {
     Window w = windowAt(b, cell, u);
     vec2 sum = vec2(0.0);

@@ -1,12 +1,13 @@
-// Refines an approximate displacement by steps until the cost no longer falls.
+// Refines an approximate displacement by Gauss-Newton steps until the cost no longer falls.
 #include "patch_template.glsl"
 
 // Takes Gauss-Newton steps from `best` as long as they lower the cost. If `steps` is -1, takes no
 // step.
-// The comparison needs all registers of a V3D. Values that are needed after the comparison are
-// therefore stored in memory, after the template. Values that are needed last are read last. The
-// indices `none` and `later` are always 0, but the compiler does not know this. It can therefore
-// neither keep the values in registers nor read them early.
+// The comparison of the patches needs all registers of a V3D (the GPU of a Raspberry Pi). Values
+// that are needed after the comparison are therefore stored in memory, behind the template in
+// templateWords[]. They are read back only when they are needed. The indices `none` and `later` are
+// always 0, but the compiler does not know this. It can therefore neither keep the values in
+// registers nor read them early.
 void refine(vec2 known, LumaLevel l, ivec2 cell, int steps, inout vec2 best, inout float cost) {
     prepareSteps(known, cell);
     vec2 u = best;

@@ -1,19 +1,21 @@
-// An 8x8 patch (the template) that is searched in another luma level. The cost is invariant to
-// offset and gain.
+// An 8x8 patch (the template) that is searched in a pyramid level of the other picture. The cost
+// does not depend on an offset or gain between both pictures' luma.
 #include "patch.glsl"
 
 // The template. Each of the rows -1 to kRows has three words: two with its eight pixels, and one
 // with the pixels to the left and right of these. Nine floats follow: mean, variance (sum of
-// squared deviations), sum of the gradient (x, y), sum of a (minus its mean) times the gradient,
-// inverse Hessian (xx, xy, yy). The last five floats belong to patch_refine.glsl.
-// No GPU has enough registers for the template and a comparison. Variable indices keep the template
-// in memory; on Mali this works only with more than 64 words. Loops whose length the compiler does
-// not know are not unrolled and keep only one row in registers. Such loops are used here and in the
-// files that include this file.
+// squared deviations), sum of the gradient (x, y), sum of the gradient times the deviation of the
+// pixel from the mean (x, y), inverse Hessian (xx, xy, yy). The last five floats belong to
+// patch_refine.glsl.
+// No GPU has enough registers for the template and a comparison. The array is indexed by variables,
+// so that the compiler keeps it in memory; on Mali this works only for arrays of more than 64
+// words. Loops over the rows have a length that the compiler does not know, so that it does not
+// unroll them and keeps only one row in registers. This also holds in the files that include this
+// file.
 uint templateWords[72];
 
-// Sums over a patch's pixels. b is a pixel of the other picture: sum of b, of b^2, of b times the
-// template's pixel, and of b times twice the template's gradient.
+// Sums over the pixels of a patch. b is a pixel of the searched picture. The members are the sums
+// of b, of b^2, of b times the template's pixel, and of b times twice the template's gradient.
 struct Sums {
     float b, bb, ab;
     vec2 gb;
@@ -48,7 +50,8 @@ void setMoment(int i, float value) {
     templateWords[3 * kRows + 6 + i] = floatBitsToUint(value);
 }
 
-// Stores the rows, the mean and the variance. Returns mean and variance.
+// Stores the rows, mean and variance of the cell's patch in templateWords[]. Returns mean and
+// variance.
 vec2 loadTemplate(LumaLevel l, ivec2 cell) {
     float sum = 0.0, sumSquares = 0.0;
     for (int r = -1; r <= kRows; ++r) {
@@ -69,7 +72,8 @@ vec2 loadTemplate(LumaLevel l, ivec2 cell) {
     return vec2(mean, variance);
 }
 
-// Stores the other floats. `known` is mean and variance.
+// Stores the other floats that a Gauss-Newton step needs in templateWords[]. `known` holds the
+// template's mean and variance.
 void prepareSteps(vec2 known, ivec2 cell) {
     vec2 sum = vec2(0.0), sumA = vec2(0.0);
     vec3 h = vec3(0.0);
@@ -94,9 +98,9 @@ void add(inout Sums sums, Row a, Row b) {
     sums.ab += product(a, b);
 }
 
-// Cost: 0 if the patches are equal up to gain and offset, 1 if they are unrelated, 2 if one is
-// inverted. `known` is mean and variance of the template. A pixel of the template is about gain * b
-// + offset.
+// Returns the cost: 0 if the patches are equal up to gain and offset, 1 if they are unrelated, 2 if
+// one is the negative of the other. `known` holds the template's mean and variance. `gain`: a pixel
+// of the template is about gain * b + offset, where b is the pixel of the searched picture.
 float costOf(vec2 known, Sums sums, out float gain) {
     float mean = sums.b / kPatchPixels;
     float variance = max(sums.bb - sums.b * mean, 0.0);
@@ -117,7 +121,7 @@ Match matchOf(Sums sums) {
     return m;
 }
 
-// Cost of the displacement u; see costOf().
+// Cost of the cell's template at the displacement u [px]; see costOf().
 float costAt(vec2 known, LumaLevel l, ivec2 cell, vec2 u) {
     Window w = windowAt(l, cell, u);
     Sums sums = Sums(0.0, 0.0, 0.0, vec2(0.0));

@@ -1,6 +1,6 @@
 // Vertices of a virtual object, seen through the video camera's lens.
-// In: unit shape. Out: position in the camera's frame [m], position on the checkerboard [squares],
-// position on the unit shape.
+// In: vertices of the unit shape. Out: position in the camera's coordinates [m], normal, position
+// on the checkerboard [squares], position on the unit shape.
 #include "preview_params.glsl"
 #include "lens_projection.glsl"
 
@@ -14,8 +14,8 @@ out vec3 place;
 
 void main() {
     vec3 size = vec3(params.width, params.height, params.depth);
-    // Normals must be divided by the size. The products of the two other sizes have the same
-    // direction, and they exist even if one size is zero.
+    // A normal must be divided by the size along each axis. Multiplying each component by the sizes
+    // along the two other axes gives the same direction, also if one size is zero.
     vec3 n = normal * size.yzx * size.zxy;
     point = transformed(params.object, position * size);
     for (int i = 0; i < 3; ++i) {

@@ -1,10 +1,10 @@
-// Position in the still of a video pixel at infinite distance: rotation and both lenses, no
-// parallax.
+// Where the still shows a video pixel that is infinitely far away. This depends on both lenses and
+// on the rotation between the cameras, but not on parallax.
 #include "camera.glsl"
 #include "pipeline/engine/params/luma.h"
 
-// Still pixel of a video pixel. It is far outside the still if the ray points away from the still
-// camera's view.
+// Position in the still [px] of a video pixel. It is far outside the still if the pixel's ray
+// points away from what the still shows.
 vec2 stillPixel(Rig r, vec2 videoPixel) {
     vec3 p = vec3(unprojectPixel(r.video, videoPixel), 1.0);
     vec3 s;

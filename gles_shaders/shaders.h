@@ -10,9 +10,9 @@ struct Source {
     std::string_view text;  ///< source with all #include lines resolved, without #version
 };
 
-/// All shaders of the program, embedded at build time.
+/// All shaders of mfar. Their sources are embedded at build time.
 [[nodiscard]] std::span<const Source> all();
-/// Source of one shader. Throws std::out_of_range if the name does not exist.
+/// Source text of the shader with this file name. Throws std::out_of_range if there is none.
 [[nodiscard]] std::string_view source(std::string_view name);
 
 }  // namespace mfar::shaders

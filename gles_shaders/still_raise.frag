@@ -1,4 +1,5 @@
-// Luma of the still. Its finest detail is raised to compensate the loss in a linear look-up.
+// Computes the luma of the still and amplifies its finest detail, because linear look-ups lose some
+// of it.
 // In: still, RGBA8. Out: luma, clamped to 8 bits.
 #include "luma.glsl"
 #include "pipeline/engine/params/still.h"
@@ -9,13 +10,13 @@ layout(std140, binding = 0) uniform Params {
 layout(binding = 0) uniform sampler2D still;
 layout(location = 0) out vec4 raised;
 
-// The share per neighbour (params.neighbours) was chosen as follows. For the power spectrum of
-// natural pictures (f^-2 to f^-3), least squares over all sub-pixel positions and over frequencies
-// beyond the video's give 0.11. A smaller share is better, because it amplifies less where matches
-// are slightly off. Measured: 0.08 gives +0.5 dB on synthetic scenes, -0.1 dB on photographs, and
-// recovers half of the missing sharpness (LPC-SI). A reduced still is not raised, because its
-// highest frequencies are not weak (not raising gains 2.5 dB on a photograph at 1067 of 2304 pixels
-// across).
+// The weight of each neighbour (params.neighbours) was chosen as follows. A least-squares fit over
+// all sub-pixel positions and over the frequencies beyond the video's gives 0.11 for the power
+// spectrum of natural pictures (f^-2 to f^-3). A smaller weight is better, because it amplifies
+// less where matches are slightly off. Measured for 0.08: +0.5 dB on synthetic scenes, -0.1 dB on
+// photographs, and half of the missing sharpness (LPC-SI) is recovered. The detail of a reduced
+// still is not amplified, because its highest frequencies are not weak. (On a photograph reduced
+// from 2304 to 1067 pixels across, this gains 2.5 dB.)
 vec3 stillAt(ivec2 p) {
     return texelFetch(still, clamp(p, ivec2(0), textureSize(still, 0) - 1), 0).rgb;
 }

@@ -1,10 +1,11 @@
-// Statistics of the match between still and video in each cell. They are the inputs of
-// superres_weigh.comp.
+// Computes statistics of the match between still and video in each cell, for superres_weigh.comp.
 // In: the forward field (from video to still) in cells[]; also in cells[] either the backward
-// field, which may have a coarser level, or two-way errors; the finest luma of both pictures.
-// Out: displacement image = flow (x, y) [video px], and its end in the still minus the scaled cell
-// centre (x, y) [still px]. Statistics image = covariance, variance of the video and of the still
-// in the patch, confidence; the first three are 0 in tiles that are not matched.
+// field, which may be of a coarser pyramid level, or two-way errors; the finest luma pyramid level
+// of both pictures.
+// Out: displacement image = flow (x, y) [video px], and the position in the still to which the flow
+// leads minus the scaled cell centre (x, y) [still px]. Statistics image = covariance, variance of
+// the video and of the still in the patch, confidence; the first three are 0 in tiles that are not
+// matched.
 // Source: paper, eq. 2 with lambda(x) = min(x, 1).
 // Range: displacement -2e4..2e4, -2e4..2e4, -4e3..4e3, -4e3..4e3
 // Range: statistics -4.2e6..4.2e6, 0..4.2e6, 0..4.2e6, 0..1
@@ -24,7 +25,7 @@ layout(std430, binding = 1) readonly buffer Cells {
 };
 layout(std430, binding = 2) readonly buffer Tiles {
     uvec2 header;
-    uvec2 tiles[];  // changed, matched; one workgroup per tile
+    uvec2 tiles[];  // x: 1 if the tile changed; y: 1 if it is matched; one workgroup per tile
 };
 layout(rgba32f, binding = 0) uniform writeonly highp image2D displacement;
 layout(rgba32f, binding = 1) uniform writeonly highp image2D statistics;

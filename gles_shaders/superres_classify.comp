@@ -1,12 +1,12 @@
 // Finds the class of every tile and makes the frame's draw lists.
 // In: change flags; cell fields of one or two stills.
 // Out: lists[] = five lists of changed tiles: 0 all, 1 upscaled (only enlarged), 2 trusted, 3
-// blended, 4 tiles that show some of the second still. Lists 0 to 3 are empty if the whole frame is
-// drawn at once. Only lists 0 and 1 are empty if the whole frame is enlarged at once. List 0 also
-// contains neighbours of tiles that show detail or are enlarged by filters, because such tiles read
-// their neighbours. draws[] = indirect draw commands of the lists; initially only their numbers of
-// vertices are set. counts[] = counters of the frame, initially 0. classes[] = class of each tile.
-// One invocation per tile.
+// blended, 4 tiles that show some of the second still. Lists 0 to 3 are empty if header.x is 1.
+// Only lists 0 and 1 are empty if header.x is 2. List 0 also contains neighbours of tiles that show
+// detail or are enlarged by filters, because such tiles read their neighbours. draws[] = indirect
+// draw commands, one per list; before this shader runs, only the number of vertices in each is set.
+// counts[] = counters of the frame, initially 0. classes[] = class of each tile. One invocation per
+// tile.
 // Range: classes 0..3, 0..16
 #include "tiles.glsl"
 
@@ -15,22 +15,25 @@ layout(std140, binding = 0) uniform Params {
     ClassifyTiles params;
 };
 layout(std430, binding = 0) readonly buffer Changed {
-    // How the frame is drawn (1: at once; 2: as 1, but detail only in listed tiles); number of
-    // changed tiles.
+    // x: how the frame is drawn (0: only the listed tiles; 1: the whole frame at once; 2: the whole
+    // frame is enlarged at once, and detail is added in the listed tiles). y: number of changed
+    // tiles.
     uvec2 header;
-    uvec2 changed[];  // changed, matched
+    uvec2 changed[];  // x: 1 if the tile changed; y: 1 if it is matched
 };
 layout(std430, binding = 1) buffer Classes {
-    uvec2 classes[];  // class in this frame, unexplained cells when the tile was drawn last
+    uvec2 classes[];  // x: class in this frame; y: number of unexplained cells when the tile was
+                      // last drawn
 };
 layout(std430, binding = 2) buffer Draws {
     uvec4 draws[5];    // vertices, instances, first vertex, reserved
-    // Tiles per class (4), unused, unexplained tiles, confidence sum * 256, tiles showing the
-    // second still.
+    // Numbers of tiles of each of the four classes; unused; number of unexplained tiles; 256 * the
+    // sum of the tiles' mean confidences; number of tiles that show the second still.
     uint counts[8];
 };
 layout(std430, binding = 3) buffer Lists {
-    // The lists; then, for each tile, the frame in which the tile was last listed as a neighbour.
+    // The five lists; then, for each tile, the number of the frame in which the tile was last
+    // listed as a neighbour.
     uint lists[];
 };
 layout(binding = 0) uniform sampler2D cellField;
@@ -46,8 +49,9 @@ vec4 cellAt(ivec2 c) {
     return texelFetch(cellField, clamp(c, ivec2(0), lastCell()), 0);
 }
 
-// A tile is plain if one quad can show it, because its flow is affine and its weight uniform
-// (within tolerances).
+// Finds the class of a changed tile; `first` is the tile's first cell. A tile is trusted (plain) if
+// it can be drawn as one rectangle, because its flow is affine and its weight is uniform (within
+// tolerances).
 uint classOf(ivec2 first) {
     vec4 low = vec4(1e9), high = vec4(-1e9);
     for (int i = 0; i < 36; ++i) {
@@ -68,13 +72,13 @@ uint classOf(ivec2 first) {
     return kTileTrusted;
 }
 
-// Whether the second still has the larger weight.
+// Whether the second still's weight in cell c exceeds the first still's by more than kSecondFrom.
 bool secondIsMore(ivec2 c) {
     return texelFetch(secondCells, c, 0).z > texelFetch(cellField, c, 0).z + kSecondFrom;
 }
 
-// Also tests neighbouring cells, because the tile's pixels interpolate between these and the tile's
-// cells.
+// Whether a tile shows some of the second still. Also tests the cells around the tile, because the
+// tile's outer pixels are interpolated between these and the tile's cells.
 bool showsSecond(ivec2 first) {
     ivec2 low = max(first - 1, ivec2(0)), high = min(first + 4, lastCell());
     for (int y = low.y; y <= high.y; ++y)
@@ -93,7 +97,7 @@ void append(uint list, uint packedTile) {
     lists[int(list) * params.columns * params.rows + int(at)] = packedTile;
 }
 
-// Appends unchanged neighbours; each of them only once per frame.
+// Appends the tile's unchanged neighbours to list 0, each of them only once per frame.
 void appendUnchangedAround(ivec2 tile) {
     ivec2 first = max(tile - 1, ivec2(0)), last = min(tile + 1, ivec2(params.columns, params.rows) - 1);
     for (int y = first.y; y <= last.y; ++y) {

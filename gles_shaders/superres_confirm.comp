@@ -1,6 +1,7 @@
 // Lowers the weights of cells in which the still does not show the video's finest detail; see
 // kFineRoom.
-// In: sums of superres_fine.comp, fields of superres_weigh.comp. Out: new versions of these fields.
+// In: image of superres_fine.comp, images of superres_weigh.comp. Out: the images of
+// superres_weigh.comp with the lowered weights.
 // Range: newCells -2e4..2e4, -2e4..2e4, 0..2.31, 0..1
 // Range: newLookUps -4e3..4e3, -4e3..4e3, 0..2.31, 0..1
 #include "pipeline/engine/params/weigh.h"

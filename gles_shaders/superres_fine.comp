@@ -1,9 +1,10 @@
-// Covariance of the finest detail of the video and of the still in each cell; see kFineRoom.
-// In: tiles, look-ups, raised luma of the still, video.
-// Out: mean products of the differences between pixels and the mean of their 2x2 block, over the
-// middle two rows of the cell: video * video, video * still, still * still [grey levels^2]. Zero in
-// tiles that are not matched and in incomplete cells.
-// One workgroup per tile, one invocation per cell of a sampled row.
+// Compares the finest detail of video and still in each cell; see kFineRoom. The finest detail is
+// the difference between a pixel and the mean of its 2x2 block.
+// In: states of the tiles, look-ups, luma of the still with amplified finest detail, video.
+// Out: means, over the middle two rows of the cell, of the products of the details: video * video,
+// video * still, still * still [grey levels^2]. Zero in tiles that are not matched and in cells
+// that are only partly inside the frame.
+// One workgroup per tile, one invocation per cell. Only every kFineStep-th row of cells is sampled.
 // Range: fineField 0..65025, -65025..65025, 0..65025, 0
 #include "luma.glsl"
 #include "still_linear.glsl"
@@ -15,14 +16,14 @@ layout(std140, binding = 0) uniform Params {
 };
 layout(std430, binding = 0) readonly buffer Tiles {
     uvec2 header;
-    uvec2 tiles[];  // changed, matched
+    uvec2 tiles[];  // x: 1 if the tile changed; y: 1 if it is matched
 };
 layout(binding = 0) uniform sampler2D picture;
 layout(binding = 1) uniform sampler2D lookupField;
-layout(binding = 2) uniform sampler2D still;  // raised luma
+layout(binding = 2) uniform sampler2D still;  // luma with amplified finest detail
 layout(rgba32f, binding = 0) uniform writeonly highp image2D fineField;
 
-// Mean of the still over a video pixel, from 2x2 samples.
+// Mean luma of the still over the area of a video pixel, from 2x2 samples.
 float stillAt(ivec2 pixel) {
     float sum = 0.0;
     for (int i = 0; i < 4; ++i) {

@@ -1,6 +1,6 @@
-// Subtracts the guidance signal from the still's mean over each video pixel (result of
-// superres_seen.frag). The guidance signal is taken relative to its local mean; see kGuideReach.
-// In and out: luma [1/64 grey level].
+// Subtracts the guidance signal, minus its local mean, from the still's mean over each video pixel;
+// see kGuideReach.
+// In: result of superres_seen.frag. Out: the corrected mean luma of the still [1/64 grey level].
 #include "tile_params.glsl"
 
 layout(binding = 1) uniform isampler2D seen;

@@ -1,8 +1,10 @@
-// Compensates the high frequencies that are lost by the area of a sensor pixel together with the
-// bicubic kernel, where the still does not supply them. The filter is the sum of both axes' filters
-// and the product of their nearest taps.
-// In: video, weights, look-ups, raised luma of the still. Out: video, prefiltered for the
-// enlargement; alpha: mean luma of the still over the pixel, which composite_detail.frag subtracts.
+// Sharpens the video where the still does not supply detail. This compensates the high frequencies
+// that are lost because a sensor pixel has an area and because the enlargement by Keys' cubic
+// blurs. The filter is the sum of a horizontal and a vertical filter, plus the products of their
+// taps at a distance of one pixel.
+// In: video, weights, look-ups, luma of the still with amplified finest detail. Out: sharpened
+// video, to be enlarged; alpha: mean luma of the still over the pixel, which composite_detail.frag
+// subtracts.
 
 #include "tile_params.glsl"
 #include "still_seen.glsl"

@@ -1,8 +1,11 @@
-// First half of the enlargement: along columns, four channels.
-// In: prefiltered video. Out: a picture with the video's width and the output's height.
-// LEARNED: the output is integer. The first output is the video without prefilter and the mean of
-// the still over each video pixel [1/64 grey level]. The second output is the residual of
-// superres_enlarge.comp [1/64 grey level], four sub-pixels per texel.
+// First half of the enlargement: along columns, all four channels. composite_*.frag enlarge along
+// rows.
+// In: the video, which superres_sharpen.frag may have sharpened. Out: a picture with the video's
+// width and the output's height.
+// LEARNED: the inputs are the video (not sharpened), the mean of the still over each video pixel,
+// and the residual of superres_enlarge.comp. The outputs are integers [1/64 grey level]. The first
+// output is the enlarged video and, in alpha, the enlarged mean of the still. The second output is
+// the residual, four sub-pixels per texel.
 // Variant: #define LINEAR
 // Variant: #define LEARNED
 #include "cubic.glsl"

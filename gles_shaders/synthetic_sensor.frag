@@ -1,4 +1,4 @@
-// Converts the light on a sensor to a picture: blur, gain, noise, gamma.
+// Converts the light on a simulated sensor to a picture: applies blur, gain, noise and gamma.
 // In: linear radiance. Out: RGBA8, alpha 1.
 #include "hal/virtual/synthetic_params.h"
 
@@ -18,7 +18,8 @@ uint mixed(uint h) {
     return h ^ (h >> 16);
 }
 
-// Sum of the four bytes of a hash: approximately normally distributed with variance 1.
+// An approximately normally distributed random number with mean 0 and variance 1: the scaled sum of
+// the four bytes of a hash.
 float bell(uint h) {
     float sum = float(h & 255u) + float((h >> 8) & 255u) + float((h >> 16) & 255u) + float(h >> 24);
     return (sum - 510.0) / 147.8;

@@ -1,20 +1,23 @@
 // Tables of the synthetic world, and functions that intersect rays with it. A solid is a box, a
-// cylinder or an ellipsoid. Rays are transformed to the solid's frame, which is scaled so that the
-// solid becomes a unit cube, unit cylinder or unit sphere.
+// cylinder or an ellipsoid. Rays are transformed to the solid's coordinate system, which is scaled
+// so that the solid becomes a unit cube, unit cylinder or unit sphere.
 
 struct Solid {
-    vec4 x, y, z;  // rows: camera direction to scaled frame; w: camera position there
+    vec4 x, y, z;  // rows of the matrix from camera directions to scaled coordinates; w: camera
+                   // position in scaled coordinates
 };
 struct Surface {
     vec4 size;        // half extents [m]; w: 0 box, 1 cylinder, 2 ellipsoid
-    vec4 face;        // in the light map: corner of the first face, size of a face
-    vec4 light;       // xyz: direction to the key light; w: half a light map texel / face
-    ivec4 materials;  // materials of the x, y, z faces; w: 1 if the solid moves
+    vec4 face;        // xy: corner of the solid's first face in the light map; zw: size of a face
+                      // there
+    vec4 light;       // xyz: direction to the key light; w: half a texel / width of a face in the
+                      // light map
+    ivec4 materials;  // indices in `materials` of the x, y and z faces; w: 1 if the solid moves
 };
 struct Material {
-    vec4 mapping;  // texture repeats per metre in u and v; offset
-    vec4 tint;     // rgb; strength of the slow variation
-    vec4 look;     // texture layer, gloss
+    vec4 mapping;  // xy: repeats of the texture per metre in u and v; zw: offset
+    vec4 tint;     // rgb: colour factor; w: strength of the slow variation of brightness
+    vec4 look;     // x: index of the texture layer; y: strength of the gloss
 };
 layout(std140, binding = 1) uniform Solids { Solid solids[128]; };
 layout(std140, binding = 2) uniform Surfaces { Surface surfaces[128]; };
@@ -61,7 +64,8 @@ void castRound(int index, vec2 rays[4], inout vec4 t, inout ivec4 hit) {
         vec3 d = local(s, rays[k]);
         vec3 dk = d * keep, ok = o * keep;
         float a = dot(dk, dk), b = dot(ok, dk);
-        // Uses the nearest point of the ray. b*b - a*c would lose precision at a large distance.
+        // Uses the ray's point nearest to the axis or centre. The discriminant b*b - a*c would lose
+        // precision at a large distance.
         vec3 nearest = ok - dk * (b / a);
         float disc = (1.0 - dot(nearest, nearest)) / a;
         if (!(disc > 0.0)) continue;
@@ -85,7 +89,7 @@ void castRound(int index, vec2 rays[4], inout vec4 t, inout ivec4 hit) {
     }
 }
 
-// Local coordinates on a face around a point.
+// A point on a face, in the coordinates of the face.
 struct Chart {
     vec2 at;       // texture position [m]
     vec3 u, v;     // directions of texture axes on the surface
@@ -123,8 +127,9 @@ Chart chart(Surface f, int axis, vec3 p) {
     return c;
 }
 
-// Factor for the light in the shadow of a moving, roughly spherical object. The light map contains
-// only the shadows of static objects.
+// Factor by which the moving object's shadow darkens a point; the object is treated as a sphere.
+// Needed because the light map contains only the shadows of static objects. `light`: direction to
+// the light; w: radius of the sphere, 0: there is no moving object.
 float moverShade(vec3 point, vec3 middle, vec4 light) {
     vec3 v = point - middle;
     float along = dot(v, light.xyz), off = length(v - along * light.xyz);

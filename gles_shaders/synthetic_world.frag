@@ -1,5 +1,6 @@
-// Light on a sensor that looks at the synthetic world. Every pixel inverts the lens distortion,
-// intersects four rays with the solids of its tile, and shades the hits.
+// Renders the light on a simulated sensor that looks at the synthetic world. For each pixel,
+// inverts the lens distortion, intersects four rays with the solids of the pixel's tile, and shades
+// the points that the rays hit.
 // In: tables of solids, surfaces and materials; a bit mask of solids per tile; textures; light map.
 // Out: linear radiance; 1 is white paper in full light.
 #include "synthetic_tables.glsl"
@@ -49,7 +50,7 @@ vec2 unproject(vec2 pixel, out mat2 perPixel) {
 
 struct Group {
     int solid, axis;
-    vec4 member;  // 1 for the rays that hit this face
+    vec4 member;  // 1 for each of the four rays that hits this face, else 0
 };
 
 vec3 shade(Group g, vec4 t, vec2 rays[4], mat2 perPixel) {
@@ -71,7 +72,7 @@ vec3 shade(Group g, vec4 t, vec2 rays[4], mat2 perPixel) {
     vec3 d = turn * vec3(ray / count, 1.0);
     Chart c = chart(f, g.axis, middle);
 
-    // Footprint of a pixel on the surface, first [m], then in texels of the layer.
+    // Footprint of a pixel on the surface, first in metres, then in texels of the texture layer.
     Material m = materials[f.materials[g.axis]];
     vec3 across = turn * vec3(perPixel[0], 0.0), down = turn * vec3(perPixel[1], 0.0);
     float facing = dot(c.normal, d);

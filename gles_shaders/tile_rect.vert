@@ -1,8 +1,8 @@
 // Draws one rectangle of six vertices per listed tile, at any resolution. In: packed tile
 // (instanced).
-// PLAIN_TILE: also outputs the look-up at the tile's corners, averaged over the cells that meet
-// there.
-// AROUND: the rectangle includes a margin of kTileAround.
+// PLAIN_TILE: also outputs the look-up (see look_up.glsl) at the tile's corners. Its value at a
+// corner is the mean of the four cells that meet there.
+// AROUND: the rectangle is larger than the tile by a margin of kTileAround on each side.
 // Variant: #define PLAIN_TILE
 // Variant: #define AROUND
 #include "tile_params.glsl"

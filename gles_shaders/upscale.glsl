@@ -1,4 +1,5 @@
-// Second half of the bicubic enlargement: along rows. Alpha is that of superres_vertical.frag.
+// Second half of the bicubic enlargement: along rows. The first half is superres_vertical.frag,
+// which also says what alpha contains.
 // Needs tile_params.glsl, and columns.glsl or learned.glsl.
 #include "cubic.glsl"
 

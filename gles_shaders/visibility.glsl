@@ -1,4 +1,5 @@
-// Parameters of the occlusion passes, and the test for valid depth samples.
+// Parameters of the shaders that decide which virtual pixels are occluded, and the test for valid
+// depth samples.
 #include "pipeline/engine/params/occlusion.h"
 
 layout(std140, binding = 0) uniform Params {
@@ -16,8 +17,8 @@ vec2 inVideo() {
     return gl_FragCoord.xy * vec2(params.scaleX, params.scaleY) - 0.5;
 }
 
-// Whether a sample of real depth (inverse depth [1/m], sigma [1/m]) is valid. False for NaN,
-// infinity, zero and negative values.
+// Whether a sample of the real scene's depth (inverse depth [1/m], sigma [1/m]) is valid. False for
+// NaN, infinity, zero and negative values.
 bool known(vec2 real) {
     return real.x > kLeastInverseDepth && real.x < kMostInverseDepth && real.y > kLeastDepthSigma &&
            real.y < kMostInverseDepth;

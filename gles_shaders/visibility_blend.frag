@@ -1,5 +1,5 @@
-// The visible part of the virtual layer, which is then blended over the picture.
-// In: RGBA8 premultiplied by coverage; R8 visibility. Out: their product, premultiplied.
+// Computes the visible part of the virtual layer, which is blended over the picture.
+// In: layer, RGBA8 premultiplied by coverage; visibility, R8. Out: their product, premultiplied.
 #include "visibility.glsl"
 #include "virtual_layer.glsl"
 

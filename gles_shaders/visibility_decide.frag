@@ -1,7 +1,8 @@
-// Decides for virtual pixels that are certainly in front of or certainly behind the real scene.
-// In: virtual z [m]; range (visibility_range.frag). Out: visibility, R8, 1 or 0; fragment depth: 1
-// if visibility_sample.frag must decide, otherwise 0. The depth test then skips decided pixels. A
-// branch would not skip them on a software renderer.
+// Decides which virtual pixels are certainly in front of the real scene and which are certainly
+// behind it.
+// In: virtual z [m]; result of visibility_range.frag. Out: visibility, R8, 1 or 0; fragment depth:
+// 1 if visibility_sample.frag must decide, otherwise 0. In visibility_sample.frag, the depth test
+// then skips the decided pixels. On a software renderer, a branch in the shader would save no time.
 #include "visibility.glsl"
 #include "virtual_layer.glsl"
 

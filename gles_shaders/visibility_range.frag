@@ -1,8 +1,9 @@
-// Range of virtual inverse depths for which visibility_sample.frag must weigh samples. The samples
-// are the 4x4 pixels around a position between this pixel and the next ones to the right and below.
-// In: Rg32F real inverse depth and sigma [1/m].
-// Out: x: surfaces with at least this inverse depth are in front of every sample. y: surfaces with
-// at most this inverse depth are occluded by every sample; 0: never.
+// Finds the range of a virtual pixel's inverse depth for which visibility_sample.frag must weigh
+// samples of the real depth. The samples are the 4x4 video pixels around a position between this
+// pixel and the next ones to the right and below.
+// In: inverse depth and sigma of the real scene [1/m], Rg32F.
+// Out: x: virtual surfaces with at least this inverse depth are in front of every sample. y:
+// virtual surfaces with at most this inverse depth are occluded by every sample; 0: none is.
 // Range: range 0..1e6, 0..1e6
 #include "visibility.glsl"
 

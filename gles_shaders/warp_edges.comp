@@ -1,10 +1,12 @@
-// Lists the least reliable pixels of a warped picture. These are the pixels with the most contrast
-// to their neighbours. They are mixtures of colours, and the look-up has mixed them again.
+// Lists the least exact pixels of a warped picture. These are the pixels with the most contrast to
+// their neighbours: the warp interpolated there between colours that are mixtures already.
 // First pass (COUNT): counts the pixels of each contrast level. Second pass: lists the pixels of
-// the highest levels, up to the given share of the objects' pixels, but always those of the highest
-// level. The set of listed pixels does not depend on the order of the threads.
-// In: colour (RGBA8 premultiplied) and state of the look-up. Out: count[] = pixels per level,
-// pixels of objects, length of the list; list[] = row-major index, colour.
+// the highest contrast levels, as many levels as stay within the given share of the objects'
+// pixels, but at least the highest level. The set of listed pixels does not depend on the order of
+// the threads.
+// In: colour (RGBA8 premultiplied) and state, from warp_look_up.frag and warp_rest.comp. Out:
+// count[] = number of pixels of each contrast level, number of pixels of objects, length of the
+// list; list[] = row-major index and colour of each listed pixel.
 // Variant: #define COUNT
 #include "warp_edge_params.glsl"
 
@@ -25,9 +27,9 @@ layout(std430, binding = 1) writeonly buffer List {
 shared uint least;
 #endif
 
-// The largest difference of a colour channel in the 3x3 pixels around p. Alpha is ignored, so that
-// outlines of dark objects have little contrast. This is intended, because the silhouette already
-// makes outlines exact.
+// Contrast level at p: the largest difference of a colour channel within the 3x3 pixels around p,
+// scaled to kLevels levels. Alpha is ignored, so that outlines of dark objects have little
+// contrast. This is intended, because the silhouette already makes outlines exact.
 uint levelAt(ivec2 p) {
     vec3 low = vec3(1.0), high = vec3(0.0);
     for (int i = 0; i < 9; ++i) {

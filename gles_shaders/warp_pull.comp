@@ -1,5 +1,5 @@
-// Computes one level of the push-pull pyramid from the level below. The first level is computed
-// from the picture.
+// Computes one level of the push-pull pyramid from the next finer level. FIRST_LEVEL: computes the
+// first level from the picture.
 // In: colour and state of warp_rest.comp. Out: texels[].
 // Variant: #define FIRST_LEVEL
 #include "warp_hole_params.glsl"

@@ -1,9 +1,9 @@
-// The pyramid of push-pull filling (Gortler et al. 1996, section 3.5). Objects and the shadow below
-// them have separate colours, so that these do not mix. Needs warp_hole_params.glsl.
+// The pyramid of push-pull filling (Gortler et al. 1996, section 3.5). Objects and the shadow
+// catcher below them have separate colours, so that these do not mix. Needs warp_hole_params.glsl.
 
-// Colours of an area: of the object that covers most of the area, and of the shadow catcher, both
-// premultiplied RGBA8. Then the number of the object, and the weights of both colours in bytes
-// [1/255].
+// One texel of the pyramid, which stands for an area of the picture: colour of the object that
+// covers most of the area, and colour of the shadow catcher (both premultiplied; packed as RGBA8);
+// number of the object; weights of both colours [0, 1] (packed as bytes).
 struct Area {
     vec4 object, catcher;
     uint id;
@@ -17,9 +17,9 @@ uvec4 packArea(Area a) {
     return uvec4(packUnorm4x8(a.object), packUnorm4x8(a.catcher), a.id, packUnorm4x8(vec4(a.weights, 0.0, 0.0)));
 }
 
-// Merges four texels. An area gets the full weight if half of it is known. Texels stay packed, and
-// the object is selected before colours are unpacked, so that all values fit in the registers of a
-// Mali.
+// Merges four texels of the next finer level. An area gets the full weight if the colour of at
+// least half of it is known. The texels stay packed until the object is selected, so that all
+// values fit in the registers of a Mali.
 Area merged(uvec4 parts[4]) {
     Area best = Area(vec4(0.0), vec4(0.0), 0u, vec2(0.0));
     for (int i = 0; i < 4; ++i) {

@@ -1,7 +1,8 @@
-// Lists the pixels that warp_look_up.frag left to warp_rest.comp. One invocation processes 2x2
-// pixels, because most squares have no such pixel.
-// In: state of warp_look_up.frag. Out: list[] = row-major index; commands[0] = number of groups of
-// 64 entries, number of entries. The order of the list varies, but no result depends on it.
+// Lists the pixels that warp_look_up.frag left to warp_rest.comp. One invocation processes a square
+// of 2x2 pixels, because most squares contain no such pixel.
+// In: state of warp_look_up.frag. Out: list[] = row-major indices of the pixels; commands[0] =
+// number of groups of 64 entries (x), number of entries (w). The order of the list varies, but no
+// result depends on it.
 #include "warp_view_params.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -17,7 +18,7 @@ void main() {
     ivec2 p = 2 * ivec2(gl_GlobalInvocationID.xy) + ivec2(params.bounds.x0, params.bounds.y0);
     vec4 left = textureGather(state, vec2(p + 1) / vec2(layerSize()), 1);
     ivec2 end = ivec2(params.bounds.x1, params.bounds.y1);
-    // Same order as textureGather.
+    // The components are in the order of textureGather().
     bvec4 within = bvec4(all(lessThan(p + ivec2(0, 1), end)), all(lessThan(p + 1, end)),
                          all(lessThan(p + ivec2(1, 0), end)), all(lessThan(p, end)));
     uvec4 some = uvec4(greaterThan(left, vec4(0.5))) & uvec4(within);

@@ -1,6 +1,6 @@
-// Fades individually rendered pixels in over the looked-up pixels.
-// In: list[] = row-major index, looked-up colour, rendered colour (RGBA8 premultiplied). Out: the
-// pixels.
+// Blends individually rendered pixels over the warped picture while they fade in.
+// In: list[] = for each pixel: row-major index, warped colour, rendered colour (RGBA8
+// premultiplied). Out: colour of these pixels.
 #include "warp_edge_params.glsl"
 
 layout(local_size_x = 64) in;

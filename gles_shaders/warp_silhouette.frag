@@ -1,11 +1,12 @@
-// Number and depth of the visible object.
+// Writes number and depth of the object that is visible in this pixel.
 // Out: R32UI, packed by warp_surface.glsl.
 // Variant: #define ALPHA_MASK
 #include "warp_silhouette_params.glsl"
 #include "warp_surface.glsl"
 
 #ifdef ALPHA_MASK
-layout(binding = 0) uniform sampler2D alpha;  // multiplied by its factor; the texture repeats
+layout(binding = 0) uniform sampler2D alpha;  // alpha times the material's alpha factor; the
+                                              // texture repeats
 in vec2 texel;
 #endif
 layout(location = 0) out uint surface;

@@ -1,4 +1,4 @@
-// Vertices of the virtual scene at the current pose. In: positions in the model's frame [m].
+// Vertices of the virtual scene at the current pose. In: positions in the model's coordinates [m].
 // Variant: #define ALPHA_MASK
 #include "warp_silhouette_params.glsl"
 #include "lens_projection.glsl"

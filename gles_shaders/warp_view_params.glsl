@@ -1,4 +1,4 @@
-// Parameters of the look-up of a warp.
+// Parameters of the shaders that look warped pixels up (warp_look_up.frag, warp_rest.comp).
 #include "pipeline/warp/pass_params.h"
 
 layout(std140, binding = 0) uniform Params {
@@ -12,7 +12,7 @@ ivec2 layerSize() {
     return ivec2(params.width, params.height);
 }
 
-// z [m] of the catcher's plane along a ray; 0: the plane is not visible.
+// z [m] at which a ray meets the shadow catcher's plane; 0: the plane is not visible along the ray.
 float planeDepth(vec2 ray) {
     float facing = dot(vec3(params.plane.x, params.plane.y, params.plane.z), vec3(ray, 1.0));
     float z = params.plane.offset / (facing == 0.0 ? 1.0 : facing);

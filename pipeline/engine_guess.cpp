@@ -6,9 +6,10 @@
 namespace mfar {
 namespace {
 
-/// Predicted time of a frame while the camera moves [ms], for each placement on one board.
+/// Predicted time of a frame while the camera moves [ms], for each placement of the steps on one
+/// GPU.
 struct Prediction {
-    std::string_view gpu;  ///< substring of the driver's description
+    std::string_view gpu;  ///< substring of the GPU driver's description
     double simd, matchSimdDrawGles, matchGlesDrawSimd, gles;
 };
 
@@ -27,7 +28,8 @@ struct Candidate {
     double Prediction::* frame;
 };
 
-/// All placements, ordered for most boards: SIMD first, because it needs no shader compilation.
+/// All placements, in the order in which they are tried on GPUs without predictions. SIMD is first,
+/// because it needs no shader compilation.
 std::array<Candidate, 4> candidates() {
     constexpr auto kSimd = EngineKind::Simd, kGles = EngineKind::Gles;
     return {{{placed(kSimd, kSimd), &Prediction::simd},

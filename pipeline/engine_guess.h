@@ -7,8 +7,8 @@
 
 namespace mfar {
 
-/// A placement is given up if its frame takes longer than this factor times the frame of the
-/// fastest placement.
+/// A placement of the steps (which engine runs which step) is given up if a frame takes longer with
+/// it than this factor times a frame with the fastest placement.
 inline constexpr double kHopelessFrame = 2;
 
 /// Placements of the steps that may be the fastest while the camera moves, the most promising

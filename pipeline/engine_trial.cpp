@@ -44,7 +44,7 @@ ImageView viewOf(const std::vector<std::uint8_t>& rgba, Size size) {
 }
 
 /// Median time of a frame [ms]. If the first measured frame takes longer than `most` [ms], returns
-/// that time at once.
+/// its time without measuring more frames.
 double medianFrame(const EngineChoice& engines, const StereoRig& rig, Size output,
                    EngineKind shownFrom, double most) {
     using Clock = std::chrono::steady_clock;

@@ -19,7 +19,7 @@ void requireFit(const ImageView& view, Size size, const char* what) {
         return;
     }
     throw std::invalid_argument(std::string(what) + " is " + std::to_string(view.size.width) + "x" +
-                                std::to_string(view.size.height) + ", but the calibration says " +
+                                std::to_string(view.size.height) + ", but the calibration is for " +
                                 std::to_string(size.width) + "x" + std::to_string(size.height));
 }
 
@@ -263,7 +263,7 @@ const CellWeights* Pipeline::State::matchSecond(const VideoFrame& frame, const T
     const TileWork& missed = secondTiles.choose(work, plan.measured(), shown, most);
     newest.count(secondTiles.matched(), secondTiles.shownByNewest());
     if (missed.matched == 0) {
-        second.lastFlow = nullptr;  // the flow is too old to start a search from
+        second.lastFlow = nullptr;  // later frames must not start their search from this old flow
         return nullptr;
     }
     const LumaPyramid& pyramids = second.pyramid->video(frame, missed);
@@ -352,7 +352,7 @@ void Pipeline::State::publish(const TileWork& work, bool usedStill, bool usedPos
         result.picture = picture.host();
     keepDrawn(work);
     redraw = false;
-    if (gles) gles->finishReading();  // does not wait: the GPU finished this long ago
+    if (gles) gles->finishReading();  // does not wait, because the GPU has read the frame long ago
 }
 
 void Pipeline::State::lap(const char* stage) {

@@ -25,8 +25,8 @@ namespace mfar {
 
 struct PipelineOptions {
     SuperResMode mode = SuperResMode::Detail;
-    /// Output size; 0x0 is Pipeline::fullSize(). At a smaller size each output pixel averages all
-    /// sensor pixels of its area.
+    /// Size of the output picture; 0x0: Pipeline::fullSize(). If it is smaller than the still, each
+    /// output pixel averages all still pixels of its area.
     Size output;
     /// Whether unchanged tiles keep their pixels. If false, every tile is computed in each frame.
     bool skipUnchanged = true;
@@ -44,13 +44,13 @@ struct PipelineOptions {
     int threads = 0;
 };
 
-/// Processes frames: video in, high-resolution picture out.
-/// The constructor allocates what every frame needs. A thread creates the epipolar search during
-/// the first frame with a pose, at the latest with the first still that has a pose. Memory for
-/// depth measurement is allocated with the first object.
+/// Makes a high-resolution picture from each video frame and the still. The constructor allocates
+/// what every frame needs. The epipolar search is created by a thread that the first frame with a
+/// pose starts, or at the latest by the first still that has a pose. Memory for depth measurement
+/// is allocated with the first object.
 /// All calls must come from one thread. If a step runs on GLES, this is the GL thread, and the GL
-/// context must be current. Only set-up functions throw GlError, and std::invalid_argument for
-/// options out of range.
+/// context must be current. GlError, and std::invalid_argument for options out of range, are thrown
+/// only by functions that set something up.
 class Pipeline {
 public:
     Pipeline(const StereoRig& rig, const PipelineOptions& options);
@@ -58,15 +58,15 @@ public:
     Pipeline(Pipeline&&) noexcept;
     Pipeline& operator=(Pipeline&&) noexcept;
 
-    /// Makes this still the reference of the following frames. All work per still is done in this
-    /// call.
-    /// The still may have any format. Throws std::invalid_argument if its size is not the rig's or
-    /// the view is invalid (requireSound()). `pose` is the pose of the video camera at the time of
-    /// the still. If both the still and a frame have poses, the flow is searched along epipolar
-    /// lines, otherwise in both dimensions.
+    /// Makes this still the reference of the following frames. All work that a new still needs is
+    /// done in this call. The still may have any format. Throws std::invalid_argument if the
+    /// still's size is not that of the rig's still camera, or if the view is invalid
+    /// (requireSound()). `pose` is the pose of the video camera at the time of the still. If both
+    /// the still and a frame have poses, the flow is searched along epipolar lines, otherwise in
+    /// both dimensions.
     void setStill(const ImageView& still, Timestamp time, const std::optional<Pose>& pose = {});
-    /// Time of the older still, which is kept for areas that the newest still does not show. Empty
-    /// if there is no such still.
+    /// Time of the second, older still, which is kept for areas that the newest still does not
+    /// show. Empty if no second still is kept.
     [[nodiscard]] std::optional<Timestamp> secondStill() const;
     /// Discards the stills. The enlarged video is shown until the next still.
     void dropStill();
@@ -77,26 +77,27 @@ public:
     /// setMode() and setSkipUnchanged() take effect with the next run.
     void setMode(SuperResMode mode);
     void setSkipUnchanged(bool skip);
-    /// Sets the filters that enlarge the video in modes that use filters. They are used from the
-    /// next still on, because the picture changes then anyway. Without a still they are used at
-    /// once. Null: the built-in filters.
+    /// Sets the learned filters that enlarge the video. They are used from the next still on,
+    /// because the picture changes then anyway. If there is no still, they are used at once. Null:
+    /// the built-in filters.
     void setFilters(std::shared_ptr<const FilterBank> filters);
     /// Sets the object that receives each matched still while filters enlarge the video. Null: no
     /// listener. The listener must outlive the pipeline.
     void setMatchListener(MatchListener* listener);
-    /// Sets the importer that uses the cameras' memory without a copy. Null: every picture is
-    /// uploaded. The importer must outlive the pipeline.
+    /// Sets the importer that gives the GPU access to camera memory without a copy. Null: every
+    /// picture is uploaded. The importer must outlive the pipeline.
     void setImporter(PlaneImporter* importer);
-    /// The reason why zero-copy import failed. It is returned once.
+    /// Returns why an import of camera memory without a copy failed. Each failure is returned once;
+    /// empty: there was none.
     [[nodiscard]] std::optional<std::string> takeImportFault();
     /// Takes effect with the next run and allocates nothing. Throws std::invalid_argument if a
     /// setting is out of range.
     void setQuality(const Quality& quality);
     /// Makes the next run draw every tile again.
     void redraw();
-    /// Sets objects that are shown in frames with a pose. They are seen from this pose and are
-    /// occluded by nearer real surfaces. The first call with an object allocates memory for
-    /// objects.
+    /// Sets the virtual objects that are shown in frames with a pose. They are drawn as seen from
+    /// the frame's pose, and nearer real surfaces hide them. The first call with an object
+    /// allocates memory.
     void setObjects(std::vector<VirtualObject> objects);
     /// Like setObjects(), but the objects are path traced. After each frame the scene is adapted to
     /// the real surroundings: shadows fall onto the measured surface and, with `light`, the light
@@ -110,18 +111,20 @@ public:
     [[nodiscard]] PixelRect objectsRegion() const;
     /// Counters of the path tracer and the warp. Empty if no path tracer is used.
     [[nodiscard]] std::optional<TracedLayerCounters> tracedCounters() const;
-    /// The reason why a scene could not be shown. It is returned once.
+    /// Returns why a scene could not be shown. Each failure is returned once; empty: there was
+    /// none.
     [[nodiscard]] std::optional<std::string> takeSceneError();
 
     [[nodiscard]] Size outputSize() const;
     /// Default output size: as wide as the still, with the aspect ratio of the video.
     [[nodiscard]] static Size fullSize(const StereoRig& rig);
     /// Duration of each stage of the last run, measured on the CPU. After setMeasure(true), each
-    /// stage waits until its work is done, so that the durations include GPU work. Otherwise frames
-    /// are not delayed (default).
+    /// stage waits until its work is done, so that the durations include GPU work. By default, no
+    /// stage waits.
     [[nodiscard]] const std::vector<StageTime>& stageTimes() const;
     void setMeasure(bool measure);
-    /// Waits until the last run's picture is ready for display from the GPU or from CPU memory.
+    /// Waits until the last run's picture can be displayed from GPU memory (Gles) or from CPU
+    /// memory (Simd).
     void finish(EngineKind shownFrom) const;
 
     /// The real scene's depth from the last run that measured it. Throws std::bad_optional_access
@@ -130,13 +133,13 @@ public:
 
     // Functions that read results back for tests, evaluation and the preview. They wait for the
     // GPU.
-    /// Numbers of the last run. FrameResult::stats has the numbers of the run before, so that run()
-    /// need not wait.
+    /// Statistics of the last run. On a GPU, FrameResult::stats has those of the run before, so
+    /// that run() need not wait.
     [[nodiscard]] FrameStats readStats() const;
     /// Flow of every video pixel (x, y interleaved), interpolated between cells. With poses, a
-    /// pixel may get the vector of its epipolar search instead. This requires that the two vectors
-    /// differ by at least half a pixel, and that the cells' flow has not left the epipolar lines.
-    /// Empty without a still.
+    /// pixel gets the vector that the epipolar search found for it instead, if the two vectors
+    /// differ by at least half a pixel and the cells' vectors are not off the epipolar lines. Empty
+    /// without a still.
     [[nodiscard]] std::vector<float> readFlow() const;
     /// Confidence (eq. 2) of every video pixel, [0, 1]. Empty without a still.
     [[nodiscard]] std::vector<float> readConfidence() const;
@@ -144,7 +147,7 @@ public:
     [[nodiscard]] std::vector<TileClass> readTileClasses() const;
     /// For each tile, whether FrameStats::searched2d counts the tile.
     [[nodiscard]] std::vector<bool> readSearchedTiles() const;
-    /// Weight of virtual objects in each output pixel. Empty without objects.
+    /// How much virtual objects cover each output pixel, [0, 1]. Empty without objects.
     [[nodiscard]] std::vector<float> readShownObjects() const;
     /// Output picture as RGBA8, first row first.
     [[nodiscard]] std::vector<std::uint8_t> readImage() const;
@@ -154,8 +157,9 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// Dense 2-D flow between two pictures of the same size and any format, for evaluation and tests.
-/// Runs only the flow step. Returns x, y interleaved for each pixel p: a(p) looks like b(p + flow).
+/// Dense 2-D flow from picture a to picture b, which have the same size and any format; for
+/// evaluation and tests. Runs only the flow step. Returns x, y interleaved for each pixel p of a:
+/// a(p) looks like b(p + flow).
 [[nodiscard]] std::vector<float> flowBetween(const ImageView& a, const ImageView& b);
 
 }  // namespace mfar

@@ -16,17 +16,17 @@
 
 namespace mfar {
 
-/// Distance from its epipolar line [px] from which on a flow vector cannot belong to a static
-/// point.
+/// Smallest distance of a flow vector's end from the epipolar line [px] at which the vector cannot
+/// belong to a static point.
 inline constexpr float kOffLine = 3;
 
-/// State that Pipeline keeps between frames. It is used by pipeline.cpp (the processing of frames),
-/// pipeline_objects.cpp and readback.cpp. Data that belongs to one frame is passed and returned
-/// instead.
+/// What Pipeline keeps between frames. It is used by pipeline.cpp (which processes frames),
+/// pipeline_objects.cpp and readback.cpp. Data that belongs to a single frame is not kept here, but
+/// passed as arguments and returned.
 struct Pipeline::State {
     State(const StereoRig& rig, const PipelineOptions& options);
 
-    /// Results of a frame's flow that the depth measurement needs.
+    /// The results of a frame's flow step that the depth measurement needs.
     struct DepthMatches {
         EpipolarFlow::Cells vectors;
         std::vector<bool> searched2d;  ///< one entry per tile
@@ -36,7 +36,8 @@ struct Pipeline::State {
         PixelRect where;  ///< where depth is needed [video px]
         bool measures = false;
         std::optional<DepthMatches> matches;  ///< present if the flow followed epipolar lines
-        bool isDue = false;                   ///< measure depth anew; false: carry it on
+        bool isDue = false;                   ///< true: depth is measured anew; false: the last
+                                              ///< depth is carried on to this frame
     };
     struct RealDepth {
         RealDepth(const CameraModel& video, const std::shared_ptr<Workers>& workers,
@@ -45,7 +46,7 @@ struct Pipeline::State {
 
         DepthStage stage;
         EdgeSnap snap;
-        LumaImage luma;  // luma of frames without an epipolar search
+        LumaImage luma;  // luma of a frame that was not matched along epipolar lines
     };
     /// Match of a frame with the newest still.
     struct Match {
@@ -54,35 +55,39 @@ struct Pipeline::State {
         const CellWeights* second = nullptr;  ///< match with the second still; null: not used
     };
 
-    /// Starts a thread that creates the epipolar search, so that the first picture does not wait
-    /// for it. The search is needed later, by a still with a pose.
+    /// Starts a thread that creates the epipolar search unless it exists. The first pictures then
+    /// do not wait for its creation; it is needed only once a still with a pose arrives.
     void beginEpipolar();
     /// Returns the epipolar search. Creates it, or waits for the thread that creates it.
     EpipolarFlow& needEpipolar();
     /// Allocates memory for depth measurement unless this was done before.
     void needDepth();
-    /// Places the objects. Returns where real depth is needed in this frame [video px].
+    /// Places the virtual objects. Returns the rectangle in which this frame needs the real depth
+    /// [video px].
     PixelRect placeObjects(const std::optional<Pose>& pose, Timestamp time);
     const TileWork& planFrame(const VideoFrame& frame);
-    /// Searches along epipolar lines if a pose is given, otherwise in both dimensions.
+    /// Matches the frame with the newest still: along epipolar lines if a pose is given, otherwise
+    /// in both dimensions. `forDepth`: where the depth measurement needs the epipolar search [video
+    /// px].
     Match matchStill(const VideoFrame& frame, const TileWork& work, const std::optional<Pose>& pose,
                      const PixelRect& forDepth);
     /// Computes the weight of each cell of the match with a still.
     const CellWeights& weighed(const Reference& still, const VideoFrame& frame,
                                const LumaPyramid& pyramids, const FlowCells& flow,
                                const TileWork& work);
-    /// Called before a new still is taken. Keeps the newest still as the second one if it is worth
-    /// more than the present second one.
+    /// Must be called before a new still is stored. Keeps the newest still as the second one if
+    /// keepsOlder() does not prefer the present second one.
     void retireNewest();
     /// Matches the second still in the tiles that the newest still does not show. Returns null if
     /// there are no such tiles. Must be called after matchStill().
     const CellWeights* matchSecond(const VideoFrame& frame, const TileWork& work);
     /// Decides whether depth is measured, and copies the flow results that the measurement needs.
-    /// Copying them after the frame's drawing has begun would wait for the drawing.
+    /// They are copied before the frame is drawn, because a later copy would wait until the GPU has
+    /// drawn it. `alongLines`: the flow if it was searched along epipolar lines, else null.
     DepthTask prepareDepth(const PixelRect& where, bool hasPose, const FlowCells* alongLines);
     void listen(const CellWeights& weights);
-    /// Called before a new still is taken. Reports to the listener how the newest still was
-    /// matched.
+    /// Must be called before a new still is stored. Reports to the listener how the newest still,
+    /// which is about to be replaced, was matched.
     void tellReplaced();
     [[nodiscard]] MatchedPictures::LookedUp lookedUp() const;
     void drawDetail(const VideoFrame& frame, const TileWork& work, const Match* match);
@@ -117,11 +122,12 @@ struct Pipeline::State {
     PipelineOptions options;
     Size output;
     std::shared_ptr<Workers> workers;
-    Transfers transfers, transfersBefore;  // running totals
-    std::unique_ptr<Engine> gles, simd;    // null if no step uses the engine
+    Transfers transfers, transfersBefore;  // totals now, and before this frame
+    std::unique_ptr<Engine> gles, simd;    // null: no step uses this engine
     Reference newest, second;
     std::unique_ptr<DetailStep> detail;
-    RgbPlanes now, drawn;  // the current frame; the video that each tile was last drawn from
+    RgbPlanes now, drawn;  // video of this frame; for each tile, the video from which it was last
+                           // drawn
     WorkPlan plan;
     SecondTiles secondTiles;
     std::unique_ptr<EpipolarFlow> epipolar;  // created for the first still with a pose
@@ -134,8 +140,8 @@ struct Pipeline::State {
     Quality quality;
     std::shared_ptr<const FilterBank> filters, nextFilters;  // null: the built-in filters
     MatchListener* matchListener = nullptr;
-    bool isNewStill = false;  // no frame was matched with the still yet
-    bool redraw = true;       // all tiles must be drawn in the next frame
+    bool isNewStill = false;  // true: no frame was matched with the newest still yet
+    bool redraw = true;       // true: the next frame must draw all tiles
     int depthAge = 0;         // frames since depth was last measured
     std::uint64_t frames = 0;
     StageClock clock;

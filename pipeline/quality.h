@@ -10,8 +10,8 @@ enum class SuperResMode {
     Detail,  ///< the still's fine detail is added where the video confirms it
 };
 
-/// Settings that trade a frame's time against its error. They may change with each frame at no
-/// cost. The defaults are the most accurate settings.
+/// Settings that trade the time a frame takes against its error. Changing them between frames costs
+/// no time. The defaults are the most accurate settings.
 struct Quality {
     SuperResMode mode = SuperResMode::Detail;
     /// Whether Keys' cubic enlarges the video. If false, the video is enlarged linearly from half
@@ -24,11 +24,11 @@ struct Quality {
     bool alongLines = true;
     Flow2dOptions flow2d{};      ///< only options that changed() in flow_options.h accepts
     EpipolarOptions epipolar{};  ///< only options that changed() in flow_options.h accepts
-    /// Upper limit of the share of tiles that are matched with the still; (0, 1]. Tiles with the
-    /// least structure are only enlarged. The limit has no effect in mode Blend, which blends the
-    /// whole still.
+    /// Largest share of a frame's tiles that are matched with the still; (0, 1]. Above this limit,
+    /// the tiles with the least structure are only enlarged. The limit has no effect in mode Blend,
+    /// which blends the whole still.
     double detailShare = 1;
-    /// Upper limit of the share of tiles that are matched with a second, older still because the
+    /// Largest share of a frame's tiles that are matched with a second, older still because the
     /// newest does not show them; [0, 1]. 0: no second still is kept. A second still is used only
     /// if learned filters enlarge tiles.
     double secondShare = 0.25;

@@ -8,8 +8,8 @@ namespace mfar {
 namespace {
 
 constexpr double kFollows = 1.0 / 8;  // weight of a new frame in the average Reference::shows
-// Half a tile [video px]. Views that differ by less have the same occlusions and borders, except
-// for parts of a tile.
+// Mean motion of the cells below which two stills count as taken from the same view: half a tile.
+// Their occlusions and borders then differ by no more than parts of a tile.
 constexpr double kSameView = 0.5 * kTileSize;  // [video px]
 
 }  // namespace

@@ -2,16 +2,16 @@
 
 namespace mfar {
 
-/// Kinds of work that a frame skips because the result would not be visible. All are on by default.
+/// Each option lets frames skip work whose result would not be visible. All are on by default.
 /// Benchmarks turn one off to measure the time that it saves and the error that it adds. Other
-/// options of this kind are elsewhere: PipelineOptions::skipUnchanged and depthEverywhere,
+/// options that skip work are PipelineOptions::skipUnchanged and depthEverywhere,
 /// EpipolarOptions::mostPredicted, KeyframeOptions and DepthOptions.
 struct SkipOptions {
     bool upscaledTiles = true;  ///< a tile to which the still adds nothing is only enlarged
     bool smoothTiles = true;    ///< a tile without structure is not matched but only enlarged
     /// A tile with nearly constant flow and weight is drawn as one quad.
     bool plainTiles = true;
-    bool tileLists = true;      ///< the whole picture is drawn only if most tiles changed
+    bool tileLists = true;      ///< only changed tiles are drawn, unless most tiles changed
     bool knownFlow = true;      ///< the 2-D flow search starts from the last frame's flow
     bool knownBehind = true;    ///< depth is not measured where it is known to lie behind objects
     bool objectsAtRest = true;  ///< objects over unchanged tiles are not drawn again

@@ -5,7 +5,7 @@
 
 namespace mfar {
 
-/// Duration of one stage of the last frame.
+/// Duration of one stage in the processing of the last frame.
 struct StageTime {
     const char* stage;
     double ms;
@@ -20,7 +20,8 @@ public:
         times_.clear();
         last_ = Clock::now();
     }
-    /// Assigns the time since the last call to the stage of this name.
+    /// Ends the stage `stage`: records the time since the last call of start() or lap() as its
+    /// duration.
     void lap(const char* stage) {
         const auto now = Clock::now();
         times_.push_back({stage, std::chrono::duration<double, std::milli>(now - last_).count()});

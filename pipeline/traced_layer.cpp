@@ -13,8 +13,9 @@ struct TracedLayer::State {
         : camera(video.scaledTo(options.size)), warp(camera, options.size, warps, options.warp),
           renderer(rendererOptions(options, warp)), fadeFrames(options.warp.fadeFrames) {}
 
-    // Policy `soon` is used only if the warp takes light. If the warp takes colours, a new picture
-    // with few samples would be shown with its own noise.
+    // The policy `soon`, which shows a new picture after few samples, is used only if the warp
+    // takes light apart from colours. A warp that takes finished colours would show the noise of
+    // such a picture.
     static TracedRendererOptions rendererOptions(const TracedLayerOptions& options,
                                                  const Warp& warp) {
         TracedRendererOptions out = options.renderer;
@@ -22,12 +23,13 @@ struct TracedLayer::State {
         return out;
     }
 
-    /// Takes a new picture. If it shows another scene, the warp gets the models of that scene.
+    /// Passes a new traced picture to the warp. If the picture shows another scene than the last
+    /// one, the warp gets the models of that scene, too.
     void take(const RenderedPicture& picture) {
         if (picture.scene != scene) {
             const bool sameModels = scene && sameObjects(*scene, *picture.scene);
             scene = picture.scene;
-            if (!sameModels) warp.setScene(*scene);  // other light does not change silhouettes
+            if (!sameModels) warp.setScene(*scene);  // light alone does not change silhouettes
         }
         warp.setTracedPicture(tracedPicture(picture));
         shown = &picture;
@@ -38,7 +40,7 @@ struct TracedLayer::State {
     Warp warp;
     TracedRenderer renderer;
     int fadeFrames;
-    std::shared_ptr<const Scene> scene;      // scene of the shown picture
+    std::shared_ptr<const Scene> scene;      // scene of the traced picture that is shown
     const RenderedPicture* shown = nullptr;  // only its address is compared with the next picture's
     // Number of frames in which the layer still changes although the camera does not move.
     int changing = 0;

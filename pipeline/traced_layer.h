@@ -13,7 +13,7 @@
 namespace mfar {
 
 struct TracedLayerOptions {
-    /// Size of the layer; 0x0: half the output size, rounded up.
+    /// Size of the layer [px]; 0x0: half the output size, rounded up.
     Size size;
     TracedRendererOptions renderer{};
     WarpOptions warp{};
@@ -24,10 +24,11 @@ struct TracedLayerOptions {
 struct TracedLayerCounters {
     RenderCounters render{};
     std::uint64_t warped = 0;     ///< frames drawn by warping
-    std::uint64_t unmoved = 0;    ///< frames that showed a traced picture unchanged
+    std::uint64_t unmoved = 0;    ///< frames that showed a traced picture without warping it
     std::uint64_t requested = 0;  ///< pixels that were requested to be traced individually
     std::uint64_t answered = 0;   ///< requested pixels that were traced
-    int openHoles = 0;            ///< pixels that no picture shows, in the last known frame
+    int openHoles = 0;            ///< pixels that no picture shows, in the newest frame for which
+                                  ///< this is known
 };
 
 /// The path-traced virtual layer. Threads of low priority render traced pictures over many
@@ -38,9 +39,10 @@ public:
     /// Whether this build has a path tracer. Builds for 32-bit ARM have no path tracer.
     [[nodiscard]] static bool isAvailable();
 
-    /// `video` is the camera at any resolution. `warps` must outlive this object. Throws
-    /// std::invalid_argument if an option is out of range, std::runtime_error if the build has no
-    /// path tracer, and GlError if the set-up of GL fails.
+    /// `video` is the video camera at any resolution; the step that warps the pictures comes from
+    /// `warps`. `warps` must outlive this object. Throws std::invalid_argument if an option is out
+    /// of range, std::runtime_error if the build has no path tracer, and GlError if the set-up of
+    /// GL fails.
     TracedLayer(const CameraModel& video, Engine& warps, const TracedLayerOptions& options);
     ~TracedLayer();
     TracedLayer(const TracedLayer&) = delete;
@@ -50,20 +52,22 @@ public:
     /// the new scene.
     void setScene(std::shared_ptr<const Scene> scene);
 
-    /// Begins a frame with the camera at this pose. Gives the threads a new budget of processor
-    /// time, and takes finished results. Without this call the threads pause.
+    /// Begins a frame with the camera at this pose. Allows the threads some more processor time,
+    /// and uses the results that they have finished. Without further calls, the threads pause.
     void update(const RigidTransform& T_world_video, Timestamp time);
-    /// Whether the next render() would differ from the last one even if the camera does not move.
+    /// Whether the result of the next render() would differ from the last one even if the camera
+    /// does not move.
     [[nodiscard]] bool isStale() const;
 
-    /// Empty before the first picture. The result is valid until the next call of any member.
+    /// Draws the layer at this pose. The layer is empty before the first traced picture is
+    /// finished. The result is valid until the next call of any member function.
     LayerPicture& render(const RigidTransform& T_world_video);
 
-    /// Whether the threads have finished the work that the last update() allows; for measurements.
+    /// Whether the threads have done all work that the last update() allowed; for measurements.
     [[nodiscard]] bool rests() const;
 
     [[nodiscard]] TracedLayerCounters counters() const;
-    /// The reason why a scene could not be used. It is returned once.
+    /// Returns why a scene could not be used. Each failure is returned once; empty: there was none.
     [[nodiscard]] std::optional<std::string> takeError();
 
 private:

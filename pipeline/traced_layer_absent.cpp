@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-// This file is used in builds without Embree.
+// This file replaces traced_layer.cpp in builds without Embree, the library that traces the rays.
 namespace mfar {
 
 struct TracedLayer::State {};

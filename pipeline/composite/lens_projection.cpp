@@ -7,8 +7,8 @@
 namespace mfar {
 namespace {
 
-// Upper limit of the rim, in radii of the picture's corners: far enough outside the picture that
-// the continuation beyond the rim distorts no visible part.
+// Largest radius of the rim, relative to the radius of the picture's corners. The rim is then so
+// far outside the picture that the projection beyond the rim distorts no visible part.
 constexpr double kBeyondPicture = 2;
 
 }  // namespace

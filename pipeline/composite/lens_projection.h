@@ -4,12 +4,12 @@
 
 namespace mfar {
 
-/// A camera's projection, extended to all points in space, so that projected triangles can be
-/// clipped. Within the rim of the lens, it equals CameraModel::project. Beyond the rim, the lens
-/// model would fold points back into the picture; there, pixels move outwards in proportion to the
-/// ray instead. lens_projection.glsl implements the same projection.
+/// A camera's projection that is defined for all points in space, so that projected triangles can
+/// be clipped. Up to a certain radius of rays, the rim, it equals CameraModel::project. Beyond the
+/// rim, where the lens model may fold points back into the picture, pixels move outwards in
+/// proportion to the ray instead. lens_projection.glsl implements the same projection.
 struct LensProjection {
-    static constexpr double kNear = 0.01;  ///< near plane [m]: nothing nearer is drawn
+    static constexpr double kNear = 0.01;  ///< z of the near plane [m]: nothing nearer is drawn
 
     explicit LensProjection(const CameraModel& model);
 

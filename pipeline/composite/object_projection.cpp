@@ -9,11 +9,11 @@ namespace mfar {
 namespace {
 
 bool isPlausible(const Eigen::Vector3d& metres) {
-    constexpr double kFarthest = 1e5;  // [m]; single precision cannot resolve pixels beyond it
+    constexpr double kFarthest = 1e5;  // [m]; beyond it, single precision cannot resolve pixels
     return (metres.array().abs() < kFarthest).all();
 }
 
-/// Intersection of a line with the near plane.
+/// Intersection of the line through a and b with the near plane, as (w u, w v, w).
 Eigen::Vector3d nearCut(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     constexpr double kNear = LensProjection::kNear;
     Eigen::Vector3d cut = a + (b - a) * ((kNear - a.z()) / (b.z() - a.z()));
@@ -21,12 +21,12 @@ Eigen::Vector3d nearCut(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return cut;
 }
 
-// A GPU rounds the corners of triangles to this grid [px], which changes the depth between the
-// corners. kFarthest is an upper limit of every surface's depth [m].
+// kGrid: a GPU rounds the corners of triangles to this grid [px], which changes the depth between
+// the corners. kFarthest: no surface is farther than this [m].
 constexpr double kGrid = 1.0 / 256;
 constexpr double kFarthest = 3e5;
 
-/// The part of a triangle beyond the near plane, (w u, w v, w).
+/// The part of a triangle beyond the near plane; each corner is (w u, w v, w).
 struct Clipped {
     std::array<Eigen::Vector3d, 4> corners;
     std::size_t count = 0;

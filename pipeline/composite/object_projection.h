@@ -11,21 +11,22 @@
 
 namespace mfar {
 
-/// The area of the picture that a piece of surface covers, and the range of its depth z.
+/// The bounds of the pixels that a piece of a surface covers, and the range of its z.
 struct SurfaceExtent {
     Eigen::AlignedBox2d pixels;
-    double nearest = std::numeric_limits<double>::max();  ///< z [m]
+    double nearest = std::numeric_limits<double>::max();  ///< smallest z [m]
     double farthest = 0;
 
-    /// Adds a point beyond the near plane, given as (w u, w v, w), see LensProjection.
+    /// Extends the bounds and the range by a point beyond the near plane. The point is given as (w
+    /// u, w v, w), see LensProjection.
     void extend(const Eigen::Vector3d& point);
-    /// Adds the part of a straight line that lies beyond the near plane, as a rasteriser clips it.
-    /// Both ends are given as (w u, w v, w).
+    /// Extends the bounds and the range by the part of a line from a to b that is beyond the near
+    /// plane, as a rasteriser clips it. Both ends are given as (w u, w v, w).
     void extendBySegment(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 };
 
-/// Projects the triangles of virtual objects on the CPU. Computes only their extents, not their
-/// colours. Allocates only in its constructor.
+/// Projects the triangles of virtual objects on the CPU. Computes only which pixels and depths they
+/// cover, not their colours. Allocates only in its constructor.
 class ObjectProjection {
 public:
     explicit ObjectProjection(const CameraModel& camera);

@@ -36,11 +36,11 @@ struct alignas(16) Colour {
 struct alignas(16) PreviewObject {
     Transform object;  ///< T_video_object
     Projection projection;
-    Colour colours[2];                ///< of the checkerboard's squares
-    float width, height, depth;       ///< of the object [m]
+    Colour colours[2];                ///< colours of the checkerboard's squares
+    float width, height, depth;       ///< size of the object [m]
     float squares;                    ///< number of squares along each side
     float lightX, lightY, lightZ;     ///< unit vector towards the light, in camera coordinates
-    float ambient;                    ///< share of the ambient light
+    float ambient;                    ///< share of the light that comes from all directions, [0, 1]
     float targetWidth, targetHeight;  ///< [px]
     float reach, squaredRadius;       ///< limits of the unit shape: largest coordinate, and squared
                                       ///< distance of its corners from the centre

@@ -75,7 +75,8 @@ params::PreviewObject PreviewRenderer::paramsOf(const VirtualObject& object,
 PixelRect PreviewRenderer::boundsOf(const VirtualObject& object,
                                     const RigidTransform& T_world_video) {
     const Size size = projection_.lens().camera.size;
-    // A margin of one pixel, because the GPU computes vertices in single precision.
+    // The box is widened by a margin of one pixel, because the GPU computes vertices in single
+    // precision.
     const Eigen::AlignedBox2d picture(Eigen::Vector2d(-1, -1),
                                       Eigen::Vector2d(size.width, size.height));
     Eigen::AlignedBox2d box;

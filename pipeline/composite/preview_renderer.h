@@ -11,23 +11,25 @@
 
 namespace mfar {
 
-/// Lighting of the preview, in display values.
+/// Lighting of the preview.
 struct PreviewLight {
-    Eigen::Vector3d towards{0.4, -0.3, 0.85};  ///< to the light, in the world, z up; any length
+    Eigen::Vector3d towards{0.4, -0.3, 0.85};  ///< direction to the light in the world (z up), of
+                                               ///< any length
     double ambient = 0.35;                     ///< share of light from all directions, [0, 1]
 };
 
-/// The fast preview: rasterises virtual objects as the video camera would see them. The lens's
-/// distortion is applied to vertices. Processes only the pixels where an object is or was. Needs an
-/// OpenGL that can draw into R32F textures; otherwise the constructor throws GlError.
+/// Draws the fast preview: rasterises virtual objects as the video camera would see them. The lens
+/// distortion is applied to the vertices. Only pixels that an object covers, or covered in the last
+/// picture, are processed. OpenGL must be able to draw into R32F textures; otherwise the
+/// constructor throws GlError.
 class PreviewRenderer {
 public:
     /// `video`: the camera model at any resolution; the layer has size `output`.
     PreviewRenderer(const CameraModel& video, Size output, const PreviewLight& light = {});
 
-    /// Solids are drawn from outside only, so a camera inside a solid does not see it. Objects
-    /// behind the camera, outside the picture or without a finite pose are not drawn and cost no
-    /// time.
+    /// Draws the objects as a camera at this pose sees them. Only the outside of solids is drawn,
+    /// so a camera inside a solid does not see it. Objects behind the camera, outside the picture
+    /// or without a finite pose are not drawn and cost no time.
     const VirtualLayer& render(std::span<const VirtualObject> objects,
                                const RigidTransform& T_world_video);
 

@@ -13,8 +13,8 @@ namespace {
 // An object's bounding box is divided into this number of cells along each axis, which gives about
 // 150 boxes around its surface.
 constexpr int kCells = 6;
-// Edges of a box are divided into this number of pieces before projection, because a lens bends
-// them.
+// Edges of a box are divided into this number of pieces before they are projected, because the lens
+// bends straight edges.
 constexpr int kEdgePieces = 4;
 
 using Triangle = std::array<std::uint32_t, 3>;

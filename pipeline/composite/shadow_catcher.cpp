@@ -12,7 +12,8 @@ constexpr int kPlaneCells = 8;
 // Distance between vertices [video px]. Shadows need no finer grid, and a finer grid would only
 // show the noise of the depth.
 constexpr int kStep = 4;
-// A step in depth above this share of the nearer depth separates two surfaces.
+// Two neighbouring vertices are on different surfaces if their depths differ by at least this
+// fraction of the smaller depth.
 constexpr double kJump = 0.04;
 // A surface within this distance of the tags' plane [m] counts as the plane, because the paper with
 // the tags has a thickness and waves.
@@ -22,7 +23,7 @@ double radiusOf(const Eigen::AlignedBox3d& box) {
     return 0.5 * box.diagonal().norm();
 }
 
-/// The vertices of a grid, and triangles between them.
+/// Builds a surface from vertices on a grid and triangles between them.
 class Grid {
 public:
     Grid(int columns, int rows)
@@ -32,7 +33,8 @@ public:
         at(column, row) = static_cast<int>(out_.positions.size());
         out_.positions.push_back(p.cast<float>());
     }
-    /// Adds the two triangles of the cell whose first corner is here, if all four corners exist.
+    /// Adds the two triangles of the grid cell whose upper left corner is the vertex (column, row),
+    /// if all four corners were set.
     void addCell(int column, int row) {
         const int a = at(column, row), b = at(column + 1, row);
         const int c = at(column, row + 1), d = at(column + 1, row + 1);

@@ -8,8 +8,8 @@
 namespace mfar {
 namespace {
 
-// Distance between the triangles' straight edges and the curves of a sphere and of the lens, plus
-// the size of a pixel [px].
+// Added to the margin [px]: distance between the straight edges of the triangles and the true
+// outline, which the lens and the shape of a sphere make a curve, plus the size of a pixel.
 constexpr double kSlack = 1;
 
 }  // namespace

@@ -6,7 +6,8 @@
 namespace mfar {
 namespace {
 
-/// One side of a box: its normal, and the directions in which u and v grow.
+/// One side of a box: its normal, and the directions in which the texture coordinates u and v
+/// increase.
 struct Side {
     Eigen::Vector3f normal, u, v;
 };
@@ -16,7 +17,8 @@ void addSide(ShapeMesh& mesh, const Side& side, bool round, float offset) {
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     const auto along = [&](int i) {
         const float t = 2.0F * static_cast<float>(i) / kShapeSegments - 1;
-        // On a sphere, cells of equal angle are more alike than cells of equal length.
+        // Cells of equal angle have more similar sizes on a sphere than cells of equal length on
+        // the box.
         return round ? std::tan(t * std::numbers::pi_v<float> / 4) : t;
     };
     for (int j = 0; j <= kShapeSegments; ++j) {

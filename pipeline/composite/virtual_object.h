@@ -18,14 +18,14 @@ enum class VirtualShape : unsigned {
 };
 inline constexpr std::size_t kVirtualShapes = 3;
 
-/// An object of simple shape in the world. The preview rasterises it; path tracing uses its
-/// triangles.
+/// A virtual object of simple shape, placed in the world. The preview rasterises it; the path
+/// tracer uses its triangles.
 struct VirtualObject {
     VirtualShape shape = VirtualShape::Box;
     Eigen::Vector3d size{1, 1, 1};  ///< extent along x, y, z [m]
     RigidTransform T_world_object;
-    /// The two colours of the checkerboard on each of the six sides (a quad has one side), as RGB
-    /// display values in [0, 1]. Equal colours make the side uniform.
+    /// The two colours of the checkerboard that covers each side, as RGB display values in [0, 1].
+    /// If they are equal, the sides are uniform.
     std::array<Eigen::Vector3f, 2> colours{Eigen::Vector3f{0.9F, 0.9F, 0.9F},
                                            Eigen::Vector3f{0.8F, 0.2F, 0.1F}};
     int squares = 4;  ///< number of squares along each side; at least 1
@@ -34,7 +34,7 @@ struct VirtualObject {
 /// The triangles of a shape that extends over 1 unit along each axis.
 struct ShapeMesh {
     struct Vertex {
-        Eigen::Vector3f position, normal;  ///< normal: outwards, unit length
+        Eigen::Vector3f position, normal;  ///< the normal points outwards and has unit length
         Eigen::Vector2f uv;                ///< [0, 1] over each side
     };
     std::vector<Vertex> vertices;

@@ -9,19 +9,22 @@
 namespace mfar {
 namespace {
 
-// Real depth is also needed this far around the silhouette [video px], because the edges of depth
-// are aligned with the edges of the picture there.
+// Real depth is also needed within this distance around the objects [video px], because depth edges
+// are aligned with edges of the picture there.
 constexpr int kMargin = 8;
-// Depth is not measured where it is known to lie behind an object. After this number of frames it
-// is measured again, because something may have moved in front of the object.
+// Largest number of consecutive frames in which depth is not measured because the real surface is
+// known to lie behind the objects. Then it is measured again, because something may have moved in
+// front of them.
 constexpr int kMostRelied = 8;
-// The camera counts as at rest while the objects move by less than this in the picture [px],
+// The camera counts as at rest as long as the objects move by at most this in the picture [px],
 // because poses from tags are not more accurate.
 constexpr double kLeastMotion = 0.3;
-// Upper limit of the unknown pixels in a tile whose objects count as hidden. With more unknown
-// pixels, specks of the objects would be visible.
+// Largest number of pixels with unknown depth in a tile whose objects count as hidden. With more
+// such pixels, specks of the objects would be visible.
 constexpr int kMostGaps = 4;
-constexpr int kMostUnknown = kTileSize * kTileSize / 4;  // upper limit of a tile's unknown pixels
+constexpr int kMostUnknown = kTileSize * kTileSize / 4;  // largest number of pixels with unknown
+                                                         // depth in a tile whose depth is not
+                                                         // measured
 
 PixelRect tilesOf(const PixelRect& pixels, Size layer, Size video) {
     const auto tile = [](int pixel, int from, int to) {
@@ -34,15 +37,16 @@ PixelRect tilesOf(const PixelRect& pixels, Size layer, Size video) {
             static_cast<int>(std::ceil(tile(pixels.y1 + 1, layer.height, video.height)))};
 }
 
-/// Result of a test of the real surface at a pixel. Finding: the test's condition is met.
+/// What a test found out about the real surface at a pixel. Finding: the surface has the property
+/// that the test looks for. Other: it does not have it.
 enum class Surface { Unknown, Finding, Other };
 
 struct TileBounds {
-    int findings, unknown;  // numbers of pixels
+    int findings, unknown;  // largest numbers of pixels in a tile
 };
 
-/// True if a tile has more findings or more unknown pixels than `most`. `ask` classifies a pixel,
-/// given its index in the picture.
+/// True if a tile has more pixels with Surface::Finding or with Surface::Unknown than `most`
+/// allows. `ask` tests a pixel, given its index in the picture.
 template <typename Ask>
 bool holdsMore(const TileBounds& most, const PixelRect& tile, Size video, const Ask& ask) {
     TileBounds found{};
@@ -69,8 +73,8 @@ VirtualView::VirtualView(const CameraModel& video, Engine& occludes, TracedLayer
       occlusion_(occludes.occlusion(options.size)), focal_(std::max(video.fx, video.fy)) {}
 
 void VirtualView::setScene(std::shared_ptr<const Scene> scene) {
-    // A scene that replaces another becomes visible only when its first picture is finished, so it
-    // is not a change yet.
+    // Replacing a scene by another is not a change yet, because the new scene becomes visible only
+    // when its first traced picture is finished.
     if (!scene || !scene_) changed_ = true;
     if (!scene || !scene_ || scene->objects != scene_->objects)
         boxes_ = scene ? SceneBoxes(*scene) : SceneBoxes();
@@ -124,8 +128,8 @@ void VirtualView::addTiles(const std::vector<SurfaceRange>& tiles, const Inverse
     }
 }
 
-// True if the real surface may be in front of the farthest virtual surface of the tile, within
-// three standard deviations, or if too many pixels are unknown.
+// True if the real surface may be in front of the farthest virtual surface of the tile (within
+// three standard deviations of its depth), or if the depth of too many pixels is unknown.
 bool VirtualView::mayHide(const PixelRect& tile, float farthest,
                           const InverseDepthField& known) const {
     const float behind = 1 / farthest;
@@ -136,9 +140,10 @@ bool VirtualView::mayHide(const PixelRect& tile, float farthest,
     });
 }
 
-// The real surface that a shadow falls onto is always close to the shadow and need not be measured
-// every time. Depth is needed only for real things in front of the shadow, and where the error of
-// depth exceeds kShadowLift.
+// Like mayHide(), but for the shadow catcher. The real surface that a shadow falls onto always has
+// nearly the depth of the shadow, and need not be measured in each frame. Depth is measured only if
+// real things may be in front of the shadow, or where the relative error of the known depth is at
+// least kShadowLift.
 bool VirtualView::mayHideShadow(const PixelRect& tile, float nearest,
                                 const InverseDepthField& known) const {
     const float before = 1 / nearest;
@@ -150,8 +155,8 @@ bool VirtualView::mayHideShadow(const PixelRect& tile, float nearest,
     });
 }
 
-// `nearest` includes the virtual surfaces around the tile, so only the tile's own pixels are
-// tested.
+// True if the real scene hides all virtual surfaces of the tile. Only the tile's own pixels are
+// tested, because `nearest` includes the virtual surfaces around the tile.
 bool VirtualView::isHidden(const PixelRect& tile, float nearest,
                            const InverseDepthField& known) const {
     const TileBounds most{.findings = 0, .unknown = kMostGaps};
@@ -174,8 +179,8 @@ WorkPlan::Redraw VirtualView::redraw() const {
 }
 
 PixelRect VirtualView::staleTiles() const {
-    // While all objects are hidden, nothing is drawn. But the real things in front may move away,
-    // so the objects' region is watched.
+    // While all objects are hidden, none is drawn. But their tiles still count as stale, because
+    // the real things in front of them may move away.
     const bool keepsAll = !mustRedraw() && !hidden_;
     if (keepsAll || region_.empty()) return drawn_;
     return around(drawn_, tilesAround(region_));

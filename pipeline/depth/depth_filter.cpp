@@ -11,19 +11,22 @@
 namespace mfar {
 namespace {
 
-constexpr float kNearestShare = 0.05F;  // least depth after a motion [share of depth before]
-// Relative standard deviation of inverse depth that a second of motion without measurements adds.
+constexpr float kNearestShare = 0.05F;  // smallest allowed depth of a point after a camera motion,
+                                        // as a fraction of its depth before
+// Relative standard deviation that one second of camera motion without measurements adds to inverse
+// depth.
 constexpr double kDrift = 0.02;
-// A motion is assumed to take at most this long [s]. If more time has passed, the camera rested
-// before the motion.
+// Longest time [s] for which a camera motion between two predictions counts. If more time has
+// passed, the camera must have rested before.
 constexpr double kMostMoving = 0.2;
-// Smaller motions of the picture [px] are summed up first, because every motion of the points
-// rounds them to pixels.
+// Smallest motion of the picture [px] for which the points are moved. Smaller motions are summed up
+// first, because points are rounded to pixels each time they are moved.
 constexpr float kLeastMotion = 0.25F;
-// Measurements against the same still share its errors. So the fused variance never falls below
-// this share of the variance of one measurement.
+// Measurements against the same still are not independent. The fused variance therefore never falls
+// below this fraction of the variance of one measurement.
 constexpr float kLeastShare = 0.09F;
-constexpr float kGate = 9;  // values agree up to this (squared difference / variance)
+constexpr float kGate = 9;  // largest squared difference of two values that agree, divided by the
+                            // sum of their variances
 constexpr std::uint8_t kMostOutliers = 2;
 
 }  // namespace
@@ -73,8 +76,8 @@ bool DepthFilter::moves(const RigidTransform& T) const {
     return focal_ * (turn + nearest * static_cast<float>(T.translation.norm())) > kLeastMotion;
 }
 
-// Points are homogeneous, (x, y, 1, inverseDepth), so infinitely distant points (inverse depth 0)
-// are only rotated.
+// Moves all points by the camera's motion. Points are homogeneous, (x, y, 1, inverseDepth), so that
+// points at infinity (inverse depth 0) are only rotated.
 void DepthFilter::carry(const RigidTransform& T_now_before, float growth) {
     const Eigen::Matrix3d R = T_now_before.rotation.toRotationMatrix();
     simd::Motion motion{};
@@ -134,7 +137,8 @@ void DepthFilter::takeLanded(int firstRow, int lastRow) {
     }
 }
 
-// The points of a surface that comes nearer move apart. This fills the cracks between them.
+// Fills the cracks that appear between the points of a surface that comes nearer, because these
+// points move apart.
 void DepthFilter::closeCracks() {
     const int width = field_.size.width;
     const int columns = known_.x1 - known_.x0 - 2, rows = known_.y1 - known_.y0;

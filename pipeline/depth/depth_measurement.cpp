@@ -8,12 +8,13 @@
 namespace mfar {
 namespace {
 
-// Standard deviation of a match along its epipolar line [px], measured against ground truth in
-// smooth areas.
+// Standard deviation of the error of a match along its epipolar line [px], measured with ground
+// truth in smooth areas.
 constexpr float kMatchError = 0.3F;
-// Neighbours on one slanted surface that land on the same pixel differ by up to this much [px].
+// Largest difference of the displacements [px] of two points on one slanted surface that land on
+// the same pixel.
 constexpr float kSlope = 1.5F;
-// A cell's match within this distance [px] of a pixel's own match belongs to the same surface.
+// Largest distance [px] of a cell's match from a pixel's own match on the same surface.
 constexpr double kSameSurface = 0.5;
 constexpr float kLeastDepth = 0.05F;
 constexpr float kNothing = -1e9F;
@@ -30,8 +31,9 @@ DepthMeasurement::DepthMeasurement(const CameraModel& video, EpipolarLens lens,
     s_.resize(pixels);
 }
 
-// Values of cells are accurate to a fraction of a pixel, but only a pixel's own match shows on
-// which side of a depth edge the pixel lies. So the cell's value is used where both agree.
+// The matches of cells are accurate to a fraction of a pixel, but only a pixel's own match shows on
+// which side of a depth edge the pixel lies. So a pixel takes the value of its cell where this
+// value agrees with its own match, and keeps its own value elsewhere.
 void DepthMeasurement::takeField(const EpipolarSearch& search, std::span<const float> cells,
                                  const PixelRect& where) {
     const int width = lens_.size().width;
@@ -72,7 +74,8 @@ void DepthMeasurement::land(const EpipolarSearch& search, const Eigen::Matrix3f&
     findNearest(where);
 }
 
-// Each thread handles the points that land in one part of the other picture.
+// Finds the nearest point that lands on each pixel of the other picture. Each thread processes the
+// points that land in one part of that picture.
 void DepthMeasurement::findNearest(const PixelRect& where) {
     const auto [width, height] = lens_.size();
     const int parts = std::min(workers_->count(), height);

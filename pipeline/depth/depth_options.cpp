@@ -7,7 +7,7 @@ namespace mfar {
 namespace {
 
 void require(bool holds, const char* option, const char* range) {
-    if (!holds) throw std::invalid_argument(std::string(option) + " is not in " + range);
+    if (!holds) throw std::invalid_argument(std::string(option) + " must be in " + range);
 }
 
 }  // namespace

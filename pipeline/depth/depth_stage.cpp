@@ -9,15 +9,19 @@ namespace mfar {
 namespace {
 
 constexpr int kSampleStep = 5;  // distance between sampled pixels [px]
-constexpr int kPart = 160;      // largest side of a part; each part chooses a keyframe [px]
-constexpr int kSupport = 24;    // margin of searches, because neighbours influence the result [px]
-constexpr double kSameView = 0.3;  // smaller motions of the picture do not give a new view [px]
-constexpr double kNearest = 0.01;  // lower limit of an assumed distance [m]
-// A keyframe is searched only if its parallax exceeds this multiple of the still's parallax.
+constexpr int kPart = 160;      // largest width and height of a part of the picture; each part has
+                                // its own keyframe [px]
+constexpr int kSupport = 24;    // margin around the searched area, because neighbours influence the
+                                // result [px]
+constexpr double kSameView = 0.3;  // smallest motion of the picture that gives a new view [px]
+constexpr double kNearest = 0.01;  // smallest distance that is assumed for the scene [m]
+// Depth is measured with a keyframe only if its parallax exceeds this factor times the still's
+// parallax.
 constexpr double kWorth = 2;
-// Upper limit of the relative error of the baseline. It causes the same relative error of depth.
+// Largest relative error of the baseline with which depth is measured. Depth has the same relative
+// error.
 constexpr double kMostLengthError = 0.15;
-// A search starts from the known depths if at least this share of the pixels has one.
+// A search starts from the known depths if at least this share of the pixels has a known depth.
 constexpr double kMostlyKnown = 0.97;
 
 double medianOf(std::vector<float>& values) {
@@ -69,7 +73,8 @@ void DepthStage::run(const Rows<const std::uint8_t>& luma, const Pose& pose,
     keyframes_.add(luma, pose, brightness, before.inverseDepth);
 }
 
-// Measuring the same view again repeats the same errors, but would reduce the filtered variance.
+// Whether this view is new since the last measurement. Measuring the same view again would repeat
+// the same errors, but reduce the variance of the filtered depth.
 bool DepthStage::seesMore(const Pose& pose, double inverseDepth, const PixelRect& where) const {
     if (!measuredPose_ || around(measuredWhere_, where) != measuredWhere_) return true;
     const RigidTransform T = measuredPose_->inverse() * pose.T_world_video;
@@ -77,9 +82,9 @@ bool DepthStage::seesMore(const Pose& pose, double inverseDepth, const PixelRect
     return focal_ * (turn + inverseDepth * T.translation.norm()) >= kSameView;
 }
 
-// When the camera moves towards the scene, the area straight ahead has no parallax against a
-// keyframe that suits the rest of the picture. So each part of the picture chooses its own
-// keyframe.
+// Finds the parts of the picture for which a keyframe would give a more accurate depth, and chooses
+// a keyframe for each. Not all parts can use the same keyframe: when the camera moves towards the
+// scene, the area straight ahead has no parallax to a keyframe that suits the rest of the picture.
 void DepthStage::findNeeds(const Pose& pose, double brightness, double stillBaseline,
                            const PixelRect& where) {
     const int columns = (where.x1 - where.x0 + kPart - 1) / kPart;
@@ -102,8 +107,8 @@ void DepthStage::findNeeds(const Pose& pose, double brightness, double stillBase
     }
 }
 
-// Searches once per frame. The part with the largest uncertainty determines the keyframe; all parts
-// that chose this keyframe are measured.
+// Measures depth with one keyframe: the one of the part with the largest uncertainty. All parts
+// with this keyframe are measured.
 void DepthStage::searchKeyframe(const Rows<const std::uint8_t>& luma, const Pose& pose) {
     if (needs_.empty()) return;
     const auto knowsMore = [](const Need& a, const Need& b) { return a.share < b.share; };
@@ -127,8 +132,8 @@ void DepthStage::searchKeyframe(const Rows<const std::uint8_t>& luma, const Pose
     source_ = source_ == DepthSource::Still ? DepthSource::Both : DepthSource::Keyframe;
 }
 
-// Returns s (see EpipolarLens) of every cell of the search's area, in the search's unit. Empty if
-// depth is known in too small a share of `where`.
+// Returns the s (see EpipolarLens) that the known depth predicts for every cell of the search's
+// area, in the search's unit. Empty if depth is known in too few pixels of `where`.
 std::span<const float> DepthStage::predicted(const UnitPose& relative, const PixelRect& where) {
     const InverseDepthField& field = filter_.field();
     const PixelRect& area = search_.area();
@@ -136,7 +141,7 @@ std::span<const float> DepthStage::predicted(const UnitPose& relative, const Pix
         (relative.T_other_frame.rotation.conjugate() * relative.T_other_frame.translation).z();
     predicted_.clear();
     int inside = 0, known = 0;
-    float last = 0;  // replaces the value of cells without known depth
+    float last = 0;  // value of the last cell with known depth; used for cells without
     for (int y = area.y0 + kCell / 2; y < area.y1 + kCell / 2; y += kCell) {
         for (int x = area.x0 + kCell / 2; x < area.x1 + kCell / 2; x += kCell) {
             const int row = std::min(y, area.y1 - 1), column = std::min(x, area.x1 - 1);
@@ -169,7 +174,7 @@ DepthStage::Summary DepthStage::summaryOf(const PixelRect& where, const Pose& po
             shares_.push_back(std::sqrt(field.variance[i]) / field.inverseDepth[i]);
         }
     }
-    // While no depth is known, use the distance to the world's origin, where a tag is.
+    // While no depth is known, the distance to the world's origin, where a tag is, is used.
     out.inverseDepth = 1 / std::max(pose.T_world_video.translation.norm(), kNearest);
     if (samples_.empty()) return out;
     out.inverseDepth = medianOf(samples_);

@@ -12,15 +12,16 @@
 
 namespace mfar {
 
-/// The depth of the real scene, filtered over time. Depth is measured against the still, which
-/// costs little because the flow to the still is known anyway. It is also measured against an
-/// earlier frame (keyframe) where that promises more accuracy. Runs on the CPU, without GL.
+/// Measures the depth of the real scene and filters it over time. Depth is measured from the match
+/// with the still, which costs little, because this match is known anyway. Where a match with an
+/// earlier frame (keyframe) promises more accuracy, depth is also measured from this match. Runs on
+/// the CPU, without GL.
 class DepthStage {
 public:
     DepthStage(const CameraModel& video, std::shared_ptr<Workers> workers,
                const DepthOptions& options = {});
 
-    /// The search that matched this frame with the still.
+    /// Results of the epipolar search that matched this frame with the still.
     struct StillSearch {
         const EpipolarSearch& search;
         const Eigen::Matrix3f& R_still_video;  ///< rotates video rays to still coordinates
@@ -30,9 +31,11 @@ public:
     };
 
     void forget();
-    /// Call this when the still changes, so that an unchanged view is measured again.
+    /// Must be called when the still changes, so that depth is measured again even if the view has
+    /// not changed.
     void renew() { measuredPose_.reset(); }
-    /// Processes a changed frame. Measures depth inside `where`, which may be empty.
+    /// Processes a frame: carries the known depth to its pose and measures depth inside `where`,
+    /// which may be empty. `still`: empty if the frame was not matched along epipolar lines.
     void run(const Rows<const std::uint8_t>& luma, const Pose& pose,
              const std::optional<StillSearch>& still, const PixelRect& where);
     /// Discards the depths of these pixels, because something moves there.
@@ -43,8 +46,8 @@ public:
 
 private:
     struct Summary {
-        double inverseDepth = 0;  ///< median of the known inverse depths [1/m]
-        double share = 1;         ///< median of the relative standard deviations of inverse depth
+        double inverseDepth = 0;  ///< median of the inverse depths in an area [1/m]
+        double share = 1;         ///< median of their relative standard deviations; 1: unknown
     };
     /// A part of the picture whose depth is too uncertain, and the keyframe that would improve it.
     struct Need {

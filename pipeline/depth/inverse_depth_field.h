@@ -16,7 +16,8 @@ struct InverseDepthField {
     Size size;
     /// 1 / z along the video camera's axis [1/m]; 0: infinitely far
     std::vector<float> inverseDepth;
-    std::vector<float> variance;       ///< of the inverse depth [1/m^2]; kUnknown: invalid
+    std::vector<float> variance;       ///< variance of the inverse depth [1/m^2]; kUnknown: depth
+                                       ///< is unknown
     std::vector<std::uint8_t> filled;  ///< 1: not measured, but derived from nearby pixels
 
     InverseDepthField() = default;
@@ -25,8 +26,8 @@ struct InverseDepthField {
           variance(inverseDepth.size(), kUnknown), filled(inverseDepth.size()) {}
 
     [[nodiscard]] bool isKnown(std::size_t pixel) const { return variance[pixel] < kUnknown; }
-    /// True if a known pixel may have these values. The limits keep products of values, and sums
-    /// over a picture, finite in single precision.
+    /// True if these values are valid for a pixel with known depth. The limits ensure that products
+    /// of values, and sums over a picture, are finite in single precision.
     [[nodiscard]] static bool isSound(float inverseDepth, float variance) {
         return inverseDepth >= 0 && inverseDepth < 1e15F && variance > 1e-30F && variance < 1e30F;
     }

@@ -10,13 +10,14 @@
 namespace mfar {
 namespace {
 
-// A frame is kept if the direction to a typical point has changed by this angle since the newest
-// keyframe [rad].
+// A frame is kept if the direction to a typical point of the scene has changed by at least this
+// angle since the newest keyframe [rad].
 constexpr double kLeastStep = 0.002;
-// The score doubles at this age [frames], and triples if the exposures differ by a factor of e.
+// The score of a keyframe (lower is better) is doubled at this age [frames], and tripled if the
+// exposures differ by a factor of e.
 constexpr double kAge = 60;
 constexpr double kExposure = 2;
-constexpr int kGrid = 4;  // number of sample points along each side of a part
+constexpr int kGrid = 4;  // number of sample points in a part of the picture along each axis
 
 }  // namespace
 

@@ -11,16 +11,16 @@
 
 namespace mfar {
 
-/// An earlier frame that depth is measured against.
+/// An earlier frame. Depth is measured by matching a later frame with it.
 struct Keyframe {
     LumaImage luma;
     Pose pose;
     double brightness = 0;  ///< mean luma
-    long number = 0;        ///< number of the frame, counted from the first
+    long number = 0;        ///< number of the frame; the first frame has number 1
 };
 
-/// The last frames that were taken from different places. While the camera rests, no frames are
-/// added or removed, because a new frame would not show a new view.
+/// The last frames that were taken from different camera positions. While the camera rests, no
+/// frames are added or removed, because a new frame would not show a new view.
 class Keyframes {
 public:
     Keyframes(const CameraModel& video, const KeyframeOptions& options);
@@ -35,16 +35,17 @@ public:
         const Keyframe* frame;
         double angle;  ///< mean parallax [rad]
     };
-    /// Chooses a keyframe for the pixels `part` of a frame at this pose. Empty if no keyframe shows
-    /// them with enough parallax. The score is the expected error of inverse depth, sigma / (f
-    /// sin(parallax)), which is increased for older keyframes and for different exposure. Valid
-    /// until the next add().
+    /// Chooses a keyframe for the rectangle `part` [px] of a frame at this pose. Empty if no
+    /// keyframe shows this part with enough parallax. With KeyframeRule::Score, the keyframe with
+    /// the lowest score is chosen. The score is the expected error of inverse depth, sigma / (f
+    /// sin(parallax)), increased for older keyframes and for a different exposure. The result is
+    /// valid until the next add().
     [[nodiscard]] std::optional<Choice> choose(const Pose& pose, double brightness,
                                                const PixelRect& part, double inverseDepth) const;
 
 private:
-    /// Describes how a keyframe sees the points of a part, if all of them are at inverse depth
-    /// `inverseDepth`.
+    /// How a keyframe sees the points of a part of the picture, if all of them are at the same
+    /// inverse depth.
     struct Relation {
         double angle = 0;    ///< mean parallax [rad]
         double overlap = 0;  ///< share of the points that lie in the keyframe's picture

@@ -33,8 +33,8 @@ struct EngineChoice {
     [[nodiscard]] static EngineChoice all(EngineKind kind) {
         return {kind, kind, kind, kind, kind, kind};
     }
-    /// Chooses one engine for all steps: the one that the environment variable MFAR_ENGINE names
-    /// ("simd" or "gles", the default). For benchmarks and tests, which do not choose an engine
+    /// Returns one engine for all steps: the one that the environment variable MFAR_ENGINE names
+    /// ("simd", or "gles" by default). For benchmarks and tests that do not choose an engine
     /// themselves.
     [[nodiscard]] static EngineChoice fromEnvironment();
     /// True if at least one step runs on this engine.
@@ -45,7 +45,7 @@ struct EngineChoice {
     bool operator==(const EngineChoice&) const = default;
 };
 
-/// Common arguments for creating steps.
+/// Arguments that creating any step needs.
 struct StepSetup {
     StereoRig rig;
     Size output;  ///< size of the output picture
@@ -54,7 +54,7 @@ struct StepSetup {
     Transfers* transfers = nullptr;  ///< counts the bytes that steps transfer; null: not counted
 };
 
-/// Creates the steps of one engine. The steps must not outlive it.
+/// Creates the steps of one engine. The steps must not outlive the Engine.
 class Engine {
 public:
     virtual ~Engine() = default;
@@ -64,25 +64,26 @@ public:
     [[nodiscard]] virtual std::unique_ptr<WeighStep> weigh() = 0;
     [[nodiscard]] virtual std::unique_ptr<DetailStep> detail() = 0;
     [[nodiscard]] virtual std::unique_ptr<OcclusionStep> occlusion(Size layer) = 0;
-    /// `layer`: the camera at the resolution of the virtual layer. The step draws into memory that
-    /// the step of occlusion() reads directly. Throws std::invalid_argument if an option is out of
-    /// range.
+    /// `layer`: the video camera at the resolution of the virtual layer. The created step draws
+    /// into memory that the step created by occlusion() reads directly. Throws
+    /// std::invalid_argument if an option is out of range.
     [[nodiscard]] virtual std::unique_ptr<WarpStep> warp(const CameraModel& layer,
                                                          const WarpOptions& options) = 0;
 
     /// Prepares a new still for the weigh and detail steps, so that they allocate nothing while
     /// they process frames.
     virtual void take(const StillPictures&) {}
-    /// Submits the work requested so far.
+    /// Submits the work that the steps have requested so far to the GPU.
     virtual void flush() {}
-    /// Waits until all work is done; for benchmarks.
+    /// Waits until the GPU has done all work; for benchmarks.
     virtual void finish() {}
-    /// Waits until the steps no longer read the memory of the frame.
+    /// Waits until the steps no longer read the memory of the current video frame.
     virtual void finishReading() {}
     /// Sets the importer that gives the engine access to camera memory without a copy; null: all
     /// pictures are uploaded. The importer must outlive the engine.
     virtual void setImporter(PlaneImporter*) {}
-    /// Why zero-copy import failed; returned once.
+    /// Returns why an import of camera memory without a copy failed. Each failure is returned once;
+    /// empty: there was none.
     [[nodiscard]] virtual std::optional<std::string> takeImportFault() { return std::nullopt; }
 };
 

@@ -9,8 +9,8 @@
 
 namespace mfar {
 
-/// Number of bytes moved between host and GPU. The counters only increase; readers take
-/// differences.
+/// Numbers of bytes copied between CPU memory (host) and GPU. The counters only increase; readers
+/// take differences.
 struct Transfers {
     std::uint64_t uploadedBytes = 0, downloadedBytes = 0;
 };
@@ -29,13 +29,14 @@ public:
     virtual void download(void* data, std::ptrdiff_t pitch) = 0;
 };
 
-/// The result of a step: rows of T on the host, on the GPU or on both. The step that writes the
-/// rows reports where they are. A reader requests the copy that it needs; only then are the rows
-/// moved. The step owns the memory that it wrote; the field owns the memory of a moved copy.
+/// The result of a step: rows of T in CPU memory (host), on the GPU or in both. The step that
+/// writes the rows reports where they are. A reader calls host() or device(); only then are the
+/// rows copied to there if necessary. The memory that a step wrote belongs to the step; the memory
+/// of the other copy belongs to the field.
 template <class T>
 class Field {
 public:
-    /// `transfers` counts the moved bytes and must outlive the field; null: they are not counted.
+    /// `transfers` counts the copied bytes and must outlive the field; null: they are not counted.
     explicit Field(Size size = {}, Transfers* transfers = nullptr)
         : size_(size), transfers_(transfers) {}
 
@@ -44,21 +45,23 @@ public:
         return sizeof(T) * static_cast<std::size_t>(size_.width) * size_.height;
     }
 
-    /// Reports new rows on the host. They must remain valid until the next writtenOn...().
+    /// Reports new rows in CPU memory. They must remain valid until the next call of
+    /// writtenOnHost() or writtenOnDevice().
     void writtenOnHost(Rows<const T> rows) {
         host_ = rows;
         size_ = rows.size;
         device_ = nullptr;
         editable_ = {};
     }
-    /// As above, for rows that steps may draw into.
+    /// Reports new rows in CPU memory that edit() may later return for drawing.
     void writtenOnHost(Rows<T> rows)
         requires(!std::is_const_v<T>)
     {
         writtenOnHost(Rows<const T>(rows));
         editable_ = rows;
     }
-    /// Reports a new copy on the GPU. It must remain valid until the next writtenOn...().
+    /// Reports new rows on the GPU. `copy` must remain valid until the next call of writtenOnHost()
+    /// or writtenOnDevice().
     void writtenOnDevice(DeviceCopy& copy, Size size) {
         device_ = &copy;
         size_ = size;
@@ -69,7 +72,8 @@ public:
     [[nodiscard]] bool isOnDevice() const { return device_ != nullptr; }
     [[nodiscard]] bool isEmpty() const { return !isOnHost() && !isOnDevice(); }
 
-    /// Returns the rows on the host. Waits for the GPU if the newest copy is there.
+    /// Returns the rows in CPU memory. If only the GPU has them, waits for the GPU and downloads
+    /// them.
     [[nodiscard]] Rows<const T> host() const {
         if (!isOnHost() && isOnDevice()) {
             if (downloaded_.size() != size_) downloaded_ = AlignedRows<T>(size_);
@@ -80,15 +84,16 @@ public:
         }
         return host_;
     }
-    /// Returns the rows on the host for drawing; they become the newest copy. The step must have
-    /// reported rows that may be drawn into, or a copy on the GPU.
+    /// Returns the rows in CPU memory, so that the caller can draw into them. The copy on the GPU
+    /// is then out of date. The step must have reported non-const rows, or rows on the GPU.
     [[nodiscard]] Rows<T> edit() {
         (void)host();
         device_ = nullptr;
         return editable_;
     }
-    /// Returns the GPU's copy. `make` creates a copy of this field's size; it is called only when
-    /// host rows are uploaded for the first time.
+    /// Returns the GPU's copy, and uploads the rows first if only the host has them. `make` creates
+    /// a GPU copy of this field's size. It is called only for the first upload, and after the size
+    /// has changed.
     template <class Make>
     [[nodiscard]] DeviceCopy& device(const Make& make) const {
         if (!isOnDevice()) {
@@ -106,10 +111,10 @@ public:
 private:
     Size size_;
     Transfers* transfers_;
-    // Mutable, because reading moves rows but changes no value.
-    mutable Rows<const T> host_;            // without data: the GPU's copy is newer
-    mutable Rows<T> editable_;              // the same rows, if they may be drawn into
-    mutable DeviceCopy* device_ = nullptr;  // null: the host's rows are newer
+    // These members are mutable, because reading may copy the rows but changes no value.
+    mutable Rows<const T> host_;            // no data: only the GPU has the rows
+    mutable Rows<T> editable_;              // the rows of host_, if they may be drawn into
+    mutable DeviceCopy* device_ = nullptr;  // null: only the host has the rows
     mutable AlignedRows<T> downloaded_;
     mutable std::unique_ptr<DeviceCopy> uploaded_;
     mutable Size uploadedSize_{};

@@ -32,31 +32,32 @@ class PlaneImporter;
 struct VideoFrame {
     const ImageView& view;
     const RgbPlanes& planes;
-    std::uint64_t number;  ///< unique per frame
+    std::uint64_t number;  ///< each frame has its own number
 };
 
 /// The newest still, prepared for the other steps.
 struct StillPictures {
-    std::uint64_t number = 0;  ///< unique per still
-    StereoRig rig;             ///< the still camera is at the resolution of the fields below
-    Field<std::uint8_t> luma;  ///< of the whole still
-    // Luma with raised finest detail, see params::kLinearLoss. Each engine fills the field with its
-    // own format; the other field is empty.
+    std::uint64_t number = 0;  ///< each still has its own number
+    StereoRig rig;             ///< its still camera has the resolution of the fields below
+    Field<std::uint8_t> luma;  ///< luma of the whole still
+    // Luma whose finest detail is amplified, see params::kLinearLoss. An engine fills the one of
+    // these two fields that has its format, and leaves the other empty.
     Field<std::uint8_t> raised;    ///< from the GLES engine
-    Field<std::uint16_t> pairs;    ///< from the SIMD engine: two pixels, the lower in the high byte
+    Field<std::uint16_t> pairs;    ///< from the SIMD engine; low byte: a pixel; high byte: the
+                                   ///< pixel below it
     Field<std::uint32_t> picture;  ///< RGBA8; only for SuperResMode::Blend
 };
 
-/// Luma pyramids of the video, and of the still as seen by the video camera: the inputs of the flow
-/// step.
+/// Inputs of the flow step: the luma pyramid of the video, and that of the still in the geometry
+/// and resolution of the video.
 struct LumaPyramid {
     std::vector<LumaLevel> video, still;
-    Field<std::uint32_t> words;  ///< both pyramids, in one row
+    Field<std::uint32_t> words;  ///< pixels of both pyramids, in one row; see LumaLevel
 };
 
-/// Flow between video and still. The cells are stored in one row: the forward field, followed by
-/// the backward field. If two-way errors of the forward cells are given, they replace the backward
-/// field (as ErrorCell).
+/// Flow between video and still. All cells are in one row: first the forward field (from video to
+/// still), then the backward field. If `errorsGiven`, the row has the two-way errors of the forward
+/// cells (ErrorCell) instead of the backward field.
 struct FlowCells {
     Field<FlowCell> cells;
     Size forward, backward;  ///< columns, rows
@@ -68,7 +69,7 @@ struct FlowCells {
     }
 };
 
-/// Trust in the still at each cell.
+/// How far the still is trusted at each cell.
 struct CellWeights {
     Field<WeighedCell> weighed;
     Field<LookUpCell> lookUps;
@@ -78,16 +79,18 @@ struct CellWeights {
 class StillStep {
 public:
     virtual ~StillStep() = default;
-    /// Prepares a valid still that has the still camera's size.
+    /// Prepares a still for the other steps. The still must be valid and have the still camera's
+    /// size.
     virtual const StillPictures& run(const ImageView& still, SuperResMode mode) = 0;
-    /// Adds the fields that another mode needs, from the same still.
+    /// Prepares the fields that another mode needs, from the still of the last run().
     virtual void setMode(SuperResMode mode) = 0;
 };
 
 class PyramidStep {
 public:
     virtual ~PyramidStep() = default;
-    /// Does nothing if no tile of the frame is matched with a still.
+    /// Computes the pyramid of the frame. Does nothing if no tile of the frame is matched with a
+    /// still.
     virtual const LumaPyramid& video(const VideoFrame& frame, const TileWork& work) = 0;
     virtual const LumaPyramid& still(const StillPictures& still) = 0;
 };
@@ -97,23 +100,23 @@ public:
     using Cells = std::span<const std::array<float, 4>>;
 
     virtual ~FlowStep() = default;
-    /// Changes only those options that may change between frames, see changed() in flow_options.h.
-    /// Throws std::invalid_argument if an option is out of range.
+    /// Takes over only those options that may change between frames, see changed() in
+    /// flow_options.h. Throws std::invalid_argument if an option is out of range.
     virtual void setOptions(const Flow2dOptions& options) = 0;
-    /// Searches the forward and the backward field. `usePrior`: the last frame's field provides a
-    /// candidate for every cell.
+    /// Searches the flow from video to still (forward) and from still to video (backward).
+    /// `usePrior`: the flow of the last frame is a candidate for every cell.
     virtual const FlowCells& run(const LumaPyramid& luma, const TileWork& work, bool usePrior) = 0;
-    /// Refines `vectors`, one per cell, whose errors are a fraction of a pixel. `errors`: the
-    /// two-way error of each vector [px], in its first entry. Tiles with wrong vectors are
-    /// searched.
+    /// Refines `vectors`, the flow of each cell with an error of less than a pixel. `errors`: the
+    /// first number of each entry is the two-way error of the cell's vector [px]. Tiles in which
+    /// the vectors prove to be wrong are searched in both dimensions.
     virtual const FlowCells& refine(const LumaPyramid& luma, const TileWork& work, Cells vectors,
                                     Cells errors) = 0;
-    /// Returns a flag for each tile, row-major: true if the last refine() searched it. May wait for
-    /// the GPU.
+    /// Returns a flag for each tile, row-major: true if the last refine() searched the tile. May
+    /// wait for the GPU.
     [[nodiscard]] virtual std::vector<bool> searchedTiles() const = 0;
     [[nodiscard]] virtual int searchedCount() const = 0;
-    /// searchedCount() of a frame that is certainly finished: on a CPU the last frame, on a GPU the
-    /// frame before it.
+    /// searchedCount() for a frame whose results exist already, so that the call does not wait: on
+    /// a CPU the last frame, on a GPU the frame before it.
     [[nodiscard]] virtual int finishedSearchedCount() const { return searchedCount(); }
 };
 
@@ -122,8 +125,8 @@ public:
     virtual ~WeighStep() = default;
     virtual const CellWeights& run(const LumaPyramid& luma, const FlowCells& flow,
                                    const TileWork& work) = 0;
-    /// Call this after run() on the same frame. Lowers the weights of cells where the still shows
-    /// less of the video's finest detail than expected. `match`: what to expect, see
+    /// Lowers the weights of cells where the still shows less of the video's finest detail than
+    /// expected. Must be called after run() on the same frame. `match`: how much is expected, see
     /// params::kFineRoom.
     virtual const CellWeights& confirm(const VideoFrame& frame, const StillPictures& still,
                                        const TileWork& work, const FineMatch& match) = 0;
@@ -153,23 +156,23 @@ public:
     struct Matched {
         const StillPictures& still;
         const CellWeights& weights;
-        /// A second still, shown where its weight is larger; may be null. Used only in mode Detail
-        /// with filters.
+        /// A second still, which is shown where its weight is larger than that of `still`; null:
+        /// there is none. Used only in mode Detail with learned filters.
         const Matched* second = nullptr;
     };
 
     virtual ~DetailStep() = default;
-    /// Draws the tiles of `work`; the others keep their pixels. If `matched` is null, the video is
-    /// only enlarged.
+    /// Draws the tiles that `work` requests; the other tiles keep their pixels. If `matched` is
+    /// null, the video is only enlarged.
     virtual void draw(const VideoFrame& frame, const Matched* matched, const TileWork& work,
                       const DetailOptions& options) = 0;
-    /// The output picture: RGBA8, row 0 on top, alpha 255. What other code draws into it remains
-    /// until draw() redraws the same tiles.
+    /// The output picture: RGBA8, row 0 on top, alpha 255. Pixels that other code draws into it
+    /// remain until draw() redraws their tiles.
     [[nodiscard]] virtual Field<std::uint32_t>& output() = 0;
     /// Summary of the last frame. May wait for the GPU.
     [[nodiscard]] virtual TileSummary summary() const = 0;
-    /// Summary of a frame that is certainly finished: on a CPU the last frame, on a GPU the frame
-    /// before it.
+    /// Summary of a frame whose results exist already, so that the call does not wait: on a CPU the
+    /// last frame, on a GPU the frame before it.
     [[nodiscard]] virtual TileSummary finishedSummary() const { return summary(); }
     /// Class of every tile in the last frame, row-major. May wait for the GPU.
     [[nodiscard]] virtual std::vector<TileClass> classes() const = 0;
@@ -188,13 +191,13 @@ struct LayerPicture {
 class OcclusionStep {
 public:
     virtual ~OcclusionStep() = default;
-    /// Draws the virtual objects over the picture, except where the real scene hides them. `real`:
-    /// depth of the real scene, unknown outside `where` [video px].
+    /// Draws the virtual objects over `picture`, except where the real scene hides them. `real`:
+    /// depth of the real scene; it is unknown outside the rectangle `where` [video px].
     virtual void draw(const LayerPicture& layer, const InverseDepthField& real,
                       const PixelRect& where, const VideoFrame& frame,
                       Field<std::uint32_t>& picture) = 0;
-    /// Returns the visible share of the layer at each output pixel within its bounds, as of the
-    /// last draw(). May wait for the GPU.
+    /// Returns how visible the layer was in the last draw(), [0, 1], for each output pixel within
+    /// the layer's bounds. May wait for the GPU.
     [[nodiscard]] virtual std::vector<float> visibility() const = 0;
 };
 

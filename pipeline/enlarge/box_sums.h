@@ -8,7 +8,8 @@
 
 namespace mfar::enlarge {
 
-/// Sums of a value over squares of pixels. A sum takes the same time for every size of the square.
+/// Sums of a value over squares of pixels. Reading a sum takes the same time for squares of every
+/// size.
 class BoxSums {
 public:
     /// `valueAt(x, y)`: the value of a pixel.

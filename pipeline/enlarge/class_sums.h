@@ -7,32 +7,34 @@
 #include <cstdint>
 #include <vector>
 
-// Least squares for the filters of the learned enlarger. Each class sums over its pixels in double
-// precision and in a fixed order, so that the same pixels give exactly the same filters.
+// Least-squares fit of the filters of the learned enlarger. The sums over the pixels of each class
+// are computed in double precision and in a fixed order, so that the same pixels give exactly the
+// same filters.
 
 namespace mfar::enlarge {
 
 /// Differences between a pixel's neighbours and the pixel [grey levels], in the order of kTapAt.
 using Taps = Eigen::Matrix<double, kTaps, 1>;
-/// Differences of the true picture from the cubic enlargement at a pixel's sub-pixels, row-major
-/// [grey levels].
+/// True picture minus the enlargement by Keys' cubic, at the sub-pixels of a pixel, row-major [grey
+/// levels].
 using Phases = Eigen::Matrix<double, kPhases, 1>;
-/// Weights of a filter that is used alone; they are not halved, unlike those of FilterBank::Filter.
+/// Weights of a class's filter. Unlike those of FilterBank::Filter, they are not halved.
 using ClassWeights = Eigen::Matrix<double, kTaps, kPhases>;
 
-/// A class whose filter is stored, and the symmetry that maps the picture onto that class.
+/// The class whose stored filter another class uses, and the symmetry that maps the other class's
+/// pixels onto it.
 struct UniqueClass {
-    int number;  ///< [0, kUnique)
+    int number;  ///< index among the classes with stored filters, [0, kUnique)
     Symmetry same;
 };
-/// `number`: number of the class according to simd::classRow().
+/// `number`: index of a class, as simd::classRow() computes it.
 [[nodiscard]] UniqueClass uniqueByGradient(int number);
 [[nodiscard]] UniqueClass uniqueByCurvature(int number);
 
 [[nodiscard]] FilterBank::Filter roundedFilter(const ClassWeights& weights);
 [[nodiscard]] ClassWeights weightsOf(const FilterBank::Filter& filter);
 
-/// Normal equations of one class.
+/// Normal equations of the least-squares fit for one class.
 struct ClassSums {
     Eigen::Matrix<double, kTaps, kTaps> taps = Eigen::Matrix<double, kTaps, kTaps>::Zero();
     ClassWeights products = ClassWeights::Zero();
@@ -41,12 +43,13 @@ struct ClassSums {
 
     void add(const Taps& steps, const Phases& target);
     void add(const ClassSums& other);
-    /// Multiplies all sums by `share`.
+    /// Multiplies all sums by the factor `share`.
     void fade(double share);
-    /// Returns these sums plus those of the same pictures rotated by 180 degrees. The rotation does
-    /// not change classes.
+    /// Returns these sums plus the sums over the same pictures rotated by 180 degrees. The rotation
+    /// does not change the class of any pixel.
     [[nodiscard]] ClassSums turnedToo() const;
-    /// Returns the sum of the squared errors that these weights leave on the summed pixels.
+    /// Returns the sum of the squared errors of a filter with these weights, over the pixels of the
+    /// sums.
     [[nodiscard]] double errorOf(const ClassWeights& weights) const;
 };
 
@@ -70,7 +73,8 @@ private:
     };
     void finish(int unique) const;
 
-    // Mutable, because a read adds the groups that are still incomplete.
+    // These members are mutable, because operator[] first adds the pixels of an incomplete group to
+    // the sums.
     mutable std::vector<ClassSums> sums_;
     mutable std::vector<Group> groups_;
 };

@@ -13,26 +13,30 @@ namespace {
 
 using namespace enlarge;
 
-// Lower limit of a class's pixels. With fewer pixels to learn from or to choose on, the class keeps
-// the shipped filter or none; with fewer pixels to check on, it is not checked.
+// Smallest number of pixels of a class in a Part. With fewer pixels in Part::Learn or Part::Choose,
+// the class gets no learned filter; with fewer pixels in Part::Check, its filter is not checked
+// alone.
 constexpr double kLeastPixels = 400;
-// The weight of older stills is multiplied by this factor for every new still.
+// With every new still, the sums over all older stills are multiplied by this factor.
 constexpr double kForgetting = 0.95;
 // The shipped filter counts as much as this number of pixels of the class.
 constexpr double kPriorPixels = 300;
-constexpr double kRidge = 20;  // [grey levels^2]
-// Lower limit of the trusted share of the picture. If the share is smaller, matching has failed.
+constexpr double kRidge = 20;  // added to the diagonal of the normal equations [grey levels^2]
+// Smallest share of the picture's pixels that must be trusted. If the share is smaller, matching
+// has failed.
 constexpr double kLeastTrusted = 0.05;
-// Lower limit of TrustedPairs::sharpness().
+// Smallest TrustedPairs::sharpness() of a still that filters are learned from.
 constexpr double kLeastSharpness = 1.03;
-// A tile is new if the mean of one of its 4x4 blocks has changed by more than this [grey levels].
+// A tile is new if the mean of one of its blocks of 4x4 pixels has changed by more than this [grey
+// levels].
 constexpr int kNewFrom = 4;
-constexpr double kLeastNew = 0.1;  // lower limit of the share of new tiles
-// A new filter is used if its error is below this share of the error of the filter it would
-// replace.
+constexpr double kLeastNew = 0.1;  // smallest share of new tiles in a picture to learn from
+// A new filter is used if its error is less than this factor times the error of the filter that it
+// would replace.
 constexpr double kWorthwhile = 0.998;
 
-constexpr int kBlock = 4;  // side of the blocks that are compared to find new tiles [px]
+constexpr int kBlock = 4;  // width and height of the blocks that are compared to find new tiles
+                           // [px]
 
 std::size_t tileOfBlock(int x, int y, Size tiles) {
     return static_cast<std::size_t>(y * kBlock / kTileSize) * tiles.width + x * kBlock / kTileSize;
@@ -46,8 +50,8 @@ EnlargerLearner::EnlargerLearner() : learned_(kUnique, false) {
     putInPlace(prior_, learned_);
 }
 
-/// A tile always belongs to the same part. If parts were chosen for each still, a camera at rest
-/// would learn from the scene on which it checks.
+/// The position of a tile alone determines its Part. If parts changed with each still, filters
+/// would be checked on pixels that they were learned from while the camera is at rest.
 EnlargerLearner::Part EnlargerLearner::partOf(int column, int row) {
     const int number = (column + 2 * row) % 5;
     return number == 0 ? Part::Check : number == 2 ? Part::Choose : Part::Learn;
@@ -170,8 +174,8 @@ EnlargerLearner::StillSums EnlargerLearner::sumsOf(const MatchedPictures& pictur
 ClassWeights EnlargerLearner::solved(int unique) const {
     const ClassSums sums = sums_[unique].turnedToo();
     const ClassWeights& prior = prior_[static_cast<std::size_t>(unique)];
-    // Weighs the prior as if the differences to a pixel's neighbours were independent of each
-    // other.
+    // Adds the prior to the diagonal only, as if the differences to a pixel's neighbours were
+    // independent of each other.
     const Taps pull =
         (sums.taps.diagonal().array() * (kPriorPixels / sums_[unique].pixels) + kRidge).matrix();
     auto taps = sums.taps;
@@ -221,7 +225,7 @@ bool EnlargerLearner::putInPlace(const std::vector<ClassWeights>& weights,
         inPlace_ = std::make_shared<const FilterBank>(filters, guidance_.guidance(),
                                                       fineMatch_.fineMatch());
     } catch (const FilterBankError&) {
-        return false;  // the weights are too large for the kernels: keep the old filters
+        return false;  // the weights are too large for the SIMD code: the old filters stay in use
     }
     current_ = weights;
     learned_ = learned;

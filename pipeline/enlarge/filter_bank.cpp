@@ -21,7 +21,8 @@ constexpr std::size_t kHeaderSize = kMagicSize + 4 * kHeader.size();
 constexpr std::size_t kWeightBytes = std::size_t{2} * kUnique * kFilterSize;
 constexpr std::size_t kStoredSize = kHeaderSize + kWeightBytes + 4;
 
-/// Returns the filters of all classes, derived from the stored filters of one quadrant.
+/// Returns the filters of all classes, derived from the stored filters of one quadrant of the
+/// angle; see Symmetry.
 AlignedRows<std::int16_t> expanded(std::span<const FilterBank::Filter> unique, int bins,
                                    int kinds) {
     AlignedRows<std::int16_t> out({kFilterSize, bins * kinds});
@@ -39,7 +40,8 @@ AlignedRows<std::int16_t> expanded(std::span<const FilterBank::Filter> unique, i
     return out;
 }
 
-/// Upper limit of the sum of absolute weights of a phase, because the kernels add in 32 bits.
+/// Largest sum of the absolute weights of a phase. A larger sum could overflow the 32-bit sums of
+/// the SIMD code.
 constexpr int kMostWeight = 16 * kWeightScale;
 
 bool fits(const FilterBank::Filter& filter) {
@@ -52,8 +54,8 @@ bool fits(const FilterBank::Filter& filter) {
     return true;
 }
 
-/// Keys' cubic with a = -0.75: for each of the four sub-pixels, the weights of the pixels at -2 to
-/// 2.
+/// Keys' cubic with a = -0.75 along one axis: for each of the four sub-pixels, the weights of the
+/// five pixels at offsets -2 to 2.
 std::array<std::array<double, 5>, kGrid> cubicWeights() {
     std::array<std::array<double, 5>, kGrid> out{};
     for (int phase = 0; phase < kGrid; ++phase) {
@@ -80,13 +82,14 @@ FilterBank::FilterBank(std::span<const Filter> unique, const Guidance& guidance,
                        const FineMatch& fineMatch)
     : number_(nextNumber()), guidance_(guidance), fineMatch_(fineMatch), cubic_({kFilterSize, 1}) {
     if (unique.size() != kUnique)
-        throw FilterBankError("found filters of " + std::to_string(unique.size()) +
+        throw FilterBankError("found filters for " + std::to_string(unique.size()) +
                               " classes; expected " + std::to_string(kUnique));
-    if (!guidance.isValid()) throw FilterBankError("the guidance is out of range");
-    if (!fineMatch.isValid()) throw FilterBankError("the share of the usual match is out of range");
+    if (!guidance.isValid()) throw FilterBankError("the factors of the guidance are out of range");
+    if (!fineMatch.isValid()) throw FilterBankError("fine_noise or fine_share is out of range");
     for (std::size_t i = 0; i < unique.size(); ++i)
         if (!fits(unique[i]))
-            throw FilterBankError("weights of class " + std::to_string(i) + " are too large");
+            throw FilterBankError("the filter weights of class " + std::to_string(i) +
+                                  " are too large");
     gradient_ =
         expanded(unique.first(kUniqueGradient), GradientClasses::kAngles, GradientClasses::kKinds);
     curvature_ = expanded(unique.subspan(kUniqueGradient), CurvatureClasses::kAngles,
@@ -121,14 +124,14 @@ std::vector<FilterBank::Filter> readFilters(std::span<const std::uint8_t> bytes,
                                             const std::string& name) {
     const auto refuse = [&](const std::string& why) { throw FilterBankError(name + ": " + why); };
     if (bytes.size() < kHeaderSize || std::memcmp(bytes.data(), kMagic, kMagicSize) != 0)
-        refuse("is not a file of filters");
+        refuse("is not a filter file of mfar");
     const std::uint64_t version = getNumber(bytes.data() + kMagicSize, 4);
     if (version != kHeader[0])
         refuse("has version " + std::to_string(version) + "; expected " +
                std::to_string(kHeader[0]));
     for (std::size_t i = 1; i < kHeader.size(); ++i)
         if (getNumber(bytes.data() + kMagicSize + 4 * i, 4) != kHeader[i])
-            refuse("has other classes or sizes of filters than this program");
+            refuse("has filters of other classes or sizes than this program uses");
     if (bytes.size() != kStoredSize)
         refuse("has " + std::to_string(bytes.size()) + " bytes; expected " +
                std::to_string(kStoredSize));

@@ -12,17 +12,17 @@
 
 namespace mfar {
 
-/// Stored filters cannot be used. The message names them and the reason.
+/// Thrown if stored filters cannot be used. The message names the filters and the reason.
 class FilterBankError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Says how strongly a trusted still changes the finest detail of the video itself; see
-/// params::kGuideReach. With both factors 0, there is no guidance. The factors are similar if both
-/// sensors have the same exposure.
+/// How strongly a trusted still replaces the finest detail of the video; see params::kGuideReach.
+/// If both factors are 0, there is no guidance. The factors are similar if both sensors have the
+/// same exposure.
 struct Guidance {
     float still = 0;  ///< share of the still's detail that is added, [0, 1]
-    float video = 0;  ///< share of the video's own detail that is removed, [0, kMost]
+    float video = 0;  ///< share of the video's detail that is removed, [0, kMost]
 
     static constexpr float kMost = 2;
     [[nodiscard]] bool any() const { return still > 0 || video > 0; }
@@ -32,12 +32,12 @@ struct Guidance {
     bool operator==(const Guidance&) const = default;
 };
 
-/// How much of the video's finest structure a correctly matched still usually fails to explain, as
-/// a variance: noise + share * (variance of the finest structure); see params::kFineRoom. If noise
-/// is 0, the unexplained variance is not known.
+/// How much of the video's finest detail a correctly matched still usually leaves unexplained. The
+/// unexplained variance is noise + share * (variance of the finest detail); see params::kFineRoom.
+/// If noise is 0, the usual unexplained variance is not known.
 struct FineMatch {
-    float noise = 0;  ///< [grey levels^2], [0, kMostNoise]
-    float share = 0;  ///< [0, 1]
+    float noise = 0;  ///< part that does not depend on the detail [grey levels^2], [0, kMostNoise]
+    float share = 0;  ///< unexplained share of the detail's variance, [0, 1]
 
     static constexpr float kMostNoise = 4096;
     [[nodiscard]] bool isKnown() const { return noise > 0; }
@@ -48,11 +48,11 @@ struct FineMatch {
 };
 
 /// The filters of the learned enlarger, one per class (see filter_layout.h), with the Guidance and
-/// the FineMatch that belong to them. Immutable.
+/// the FineMatch that were learned from the same sensors. Immutable.
 class FilterBank {
 public:
-    /// Weights of a class. A weight of one is stored as 16384; weights are halved, because the
-    /// residuals of the two classes of a pixel are added.
+    /// Weights of the filter of a class. The weights are halved, because the residuals of both
+    /// classes of a pixel are added. A halved weight of one is stored as 16384.
     using Filter = std::array<std::int16_t, enlarge::kFilterSize>;
 
     /// `unique`: kUnique filters, those of the gradient classes first. Throws FilterBankError.
@@ -61,18 +61,20 @@ public:
     /// The shipped filters. They were learned by mfar-train-enlarger and are part of the program.
     [[nodiscard]] static const FilterBank& prior();
 
-    /// Different for every bank, so that users can see whether their copy is up to date.
+    /// A number that differs for every bank, so that code that keeps a copy can see whether it is
+    /// up to date.
     [[nodiscard]] std::uint64_t number() const { return number_; }
-    /// One row per class.
+    /// The filters of the gradient classes and of the curvature classes, one row per class.
     [[nodiscard]] Rows<const std::int16_t> gradient() const { return gradient_.rows(); }
     [[nodiscard]] Rows<const std::int16_t> curvature() const { return curvature_.rows(); }
-    /// Zero for the shipped filters, because guidance depends on the noise and sharpness of both
-    /// sensors.
+    /// The guidance. It is zero for the shipped filters, because it depends on the noise and
+    /// sharpness of both sensors.
     [[nodiscard]] const Guidance& guidance() const { return guidance_; }
-    /// Unknown for the shipped filters, for the same reason as guidance().
+    /// The FineMatch. It is unknown for the shipped filters, because it depends on the noise and
+    /// sharpness of both sensors.
     [[nodiscard]] const FineMatch& fineMatch() const { return fineMatch_; }
-    /// Keys' cubic minus the pixel itself, as a filter on the same grid. A weight of one is stored
-    /// as 16384; weights are not halved.
+    /// Keys' cubic minus the pixel itself, as a filter with the same taps and sub-pixels. Its
+    /// weights are not halved; a weight of one is stored as 16384.
     [[nodiscard]] const std::int16_t* cubic() const { return cubic_[0]; }
 
 private:
@@ -86,8 +88,8 @@ private:
 /// (version, number of gradient filters, number of curvature filters, taps, phases), then the
 /// weights, 16 bits each, then the FNV-1a checksum of all of this.
 [[nodiscard]] std::vector<std::uint8_t> storedFilters(std::span<const FilterBank::Filter> unique);
-/// Reads filters from their stored form. `name` is used in messages. Throws FilterBankError if the
-/// data is incomplete.
+/// Reads filters from their stored form. `name`: the name of the filters in error messages. Throws
+/// FilterBankError if the data is incomplete.
 [[nodiscard]] std::vector<FilterBank::Filter> readFilters(std::span<const std::uint8_t> bytes,
                                                           const std::string& name);
 

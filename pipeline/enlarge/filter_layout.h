@@ -15,7 +15,8 @@ namespace mfar::enlarge {
 
 using params::kGrid, params::kPairs, params::kLumaScale, params::kResidualScale;
 inline constexpr int kPhases = kGrid * kGrid, kTaps = 2 * kPairs;
-/// Number of weights of a filter, stored as [pair of taps][phase, row-major][tap of the pair].
+/// Number of weights of a filter. They are stored as [pair of taps][phase, row-major][tap of the
+/// pair], where a phase is a sub-pixel of the pixel.
 inline constexpr int kFilterSize = kTaps * kPhases;
 [[nodiscard]] constexpr int filterIndex(int tap, int phase) {
     return (tap / 2 * kPhases + phase) * 2 + tap % 2;
@@ -25,8 +26,9 @@ struct Offset {
     int x, y;
     bool operator==(const Offset&) const = default;
 };
-/// Positions of the taps [px]. The taps of a pair are horizontal neighbours; those of the last two
-/// pairs are vertical neighbours.
+/// Positions of the taps relative to the pixel [px]. Two successive taps are a pair. The taps of a
+/// pair are horizontal neighbours, except in the last two pairs, where they are vertical
+/// neighbours.
 inline constexpr std::array<Offset, kTaps> kTapAt{
     {{-2, -2}, {-1, -2}, {0, -2}, {1, -2}, {-2, -1}, {-1, -1}, {0, -1}, {1, -1},
      {-2, 1},  {-1, 1},  {0, 1},  {1, 1},  {-2, 2},  {-1, 2},  {0, 2},  {1, 2},
@@ -37,26 +39,29 @@ inline constexpr std::array<Offset, kTaps> kTapAt{
     return -1;
 }
 
-inline constexpr int kWeightScale = 16384;  ///< stored weight of one, for the sum of both residuals
+inline constexpr int kWeightScale = 16384;  ///< a weight of one is stored as this number
 
-/// Classes of the structure tensor, which sums the products of the gradient over 5x5 pixels. Angle:
-/// that of the tensor's main axis. Strength: s1, the square root of the larger eigenvalue [grey
-/// levels per px]. Coherence: (s1 - s2) / (s1 + s2), where s2 is the square root of the smaller
-/// eigenvalue. Each of the three is divided into bins. Index of a class: (angle bin * number of
-/// strength bins + strength bin) * number of coherence bins + coherence bin.
+/// Classes of pixels by the structure tensor, which sums the products of the gradient's components
+/// over 5x5 pixels. Angle: that of the tensor's main axis. Strength: s1, the square root of the
+/// larger eigenvalue [grey levels per px]. Coherence: (s1 - s2) / (s1 + s2), where s2 is the square
+/// root of the smaller eigenvalue. Each of these three values is divided into bins. Index of a
+/// class: (angle bin * number of strength bins + strength bin) * number of coherence bins +
+/// coherence bin.
 struct GradientClasses {
     static constexpr int kAngles = params::kGradientAngles;
     static constexpr std::array<float, 3> kStrengthFrom{params::kWeakFrom, params::kMediumFrom,
                                                         params::kStrongFrom};
     static constexpr std::array<float, 2> kCoherenceFrom{params::kPartlyCoherentFrom,
                                                          params::kCoherentFrom};
-    static constexpr int kKinds = params::kGradientKinds;  ///< number of classes per angle
+    static constexpr int kKinds = params::kGradientKinds;  ///< number of classes per bin of the
+                                                           ///< angle
     static_assert(kKinds == (kStrengthFrom.size() + 1) * (kCoherenceFrom.size() + 1));
     static constexpr int kCount = kAngles * kKinds;
 };
-/// Classes of the Hessian, the matrix of the second derivatives: angle of its main axis, Laplacian,
-/// and difference of its eigenvalues [grey levels per px^2]. Index of a class: (angle bin * number
-/// of Laplacian bins + Laplacian bin) * number of difference bins + difference bin.
+/// Classes of pixels by the Hessian, the matrix of the second derivatives: angle of its main axis,
+/// Laplacian, and difference of its eigenvalues [grey levels per px^2]. Each of these three values
+/// is divided into bins. Index of a class: (angle bin * number of Laplacian bins + Laplacian bin) *
+/// number of difference bins + difference bin.
 struct CurvatureClasses {
     static constexpr int kAngles = params::kCurvatureAngles;
     static constexpr std::array<float, 6> kLaplacianFrom{
@@ -69,20 +74,23 @@ struct CurvatureClasses {
     static constexpr int kCount = kAngles * kKinds;
 };
 
-/// Angles in [-pi/2, pi/2) are divided into equal bins. Mirroring the picture maps one quadrant of
-/// the double angle onto the others, so only the filters of that quadrant are stored.
+/// Maps the bin of an angle to a bin whose filters are stored. Angles in [-pi/2, pi/2) are divided
+/// into equal bins. Mirroring the picture and exchanging x and y maps one quadrant of twice the
+/// angle onto the other three, so only the filters of one quadrant are stored.
 struct Symmetry {
-    int unique;                ///< bin of the stored filter, in [0, bins / 4)
-    bool mirrors, transposes;  ///< first turn the picture upside down, then exchange x and y
+    int unique;                ///< bin with the stored filter, in [0, bins / 4)
+    bool mirrors, transposes;  ///< first mirror the picture upside down, then exchange x and y
 
     [[nodiscard]] static constexpr Symmetry of(int bin, int bins) {
-        const bool lower = bin < bins / 2;  // sine of the double angle is negative
+        const bool lower = bin < bins / 2;  // the sine of twice the angle is negative
         const int inHalf = bin % (bins / 2);
-        const bool left = lower == (inHalf < bins / 4);  // cosine of the double angle is negative
+        const bool left = lower == (inHalf < bins / 4);  // the cosine of twice the angle is
+                                                         // negative
         const bool ascends = lower == left;
         return {ascends ? inHalf : bins / 2 - 1 - inHalf, lower, left};
     }
-    /// Position of `v` after the mapping, which keeps `last` / 2 in place.
+    /// Position of `v` after the mapping. The mapping keeps the position (last / 2, last / 2) in
+    /// place.
     [[nodiscard]] constexpr Offset map(Offset v, int last = 0) const {
         const Offset mirrored{v.x, mirrors ? last - v.y : v.y};
         return transposes ? Offset{mirrored.y, mirrored.x} : mirrored;
@@ -95,13 +103,14 @@ struct Symmetry {
         return at.y * kGrid + at.x;
     }
 };
-/// Number of stored filters for each kind of class, and in total.
+/// Number of stored filters: for the gradient classes, for the curvature classes, and in total.
 inline constexpr int kUniqueGradient = GradientClasses::kCount / 4;
 inline constexpr int kUniqueCurvature = CurvatureClasses::kCount / 4;
 inline constexpr int kUnique = kUniqueGradient + kUniqueCurvature;
 
-/// The residual is limited so that its sum with the cubic stays within the range of the surrounding
-/// 5x5 pixels. The range is extended at both ends by a power-of-two share of its width: a quarter.
+/// The residual is limited so that its sum with Keys' cubic stays within the range of the
+/// surrounding 5x5 pixels, extended at both ends by its width shifted right by this number of bits:
+/// a quarter.
 inline constexpr int kOvershootShift = 2;
 static_assert(params::kOvershoot * (1 << kOvershootShift) == 1);
 

@@ -12,15 +12,16 @@ namespace {
 
 constexpr std::size_t kLeastCells = 200;
 constexpr double kMostStills = 8;
-// A cell has structure if its variance exceeds this multiple of the noise.
+// A cell has structure if the variance of its finest detail exceeds this factor times the noise.
 constexpr double kStructureOverNoise = 4;
 
-/// Variances and covariance of a cell's finest detail [grey levels^2].
+/// Variances of the finest detail of a cell in video and still, and their covariance (`both`) [grey
+/// levels^2].
 struct Sums {
     double video = 0, both = 0, still = 0;
 };
 
-/// Samples the still at video positions, as simd::FineCheck does.
+/// Samples the still at positions of the video, as simd::FineCheck does.
 class Sampler {
 public:
     explicit Sampler(const MatchedPictures& pictures) : in_(pictures) {}
@@ -96,8 +97,9 @@ double quantile(std::vector<double>& values, double share) {
     return *at;
 }
 
-/// Variances at the cells that may be learned from together with all their neighbours: of the
-/// video's finest detail, and the rest that the still leaves unexplained.
+/// Two variances for each cell that may, together with all its neighbours, be learned from.
+/// `video`: variance of the video's finest detail. `rest`: the part of this variance that the still
+/// leaves unexplained.
 struct Unexplained {
     std::vector<double> video, rest;
 };

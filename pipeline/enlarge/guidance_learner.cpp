@@ -13,23 +13,25 @@
 namespace mfar::enlarge {
 namespace {
 
-constexpr double kForgetting = 0.95;  // factor of older weights per still, as for filters
+constexpr double kForgetting = 0.95;  // with every new pair, the sums over older pairs are
+                                      // multiplied by this
 // Zero guidance is the prior. It counts as much as this number of pixels.
 constexpr double kPriorPixels = 2000;
-constexpr double kLeastPixels = 0.02;  // least share of the picture to learn from
+constexpr double kLeastPixels = 0.02;  // smallest share of the picture's pixels to learn from
 // Guidance is used if it removes at least this share of the squared error.
 constexpr double kWorthwhile = 0.005;
-// New factors that differ less than this from those in use are ignored: pictures would change for
-// no gain.
+// New factors that differ from those in use by less than this are ignored: pictures would change
+// without a gain.
 constexpr float kSame = 0.01F;
-// Lower limit of the determinant, relative to the product of both squares. If it is smaller, the
-// two factors cannot be separated.
+// Smallest determinant of the normal equations, divided by the product of their diagonal. If it is
+// smaller, the two factors cannot be told apart.
 constexpr double kLeastDeterminant = 1e-9;
-constexpr double kMostPairs = 1e15;  // largest count that a double can still increment exactly
-// Between these levels, neither sensor is saturated [1/8 grey level].
+constexpr double kMostPairs = 1e15;  // up to this count, a double represents every count exactly
+// Pixels whose luma in the video is outside these limits [1/8 grey level] may be saturated.
 constexpr int kDarkest = 2 * kLumaScale, kBrightest = 253 * kLumaScale;
 
-/// The parts that are added up when a frame is drawn, at the sub-pixels of one pixel at a time.
+/// Computes what each source (still, video, learned filters) adds to the cubic enlargement when a
+/// frame is drawn, at the sub-pixels of one pixel at a time.
 class DrawnFrame {
 public:
     DrawnFrame(const MatchedPictures& pictures, const FilterBank& filters,
@@ -60,7 +62,7 @@ public:
                 if (!isKnown(x + dx, y + dy)) return false;
         return true;
     }
-    /// Prepares row y.
+    /// Prepares the calls of addedTo() for row y.
     void begin(int y) {
         std::array<const std::int16_t*, 7> rows{};
         for (int k = 0; k < 7; ++k)
@@ -78,8 +80,8 @@ public:
             width, {residual_[0], residual_[1], residual_[2], residual_[3]});
     }
     struct Added {
-        Phases unguided;      ///< added to the cubic without guidance
-        Phases still, video;  ///< added by each factor of Guidance if that factor is one
+        Phases unguided;      ///< what is added to the cubic enlargement without guidance
+        Phases still, video;  ///< what each factor of Guidance adds if the factor is one
     };
     void addedTo(int x, int y, Added& out) const {
         const Phases low = cubicOf(x, y, [&](int i, int j) { return still_.mean(i, j); });
@@ -101,7 +103,7 @@ private:
     [[nodiscard]] std::size_t at(int x, int y) const {
         return static_cast<std::size_t>(y) * in_.video.width + x;
     }
-    /// Stores the differences of the values from their local mean over known pixels; see
+    /// Stores each value minus the local mean of the values of known pixels; see
     /// params::kGuideReach.
     template <class Value>
     void beyondMean(const BoxSums& counts, std::vector<float>& out, const Value& value) const {
@@ -164,7 +166,8 @@ double FactorSums::gainOf(const Guidance& of) const {
 
 Guidance FactorSums::best(double prior) const {
     if (!(still2 > 0 && video2 > 0 && pixels > 0)) return {};
-    // The part of the still's detail that no multiple of the video's detail explains.
+    // Sum of squares of that part of the still's detail that no multiple of the video's detail
+    // explains.
     const double apart = std::max(still2 - stillVideo * stillVideo / video2, 0.0);
     const double pull = apart * prior / pixels;
     const double a2 = still2 + pull, b2 = video2 + pull;
@@ -172,8 +175,8 @@ Guidance FactorSums::best(double prior) const {
     if (!(determinant > kLeastDeterminant * a2 * b2)) return {};
     const auto stillFor = [&](double video) { return (stillMissing - video * stillVideo) / a2; };
     const auto videoFor = [&](double still) { return (videoMissing - still * stillVideo) / b2; };
-    // The unconstrained optimum, or the best point on the border of the allowed range that it
-    // exceeds.
+    // The optimum without limits. If it is out of range, the best point on the border of the
+    // allowed range is computed instead.
     const double free = (stillMissing * b2 - videoMissing * stillVideo) / determinant;
     double still = std::clamp(free, 0.0, 1.0);
     const double video = std::clamp(videoFor(still), 0.0, double(Guidance::kMost));
@@ -202,7 +205,8 @@ bool GuidanceLearner::add(const TrustedPairs& truth, const MatchedPictures& olde
         }
     }
     const double sum = learn.still2 + learn.video2 + learn.missing2 + held.still2 + held.video2 +
-                       held.missing2;  // the sums of products are no larger
+                       held.missing2;  // the other sums of products are not larger, so they are
+                                       // finite, too
     if (stop.stop_requested() || !std::isfinite(sum)) return false;
     if (!(learn.pixels >= kLeastPixels * width * height && held.pixels > 0)) return false;
     ++pairs_;

@@ -16,8 +16,8 @@ using namespace enlarge;
 constexpr char kMagic[] = "mfarlern";
 constexpr std::size_t kMagicSize = 8;
 constexpr std::array<std::uint64_t, 4> kHeader{4, kUnique, kTaps, kPhases};
-// Older versions that can still be read: without guidance; with one factor of guidance (ten
-// numbers); with two factors, but without the usual match.
+// Older versions of the format that can still be read: without guidance; with one factor of
+// guidance (ten numbers); with two factors, but without FineMatch.
 constexpr std::uint64_t kWithoutGuidance = 1, kOneFactor = 2, kTwoFactors = 3;
 constexpr int kOneFactorNumbers = 10;
 constexpr std::size_t kChecksumSize = 4;
@@ -60,7 +60,7 @@ public:
         : bytes_(bytes), name_(name) {
         if (bytes.size() < kMagicSize + kChecksumSize ||
             std::memcmp(bytes.data(), kMagic, kMagicSize) != 0)
-            refuse("is not a file of learned filters");
+            refuse("is not a file of learned filters of mfar");
         at_ = kMagicSize;
         version_ = bytes_.size() >= at_ + 8 ? getNumber(&bytes_[at_], 8) : kHeader[0];
         if (version_ < kWithoutGuidance || version_ > kHeader[0])
@@ -74,7 +74,7 @@ public:
     }
     [[nodiscard]] std::uint64_t version() const { return version_; }
     std::uint64_t number() { return getNumber(take(8), 8); }
-    /// A finite number.
+    /// Reads a double. Refuses the file if the number is not finite.
     double real() {
         const auto out = std::bit_cast<double>(number());
         if (!std::isfinite(out)) refuse("has numbers that are not finite");
@@ -89,7 +89,7 @@ public:
     }
     std::string text() {
         const std::uint64_t size = number();
-        if (size > kMostKeySize) refuse("names its sensors with too many characters");
+        if (size > kMostKeySize) refuse("names its pair of sensors with more than 4096 characters");
         const std::uint8_t* from = take(size);
         return {from, from + size};
     }
@@ -156,8 +156,8 @@ EnlargerLearner EnlargerLearner::restored(std::span<const std::uint8_t> bytes,
     Reader in(bytes, name);
     for (const std::uint64_t value : {in.version(), kHeader[1], kHeader[2], kHeader[3]})
         if (in.number() != value)
-            in.refuse("has other classes or sizes of filters than this program");
-    if (in.text() != key) in.refuse("was learned from other sensors");
+            in.refuse("has filters of other classes or sizes than this program uses");
+    if (in.text() != key) in.refuse("was learned from another pair of sensors");
     EnlargerLearner out;
     for (std::uint64_t* value : {&out.counts_.stills, &out.counts_.repeated, &out.counts_.refused})
         *value = in.number();
@@ -169,20 +169,20 @@ EnlargerLearner EnlargerLearner::restored(std::span<const std::uint8_t> bytes,
         out.sums_.edit(i) = in.sums();
         out.held_.edit(i) = in.sums();
     }
-    if (in.version() == kOneFactor)  // skipped: guidance is learned again
+    if (in.version() == kOneFactor)  // these numbers are skipped, and guidance is learned again
         for (int i = 0; i < kOneFactorNumbers; ++i)
             (void)in.real();
     if (in.version() >= kTwoFactors &&
         !out.guidance_.restore(in.reals<GuidanceLearner::kNumbers>()))
-        in.refuse("has a guidance that is out of range");
+        in.refuse("has values of the guidance that are out of range");
     if (in.version() == kHeader[0] &&
         !out.fineMatch_.restore(in.reals<FineMatchLearner::kNumbers>()))
-        in.refuse("has a share of the usual match that is out of range");
+        in.refuse("has values of fine_noise or fine_share that are out of range");
     in.finish();
-    if (!out.putInPlace(weights, learned)) in.refuse("has weights that are too large");
+    if (!out.putInPlace(weights, learned)) in.refuse("has filter weights that are too large");
     out.measure();
     if (!std::isfinite(out.counts_.gainDb) || !std::isfinite(out.counts_.priorDb))
-        in.refuse("has sums that are too large");
+        in.refuse("has sums of the least-squares fit that are too large");
     return out;
 }
 

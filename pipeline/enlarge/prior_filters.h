@@ -5,7 +5,8 @@
 
 namespace mfar::enlarge {
 
-/// The bytes of prior.filters, which the build embeds in the program.
+/// The bytes of the file prior.filters (the shipped filters), which the build embeds in the
+/// program.
 [[nodiscard]] std::span<const std::uint8_t> priorFilters();
 
 }  // namespace mfar::enlarge

@@ -11,29 +11,30 @@
 
 namespace mfar::enlarge {
 
-/// The still at the sub-pixels of a video frame that it was matched to, as the video's sensor would
-/// show it. The still is warped by the look-ups and shifted by their sub-pixel error. Its tone, and
-/// its mean over larger areas, are fitted to the video. So different gain and gamma of the sensors
-/// leave no offset. Their different blur and noise remains and is learned.
+/// The still, sampled at the sub-pixels of a video frame that it was matched to, with the
+/// brightness that the video's sensor would give it. The still is warped by the look-ups, whose
+/// sub-pixel errors are corrected first. Its tone curve, and its mean over larger areas, are fitted
+/// to the video, so that different gain and gamma of the sensors leave no offset. The differences
+/// in blur and noise remain, because the filters shall learn them.
 class TrustedPairs {
 public:
     /// If `stop` is requested, the constructor returns soon and no pixel is trusted.
     explicit TrustedPairs(const MatchedPictures& pictures, std::stop_token stop = {});
 
     [[nodiscard]] Size size() const { return video_; }
-    /// True if both pictures agree around a pixel, except for noise and blur.
+    /// True if still and video agree around a pixel, except for noise and blur.
     [[nodiscard]] bool trusts(int x, int y) const { return trusted_[y][x] != 0; }
-    /// Returns the difference of the still from the cubic enlargement of the video at the pixel's
-    /// sub-pixels [grey levels].
+    /// Returns the still minus the video enlarged by Keys' cubic, at the pixel's sub-pixels [grey
+    /// levels].
     [[nodiscard]] Phases target(int x, int y) const;
     [[nodiscard]] double trustedShare() const { return trustedShare_; }
-    /// Variance of the still within those video pixels that have structure, divided by the variance
-    /// of the cubic enlargement there. If it is at most one, the still is no sharper than the
-    /// video.
+    /// Variance of the still among the sub-pixels of a pixel, divided by that of the video enlarged
+    /// by Keys' cubic; over the trusted pixels with structure. If it is at most one, the still is
+    /// no sharper than the video.
     [[nodiscard]] double sharpness() const { return sharpness_; }
 
 private:
-    /// Sums of products of gradients and differences.
+    /// Sums of products of the still's gradient (x, y) and the difference e of the pictures.
     struct ShiftSums {
         double xx = 0, xy = 0, yy = 0, xe = 0, ye = 0;
         void add(const ShiftSums& other) {
@@ -44,7 +45,7 @@ private:
             ye += other.ye;
         }
     };
-    /// One value per pixel.
+    /// A picture with one value per video pixel.
     using Plane = std::vector<float>;
 
     [[nodiscard]] std::size_t at(int x, int y) const {
@@ -67,12 +68,12 @@ private:
     std::stop_token stop_;
     Size video_, cells_;
     AlignedRows<LookUpCell> lookUps_;
-    AlignedRows<std::uint8_t> known_;    // per cell: 1 if matched
+    AlignedRows<std::uint8_t> known_;    // per cell: 1 if mayTeach() is true
     AlignedRows<std::uint8_t> trusted_;  // per pixel: 1 if trusted
     WarpedGrid still_;
-    Plane seen_;               // the still's mean per pixel, with tone and blur of the video
+    Plane seen_;               // mean of the still over each pixel, with tone and blur of the video
     Plane mean_;               // video minus seen_, averaged over a larger area
-    std::vector<float> tone_;  // level of the video for each level of the still
+    std::vector<float> tone_;  // grey level of the video for each grey level of the still
     double trustedShare_ = 0, sharpness_ = 0;
 };
 

@@ -10,7 +10,8 @@
 
 namespace mfar::enlarge {
 
-/// A still on the grid of a video frame's sub-pixels, and its mean over each pixel [grey levels].
+/// A still that is warped to the sub-pixels of a video frame, and its mean over each pixel [grey
+/// levels].
 class WarpedGrid {
 public:
     explicit WarpedGrid(Size video);
@@ -37,12 +38,13 @@ private:
     std::vector<float> mean_;
 };
 
-/// Returns one member of the look-ups at the sub-pixels of a pixel, interpolated between cells
-/// bilinearly, as for drawing detail.
+/// Returns the member `part` of the look-ups at the sub-pixels of a pixel. It is interpolated
+/// bilinearly between cells, as when detail is drawn.
 [[nodiscard]] Phases betweenCells(const AlignedRows<LookUpCell>& cells, float LookUpCell::* part,
                                   int x, int y);
 
-/// Returns Keys' cubic at the sub-pixels of a pixel, computed from the values of pixels.
+/// Returns the enlargement by Keys' cubic at the sub-pixels of a pixel. `valueAt(x, y)`: the value
+/// of a pixel.
 template <class ValueAt>
 [[nodiscard]] Phases cubicOf(int x, int y, const ValueAt& valueAt) {
     const std::int16_t* cubic = FilterBank::prior().cubic();

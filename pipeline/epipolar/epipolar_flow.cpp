@@ -13,14 +13,17 @@ namespace mfar {
 namespace {
 
 constexpr float kNowhere = 1e4F;
-constexpr float kLeastWay = 0.05F;  // least motion of a pixel if the largest is 1 px [px]
-// Neighbours on one slanted surface that land on the same cell differ by up to this much [px].
+constexpr float kLeastWay = 0.05F;  // smallest motion of a pixel [px] for a change of s that moves
+                                    // the fastest pixel by 1 px
+// Largest difference of the displacements [px] of two neighbours on one slanted surface that land
+// on the same cell.
 constexpr float kSlope = 1.0F;
-// Margin of the searched rectangle [px], for census windows, paths and one frame's motion.
+// Margin around the searched rectangle [px]. It gives room for census windows, for the cost
+// aggregation, and for the motion until the next frame.
 constexpr int kRoom = 16;
 
-/// Returns the rectangle that is searched for `where`: it has a margin and consists of whole cells
-/// of 4x4 pixels, except at the picture's border.
+/// Returns the rectangle that is searched if depth is needed in `where`: it has a margin and
+/// consists of whole cells of 4x4 pixels, except at the picture's border.
 PixelRect searchedFor(const PixelRect& where, Size video) {
     const PixelRect around = widened(where, kRoom, video);
     const auto down = [](int x) { return x / kRoom * kRoom; };
@@ -112,8 +115,8 @@ void EpipolarFlow::run(const Rows<const std::uint8_t>& video, const Pose& pose,
     unit_ = relative.unit;
     lengthError_ = relative.lengthError;
     search(relative, where);
-    // The search draws the still with the video's lens and in the video's orientation, so this
-    // rotation leads back to the still's own orientation.
+    // The search draws the still with the video's lens and in the frame's orientation. This
+    // rotation leads from the frame's orientation to that of the still.
     rotation_ = (rig_.T_still_video.rotation.conjugate() * search_.pose().rotation)
                     .toRotationMatrix()
                     .cast<float>();
@@ -127,8 +130,8 @@ void EpipolarFlow::run(const Rows<const std::uint8_t>& video, const Pose& pose,
 
 void EpipolarFlow::search(const UnitPose& relative, const PixelRect& where) {
     const PixelRect wanted = searchedFor(where, rig_.video.size);
-    // The prediction misses objects that enter the picture or move by themselves. The search from
-    // coarse to fine finds them.
+    // The prediction does not contain objects that enter the picture or move by themselves. Only a
+    // search from coarse to fine finds them.
     const bool isNew = around(search_.area(), wanted) != search_.area();
     const auto predicted = predictedFrames_ < mostPredicted_ && !isNew
                                ? prediction_.in(relative.T_other_frame, relative.unit)
@@ -138,7 +141,8 @@ void EpipolarFlow::search(const UnitPose& relative, const PixelRect& where) {
     search_.run(frame_, relative.T_other_frame, relative.covariance, ofArea(predicted));
 }
 
-// Selects the cells within the search's area from the cells of the whole picture.
+// Returns the values of the cells within the search's area. `cells`: values of the cells of the
+// whole picture.
 std::span<const float> EpipolarFlow::ofArea(std::span<const float> cells) {
     if (cells.empty()) return cells;
     const PixelRect& area = search_.area();
@@ -160,9 +164,9 @@ float EpipolarFlow::nearnessAt(int x, int y) const {
     return search_.inverseDepth()[static_cast<std::size_t>(row) * (area.x1 - area.x0) + column];
 }
 
-// Returns where the still, drawn with the video's lens, shows a ray's point. The result is far
-// outside if the point lies behind the camera, or so close to its image plane that the pixel is
-// meaningless.
+// Returns where the still, drawn with the video's lens, shows the point on a ray that has inverse
+// depth s. The result is far outside the picture if the point is behind the still camera, or so
+// close to its image plane that the pixel is meaningless.
 EpipolarLens::Point EpipolarFlow::endOf(float rayX, float rayY, float s) const {
     const Eigen::Vector3f& t = search_.translation();
     const Eigen::Vector3f p = rotation_ * Eigen::Vector3f(rayX + s * (t.x() - rayX * t.z()),
@@ -212,7 +216,7 @@ const std::vector<float>& EpipolarFlow::inverseDepthOf(const Cells& flow) {
     workers_->forRange(cells_.height, 8, [&](int first, int last) {
         for (int j = first; j < last; ++j) {
             const std::size_t cell = static_cast<std::size_t>(j) * cells_.width;
-            // Rays through the centres of cells, because both flows start there.
+            // Uses the rays through the centres of the cells, because both flow fields start there.
             simd::alignCells(ends, cellRow(j, cellRays_.raysX().data(), cellRays_.raysY().data()),
                              flow.data() + cell, forward_.data() + cell, pixel, kLeastWay,
                              aligned_.data() + cell);
@@ -231,7 +235,7 @@ float EpipolarFlow::offLine(int x, int y, float flowX, float flowY) const {
     const auto pixel = static_cast<float>(1 / search_.pixelsPerUnit());
     const auto next = endOf(lens_.rayX(i), lens_.rayY(i), s + pixel);
     const float wayX = next.x - on.x, wayY = next.y - on.y, way = std::hypot(wayX, wayY);
-    // Near the epipole, a change of depth hardly moves the pixel.
+    // Near the epipole, a change of depth hardly moves the pixel, so the line is only a point.
     if (!(way > kLeastWay)) return std::hypot(dx, dy);
     return std::abs(dx * wayY - dy * wayX) / way;
 }
@@ -249,8 +253,8 @@ void EpipolarFlow::fillForward() {
     });
 }
 
-// The mean of the middle two of a cell's four central values. An edge between these pixels does not
-// distort it.
+// Returns s of a cell: of the values at the cell's four central pixels, the mean of the middle two.
+// A depth edge between these pixels does not distort it.
 float EpipolarFlow::depthOf(int i, int j) const {
     const Middle x = middleOf(i, rig_.video.size.width), y = middleOf(j, rig_.video.size.height);
     std::array<float, 4> s{nearnessAt(x.first, y.first), nearnessAt(x.last, y.first),
@@ -263,7 +267,8 @@ void EpipolarFlow::fillDepths(int j) {
     const PixelRect& area = search_.area();
     float* out = nearness_.data() + static_cast<std::size_t>(j) * cells_.width;
     const int y = kCell * j;
-    int first = (area.x0 + kCell - 1) / kCell, last = area.x1 / kCell;  // whole cells of the area
+    // The cells that are completely inside the area.
+    int first = (area.x0 + kCell - 1) / kCell, last = area.x1 / kCell;
     if (y < area.y0 || y + kCell > area.y1 || first >= last) first = last = 0;
     for (int i = 0; i < first; ++i)
         out[i] = depthOf(i, j);

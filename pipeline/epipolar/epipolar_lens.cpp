@@ -3,8 +3,8 @@
 namespace mfar {
 namespace {
 
-// Rays are valid up to this multiple of the radius of the picture's corners, unless the lens model
-// folds them back before.
+// Largest radius of a valid ray, in units of the radius of the picture's corners. It is smaller if
+// the lens model folds rays back before.
 constexpr double kBeyondPicture = 2;
 
 }  // namespace
@@ -76,7 +76,7 @@ void EpipolarLens::cover(const EpipolarLens& whole, const PixelRect& pixels) {
         rays_ = whole.rays_;
         return;
     }
-    // Reuse the memory of the last part, unless other copies share the table.
+    // Reuses the memory of the last part, unless copies of this lens share it.
     if (rays_.use_count() > 1) rays_ = std::make_shared<Rays>();
     const auto take = [&](const std::vector<float>& from, std::vector<float>& to) {
         to.clear();

@@ -13,9 +13,9 @@ namespace mfar {
 /// Returns the largest radius of the rays (x/z, y/z) through the picture's corners.
 [[nodiscard]] double cornerRadius(const CameraModel& camera);
 
-/// Returns the largest radius up to which the lens's radial distortion does not fold rays back. It
-/// is searched between `picture`, the radius of the picture's corners, and `beyond` times that
-/// radius.
+/// Returns the rim of a lens: the largest radius of rays up to which the radial distortion does not
+/// fold rays back. It is searched between `picture`, the radius of the picture's corners, and
+/// `beyond` times that radius.
 [[nodiscard]] double rimOf(const CameraModel& camera, double picture, double beyond);
 
 /// The rays of a camera's pixels at one pyramid level, and where a translation of the camera moves
@@ -32,7 +32,8 @@ public:
     /// the size up.
     EpipolarLens(const CameraModel& camera, int level);
 
-    /// Makes this a lens for a part of the pixels of `whole`.
+    /// Makes this the lens of a picture that consists of the rectangle `pixels` of the picture of
+    /// `whole`.
     void cover(const EpipolarLens& whole, const PixelRect& pixels);
 
     [[nodiscard]] Size size() const { return size_; }
@@ -41,7 +42,7 @@ public:
     /// The rays of all pixels, row-major.
     [[nodiscard]] const std::vector<float>& raysX() const { return rays_->x; }
     [[nodiscard]] const std::vector<float>& raysY() const { return rays_->y; }
-    /// The lens in the form that SIMD kernels need.
+    /// The lens in the form that the SIMD code needs.
     [[nodiscard]] const simd::Lens& lens() const { return lens_; }
 
     struct Point {
@@ -50,7 +51,7 @@ public:
     /// Maps a ray (x / z, y / z) to a pixel of this level, with the lens's distortion. Rays beyond
     /// the rim of the lens are moved to the rim, so that distortion never folds them back.
     [[nodiscard]] Point project(float x, float y) const {
-        // No branch, so that the compiler can vectorize loops over pixels.
+        // Written without a branch, so that the compiler can vectorize loops over pixels.
         const float r2 = x * x + y * y;
         const float c = std::sqrt(lens_.rim2 / std::max(r2, lens_.rim2));
         x *= c;
@@ -64,8 +65,8 @@ public:
 
     /// Returns the row-major index of the pixel that contains a point; -1 outside the picture.
     [[nodiscard]] int pixelAt(Point p) const {
-        // Truncate instead of rounding, because the oldest supported x86 CPUs have no rounding
-        // instruction.
+        // Adds 0.5 and truncates, because the oldest supported x86 CPUs have no instruction that
+        // rounds.
         const float u = p.x + 0.5F, v = p.y + 0.5F;
         const bool inside = u >= 0 && v >= 0 && u < static_cast<float>(size_.width) &&
                             v < static_cast<float>(size_.height);

@@ -1,11 +1,12 @@
-// The parts of EpipolarSearch that work on labels along epipolar lines: matching costs, and
-// positions between labels.
+// The parts of EpipolarSearch that work on labels (candidates of s) along epipolar lines: matching
+// costs, and values between two labels.
 #include "pipeline/epipolar/epipolar_search.h"
 
 namespace mfar {
 namespace {
 
-constexpr double kNoSlack = 0.5;  // [px of a level]; see EpipolarSearch::normalError()
+constexpr double kNoSlack = 0.5;  // largest error that needs no slack [px of the pyramid level];
+                                  // see normalError()
 
 simd::LabelRow rowOf(const EpipolarLens& lens, int y) {
     const auto width = static_cast<std::size_t>(lens.size().width), first = y * width;

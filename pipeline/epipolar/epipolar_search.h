@@ -22,64 +22,68 @@ namespace mfar {
 /// camera, but never scaled up.
 [[nodiscard]] CameraModel atScaleOf(const StereoRig& rig);
 
-/// Dense matching of a video frame with a still whose relative pose is known. Searches along each
-/// pixel's epipolar line, from coarse to fine, with a census cost and semi-global smoothness. Runs
-/// on the CPU, without GL.
+/// Matches every pixel of a video frame with a still whose relative pose is known. Searches along
+/// each pixel's epipolar line, from coarse to fine, with a census cost and semi-global smoothness.
+/// Runs on the CPU, without GL.
 class EpipolarSearch {
 public:
     /// Throws std::invalid_argument if an option is out of range.
     EpipolarSearch(const StereoRig& rig, std::shared_ptr<Workers> workers,
                    const EpipolarOptions& options = {});
 
-    /// Takes effect with the next run, but only for options that may change between frames, see
-    /// changed() in flow_options.h. Throws std::invalid_argument if an option is out of range.
+    /// Takes over the options that may change between frames (see changed() in flow_options.h),
+    /// from the next run on. Throws std::invalid_argument if an option is out of range.
     void setOptions(const EpipolarOptions& options) { options_ = changed(options_, options); }
 
     /// Sets the still as its sensor delivered it.
     void setStill(const ImageView& still);
-    /// As above, for the luma of a still.
+    /// Like the other setStill(), for the luma of a still.
     void setStill(const Rows<const std::uint8_t>& still);
 
-    /// From now on, only these pixels of the video are searched; the area is widened to a grid of a
-    /// few pixels. Initially the area is the whole picture.
+    /// From now on, only these pixels of the video are matched. The area is widened to a grid of a
+    /// few pixels. Initially it is the whole picture.
     void setArea(const PixelRect& pixels);
     [[nodiscard]] const PixelRect& area() const { return area_; }
     /// The lens for the video's whole picture.
     [[nodiscard]] const EpipolarLens& videoLens() const { return lenses_.front(); }
 
-    /// `video`: the whole frame. `T_still_video`: from video camera coordinates at the frame's time
-    /// to still camera coordinates at the still's time, in any unit of length. `covariance`: of a
-    /// small motion x in T_still_video * exp(x). If it is given, the pose is first refined from the
-    /// pictures; otherwise the pose is taken as exact. `predicted`: approximate s of every cell of
-    /// 4x4 pixels in the area, row-major. If it is given, the coarser levels are skipped, because
-    /// they would only find these values. Returns false, and a field of zeros, if the pose is
-    /// invalid (soundMotion()) or no part of the still can show the area.
+    /// Matches the pixels of the area. `video`: the whole frame. `T_still_video`: transforms video
+    /// camera coordinates at the frame's time to still camera coordinates at the still's time, in
+    /// any unit of length. `covariance`: covariance of a small motion x in T_still_video * exp(x).
+    /// If it is given, the pose is first refined from the pictures; otherwise the pose counts as
+    /// exact. `predicted`: approximate s of every cell of 4x4 pixels in the area, row-major. If it
+    /// is given, the coarser pyramid levels are skipped, because they would only find these values.
+    /// Returns false, and inverseDepth() is zero, if the pose is invalid (soundMotion()) or no part
+    /// of the still can show the area.
     bool run(const Rows<const std::uint8_t>& video, const RigidTransform& T_still_video,
              const std::optional<Matrix6>& covariance = std::nullopt,
              std::span<const float> predicted = {});
 
-    /// The T_still_video whose epipolar lines were searched; refinement() tells how it was refined.
+    /// The T_still_video whose epipolar lines were searched; see refinement() for how it was
+    /// refined.
     [[nodiscard]] const RigidTransform& pose() const { return pose_; }
     [[nodiscard]] const PoseRefinement& refinement() const { return refinement_; }
-    /// Expected distance of matches from their epipolar lines [px]. Levels where it exceeds half a
-    /// pixel also search one pixel to both sides of each line.
+    /// Expected distance of matches from their epipolar lines [px]. On pyramid levels where it
+    /// exceeds half a pixel, one pixel to both sides of each line is searched, too.
     [[nodiscard]] double normalError() const { return normalError_; }
 
-    /// s [1/unit of length] of each pixel of the area, see EpipolarLens. It is negative where noise
-    /// or errors of the pose move the best match beyond infinity.
+    /// s [1/unit of length] of each pixel of the area, see EpipolarLens. It is negative where,
+    /// because of noise or errors of the pose, the best match is beyond infinity.
     [[nodiscard]] const std::vector<float>& inverseDepth() const { return inverseDepth_; }
     /// Largest motion of any pixel along its epipolar line [px] per unit of inverseDepth(); zero if
-    /// there is no parallax: then nothing was searched.
+    /// there is no parallax. Nothing was searched then.
     [[nodiscard]] double pixelsPerUnit() const { return pixelsPerUnit_; }
-    /// Translation of points from the frame to the still, in the frame's orientation.
+    /// Translation of points from the frame's camera to the still's camera, in the frame's
+    /// orientation.
     [[nodiscard]] const Eigen::Vector3f& translation() const { return translation_; }
-    /// Number of labels compared at the finest level; zero if nothing was searched.
+    /// Number of labels (candidates of s) that were compared per pixel at the finest pyramid level;
+    /// zero if nothing was searched.
     [[nodiscard]] int labels() const { return labels_; }
 
 private:
     struct Level {
         EpipolarLens lens;
-        PixelOffset origin;  // first pixel of the still's canvas [px of the lens]
+        PixelOffset origin;  // position of the drawn still's first pixel [px of the lens]
         LumaImage video, still, smoothVideo, smoothStill;
         std::vector<std::uint8_t> seen;
         std::vector<std::uint32_t> videoCensus, stillCensus;
@@ -89,7 +93,7 @@ private:
         [[nodiscard]] TurnedPair pair() const { return {lens, origin, video, still, seen}; }
     };
 
-    /// Draws the still at the first `levels` levels, as seen in the frame's orientation.
+    /// Draws the still at the finest `levels` pyramid levels, as seen in the frame's orientation.
     [[nodiscard]] bool place(const RigidTransform& T_still_video, int levels);
     [[nodiscard]] bool turnStill(const Eigen::Matrix3d& R_still_video, int levels);
     [[nodiscard]] bool matchAll(const std::optional<Matrix6>& covariance,
@@ -103,8 +107,8 @@ private:
     void refine(const Matrix6& covariance, std::span<const float> predicted);
     void prepare(int index);
     /// Approximate labels (steps of s, see simd::LabelLines), either predicted or found at the next
-    /// coarser level of the pyramid. A label times `scale` is a label of the finer level. Each
-    /// value covers 2^shift pixels of the finer level along each axis.
+    /// coarser pyramid level. `scale`: a label times this is a label of the finer pyramid level.
+    /// `shift`: each value covers 2^shift pixels of the finer pyramid level along each axis.
     struct Coarser {
         const std::vector<float>& labels;
         Size size;
@@ -121,7 +125,7 @@ private:
     EpipolarOptions options_;
     CameraModel whole_, video_, still_;  // video_: the camera of the area; still_: see atScaleOf()
     PixelRect area_;
-    std::vector<EpipolarLens> lenses_;  // one per level, for the whole picture
+    std::vector<EpipolarLens> lenses_;  // one per pyramid level, for the whole picture
     std::shared_ptr<Workers> workers_;
     TurnedPicture turned_;
     std::vector<Level> levels_;

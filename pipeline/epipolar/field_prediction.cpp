@@ -8,7 +8,7 @@
 namespace mfar {
 namespace {
 
-constexpr int kCellLevel = 2;  // pyramid level of cells of 4x4 pixels
+constexpr int kCellLevel = 2;  // pyramid level whose pixels are cells of 4x4 pixels
 constexpr float kUnknown = -1e9F;
 // Widest gap that is filled at the picture's border and at depth edges [cells]. It allows motions
 // of 12 px per frame.
@@ -31,7 +31,8 @@ std::span<const float> FieldPrediction::in(const RigidTransform& T_still_frame, 
     return fillGaps() ? std::span<const float>(landed_) : std::span<const float>();
 }
 
-// Points are homogeneous, (x, y, z, s), so distant points have s near zero.
+// Moves the points of the kept cells to the new pose. Points are homogeneous, (x, y, z, s), so that
+// s is near zero for distant points.
 void FieldPrediction::land(const RigidTransform& T_still_frame, double unit) {
     RigidTransform T_still_next = T_still_frame, T_still_last = keptPose_;
     T_still_next.translation *= unit / unit_;
@@ -62,7 +63,8 @@ void FieldPrediction::land(const RigidTransform& T_still_frame, double unit) {
     }
 }
 
-// An area that a depth edge uncovers takes the depth of the farthest surface next to it.
+// Fills cells on which nothing landed. An area that comes into view beside a depth edge gets the
+// depth of the farthest surface next to it. Returns false if a gap is too wide.
 bool FieldPrediction::fillGaps() {
     const Size size = cells_.size();
     for (int round = 0; round < kWidestGap; ++round) {

@@ -9,10 +9,10 @@
 namespace mfar {
 namespace {
 
-// Upper limit of the steps across an epipolar line [px of the searched level].
+// Largest number of steps across an epipolar line [px of the searched pyramid level].
 constexpr int kMostSteps = 8;
 
-/// Matches single patches: searches at half size and refines at full size.
+/// Matches one patch at a time: searches it at half size and refines the match at full size.
 class PatchSearch {
 public:
     PatchSearch(const TurnedPair& full, const TurnedPair& half, const PatchPrior& prior)
@@ -29,8 +29,8 @@ public:
         if (!placed) return std::nullopt;
         Eigen::Vector2d seen = toFull(*placed + originOf(half_));
         if (scale_ > 1) {
-            // The patch with the same middle at full size. It may have too little texture of its
-            // own; then the match at half size is kept.
+            // The patch at full size that has the same middle. If it has too little texture, the
+            // match at half size is kept.
             const PatchPlace inner{2 * place.x + kPatch / 2, 2 * place.y + kPatch / 2};
             if (const auto finer = atFull_.polish(inner, seen - originOf(full_)))
                 seen = *finer + originOf(full_);
@@ -81,8 +81,8 @@ private:
         out.middle = expected - originOf(half_);
         const Eigen::Vector2d across(-out.along.y(), out.along.x());
         out.acrossSteps = stepsFor(across.dot(spread * across));
-        // A very short search along the line does not cover the error of the prior pose in that
-        // direction, so it is extended.
+        // A very short search along the line may be shorter than the error of the prior pose in
+        // this direction. It is then extended to this error.
         if (out.alongSteps <= 1) out.alongSteps = stepsFor(out.along.dot(spread * out.along));
         return out;
     }

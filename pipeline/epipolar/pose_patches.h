@@ -13,17 +13,19 @@ namespace mfar {
 /// data that must outlive it.
 struct TurnedPair {
     const EpipolarLens& lens;  ///< lens of the frame
-    PixelOffset origin;        ///< camera pixel that the still's first pixel corresponds to
+    PixelOffset origin;        ///< pixel of the frame's camera at which the still's first pixel
+                               ///< lies
     const LumaImage& video;
     const LumaImage& still;
     const std::vector<std::uint8_t>& seen;  ///< 1 where a pixel of the still is valid
 };
 
-/// Prior knowledge for matching patches.
+/// What is known before patches are matched.
 struct PatchPrior {
     const CameraModel& camera;  ///< the frame's camera
     const PosePrior& pose;
-    double noise;          ///< standard deviation of a pixel, in frame and still [grey levels]
+    double noise;          ///< standard deviation of the noise of a pixel, in frame and still [grey
+                           ///< levels]
     double pixelsPerUnit;  ///< largest motion of a pixel per unit of s; 0: no parallax
     /// Returns s at a pixel of the frame. Its error is at most kAlongSlack pixels along the
     /// epipolar line.
@@ -31,10 +33,10 @@ struct PatchPrior {
 };
 inline constexpr int kAlongSlack = 6;
 
-/// Matches the textured patches of a frame with the still. First it searches at half size: along
-/// the epipolar lines as far as the error of `nearness` allows, and across them up to three
-/// standard deviations of the prior. Then it refines the matches at full size. `half` and `full`
-/// may be the same level.
+/// Matches the textured patches of a frame with the still. First they are searched at half size:
+/// along the epipolar lines within the error of `nearness`, and across them within three standard
+/// deviations of the prior pose. Then the matches are refined at full size. `half` and `full` may
+/// be the same pyramid level.
 [[nodiscard]] std::vector<RayMatch> matchPatches(const TurnedPair& full, const TurnedPair& half,
                                                  const PatchPrior& prior, Workers& workers);
 

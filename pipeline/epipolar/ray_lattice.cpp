@@ -6,7 +6,8 @@
 namespace mfar {
 namespace {
 
-// Extra points on each side of the requested ones, because the next frame often needs some of them.
+// Number of additional points on each side of the requested ones. The next frame often needs some
+// of them.
 constexpr int kRoom = 4;
 
 }  // namespace

@@ -13,18 +13,18 @@ struct PixelOffset {
 
 [[nodiscard]] bool isSame(const CameraModel& a, const CameraModel& b);
 
-/// Rays of every kStep-th pixel of a camera, also outside its picture. Each ray is computed when it
-/// is first requested. Cameras share a lattice if they differ only in size and in whole steps of
-/// their principal point.
+/// Rays of every kStep-th pixel of a camera, also outside its picture. Rays are computed when they
+/// are first requested, and kept. They are also used for a camera that differs only in its size and
+/// in the position of its principal point, if that differs by whole steps.
 class RayLattice {
 public:
     static constexpr int kStep = 8;  ///< [px]
 
-    /// Points [x0, x1) x [y0, y1) of the lattice, counted in steps. Valid until the next call. A
-    /// ray is NaN if the lens maps no ray to its pixel.
+    /// The rays of points [x0, x1) x [y0, y1) of the lattice, counted in steps. Valid until the
+    /// next call of part(). A ray is NaN if the lens maps no ray to its pixel.
     struct Part {
         const float *x, *y;  ///< ray of point (x0, y0)
-        int pitch;           ///< from one row to the next [floats]
+        int pitch;           ///< distance between two rows [floats]
     };
     [[nodiscard]] Part part(const CameraModel& camera, const PixelRect& points);
 

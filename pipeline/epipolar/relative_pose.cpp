@@ -16,19 +16,20 @@ using Matrix26 = Eigen::Matrix<double, 2, 6>;
 using Matrix23 = Eigen::Matrix<double, 2, 3>;
 
 constexpr int kMostSolves = 15;
-constexpr double kSettled = 0.01;  // [px]; steps shorter than this end the refinement
+constexpr double kSettled = 0.01;  // [px]; a step shorter than this ends the refinement
 constexpr int kFewest = 16;
 constexpr double kFewestShare = 0.4;
-// A match has no weight if its error exceeds this number of standard deviations.
+// A match has no weight if its error is at least this number of standard deviations.
 constexpr double kTukey = 4.685;
-// Standard deviation of a good match [px]. The scale of the weights is at least half of it.
+// Standard deviation of the error of a good match [px]. The scale of the robust weights is at least
+// half of it.
 constexpr double kMatchError = 0.3;
-// Inliers lie within this distance of their epipolar lines [px].
+// Largest distance of an inlier from its epipolar line [px].
 constexpr double kExplained = 1;
 constexpr double kNotExplained = 1e6;  // [px]; error of a match that no pose explains
 
-/// Rotation and translation of points, relative to the prior's orientation and in its unit of
-/// length.
+/// Estimated rotation and translation of points, relative to the orientation of the prior pose. The
+/// unit of length is Solver::unit_.
 struct Estimate {
     Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
     Eigen::Vector3d translation;
@@ -36,8 +37,9 @@ struct Estimate {
 
 /// Residual of a match under an estimated pose, at the inverse depth that fits best.
 struct Residual {
-    Eigen::Vector2d error;  // [rays]
-    Matrix26 jacobian;      // by rotation and translation, with inverse depth eliminated
+    Eigen::Vector2d error;  // predicted minus matched ray (x/z, y/z)
+    Matrix26 jacobian;      // derivatives by rotation and translation, with inverse depth
+                            // eliminated
 };
 
 Matrix23 rayOfPoint(const Eigen::Vector2d& ray, double z) {
@@ -47,8 +49,8 @@ Matrix23 rayOfPoint(const Eigen::Vector2d& ray, double z) {
 }
 
 // Near the epipole, a change of depth hardly moves the point, so an unlimited depth could explain
-// any error. Therefore the inverse depth is held near zero there, as if it were known to be zero
-// with a standard deviation of one unit.
+// any error. The inverse depth therefore has a prior that keeps it near zero there: its mean is
+// zero, and its standard deviation is one per unit of length.
 std::optional<Residual> residualOf(const RayMatch& match, const Estimate& at, double focal) {
     const double held = std::pow(kMatchError / focal, 2);
     const Eigen::Vector3d turned = at.rotation * match.video.homogeneous();
@@ -76,8 +78,8 @@ double quantileOf(std::vector<double> values, double quantile) {
     return values[place];
 }
 
-/// Robust Gauss-Newton in normalised units: radians for rotation, the length of the prior's
-/// translation for translation.
+/// Robust Gauss-Newton solver with normalised units: rotations are in radians, and translations in
+/// lengths of the prior's translation.
 class Solver {
 public:
     Solver(std::span<const RayMatch> matches, const PosePrior& prior, double focal)
@@ -89,7 +91,7 @@ public:
         Vector6 scale = Vector6::Ones();
         scale.tail<3>().setConstant(1 / unit_);
         Matrix6 covariance = scale.asDiagonal() * prior.covariance * scale.asDiagonal();
-        // Quantities that are reported as exact get a standard deviation of a millionth.
+        // Unknowns that the prior gives as exact get a standard deviation of a millionth.
         covariance.diagonal().array() += 1e-12;
         const Eigen::LLT<Matrix6> factors(covariance);
         usable_ = covariance.allFinite() && prior.translation.allFinite() &&
@@ -118,13 +120,14 @@ public:
             const double error = r ? focal_ * r->error.norm() : kNotExplained;
             errors_.push_back(error < kNotExplained ? error : kNotExplained);
         }
-        // This quantile is below one half, so that the scale remains right even if more than half
-        // of the matches are outliers.
-        constexpr double kQuantile = 0.4, kNormal = 0.5244;  // the quantile of |N(0, 1)|
+        // This quantile is below one half, so that the scale is still correct if slightly more than
+        // half of the matches are outliers.
+        // kNormal: this quantile of the absolute value of a standard normal variable.
+        constexpr double kQuantile = 0.4, kNormal = 0.5244;
         scale_ = std::clamp(quantileOf(errors_, kQuantile) / kNormal, 0.5 * kMatchError, scale_);
     }
 
-    /// Returns false if no step is possible.
+    /// Takes a Gauss-Newton step. Returns false if no step is possible.
     bool step() {
         Matrix6 A = information_;
         Vector6 b = -information_ * motion_;
@@ -158,7 +161,7 @@ private:
     Estimate at_;
     Vector6 motion_ = Vector6::Zero();
     std::vector<std::optional<Residual>> residuals_;
-    std::vector<double> errors_;    // [px]
+    std::vector<double> errors_;    // error of each match [px]
     double scale_ = kNotExplained;  // standard deviation of the inliers [px]
 };
 

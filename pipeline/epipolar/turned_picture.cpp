@@ -11,14 +11,15 @@ namespace {
 
 static_assert(TurnedPicture::kAlign == simd::kTurnedCell);
 
-// A picture's ray (x, y, 1) is treated as outside the camera's view if its rotated z is less than
-// this.
+// A ray (x, y, 1) of the picture counts as outside the camera's view if its z after the rotation is
+// not larger than this.
 constexpr double kBeside = 0.2;
-// Number of points along each side of the picture. The hull of their rays bounds the visible part.
+// Number of points along each side of the picture. The rays through these points bound the visible
+// part.
 constexpr int kSidePoints = 16;
 
-// Rays are followed up to this multiple of the radius of the picture's corners, unless the lens
-// model folds them back before.
+// Largest radius of a valid ray, in units of the radius of the picture's corners. It is smaller if
+// the lens model folds rays back before.
 constexpr double kFarthestRay = 4;
 
 double rimOf(const CameraModel& camera) {
@@ -60,15 +61,15 @@ void TurnedPicture::know(const CameraModel& camera, const CameraModel& source) {
     }
 }
 
-/// Returns the bounds of the part of the source's picture that the camera sees, within `whole`.
-/// Empty if the camera sees nothing of it.
+/// Returns the bounds [px of the camera], within `whole`, of the part of the source's picture that
+/// the camera sees. Empty if the camera sees nothing of it.
 Eigen::AlignedBox2d TurnedPicture::boundsOf(const Eigen::Matrix3d& R_source_camera,
                                             const Eigen::AlignedBox2d& whole) const {
     Eigen::AlignedBox2d bounds;
     bool before = false;
     for (const Eigen::Vector2d& ray : known_.outline) {
         const Eigen::Vector3d turned = R_source_camera.transpose() * ray.homogeneous();
-        // A ray beside or behind the camera: assume that the whole canvas may be visible.
+        // If a ray is beside or behind the camera, the whole of `whole` counts as visible.
         if (!(turned.z() > kBeside)) {
             bounds.extend(whole);
             continue;

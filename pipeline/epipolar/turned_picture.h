@@ -13,13 +13,14 @@
 
 namespace mfar {
 
-/// A picture as another camera with the same optical centre would show it. The canvas may extend
-/// beyond that camera's own picture.
+/// Draws a picture as another camera with the same optical centre would show it. The drawn picture
+/// (the canvas) may extend beyond that camera's own picture.
 class TurnedPicture {
 public:
-    /// Places the canvas. It holds the part of the picture of `source` that `camera` would see if
-    /// the picture of `camera` were extended on each side by `beyond` times its width.
-    /// `R_source_camera` rotates rays. The size is 0x0 if there is no such part.
+    /// Sets size and position of the canvas. It contains the part of the picture of `source` that
+    /// `camera` would see if the picture of `camera` were extended on each side by `beyond` times
+    /// its width. `R_source_camera` rotates rays from `camera` to `source`. The size is 0x0 if
+    /// there is no such part.
     void place(const CameraModel& camera, const CameraModel& source,
                const Eigen::Matrix3d& R_source_camera, double beyond);
 
@@ -28,13 +29,14 @@ public:
     [[nodiscard]] PixelOffset origin() const { return origin_; }
     static constexpr int kAlign = RayLattice::kStep;
 
-    /// Fills the canvas from the source's picture, bilinearly. `seen` becomes 1 where the picture
-    /// covers the canvas, else 0.
+    /// Draws `picture`, the picture of the source, into the canvas `out`, bilinearly. `seen`
+    /// becomes 1 where the picture covers the canvas, else 0.
     void draw(const LumaImage& picture, Workers& workers, LumaImage& out,
               std::vector<std::uint8_t>& seen) const;
 
 private:
-    /// Properties of a pair of cameras, which are kept while the pair stays the same.
+    /// A pair of cameras, and values that depend only on them. The values are kept as long as the
+    /// pair stays the same.
     struct Cameras {
         CameraModel camera, source;
         double rim = 0, sourceRim = 0;         ///< largest radius of a valid ray of each camera
@@ -50,7 +52,8 @@ private:
     Cameras known_;
     RayLattice lattice_;
     int gridWidth_ = 0;
-    std::vector<float> gridX_, gridY_;  // source pixel of every kAlign-th canvas pixel
+    std::vector<float> gridX_, gridY_;  // position in the source's picture of every kAlign-th
+                                        // canvas pixel [px]
 };
 
 }  // namespace mfar

@@ -8,9 +8,9 @@
 
 namespace mfar {
 
-/// Edge of the cells of flow fields [px].
+/// Width and height of a cell of a flow field [px].
 inline constexpr int kCell = 4;
-inline constexpr int kCellsPerTile = 4;  ///< along each axis; tiles are those of plan/tiles.h
+inline constexpr int kCellsPerTile = 4;  ///< cells of a tile (plan/tiles.h) along each axis
 
 /// Quotient of two positive numbers, rounded up.
 [[nodiscard]] constexpr int divideUp(int a, int b) {
@@ -22,8 +22,9 @@ inline constexpr int kCellsPerTile = 4;  ///< along each axis; tiles are those o
     return {divideUp(picture.width, kCell), divideUp(picture.height, kCell)};
 }
 
-/// Bilinear look-up at pixel (x, y) in a field that was read back: cells of 4x4 pixels with four
-/// channels. Beyond the centres of the outermost cells, returns the value of the nearest cell.
+/// Interpolates one channel of a field bilinearly at pixel (x, y). `cells`: one entry of four
+/// channels per cell of 4x4 pixels. Beyond the centres of the outermost cells, returns the value of
+/// the nearest cell.
 [[nodiscard]] inline float sampleCells(const std::vector<float>& cells, Size count, int channel,
                                        double x, double y) {
     const double gx = std::clamp((x + 0.5) / 4 - 0.5, 0.0, count.width - 1.0);

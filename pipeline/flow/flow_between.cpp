@@ -10,7 +10,8 @@ namespace mfar {
 
 std::vector<float> flowBetween(const ImageView& a, const ImageView& b) {
     if (!(a.size == b.size) || a.size.width < 16 || a.size.height < 16)
-        throw std::invalid_argument("flow needs two pictures of the same size, 16x16 at least");
+        throw std::invalid_argument(
+            "the flow needs two pictures of the same size, at least 16x16 pixels");
     requireSound(a, "first picture");
     requireSound(b, "second picture");
     gpu::PictureTexture first, second;

@@ -43,27 +43,27 @@ struct LumaImage {
 /// be stretched. Sets the size of `out`.
 void lumaOf(const ImageView& picture, LumaImage& out);
 
-/// Luma of the picture at the same or a smaller size. Each pixel is the mean of the area that it
-/// covers.
+/// Computes the luma of the picture at `size`, which must not be larger than the picture. Each
+/// pixel of `out` is the mean of the area of the picture that it covers.
 void shrinkLuma(const ImageView& picture, Size size, Workers& workers, LumaImage& out);
 
-/// The same for a picture that is already luma.
+/// Like the other shrinkLuma(), for a picture that is luma already.
 void shrinkLuma(const Rows<const std::uint8_t>& luma, Size size, Workers& workers, LumaImage& out);
 
-/// Copies the given pixels of a picture, which must contain them all.
+/// Copies the rectangle `pixels` of a picture. It must be completely inside the picture.
 void cut(const Rows<const std::uint8_t>& picture, const PixelRect& pixels, LumaImage& out);
 
-/// Halves the size, rounded up. Each pixel is the mean of 2x2 pixels; the last column and row are
-/// repeated at an odd size.
+/// Halves the size, rounded up. Each pixel is the mean of 2x2 pixels. If the width or height is
+/// odd, the last column or row is repeated.
 void halve(const LumaImage& fine, LumaImage& coarse);
 
 /// Smooths with a three-tap filter along both axes. `side` is the weight of a neighbour, in [0,
 /// 1/3]. `in` and `out` must differ.
 void smooth(const LumaImage& in, float side, LumaImage& out);
 
-/// Standard deviation of the picture's noise [grey levels]. It is measured in the quietest fifth of
-/// the 8x8 blocks. The mask that is applied first suppresses planes, and steps and lines along the
-/// axes (mask from Immerkaer, Fast noise variance estimation, 1996).
+/// Standard deviation of the picture's noise [grey levels]. A mask (Immerkaer, Fast noise variance
+/// estimation, 1996) first suppresses planes, and steps and lines along the axes. The noise is then
+/// that of the block of 8x8 pixels at the 20 % quantile of all blocks.
 [[nodiscard]] double noiseOf(const Rows<const std::uint8_t>& picture);
 
 }  // namespace mfar

@@ -12,11 +12,12 @@ using params::kLumaMarginWords;
 using params::kLumaSmoothing;
 using params::LumaLevel;
 
-/// Words after the last level. They are needed because a row of a patch reads three words from any
-/// column on.
+/// Number of unused words after the last pyramid level. They are needed because reading a row of a
+/// patch always reads three words.
 inline constexpr int kLumaSpareWords = 2;
 
-/// Width of a box [video px] that has the same variance as a pixel and the smoothing together.
+/// Width of a box filter [video px] that blurs as much (has the same variance) as the area of a
+/// pixel and the smoothing by kLumaSmoothing together.
 [[nodiscard]] double lumaBoxWidening();
 
 /// Layout of the pyramid levels for a picture of `size`, finest first. Each level has half the size

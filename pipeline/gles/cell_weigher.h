@@ -9,29 +9,33 @@
 
 namespace mfar {
 
-/// Flow and luma on the GPU, the inputs of CellWeigher.
+/// Inputs of CellWeigher: luma pyramids and flow on the GPU.
 struct WeighInput {
     const std::vector<LumaLevel>&video, &still;
     const gpu::Buffer& words;
     const gpu::Buffer& cells;
-    int first;               ///< forward field's index in `cells`; the backward field follows
-    Size forward, backward;  ///< [cells]
+    int first;               ///< index in `cells` of the forward field's first cell; the backward
+                             ///< field follows that field
+    Size forward, backward;  ///< sizes of both fields [cells]
     int backwardLevel;       ///< pyramid level of the backward field
-    bool errorsGiven;        ///< the backward field is replaced by two-way errors
+    bool errorsGiven;        ///< two-way errors replace the backward field
 };
 
-/// Computes the weight of the still in each cell from the match, and the photometric gain between
-/// the sensors.
+/// Computes the weight of the still in each cell from the cell's match and from the photometric
+/// gain between the sensors, which it measures.
 class CellWeigher {
 public:
     explicit CellWeigher(const StereoRig& rig);
 
-    /// Does nothing if no tile has changed.
+    /// Computes weighed(), lookUps() and trust(). Does nothing if no tile has changed.
     void run(const WeighInput& in, const TileBuffer& tiles);
 
-    [[nodiscard]] const gpu::Texture& weighed() const { return weighed_; }  ///< Rgba32F
-    [[nodiscard]] const gpu::Texture& lookUps() const { return lookUps_; }  ///< Rgba16F, linear
-    [[nodiscard]] const gpu::Texture& trust() const { return trust_; }      ///< Rgba8, linear
+    /// WeighedCell of each cell; Rgba32F.
+    [[nodiscard]] const gpu::Texture& weighed() const { return weighed_; }
+    /// LookUpCell of each cell; Rgba16F, linear filter.
+    [[nodiscard]] const gpu::Texture& lookUps() const { return lookUps_; }
+    /// TrustCell of each cell; Rgba8, linear filter.
+    [[nodiscard]] const gpu::Texture& trust() const { return trust_; }
 
 private:
     void assess(const WeighInput& in, const TileBuffer& tiles);

@@ -83,8 +83,8 @@ DetailPainter::TileParams DetailPainter::tileParams() const {
     return p;
 }
 
-// Drawing a tile also reads sharpened pixels of neighbouring tiles. Therefore all tiles are
-// sharpened after frames without sharpening.
+// Drawing a tile also reads sharpened pixels of neighbouring tiles. After frames that were not
+// sharpened, all tiles are therefore sharpened.
 void DetailPainter::sharpen(const TileParams& params, const gpu::Texture& video,
                             const Matched& matched, const TileWork& work) {
     sharpen_.run(work.drawsWhole() || sharpenedIsOld_, params,
@@ -105,7 +105,8 @@ void DetailPainter::enlargeLearned(const TileParams& params, const gpu::Texture&
     learned_->run(video, &seen, tiles, filters, params, list(List::All));
 }
 
-// First half of the enlargement: enlarges along columns. The composites read the result.
+// First half of the enlargement: enlarges along columns. The programs composite_*.frag read the
+// result.
 void DetailPainter::enlargeColumns(const TileParams& params, const gpu::Texture& video,
                                    const Matched* matched, const TileBuffer& tiles,
                                    const DetailOptions& options) {
@@ -161,10 +162,10 @@ PixelRect DetailPainter::outputOf(const PixelRect& tiles) const {
 void DetailPainter::draw(const gpu::Texture& video, const Matched* matched, const TileBuffer& tiles,
                          const DetailOptions& options) {
     const TileWork& work = tiles.work();
-    // After two frames at rest, both buffers of counters hold the values of a frame at rest.
+    // After two frames without a change, both draws_ hold the counters of such a frame.
     restingFrames_ = work.changed == 0 ? restingFrames_ + 1 : 0;
     if (restingFrames_ <= 2) classify(matched, tiles, options);
-    // Even an empty draw would compile its shader.
+    // Returns before any draw, because even an empty draw would compile its shader.
     if (restingFrames_ > 0) return;
 
     const TileParams p = tileParams();
@@ -188,8 +189,8 @@ void DetailPainter::draw(const gpu::Texture& video, const Matched* matched, cons
         drawSecond(p, video, *matched, *filtersOf(options));
 }
 
-// Draws over the detail of the first still. The first still's detail fades where the second still
-// has more weight.
+// Draws the second still over the detail of the first one, in the tiles where the second still has
+// more weight. The detail of the first still is faded out there.
 void DetailPainter::drawSecond(const TileParams& params, const gpu::Texture& video,
                                const Matched& matched, const FilterBank& filters) {
     const Matched& second = *matched.second;

@@ -14,8 +14,8 @@
 
 namespace mfar {
 
-/// Combines the video, a still and weights into the high-resolution picture. It draws only tiles
-/// that the plan marks as changed. Other tiles keep their pixels from earlier frames.
+/// Combines the video, a still and its weights into the high-resolution picture. Draws only tiles
+/// that the TileWork marks as changed. Other tiles keep their pixels from earlier frames.
 class DetailPainter {
 public:
     /// `stillRig` is the rig whose still camera has the resolution of the still's detail and
@@ -24,12 +24,14 @@ public:
 
     /// A still on the GPU and its match with the video.
     struct Matched {
-        const gpu::Texture& still;    ///< raised luma, or in mode Blend the picture; linear filter
-        const gpu::Texture& weighed;  ///< Rgba32F; one texel per cell, as the next two
-        const gpu::Texture& lookUps;  ///< Rgba16F, linear filter
-        const gpu::Texture& trust;    ///< Rgba8, linear filter
-        /// A second still, shown where its weight is larger than the first still's. May be null. It
-        /// is used only in mode Detail with filters.
+        const gpu::Texture& still;    ///< luma with amplified finest detail
+                                      ///< (StillReference::raised()), or in mode Blend the still
+                                      ///< itself; linear filter
+        const gpu::Texture& weighed;  ///< WeighedCell of each cell; Rgba32F
+        const gpu::Texture& lookUps;  ///< LookUpCell of each cell; Rgba16F, linear filter
+        const gpu::Texture& trust;    ///< TrustCell of each cell; Rgba8, linear filter
+        /// A second still, which is shown where its weight is larger than that of the first still;
+        /// null: there is none. Used only in mode Detail with learned filters.
         const Matched* second = nullptr;
     };
     /// Classifies the changed tiles and draws them. If `matched` is null, the tiles are only
@@ -41,16 +43,16 @@ public:
     /// Framebuffer that draws into output(), for overlays.
     [[nodiscard]] const gpu::Framebuffer& target() const { return outputTarget_; }
 
-    /// Counters of the frame before the last drawn frame. Does not wait for the GPU.
+    /// Statistics of the frame before the last one. Does not wait for the GPU.
     [[nodiscard]] TileSummary summaryBefore() const { return summary(1 - current_); }
-    /// Counters of the last frame. Waits for the GPU.
+    /// Statistics of the last frame. Waits for the GPU.
     [[nodiscard]] TileSummary summaryNow() const { return summary(current_); }
     /// Class of each tile in the last frame, row-major. Waits for the GPU.
     [[nodiscard]] std::vector<TileClass> readClasses() const;
 
 private:
     using TileParams = params::DrawTiles;
-    /// Programs for linear enlargement.
+    /// The programs that enlarge the video linearly, along columns and along rows.
     struct Linear {
         Linear()
             : columns("superres_vertical.frag", "#define LINEAR\n"),
@@ -58,14 +60,15 @@ private:
 
         TilePass columns, rows;
     };
-    /// Programs that draw tiles of one class, or the detail of a whole frame.
+    /// Programs that draw the output: enlarged video only, the detail of a whole frame, tiles with
+    /// detail, and plain tiles with detail.
     struct Composites {
         TilePass& enlarged;
         gpu::DrawPass<TileParams>& whole;
         gpu::DrawPass<TileParams>& tiles;
         gpu::DrawPass<TileParams>& plain;
     };
-    /// The buffer that superres_classify.comp writes: draws[] and the counters after it.
+    /// The buffer that superres_classify.comp writes: draws[] and counts[].
     struct DrawBlock {
         std::array<std::array<std::uint32_t, 4>, 5> commands;
         std::array<std::uint32_t, 8> counts;
@@ -98,8 +101,8 @@ private:
     gpu::Buffer classes_, lists_;
     std::array<gpu::Buffer, 2> draws_;
     int current_ = 0, restingFrames_ = 0;
-    std::uint32_t classified_ = 0;  // number of frames classified
-    bool sharpenedIsOld_ = true;    // sharpened_ was not updated in the last frame
+    std::uint32_t classified_ = 0;  // number of the last classified frame
+    bool sharpenedIsOld_ = true;    // true: sharpened_ was not updated in the last frame
     gpu::ComputePass<params::ClassifyTiles> classify_;
     TilePass sharpen_, columnsPass_;
     DetailPasses detailPasses_;

@@ -12,7 +12,7 @@
 namespace mfar {
 namespace {
 
-/// How texels of a format are stored in CPU memory and passed to GL.
+/// How the texels of a format are stored in CPU memory and how they are passed to GL.
 struct Layout {
     GLenum channels, type;
     int bytes;  ///< bytes per texel
@@ -73,7 +73,7 @@ void TextureCopy::upload(const void* data, std::ptrdiff_t pitch) {
     glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
 }
 
-// Four channels are read, because every driver can do this.
+// Always reads four channels, because every driver can do this.
 void TextureCopy::download(void* data, std::ptrdiff_t pitch) {
     const auto [width, height] = texture_->size();
     const Layout layout = layoutOf(texture_->format());
@@ -83,7 +83,7 @@ void TextureCopy::download(void* data, std::ptrdiff_t pitch) {
         glPixelStorei(GL_PACK_ROW_LENGTH, static_cast<GLint>(pitch / layout.bytes));
         glReadPixels(0, 0, width, height, layout.channels, layout.type, data);
         glPixelStorei(GL_PACK_ROW_LENGTH, 0);
-        gpu::checkErrors("TextureCopy");  // after the loss of the context the values stay unchanged
+        gpu::checkErrors("TextureCopy");  // if the GL context was lost, `data` is unchanged
         return;
     }
     const auto row = [&](int y) { return static_cast<std::byte*>(data) + y * pitch; };

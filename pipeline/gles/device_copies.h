@@ -10,21 +10,21 @@
 
 namespace mfar {
 
-/// Entries of a storage buffer, as the GPU copy of a field with one row.
+/// The GPU copy of a field with one row, in a storage buffer.
 class BufferCopy final : public DeviceCopy {
 public:
-    /// Refers to a part of a step's buffer: `count` entries of `entryBytes` bytes, starting with
-    /// entry `first`.
+    /// Refers to a part of a buffer that a step owns: `count` entries of `entryBytes` bytes,
+    /// starting with entry `first`.
     BufferCopy(const gpu::Buffer& buffer, int first, std::size_t count, std::size_t entryBytes)
         : buffer_(&buffer), first_(first), count_(count), entryBytes_(entryBytes) {}
-    /// Allocates a buffer of its own.
+    /// Allocates its own buffer.
     BufferCopy(std::size_t count, std::size_t entryBytes)
         : own_(count * entryBytes), buffer_(&*own_), count_(count), entryBytes_(entryBytes) {}
 
     [[nodiscard]] const gpu::Buffer& buffer() const { return *buffer_; }
     [[nodiscard]] int first() const { return first_; }  ///< index of the first entry
 
-    /// May be called only if the copy has its own buffer.
+    /// May be called only if this object has allocated its own buffer.
     void upload(const void* data, std::ptrdiff_t pitch) override;
     void download(void* data, std::ptrdiff_t pitch) override;
 
@@ -35,15 +35,16 @@ private:
     std::size_t count_, entryBytes_;
 };
 
-/// A texture, as the GPU copy of a field. Texels in CPU memory have one byte for R8, two bytes for
+/// The GPU copy of a field, as a texture. A texel in CPU memory has one byte for R8, two bytes for
 /// Rg8, four bytes for Rgba8, one float for R32F, and four floats for other formats with four
-/// channels. With `floats`, Rgba8 is four floats in [0, 1].
+/// channels. With `floats`, a texel in CPU memory is four floats in [0, 1], and the texture has
+/// format Rgba8.
 class TextureCopy final : public DeviceCopy {
 public:
-    /// Refers to a step's texture, which must outlive this object.
+    /// Refers to a texture that a step owns. The texture must outlive this object.
     explicit TextureCopy(const gpu::Texture& texture, bool floats = false)
         : texture_(&texture), floats_(floats) {}
-    /// Creates a texture of its own.
+    /// Creates its own texture.
     TextureCopy(Size size, gpu::TexelFormat format, gpu::Filter filter, bool floats = false)
         : own_(std::in_place, size, format, filter), texture_(&*own_), floats_(floats) {}
 
@@ -61,7 +62,8 @@ private:
     bool floats_;
 };
 
-/// The field's copy in a storage buffer, which is created if necessary.
+/// Returns the field's copy in a storage buffer. Creates the buffer and uploads the field if
+/// necessary.
 template <class T>
 [[nodiscard]] const BufferCopy& bufferOf(const Field<T>& field) {
     DeviceCopy& copy = field.device([&] {
@@ -71,7 +73,8 @@ template <class T>
     return static_cast<const BufferCopy&>(copy);
 }
 
-/// The field's copy in a texture. If necessary, the texture is created with this format and filter.
+/// Returns the field's copy in a texture. If necessary, creates the texture with this format and
+/// filter, and uploads the field.
 template <class T>
 [[nodiscard]] TextureCopy& textureOf(const Field<T>& field, gpu::TexelFormat format,
                                      gpu::Filter filter = gpu::Filter::Nearest,

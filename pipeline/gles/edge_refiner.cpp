@@ -9,9 +9,10 @@
 namespace mfar {
 namespace {
 
-constexpr int kEdgeGroup = 8;      // workgroup size in each direction, as in the shader
-constexpr int kSharpenGroup = 64;  // workgroup size, as in the shader
-constexpr int kLeastContrast = 3;  // contrast level; the blur of lower levels is not visible
+constexpr int kEdgeGroup = 8;      // width and height of a workgroup, as in warp_edges.comp
+constexpr int kSharpenGroup = 64;  // workgroup size, as in warp_sharpen.comp
+constexpr int kLeastContrast = 3;  // lowest contrast level that is listed; at lower contrast, blur
+                                   // is not visible
 constexpr std::size_t kListedAt = EdgeRefiner::kLevels + 1;
 
 }  // namespace

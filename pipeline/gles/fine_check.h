@@ -8,17 +8,19 @@
 
 namespace mfar {
 
-/// Lowers the weights of cells in which the still does not show the video's finest detail.
+/// Lowers the weights of cells in which the still does not show the video's finest detail; see
+/// params::kFineRoom.
 class FineCheck {
 public:
     /// `stillRig` is the rig whose still camera has the resolution of the still's detail.
     explicit FineCheck(const StereoRig& stillRig);
 
-    /// The fields that CellWeigher computes.
+    /// Textures with the results of CellWeigher.
     struct Weights {
         const gpu::Texture &weighed, &lookUps, &trust;
     };
-    /// `still` is the raised luma with a linear filter.
+    /// Computes weights() from `weights`, the results of CellWeigher for this frame. `still`: luma
+    /// of the still with amplified finest detail, with a linear filter.
     void run(const gpu::Texture& video, const gpu::Texture& still, const Weights& weights,
              const TileBuffer& tiles, const FineMatch& match);
 

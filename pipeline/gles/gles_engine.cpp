@@ -12,7 +12,7 @@ public:
         : setup_(setup), stillRig_(stillFor(setup.output, setup.rig)),
           frame_(setup.rig.video.size) {}
 
-    // The steps of both stills share the compiled programs.
+    // Each still has its own steps. The steps of both stills share the compiled programs.
     std::unique_ptr<StillStep> still() override {
         const gpu::ProgramCache::Use use(programs_);
         return gles::makeStillStep(setup_, frame_);

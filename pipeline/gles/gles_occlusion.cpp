@@ -37,8 +37,8 @@ public:
     }
 
 private:
-    // Uploads the rows with known depths. Also uploads the rows of the last upload, because they
-    // hold old values.
+    // Uploads the rows of `where`, which have known depths, and the rows of the last upload, whose
+    // values are out of date.
     void upload(const InverseDepthField& real, const PixelRect& where) {
         const PixelRect rows = around(uploaded_, where);
         uploaded_ = where;

@@ -15,14 +15,15 @@
 namespace mfar::gles {
 namespace {
 
-/// The still's raised luma. If the SIMD engine made it, the second channel holds the pixel below.
+/// Returns the still's luma with amplified finest detail. If the SIMD engine made it, the texture
+/// has a second channel with the pixel below.
 const gpu::Texture& raisedOf(const StillPictures& still) {
     const auto linear = gpu::Filter::Linear;
     return still.raised.isEmpty() ? textureOf(still.pairs, gpu::TexelFormat::Rg8, linear).texture()
                                   : textureOf(still.raised, gpu::TexelFormat::R8, linear).texture();
 }
 
-/// The GPU copy of a still is the picture; its copy in CPU memory is the luma.
+/// The copies of a still's luma field: on the GPU the whole picture, in CPU memory the luma.
 class StillLumaCopy final : public DeviceCopy {
 public:
     explicit StillLumaCopy(const gpu::PictureTexture& picture) : picture_(picture) {}
@@ -65,7 +66,8 @@ private:
     StillReference still_;
     StillLumaCopy lumaCopy_;
     TextureCopy raisedCopy_;
-    std::optional<TextureCopy> pictureCopy_;  // new for each still, because the texture may change
+    std::optional<TextureCopy> pictureCopy_;  // replaced with each still, because the still's
+                                              // texture may be another one
     StillPictures pictures_;
 };
 
@@ -88,7 +90,8 @@ public:
     }
 
 private:
-    // Stills from the SIMD engine are luma textures, which the shaders read as grey.
+    // Returns the still's picture. If the SIMD engine prepared the still, this is a texture of its
+    // luma, which the shaders read as a grey picture.
     static const gpu::Texture& lumaTexture(const StillPictures& still) {
         DeviceCopy& copy = still.luma.device([&] {
             return std::make_unique<TextureCopy>(still.luma.size(), gpu::TexelFormat::R8,
@@ -214,7 +217,7 @@ public:
     void draw(const VideoFrame& frame, const Matched* matched, const TileWork& work,
               const DetailOptions& options) override {
         const TileBuffer& tiles = frame_.tiles(work);
-        // The shaders do not read the video if nothing has changed.
+        // If nothing has changed, the shaders do not read the video, and any texture will do.
         const gpu::Texture& video = work.changed > 0 ? frame_.video(frame) : painter_.output();
         if (matched == nullptr) {
             painter_.draw(video, nullptr, tiles, options);

@@ -14,14 +14,15 @@
 
 namespace mfar::gles {
 
-/// The frame and its plan on the GPU. Both are uploaded when the first step of a frame needs them.
-/// All steps of the engine share this object. It needs a current GL context for its whole lifetime.
+/// The video frame and its TileWork on the GPU. Both are uploaded when the first step of a frame
+/// needs them. All steps of the engine share this object. It needs a current GL context for its
+/// whole lifetime.
 class FrameOnGpu {
 public:
     explicit FrameOnGpu(Size video) : tiles_{TileBuffer(video), TileBuffer(video)} {}
 
     [[nodiscard]] const gpu::Texture& video(const VideoFrame& frame);
-    /// The plan on the GPU. Two plans of a frame are kept, one for each still.
+    /// Returns `work` on the GPU. Two TileWorks of a frame are kept, one for each still.
     [[nodiscard]] const TileBuffer& tiles(const TileWork& work);
     /// The newest still; see gpu::PictureTexture.
     [[nodiscard]] gpu::PictureTexture& stillPicture() { return still_; }
@@ -33,7 +34,7 @@ private:
     gpu::PictureTexture video_, still_{gpu::Filter::Linear};
     std::optional<std::uint64_t> number_;  // number of the frame in video_
     std::array<TileBuffer, 2> tiles_;
-    std::size_t used_ = 0;  // index in tiles_ of the plan used last
+    std::size_t used_ = 0;  // index in tiles_ of the TileWork that was used last
 };
 
 [[nodiscard]] std::unique_ptr<StillStep> makeStillStep(const StepSetup& setup, FrameOnGpu& frame);

@@ -8,7 +8,7 @@
 namespace mfar {
 namespace {
 
-constexpr int kPullGroup = 8;  // workgroup size in each direction, as in the shaders
+constexpr int kPullGroup = 8;  // width and height of a workgroup, as in warp_pull.comp
 constexpr std::uint32_t kOpen = 1U << 31, kCrack = 1U << 30;
 
 using Command = HoleFiller::Command;
@@ -20,8 +20,7 @@ int halved(int pixels) {
 std::size_t mostTexels(Size size) {
     std::size_t sum = 0;
     for (int l = 0; l < HoleFiller::kLevels; ++l) {
-        // One more texel than half the size is needed for a rectangle that begins at an odd
-        // coordinate.
+        // A rectangle that begins at an odd coordinate needs one more texel than half its size.
         size = {halved(size.width) + 1, halved(size.height) + 1};
         sum += static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
     }

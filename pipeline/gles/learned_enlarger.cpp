@@ -27,7 +27,8 @@ void setGuidance(params::DrawTiles& params, const FilterBank& filters) {
     params.guidanceVideo = filters.guidance().video;
 }
 
-/// The smallest rectangle that contains all tiles drawn with filters, widened by one tile.
+/// The smallest rectangle around all tiles that are drawn with learned filters, widened by one
+/// tile.
 PixelRect tilesAround(const TileWork& work) {
     PixelRect out{work.tiles.width, work.tiles.height, 0, 0};
     for (int row = 0, i = 0; row < work.tiles.height; ++row)
@@ -61,8 +62,8 @@ LearnedEnlarger::LearnedEnlarger(Size video, Size output)
                             "#define AROUND\n#define LEARNED\n"),
       second_("tile_rect.vert", "composite_detail.frag", "#define SECOND\n") {}
 
-// The filters are stored as half floats, which shaders unpack in one instruction. A weight near one
-// then keeps 11 of its 14 bits.
+// Uploads the filters as half floats, which shaders unpack in one instruction. A weight near one
+// keeps 11 of its 14 bits.
 void LearnedEnlarger::takeFilters(const FilterBank& filters) {
     if (number_ == filters.number()) return;
     std::vector<std::uint32_t> words;
@@ -100,7 +101,7 @@ void LearnedEnlarger::fillGrid(const gpu::Texture& video, const TileBuffer& tile
                   static_cast<GLuint>(2 * (where.y1 - where.y0)), 1});
 }
 
-// The passes also read neighbouring tiles. Therefore a pass that was skipped in the frames before
+// The passes also read neighbouring tiles. A pass that did not run in the last frame therefore
 // draws all tiles.
 void LearnedEnlarger::run(const gpu::Texture& video, const Seen* seen, const TileBuffer& tiles,
                           const FilterBank& filters, params::DrawTiles params,
@@ -118,7 +119,7 @@ void LearnedEnlarger::run(const gpu::Texture& video, const Seen* seen, const Til
             seenTarget_, list);
     if (guides)
         guide_.run(whole || guidedIsOld_, params, {gpu::sampler(1, seen_)}, guidedTarget_, list);
-    // The columns depend on the seen and the guided picture.
+    // columns_ depends on seen_ and guided_.
     const bool allColumns =
         whole || columnsAreOld_ || (seen != nullptr && seenIsOld_) || guides == guidedIsOld_;
     enlargeColumns_.run(

@@ -11,8 +11,8 @@
 
 namespace mfar {
 
-/// Enlarges the video with learned filters, except for the final composite. It needs a current GL
-/// context for its whole lifetime.
+/// Enlarges the video with learned filters, except for the last step along rows, which
+/// composite_*.frag perform. It needs a current GL context for its whole lifetime.
 class LearnedEnlarger {
 public:
     LearnedEnlarger(Size video, Size output);
@@ -21,23 +21,25 @@ public:
     struct Seen {
         const gpu::Texture &still, &lookUps;
     };
-    /// Computes the inputs of the composites in the tiles of `list`, or in all tiles if the plan
-    /// requires it. `seen` may be null.
+    /// Computes the inputs of composite_*.frag in the tiles of `list`, or in all tiles if the whole
+    /// frame is drawn or the last inputs are out of date. `seen`: null if there is no still.
     void run(const gpu::Texture& video, const Seen* seen, const TileBuffer& tiles,
              const FilterBank& filters, params::DrawTiles params, const gpu::InstanceList& list);
-    /// Replaces the composites' inputs by those of another still in the listed tiles and around
-    /// them. The next run() computes the first still's inputs again.
+    /// Replaces the inputs of composite_*.frag by those for a second still, in and around the tiles
+    /// of `list`. The next run() computes the inputs for the first still again.
     void seeSecond(const gpu::Texture& video, const Seen& seen, const FilterBank& filters,
                    params::DrawTiles params, const gpu::InstanceList& list);
-    /// Must be called for a frame that other passes drew. The next run() then computes all tiles.
+    /// Must be called for a frame that is drawn without learned filters. The next run() then
+    /// computes all tiles.
     void skip() { columnsAreOld_ = seenIsOld_ = guidedIsOld_ = true; }
 
-    // Inputs of composites with LEARNED, for bindings 0, 3 and 4.
+    // Inputs of the LEARNED variants of composite_*.frag, for bindings 0, 3 and 4.
     [[nodiscard]] const gpu::Texture& columns() const { return columns_; }
     [[nodiscard]] const gpu::Texture& residuals() const { return residuals_; }
     [[nodiscard]] const gpu::Texture& tiles() const { return learned_; }
     [[nodiscard]] DetailPasses& passes() { return passes_; }
-    /// Draws a second still over the first one. Binding 5 takes the first still's look-ups.
+    /// The program that draws a second still over the first one. Its binding 5 is the look-ups of
+    /// the first still.
     [[nodiscard]] gpu::DrawPass<params::DrawTiles>& second() { return second_; }
 
 private:
@@ -47,8 +49,9 @@ private:
 
     Size video_, tiles_;
     std::uint64_t number_ = 0;                      // number of the filters on the GPU
-    std::vector<std::uint8_t> mask_;                // flags of the tiles on the GPU
-    bool columnsAreOld_ = true, seenIsOld_ = true;  // not computed in the last frame
+    std::vector<std::uint8_t> mask_;                // pixels of learned_: 255 for matched tiles
+    bool columnsAreOld_ = true, seenIsOld_ = true;  // true: the texture was not computed in the
+                                                    // last frame
     bool guidedIsOld_ = true;
     gpu::Texture filters_, learned_, grid_, seen_, guided_, columns_, residuals_;
     gpu::Framebuffer seenTarget_, guidedTarget_, columnsTarget_;

@@ -18,21 +18,21 @@ struct LumaOnGpu {
     const gpu::Buffer& words;
 };
 
-/// Luma pyramids of the video frame and of the still, both smoothed in the same way; the inputs of
-/// flow. The still is resampled to the video's geometry (rotation and both lenses, but no
-/// parallax). The pyramids are in one storage buffer with 8 bits per pixel and four pixels per
-/// word.
+/// Makes the luma pyramids of the video frame and of the still, the inputs of the flow. Both are
+/// smoothed in the same way. The still is resampled to the video's geometry (rotation and both
+/// lenses, but no parallax). The pyramids are in one storage buffer with 8 bits per pixel and four
+/// pixels per word.
 class LumaPyramids {
 public:
     explicit LumaPyramids(Size video);
 
-    /// Builds the pyramid from a video frame (RGBA8 texture of the video's size).
+    /// Makes the video's pyramid from a frame (RGBA8 texture of the video's size).
     void buildVideo(const gpu::Texture& video);
-    /// Builds the pyramid from a still (RGBA8 texture with a linear filter) using the rig. Called
-    /// once per still.
+    /// Makes the still's pyramid from a still (RGBA8 texture with a linear filter). Called once per
+    /// still.
     void buildStill(const gpu::Texture& still, const StereoRig& rig);
-    /// Builds the still's pyramid from a picture that already has the video's geometry (flow
-    /// between two frames).
+    /// Makes the still's pyramid from a picture that already has the video's geometry, for the flow
+    /// between two frames.
     void buildSecond(const gpu::Texture& picture);
 
     [[nodiscard]] const std::vector<LumaLevel>& video() const { return video_; }

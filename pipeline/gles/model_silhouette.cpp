@@ -24,13 +24,13 @@ gpu::Texture alphaOf(const SurfaceTexture& texture) {
     return out;
 }
 
-/// Converts layer pixels to pixels of the target, which has twice the resolution.
+/// Converts a rectangle of layer pixels to pixels of target_, which has twice the resolution.
 PixelRect doubled(const PixelRect& r) {
     return {2 * r.x0, 2 * r.y0, 2 * r.x1, 2 * r.y1};
 }
 
-/// Culls back faces. Front faces are clockwise, because the picture's first row is the lowest row
-/// for GL.
+/// Culls back faces while it exists. Front faces are clockwise, because the first row of a picture
+/// is the lowest row for GL.
 class FrontFaces {
 public:
     FrontFaces() {
@@ -45,7 +45,8 @@ public:
     }
 };
 
-/// Sets the depth range. Different ranges put all objects in front of the shadow catcher.
+/// Sets GL's depth range while it exists. With different ranges, all objects are drawn in front of
+/// the shadow catcher.
 class DepthRange {
 public:
     DepthRange(float nearest, float farthest) { glDepthRangef(nearest, farthest); }

@@ -12,32 +12,34 @@
 
 namespace mfar {
 
-/// The visible part of the virtual scene: the models, and below them the real surface that catches
-/// their shadows. It is rasterised at twice the layer's resolution, so that each layer pixel has
-/// four quarters. The lens distortion is applied to the vertices. There is no light and no colour.
+/// Draws which surface of the virtual scene is visible where: the objects, and below them the
+/// shadow catcher. The surfaces are rasterised at twice the layer's resolution, so that each layer
+/// pixel has four quarters. The lens distortion is applied to the vertices. Light and colour are
+/// not computed.
 class ModelSilhouette {
 public:
-    /// `layer` is the camera at the layer's resolution. Throws GlError if the GL implementation
+    /// `layer`: the video camera at the layer's resolution. Throws GlError if the GL implementation
     /// cannot draw into R32UI.
     explicit ModelSilhouette(const CameraModel& layer);
 
-    /// Uploads the meshes. Meshes are simplified if the scene has more than 20000 triangles. Masked
-    /// surfaces have holes where their alpha is too small.
+    /// Uploads the meshes of the scene. They are simplified if the scene has more than 20000
+    /// triangles. Surfaces with an alpha mask have holes where their alpha is too small.
     void setScene(const Scene& scene);
 
-    /// Bounds of all objects [layer px]. If an object crosses the near plane, the bounds are the
-    /// whole layer.
+    /// Bounds of all objects [layer px]. If an object crosses the near plane, the bounds are those
+    /// of the whole layer.
     [[nodiscard]] PixelRect bounds(const RigidTransform& T_world_camera) const {
         return models_.bounds(T_world_camera);
     }
 
-    /// Draws in `where` [layer px]. The surface is empty elsewhere.
+    /// Draws the surfaces that a camera at this pose sees in `where` [layer px]. Outside of
+    /// `where`, surface() is empty.
     void draw(const RigidTransform& T_world_camera, const PixelRect& where);
 
     [[nodiscard]] const SilhouetteModels& models() const { return models_; }
     /// R32UI, twice the layer's size: z and number of the surface, packed as in warp_surface.glsl;
-    /// 0: no surface. The shadow catcher appears only where there is no object, whichever is
-    /// nearer.
+    /// 0: no surface. The shadow catcher appears only where there is no object, even if it is
+    /// nearer than the object.
     [[nodiscard]] const gpu::Texture& surface() const { return surface_; }
     [[nodiscard]] std::size_t triangles() const { return models_.triangles(); }
 
@@ -48,7 +50,7 @@ private:
         int indexCount;
         std::optional<gpu::Texture> alpha;  // alpha texture of a masked surface
         float cutoff;
-        bool bothSides;  // whether both sides are visible
+        bool bothSides;  // true: both sides of the surface are visible
     };
     using ShapePointer = std::shared_ptr<const Models::Shape>;
     using PartsOfShapes = std::map<ShapePointer, std::shared_ptr<std::vector<Part>>>;

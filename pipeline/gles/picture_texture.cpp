@@ -11,8 +11,8 @@
 namespace mfar::gpu {
 namespace {
 
-// Upper limit of the number of imports that are kept. A camera has fewer buffers, but has new ones
-// after it was reopened.
+// Largest number of imported camera buffers that are kept. A camera has fewer buffers, but gets new
+// ones when it is reopened.
 constexpr std::size_t kMostImported = 16;
 constexpr GLuint64 kLongestRead = std::chrono::nanoseconds(kLongestGpuWait).count();
 
@@ -21,7 +21,7 @@ int channelsOf(TexelFormat format) {
     return format == TexelFormat::Rg8 ? 2 : 4;
 }
 
-// Sets the sampling of the bound texture.
+// Sets filter and wrapping of the bound texture.
 void setSampling(GLint filter) {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
@@ -118,8 +118,8 @@ std::optional<std::string> PictureTexture::takeImportFault() {
     return std::exchange(importFault_, std::nullopt);
 }
 
-// After a failure no further import is tried, because a driver that rejects one picture rejects the
-// following ones, too.
+// Imports the planes of a picture without a copy. After a failure, no more imports are attempted,
+// because a driver that rejects one picture rejects the following ones, too.
 std::optional<PictureTexture::Names> PictureTexture::importPlanes(const ImageView& view) {
     if (importer_ == nullptr || view.shared == nullptr) return {};
     const auto known = std::ranges::find(imported_, view.shared->id, &Imported::id);

@@ -13,9 +13,9 @@
 
 namespace mfar::gpu {
 
-/// A picture that is uploaded repeatedly, in any pixel format. Grey and RGBA are uploaded
-/// unchanged, BGRA by swizzling the texture's channels. Y U V pictures are uploaded as planes, and
-/// one draw converts them to RGBA8. Memory is allocated when size or format change. The object
+/// A texture into which pictures of any pixel format are uploaded. Grey and RGBA are uploaded
+/// unchanged. For BGRA, the texture's channels are swizzled. Y U V pictures are uploaded as planes,
+/// and a shader converts them to RGBA8. Memory is allocated when size or format change. The object
 /// needs a current GL context for its whole lifetime.
 class PictureTexture {
 public:
@@ -26,22 +26,23 @@ public:
     PictureTexture& operator=(const PictureTexture&) = delete;
     ~PictureTexture();
 
-    /// With an importer, Y U V planes are read without a copy if the GPU can access their memory.
-    /// Null: the planes are always copied. The importer must outlive this object.
+    /// Sets the importer, with which the GPU reads Y U V planes without a copy if it can access
+    /// their memory. Null: the planes are always copied. The importer must outlive this object.
     void setImporter(PlaneImporter* importer);
 
     /// The view must be valid (requireSound()). Changes the GL framebuffer binding.
     void upload(const ImageView& view);
     /// Waits until the GPU no longer reads the memory of the last uploaded view.
     void finishReading();
-    /// The reason why zero-copy import failed. It is returned once.
+    /// Returns why an import of camera memory without a copy failed. Each failure is returned once;
+    /// empty: there was none.
     [[nodiscard]] std::optional<std::string> takeImportFault();
 
-    /// The last upload: R8 for grey, otherwise RGBA8. Sampling it returns R G B.
+    /// The last uploaded picture: R8 for grey, otherwise RGBA8. Sampling it gives R, G and B.
     [[nodiscard]] const Texture& texture() const { return picture_; }
 
 private:
-    /// Resources for the conversion of Y U V pictures.
+    /// GL objects that convert Y U V pictures.
     struct Planes {
         std::array<Texture, 3> textures;  // one for each plane of the format
         Framebuffer target;

@@ -5,8 +5,8 @@
 
 namespace mfar {
 
-/// The pixels of all re-rendered pictures on the GPU, one re-rendered picture below the other. Slot
-/// i begins at row i * (height of the layer).
+/// The re-rendered pictures on the GPU, one below the other in one texture. Picture i begins at row
+/// i * (height of the layer).
 class RerenderedTextures {
 public:
     explicit RerenderedTextures(Size layer);

@@ -11,12 +11,12 @@ namespace mfar {
 /// Reduces stills without aliasing. It needs a current GL context for its whole lifetime.
 class StillReducer {
 public:
-    /// `to` must have at least one pixel, and at most as many pixels as `from`, in each direction.
+    /// Along each axis, `to` must be at least one pixel and at most as large as `from`.
     StillReducer(Size from, Size to);
 
-    /// `picture` must have the size `from`.
+    /// Reduces `picture`, which must have the size `from`.
     void run(const gpu::Texture& picture);
-    /// The result of the last run. RGBA8, linear filter.
+    /// The reduced picture of the last run; RGBA8, linear filter.
     [[nodiscard]] const gpu::Texture& picture() const { return reduced_; }
 
 private:

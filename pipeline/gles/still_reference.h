@@ -11,16 +11,18 @@
 
 namespace mfar {
 
-/// The newest still and everything that is computed from it once: its picture and its luma. If the
-/// output has a lower resolution than the still, both are reduced to the output's resolution.
+/// The newest still, and what is computed from it once: a reduced picture and its luma. If the
+/// output has a much lower resolution than the still, the picture and the luma are reduced to the
+/// resolution that the output can use.
 class StillReference {
 public:
-    /// `output` is the output size for the whole video picture. `picture` holds the uploaded
-    /// stills. It must have a linear filter and must outlive this object.
+    /// `output`: size of the output picture, which shows the whole video picture. `picture`: the
+    /// texture into which stills are uploaded. It must have a linear filter and must outlive this
+    /// object.
     StillReference(const StereoRig& rig, Size output, gpu::PictureTexture& picture);
 
-    /// The still must have the still camera's size. Its pixel format may change from one still to
-    /// the next.
+    /// Uploads a still and computes the other pictures from it. The still must have the still
+    /// camera's size. Its pixel format may change from one still to the next.
     void set(const ImageView& still);
 
     /// The rig whose still camera has picture()'s resolution. The lens is the same, but there may
@@ -32,7 +34,7 @@ public:
         return reducer_ ? reducer_->picture() : picture_.texture();
     }
     /// Luma with the size of rig().still; R8, linear filter. Unless the still was reduced, its
-    /// finest detail is raised, which compensates the loss of detail in a linear look-up.
+    /// finest detail is amplified, which compensates the loss of detail in a linear look-up.
     [[nodiscard]] const gpu::Texture& raised() const { return raised_; }
 
 private:

@@ -7,7 +7,7 @@
 
 namespace mfar {
 
-/// Provides two textures as a layer.
+/// Presents two textures, colour and depth, as a LayerPicture.
 class TextureLayer {
 public:
     explicit TextureLayer(Transfers* transfers = nullptr)

@@ -9,13 +9,13 @@
 
 namespace mfar {
 
-/// The plan of a frame on the GPU. It needs a current GL context for its whole lifetime.
+/// The TileWork of a frame on the GPU. It needs a current GL context for its whole lifetime.
 class TileBuffer {
 public:
     /// Until the first set(), every tile counts as changed and matched.
     explicit TileBuffer(Size video);
 
-    /// Uploads the plan if it differs from the last one.
+    /// Uploads `work` if it differs from the last one.
     void set(const TileWork& work);
     [[nodiscard]] bool holds(const TileWork& work) const;
 
@@ -23,7 +23,7 @@ public:
     /// Layout: a uvec2 header, then one uvec2 per tile, row-major.
     /// Header: how the frame is drawn (0: only changed tiles; 1: the whole frame; 2: the whole
     /// frame is enlarged, and detail is drawn in a list of tiles), and the number of changed tiles.
-    /// Tile: changed, matched.
+    /// Tile: x: 1 if the tile changed; y: 1 if it is matched.
     [[nodiscard]] const gpu::Buffer& buffer() const { return buffer_; }
 
 private:

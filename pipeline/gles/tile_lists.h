@@ -9,28 +9,28 @@
 
 namespace mfar {
 
-/// Finds on the GPU the tiles whose flow along epipolar lines does not fit the pictures. Lists for
-/// each pyramid level the groups of cells that the 2-D search must cover.
+/// Finds, on the GPU, the tiles whose flow along epipolar lines does not fit the pictures. For each
+/// pyramid level, lists the groups of 4x4 cells that the 2-D search must process.
 class TileLists {
 public:
-    /// A field of flow vectors and their two-way errors. Each is given by the index of its first
-    /// vec4 in `cells`.
+    /// A field of flow vectors and a field of their two-way errors. Each is given by the index of
+    /// its first entry in `cells`.
     struct Field {
         const gpu::Buffer& cells;
         int vectors, errors;
     };
 
-    /// `cells` is the number of cells at the finest level.
+    /// `cells`: number of columns and rows of cells at the finest pyramid level.
     TileLists(Size cells, int levels);
 
     void find(const Field& field, const TileBuffer& tiles);
     /// Empties the lists.
     void clear();
 
-    /// Packed indices of groups of 4x4 cells. The list of a level begins at first(level).
+    /// Packed positions of groups of 4x4 cells. The list of a pyramid level begins at first(level).
     [[nodiscard]] const gpu::Buffer& lists() const { return lists_; }
     [[nodiscard]] int first(int level) const { return levels_[level].first; }
-    /// Workgroup counts of the indirect dispatches, 16 bytes for each level, finest level first.
+    /// Commands of the indirect dispatches: 16 bytes for each pyramid level, finest level first.
     [[nodiscard]] const gpu::Buffer& commands() const { return commands_; }
 
     /// Number of tiles that were listed before the last find() or clear(). Does not wait for the

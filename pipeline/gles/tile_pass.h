@@ -8,7 +8,7 @@
 
 namespace mfar {
 
-/// The same shader in two programs: one for the whole target, one for a list of tiles.
+/// A fragment shader in two programs: one draws the whole target, the other a list of tiles.
 struct TilePass {
     explicit TilePass(const char* fragment, const char* defines = "")
         : whole(fragment, defines), tiles("tile_rect.vert", fragment, defines) {}
@@ -24,8 +24,9 @@ struct TilePass {
     gpu::DrawPass<params::DrawTiles> whole, tiles;
 };
 
-/// Composites of mode Detail, without (`enlarged`) and with the still's detail. `define` is one
-/// line of GLSL, or empty.
+/// The programs that draw the output in mode Detail: `enlarged` only enlarges the video; `whole`,
+/// `tiles` and `plain` (for plain tiles) also add the still's detail. `define`: one line of GLSL
+/// for all of them, or empty.
 struct DetailPasses {
     explicit DetailPasses(const std::string& define = "")
         : enlarged("composite_upscale.frag", define.c_str()),

@@ -11,7 +11,7 @@ namespace mfar {
 /// Rg32F texture with the normalised ray (x/z, y/z) of each pixel.
 [[nodiscard]] gpu::Texture rayTexture(const CameraModel& camera);
 
-/// The traced picture of a warp on the GPU.
+/// The traced picture that is warped, as textures. See TracedPicture for their contents.
 class TracedTextures {
 public:
     /// Uploads the picture. Allocates textures when the size changes.
@@ -19,8 +19,8 @@ public:
 
     /// Valid after the first upload.
     [[nodiscard]] const LensProjection& lens() const { return *lens_; }
-    [[nodiscard]] const gpu::Texture& picture() const { return picture_; }  ///< RGBA8, as rendered
-    [[nodiscard]] const gpu::Texture& depth() const { return depth_; }      ///< R32F, as rendered
+    [[nodiscard]] const gpu::Texture& picture() const { return picture_; }  ///< RGBA8, as traced
+    [[nodiscard]] const gpu::Texture& depth() const { return depth_; }      ///< R32F, as traced
     [[nodiscard]] const gpu::Texture& colour() const { return colour_; }    ///< RGBA8
     [[nodiscard]] const gpu::Texture& surface() const { return surface_; }  ///< Rgba32F
     [[nodiscard]] const gpu::Texture& packed() const { return packed_; }    ///< R32UI

@@ -31,8 +31,8 @@ void requireLatLong(Size size, int mostWidth) {
                         size.width, size.height));
 }
 
-/// Throws if the decoded picture and the resulting environment together need more memory than
-/// `memory`.
+/// Throws if the decoded picture and the environment made from it together need more than `memory`
+/// bytes.
 void requireMemory(Size size, std::size_t memory) {
     const std::size_t pixels = static_cast<std::size_t>(size.width) * size.height;
     const std::size_t kept =
@@ -44,7 +44,8 @@ void requireMemory(Size size, std::size_t memory) {
             size.width, size.height, needed >> 20U, memory >> 20U));
 }
 
-/// Averages rows as they are read, so that a large picture is never in memory as a whole.
+/// Reduces a picture by averaging its rows as they are read, so that a large picture is never
+/// completely in memory.
 class RowAverage {
 public:
     explicit RowAverage(Size from) : from_(from) {
@@ -147,7 +148,7 @@ Environment loadEnvironment(const std::filesystem::path& file, std::size_t memor
 
 Eigen::Vector3f environmentDirection(float u, float v) {
     constexpr float kPi = std::numbers::pi_v<float>;
-    // Column u = 0 is at -x, and u = 3/4 is at +y.
+    // u = 0 is the direction -x, and u = 3/4 is +y.
     const float longitude = 2 * kPi * u + kPi, fromUp = kPi * v;
     return {std::cos(longitude) * std::sin(fromUp), std::sin(longitude) * std::sin(fromUp),
             std::cos(fromUp)};

@@ -13,7 +13,7 @@ namespace {
 
 using Accessor = tinygltf::Accessor;
 
-/// Position and type of elements in a bufferView.
+/// Where the elements of an accessor are in a bufferView, and their type.
 struct ElementView {
     std::span<const std::uint8_t> bytes;
     std::size_t stride = 0, count = 0;
@@ -61,7 +61,7 @@ std::uint32_t unsignedAt(const std::uint8_t* p, int componentType) {
     }
 }
 
-/// Reads a number as float and converts normalised integers (glTF 2.0, 3.6.2.2).
+/// Reads a number of this type as float. Converts normalised integers (glTF 2.0, 3.6.2.2).
 float floatAt(const std::uint8_t* p, int componentType, bool normalized) {
     const auto scaled = [&](auto value) {
         constexpr auto kMost = static_cast<float>(std::numeric_limits<decltype(value)>::max());
@@ -78,8 +78,8 @@ float floatAt(const std::uint8_t* p, int componentType, bool normalized) {
     }
 }
 
-/// Completes `wanted`, which contains type and count, with the bytes and the stride. If `stride` is
-/// 0, the elements are tightly packed.
+/// Returns `wanted`, which has the type and number of the elements, with the bytes and the stride
+/// added. If `stride` is 0, the elements are tightly packed.
 ElementView elementsIn(const GltfDocument& document, int bufferView, std::uint64_t offset,
                        std::size_t stride, ElementView wanted, std::string_view place) {
     const std::size_t one = bytesOf(wanted.componentType) * wanted.components;
@@ -94,19 +94,21 @@ ElementView elementsIn(const GltfDocument& document, int bufferView, std::uint64
     const std::uint64_t needed = std::uint64_t{wanted.count - 1} * wanted.stride + one;
     if (needed > left)
         document.refuse(
-            place, fmt::format("needs {} bytes at offset {} of bufferView {}, which has only {}",
-                               needed, offset, bufferView, view.size()));
+            place,
+            fmt::format("needs {} bytes at offset {} of bufferView {}, which has only {} bytes",
+                        needed, offset, bufferView, view.size()));
     wanted.bytes = view.subspan(offset);
     return wanted;
 }
 
-/// Returns the accessor. Throws if the accessor has another number of components or an invalid
-/// count.
+/// Returns accessor `index`. Throws if its elements do not have `components` components, or if it
+/// has no element or more than `most`.
 const Accessor& checkedAccessor(const GltfDocument& document, int index, int components,
                                 std::size_t most, std::string_view place) {
     const Accessor& accessor = document.at(document.gltf.accessors, index, place);
     if (bytesOf(accessor.componentType) == 0 || componentsOf(accessor.type) != components)
-        document.refuse(place, fmt::format("accessor {} has an unexpected type", index));
+        document.refuse(
+            place, fmt::format("accessor {} does not have the type that is needed here", index));
     if (accessor.count == 0 || accessor.count > most)
         document.refuse(place, fmt::format("accessor {} has {} elements; 1 to {} are supported",
                                            index, accessor.count, most));
@@ -140,7 +142,7 @@ void replaceSparse(const GltfDocument& document, const Accessor& accessor, int c
     const auto& sparse = accessor.sparse;
     if (sparse.count < 1 || static_cast<std::size_t>(sparse.count) > accessor.count ||
         !isIndexType(sparse.indices.componentType))
-        document.refuse(place, "the sparse elements are invalid");
+        document.refuse(place, "the count or the index type of the sparse elements is invalid");
     const auto count = static_cast<std::size_t>(sparse.count);
     const ElementView indices = elementsIn(document, sparse.indices.bufferView,
                                            static_cast<std::uint64_t>(sparse.indices.byteOffset), 0,
@@ -182,7 +184,9 @@ std::vector<std::uint32_t> accessorIndices(const GltfDocument& document, int acc
                                            std::size_t most, std::string_view place) {
     const Accessor& source = checkedAccessor(document, accessor, 1, most, place);
     if (!isIndexType(source.componentType) || source.sparse.isSparse)
-        document.refuse(place, fmt::format("accessor {} does not hold plain indices", accessor));
+        document.refuse(
+            place, fmt::format("accessor {} must have unsigned integers and no sparse elements",
+                               accessor));
     const ElementView elements = elementsOf(document, source, 1, place);
     std::vector<std::uint32_t> out(source.count);
     for (std::size_t i = 0; i < out.size(); ++i)

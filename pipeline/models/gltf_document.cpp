@@ -24,7 +24,7 @@ bool isBinary(std::span<const std::uint8_t> bytes) {
     return bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
 }
 
-/// The JSON text of a file. In a .glb file it is the first chunk.
+/// Returns the JSON text of a file. In a .glb file, this is the first chunk.
 std::string_view jsonOf(std::span<const std::uint8_t> bytes) {
     const auto* text = reinterpret_cast<const char*>(bytes.data());
     if (!isBinary(bytes)) return {text, bytes.size()};
@@ -42,7 +42,7 @@ std::string_view jsonOf(std::span<const std::uint8_t> bytes) {
     return {text + kGlbHeader + kChunkHeader, length};
 }
 
-/// User data of tinygltf's callbacks that read buffer files.
+/// User data of the callbacks with which tinygltf reads buffer files.
 struct FolderAccess {
     const std::filesystem::path& folder;
     std::size_t left;  ///< bytes that may still be read
@@ -61,8 +61,9 @@ bool readFile(std::vector<unsigned char>* out, std::string* error, const std::st
     }
 }
 
-/// Sets all callbacks, because tinygltf uses its own for missing ones. FileExists accepts every
-/// path, so that tinygltf takes the first one, which is the URI itself.
+/// Returns all callbacks for file access, because tinygltf uses its own ones instead of missing
+/// ones. FileExists accepts every path, so that tinygltf uses the first path that it considers,
+/// which is the URI itself.
 template <typename Callbacks>
 Callbacks callbacksFor(FolderAccess& access) {
     Callbacks out{};
@@ -71,8 +72,8 @@ Callbacks callbacksFor(FolderAccess& access) {
     out.ReadWholeFile = readFile;
     out.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&,
                             void*) { return false; };
-    // This callback exists only in newer releases. It reports size 0, because readFile() limits the
-    // bytes itself.
+    // This callback exists only in newer releases of tinygltf. It reports size 0, because
+    // readFile() limits the number of bytes itself.
     if constexpr (requires { out.GetFileSizeInBytes; })
         out.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string&, void*) {
             *size = 0;
@@ -82,7 +83,8 @@ Callbacks callbacksFor(FolderAccess& access) {
     return out;
 }
 
-/// Copies the bytes of a picture from a data URI. Pictures in a bufferView stay in the buffer.
+/// tinygltf's callback for pictures. Copies the bytes of a picture that is in a data URI. Pictures
+/// in a bufferView stay there.
 bool keepImage(tinygltf::Image* image, int /*index*/, std::string* /*error*/,
                std::string* /*warning*/, int /*width*/, int /*height*/, const unsigned char* bytes,
                int size, void* /*user*/) {
@@ -110,7 +112,8 @@ void parse(std::span<const std::uint8_t> bytes, GltfDocument& document) {
             ? parser.LoadBinaryFromMemory(&document.gltf, &error, &warning, bytes.data(), size, "")
             : parser.LoadASCIIFromString(&document.gltf, &error, &warning,
                                          reinterpret_cast<const char*>(bytes.data()), size, "");
-    if (!good) throw std::runtime_error(error.empty() ? "cannot be read" : oneLine(error));
+    if (!good)
+        throw std::runtime_error(error.empty() ? "tinygltf cannot read the file" : oneLine(error));
 }
 
 void requireVersionAndExtensions(const GltfDocument& document) {
@@ -131,7 +134,7 @@ void GltfDocument::refuse(std::string_view place, std::string_view what) const {
 std::span<const std::uint8_t> GltfDocument::view(int bufferView, std::string_view place) const {
     const tinygltf::BufferView& view = at(gltf.bufferViews, bufferView, place);
     const std::span<const std::uint8_t> buffer = at(gltf.buffers, view.buffer, place).data;
-    // The JSON was validated, but tinygltf made the buffer, which may be smaller.
+    // The sizes in the JSON are valid, but the buffer that tinygltf has made may be smaller.
     if (view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset)
         refuse(place, fmt::format("bufferView {} reaches beyond its buffer", bufferView));
     return buffer.subspan(view.byteOffset, view.byteLength);

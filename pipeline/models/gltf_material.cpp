@@ -12,8 +12,8 @@
 namespace mfar {
 namespace {
 
-/// A number that glTF limits to [least, most]. Tolerates rounding errors of the program that wrote
-/// the file.
+/// Returns `value`, which glTF limits to [least, most], as float. Tolerates rounding errors of the
+/// program that wrote the file.
 float rangedFactor(const GltfDocument& document, double value, float least, float most,
                    const std::string& place) {
     constexpr double kRounding = 1e-3;
@@ -22,7 +22,7 @@ float rangedFactor(const GltfDocument& document, double value, float least, floa
     return std::clamp(static_cast<float>(value), least, most);
 }
 
-/// A number in the object of an extension; empty if absent.
+/// Returns a number in the JSON object of an extension; empty if there is none.
 std::optional<double> numberIn(const tinygltf::Value& object, const std::string& key) {
     if (!object.IsObject() || !object.Has(key) || !object.Get(key).IsNumber()) return std::nullopt;
     return object.Get(key).GetNumberAsDouble();
@@ -82,7 +82,7 @@ Eigen::Vector3f emissionOf(const GltfDocument& document, const tinygltf::Materia
     return emission * rangedFactor(document, strength, 0, kStrongest, place + ".emissiveStrength");
 }
 
-/// Copies the fields to tinygltf's general texture structure.
+/// Converts tinygltf's structure for normal textures to its general texture structure.
 tinygltf::TextureInfo plainInfo(const tinygltf::NormalTextureInfo& info) {
     tinygltf::TextureInfo out;
     out.index = info.index;
@@ -93,8 +93,8 @@ tinygltf::TextureInfo plainInfo(const tinygltf::NormalTextureInfo& info) {
 
 }  // namespace
 
-// The direction of rotation is that of the specification's example and of three.js. The GLSL in the
-// first drafts of the specification rotated in the other direction.
+// Rotates in the same direction as the specification's example and three.js. The GLSL code in the
+// first drafts of the specification rotated in the opposite direction.
 Eigen::Vector2f TextureMapping::operator()(const Eigen::Vector2f& uv) const {
     const Eigen::Vector2f scaled = scale.cwiseProduct(uv);
     const float c = std::cos(rotation), s = std::sin(rotation);
@@ -148,7 +148,9 @@ int GltfMaterials::texture(const tinygltf::TextureInfo& info, bool srgb, const s
 void GltfMaterials::takeMapping(const TextureMapping& wanted, const std::string& place) {
     if (!mapping_) mapping_ = wanted;
     if (*mapping_ != wanted)
-        document_.refuse(place, "textures of one material must have the same coordinates");
+        document_.refuse(place,
+                         "all textures of a material must have the same coordinates: texCoord and "
+                         "KHR_texture_transform");
 }
 
 int GltfMaterials::picture(int image, bool srgb, const std::string& place) {

@@ -10,25 +10,25 @@
 
 namespace mfar {
 
-/// Number of the texture coordinates that a material's textures use, and their transform
-/// (KHR_texture_transform): uv' = offset + R(rotation) (scale uv).
+/// The set of texture coordinates that a material's textures use, and the transform of these
+/// coordinates (KHR_texture_transform): uv' = offset + R(rotation) (scale uv).
 struct TextureMapping {
-    int set = 0;  ///< n of TEXCOORD_n
+    int set = 0;  ///< the n of the attribute TEXCOORD_n
     Eigen::Vector2f offset{0, 0}, scale{1, 1};
-    float rotation = 0;  ///< [rad]
+    float rotation = 0;  ///< angle of R [rad]
 
     bool operator==(const TextureMapping&) const = default;
     [[nodiscard]] Eigen::Vector2f operator()(const Eigen::Vector2f& uv) const;
 };
 
-/// Materials of a document and their textures. Each is decoded when it is first needed. Refuses
-/// values out of range.
+/// Materials of a document and their textures. Each is read when it is first needed. Values that
+/// are out of range are refused.
 class GltfMaterials {
 public:
     explicit GltfMaterials(const GltfDocument& document) : document_(document) {}
 
-    /// Reads a glTF material (-1: the default material). Returns its number in this object and its
-    /// texture mapping.
+    /// Returns the material that has index `material` in the document (-1: the default material):
+    /// its number in this object, and its texture mapping. Reads it if this was not done before.
     std::pair<int, TextureMapping> use(int material);
 
     [[nodiscard]] const Material& operator[](int number) const { return materials_[number]; }
@@ -44,10 +44,11 @@ private:
 
     const GltfDocument& document_;
     std::map<int, std::pair<int, TextureMapping>> used_;
-    std::map<std::pair<int, bool>, int> pictures_;  ///< key: image number, and whether it is sRGB
+    std::map<std::pair<int, bool>, int> pictures_;  ///< key: index of the image, and whether it is
+                                                    ///< sRGB; value: index in textures_
     std::vector<Material> materials_;
     std::vector<SurfaceTexture> textures_;
-    std::optional<TextureMapping> mapping_;  ///< mapping of the material that is being read
+    std::optional<TextureMapping> mapping_;  ///< texture mapping of the material that is being read
     std::size_t texels_ = 0, bytes_ = 0;
 };
 

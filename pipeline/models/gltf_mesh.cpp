@@ -13,7 +13,8 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// Vectors up to this length have no usable direction. They are replaced by a default direction.
+/// Largest length of a vector that has no usable direction. Such vectors are replaced by a default
+/// direction.
 constexpr float kShortestUnit = 1e-6F;
 
 std::optional<int> attribute(const tinygltf::Primitive& primitive, const std::string& name) {
@@ -35,12 +36,12 @@ vectorsOf(const GltfDocument& document, const PrimitiveSource& source, const std
     return out;
 }
 
-/// Triangles of a list, a strip or a fan (glTF 2.0, 3.7.2.1).
+/// Returns the triangles of a list, a strip or a fan (glTF 2.0, 3.7.2.1).
 std::vector<Triangle> trianglesOf(int mode, const std::vector<std::uint32_t>& indices) {
     std::vector<Triangle> out;
     const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
         const Triangle t{indices[a], indices[b], indices[c]};
-        // Triangles without area are skipped; they only connect strips.
+        // Skips triangles without an area, which only connect strips.
         if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) out.push_back(t);
     };
     const std::size_t count = indices.size();
@@ -110,7 +111,7 @@ void readCoordinates(const GltfDocument& document, const PrimitiveSource& source
     for (Eigen::Vector2f& uv : mesh.uvs) {
         uv = source.mapping(uv);
         if (!(uv.cwiseAbs().maxCoeff() < kFarthestUv))
-            document.refuse(source.place, "texture coordinates are out of range");
+            document.refuse(source.place, "texture coordinates must be between -1e6 and 1e6");
     }
     // Without texture coordinates, textures show their first texel.
     if (mesh.uvs.empty()) mesh.uvs.assign(mesh.positions.size(), Eigen::Vector2f::Zero());
@@ -121,7 +122,7 @@ void readFrames(const GltfDocument& document, const PrimitiveSource& source, Mes
     requireSameCount(document, source, mesh.normals.size(), mesh.positions.size(), "normals");
     normalize(mesh.normals);
     if (!source.bumpy) return;
-    // Without normals, glTF requires tangents to be ignored (glTF 2.0, 3.7.2.1).
+    // If there are no normals, tangents must be ignored (glTF 2.0, 3.7.2.1).
     if (!mesh.normals.empty()) mesh.tangents = vectorsOf<4>(document, source, "TANGENT");
     requireSameCount(document, source, mesh.tangents.size(), mesh.positions.size(), "tangents");
     normalize(mesh.tangents, mesh.normals);
@@ -133,7 +134,7 @@ void readFrames(const GltfDocument& document, const PrimitiveSource& source, Mes
 std::optional<Mesh> readPrimitive(const GltfDocument& document, const PrimitiveSource& source) {
     const int mode = source.primitive.mode;
     if (mode < TINYGLTF_MODE_POINTS || mode > TINYGLTF_MODE_TRIANGLE_FAN)
-        document.refuse(source.place, fmt::format("mode {}", mode));
+        document.refuse(source.place, fmt::format("mode must be from 0 to 6, not {}", mode));
     if (mode < TINYGLTF_MODE_TRIANGLES) return std::nullopt;
     Mesh mesh;
     mesh.positions = vectorsOf<3>(document, source, "POSITION");
@@ -159,8 +160,8 @@ Mesh transformed(const Mesh& mesh, const Eigen::Affine3d& T_model_mesh) {
     for (int i = 0; i < 3; ++i)
         cofactors.col(i) = linear.col((i + 1) % 3).cross(linear.col((i + 2) % 3));
     if (mirrors) cofactors = -cofactors;
-    // The matrix is normalised, because its entries are squares of the scale. With a scale of
-    // micrometres they would be too small for float.
+    // The matrix is normalised, because its entries are products of two scales. With a scale of
+    // micrometres, they would be too small for float.
     const double scale = cofactors.cwiseAbs().maxCoeff();
     if (scale > 0) cofactors /= scale;
     for (Eigen::Vector3f& n : out.normals)

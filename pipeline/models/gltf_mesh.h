@@ -7,20 +7,22 @@
 
 namespace mfar {
 
-/// A primitive of a mesh in glTF's frame. readPrimitive() adds normals if there are none, and
-/// tangents if the material has a normal texture. Mesh::material stays 0. Points and lines give an
-/// empty result. Refuses invalid data and more vertices or triangles than the limits allow.
+/// A primitive of a glTF mesh, as the input of readPrimitive(). The result is in glTF's
+/// coordinates, without a material (Mesh::material is 0). It has tangents if the material has a
+/// normal texture. It is empty for points and lines. Invalid data, and more vertices or triangles
+/// than the limits allow, are refused.
 struct PrimitiveSource {
     const tinygltf::Primitive& primitive;
     TextureMapping mapping;
-    bool textured = false, bumpy = false;  ///< has any texture; a normal texture
+    bool textured = false, bumpy = false;  ///< whether the material has any texture; whether it has
+                                           ///< a normal texture
     std::string place;
 };
 [[nodiscard]] std::optional<Mesh> readPrimitive(const GltfDocument& document,
                                                 const PrimitiveSource& source);
 
-/// The mesh after the transform of a node. A mirroring transform reverses the order of the
-/// triangles' corners.
+/// Returns the mesh, transformed by `T_model_mesh`. If the transform mirrors, the order of the
+/// triangles' corners is reversed.
 [[nodiscard]] Mesh transformed(const Mesh& mesh, const Eigen::Affine3d& T_model_mesh);
 
 }  // namespace mfar

@@ -15,7 +15,7 @@
 namespace mfar {
 namespace {
 
-/// Rotates glTF's y-up frame to z-up.
+/// Rotates glTF's coordinates, where y is up, so that z is up.
 Eigen::Affine3d upright() {
     Eigen::Affine3d T = Eigen::Affine3d::Identity();
     T.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;
@@ -30,7 +30,8 @@ Eigen::Affine3d transformOf(const GltfDocument& document, const tinygltf::Node& 
     };
     if (!sizeIs(node.matrix, 16) || !sizeIs(node.translation, 3) || !sizeIs(node.rotation, 4) ||
         !sizeIs(node.scale, 3))
-        document.refuse(place, "its transform has the wrong number of values");
+        document.refuse(place,
+                        "matrix must have 16 numbers, translation and scale 3, and rotation 4");
     if (!node.matrix.empty()) {
         const Eigen::Map<const Eigen::Matrix4d> matrix(node.matrix.data());
         T.matrix().topRows<3>() = matrix.topRows<3>();
@@ -38,13 +39,12 @@ Eigen::Affine3d transformOf(const GltfDocument& document, const tinygltf::Node& 
         if (!node.translation.empty()) T.translate(Eigen::Vector3d(node.translation.data()));
         if (!node.rotation.empty()) {
             const Eigen::Quaterniond q(Eigen::Vector4d(node.rotation.data()));
-            if (!(q.norm() > 1e-6))
-                document.refuse(place, "its rotation is a quaternion of length 0");
+            if (!(q.norm() > 1e-6)) document.refuse(place, "rotation is a quaternion of length 0");
             T.rotate(q.normalized());
         }
         if (!node.scale.empty()) T.scale(Eigen::Vector3d(node.scale.data()));
     }
-    if (!T.matrix().allFinite()) document.refuse(place, "its transform is not finite");
+    if (!T.matrix().allFinite()) document.refuse(place, "the transform is not finite");
     return T;
 }
 
@@ -56,15 +56,15 @@ public:
     Model build() {
         for (const int root : roots())
             addNode(root, upright(), 0);
-        if (model_.meshes.empty()) document_.refuse("scene", "contains no triangles");
+        if (model_.meshes.empty()) document_.refuse("scene", "the scene contains no triangles");
         model_.materials = materials_.takeMaterials();
         model_.textures = materials_.takeTextures();
         return std::move(model_);
     }
 
 private:
-    /// Root nodes of the default scene, or of the first scene if the document names no default. If
-    /// the document has no scenes, returns all nodes that have no parent.
+    /// Returns the root nodes of the default scene, or of the first scene if the document names no
+    /// default. If the document has no scene, returns all nodes that have no parent.
     std::vector<int> roots() const {
         const tinygltf::Model& gltf = document_.gltf;
         if (!gltf.scenes.empty())
@@ -78,13 +78,15 @@ private:
         return out;
     }
 
-    // Recursive; the depth is limited to avoid a stack overflow.
+    // Adds the meshes of a node and of its descendants. This function is recursive; the depth is
+    // limited, so that the stack cannot overflow.
     void addNode(int index, const Eigen::Affine3d& T_model_parent, int depth) {
         const std::string place = fmt::format("nodes[{}]", index);
         const tinygltf::Node& node = document_.at(document_.gltf.nodes, index, place);
-        if (onPath_[index]) document_.refuse(place, "is its own ancestor");
+        if (onPath_[index]) document_.refuse(place, "the node is its own ancestor");
         if (depth == document_.limits.nodeDepth)
-            document_.refuse(place, fmt::format("is nested more than {} levels deep", depth));
+            document_.refuse(place,
+                             fmt::format("the node is nested more than {} levels deep", depth));
         if (++nodesShown_ > document_.limits.elements)
             document_.refuse(
                 place, fmt::format("the model has more than {} nodes", document_.limits.elements));

@@ -16,32 +16,35 @@ class ModelError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Limits of a model. If several nodes show a mesh, its vertices and triangles are counted once for
-/// each node.
+/// Largest size of a model. If several nodes show a mesh, its vertices and triangles are counted
+/// once for each node.
 struct ModelLimits {
-    std::size_t bytes = std::size_t{256} << 20U;  ///< sum over all files of the model
+    std::size_t bytes = std::size_t{256} << 20U;  ///< largest size of all files of the model
+                                                  ///< together
     std::size_t vertices = 4'000'000;
     std::size_t triangles = 4'000'000;
-    std::size_t elements = 100'000;  ///< per list of the document: nodes, accessors, ...
+    std::size_t elements = 100'000;  ///< largest number of entries in each list of the document:
+                                     ///< nodes, accessors, ...
     int nodeDepth = 64;
     std::size_t textures = 128;
-    int textureSide = 8192;                       ///< longest side [px]
-    std::size_t texels = std::size_t{64} << 20U;  ///< sum over all textures
-    std::size_t jsonValues = 2'000'000;           ///< JSON values in the document
-    /// Upper limit of the absolute value of coordinates after all transforms [m].
+    int textureSide = 8192;                       ///< largest width and height of a texture [px]
+    std::size_t texels = std::size_t{64} << 20U;  ///< largest number of texels of all textures
+                                                  ///< together
+    std::size_t jsonValues = 2'000'000;           ///< largest number of JSON values in the document
+    /// Largest absolute value of a coordinate after all transforms [m].
     float farthest = 10'000;
 };
 
-/// Limits with which reading a model takes at most about `bytes` of memory. Afterwards the model
-/// takes less. They are never above the default limits.
+/// Returns limits with which reading a model takes at most about `bytes` bytes of memory. The
+/// finished model takes less. The limits are never above the default limits.
 [[nodiscard]] ModelLimits limitsWithin(std::size_t bytes);
 
-/// Memory that a model takes [bytes].
+/// Returns the memory that a model takes [bytes].
 [[nodiscard]] std::size_t memoryOf(const Model& model);
 
 /// Reads a glTF 2.0 file, .glb or .gltf. Its buffers and pictures must be inside the file, or be
-/// files in its folder or below. The model is rotated from glTF's y-up frame to z-up: (x, y, z) ->
-/// (x, -z, y). A front that faces +z in glTF then faces -y.
+/// files in its folder or in folders below. In glTF, y is up; the model is rotated so that z is up:
+/// (x, y, z) -> (x, -z, y). A front that faces +z in glTF then faces -y.
 ///
 /// Supported: nodes (matrix or TRS), triangles, strips and fans, normals, tangents (computed where
 /// a normal texture needs them), one set of texture coordinates per material, metallic-roughness
@@ -54,8 +57,8 @@ struct ModelLimits {
 /// Source: Khronos, glTF 2.0 Specification, 2.0.1.
 [[nodiscard]] Model loadGltf(const std::filesystem::path& file, const ModelLimits& limits = {});
 
-/// Like loadGltf(), for the bytes of a file. `name` is used in messages. If the folder is empty,
-/// references to other files are refused.
+/// Like loadGltf(), for the bytes of a file. `name`: file name in error messages. `folder`: folder
+/// of the files to which the model refers; if it is empty, such references are refused.
 [[nodiscard]] Model parseGltf(std::span<const std::uint8_t> bytes, const std::string& name,
                               const std::filesystem::path& folder = {},
                               const ModelLimits& limits = {});

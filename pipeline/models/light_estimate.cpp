@@ -20,18 +20,19 @@ constexpr Size kMap{32, 16};
 // Constants of the spherical harmonics of degree 0 and 1.
 constexpr float kY0 = 0.282095F, kY1 = 0.488603F;
 
-/// Weights of the prior for the degrees 0, 1 and 2. Each weight is the quotient of two variances.
-/// The first is the variance of the seen light about a sum of nine harmonics (objects of about 0.25
-/// sr with half or twice the brightness). The second is the variance of the light between places
-/// (standard deviations of 3, 1.5 and 0.7 times the mean for the three degrees).
+/// Weights of the prior for the nine coefficients, of degrees 0, 1 and 2. Each weight is the
+/// quotient of two variances. The first is the variance of the seen light about a sum of nine
+/// harmonics (assumed: objects of about 0.25 sr with half or twice the brightness). The second is
+/// the variance of the coefficient from one scene to another (assumed: standard deviations of 3,
+/// 1.5 and 0.7 times the mean light for the three degrees).
 Eigen::Vector<double, 9> priorInformation() {
     Eigen::Vector<double, 9> out;
     out << 0.007, 0.03, 0.03, 0.03, 0.13, 0.13, 0.13, 0.13, 0.13;
     return out;
 }
 
-/// The prior: a surface of this mean radiance below, and light from above that gives the surface
-/// this radiance.
+/// Returns the coefficients of the prior: a surface with the radiance `mean` below, and light from
+/// above that gives a surface of this albedo this radiance.
 Eigen::Matrix<double, 9, 3> priorLight(const Eigen::Vector3d& mean, double albedo) {
     constexpr double kPi = std::numbers::pi;
     Eigen::Matrix<double, 9, 3> out = Eigen::Matrix<double, 9, 3>::Zero();
@@ -44,7 +45,8 @@ float luminanceOf(const Eigen::Vector3f& rgb) {
     return rgb.dot(Eigen::Vector3f(0.2126F, 0.7152F, 0.0722F));
 }
 
-/// Index of a direction's texel in a map with the layout of Environment.
+/// Returns the index of the texel in the map that contains a direction. The map has the layout of
+/// Environment.
 std::size_t texelOf(const Eigen::Vector3f& direction) {
     constexpr float kTurn = 2 * std::numbers::pi_v<float>;
     const float u = std::atan2(direction.y(), direction.x()) / kTurn + 0.5F,
@@ -82,22 +84,23 @@ LightEstimate estimateOf(const SphericalLight& radiance) {
                                  luminanceOf(radiance.row(2)));
     const float length = linear.norm(), level = luminanceOf(radiance.row(0));
     if (length > 0) out.mainDirection = linear / length;
-    // If all light comes from one direction, the linear coefficients are sqrt(3) times the constant
-    // one.
+    // If all light comes from one direction, the norm of the linear coefficients is sqrt(3) times
+    // the constant coefficient.
     if (level > 0) out.directionality = std::min(length / level * kY0 / kY1, 1.0F);
     return out;
 }
 
-/// The part of the light that is represented by a sun: all light if it comes from one direction,
-/// and little if the main direction is weak.
+/// Returns a sun that represents a part of the light: all light if it comes from one direction, and
+/// less the less directional it is. Empty if the light is hardly directional, or if its main
+/// direction is near the horizon or below.
 std::optional<Sun> sunOf(const LightEstimate& estimate) {
     constexpr float kLeastDirectionality = 0.12F, kLeastElevation = 0.2F, kSoftness = 0.12F;
     if (!(estimate.directionality > kLeastDirectionality) ||
         !(estimate.mainDirection.z() > kLeastElevation))
         return std::nullopt;
     const Eigen::Vector3f& d = estimate.mainDirection;
-    // For each colour channel, the coefficient of the spherical harmonic of degree 1 whose axis is
-    // the main direction. A sun of irradiance E in that direction adds E * kY1 to the coefficient.
+    // The coefficient, in each colour channel, of the spherical harmonic of degree 1 whose axis is
+    // the main direction. A sun of irradiance E in this direction adds E * kY1 to the coefficient.
     const Eigen::Vector3f along =
         (estimate.radiance.row(3) * d.x() + estimate.radiance.row(1) * d.y() +
          estimate.radiance.row(2) * d.z())
@@ -111,7 +114,8 @@ LightEstimator::LightEstimator(const LightEstimatorOptions& options)
     : options_(options), map_(static_cast<std::size_t>(kMap.width) * kMap.height) {
     if (!(options.smoothingS > 0) || !(options.memoryS > 0) ||
         !(options.surfaceAlbedo > 0 && options.surfaceAlbedo <= 1))
-        throw std::invalid_argument("options of the light estimate are out of range");
+        throw std::invalid_argument("light estimate: smoothingS and memoryS must be above 0, and "
+                                    "surfaceAlbedo must be above 0 and at most 1");
 }
 
 void LightEstimator::add(const ImageView& frame, const CameraModel& camera,
@@ -127,8 +131,8 @@ void LightEstimator::add(const ImageView& frame, const CameraModel& camera,
         sums[texelOf(seen.direction)] += part;
         all += part;
     }
-    // A black picture is ignored: the lens is covered, and the picture contains no information
-    // about the light.
+    // A black picture is ignored: the lens is probably covered, and the picture contains no
+    // information about the light.
     constexpr float kBlack = 0.002F;
     if (!(all.head<3>().maxCoeff() > kBlack * all.w())) return;
     for (std::size_t i = 0; i < map_.size(); ++i) {

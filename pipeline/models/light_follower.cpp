@@ -3,7 +3,7 @@
 namespace mfar {
 namespace {
 
-constexpr double kInterval = 0.5;  // [s] between two updates
+constexpr double kInterval = 0.5;  // time between two updates [s]
 
 }  // namespace
 

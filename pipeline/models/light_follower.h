@@ -12,7 +12,8 @@ public:
     /// If `sun` is set, it is always used instead of an estimated sun.
     explicit LightFollower(const std::optional<Sun>& sun) : sun_(sun) {}
 
-    /// Adds a frame like LightEstimator::add(). Returns the light if it has changed.
+    /// Adds a frame as LightEstimator::add() does, at most twice a second. Returns the new light if
+    /// a frame was added.
     std::optional<Lighting> follow(const ImageView& frame, const CameraModel& camera,
                                    const RigidTransform& T_world_camera, Timestamp time);
 

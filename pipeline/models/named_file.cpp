@@ -20,7 +20,7 @@ std::string percentDecoded(std::string_view uri) {
         unsigned value = 0;
         const auto end = std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
         if (digits.size() != 2 || end.ptr != digits.data() + 2)
-            throw std::runtime_error("the percent-encoding is invalid");
+            throw std::runtime_error("the percent-encoding of the file name is invalid");
         out += static_cast<char>(value);
         i += 2;
     }

@@ -6,11 +6,13 @@
 
 namespace mfar {
 
-/// Decodes a relative URI to a file name; %20 becomes a space. Throws std::runtime_error.
+/// Decodes a relative URI to a file name; for example, %20 becomes a space. Throws
+/// std::runtime_error if the encoding is invalid.
 [[nodiscard]] std::string percentDecoded(std::string_view uri);
 
-/// The file to which a document refers. It must be in this folder or below. Symbolic links are
-/// followed and must not lead outside. Throws std::runtime_error with the fault.
+/// Returns the path of the file `name` to which a document refers. The file must be in the
+/// document's folder `folder` or in a folder below. Symbolic links are followed and must not lead
+/// outside. Throws std::runtime_error, which says what is wrong.
 [[nodiscard]] std::filesystem::path fileInFolder(const std::filesystem::path& folder,
                                                  const std::string& name);
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kCellsAcross = 32, kCellsDown = 24, kSamplesASide = 4;
 
-/// Reads single pixels of a picture in any format as linear RGB.
+/// Reads single pixels of a picture of any format as linear RGB.
 class PixelReader {
 public:
     explicit PixelReader(const ImageView& picture)
@@ -62,7 +62,8 @@ private:
     YuvToRgb toRgb_;
 };
 
-/// Coordinate of the pixel in the centre of part i if `pixels` are divided into `parts`.
+/// Divides a row of `pixels` pixels into `parts` parts, and returns the coordinate of the pixel in
+/// the centre of part i.
 int middleOf(int i, int parts, int pixels) {
     return static_cast<int>((2 * std::int64_t{i} + 1) * pixels / (2 * std::int64_t{parts}));
 }
@@ -90,8 +91,8 @@ void seenRadiance(const ImageView& picture, const CameraModel& camera,
             const Eigen::Vector2d ray = camera.unproject(
                 {(column + 0.5) * cellWidth - 0.5, (row + 0.5) * cellHeight - 0.5});
             const Eigen::Vector3d inCamera(ray.x(), ray.y(), 1);
-            // Solid angle of a cell on the plane z = 1. The power accounts for the greater distance
-            // and for the oblique view of cells away from the centre.
+            // Solid angle of a cell of the picture on the plane z = 1. The third power accounts for
+            // the greater distance and the oblique view of cells away from the centre.
             const double angle =
                 cellWidth / camera.fx * cellHeight / camera.fy / std::pow(inCamera.norm(), 3);
             out.push_back({(T_world_camera.rotation * inCamera.normalized()).cast<float>(),

@@ -36,7 +36,7 @@ float smoothStep(float from, float to, float x) {
     return t * t * (3 - 2 * t);
 }
 
-/// A lamp behind a diffuser with a frame, as seen from the origin.
+/// A lamp behind a diffuser with a frame, seen from the origin.
 struct Panel {
     Eigen::Vector3f middle;  ///< [m]; the panel faces the origin; its top is horizontal
     Eigen::Vector2f half;    ///< half of the width and half of the height [m]
@@ -76,8 +76,8 @@ Eigen::Vector3f studioLight(const Eigen::Vector3f& direction) {
     return light;
 }
 
-/// Relative luminance of the sky at a zenith angle and at an angle from the sun (CIE S 011, type
-/// 12).
+/// Returns the relative luminance of the sky in a direction, given by the cosine of its zenith
+/// angle and by its angle from the sun [rad] (CIE S 011, type 12).
 float clearSky(float cosZenith, float fromSun) {
     constexpr float kB = -0.32F, kC = 10, kD = -3, kE = 0.45F;
     const float gradation = 1 - std::exp(kB / std::max(cosZenith, 0.01F));

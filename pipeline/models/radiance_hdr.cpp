@@ -17,7 +17,7 @@ namespace {
 using Rgbe = std::array<std::uint8_t, 4>;
 
 [[noreturn]] void endsEarly() {
-    throw std::runtime_error("the picture ends too early");
+    throw std::runtime_error("the file ends before the picture is complete");
 }
 
 class HdrBytes {
@@ -36,12 +36,12 @@ public:
         const auto end = std::find(left_.begin(), left_.end(), '\n');
         const auto length = static_cast<std::size_t>(end - left_.begin());
         if (end == left_.end() || length > kLongest)
-            throw std::runtime_error("the header is invalid");
+            throw std::runtime_error("the header of the Radiance picture is invalid");
         const std::string_view text(reinterpret_cast<const char*>(left_.data()), length);
         left_ = left_.subspan(length + 1);
         return text;
     }
-    /// The next four bytes. The read position stays the same.
+    /// Returns the next four bytes without reading on.
     [[nodiscard]] std::optional<Rgbe> peek() const {
         if (left_.size() < 4) return std::nullopt;
         return Rgbe{left_[0], left_[1], left_[2], left_[3]};
@@ -69,7 +69,7 @@ double readHeader(HdrBytes& in) {
         if (!line.starts_with("EXPOSURE=")) continue;
         exposure *= numberIn(line.substr(9)).value_or(0);
         if (!(exposure >= 1e-9 && exposure <= 1e9))
-            throw std::runtime_error("the exposure is not from 1e-9 to 1e9");
+            throw std::runtime_error("EXPOSURE must be from 1e-9 to 1e9");
     }
     return exposure;
 }
@@ -87,7 +87,8 @@ Size readResolution(std::string_view line) {
     return size;
 }
 
-/// Reads a row in which the four components follow one another, each run-length coded.
+/// Reads a row in which the four components are stored one after the other, each with run-length
+/// coding.
 void readSplitRow(HdrBytes& in, std::span<Rgbe> row) {
     constexpr int kRun = 128;
     for (int channel = 0; channel < 4; ++channel) {
@@ -95,7 +96,7 @@ void readSplitRow(HdrBytes& in, std::span<Rgbe> row) {
             const int code = in.byte();
             const auto count = static_cast<std::size_t>(code > kRun ? code - kRun : code);
             if (count == 0 || count > row.size() - x)
-                throw std::runtime_error("a row of pixels is invalid");
+                throw std::runtime_error("a row of pixels is invalid: wrong run length");
             const std::uint8_t same = code > kRun ? in.byte() : std::uint8_t{0};
             for (std::size_t i = 0; i < count; ++i)
                 row[x++][channel] = code > kRun ? same : in.byte();
@@ -104,7 +105,7 @@ void readSplitRow(HdrBytes& in, std::span<Rgbe> row) {
 }
 
 /// Reads a row that is stored pixel by pixel. The code (1, 1, 1, n) repeats the last pixel n times.
-/// Each code that directly follows adds a byte of higher order to n.
+/// If such codes follow one another directly, each gives the next higher byte of n.
 void readOldRow(HdrBytes& in, std::span<Rgbe> row) {
     unsigned shift = 0;
     for (std::size_t x = 0; x < row.size();) {
@@ -116,7 +117,7 @@ void readOldRow(HdrBytes& in, std::span<Rgbe> row) {
         }
         const std::size_t count = shift < 32 ? std::size_t{pixel[3]} << shift : 0;
         if (x == 0 || count > row.size() - x)
-            throw std::runtime_error("a row of pixels is invalid");
+            throw std::runtime_error("a row of pixels is invalid: wrong run length");
         std::fill_n(row.begin() + static_cast<std::ptrdiff_t>(x), count, row[x - 1]);
         x += count;
         shift += 8;
@@ -131,13 +132,13 @@ void readRow(HdrBytes& in, std::span<Rgbe> row) {
                        (*mark)[1] == 2 && (*mark)[2] < 128;
     if (!split) return readOldRow(in, row);
     if ((std::size_t{(*mark)[2]} << 8U | (*mark)[3]) != row.size())
-        throw std::runtime_error("a row of pixels is invalid");
+        throw std::runtime_error("a row of pixels is invalid: it is not as wide as the picture");
     in.skip(4);
     readSplitRow(in, row);
 }
 
 Eigen::Vector3f valueOf(const Rgbe& pixel, float scale) {
-    constexpr float kBrightest = 1e7F;  // 1000 times the sun, in the unit of a studio's light
+    constexpr float kBrightest = 1e7F;  // 1000 times the sun, if the unit is the light in a studio
     if (pixel[3] == 0) return Eigen::Vector3f::Zero();
     const float unit = std::ldexp(scale, pixel[3] - 136);
     const Eigen::Vector3f mantissa(pixel[0], pixel[1], pixel[2]);

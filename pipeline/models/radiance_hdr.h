@@ -10,13 +10,14 @@
 
 namespace mfar {
 
-/// Whether the bytes begin like a Radiance picture.
+/// Whether the bytes begin like those of a Radiance picture (.hdr).
 [[nodiscard]] bool isRadianceHdr(std::span<const std::uint8_t> bytes);
 
-/// Reads a Radiance picture (RGBE, uncompressed or with either kind of run-length coding, -Y +X
-/// order). Calls `size` first, which may throw, and then `row` for each row from the top. Values
-/// are finite and not negative. The header's EXPOSURE is undone. Throws std::runtime_error with the
-/// fault. Source: Ward, Real Pixels, Graphics Gems II, 1991; Radiance's color.c.
+/// Reads a Radiance picture (RGBE; uncompressed, or with the old or the new run-length coding;
+/// order -Y +X). Calls `size` first, which may throw, and then `row` for each row from the top. The
+/// values are finite and not negative. They are divided by the header's EXPOSURE. Throws
+/// std::runtime_error, which says what is wrong. Source: Ward, Real Pixels, Graphics Gems II, 1991;
+/// Radiance's color.c.
 void readRadianceHdr(std::span<const std::uint8_t> bytes, const std::function<void(Size)>& size,
                      const std::function<void(int, std::span<const Eigen::Vector3f>)>& row);
 

@@ -12,7 +12,7 @@
 namespace mfar {
 namespace {
 
-constexpr int kGlaze = 0, kBrass = 1, kWalnut = 2;  ///< numbers of the materials
+constexpr int kGlaze = 0, kBrass = 1, kWalnut = 2;  ///< indices of the materials
 
 float lengthOf(const LatheProfile& profile) {
     float length = 0;
@@ -21,7 +21,8 @@ float lengthOf(const LatheProfile& profile) {
     return length;
 }
 
-/// Points of a profile at the centres of a texture's rows. The rows run from top to bottom.
+/// Returns the points of a profile that are at the centres of the `count` rows of a texture. The
+/// rows go from top to bottom.
 LatheProfile rowsOf(const LatheProfile& profile, int count) {
     LatheProfile out;
     const float whole = lengthOf(profile);
@@ -41,7 +42,7 @@ LatheProfile rowsOf(const LatheProfile& profile, int count) {
 
 LatheProfile ring(float radius, float height, float tube, int count) {
     LatheProfile out;
-    // The ring's cross-section begins at the lowest point and runs outwards and upwards.
+    // The cross-section of the ring begins at its lowest point and first goes outwards and upwards.
     for (int i = 0; i <= count; ++i) {
         const float turn = 2 * std::numbers::pi_v<float> * static_cast<float>(i) / count;
         out.emplace_back(radius + tube * std::sin(turn), height - tube * std::cos(turn));
@@ -66,7 +67,7 @@ void addJar(Mesh& mesh) {
     addTurned(mesh, body(), {.around = 176, .shape = [](float angle, float height) {
                                  return 1 - kDepth * fluteAt(angle, height);
                              }});
-    // The lid uses the part of the texture at the body's foot, which has no ornament.
+    // The lid uses the part of the texture at the foot of the body, which has no ornament.
     const LatheProfile lid = smoothProfile({{0.0212F, 0.1108F},
                                             {0.0226F, 0.1122F},
                                             {0.0205F, 0.1170F},
@@ -104,7 +105,7 @@ void addBrass(Mesh& mesh) {
     }
 }
 
-/// The profile of the stand, split at its edges.
+/// Returns the profile of the stand in pieces. It is divided at the sharp edges.
 std::vector<LatheProfile> standPieces() {
     return {
         {{0.0F, 0.0F}, {0.0400F, 0.0F}},
@@ -121,7 +122,7 @@ std::vector<LatheProfile> standPieces() {
         {{0.0338F, 0.0200F}, {0.0280F, 0.0204F}, {0.0F, 0.0204F}}};
 }
 
-/// All pieces of the stand as one profile, for texture coordinates.
+/// Returns all pieces of the stand as one profile, for texture coordinates.
 LatheProfile standProfile() {
     LatheProfile whole;
     for (const LatheProfile& piece : standPieces())
@@ -135,7 +136,7 @@ void addStand(Mesh& mesh) {
     const Eigen::Vector2f* end = nullptr;
     const std::vector<LatheProfile> pieces = standPieces();
     for (const LatheProfile& piece : pieces) {
-        // The step between two pieces also belongs to the profile.
+        // The straight connection between two pieces also belongs to the profile.
         if (end != nullptr) {
             const LatheProfile step = {*end, piece.front()};
             if (lengthOf(step) > 0)

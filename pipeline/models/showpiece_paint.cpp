@@ -18,13 +18,15 @@ float step(float from, float to, float x) {
     return t * t * (3 - 2 * t);
 }
 
-/// Profile of a line: 1 at distance zero, falling smoothly to 0 at about the half width.
+/// Returns how much a painted line covers a point at this distance from its middle: 1 at distance
+/// zero, decreasing smoothly to 0 around half of the line's width (`half`).
 float line(float distance, float half) {
     return 1 - step(0.6F * half, 1.4F * half, std::abs(distance));
 }
 
-/// A pattern of overlapping scales with arcs inside (seigaiha). Returns 1 on the line of an arc. A
-/// scale is 1 wide, and rows are 1/4 apart. A lower row covers the row above.
+/// A pattern of overlapping scales with arcs inside (seigaiha). Returns 1 on the line of an arc,
+/// and 0 between the lines. A scale is 1 wide, and rows are 1/4 apart. A lower row covers the row
+/// above.
 float scales(float x, float y) {
     constexpr float kRadius = 0.5F, kRow = 0.25F;
     const int lowest = static_cast<int>(std::floor((y - kRadius) / kRow)) + 1;
@@ -40,7 +42,8 @@ float scales(float x, float y) {
 }
 
 float gildingAt(float u, float height) {
-    constexpr float kHeightOfScale = 0.0098F;  // scales at the shoulder are then as high as wide
+    constexpr float kHeightOfScale = 0.0098F;  // with this, scales at the shoulder are as high as
+                                               // wide
     const float edges =
         std::max({line(height - kBandLow, 0.00042F), line(height - kBandHigh, 0.00042F),
                   line(height - 0.0864F, 0.00016F), line(height - 0.1009F, 0.00016F),
@@ -65,8 +68,8 @@ PaintedPoint glazeAt(float u, float height) {
     const float angle = u * kCircle;
     const Eigen::Vector3f place(std::cos(angle), std::sin(angle), height * 22);
     const float cloud = fractalNoise(place * 2.2F, 4);
-    // Glaze runs down and collects in places. It is dark at the foot, at the shoulder and in the
-    // grooves.
+    // Glaze runs down and is thick in some places. It is thick and dark at the foot, at the
+    // shoulder and in the grooves.
     const float belly = step(0.03F, 0.058F, height + 0.006F * cloud) *
                         (1 - step(0.066F, 0.086F, height + 0.004F * cloud));
     const float thin =
@@ -88,7 +91,8 @@ PaintedPoint walnutAt(const Eigen::Vector3f& place) {
         place + 0.0035F * Eigen::Vector3f(0, fractalNoise(place * 38, 3),
                                           fractalNoise(place * 38 + Eigen::Vector3f(7, 3, 1), 3));
     const float ring = std::hypot(bent.y() + 0.021F, bent.z() + 0.034F) / kRing;
-    // Wood is light in spring, gets darker towards autumn, and stops growing in winter.
+    // The wood of an annual ring is light in spring and gets darker towards autumn. In winter it
+    // does not grow.
     const float season = ring - std::floor(ring);
     const float late = season * season * (1 - step(0.93F, 1, season));
     // Fibres and pores run along the log's axis.

@@ -5,15 +5,15 @@
 
 namespace mfar {
 
-/// Blue glaze on the jar's body. It is gilded where `height` [m], the height of the profile at v,
-/// is in the shoulder's band.
+/// Returns the look of the jar's body: blue glaze, which is gilded in the band at the shoulder.
+/// `u`: texture coordinate around the axis; `height`: height of the point [m].
 [[nodiscard]] PaintedPoint glazeAt(float u, float height);
 
-/// Walnut at a point of a log along x [m].
+/// Returns the look of walnut wood at a point [m] of a log whose axis is x.
 [[nodiscard]] PaintedPoint walnutAt(const Eigen::Vector3f& place);
 
-/// Depth of the twisted flutes at an angle [rad] and a height [m]: 0 outside the flutes, 1 in a
-/// groove.
+/// Returns the depth of the twisted flutes at an angle [rad] and a height [m]: 0 outside the
+/// flutes, 1 in a groove.
 [[nodiscard]] float fluteAt(float angle, float height);
 
 }  // namespace mfar

@@ -17,7 +17,7 @@ std::uint8_t srgbByteOf(float linear) {
     return byteOf(v <= 0.0031308F ? 12.92F * v : 1.055F * std::pow(v, 1 / 2.4F) - 0.055F);
 }
 
-/// Normal map of a relief. In the texture, +y points up.
+/// Returns the normal map of a relief. +y of the normals points up in the texture.
 SurfaceTexture normalsOfRelief(const std::vector<float>& relief, const PaintedArea& area) {
     SurfaceTexture out{area.texels, false, {}};
     const auto [width, height] = area.texels;

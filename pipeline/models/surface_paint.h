@@ -13,16 +13,16 @@ struct PaintedPoint {
     float height = 0;  ///< height of the relief [m]
 };
 
-/// Size of the texture in texels and of the painted area in the world [m]. u points to the right
-/// and v down.
+/// A painted area: size of its textures in texels, and its width and height [m]. u increases to the
+/// right and v downwards.
 struct PaintedArea {
     Size texels;
     float width = 1, height = 1;
 };
 
 /// Paints textures for base colour, metallic-roughness and normals. Appends them to the model's
-/// textures, and makes the material refer to them. The relief continues across the borders in u but
-/// not in v.
+/// textures, and makes the material refer to them. `look`: look of the surface at each point. The
+/// relief continues across the borders in u but not in v.
 void paint(Model& model, Material& material, const PaintedArea& area,
            const std::function<PaintedPoint(float u, float v)>& look);
 

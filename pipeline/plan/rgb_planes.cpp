@@ -23,7 +23,8 @@ void splitRow(const std::uint8_t* from, int width, bool blueFirst, const Channel
     }
 }
 
-/// The samples of a plane. `step` is the distance between two samples [bytes].
+/// The samples of a channel (Y, U or V) in memory. `step` is the distance between neighbouring
+/// samples of a row [bytes].
 struct Samples {
     const std::uint8_t* data;
     std::size_t stride;
@@ -42,8 +43,8 @@ std::array<Samples, 3> samplesOf(const ImageView& p) {
     return {luma, {u.data, u.stride, 1}, {v.data, v.stride, 1}};
 }
 
-/// Converts Y U V to R G B with 16-bit integers, because every supported processor multiplies eight
-/// of them at once.
+/// Converts Y U V to R G B. Computes with 16-bit integers, because every supported processor
+/// multiplies eight of them at once.
 class YuvRows {
 public:
     explicit YuvRows(const ImageView& picture)
@@ -55,7 +56,7 @@ public:
         for (std::size_t i = 0; i < 3; ++i) {
             for (std::size_t j = 0; j < 3; ++j)
                 factors_[i][j] = static_cast<std::int16_t>(std::lround(rows[i][j] * kOne));
-            // The offset accounts for the 128 that is subtracted from chroma.
+            // Chroma is stored with an offset of 128, which readChroma() subtracts.
             const float offset = rows[i][3] + 128 * (rows[i][1] + rows[i][2]);
             offsets_[i] = static_cast<std::int16_t>(std::lround(16 * offset) + 8);
         }
@@ -76,7 +77,7 @@ private:
     static constexpr float kOne = 8192;
 
     /// Reads chroma minus 128, multiplied by 128. A chroma sample lies between the pixels that
-    /// share it. In each direction a pixel gets 3/4 of the nearer and 1/4 of the farther sample.
+    /// share it. Along each axis, a pixel gets 3/4 of the nearer sample and 1/4 of the farther one.
     void readChroma(const Samples& plane, int y, std::int16_t* to) {
         const int width = size_.width / 2;
         const int row = sharedRows_ ? y / 2 : y;

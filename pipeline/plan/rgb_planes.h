@@ -16,8 +16,8 @@ public:
     /// Creates a black picture.
     explicit RgbPlanes(Size size);
 
-    /// Copies a valid picture of this size in any format. Colours differ from those of
-    /// picture_from_yuv.frag by at most one grey level.
+    /// Converts a valid picture of this size, in any format, to planes. Colours differ from those
+    /// of picture_from_yuv.frag by at most one grey level.
     void take(const ImageView& picture);
     /// Copies one tile from planes of the same size.
     void takeTile(const RgbPlanes& from, int column, int row);

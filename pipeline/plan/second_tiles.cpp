@@ -6,8 +6,8 @@ namespace mfar {
 namespace {
 
 constexpr int kCells = 4;  // cells along the edge of a tile
-// Factor by which tiles that the second still showed before are preferred. Without it, noise would
-// change the choice of tiles in every frame.
+// Factor by which the priority of a tile is raised if the second still showed the tile before.
+// Without it, noise would change the choice of tiles in every frame.
 constexpr float kRather = 1.5F;
 
 /// Calls body(x, y) with the indices of a tile's cells that exist in the field.
@@ -19,8 +19,8 @@ void forCells(Size tiles, int tile, Size cells, const Body& body) {
             body(x, y);
 }
 
-/// How much the newest still lacks in a tile: the mean over the tile's cells of (1 - weight) *
-/// (share of structure in the video's signal). NaN counts as 0.
+/// How much of a tile the newest still does not show, [0, 1]: the mean over the tile's cells of (1
+/// - weight) * TrustCell::signal. NaN counts as 0.
 float lackOf(Size tiles, int tile, const SecondTiles::Match& newest) {
     float sum = 0;
     forCells(tiles, tile, newest.weighed.size, [&](int x, int y) {
@@ -30,8 +30,9 @@ float lackOf(Size tiles, int tile, const SecondTiles::Match& newest) {
     return sum / (kCells * kCells);
 }
 
-/// How much the second still adds in a tile: like lackOf(), but with the second still's weight
-/// minus the newest still's weight instead of 1 - weight.
+/// How much more of a tile the second still shows than the newest, [0, 1]: the mean over the tile's
+/// cells of (weight of the second still - weight of the newest still) * TrustCell::signal. Negative
+/// values count as 0.
 float gainOf(Size tiles, int tile, const SecondTiles::Match& newest,
              const Rows<const WeighedCell>& second) {
     float sum = 0;
@@ -50,7 +51,8 @@ SecondTiles::SecondTiles(Size tiles) : work_(TileWork::everything(tiles)) {
     candidates_.reserve(count);
     showed_.resize(count);
     rest_.resize(count);
-    // All tiles are updated in each frame, because each frame matches other tiles.
+    // The whole frame counts as drawn, because each frame matches other tiles with the second
+    // still.
     work_.draw = TileWork::Draw::WholeEnlarged;
 }
 

@@ -8,12 +8,12 @@ namespace mfar {
 namespace {
 
 constexpr int kTileBlock = 8;  // edge of a block [tiles]
-// kSpread: relative standard deviation of a tile's sum of squares. kSignificant: number of standard
-// deviations from which on a difference is significant.
+// kSpread: standard deviation of a tile's sum of squares, divided by its mean. kSignificant: a
+// difference is significant if it exceeds this number of standard deviations.
 constexpr double kSpread = 0.27;
 constexpr double kSignificant = 5;
-// Changes below this share of the noise are not detected, because the 8-bit rounding error is not
-// white noise.
+// Drifts below this fraction of the noise are not detected, because the error of rounding to 8 bits
+// is not white noise.
 constexpr double kLeast = 0.03;
 
 constexpr int kStructureBins = 84;  // a bin is a quarter of an octave

@@ -10,35 +10,35 @@
 
 namespace mfar {
 
-/// Sums over the tiles that are not certainly changed.
+/// Sums over the tiles that are not marked as changed.
 struct TileEnergy {
     int tiles = 0;
-    double pixels = 0, means = 0, bends = 0;  ///< sums, see TileMeasure
+    double pixels = 0, means = 0, bends = 0;  ///< sums of these members of TileMeasure
 
     void add(const TileMeasure& tile);
-    /// Whether the 2x2 means vary by more than noise explains (`grain` times the noise of the
-    /// pixels). This finds changes that are too weak for a single tile, such as a smooth slope that
-    /// moves.
+    /// Whether the differences of the 2x2 means are larger than noise explains, that is, larger
+    /// than `grain` times the noise of the pixels. This finds changes that are too weak to be found
+    /// in a single tile, such as a smooth slope of brightness that moves.
     [[nodiscard]] bool drifted(double grain) const;
 };
 
 /// Marks all tiles of a block of 8x8 tiles as changed if the block has drifted. Marks all tiles if
 /// the whole picture has drifted or `all` is true. `tiles` is row-major with `columns` tiles per
-/// row. Returns the sums over all tiles before marking.
+/// row. Returns the sums over the tiles that were not marked before the call.
 TileEnergy markDrifted(std::span<TileMeasure> tiles, int columns, double grain, bool all);
 
-/// Marks tiles as changed if an adjacent tile certainly changed in a cell at the common border,
-/// because enlarging reads two pixels beyond a tile.
+/// Marks a tile as changed if an adjacent tile certainly changed in a cell at the common border,
+/// because enlarging the tile reads two pixels beyond it.
 void markBeside(std::span<TileMeasure> tiles, int columns);
 
-/// Chooses tiles whose structure exceeds the noise, and their neighbours, because the weight of a
-/// cell depends on pixels beyond its tile. If there are too many, those with the most structure are
-/// chosen. Tiles of the last choice are preferred, so that noise does not make detail appear and
-/// vanish.
+/// Chooses the tiles that are matched with the still: tiles whose structure exceeds the noise, and
+/// their neighbours, because the weight of a cell depends on pixels beyond its tile. If there are
+/// too many, those with the most structure are chosen. Tiles of the last choice are preferred, so
+/// that noise does not make detail appear and vanish.
 class StructuredTiles {
 public:
-    /// Structure up to `none` is noise. If `none` is negative, every tile has structure. `most`
-    /// limits the number of tiles.
+    /// `none`: largest structure that noise alone causes; if it is negative, every tile has
+    /// structure. `most`: largest number of tiles.
     void choose(std::span<const TileMeasure> tiles, int columns, double none, int most);
     [[nodiscard]] bool operator[](std::size_t tile) const { return chosen_[tile]; }
     [[nodiscard]] int count() const;

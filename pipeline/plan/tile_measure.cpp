@@ -31,8 +31,8 @@ public:
         return out;
     }
 
-    /// The last tile of the row, which is only partly inside the picture. Valid as long as this
-    /// object.
+    /// The last tile of the row, which is only partly inside the picture. The result points into
+    /// this object.
     [[nodiscard]] simd::TilePixels cut(int column) {
         simd::TilePixels out = whole(column, 1);
         const auto inside = static_cast<std::size_t>(now_.size().width - kTileSize * column);

@@ -9,17 +9,20 @@
 
 namespace mfar {
 
-/// What a frame has to do in each tile. It is plain data in CPU memory, which WorkPlan writes and
-/// every step reads.
+/// What must be done in each tile to draw a frame. It is plain data in CPU memory, which WorkPlan
+/// writes and every step reads.
 struct TileWork {
     enum class Draw : std::uint8_t {
-        Tiles,         ///< only changed tiles; the others keep the pixels of earlier frames
-        Whole,         ///< the whole frame: detail in detailTiles, enlarged video elsewhere
-        WholeEnlarged  ///< the whole frame is enlarged; detail only in matched tiles
+        Tiles,         ///< only changed tiles are drawn; the others keep the pixels of earlier
+                       ///< frames
+        Whole,         ///< the whole frame is drawn: detail in the rectangle detailTiles, enlarged
+                       ///< video elsewhere
+        WholeEnlarged  ///< the whole frame is enlarged; detail is drawn only in matched tiles
     };
     /// Flags of a tile, 1 or 0. `flags` is row-major.
     struct Tile {
-        std::uint8_t changed = 0;  ///< the video differs from the video drawn there
+        std::uint8_t changed = 0;  ///< the video differs from the video from which the tile was
+                                   ///< last drawn
         std::uint8_t matched = 0;  ///< the tile has structure and is matched with the still
     };
 
@@ -28,7 +31,7 @@ struct TileWork {
     int changed = 0;  ///< number of changed tiles
     int matched = 0;  ///< number of changed tiles that are matched
     Draw draw = Draw::Whole;
-    PixelRect detailTiles;  ///< [tiles]; the smallest rectangle around all matched tiles
+    PixelRect detailTiles;  ///< the smallest rectangle around all matched tiles [tiles]
     double noise = 0;       ///< standard deviation of the video's noise [grey levels]
 
     /// Work in which every tile is changed and matched.

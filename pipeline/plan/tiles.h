@@ -17,10 +17,13 @@ inline constexpr int kTileSize = 16;  ///< edge of a tile [video px]
 
 /// What super-resolution does with a tile of 16x16 video pixels, in ascending order of cost.
 enum class TileClass : unsigned {
-    Unchanged = params::kTileUnchanged,  ///< video and still did not change: the last output stays
-    Upscaled = params::kTileUpscaled,    ///< only enlarged: the still has no detail that fits
-    Trusted = params::kTileTrusted,      ///< detail in the whole tile, with one smooth flow
-    Blended = params::kTileBlended,      ///< detail with weight and flow that vary per pixel
+    Unchanged = params::kTileUnchanged,  ///< video and still did not change: the tile's pixels stay
+    Upscaled = params::kTileUpscaled,    ///< the video is only enlarged: no detail of the still
+                                         ///< fits
+    Trusted = params::kTileTrusted,      ///< detail is drawn with a smooth flow and one weight for
+                                         ///< the whole tile
+    Blended = params::kTileBlended,      ///< detail is drawn with flow and weight that vary within
+                                         ///< the tile
     Hidden,                              ///< an opaque virtual object covers the tile
 };
 inline constexpr std::size_t kTileClasses = 5;

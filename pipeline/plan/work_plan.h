@@ -19,35 +19,36 @@ namespace mfar {
 /// which the tile was last drawn, on the CPU. A frame without any changed tile costs only this
 /// comparison.
 ///
-/// A tile is not drawn again as long as the difference is noise. This is tested for each tile
-/// alone. In addition, the differences are summed over the unchanged tiles of each block of 8x8
-/// tiles and of the whole picture; these sums must not exceed the noise of the pixels. The mean
-/// accumulated error stays below 3 % of the noise's variance, however slowly the scene changes. At
-/// rest nothing is drawn.
+/// A tile is not drawn again as long as noise explains the difference. This is tested for each tile
+/// on its own. In addition, the differences are summed over the unchanged tiles of each block of
+/// 8x8 tiles and of the whole picture; the tiles are drawn again if a sum is larger than the noise
+/// explains. The mean squared error that accumulates stays below 3 % of the noise's variance,
+/// however slowly the scene changes. While nothing moves, nothing is drawn.
 class WorkPlan {
 public:
-    /// `workers` run the comparison. Null: it runs in the caller's thread.
+    /// `workers` run the comparison of the tiles. Null: it runs in the caller's thread.
     explicit WorkPlan(Size video, std::shared_ptr<Workers> workers = nullptr);
 
     /// Compares `now` with `drawn`, both of the video's size. If `force` is true, every tile counts
     /// as changed.
     void update(const RgbPlanes& now, const RgbPlanes& drawn, bool force);
-    /// The changes after which an overlay must be drawn again.
+    /// After which changes of the video an overlay (the virtual objects) must be drawn again.
     enum class Redraw : std::uint8_t {
-        WithThem,    ///< a change of one of the overlay's tiles or an adjacent tile
-        WithOthers,  ///< a change of any tile
+        WithThem,    ///< after a change of one of the overlay's tiles or of an adjacent tile
+        WithOthers,  ///< after a change of any tile
         Always,      ///< the overlay is drawn again even without a change
     };
-    /// Reports that an overlay was drawn on these tiles of the output. If the next update() finds
-    /// that the overlay must be drawn again, all of these tiles count as changed. update() resets
-    /// `redraw` to WithThem.
+    /// Reports that an overlay was drawn over these tiles of the output picture. If the next
+    /// update() finds that the overlay must be drawn again, all of these tiles count as changed.
+    /// update() resets `redraw` to WithThem.
     void drawnOver(const PixelRect& tiles, Redraw redraw);
-    /// Share of changed tiles, [0, 1], from which on the whole frame is drawn at once. 0: if any
-    /// tile changed.
+    /// Sets the smallest share of changed tiles, [0, 1], for which the whole frame is drawn at
+    /// once. 0: the whole frame is drawn if any tile changed.
     void drawWholeFrom(double share) { wholeShare_ = share; }
-    /// Matches only tiles with structure above the noise, and their neighbours, with the still.
-    /// `mostShare` limits their share of all tiles, (0, 1]; tiles with the most structure are
-    /// preferred. Other tiles are only enlarged. By default all tiles are matched.
+    /// From now on, only tiles with structure above the noise, and their neighbours, are matched
+    /// with the still. Other tiles are only enlarged. `mostShare`: largest share of all tiles that
+    /// are matched, (0, 1]; tiles with the most structure are preferred. By default all tiles are
+    /// matched.
     void matchStructured(double mostShare) { matchedShare_ = mostShare; }
     void matchEverything() { matchedShare_ = 0; }
     /// Result of the last update().
@@ -65,8 +66,8 @@ public:
     [[nodiscard]] double grain() const { return grain_; }
 
 private:
-    /// Whether detail may be drawn tile by tile. It is drawn whole if frames are always drawn
-    /// whole.
+    /// Whether detail may be drawn tile by tile. This is not the case if all tiles are matched or
+    /// frames are always drawn at once.
     [[nodiscard]] bool mayList() const { return matchedShare_ > 0 && wholeShare_ > 0; }
     void chooseMatched();
     /// Decides which tiles changed, from the measurements of update().
@@ -76,7 +77,7 @@ private:
 
     std::shared_ptr<Workers> workers_;
     double noise_, grain_ = 1, wholeShare_, matchedShare_ = 0;
-    PixelRect drawnOver_;  // [tiles]
+    PixelRect drawnOver_;  // tiles that the overlay covers [tiles]
     Redraw redraw_ = Redraw::WithThem;
     std::vector<TileMeasure> measured_;
     StructuredTiles structured_;

@@ -20,8 +20,9 @@ struct SurfaceTexture {
     std::vector<std::array<std::uint8_t, 4>> texels;  ///< RGBA, row-major
 };
 
-/// Metallic-roughness material of glTF 2.0 with linear factors. A texture index refers to
-/// Model::textures; the texture's values are multiplied with the factor. -1: no texture.
+/// Metallic-roughness material of glTF 2.0. The factors are linear. The members with "Texture" are
+/// indices of Model::textures; -1: no texture. The values of a texture are multiplied by the factor
+/// of the same property.
 struct Material {
     Eigen::Vector4f baseColour{1, 1, 1, 1};
     float metallic = 1, roughness = 1;  ///< [0, 1]
@@ -31,23 +32,26 @@ struct Material {
     /// opaque.
     float alphaCutoff = 0;
     bool doubleSided = false;
-    int baseColourTexture = -1, metallicRoughnessTexture = -1;  ///< roughness in G, metallic in B
+    /// The texture of metallicRoughnessTexture has roughness in G and metallic in B.
+    int baseColourTexture = -1, metallicRoughnessTexture = -1;
     int normalTexture = -1, emissionTexture = -1;
 };
 
 /// Triangles with the same material. All vertex arrays have the same length, or are empty if the
 /// attribute is absent.
 struct Mesh {
-    std::vector<Eigen::Vector3f> positions;  ///< [m], in the model's frame
-    std::vector<Eigen::Vector3f> normals;    ///< unit length; empty: normals of the triangles
+    std::vector<Eigen::Vector3f> positions;  ///< [m], in the model's coordinates
+    std::vector<Eigen::Vector3f> normals;    ///< unit length; empty: the normals of the triangles
+                                             ///< are used
     std::vector<Eigen::Vector2f> uvs;
-    std::vector<Eigen::Vector4f> tangents;  ///< xyz unit length; w = +-1 is the bitangent's sign
+    std::vector<Eigen::Vector4f> tangents;  ///< xyz: tangent, of unit length; w: sign of the
+                                            ///< bitangent, +1 or -1
     std::vector<std::array<std::uint32_t, 3>> triangles;
     int material = 0;
 };
 
-/// A rigid object in its own frame (z up, metres) with the transforms of all glTF nodes applied. It
-/// is validated: all numbers are finite and all indices are in range.
+/// A rigid object in its own coordinates (z up, metres). The transforms of all glTF nodes are
+/// applied already. It is valid: all numbers are finite and all indices are in range.
 struct Model {
     std::vector<Mesh> meshes;
     std::vector<Material> materials;  ///< at least one
@@ -66,22 +70,23 @@ struct Environment {
 struct Sun {
     /// Direction to the sun in the world, of unit length.
     Eigen::Vector3f towards{0.40562F, -0.30421F, 0.86194F};
-    Eigen::Vector3f irradiance{1, 1, 1};  ///< on a surface that faces the sun
+    Eigen::Vector3f irradiance{1, 1, 1};  ///< irradiance of a surface that faces the sun
     float angularRadius = 0.02F;          ///< [rad], above 0
 };
 
 struct Lighting {
-    std::shared_ptr<const Environment> environment;  ///< null: dark
+    std::shared_ptr<const Environment> environment;  ///< null: no light from the environment
     std::optional<Sun> sun;
 };
 
-/// A model placed in the world. In rendered pictures its number is its index in Scene::objects + 1.
+/// A model placed in the world. In rendered pictures, the number of the object is its index in
+/// Scene::objects + 1.
 struct SceneObject {
     std::shared_ptr<const Model> model;
     RigidTransform T_world_object;
     float scale = 1;  ///< above 0
 
-    /// Whether both have the same model with identical placement.
+    /// Whether both objects have the same model at the same position, rotation and scale.
     friend bool operator==(const SceneObject& a, const SceneObject& b) {
         return a.model == b.model && a.scale == b.scale &&
                a.T_world_object.rotation == b.T_world_object.rotation &&
@@ -89,8 +94,9 @@ struct SceneObject {
     }
 };
 
-/// The real surface that receives shadows and bounced light, as diffuse triangles in the world. The
-/// surface itself is not drawn. Only the change of its light by the objects is shown.
+/// The real surface that receives shadows and reflected light of the virtual objects, as diffuse
+/// triangles in the world [m]. The surface itself is not drawn. Only the change of its light by the
+/// objects is shown.
 struct ShadowCatcher {
     std::vector<Eigen::Vector3f> positions;
     std::vector<std::array<std::uint32_t, 3>> triangles;

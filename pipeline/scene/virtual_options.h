@@ -14,15 +14,16 @@ namespace mfar {
 
 /// An object from the configuration file.
 struct PlacedObject {
-    /// The model. Null: the simple shape is used.
+    /// The model. Null: `shape` is shown.
     std::shared_ptr<const Model> model;
-    std::string modelName;  ///< "showpiece" or a file name, for messages; empty for a shape
-    VirtualObject shape;    ///< the shape's T_world_object is ignored
-    float scale = 1;        ///< scale of a model, above 0; unused for a shape
+    std::string modelName;  ///< "showpiece" or a file name, for messages; empty if there is no
+                            ///< model
+    VirtualObject shape;    ///< used if there is no model; its T_world_object is ignored
+    float scale = 1;        ///< scale of the model, above 0; not used for `shape`
     RigidTransform T_anchor_object;
-    /// The frame in which the object is placed. Empty: the world of the tag map. If a tag is given,
-    /// the origin is the tag's centre; x points to the right and y up in the tag's print, and z
-    /// points out of the print.
+    /// The tag whose coordinates T_anchor_object refers to. Their origin is the tag's centre; x
+    /// points to the right and y up in the tag's print, and z points out of the print. Empty:
+    /// T_anchor_object refers to the world of the tag map.
     std::optional<TagKey> tag;
 };
 
@@ -37,9 +38,10 @@ struct LightOptions {
     LightSource source = LightSource::Studio;
     std::shared_ptr<const Environment> environment;  ///< only for File, else null
     std::string file;                                ///< file name, for messages
-    /// A sun in addition to the environment. It replaces the sun that is estimated from the camera.
+    /// A sun in addition to the environment. With LightSource::Camera, it replaces the estimated
+    /// sun.
     std::optional<Sun> sun;
-    float exposure = 1;  ///< radiance 1 / exposure is displayed as white; above 0
+    float exposure = 1;  ///< a radiance of 1 / exposure is displayed as white; above 0
 };
 
 enum class VirtualRendering : unsigned char { PathTraced, Preview };
@@ -47,14 +49,14 @@ enum class VirtualRendering : unsigned char { PathTraced, Preview };
 /// Settings of the virtual layer.
 struct VirtualOptions {
     VirtualRendering rendering = VirtualRendering::PathTraced;
-    double budgetMs = 8;  ///< path tracing per frame [ms of processor time]
+    double budgetMs = 8;  ///< processor time for path tracing in each frame [ms]
     Slicing slicing = Slicing::Time;
-    int samples = 64;          ///< samples of each pixel of a finished picture
+    int samples = 64;          ///< number of samples per pixel of a finished picture
     double resolution = 0.28;  ///< width of a path-traced picture relative to the still's
     HoleFilling holes = HoleFilling::Both;
-    int threads = 1;     ///< threads of the path tracer
+    int threads = 1;     ///< number of threads of the path tracer
     bool filter = true;  ///< whether the noise of pictures with few samples is smoothed
-    /// Upper limit of the angle between the views of two consecutive reference pictures [degrees].
+    /// Largest angle between the views of two consecutive traced pictures [degrees].
     double turnDeg = 4;
 
     bool operator==(const VirtualOptions&) const = default;

@@ -14,13 +14,16 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kStep = 0.25;       // [px] along the edge's normal
-constexpr double kMostReach = 2.5;   // [px] on both sides of an edge; suffices for a blur of 1 px
-constexpr double kEnds = 0.08;       // share of an edge ignored at each end: corners are round
-constexpr double kFarthestMove = 2;  // [px] largest shift of a corner or an edge point
-constexpr double kLeastContrast = 0.006;  // [linear light; grey level 255 is 1]
+constexpr double kStep = 0.25;       // distance between samples along the edge's normal [px]
+constexpr double kMostReach = 2.5;   // largest distance that is sampled on both sides of an edge
+                                     // [px]; suffices for a blur of 1 px
+constexpr double kEnds = 0.08;       // fraction of an edge that is ignored at each end, because
+                                     // corners look round
+constexpr double kFarthestMove = 2;  // largest shift of a corner or an edge point [px]
+constexpr double kLeastContrast = 0.006;  // smallest contrast of an edge [linear light; grey level
+                                          // 255 is 1]
 
-/// Bilinear look-up of linear light. Returns nothing outside the picture.
+/// Interpolates the linear light of a picture bilinearly. at() returns nothing outside the picture.
 class Light {
 public:
     Light(const ImageView& luma, const std::array<double, 256>& table)
@@ -47,9 +50,9 @@ struct EdgePoint {
     double weight;  ///< contrast of the edge [linear light]
 };
 
-/// Finds the position near `middle` where light rises along `normal` (from dark to bright). The
-/// result is the mean position of the rise. A second pass centres the search window on the result
-/// of the first pass.
+/// Finds the position near `middle` where the light increases along `normal` (from dark to bright).
+/// The result is the mean of all positions, weighted with the increase there. A second pass centres
+/// the search window on the result of the first pass.
 std::optional<EdgePoint> findStep(const Light& light, const Vector2d& middle,
                                   const Vector2d& normal, double reach) {
     double centre = 0, contrast = 0;
@@ -110,8 +113,8 @@ std::optional<Vector2d> intersect(const Line& a, const Line& b) {
     return Vector2d{(a.d * b.n.y() - b.d * a.n.y()) / det, (b.d * a.n.x() - a.d * b.n.x()) / det};
 }
 
-/// The edge from corner a to corner b as a line of normalised rays. In the picture, seen from a
-/// towards b, the inside of the quad is to the left.
+/// Measures the edge from corner a to corner b of a tag. Returns a line in normalised rays. In the
+/// picture, seen from a towards b, the inside of the quad is to the left.
 std::optional<Line> measureEdge(const Light& light, const CameraModel& camera, const Vector2d& a,
                                 const Vector2d& b, const TagFamilyInfo& family) {
     const double length = (b - a).norm();

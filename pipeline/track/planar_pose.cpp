@@ -40,7 +40,8 @@ Matrix3d towards(const Vector2d& p) {
         .toRotationMatrix();
 }
 
-/// Least-squares solution of u (r3 . X + tz) = r1 . X + tx and of the same equation for v.
+/// Least-squares solution for the translation t of the equations u (r3 . X + tz) = r1 . X + tx and
+/// v (r3 . X + tz) = r2 . X + ty of the four corners X and their rays (u, v).
 Vector3d translationOf(const Matrix3d& R, const std::array<Vector2d, 4>& rays) {
     Eigen::Matrix<double, 8, 3> A;
     Eigen::Matrix<double, 8, 1> b;
@@ -67,7 +68,8 @@ double errorOf(const RigidTransform& T, const std::array<Vector2d, 4>& rays) {
 std::optional<std::array<RigidTransform, 2>> planarPoses(const std::array<Vector2d, 4>& rays) {
     const auto H = homography(rays);
     if (!H) return std::nullopt;
-    // Everything follows from the image p of the square's centre and the Jacobian J at the centre.
+    // Both poses follow from the image p of the square's centre and from the homography's Jacobian
+    // J at the centre.
     const Vector2d p = H->topRightCorner<2, 1>();
     const Matrix2d J = H->topLeftCorner<2, 2>() - p * H->bottomLeftCorner<1, 2>();
     const Matrix3d V = towards(p);

@@ -18,9 +18,9 @@ Pose poseOf(const CameraPose& solved, const Matrix6& ambiguous,
     return out;
 }
 
-/// Covariance that results from the choice between the two solutions. Each solution is the true one
-/// with a probability that follows from its error. The filter must therefore expect an error along
-/// the way from one solution to the other.
+/// Covariance that results from the uncertain choice between the two solutions of the pose. Each
+/// solution is the true one with a probability that follows from its error. The filter must
+/// therefore expect an error in the direction from one solution to the other.
 Matrix6 ambiguity(const CameraPoses& poses, const CameraPose& chosen, double sigma) {
     if (!poses.other) return Matrix6::Zero();
     const bool isBest = &chosen == &poses.best;
@@ -31,7 +31,7 @@ Matrix6 ambiguity(const CameraPoses& poses, const CameraPose& chosen, double sig
     return share * (1 - share) * way * way.transpose();
 }
 
-/// Mean distance of the camera from the tags in use.
+/// Mean distance of the camera from the tags that were used.
 double distanceTo(std::span<const TagObservation> tags, const std::vector<bool>& used,
                   const RigidTransform& T_world_camera) {
     double sum = 0;
@@ -50,7 +50,8 @@ PlanarChoice::PlanarChoice(const PlanarChoiceOptions& o) : options_(o) {
     if (!(o.errorSigma > 0 && std::isfinite(o.errorSigma)) || !(o.threshold > 0) ||
         !(o.memory >= 0 && o.memory < 1))
         throw std::invalid_argument(
-            "choice between the two planar poses: an option is out of range");
+            "choice between the two planar poses: errorSigma and threshold must be above 0, and "
+            "memory must be at least 0 and below 1");
 }
 
 const CameraPose& PlanarChoice::choose(const CameraPoses& poses,

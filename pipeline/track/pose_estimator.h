@@ -9,11 +9,12 @@
 namespace mfar {
 
 struct PlanarChoiceOptions {
-    double errorSigma = 0.25;  ///< noise of a corner's coordinates that the evidence assumes [px]
-    /// Evidence from which on the other solution is chosen: log likelihood ratio of the corners,
-    /// summed over frames.
+    double errorSigma = 0.25;  ///< standard deviation of a corner's coordinates that the evidence
+                               ///< assumes [px]
+    /// The other solution is chosen if the evidence for it exceeds this. The evidence is the log
+    /// likelihood ratio of the corners, summed over frames.
     double threshold = 12;
-    double memory = 0.95;  ///< factor that reduces the evidence from frame to frame, [0, 1)
+    double memory = 0.95;  ///< factor by which the evidence is multiplied with each frame, [0, 1)
 };
 
 /// Chooses one of the two poses from which a plane of tags looks nearly the same.
@@ -26,11 +27,11 @@ public:
     /// Throws std::invalid_argument if an option is out of range.
     explicit PlanarChoice(const PlanarChoiceOptions& options = {});
 
-    /// Returns a reference into `poses`. Without a prediction, returns the pose with the smaller
-    /// error.
+    /// Returns the chosen pose, as a reference into `poses`. Without a prediction, this is the pose
+    /// with the smaller error.
     [[nodiscard]] const CameraPose& choose(const CameraPoses& poses,
                                            const std::optional<RigidTransform>& predicted);
-    /// Whether the last call changed to the pose that is farther from the prediction.
+    /// Whether the last choose() changed to the pose that is farther from the prediction.
     [[nodiscard]] bool flipped() const { return flipped_; }
 
 private:
@@ -45,30 +46,35 @@ struct PoseEstimatorOptions {
     PoseFilterOptions filter;
 };
 
-/// Estimates the camera's motion from the tags in each video frame: solves for the pose, chooses a
-/// solution, and filters it. One thread at a time may use it.
+/// Estimates the camera's motion from the tags in each video frame: computes both solutions of the
+/// pose, chooses one, and filters it. One thread at a time may use it.
 class PoseEstimator {
 public:
     explicit PoseEstimator(const PoseEstimatorOptions& options = {});
 
     /// Returns the filtered pose at the frame's time. If no tag is visible or the measured pose is
-    /// an outlier, returns the predicted pose (tags = 0) until the filter's limit is reached.
+    /// an outlier, returns the predicted pose (tags = 0), and nothing once the filter no longer
+    /// predicts.
     std::optional<Pose> update(std::span<const TagObservation> tags, const CameraModel& camera,
                                Timestamp time);
     /// The unfiltered pose from the last frame's tags.
     [[nodiscard]] const std::optional<Pose>& raw() const { return raw_; }
     [[nodiscard]] std::optional<Pose> predict(Timestamp t) const { return filter_.predict(t); }
-    /// Measures the pose in a picture that is not a video frame. The solution is chosen with the
-    /// filter's prediction. The pose is not filtered, and the filter does not change.
-    /// `T_camera_video` transforms from the video camera to the picture's camera.
+    /// Measures the pose of the video camera at the time of a picture that is not a video frame.
+    /// The filter's prediction determines which of both solutions is chosen. The pose is not
+    /// filtered, and the filter does not change. `T_camera_video` transforms video camera
+    /// coordinates to those of the picture's camera.
     [[nodiscard]] std::optional<Pose> measure(std::span<const TagObservation> tags,
                                               const CameraModel& camera,
                                               const RigidTransform& T_camera_video,
                                               Timestamp time) const;
 
-    [[nodiscard]] int flips() const { return flips_; }        ///< changes between the two solutions
-    [[nodiscard]] int rejected() const { return rejected_; }  ///< poses rejected as outliers
-    [[nodiscard]] int jumps() const { return jumps_; }        ///< restarts after outliers
+    /// Number of changes between the two solutions.
+    [[nodiscard]] int flips() const { return flips_; }
+    /// Number of poses rejected as outliers.
+    [[nodiscard]] int rejected() const { return rejected_; }
+    /// Number of restarts of the filter after outliers that agreed.
+    [[nodiscard]] int jumps() const { return jumps_; }
 
 private:
     PoseEstimatorOptions options_;

@@ -8,8 +8,9 @@
 namespace mfar {
 namespace {
 
-// Standard deviation of the initial rates. A tracked camera mostly turns by less than one radian,
-// and moves by less than its distance from the tags, per second.
+// Standard deviation of the initial rates of rotation [rad/s] and translation [distances/s]. In a
+// second, a tracked camera mostly turns by less than one radian, and moves by less than its
+// distance from the tags.
 constexpr double kStartRate = 1;
 
 double secondsBetween(Timestamp a, Timestamp b) {
@@ -25,7 +26,9 @@ bool positive(double v) {
 PoseFilter::PoseFilter(const PoseFilterOptions& o) : options_(o) {
     if (!positive(o.angularAcceleration) || !positive(o.linearAcceleration) || !positive(o.gate) ||
         o.jumpFrames < 1 || o.bridge.count() < 0 || o.bridgeFrames < 0)
-        throw std::invalid_argument("pose filter: an option is out of range");
+        throw std::invalid_argument(
+            "pose filter: the accelerations, gate and jumpFrames must be positive, and bridge and "
+            "bridgeFrames must not be negative");
 }
 
 PoseFilter::State PoseFilter::started(const Pose& measured, double distance) const {
@@ -133,7 +136,8 @@ void PoseFilter::reset() {
 std::optional<Pose> PoseFilter::predict(Timestamp t) const {
     if (!state_ || missed_ > options_.bridgeFrames || !reaches(*state_, t)) return std::nullopt;
     const State at = propagated(*state_, t);
-    // Numeric failure: the covariance has values too different for double precision.
+    // The computation has failed because the values of the covariance differ too much in magnitude
+    // for double precision.
     if (!isFinite(at.T_world_video) || !at.P.allFinite() || !(at.P.diagonal().minCoeff() >= 0))
         return std::nullopt;
     Pose out;

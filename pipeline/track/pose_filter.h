@@ -11,43 +11,47 @@
 namespace mfar {
 
 struct PoseFilterOptions {
-    /// Accelerations are white noise in the constant-velocity model. Lengths are relative to the
-    /// distance from the tags, because a pose's errors are proportional to this distance. The unit
-    /// of length is therefore irrelevant.
+    /// In the constant-velocity model, accelerations are white noise. Lengths are relative to the
+    /// distance from the tags, because the errors of a pose are proportional to this distance. The
+    /// unit of length is therefore irrelevant.
     double angularAcceleration = 0.4;  ///< [rad/s^2 per root Hz]
     double linearAcceleration = 0.4;   ///< [distances/s^2 per root Hz]
-    double gate = 50;  ///< a pose with a larger squared Mahalanobis distance (6 degrees of freedom)
-                       ///< is an outlier
-    int jumpFrames = 3;  ///< consecutive outliers that agree and so restart the filter
-    std::chrono::nanoseconds bridge = std::chrono::milliseconds(400);  ///< longest prediction
-    int bridgeFrames = 12;  ///< frames without an accepted pose until predictions end
+    double gate = 50;    ///< largest squared Mahalanobis distance (6 degrees of freedom) of a pose
+                         ///< from the prediction; above it, the pose is an outlier
+    int jumpFrames = 3;  ///< number of consecutive outliers that restart the filter if they agree
+                         ///< with each other
+    /// Longest time of a prediction.
+    std::chrono::nanoseconds bridge = std::chrono::milliseconds(400);
+    int bridgeFrames = 12;  ///< number of frames without an accepted pose after which predictions
+                            ///< end
 };
 
 /// Constant-velocity Kalman filter on SE(3). The camera is assumed to keep its rates of rotation
-/// and translation in its own frame. The error state has 12 dimensions: motion of the pose
-/// (rotation, translation) and of the twist, both in the camera's frame. One thread at a time may
-/// use it.
+/// and translation in its own coordinates. The error state has 12 dimensions: error of the pose
+/// (rotation, translation) and error of the twist (the rates), both in the camera's coordinates.
+/// One thread at a time may use it.
 class PoseFilter {
 public:
     /// Throws std::invalid_argument if an option is not positive or not finite.
     explicit PoseFilter(const PoseFilterOptions& options = {});
 
     enum class Outcome {
-        Started,   ///< first pose, also after too long a gap or a step back in time
-        Accepted,  ///< the pose was combined with the prediction
+        Started,   ///< the pose starts the filter: it is the first one, or the first after too long
+                   ///< a gap or a step back in time
+        Accepted,  ///< the pose was averaged with the prediction
         Rejected,  ///< the pose is an outlier, and the prediction is kept
-        Jumped     ///< several outliers agreed, and the filter restarted from them
+        Jumped     ///< several outliers agreed with each other, and the filter restarted from them
     };
-    /// Adds a measured pose with its time and covariance. `distance` is the distance from the
-    /// camera to the measured tags in the unit of the translation.
+    /// Adds a measured pose with its time and covariance. `distance`: distance of the camera from
+    /// the measured tags, in the unit of length of the pose.
     Outcome update(const Pose& measured, double distance);
     /// Reports a frame without a measured pose.
     void missed();
     void reset();
 
-    /// Pose and covariance at time t with tags = 0. t may be up to `bridge` before or after the
-    /// last accepted pose. Empty outside this range, after bridgeFrames frames without an accepted
-    /// pose, or before the first pose.
+    /// Returns pose and covariance at time t, with tags = 0. Time t may be up to `bridge` before or
+    /// after the last accepted pose. Empty outside this range, after bridgeFrames frames without an
+    /// accepted pose, or before the first pose.
     [[nodiscard]] std::optional<Pose> predict(Timestamp t) const;
 
 private:
@@ -63,13 +67,14 @@ private:
 
     [[nodiscard]] State started(const Pose& measured, double distance) const;
     [[nodiscard]] State propagated(const State& from, Timestamp to) const;
-    /// Returns false and changes nothing if the pose is an outlier.
+    /// Updates `state` with a measured pose. Returns false and changes nothing if the pose is an
+    /// outlier.
     [[nodiscard]] bool correct(State& state, const Pose& measured, double distance) const;
     [[nodiscard]] bool reaches(const State& state, Timestamp t) const;
 
     PoseFilterOptions options_;
     std::optional<State> state_;
-    std::optional<State> rival_;  ///< a second state that follows the outliers
+    std::optional<State> rival_;  ///< a second state, which is updated with the outliers
     int missed_ = 0;
 };
 

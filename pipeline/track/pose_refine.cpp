@@ -15,7 +15,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 using Vector7 = Eigen::Matrix<double, 7, 1>;
 using Matrix7 = Eigen::Matrix<double, 7, 7>;
 
-/// Unknowns are the camera's motion (6) and the edge shift (1).
+/// Normal equations for seven unknowns: the camera's motion (6) and the edge shift (1).
 struct NormalEquations {
     Matrix7 A = Matrix7::Zero();
     Vector7 b = Vector7::Zero();
@@ -26,7 +26,8 @@ struct Estimate {
     double edgeShift = 0;
 };
 
-// Whether a point is in front of the camera. No lens sees rays closer to the image plane than this.
+// Whether a point is in front of the camera. Points almost in the image plane are excluded, because
+// no lens sees them.
 bool inFront(const Eigen::Vector3d& p) {
     return p.z() > 1e-3 * p.norm();
 }
@@ -41,8 +42,8 @@ double totalError(std::span<const CornerSet> sets, const Estimate& at, const Cam
     return sum;
 }
 
-/// Linearises the reprojection in x of T_world_camera * exp(x). The motion x moves a point p in the
-/// camera's frame by p x rotation - translation.
+/// Linearises the reprojection in x of T_world_camera * exp(x). The motion x moves a point p in
+/// camera coordinates by cross(p, rotation) - translation.
 NormalEquations linearise(std::span<const CornerSet> sets, const Estimate& at,
                           const CameraModel& camera, double shiftWeight) {
     const RigidTransform T_camera_world = at.T_world_camera.inverse();
@@ -83,8 +84,8 @@ std::array<Eigen::Vector2d, 4> outwardsOf(const std::array<Eigen::Vector2d, 4>& 
     for (int k = 0; k < 4; ++k) {
         const Eigen::Vector2d a = outwardNormal(corners[k] - corners[(k + 3) % 4]);
         const Eigen::Vector2d b = outwardNormal(corners[(k + 1) % 4] - corners[k]);
-        // The corner moves to the intersection of the two edges after both moved out by 1 px. A
-        // corner too flat for a stable intersection does not move.
+        // If both edges move outwards by 1 px, the corner moves to their new intersection. A corner
+        // that is too flat for a stable intersection does not move.
         const double flat = 1 + a.dot(b);
         out[k] = flat > 0.1 ? Eigen::Vector2d((a + b) / flat) : Eigen::Vector2d::Zero();
     }

@@ -13,7 +13,8 @@ namespace mfar {
 struct CornerSet {
     std::array<Eigen::Vector3d, 4> world;     ///< [m]
     std::array<Eigen::Vector2d, 4> pixels;    ///< [px] in the distorted picture
-    std::array<Eigen::Vector2d, 4> outwards;  ///< motion of each corner per px of edge shift
+    std::array<Eigen::Vector2d, 4> outwards;  ///< motion of each corner [px] if all edges move
+                                              ///< outwards by 1 px
     double weight = 1;                        ///< weight of the squared error; 0: ignored
 };
 
@@ -30,23 +31,24 @@ outwardsOf(const std::array<Eigen::Vector2d, 4>& corners);
 
 struct RefinedPose {
     RigidTransform T_world_camera;
-    Matrix6 information;      ///< J^T J for a motion in the camera's own frame [px^2], without the
-                              ///< part that an edge shift explains
-    double squaredError = 0;  ///< weighted sum [px^2]
-    double edgeShift = 0;     ///< [px]
+    Matrix6 information;      ///< information matrix J^T J of a motion in camera coordinates
+                              ///< [px^2], without the part that an edge shift explains
+    double squaredError = 0;  ///< weighted sum of the squared errors [px^2]
+    double edgeShift = 0;     ///< estimated edge shift [px], see refinePose()
 };
 
-/// Weight of the squared edge shift, relative to that of a corner, that keeps the edge shift at
-/// zero.
+/// A weight of the squared edge shift, relative to that of a corner, that is so large that the edge
+/// shift stays zero.
 inline constexpr double kNoEdgeShift = 1e12;
 
-/// Minimises the weighted squared reprojection error from `start` to the next local minimum by
-/// Levenberg-Marquardt. Marquardt's scaling makes the result independent of the unit of length.
+/// Minimises the weighted squared reprojection error by Levenberg-Marquardt, from `start` to the
+/// nearest local minimum. Marquardt's scaling makes the result independent of the unit of length.
 /// Empty if a corner is behind the camera at the start or if the corners do not determine the pose.
 ///
 /// The edges of all tags in a picture appear slightly too far out or in, because of blur, gamma and
 /// the printer's ink. With one tag, this edge shift cannot be distinguished from a different
-/// distance. With several tags it can, and it is estimated unless `shiftWeight` prevents it.
+/// distance of the tag. With several tags it can; it is then estimated, unless `shiftWeight`
+/// prevents it.
 [[nodiscard]] std::optional<RefinedPose> refinePose(std::span<const CornerSet> sets,
                                                     const RigidTransform& start,
                                                     const CameraModel& camera,

@@ -7,16 +7,18 @@
 namespace mfar {
 namespace {
 
-constexpr double kRoom = 10;         // [px] for errors that the prediction does not model
-constexpr double kQuietZone = 0.3;   // share of the tag's size; its white border is 1/8 to 1/5
-constexpr double kMostRoom = 80;     // [px] predictions with a larger uncertainty are not used
-constexpr double kSmallestTag = 10;  // [px]
+constexpr double kRoom = 10;         // margin for errors that the prediction does not model [px]
+constexpr double kQuietZone = 0.3;   // margin for the tag's white border, as a fraction of the
+                                     // tag's size; the border is 1/8 to 1/5 of it
+constexpr double kMostRoom = 80;     // largest uncertainty of a prediction that is used [px]
+constexpr double kSmallestTag = 10;  // a tag with a smaller extent is not searched [px]
 
 bool overlap(const PixelRect& a, const PixelRect& b) {
     return a.x0 < b.x1 && b.x0 < a.x1 && a.y0 < b.y1 && b.y0 < a.y1;
 }
 
-/// Three standard deviations [px] of the position of a point at this distance.
+/// Returns three standard deviations [px] of the position in the picture of a point at this
+/// distance.
 double uncertainty(const Matrix6& covariance, double distance, const CameraModel& camera) {
     const double turn = covariance.diagonal().head<3>().maxCoeff();
     const double move = covariance.diagonal().tail<3>().maxCoeff() / (distance * distance);

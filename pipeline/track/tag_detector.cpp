@@ -17,11 +17,12 @@
 namespace mfar {
 namespace {
 
-constexpr int kLargestSide = 32767;  // the library stores half pixels in 16 bits
-constexpr int kSmallestSide = 16;    // [decimated px]; smaller tags cannot be read
-constexpr int kTile = 4;             // edge of the library's threshold tiles [decimated px]
+constexpr int kLargestSide = 32767;  // libapriltag stores half pixels in 16 bits
+constexpr int kSmallestSide = 16;    // [decimated px]; tags in smaller pictures cannot be read
+constexpr int kTile = 4;             // width and height of libapriltag's threshold tiles [decimated
+                                     // px]
 
-/// Functions that create and free a family.
+/// The functions of libapriltag that create and free a tag family.
 struct FamilyMaker {
     apriltag_family_t* (*create)();
     void (*destroy)(apriltag_family_t*);
@@ -44,7 +45,7 @@ FamilyHandle makeFamily(TagFamily family) {
     return {maker.create(), maker.destroy};
 }
 
-/// Widens the border of the family's tags by one cell. The codes stay the same.
+/// Widens the black border of the family's tags by one cell. The codes of the tags stay the same.
 void widenBorder(apriltag_family_t& family) {
     family.width_at_border += 2;
     family.total_width += 2;
@@ -61,7 +62,7 @@ struct DetectionsDeleter {
     void operator()(zarray_t* d) const { apriltag_detections_destroy(d); }
 };
 
-// On Debian, image_u8_destroy() is in another library. This does the same.
+// Does the same as image_u8_destroy(), which is in another library on Debian.
 struct ImageDeleter {
     void operator()(image_u8_t* image) const {
         std::free(image->buf);
@@ -85,8 +86,8 @@ void check(const DetectorOptions& o) {
     require(o.minMargin >= 0 && o.minMargin <= 255, "minMargin must be from 0 to 255");
 }
 
-/// The part of the picture that is searched. It is aligned to the grid of threshold tiles of the
-/// whole picture.
+/// Returns the part of the picture that is searched for `region`. It is aligned to the grid of
+/// threshold tiles of the whole picture.
 PixelRect searched(Size size, const std::optional<PixelRect>& region, double decimation) {
     if (!region) return {0, 0, size.width, size.height};
     const int grid = static_cast<int>(kTile * decimation);
@@ -106,7 +107,7 @@ bool trusted(const TagDetection& d, const DetectorOptions& o) {
 }  // namespace
 
 struct TagDetector::Library {
-    std::vector<FamilyHandle> families;  // must outlive the detector, which refers to them
+    std::vector<FamilyHandle> families;  // must outlive `detector`, which refers to them
     std::unique_ptr<apriltag_detector_t, DetectorDeleter> detector;
 
     [[nodiscard]] TagDetection translate(const apriltag_detection_t& found, PixelRect from) const {
@@ -137,8 +138,8 @@ TagDetector::TagDetector(const DetectorOptions& options)
     for (const TagFamily family : families) {
         library_->families.push_back(makeFamily(family));
         if (options.borderCells == 2) widenBorder(*library_->families.back());
-        // One bit is corrected. Tables for two bits would take 90 MB for tagStandard41h12 and
-        // double the number of false detections.
+        // Up to one wrong bit is corrected. Tables for two bits would take 90 MB for
+        // tagStandard41h12, and would double the number of false detections.
         apriltag_detector_add_family_bits(&detector, library_->families.back().get(), 1);
     }
 }
@@ -151,14 +152,14 @@ std::vector<TagDetection> TagDetector::detect(const ImageView& luma,
                                               std::optional<PixelRect> region) {
     require(luma.format == PixelFormat::Gray8, "the picture must have the format Gray8");
     require(luma.size.width <= kLargestSide && luma.size.height <= kLargestSide,
-            "the picture is too large");
+            "the picture must not be larger than 32767x32767 pixels");
     const PixelRect part = searched(luma.size, region, options_.decimation);
     const int width = part.x1 - part.x0, height = part.y1 - part.y0;
     const double least = kSmallestSide * options_.decimation;
     if (!(width >= least && height >= least)) return {};
     const std::uint8_t* first = luma.data + part.y0 * luma.stride + part.x0;
-    // The library writes to its input only to blur it without decimation. In this case it gets a
-    // copy.
+    // libapriltag writes to its input only if it blurs it without decimation. In this case it gets
+    // a copy.
     auto* pixels = const_cast<std::uint8_t*>(first);
     auto stride = static_cast<int>(luma.stride);
     if (options_.blur > 0 && options_.decimation == 1) {

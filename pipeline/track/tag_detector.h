@@ -14,16 +14,16 @@ namespace mfar {
 
 struct TagDetection {
     TagKey tag;
-    int hamming = 0;    ///< number of corrected bits
-    double margin = 0;  ///< mean contrast between the data bits and their threshold [grey levels]
-    /// [px] in the whole picture, with pixel centres at integers. Their order, seen from the front
-    /// of an upright tag, is bottom left, bottom right, top right, top left. kTagCorners has the
-    /// same corners in the tag's frame.
+    int hamming = 0;    ///< number of bits of the tag's code that were corrected
+    double margin = 0;  ///< mean difference between the data bits and their threshold [grey levels]
+    /// Positions of the corners in the whole picture [px], with pixel centres at integers. Their
+    /// order, seen from the front of an upright tag, is bottom left, bottom right, top right, top
+    /// left. kTagCorners has the same corners in the tag's coordinates.
     std::array<Eigen::Vector2d, 4> corners;
 };
 
-/// Corners in the tag's frame (origin in the centre, x right, y down, z into the surface), in units
-/// of half the tag's size.
+/// The corners of a tag in its coordinates (origin in the centre, x right, y down, z into the
+/// surface), in units of half the tag's size.
 inline const std::array<Eigen::Vector2d, 4> kTagCorners{{{-1, 1}, {1, 1}, {1, -1}, {-1, -1}}};
 
 struct DetectorOptions {
@@ -33,14 +33,14 @@ struct DetectorOptions {
     double decimation = 2;
     int threads = 1;     ///< number of threads, 1 to 64
     double blur = 0;     ///< sigma of the blur before the search for quads [decimated px], 0 to 5
-    bool refine = true;  ///< whether the quad's edges are moved to the strongest gradient
-    /// Detections with more corrected bits are dropped (0 or 1). tag16h5 is often found in noise,
-    /// so its detections must have no corrected bit and twice the margin.
+    bool refine = true;  ///< whether libapriltag moves the quad's edges to the strongest gradient
+    /// Largest number of corrected bits of a detection, 0 or 1. Tags of tag16h5 are often found in
+    /// noise, so they must have no corrected bit and at least twice minMargin.
     int maxHamming = 1;
-    /// Width of the black border [cells], 1 or 2. Kalibr prints tags with a border of 2 cells; all
-    /// other tags have 1.
+    /// Width of the tags' black border [cells], 1 or 2. Tags printed by Kalibr have a border of 2
+    /// cells, all others of 1.
     int borderCells = 1;
-    double minMargin = 20;  ///< detections with a smaller margin are dropped [grey levels]
+    double minMargin = 20;  ///< smallest TagDetection::margin [grey levels]
 };
 
 /// Finds AprilTags with libapriltag. One thread at a time may use it.
@@ -53,10 +53,10 @@ public:
     TagDetector(TagDetector&&) noexcept;
     TagDetector& operator=(TagDetector&&) noexcept;
 
-    /// Finds tags in a Gray8 picture of up to 32767 pixels per side. They are sorted by tag, then
-    /// from left to right.
+    /// Finds tags in a Gray8 picture of at most 32767x32767 pixels. The detections are sorted by
+    /// tag, then from left to right.
     /// With `region`, only tags completely inside the region are found. The region is clipped to
-    /// the picture and enlarged to the library's grid of tiles, so that a tag is detected exactly
+    /// the picture and enlarged to libapriltag's grid of tiles, so that a tag is detected exactly
     /// as in the whole picture.
     /// Throws std::invalid_argument if the format or the size is not supported.
     [[nodiscard]] std::vector<TagDetection> detect(const ImageView& luma,
@@ -66,7 +66,7 @@ private:
     struct Library;
     std::unique_ptr<Library> library_;
     DetectorOptions options_;
-    std::vector<unsigned char> copy_;  ///< used where the library would blur its input in place
+    std::vector<unsigned char> copy_;  ///< used if libapriltag would blur its input in place
 };
 
 /// The black-and-white picture of a tag as libapriltag draws it, with one pixel per cell, including

@@ -16,7 +16,8 @@ struct TagFamilyInfo {
     std::string_view name;  ///< name in tags.toml and in libapriltag
     int count;              ///< ids are 0 to count - 1
     int cells;              ///< number of cells along the edge between two corners
-    bool brightInside;      ///< the ring inside the corners is white, the one outside black
+    bool brightInside;      ///< true: the ring of cells just inside the corners is white, and the
+                            ///< ring just outside is black
 };
 
 inline constexpr std::array<TagFamilyInfo, 4> kTagFamilies{{

@@ -9,7 +9,8 @@
 namespace mfar {
 namespace {
 
-constexpr std::size_t kLargestFile = 4U << 20U;  // all 2115 tags of a family take 0.4 MB
+constexpr std::size_t kLargestFile = 4U << 20U;  // [bytes]; a map with all 2115 tags of a family
+                                                 // has 0.4 MB
 
 std::string readAll(const std::filesystem::path& file) {
     try {
@@ -24,7 +25,8 @@ std::string readAll(const std::filesystem::path& file) {
 TagMap::TagMap(const std::vector<MappedTag>& tags) {
     for (const MappedTag& one : tags) {
         if (!(one.size > 0) || !std::isfinite(one.size) || !isFinite(one.T_world_tag))
-            throw std::invalid_argument("tag map: a tag has no valid size or position");
+            throw std::invalid_argument(
+                "tag map: the size of each tag must be positive, and its pose finite");
         if (!tags_.emplace(one.tag, one).second)
             throw std::invalid_argument("tag map: a tag occurs twice");
     }

@@ -20,17 +20,18 @@ class TagMapError : public std::runtime_error {
 
 struct MappedTag {
     TagKey tag;
-    double size = 0;             ///< edge of the square between the detected corners [m]
-    RigidTransform T_world_tag;  ///< tag frame: x right, y down, z into the surface
+    double size = 0;             ///< edge length of the square between the detected corners [m]
+    RigidTransform T_world_tag;  ///< tag coordinates: x right, y down, z into the surface
 };
 
-/// Transform from the frame of objects on a tag (x to the right and y up in the tag's print, z out
-/// of the print) to the tag's frame.
+/// Transforms coordinates of objects on a tag (x to the right and y up in the tag's print, z out of
+/// the print) to tag coordinates.
 [[nodiscard]] inline RigidTransform standOnTag() {
     return {Eigen::Quaterniond(0, 1, 0, 0), Eigen::Vector3d::Zero()};
 }
 
-/// The poses of the tags in the world. The map's frame is the world frame of all poses.
+/// The poses of the tags in the world. The coordinates of the map are the world coordinates of all
+/// poses.
 class TagMap {
 public:
     TagMap() = default;
@@ -38,10 +39,11 @@ public:
     /// finite.
     explicit TagMap(const std::vector<MappedTag>& tags);
 
-    /// Returns nullptr if the tag is not in the map. The result is valid as long as the map.
+    /// Returns the tag's entry, or nullptr if the tag is not in the map. The result is valid as
+    /// long as the map exists.
     [[nodiscard]] const MappedTag* find(TagKey tag) const;
     [[nodiscard]] bool empty() const { return tags_.empty(); }
-    /// Sorted by family and id.
+    /// All tags of the map, sorted by family and id.
     [[nodiscard]] const std::map<TagKey, MappedTag>& tags() const { return tags_; }
     /// Families that occur in the map.
     [[nodiscard]] std::vector<TagFamily> families() const;
@@ -56,18 +58,19 @@ private:
 /// tagMapFromRosYaml(). Throws TagMapError.
 [[nodiscard]] TagMap loadTagMap(const std::filesystem::path& file);
 
-/// `file` is used in messages. Throws TagMapError.
+/// Reads the text of a tags.toml. `file`: file name in error messages. Throws TagMapError.
 [[nodiscard]] TagMap tagMapFromToml(std::string_view text, const std::string& file);
 
-/// The map in the format of tags.toml.
+/// Returns the map as the text of a tags.toml.
 [[nodiscard]] std::string tomlOf(const TagMap& map);
 
-/// Reads the tags.yaml of apriltag_ros (ROS 1). The file may have one `tag_bundles` entry, whose
-/// frame becomes the world. The entry's `layout` has `id`, `size` and x, y, z, qw, qx, qy, qz
-/// (default: identity). Tags in `standalone_tags` have no pose in this world, so they are only
-/// checked. Without a bundle, the only standalone tag is the world.
-/// In the file's tag frame y points up and z out of the surface; poses are converted to this
-/// project's tag frame. The file does not name the family. Throws TagMapError.
+/// Reads the tags.yaml of apriltag_ros (ROS 1). The file may have one entry in `tag_bundles`, whose
+/// coordinates become the world. Each tag in the entry's `layout` has `id`, `size` and a pose x, y,
+/// z, qw, qx, qy, qz (default: identity). Tags in `standalone_tags` have no pose in this world, so
+/// they are only checked. Without a bundle, there must be a single standalone tag, which is the
+/// world.
+/// In the file's tag coordinates, y points up and z out of the surface; poses are converted to the
+/// tag coordinates of MappedTag. The file does not name the tag family. Throws TagMapError.
 [[nodiscard]] TagMap tagMapFromRosYaml(std::string_view text, const std::string& file,
                                        TagFamily family = TagFamily::Tag36h11);
 

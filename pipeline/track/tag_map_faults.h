@@ -12,8 +12,8 @@
 
 namespace mfar {
 
-/// A tag as read from a file. All file formats use it, so that they share the checks of a tag's
-/// values.
+/// The values of a tag as read from a file. The readers of all file formats use it, so that they
+/// share the checks of the values.
 struct RawTag {
     TagFamily family = TagFamily::Tag36h11;
     std::int64_t id = -1;
@@ -27,8 +27,8 @@ struct RawTag {
                                : fmt::format("{}: {}", file, what));
 }
 
-/// Describes the fault in the tag's values. If the tag is valid, adds it to `seen` and returns
-/// nothing.
+/// Returns a description of what is wrong with the tag's values. If the tag is valid, adds it to
+/// `seen` and returns nothing.
 inline std::optional<std::string> wrongWith(const RawTag& raw, std::set<TagKey>& seen) {
     const TagFamilyInfo& family = info(raw.family);
     if (raw.id < 0 || raw.id >= family.count)
@@ -44,7 +44,8 @@ inline std::optional<std::string> wrongWith(const RawTag& raw, std::set<TagKey>&
             return fmt::format("the position must be from {} to {} m, not {}",
                                plausible::kTagPosition.least, plausible::kTagPosition.most,
                                coordinate);
-    // Files have nine digits. A larger error means that the values are not a rotation.
+    // Numbers in the files have nine digits. If the length differs from 1 by more than this, the
+    // values are not meant as a rotation.
     if (!(std::abs(raw.wxyz.norm() - 1) < 1e-3))
         return fmt::format("the quaternion must have length 1, not {}", raw.wxyz.norm());
     if (!seen.insert({raw.family, static_cast<int>(raw.id)}).second)

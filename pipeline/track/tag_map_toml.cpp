@@ -119,10 +119,12 @@ TagMap tagMapFromToml(std::string_view text, const std::string& file) {
 }
 
 std::string tomlOf(const TagMap& map) {
-    std::string out = "# Tags of the world. position, orientation (w x y z): tag in the world; tag "
-                      "frame: origin in\n"
-                      "# the middle, x right, y down, z into the surface. size: edge of the black "
-                      "square. Metres.\n";
+    std::string out =
+        "# Tags and their poses in the world: position [m], orientation (quaternion w, "
+        "x, y, z).\n"
+        "# Tag coordinates: origin in the middle, x right, y down, z into the surface. "
+        "size: edge of\n"
+        "# the square between the corners [m].\n";
     for (const auto& [key, tag] : map.tags()) {
         const Eigen::Vector3d& p = tag.T_world_tag.translation;
         const Eigen::Quaterniond& q = tag.T_world_tag.rotation;

@@ -15,14 +15,16 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr std::size_t kStarts = 8;   // largest tags whose two solutions are tried as start
-constexpr double kStartCutoff = 10;  // [px] distant tags may be off by this with one tag's pose
+constexpr std::size_t kStarts = 8;   // number of largest tags whose solutions are candidates for
+                                     // the start
+constexpr double kStartCutoff = 10;  // [px]; with the pose from a single tag, the corners of
+                                     // distant tags may have an error of this size
 constexpr double kSameMinimum = 0.1 * kDegree;
 
-/// A usable tag with the two poses of the camera that follow from this tag alone.
+/// A usable tag, and the two camera poses that follow from this tag alone.
 struct Candidate {
-    std::size_t index;  ///< index of the observation
-    double area;        ///< [px^2]
+    std::size_t index;  ///< index of the tag's observation
+    double area;        ///< area of the tag in the picture [px^2]
     CornerSet corners;
     std::array<RigidTransform, 2> T_world_camera;
 };
@@ -31,8 +33,8 @@ double cross(const Vector2d& a, const Vector2d& b) {
     return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Area of a tag's quad [px^2]. Returns 0 if the quad is not a tag seen from its front, or is too
-/// small.
+/// Returns the area of a tag's quad [px^2], or 0 if the quad is not a tag seen from its front or is
+/// too small.
 double usableArea(const TagObservation& tag, const CameraModel& camera, double smallestEdge) {
     const auto& c = tag.corners;
     double area = 0;
@@ -85,8 +87,8 @@ double cappedError(std::span<const CornerSet> sets, const RigidTransform& T_worl
     return sum;
 }
 
-/// Returns that one of the tags' own solutions that fits all tags best. Larger tags come first and
-/// are preferred if errors are equal.
+/// Returns the pose that fits all tags best, among the two solutions of each single tag. Larger
+/// tags come first and are preferred if errors are equal.
 RigidTransform bestStart(std::span<const Candidate> tags, std::span<const CornerSet> sets,
                          const CameraModel& camera) {
     RigidTransform best = tags[0].T_world_camera[0];
@@ -102,7 +104,8 @@ RigidTransform bestStart(std::span<const Candidate> tags, std::span<const Corner
     return best;
 }
 
-/// Sets each tag's weight to 1 or 0 depending on its error. Returns false if all weights are 0.
+/// Sets the weight of each tag to 1 if its error is at most `cutoff` [px], else to 0. Returns false
+/// if all weights are 0.
 bool keepFitting(std::span<CornerSet> sets, const RigidTransform& T_world_camera,
                  const CameraModel& camera, double cutoff) {
     const RigidTransform inverse = T_world_camera.inverse();
@@ -114,9 +117,9 @@ bool keepFitting(std::span<CornerSet> sets, const RigidTransform& T_world_camera
     return any;
 }
 
-/// Refines a pose that comes from one tag to the minimum over all tags that agree. At first a tag's
-/// weight falls with its error (Geman-McClure), with a scale that gets smaller. Then the weights
-/// are 1 or 0.
+/// Refines a pose that comes from one tag to the minimum of the error over all tags that agree. At
+/// first a tag's weight is the smaller the larger its error is (Geman-McClure), with a scale that
+/// decreases. Then the weights are 1 or 0.
 std::optional<RefinedPose> refineRobustly(std::span<CornerSet> sets, RigidTransform T,
                                           const CameraModel& camera, double farthest) {
     for (const double scale : {kStartCutoff, 0.5 * (kStartCutoff + farthest), farthest}) {
@@ -140,7 +143,8 @@ std::optional<RefinedPose> refineRobustly(std::span<CornerSet> sets, RigidTransf
     return refined;
 }
 
-/// The final step. If there are several tags, the edge shift is estimated too.
+/// Computes the final pose and its covariance. If there are several tags, the edge shift is
+/// estimated, too.
 std::optional<CameraPose> finish(RefinedPose refined, std::span<const CornerSet> sets, int tags,
                                  const CameraModel& camera, const TagPoseOptions& options) {
     if (tags > 1) {
@@ -165,8 +169,8 @@ bool sameMinimum(const RigidTransform& a, const RigidTransform& b) {
     return a.rotation.angularDistance(b.rotation) < kSameMinimum;
 }
 
-/// The second local minimum over the tags in use. The search starts from the other solution of the
-/// largest tag.
+/// Finds the second local minimum of the error over the tags in use. Starts from the two solutions
+/// of the largest tag in use.
 std::optional<RefinedPose> otherMinimum(std::span<const Candidate> tags,
                                         std::span<const CornerSet> sets, const RefinedPose& best,
                                         const CameraModel& camera) {

@@ -14,18 +14,19 @@
 namespace mfar {
 
 struct TrackerOptions {
-    /// The poses of the tags. The map's frame is the world, and only the families of the map are
-    /// searched.
-    /// If the map is empty, `families` are searched. Then the largest tag of the first picture with
-    /// a tag becomes the map. In this case the world's origin is in this tag: x points to the right
-    /// and y up in the tag's print, and z points out of the print.
+    /// The poses of the tags. The coordinates of the map are the world, and only tags of the map's
+    /// families are searched.
+    /// If the map is empty, tags of `families` are searched, and the largest tag of the first
+    /// picture with a tag becomes the map. In this case the world's origin is in this tag: x points
+    /// to the right and y up in the tag's print, and z points out of the print.
     TagMap map;
     std::vector<TagFamily> families{TagFamily::Tag36h11};
     double tagSize = 0.1;         ///< size of the tag that becomes the world if there is no map [m]
-    double decimation = 2;        ///< for the video; see DetectorOptions
-    double stillDecimation = 4;   ///< for stills; see DetectorOptions
-    int threads = 1;              ///< threads of libapriltag for each sensor
-    int fullSearchInterval = 15;  ///< frames between two searches of the whole picture
+    double decimation = 2;        ///< decimation for video frames; see DetectorOptions
+    double stillDecimation = 4;   ///< decimation for stills; see DetectorOptions
+    int threads = 1;              ///< number of threads of libapriltag for each sensor
+    int fullSearchInterval = 15;  ///< number of frames from one search of the whole picture to the
+                                  ///< next
     double gamma = 2;             ///< gamma of the video; see CornerRefiner
     double stillGamma = 2;        ///< gamma of the stills; see CornerRefiner
     PoseEstimatorOptions pose;
@@ -33,10 +34,11 @@ struct TrackerOptions {
 
 struct TrackStats {
     std::int64_t frames = 0;
-    /// Number of searches of the whole picture: at the start, at intervals, and if no known tag was
-    /// found.
+    /// Number of frames that were searched completely: at the start, at intervals, and if no known
+    /// tag was found in the predicted regions.
     std::int64_t fullSearches = 0;
-    std::int64_t roiSearches = 0;  ///< number of frames in which the predicted regions sufficed
+    std::int64_t roiSearches = 0;  ///< number of frames in which only predicted regions were
+                                   ///< searched
     int flips = 0;                 ///< number of changes between the two planar solutions
     int rejected = 0;              ///< number of poses that the filter rejected as outliers
     int jumps = 0;                 ///< number of restarts of the filter after outliers that agreed
@@ -56,9 +58,9 @@ public:
 
     /// Processes a video frame of the rig's video size, Gray8 or Rgba8. Times must increase; a step
     /// back in time restarts the filter.
-    /// Returns the filtered pose at `time`. Without a tag, returns the predicted pose (tags = 0) as
-    /// long as the filter bridges the gap, then nothing. Throws std::invalid_argument if the size
-    /// is wrong.
+    /// Returns the filtered pose at `time`. If no tag is visible, returns the predicted pose (tags
+    /// = 0) as long as the filter predicts, then nothing. Throws std::invalid_argument if the
+    /// picture's size is not that of the rig's video camera.
     std::optional<Pose> track(const ImageView& picture, Timestamp time);
     /// The unfiltered pose from the tags of the last frame.
     [[nodiscard]] std::optional<Pose> raw() const;
@@ -69,12 +71,12 @@ public:
     /// still camera and T_still_video, and is not filtered. Empty if the still shows no usable tag.
     [[nodiscard]] std::optional<Pose> trackStill(const ImageView& still, Timestamp time);
 
-    /// Tags of the last frame with refined corners, including tags that are not in the map. May
-    /// only be called from track()'s thread; valid until the next call of track().
+    /// Tags of the last frame with refined corners, including tags that are not in the map. May be
+    /// called only from the thread that calls track(); valid until the next call of track().
     [[nodiscard]] const std::vector<TagDetection>& detections() const { return detections_; }
     [[nodiscard]] TrackStats stats() const;
-    /// The given map, or the map with the tag that became the world. Empty if there is no world
-    /// yet.
+    /// The map of the options, or the map with the tag that became the world. Empty if no tag has
+    /// become the world yet.
     [[nodiscard]] TagMap map() const;
 
 private:

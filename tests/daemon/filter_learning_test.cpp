@@ -162,7 +162,7 @@ TEST_F(FilterLearningTest, FiltersLearnedFromOtherSensorsAreNotUsed) {
     options.sensors = "video, another still";
     FilterLearning learning(options);
     EXPECT_EQ(learning.counts().learner.stills, 0U);
-    EXPECT_THAT(learning.takeWarnings(), ElementsAre(HasSubstr("other sensors")));
+    EXPECT_THAT(learning.takeWarnings(), ElementsAre(HasSubstr("another pair of sensors")));
 }
 
 TEST_F(FilterLearningTest, AResetDeletesTheStateFileToo) {

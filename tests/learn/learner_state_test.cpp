@@ -47,7 +47,7 @@ TEST(LearnerState, RestoredStateIsIdenticalAndContinuesEqually) {
 
 TEST(LearnerState, StateOfOtherSensorsIsRefused) {
     EXPECT_EQ(faultOf(EnlargerLearner().stored("a, b"), "a, c"),
-              "state: was learned from other sensors");
+              "state: was learned from another pair of sensors");
 }
 
 TEST(LearnerState, DamagedStatesAreRefused) {
@@ -112,10 +112,10 @@ TEST(LearnerState, GuidanceOutOfRangeIsRefusedThoughTheChecksumIsRight) {
     auto guidance = bytes;
     guidance[bytes.size() - kFineMatchSize - kGuidanceSize + 15] ^= 0x40;  // far above one
     enlarge::putNumber(guidance, enlarge::fnv1a(guidance), 4);
-    EXPECT_THAT(faultOf(guidance), HasSubstr("guidance that is out of range"));
+    EXPECT_THAT(faultOf(guidance), HasSubstr("guidance that are out of range"));
     bytes[bytes.size() - 1] ^= 0x40;  // byte of the share in FineMatch
     enlarge::putNumber(bytes, enlarge::fnv1a(bytes), 4);
-    EXPECT_THAT(faultOf(bytes), HasSubstr("usual match that is out of range"));
+    EXPECT_THAT(faultOf(bytes), HasSubstr("fine_share that are out of range"));
 }
 
 TEST(LearnerState, AWrongLengthIsRefusedThoughTheChecksumIsRight) {

@@ -2,15 +2,15 @@
 
 #include <cstdint>
 
-// The learned enlarger, see pipeline/enlarge/filter_layout.h: superres_enlarge.comp,
-// superres_vertical.frag, learned.glsl and the SIMD code of the same steps.
+// Parameters of the learned enlarger (see pipeline/enlarge/filter_layout.h), used by
+// superres_enlarge.comp, superres_vertical.frag, learned.glsl and the SIMD code of the same steps.
 // gles_shaders/params_to_glsl.cmake translates this header for the shaders.
 namespace mfar::params {
 
-inline constexpr int kGrid = 4;  ///< sub-pixels of a pixel along each axis
+inline constexpr int kGrid = 4;  ///< number of sub-pixels of a pixel along each axis
 inline constexpr int kGridShift = 2;
 static_assert(kGrid == 1 << kGridShift);
-inline constexpr int kPairs = 12;  ///< pairs of taps in a filter
+inline constexpr int kPairs = 12;  ///< number of pairs of taps in a filter
 
 inline constexpr int kLumaScale = 8;       ///< luma is stored in steps of 1/8 grey level
 inline constexpr int kResidualScale = 32;  ///< residuals are stored in steps of 1/32 grey level
@@ -23,7 +23,7 @@ inline constexpr float kMediumFrom = 6.0F;
 inline constexpr float kStrongFrom = 16.0F;
 inline constexpr float kPartlyCoherentFrom = 0.25F;
 inline constexpr float kCoherentFrom = 0.5F;
-/// Number of classes per angle, and number of angles.
+/// GradientClasses: number of classes per bin of the angle, and number of bins of the angle.
 inline constexpr int kGradientKinds = 12;
 inline constexpr int kGradientAngles = 16;
 
@@ -38,17 +38,17 @@ inline constexpr float kHighDifference = 25.0F;
 inline constexpr int kCurvatureKinds = 28;
 inline constexpr int kCurvatureAngles = 8;
 
-/// Tangents of 22.5 and 67.5 degrees, where the bins of the double angle meet.
+/// Tangents of 22.5 and 67.5 degrees. At these values of twice the gradient's angle, two bins meet.
 inline constexpr float kLowTangent = 0.414213562F;
 inline constexpr float kHighTangent = kLowTangent + 2.0F;
 
-/// The residual is limited so that its sum with the cubic stays within the range of the surrounding
-/// 5x5 pixels, which is extended at both ends by this share of its width.
+/// The residual is limited so that its sum with Keys' cubic stays within the range of the
+/// surrounding 5x5 pixels, extended at both ends by this fraction of the range's width.
 inline constexpr float kOvershoot = 0.25F;
 
 struct alignas(16) EnlargeTiles {
     std::int32_t videoWidth, videoHeight;  ///< [px]
-    std::int32_t columns, rows;            ///< of tiles
+    std::int32_t columns, rows;            ///< number of tiles along each axis
     std::int32_t firstColumn, firstRow;    ///< tile where the dispatch starts
 };
 

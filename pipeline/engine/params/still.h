@@ -2,12 +2,14 @@
 
 #include <cstdint>
 
-// Preparation of a still: still_reduce.frag, still_raise.frag and the SIMD code of the same steps.
-// gles_shaders/params_to_glsl.cmake translates this header for the shaders.
+// Parameters of the preparation of a still, used by still_reduce.frag, still_raise.frag and the
+// SIMD code of the same steps. gles_shaders/params_to_glsl.cmake translates this header for the
+// shaders.
 namespace mfar::params {
 
-/// Weight of each neighbour in the filter that raises the finest detail of a still, because linear
-/// look-ups lose some of it. Not used for a still that was reduced; see still_raise.frag.
+/// Weight of each neighbour in the filter that amplifies the finest detail of a still, because
+/// linear look-ups lose some of this detail. Not used for a still that was reduced; see
+/// still_raise.frag.
 inline constexpr float kLinearLoss = 0.08F;
 
 struct alignas(16) ReduceStill {

@@ -64,7 +64,7 @@ TEST(FilterBank, DamagedFiltersAreRefusedAndTheMessageSaysWhy) {
     EXPECT_EQ(faultOf(whole), "");
     auto damaged = whole;
     damaged[0] ^= 1;
-    EXPECT_EQ(faultOf(damaged), "some.filters: is not a file of filters");
+    EXPECT_EQ(faultOf(damaged), "some.filters: is not a filter file of mfar");
     damaged = whole;
     damaged[8] = 9;
     EXPECT_EQ(faultOf(damaged), "some.filters: has version 9; expected 1");
