@@ -324,7 +324,7 @@ constexpr OptionSection kConfig[] = {
     {"", kTop, ""},
     {"cameras", kCameras, ""},
     {"cameras.video", kVideo, "The video sensor."},
-    {"cameras.still", kStill, "The still sensor: the same keys."},
+    {"cameras.still", kStill, "The still sensor; same keys as [cameras.video]."},
     {"cameras.trigger", kLine, "The line that triggers the still sensor."},
     {"engine", kEngine, ""},
     {"superres", kSuperres, "", true},
