@@ -62,7 +62,7 @@ public:
         return std::exchange(warnings_, {});
     }
 
-    /// Sets the counters that it reports.
+    /// Sets the counters that the camera reports.
     void count(const CameraCounters& counters) {
         const std::lock_guard lock(mutex_);
         counters_ = counters;

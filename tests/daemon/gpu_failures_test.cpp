@@ -23,7 +23,7 @@ TEST(GpuFailures, OneFailureIsReportedForAMinuteButNotInThePicture) {
     EXPECT_EQ(failures.fault(kStart + seconds(61)), std::nullopt);
 }
 
-TEST(GpuFailures, ThreeWithinAMinuteAreTooMany) {
+TEST(GpuFailures, ThreeFailuresWithinAMinuteAreTooMany) {
     GpuFailures failures;
     EXPECT_FALSE(failures.add(kStart, "reset"));
     EXPECT_FALSE(failures.add(kStart + seconds(30), "reset"));

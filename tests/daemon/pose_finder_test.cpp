@@ -27,7 +27,7 @@ Timestamp frameTime(double frame) {
     return Timestamp::fromSeconds(2 + frame / 30);
 }
 
-/// A frame, with or without the tag, `at` frames after the start.
+/// A frame with or without the tag, taken `at` frame intervals after the start.
 struct Shot {
     Shot(const CameraModel& camera, double at, bool withTag)
         : picture(withTag ? renderTags(camera, view(at), {kPlacedTag})
@@ -95,7 +95,7 @@ TEST(PoseFinder, StillPosesAreInterpolatedOnlyBetweenMeasuredPoses) {
     EXPECT_EQ(stats.count().poses.measured, 3U);
 }
 
-TEST(PoseFinder, BridgingCanBeDisabled) {
+TEST(PoseFinder, PredictionOfPosesWithoutTagsCanBeDisabled) {
     Stats stats;
     PoseConfig config;
     config.bridgeFrames = 0;

@@ -16,7 +16,7 @@ struct RestartPauseTest : testing::Test {
         const Timestamp started = now;
         now = now + ran;
         const RestartPause::Next next = RestartPause(file).failed(started, now);
-        now = now + next.wait + seconds(1);  // RestartSec= of the service
+        now = now + next.wait + seconds(1);  // systemd adds RestartSec= of the service, 1 s
         return next;
     }
 
@@ -25,7 +25,7 @@ struct RestartPauseTest : testing::Test {
     Timestamp now = Timestamp::fromSeconds(5000);
 };
 
-TEST_F(RestartPauseTest, WaitsGrowUpToALimit) {
+TEST_F(RestartPauseTest, PausesGrowUpToALimit) {
     for (const int expected : {0, 1, 3, 7, 15, 30, 30, 30})
         EXPECT_EQ(fail().wait.count(), expected);
     EXPECT_EQ(fail().inARow, 9);
@@ -62,14 +62,14 @@ TEST_F(RestartPauseTest, FailureBeforeTheSystemWasStartedDoesNotCount) {
     EXPECT_EQ(fail().inARow, 1);
 }
 
-TEST_F(RestartPauseTest, ADamagedFileCountsAsMissing) {
+TEST_F(RestartPauseTest, ADamagedStateFileCountsAsMissing) {
     for (const char* text : {"", "x", "-5 1", "2000000000 5000000000000", "3"}) {
         std::ofstream(file) << text;
         EXPECT_EQ(fail().wait.count(), 0) << text;
     }
 }
 
-TEST_F(RestartPauseTest, WithoutAFileEachWaitIsTheSame) {
+TEST_F(RestartPauseTest, WithoutAStateFileEveryPauseIsTheSame) {
     for (const std::filesystem::path& none : {folder.path() / "gone" / "restarts", {}}) {
         file = none;
         EXPECT_EQ(fail().wait.count(), 5);
@@ -77,7 +77,7 @@ TEST_F(RestartPauseTest, WithoutAFileEachWaitIsTheSame) {
     }
 }
 
-TEST(Restart, ConfigurationErrorsAreNotTriedAgain) {
+TEST(Restart, NoRestartAfterConfigurationErrors) {
     for (const ExitCode code : {ExitCode::Unavailable, ExitCode::OutputFailed, ExitCode::Internal})
         EXPECT_TRUE(isRestarted(code));
     for (const ExitCode code :

@@ -27,7 +27,7 @@ TEST(TimeSpread, QuantilesStayWithinTheBucketWidth) {
         EXPECT_NEAR(spread.quantile(q) / (100 * q), 1, 0.05) << q;
 }
 
-TEST(TimeSpread, SumHasTheValuesOfBoth) {
+TEST(TimeSpread, SumOfTwoSpreadsHasTheValuesOfBoth) {
     TimeSpread fast, slow;
     fast.add(1);
     slow.add(100);
@@ -36,11 +36,11 @@ TEST(TimeSpread, SumHasTheValuesOfBoth) {
     EXPECT_NEAR(fast.quantile(1), 100, 5);
 }
 
-TEST(TimeSpread, WithoutValuesIsAGap) {
+TEST(TimeSpread, QuantilesAreNotANumberWithoutValues) {
     EXPECT_TRUE(std::isnan(TimeSpread{}.quantile(0.5)));
 }
 
-TEST(TimeSpread, TakesWhateverADeviceReports) {
+TEST(TimeSpread, AcceptsEveryValueThatADeviceMayReport) {
     TimeSpread spread;
     for (const double ms : {0.0, -1.0, 1e300, std::numeric_limits<double>::infinity(),
                             std::numeric_limits<double>::quiet_NaN()})
@@ -49,7 +49,7 @@ TEST(TimeSpread, TakesWhateverADeviceReports) {
     EXPECT_TRUE(std::isfinite(spread.quantile(1)));
 }
 
-TEST(RunHistory, BinsHoldWhatHappenedInThem) {
+TEST(RunHistory, ABinHoldsTheFramesOfItsTimeSpan) {
     RunHistory history;
     RunTotals totals;
     totals.stillsUsed = 3;
@@ -87,7 +87,7 @@ TEST(RunHistory, ALongRunKeepsEveryFrameInABoundedNumberOfBins) {
     EXPECT_NEAR(static_cast<double>(one.late) / static_cast<double>(one.frames), 0.1, 0.01);
 }
 
-TEST(RunHistory, ALongPauseIsAGap) {
+TEST(RunHistory, ALongPauseLeavesEmptyBins) {
     RunHistory history;
     history.add({after(0), 20, 30}, {});
     history.add({after(86400), 20, 30}, {});
@@ -97,7 +97,7 @@ TEST(RunHistory, ALongPauseIsAGap) {
     EXPECT_EQ(history.bins().back().frames, 1U);
 }
 
-TEST(RunHistory, ATimeBeforeTheFirstCountsForTheFirstBin) {
+TEST(RunHistory, AFrameBeforeTheFirstTimeCountsForTheFirstBin) {
     RunHistory history;
     history.add({after(0), 20, 30}, {});
     history.add({after(-5), 20, 30}, {});
@@ -105,7 +105,7 @@ TEST(RunHistory, ATimeBeforeTheFirstCountsForTheFirstBin) {
     EXPECT_EQ(history.bins()[0].frames, 2U);
 }
 
-TEST(RunHistory, FoldingEndsWithEnoughPicturesInABin) {
+TEST(RunHistory, BinsAreMergedUntilTheyHoldEnoughFramesEach) {
     RunHistory history;
     for (int i = 0; i < 40; ++i)
         history.add({after(0.5 * i), 20, 30}, {});

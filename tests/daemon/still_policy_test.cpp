@@ -62,17 +62,17 @@ const FrameStats kRest = frame(0.95, 0);
 const FrameStats kMovingExplained = frame(0.9, 0.8);
 const FrameStats kMovingUnexplained = frame(0.2, 0.8);
 
-TEST(StillPolicy, WithoutAStillTheFirstFrameFires) {
+TEST(StillPolicy, WithoutAStillTheFirstFrameFiresTheTrigger) {
     Simulation board({});
     EXPECT_EQ(board.run(kFrame / 2, frame(0, 1)), 1);
 }
 
-TEST(StillPolicy, CameraAtRestFiresOnceOnly) {
+TEST(StillPolicy, WithACameraAtRestTheTriggerFiresOnce) {
     Simulation board({});
     EXPECT_EQ(board.run(3600, kRest), 1);
 }
 
-TEST(StillPolicy, CameraAtRestFiresOnceEvenIfTheStillExplainsNothing) {
+TEST(StillPolicy, WithACameraAtRestTheTriggerFiresOnceEvenIfTheStillExplainsNothing) {
     Simulation board({});
     EXPECT_EQ(board.run(600, frame(0, 0.01)), 1);
 }
@@ -114,13 +114,13 @@ TEST(StillPolicy, StatsOlderThanTheStillAreIgnored) {
     EXPECT_EQ(board.run(2, kMovingExplained), 0);
 }
 
-TEST(StillPolicy, NewViewThatTheStillDoesNotExplainFires) {
+TEST(StillPolicy, NewViewThatTheStillDoesNotExplainFiresTheTrigger) {
     Simulation board({});
     board.run(2, kRest);
     EXPECT_EQ(board.run(kFrame / 2, kMovingUnexplained), 1);
 }
 
-TEST(StillPolicy, MotionThatTheStillExplainsWaitsForTheAge) {
+TEST(StillPolicy, AfterMotionThatTheStillExplainsANewStillWaitsForTheAgeLimit) {
     TriggerConfig config;
     config.maxAgeS = 5;
     Simulation board(config);
@@ -130,7 +130,7 @@ TEST(StillPolicy, MotionThatTheStillExplainsWaitsForTheAge) {
 }
 
 // The sensor's noise must be learned first; so the first frames appear to change.
-TEST(StillPolicy, ChangesBeforeTheFirstUseDoNotAgeAStill) {
+TEST(StillPolicy, ChangesBeforeAStillsFirstUseDoNotMakeItTooOld) {
     TriggerConfig config;
     config.maxAgeS = 5;
     Simulation board(config);
@@ -147,7 +147,7 @@ TEST(StillPolicy, AStillTakenDuringMotionIsReplaced) {
     EXPECT_EQ(board.run(30, frame(0.2, 0)), 1);
 }
 
-TEST(StillPolicy, MotionBeforeTheAgeLimitCountsWhenItIsReached) {
+TEST(StillPolicy, MotionBeforeTheAgeLimitCausesANewStillAtTheAgeLimit) {
     TriggerConfig config;
     config.maxAgeS = 5;
     Simulation board(config);
@@ -178,7 +178,7 @@ TEST(StillPolicy, KeepsTheMinimumIntervalBetweenStills) {
     EXPECT_GE(board.firedAt.size(), 18U);
 }
 
-TEST(StillPolicy, LostStillIsCountedAndRepeatedOnce) {
+TEST(StillPolicy, LostStillIsCountedAndRequestedOnceMore) {
     TriggerConfig config;
     config.timeoutS = 1;
     config.maxAgeS = 30;
@@ -190,7 +190,7 @@ TEST(StillPolicy, LostStillIsCountedAndRepeatedOnce) {
     EXPECT_NEAR(board.firedAt[1] - board.firedAt[0], 1, 2 * kFrame);
 }
 
-TEST(StillPolicy, AfterTwoLostStillsItTriesAgainLater) {
+TEST(StillPolicy, AfterTwoLostStillsTheNextIsRequestedAtTheAgeLimit) {
     TriggerConfig config;
     config.timeoutS = 1;
     config.maxAgeS = 3;
@@ -203,7 +203,7 @@ TEST(StillPolicy, AfterTwoLostStillsItTriesAgainLater) {
     EXPECT_EQ(board.policy.lost(), 2);
 }
 
-TEST(StillPolicy, ALateStillDoesNotAnswerTheRepetition) {
+TEST(StillPolicy, ALateStillIsNotTakenForTheRepeatedOne) {
     TriggerConfig config;
     config.timeoutS = 1;
     Simulation board(config);
