@@ -23,7 +23,7 @@ struct HdrVdpDisplay {
 /// impossible display.
 [[nodiscard]] cv::Mat displayedLight(const cv::Mat& picture, const HdrVdpDisplay& display);
 
-/// What one orientation of one band of the pyramid contributes, for both pictures together.
+/// What one orientation of one band of the steerable pyramid contributes to the score.
 struct HdrVdpBand {
     int band = 1, orientation = 1;  ///< counted from 1
     cv::Size size;

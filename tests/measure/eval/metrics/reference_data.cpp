@@ -42,7 +42,7 @@ int lattice(int x, int y, int c, int k) {
            (c * c);
 }
 
-/// Value of the objects in front of the ground, rules 2 to 5; `v` where no object is.
+/// Grey level of the scene's objects at a pixel; `v`, that of the ground, where no object is.
 int objectAt(int x, int y, int s, int v) {
     const auto within = [&](int x0, int x1, int y0, int y1) {
         return x >= x0 * s && x < x1 * s && y >= y0 * s && y < y1 * s;
