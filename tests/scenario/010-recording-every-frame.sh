@@ -15,4 +15,5 @@ while IFS=, read -r time _; do
     size=$(od -An -tu1 -j16 -N8 "shown/$time.png" | tr -s ' ')
     [ "$size" = " 0 0 9 0 0 0 6 192" ] || fail "picture $time is not 2304x1728:$size"
 done < <(grep -v '^#' run/cam0/data.csv)
-[ "$(find shown -type f | wc -l)" = 4 ] || fail "there are other files: $(ls shown)"
+[ "$(find shown -type f | wc -l)" = 4 ] ||
+    fail "the folder of the pictures holds other files than four pictures: $(ls shown)"

@@ -17,7 +17,7 @@ first=$(ls live | sort -n | head -n 1)
 cmp "live/$first" "again/$first" || fail "the first picture differs"
 
 # The live run may have dropped frames; the recording has all of them with their poses.
-echo "its tags and the poses they gave are recorded, too"
+echo "the scene's tags and the poses from them are recorded, too"
 [ "$(grep -c '^id = ' run/tags.toml)" -ge 3 ] || fail "tags are missing"
 poses=run/state_groundtruth_estimate0/data.csv
 [ "$(grep -vc '^#' $poses)" -ge 8 ] || fail "poses are missing"

@@ -16,17 +16,17 @@ summary_has stills_tracked 1
 summary_has stills_measured 0
 says summary.json '"epipolar_frames": [1-9]'
 
-echo "its tags are known, too"
+echo "the tags of the recording are known, too"
 run 0 --recording run --summary summary.json
 says err 'poses from a map of [0-9]+ tags; '
 summary_has measured "$frames"
 
-echo "a tags.toml that is wrong is refused with its place"
+echo "an invalid tags.toml is refused with its place"
 sed -i 's/^size = .*/size = 0/' run/tags.toml
 run 65 --recording run
 says err 'run/tags.toml:[0-9]+: size must be a positive length'
 
-echo "without a map its largest tag is the world"
+echo "without a tag map, the largest tag of the recording is the origin of the world"
 rm run/tags.toml
 run 0 --recording run --summary summary.json
 says err 'poses from the first tag, whose edge is 0.1 m; '

@@ -36,21 +36,22 @@ echo "$near bytes differ with the object in front, $far with the one behind"
 # Cells of unknown depth do not hide anything; so specks remain at the edges of objects.
 [ "$far" -lt $((near / 50)) ] || fail "the wall does not hide what is behind it"
 
-echo "without a map, what stands on a tag is shown as soon as one is the world"
+echo "without a tag map, an object on a tag is shown once this tag is the origin of the world"
 cp -r run mapless
 rm mapless/tags.toml
 for id in 0 1 2 3 4 5; do printf '[[objects]]\nsize = [0.1, 0.1, 0.1]\ntag = %d\n' "$id"; done >tags.toml
 { head -n 2 near.toml; cat tags.toml; } >standing.toml
 run 0 --recording mapless --config standing.toml --display y4m:standing.y4m
 tail -c $((2304 * 1728 * 3 / 2)) standing.y4m >standing.raw
-[ "$(differing standing)" -gt 20000 ] || fail "nothing stands on the tag"
+[ "$(differing standing)" -gt 20000 ] || fail "the object on the tag is not shown"
 [ "$(grep -c 'is not shown: it stands on tag' err)" = 5 ] || fail "the objects on other tags are not reported"
 
-echo "with nothing in it the configuration costs nothing"
+echo "a configuration without objects does not change the picture"
 head -n 2 near.toml >none.toml
 last none --config none.toml
 summary_has depth_tiles 0
-cmp plain.raw none.raw || fail "the picture differs without objects"
+cmp plain.raw none.raw ||
+    fail "without objects the picture differs from that without the configuration"
 
 echo "objects are read again on SIGHUP"
 cp none.toml live.toml
@@ -64,7 +65,7 @@ kill -TERM "$pid"
 ends_with 0 1500
 says summary.json '"depth_tiles": [1-9]'
 
-echo "a wrong object is refused with its place"
+echo "an invalid object is refused with its place"
 echo 'size = [0, 1, 1]' >>near.toml
 sed -i '/^size = \[0.1/d' near.toml
 run 78 --recording run --config near.toml

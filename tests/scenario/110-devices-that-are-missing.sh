@@ -30,7 +30,8 @@ says err 'no such chip'
 sed -i '/trigger/,$d' mfard.toml
 run 0 --config mfard.toml --release-trigger
 
-# A missing calibration, or one of other sizes, is an error for which mfard does not wait.
+# A calibration that is missing or has other picture sizes is an error. mfard does not wait for it
+# to disappear, unlike with missing devices.
 sed -i '1a [cameras]\ncalibration = "lenses"' mfard.toml
 run 66 --config mfard.toml
 says err 'lenses'

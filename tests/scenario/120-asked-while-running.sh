@@ -65,7 +65,7 @@ until_true grep -q png walk/cam0/data.csv
 asks record --stop
 says answer '^video +[1-9]'
 taken=$(sed -n 's/^video *//p' answer)
-[ "$(grep -vc '^#' walk/cam0/data.csv)" -ge "$taken" ] || fail "not all pictures are in the list"
+[ "$(grep -vc '^#' walk/cam0/data.csv)" -ge "$taken" ] || fail "the recording's list lacks pictures"
 refused 1 record --stop
 
 kill -TERM "$pid"

@@ -6,7 +6,7 @@
 "$sim" --scene office --path handheld --seconds 1.5 --stills 3 --no-truth \
     --out run >/dev/null || fail "no recording"
 
-# The dynamic linker takes the first file of a name. It fails if that is not a library.
+# The dynamic linker loads the first file with a library's name. It fails if that is no library.
 mkdir hidden
 : >hidden/libEGL.so.1
 : >hidden/libGLESv2.so.2
@@ -42,7 +42,7 @@ says err "warning: previews of virtual objects need OpenGL ES 3.1 and are not sh
 [ "$(differing preview)" = 0 ] || fail "the picture without the preview differs"
 
 last traced --config traced.toml
-! grep -q "are not shown" err || fail "path-traced objects are called missing"
+! grep -q "are not shown" err || fail "mfard reports that path-traced objects are not shown"
 shown=$(differing traced)
 echo "$shown bytes differ with the path-traced object"
 [ "$shown" -gt 50000 ] || fail "the path-traced object is not shown"

@@ -12,7 +12,8 @@ goes_on() {
     more() { [ "$(frames)" -gt $((shown + 5)) ]; }
     until_true more
 }
-# A still would fill a short recording before it has a frame to replay.
+# A still would reach a recording's size limit before the recording has a frame that can be
+# replayed.
 quiet='source = "synthetic:flat,rest"
 [superres]
 mode = "off"
@@ -25,7 +26,7 @@ stop_it() {
     ends_with 0 3000
 }
 
-echo "two starts, two folders"
+echo "two starts record into two folders"
 echo "$quiet" >mfard.toml
 run 0 --config mfard.toml --check-config
 for count in 1 2; do
@@ -36,7 +37,8 @@ for count in 1 2; do
     named() { status | grep -Eq '^recording +films/[0-9]{8}-[0-9]{6}(-[0-9]+)?$'; }
     until_true named
     stop_it
-    [ "$(find films -mindepth 1 -maxdepth 1 | wc -l)" = "$count" ] || fail "not $count folders"
+    [ "$(find films -mindepth 1 -maxdepth 1 | wc -l)" = "$count" ] ||
+        fail "there are not $count folders of recordings"
 done
 
 echo "a recording that has become too large"

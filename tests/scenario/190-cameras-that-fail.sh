@@ -56,7 +56,7 @@ stop_now 1500
 summary_has exit_code 0
 says_of video91
 
-echo "it comes back"
+echo "the still camera works again"
 begin
 says_of video91 hang
 until_true fault_is 'still camera: its driver does not answer'
@@ -84,7 +84,8 @@ until_true warned 'video camera: repeats the same picture'
 says_of video90
 goes_on
 stats
-awk -v age="$(counts video distinct_age_s)" 'BEGIN {exit !(age < 1)}' || fail "no new picture"
+awk -v age="$(counts video distinct_age_s)" 'BEGIN {exit !(age < 1)}' ||
+    fail "the video camera has sent no new picture for a second"
 
 echo "frames that are broken, short, or of another time are counted and not shown"
 says_of video90 error 3 short 5 backward 7 future 11
@@ -93,7 +94,7 @@ until_true at_least video bad_times 10
 goes_on
 says_of video90
 
-echo "numbers that are left out are counted exactly, numbers that begin anew are no gap"
+echo "missing frame numbers are counted exactly; frame numbers that begin anew are no gap"
 stats
 before=$(counts video missed)
 says_of video90 skip 12
@@ -102,15 +103,16 @@ says_of video90 restart
 goes_on
 stats
 [ "$(counts video missed)" = $((before + 12)) ] ||
-    fail "missed $(counts video missed), before $before, left out 12"
+    fail "mfard counts $(counts video missed) missed frames; expected: 12 more than the $before before"
 stop_now 1500
 
-echo "a camera at half its rate drops nothing and is named"
+echo "a camera with half its configured rate is reported, but its frames do not count as missed"
 says_of video90 rate 15
 begin
 until_true warned 'video camera: sends 1[45]\.[0-9] frames per second instead of the configured 30'
 stats
-[ "$(counts video missed)" -le 3 ] || fail "missed $(counts video missed) at half the rate"
+[ "$(counts video missed)" -le 3 ] ||
+    fail "mfard counts $(counts video missed) missed frames of a camera with half its rate"
 stop_now 1500
 
 echo "a driver with few buffers is used"

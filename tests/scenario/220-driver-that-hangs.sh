@@ -28,7 +28,7 @@ is_fed() {
 is_hungry() {
     before=$(meals)
     sleep 4
-    fed 0 && fail "the watchdog is fed while $1"
+    fed 0 && fail "mfard still notifies the watchdog although $1"
     true
 }
 
@@ -51,7 +51,7 @@ until_true heard '^STATUS=the .*capture thread hangs \(stalled for [0-9.]+ s, la
 says err 'warning: the .*capture thread hangs \(stalled for'
 is_hungry "the driver hangs"
 
-echo "the driver returns after all"
+echo "the driver's call returns after all"
 : >cameras/video90
 until_true status_says '"state":"ok"'
 is_fed
@@ -63,7 +63,7 @@ kill -TERM "$pid"
 ends_with 0 1500
 : >cameras/video90
 
-echo "SIGTERM while the devices are being opened, and do not answer"
+echo "SIGTERM while opening the devices does not return"
 echo hang-open >cameras/video90
 echo hang-open >cameras/video91
 LD_PRELOAD=$pretended start --config mfard.toml --display none
@@ -73,7 +73,7 @@ ends_with 0 1500
 : >cameras/video90
 : >cameras/video91
 
-echo "a run of some seconds ends in time, too, and so does one of some frames"
+echo "runs with a limit of seconds or of frames end in time although a driver hangs"
 LD_PRELOAD=$pretended start --config mfard.toml --display none --seconds 2 --summary summary.json
 until_true started
 echo hang >cameras/video90
@@ -93,7 +93,7 @@ mkdir state
 echo hang >cameras/video91
 LD_PRELOAD=$pretended STATE_DIRECTORY=$PWD/state start --config mfard.toml --display y4m:pipe \
     --summary summary.json
-timeout $((30 * patience)) head -c 5000 <pipe >/dev/null || fail "no picture comes"
+timeout $((30 * patience)) head -c 5000 <pipe >/dev/null || fail "no picture comes through the pipe"
 ends_with 74 6000
 : >cameras/video91
 says summary.json '"exit_code": 74'

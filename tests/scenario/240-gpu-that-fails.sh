@@ -54,7 +54,7 @@ gpu_says "lost again"
 until_true status_says '^engine +simd'
 goes_on
 status_says '"state":"degraded","cause":"the GPU failed 3 times within a minute, so the CPU draws now' ||
-    fail "health does not say that the CPU draws"
+    fail "the health in the status does not report that the CPU draws"
 status_says '^renderer +without OpenGL ES' || fail "the status still names a renderer"
 control snapshot after.png
 ! cmp -s before.png after.png || fail "the picture does not say that the CPU draws"
@@ -71,7 +71,7 @@ goes_on
 kill -TERM "$pid"
 ends_with 0 1000
 
-echo "a driver that does not return from drawing is named, and holds up no run of some seconds"
+echo "a driver that does not return from drawing is reported; a run with a time limit still ends"
 begin --engine gles --seconds 4
 gpu_says hang
 until_true status_says '"state":"stalled","cause":"the picture thread hangs"'

@@ -5,7 +5,7 @@
 # file system can be mounted.
 if [ -z "${MFAR_MOUNTS:-}" ]; then
     for how in "--mount" "--mount --map-root-user"; do
-        # shellcheck disable=SC2086
+        # shellcheck disable=SC2086 # $how is a list of options
         if unshare $how mount -t tmpfs none /mnt 2>/dev/null; then
             MFAR_MOUNTS=1 exec unshare $how "$0" "$@"
         fi
@@ -59,7 +59,7 @@ fill
 no_room='(the disk is full|No space left)'
 ended() { grep -Eq "the recording has ended: .*${film#var/}.*$no_room" err; }
 until_true ended
-is_full || fail "there is room"
+is_full || fail "the disk is not full"
 goes_on
 says <(status) '^recording +null$'
 
@@ -94,10 +94,10 @@ printf '[engine]\nuse = "simd"\n[trigger]\nmode = "rate"\nrate_hz = 10.0\nmin_in
 fill
 run 0 --config "$work/learn.toml" --source synthetic:office --pace consumer --frames 6 --display none
 says err 'warning: .*filters-.*: No space left.*; learned filters cannot be written'
-[ -z "$(ls var/state)" ] || fail "a part of a file is left"
+[ -z "$(ls var/state)" ] || fail "a part of a file is left in var/state"
 
-echo "a log file that is full ends nothing"
-is_full || fail "there is room"
+echo "mfard continues if its log file cannot grow"
+is_full || fail "the disk is not full"
 sed -i '/^\[record\]/,$d' mfard.toml
 LD_PRELOAD=$pretended MFAR_PRETENDED_V4L2=$PWD/cameras "$mfard" --config "$work/mfard.toml" \
     --display none --control "$work/control" 2>var/log >/dev/null &

@@ -94,7 +94,8 @@ ends_with() {
     echo "ended with $code after $took ms"
     [ "$code" = "$1" ] || fail "mfard ended with exit code $code instead of $1"
     no_complaint
-    [ "$took" -le $(($2 * patience)) ] || fail "the end took $took ms; the limit is $2 ms times $patience"
+    [ "$took" -le $(($2 * patience)) ] ||
+        fail "mfard took $took ms to end; the limit is $2 ms times MFAR_PATIENCE ($patience)"
 }
 
 # two_cameras [TOML]: writes a configuration with two V4L2 cameras and these lines.

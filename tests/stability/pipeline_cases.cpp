@@ -46,7 +46,8 @@ void checkDepth(Context& c, const Pipeline& p) {
     const InverseDepthField& depth = p.inverseDepth();
     for (std::size_t i = 0; i < depth.inverseDepth.size(); ++i) {
         c.checks.within(depth.inverseDepth[i], 0, 1e30, "real inverse depth");
-        c.checks.require(depth.variance[i] >= 0, "variance of real inverse depth");
+        c.checks.require(depth.variance[i] >= 0,
+                         "variance of real inverse depth is negative or NaN");
     }
 }
 
@@ -56,7 +57,7 @@ void checkPipeline(Context& c, const Pipeline& p, const StereoRig& rig) {
     for (const float v : p.readConfidence())
         c.checks.within(v, 0, 1, "confidence");
     for (const float v : p.readShownObjects())
-        c.checks.within(v, 0, 1, "share of an object");
+        c.checks.within(v, 0, 1, "visible share of an object's pixel");
     const FrameStats s = p.readStats();
     for (const double v : {s.meanConfidence, s.explained, s.changed})
         c.checks.within(v, 0, 1, "statistics");
@@ -111,7 +112,7 @@ double shiftError(const std::vector<float>& flow, const Eigen::Vector2d& shift) 
     return errors.empty() ? 1e9 : errors[errors.size() / 2];
 }
 
-// The detail of the still must be added to the picture although the video has moved since.
+// The still's detail must be added to the picture although the view has shifted since the still.
 void knownTruth(Context& c) {
     const Size video = c.scale == Scale::Mixed && c.hostile.chance(0.1)
                            ? Size{640, 480}
@@ -165,7 +166,8 @@ void scaledWorld(Context& c) {
     };
     const auto metres = flowIn(1);
     const auto other = flowIn(c.hostile.pick({0x1p-20, 0x1p-10, 0x1p10}));
-    c.checks.require(metres.size() == other.size(), "size of the flow");
+    c.checks.require(metres.size() == other.size(),
+                     "the flow in a scaled world has another number of vectors");
     for (std::size_t i = 0; i < std::min(metres.size(), other.size()); ++i)
         c.checks.within(metres[i] - other[i], -2e-3, 2e-3, "flow in a scaled world");
 }

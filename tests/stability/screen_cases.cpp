@@ -1,4 +1,4 @@
-// Cases for the picture on a screen, from one pixel to several times the screen's size.
+// Cases for scaling a picture to a screen, from one pixel to several times the screen's size.
 #include "hal/device/display_scaler.h"
 #include "tests/oracle/area_mean.h"
 #include "tests/stability/cases.h"

@@ -218,7 +218,7 @@ TEST(MfarEval, WrongRequestsEndWithOneLineAndStatus2) {
         {"superres " + dir + "/tiny --pose-noise-deg nan", "--pose-noise-deg"},
         {"superres " + dir + "/tiny --poses guessed", "--poses"},
         {"superres " + dir + "/truth --poses tags", "tags.toml: is missing"},
-        {"flow " + dir + "/pair --poses tags", "no recording, so no tags"},
+        {"flow " + dir + "/pair --poses tags", "--poses tags needs a recording"},
         {"depth " + dir + "/absent", "no such folder"},
         {"depth " + dir + "/tiny", "no truth"},
         {"depth " + dir + "/pair", "pair"},
@@ -245,7 +245,8 @@ TEST(MfarEval, TruthOfAnotherSizeIsRefused) {
     const Outcome outcome = execute(folder, fmt::format("{} superres {}/tiny --methods bicubic",
                                                         MFAR_EVAL, folder.path().string()));
     EXPECT_EQ(outcome.status, 2);
-    EXPECT_NE(outcome.text.find("1000.png: truth has 576x400 pixels, but the output has 576x432"),
+    EXPECT_NE(outcome.text.find(
+                  "1000.png: the true picture has 576x400 pixels, but the output has 576x432"),
               std::string::npos)
         << outcome.text;
 }
