@@ -65,8 +65,8 @@ struct Pass {
     uint flags;
 };
 END
-translate || fail "a sound header is refused"
-diff wanted.glsl out.glsl || fail "the translation differs"
+translate || fail "a valid header is refused"
+diff wanted.glsl out.glsl || fail "the translation differs from wanted.glsl"
 
 # refused LINE REASON TEXT: a header with the text, which starts at line 3, must be refused at LINE
 # for the reason.
@@ -96,4 +96,4 @@ refused 3 'kQuarter is no constant of type int' 'inline constexpr int kX = kQuar
 refused 3 'kMissing is no constant of type float' 'inline constexpr float kX = kMissing;'
 refused 3 'defined before' 'inline constexpr float kQuarter = 0.5F;'
 refused 3 'ends too early' 'inline constexpr float kX ='
-echo "sound headers are translated, others refused"
+echo "valid headers are translated, others refused"

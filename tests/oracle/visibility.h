@@ -31,7 +31,8 @@ inline double visibleOver(const RealSample& real, double inverse, const Composit
     return 1 - t * t * (3 - 2 * t);
 }
 
-/// Both pictures and the real depth. Gives the visibility at output pixel (x, y).
+/// The video, the output picture, and the real depth. Gives the visibility of a virtual surface at
+/// output pixel (x, y).
 struct Scene {
     TestPicture video, picture;
     std::vector<RealSample> real;

@@ -50,7 +50,8 @@ TEST(HoleTracer, AnswersMatchAPictureOfTheView) {
     resolve(film, view, {}, truth);
 
     HoleTracer holes(10000);
-    for (int round = 0; round < 2; ++round) {  // the second must not keep results of the first
+    for (int round = 0; round < 2;
+         ++round) {  // the second round must not keep results of the first
         PixelList some;
         for (std::uint32_t i = 0; i < all.size(); i += 2 + round)
             some.push_back(i);
@@ -77,7 +78,7 @@ TEST(HoleTracer, EachPixelInsideThePictureIsTracedOnce) {
     EXPECT_EQ(answer.pixels, (PixelList{3, 7, 900, 48 * 36 - 1}));
 }
 
-TEST(HoleTracer, RequestsBeyondTheLimitsAreCut) {
+TEST(HoleTracer, RequestsBeyondTheLimitsAreReducedToThem) {
     const PathTracer tracer(render_scenes::stillLife());
     HoleTracer holes(5);
     EXPECT_EQ(answered(holes, tracer, requestFor({1, 2, 3, 4, 5, 6, 7}, 1), 10).pixels.size(), 5U);
@@ -100,7 +101,7 @@ TEST(HoleTracer, InvalidViewsHaveNoPixels) {
     EXPECT_TRUE(answered(holes, tracer, request, 10).pixels.empty());
 }
 
-TEST(HoleTracer, PicturesOfAnotherSizeFollowEachOther) {
+TEST(HoleTracer, RequestsForPicturesOfDifferentSizesAreAnswered) {
     const PathTracer tracer(render_scenes::stillLife());
     HoleTracer holes(100);
     EXPECT_EQ(answered(holes, tracer, requestFor({1000}, 1), 10).pixels.size(), 1U);

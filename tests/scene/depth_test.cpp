@@ -19,14 +19,15 @@ namespace {
 using namespace eval;
 using synthetic::Path;
 
-constexpr int kSettling = 12;  // frames
+constexpr int kSettling = 12;  // number of frames until depth has settled
 constexpr double kMostError = 0.015, kLeastKnown = 0.85;
-/// A larger change is a jump. One match with the still has an error of 4.5 % of the inverse depth
-/// here. In equilibrium the filter gives it a weight of 1/12; that is 0.26 % per frame in the
-/// median. The limit is three times as large.
+/// Largest median change of depth per frame, as a share, that is no jump. A match with the still
+/// has an error of 4.5 % of the inverse depth here. In equilibrium the filter gives a match a
+/// weight of 1/12, which gives a median change of 0.26 % per frame. The limit is three times as
+/// large.
 constexpr double kMostChange = 0.0075;
 
-/// A scene with an object. Its depth is measured in the whole picture.
+/// A scene with a virtual object. Depth is measured in the whole picture.
 struct Watched {
     Watched(synthetic::Scene scene, Path path, double rateHz,
             PoseSource poses = PoseSource::Recorded)
@@ -51,7 +52,8 @@ struct Watched {
 void expectGood(const DepthState& state, int frame, double poseError = 0) {
     SCOPED_TRACE(frame);
     EXPECT_LE(state.absrel, kMostError + poseError);
-    EXPECT_LE(state.absrel, state.sigma + poseError) << "knows less than it says";
+    EXPECT_LE(state.absrel, state.sigma + poseError)
+        << "the error is larger than the reported sigma";
     EXPECT_GE(state.completeness, kLeastKnown);
     EXPECT_LE(state.change, kMostChange + poseError);
 }
@@ -75,7 +77,7 @@ private:
     std::unique_ptr<GlContext> context_ = createGlContext();
 };
 
-TEST_F(DepthScenario, DepthStaysWhileTheCameraRestsForTenSeconds) {
+TEST_F(DepthScenario, DepthStaysAccurateWhileTheCameraRestsForTenSeconds) {
     constexpr std::int64_t kStep = 200'000'000;  // [ns]
     Watched w(synthetic::Scene::Shelf, Path::Handheld, 30);
     follow(w, kSettling + 2);
@@ -90,17 +92,17 @@ TEST_F(DepthScenario, DepthStaysWhileTheCameraRestsForTenSeconds) {
     }
 }
 
-TEST_F(DepthScenario, DepthStaysWhileTheCameraTurnsOnTheSpot) {
+TEST_F(DepthScenario, DepthStaysAccurateWhileTheCameraRotatesOnTheSpot) {
     Watched w(synthetic::Scene::Shelf, Path::Rotate, 10);
     follow(w, 28);
 }
 
-TEST_F(DepthScenario, DepthStaysWhileTheCameraComesNearer) {
+TEST_F(DepthScenario, DepthStaysAccurateWhileTheCameraComesNearer) {
     Watched w(synthetic::Scene::Office, Path::Forward, 10);
     follow(w, 28);
 }
 
-/// Covers all tags with grey paper.
+/// The video frame with grey paper over all tags.
 cv::Mat covered(const ImageView& view, const SyntheticBoard& board, Timestamp time) {
     cv::Mat out = cv::Mat(view.size.height, view.size.width,
                           view.format == PixelFormat::Gray8 ? CV_8UC1 : CV_8UC4,
@@ -129,7 +131,7 @@ double errorOf(const Pose& pose, const SyntheticBoard& board) {
 }
 
 // The tags are lost for a second. At first the pose is predicted, then it is unknown.
-TEST_F(DepthScenario, DepthStaysWhileTheTagsAreLostAndFoundAgain) {
+TEST_F(DepthScenario, DepthStaysAccurateWhileTheTagsAreLostAndFoundAgain) {
     constexpr int kLost = kSettling + 4, kFound = kLost + 15, kEnd = kFound + 8;
     Watched w(synthetic::Scene::Office, Path::Handheld, 15, PoseSource::None);
     TrackerOptions options;
