@@ -1,11 +1,7 @@
-# Tests of a program whose start (OpenGL contexts, shaders to compile) takes longer than one of its
-# tests. So a few processes run all of them.
-#   target       the program
-#   name         name of the tests; a number follows it
-#   SHARDS       number of processes (default: 4)
-#   FILTER       filter of GoogleTest
-#   LABELS       labels of CTest
-#   ENVIRONMENT  variables, as NAME=VALUE
+# Registers the tests of a program whose start (OpenGL contexts, shaders to compile) takes longer
+# than one of its tests. A few processes run all tests. target       the program name         name
+# of the tests; a number follows it SHARDS       number of processes (default: 4) FILTER
+# filter of GoogleTest LABELS       labels of CTest ENVIRONMENT  variables, as NAME=VALUE
 function(mfar_add_sharded_tests target name)
     cmake_parse_arguments(PARSE_ARGV 2 arg "" "SHARDS;FILTER;LABELS" "ENVIRONMENT")
     if(NOT arg_SHARDS)
@@ -18,7 +14,7 @@ function(mfar_add_sharded_tests target name)
         set(properties)
         foreach(property LABELS ENVIRONMENT)
             if(arg_${property})
-                # The value of a property is one argument, whatever number of variables it sets.
+                # The value of a property must be one argument, even if it sets several variables.
                 string(REPLACE ";" "\\;" value "${arg_${property}}")
                 list(APPEND properties ${property} "${value}")
             endif()

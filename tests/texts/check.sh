@@ -17,18 +17,21 @@ trap 'rm -rf "$work"' EXIT
 
 "$texts" "$work/tree"
 while IFS= read -r file; do
-    diff -u "$sources/$file" "$work/tree/$file" || fault "$file differs from the tables"
+    diff -u "$sources/$file" "$work/tree/$file" ||
+        fault "$file differs from what mfar-texts prints; run: cmake --build .build/host --target texts"
 done < <(cd "$work/tree" && find . -type f -printf '%P\n')
 
 # The example on the page must equal the source that is compiled.
 diff -u <(sed -n '/^```cpp$/,/^```$/{//!p}' "$sources/docs/flow-method.md") \
-    "$sources/tests/measure/eval/shift_flow.cpp" || fault "the example of docs/flow-method.md"
+    "$sources/tests/measure/eval/shift_flow.cpp" ||
+        fault "the example in docs/flow-method.md differs from tests/measure/eval/shift_flow.cpp"
 
 # Links on the pages must lead to files.
 while IFS=: read -r page link; do
     target=${link#*](}
     target=${target%)}
-    [[ -e $(dirname "$page")/${target%%#*} ]] || fault "$page: no $target"
+    [[ -e $(dirname "$page")/${target%%#*} ]] ||
+        fault "$page links to $target, which does not exist"
 done < <(grep -Eo '\]\([^):]+\)' "$sources"/*.md "$sources"/docs/*.md)
 
 # Messages for which the README gives a remedy must be messages of the programs; "..." stands for
@@ -49,14 +52,17 @@ completes() {
     (. "$work/tree/systemd/mfard.bash-completion" && COMP_WORDS=(mfard "$1" "$2") COMP_CWORD=2 &&
         _mfard mfard "$2" "$1" && printf '%s ' "${COMPREPLY[@]}")
 }
-[[ $(completes --mode b) == 'blend ' ]] || fault "completion of --mode b: $(completes --mode b)"
-[[ $(completes mfard --print) == '--print-config ' ]] || fault "completion of --print"
-[[ $(completes --config "$work/tree/do") == "$work/tree/docs " ]] || fault "completion of a file"
+[[ $(completes --mode b) == 'blend ' ]] || fault "--mode b is completed to: $(completes --mode b)"
+[[ $(completes mfard --print) == '--print-config ' ]] ||
+    fault "--print is completed to: $(completes mfard --print)"
+[[ $(completes --config "$work/tree/do") == "$work/tree/docs " ]] ||
+    fault "bash does not complete a file name after --config"
 
 # Each installed program has a manual page, which the package installs.
 while IFS= read -r program; do
     [[ -s $work/tree/docs/man/$program.1 ]] || fault "$program has no manual page"
-    grep -q "[( ]$program[ )]" "$sources/systemd/CMakeLists.txt" || fault "$program.1 is not installed"
+    grep -q "[( ]$program[ )]" "$sources/systemd/CMakeLists.txt" ||
+        fault "$program.1 is not installed"
 done < <(sed -n 's/^install(TARGETS \(.*\) RUNTIME.*/\1/p' "$sources"/daemon/CMakeLists.txt \
     "$sources"/daemon/tools/CMakeLists.txt | tr ' ' '\n')
 
