@@ -1,7 +1,11 @@
 # Registers the tests of a program whose start (OpenGL contexts, shaders to compile) takes longer
-# than one of its tests. A few processes run all tests. target       the program name         name
-# of the tests; a number follows it SHARDS       number of processes (default: 4) FILTER
-# filter of GoogleTest LABELS       labels of CTest ENVIRONMENT  variables, as NAME=VALUE
+# than one of its tests. A few processes run all tests.
+#   target       the program
+#   name         name of the tests; a number follows it
+#   SHARDS       number of processes (default: 4)
+#   FILTER       filter of GoogleTest
+#   LABELS       labels of CTest
+#   ENVIRONMENT  variables, as NAME=VALUE
 function(mfar_add_sharded_tests target name)
     cmake_parse_arguments(PARSE_ARGV 2 arg "" "SHARDS;FILTER;LABELS" "ENVIRONMENT")
     if(NOT arg_SHARDS)
