@@ -242,7 +242,7 @@ TEST(OptionDefaults, SunDefaultsMatchTheParser) {
     EXPECT_NEAR(given.angularRadius, byDefault.angularRadius, 1e-5F);
 }
 
-TEST(OptionDefaults, LevelDefaultsMatchTheParser) {
+TEST(OptionDefaults, QualityLevelDefaultsMatchTheParser) {
     const std::string text = section("level", levelOptions()) + "name = \"a\"\nms = 1\n";
     const auto levels = parseQualityLevels(text, "levels.toml");
     EXPECT_EQ(levels.at(0).quality, Quality{});

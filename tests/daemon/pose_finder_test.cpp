@@ -144,7 +144,7 @@ TEST(PoseFinder, RecordedPosesAreUsedUnchanged) {
     EXPECT_EQ(counts.ms.count() + counts.stillMs.count(), 0U);
 }
 
-TEST(PoseFinder, ASourceWithoutPosesIsRefusedByName) {
+TEST(PoseFinder, AnErrorNamesTheSourceWithoutPoses) {
     Stats stats;
     PoseConfig config;
     config.source = PoseOrigin::Recorded;

@@ -86,7 +86,8 @@ inline std::array<double, 2> rangeAround(const Grey& g, int x, int y) {
     return out;
 }
 
-/// The residual at one sub-pixel (`phase`) of pixel (x, y), which has these classes.
+/// The learned residual at one sub-pixel (`phase`) of pixel (x, y), whose classes are `gradient`
+/// and `curvature`.
 inline double residualAt(const Grey& g, int x, int y, int phase, int gradient, int curvature,
                          const FilterBank& bank) {
     const auto scale = double(enlarge::kWeightScale);
@@ -119,7 +120,7 @@ inline Grey residualGrid(const Grey& g, const FilterBank& bank) {
     return out;
 }
 
-/// The residual at another size, interpolated linearly between sub-pixels.
+/// The learned residual of `g` at the size `to`, interpolated linearly between sub-pixels.
 inline Grey learnedResidual(const Grey& g, Size to, const FilterBank& bank) {
     return enlarged(residualGrid(g, bank), to, true);
 }

@@ -30,7 +30,7 @@ void checkFlow(Context& c, const std::vector<float>& flow, Size size) {
     c.checks.require(flow.size() == 2UL * size.width * size.height,
                      "the flow has a wrong number of vectors");
     for (const float v : flow)
-        c.checks.within(v, -2e4, 2e4, "flow");
+        c.checks.within(v, -2e4, 2e4, "component of a flow vector [px]");
     c.gl.frame(c.checks, pixelsOf(size));
 }
 

@@ -103,10 +103,10 @@ void changePlan(Context& c) {
             twin::tileChange(now, before, grey, t % tiles.width, t / tiles.width));
         changed += static_cast<int>(got[static_cast<std::size_t>(t)].changed);
         const TileMeasure& measured = plan.measured()[t];
-        c.checks.within(measured.noise - twin.noise, -0.02, 0.02, "a tile's noise");
+        c.checks.within(measured.noise - twin.noise, -0.02, 0.02, "error of a tile's noise");
         c.checks.within(measured.structure / (1 + twin.structure) -
                             twin.structure / (1 + twin.structure),
-                        -1e-2, 1e-2, "a tile's structure");
+                        -1e-2, 1e-2, "error of a tile's structure");
         const std::array energy{measured.pixels, measured.means, measured.bends};
         for (std::size_t k = 0; k < 3; ++k)
             c.checks.within(energy[k] / (1 + twin.energy[k]) -
@@ -223,7 +223,8 @@ void weights(Context& c) {
             const auto wanted = twin::weigh(displacement, statistics, low, x, y, sigma);
             const double slack = std::max(0.005, 2e-3 * wanted.weight);
             c.checks.within(got.at(x, y)[2] - wanted.weight, -slack, slack, "error of a weight");
-            c.checks.within(got.at(x, y)[3] - wanted.confidence, -1e-6, 1e-6, "confidence");
+            c.checks.within(got.at(x, y)[3] - wanted.confidence, -1e-6, 1e-6,
+                            "error of a confidence");
             const std::size_t i = 4 * (static_cast<std::size_t>(y) * size.width + x);
             c.checks.within(bytes[i + 2] / 255.0 - wanted.signal, -0.01, 0.01,
                             "error of the share of signal in the variance");

@@ -53,15 +53,15 @@ void checkDepth(Context& c, const Pipeline& p) {
 
 void checkPipeline(Context& c, const Pipeline& p, const StereoRig& rig) {
     for (const float v : p.readFlow())
-        c.checks.within(v, -2e4, 2e4, "flow");
+        c.checks.within(v, -2e4, 2e4, "component of a flow vector [px]");
     for (const float v : p.readConfidence())
-        c.checks.within(v, 0, 1, "confidence");
+        c.checks.within(v, 0, 1, "confidence of a pixel");
     for (const float v : p.readShownObjects())
         c.checks.within(v, 0, 1, "visible share of an object's pixel");
     const FrameStats s = p.readStats();
     for (const double v : {s.meanConfidence, s.explained, s.changed})
-        c.checks.within(v, 0, 1, "statistics");
-    c.checks.within(s.epipolarError, 0, 1e7, "epipolar error");
+        c.checks.within(v, 0, 1, "statistic of a frame: confidence, explained or changed share");
+    c.checks.within(s.epipolarError, 0, 1e7, "median distance from epipolar lines [px]");
     c.gl.frame(c.checks, pixelsOf(rig.video.size));
 }
 

@@ -71,7 +71,7 @@ void exactTag(Context& c) {
     const double off = (poses->best.T_world_camera.translation - truth.translation).norm() / unit;
     c.checks.within(poses->best.rms(), 0, 1e-4, "error of exact corners [px]");
     c.checks.within(turn, 0, 1e-4, "rotation error with exact corners [rad]");
-    c.checks.within(off, 0, 1e-4, "position error with exact corners");
+    c.checks.within(off, 0, 1e-4, "position error with exact corners, relative to the unit");
     checkPose(c, poses->best.T_world_camera, poses->best.covariance);
 }
 

@@ -30,10 +30,10 @@ void checkSearch(Context& c, const EpipolarSearch& search) {
                      "the field of inverse depths has a wrong size");
     // The limit is relative to the length of the translation, which may be 1e18 in an invalid pose.
     c.checks.within(search.pixelsPerUnit(), 0, 1e9 * search.translation().cast<double>().norm(),
-                    "pixels per unit");
-    c.checks.within(search.normalError(), 0, 1e7, "normal error");
+                    "pixels per unit of inverse depth");
+    c.checks.within(search.normalError(), 0, 1e7, "expected distance from epipolar lines [px]");
     for (const float s : search.inverseDepth())
-        c.checks.within(s * search.pixelsPerUnit(), -2e4, 2e4, "searched label");
+        c.checks.within(s * search.pixelsPerUnit(), -2e4, 2e4, "inverse depth in pixels");
 }
 
 std::vector<float> predictionFor(Context& c, Size area) {
@@ -137,12 +137,12 @@ void hostileFlowOfPoses(Context& c) {
         else
             flow.run(video.view(), pose(), where);
         checkSearch(c, flow.search());
-        c.checks.within(flow.unit(), 1e-300, 1e300, "unit of length");
+        c.checks.within(flow.unit(), 1e-300, 1e300, "the search's unit of length");
         for (const auto& v : flow.forward())
             for (const float x : v)
                 c.checks.within(x, -2e4, 2e4, "flow of a cell");
         for (const auto& v : flow.occlusion())
-            c.checks.within(v[0], 0, 1e4, "two-way error");
+            c.checks.within(v[0], 0, 1e4, "two-way error of a cell [px]");
         for (const float v : flow.flow())
             c.checks.within(v, -2e4, 2e4, "flow of a pixel");
         for (const float s : flow.inverseDepthOf(flow.forward()))
@@ -286,7 +286,7 @@ void hostileLuma(Context& c) {
     c.checks.within(shrunk / static_cast<double>(pixelsOf(to)) -
                         sum / static_cast<double>(pixelsOf(size)),
                     -0.6, 0.6, "mean of a smaller picture");
-    c.checks.within(noiseOf(luma), 0, 427, "noise");
+    c.checks.within(noiseOf(luma), 0, 427, "sigma of the luma's noise [grey levels]");
     c.checks.through("luma", pixelsOf(size));
 }
 

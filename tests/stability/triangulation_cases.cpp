@@ -24,10 +24,10 @@ Points triangulate(Context& c, const twin::TwoViews& views, const std::vector<fl
     Points points = stage.run(flow, views.T_b_a, options);
     c.checks.tried("Triangulation", static_cast<long>(points.size()));
     for (const TriangulatedPoint& p : points) {
-        c.checks.within(p.inverseDepth, 0, 1e6, "inverse depth");
-        c.checks.within(p.sigma, 0, kUnknownSigma, "sigma");
-        c.checks.within(p.residual, -1e9, 1e9, "residual");
-        c.checks.within(p.rayDistance, 0, 1e35, "ray distance");
+        c.checks.within(p.inverseDepth, 0, 1e6, "inverse depth of a point");
+        c.checks.within(p.sigma, 0, kUnknownSigma, "sigma of a point's inverse depth");
+        c.checks.within(p.residual, -1e9, 1e9, "residual of a point");
+        c.checks.within(p.rayDistance, 0, 1e35, "distance between the two rays of a point");
         c.checks.require(p.inverseDepth > 0 || p.sigma == kUnknownSigma,
                          "sigma of unknown depth is not kUnknownSigma");
     }

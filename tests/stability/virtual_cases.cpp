@@ -167,7 +167,7 @@ void silhouettes(Context& c) {
     c.gl.frame(c.checks, pixelsOf(camera.size));
     const int columns = silhouette.tileCount().width;
     for (const SurfaceRange& tile : tiles)
-        c.checks.within(tile.farthest, 0, 4e5, "range of a tile");
+        c.checks.within(tile.farthest, 0, 4e5, "farthest depth of a tile");
     for (int y = 0; y < camera.size.height; ++y)
         for (int x = 0; x < camera.size.width; ++x) {
             const float z = depth[4 * (static_cast<std::size_t>(y) * camera.size.width + x)];
@@ -177,7 +177,8 @@ void silhouettes(Context& c) {
             // Tolerance: the renderer interpolates 1 / z in single precision.
             const double rounding = kInterpolation / tile.nearest;
             c.checks.within(1 / z, 0.999 / tile.farthest - rounding,
-                            1.001 / tile.nearest + rounding, "inverse depth in its tile");
+                            1.001 / tile.nearest + rounding,
+                            "inverse depth of a pixel, compared with its tile's range");
         }
 }
 

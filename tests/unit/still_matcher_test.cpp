@@ -70,7 +70,8 @@ TEST(StillMatcher, LatencyIsTheMedianOfTheFirstTwentyStills) {
         EXPECT_TRUE(matcher.stillArrived(pulse + off)) << i;
     }
     EXPECT_TRUE(matcher.learned());
-    // Without the 0.08 of pulse 4, the middle two of the twenty are 0.10 and 0.11.
+    // Pulse 4 has no latency of 30.08 ms. So the middle two of the 20 latencies are 30.10 and
+    // 30.11 ms.
     EXPECT_EQ(matcher.constant(), nanoseconds(30ms + 105us));
     matcher.pulseFired(kStart + 100s);
     EXPECT_FALSE(matcher.stillArrived(kStart + 100s + 31106us))

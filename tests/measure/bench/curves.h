@@ -8,7 +8,8 @@
 
 namespace mfar::bench {
 
-/// Time and error at one value of a knob. All other settings have their defaults.
+/// Time and error of a flow method at one value of a knob (an option that trades time for error).
+/// All other options have their defaults.
 struct CurvePoint {
     double value = 0;
     bool isDefault = false;

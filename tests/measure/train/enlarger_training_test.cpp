@@ -29,7 +29,7 @@ EnlargerTraining::Outcome learnedFrom(int pictures, double noise) {
     return training.solve(20);
 }
 
-TEST(EnlargerTraining, FiltersLearnedFromDiscsBeatTheCubic) {
+TEST(EnlargerTraining, FiltersLearnedFromDiscsBeatCubicEnlarging) {
     const auto outcome = learnedFrom(16, 0);
     EXPECT_EQ(outcome.filters.size(), std::size_t{enlarge::kUnique});
     EXPECT_GT(outcome.used, 20);
