@@ -7,7 +7,7 @@ ctl="$(dirname "$sim")/mfarctl"
 pretended=$3
 pretended_cameras
 
-# says_of CAMERA WORD...: sets the faults that the camera has from now on.
+# says_of CAMERA FAULT...: sets the faults that the pretended camera has from now on.
 says_of() {
     local camera=$1
     shift

@@ -78,7 +78,7 @@ private:
 };
 
 TEST_F(DepthScenario, DepthStaysAccurateWhileTheCameraRestsForTenSeconds) {
-    constexpr std::int64_t kStep = 200'000'000;  // [ns]
+    constexpr std::int64_t kStep = 200'000'000;  // time between two frames [ns]
     Watched w(synthetic::Scene::Shelf, Path::Handheld, 30);
     follow(w, kSettling + 2);
     const SceneRun::Shots last = w.run.next();

@@ -20,8 +20,8 @@
 namespace mfar::stress {
 namespace {
 
-// Tolerance: bilinear look-ups have weights of 8 bits, and the errors of both chroma channels add
-// up.
+// Largest error of a colour that is converted from a video format. Bilinear look-ups have weights
+// of 8 bits, and the errors of both chroma channels add up.
 constexpr double kFormatError = 2.7;  // [grey levels]
 
 void pictureFormats(Context& c) {
@@ -46,14 +46,14 @@ void pictureFormats(Context& c) {
             const std::size_t i = 4 * (static_cast<std::size_t>(y) * size.width + x);
             for (std::size_t k = 0; k < 3; ++k)
                 c.checks.within(pixels[i + k] - rgb[k], -kFormatError, kFormatError,
-                                "error of a colour");
+                                "error of a colour on the GPU");
             for (int k = 0; k < 3; ++k)
                 c.checks.within(planes.row(k, y)[x] - rgb[k], -kFormatError, kFormatError,
                                 "error of a colour on the host");
         }
 }
 
-// Values are rounded twice; so they may differ by one level.
+// Values are rounded twice; so they may differ by one grey level.
 void lumaPyramids(Context& c) {
     const Size size = c.size(1, 120);
     const TestPicture a = c.hostile.picture(size), b = c.hostile.picture(size);

@@ -26,7 +26,7 @@ EngineChoice enginesFor(Context& c) {
     return {kind(), kind(), kind(), kind(), kind(), kind()};
 }
 
-constexpr int kMostOutput = 4096;  // [px]
+constexpr int kMostOutput = 4096;  // largest side of the output picture [px]
 
 /// An object in front of, around or behind the camera, or across the camera's plane; tiny or huge.
 VirtualObject objectFor(Context& c, double unit) {

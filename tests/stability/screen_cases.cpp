@@ -11,8 +11,8 @@
 namespace mfar::stress {
 namespace {
 
-// Tolerance: a linear sampler has at least 8 bits between two pixels and truncates in both
-// directions; rounding adds half a level.
+// Largest error of a pixel that the GPU scales. A linear sampler has at least 8 bits between two
+// pixels and truncates in both directions; rounding adds half a grey level.
 constexpr double kSampling = 2.5;  // [grey levels]
 
 /// A size of 0.2 to 4 times the screen's, separately in each direction.

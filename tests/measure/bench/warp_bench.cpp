@@ -15,7 +15,7 @@
 namespace mfar::bench {
 namespace {
 
-constexpr double kTurn = 2;  // [degrees]
+constexpr double kTurn = 2;  // angle on the orbit between the traced and the shown view [degrees]
 
 Summary timed(int runs, const std::function<void()>& call) {
     std::vector<double> ms;
