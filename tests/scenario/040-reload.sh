@@ -41,7 +41,7 @@ kill -TERM "$pid"
 ends_with 0 1500
 summary_has mode '"off"'
 
-echo "without a file there is nothing to read again"
+echo "without a configuration file, SIGHUP reads nothing again"
 start --source synthetic:flat
 until_true started
 kill -HUP "$pid"

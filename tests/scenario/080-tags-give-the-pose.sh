@@ -30,5 +30,5 @@ printf 'family = "tag36h11"\n[[tags]]\nid = 3\nsize = -0.1\n' >map.toml
 for check in "" --check-config; do
     run 65 --config mfard.toml $check
     says err 'map.toml:[0-9]+: '
-    [ "$(wc -l <err)" = 1 ] || fail "more than one message"
+    [ "$(wc -l <err)" = 1 ] || fail "mfard did not write exactly one message"
 done

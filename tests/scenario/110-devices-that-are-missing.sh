@@ -20,7 +20,8 @@ start --config mfard.toml --display png:frames --summary summary.json --seconds 
 ends_with 0 6000
 says err 'warning: video camera: '
 says err 'still camera: .*no such card'
-[ "$(find frames -name '*.png' | wc -l)" -ge 5 ] || fail "no picture shows the message"
+[ "$(find frames -name '*.png' | wc -l)" -ge 5 ] ||
+    fail "mfard showed fewer than 5 pictures with the message"
 summary_has frames 0
 summary_has faults 1
 

@@ -4,7 +4,7 @@
 . "$(dirname "$0")/lib.sh"
 
 "$sim" --scene office --path handheld --seconds 0.2 --stills 5 --no-truth \
-    --out run >/dev/null || fail "no recording"
+    --out run >/dev/null || fail "mfar-sim made no recording"
 cat >jar.toml <<'END'
 [virtual]
 budget_ms = 40

@@ -14,7 +14,7 @@ first=$(stills)
 [ "$first" -ge 1 ] || fail "filters were not learned from any still"
 file=$(ls state/filters-*.learned)
 
-echo "after a restart"
+echo "after a restart, learning continues with the stored filters"
 learn --frames 6
 [ "$(stills)" -gt "$first" ] ||
     fail "learning began anew instead of continuing with the stored filters"
@@ -25,7 +25,7 @@ learn --frames 6
 says err 'filters-.*\.learned: .*; learning starts again'
 [ "$(stills)" = "$first" ] || fail "filters were learned from $(stills) stills instead of $first"
 learn --frames 1
-if grep -q 'learning starts again' err; then fail "the file was not replaced"; fi
+if grep -q 'learning starts again' err; then fail "the truncated file of filters was not replaced"; fi
 
 echo "nothing is learned when learning is switched off"
 printf '[superres]\nlearn = false\n' >>mfard.toml
@@ -41,7 +41,7 @@ learn --frames 10
 sed -i 's/"gles"/"simd"/' mfard.toml
 mv kept "$file"
 
-echo "what was learned is deleted on request"
+echo "mfarctl learn reset deletes the learned filters"
 start --config mfard.toml --source synthetic:office,rest --control control
 until_true started
 "$ctl" --socket control status >answer

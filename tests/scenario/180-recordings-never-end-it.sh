@@ -41,7 +41,7 @@ for count in 1 2; do
         fail "there are not $count folders of recordings"
 done
 
-echo "a recording that has become too large"
+echo "a recording that becomes too large ends; mfard continues"
 rm -rf films
 printf '%s\nmost_mb = 0.05\n' "$quiet" >mfard.toml
 start --config mfard.toml --control control
@@ -57,7 +57,7 @@ stop_it
 run 0 --recording films/* --frames 1
 run 0 --recording more --frames 1
 
-echo "a recording on a full disk, and a recording without a folder"
+echo "mfard continues if the disk is full or the folder of recordings cannot be made"
 printf '%s\nleast_free_mb = 1e9\n' "$quiet" >mfard.toml
 start --config mfard.toml --control control
 ended() { grep -q 'the recording has ended: films/.*MB are free on the disk' err; }

@@ -32,7 +32,7 @@ stats() { timeout -s KILL 30 "$ctl" --socket control stats >stats.json 2>err.ctl
 # shows_pictures COUNT: true after at least this many pictures since the start.
 shows_pictures() { status && [ "$(awk '$1 == "frames" {print $2}' answer)" -ge "$1" ] 2>/dev/null; }
 goes_on() {
-    status || fail "mfard does not answer"
+    status || fail "mfard does not answer mfarctl status"
     until_true shows_pictures $(($(awk '$1 == "frames" {print $2}' answer) + 20))
 }
 fault_is() { status && grep -Eq "^fault +$1" answer; }
@@ -51,7 +51,7 @@ until_true fault_is null
 says_of video91 hang
 until_true fault_is 'still camera: its driver does not answer'
 goes_on
-echo "the still driver that hangs does not delay the end"
+echo "the still driver that hangs does not delay the end of mfard"
 stop_now 1500
 summary_has exit_code 0
 says_of video91
@@ -78,7 +78,7 @@ says_of video90
 until_true fault_is null
 goes_on
 
-echo "the video camera repeats one picture for ever"
+echo "a video camera that repeats one picture is reported"
 says_of video90 repeat
 until_true warned 'video camera: repeats the same picture'
 says_of video90
@@ -112,7 +112,7 @@ begin
 until_true warned 'video camera: sends 1[45]\.[0-9] frames per second instead of the configured 30'
 stats
 [ "$(counts video missed)" -le 3 ] ||
-    fail "mfard counts $(counts video missed) missed frames of a camera with half its rate"
+    fail "mfard counts $(counts video missed) missed frames of a camera with half its rate; limit: 3"
 stop_now 1500
 
 echo "a driver with few buffers is used"
@@ -126,7 +126,7 @@ for buffers in 1 3; do
     stop_now 1500
 done
 
-echo "a camera that is absent at boot: the other one runs and is not blamed"
+echo "a camera is absent at boot: the other camera runs and is not blamed"
 for absent in video still; do
     device=video90
     [ $absent = video ] || device=video91
@@ -137,12 +137,14 @@ for absent in video still; do
     start --config mfard.toml --display none --control control --summary summary.json
     unset LD_PRELOAD MFAR_PRETENDED_V4L2
     until_true started
-    [ $(($(milliseconds) - begun)) -le $((5000 * patience)) ] || fail "not ready within 5 s"
+    [ $(($(milliseconds) - begun)) -le $((5000 * patience)) ] ||
+        fail "mfard was not ready within 5 s times MFAR_PATIENCE ($patience)"
     other=still
     [ $absent = video ] || other=video
     until_true at_least $other delivered 3
     until_true fault_is "$absent camera: .*$device"
-    status && grep -q "^fault .*$other camera" answer && fail "the $other camera is blamed"
+    status && grep -q "^fault .*$other camera" answer &&
+        fail "status reports a fault of the $other camera"
     [ $absent = video ] || goes_on
     touch cameras/$device
     until_true fault_is null

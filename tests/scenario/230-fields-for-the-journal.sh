@@ -31,15 +31,17 @@ start_service() {
 start_service socket
 until_true heard "MESSAGE_ID=$(id kStarted)" 'MESSAGE=engine '
 until_true heard "MESSAGE_ID=$(id kDegraded)" 'MFAR_CAMERA=video'
-heard 'warning: .*video camera: ' 'MFAR_COUNT=1' || fail "the camera is not named"
-heard 'PRIORITY=4' 'SYSLOG_IDENTIFIER=mfard' || fail "the message has no priority or no identifier"
+heard 'warning: .*video camera: ' 'MFAR_COUNT=1' ||
+    fail "the warning does not name the video camera"
+heard 'PRIORITY=4' 'SYSLOG_IDENTIFIER=mfard' ||
+    fail "a message has no PRIORITY=4 or no SYSLOG_IDENTIFIER=mfard"
 kill -HUP "$pid"
 until_true heard "MESSAGE_ID=$(id kReloaded)" 'MESSAGE=mfard.toml: read again'
 kill -TERM "$pid"
 ends_with 0 1500
-[ ! -s err ] || fail "messages also go to standard error"
+[ ! -s err ] || fail "mfard writes messages also to standard error"
 
-echo "without a journal"
+echo "without a journal, messages go to standard error"
 start_service nowhere
 until_true started
 says err '^<5>mfard: engine '

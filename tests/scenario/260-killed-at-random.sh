@@ -43,7 +43,8 @@ for round in $(seq "$times"); do
     if [ $((round % 2)) = 0 ]; then
         until_true shows_pictures
         took=$(($(milliseconds) - begun))
-        [ $took -le $((5000 * patience)) ] || fail "round $round: first picture after $took ms"
+        [ $took -le $((5000 * patience)) ] ||
+            fail "round $round: the first picture came only after $took ms"
     fi
     if [ $((round % 4)) = 0 ]; then
         until_true records

@@ -10,7 +10,7 @@ if [ -z "${MFAR_MOUNTS:-}" ]; then
             MFAR_MOUNTS=1 exec unshare $how "$0" "$@"
         fi
     done
-    echo "no file system can be mounted"
+    echo "no file system can be mounted on this machine"
     exit 77
 fi
 . "$(dirname "$0")/lib.sh"
@@ -50,7 +50,7 @@ begin() {
     until_true started
 }
 
-echo "the disk becomes full during a recording"
+echo "the disk becomes full during a recording: the recording ends"
 begin
 film=$(until_true test -d var/films && ls -d var/films/*)
 listed() { [ "$(grep -c '^[0-9]' "$film/cam0/data.csv" 2>/dev/null)" -gt 3 ]; }
@@ -71,7 +71,7 @@ ends_with 0 1500
 run 0 --recording "${film#var/}" --frames 1
 says err 'first picture'
 
-echo "the disk is full from the start"
+echo "the disk is full from the start: nothing is recorded"
 fill
 begin
 refused() { grep -Eq "(nothing is recorded|the recording has ended): .*$no_room" err; }
@@ -80,7 +80,7 @@ goes_on
 kill -TERM "$pid"
 ends_with 0 1500
 
-echo "the disk has space again"
+echo "the disk has space again: mfard records"
 rm -f var/fill
 begin
 until_true listed

@@ -18,7 +18,7 @@ FRAMES = {'moving': (2, 3), 'rest': (5, 6)}
 def run(command, **environment):
     result = subprocess.run(command, env=dict(os.environ, **environment), capture_output=True, text=True, check=False)
     if result.returncode != 0:
-        raise RuntimeError(f'{" ".join(command)} ended with {result.returncode}: {result.stderr[-500:]}')
+        raise RuntimeError(f'{" ".join(command)} ended with exit code {result.returncode}: {result.stderr[-500:]}')
     return result.stdout
 
 

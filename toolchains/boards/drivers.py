@@ -28,7 +28,7 @@ def compile_shaders(libraries, gpu, program, files=()):
     lines = run.stdout.splitlines()
     if run.returncode != 0:
         named = [line for line in lines if line.startswith('shader: ') and 'MESA_' not in line]
-        raise RuntimeError(f'{gpu["name"]}: mfar-compile-shaders ended with {run.returncode} after '
+        raise RuntimeError(f'{gpu["name"]}: mfar-compile-shaders ended with exit code {run.returncode} after '
                            f'{named[-1] if named else "no shader"}: {" | ".join(lines[-3:])[:500]}')
     if gpu['renderer'] not in run.stdout:
         raise RuntimeError(f'{gpu["name"]}: its driver does not report the renderer name "{gpu["renderer"]}"')
