@@ -72,8 +72,9 @@ diff wanted.glsl out.glsl || fail "the translation differs from wanted.glsl"
 # for the reason.
 refused() {
     printf '#pragma once\n#include "shared.h"\n%s\n' "$3" >case.h
-    if translate; then fail "accepted: $3"; fi
-    grep -q "case.h:$1: $2" <(tr -d '\n' <log | tr -s ' ') || fail "no 'case.h:$1: $2' for: $3"
+    if translate; then fail "the invalid header is accepted: $3"; fi
+    grep -q "case.h:$1: $2" <(tr -d '\n' <log | tr -s ' ') ||
+        fail "no message 'case.h:$1: $2' for: $3"
 }
 inStruct() { refused 4 "$1" $'struct alignas(16) Pass {\n'"$2"$'\n};'; }
 

@@ -25,7 +25,7 @@ learn --frames 6
 says err 'filters-.*\.learned: .*; learning starts again'
 [ "$(stills)" = "$first" ] || fail "filters were learned from $(stills) stills instead of $first"
 learn --frames 1
-if grep -q 'learning starts again' err; then fail "the truncated file of filters was not replaced"; fi
+if grep -q 'learning starts again' err; then fail "the truncated file was not replaced"; fi
 
 echo "nothing is learned when learning is switched off"
 printf '[superres]\nlearn = false\n' >>mfard.toml

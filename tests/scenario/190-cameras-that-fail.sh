@@ -112,7 +112,7 @@ begin
 until_true warned 'video camera: sends 1[45]\.[0-9] frames per second instead of the configured 30'
 stats
 [ "$(counts video missed)" -le 3 ] ||
-    fail "mfard counts $(counts video missed) missed frames of a camera with half its rate; limit: 3"
+    fail "$(counts video missed) missed frames of a camera with half its rate; limit: 3"
 stop_now 1500
 
 echo "a driver with few buffers is used"

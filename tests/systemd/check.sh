@@ -21,8 +21,9 @@ trap 'rm -rf "$work"' EXIT
 # systemd requires that the program of the unit exists.
 sed "s|/usr/bin/mfard|$mfard|; s|^Documentation=.*|Documentation=man:systemd(1)|" "$unit" \
     >"$work/mfard.service"
-said=$(systemd-analyze verify --man=no "$work/mfard.service" 2>&1) || fault "verify ended with $?"
-[[ -z $said ]] || fault "verify: $said"
+said=$(systemd-analyze verify --man=no "$work/mfard.service" 2>&1) ||
+    fault "systemd-analyze verify of mfard.service ended with exit code $?"
+[[ -z $said ]] || fault "systemd-analyze verify of mfard.service reports: $said"
 
 # The optional drop-in that reboots after repeated failures. systemd must accept it. The number of
 # starts that it counts must be possible within its interval, although mfard waits before each
@@ -30,9 +31,9 @@ said=$(systemd-analyze verify --man=no "$work/mfard.service" 2>&1) || fault "ver
 reboot=$(dirname "$unit")/reboot.conf
 install -D -m 644 "$reboot" "$work/mfard.service.d/reboot.conf"
 said=$(systemd-analyze verify --man=no "$work/mfard.service" 2>&1) ||
-    fault "verify of reboot.conf ended with $?"
-[[ -z $said ]] || fault "verify of reboot.conf: $said"
-grep -qx 'StartLimitAction=reboot' "$reboot" || fault "reboot.conf does not reboot"
+    fault "systemd-analyze verify of reboot.conf ended with exit code $?"
+[[ -z $said ]] || fault "systemd-analyze verify of reboot.conf reports: $said"
+grep -qx 'StartLimitAction=reboot' "$reboot" || fault "reboot.conf has no StartLimitAction=reboot"
 minutes=$(sed -n 's/^StartLimitIntervalSec=\([0-9]*\)min$/\1/p' "$reboot")
 starts=$(sed -n 's/^StartLimitBurst=//p' "$reboot")
 wait=$(sed -n 's/^constexpr std::chrono::seconds kLongestWait{\([0-9]*\)};$/\1/p' \
@@ -55,7 +56,7 @@ mkdir -p "$work/root/etc"
 printf 'root:x:0:\nvideo:x:44:\n' >"$work/root/etc/group"
 printf 'root:x:0:0::/root:/bin/sh\n' >"$work/root/etc/passwd"
 said=$(systemd-sysusers --root="$work/root" "$sources/sysusers.conf" 2>&1) ||
-    fault "sysusers: $said"
+    fault "systemd-sysusers refuses sysusers.conf: $said"
 for group in video render gpio; do
     grep -Eq "^$group:.*:(.*,)?mfar(,|$)" "$work/root/etc/group" ||
         fault "sysusers.conf does not add the user mfar to the group $group"
@@ -80,8 +81,8 @@ for key in MemoryMax OOMPolicy TasksMax LimitNOFILE; do
     grep -q "^$key=" "$unit" || fault "the unit has no $key="
 done
 grep -Eq '^ExecStopPost=-?[^+!:@]' "$unit" ||
-    fault "the hook of the service runs outside its sandbox"
-grep -q '^ExecStopPost=.*--config' "$unit" && fault "the hook reads the configuration"
+    fault "ExecStopPost= of the service runs outside its sandbox"
+grep -q '^ExecStopPost=.*--config' "$unit" && fault "ExecStopPost= reads the configuration"
 
 # is-trigger-chip must accept only the GPIO chip of the configured line, by each of its names.
 isChip() {

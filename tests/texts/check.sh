@@ -52,9 +52,10 @@ completes() {
     (. "$work/tree/systemd/mfard.bash-completion" && COMP_WORDS=(mfard "$1" "$2") COMP_CWORD=2 &&
         _mfard mfard "$2" "$1" && printf '%s ' "${COMPREPLY[@]}")
 }
-[[ $(completes --mode b) == 'blend ' ]] || fault "--mode b is completed to: $(completes --mode b)"
+[[ $(completes --mode b) == 'blend ' ]] ||
+    fault "bash completes \"--mode b\" to: $(completes --mode b)"
 [[ $(completes mfard --print) == '--print-config ' ]] ||
-    fault "--print is completed to: $(completes mfard --print)"
+    fault "bash completes \"--print\" to: $(completes mfard --print)"
 [[ $(completes --config "$work/tree/do") == "$work/tree/docs " ]] ||
     fault "bash does not complete a file name after --config"
 
@@ -62,15 +63,15 @@ completes() {
 while IFS= read -r program; do
     [[ -s $work/tree/docs/man/$program.1 ]] || fault "$program has no manual page"
     grep -q "[( ]$program[ )]" "$sources/systemd/CMakeLists.txt" ||
-        fault "$program.1 is not installed"
+        fault "the package does not install the manual page $program.1"
 done < <(sed -n 's/^install(TARGETS \(.*\) RUNTIME.*/\1/p' "$sources"/daemon/CMakeLists.txt \
     "$sources"/daemon/tools/CMakeLists.txt | tr ' ' '\n')
 
 if command -v groff >/dev/null; then
     for page in "$work"/tree/docs/man/*; do
-        said=$(groff -man -Tascii -wall "$page" 2>&1 >"$work/page") || fault "groff: $said"
-        [[ -z $said ]] || fault "groff: $said"
-        [[ -s $work/page ]] || fault "$page is empty"
+        said=$(groff -man -Tascii -wall "$page" 2>&1 >"$work/page") || fault "groff fails: $said"
+        [[ -z $said ]] || fault "groff warns about $page: $said"
+        [[ -s $work/page ]] || fault "groff prints nothing for $page"
     done
 fi
 
