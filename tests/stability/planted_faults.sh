@@ -169,5 +169,5 @@ rowFaults() {
 if [[ $which == all || $which == shaders ]]; then inShaders; fi
 if [[ $which == all || $which == host || $which == texts ]]; then hostFaults; fi
 if [[ $which == all || $which == kernels || $which == texts ]]; then kernelFaults; fi
-printf '%d found, %d missed\n' "$found" "$missed"
+printf '%d planted faults were found, %d were missed\n' "$found" "$missed"
 [[ $missed == 0 ]]

@@ -45,7 +45,7 @@ rm -r "$work/mfard.service.d"
 
 exposure=$(systemd-analyze security --offline=true --no-pager "$unit" |
     sed -n 's/.*Overall exposure level for [^:]*: \([0-9.]*\) .*/\1/p')
-echo "exposure $exposure"
+echo "exposure level from systemd-analyze security: $exposure"
 awk -v e="$exposure" -v m="$maxExposure" 'BEGIN { exit !(e != "" && e <= m) }' ||
     fault "the exposure that systemd-analyze security computes is \"$exposure\"; limit: $maxExposure"
 
