@@ -1,5 +1,5 @@
-# Tests of a program whose start (OpenGL contexts, shaders to compile) takes longer than one of its
-# tests. So a few processes run all of them.
+# Registers the tests of a program whose start (OpenGL contexts, shaders to compile) takes longer
+# than one of its tests. A few processes run all tests.
 #   target       the program
 #   name         name of the tests; a number follows it
 #   SHARDS       number of processes (default: 4)
@@ -18,7 +18,7 @@ function(mfar_add_sharded_tests target name)
         set(properties)
         foreach(property LABELS ENVIRONMENT)
             if(arg_${property})
-                # The value of a property is one argument, whatever number of variables it sets.
+                # The value of a property must be one argument, even if it sets several variables.
                 string(REPLACE ";" "\\;" value "${arg_${property}}")
                 list(APPEND properties ${property} "${value}")
             endif()

@@ -1,10 +1,11 @@
 # shellcheck shell=bash
-# Debian packages as files, for roots of another architecture. Nothing of that architecture is
-# executed. To be sourced; needs root, mmdebstrap and dpkg.
+# Functions that extract Debian packages into a folder (a root), also for another architecture. No
+# program from the packages is executed. To be sourced; needs root rights, mmdebstrap and dpkg.
 
 die() { printf '%s\n' "$(basename "$0"): $*" >&2; exit 1; }
 
-# Prints the release whose packages are used: the one that runs here, as its compilers fit.
+# Prints the Debian release whose packages are used: that of this machine, because its compilers fit
+# the packages.
 debianSuite() {
     local ID='' VERSION_CODENAME=''
     # shellcheck source=/dev/null
@@ -13,7 +14,8 @@ debianSuite() {
     echo "$VERSION_CODENAME"
 }
 
-# Prints the files with this machine's package sources, one a line; nothing: the usual mirror.
+# Prints the files that list this machine's package sources, one per line. If it prints nothing,
+# mmdebstrap uses Debian's usual mirror.
 debianSources() {
     local file
     for file in /etc/apt/sources.list.d/debian.sources /etc/apt/sources.list; do
@@ -21,7 +23,7 @@ debianSources() {
     done
 }
 
-# Prints where this machine's packages come from; nothing: the usual mirror.
+# Prints the URL of this machine's first package source. Prints nothing if there is none.
 debianMirror() {
     local file
     while IFS= read -r file; do
@@ -29,10 +31,12 @@ debianMirror() {
     done < <(debianSources) | head -n 1
 }
 
-# Arguments: what a folder is made from. Prints a name part that is the same for the same.
+# inputHash INPUT...: prints a hash of the inputs from which a folder is made. As part of the
+# folder's name, it tells whether the folder has to be made anew.
 inputHash() { printf '%s\n' "$@" | sha256sum | cut -c 1-12; }
 
-# Argument: a new folder. Copies the package sources there but for security updates; prints the files.
+# sourcesWithoutSecurity FOLDER: copies the lists of package sources to the folder, without the
+# entries for security updates. Prints the copies' paths.
 sourcesWithoutSecurity() {
     local file copy
     while IFS= read -r file; do
@@ -45,7 +49,8 @@ sourcesWithoutSecurity() {
     done < <(debianSources)
 }
 
-# Arguments: architecture, new folder, packages with commas between them, files of sources.
+# tryExtracting ARCHITECTURE ROOT PACKAGE[,PACKAGE...] SOURCES...: extracts packages into the new
+# folder ROOT. SOURCES are files that list package sources.
 tryExtracting() {
     local architecture=$1 root=$2 packages=$3
     shift 3
@@ -59,10 +64,11 @@ tryExtracting() {
         --include="$packages" "$(debianSuite)" "$root" "$@"
 }
 
-# Arguments: architecture, new folder, packages. Extracts them with all they depend on and keeps
-# dpkg's records of them, as installed. No maintainer script is run. Mirrors do not always have the
-# security updates of every architecture in order; what is built against the packages without them
-# runs with them.
+# extractPackages ARCHITECTURE ROOT PACKAGE...: extracts packages with all their dependencies into
+# the new folder ROOT, and enters them as installed in dpkg's database there. Maintainer scripts are
+# not run. On some mirrors, the security updates of an architecture can be inconsistent; then the
+# packages are extracted without the updates. Programs built against these packages also run with
+# the updates.
 extractPackages() {
     local architecture=$1 root=$2 packages work sources
     shift 2
@@ -70,7 +76,7 @@ extractPackages() {
     work=$(mktemp -d)
     mapfile -t sources < <(debianSources)
     if ! tryExtracting "$architecture" "$root" "$packages" "${sources[@]}" >"$work/log" 2>&1; then
-        printf 'Failed for %s; once more without security updates\n' "$architecture" >&2
+        printf 'Extracting %s packages failed; trying without security updates\n' "$architecture" >&2
         rm -rf "$root"
         mapfile -t sources < <(sourcesWithoutSecurity "$work")
         tryExtracting "$architecture" "$root" "$packages" "${sources[@]}" >>"$work/log" 2>&1 || {
@@ -83,8 +89,8 @@ extractPackages() {
     rm -rf "${root:?}"/var/lib/apt/lists/* "${root:?}"/var/cache/apt/*
 }
 
-# Fills dpkg's database of a root from the packages that it was extracted from: their descriptions,
-# and which package a library belongs to.
+# recordPackages ROOT: fills dpkg's database in a root from the packages that were extracted into
+# it: the packages' descriptions, and which package contains which library.
 recordPackages() {
     local root=$1 info=$1/var/lib/dpkg/info control deb name
     control=$(mktemp -d)
@@ -104,7 +110,8 @@ recordPackages() {
     rm -rf "$control"
 }
 
-# Argument: a root. Debian chooses these libraries by scripts, which have not been run.
+# linkAlternatives ROOT: links the default versions of BLAS and LAPACK. In Debian, the packages'
+# scripts do that, which were not run.
 linkAlternatives() {
     local library folder
     for library in blas/libblas.so.3 lapack/liblapack.so.3; do
@@ -114,7 +121,8 @@ linkAlternatives() {
     done
 }
 
-# Argument: a root. Links to absolute paths would lead out of it.
+# makeLinksRelative ROOT: makes absolute symbolic links relative, because they would lead out of the
+# root.
 makeLinksRelative() {
     local root=$1 link target
     while IFS= read -r -d '' link; do

@@ -1,5 +1,6 @@
 # Under an emulator, each start of a program takes seconds. So CTest runs all tests of a program in
-# one process. Programs that are worth the time under an emulator have the label "emulated".
+# one process. The tests of the programs in this list get the label "emulated"; `./run cross --test`
+# runs them.
 set(mfar_emulated
     mfar-composite-tests
     mfar-daemon-tests

@@ -1,4 +1,4 @@
-"""Shows on standard error how far a long command is, as base/progress.h does."""
+"""Shows the progress of a long command on standard error, as base/progress.h does."""
 import sys
 import time
 

@@ -1,5 +1,5 @@
-# Shows on standard error how far a long command is, as base/progress.h does: rewrites one line on a
-# terminal; otherwise prints a line every ten seconds.
+# Shows the progress of a long command on standard error, as base/progress.h does: rewrites one line
+# on a terminal; otherwise prints a line every ten seconds.
 
 progressLine=$EPOCHSECONDS
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Makes the headers and libraries of another architecture, unless they are there: a folder of
-# extracted Debian packages. Prints its path. Needs root; about two minutes and 1 GB.
-# Usage: sysroot.sh CACHE ARCHITECTURE PACKAGE...   (ARCHITECTURE as Debian calls it: arm64, armhf)
+# Makes a sysroot, if it does not exist: a folder of extracted Debian packages with the headers and
+# libraries of another architecture. Prints its path. Needs root rights; takes about two minutes and
+# 1 GB.
+# Usage: sysroot.sh CACHE ARCHITECTURE PACKAGE...   (ARCHITECTURE: Debian's name: arm64, armhf)
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 # shellcheck source=toolchains/debian.sh
@@ -16,7 +17,7 @@ hash=$(inputHash "$(debianSuite)" "${packages[@]}" "$(cat "$here/sysroot.sh" "$h
 sysroot=$cache/sysroot-$architecture-$hash
 
 if [[ ! -d $sysroot ]]; then
-    printf 'Making %s, about two minutes\n' "$sysroot" >&2
+    printf 'Making the sysroot %s; takes about two minutes\n' "$sysroot" >&2
     rm -rf "$sysroot.part"
     mkdir -p "$cache"
     extractPackages "$architecture" "$sysroot.part" "${packages[@]}"
@@ -26,6 +27,6 @@ if [[ ! -d $sysroot ]]; then
     mv "$sysroot.part" "$sysroot"
 fi
 touch "$sysroot"
-# What has not been used for two weeks was made from another list of packages.
+# Removes sysroots that were not used for two weeks. They were made from other lists of packages.
 find "$cache" -maxdepth 1 -name "sysroot-$architecture-*" -mtime +14 -exec rm -rf {} +
 echo "$sysroot"

@@ -213,7 +213,7 @@ class Budget(unittest.TestCase):
         self.assertEqual(self.faults(scratch=3), ['a.comp on v3d-4: 3 scratch, the budget is 2'])
 
     def test_a_new_shader_is_named(self):
-        self.assertEqual(self.faults(shader='b.comp'), ['b.comp on v3d-4: has no budget'])
+        self.assertEqual(self.faults(shader='b.comp'), ['b.comp on v3d-4: has no budget in budget.csv'])
 
     def test_the_checked_in_budget_has_every_gpu_of_the_model(self):
         kinds = {kind for kind, _ in budget.read(report.BUDGET)}

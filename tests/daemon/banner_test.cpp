@@ -26,8 +26,8 @@ gpu::Texture plainPicture(std::uint8_t level) {
     return out;
 }
 
-/// Index of the first row in which not all pixels have this grey level; the height if there is
-/// none.
+/// Index of the first row whose red, green and blue values are not all `level`; the picture's
+/// height if every row has only this value.
 int rowsOf(const std::vector<std::uint8_t>& pixels, std::uint8_t level) {
     const std::size_t row = std::size_t{4} * kPictureSize.width;
     for (std::size_t y = 0; y < pixels.size() / row; ++y)
@@ -36,7 +36,7 @@ int rowsOf(const std::vector<std::uint8_t>& pixels, std::uint8_t level) {
     return kPictureSize.height;
 }
 
-TEST_F(BannerText, TheBannerLeavesTheUpperPartOfThePictureUnchanged) {
+TEST_F(BannerText, IsDrawnAtTheLowerEdgeAndLeavesTheSourcePictureUnchanged) {
     Banner banner(kPictureSize);
     const gpu::Texture picture = plainPicture(90);
     const Picture source = GlImage{picture.id(), kPictureSize};
@@ -76,7 +76,7 @@ TEST_F(BannerText, HostPicturesGetTheSameBanner) {
     EXPECT_EQ(rows[239][319], 90 * 0x01010101U);
 }
 
-// Must also work without a GL context.
+// mfard draws this banner even if it has no GL context.
 TEST_F(BannerText, WithoutAPictureTheHostBannerIsOnBlack) {
     Banner banner(kPictureSize);
     ASSERT_TRUE(banner.over({}, "no picture yet").isOnHost());

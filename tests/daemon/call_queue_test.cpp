@@ -11,7 +11,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-TEST(CallQueue, TheOtherThreadDoesTheWorkAndTheCallerGetsItsResult) {
+TEST(CallQueue, TheThreadThatRunsTheQueueDoesTheCallAndTheCallerGetsTheResult) {
     CallQueue<int> queue;
     int target = 7;
     std::atomic<bool> ended{false};
@@ -34,7 +34,7 @@ TEST(CallQueue, TheOtherThreadDoesTheWorkAndTheCallerGetsItsResult) {
     EXPECT_EQ(target, 8);
 }
 
-TEST(CallQueue, WakesTheOtherThread) {
+TEST(CallQueue, ACallWakesTheThreadThatRunsTheQueue) {
     int woken = 0, target = 0;
     CallQueue<int> queue([&] { ++woken; });
     EXPECT_THROW(queue.call([](int&) {}, 1ms), std::runtime_error);
@@ -42,7 +42,7 @@ TEST(CallQueue, WakesTheOtherThread) {
     queue.runAll(target);
 }
 
-TEST(CallQueue, WorkAfterItsTimeoutIsHarmless) {
+TEST(CallQueue, ACallThatRunsAfterItsTimeoutIsHarmless) {
     CallQueue<std::string> queue;
     EXPECT_THROW(queue.call([](std::string& s) { s = "done"; }, 1ms), std::runtime_error);
     std::string target;

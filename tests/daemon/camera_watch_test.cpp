@@ -93,7 +93,7 @@ TEST(CameraWatch, RecordingsAndSyntheticCamerasMayRepeatPicturesAndHaveNoRate) {
     }
 }
 
-TEST(CameraWatch, MissingFramesAreCountedByTheCameraOrByTimes) {
+TEST(CameraWatch, MissedFramesAreCountedByTheCameraOrElseFromFrameTimes) {
     Watched camera(CameraKind::Live);
     for (int i = 0; i < 40; ++i)
         camera.send(33'333'333ns);
@@ -117,7 +117,7 @@ TEST(CameraWatch, ChecksumsDependOnEveryByte) {
     const std::uint64_t before = sparseChecksum(view);
     EXPECT_EQ(sparseChecksum(view), before);
     for (std::size_t x = 0; x < 37; ++x) {
-        pixels[2 * 40 + x] ^= 1;  // in the first row that the checksum covers
+        pixels[2 * 40 + x] ^= 1;  // row 2 is the first that the checksum covers
         EXPECT_NE(sparseChecksum(view), before) << x;
         pixels[2 * 40 + x] ^= 1;
     }

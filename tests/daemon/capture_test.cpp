@@ -75,7 +75,7 @@ TEST(CaptureThread, VideoFramesArriveWhileTheStillCameraHangs) {
         EXPECT_EQ(frame->video.time(), Timestamp::fromSeconds(i));
         EXPECT_FALSE(frame->still);
     }
-    // The end of the run must not wait for the still camera either.
+    // The capture must end although the still camera's next() still hangs.
     auto ended = std::async(std::launch::async, [&] {
         capture.thread->stop();
         capture.thread->join();
@@ -104,7 +104,7 @@ TEST(CaptureThread, AStillIsDeliveredWithTheFirstFrameThatIsNotOlder) {
     EXPECT_FALSE(capture.take()->still);
     std::optional<CapturedFrame> with;
     double time = 2;
-    ASSERT_TRUE(becomesTrue([&] {  // the thread may not wait yet
+    ASSERT_TRUE(becomesTrue([&] {  // frames until the still thread has handed the still over
         capture.video().send(time++);
         with = capture.take();
         return with && with->still;
@@ -113,7 +113,7 @@ TEST(CaptureThread, AStillIsDeliveredWithTheFirstFrameThatIsNotOlder) {
     EXPECT_NE(capture.video().askers(), capture.still().askers());
 }
 
-TEST(CaptureThread, StillsThatAreReplacedBeforeAFrameArrivesAreCounted) {
+TEST(CaptureThread, StillsReplacedBeforeAFrameUsedThemAreCounted) {
     Capture capture(HandOver::NewestWins);
     for (int i = 1; i <= 5; ++i)
         capture.still().send(i);
@@ -127,7 +127,7 @@ TEST(CaptureThread, StillsThatAreReplacedBeforeAFrameArrivesAreCounted) {
     EXPECT_EQ(frame->stillsSuperseded, StillBox::kCapacity - 1);
 }
 
-TEST(CaptureThread, TheMissedCountOfADroppedFrameIsAddedToTheNextFrame) {
+TEST(CaptureThread, ADroppedFramePassesItsStillAndCountOfReplacedStillsOn) {
     CapturedFrame older{{ImageView{}, Timestamp{1}, nullptr},
                         CapturedStill{{ImageView{}, Timestamp{1}, nullptr}},
                         {}};

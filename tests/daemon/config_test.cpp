@@ -178,7 +178,8 @@ TEST(Config, AnEndlessTextIsRefusedBeforeItIsParsed) {
     EXPECT_EQ(configFaults(dots + " = 1\n"), "test.toml:1:69: a key has more than 32 parts");
     EXPECT_EQ(configFaults("pace = \"auto\"\n[" + dots + "]\n"),
               "test.toml:2:70: a key has more than 32 parts");
-    // A quoted text must neither hide the key nor count as nesting.
+    // Quotes in front of a dotted key must not hide the key from the check. Dots and brackets in a
+    // quoted text must not count as nesting.
     EXPECT_THAT(configFaults("a = [\"\"\"x\"\"\"\", {" + dots + " = 1}]\n"), HasSubstr("32 parts"));
     EXPECT_THAT(configFaults("a = ['''x'''', {" + dots + " = 1}]\n"), HasSubstr("32 parts"));
     EXPECT_EQ(configFaults("# " + dots + "\nrecording = \"" + dots + "\"\n"), "");
@@ -189,7 +190,7 @@ TEST(Config, AnEndlessTextIsRefusedBeforeItIsParsed) {
     for (int i = 0; i < 100'000; ++i)
         list += ",0";
     EXPECT_THAT(configFaults(list + "]"), HasSubstr("more than 100000 values"));
-    // Each part of a dotted key is a table.
+    // Each part of a dotted key is a table and counts as a value.
     std::string tables;
     for (int i = 0; i < 4'000; ++i)
         tables += fmt::format("a{}.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b = 1\n", i);

@@ -140,7 +140,8 @@ TEST_F(ControlSocketTest, ClientsThatDoNotReadDelayNobody) {
     const int greedy = connected();
     EXPECT_EQ(send(greedy, "large\n", 6, MSG_NOSIGNAL), 6);
     char first = 0;
-    EXPECT_EQ(recv(greedy, &first, 1, 0), 1);  // after the first byte, the answer is being sent
+    EXPECT_EQ(recv(greedy, &first, 1, 0),
+              1);  // once a byte has arrived, the server is sending the answer
     const Timestamp begun = Timestamp::now();
     EXPECT_EQ(ask(path, {{"command", "status"}}).body["length"], 20);
     EXPECT_LT(Timestamp::now() - begun, std::chrono::milliseconds(1000));

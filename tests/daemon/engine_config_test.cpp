@@ -16,7 +16,7 @@ EngineChoice matchingOnSimd() {
     return choice;
 }
 
-TEST(EngineConfig, WithoutConfiguredEnginesTheMeasuredPlacementIsUsed) {
+TEST(EngineConfig, WithoutConfiguredEnginesTheGivenChoiceIsKept) {
     EXPECT_EQ(withWishes({}, matchingOnSimd()), matchingOnSimd());
     EXPECT_FALSE(EngineConfig{}.needsGles());
     EXPECT_FALSE(EngineConfig{}.isSimdAlone());

@@ -15,12 +15,12 @@ using testing::SizeIs;
 const EngineChoice kSimd = EngineChoice::all(EngineKind::Simd),
                    kGles = EngineChoice::all(EngineKind::Gles);
 
-TEST(EngineGuess, OnAnUnknownGpuEveryPlacementIsMeasured) {
+TEST(EngineGuess, OnAnUnknownGpuEveryPlacementOfStepsIsMeasured) {
     EXPECT_THAT(promisingEngines("EGL device, some GPU, OpenGL ES 3.2"), SizeIs(4));
     EXPECT_THAT(promisingEngines(""), SizeIs(4));
 }
 
-TEST(EngineGuess, IfShadersAreFarTooSlowNothingIsMeasured) {
+TEST(EngineGuess, IfShadersAreFarTooSlowOnlyTheSimdEngineIsLeft) {
     EXPECT_THAT(promisingEngines("EGL device, hardware: V3D 4.2.14.0, OpenGL ES 3.1"),
                 ElementsAre(kSimd));
 }

@@ -19,7 +19,7 @@ TEST(Events, AnotherThreadCanWakeTheWaitingThread) {
     EXPECT_EQ(events.wait().kind, Event::Kind::Wake);
 }
 
-TEST(Events, SignalsComeFirstAndByNumber) {
+TEST(Events, SignalsAreDeliveredBeforeWakesAndWithTheirNumber) {
     Events events;
     events.wake();
     kill(getpid(), SIGHUP);

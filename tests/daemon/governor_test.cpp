@@ -18,7 +18,7 @@ std::vector<QualityLevel> fourLevels() {
     return out;
 }
 
-/// A simulated machine on which each quality level has a given frame time.
+/// A simulated machine on which a frame at each quality level takes a given time.
 class Machine {
 public:
     using Cost = std::function<double(std::size_t level)>;
@@ -51,7 +51,7 @@ private:
     std::normal_distribution<double> noise_;
 };
 
-/// The frame times of fourLevels(), all multiplied by a factor.
+/// The frame times of fourLevels(), all multiplied by `factor`.
 Machine::Cost scaled(double factor) {
     return [factor](std::size_t level) { return factor * fourLevels()[level].ms; };
 }
@@ -114,7 +114,7 @@ TEST(Governor, AtMostFourFramesAreLateWhenEverythingBecomesSlower) {
 TEST(Governor, HoldsTheDeadlineThoughTheTableIsWrong) {
     Machine machine(100, [](std::size_t level) { return level == 2 ? 110.0 : 20.0 + 25 * level; });
     machine.run(60);
-    EXPECT_LE(machine.run(2000), 0.05) << "here, level b is slower than c, unlike in the table";
+    EXPECT_LE(machine.run(2000), 0.05) << "level b takes longer than c, contrary to the table";
     EXPECT_LE(machine.governor().changes(), 60U);
 }
 

@@ -114,7 +114,7 @@ TEST_F(HealthTest, FirstPicturesMayTakeLonger) {
     EXPECT_EQ(look().state, HealthState::Ok);
 }
 
-TEST_F(HealthTest, HelperThatHangsIsReportedAndThePictureGoesOn) {
+TEST_F(HealthTest, HelperThreadThatHangsIsReportedAndPicturesAreStillShown) {
     const Heartbeat reload(hearts, "reload", budget::kReload, ThreadRole::Helper);
     pass(2 * budget::kReload);
     picture = now;

@@ -40,7 +40,7 @@ std::string refusalOf(const Config& config) {
     }
 }
 
-TEST(Limits, TheMemoryBudgetComesFromTheMachineOrTheConfiguration) {
+TEST(Limits, TheMemoryLimitComesFromTheMachineOrTheConfiguration) {
     EXPECT_GT(machineMemory(), 100U << 20U);
     EXPECT_LT(LimitsConfig{}.memoryBytes(), machineMemory());
     EXPECT_EQ(LimitsConfig{100}.memoryBytes(), 100U << 20U);
@@ -93,7 +93,7 @@ TEST(Limits, CamerasWithLargePicturesAreRefused) {
     EXPECT_THAT(refusalOf(config), StartsWith("cameras: video of 640x480 and stills of 8192x8192"));
 }
 
-TEST(Limits, AModelThatDoesNotFitIsReportedWithItsPlace) {
+TEST(Limits, AModelThatNeedsTooMuchMemoryIsReportedWithItsPlace) {
     const test::TempFolder folder;
     test::GltfMaker textured = test::richModel();
     textured.texture(test::rgbaPng({1024, 1024}, std::vector<std::array<std::uint8_t, 4>>(1 << 20)),
@@ -123,7 +123,7 @@ TEST(Limits, AModelWithSeveralNamesIsReadOnce) {
     EXPECT_EQ(config.objects[0].model, config.objects[1].model);
 }
 
-TEST(Limits, AnEnvironmentThatDoesNotFitIsReportedWithItsPlace) {
+TEST(Limits, AnEnvironmentPictureThatNeedsTooMuchMemoryIsReportedWithItsPlace) {
     const test::TempFolder folder;
     test::writeFile(folder / "sky.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4096 +X 8192\n");
     EXPECT_THAT(configFaults("[limits]\nmemory_mb = 64\n[light]\nenvironment = \"" +

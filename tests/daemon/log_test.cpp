@@ -172,7 +172,7 @@ TEST(Log, MessagesThatNobodyReadsDoNotBlockAThread) {
     close(ends[1]);
 }
 
-TEST(Log, StyleFollowsTheJournalsSocket) {
+TEST(Log, JournalStyleIsUsedIfStandardErrorIsTheJournalsSocket) {
     const int file = open("/dev/null", O_WRONLY | O_CLOEXEC);
     ASSERT_GE(file, 0);
     struct stat status{};

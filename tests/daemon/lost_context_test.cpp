@@ -1,6 +1,6 @@
-// Whenever the GL context is lost during a frame, a new one must be created. Pictures must then
-// equal those of a run without a loss. Uses a libGLESv2 that loses contexts, see
-// tests/device/faulty_moments.h.
+// A session that loses its GL context must create a new one, at whatever GL call of a frame the
+// context is lost. Later pictures must equal those of a run without a loss. Uses a libGLESv2 that
+// loses contexts, see tests/device/faulty_moments.h.
 
 #include "daemon/session.h"
 #include "hal/virtual/recorder.h"
@@ -28,7 +28,7 @@ namespace mfar {
 namespace {
 
 constexpr int kFrames = 6;
-/// A still that is taken at the time of a frame from a position to the side.
+/// A still that is taken at the same time as a frame, by a camera that is moved sideways.
 struct StillAt {
     int frame;
     double aside;  ///< sideways offset of the camera [m]
@@ -100,7 +100,7 @@ protected:
     struct Ran {
         ScreenPicture last;
         Counted counted;
-        std::vector<std::string> moments;  ///< moments after the start, without duplicates
+        std::vector<std::string> moments;  ///< GL calls after the start, each named once
     };
 
     void SetUp() override {
@@ -121,8 +121,8 @@ protected:
         config_.display = "none";
     }
 
-    /// Runs a session that loses its context at this moment of a frame; null: never. The session
-    /// ends with the recording or, with `early`, a few pictures after the loss.
+    /// Runs a session that loses its GL context at the GL call that `moment` names; null: never.
+    /// The session ends with the recording or, with `early`, a few pictures after the loss.
     Ran run(const char* moment, bool early = false) {
         Stats stats;
         Mailbox<Tunables> changes(HandOver::NewestWins);
@@ -147,7 +147,7 @@ protected:
         return {session.snapshot(false), stats.count(), {moments.begin(), moments.end()}};
     }
 
-    /// Loses the context once at each moment for which `isOne` returns true.
+    /// Loses the GL context once at each GL call (a "moment") for which `isOne` returns true.
     void loseAtAll(const std::function<bool(std::string_view)>& isOne) {
         play(kFrames, "rendering = \"preview\"");
         const Ran whole = run(nullptr);
@@ -170,8 +170,8 @@ protected:
     Config config_;
 };
 
-// Covers one moment for each step and each of its shaders.
-TEST_F(LostContext, AContextLostInAnyShaderIsRecovered) {
+// Loses the context once at the use of every shader of every step.
+TEST_F(LostContext, RecoversInEveryShader) {
     loseAtAll([](std::string_view moment) { return moment.starts_with("glUseProgram"); });
 }
 

@@ -45,14 +45,14 @@ bool isLevel(const Key& key) {
     return key.section == levelOptions().data();
 }
 
-/// A configuration file that contains only this key.
+/// A configuration file that sets only this key and those that the key's section requires.
 std::string with(const Key& key, std::string_view value) {
     const bool isList = key.section->kind == OptionSection::Kind::List;
     const std::string head =
         key.section->name.empty()
             ? ""
             : fmt::format("{}{}{}\n", isList ? "[[" : "[", key.section->name, isList ? "]]" : "]");
-    std::string needed;  // lines with other keys that a quality level must have
+    std::string needed;  // other keys that every quality level must have
     if (isLevel(key) && key.option->name != "name") needed += "name = \"a\"\n";
     if (isLevel(key) && key.option->name != "ms") needed += "ms = 1.0\n";
     return head + needed + fmt::format("{} = {}\n", key.option->name, value);
@@ -242,14 +242,14 @@ TEST(OptionDefaults, SunDefaultsMatchTheParser) {
     EXPECT_NEAR(given.angularRadius, byDefault.angularRadius, 1e-5F);
 }
 
-TEST(OptionDefaults, LevelDefaultsMatchTheParser) {
+TEST(OptionDefaults, QualityLevelDefaultsMatchTheParser) {
     const std::string text = section("level", levelOptions()) + "name = \"a\"\nms = 1\n";
     const auto levels = parseQualityLevels(text, "levels.toml");
     EXPECT_EQ(levels.at(0).quality, Quality{});
     EXPECT_EQ(levels.at(0).psnrDb, QualityLevel{}.psnrDb);
 }
 
-TEST(OptionDefaults, TheSourceNamesEverySceneAndPath) {
+TEST(OptionDefaults, TheHelpTextOfSourceNamesEverySceneAndCameraPath) {
     const std::string about = describe(overriddenBy("--source"));
     for (const auto& [wrong, start] :
          {std::pair("synthetic:attic", "SCENE is one of: "),

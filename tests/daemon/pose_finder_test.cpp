@@ -27,7 +27,7 @@ Timestamp frameTime(double frame) {
     return Timestamp::fromSeconds(2 + frame / 30);
 }
 
-/// A frame, with or without the tag, `at` frames after the start.
+/// A frame with or without the tag, taken `at` frame intervals after the start.
 struct Shot {
     Shot(const CameraModel& camera, double at, bool withTag)
         : picture(withTag ? renderTags(camera, view(at), {kPlacedTag})
@@ -96,7 +96,7 @@ TEST(PoseFinder, StillPosesAreInterpolatedOnlyBetweenMeasuredPoses) {
     EXPECT_EQ(stats.count().poses.measured, 3U);
 }
 
-TEST(PoseFinder, PosesOfFramesWithoutTagsCanBeDisabled) {
+TEST(PoseFinder, PredictionOfPosesWithoutTagsCanBeDisabled) {
     Stats stats;
     PoseConfig config;
     config.bridgeFrames = 0;
@@ -146,7 +146,7 @@ TEST(PoseFinder, RecordedPosesAreUsedUnchanged) {
     EXPECT_EQ(counts.ms.count() + counts.stillMs.count(), 0U);
 }
 
-TEST(PoseFinder, ASourceWithoutPosesIsRefusedByName) {
+TEST(PoseFinder, AnErrorNamesTheSourceWithoutPoses) {
     Stats stats;
     PoseConfig config;
     config.source = PoseOrigin::Recorded;

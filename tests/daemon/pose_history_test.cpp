@@ -15,7 +15,7 @@ Timestamp timeOf(double frame) {
     return Timestamp::fromSeconds(100 + frame * kInterval);
 }
 
-/// Pose of a camera that moves with this velocity.
+/// Pose of a camera that moves with the velocity kTwist.
 Pose steady(double frame) {
     Pose pose;
     pose.time = timeOf(frame);
@@ -55,7 +55,7 @@ TEST(PoseHistory, AFramesOwnTimeGivesItsPose) {
     }
 }
 
-TEST(PoseHistory, NoPoseOutsideTheKnownSpan) {
+TEST(PoseHistory, GivesNoPoseBeforeTheFirstOrAfterTheLastKnownPose) {
     PoseHistory history;
     EXPECT_FALSE(history.at(timeOf(0)));
     history.add(steady(0));
@@ -67,7 +67,7 @@ TEST(PoseHistory, NoPoseOutsideTheKnownSpan) {
     EXPECT_FALSE(history.at(timeOf(2.1))) << "poses after the last one must not be extrapolated";
 }
 
-TEST(PoseHistory, ALongGapIsNotBridged) {
+TEST(PoseHistory, PosesAreNotInterpolatedAcrossALongGap) {
     PoseHistory history;
     for (const int i : {0, 1, 2, 6, 7, 8})
         history.add(steady(i));
@@ -76,7 +76,7 @@ TEST(PoseHistory, ALongGapIsNotBridged) {
     EXPECT_TRUE(history.at(timeOf(6.5)));
 }
 
-TEST(PoseHistory, AChangeOfRateRaisesTheCovariance) {
+TEST(PoseHistory, AChangeOfVelocityRaisesTheCovariance) {
     // Constant acceleration along x: 4 m/s^2.
     const auto accelerated = [](double frame) {
         Pose pose;

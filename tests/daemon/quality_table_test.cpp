@@ -65,7 +65,7 @@ TEST(QualityTable, FaultsAreReportedWithTheirPlace) {
     EXPECT_EQ(faultOf("[[level]]\nname = \"a\"\nms = nan\n").substr(0, 8), "file:3:6");
 }
 
-TEST(QualityTable, NoLevelExceedsTheRequestedMode) {
+TEST(QualityTable, LevelsAboveTheRequestedSuperResolutionModeAreRemoved) {
     const std::vector<QualityLevel> levels{
         {"linear", 5, 19, {.mode = SuperResMode::Off, .cubic = false}},
         {"off", 10, 20, {.mode = SuperResMode::Off}},

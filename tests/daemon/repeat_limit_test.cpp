@@ -42,7 +42,7 @@ TEST_F(RepeatLimitTest, FirstEventIsLoggedAtOnceAndRepetitionsWithTheirCount) {
     EXPECT_EQ(said.back(), "gone") << "an event long after the last one must be logged at once";
 }
 
-TEST_F(RepeatLimitTest, ASingleRepetitionIsWrittenInWords) {
+TEST_F(RepeatLimitTest, OneRepetitionIsLoggedAsOnceMore) {
     happen("plug", "gone");
     happen("plug", "gone");
     pass(seconds(28));
@@ -50,7 +50,7 @@ TEST_F(RepeatLimitTest, ASingleRepetitionIsWrittenInWords) {
 }
 
 // Without the limit, 16 lines would be logged in 28 s.
-TEST_F(RepeatLimitTest, ALoosePlugLogsLittleAndTheLastMessageIsCorrect) {
+TEST_F(RepeatLimitTest, ALoosePlugCausesFewLinesAndTheLastLineIsCorrect) {
     for (int i = 0; i < 8; ++i) {
         happen("camera", "camera: gone");
         pass(milliseconds(1750));

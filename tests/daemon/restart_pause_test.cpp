@@ -16,7 +16,7 @@ struct RestartPauseTest : testing::Test {
         const Timestamp started = now;
         now = now + ran;
         const RestartPause::Next next = RestartPause(file).failed(started, now);
-        now = now + next.wait + seconds(1);  // RestartSec= of mfard's systemd unit
+        now = now + next.wait + seconds(1);  // systemd adds RestartSec= of the service, 1 s
         return next;
     }
 
@@ -77,7 +77,7 @@ TEST_F(RestartPauseTest, WithoutAStateFileEveryPauseIsTheSame) {
     }
 }
 
-TEST(Restart, ConfigurationErrorsAreNotTriedAgain) {
+TEST(Restart, NoRestartAfterConfigurationErrors) {
     for (const ExitCode code : {ExitCode::Unavailable, ExitCode::OutputFailed, ExitCode::Internal})
         EXPECT_TRUE(isRestarted(code));
     for (const ExitCode code :

@@ -27,7 +27,7 @@ TEST(TimeSpread, QuantilesStayWithinTheBucketWidth) {
         EXPECT_NEAR(spread.quantile(q) / (100 * q), 1, 0.05) << q;
 }
 
-TEST(TimeSpread, AddingASpreadAddsItsValues) {
+TEST(TimeSpread, SumOfTwoSpreadsHasTheValuesOfBoth) {
     TimeSpread fast, slow;
     fast.add(1);
     slow.add(100);
@@ -36,7 +36,7 @@ TEST(TimeSpread, AddingASpreadAddsItsValues) {
     EXPECT_NEAR(fast.quantile(1), 100, 5);
 }
 
-TEST(TimeSpread, AnEmptySpreadIsAGap) {
+TEST(TimeSpread, QuantilesAreNotANumberWithoutValues) {
     EXPECT_TRUE(std::isnan(TimeSpread{}.quantile(0.5)));
 }
 
@@ -49,7 +49,7 @@ TEST(TimeSpread, AcceptsEveryValueThatADeviceMayReport) {
     EXPECT_TRUE(std::isfinite(spread.quantile(1)));
 }
 
-TEST(RunHistory, EachBinHoldsTheEventsOfItsTime) {
+TEST(RunHistory, ABinHoldsTheFramesOfItsTimeSpan) {
     RunHistory history;
     RunTotals totals;
     totals.stillsUsed = 3;
@@ -87,7 +87,7 @@ TEST(RunHistory, ALongRunKeepsEveryFrameInABoundedNumberOfBins) {
     EXPECT_NEAR(static_cast<double>(one.late) / static_cast<double>(one.frames), 0.1, 0.01);
 }
 
-TEST(RunHistory, ALongPauseIsAGap) {
+TEST(RunHistory, ALongPauseLeavesEmptyBins) {
     RunHistory history;
     history.add({after(0), 20, 30}, {});
     history.add({after(86400), 20, 30}, {});
@@ -97,7 +97,7 @@ TEST(RunHistory, ALongPauseIsAGap) {
     EXPECT_EQ(history.bins().back().frames, 1U);
 }
 
-TEST(RunHistory, AnEventBeforeTheFirstOneCountsForTheFirstBin) {
+TEST(RunHistory, AFrameBeforeTheFirstTimeCountsForTheFirstBin) {
     RunHistory history;
     history.add({after(0), 20, 30}, {});
     history.add({after(-5), 20, 30}, {});
@@ -105,7 +105,7 @@ TEST(RunHistory, AnEventBeforeTheFirstOneCountsForTheFirstBin) {
     EXPECT_EQ(history.bins()[0].frames, 2U);
 }
 
-TEST(RunHistory, FoldingMergesBinsUntilEachHasEnoughPictures) {
+TEST(RunHistory, BinsAreMergedUntilTheyHoldEnoughFramesEach) {
     RunHistory history;
     for (int i = 0; i < 40; ++i)
         history.add({after(0.5 * i), 20, 30}, {});

@@ -67,12 +67,12 @@ TEST(StillPolicy, WithoutAStillTheFirstFrameFiresTheTrigger) {
     EXPECT_EQ(board.run(kFrame / 2, frame(0, 1)), 1);
 }
 
-TEST(StillPolicy, CameraAtRestFiresOnceOnly) {
+TEST(StillPolicy, WithACameraAtRestTheTriggerFiresOnce) {
     Simulation board({});
     EXPECT_EQ(board.run(3600, kRest), 1);
 }
 
-TEST(StillPolicy, CameraAtRestFiresOnceEvenIfTheStillExplainsNothing) {
+TEST(StillPolicy, WithACameraAtRestTheTriggerFiresOnceEvenIfTheStillExplainsNothing) {
     Simulation board({});
     EXPECT_EQ(board.run(600, frame(0, 0.01)), 1);
 }
@@ -115,13 +115,13 @@ TEST(StillPolicy, StatsOlderThanTheStillAreIgnored) {
     EXPECT_EQ(board.run(2, kMovingExplained), 0);
 }
 
-TEST(StillPolicy, ANewViewThatTheStillDoesNotExplainFiresTheTrigger) {
+TEST(StillPolicy, NewViewThatTheStillDoesNotExplainFiresTheTrigger) {
     Simulation board({});
     board.run(2, kRest);
     EXPECT_EQ(board.run(kFrame / 2, kMovingUnexplained), 1);
 }
 
-TEST(StillPolicy, ForExplainedMotionANewStillWaitsForTheAgeLimit) {
+TEST(StillPolicy, AfterMotionThatTheStillExplainsANewStillWaitsForTheAgeLimit) {
     TriggerConfig config;
     config.maxAgeS = 5;
     Simulation board(config);
@@ -131,7 +131,7 @@ TEST(StillPolicy, ForExplainedMotionANewStillWaitsForTheAgeLimit) {
 }
 
 // The sensor's noise must be learned first; so the first frames appear to change.
-TEST(StillPolicy, ChangesBeforeTheFirstUseDoNotAgeAStill) {
+TEST(StillPolicy, ChangesBeforeAStillsFirstUseDoNotMakeItTooOld) {
     TriggerConfig config;
     config.maxAgeS = 5;
     Simulation board(config);
@@ -148,7 +148,7 @@ TEST(StillPolicy, AStillTakenDuringMotionIsReplaced) {
     EXPECT_EQ(board.run(30, frame(0.2, 0)), 1);
 }
 
-TEST(StillPolicy, MotionBeforeTheAgeLimitCountsWhenItIsReached) {
+TEST(StillPolicy, MotionBeforeTheAgeLimitCausesANewStillAtTheAgeLimit) {
     TriggerConfig config;
     config.maxAgeS = 5;
     Simulation board(config);
@@ -179,7 +179,7 @@ TEST(StillPolicy, KeepsTheMinimumIntervalBetweenStills) {
     EXPECT_GE(board.firedAt.size(), 18U);
 }
 
-TEST(StillPolicy, AfterALostStillThePulseIsRepeatedOnce) {
+TEST(StillPolicy, LostStillIsCountedAndRequestedOnceMore) {
     TriggerConfig config;
     config.timeoutS = 1;
     config.maxAgeS = 30;
@@ -191,7 +191,7 @@ TEST(StillPolicy, AfterALostStillThePulseIsRepeatedOnce) {
     EXPECT_NEAR(board.firedAt[1] - board.firedAt[0], 1, 2 * kFrame);
 }
 
-TEST(StillPolicy, AfterTwoLostStillsThePolicyWaitsBeforeTheNextPulse) {
+TEST(StillPolicy, AfterTwoLostStillsTheNextIsRequestedAtTheAgeLimit) {
     TriggerConfig config;
     config.timeoutS = 1;
     config.maxAgeS = 3;
@@ -204,7 +204,7 @@ TEST(StillPolicy, AfterTwoLostStillsThePolicyWaitsBeforeTheNextPulse) {
     EXPECT_EQ(board.policy.lost(), 2);
 }
 
-TEST(StillPolicy, ALateStillIsNotTakenForTheStillOfTheRepeatedPulse) {
+TEST(StillPolicy, ALateStillIsNotTakenForTheRepeatedOne) {
     TriggerConfig config;
     config.timeoutS = 1;
     Simulation board(config);

@@ -15,7 +15,7 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-TEST(TakenLine, ANoteAboutTheTriggerLineIsReadBackAsWritten) {
+TEST(TakenLine, TheNotedGpioLineIsReadBackAsWritten) {
     const test::TempFolder folder;
     const std::filesystem::path file = folder / "trigger";
     EXPECT_FALSE(takenLine(file));
@@ -33,7 +33,7 @@ TEST(TakenLine, ANoteAboutTheTriggerLineIsReadBackAsWritten) {
     EXPECT_THROW(noteTakenLine(folder / "none/trigger", {}), std::runtime_error);
 }
 
-TEST(TakenLine, AFileWithOtherContentIsIgnored) {
+TEST(TakenLine, InvalidContentIsReported) {
     const test::TempFolder folder;
     const std::filesystem::path file = folder / "trigger", sound = folder / "sound";
     test::writeFile(sound, "chip=a\nline=1\nactive_low=false\n");

@@ -11,14 +11,15 @@
 
 namespace mfar::demo {
 
-/// Means over the frames that have a true picture, computed from luma without a border of 32 px.
+/// Means over the frames that have a true picture. Errors are those of luma, without a border of
+/// 32 px.
 struct Quality {
     int frames = 0;
     double upscaledPsnrDb = 0;
     double resultPsnrDb = 0;
     double upscaledSsim = 0;
     double resultSsim = 0;
-    double harmRate = 0;        ///< share of pixels with > 2 grey levels more error than upscaled
+    double harmRate = 0;        ///< share of pixels > 2 grey levels worse than enlarged video
     double meanConfidence = 0;  ///< mean of eq. 2 of the paper, [0, 1]
     double frameMs = 0;         ///< time of the whole pipeline until all work is finished
     std::array<double, kTileClasses> tileShares{};

@@ -35,7 +35,7 @@ struct Request {
     fs::path video;       ///< Y4M written by the daemon; empty: none
     fs::path objects;     ///< configuration with objects; empty: none
     fs::path pathTraced;  ///< configuration with path-traced objects; empty: none
-    std::string scene;    ///< name of the synthetic scene; needed for true pictures of objects
+    std::string scene;    ///< synthetic scene of the recording; gives true depth
 };
 
 void row(const std::string& what, const std::string& upscaled, const std::string& ours) {
@@ -49,7 +49,7 @@ void printTable(const Quality& q) {
         fmt::format("{:.2f}", q.resultPsnrDb));
     row("SSIM", fmt::format("{:.4f}", q.upscaledSsim), fmt::format("{:.4f}", q.resultSsim));
     row("pixels worse than upscaled [%]", "", fmt::format("{:.2f}", 100 * q.harmRate));
-    row("mean confidence of the matches", "", fmt::format("{:.3f}", q.meanConfidence));
+    row("mean confidence, 0 to 1", "", fmt::format("{:.3f}", q.meanConfidence));
     row("time of a frame [ms]", "", fmt::format("{:.1f}", q.frameMs));
     for (std::size_t i = 0; i < mfar::kTileClasses; ++i) {
         const auto tileClass = static_cast<mfar::TileClass>(i);
@@ -63,8 +63,8 @@ void printTable(const OcclusionQuality& q) {
     row(fmt::format("means over {} frames", q.frames), "", "mfar");
     row("median error of depth [%]", "", fmt::format("{:.2f}", 100 * q.absrel));
     row("pixels with known depth [%]", "", fmt::format("{:.1f}", 100 * q.completeness));
-    row("visible object, IoU with truth", "", fmt::format("{:.3f}", q.overlap));
-    row("error of the outline [video px]", "", fmt::format("{:.2f}", q.boundary));
+    row("shown and true visible object, IoU", "", fmt::format("{:.3f}", q.overlap));
+    row("error of its outline [video px]", "", fmt::format("{:.2f}", q.boundary));
 }
 
 /// Returns a function that shows how many frames of a part of the work are done.
@@ -89,17 +89,17 @@ void runObjects(const Request& request, const mfar::Recording& recording,
 void runPathTraced(const Request& request, const mfar::Recording& recording,
                    const mfar::ProgressPart& part) {
     if (!mfar::TracedLayer::isAvailable()) {
-        fmt::print("This build has no path tracer, so virtual.png is not drawn\n");
+        fmt::print("This build has no path tracer, so virtual.png is not written.\n");
         return;
     }
     const VirtualRun run =
         mfar::demo::runVirtual(recording, mfar::loadConfig(request.pathTraced), shownBy(part));
     mfar::eval::savePicture(request.folder / "virtual.png", mfar::demo::virtualPicture(run));
     fmt::print("\n");
-    row("samples traced while moving", "", fmt::format("{}", run.moved.render.samples));
-    row("samples traced in total", "", fmt::format("{}", run.rested.render.samples));
-    row("frames that show a warped picture", "", fmt::format("{}", run.rested.warped));
-    row("pixels rendered to fill holes", "", fmt::format("{}", run.rested.answered));
+    row("path-tracer samples while moving", "", fmt::format("{}", run.moved.render.samples));
+    row("path-tracer samples in total", "", fmt::format("{}", run.rested.render.samples));
+    row("frames with a warped picture", "", fmt::format("{}", run.rested.warped));
+    row("pixels traced to fill holes", "", fmt::format("{}", run.rested.answered));
 }
 
 void run(const Request& request) {
@@ -133,12 +133,13 @@ int main(int argc, char** argv) {
     app.add_option("RECORDING", request.recording, "folder of the recording")->required();
     app.add_option("FOLDER", request.folder, "folder to write the pictures into")->required();
     app.add_option("--video", request.video, "Y4M file to convert into FOLDER/video.avi");
-    auto* scene = app.add_option("--scene", request.scene, "synthetic scene that was recorded");
+    auto* scene =
+        app.add_option("--scene", request.scene, "name of the synthetic scene in the recording");
     app.add_option("--objects", request.objects,
-                   "configuration whose [[objects]] are shown in the recording")
+                   "configuration file whose [[objects]] are drawn into the recording")
         ->needs(scene);
     app.add_option("--virtual", request.pathTraced,
-                   "configuration whose [[objects]] are path traced into the recording");
+                   "configuration file whose [[objects]] are path traced into the recording");
     CLI11_PARSE(app, argc, argv);
     try {
         run(request);

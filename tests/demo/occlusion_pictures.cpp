@@ -12,15 +12,15 @@
 namespace mfar::demo {
 namespace {
 
-constexpr double kMostError = 0.05;  // relative depth error at the end of the scale
+constexpr double kMostError = 0.05;  // relative depth error at the upper end of the colour scale
 const cv::Scalar kUnknown(120, 120, 120);
 
-/// Inverse depth at both ends of a colour scale [1/m].
+/// Inverse depths at both ends of a colour scale [1/m].
 struct Range {
     double far, near;
 };
 
-// Range of the inverse depth `rho`, without the farthest and the nearest 1 % of the pixels.
+// Range of the inverse depths `rho` without the farthest and the nearest 1 % of the pixels.
 Range rangeOf(const cv::Mat& rho) {
     std::vector<float> values;
     for (const float value : cv::Mat_<float>(rho))
@@ -29,8 +29,8 @@ Range rangeOf(const cv::Mat& rho) {
     return {values[values.size() / 100], values[values.size() - 1 - values.size() / 100]};
 }
 
-/// Converts `shares` to the colours of the map Turbo, from blue (0) to red (1). Pixels for which
-/// `known` is 0 get another colour.
+/// Maps values from 0 to 1 to OpenCV's colour map Turbo, from blue to red. Pixels at which `known`
+/// is 0 become grey.
 cv::Mat colours(const cv::Mat& shares, const cv::Mat& known) {
     cv::Mat levels, out;
     shares.convertTo(levels, CV_8U, 255);
@@ -59,7 +59,8 @@ void addScale(cv::Mat& canvas, cv::Point corner, const std::string& from, const 
     write(canvas, to, {corner.x + kLabel + ramp.cols + 12, corner.y + 18});
 }
 
-/// The window in which large hidden and large visible parts of the object are close together.
+/// The window in which large hidden and large visible parts of the virtual object are close
+/// together.
 cv::Rect mostHidden(const OcclusionShown& shown) {
     const cv::Size window = detailSize(shown.composite.size());
     cv::Mat hidden, visible, both;

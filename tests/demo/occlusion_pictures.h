@@ -6,11 +6,11 @@
 
 namespace mfar::demo {
 
-/// Measured depth, true depth and the error of depth, with their colour scales.
+/// Three pictures with colour scales: measured depth, true depth, and the error of depth.
 [[nodiscard]] cv::Mat depthPicture(const OcclusionRun& run);
 
-/// Three pictures: the object over everything, the result, and the truth. Below each, the place at
-/// which most of the object is hidden is magnified.
+/// Three pictures: the virtual object drawn over everything, the result, and the truth. Below each,
+/// the region in which most of the object is hidden is magnified.
 [[nodiscard]] cv::Mat occlusionPicture(const OcclusionRun& run);
 
 }  // namespace mfar::demo

@@ -11,13 +11,13 @@
 
 namespace mfar::demo {
 
-/// Means over the frames that have a truth, beginning with the eighth.
+/// Means over the frames that have a true picture, without the first eight frames.
 struct OcclusionQuality {
     int frames = 0;
     double absrel = 0;        ///< median over the picture of |z - true z| / true z
     double completeness = 0;  ///< share of the picture whose depth is known
     double overlap = 0;       ///< intersection over union of the shown and the true visible object
-    double boundary = 0;      ///< mean distance from the true boundary [video px]
+    double boundary = 0;      ///< mean distance of its outline from the true one [video px]
 };
 
 /// One frame. Depths: CV_32F, 1/z [1/m] per video pixel, 0 = unknown. Pictures: CV_8UC3, B G R, at

@@ -21,7 +21,7 @@ public:
 private:
     const Recording& recording_;
     const eval::KnownPoses* poses_;
-    std::size_t next_ = 0;  ///< first still that was not taken before the last frame
+    std::size_t next_ = 0;  ///< index of the first still that was not taken before the last frame
 };
 
 }  // namespace mfar::demo

@@ -18,7 +18,8 @@ namespace mfar::demo {
 namespace {
 
 constexpr std::chrono::milliseconds kFrameInterval{33};
-// The camera must rest for some frames before a traced picture of exactly its view is made.
+// A traced picture of exactly the camera's view is made only after the camera has rested for some
+// frames. Then, that picture needs time: the last frame is repeated at most kMostRestFrames times.
 constexpr int kLeastLooks = 15, kMostRestFrames = 20000;
 
 bool isSettled(const TracedLayerCounters& counters) {
@@ -35,7 +36,7 @@ cv::Rect outputRect(const PixelRect& video, Size frame, Size output) {
                       at(video.y1, frame.height, output.height))};
 }
 
-/// The part of a picture that is magnified: centred on the region, of size detailSize().
+/// The window that is magnified: it has the size detailSize() and is centred on `region`.
 cv::Rect detailOf(const cv::Rect& region, cv::Size picture) {
     const cv::Size window = detailSize(picture);
     const cv::Point middle = (region.tl() + region.br()) / 2;
@@ -108,7 +109,7 @@ VirtualRun runVirtual(const Recording& recording, const Config& config,
         throw std::runtime_error(recording.root.string() +
                                  ": no virtual object is in view in the last frame");
     Timestamp seen = show.counters().render.frame;
-    int looks = 0;  // frames that the tracer's threads have received, which may lag behind
+    int looks = 0;  // frames that the path tracer's threads have seen; they may skip some
     for (int i = 0; i < kMostRestFrames && !(looks > kLeastLooks && isSettled(show.counters()));
          ++i) {
         show.again();
@@ -116,7 +117,7 @@ VirtualRun runVirtual(const Recording& recording, const Config& config,
         seen = show.counters().render.frame;
         ++looks;
     }
-    // A later frame shows the samples that were finished here.
+    // The last samples are finished now, but only a later frame shows them.
     for (int i = 0; i < 5; ++i) {
         std::this_thread::sleep_for(kFrameInterval);
         show.again();

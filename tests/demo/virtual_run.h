@@ -12,7 +12,7 @@ namespace mfar::demo {
 
 /// Results of path-traced objects in a recording. Pictures are CV_8UC3, B G R, at output size.
 struct VirtualRun {
-    cv::Mat moving;   ///< the last frame: a traced picture, warped to this view
+    cv::Mat moving;   ///< the last frame: a traced picture, warped to its view
     cv::Mat atRest;   ///< the same view after the camera rested, with all samples
     cv::Rect region;  ///< contains the objects and their shadows [output px]
     TracedLayerCounters moved, rested;

@@ -40,14 +40,14 @@ expectFault() {
     soundTree
     put "${@:2}"
     if said=$("$check" "$work") || [[ $said != *"$message"* ]]; then
-        echo "not found: '$message' in $2; said '$said'"
+        echo "check.sh did not report '$message' for $2; it printed '$said'"
         failures=$((failures + 1))
     fi
 }
 
 soundTree
 if ! said=$("$check" "$work"); then
-    echo "a sound tree is refused: $said"
+    echo "check.sh refuses a valid tree: $said"
     failures=1
 fi
 expectFault 'pipeline/bad.cpp:1: pipeline must not' pipeline/bad.cpp '#include "daemon/app.h"'

@@ -65,15 +65,16 @@ struct Pass {
     uint flags;
 };
 END
-translate || fail "a sound header is refused"
-diff wanted.glsl out.glsl || fail "the translation differs"
+translate || fail "a valid header is refused"
+diff wanted.glsl out.glsl || fail "the translation differs from wanted.glsl"
 
 # refused LINE REASON TEXT: a header with the text, which starts at line 3, must be refused at LINE
 # for the reason.
 refused() {
     printf '#pragma once\n#include "shared.h"\n%s\n' "$3" >case.h
-    if translate; then fail "accepted: $3"; fi
-    grep -q "case.h:$1: $2" <(tr -d '\n' <log | tr -s ' ') || fail "no 'case.h:$1: $2' for: $3"
+    if translate; then fail "the invalid header is accepted: $3"; fi
+    grep -q "case.h:$1: $2" <(tr -d '\n' <log | tr -s ' ') ||
+        fail "no message 'case.h:$1: $2' for: $3"
 }
 inStruct() { refused 4 "$1" $'struct alignas(16) Pass {\n'"$2"$'\n};'; }
 

@@ -9,7 +9,7 @@ namespace {
 
 using Outcome = EnlargerLearner::Outcome;
 
-constexpr unsigned kFresh = 1000;  // seed of a picture from which nothing is learned
+constexpr unsigned kFresh = 1000;  // seed of the picture that tests learned filters
 
 SensorPair seeded(SensorPair pair, unsigned seed) {
     pair.seed = seed;
@@ -49,7 +49,7 @@ TEST(EnlargerLearner, BeginsWithTheShippedFilters) {
     EXPECT_EQ(learner.counts().classes, 0);
 }
 
-TEST(EnlargerLearner, FiltersLearnedFromBlurredVideoReduceTheError) {
+TEST(EnlargerLearner, LearnedFiltersFitABlurrierVideo) {
     const SensorPair pair{.videoBlur = 2};
     const EnlargerLearner learner = learned(pair);
     const Errors errors = errorsOf(learner, pair);
@@ -59,7 +59,7 @@ TEST(EnlargerLearner, FiltersLearnedFromBlurredVideoReduceTheError) {
     EXPECT_EQ(learner.counts().stills, 6U);
 }
 
-TEST(EnlargerLearner, FiltersLearnedFromNoisyVideoReduceTheError) {
+TEST(EnlargerLearner, LearnedFiltersFitANoisyVideo) {
     const SensorPair pair{.videoNoise = 6, .stillNoise = 3};
     const Errors errors = errorsOf(learned(pair), pair);
     EXPECT_LT(errors.learned, 0.97 * errors.shipped);
@@ -101,7 +101,7 @@ TEST(EnlargerLearner, StillsOutOfFocusAreRefused) {
     EXPECT_TRUE(sameFilters(*learner.filters(), FilterBank::prior()));
 }
 
-TEST(EnlargerLearner, BadPairsNeverGiveFiltersWorseThanTheCubic) {
+TEST(EnlargerLearner, BadStillsNeverGiveFiltersWorseThanTheCubic) {
     for (const SensorPair& good : {SensorPair{}, SensorPair{.videoBlur = 1, .videoNoise = 2}}) {
         EnlargerLearner learner;
         for (int i = 1; i <= 8; ++i) {
@@ -158,7 +158,7 @@ TEST(EnlargerLearner, TheSamePicturesGiveTheSameFilters) {
     EXPECT_NE(learned(pair, 3).stored("x"), learned(pair, 2).stored("x"));
 }
 
-TEST(EnlargerLearner, AStopWhileLearningDiscardsTheStill) {
+TEST(EnlargerLearner, StoppingDiscardsTheStillThatIsBeingLearned) {
     std::stop_source stop;
     stop.request_stop();
     EnlargerLearner learner;

@@ -33,13 +33,13 @@ TEST(FineMatchLearner, FindsTheNoiseOfTheVideo) {
     }
 }
 
-TEST(FineMatchLearner, WrongLookUpsRaiseTheUnexplainedShare) {
+TEST(FineMatchLearner, WrongPositionsInTheStillRaiseTheUnexplainedShare) {
     const float right = learned({.videoNoise = 1}).share,
                 off = learned({.videoNoise = 1, .shift = 0.3}).share;
     EXPECT_GT(off, right + 0.02);
 }
 
-TEST(FineMatchLearner, AWronglyMatchedPartHasLittleInfluence) {
+TEST(FineMatchLearner, AWronglyMatchedPartOfThePictureHasLittleInfluence) {
     FineMatchLearner learner;
     MatchedPictures pictures = matchedPictures(sharpDiscs(1), {.videoNoise = 1});
     for (int y = 0; y < pictures.lookUps.size().height / 4; ++y)
@@ -57,7 +57,7 @@ TEST(FineMatchLearner, UnmatchedCellsAreIgnored) {
     EXPECT_FALSE(learner.fineMatch().isKnown());
 }
 
-TEST(FineMatchLearner, StoredValuesOutOfRangeAreNotRestored) {
+TEST(FineMatchLearner, StoredNumbersOutOfRangeAreRefused) {
     FineMatchLearner learner;
     ASSERT_TRUE(learner.add(matchedPictures(sharpDiscs(1), {.videoNoise = 2})));
     const auto good = learner.stored();

@@ -9,8 +9,8 @@
 namespace mfar::enlarge {
 namespace {
 
-/// `truth`: a noisy video of the discs with a sharp still. `older`: the same video with the noisy
-/// older still with which it is drawn.
+/// The two matches from which guidance is learned. `truth`: a noisy video of discs and a sharp new
+/// still. `older`: the same video and the noisy older still with which it was drawn.
 struct Stills {
     Stills(double videoNoise, double olderNoise, unsigned seed, SensorPair how = {}) {
         const twin::Grey sharp = sharpDiscs(seed);
@@ -38,7 +38,7 @@ TEST(GuidanceLearner, StartsWithoutGuidance) {
     EXPECT_EQ(GuidanceLearner().gainDb(), 0);
 }
 
-TEST(GuidanceLearner, FindsTheBestWeightsOfNoisyVideoAndStill) {
+TEST(GuidanceLearner, FindsTheBestWeightsForNoisyVideoAndStill) {
     // The still is averaged over a video pixel, which leaves a quarter of its noise.
     for (const auto& [video, still] : {std::pair{4.0, 0.0}, {4.0, 8.0}, {4.0, 16.0}}) {
         const double best = video * video / (video * video + still * still / 16);
@@ -66,10 +66,10 @@ TEST(GuidanceLearner, FindsTheGuidanceForEachExposure) {
 TEST(GuidanceLearner, NoiseOfTheStillAloneGivesNoGuidance) {
     EXPECT_FALSE(learned(0, 16).guidance().any());
     EXPECT_FALSE(learned(1, 24).guidance().any())
-        << "guidance that gains too little must not be used";
+        << "the gain would be smaller than the possible loss";
 }
 
-TEST(GuidanceLearner, GuidanceIsDroppedWhenItNoLongerHelps) {
+TEST(GuidanceLearner, GuidanceIsNoLongerUsedWhenItStopsHelping) {
     GuidanceLearner learner = learned(4, 0);
     ASSERT_GT(learner.guidance().still, 0.8);
     for (unsigned i = 10; i < 13 || (i < 60 && learner.guidance().any()); ++i) {
@@ -111,7 +111,7 @@ TEST(GuidanceLearner, UnusablePicturesAreIgnored) {
     EXPECT_EQ(learner.stored(), before);
 }
 
-TEST(GuidanceLearner, AFewNanLookUpsChangeLittle) {
+TEST(GuidanceLearner, AFewNanPositionsInTheStillChangeLittle) {
     GuidanceLearner learner;
     for (unsigned i = 1; i <= 3; ++i) {
         Stills of(4, 8, i);
@@ -132,7 +132,7 @@ TEST(GuidanceLearner, StillsOfAnotherSceneAreIgnored) {
     EXPECT_LT(learner.guidance().still, 0.05);
 }
 
-TEST(GuidanceLearner, StoredValuesOutOfRangeAreNotRestored) {
+TEST(GuidanceLearner, StoredNumbersOutOfRangeAreRefused) {
     const auto good = learned(4, 8, 1).stored();
     GuidanceLearner learner;
     EXPECT_TRUE(learner.restore(good));

@@ -78,7 +78,7 @@ TEST(LearnerState, NonFiniteNumbersAreRefusedThoughTheChecksumIsRight) {
 constexpr std::size_t kGuidanceSize = 8 * enlarge::GuidanceLearner::kNumbers,
                       kFineMatchSize = 8 * enlarge::FineMatchLearner::kNumbers;
 
-TEST(LearnerState, OlderVersionsAreReadWithoutTheirGuidance) {
+TEST(LearnerState, StatesOfVersionsOneAndTwoAreReadWithoutGuidance) {
     const EnlargerLearner now = learned();
     for (const auto& [version, numbers] : {std::pair{1, 0}, {2, 10}}) {
         auto bytes = now.stored("a, b");
@@ -95,7 +95,7 @@ TEST(LearnerState, OlderVersionsAreReadWithoutTheirGuidance) {
     }
 }
 
-TEST(LearnerState, VersionThreeIsReadWithGuidanceButWithoutFineMatch) {
+TEST(LearnerState, AStateOfVersionThreeIsReadWithGuidanceButWithoutFineMatch) {
     const EnlargerLearner now = learned();
     auto bytes = now.stored("a, b");
     bytes.resize(bytes.size() - 4 - kFineMatchSize);
@@ -110,7 +110,7 @@ TEST(LearnerState, GuidanceOutOfRangeIsRefusedThoughTheChecksumIsRight) {
     auto bytes = learned().stored("a, b");
     bytes.resize(bytes.size() - 4);
     auto guidance = bytes;
-    guidance[bytes.size() - kFineMatchSize - kGuidanceSize + 15] ^= 0x40;  // far above one
+    guidance[bytes.size() - kFineMatchSize - kGuidanceSize + 15] ^= 0x40;  // a guidance far above 1
     enlarge::putNumber(guidance, enlarge::fnv1a(guidance), 4);
     EXPECT_THAT(faultOf(guidance), HasSubstr("guidance that are out of range"));
     bytes[bytes.size() - 1] ^= 0x40;  // byte of the share in FineMatch

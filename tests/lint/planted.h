@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-// What clang-tidy must find; the check of each fault stands behind it.
+// Faults that clang-tidy must find. Behind each stands the name of the check that finds it.
 namespace mfar::planted {
 
 #define MFAR_TWICE(x) (x * 2)  // bugprone-macro-parentheses

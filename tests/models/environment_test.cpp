@@ -47,7 +47,7 @@ TEST(EnvironmentMap, UncompressedPixelsAreRead) {
     expectClose(e.radiance[1], Eigen::Vector3f::Constant(255.5F / 64));
 }
 
-TEST(EnvironmentMap, RunLengthsOfBothKindsAreRead) {
+TEST(EnvironmentMap, NewAndOldRunLengthEncodingsAreRead) {
     // Four rows of eight pixels, split into components: R is a run, G is not compressed, B and E
     // are runs.
     Bytes rows;
@@ -66,7 +66,7 @@ TEST(EnvironmentMap, RunLengthsOfBothKindsAreRead) {
     expectClose(old.radiance[31], {5.5F, 6.5F, 7.5F});
 }
 
-TEST(EnvironmentMap, ExposureIsDividedOut) {
+TEST(EnvironmentMap, RadianceIsDividedByTheExposureInTheHeader) {
     const Environment e = parseEnvironment(
         hdr("#?RGBE\nEXPOSURE=2\nEXPOSURE= 4.0\n\n-Y 1 +X 2\n", {8, 8, 8, 136, 0, 0, 0, 0}), "a");
     expectClose(e.radiance[0], Eigen::Vector3f::Constant(8.5F / 8));
@@ -80,7 +80,7 @@ TEST(EnvironmentMap, EightBitPicturesAreLinearised) {
     expectClose(e.radiance[1], {0.2159F, 0.003035F, 0.001518F});
 }
 
-TEST(EnvironmentMap, LargePicturesAreAveraged) {
+TEST(EnvironmentMap, LargePicturesAreReducedByAveraging) {
     // 2048 rows of 4096 equal pixels; every other row is twice as bright.
     Bytes rows;
     for (int y = 0; y < 2048; ++y) {
@@ -150,7 +150,7 @@ void expectBalanced(const Environment& e) {
     EXPECT_LT(down, up / 2) << "light is from above";
 }
 
-TEST(EnvironmentMap, StudioAndSkyLightAWhiteTable) {
+TEST(EnvironmentMap, StudioAndSkyEnvironmentsLightATableFromAboveWithIrradiancePi) {
     expectBalanced(studioEnvironment());
     expectBalanced(skyEnvironment(Eigen::Vector3f(0.5F, 0.3F, 0.6F).normalized()));
 }

@@ -68,7 +68,7 @@ TEST(GltfFaults, BytesThatAreNotAModelAreRefused) {
                     AllOf(StartsWith("test.glb: "), Not(HasSubstr("\n"))));
 }
 
-TEST(GltfFaults, NestingHasALimit) {
+TEST(GltfFaults, DeeplyNestedJsonIsRefused) {
     const std::string deep =
         "{\"asset\":{\"version\":\"2.0\"},\"extras\":" + std::string(100'000, '[') +
         std::string(100'000, ']') + "}";
@@ -301,14 +301,14 @@ TEST_F(GltfFiles, OnlyFilesInTheModelsFolderAreRead) {
     EXPECT_THAT(faultWithUri("link.bin"), HasSubstr("folder"));
 }
 
-TEST_F(GltfFiles, AModelInMemoryMayNotNameFiles) {
+TEST_F(GltfFiles, AModelInMemoryThatNamesFilesIsRefused) {
     const std::string text = maker_.gltf();
     const std::vector<std::uint8_t> bytes(text.begin(), text.end());
     EXPECT_THAT(faultOf([&] { (void)parseGltf(bytes, "test.gltf"); }),
                 HasSubstr("references to other files are not allowed"));
 }
 
-TEST_F(GltfFiles, BuffersHaveTheirStatedSize) {
+TEST_F(GltfFiles, BufferFilesOfAnotherSizeThanStatedAreRefused) {
     write("model/data.bin", "short");
     EXPECT_THAT(faultWithUri("data.bin"), HasSubstr("mismatch"));
     EXPECT_THAT(faultOf([&] { (void)loadGltf(folder_.path() / "none.glb"); }),

@@ -21,7 +21,7 @@ void expectNear(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
     EXPECT_LT((a - b).norm(), 1e-6F) << a.transpose() << " is not " << b.transpose();
 }
 
-TEST(GltfModel, ModelIsTurnedUpright) {
+TEST(GltfModel, TheYAxisOfAModelBecomesTheZAxis) {
     const Model model = modelOf(oneTriangle());
     ASSERT_EQ(model.meshes.size(), 1U);
     ASSERT_EQ(model.materials.size(), 1U) << "the default one";
@@ -74,7 +74,7 @@ TEST(GltfModel, MissingTangentsAreComputed) {
     }
 }
 
-TEST(GltfModel, MirroringKeepsFrontFacesInFront) {
+TEST(GltfModel, MirroredNodesKeepTheirFrontFaces) {
     GltfMaker maker = richModel();
     maker.root["nodes"][1]["scale"] = {-1, 1, 1};
     const Mesh mesh = modelOf(maker).meshes.at(0);
@@ -193,7 +193,7 @@ TEST(GltfModel, AlphaBlendingBecomesAMask) {
     EXPECT_EQ(modelOf(maker).materials.at(0).alphaCutoff, 0);
 }
 
-TEST(GltfModel, AMeshMayBeInstancedTwice) {
+TEST(GltfModel, AMeshCanBeInstancedTwice) {
     GltfMaker maker = oneTriangle();
     maker.root["nodes"].push_back({{"mesh", 0}, {"translation", {5, 0, 0}}});
     maker.root["scenes"][0]["nodes"].push_back(1);
@@ -203,7 +203,7 @@ TEST(GltfModel, AMeshMayBeInstancedTwice) {
     expectNear(model.meshes[1].positions[0], {5, 0, 0});
 }
 
-TEST(GltfModel, FilesOfItsFolderAreRead) {
+TEST(GltfModel, FilesInTheModelsFolderAreRead) {
     const test::TempFolder folder;
     GltfMaker maker = richModel();
     const auto write = [&](const std::string& name, const void* bytes, std::size_t count) {

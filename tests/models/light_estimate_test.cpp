@@ -22,7 +22,7 @@ std::uint8_t encoded(float linear) {
     return static_cast<std::uint8_t>(std::lround(255 * s));
 }
 
-/// What a camera at this pose sees of light that comes from all directions.
+/// The picture that a camera at this pose takes of `light`, which comes from all directions.
 std::vector<std::uint8_t> seenFrom(const RigidTransform& T_world_camera, const Radiance& light) {
     std::vector<std::uint8_t> out;
     for (int y = 0; y < kSmall.height; ++y) {
@@ -113,11 +113,11 @@ TEST(LightEstimate, LightIsFoundOnceAllDirectionsWereSeen) {
         const Eigen::Vector3f truth = smoothLight(d);
         EXPECT_LT((radianceOf(estimate.radiance, d) - truth).norm(), 0.1F * 0.35F * 1.73F);
     }
-    // The value is 0.8 / 3 of that for light from a single direction.
+    // Light from a single direction would have a directionality of 1; this light has 0.8 / 3.
     EXPECT_NEAR(estimate.directionality, 0.8 / 3, 0.03);
 }
 
-TEST(LightEstimate, ATableAloneIsLitFromAbove) {
+TEST(LightEstimate, IfOnlyATableWasSeenLightComesFromAbove) {
     Watcher watcher;
     for (int i = 0; i < 10; ++i)
         watcher.look(lookingDown(), [](const auto&) { return Eigen::Vector3f(0.3F, 0.25F, 0.2F); });
@@ -127,10 +127,10 @@ TEST(LightEstimate, ATableAloneIsLitFromAbove) {
                           down = radianceOf(estimate.radiance, {0, 0, -1});
     EXPECT_LT((down - Eigen::Vector3f(0.3F, 0.25F, 0.2F)).norm(), 0.1F) << down.transpose();
     EXPECT_GT(up.x(), 1.3F * down.x());
-    EXPECT_NEAR(up.x() / up.z(), 1.5F, 0.1F) << "its colour is the table's";
+    EXPECT_NEAR(up.x() / up.z(), 1.5F, 0.1F) << "light has the table's colour";
 }
 
-TEST(LightEstimate, ALampInViewGivesItsDirection) {
+TEST(LightEstimate, ALampInViewGivesTheMainDirectionOfLight) {
     const Eigen::Vector3f lamp = Eigen::Vector3f(-0.6F, 0.3F, 0.5F).normalized();
     const Radiance room = [&](const Eigen::Vector3f& d) {
         return Eigen::Vector3f::Constant(d.dot(lamp) > 0.9F ? 1.0F : 0.05F).eval();
@@ -166,7 +166,7 @@ TEST(LightEstimate, OneFlashChangesTheEstimateLittle) {
     EXPECT_GT(flash, before);
 }
 
-TEST(LightEstimate, AChangedLightIsLearned) {
+TEST(LightEstimate, TheEstimateFollowsAChangeOfLight) {
     Watcher watcher;
     const auto level = [](float v) {
         return [v](const Eigen::Vector3f&) { return Eigen::Vector3f(v, v, v); };
@@ -233,7 +233,7 @@ TEST(LightEstimate, EveryFormatGivesTheSameLight) {
     EXPECT_LT((estimateOfFrame(view) - wanted).norm(), 1e-5F);
 }
 
-TEST(Lighting, IsNeverNegativeAndKeepsTheLight) {
+TEST(Lighting, EnvironmentIsNeverNegativeAndSunHasTheLightOfASingleLamp) {
     LightEstimate estimate;
     // A single lamp straight above.
     estimate.radiance = harmonicsAt({0, 0, 1}) * Eigen::RowVector3f(3, 3, 3);
@@ -244,7 +244,7 @@ TEST(Lighting, IsNeverNegativeAndKeepsTheLight) {
     EXPECT_NEAR(lighting.sun->irradiance.x(), 3, 1e-4F);
     for (const Eigen::Vector3f& light : lighting.environment->radiance) {
         ASSERT_GE(light.minCoeff(), 0);
-        EXPECT_LT(light.maxCoeff(), 1e-4F) << "all of it is the sun's";
+        EXPECT_LT(light.maxCoeff(), 1e-4F) << "all light comes from the sun";
     }
     estimate.directionality = 0.05F;
     EXPECT_FALSE(lightingOf(estimate).sun);

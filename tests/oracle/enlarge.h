@@ -8,11 +8,12 @@
 #include <cmath>
 #include <numbers>
 
-/// Oracle of the learned enlarger in double precision: the classes, the residual on the grid of
-/// sub-pixels, and the residual at another size. Pictures are luma in grey levels.
+/// Oracle of the learned enlarger in double precision: the classes of pixels, and the residual
+/// (what learned filters add to Keys' cubic) on the grid of sub-pixels and at another size.
+/// Pictures are luma in grey levels.
 namespace mfar::twin {
 
-/// A class, and the distance of its input to the nearest class border; 0: on the border.
+/// A class, and the distance of the classified values from the nearest threshold between classes.
 struct Classified {
     int number;
     double margin;
@@ -85,7 +86,8 @@ inline std::array<double, 2> rangeAround(const Grey& g, int x, int y) {
     return out;
 }
 
-/// The residual that is added to the cubic at one sub-pixel of a pixel of these classes.
+/// The learned residual at one sub-pixel (`phase`) of pixel (x, y), whose classes are `gradient`
+/// and `curvature`.
 inline double residualAt(const Grey& g, int x, int y, int phase, int gradient, int curvature,
                          const FilterBank& bank) {
     const auto scale = double(enlarge::kWeightScale);
@@ -118,7 +120,7 @@ inline Grey residualGrid(const Grey& g, const FilterBank& bank) {
     return out;
 }
 
-/// The residual at another size, interpolated linearly between sub-pixels.
+/// The learned residual of `g` at the size `to`, interpolated linearly between sub-pixels.
 inline Grey learnedResidual(const Grey& g, Size to, const FilterBank& bank) {
     return enlarged(residualGrid(g, bank), to, true);
 }

@@ -15,13 +15,13 @@ namespace mfar::twin {
 
 struct FineCase {
     Grey video;
-    /// The value of the still that a position of the video looks up [video px].
+    /// Value of the still at the position to which the flow leads from (x, y) [video px].
     std::function<double(double x, double y)> still;
     std::function<bool(int x, int y)> isMatched;  ///< whether the cell (x, y) is matched
 };
 
-/// Variance of the video, covariance, and variance of the still, from the two blocks of 2x2 pixels
-/// in the middle two rows of a cell.
+/// Variance of the video, covariance of video and still, and variance of the still. Computed from
+/// the two blocks of 2x2 pixels in the middle two rows of a cell.
 inline Eigen::Vector3d fineSums(const FineCase& in, int cellX, int cellY) {
     Eigen::Vector3d out = Eigen::Vector3d::Zero();
     const Size size = in.video.size;
@@ -43,7 +43,7 @@ inline Eigen::Vector3d fineSums(const FineCase& in, int cellX, int cellY) {
     return out;
 }
 
-/// The share of its weight that each cell keeps, row by row.
+/// For each cell, row by row, the share of its weight that remains after the comparison.
 inline std::vector<double> fineShares(const FineCase& in, Size cells, const FineMatch& match) {
     std::vector<Eigen::Vector3d> sums;
     for (int y = 0; y < cells.height; ++y)

@@ -17,9 +17,9 @@ struct TileChange {
     /// the channel in which it is largest.
     std::array<double, 16> mean{}, absolute{};
     double cellNoise = 0;  ///< variance of a cell's mean, in the noisiest channel
-    double noise = 0;      ///< standard deviation of the video's noise [grey levels]
-    /// Sum of the difference's squared mean and slopes, each divided by its variance, in the
-    /// channel in which the sum is largest.
+    double noise = 0;      ///< standard deviation of the luma's noise [grey levels]
+    /// Squared mean and slopes of the difference over their variance, of the channel in which this
+    /// is largest.
     double moments = 0;
     /// Mean squares of three measures of the luma's difference: the twist of pixels, 2x2 means, and
     /// the twist of 2x2 means. They are scaled so that each equals a pixel's variance for white
@@ -30,7 +30,7 @@ struct TileChange {
     double structure = 0;
 };
 
-/// Difference of two pictures; 0 outside them.
+/// Picture `now` minus picture `drawn`; 0 outside them.
 struct Difference {
     const TestPicture &now, &drawn;
 
@@ -87,7 +87,8 @@ inline void driftOf(const Difference& d, int x0, int y0, double grain, TileChang
         out.energy[2] += 4 * std::pow(d.twist(x0 + 4 * (i % 4), y0 + 4 * (i / 4), 2, 1), 2) / 16;
 }
 
-/// Residual of 4x4 means about a plane that is fitted to them by least squares.
+/// Sum of the squared differences of 4x4 means from a plane that is fitted to them by least
+/// squares.
 inline double besidePlane(const std::array<double, 16>& v) {
     double mean = 0, dx = 0, dy = 0, out = 0;
     for (int i = 0; i < 16; ++i) {
@@ -117,7 +118,7 @@ inline double structureOf(const Grey& grey, int x0, int y0) {
     return out;
 }
 
-/// Oracle of measureTiles() for one tile. `grey`: luma of `now`.
+/// Change of the tile (tileX, tileY) from picture `drawn` to `now`, whose luma is `grey`.
 inline TileChange tileChange(const TestPicture& now, const TestPicture& drawn, const Grey& grey,
                              int tileX, int tileY, double grain = 1) {
     TileChange out;

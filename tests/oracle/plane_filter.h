@@ -34,7 +34,8 @@ inline Eigen::Vector2d medianAround(const FlowCells& cells, int x, int y) {
     return out;
 }
 
-/// Its columns are: value, change per column of cells, change per row of cells.
+/// A plane through the flow. Its columns are: flow at the cell, change per column of cells, change
+/// per row of cells.
 using Plane = Eigen::Matrix<double, 2, 3>;
 
 inline Plane fitPlane(const FlowCells& cells, int x, int y, const Plane& about, double reach) {

@@ -59,8 +59,8 @@ inline double smoothstep(double low, double high, double v) {
     return t * t * (3 - 2 * t);
 }
 
-/// The weight of a cell. `statistics`: covariance, variance of the video, variance of the still,
-/// confidence.
+/// The weight of a cell. `statistics`: covariance of video and still, variance of the video,
+/// variance of the still, confidence. `half`: the same at half the resolution.
 inline Weight weigh(const Cells& flow, const Cells& statistics, const Cells& half, int x, int y,
                     double sigma) {
     Eigen::Vector4d s = Eigen::Vector4d::Zero(), h = Eigen::Vector4d::Zero();

@@ -14,7 +14,7 @@
 namespace mfar::twin {
 
 struct RealSample {
-    double rho, sigma;  ///< inverse depth and its standard deviation [1/m]
+    double inverseDepth, sigma;  ///< inverse depth and its standard deviation [1/m]
 };
 
 /// Visibility of a virtual surface at inverse depth `inverse`, given a real sample. An unknown
@@ -31,7 +31,8 @@ inline double visibleOver(const RealSample& real, double inverse, const Composit
     return 1 - t * t * (3 - 2 * t);
 }
 
-/// The video frame, the output picture, and the real depth of each video pixel.
+/// The video, the output picture, and the real depth. Gives the visibility of a virtual surface at
+/// output pixel (x, y).
 struct Scene {
     TestPicture video, picture;
     std::vector<RealSample> real;

@@ -32,7 +32,7 @@ isNot() { ! "$@"; }
 apt() {
     inside apt-get --yes --no-install-recommends -o Dpkg::Options::=--force-confold "$@" \
         >"$work/apt" 2>&1 || { cat "$work/apt"; die "apt-get $* failed"; }
-    holds "apt-get $1 is silent about faults" isNot grep -iE 'warning|error|fail' "$work/apt"
+    holds "apt-get $1 prints no warning or error" isNot grep -iE 'warning|error|fail' "$work/apt"
 }
 
 # Makes the same package with a higher version and another default configuration.
@@ -68,27 +68,29 @@ makeSuccessor
 step "Install"
 apt update
 apt install /mfar.deb
-holds "all libraries are there" inside mfard --version
+holds "mfard starts, so all libraries are installed" inside mfard --version
 holds "the default configuration is accepted" \
     inside mfard --check-config --config /etc/mfar/mfard.toml
-holds "the user exists" grep -q '^mfar:' "$root/etc/passwd"
-for group in video render gpio; do holds "mfar is in $group" inGroup "$group"; done
-holds "the service is enabled" test -L "$enabled"
-holds "the unit is sound" inside systemd-analyze verify --man=no mfard.service
-holds "the licence is there" test -s "$root/usr/share/doc/mfar/copyright"
-for page in man1/mfard.1 man1/mfarctl.1 man1/mfar-sim.1 man1/mfar-calibrate.1 man5/mfard.toml.5; do
-    holds "$page is there" test -s "$root/usr/share/man/$page"
+holds "the user mfar exists" grep -q '^mfar:' "$root/etc/passwd"
+for group in video render gpio; do
+    holds "the user mfar is in the group $group" inGroup "$group"
 done
-holds "the completion is there" test -s "$root/usr/share/bash-completion/completions/mfard"
+holds "the service is enabled" test -L "$enabled"
+holds "systemd accepts the unit" inside systemd-analyze verify --man=no mfard.service
+holds "the licence is installed" test -s "$root/usr/share/doc/mfar/copyright"
+for page in man1/mfard.1 man1/mfarctl.1 man1/mfar-sim.1 man1/mfar-calibrate.1 man5/mfard.toml.5; do
+    holds "the manual page $page is installed" test -s "$root/usr/share/man/$page"
+done
+holds "the bash completion is installed" test -s "$root/usr/share/bash-completion/completions/mfard"
 holds "programs are stripped" isNot grep -q debug_info <(readelf -S "$root/usr/bin/mfard")
 
-step "OpenGL ES is recommended alone"
+step "OpenGL ES is recommended, but no dependency"
 for package in libegl1 libgl1-mesa-dri libgles2; do
     holds "$package is recommended" grep -qx "$package" <(field Recommends)
     holds "$package is no dependency" isNot grep -qx "$package" <(field Depends)
 done
-holds "there is no EGL" test -z "$(find "$root/usr/lib" -name 'libEGL.so*')"
-holds "without EGL mfard says so" withoutGl
+holds "EGL is not installed" test -z "$(find "$root/usr/lib" -name 'libEGL.so*')"
+holds "without EGL mfard reports what to install" withoutGl
 apt install libegl1 libgl1-mesa-dri libgles2
 holds "with EGL mfard draws" draws 0
 
@@ -97,25 +99,25 @@ echo 'seed = 7' >"$root/etc/mfar/mfard.toml"
 inside systemctl disable mfard.service 2>/dev/null
 apt install /next.deb
 holds "the changed configuration stays" grep -qx 'seed = 7' "$root/etc/mfar/mfard.toml"
-holds "the new one is beside it" \
+holds "the new default configuration is beside it" \
     grep -q 'of the next version' "$root/etc/mfar/mfard.toml.dpkg-dist"
 holds "the service stays disabled" test ! -e "$enabled"
 
 step "Remove"
 inside systemctl enable mfard.service 2>/dev/null
 apt remove mfar
-holds "the program has gone" test ! -e "$root/usr/bin/mfard"
-holds "the unit has gone" test ! -e "$root/usr/lib/systemd/system/mfard.service"
+holds "the program is removed" test ! -e "$root/usr/bin/mfard"
+holds "the unit is removed" test ! -e "$root/usr/lib/systemd/system/mfard.service"
 holds "the configuration stays" test -e "$root/etc/mfar/mfard.toml"
 
 step "Purge"
 mkdir -p "$root/var/cache/mfar/shaders" "$root/var/lib/mfar/recording"
 apt purge mfar
-holds "the configuration has gone" test ! -e "$root/etc/mfar"
-holds "the cache has gone" test ! -e "$root/var/cache/mfar"
+holds "the configuration is removed" test ! -e "$root/etc/mfar"
+holds "the cache is removed" test ! -e "$root/var/cache/mfar"
 holds "recordings stay" test -d "$root/var/lib/mfar/recording"
-holds "it is no longer enabled" test ! -L "$enabled"
-holds "nothing else stays" \
+holds "the service is no longer enabled" test ! -L "$enabled"
+holds "no other file of mfar stays" \
     test -z "$(find "$root"/{etc,usr,lib,var/lib} -name '*mfar*' ! -path '*/var/lib/mfar*' \
         ! -path '*/dpkg/*' 2>/dev/null)"
 
@@ -123,4 +125,4 @@ step "Install again"
 apt install /mfar.deb
 holds "the service is enabled again" test -L "$enabled"
 
-[[ $failures == 0 ]] && step "The package behaves"
+[[ $failures == 0 ]] && step "All checks of the package passed"

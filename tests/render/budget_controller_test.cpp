@@ -13,7 +13,7 @@
 namespace mfar {
 namespace {
 
-constexpr double kBudget = 4;  // time budget of a frame [ms]
+constexpr double kBudget = 4;  // processor time per frame [ms]
 
 /// Cost of a sample in a frame [ms].
 using CostTrace = std::function<double(int frame)>;
@@ -46,14 +46,14 @@ int framesOff(const std::vector<double>& used, double share) {
         used, [&](double ms) { return !(std::abs(ms / kBudget - 1) <= share); }));
 }
 
-TEST(BudgetController, WithConstantCostEveryFrameUsesItsBudget) {
+TEST(BudgetController, WithASteadyCostEveryFrameUsesItsBudget) {
     BudgetController budget(kBudget);
     const std::vector<double> used = usedIn(budget, 300, 1000, [](int) { return 0.003; });
     EXPECT_NEAR(meanShare(used), 1, 0.001);
     EXPECT_EQ(framesOff(used, 0.02), 0);
 }
 
-TEST(BudgetController, KeepsWithinATenthOver300FramesOfNoiseAndSteps) {
+TEST(BudgetController, WithNoisyAndSteppingCostFramesStayWithinATenthOfTheBudget) {
     for (const unsigned seed : {1U, 2U, 3U}) {
         std::mt19937 random(seed);
         std::lognormal_distribution<double> noise(0, 0.4);
@@ -72,7 +72,7 @@ TEST(BudgetController, KeepsWithinATenthOver300FramesOfNoiseAndSteps) {
     }
 }
 
-TEST(BudgetController, OutliersChangeNeitherTheCostEstimateNorTheMean) {
+TEST(BudgetController, OutliersChangeNeitherTheEstimatedCostNorTheMeanTime) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> uniform(0, 1);
     BudgetController budget(kBudget);
@@ -86,10 +86,10 @@ TEST(BudgetController, OutliersChangeNeitherTheCostEstimateNorTheMean) {
     });
     EXPECT_DOUBLE_EQ(least, 0.002);
     EXPECT_DOUBLE_EQ(most, 0.002);
-    EXPECT_NEAR(meanShare(used), 1, 0.02) << "what an outlier takes is paid back";
+    EXPECT_NEAR(meanShare(used), 1, 0.02) << "the time of an outlier is saved in later frames";
 }
 
-TEST(BudgetController, FollowsASuddenChangeOfCostWithinOneFrame) {
+TEST(BudgetController, FollowsAStepOfTheCostWithinOneFrame) {
     BudgetController budget(kBudget);
     const std::vector<double> used =
         usedIn(budget, 60, 1000, [](int frame) { return frame < 30 ? 0.001 : 0.008; });
@@ -126,7 +126,7 @@ TEST(BudgetController, OutstandingGrantsAreReserved) {
     EXPECT_EQ(budget.used(), 0);
 }
 
-TEST(BudgetController, IdleFramesSaveNoBudget) {
+TEST(BudgetController, IdleFramesSaveNoBudgetForLaterFrames) {
     BudgetController budget(kBudget);
     (void)usedIn(budget, 10, 1000, [](int) { return 0.001; });
     for (int i = 0; i < 100; ++i)
@@ -136,7 +136,7 @@ TEST(BudgetController, IdleFramesSaveNoBudget) {
     EXPECT_EQ(budget.kept().frames, 9) << "idle frames do not count";
 }
 
-TEST(BudgetController, TimeSpentElsewhereIsRepaidInSmallParts) {
+TEST(BudgetController, TimeOfPictureConversionsIsSavedInSmallPartsLater) {
     BudgetController budget(kBudget);
     const auto cheap = [](int) { return 0.001; };
     (void)usedIn(budget, 2, 1000, cheap);
@@ -144,7 +144,7 @@ TEST(BudgetController, TimeSpentElsewhereIsRepaidInSmallParts) {
     for (int picture = 0; picture < 10; ++picture) {
         budget.beginFrame(true);
         budget.spentElsewhere(2 * kBudget);
-        EXPECT_EQ(budget.grant().samples, 0) << "the frame's own is used up";
+        EXPECT_EQ(budget.grant().samples, 0) << "the frame's own budget is used up";
         used.push_back(budget.used());
         for (int i = 0; i < 29; ++i) {
             budget.beginFrame(true);
@@ -153,13 +153,13 @@ TEST(BudgetController, TimeSpentElsewhereIsRepaidInSmallParts) {
             used.push_back(budget.used());
         }
     }
-    EXPECT_EQ(framesOff(used, 0.1), 10) << "the conversions themselves";
+    EXPECT_EQ(framesOff(used, 0.1), 10) << "only the frames with a conversion are off";
     EXPECT_NEAR(meanShare(used), 1, 0.01);
     budget.beginFrame(true);
     EXPECT_LE(budget.kept().deviation, 0.1);
 }
 
-TEST(BudgetController, DebtIsRepaidAtOnceWhenIdle) {
+TEST(BudgetController, IdleFramesRepayOverusedTime) {
     BudgetController budget(kBudget);
     (void)usedIn(budget, 2, 1000, [](int) { return 0.001; });
     budget.beginFrame(true);
@@ -190,7 +190,7 @@ TEST(BudgetController, MeanCoversAllFramesWithWaitingWork) {
         budget.spent(budget.grant(), 1000, 0.25 * kBudget);
         budget.beginFrame(true);
     }
-    EXPECT_EQ(budget.kept().frames, 0) << "none used it up";
+    EXPECT_EQ(budget.kept().frames, 0) << "no frame used up its budget";
     EXPECT_NEAR(budget.kept().mean, 0.25 * 20 / 21, 1e-6);
 }
 

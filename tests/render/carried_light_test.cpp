@@ -40,10 +40,10 @@ TEST(CarriedLight, FirstPictureNeedsOneSamplePerSixteenPixels) {
     EXPECT_GT(driver.shown.size(), 4U);
     const RenderedPicture &first = driver.shown.front(), &last = driver.shown.back();
     for (std::size_t i = 0; i < first.id.size(); ++i) {
-        // In the first picture, a pixel has the id of what its centre shows. Later samples of the
-        // pixel may also hit the surface beside it.
+        // The id of the first picture is that of the object at the pixel's centre. Later samples
+        // may also hit a neighbouring object.
         if (first.id[i] == 0 || first.id[i] == kCatcherId || last.id[i] == kCatcherId) continue;
-        ASSERT_EQ(first.id[i], last.id[i]) << "objects are whole at once";
+        ASSERT_EQ(first.id[i], last.id[i]) << "object pixels do not change";
     }
     const auto objectsOf = [](const RenderedPicture& p) {
         return std::ranges::count_if(p.id, [](int id) { return id != 0 && id != kCatcherId; });
@@ -74,13 +74,13 @@ TEST(CarriedLight, ANewPictureIsShownOnceItHasEnoughSamples) {
     driver.settle();
     const std::size_t before = driver.shown.size();
     driver.look(23);
-    EXPECT_FALSE(driver.step()) << "it serves";
+    EXPECT_FALSE(driver.step()) << "the picture suffices for this view";
     driver.look(26);
     driver.untilShown(before + 1);
-    EXPECT_GT(driver.shown.back().samples, 4) << "8 of objects, 2 of other surfaces";
+    EXPECT_GT(driver.shown.back().samples, 4) << "8 on objects, 2 on other surfaces";
 }
 
-TEST(CarriedLight, LightCarriedFromOtherLightingIsSoonOutweighed) {
+TEST(CarriedLight, LightCarriedFromOldLightingIsSoonOutweighed) {
     Driver driver(kThirtyTwo, kProduct);
     const auto dark = std::make_shared<Scene>(*render_scenes::stillLife());
     dark->lighting.sun->irradiance *= 0.2F;
@@ -118,14 +118,14 @@ TEST(CarriedLight, SurfacesThatNothingChangesAreTracedOnce) {
     driver.pictures.setScene(prepared(sunlit, 1, 2));
     driver.look(20);
     driver.settle();
-    EXPECT_GE(driver.pictures.pixels(), all) << "in new light any may be changed";
+    EXPECT_GE(driver.pictures.pixels(), all) << "new light may change all surfaces";
 }
 
 TEST(CarriedLight, AtRestEachPixelHasItsOwnSamples) {
     Driver driver(kThirtyTwo, kProduct);
     driver.look(20);
     driver.settle();
-    EXPECT_LT(driver.shown.back().samples, 32) << "of the real surface a quarter";
+    EXPECT_LT(driver.shown.back().samples, 32) << "a quarter of the samples on the real surface";
     for (int i = 0; i < 12; ++i)
         driver.look(20);
     driver.settle();

@@ -58,7 +58,8 @@ TEST(Film, ObjectPixelIsThePremultipliedMeanOfItsSamples) {
     EXPECT_EQ(picture.colour[0][0], expected);
     EXPECT_EQ(picture.colour[0][3], 128);
     EXPECT_EQ(picture.id[0], 7);
-    EXPECT_EQ(picture.depth[0], 1.2F);  // the nearest hit, because the centre shows nothing
+    EXPECT_EQ(picture.depth[0],
+              1.2F);  // depth of the nearest hit, because the centre shows nothing
     EXPECT_EQ(picture.samples, 4);
 }
 
@@ -118,7 +119,7 @@ TEST(Film, BouncedLightOnADarkSurfaceIsVisible) {
               (Rgba{static_cast<std::uint8_t>(std::lround(255 * srgbEncoded(0.3F))), 0, 0, 0}));
 }
 
-TEST(Film, AnUnchangedCatcherIsTransparent) {
+TEST(Film, AnUnchangedShadowCatcherIsTransparent) {
     Film film({1, 1});
     film.setCentre(0, {{2, kCatcherId}});
     film.add(0, catcherSample({0.37F, 0.2F, 0.11F}, {0.37F, 0.2F, 0.11F}));
@@ -145,7 +146,7 @@ TEST(Film, NonFiniteSamplesAreDroppedAndCounted) {
     EXPECT_EQ(picture.colour[0][3], 255);
 }
 
-// The object that the pixel's centre shows was not hit by any sample.
+// The pixel's centre shows an object that no sample has hit, so that its light is unknown.
 TEST(Film, UnknownLightIsShownUnshaded) {
     SeenSurface seen{{1, 3}};
     seen.paint.diffuse = {0.5F, 0.5F, 0.5F};

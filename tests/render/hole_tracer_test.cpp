@@ -78,7 +78,7 @@ TEST(HoleTracer, EachPixelInsideThePictureIsTracedOnce) {
     EXPECT_EQ(answer.pixels, (PixelList{3, 7, 900, 48 * 36 - 1}));
 }
 
-TEST(HoleTracer, PixelsAndSamplesOfARequestAreLimited) {
+TEST(HoleTracer, RequestsBeyondTheLimitsAreReducedToThem) {
     const PathTracer tracer(render_scenes::stillLife());
     HoleTracer holes(5);
     EXPECT_EQ(answered(holes, tracer, requestFor({1, 2, 3, 4, 5, 6, 7}, 1), 10).pixels.size(), 5U);
@@ -101,7 +101,7 @@ TEST(HoleTracer, InvalidViewsHaveNoPixels) {
     EXPECT_TRUE(answered(holes, tracer, request, 10).pixels.empty());
 }
 
-TEST(HoleTracer, PicturesOfAnotherSizeFollowEachOther) {
+TEST(HoleTracer, RequestsForPicturesOfDifferentSizesAreAnswered) {
     const PathTracer tracer(render_scenes::stillLife());
     HoleTracer holes(100);
     EXPECT_EQ(answered(holes, tracer, requestFor({1000}, 1), 10).pixels.size(), 1U);

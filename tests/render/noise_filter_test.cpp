@@ -70,7 +70,7 @@ TEST(NoiseFilter, SmoothsNoise) {
     EXPECT_LT(errorOf(pixels, flat), kSigma / 2);
 }
 
-TEST(NoiseFilter, FindsUnknownVariances) {
+TEST(NoiseFilter, EstimatesUnknownVariances) {
     Pixels pixels = noisyPicture(flat);
     for (LightPixel& p : pixels)
         p.firstVariance = p.secondVariance = -1;
@@ -90,8 +90,8 @@ TEST(NoiseFilter, KeepsDifferencesAboveNoise) {
     EXPECT_GT(errorOf(known, flat), 0.95 * kSigma);
 }
 
-// A step of two standard errors, without noise. The filter can distinguish it from noise only if
-// both sides differ in another property, which `mark` sets.
+// A step of two standard errors in a picture without noise. Only ids, depths or normals, which
+// `mark` sets, can distinguish the step from noise.
 template <class Mark>
 double errorAtStep(Mark mark) {
     Pixels pixels = noisyPicture(step, 0);
@@ -125,7 +125,7 @@ TEST(NoiseFilter, KeepsPixelsWithoutNoise) {
             << i;
 }
 
-// One pixel in 16 was sampled. The second part of the light is known in fewer pixels.
+// The first part of the light is known in one pixel of 16, the second part in one of 64.
 TEST(NoiseFilter, FillsPixelsWithoutSamples) {
     Pixels pixels = noisyPicture(flat, 0);
     for (int y = 0; y < kNoisySize.height; ++y)
@@ -147,8 +147,8 @@ TEST(NoiseFilter, FillsPixelsWithoutSamples) {
         ASSERT_TRUE(p.firstCount > 0 && p.secondCount > 0);
 }
 
-// If neighbouring pixels differ by more than noise in one part of their light, the other part must
-// still be filtered.
+// If neighbours differ by more than noise in one part of the light, the other part must still be
+// filtered.
 TEST(NoiseFilter, FiltersBothLightPartsSeparately) {
     Pixels pixels = noisyPicture(flat);
     for (std::size_t i = 0; i < pixels.size(); ++i)
@@ -181,7 +181,7 @@ TEST(NoiseFilter, ReadsNothingOutsideItsPixels) {
     EXPECT_EQ(inside(0.5F), inside(0.52F));
 }
 
-TEST(NoiseFilter, WorksAtAnySize) {
+TEST(NoiseFilter, WorksForPicturesOfAnySize) {
     for (const Size size : {Size{0, 0}, Size{1, 1}, Size{1, 9}, Size{9, 1}}) {
         Pixels pixels(static_cast<std::size_t>(size.width) * size.height);
         for (LightPixel& p : pixels) {

@@ -28,7 +28,7 @@ std::shared_ptr<Scene> sceneOf(Mesh mesh, const Material& material) {
     return out;
 }
 
-/// Mean radiance of the object over all pixels that see nothing else.
+/// Mean radiance of the object over all pixels that show nothing but the object.
 Eigen::Vector3f meanRadiance(const Film& film) {
     Eigen::Vector3f sum{0, 0, 0};
     int pixels = 0;
@@ -52,10 +52,10 @@ Mesh flatSquare() {
     return mesh;
 }
 
-// A pixel is about three bumps wide.
+// The relief is a normal map; a pixel is about three of its bumps wide.
 TEST(PathTracer, AFineReliefIsSeenAsAWiderLobeAboutItsMeanNormal) {
-    // Returns the surface and gloss in the picture's middle. With an earlier picture (hasHistory),
-    // the ray through the pixel's centre finds them; without one, the first sample does.
+    // The lobe's width is found by the ray through the pixel's centre if there is an earlier
+    // picture, and otherwise by the first sample.
     const auto seen = [](bool bumpy, bool hasHistory, int samples) {
         Material material = materialOf({0.9F, 0.9F, 0.9F}, 1, 0.2F);
         Model model = modelOf(flatSquare(), material);
@@ -121,7 +121,7 @@ TEST(PathTracer, ABowlReflectsNoMoreLightThanItReceives) {
     EXPECT_LT(meanRadiance(traced(PathTracer(scene, options), view, 16)).mean(), deep);
 }
 
-TEST(PathTracer, RussianRouletteKeepsTheMean) {
+TEST(PathTracer, RussianRouletteDoesNotChangeTheMeanRadiance) {
     auto scene = sceneOf(sphere({0, 0, 0}, 1, 16), materialOf({0.8F, 0.8F, 0.8F}, 0, 1));
     scene->catcher = ground(3, 0.8F);
     for (Eigen::Vector3f& p : scene->catcher.positions)
@@ -240,7 +240,7 @@ TEST(PathTracer, TexturesAlphaMasksAndSidesAreRespected) {
     EXPECT_GT(resolved(traced(PathTracer(scene), under, 2), under).samples, 0);
 }
 
-TEST(PathTracer, ANormalMapTurnsTheLight) {
+TEST(PathTracer, ANormalMapChangesWhichLightIsBright) {
     // All normals are tilted towards +u, which is +x; so light from +x must become brighter.
     SurfaceTexture map{{1, 1}, false, {{218, 128, 218, 255}}};
     Material leaning = materialOf({1, 1, 1}, 0, 1);

@@ -28,7 +28,8 @@ prepared(const std::shared_ptr<const Scene>& scene, std::uint64_t objects, std::
     return prepared(render_scenes::stillLife(), objects, light);
 }
 
-/// A policy without filter and without history: every pixel is sampled.
+/// Policies for tests. kPlain: without noise filter and light history, every pixel is sampled;
+/// kProduct: with both, as in the product.
 inline constexpr TracedPolicy kPlain{{4, 0.2}, 8, false, false};
 inline constexpr TracedPolicy kProduct{{4, 0.2}, 8, true, true};
 
@@ -44,7 +45,7 @@ public:
         const RenderView view = render_scenes::viewFrom(size, azimuth);
         pictures.look(view, view, {});
     }
-    /// Runs one step. Returns false if there was nothing to do.
+    /// Runs the next step. Returns false if there was nothing to do.
     bool step() {
         if (pictures.toBegin()) {
             pictures.begin();

@@ -44,7 +44,8 @@ TEST_P(PictureResolving, PortionsInAnyOrderMakeThePicture) {
         ASSERT_FALSE(out.empty());
         const int stage = resolver.stage();
         for (auto portion = out.rbegin(); portion != out.rend(); ++portion) {
-            EXPECT_EQ(resolver.stage(), stage) << "a stage began before the one before was done";
+            EXPECT_EQ(resolver.stage(), stage)
+                << "a stage began before the previous stage was finished";
             resolver.run(*portion);
             resolver.done(*portion);
             ++portions;

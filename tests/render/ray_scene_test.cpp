@@ -24,7 +24,7 @@ TEST(RayScene, FindsTheNearestSurface) {
     const RayScene scene = sphereOnSquare();
     const RayHit ball = scene.first({{0, -4, 0.01F}, {0, 2, 0}});
     EXPECT_EQ(ball.mesh, 0U);
-    EXPECT_NEAR(ball.t, 1.5F, 0.01F);  // in units of the direction's length
+    EXPECT_NEAR(ball.t, 1.5F, 0.01F);  // in units of the length of the ray's direction
     const RayHit floor = scene.first({{2, 2, 5}, {0, 0, -1}});
     EXPECT_EQ(floor.mesh, 1U);
     EXPECT_NEAR(floor.t, 6, 1e-5F);

@@ -103,7 +103,8 @@ TEST(Slices, SamplePositionsDoNotDependOnSlicingOrThreads) {
     const auto truth = traced(time, 1, 1 << 20).samples();
     const auto [least, most] = std::ranges::minmax_element(
         truth, {}, [](const auto& pixelAndSamples) { return pixelAndSamples.second; });
-    EXPECT_LT(least->second, most->second) << "the picture is no test of adaptivity";
+    EXPECT_LT(least->second, most->second)
+        << "the numbers of samples do not differ, so this picture tests no adaptivity";
     for (const std::size_t workers : {1U, 2U, 5U})
         for (const std::int64_t portion : {1, 40, 1000}) {
             EXPECT_EQ(traced(time, workers, portion).samples(), truth);
@@ -134,9 +135,9 @@ TEST(Slices, NoPixelIsInTwoOutstandingPortions) {
     }
 }
 
-// First a ray through the centre of every pixel is traced; then come the first samples, in three
-// rounds.
-TEST(Slices, TimeSlicesAreCompleteAfterEachTurn) {
+// The first turn traces a ray through the centre of every pixel, without a sample. The first
+// samples follow in three turns, the next ones in one turn each.
+TEST(Slices, AfterEachTurnOfTimeSlicesAllPixelsHaveEqualSamples) {
     Slices slices({Slicing::Time, 8, 3, 0, 2});
     slices.begin({0, 0, 32, 24}, {32, 24});
     NoisyPicture picture([](std::uint32_t) { return 1.0F; });
@@ -145,7 +146,8 @@ TEST(Slices, TimeSlicesAreCompleteAfterEachTurn) {
         const Slice slice = slices.next(100);
         if (slice.pixels.empty()) break;
         EXPECT_FALSE(slices.turnComplete());
-        EXPECT_EQ(slice.samples == 0, turns.empty()) << "the look comes first, and once";
+        EXPECT_EQ(slice.samples == 0, turns.empty())
+            << "only the first turn traces rays without samples";
         picture.trace(slice);
         slices.done(slice, [](std::uint32_t) { return PixelState{1}; });
         if (!slices.turnComplete()) continue;
@@ -153,7 +155,8 @@ TEST(Slices, TimeSlicesAreCompleteAfterEachTurn) {
         EXPECT_EQ(slices.turns(), static_cast<int>(turns.size()));
         const auto isSampled = [](const auto& pixel) { return pixel.second > 0; };
         sampled.push_back(static_cast<int>(std::ranges::count_if(picture.samples(), isSampled)));
-        EXPECT_EQ(picture.samples().size(), slices.pixels()) << "each was looked at";
+        EXPECT_EQ(picture.samples().size(), slices.pixels())
+            << "each pixel was traced in the first turn";
         if (turns.back() == 0) continue;
         for (const auto& [pixel, samples] : picture.samples())
             EXPECT_EQ(samples, turns.back()) << pixel;
@@ -162,7 +165,7 @@ TEST(Slices, TimeSlicesAreCompleteAfterEachTurn) {
     EXPECT_EQ(sampled, (std::vector<int>{0, 48, 192, 768, 768, 768}));
 }
 
-// First one pixel of each 4x4, then one of each 2x2.
+// One pixel of each block of 4x4 is sampled first, then one of each 2x2.
 TEST(Slices, TheFirstSamplesAreSpreadEvenly) {
     Slices slices({Slicing::Time, 2, 1, 0, 2});
     slices.begin({0, 0, 32, 24}, {32, 24});
@@ -184,11 +187,11 @@ TEST(Slices, TheFirstSamplesAreSpreadEvenly) {
     }
 }
 
-TEST(Slices, PixelsKnownAfterTheSparseSamplesGetNoMore) {
+TEST(Slices, PixelsWithLittleNoiseAfterTheSparseSamplesGetNoMore) {
     Slices slices({Slicing::Time, 16, 4, 1, 8});
     slices.begin({0, 0, 32, 24}, {32, 24});
     NoisyPicture picture([](std::uint32_t) { return 1e6F; });
-    // An earlier picture already gives the left half.
+    // In the left half, light is already known from an earlier picture.
     while (true) {
         const Slice slice = slices.next(50);
         if (slice.pixels.empty()) break;
@@ -256,7 +259,7 @@ TEST(Slices, SpatialSlicesFinishTileAfterTile) {
         EXPECT_EQ(slices.samples(), 0);
         slices.done(slice, [](std::uint32_t) { return PixelState{1}; });
     }
-    EXPECT_EQ(tiles.size(), 16U) << "a tile was left before it was finished";
+    EXPECT_EQ(tiles.size(), 16U) << "another tile was begun before a tile was finished";
     EXPECT_EQ(slices.samples(), 16);
 }
 

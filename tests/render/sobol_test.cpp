@@ -48,7 +48,7 @@ bool eachBoxHasOne(std::uint32_t pixel, std::uint32_t dimension, std::uint32_t f
     return boxes.size() == count;
 }
 
-TEST(Sobol, EveryElementaryIntervalOfEveryBlockHasItsSample) {
+TEST(Sobol, EveryElementaryIntervalOfEveryBlockHoldsOneSample) {
     for (const std::uint32_t pixel : {0U, 5U, 307199U})
         for (const std::uint32_t dimension : {0U, 1U, 9U})
             for (int bits = 0; bits <= 8; ++bits)
@@ -73,7 +73,7 @@ double errorOf(F f, double integral, std::uint32_t n, bool independent) {
     return std::sqrt(squares / kPixels);
 }
 
-TEST(Sobol, SmoothIntegralsAreFarBetterThanByChance) {
+TEST(Sobol, ErrorsOfSmoothIntegralsAreFarBelowThoseOfRandomNumbers) {
     const auto product = [](const Eigen::Vector2f& u) { return std::exp(u.x()) * u.y(); };
     const double integral = 0.5 * (std::exp(1.0) - 1);
     const double ours = errorOf(product, integral, 64, false);
@@ -83,7 +83,7 @@ TEST(Sobol, SmoothIntegralsAreFarBetterThanByChance) {
     EXPECT_NEAR(chance, 0.666 / 8, 0.01);
 }
 
-TEST(Sobol, TheErrorOfADiscFallsFasterThanByChance) {
+TEST(Sobol, TheErrorOfADiscsAreaFallsFasterThanWithRandomNumbers) {
     const auto disc = [](const Eigen::Vector2f& u) { return u.squaredNorm() < 1 ? 1.0 : 0.0; };
     const double few = errorOf(disc, M_PI / 4, 16, false);
     const double many = errorOf(disc, M_PI / 4, 1024, false);
@@ -91,7 +91,7 @@ TEST(Sobol, TheErrorOfADiscFallsFasterThanByChance) {
     EXPECT_GT(few / many, 14);
 }
 
-TEST(Sobol, DimensionsAndPixelsAreUnrelated) {
+TEST(Sobol, DimensionsAndPixelsAreUncorrelated) {
     double product = 0, sum = 0;
     constexpr int kPairs = 20000;
     for (std::uint32_t i = 0; i < kPairs; ++i) {

@@ -24,7 +24,7 @@ Mesh box(const Eigen::Vector3f& edges) {
         for (const float side : {-0.5F, 0.5F}) {
             Eigen::Vector3f n = Eigen::Vector3f::Zero(), u = n, v = n;
             n[axis] = side;
-            u[(axis + 1) % 3] = side;  // signed, so that all faces have the same orientation
+            u[(axis + 1) % 3] = side;  // with the sign of `side`, so that all faces point outwards
             v[(axis + 2) % 3] = 0.5F;
             const auto first = static_cast<std::uint32_t>(out.positions.size());
             for (const auto& [along, across] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {

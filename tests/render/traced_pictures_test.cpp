@@ -21,17 +21,19 @@ TEST(NextStep, StepDependsOnHowFarTheViewChanged) {
         TracedStep step;
     };
     for (const auto& [sinceShown, sinceNext, step] : std::vector<Case>{
-             {{}, {}, Start},         // no picture yet
+             {{}, {}, Start},         // there is no picture yet
              {{}, 9.0, Continue},     // the first picture is continued wherever the camera is
              {0.2, {}, Refine},       // the picture is new
              {0.3, {}, Start},        // the next picture takes over its light
              {kInfinite, {}, Start},  // the picture shown cannot serve at all
              {1.1, 0.9, Continue},    // the camera is still on its way to the next picture's view
-             {0.6, 2.0, Start},       // as before, but the shown picture can serve meanwhile
-             {0.1, 0.7, Drop},        // the camera came back to the shown picture's view
-             {0.2, 0.7, Continue},    // the camera came back, but not quite
-             {2.0, 1.5, Continue},    // too fast, but the next picture is nearer
-             {1.5, 2.0, Start},       // the camera took another way than predicted
+             {0.6, 2.0,
+              Start},  // the camera is still on its way, but the shown picture can serve meanwhile
+             {0.1, 0.7, Drop},      // the camera came back to the shown picture's view
+             {0.2, 0.7, Continue},  // the camera came back, but not quite
+             {2.0, 1.5, Continue},  // the camera moves too fast, but the next picture is nearer
+                                    // than the shown one
+             {1.5, 2.0, Start},     // the camera took another way than predicted
          }) {
         EXPECT_EQ(nextStep(sinceShown, sinceNext, 0.25), step)
             << sinceShown.value_or(-1) << ' ' << sinceNext.value_or(-1);
@@ -48,7 +50,7 @@ TEST(NextStep, AHigherLimitOfChangeStartsTheNextPictureLater) {
 
 TEST(TracedPictures, AtRestThePictureIsRefined) {
     Driver driver(kThirtyTwo);
-    EXPECT_FALSE(driver.step()) << "no view, no work";
+    EXPECT_FALSE(driver.step()) << "without a view there is no work";
     driver.look(20);
     driver.settle();
     std::vector<double> samples;
@@ -58,7 +60,7 @@ TEST(TracedPictures, AtRestThePictureIsRefined) {
     EXPECT_TRUE(driver.pictures.settled());
     EXPECT_EQ(driver.pictures.finished(), 1U);
     driver.look(20.5);
-    EXPECT_FALSE(driver.step()) << "it serves";
+    EXPECT_FALSE(driver.step()) << "the picture suffices for this view";
 }
 
 TEST(TracedPictures, AfterAMotionAPictureOfTheRestingViewIsStarted) {
@@ -73,7 +75,7 @@ TEST(TracedPictures, AfterAMotionAPictureOfTheRestingViewIsStarted) {
     for (int i = 0; i < 12; ++i)
         driver.look(22);
     driver.settle();
-    ASSERT_EQ(driver.shown.size(), before + 1) << "a worse one was shown";
+    ASSERT_EQ(driver.shown.size(), before + 1) << "a picture of a worse view was shown";
     EXPECT_EQ(driver.shown.back().samples, 32);
     EXPECT_TRUE(driver.shows(22));
     EXPECT_TRUE(driver.pictures.settled());
@@ -126,7 +128,7 @@ TEST(TracedPictures, AVeryOldPictureIsReplacedAtOnce) {
     EXPECT_EQ(driver.shown[4].samples, 1);
 }
 
-TEST(TracedPictures, AReturningCameraGetsItsPictureAndRefinesIt) {
+TEST(TracedPictures, ACameraThatReturnsGetsItsEarlierPictureWhichIsRefined) {
     Driver driver(kThirtyTwo);
     driver.look(20);
     driver.untilShown(3);
@@ -136,11 +138,11 @@ TEST(TracedPictures, AReturningCameraGetsItsPictureAndRefinesIt) {
     driver.look(20.2);
     driver.settle();
     ASSERT_EQ(driver.shown.size(), 4U);
-    EXPECT_EQ(driver.shown[3].samples, 32) << "the samples it had are not lost";
+    EXPECT_EQ(driver.shown[3].samples, 32) << "the samples of the returning picture are kept";
     EXPECT_TRUE(driver.shows(20));
 }
 
-TEST(TracedPictures, PicturesArePredictedForMovingCameras) {
+TEST(TracedPictures, MovingCamerasGetPicturesOfPredictedViews) {
     Driver driver(kThirtyTwo);
     driver.look(20);
     driver.settle();
@@ -148,7 +150,7 @@ TEST(TracedPictures, PicturesArePredictedForMovingCameras) {
     driver.step();
     driver.look(29);
     driver.untilShown(5);
-    EXPECT_TRUE(driver.shows(26)) << "nearer than what is shown";
+    EXPECT_TRUE(driver.shows(26)) << "its view is nearer than that of the shown picture";
     driver.look(33);
     driver.settle();
     EXPECT_TRUE(driver.shows(33));
@@ -163,10 +165,10 @@ TEST(TracedPictures, AReversingCameraIsFollowed) {
     driver.look(14);
     driver.settle();
     EXPECT_TRUE(driver.shows(14));
-    EXPECT_EQ(driver.pictures.finished(), 2U) << "that of 26 degrees was given up";
+    EXPECT_EQ(driver.pictures.finished(), 2U) << "the picture for 26 degrees was given up";
 }
 
-TEST(TracedPictures, NewObjectsAreShownAtOnceAndNewLightOnceItHasEnoughSamples) {
+TEST(TracedPictures, NewObjectsAreShownAtOnceButNewLightOnlyWithEnoughSamples) {
     Driver driver(kThirtyTwo);
     driver.look(20);
     driver.settle();

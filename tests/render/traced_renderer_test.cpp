@@ -92,7 +92,7 @@ double degreesBetween(const RenderView& a, const RenderView& b) {
     return std::atan2(from.cross(to).norm(), from.dot(to)) * 180 / std::numbers::pi;
 }
 
-TEST(TracedRenderer, GivesTheSamePictureForBothSlicingsAndAnyThreads) {
+TEST(TracedRenderer, GivesTheSamePictureForBothSlicingMethodsAndAnyThreadCount) {
     const RenderView view = render_scenes::viewFrom(kRenderSize, 20);
     const auto scene = render_scenes::stillLife();
     const PathTracer tracer(scene);
@@ -130,7 +130,8 @@ TEST(TracedRenderer, IsIdleOnceConvergedAndUnmoved) {
     const RenderView view = render_scenes::viewFrom(kRenderSize, 20);
     ASSERT_TRUE(frames.rest(view));
     const RenderCounters before = frames.renderer.counters();
-    EXPECT_LE(before.samples, 2 * 48U * 36U * 4U) << "all were calm after four";
+    EXPECT_LE(before.samples, 2 * 48U * 36U * 4U)
+        << "all pixels have little noise after four samples";
     const RenderedPicture* shown = frames.renderer.newest();
     for (int i = 0; i < 20; ++i)
         frames.frame(view);
@@ -178,16 +179,16 @@ TEST(TracedRenderer, SleepsWhenTheFramesBudgetIsUsedUp) {
     Frames frames(options);
     frames.renderer.setScene(render_scenes::stillLife());
     const RenderView view = render_scenes::viewFrom(kRenderSize, 20);
-    // On a busy machine frames may get less time, but never more.
+    // On a busy machine, frames may use less time than their budget, but never more.
     int shown = 0;
     ASSERT_TRUE(frames.until(
         view, [&] { return ++shown > 300 && frames.renderer.counters().budget.mean > 0; }));
     EXPECT_LE(frames.renderer.counters().budget.mean, 1.1);
     const double used = frames.renderer.counters().cpuMs;
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
-    frames.frame(view);  // updates the counters, which do not include this frame yet
+    frames.frame(view);  // counters() describes the time before this frame
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    // The limit is the budget of 20 frames, because the counters did not include the last frames
+    // The limit is the budget of 20 frames, because the counters do not include the last frames
     // yet. Threads that did not sleep would use the budget of hundreds of frames.
     EXPECT_LE(frames.renderer.counters().cpuMs - used, 20 * options.budgetMs);
 }
@@ -219,7 +220,8 @@ TEST(TracedRenderer, FollowsACameraThatTurnsFarEnough) {
     ASSERT_TRUE(frames.finish(first));
     for (int i = 0; i < 20; ++i)
         frames.frame(render_scenes::viewFrom(kRenderSize, i % 2 == 0 ? 20.8 : 19.2));
-    EXPECT_EQ(degreesBetween(shownView(frames.renderer), first), 0) << "0.8 degrees are not far";
+    EXPECT_EQ(degreesBetween(shownView(frames.renderer), first), 0)
+        << "0.8 degrees do not require a new picture";
     ASSERT_TRUE(frames.finish(other, 2));
     EXPECT_LT(degreesBetween(shownView(frames.renderer), other), 4);
 }
@@ -239,7 +241,7 @@ TEST(TracedRenderer, MakesTheNextPictureForAPredictedView) {
         azimuth += 0.25;
         frames.frame(render_scenes::viewFrom(kRenderSize, azimuth));
         azimuths[frames.now()] = azimuth;
-        ASSERT_TRUE(frames.seen()) << "a camera seen now and then has no rate";
+        ASSERT_TRUE(frames.seen()) << "rare frames would give no rate of motion";
         chosen = *frames.renderer.counters().shownSince;
     }
     ASSERT_TRUE(azimuths.contains(chosen));

@@ -23,7 +23,7 @@ TEST(TripleBuffer, TheReaderGetsTheNewestValue) {
 
 TEST(TripleBuffer, TheReadersValueStaysAndMemoryIsReused) {
     TripleBuffer<std::vector<int>> buffer;
-    for (int i = 0; i < 3; ++i) {  // the memory of all three slots is allocated
+    for (int i = 0; i < 3; ++i) {  // allocates the memory of all three slots
         buffer.back().assign(100, i);
         buffer.publish();
         buffer.fetch();
@@ -39,7 +39,7 @@ TEST(TripleBuffer, TheReadersValueStaysAndMemoryIsReused) {
         EXPECT_EQ(buffer.front()[99], 2);
     }
     EXPECT_TRUE(buffer.fetch());
-    EXPECT_NE(buffer.front().data(), held) << "a new one lies elsewhere";
+    EXPECT_NE(buffer.front().data(), held) << "the new value lies in another slot";
     EXPECT_EQ(buffer.front()[99], 19);
 }
 

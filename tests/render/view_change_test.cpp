@@ -56,7 +56,7 @@ TEST(ViewChange, HiddenObjectsAreIgnoredButAppearingOnesForceAChange) {
     EXPECT_TRUE(std::isinf(change(away, from)));
 }
 
-TEST(ViewChange, AnotherCameraIsAnotherView) {
+TEST(ViewChange, AnotherLensOrSizeIsAnotherView) {
     const RenderView from = viewFrom(kSize, 20);
     RenderView other = from;
     other.camera.distortion[0] = 0.01;
@@ -73,7 +73,7 @@ TEST(ViewChange, IsFiniteInsideAnObject) {
     EXPECT_FALSE(std::isnan(change(middle, middle)));
 }
 
-TEST(ObjectBalls, BallsContainAllVertices) {
+TEST(ObjectBalls, BoundingSpheresContainAllVertices) {
     const auto scene = render_scenes::stillLife();
     const std::vector<ObjectBall> balls = objectBalls(*scene);
     ASSERT_EQ(balls.size(), scene->objects.size());
@@ -110,7 +110,7 @@ TEST(LightChange, DetectsAMovingSun) {
     EXPECT_NEAR(lightChange(a, b), 0.05, 0.001);
 }
 
-TEST(SameObjects, PlaceModelAndCatcherDistinguishObjects) {
+TEST(SameObjects, PoseModelAndShadowCatcherDistinguishObjects) {
     const auto scene = render_scenes::stillLife();
     Scene other = *scene;
     other.lighting = {};

@@ -41,7 +41,7 @@ TEST(ViewPredictor, UsesTheMotionOfTheLastTenthOfASecond) {
     ViewPredictor predictor(kNoLimits);
     for (int i = 0; i <= 15; ++i)
         predictor.add(onCircle(i / 30.0, 20), Timestamp::fromSeconds(i / 30.0));
-    for (int i = 16; i <= 20; ++i)  // from here on the camera rests
+    for (int i = 16; i <= 20; ++i)  // the camera is at rest from now on
         predictor.add(onCircle(0.5, 20), Timestamp::fromSeconds(i / 30.0));
     expectNear(predictor.predict(1, kFar), onCircle(0.5, 20), 1e-9, 1e-9);
 }
@@ -55,7 +55,7 @@ TEST(ViewPredictor, PredictionStaysWithinItsLimits) {
         predictor.add(onCircle(i / 30.0, 80), Timestamp::fromSeconds(2 + i / 30.0));
     EXPECT_NEAR(angle(predictor.predict(1, kFar), onCircle(1, 80)), 5 * kDegree, 1e-6);
     const double way = (predictor.predict(1, 0.1).translation - onCircle(1, 80).translation).norm();
-    EXPECT_LE(way, 0.1 * 5 * kDegree + 1e-9) << "half a degree of a near object is not far";
+    EXPECT_LE(way, 0.1 * 5 * kDegree + 1e-9) << "half a degree around a near object is a short way";
     EXPECT_GT(way, 0.09 * 5 * kDegree);
 }
 

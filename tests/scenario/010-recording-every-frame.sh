@@ -5,7 +5,7 @@
 record run 4 --source synthetic:flat,pan
 run 0 --recording run --display png:shown --summary summary.json
 frames=$(grep -vc '^#' run/cam0/data.csv)
-[ "$frames" = 4 ] || fail "$frames frames recorded"
+[ "$frames" = 4 ] || fail "$frames frames were recorded instead of 4"
 summary_has frames 4
 summary_has mailbox 0
 summary_has exit_reason '"end of the source"'
@@ -15,4 +15,5 @@ while IFS=, read -r time _; do
     size=$(od -An -tu1 -j16 -N8 "shown/$time.png" | tr -s ' ')
     [ "$size" = " 0 0 9 0 0 0 6 192" ] || fail "picture $time is not 2304x1728:$size"
 done < <(grep -v '^#' run/cam0/data.csv)
-[ "$(find shown -type f | wc -l)" = 4 ] || fail "there are other files: $(ls shown)"
+[ "$(find shown -type f | wc -l)" = 4 ] ||
+    fail "the display's folder contains other files than four pictures: $(ls shown)"

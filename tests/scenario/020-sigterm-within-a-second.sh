@@ -4,30 +4,32 @@
 . "$(dirname "$0")/lib.sh"
 
 limit=1500
-# mfard blocks SIGHUP, SIGINT and SIGTERM as soon as it handles them itself.
+# True as soon as mfard handles SIGHUP, SIGINT and SIGTERM itself. It then blocks them, which the
+# mask of blocked signals shows.
 signals_watched() { grep -q '^SigBlk:.*4003$' "/proc/$pid/status"; }
 record run 3 --source synthetic:flat,rest
 mkfifo pipe
 
-echo "while frames come"
+echo "SIGTERM while frames arrive ends mfard"
 start --source synthetic:flat --summary summary.json
 until_true started
 kill -TERM "$pid"
 ends_with 0 $limit
 summary_has exit_reason '"SIGTERM"'
 
-echo "while recording: what was taken is written"
+echo "SIGTERM during a recording: the recording has all pictures taken until then"
 start --source synthetic:flat --record cut --summary summary.json
 until_true test -s cut/cam0/data.csv
 until_true grep -q png cut/cam0/data.csv
 kill -TERM "$pid"
 ends_with 0 $limit
 taken=$(grep -vc '^#' cut/cam0/data.csv)
-[ "$(find cut/cam0/data -name '*.png' | wc -l)" = "$taken" ] || fail "a picture is not in the list"
+[ "$(find cut/cam0/data -name '*.png' | wc -l)" = "$taken" ] ||
+    fail "the recording has pictures that are not in its data.csv"
 run 0 --recording cut --summary summary.json
 summary_has frames "$taken"
 
-echo "while waiting for a frame that comes in an hour"
+echo "SIGINT while mfard waits for a frame that comes in an hour"
 cp -r run gap
 last=$(tail -n 1 gap/cam0/data.csv)
 sed -i '$d' gap/cam0/data.csv
@@ -38,7 +40,7 @@ kill -INT "$pid"
 ends_with 0 $limit
 summary_has exit_reason '"SIGINT"'
 
-echo "while waiting for somebody who reads the display pipe"
+echo "SIGTERM while mfard waits for a program that reads the display pipe"
 start --recording run --display y4m:pipe
 until_true signals_watched
 sleep 1
@@ -60,13 +62,15 @@ start_blocked() {
     exec 3>&- # no process has the pipe open any more, so the pipe is empty again
     exec 3<>pipe
     start --recording run --display y4m:pipe --summary summary.json
-    timeout $((30 * patience)) head -c 5000 <&3 >/dev/null || fail "no picture comes"
+    timeout $((30 * patience)) head -c 5000 <&3 >/dev/null ||
+        fail "mfard writes no picture into the display pipe"
     until_true at_rest
 }
 
-echo "while the reader of the display pipe takes nothing more"
-# The threads have half a second to give up. Then mfard ends without them. On a starved machine the
-# full second is accepted, but in at least one of a few tries the threads must give up in time.
+echo "SIGTERM while the reader of the display pipe no longer reads"
+# mfard's threads have half a second to give up writing. After that, mfard ends without them. On a
+# machine without free processor time, even an end without them is accepted; but in at least one of
+# a few tries the threads must give up in time.
 for _ in $(seq "$patience"); do
     start_blocked
     kill -TERM "$pid"
@@ -77,7 +81,7 @@ for _ in $(seq "$patience"); do
 done
 says err 'not all output was written'
 
-echo "a second signal ends it at once"
+echo "a second signal ends mfard at once"
 start_blocked
 kill -TERM "$pid"
 sleep 0.05
@@ -86,16 +90,16 @@ ends_with 130 $limit
 says err 'second SIGINT'
 exec 3>&-
 
-echo "during the first milliseconds"
+echo "SIGTERM during the first milliseconds"
 start --source synthetic:flat
 sleep 0.02
 kill -TERM "$pid"
 # Until mfard handles signals itself, a signal ends it directly, which is accepted.
 code=0
 wait "$pid" || code=$?
-[ "$code" = 0 ] || [ "$code" = 143 ] || fail "ended with $code"
+[ "$code" = 0 ] || [ "$code" = 143 ] || fail "mfard ended with exit code $code instead of 0 or 143"
 
-echo "while shaders are compiled"
+echo "SIGTERM while shaders are compiled"
 for wait in 0.05 0.3 0.8; do
     MESA_SHADER_CACHE_DISABLE=true start --recording gap --engine gles --pace realtime
     until_true signals_watched
@@ -104,7 +108,7 @@ for wait in 0.05 0.3 0.8; do
     ends_with 0 $limit
 done
 
-echo "while nobody takes its messages"
+echo "SIGTERM while nobody reads mfard's messages"
 mkfifo words
 exec 4<>words
 head -c 65536 /dev/zero >&4 # fills the pipe

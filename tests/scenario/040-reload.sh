@@ -1,5 +1,6 @@
 #!/bin/bash
-# SIGHUP reads the configuration again. An invalid one must be refused; the old one stays.
+# SIGHUP makes mfard read its configuration again. An invalid configuration must be refused; mfard
+# then keeps the old one.
 . "$(dirname "$0")/lib.sh"
 
 lines() { [ "$(grep -Ec "$1" err)" -ge "$2" ]; }
@@ -17,7 +18,7 @@ sed -i 's/best/off/; s/rest"/pan"/' mfard.toml
 kill -HUP "$pid"
 until_true lines 'mfard.toml: read again; these settings change only after a restart: source$' 1
 
-echo "a number that no double holds is a fault with its place"
+echo "a number that no double can represent is refused with its place"
 cp mfard.toml good.toml
 printf '[trigger]\nmin_interval_s = 9007199254740993\n' >>mfard.toml
 kill -HUP "$pid"
@@ -27,7 +28,7 @@ rm mfard.toml
 kill -HUP "$pid"
 until_true lines 'mfard.toml: cannot be read' 1
 
-echo "a pipe is not waited for"
+echo "mfard does not wait for a pipe in the configuration's place"
 mkfifo mfard.toml
 kill -HUP "$pid"
 until_true lines 'mfard.toml: cannot be read: it is not a regular file' 1
@@ -40,7 +41,7 @@ kill -TERM "$pid"
 ends_with 0 1500
 summary_has mode '"off"'
 
-echo "without a file there is nothing to read again"
+echo "without a configuration file, SIGHUP reads nothing again"
 start --source synthetic:flat
 until_true started
 kill -HUP "$pid"

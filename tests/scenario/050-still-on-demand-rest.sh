@@ -1,5 +1,6 @@
 #!/bin/bash
-# A board at rest must take exactly one still and use it. Afterwards the picture must not change.
+# With a camera at rest, mfard must take exactly one still and use it. Afterwards the picture must
+# not change.
 . "$(dirname "$0")/lib.sh"
 
 # The run is longer than the age limit: age alone must not cause a request for a still.

@@ -10,7 +10,7 @@ broken() {
     rm -rf shown
     run "$1" --recording bad --display png:shown
     says err "$2"
-    [ "$(wc -l <err)" -le 2 ] || fail "more than a start line and one error"
+    [ "$(wc -l <err)" -le 2 ] || fail "mfard wrote more than a start line and one error"
     rm -rf bad
 }
 

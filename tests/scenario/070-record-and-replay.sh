@@ -8,25 +8,27 @@ summary_has recorder 0
 summary_has used 1
 run 0 --recording run --display png:again --summary summary.json
 summary_has frames 8
-[ "$(grep -vc '^#' run/cam0/data.csv)" = 8 ] || fail "not all frames were recorded"
-[ "$(grep -vc '^#' run/cam1/data.csv)" = 1 ] || fail "the still was not recorded"
+[ "$(grep -vc '^#' run/cam0/data.csv)" = 8 ] || fail "the recording has not 8 frames"
+[ "$(grep -vc '^#' run/cam1/data.csv)" = 1 ] || fail "the recording has not exactly one still"
 
 # The still was taken before the frame that first used it; so the replay may use it a few frames
 # earlier. Before the exposure of the still, and at the end, both runs must have the same state.
 first=$(ls live | sort -n | head -n 1)
-cmp "live/$first" "again/$first" || fail "the first picture differs"
+cmp "live/$first" "again/$first" ||
+    fail "the first picture of the replay differs from that of the live run"
 
 # The live run may have dropped frames; the recording has all of them with their poses.
-echo "its tags and the poses they gave are recorded, too"
-[ "$(grep -c '^id = ' run/tags.toml)" -ge 3 ] || fail "tags are missing"
+echo "the scene's tags and the poses from them are recorded, too"
+[ "$(grep -c '^id = ' run/tags.toml)" -ge 3 ] ||
+    fail "tags.toml of the recording has fewer than 3 tags"
 poses=run/state_groundtruth_estimate0/data.csv
-[ "$(grep -vc '^#' $poses)" -ge 8 ] || fail "poses are missing"
+[ "$(grep -vc '^#' $poses)" -ge 8 ] || fail "the recording has fewer than 8 poses"
 run 0 --recording run --summary summary.json
 says err 'poses from a map of [0-9]+ tags; '
 run 0 --recording run --pose recorded --record copy --summary summary.json
 summary_has tracked 8
 summary_has stills_tracked 1
-cmp $poses copy/${poses#run/} || fail "the poses of a replay differ"
+cmp $poses copy/${poses#run/} || fail "a recording of the replay has other poses"
 
 run 74 --recording run --record run
 says err 'not empty'

@@ -20,7 +20,7 @@ summary_has asked 0
 summary_has epipolar_frames 0
 summary_has used 1
 
-echo "a tag map that is wrong or missing is refused with its place, also by --check-config"
+echo "an invalid or missing tag map is refused with its place, also by --check-config"
 printf '[pose]\ntags = "map.toml"\n' >mfard.toml
 for check in "" --check-config; do
     run 66 --config mfard.toml $check
@@ -30,5 +30,5 @@ printf 'family = "tag36h11"\n[[tags]]\nid = 3\nsize = -0.1\n' >map.toml
 for check in "" --check-config; do
     run 65 --config mfard.toml $check
     says err 'map.toml:[0-9]+: '
-    [ "$(wc -l <err)" = 1 ] || fail "more than one message"
+    [ "$(wc -l <err)" = 1 ] || fail "mfard did not write exactly one message"
 done

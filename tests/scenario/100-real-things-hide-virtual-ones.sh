@@ -4,7 +4,7 @@
 . "$(dirname "$0")/lib.sh"
 
 "$sim" --scene office --path handheld --seconds 0.3 --stills 3 --no-truth \
-    --out run >/dev/null || fail "no recording"
+    --out run >/dev/null || fail "mfar-sim made no recording"
 
 # last NAME [ARGUMENT...]: saves the last picture of the recording. NAME.raw holds its pixels.
 last() {
@@ -32,27 +32,29 @@ says summary.json '"depth_tiles": [1-9]'
 last far --config far.toml
 near=$(differing near) far=$(differing far)
 echo "$near bytes differ with the object in front, $far with the one behind"
-[ "$near" -gt 50000 ] || fail "the object is not shown"
+[ "$near" -gt 50000 ] || fail "the object in front of the wall is not shown"
 # Cells of unknown depth do not hide anything; so specks remain at the edges of objects.
-[ "$far" -lt $((near / 50)) ] || fail "the wall does not hide what is behind it"
+[ "$far" -lt $((near / 50)) ] || fail "the wall does not hide the object behind it"
 
-echo "without a map, what stands on a tag is shown as soon as one is the world"
+echo "without a tag map, an object on a tag is shown once this tag is the origin of the world"
 cp -r run mapless
 rm mapless/tags.toml
 for id in 0 1 2 3 4 5; do printf '[[objects]]\nsize = [0.1, 0.1, 0.1]\ntag = %d\n' "$id"; done >tags.toml
 { head -n 2 near.toml; cat tags.toml; } >standing.toml
 run 0 --recording mapless --config standing.toml --display y4m:standing.y4m
 tail -c $((2304 * 1728 * 3 / 2)) standing.y4m >standing.raw
-[ "$(differing standing)" -gt 20000 ] || fail "nothing stands on the tag"
-[ "$(grep -c 'is not shown: it stands on tag' err)" = 5 ] || fail "the objects on other tags are not reported"
+[ "$(differing standing)" -gt 20000 ] || fail "the object on the tag is not shown"
+[ "$(grep -c 'is not shown: it stands on tag' err)" = 5 ] ||
+    fail "mfard did not report the 5 objects on other tags"
 
-echo "with nothing in it the configuration costs nothing"
+echo "a configuration without objects does not change the picture"
 head -n 2 near.toml >none.toml
 last none --config none.toml
 summary_has depth_tiles 0
-cmp plain.raw none.raw || fail "the picture differs without objects"
+cmp plain.raw none.raw ||
+    fail "without objects the picture differs from that without the configuration"
 
-echo "objects are read again on SIGHUP"
+echo "SIGHUP reads the objects again"
 cp none.toml live.toml
 start --source synthetic:office,rest --config live.toml --display png:live --summary summary.json
 until_true started
@@ -64,7 +66,7 @@ kill -TERM "$pid"
 ends_with 0 1500
 says summary.json '"depth_tiles": [1-9]'
 
-echo "a wrong object is refused with its place"
+echo "an invalid object is refused with its place"
 echo 'size = [0, 1, 1]' >>near.toml
 sed -i '/^size = \[0.1/d' near.toml
 run 78 --recording run --config near.toml

@@ -20,7 +20,8 @@ start --config mfard.toml --display png:frames --summary summary.json --seconds 
 ends_with 0 6000
 says err 'warning: video camera: '
 says err 'still camera: .*no such card'
-[ "$(find frames -name '*.png' | wc -l)" -ge 5 ] || fail "no picture shows the message"
+[ "$(find frames -name '*.png' | wc -l)" -ge 5 ] ||
+    fail "mfard showed fewer than 5 pictures with the message"
 summary_has frames 0
 summary_has faults 1
 
@@ -30,7 +31,8 @@ says err 'no such chip'
 sed -i '/trigger/,$d' mfard.toml
 run 0 --config mfard.toml --release-trigger
 
-# A missing calibration, or one of other sizes, is an error for which mfard does not wait.
+# A calibration that is missing or has other picture sizes is an error. mfard does not wait for it
+# to disappear, unlike with missing devices.
 sed -i '1a [cameras]\ncalibration = "lenses"' mfard.toml
 run 66 --config mfard.toml
 says err 'lenses'

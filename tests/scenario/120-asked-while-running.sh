@@ -9,7 +9,8 @@ refused() {
     local code=$1 got=0
     shift
     timeout -s KILL $((60 * patience)) "$ctl" --socket control "$@" >answer 2>err.ctl || got=$?
-    [ "$got" = "$code" ] || fail "mfarctl $* ended with $got instead of $code: $(cat err.ctl)"
+    [ "$got" = "$code" ] ||
+        fail "mfarctl $* ended with exit code $got instead of $code: $(cat err.ctl)"
 }
 asks() { refused 0 "$@"; }
 
@@ -29,7 +30,7 @@ says answer '^fault +null$'
 run 69 --source synthetic:flat --control control --frames 1
 says err 'another process listens'
 
-echo "the picture"
+echo "mfarctl snapshot writes the shown picture"
 shows() { ls frames/*.png >/dev/null 2>&1; }
 until_true shows
 asks snapshot picture.png
@@ -39,14 +40,14 @@ file=$(od -An -tx1 -N8 picture.png | tr -d ' ')
 refused 1 snapshot --screen x.png
 says err.ctl 'there is no screen'
 
-echo "a still that nothing else requests"
+echo "mfarctl trigger requests a still that nothing else requests"
 asks stats
 says answer '"triggered": 0'
 asks trigger
 received() { asks stats && grep -q '"received": 1' answer; }
 until_true received
 
-echo "the configuration"
+echo "mfarctl reload reads the configuration again"
 sed -i '/superres/,$s/off/detail/' mfard.toml
 asks reload
 says answer 'mfard.toml: read again'
@@ -56,7 +57,7 @@ echo 'nonsense = 1' >mfard.toml
 refused 1 reload
 says err.ctl 'mfard.toml:1:1'
 
-echo "a recording"
+echo "mfarctl record starts and ends a recording"
 refused 1 record ../outside
 asks record walk
 refused 1 record again
@@ -65,10 +66,11 @@ until_true grep -q png walk/cam0/data.csv
 asks record --stop
 says answer '^video +[1-9]'
 taken=$(sed -n 's/^video *//p' answer)
-[ "$(grep -vc '^#' walk/cam0/data.csv)" -ge "$taken" ] || fail "not all pictures are in the list"
+[ "$(grep -vc '^#' walk/cam0/data.csv)" -ge "$taken" ] ||
+    fail "data.csv of the recording lists fewer pictures than mfarctl reports"
 refused 1 record --stop
 
 kill -TERM "$pid"
 ends_with 0 3000
-[ ! -e control ] || fail "the socket is still there"
+[ ! -e control ] || fail "the control socket still exists after the end"
 run 0 --recording walk --summary summary.json

@@ -7,19 +7,19 @@
 has_report() {
     local pattern
     for pattern in '^<!DOCTYPE html>' '^</html>$' "$@"; do says run.html "$pattern"; done
-    [ "$(find . -name '*.part' | wc -l)" = 0 ] || fail "a temporary file is left"
+    [ "$(find . -name '*.part' | wc -l)" = 0 ] || fail "a temporary file *.part is left"
 }
 
-echo "a run that ends by itself"
+echo "the report of a run that ends by itself"
 run 0 --source synthetic:office --pace consumer --display none --frames 12 --engine simd \
     --summary summary.json --report run.html
 has_report '<tr><th>frames</th><td>12</td></tr>' 'Time of each stage' 'flow \[ms\]' \
     'alt="last picture shown" src="data:image/jpeg;base64,/9j/' \
     'alt="last still used" src="data:image/jpeg;base64,/9j/'
 summary_has frames 12
-[ "$(stat -c %s run.html)" -lt 500000 ] || fail "the page is too large"
+[ "$(stat -c %s run.html)" -lt 500000 ] || fail "run.html has 500000 bytes or more"
 
-echo "a run that a signal ends"
+echo "the report of a run that a signal ends"
 start --source synthetic:flat --display none --report run.html
 until_true started
 has_report 'the run has not ended'
@@ -27,10 +27,10 @@ kill -TERM "$pid"
 ends_with 0 1500
 has_report SIGTERM
 
-echo "a run that fails"
+echo "the report of a run that fails"
 run 66 --recording absent --display none --report run.html
 has_report 'error: .*absent'
 
-echo "a page that cannot be written"
+echo "a report that cannot be written ends mfard with an error"
 run 74 --source synthetic:flat --display none --frames 1 --report absent/run.html
 says err 'the report cannot be written: absent/run.html: No such file or directory'

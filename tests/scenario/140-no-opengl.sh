@@ -7,7 +7,7 @@
 record take 3 --source synthetic:flat --display none
 run 0 --recording take --frames 2 --engine simd --display png:with
 
-# The dynamic linker takes the first file of a name. It fails if that is not a library.
+# The dynamic linker loads the first file with a library's name. It fails if that is no library.
 mkdir hidden
 for library in libEGL.so.1 libGLESv2.so.2; do
     : >"hidden/$library"
@@ -16,11 +16,11 @@ for library in libEGL.so.1 libGLESv2.so.2; do
     run 0 --check-config
     missing="$library cannot be loaded: .*; install libegl1 and libgles2, or use the SIMD engine"
     for needing in "--recording take --engine gles" "--source synthetic:flat"; do
-        # shellcheck disable=SC2086 # a list of words
+        # shellcheck disable=SC2086 # $needing is a list of words
         run 69 $needing --frames 1 --display png:refused
         says err "error: (synthetic:flat: )?$missing"
     done
-    [ ! -e refused ] || fail "there are pictures"
+    [ ! -e refused ] || fail "mfard wrote pictures although it refused to run"
     for engine in auto simd; do
         run 0 --recording take --frames 2 --engine $engine --display "png:shown-$engine"
         says err "engine simd"

@@ -4,9 +4,9 @@
 . "$(dirname "$0")/lib.sh"
 
 "$sim" --scene office --path handheld --seconds 1.5 --stills 3 --no-truth \
-    --out run >/dev/null || fail "no recording"
+    --out run >/dev/null || fail "mfar-sim made no recording"
 
-# The dynamic linker takes the first file of a name. It fails if that is not a library.
+# The dynamic linker loads the first file with a library's name. It fails if that is no library.
 mkdir hidden
 : >hidden/libEGL.so.1
 : >hidden/libGLESv2.so.2
@@ -39,10 +39,11 @@ sed 's/"preview"/"path-traced"\nresolution = 0.1\nsamples = 1\nbudget_ms = 60/' 
 
 last preview --config preview.toml
 says err "warning: previews of virtual objects need OpenGL ES 3.1 and are not shown: "
-[ "$(differing preview)" = 0 ] || fail "the picture without the preview differs"
+[ "$(differing preview)" = 0 ] ||
+    fail "the picture differs from that without objects, although the preview cannot be shown"
 
 last traced --config traced.toml
-! grep -q "are not shown" err || fail "path-traced objects are called missing"
+! grep -q "are not shown" err || fail "mfard reports that path-traced objects are not shown"
 shown=$(differing traced)
 echo "$shown bytes differ with the path-traced object"
 [ "$shown" -gt 50000 ] || fail "the path-traced object is not shown"

@@ -11,20 +11,21 @@ stills() { sed -n 's/.*"stills_learned": \([0-9]*\),*/\1/p' summary.json; }
 
 learn --frames 6
 first=$(stills)
-[ "$first" -ge 1 ] || fail "no still was learned from"
+[ "$first" -ge 1 ] || fail "filters were not learned from any still"
 file=$(ls state/filters-*.learned)
 
-echo "after a restart"
+echo "after a restart, learning continues with the stored filters"
 learn --frames 6
-[ "$(stills)" -gt "$first" ] || fail "learning began anew"
+[ "$(stills)" -gt "$first" ] ||
+    fail "learning began anew instead of continuing with the stored filters"
 
-echo "a file of filters that is cut off is reported and replaced"
+echo "a truncated file of filters is reported and replaced"
 truncate -s 5000 "$file"
 learn --frames 6
 says err 'filters-.*\.learned: .*; learning starts again'
-[ "$(stills)" = "$first" ] || fail "$(stills) stills instead of $first"
+[ "$(stills)" = "$first" ] || fail "filters were learned from $(stills) stills instead of $first"
 learn --frames 1
-if grep -q 'learning starts again' err; then fail "the file was not replaced"; fi
+if grep -q 'learning starts again' err; then fail "the truncated file was not replaced"; fi
 
 echo "nothing is learned when learning is switched off"
 printf '[superres]\nlearn = false\n' >>mfard.toml
@@ -32,15 +33,15 @@ learn --frames 6
 summary_has stills_learned 0
 sed -i '/superres/,$d' mfard.toml
 
-echo "shaders learn, too"
+echo "filters are also learned while the GLES engine draws"
 sed -i 's/"simd"/"gles"/' mfard.toml
 mv "$file" kept
 learn --frames 10
-[ "$(stills)" -ge 1 ] || fail "no still was learned from"
+[ "$(stills)" -ge 1 ] || fail "filters were not learned from any still"
 sed -i 's/"gles"/"simd"/' mfard.toml
 mv kept "$file"
 
-echo "what was learned is deleted on request"
+echo "mfarctl learn reset deletes the learned filters"
 start --config mfard.toml --source synthetic:office,rest --control control
 until_true started
 "$ctl" --socket control status >answer

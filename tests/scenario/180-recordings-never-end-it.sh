@@ -12,7 +12,8 @@ goes_on() {
     more() { [ "$(frames)" -gt $((shown + 5)) ]; }
     until_true more
 }
-# A still would fill a short recording before it has a frame to replay.
+# A still would reach a recording's size limit before the recording has a frame that can be
+# replayed.
 quiet='source = "synthetic:flat,rest"
 [superres]
 mode = "off"
@@ -25,7 +26,7 @@ stop_it() {
     ends_with 0 3000
 }
 
-echo "two starts, two folders"
+echo "two starts record into two folders"
 echo "$quiet" >mfard.toml
 run 0 --config mfard.toml --check-config
 for count in 1 2; do
@@ -36,10 +37,11 @@ for count in 1 2; do
     named() { status | grep -Eq '^recording +films/[0-9]{8}-[0-9]{6}(-[0-9]+)?$'; }
     until_true named
     stop_it
-    [ "$(find films -mindepth 1 -maxdepth 1 | wc -l)" = "$count" ] || fail "not $count folders"
+    [ "$(find films -mindepth 1 -maxdepth 1 | wc -l)" = "$count" ] ||
+        fail "there are not $count folders of recordings"
 done
 
-echo "a recording that has become too large"
+echo "a recording that becomes too large ends; mfard continues"
 rm -rf films
 printf '%s\nmost_mb = 0.05\n' "$quiet" >mfard.toml
 start --config mfard.toml --control control
@@ -55,7 +57,7 @@ stop_it
 run 0 --recording films/* --frames 1
 run 0 --recording more --frames 1
 
-echo "a recording on a full disk, and a recording without a folder"
+echo "mfard continues if the disk is full or the folder of recordings cannot be made"
 printf '%s\nleast_free_mb = 1e9\n' "$quiet" >mfard.toml
 start --config mfard.toml --control control
 ended() { grep -q 'the recording has ended: films/.*MB are free on the disk' err; }

@@ -7,7 +7,7 @@ ctl="$(dirname "$sim")/mfarctl"
 pretended=$3
 pretended_cameras
 
-# says_of CAMERA WORD...: sets the faults that the camera has from now on.
+# says_of CAMERA FAULT...: sets the faults that the pretended camera has from now on.
 says_of() {
     local camera=$1
     shift
@@ -32,7 +32,7 @@ stats() { timeout -s KILL 30 "$ctl" --socket control stats >stats.json 2>err.ctl
 # shows_pictures COUNT: true after at least this many pictures since the start.
 shows_pictures() { status && [ "$(awk '$1 == "frames" {print $2}' answer)" -ge "$1" ] 2>/dev/null; }
 goes_on() {
-    status || fail "mfard does not answer"
+    status || fail "mfard does not answer mfarctl status"
     until_true shows_pictures $(($(awk '$1 == "frames" {print $2}' answer) + 20))
 }
 fault_is() { status && grep -Eq "^fault +$1" answer; }
@@ -51,12 +51,12 @@ until_true fault_is null
 says_of video91 hang
 until_true fault_is 'still camera: its driver does not answer'
 goes_on
-echo "the still driver that hangs does not delay the end"
+echo "the still driver that hangs does not delay the end of mfard"
 stop_now 1500
 summary_has exit_code 0
 says_of video91
 
-echo "it comes back"
+echo "the still camera works again"
 begin
 says_of video91 hang
 until_true fault_is 'still camera: its driver does not answer'
@@ -78,13 +78,14 @@ says_of video90
 until_true fault_is null
 goes_on
 
-echo "the video camera repeats one picture for ever"
+echo "a video camera that repeats one picture is reported"
 says_of video90 repeat
 until_true warned 'video camera: repeats the same picture'
 says_of video90
 goes_on
 stats
-awk -v age="$(counts video distinct_age_s)" 'BEGIN {exit !(age < 1)}' || fail "no new picture"
+awk -v age="$(counts video distinct_age_s)" 'BEGIN {exit !(age < 1)}' ||
+    fail "the video camera has sent no new picture for a second"
 
 echo "frames that are broken, short, or of another time are counted and not shown"
 says_of video90 error 3 short 5 backward 7 future 11
@@ -93,7 +94,7 @@ until_true at_least video bad_times 10
 goes_on
 says_of video90
 
-echo "numbers that are left out are counted exactly, numbers that begin anew are no gap"
+echo "missing frame numbers are counted exactly; frame numbers that begin anew are no gap"
 stats
 before=$(counts video missed)
 says_of video90 skip 12
@@ -102,15 +103,16 @@ says_of video90 restart
 goes_on
 stats
 [ "$(counts video missed)" = $((before + 12)) ] ||
-    fail "missed $(counts video missed), before $before, left out 12"
+    fail "mfard counts $(counts video missed) missed frames; expected: 12 more than the $before before"
 stop_now 1500
 
-echo "a camera at half its rate drops nothing and is named"
+echo "a camera with half its configured rate is reported, but its frames do not count as missed"
 says_of video90 rate 15
 begin
 until_true warned 'video camera: sends 1[45]\.[0-9] frames per second instead of the configured 30'
 stats
-[ "$(counts video missed)" -le 3 ] || fail "missed $(counts video missed) at half the rate"
+[ "$(counts video missed)" -le 3 ] ||
+    fail "$(counts video missed) missed frames of a camera with half its rate; limit: 3"
 stop_now 1500
 
 echo "a driver with few buffers is used"
@@ -124,7 +126,7 @@ for buffers in 1 3; do
     stop_now 1500
 done
 
-echo "a camera that is absent at boot: the other one runs and is not blamed"
+echo "a camera is absent at boot: the other camera runs and is not blamed"
 for absent in video still; do
     device=video90
     [ $absent = video ] || device=video91
@@ -135,12 +137,14 @@ for absent in video still; do
     start --config mfard.toml --display none --control control --summary summary.json
     unset LD_PRELOAD MFAR_PRETENDED_V4L2
     until_true started
-    [ $(($(milliseconds) - begun)) -le $((5000 * patience)) ] || fail "not ready within 5 s"
+    [ $(($(milliseconds) - begun)) -le $((5000 * patience)) ] ||
+        fail "mfard was not ready within 5 s times MFAR_PATIENCE ($patience)"
     other=still
     [ $absent = video ] || other=video
     until_true at_least $other delivered 3
     until_true fault_is "$absent camera: .*$device"
-    status && grep -q "^fault .*$other camera" answer && fail "the $other camera is blamed"
+    status && grep -q "^fault .*$other camera" answer &&
+        fail "status reports a fault of the $other camera"
     [ $absent = video ] || goes_on
     touch cameras/$device
     until_true fault_is null

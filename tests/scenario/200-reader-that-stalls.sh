@@ -24,20 +24,20 @@ until_true more
 until_true status_says '^line .*the reader of the pipe accepts no data.* [0-9]+ not written'
 says err 'warning: y4m:pipe: the reader of the pipe accepts no data \(degraded'
 
-echo "it reads again"
+echo "the reader reads again: mfard's state is ok"
 cat <pipe >/dev/null 3>&- &
 reader=$!
 pids+=("$reader")
 until_true status_says '"state":"ok"'
 
-echo "and goes away"
+echo "the reader closes the pipe: mfard ends with exit code 74"
 exec 3>&-
 kill -KILL "$reader"
 ends_with 74 10000
 says err 'pipe: the reading program has closed the pipe'
 says summary.json '"display": [1-9]'
 
-echo "a recording waits"
+echo "the replay of a recording waits for the reader; SIGTERM ends it"
 exec 3<>pipe
 start --recording run --display y4m:pipe --control control 3>&-
 until_true status_says 'waiting for the reader of the pipe'

@@ -25,14 +25,14 @@ run 69 "${missing[@]}"
 says err 'mfard failed 3 times in a row; it exits in 3 s, then systemd restarts it'
 says heard '^STATUS=.*nowhere/control: No such file or directory; restart in 3 s'
 
-echo "SIGTERM does not wait"
+echo "SIGTERM ends mfard at once while it waits before a restart"
 start "${missing[@]}"
 waits() { grep -q 'mfard failed 4 times in a row; it exits in 7 s' err; }
 until_true waits
 kill -TERM "$pid"
 ends_with 69 1500
 
-echo "a wrong configuration is not started again"
+echo "after a usage or configuration error, mfard announces no restart"
 run 64 --no-such-option
 grep -q 'systemd restarts it' err && fail "mfard announces a restart, which would not help"
 echo "nonsense = 1" >bad.toml

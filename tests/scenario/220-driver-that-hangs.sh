@@ -28,7 +28,7 @@ is_fed() {
 is_hungry() {
     before=$(meals)
     sleep 4
-    fed 0 && fail "the watchdog is fed while $1"
+    fed 0 && fail "mfard still notifies the watchdog although $1"
     true
 }
 
@@ -41,29 +41,29 @@ start_hangable() {
     until_true frames
 }
 
-echo "the video driver hangs"
+echo "the video driver hangs: status and messages name the thread; the watchdog starves"
 start_hangable
 is_fed
 echo hang >cameras/video90
 until_true status_says 'health.*"state":"stalled","cause":"the .*capture thread hangs"'
-status_says '"thread":".*capture"' || fail "the thread is not named"
+status_says '"thread":".*capture"' || fail "status does not name the capture thread"
 until_true heard '^STATUS=the .*capture thread hangs \(stalled for [0-9.]+ s, last picture [0-9.]+ s ago\)'
 says err 'warning: the .*capture thread hangs \(stalled for'
 is_hungry "the driver hangs"
 
-echo "the driver returns after all"
+echo "the driver's call returns after all: mfard notifies the watchdog again"
 : >cameras/video90
 until_true status_says '"state":"ok"'
 is_fed
 
-echo "SIGTERM while the driver hangs"
+echo "SIGTERM ends mfard while the driver hangs"
 echo hang >cameras/video90
 until_true status_says '"state":"stalled"'
 kill -TERM "$pid"
 ends_with 0 1500
 : >cameras/video90
 
-echo "SIGTERM while the devices are being opened, and do not answer"
+echo "SIGTERM ends mfard while the drivers hang at opening the devices"
 echo hang-open >cameras/video90
 echo hang-open >cameras/video91
 LD_PRELOAD=$pretended start --config mfard.toml --display none
@@ -73,7 +73,7 @@ ends_with 0 1500
 : >cameras/video90
 : >cameras/video91
 
-echo "a run of some seconds ends in time, too, and so does one of some frames"
+echo "runs with a limit of seconds or of frames end in time although a driver hangs"
 LD_PRELOAD=$pretended start --config mfard.toml --display none --seconds 2 --summary summary.json
 until_true started
 echo hang >cameras/video90
@@ -93,12 +93,13 @@ mkdir state
 echo hang >cameras/video91
 LD_PRELOAD=$pretended STATE_DIRECTORY=$PWD/state start --config mfard.toml --display y4m:pipe \
     --summary summary.json
-timeout $((30 * patience)) head -c 5000 <pipe >/dev/null || fail "no picture comes"
+timeout $((30 * patience)) head -c 5000 <pipe >/dev/null ||
+    fail "mfard writes no picture into the display pipe"
 ends_with 74 6000
 : >cameras/video91
 says summary.json '"exit_code": 74'
 
-echo "waiting for a camera that is absent counts as alive"
+echo "mfard notifies the watchdog while it waits for an absent camera"
 sed -i 's/video90/video92/' mfard.toml
 LD_PRELOAD=$pretended start --config mfard.toml --display none --control control
 until_true started

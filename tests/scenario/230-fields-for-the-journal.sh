@@ -12,8 +12,8 @@ id() { sed -n "s/^constexpr std::string_view $1 = \"\(.*\)\";/\1/p" "$ids"; }
 "$listener" socket heard &
 pids+=($!)
 until_true test -S socket
-# True if one message has both fields. An empty line ends each message. The length of a text
-# precedes it if it has several lines.
+# True if one message in the file `heard` has both fields. An empty line ends each message. A text
+# of several lines is preceded by its length.
 heard() {
     tr '\0' ' ' <heard |
         awk -v RS= -v a="$1" -v b="$2" '$0 ~ a && $0 ~ b {found = 1} END {exit !found}'
@@ -31,15 +31,17 @@ start_service() {
 start_service socket
 until_true heard "MESSAGE_ID=$(id kStarted)" 'MESSAGE=engine '
 until_true heard "MESSAGE_ID=$(id kDegraded)" 'MFAR_CAMERA=video'
-heard 'warning: .*video camera: ' 'MFAR_COUNT=1' || fail "the camera is not named"
-heard 'PRIORITY=4' 'SYSLOG_IDENTIFIER=mfard' || fail "no priority"
+heard 'warning: .*video camera: ' 'MFAR_COUNT=1' ||
+    fail "the warning does not name the video camera"
+heard 'PRIORITY=4' 'SYSLOG_IDENTIFIER=mfard' ||
+    fail "a message has no PRIORITY=4 or no SYSLOG_IDENTIFIER=mfard"
 kill -HUP "$pid"
 until_true heard "MESSAGE_ID=$(id kReloaded)" 'MESSAGE=mfard.toml: read again'
 kill -TERM "$pid"
 ends_with 0 1500
-[ ! -s err ] || fail "standard error is used, too"
+[ ! -s err ] || fail "mfard writes messages also to standard error"
 
-echo "without a journal"
+echo "without a journal, messages go to standard error"
 start_service nowhere
 until_true started
 says err '^<5>mfard: engine '

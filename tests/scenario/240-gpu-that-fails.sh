@@ -27,10 +27,10 @@ begin() {
         MFAR_FAULTY_GL=$PWD/gl start --config mfard.toml --display none \
         --control control --summary summary.json "$@"
     until_true frames 12
-    status_says '"state":"ok"' || fail "the state is not ok"
+    status_says '"state":"ok"' || fail "the state in mfard's status is not ok"
 }
 
-echo "the OpenGL ES context is lost"
+echo "the OpenGL ES context is lost: mfard restarts the GPU"
 begin --engine gles --mode detail
 gpu_says "lost once"
 until_true failed_times 1
@@ -39,14 +39,14 @@ until_true status_says \
 goes_on
 until_true says err 'the GPU failed and was restarted \(.*\); the restart took [0-9]{1,4} ms'
 
-echo "the GPU does not finish a picture"
+echo "the GPU does not finish a picture: mfard restarts the GPU"
 gpu_says never
 until_true failed_times 2
 gpu_says ""
 goes_on
 status_says '"cause":"the GPU failed and was restarted \(the GPU does not finish a picture\)"' ||
-    fail "the hang is not reported"
-status_says '^engine +gles' || fail "the GLES engine does not draw any more"
+    fail "status does not report that the GPU did not finish a picture"
+status_says '^engine +gles' || fail "status does not report that the GLES engine draws"
 control snapshot before.png
 
 echo "after the third failure the CPU draws"
@@ -54,8 +54,8 @@ gpu_says "lost again"
 until_true status_says '^engine +simd'
 goes_on
 status_says '"state":"degraded","cause":"the GPU failed 3 times within a minute, so the CPU draws now' ||
-    fail "health does not say that the CPU draws"
-status_says '^renderer +without OpenGL ES' || fail "the status still names a renderer"
+    fail "the health in the status does not report that the CPU draws"
+status_says '^renderer +without OpenGL ES' || fail "status still names a renderer of OpenGL ES"
 control snapshot after.png
 ! cmp -s before.png after.png || fail "the picture does not say that the CPU draws"
 kill -TERM "$pid"
@@ -63,7 +63,7 @@ ends_with 0 1000
 summary_has gpu_failures 3
 summary_has engine '"simd"'
 
-echo "a context that is lost as soon as it is made"
+echo "if every context is lost as soon as it is made, the CPU draws"
 begin --engine gles
 gpu_says broken
 until_true status_says '^engine +simd'
@@ -71,7 +71,7 @@ goes_on
 kill -TERM "$pid"
 ends_with 0 1000
 
-echo "a driver that does not return from drawing is named, and holds up no run of some seconds"
+echo "a driver that does not return from drawing is reported; a run with a time limit still ends"
 begin --engine gles --seconds 4
 gpu_says hang
 until_true status_says '"state":"stalled","cause":"the picture thread hangs"'

@@ -35,15 +35,17 @@ ends_with 0 1500
 summary_has faults 1 # waited until the cameras were open
 summary_has bad_times 0
 summary_has broken 0
-if grep -q 'warning' err; then fail "mfard warns"; fi
+if grep -q 'warning' err; then fail "mfard wrote a warning: $(grep warning err)"; fi
 
-echo "what was recorded is in order, and the next recording has a folder of its own"
+echo "the recorded times rise, and the next recording has a folder of its own"
 film=$(echo films/*)
 grep -v '^#' "$film/cam0/data.csv" | cut -d, -f1 >times
 sort -n -u times | cmp - times || fail "the times of the recording do not rise"
-[ "$(wc -l <times)" -ge 60 ] || fail "only $(wc -l <times) pictures are recorded"
+[ "$(wc -l <times)" -ge 60 ] ||
+    fail "only $(wc -l <times) pictures were recorded; expected: 60 or more"
 step 315360000
 begin
 kill -TERM "$pid"
 ends_with 0 1500
-[ "$(find films -mindepth 1 -maxdepth 1 | wc -l)" = 2 ] || fail "not two folders"
+[ "$(find films -mindepth 1 -maxdepth 1 | wc -l)" = 2 ] ||
+    fail "there are not two folders of recordings"

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# mfard is killed at random moments, again and again, also during a pulse. Each start must show its
-# first picture within five seconds and replace the control socket of the dead process. The hook
-# that systemd runs after a crash must release the trigger line. Every recording must be readable.
-# Usage: 260-killed-at-random.sh MFARD MFAR-SIM PRETENDED.so [TIMES]
+# mfard is killed at random moments, again and again, also during a trigger pulse. Each start must
+# show its first picture within five seconds and replace the control socket of the dead process. The
+# hook that systemd runs after a crash must release the trigger line. Every recording must be
+# readable. Usage: 260-killed-at-random.sh MFARD MFAR-SIM PRETENDED.so [TIMES]
 . "$(dirname "$0")/lib.sh"
 
 pretended=$3
@@ -43,7 +43,8 @@ for round in $(seq "$times"); do
     if [ $((round % 2)) = 0 ]; then
         until_true shows_pictures
         took=$(($(milliseconds) - begun))
-        [ $took -le $((5000 * patience)) ] || fail "round $round: first picture after $took ms"
+        [ $took -le $((5000 * patience)) ] ||
+            fail "round $round: the first picture came only after $took ms"
     fi
     if [ $((round % 4)) = 0 ]; then
         until_true records
@@ -57,7 +58,7 @@ for round in $(seq "$times"); do
     unset LD_PRELOAD
     if is_active; then fail "round $round: the trigger line is still active"; fi
 done
-[ $active -ge $((times / 10)) ] || fail "only $active kills were in a pulse"
+[ $active -ge $((times / 10)) ] || fail "only $active kills happened during a trigger pulse"
 begin
 until_true shows_pictures
 kill -TERM "$pid"
@@ -69,5 +70,5 @@ for film in films/*; do
     run 0 --recording "$film" --frames 1
     readable=$((readable + 1))
 done
-echo "$times kills, $active of them in a pulse, $readable recordings with pictures"
-[ $readable -ge $((times / 4)) ] || fail "only $readable recordings have pictures"
+echo "$times kills, $active of them during a trigger pulse; $readable readable recordings with pictures"
+[ $readable -ge $((times / 4)) ] || fail "only $readable recordings are readable and have pictures"

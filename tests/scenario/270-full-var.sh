@@ -5,12 +5,12 @@
 # file system can be mounted.
 if [ -z "${MFAR_MOUNTS:-}" ]; then
     for how in "--mount" "--mount --map-root-user"; do
-        # shellcheck disable=SC2086
+        # shellcheck disable=SC2086 # $how is a list of options
         if unshare $how mount -t tmpfs none /mnt 2>/dev/null; then
             MFAR_MOUNTS=1 exec unshare $how "$0" "$@"
         fi
     done
-    echo "no file system can be mounted"
+    echo "no file system can be mounted on this machine"
     exit 77
 fi
 . "$(dirname "$0")/lib.sh"
@@ -50,7 +50,7 @@ begin() {
     until_true started
 }
 
-echo "the disk becomes full during a recording"
+echo "the disk becomes full during a recording: the recording ends"
 begin
 film=$(until_true test -d var/films && ls -d var/films/*)
 listed() { [ "$(grep -c '^[0-9]' "$film/cam0/data.csv" 2>/dev/null)" -gt 3 ]; }
@@ -59,7 +59,7 @@ fill
 no_room='(the disk is full|No space left)'
 ended() { grep -Eq "the recording has ended: .*${film#var/}.*$no_room" err; }
 until_true ended
-is_full || fail "there is room"
+is_full || fail "the disk is not full"
 goes_on
 says <(status) '^recording +null$'
 
@@ -71,7 +71,7 @@ ends_with 0 1500
 run 0 --recording "${film#var/}" --frames 1
 says err 'first picture'
 
-echo "the disk is full from the start"
+echo "the disk is full from the start: nothing is recorded"
 fill
 begin
 refused() { grep -Eq "(nothing is recorded|the recording has ended): .*$no_room" err; }
@@ -80,7 +80,7 @@ goes_on
 kill -TERM "$pid"
 ends_with 0 1500
 
-echo "the disk has space again"
+echo "the disk has space again: mfard records"
 rm -f var/fill
 begin
 until_true listed
@@ -94,10 +94,10 @@ printf '[engine]\nuse = "simd"\n[trigger]\nmode = "rate"\nrate_hz = 10.0\nmin_in
 fill
 run 0 --config "$work/learn.toml" --source synthetic:office --pace consumer --frames 6 --display none
 says err 'warning: .*filters-.*: No space left.*; learned filters cannot be written'
-[ -z "$(ls var/state)" ] || fail "a part of a file is left"
+[ -z "$(ls var/state)" ] || fail "a part of a file is left in var/state"
 
-echo "a log file that is full ends nothing"
-is_full || fail "there is room"
+echo "mfard continues if its log file cannot grow"
+is_full || fail "the disk is not full"
 sed -i '/^\[record\]/,$d' mfard.toml
 LD_PRELOAD=$pretended MFAR_PRETENDED_V4L2=$PWD/cameras "$mfard" --config "$work/mfard.toml" \
     --display none --control "$work/control" 2>var/log >/dev/null &

@@ -1,14 +1,15 @@
 #!/usr/bin/env bash
 # The power is cut while mfard records on a real file system. All writes to its disk are logged, and
-# disks are built as cuts at random moments would leave them. Each disk must be mountable and have
-# everything that was safe; every picture in the recording's list must be readable. Usage:
+# disks are built as cuts at random moments would leave them. Each disk must be mountable and hold
+# everything that was synchronised before the cut. Every picture in the recording's list must be
+# readable. Usage:
 # 280-power-is-cut.sh MFARD MFAR-SIM PRETENDED.so [CUTS]. Exit status 77: root, loop devices,
 # qemu-storage-daemon or FUSE are missing.
 for needed in qemu-storage-daemon mkfs.ext4 losetup python3; do
     command -v $needed >/dev/null || { echo "$needed is not installed" && exit 77; }
 done
 if [ "$(id -u)" != 0 ] || [ ! -e /dev/fuse ] || [ ! -e /dev/loop-control ]; then
-    echo "no file system can be mounted"
+    echo "no file system can be mounted on this machine"
     exit 77
 fi
 if [ -z "${MFAR_MOUNTS:-}" ]; then MFAR_MOUNTS=1 exec unshare --mount "$0" "$@"; fi
@@ -34,7 +35,7 @@ pids+=($!)
 exported() { [ -s shown ]; }
 until_true exported
 loop=$(losetup --find --show shown)
-# By default, ext4 would write everything every five seconds.
+# With the default, ext4 would write all data every five seconds, even if mfard did not synchronise.
 mount -t ext4 -o commit=300 "$loop" disk
 
 export STATE_DIRECTORY=$PWD/state
@@ -63,9 +64,11 @@ for cut in $(seq "$cuts"); do
     mount -t ext4 -o loop cut.img after || fail "cut $cut: the file system cannot be mounted"
     film=$(ls -d after/films/* 2>/dev/null || true)
     rows=0
-    # The list may end with rows whose data was not written; they do not look like rows.
+    # The list's file may be longer than the data that was written. Its end then holds other bytes,
+    # which do not look like rows.
     if [ -n "$film" ]; then rows=$(grep -acE '^[0-9]+,[0-9]+\.png$' "$film/cam0/data.csv" || true); fi
-    [ "$rows" -ge "$safe" ] || fail "cut $cut: $rows pictures are left, $safe were safe"
+    [ "$rows" -ge "$safe" ] ||
+        fail "cut $cut: the list has $rows pictures, but $safe were synchronised before the cut"
     if [ "$rows" -gt 0 ]; then
         run 0 --recording "$film" --pace consumer --display none --summary summary.json
         summary_has frames "$rows"
@@ -73,5 +76,5 @@ for cut in $(seq "$cuts"); do
     fi
     umount after
 done
-echo "$cuts cuts, $readable recordings with pictures"
-[ $readable -ge $((cuts / 2)) ] || fail "only $readable recordings have pictures"
+echo "$cuts cuts; $readable readable recordings with pictures"
+[ $readable -ge $((cuts / 2)) ] || fail "only $readable recordings are readable and have pictures"

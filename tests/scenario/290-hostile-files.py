@@ -17,10 +17,10 @@ import zlib
 from pathlib import Path
 
 MB = 1 << 20
-LEAST_MB = 64  # the smallest budget that can be configured
+LEAST_MB = 64  # smallest value of limits.memory_mb
 RUNNING_MB = 128
-LONGEST = 20 * float(os.environ.get('MFAR_PATIENCE', '1'))  # s
-# Exit codes of daemon/exit_code.h: data, input, configuration.
+LONGEST = 20 * float(os.environ.get('MFAR_PATIENCE', '1'))  # largest duration of a run [s]
+# Exit codes of daemon/exit_code.h: BadData, NoInput, BadConfig.
 REFUSED = (65, 66, 78)
 
 mfard = os.path.abspath(sys.argv[1])
@@ -31,7 +31,7 @@ def chunk(name, data):
 
 
 def png(width, height, between=b'', depth=8):
-    """All black, RGB."""
+    """A black RGB picture. `between`: further chunks in front of the pixels."""
     pack = zlib.compressobj(9)
     row = bytes(1 + 3 * width * depth // 8)
     data = b''.join(pack.compress(row) for _ in range(height)) + pack.flush()
@@ -40,7 +40,7 @@ def png(width, height, between=b'', depth=8):
 
 
 def text_bomb(count):
-    """Texts of 4 MB in 4 kB each."""
+    """`count` compressed text chunks of a PNG: 4 kB each in the file, 4 MB each in memory."""
     return count * chunk(b'zTXt', b'a\0\0' + zlib.compress(b'x' * 3_900_000, 9))
 
 
@@ -55,7 +55,7 @@ def glb(document, binary=b''):
 
 
 def textured(picture):
-    """A triangle with a picture on it."""
+    """A glTF file with one triangle, whose texture is `picture`."""
     points = struct.pack('<9f', 0, 0, 0, 1, 0, 0, 0, 1, 0)
     corners = struct.pack('<6f', 0, 0, 1, 0, 0, 1)
     view = lambda at, size: {'buffer': 0, 'byteOffset': at, 'byteLength': size}
@@ -107,7 +107,8 @@ def write_recording(folder, pictures=3):
 
 
 def peak_of(arguments):
-    """(MB, exit code, messages) of a run of mfard. The memory of this script is the least that is found."""
+    """Runs mfard. Returns its peak memory [MB], exit code and messages. The kernel reports at least
+    the memory of this script, because mfard starts as a copy of it."""
     with open('said', 'w') as said:
         process = subprocess.Popen([mfard, *arguments], stdout=subprocess.DEVNULL, stderr=said)
         limit = time.monotonic() + LONGEST
@@ -179,7 +180,7 @@ def rows():
 
 
 def claimed_pictures():
-    """The header of a PNG and its end, nothing between."""
+    """Replaces all stills by PNG files of header and end only, which claim 16384x16384 pixels."""
     header = struct.pack('>IIBBBBB', 16384, 16384, 8, 2, 0, 0, 0)
     data = b'\x89PNG\r\n\x1a\n' + chunk(b'IHDR', header) + chunk(b'IEND', b'')
     for file in Path('bad/cam1/data').iterdir():
@@ -257,8 +258,8 @@ def while_it_runs():
         wait_for(lambda: 'display ' in said(), 'mfard does not start')
         for name, text in CONFIGURATIONS.items():
             before = answers()
-            # Written to another file and renamed, because mfard could otherwise read a partly
-            # written file.
+            # The text is written to another file, which is then renamed. Otherwise mfard could read
+            # a partly written file.
             Path('next.toml').write_text(text() + '\n' + sound.split('\n', 2)[2])
             os.replace('next.toml', config)
             process.send_signal(signal.SIGHUP)

@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
-"""Makes a disk as a cut of power at a random moment leaves it, from what was written to it.
+"""Makes a disk image as a power cut at a random moment would leave it, from a log of all writes.
 
 Usage: disk_after_cut.py START LOG MARKS SEED OUT
 
-START is the disk before the first write. LOG has all writes and flushes since, in the format of
-Linux's dm-log-writes, as QEMU's blklogwrites makes it. Each line of MARKS says "BYTES ROWS": that
-many rows were safe when the log had that many bytes. OUT is the disk. Prints how many rows were
-safe before the cut.
+START is the disk image before the first write. LOG has all later writes and flushes in the format
+of Linux's dm-log-writes, as QEMU's blklogwrites makes it. Each line of MARKS is "BYTES ROWS": ROWS
+rows of the recording's list were synchronised when the log had BYTES bytes. OUT is the disk image
+that is written. Prints how many rows were synchronised before the cut.
 
-A disk keeps what came before its last flush. Of what came after it, it keeps any blocks of 4 KiB, as
-they are written as a whole: a share of them that depends on the seed."""
+A disk keeps everything that was written before its last flush. Of later writes it may keep any
+blocks of 4 KiB, each as a whole. SEED determines the cut and the share of these blocks."""
 
 import random
 import shutil
@@ -24,16 +24,16 @@ SECTOR, BLOCK = 512, 4096
 
 
 def entries(log):
-    """(end in the log, flags, place on the disk, bytes) of each entry, in order."""
+    """(end of the entry in the log, flags, position on the disk, data) of each entry, in order."""
     magic, version, _, sector_size = struct.unpack_from('<QQQI', log)
     if (magic, version, sector_size) != (MAGIC, 1, SECTOR):
-        sys.exit(f'not a log of writes to sectors of {SECTOR} bytes')
+        sys.exit(f'LOG is not a dm-log-writes log with sectors of {SECTOR} bytes')
     at, out = SECTOR, []
     while at + SECTOR <= len(log):
         sector, count, flags, _ = ENTRY.unpack_from(log, at)
         at += SECTOR
         if flags & DISCARD:
-            sys.exit('the disk was told to discard sectors')
+            sys.exit('LOG contains a discard of sectors, which this script does not support')
         data = log[at:at + count * SECTOR]
         if len(data) < count * SECTOR:
             break
@@ -52,7 +52,8 @@ def blocks(place, data):
 
 
 def after_cut(start, done, chance, share, out):
-    """The disk when the power fails after the entries `done`."""
+    """Writes to `out` the disk image that a power cut after the entries `done` leaves. Of blocks
+    that were written after the last flush, it keeps the share `share`, chosen at random."""
     flushed = max((i for i, entry in enumerate(done) if entry[1] & FLUSH), default=0)
     shutil.copyfile(start, out)
     with open(out, 'r+b') as disk:

@@ -45,7 +45,7 @@ run() {
     local expected=$1 code=0
     shift
     timeout -s KILL $((60 * patience)) "$mfard" "$@" >out 2>err || code=$?
-    [ "$code" = "$expected" ] || fail "mfard $* ended with $code instead of $expected"
+    [ "$code" = "$expected" ] || fail "mfard $* ended with exit code $code instead of $expected"
 }
 
 # start ARGUMENT...: starts mfard in the background and sets $pid to its process id.
@@ -89,12 +89,13 @@ ends_with() {
         sleep 0.02
     done
     took=$(($(milliseconds) - begin))
-    kill -0 "$pid" 2>/dev/null && fail "mfard does not end"
+    kill -0 "$pid" 2>/dev/null && fail "mfard did not end within 30 s"
     wait "$pid" || code=$?
-    echo "ended with $code after $took ms"
+    echo "mfard ended with exit code $code after $took ms"
     [ "$code" = "$1" ] || fail "mfard ended with exit code $code instead of $1"
     no_complaint
-    [ "$took" -le $(($2 * patience)) ] || fail "the end took $took ms; the limit is $2 ms times $patience"
+    [ "$took" -le $(($2 * patience)) ] ||
+        fail "mfard took $took ms to end; the limit is $2 ms times MFAR_PATIENCE ($patience)"
 }
 
 # two_cameras [TOML]: writes a configuration with two V4L2 cameras and these lines.

@@ -19,15 +19,15 @@ namespace {
 using namespace eval;
 using synthetic::Path;
 
-constexpr int kSettling = 12;  // frames until depth has settled
+constexpr int kSettling = 12;  // number of frames until depth has settled
 constexpr double kMostError = 0.015, kLeastKnown = 0.85;
-/// Largest relative change of inverse depth from frame to frame that is not a jump. One match with
-/// the still has an error of 4.5 % of the inverse depth here. In equilibrium the filter gives the
-/// match a weight of 1/12, which leaves 0.26 % per frame in the median. The limit is three times as
+/// Largest median change of depth per frame, as a share, that is no jump. A match with the still
+/// has an error of 4.5 % of the inverse depth here. In equilibrium the filter gives a match a
+/// weight of 1/12, which gives a median change of 0.26 % per frame. The limit is three times as
 /// large.
 constexpr double kMostChange = 0.0075;
 
-/// A scene with an object. Its depth is measured in the whole picture.
+/// A scene with a virtual object. Depth is measured in the whole picture.
 struct Watched {
     Watched(synthetic::Scene scene, Path path, double rateHz,
             PoseSource poses = PoseSource::Recorded)
@@ -53,7 +53,7 @@ void expectGood(const DepthState& state, int frame, double poseError = 0) {
     SCOPED_TRACE(frame);
     EXPECT_LE(state.absrel, kMostError + poseError);
     EXPECT_LE(state.absrel, state.sigma + poseError)
-        << "the reported standard deviation must not be below the error";
+        << "the error is larger than the reported sigma";
     EXPECT_GE(state.completeness, kLeastKnown);
     EXPECT_LE(state.change, kMostChange + poseError);
 }
@@ -77,8 +77,8 @@ private:
     std::unique_ptr<GlContext> context_ = createGlContext();
 };
 
-TEST_F(DepthScenario, DepthStaysWhileTheCameraRestsForTenSeconds) {
-    constexpr std::int64_t kStep = 200'000'000;  // [ns]
+TEST_F(DepthScenario, DepthStaysAccurateWhileTheCameraRestsForTenSeconds) {
+    constexpr std::int64_t kStep = 200'000'000;  // time between two frames [ns]
     Watched w(synthetic::Scene::Shelf, Path::Handheld, 30);
     follow(w, kSettling + 2);
     const SceneRun::Shots last = w.run.next();
@@ -92,17 +92,17 @@ TEST_F(DepthScenario, DepthStaysWhileTheCameraRestsForTenSeconds) {
     }
 }
 
-TEST_F(DepthScenario, DepthStaysWhileTheCameraTurnsOnTheSpot) {
+TEST_F(DepthScenario, DepthStaysAccurateWhileTheCameraRotatesOnTheSpot) {
     Watched w(synthetic::Scene::Shelf, Path::Rotate, 10);
     follow(w, 28);
 }
 
-TEST_F(DepthScenario, DepthStaysWhileTheCameraComesNearer) {
+TEST_F(DepthScenario, DepthStaysAccurateWhileTheCameraComesNearer) {
     Watched w(synthetic::Scene::Office, Path::Forward, 10);
     follow(w, 28);
 }
 
-/// Covers all tags with grey paper.
+/// The video frame with grey paper over all tags.
 cv::Mat covered(const ImageView& view, const SyntheticBoard& board, Timestamp time) {
     cv::Mat out = cv::Mat(view.size.height, view.size.width,
                           view.format == PixelFormat::Gray8 ? CV_8UC1 : CV_8UC4,
@@ -131,7 +131,7 @@ double errorOf(const Pose& pose, const SyntheticBoard& board) {
 }
 
 // The tags are lost for a second. At first the pose is predicted, then it is unknown.
-TEST_F(DepthScenario, DepthStaysWhileTheTagsAreLostAndFoundAgain) {
+TEST_F(DepthScenario, DepthStaysAccurateWhileTheTagsAreLostAndFoundAgain) {
     constexpr int kLost = kSettling + 4, kFound = kLost + 15, kEnd = kFound + 8;
     Watched w(synthetic::Scene::Office, Path::Handheld, 15, PoseSource::None);
     TrackerOptions options;

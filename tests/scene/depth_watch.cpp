@@ -11,8 +11,8 @@
 namespace mfar::test {
 namespace {
 
-constexpr int kStep = 3;       // distance between measured pixels [px]
-constexpr double kFar = 1000;  // surfaces beyond this distance do not count [m]
+constexpr int kStep = 3;       // distance of the measured pixels [px]
+constexpr double kFar = 1000;  // depth of the background [m]
 
 double medianOf(std::vector<double>& values) {
     if (values.empty()) return 0;
@@ -42,7 +42,8 @@ cv::Mat DepthWatch::trueDepth(Timestamp time) const {
     return out;
 }
 
-// Looks up the measured pixel that is nearest to where the point was in the previous frame.
+// Returns rho / true rho in the previous frame, of the measured pixel that is nearest to the
+// point's position there.
 double DepthWatch::ratioBefore(int x, int y, double rho, const RigidTransform& pose) const {
     const CameraModel& video = board_.rig().video;
     const Eigen::Vector3d p =

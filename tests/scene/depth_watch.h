@@ -14,9 +14,9 @@ namespace mfar::test {
 struct DepthState {
     double absrel = 0;        ///< |z - true z| / true z of known pixels; NaN: no pixel is known
     double completeness = 0;  ///< share of the pixels with known depth
-    double sigma = 0;         ///< error of rho that the pipeline reports, as a share of rho
-    /// Change of rho / true rho since the previous frame, at the same point of the scene, where
-    /// depth is known in both frames. 0: nowhere.
+    double sigma = 0;         ///< sigma of rho that the pipeline reports, as a share of rho
+    /// Change of rho / true rho since the previous frame, at the same point of the scene. Only
+    /// points whose depth is known in both frames count; 0 if there are none.
     double change = 0;
 };
 

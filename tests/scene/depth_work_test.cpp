@@ -1,4 +1,5 @@
-// Real depth must be measured only where it may decide whether a virtual object is visible.
+// The depth of the real scene must be measured only where it may decide whether a virtual object is
+// visible.
 #include "hal/gl_context.h"
 #include "tests/measure/eval/scene_run.h"
 

@@ -69,8 +69,8 @@ TEST_F(SceneTest, MovingObjectsAreSearchedInBothDimensionsAndNotSmeared) {
     EXPECT_GT(psnr(detail, truth, moving), psnr(off, truth, moving));
 }
 
-/// Two paths. On one, the epipole lies in the picture; on the other, all parallax comes from the
-/// distance between the sensors.
+/// Tests with two camera paths. On one, the epipole lies in the picture; on the other, all parallax
+/// comes from the distance between the sensors.
 class Motion : public SceneTest, public testing::WithParamInterface<Path> {};
 
 TEST_P(Motion, MovingCamerasGetDetail) {

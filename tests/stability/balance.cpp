@@ -6,7 +6,7 @@
 namespace mfar::stress {
 namespace {
 
-constexpr double kTrial = 60;  // time limit of a case that has not reached its pass yet [s]
+constexpr double kTrial = 60;  // largest time for a case until it reaches the pass [s]
 
 }  // namespace
 

@@ -26,7 +26,7 @@ TEST(Balance, TheFastestCaseIsChosenForThePassWithTheFewestPixels) {
     const auto cases = twoCases();
     Balance balance(cases);
     Checks checks;
-    EXPECT_EQ(nextOf(balance, checks), cases[0].name) << "each once";
+    EXPECT_EQ(nextOf(balance, checks), cases[0].name) << "each case is run once first";
     balance.ran(cases[0], {}, {{"a", 100}, {"b", 10}}, 1, Scale::Product);
     EXPECT_EQ(nextOf(balance, checks), cases[1].name);
     balance.ran(cases[1], {}, {{"a", 20}, {"b", 20}}, 1, Scale::Product);
@@ -51,7 +51,7 @@ TEST(Balance, PassesReachedOnlyBySmallPicturesAreTriedForALimitedTime) {
     checks.through("rare", 5);
     EXPECT_EQ(nextOf(balance, checks), cases[1].name);
     balance.ran(cases[1], {}, {{"a", 500}}, 100, Scale::Product);
-    EXPECT_EQ(nextOf(balance, checks), cases[0].name) << "it has not come, so the next one";
+    EXPECT_EQ(nextOf(balance, checks), cases[0].name) << "the case did not reach the pass in time";
 }
 
 }  // namespace

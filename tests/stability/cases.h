@@ -9,14 +9,14 @@
 #include <string>
 #include <vector>
 
-/// Each case draws a hostile input from its seed, runs one part of the pipeline on it and checks
-/// the results. No number may be NaN or infinite, and all must lie in their stated ranges. Where
-/// truth is known, the error is checked. Some cases scale the world, mirror the pictures or
-/// exchange the views; results may change only as expected.
+/// Each case makes a random hostile input (extreme or invalid values) from its seed, runs one part
+/// of the pipeline on it and checks the results. No number may be NaN or infinite, and all must lie
+/// in their stated ranges. Where the truth is known, the error is checked. Some cases scale the
+/// world, mirror the pictures or exchange the views; results may change only as expected.
 namespace mfar::stress {
 
-/// Size of the pictures: small, as in the tests; small ones and ones of the product's size; only
-/// the product's size.
+/// Sizes of the pictures. Tests: small ones; Mixed: small ones and ones of the product's size;
+/// Product: only the product's size.
 enum class Scale { Tests, Mixed, Product };
 
 struct Context {
@@ -25,7 +25,7 @@ struct Context {
     GlWatch& gl;
     Scale scale = Scale::Tests;
 
-    /// Size of the video. Small sizes are drawn by hostile.size(least, most).
+    /// A size for the video. hostile.size(least, most) chooses small sizes at random.
     [[nodiscard]] Size size(int least, int most);
 };
 

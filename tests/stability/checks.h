@@ -13,7 +13,7 @@ public:
     void require(bool holds, const std::string& what) {
         if (!holds) fail(what);
     }
-    /// Records a fault if the value is outside [low, high]; NaN is outside.
+    /// Records a fault "`what` is `value`, not in ..." if the value is outside [low, high] or NaN.
     void within(double value, double low, double high, const char* what) {
         if (!(value >= low && value <= high)) failRange(value, low, high, what);
     }

@@ -34,8 +34,8 @@ InverseDepthField fieldOf(Context& c, Size size, double unit, double spoilt) {
 void checkField(Context& c, const InverseDepthField& field) {
     for (std::size_t i = 0; i < field.inverseDepth.size(); ++i) {
         c.checks.within(field.inverseDepth[i], 0, 3.4e38, "filtered inverse depth");
-        c.checks.require(field.variance[i] >= 0, "filtered variance");
-        c.checks.require(field.filled[i] <= 1, "a pixel's mark");
+        c.checks.require(field.variance[i] >= 0, "filtered variance is negative or NaN");
+        c.checks.require(field.filled[i] <= 1, "mark of a filled pixel is neither 0 nor 1");
     }
 }
 
@@ -79,8 +79,9 @@ void carriedDepth(Context& c) {
     for (std::size_t i = 0; i < field.inverseDepth.size(); ++i) {
         if (!field.isKnown(i)) continue;
         c.checks.within(field.inverseDepth[i] / wanted, 1 - 2e-5, 1 + 2e-5,
-                        "carried inverse depth");
-        c.checks.within(std::sqrt(field.variance[i]) / wanted, 0.005, 0.02, "carried sigma");
+                        "inverse depth carried to the next frame");
+        c.checks.within(std::sqrt(field.variance[i]) / wanted, 0.005, 0.02,
+                        "relative sigma of carried depth");
     }
     c.checks.through("DepthFilter", pixelsOf(size));
 }
@@ -121,8 +122,9 @@ void hostileEdges(Context& c) {
         const InverseDepthField& out = snap.run(in, c.hostile.picture(size).view(), where);
         for (std::size_t p = 0; p < out.inverseDepth.size(); ++p)
             if (out.isKnown(p)) {
-                c.checks.within(out.inverseDepth[p], 0, 3.4e38, "snapped inverse depth");
-                c.checks.within(out.variance[p], 0, 3.4e38, "snapped variance");
+                c.checks.within(out.inverseDepth[p], 0, 3.4e38,
+                                "inverse depth after edges were moved");
+                c.checks.within(out.variance[p], 0, 3.4e38, "variance after edges were moved");
             }
         c.checks.through("EdgeSnap", pixelsOf(size));
     }

@@ -31,8 +31,8 @@ Sensors hostileSensors(Context& c) {
     Sensors out{hostileRig(c), {}, {}};
     out.video = c.hostile.picture(out.rig.video.size);
     out.still = c.hostile.picture(out.rig.still.size);
-    // Limits the contrast, because the GPU clamps between passes: sharpening and enlarging must not
-    // overshoot.
+    // Limits the contrast, so that sharpening and enlarging do not overshoot: the GPU clamps values
+    // between passes.
     for (TestPicture* picture : {&out.video, &out.still})
         for (std::uint8_t& byte : picture->bytes)
             byte = static_cast<std::uint8_t>(96 + byte / 4);
@@ -90,12 +90,12 @@ constexpr double kFolded = 0.1;
 void comparePyramids(Context& c, const LumaPyramid& gles, const LumaPyramid& simd) {
     for (const LumaLevel& level : gles.video)
         c.checks.within(static_cast<double>(differingPixels(gles, simd, level)), 0, 0,
-                        "differing pixels of the video's pyramid");
+                        "number of differing pixels of the video's pyramid");
     for (const LumaLevel& level : gles.still) {
         const long pixels = pixelsOf(Size{level.width, level.height});
         c.checks.within(static_cast<double>(differingPixels(gles, simd, level)), 0,
                         1 + kFolded * static_cast<double>(pixels),
-                        "differing pixels of the still's pyramid");
+                        "number of differing pixels of the still's pyramid");
     }
 }
 
@@ -116,19 +116,20 @@ void compareWeights(Context& c, const CellWeights& gles, const CellWeights& simd
     const auto la = gles.lookUps.host(), lb = simd.lookUps.host();
     for (int y = 0; y < a.size.height; ++y)
         for (int x = 0; x < a.size.width; ++x) {
-            c.checks.within(b[y][x].weight - a[y][x].weight, -0.02, 0.02, "difference of a weight");
+            c.checks.within(b[y][x].weight - a[y][x].weight, -0.02, 0.02,
+                            "difference of the engines' weight");
             c.checks.within(b[y][x].confidence - a[y][x].confidence, -0.02, 0.02,
-                            "difference of a confidence");
+                            "difference of the engines' confidence");
             // Tolerance: the GPU stores look-ups in half precision.
             const double slack = 0.01 + 1e-3 * std::abs(lb[y][x].x) + 1e-3 * std::abs(lb[y][x].y);
-            c.checks.within(lb[y][x].x - la[y][x].x, -slack, slack, "difference of a look-up");
-            c.checks.within(lb[y][x].y - la[y][x].y, -slack, slack, "difference of a look-up");
+            c.checks.within(lb[y][x].x - la[y][x].x, -slack, slack, "engines' look-up difference");
+            c.checks.within(lb[y][x].y - la[y][x].y, -slack, slack, "engines' look-up difference");
         }
 }
 
-// Blending, unlike detail, trusts cells with different patches if their forward and backward flow
-// agree. Between two such cells a look-up may jump by many pixels; there the GPU's filter has only
-// 8 bits.
+// Share of pixels that may differ in mode blend. Unlike mode detail, blending trusts cells with
+// different patches if their forward and backward flow agree. Between two such cells the position
+// in the still may jump by many pixels, and the GPU's bilinear filter has only 8 bits there.
 constexpr double kJumps = 0.05;
 constexpr int kRounding = 5;  // error of three GPU passes with 8 bits each [grey levels]
 

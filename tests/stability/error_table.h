@@ -9,8 +9,8 @@ namespace mfar::stress {
 /// Collects the errors of one quantity and prints them as one line of a table.
 class ErrorTable {
 public:
-    /// `what`: the pass and the quantity. `unit`: unit of the errors. `least`: smaller values, such
-    /// as pixels near 0, take the unit in the last place of this value.
+    /// `what`: the pass and the quantity. `unit`: unit of the errors. `least`: smallest value whose
+    /// unit in the last place is used; smaller values, such as pixels near 0, use that of `least`.
     ErrorTable(std::string what, std::string unit, double least = 0)
         : what_(std::move(what)), unit_(std::move(unit)), least_(least) {}
 

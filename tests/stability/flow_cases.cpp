@@ -27,9 +27,10 @@ FlowSummary errorOf(const std::vector<float>& flow, Size size, const Eigen::Vect
 }
 
 void checkFlow(Context& c, const std::vector<float>& flow, Size size) {
-    c.checks.require(flow.size() == 2UL * size.width * size.height, "the flow's size");
+    c.checks.require(flow.size() == 2UL * size.width * size.height,
+                     "the flow has a wrong number of vectors");
     for (const float v : flow)
-        c.checks.within(v, -2e4, 2e4, "flow");
+        c.checks.within(v, -2e4, 2e4, "component of a flow vector [px]");
     c.gl.frame(c.checks, pixelsOf(size));
 }
 
@@ -76,11 +77,12 @@ void shiftedPicture(Context& c) {
     c.checks.within(errorOf(there, size, shift).median, 0, 0.08, "error of a shift [px]");
     const auto back = flowBetween(b.view(), a.view());
     checkFlow(c, back, size);
-    c.checks.within(errorOf(back, size, -shift).median, 0, 0.08, "error of a shift back [px]");
+    c.checks.within(errorOf(back, size, -shift).median, 0, 0.08,
+                    "error of a shift with exchanged pictures [px]");
     const auto mirror = flowBetween(mirrored(a).view(), mirrored(b).view());
     checkFlow(c, mirror, size);
     c.checks.within(errorOf(mirror, size, {-shift.x(), shift.y()}).median, 0, 0.08,
-                    "error of a shift in a mirror [px]");
+                    "error of a shift of mirrored pictures [px]");
 }
 
 }  // namespace

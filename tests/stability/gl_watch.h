@@ -20,8 +20,9 @@ public:
     GlWatch(const GlWatch&) = delete;
     GlWatch& operator=(const GlWatch&) = delete;
 
-    /// Counts `pixels` for each pass that ran since the last call, or the number that it wrote if
-    /// that is larger. Reports the faults of these passes.
+    /// Call this after each frame. Counts `pixels` for each pass that ran since the last call, or
+    /// the number of pixels that the pass wrote if that is larger. Reports the faults of these
+    /// passes.
     void frame(Checks& checks, long pixels);
 
 private:

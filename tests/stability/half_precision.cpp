@@ -34,7 +34,8 @@ T weighed(const std::array<T, 4>& w, const std::array<double, 4>& v) {
     return w[0] * T(v[0]) + w[1] * T(v[1]) + w[2] * T(v[2]) + w[3] * T(v[3]);
 }
 
-/// Fraction of the position between two video pixels, for place x of the output: x scale - 0.5.
+/// Position between two video pixels, 0 to 1, for column x of the output: the fraction of
+/// x scale - 0.5.
 template <class T>
 T fractionAt(double x, double scale) {
     const T p = T(x) * T(scale) - T(0.5);
@@ -76,11 +77,12 @@ void printVerdict(ErrorTable& table, double most) {
 }
 
 void colours(Hostile& h) {
-    ErrorTable yuv("picture_from_yuv: R G B", "levels"),
-        taps("enlargement: weights, sums", "levels");
-    ErrorTable places("enlargement: place, weights", "levels"),
-        mean("superres_sharpen: mean", "levels");
-    ErrorTable detail("composite_detail: sum", "levels"), blend("visibility_blend", "levels");
+    ErrorTable yuv("picture_from_yuv: R G B", "grey levels"),
+        taps("enlargement: weights and sums", "grey levels");
+    ErrorTable places("enlargement: position and weights", "grey levels"),
+        mean("superres_sharpen: mean", "grey levels");
+    ErrorTable detail("composite_detail: sum", "grey levels"),
+        blend("visibility_blend: colour", "grey levels");
     ErrorTable likeness("visibility_sample: likeness", "1/255");
     const YuvToRgb rows = yuvToRgb(YuvMatrix::Bt709, YuvRange::Limited);
     const auto level = [&] { return h.integer(0, 255) / 255.0; };
@@ -115,7 +117,7 @@ void colours(Hostile& h) {
 }
 
 void places(Hostile& h) {
-    ErrorTable lens("rig, lens: still pixel", "px"), look("look-up: place in the still", "px");
+    ErrorTable lens("rig, lens: still pixel", "px"), look("look-up: position in the still", "px");
     ErrorTable stored("superres_weigh: offset in rgba16f", "px");
     const CameraModel still{{2304, 1728}, 2300, 2300, 1150, 860, {-0.12, 0.03, 1e-3, -2e-3, 0}};
     for (int i = 0; i < kDraws; ++i) {

@@ -35,8 +35,9 @@ public:
     /// Like bad(), but without NaN and infinities.
     [[nodiscard]] double extreme();
 
-    /// A picture that is constant, saturated, a checkerboard, columns at the Nyquist frequency, an
-    /// impulse, noise, of extreme gain, a ramp, or like a photograph.
+    /// A picture of one of these patterns: constant, saturated, a checkerboard, columns at the
+    /// Nyquist frequency, an impulse, noise, a picture with extreme gain, a ramp, or like a
+    /// photograph.
     [[nodiscard]] TestPicture picture(Size size, PixelFormat format = PixelFormat::Rgba8);
     [[nodiscard]] LumaImage luma(Size size);
 
@@ -44,11 +45,11 @@ public:
     /// distortion, or with an off-centre principal point.
     [[nodiscard]] CameraModel camera(Size size);
     [[nodiscard]] Eigen::Vector3d direction();
-    /// A rotation: from zero to any orientation.
+    /// A rotation by any angle, about any axis.
     [[nodiscard]] Eigen::Quaterniond turn();
-    /// A motion with small or large rotation. The translation is zero to a thousand units,
-    /// sideways, forwards or backwards; the epipole may lie in the picture, at its border or near
-    /// it.
+    /// A motion with small or large rotation. The translation has a length from zero to a thousand
+    /// units and leads sideways, forwards or backwards. The epipole may lie in the picture, at its
+    /// border or near it.
     [[nodiscard]] RigidTransform motion(double unit = 1);
     /// A small motion, like that of a hand-held camera.
     [[nodiscard]] RigidTransform gentle(double unit = 1);

@@ -37,14 +37,16 @@ Options parse(int argc, char** argv) {
     CLI::App app("mfar-stress: runs every part of the pipeline on extreme and invalid input");
     o.run.addOptions(app);
     app.add_option("--case", o.cases, "run only these cases")->delimiter(',');
-    app.add_option("--plant", o.plant, "plant this fault of --list-planted first");
+    app.add_option("--plant", o.plant,
+                   "change a shader first: plant the fault with this number in --list-planted");
     app.add_flag("--small", o.small, "use only small pictures, as in the tests");
     app.add_flag("--full", o.full, "use only pictures of mfard's usual size")->excludes("--small");
     app.add_option("--pixels", o.pixels,
-                   "number of pixels that should go through each pass (default 10^8); three "
+                   "number of pixels that each pass should process (default 10^8); three "
                    "quarters of the time are used for this")
         ->check(CLI::NonNegativeNumber);
-    app.add_flag("--precision", o.precision, "print the errors of single and half precision");
+    app.add_flag("--precision", o.precision,
+                 "print the errors that single and half precision cause");
     app.add_flag("--list-planted", o.listPlanted, "print the faults that can be planted");
     app.add_flag("--list-cases", o.listCases, "print the names of the cases");
     parseOrExit(app, argc, argv);
@@ -73,7 +75,7 @@ void print(const Tally& tally) {
 /// Runs the cases, one seed after the other.
 class Run {
 public:
-    /// `job`: number of this process among all.
+    /// `job`: index of this process.
     Run(const Options& options, int job)
         : options_(options), isFirst_(job == 0), cases_(chosen(options)), balance_(cases_) {}
 
@@ -116,7 +118,8 @@ void Run::runCase(const Case& one, std::uint64_t seed, Scale scale) {
                    scale == Scale::Product ? " --full" : "");
 }
 
-// Each run gets its own seed, because the same case may be chosen again.
+// Runs cases that balance_ chooses until `until` [minutes]. Each run gets its own seed, because the
+// same case may be chosen again.
 void Run::fillUp(std::uint64_t seed, double until) {
     constexpr std::uint64_t kFarOff = 1000000007;
     while (!stops() && minutes() < until) {
@@ -130,8 +133,8 @@ void Run::fillUp(std::uint64_t seed, double until) {
 void Run::showProgress(const char* part) {
     if (!isFirst_) return;
     const double share = options_.run.seed ? std::nan("") : minutes() / options_.run.minutes;
-    progress_.show(share, fmt::format("{}; {} cases, {} seeds, {} failures in the first of {} "
-                                      "processes",
+    progress_.show(share, fmt::format("{0}; in the first of {4} processes: {1} cases, {2} seeds, "
+                                      "{3} failures",
                                       part, ran_, seeds_, failures_, options_.run.jobs));
 }
 
@@ -147,7 +150,7 @@ Tally Run::drawSeeds(std::uint64_t first) {
             runCase(one, seed, scale);
             if (stops()) break;
         }
-        // Fills up for three times as long as the seed took.
+        // Then runs cases at the product's size, for three times as long as the seed took.
         if (scale == Scale::Mixed && !repeats)
             fillUp(seed, std::min(4 * minutes() - 3 * start, options_.run.minutes));
         ++seeds_;

@@ -1,4 +1,4 @@
-// Inputs on which hostile cases failed before the code was fixed. Each has a test.
+// Regression tests: one for each input on which a hostile case failed before the code was fixed.
 #include "pipeline/depth/depth_filter.h"
 #include "pipeline/depth/edge_snap.h"
 #include "pipeline/epipolar/epipolar_flow.h"

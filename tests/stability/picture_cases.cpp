@@ -20,8 +20,8 @@
 namespace mfar::stress {
 namespace {
 
-// Tolerance: bilinear look-ups have weights of 8 bits, and the errors of both chroma channels add
-// up.
+// Largest error of a colour that is converted from a video format. Bilinear look-ups have weights
+// of 8 bits, and the errors of both chroma channels add up.
 constexpr double kFormatError = 2.7;  // [grey levels]
 
 void pictureFormats(Context& c) {
@@ -46,14 +46,14 @@ void pictureFormats(Context& c) {
             const std::size_t i = 4 * (static_cast<std::size_t>(y) * size.width + x);
             for (std::size_t k = 0; k < 3; ++k)
                 c.checks.within(pixels[i + k] - rgb[k], -kFormatError, kFormatError,
-                                "error of a colour");
+                                "error of a colour on the GPU");
             for (int k = 0; k < 3; ++k)
                 c.checks.within(planes.row(k, y)[x] - rgb[k], -kFormatError, kFormatError,
                                 "error of a colour on the host");
         }
 }
 
-// Values are rounded twice; so they may differ by one level.
+// Values are rounded twice; so they may differ by one grey level.
 void lumaPyramids(Context& c) {
     const Size size = c.size(1, 120);
     const TestPicture a = c.hostile.picture(size), b = c.hostile.picture(size);
@@ -62,7 +62,8 @@ void lumaPyramids(Context& c) {
         for (std::size_t i = 0; i < got.values.size(); ++i)
             c.checks.within(got.values[i] - wanted.values[i], -1.01, 1.01, what);
     };
-    compare(pair.first(), twin::smoothed(twin::luma(a.view())), "finest luma");
+    compare(pair.first(), twin::smoothed(twin::luma(a.view())),
+            "error of luma at the finest pyramid level");
     for (int level = 1; level < static_cast<int>(pair.pyramids.video().size()); ++level) {
         compare(pair.first(level), twin::halved(pair.first(level - 1)), "coarser luma");
         compare(pair.second(level), twin::halved(pair.second(level - 1)), "coarser luma");
@@ -102,28 +103,30 @@ void changePlan(Context& c) {
             twin::tileChange(now, before, grey, t % tiles.width, t / tiles.width));
         changed += static_cast<int>(got[static_cast<std::size_t>(t)].changed);
         const TileMeasure& measured = plan.measured()[t];
-        c.checks.within(measured.noise - twin.noise, -0.02, 0.02, "a tile's noise");
+        c.checks.within(measured.noise - twin.noise, -0.02, 0.02, "error of a tile's noise");
         c.checks.within(measured.structure / (1 + twin.structure) -
                             twin.structure / (1 + twin.structure),
-                        -1e-2, 1e-2, "a tile's structure");
+                        -1e-2, 1e-2, "error of a tile's structure");
         const std::array energy{measured.pixels, measured.means, measured.bends};
         for (std::size_t k = 0; k < 3; ++k)
             c.checks.within(energy[k] / (1 + twin.energy[k]) -
                                 twin.energy[k] / (1 + twin.energy[k]),
                             -1e-3, 1e-3, "variance of a tile's difference");
     }
-    // These are the thresholds of WorkPlan::update() before anything was measured.
+    // WorkPlan::update() uses these thresholds before it has measured any noise.
     const auto wanted = twin::changedTiles(twins, tiles.width, {1 + 2 * 0.29, 1.5 + 4 * 0.29});
     for (std::size_t t = 0; t < count; ++t)
         c.checks.require(!wanted[t] ||
                              (got[static_cast<std::size_t>(t)].changed != 0) == *wanted[t],
-                         "a tile's change");
-    c.checks.require(plan.work().changed == changed, "the number of changed tiles");
+                         "a tile is marked as changed or unchanged by mistake");
+    c.checks.require(plan.work().changed == changed,
+                     "the number of changed tiles differs from their marks");
     c.checks.through("TileMeasure", pixelsOf(size));
     c.gl.frame(c.checks, pixelsOf(size));
 }
 
-// Without a still the output must be the enlarged video, whose columns are rounded to 8 bits.
+// Without a still the output must be the enlarged video. Its columns are enlarged first and rounded
+// to 8 bits.
 void enlargement(Context& c) {
     const Size video = c.size(1, 60);
     const Size output{video.width * c.hostile.integer(1, 4) + c.hostile.integer(0, 3),
@@ -166,7 +169,7 @@ void evenPicture(Context& c) {
     c.gl.frame(c.checks, pixelsOf(video));
     for (const std::uint8_t v : pipeline.readImage())
         if (v != 255)  // skips alpha
-            c.checks.within(v - level, -1, 1, "change of an even picture");
+            c.checks.within(v - level, -1, 1, "change of a constant picture");
 }
 
 /// Statistics of two patches, from zero to the maximum for 8 bits.
@@ -220,9 +223,11 @@ void weights(Context& c) {
             const auto wanted = twin::weigh(displacement, statistics, low, x, y, sigma);
             const double slack = std::max(0.005, 2e-3 * wanted.weight);
             c.checks.within(got.at(x, y)[2] - wanted.weight, -slack, slack, "error of a weight");
-            c.checks.within(got.at(x, y)[3] - wanted.confidence, -1e-6, 1e-6, "confidence");
+            c.checks.within(got.at(x, y)[3] - wanted.confidence, -1e-6, 1e-6,
+                            "error of a confidence");
             const std::size_t i = 4 * (static_cast<std::size_t>(y) * size.width + x);
-            c.checks.within(bytes[i + 2] / 255.0 - wanted.signal, -0.01, 0.01, "signal share");
+            c.checks.within(bytes[i + 2] / 255.0 - wanted.signal, -0.01, 0.01,
+                            "error of the share of signal in the variance");
         }
 }
 

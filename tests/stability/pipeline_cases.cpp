@@ -26,7 +26,7 @@ EngineChoice enginesFor(Context& c) {
     return {kind(), kind(), kind(), kind(), kind(), kind()};
 }
 
-constexpr int kMostOutput = 4096;  // [px]
+constexpr int kMostOutput = 4096;  // largest side of the output picture [px]
 
 /// An object in front of, around or behind the camera, or across the camera's plane; tiny or huge.
 VirtualObject objectFor(Context& c, double unit) {
@@ -46,21 +46,22 @@ void checkDepth(Context& c, const Pipeline& p) {
     const InverseDepthField& depth = p.inverseDepth();
     for (std::size_t i = 0; i < depth.inverseDepth.size(); ++i) {
         c.checks.within(depth.inverseDepth[i], 0, 1e30, "real inverse depth");
-        c.checks.require(depth.variance[i] >= 0, "variance of real inverse depth");
+        c.checks.require(depth.variance[i] >= 0,
+                         "variance of real inverse depth is negative or NaN");
     }
 }
 
 void checkPipeline(Context& c, const Pipeline& p, const StereoRig& rig) {
     for (const float v : p.readFlow())
-        c.checks.within(v, -2e4, 2e4, "flow");
+        c.checks.within(v, -2e4, 2e4, "component of a flow vector [px]");
     for (const float v : p.readConfidence())
-        c.checks.within(v, 0, 1, "confidence");
+        c.checks.within(v, 0, 1, "confidence of a pixel");
     for (const float v : p.readShownObjects())
-        c.checks.within(v, 0, 1, "share of an object");
+        c.checks.within(v, 0, 1, "visible share of an object's pixel");
     const FrameStats s = p.readStats();
     for (const double v : {s.meanConfidence, s.explained, s.changed})
-        c.checks.within(v, 0, 1, "statistics");
-    c.checks.within(s.epipolarError, 0, 1e7, "epipolar error");
+        c.checks.within(v, 0, 1, "statistic of a frame: confidence, explained or changed share");
+    c.checks.within(s.epipolarError, 0, 1e7, "median distance from epipolar lines [px]");
     c.gl.frame(c.checks, pixelsOf(rig.video.size));
 }
 
@@ -111,7 +112,7 @@ double shiftError(const std::vector<float>& flow, const Eigen::Vector2d& shift) 
     return errors.empty() ? 1e9 : errors[errors.size() / 2];
 }
 
-// The detail of the still must be added to the picture although the video has moved since.
+// The still's detail must be added to the picture although the view has shifted since the still.
 void knownTruth(Context& c) {
     const Size video = c.scale == Scale::Mixed && c.hostile.chance(0.1)
                            ? Size{640, 480}
@@ -165,7 +166,8 @@ void scaledWorld(Context& c) {
     };
     const auto metres = flowIn(1);
     const auto other = flowIn(c.hostile.pick({0x1p-20, 0x1p-10, 0x1p10}));
-    c.checks.require(metres.size() == other.size(), "size of the flow");
+    c.checks.require(metres.size() == other.size(),
+                     "the flow in a scaled world has another number of vectors");
     for (std::size_t i = 0; i < std::min(metres.size(), other.size()); ++i)
         c.checks.within(metres[i] - other[i], -2e-3, 2e-3, "flow in a scaled world");
 }

@@ -13,7 +13,8 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 missed=0 found=0
 
-# Arguments: program, description, cases, further arguments.
+# expectFound PROGRAM DESCRIPTION CASES [ARGUMENT...]: runs the cases with a planted fault, which
+# they must find.
 expectFound() {
     local run=$1 what=$2 cases=$3 said status=0
     shift 3
@@ -35,10 +36,10 @@ inShaders() {
     done < <("$program" --list-planted)
 }
 
-# Arguments: source, object. Compiles the source together with the changed copies (of itself or of a
-# header). The copies lie in $scratch under their own paths, because a kernel includes itself once
-# per instruction set. Uses the command of the source's unity file, or the source's own command if
-# there is no such file.
+# compile SOURCE OBJECT: compiles the source with the changed copies (of itself or of a header)
+# instead of the originals. The copies lie in $scratch under the same relative paths, because a
+# kernel includes itself once per instruction set. Uses the compiler command of the source's unity
+# file, or the source's own command if there is no such file.
 compile() {
     local source=$1 object=$2 unit command
     unit=$(grep -lsF "/$source\"" "$build"/pipeline/CMakeFiles/*/Unity/*.cxx \
@@ -51,8 +52,8 @@ compile() {
     (cd "$build" && eval "$command -w -I$PWD -c $scratch/$source -o $object")
 }
 
-# Arguments: source, text to replace, replacement, description, cases; for a header also the source
-# that includes it.
+# inHost SOURCE FROM TO DESCRIPTION CASES [INCLUDER]: plants a fault by replacing FROM by TO in a
+# host source. If SOURCE is a header, INCLUDER is the source that includes it.
 inHost() {
     local source=$1 from=$2 to=$3 what=$4 cases=$5 unit=${6:-$1} link
     if [[ $(grep -cF -- "$from" "$source") != 1 ]]; then
@@ -136,7 +137,7 @@ kernelFaults() {
     rowFaults
 }
 
-# Faults in kernels of the search along lines, of depth, of tiles and of turned pictures.
+# Faults in SIMD kernels of the epipolar search, of depth, of tiles and of rotated pictures.
 rowFaults() {
     local simd=pipeline/simd
     inHost $simd/label_costs.cpp 'hn::IfNegativeThenElse(seen, hn::Set(d, kUnseenCost), count)' 'count' \
@@ -168,5 +169,5 @@ rowFaults() {
 if [[ $which == all || $which == shaders ]]; then inShaders; fi
 if [[ $which == all || $which == host || $which == texts ]]; then hostFaults; fi
 if [[ $which == all || $which == kernels || $which == texts ]]; then kernelFaults; fi
-printf '%d found, %d missed\n' "$found" "$missed"
+printf '%d planted faults were found, %d were missed\n' "$found" "$missed"
 [[ $missed == 0 ]]

@@ -51,7 +51,7 @@ void checkPose(Context& c, const RigidTransform& T, const Matrix6& covariance) {
     c.checks.require(isFinite(T), "a pose that is not finite");
     c.checks.within(T.rotation.norm(), 1 - 1e-9, 1 + 1e-9, "norm of a rotation");
     c.checks.require(covariance.allFinite() && covariance.diagonal().minCoeff() >= 0,
-                     "covariance of a pose");
+                     "a pose's covariance is not finite or has a negative variance");
 }
 
 // Exact corners must give the exact pose, in any unit of length.
@@ -65,13 +65,13 @@ void exactTag(Context& c) {
     const bool inside = std::ranges::all_of(tag.corners, [](const Eigen::Vector2d& p) {
         return p.x() >= 0 && p.y() >= 0 && p.x() <= 639 && p.y() <= 479;
     });
-    c.checks.require(poses.has_value() || !inside, "a tag without a pose");
+    c.checks.require(poses.has_value() || !inside, "no pose was found although the tag is in view");
     if (!poses) return;
     const double turn = poses->best.T_world_camera.rotation.angularDistance(truth.rotation);
     const double off = (poses->best.T_world_camera.translation - truth.translation).norm() / unit;
     c.checks.within(poses->best.rms(), 0, 1e-4, "error of exact corners [px]");
-    c.checks.within(turn, 0, 1e-4, "turn of an exact pose [rad]");
-    c.checks.within(off, 0, 1e-4, "position of an exact pose");
+    c.checks.within(turn, 0, 1e-4, "rotation error with exact corners [rad]");
+    c.checks.within(off, 0, 1e-4, "position error with exact corners, relative to the unit");
     checkPose(c, poses->best.T_world_camera, poses->best.covariance);
 }
 
@@ -146,8 +146,8 @@ void hostileTracker(Context& c) {
     }
 }
 
-// Unprojecting and then projecting a pixel must give the pixel. Rays beyond the rim must not fall
-// into the picture.
+// Unprojecting and then projecting a pixel must give the pixel. Rays outside of the lens model's
+// valid range (beyond the rim) must not fall into the picture.
 void lenses(Context& c) {
     const CameraModel camera = c.hostile.camera(c.hostile.size(1, 2000));
     const LensProjection lens(camera);
@@ -160,10 +160,11 @@ void lenses(Context& c) {
         // nearest ray instead.
         if (camera.projectJacobian(ray).determinant() > 0.1 * camera.fx * camera.fy)
             c.checks.within((camera.project(ray) - pixel).norm(), 0, 1e-6,
-                            "movement of a pixel [px]");
+                            "shift of an unprojected and projected pixel [px]");
         const double z = c.hostile.pick({1.0, 1e-6, -1e-6, -1.0, 1e6, 1e-30});
         const Eigen::Vector3d p = lens({c.hostile.real(-2, 2), c.hostile.real(-2, 2), z});
-        c.checks.require(p.allFinite() && p.z() == z, "a projected point");
+        c.checks.require(p.allFinite() && p.z() == z,
+                         "a projected point is not finite or has another depth");
     }
     c.checks.tried("lens", 200);
 }

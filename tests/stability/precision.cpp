@@ -33,7 +33,7 @@ double ErrorTable::worst() const {
 }
 
 void ErrorTable::printHead() {
-    fmt::print("{:<34} {:>8} {:>11} {:>11} {:<7} {:>10}\n", "pass: quantity", "count", "p99.9",
+    fmt::print("{:<34} {:>8} {:>11} {:>11} {:<11} {:>10}\n", "pass: quantity", "count", "p99.9",
                "max", "unit", "max ulps");
 }
 
@@ -42,7 +42,7 @@ void ErrorTable::print() {
     const auto at = static_cast<std::ptrdiff_t>(0.999 * static_cast<double>(errors_.size() - 1));
     const double most = worst();
     std::ranges::nth_element(errors_, errors_.begin() + at);
-    fmt::print("{:<34} {:>8} {:>11.3g} {:>11.3g} {:<7} {:>10}\n", what_, errors_.size(),
+    fmt::print("{:<34} {:>8} {:>11.3g} {:>11.3g} {:<11} {:>10}\n", what_, errors_.size(),
                errors_[static_cast<std::size_t>(at)], most, unit_,
                ulps_ < 0 ? "-" : fmt::format("{:.1f}", ulps_));
 }

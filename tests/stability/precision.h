@@ -2,8 +2,8 @@
 
 namespace mfar::stress {
 
-/// Prints the error of each geometric pass against double precision. For passes that might use half
-/// precision, prints their error in it.
+/// Prints the error of each geometric pass in single precision against double precision. Then calls
+/// printHalfPrecision().
 void printPrecision();
 
 }  // namespace mfar::stress

@@ -6,7 +6,7 @@
 
 namespace mfar::stress {
 
-/// What a run counted.
+/// The counts of a run.
 struct Tally {
     std::map<std::string, long> pixels;  ///< pixels of each pass
     std::map<std::string, long> inputs;  ///< inputs of each part that does not process pictures

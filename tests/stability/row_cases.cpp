@@ -58,7 +58,7 @@ void turnedPoints(Context& c) {
         // overflow.
         if (std::abs(radius / rim - 1) < 1e-3 || std::abs(p.z - 0.05) < 1e-3) continue;
         if (!isShown) {
-            c.checks.within(x[i], -1e7, -1e5, "place of a ray that does not show");
+            c.checks.within(x[i], -1e7, -1e5, "column of a ray that the source does not show");
             continue;
         }
         const auto q = test::project(lens.lens, p.x / p.z, p.y / p.z);
@@ -69,7 +69,7 @@ void turnedPoints(Context& c) {
     c.checks.through("turnedPoints", static_cast<long>(count));
 }
 
-// Rows that cross the picture and end beyond it on every side.
+// Tests rows of a rotated picture that cross the source picture and end beyond it on every side.
 void turnedRow(Context& c) {
     Size size = c.size(2, 60);
     size = {std::max(size.width, 2), std::max(size.height, 2)};
@@ -95,7 +95,8 @@ void turnedRow(Context& c) {
         const double lastX = size.width - 1.0, lastY = size.height - 1.0;
         const double beyond = std::max({-0.5 - px, -0.5 - py, px - lastX - 0.5, py - lastY - 0.5});
         if (std::abs(beyond) > 0.01)
-            c.checks.require(seen[i] == (beyond < 0 ? 1 : 0), "whether the source has a pixel");
+            c.checks.require(seen[i] == (beyond < 0 ? 1 : 0),
+                             "the mark that tells whether the source shows a pixel is wrong");
         const double sx = std::clamp(px, 0.0, lastX), sy = std::clamp(py, 0.0, lastY);
         const int ix = std::min(static_cast<int>(sx), size.width - 2);
         const int iy = std::min(static_cast<int>(sy), size.height - 2);
@@ -103,20 +104,21 @@ void turnedRow(Context& c) {
         const double wanted =
             std::lerp(std::lerp(p[0], p[1], sx - ix),
                       std::lerp(p[size.width], p[size.width + 1], sx - ix), sy - iy);
-        // Tolerance: the result is rounded, and it is read up to a thousandth of a pixel beyond the
-        // last column and row.
+        // Tolerance: the result is rounded, and pixels up to a thousandth beyond the last column
+        // and row are read.
         c.checks.within(grey[i] - wanted, -1.1, 1.1, "error of a turned pixel [grey levels]");
     }
     c.checks.through("turnedRow", static_cast<long>(width));
 }
 
-/// A lens without distortion, whose labels are whole pixels apart along a row or a column, in
-/// either direction. So the feet and the costs of a pixel are known without following a line.
+/// Epipolar lines of a lens without distortion. The candidates (labels) of a pixel are whole pixels
+/// apart along a row or a column, in either direction. So the costs of a pixel, and its foot on the
+/// line, are known without following the line.
 struct WholeLabels {
     simd::LabelLines lines{};
     Row raysX, raysY;
-    std::vector<std::array<int, 2>> pixels;  ///< the pixel nearest to label 0, for each pixel
-    std::vector<double> feet;  ///< distance from label 0 to the foot of that pixel [labels]
+    std::vector<std::array<int, 2>> pixels;  ///< for each pixel, the pixel nearest to its label 0
+    std::vector<double> feet;  ///< distance from label 0 to the foot of `pixels` [labels]
     std::array<int, 2> way{};  ///< step per label [px]
 
     WholeLabels(Context& c, std::size_t count, Size canvas) {
@@ -154,8 +156,8 @@ Valley valleyOf(Context& c) {
     return out;
 }
 
-/// The minimum of two straight lines with opposite slopes of equal size, through the costs of a
-/// label and its two neighbours.
+/// Position of the minimum that two straight lines of opposite slope form. The lines lead through
+/// the costs of a label and its two neighbours.
 double bottomOf(const Valley& v) {
     const int left = v.rise[1], right = v.rise[2], most = std::max(left, right);
     if (most == 0 || most == Valley::kUnknown) return 0;
@@ -172,9 +174,10 @@ void labelPlaces(Context& c) {
     simd::labelVertices(valleys.data(), count, vertices.data());
     for (std::size_t i = 0; i < count; ++i) {
         const double label = valleys[i].label, bottom = bottomOf(valleys[i]);
-        c.checks.within(vertices[i] - label - bottom, -1e-4, 1e-4, "a valley's vertex");
+        c.checks.within(vertices[i] - label - bottom, -1e-4, 1e-4,
+                        "error of the vertex of a cost valley [labels]");
         c.checks.within(places[i] - label - labels.feet[i] - bottom, -2e-3, 2e-3,
-                        "a valley's place on its line");
+                        "error of a cost valley's position on its line");
     }
     c.checks.through("labelPlaces", static_cast<long>(count));
 }
@@ -225,7 +228,7 @@ void labelCosts(Context& c) {
         for (const int side : {-1, 1})
             if (slack)
                 wanted = std::min(wanted, still.at(x + side * dy, y + side * dx, own[pixel]));
-        c.checks.require(got[i] == wanted, "a label's cost");
+        c.checks.require(got[i] == wanted, "a label's cost differs from its definition");
     }
     c.checks.through("labelCosts", static_cast<long>(count));
 }
@@ -243,8 +246,11 @@ void landedRow(Context& c) {
     simd::landRow(lens, camera.size, motion, x.data(), y.data(), s.data(), count, landing.data());
     for (std::size_t i = 0; i < count; ++i) {
         const long last = pixelsOf(camera.size) - 1;
-        c.checks.within(landing[i], -1, static_cast<double>(last), "where a pixel lands");
-        if (std::isnan(s[i])) c.checks.require(landing[i] == -1, "a landing of no depth");
+        c.checks.within(landing[i], -1, static_cast<double>(last),
+                        "index of the pixel onto which a pixel is projected");
+        if (std::isnan(s[i]))
+            c.checks.require(landing[i] == -1,
+                             "a pixel of unknown depth is projected onto another");
         if (!(std::abs(s[i]) < 1)) continue;
         const auto& [tx, ty, tz] = motion.move;
         const auto p = test::turned(
@@ -258,7 +264,7 @@ void landedRow(Context& c) {
         const bool inside =
             q.x > -0.5 && q.y > -0.5 && column < camera.size.width && row < camera.size.height;
         c.checks.require(landing[i] == (inside ? row * camera.size.width + column : -1),
-                         "the pixel that another lands on");
+                         "a pixel is projected onto a wrong pixel");
     }
     c.checks.through("landRow", static_cast<long>(count));
 }
@@ -286,9 +292,9 @@ void measuredRow(Context& c) {
             landing[i] < 0 ? -1.0 : static_cast<double>(s[i]) + rule.slack - nearest[landing[i]];
         if (std::abs(over) < 1e-5 || std::abs(depth - rule.leastDepth) < 1e-3) continue;
         if (!(over > 0 && depth > rule.leastDepth)) {
-            c.checks.require(rho[i] == 0, "inverse depth where it is not known");
+            c.checks.require(rho[i] == 0, "unknown inverse depth is not 0");
             c.checks.require(variance[i] == std::numeric_limits<float>::infinity(),
-                             "variance where it is not known");
+                             "variance of unknown depth is not infinite");
             continue;
         }
         if (!(std::abs(s[i]) < 10)) continue;

@@ -1,4 +1,4 @@
-// Cases for the picture on a screen, from one pixel to several times the screen's size.
+// Cases for scaling a picture to a screen, from one pixel to several times the screen's size.
 #include "hal/device/display_scaler.h"
 #include "tests/oracle/area_mean.h"
 #include "tests/stability/cases.h"
@@ -11,8 +11,8 @@
 namespace mfar::stress {
 namespace {
 
-// Tolerance: a linear sampler has at least 8 bits between two pixels and truncates in both
-// directions; rounding adds half a level.
+// Largest error of a pixel that the GPU scales. A linear sampler has at least 8 bits between two
+// pixels and truncates in both directions; rounding adds half a grey level.
 constexpr double kSampling = 2.5;  // [grey levels]
 
 /// A size of 0.2 to 4 times the screen's, separately in each direction.

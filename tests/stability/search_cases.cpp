@@ -27,13 +27,13 @@ void checkSearch(Context& c, const EpipolarSearch& search) {
     const Size size{area.x1 - area.x0, area.y1 - area.y0};
     c.checks.through("EpipolarSearch", pixelsOf(size));
     c.checks.require(search.inverseDepth().size() == static_cast<std::size_t>(pixelsOf(size)),
-                     "size of the searched field");
-    // The limit is relative to the translation, which may be 1e18 in an invalid pose.
+                     "the field of inverse depths has a wrong size");
+    // The limit is relative to the length of the translation, which may be 1e18 in an invalid pose.
     c.checks.within(search.pixelsPerUnit(), 0, 1e9 * search.translation().cast<double>().norm(),
-                    "pixels per unit");
-    c.checks.within(search.normalError(), 0, 1e7, "normal error");
+                    "pixels per unit of inverse depth");
+    c.checks.within(search.normalError(), 0, 1e7, "expected distance from epipolar lines [px]");
     for (const float s : search.inverseDepth())
-        c.checks.within(s * search.pixelsPerUnit(), -2e4, 2e4, "searched label");
+        c.checks.within(s * search.pixelsPerUnit(), -2e4, 2e4, "inverse depth in pixels");
 }
 
 std::vector<float> predictionFor(Context& c, Size area) {
@@ -95,14 +95,15 @@ void planeSearch(Context& c) {
     const double unit = c.hostile.pick({0x1p-20, 0x1p-10, 0x1p10});
     scaled.translation *= unit;
     c.checks.require(metres.run(video, view.T_still_video) == other.run(video, scaled),
-                     "a search in a scaled world");
+                     "the search in a scaled world runs or fails unlike the original");
     checkSearch(c, metres);
     for (std::size_t i = 0; i < metres.inverseDepth().size(); ++i)
         c.checks.within(metres.inverseDepth()[i] - other.inverseDepth()[i] * unit, -1e-5, 1e-5,
                         "inverse depth in a scaled world");
     EpipolarSearch back({camera, camera, {}}, workers());
     back.setStill(viewOf(video));
-    if (!back.run(still, view.T_still_video.inverse())) c.checks.fail("no search back");
+    if (!back.run(still, view.T_still_video.inverse()))
+        c.checks.fail("the search with exchanged views does not run");
     checkSearch(c, back);
     // The plane in the frame of the still camera.
     const Eigen::Vector3d normal = view.T_still_video.rotation * Eigen::Vector3d::UnitZ();
@@ -136,17 +137,18 @@ void hostileFlowOfPoses(Context& c) {
         else
             flow.run(video.view(), pose(), where);
         checkSearch(c, flow.search());
-        c.checks.within(flow.unit(), 1e-300, 1e300, "unit of length");
+        c.checks.within(flow.unit(), 1e-300, 1e300, "the search's unit of length");
         for (const auto& v : flow.forward())
             for (const float x : v)
                 c.checks.within(x, -2e4, 2e4, "flow of a cell");
         for (const auto& v : flow.occlusion())
-            c.checks.within(v[0], 0, 1e4, "two-way error");
+            c.checks.within(v[0], 0, 1e4, "two-way error of a cell [px]");
         for (const float v : flow.flow())
             c.checks.within(v, -2e4, 2e4, "flow of a pixel");
         for (const float s : flow.inverseDepthOf(flow.forward()))
-            c.checks.require(std::isfinite(s), "inverse depth of a cell");
-        c.checks.require(std::isfinite(flow.offLine(0, 0, 1, 1)), "distance from the line");
+            c.checks.require(std::isfinite(s), "inverse depth of a cell is not finite");
+        c.checks.require(std::isfinite(flow.offLine(0, 0, 1, 1)),
+                         "distance from the epipolar line is not finite");
         c.checks.through("EpipolarFlow", pixelsOf(rig.video.size));
     }
 }
@@ -170,12 +172,15 @@ void hostileRefinement(Context& c) {
     const PoseRefinement out = refineRelativePose(matches, prior, c.hostile.logarithmic(1, 1e4));
     c.checks.require(isFinite(out.motion), "a refined pose that is not finite");
     c.checks.within(out.motion.rotation.norm(), 1 - 1e-9, 1 + 1e-9, "norm of a rotation");
-    c.checks.within(out.normalBefore, 0, 1e7, "distance from the lines before");
-    c.checks.within(out.normalAfter, 0, 1e7, "distance from the lines after");
+    c.checks.within(out.normalBefore, 0, 1e7,
+                    "distance from the epipolar lines before the refinement");
+    c.checks.within(out.normalAfter, 0, 1e7,
+                    "distance from the epipolar lines after the refinement");
     c.checks.tried("refineRelativePose", static_cast<long>(matches.size()));
 }
 
-// From matches without errors, the refinement must find the rotation that the prior lacks.
+// From matches without errors, the refinement must find the rotation that is missing in the prior
+// pose.
 void exactRefinement(Context& c) {
     const Eigen::Vector3d translation = 0.2 * c.hostile.direction();
     const Eigen::Quaterniond turn(
@@ -195,8 +200,9 @@ void exactRefinement(Context& c) {
     if (!out.accepted && out.normalBefore < 1.1 * kExactEnough) return;
     c.checks.require(out.accepted, "exact matches that are not accepted");
     c.checks.within(out.motion.rotation.angularDistance(turn), 0, 5e-4,
-                    "turn of exact matches [rad]");
-    c.checks.within(out.normalAfter, 0, 0.05, "distance of exact matches from their lines [px]");
+                    "rotation error with exact matches [rad]");
+    c.checks.within(out.normalAfter, 0, 0.05,
+                    "distance of exact matches from their epipolar lines [px]");
 }
 
 /// Median of 3x3 values. Values outside the field repeat its border.
@@ -223,10 +229,12 @@ void hostileFilters(Context& c) {
     LocalRange range;
     localRange(in, size, c.hostile.integer(0, 8), range);
     for (std::size_t i = 0; i < in.size(); ++i)
-        c.checks.require(range.low[i] <= in[i] && in[i] <= range.high[i], "a local range");
+        c.checks.require(range.low[i] <= in[i] && in[i] <= range.high[i],
+                         "a value lies outside its local range");
     const std::size_t step = in.size() / 2000 + 1;
     for (std::size_t i = 0; i < in.size(); i += step)
-        c.checks.require(out[i] == medianAround(in, size, static_cast<long>(i)), "a median");
+        c.checks.require(out[i] == medianAround(in, size, static_cast<long>(i)),
+                         "a 3x3 median differs from its definition");
     c.checks.through("median3x3", pixelsOf(size));
 }
 
@@ -252,7 +260,7 @@ void hostileAggregation(Context& c) {
         *workers(), out);
     for (std::size_t i = 0; i < out.size(); ++i)
         c.checks.within(vertexOf(out[i]) - base[i], -0.5, 16 * vectors - 0.5,
-                        "label in its window");
+                        "index of a label in its search window");
     c.checks.through("SemiGlobal", pixelsOf(size));
 }
 
@@ -278,7 +286,7 @@ void hostileLuma(Context& c) {
     c.checks.within(shrunk / static_cast<double>(pixelsOf(to)) -
                         sum / static_cast<double>(pixelsOf(size)),
                     -0.6, 0.6, "mean of a smaller picture");
-    c.checks.within(noiseOf(luma), 0, 427, "noise");
+    c.checks.within(noiseOf(luma), 0, 427, "sigma of the luma's noise [grey levels]");
     c.checks.through("luma", pixelsOf(size));
 }
 

@@ -10,7 +10,7 @@ namespace mfar::stress {
 void SeededRun::addOptions(CLI::App& app) {
     jobs = static_cast<int>(std::max(std::thread::hardware_concurrency(), 1U));
     app.add_option("--minutes", minutes,
-                   "number of minutes during which new seeds are drawn (default 1)")
+                   "number of minutes during which new seeds are run (default 1)")
         ->check(CLI::NonNegativeNumber);
     app.add_option("--seed", seed, "run only this seed");
     app.add_option("--first", first, "the first seed (default: taken from the clock)");

@@ -46,8 +46,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Group{"tracer", tracerCases, 12}, Group{"warp", warpCases, 6}),
     [](const testing::TestParamInfo<Group>& one) { return std::string(one.param.name); });
 
-// Long runs found these: the depth of triangles seen edge-on was extrapolated far beyond the
-// triangles.
+// Seeds on which long runs failed: the depth of triangles seen edge-on was extrapolated far beyond
+// the triangles.
 TEST(HostileInput, SeedsThatFailedOnceBreakNoInvariant) {
     GlWatch gl;
     Checks checks;

@@ -102,9 +102,10 @@ void checkFilm(Context& c, const Film& film, const RenderView& view) {
         c.checks.within(film.error(i), 0, 3.4e38, "error of a traced pixel");
         const Film::Means means = film.means(i);
         for (const Vector3f& mean : {means.object, means.with, means.without})
-            c.checks.require(mean.allFinite() && mean.minCoeff() >= 0, "a mean radiance");
+            c.checks.require(mean.allFinite() && mean.minCoeff() >= 0,
+                             "a mean radiance is negative or not finite");
     }
-    c.checks.require(film.dropped() == 0, "samples that are not valid radiances");
+    c.checks.require(film.dropped() == 0, "samples with an invalid radiance were dropped");
 }
 
 bool refuses(const std::shared_ptr<const Scene>& scene) {
@@ -147,7 +148,7 @@ void hostileTracer(Context& c) {
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         const Film::Means a = film.means(i), b = other.means(i);
         c.checks.require(a.object == b.object && a.with == b.with,
-                         "a pixel rendered in several calls");
+                         "a pixel differs if the work is divided into several calls");
     }
 }
 

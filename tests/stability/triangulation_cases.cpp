@@ -24,12 +24,12 @@ Points triangulate(Context& c, const twin::TwoViews& views, const std::vector<fl
     Points points = stage.run(flow, views.T_b_a, options);
     c.checks.tried("Triangulation", static_cast<long>(points.size()));
     for (const TriangulatedPoint& p : points) {
-        c.checks.within(p.inverseDepth, 0, 1e6, "inverse depth");
-        c.checks.within(p.sigma, 0, kUnknownSigma, "sigma");
-        c.checks.within(p.residual, -1e9, 1e9, "residual");
-        c.checks.within(p.rayDistance, 0, 1e35, "ray distance");
+        c.checks.within(p.inverseDepth, 0, 1e6, "inverse depth of a point");
+        c.checks.within(p.sigma, 0, kUnknownSigma, "sigma of a point's inverse depth");
+        c.checks.within(p.residual, -1e9, 1e9, "residual of a point");
+        c.checks.within(p.rayDistance, 0, 1e35, "distance between the two rays of a point");
         c.checks.require(p.inverseDepth > 0 || p.sigma == kUnknownSigma,
-                         "unknown depth is certain");
+                         "sigma of unknown depth is not kUnknownSigma");
     }
     return points;
 }
@@ -89,8 +89,8 @@ SurfaceScene usualScene(Context& c, double unit) {
     return out;
 }
 
-/// Error of inverse depth that an error of 2e-6 in normalised rays causes, which is a thousandth of
-/// a pixel.
+/// Largest allowed error of inverse depth: the one that an error of 2e-6 in normalised rays causes,
+/// which is a thousandth of a pixel.
 double bound(const twin::TwoViews& views, const twin::FlowDepth& truth, double flowSigma) {
     const double focal = std::sqrt(views.b.fx * views.b.fy);
     return truth.sigma * 2e-6 * focal / flowSigma + 2e-6 * std::abs(truth.inverseDepth);
@@ -119,8 +119,10 @@ void checkAgainstTwin(Context& c, const SurfaceScene& s, const Points& points, d
             const double off = points[i].inverseDepth - truth.inverseDepth;
             c.checks.within(std::abs(off) / bound(s.views, truth, flowSigma), 0, 1,
                             "error of inverse depth, as a share of its bound");
-            c.checks.within(points[i].sigma / truth.sigma, 0.999, 1.001, "share of sigma");
-            c.checks.within(points[i].residual - truth.residual, -5e-3, 5e-3, "error of residual");
+            c.checks.within(points[i].sigma / truth.sigma, 0.999, 1.001,
+                            "sigma divided by the true sigma");
+            c.checks.within(points[i].residual - truth.residual, -5e-3, 5e-3,
+                            "error of the flow beside the epipolar line");
         }
 }
 
@@ -131,7 +133,7 @@ void usualTriangulation(Context& c) {
         TriangulationOptions options;
         options.method = method;
         const Points points = triangulate(c, s.views, s.flow, options);
-        // In smaller units of length, rounding of the flow would move the midpoint.
+        // In smaller units of length, rounding of the flow would shift the midpoint noticeably.
         if (unit >= 1e-3) checkAgainstTwin(c, s, points, options.flowSigma);
     }
 }
@@ -153,7 +155,7 @@ void scaledTriangulation(Context& c) {
             c.checks.within(other[i].sigma * scale / sigma, 0.999, 1.001,
                             "sigma in a scaled world");
         c.checks.within(other[i].residual - one[i].residual, -2e-3, 2e-3,
-                        "residual in a scaled world");
+                        "flow beside the epipolar line in a scaled world");
     }
 }
 
@@ -191,8 +193,10 @@ void mirroredTriangulation(Context& c) {
         const auto& m = other[row + size.width - 1 - (i - row)];
         if (one[i].sigma > 1 || m.sigma > 1) continue;  // this pixel is near the epipole
         const double slack = 1e-4 * one[i].sigma + 4e-6;
-        c.checks.within(m.inverseDepth - one[i].inverseDepth, -slack, slack, "depth in a mirror");
-        c.checks.within(m.residual + one[i].residual, -2e-3, 2e-3, "residual in a mirror");
+        c.checks.within(m.inverseDepth - one[i].inverseDepth, -slack, slack,
+                        "change of inverse depth by mirrored pictures");
+        c.checks.within(m.residual + one[i].residual, -2e-3, 2e-3,
+                        "flow beside the epipolar line of mirrored pictures");
     }
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr Size kCells{5, 3};
 
-/// superres_weigh.comp copies its input, the displacement, to its output.
+/// Runs superres_weigh.comp, which copies its input `displacement` to its output.
 void weigh(const std::vector<float>& displacement) {
     using gpu::TexelFormat;
     const std::vector<float> zeros(4UL * 15);

@@ -112,8 +112,8 @@ VirtualObject objectOf(Context& c) {
     return o;
 }
 
-/// True if the object is entirely in front of the camera and has a valid size. Only then can its
-/// rays be compared.
+/// True if the object is entirely in front of the camera and has a valid size. Only then are its
+/// pixels compared with rays.
 bool isCast(const VirtualObject& o) {
     const bool sound = isFinite(o.T_world_object) && o.size.allFinite() &&
                        std::abs(o.T_world_object.rotation.norm() - 1) < 1e-9;
@@ -140,16 +140,17 @@ void preview(Context& c) {
             const std::size_t i = static_cast<std::size_t>(y) * size.width + x;
             const float z = depth[4 * i];
             c.checks.within(z, 0, 4e5, "depth of an object");
-            c.checks.require((z > 0) == (colour[4 * i + 3] != 0), "depth and coverage differ");
+            c.checks.require((z > 0) == (colour[4 * i + 3] != 0),
+                             "a pixel has depth but no coverage, or the reverse");
             const bool inside = x >= layer.bounds.x0 && x < layer.bounds.x1 &&
                                 y >= layer.bounds.y0 && y < layer.bounds.y1;
-            c.checks.require(inside || z == 0, "drawn outside of its bounds");
+            c.checks.require(inside || z == 0, "an object is drawn outside of its bounds");
             if (!casts) continue;
             const auto [low, high] = rays.around(x, y);
             if (!(z >= low * 0.97 - 1e-6 && z <= high * 1.03 + 1e-6)) ++off;
         }
     c.checks.within(static_cast<double>(off), 0, 0.02 * static_cast<double>(pixelsOf(size)) + 8,
-                    "pixels off their ray");
+                    "pixels whose depth is not on the object's surface");
 }
 
 constexpr double kInterpolation = 0x1p-20;  // a few roundings, relative to the largest value
@@ -166,7 +167,7 @@ void silhouettes(Context& c) {
     c.gl.frame(c.checks, pixelsOf(camera.size));
     const int columns = silhouette.tileCount().width;
     for (const SurfaceRange& tile : tiles)
-        c.checks.within(tile.farthest, 0, 4e5, "range of a tile");
+        c.checks.within(tile.farthest, 0, 4e5, "farthest depth of a tile");
     for (int y = 0; y < camera.size.height; ++y)
         for (int x = 0; x < camera.size.width; ++x) {
             const float z = depth[4 * (static_cast<std::size_t>(y) * camera.size.width + x)];
@@ -176,7 +177,8 @@ void silhouettes(Context& c) {
             // Tolerance: the renderer interpolates 1 / z in single precision.
             const double rounding = kInterpolation / tile.nearest;
             c.checks.within(1 / z, 0.999 / tile.farthest - rounding,
-                            1.001 / tile.nearest + rounding, "inverse depth in its tile");
+                            1.001 / tile.nearest + rounding,
+                            "inverse depth of a pixel, compared with its tile's range");
         }
 }
 

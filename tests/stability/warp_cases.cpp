@@ -31,7 +31,7 @@ RigidTransform around(Context& c) {
                        c.hostile.real(5, 85));
 }
 
-/// Replaces some depths, numbers and colours by values that no renderer produces.
+/// Replaces some depths, object numbers and colours by values that no renderer produces.
 void spoilPicture(Context& c, std::vector<float>& depth, std::vector<std::uint8_t>& id,
                   std::vector<std::array<std::uint8_t, 4>>& colour, double share) {
     for (std::size_t i = 0; i < depth.size(); ++i) {
@@ -69,7 +69,8 @@ void checkLayer(Context& c, const LayerPicture& layer) {
             c.checks.within(depth[i / 4], 0, kFarthestSurface, "depth of a warped layer");
             const bool inside = x >= layer.bounds.x0 && x < layer.bounds.x1 &&
                                 y >= layer.bounds.y0 && y < layer.bounds.y1;
-            c.checks.require(inside || colour[i + 3] == 0, "warped outside of its bounds");
+            c.checks.require(inside || colour[i + 3] == 0,
+                             "the warped layer is drawn outside of its bounds");
         }
 }
 
@@ -80,7 +81,8 @@ void showFrame(Context& c, Warp& warp, const test::CastScene& balls, const Rigid
     c.gl.frame(c.checks, pixelsOf(warp.camera().size));
     const auto request = warp.takeRequest();
     if (!request) return;
-    c.checks.require(isFinite(request->view.T_world_camera), "a view that is not finite");
+    c.checks.require(isFinite(request->view.T_world_camera),
+                     "a request for pixels has a view that is not finite");
     HoleAnswer answer = test::answered(balls, *request, 1);
     spoilPicture(c, answer.depth, answer.id, answer.colour, spoilt);
     warp.answer(answer);
@@ -115,7 +117,8 @@ void hostileWarp(Context& c) {
         showFrame(c, warp, balls, rest, spoilt);
 }
 
-// The warped older picture must show the scene's points at their places.
+// An older picture that is warped to a new pose must show the scene's points at their new
+// positions.
 void knownWarp(Context& c) {
     test::CastScene balls = test::twoBalls();
     balls.contrast = 0.5;
@@ -131,7 +134,7 @@ void knownWarp(Context& c) {
     const LayerPicture& layer = warp.run(now);
     const RenderedPicture truth = balls.cast({camera, now}, 3);
     c.checks.within(test::psnrInside(test::bytesOf(layer.colour), truth), 33.5, 200,
-                    "a warped picture against truth [dB]");
+                    "PSNR of a warped picture [dB]");
     checkLayer(c, layer);
     c.gl.frame(c.checks, pixelsOf(camera.size));
 }
@@ -230,7 +233,8 @@ void edges(Context& c) {
         glFinish();
         const auto listed = refiner.poll();
         const auto wanted = edgesOf(before, numbers, size, where, share);
-        c.checks.require(listed && *listed == wanted, "the pixels at edges");
+        c.checks.require(listed && *listed == wanted,
+                         "the list of pixels at edges differs from the oracle's");
         const HoleAnswer answer = answerOf(c, wanted, size);
         refiner.answer(answer);
         for (int frame = 0; frame <= fade; ++frame)

@@ -45,8 +45,8 @@ bool isName(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
 
-/// An array of a storage block. Its length is an expression that does not count the guard bytes
-/// behind the buffer.
+/// An array of a storage block. `length` is a GLSL expression for its length, which does not
+/// include the guard bytes behind the buffer.
 struct StorageArray {
     std::string name, length;
 };

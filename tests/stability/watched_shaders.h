@@ -10,13 +10,14 @@
 /// out of range is counted and clamped. A fault may be planted in one of the shaders.
 namespace mfar::stress {
 
-inline constexpr unsigned kWatchBinding = 15;     ///< counts: one uint per shader
+inline constexpr unsigned kWatchBinding = 15;     ///< binding of the counts of wrong indices
 inline constexpr std::size_t kMostWatched = 128;  ///< largest number of shaders
 
-/// Name of the shader that count number `index` belongs to.
+/// Name of the shader whose invalid indices element `index` of the buffer kWatchBinding counts.
 [[nodiscard]] std::string watchedName(std::size_t index);
 
-/// `text` with checks of its indices. Invalid indices are counted in element `index`.
+/// Returns the shader `text` with checks of its indices. Invalid indices are counted in element
+/// `index` of the buffer kWatchBinding.
 [[nodiscard]] std::string watched(std::string_view text, std::size_t index);
 
 /// A change of a shader that the cases must detect.

@@ -5,7 +5,8 @@
 namespace mfar {
 namespace {
 
-/// A still that frames were matched with, and how far the frames have moved since.
+/// A reference still. `shows`: share of the tiles that it showed; `moved`: displacement of all
+/// cells since the first frame [px]; `weight`: weight of all cells in the last frame.
 struct Known {
     explicit Known(double shows, float moved = 0, float weight = 1) {
         cells.assign(12, {3 + moved, 2, weight, 1});
@@ -24,19 +25,19 @@ struct Known {
     Reference reference;
 };
 
-TEST(Reference, MotionIsTheMeanDisplacementOfMatchedCells) {
+TEST(Reference, MovedIsTheMeanDisplacementOfMatchedCells) {
     EXPECT_EQ(Known(1).reference.moved(), 0);
     EXPECT_NEAR(Known(1, -5).reference.moved(), 5, 1e-6);
     Known half(1, 8);
     half.reference.first[0].x = 11;
     half.cells[1].weight = 0;
     EXPECT_NEAR(half.reference.moved(), 80.0 / 11, 1e-5) << "one of eleven has not moved";
-    EXPECT_GT(Known(1, 0, 0).reference.moved(), 1e6) << "nothing is matched any more";
+    EXPECT_GT(Known(1, 0, 0).reference.moved(), 1e6) << "no cell is matched any more";
     half.reference.first.clear();
     EXPECT_EQ(half.reference.moved(), 0) << "no frame was matched";
 }
 
-TEST(Reference, ShownShareFollowsTheFrames) {
+TEST(Reference, ShareOfShownTilesIsSmoothedOverFrames) {
     Reference still;
     still.count(0, 0);
     EXPECT_EQ(still.shows, 1);
@@ -50,13 +51,13 @@ TEST(KeepsOlder, DoesNotKeepAMissingStill) {
     EXPECT_FALSE(keepsOlder(none, Known(0.1).reference));
 }
 
-TEST(KeepsOlder, KeepsItIfTheNewestStillShowsTheSameAsTheNewOne) {
+TEST(KeepsOlder, KeepsTheOlderIfTheNewestStillIsFromTheSamePlaceAsTheNewOne) {
     const Known older(0.1);
     EXPECT_TRUE(keepsOlder(older.reference, Known(0.9, 1).reference));
     EXPECT_FALSE(keepsOlder(older.reference, Known(0.9, 20).reference));
 }
 
-TEST(KeepsOlder, KeepsItIfItShowsMoreThanTheNewest) {
+TEST(KeepsOlder, KeepsTheOlderIfItShowsMoreThanTheNewest) {
     const Known older(0.6);
     EXPECT_TRUE(keepsOlder(older.reference, Known(0.5, 20).reference));
     EXPECT_FALSE(keepsOlder(older.reference, Known(0.7, 20).reference));

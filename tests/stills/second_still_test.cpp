@@ -14,7 +14,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr Size kVideo{256, 192}, kStill{1024, 768};
 const PixelRect kHidden{0, 0, 400, 768};  // left part of the still [px]
-constexpr int kRoom = 24;                 // around a border [px]; not scored
+constexpr int kRoom = 24;                 // width of a zone around borders that is not scored [px]
 
 StereoRig simpleRig() {
     StereoRig rig;
@@ -71,7 +71,7 @@ protected:
                 video_ = bytesOf(videoOf(scene_, {}));
 };
 
-/// The engines: each alone, and each drawing with the match of the other.
+/// Engines to test: each engine alone, and each drawing with the match of the other.
 struct Engines {
     const char* name;
     EngineChoice choice;
@@ -119,7 +119,7 @@ TEST_P(SecondStillOfEngines, ShowsPartsThatTheNewestStillLacks) {
     EXPECT_LT(error(two, false), 1.02 * error(one, false));
 }
 
-TEST_P(SecondStillOfEngines, CostsNothingWhereTheNewestShowsAll) {
+TEST_P(SecondStillOfEngines, IsNotMatchedWhereTheNewestStillShowsAll) {
     Pipeline pipeline = made(1);
     setStill(pipeline, whole_);
     EXPECT_EQ(run(pipeline).matchedSecond, 0) << "there is one still";
@@ -132,7 +132,7 @@ TEST_P(SecondStillOfEngines, CostsNothingWhereTheNewestShowsAll) {
         EXPECT_STRNE(stage.stage, "second still") << "nothing has changed";
 }
 
-TEST_F(SecondStill, IsMatchedInNoMoreTilesThanAskedFor) {
+TEST_F(SecondStill, IsMatchedInNoMoreTilesThanItsConfiguredShare) {
     Pipeline pipeline = made(0.05);
     setStill(pipeline, whole_);
     run(pipeline);
@@ -141,15 +141,15 @@ TEST_F(SecondStill, IsMatchedInNoMoreTilesThanAskedFor) {
     pipeline.setQuality({.secondShare = 0});
     EXPECT_EQ(run(pipeline).matchedSecond, 0);
     pipeline.setQuality({.secondShare = 0.1});
-    EXPECT_EQ(run(pipeline).matchedSecond, 20) << "it was kept";
+    EXPECT_EQ(run(pipeline).matchedSecond, 20) << "the second still was kept";
     setStill(pipeline, whole_);
     pipeline.setQuality({.secondShare = 0});
     setStill(pipeline, part_);
     pipeline.setQuality({.secondShare = 1});
-    EXPECT_EQ(run(pipeline).matchedSecond, 0) << "none is kept while the share is zero";
+    EXPECT_EQ(run(pipeline).matchedSecond, 0) << "no second still is kept while the share is zero";
 }
 
-TEST_F(SecondStill, IsUsedInModeDetailWithFiltersAlone) {
+TEST_F(SecondStill, IsUsedOnlyInModeDetailWithLearnedFilters) {
     Pipeline pipeline = made(1);
     setStill(pipeline, whole_);
     run(pipeline);
@@ -164,7 +164,7 @@ TEST_F(SecondStill, IsUsedInModeDetailWithFiltersAlone) {
     EXPECT_GT(run(pipeline).matchedSecond, 30);
 }
 
-TEST_P(SecondStillOfEngines, IsDroppedWithTheNewest) {
+TEST_P(SecondStillOfEngines, IsDroppedTogetherWithTheNewestStill) {
     Pipeline pipeline = made(1), fresh = made(1);
     setStill(pipeline, whole_);
     run(pipeline);
@@ -172,7 +172,7 @@ TEST_P(SecondStillOfEngines, IsDroppedWithTheNewest) {
     run(pipeline);
     pipeline.dropStill();
     EXPECT_FALSE(run(pipeline).usedStill);
-    for (int frame = 0; frame < 3; ++frame)  // until both know the noise equally
+    for (int frame = 0; frame < 3; ++frame)  // until both pipelines have measured the same noise
         run(fresh);
     setStill(pipeline, part_);
     setStill(fresh, part_);
@@ -181,7 +181,7 @@ TEST_P(SecondStillOfEngines, IsDroppedWithTheNewest) {
     EXPECT_EQ(pipeline.readImage(), fresh.readImage());
 }
 
-TEST_F(SecondStill, StaysWhileNewStillsMissTheSameParts) {
+TEST_F(SecondStill, IsKeptWhileNewStillsMissTheSameParts) {
     Pipeline pipeline = made(1);
     setStill(pipeline, whole_);
     run(pipeline);

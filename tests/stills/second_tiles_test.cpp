@@ -9,7 +9,7 @@ namespace {
 
 constexpr Size kTiles{5, 4}, kCells{20, 16};
 
-/// Twenty tiles. The newest still shows all of them except some.
+/// A picture of twenty tiles. The newest still shows all tiles; tests then mark some as not shown.
 class SecondTilesTest : public testing::Test {
 protected:
     SecondTilesTest()
@@ -72,7 +72,7 @@ TEST_F(SecondTilesTest, TilesWithoutStructureAreNotChosen) {
     EXPECT_EQ(chosen(), Tiles{});
 }
 
-TEST_F(SecondTilesTest, IfTooManyTilesQualifyTheWorstAreChosen) {
+TEST_F(SecondTilesTest, IfTooManyTilesQualifyThoseWithMostUnshownStructureAreChosen) {
     for (const int tile : {2, 3, 9, 11})
         fill(weighed_, tile, 0);
     measured_[9].structure = 300;
@@ -92,10 +92,10 @@ TEST_F(SecondTilesTest, TilesThatAreNotDrawnOrNotMatchedAreNotChosen) {
     EXPECT_EQ(chosen(), Tiles{9});
     EXPECT_EQ(tiles_.matched(), 18);
     work_.draw = TileWork::Draw::Whole;
-    EXPECT_EQ(chosen(), (Tiles{2, 9})) << "all are drawn";
+    EXPECT_EQ(chosen(), (Tiles{2, 9})) << "all tiles are drawn";
 }
 
-TEST_F(SecondTilesTest, TilesThatNeitherStillShowsAreNotTriedForAWhile) {
+TEST_F(SecondTilesTest, TilesThatNeitherStillShowsAreNotMatchedForAWhile) {
     for (const int tile : {2, 3})
         fill(weighed_, tile, 0);
     fill(second_, 3, 0.8F);
@@ -112,7 +112,7 @@ TEST_F(SecondTilesTest, TilesThatNeitherStillShowsAreNotTriedForAWhile) {
     EXPECT_EQ(chosen(), (Tiles{2, 3})) << "another still";
 }
 
-TEST_F(SecondTilesTest, ATileShownByTheSecondStillIsPreferredToOthers) {
+TEST_F(SecondTilesTest, TilesThatTheSecondStillShowsArePreferred) {
     for (const int tile : {2, 3})
         fill(weighed_, tile, 0);
     fill(second_, 2, 1);

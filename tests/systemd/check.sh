@@ -21,30 +21,33 @@ trap 'rm -rf "$work"' EXIT
 # systemd requires that the program of the unit exists.
 sed "s|/usr/bin/mfard|$mfard|; s|^Documentation=.*|Documentation=man:systemd(1)|" "$unit" \
     >"$work/mfard.service"
-said=$(systemd-analyze verify --man=no "$work/mfard.service" 2>&1) || fault "verify ended with $?"
-[[ -z $said ]] || fault "verify: $said"
+said=$(systemd-analyze verify --man=no "$work/mfard.service" 2>&1) ||
+    fault "systemd-analyze verify of mfard.service ended with exit code $?"
+[[ -z $said ]] || fault "systemd-analyze verify of mfard.service reports: $said"
 
 # The optional drop-in that reboots after repeated failures. systemd must accept it. The number of
 # starts that it counts must be possible within its interval, although mfard waits before each
 # start.
 reboot=$(dirname "$unit")/reboot.conf
 install -D -m 644 "$reboot" "$work/mfard.service.d/reboot.conf"
-said=$(systemd-analyze verify --man=no "$work/mfard.service" 2>&1) || fault "verify of reboot.conf ended with $?"
-[[ -z $said ]] || fault "verify of reboot.conf: $said"
-grep -qx 'StartLimitAction=reboot' "$reboot" || fault "reboot.conf does not reboot"
+said=$(systemd-analyze verify --man=no "$work/mfard.service" 2>&1) ||
+    fault "systemd-analyze verify of reboot.conf ended with exit code $?"
+[[ -z $said ]] || fault "systemd-analyze verify of reboot.conf reports: $said"
+grep -qx 'StartLimitAction=reboot' "$reboot" || fault "reboot.conf has no StartLimitAction=reboot"
 minutes=$(sed -n 's/^StartLimitIntervalSec=\([0-9]*\)min$/\1/p' "$reboot")
 starts=$(sed -n 's/^StartLimitBurst=//p' "$reboot")
 wait=$(sed -n 's/^constexpr std::chrono::seconds kLongestWait{\([0-9]*\)};$/\1/p' \
     "$sources/../daemon/restart_pause.cpp")
-# A hang takes the timeouts of the watchdog and of the start together.
-((60 * minutes > starts * (wait + 20))) || fault "reboot.conf never counts $starts starts"
+# Between two starts, a hanging service uses the timeouts of the watchdog and of the start.
+((60 * minutes > starts * (wait + 20))) ||
+    fault "reboot.conf can never count $starts starts within $minutes min"
 rm -r "$work/mfard.service.d"
 
 exposure=$(systemd-analyze security --offline=true --no-pager "$unit" |
     sed -n 's/.*Overall exposure level for [^:]*: \([0-9.]*\) .*/\1/p')
-echo "exposure $exposure"
+echo "exposure level from systemd-analyze security: $exposure"
 awk -v e="$exposure" -v m="$maxExposure" 'BEGIN { exit !(e != "" && e <= m) }' ||
-    fault "exposure is \"$exposure\", at most $maxExposure"
+    fault "the exposure that systemd-analyze security computes is \"$exposure\"; limit: $maxExposure"
 
 "$mfard" --check-config --config "$sources/mfard.toml" >/dev/null ||
     fault "mfard refuses the default configuration"
@@ -53,32 +56,35 @@ mkdir -p "$work/root/etc"
 printf 'root:x:0:\nvideo:x:44:\n' >"$work/root/etc/group"
 printf 'root:x:0:0::/root:/bin/sh\n' >"$work/root/etc/passwd"
 said=$(systemd-sysusers --root="$work/root" "$sources/sysusers.conf" 2>&1) ||
-    fault "sysusers: $said"
+    fault "systemd-sysusers refuses sysusers.conf: $said"
 for group in video render gpio; do
-    grep -Eq "^$group:.*:(.*,)?mfar(,|$)" "$work/root/etc/group" || fault "mfar is not in $group"
+    grep -Eq "^$group:.*:(.*,)?mfar(,|$)" "$work/root/etc/group" ||
+        fault "sysusers.conf does not add the user mfar to the group $group"
 done
 
 # The exit code for a configuration error in daemon/exit_code.h must not cause a restart.
-grep -q '^RestartPreventExitStatus=.*\<78\>' "$unit" || fault "exit code 78 would restart"
+grep -q '^RestartPreventExitStatus=.*\<78\>' "$unit" || fault "exit code 78 would cause a restart"
 
 # Debian 12 has systemd 252, which ignores settings that it does not know.
 grep -Eq '^(RestartSteps|RestartMaxDelaySec|RestartMode)=' "$unit" &&
-    fault "a key that needs systemd 254"
+    fault "the unit has a key that needs systemd 254"
 # The time budgets of the threads assume this limit.
 limit=$(sed -n "s/^constexpr milliseconds kWatchdog{\([0-9]*\)'000};$/\1/p" \
     "$sources/../daemon/budgets.h")
 grep -qx "WatchdogSec=$limit" "$unit" || fault "WatchdogSec is not the $limit s of budgets.h"
 # mfard must wait before every start that follows an exit code that causes a restart.
-grep -qx 'RestartPreventExitStatus=64 65 66 78' "$unit" || fault "isRestarted() knows other codes"
+grep -qx 'RestartPreventExitStatus=64 65 66 78' "$unit" ||
+    fault "RestartPreventExitStatus differs from the codes of isRestarted()"
 
 # The resources of the service must be limited. Its hook must not have more rights than the service.
 for key in MemoryMax OOMPolicy TasksMax LimitNOFILE; do
-    grep -q "^$key=" "$unit" || fault "no $key="
+    grep -q "^$key=" "$unit" || fault "the unit has no $key="
 done
-grep -Eq '^ExecStopPost=-?[^+!:@]' "$unit" || fault "the hook of the service runs outside its sandbox"
-grep -q '^ExecStopPost=.*--config' "$unit" && fault "the hook reads the configuration"
+grep -Eq '^ExecStopPost=-?[^+!:@]' "$unit" ||
+    fault "ExecStopPost= of the service runs outside its sandbox"
+grep -q '^ExecStopPost=.*--config' "$unit" && fault "ExecStopPost= reads the configuration"
 
-# Only the chip of the configured line may be found, by each of its names.
+# is-trigger-chip must accept only the GPIO chip of the configured line, by each of its names.
 isChip() {
     printf '%s\n' "$2" >"$work/trigger.toml"
     "$sources/is-trigger-chip" "$1" "$work/sys/chip/$1" "$work/trigger.toml"
@@ -86,15 +92,23 @@ isChip() {
 mkdir -p "$work/sys/chip/gpiochip1" "$work/sys/chip/gpio/gpiochip512"
 echo pinctrl-test >"$work/sys/chip/gpio/gpiochip512/label"
 section=$'[cameras.trigger]\nline = "17"'
-isChip gpiochip1 "$section"$'\nchip = "gpiochip1" # header' || fault "a chip by its name"
-isChip gpiochip1 "$section"$'\nchip = "/dev/gpiochip1"' || fault "a chip by its path"
-isChip gpiochip1 "$section"$'\nchip = "pinctrl-test"' || fault "a chip by its label"
-isChip gpiochip1 "$section" || fault "a line that is found by its name"
-isChip gpiochip1 "$section"$'\nchip = "gpiochip10"' && fault "another chip"
-isChip gpiochip1 "$section"$'\nchip = ""\n[other]\nline = ""' || fault "another section's line"
-isChip gpiochip1 $'[cameras.trigger]\nline = ""\nchip = "gpiochip1"' && fault "no line"
-isChip gpiochip1 $'line = "17"\nchip = "gpiochip1"' && fault "keys of no section"
-isChip '../gpiochip1' "$section" && fault "a name that is none"
-isChip gpiochip1 "$(cat "$sources/mfard.toml")" && fault "a chip although no line is configured"
+isChip gpiochip1 "$section"$'\nchip = "gpiochip1" # header' ||
+    fault "is-trigger-chip refuses a chip by its name"
+isChip gpiochip1 "$section"$'\nchip = "/dev/gpiochip1"' ||
+    fault "is-trigger-chip refuses a chip by its path"
+isChip gpiochip1 "$section"$'\nchip = "pinctrl-test"' ||
+    fault "is-trigger-chip refuses a chip by its label"
+isChip gpiochip1 "$section" ||
+    fault "is-trigger-chip refuses the chip of a line without a configured chip"
+isChip gpiochip1 "$section"$'\nchip = "gpiochip10"' && fault "is-trigger-chip accepts another chip"
+isChip gpiochip1 "$section"$'\nchip = ""\n[other]\nline = ""' ||
+    fault "is-trigger-chip reads the line of another section"
+isChip gpiochip1 $'[cameras.trigger]\nline = ""\nchip = "gpiochip1"' &&
+    fault "is-trigger-chip accepts a chip without a line"
+isChip gpiochip1 $'line = "17"\nchip = "gpiochip1"' &&
+    fault "is-trigger-chip reads keys outside of the section"
+isChip '../gpiochip1' "$section" && fault "is-trigger-chip accepts an invalid chip name"
+isChip gpiochip1 "$(cat "$sources/mfard.toml")" &&
+    fault "is-trigger-chip accepts a chip although no line is configured"
 
 [[ $failures == 0 ]]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The test bed's own parts, without a guest: what the cameras play, and the faults they can have."""
+"""Tests the emulated cameras of the test bed without a guest: their pictures and their faults."""
 
 import struct
 import sys
@@ -23,7 +23,7 @@ def read_number(picture, width):
 
 
 class FakeLink:
-    """Asks for data without end and puts the payloads together."""
+    """Requests data from a camera without end, and joins it to pictures."""
 
     def __init__(self, camera):
         self.camera = camera
@@ -43,7 +43,7 @@ class FakeLink:
     def wait_for(self, count):
         end = time.monotonic() + 10
         while len(self.payloads) <= count:
-            assert time.monotonic() < end, f'{len(self.payloads) - 1} payloads of {count}'
+            assert time.monotonic() < end, f'only {len(self.payloads) - 1} of {count} pictures came'
             time.sleep(0.005)
         return self.payloads[:count]
 

@@ -19,7 +19,7 @@
 namespace mfar {
 namespace {
 
-/// Interleaves the planes U and V that OpenCV gives.
+/// Writes a picture in NV12. Interleaves the planes U and V, which OpenCV gives separately.
 void writeNv12(std::ofstream& out, const StoredImage& image) {
     cv::Mat rgba(image.size.height, image.size.width, CV_8UC4,
                  const_cast<std::uint8_t*>(image.pixels.data()));

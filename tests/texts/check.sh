@@ -17,18 +17,21 @@ trap 'rm -rf "$work"' EXIT
 
 "$texts" "$work/tree"
 while IFS= read -r file; do
-    diff -u "$sources/$file" "$work/tree/$file" || fault "$file differs from the tables"
+    diff -u "$sources/$file" "$work/tree/$file" ||
+        fault "$file differs from what mfar-texts prints; run: cmake --build .build/host --target texts"
 done < <(cd "$work/tree" && find . -type f -printf '%P\n')
 
 # The example on the page must equal the source that is compiled.
 diff -u <(sed -n '/^```cpp$/,/^```$/{//!p}' "$sources/docs/flow-method.md") \
-    "$sources/tests/measure/eval/shift_flow.cpp" || fault "the example of docs/flow-method.md"
+    "$sources/tests/measure/eval/shift_flow.cpp" ||
+        fault "the example in docs/flow-method.md differs from tests/measure/eval/shift_flow.cpp"
 
 # Links on the pages must lead to files.
 while IFS=: read -r page link; do
     target=${link#*](}
     target=${target%)}
-    [[ -e $(dirname "$page")/${target%%#*} ]] || fault "$page: no $target"
+    [[ -e $(dirname "$page")/${target%%#*} ]] ||
+        fault "$page links to $target, which does not exist"
 done < <(grep -Eo '\]\([^):]+\)' "$sources"/*.md "$sources"/docs/*.md)
 
 # Messages for which the README gives a remedy must be messages of the programs; "..." stands for
@@ -49,22 +52,26 @@ completes() {
     (. "$work/tree/systemd/mfard.bash-completion" && COMP_WORDS=(mfard "$1" "$2") COMP_CWORD=2 &&
         _mfard mfard "$2" "$1" && printf '%s ' "${COMPREPLY[@]}")
 }
-[[ $(completes --mode b) == 'blend ' ]] || fault "completion of --mode b: $(completes --mode b)"
-[[ $(completes mfard --print) == '--print-config ' ]] || fault "completion of --print"
-[[ $(completes --config "$work/tree/do") == "$work/tree/docs " ]] || fault "completion of a file"
+[[ $(completes --mode b) == 'blend ' ]] ||
+    fault "bash completes \"--mode b\" to: $(completes --mode b)"
+[[ $(completes mfard --print) == '--print-config ' ]] ||
+    fault "bash completes \"--print\" to: $(completes mfard --print)"
+[[ $(completes --config "$work/tree/do") == "$work/tree/docs " ]] ||
+    fault "bash does not complete a file name after --config"
 
 # Each installed program has a manual page, which the package installs.
 while IFS= read -r program; do
     [[ -s $work/tree/docs/man/$program.1 ]] || fault "$program has no manual page"
-    grep -q "[( ]$program[ )]" "$sources/systemd/CMakeLists.txt" || fault "$program.1 is not installed"
+    grep -q "[( ]$program[ )]" "$sources/systemd/CMakeLists.txt" ||
+        fault "the package does not install the manual page $program.1"
 done < <(sed -n 's/^install(TARGETS \(.*\) RUNTIME.*/\1/p' "$sources"/daemon/CMakeLists.txt \
     "$sources"/daemon/tools/CMakeLists.txt | tr ' ' '\n')
 
 if command -v groff >/dev/null; then
     for page in "$work"/tree/docs/man/*; do
-        said=$(groff -man -Tascii -wall "$page" 2>&1 >"$work/page") || fault "groff: $said"
-        [[ -z $said ]] || fault "groff: $said"
-        [[ -s $work/page ]] || fault "$page is empty"
+        said=$(groff -man -Tascii -wall "$page" 2>&1 >"$work/page") || fault "groff fails: $said"
+        [[ -z $said ]] || fault "groff warns about $page: $said"
+        [[ -s $work/page ]] || fault "groff prints nothing for $page"
     done
 fi
 

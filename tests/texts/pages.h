@@ -22,7 +22,7 @@ namespace mfar::test {
 /// Completion of mfard's command line in bash.
 [[nodiscard]] std::string bashCompletion();
 
-/// Keys and sections as a dictionary for libFuzzer, followed by these entries.
+/// Keys and sections as a dictionary for libFuzzer, followed by the lines of `entries`.
 [[nodiscard]] std::string fuzzDictionary(std::span<const OptionSection> table,
                                          std::string_view entries);
 

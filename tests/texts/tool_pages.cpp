@@ -21,7 +21,7 @@ struct Tool {
 
 constexpr const char* kParser = "wrong command line";
 
-/// Returns the arguments of a command in short, e.g. " [--screen] FILE".
+/// Returns the arguments of a command for the synopsis, e.g. " [--screen] FILE".
 std::string synopsis(const CLI::App& app) {
     std::string options, positional;
     for (const ArgumentText& argument : argumentTexts(app)) {

@@ -16,7 +16,7 @@ using test::PaddedPicture;
 constexpr Size kSize{32, 24};
 constexpr PixelRect kPart{5, 3, 27, 20};
 
-TEST(LumaWindow, EveryFormatGivesItsLumaInTheRequestedPart) {
+TEST(LumaWindow, EveryFormatGivesTheLumaOfTheRequestedPart) {
     for (const PixelFormat format : test::kEveryFormat) {
         const PaddedPicture picture(format, kSize, 7);
         LumaWindow window;
@@ -39,7 +39,7 @@ TEST(LumaWindow, EveryFormatGivesItsLumaInTheRequestedPart) {
     }
 }
 
-TEST(LumaWindow, PlanesAreNotCopied) {
+TEST(LumaWindow, LumaPlanesAreNotCopied) {
     LumaWindow window;
     for (const PixelFormat format : {PixelFormat::Gray8, PixelFormat::Nv12, PixelFormat::Yuv420}) {
         const PaddedPicture picture(format, kSize, 7);

@@ -46,11 +46,11 @@ private:
     double unit_;
 };
 
-/// `turns`: how often the error of the pose changes by more than a limit from one frame to the
-/// next.
+/// Counts of a run. `turns`: how often the error of the pose changes by more than a limit from one
+/// frame to the next.
 struct Followed {
     int turns = 0, flips = 0, lost = 0;
-    double worst = 0;  ///< greatest rotation error [rad]
+    double worst = 0;  ///< largest rotation error [rad]
 };
 
 Followed follow(double tiltDeg, double offsetDeg, double sigma, int frames) {
@@ -87,14 +87,14 @@ TEST(PoseEstimator, NoFlipsInAThousandFramesNearFrontoParallel) {
         }
 }
 
-TEST(PoseEstimator, FollowsATagThatIsSeenAskew) {
+TEST(PoseEstimator, FollowsATagThatIsSeenObliquely) {
     const Followed run = follow(5, 35, 0.1, 300);
     EXPECT_EQ(run.turns, 0);
     EXPECT_EQ(run.flips, 0);
     EXPECT_LT(run.worst, 1 * kDegree);
 }
 
-TEST(PlanarChoice, AWrongStartIsCorrected) {
+TEST(PlanarChoice, AWrongPlanarSolutionIsCorrectedWithinAHundredFrames) {
     const CameraModel camera = testCamera();
     const RigidTransform truth = cameraAt(0.6, 0.3, 0.2);
     Corners corners(0.1);
@@ -113,7 +113,7 @@ TEST(PlanarChoice, AWrongStartIsCorrected) {
     EXPECT_FALSE(choice.flipped());
 }
 
-TEST(PlanarChoice, WithEqualErrorsThePredictionIsKept) {
+TEST(PlanarChoice, WithSimilarErrorsTheSolutionNearThePredictionIsKept) {
     CameraPoses poses;
     poses.best.T_world_camera = cameraAt(0.6, 0.05, 0);
     poses.best.squaredError = 0.02;
@@ -126,7 +126,7 @@ TEST(PlanarChoice, WithEqualErrorsThePredictionIsKept) {
         ASSERT_EQ(&choice.choose(poses, cameraAt(0.6, -0.05, 0)), &*poses.other) << i;
 }
 
-TEST(PoseEstimator, MillimetresAndMetresGiveEqualMotion) {
+TEST(PoseEstimator, TagSizesInMillimetresOrMetresGiveTheSameMotion) {
     const CameraModel camera = testCamera();
     PoseEstimator metres, millimetres;
     Corners a(0.15), b(0.15, 1000);
@@ -146,7 +146,7 @@ TEST(PoseEstimator, MillimetresAndMetresGiveEqualMotion) {
     EXPECT_EQ(metres.flips(), millimetres.flips());
 }
 
-TEST(PoseEstimator, ShortGapsAreBridgedAndLongOnesHaveNoPose) {
+TEST(PoseEstimator, PosesArePredictedInShortGapsButNotInLongOnes) {
     const CameraModel camera = testCamera();
     PoseEstimator estimator;
     Corners corners(0.05);

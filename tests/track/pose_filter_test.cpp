@@ -120,7 +120,7 @@ TEST(PoseFilter, SmoothsNoiseWithAConsistentCovariance) {
     EXPECT_GT(normalised / count, 0.5);
 }
 
-TEST(PoseFilter, AnOutlierChangesNothing) {
+TEST(PoseFilter, AnOutlierDoesNotChangeThePose) {
     PoseFilter filter;
     for (int i = 0; i < 30; ++i)
         filter.update(measured(helix(i / kRate), timeOf(i)), 0.7);
@@ -133,7 +133,7 @@ TEST(PoseFilter, AnOutlierChangesNothing) {
     EXPECT_EQ(filter.update(measured(helix(31 / kRate), timeOf(31)), 0.7), Outcome::Accepted);
 }
 
-TEST(PoseFilter, OutliersThatContradictEachOtherNeverWin) {
+TEST(PoseFilter, OutliersThatContradictEachOtherAreNeverFollowed) {
     PoseFilter filter;
     for (int i = 0; i < 30; ++i)
         filter.update(measured(helix(i / kRate), timeOf(i)), 0.7);
@@ -162,7 +162,7 @@ TEST(PoseFilter, ARealJumpIsFollowedAfterThreeFrames) {
     EXPECT_LT((pose->T_world_video.translation - jumped(32).translation).norm(), 5e-3);
 }
 
-TEST(PoseFilter, BridgesALimitedNumberOfFrames) {
+TEST(PoseFilter, PredictsALimitedNumberOfFrames) {
     PoseFilterOptions options;
     options.bridgeFrames = 5;
     options.bridge = 10s;
@@ -184,7 +184,7 @@ TEST(PoseFilter, BridgesALimitedNumberOfFrames) {
     EXPECT_TRUE(filter.predict(timeOf(60)));
 }
 
-TEST(PoseFilter, BridgesALimitedTime) {
+TEST(PoseFilter, PredictsForALimitedTime) {
     PoseFilter filter;
     filter.update(measured(helix(0), timeOf(0)), 0.7);
     EXPECT_TRUE(filter.predict(timeOf(0) + 399ms));
@@ -200,7 +200,7 @@ TEST(PoseFilter, AStepBackInTimeRestartsTheFilter) {
     EXPECT_EQ(filter.update(measured(helix(0), timeOf(29)), 0.7), Outcome::Started);
 }
 
-TEST(PoseFilter, BrokenPosesAndOptionsAreRefused) {
+TEST(PoseFilter, InvalidPosesAndOptionsAreRefused) {
     PoseFilter filter;
     Pose pose = measured(helix(0), timeOf(0));
     pose.T_world_video.translation.x() = std::nan("");

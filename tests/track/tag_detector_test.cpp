@@ -64,8 +64,8 @@ TEST(TagDetector, FindsEveryFamilyWithItsCornersInOrder) {
     }
 }
 
-// The picture has linear sensor values; so only a wrong convention of pixel centres could shift the
-// corners on average.
+// The picture has linear sensor values, so that gamma does not move edges. Only a wrong convention
+// of pixel centres could shift the corners on average.
 TEST(TagDetector, PixelCentresAreAtIntegers) {
     const CameraModel camera = testCamera();
     for (const double decimation : {1., 1.5, 2., 3.}) {
@@ -150,7 +150,7 @@ TEST(TagDetector, ARegionGivesTheResultOfTheWholePicture) {
     }
 }
 
-TEST(TagDetector, RegionsAreClippedAndMayBeEmpty) {
+TEST(TagDetector, RegionsAreClippedToThePictureAndCanBeEmpty) {
     TagDetector detector = detectorFor({TagFamily::Tag36h11}, 2);
     const GrayPicture picture({320, 240}, 77);
     for (const PixelRect region : {PixelRect{-500, -500, -100, -100},

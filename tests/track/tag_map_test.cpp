@@ -107,7 +107,7 @@ TEST(TagMap, ReadsAnAprilTagRosBundleAndTurnsItsTagFrame) {
     EXPECT_EQ(map.find({TagFamily::Tag36h11, 9}), nullptr);
 }
 
-TEST(TagMap, OneStandaloneTagIsTheWorld) {
+TEST(TagMap, ASingleStandaloneTagIsTheOriginOfTheWorld) {
     const TagMap map =
         tagMapFromRosYaml("standalone_tags: [{id: 4, size: 0.3}]", "t.yaml", TagFamily::Tag25h9);
     ASSERT_NE(map.find({TagFamily::Tag25h9, 4}), nullptr);

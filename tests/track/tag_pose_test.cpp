@@ -52,7 +52,7 @@ std::vector<PlacedTag> page() {
     return out;
 }
 
-TEST(PlanarPoses, BothAreMinimaAndOneIsTheTruth) {
+TEST(PlanarPoses, TheBestSolutionOfExactCornersIsTheTruePose) {
     std::mt19937 random(1);
     const CameraModel camera = testCamera();
     int two = 0;
@@ -71,7 +71,7 @@ TEST(PlanarPoses, BothAreMinimaAndOneIsTheTruth) {
     EXPECT_GT(two, 250);
 }
 
-TEST(PlanarPoses, WithNoiseOneOfTheTwoIsNearTheTruth) {
+TEST(PlanarPoses, WithNoisyCornersOneOfTheTwoSolutionsIsNearTheTruth) {
     std::mt19937 random(2);
     Noise noise(0.3);
     const CameraModel camera = testCamera();
@@ -115,7 +115,7 @@ TEST(TagPose, CovarianceMatchesTheErrors) {
     EXPECT_LT(mean.head<3>().norm(), 0.05 * kDegree);
 }
 
-TEST(TagPose, SeveralTagsAreMoreExactThanOne) {
+TEST(TagPose, PoseFromSeveralTagsIsMoreExactThanFromOne) {
     std::mt19937 random(4);
     Noise noise(0.2);
     const CameraModel camera = testCamera();
@@ -249,7 +249,7 @@ TEST(TagPose, AnyFourCornersGiveAFinitePoseOrNone) {
     EXPECT_GT(solved, 100);
 }
 
-TEST(TagPose, MillimetresAndMetresGiveEqualPoses) {
+TEST(TagPose, TagSizesInMillimetresOrMetresGiveEqualPoses) {
     std::mt19937 random(5);
     const CameraModel camera = testCamera();
     Noise noise(0.3);

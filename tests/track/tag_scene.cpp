@@ -40,7 +40,7 @@ Drawn prepare(const CameraModel& camera, const RigidTransform& T_world_camera,
     return out;
 }
 
-/// 1: white paper; 0: black paper; empty: outside the tag.
+/// What a ray hits. 1: white paper; 0: black paper; empty: nothing of the tag.
 std::optional<int> paperAt(const Drawn& tag, const Eigen::Vector2d& ray) {
     const Eigen::Vector3d direction = tag.T_tag_camera.rotation * ray.homogeneous();
     const Eigen::Vector3d& from = tag.T_tag_camera.translation;

@@ -17,7 +17,7 @@ inline constexpr double kDegree = std::numbers::pi / 180;
 
 struct PlacedTag {
     TagKey tag;
-    double size = 0.1;  ///< distance between corners [m]
+    double size = 0.1;  ///< edge length between detected corners [m]
     RigidTransform T_world_tag;
 };
 
@@ -48,7 +48,7 @@ struct SensorLook {
                                      const std::vector<PlacedTag>& tags,
                                      const SensorLook& look = {});
 
-/// True places of the tag's corners in the picture, in the order of TagDetection::corners.
+/// True positions of the tag's corners in the picture, in the order of TagDetection::corners.
 [[nodiscard]] std::array<Eigen::Vector2d, 4>
 cornersOf(const CameraModel& camera, const RigidTransform& T_world_camera, const PlacedTag& tag);
 

@@ -66,7 +66,7 @@ TEST(Tracker, FollowsTheCameraMostlyInRegions) {
     }
     const TrackStats stats = tracker.stats();
     EXPECT_EQ(stats.frames, 11);
-    EXPECT_EQ(stats.fullSearches, 3);  // two until the motion is known, then one every fifth frame
+    EXPECT_EQ(stats.fullSearches, 3);  // the first two frames, then every fifth
     EXPECT_EQ(stats.roiSearches, 8);
     EXPECT_EQ(stats.flips, 0);
     EXPECT_GT(stats.worstMs, 0);
@@ -93,7 +93,7 @@ TEST(Tracker, RegionsGiveTheResultOfTheFullSearch) {
     EXPECT_EQ(full.stats().roiSearches, 0);
 }
 
-TEST(Tracker, AVanishedTagIsBridgedAndSearchedInTheWholePicture) {
+TEST(Tracker, WithoutVisibleTagsPosesArePredictedAndTheWholePictureIsSearched) {
     Tracker tracker = trackerFor(mapOf(world()), 1000);
     for (int i = 0; i < 4; ++i)
         ASSERT_TRUE(tracker.track(picture(i).view(), frameTime(i)));
@@ -109,7 +109,7 @@ TEST(Tracker, AVanishedTagIsBridgedAndSearchedInTheWholePicture) {
     EXPECT_TRUE(tracker.track(picture(41).view(), frameTime(41)));
 }
 
-TEST(Tracker, WithoutAMapTheLargestTagIsTheWorld) {
+TEST(Tracker, WithoutATagMapTheLargestTagIsTheOriginOfTheWorld) {
     TrackerOptions options;
     options.tagSize = 0.07;
     Tracker tracker(kRig, options);

@@ -82,7 +82,7 @@ TEST_F(FileDisplays, HostRowsAreWrittenLikeATexture) {
     EXPECT_EQ(video.substr(video.size() - frame), video.substr(video.size() - 2 * frame, frame));
 }
 
-TEST_F(FileDisplays, EveryPictureIsWrittenWithFewBuffers) {
+TEST_F(FileDisplays, EveryPictureIsWrittenEvenIfThereAreFewBuffers) {
     const auto display = openFileDisplay("png:" + folder_.path().string(), 30);
     for (int i = 0; i < 25; ++i)
         show(*display, plain({64, 48}, static_cast<std::uint8_t>(i)), {i});
@@ -157,7 +157,7 @@ TEST_F(FileDisplays, Y4mReachesTheReaderOfAPipe) {
     EXPECT_EQ(received.substr(received.size() - picture, 6), "FRAME\n");
 }
 
-TEST_F(FileDisplays, Y4mMinusIsStandardOutput) {
+TEST_F(FileDisplays, Y4mWithMinusWritesToStandardOutput) {
     const int before = dup(STDOUT_FILENO);
     const int file = open((folder_ / "out").c_str(), O_WRONLY | O_CREAT, 0600);
     ASSERT_GE(dup2(file, STDOUT_FILENO), 0);
@@ -180,7 +180,7 @@ TEST_F(FileDisplays, AClosedPipeIsAnErrorAndDoesNotEndTheProcess) {
     show(*display, plain({8, 8}, 1), {1});
     try {
         display->finish();
-        FAIL() << "writing to nobody went well";
+        FAIL() << "writing without a reader succeeded";
     } catch (const std::runtime_error& e) {
         EXPECT_EQ(e.what(), pipe.string() + ": the reading program has closed the pipe");
     }
@@ -199,7 +199,7 @@ TEST_F(FileDisplays, CancelEndsTheWaitForAStalledReader) {
     close(reader);
 }
 
-/// A pipe whose reader takes only as many pictures as the test requests.
+/// Tests of a pipe. The test is its reader and reads only some pictures.
 struct PipeDisplays : FileDisplays {
     PipeDisplays() {
         mkfifo(pipe.c_str(), 0600);
@@ -256,7 +256,7 @@ TEST_F(PipeDisplays, LivePicturesDoNotWaitForAStalledReader) {
     EXPECT_EQ(display->fault(), std::nullopt);
 }
 
-TEST_F(PipeDisplays, WriterWhoseReaderTakesNothingIsOverItsBudget) {
+TEST_F(PipeDisplays, WriterWhoseReaderReadsNothingIsOverItsTimeBudget) {
     std::atomic<std::int64_t> passed{0};
     Heartbeats hearts([&] { return Timestamp::now() + std::chrono::seconds(passed); });
     const FileDisplayPolicy live{.isLive = true,
@@ -268,7 +268,8 @@ TEST_F(PipeDisplays, WriterWhoseReaderTakesNothingIsOverItsBudget) {
         return hearts.late().size() == 1;
     }));
     (void)readPictures(1);
-    EXPECT_TRUE(comesTrue([&] { return hearts.late().empty(); })) << "it waits for a picture";
+    EXPECT_TRUE(comesTrue([&] { return hearts.late().empty(); }))
+        << "the writer waits for a picture, which is no fault";
 }
 
 TEST_F(PipeDisplays, LivePicturesAreDiscardedAtTheEnd) {
@@ -277,7 +278,7 @@ TEST_F(PipeDisplays, LivePicturesAreDiscardedAtTheEnd) {
     show(*display, plain(kSize, 1), {1});
     try {
         display->finish();
-        FAIL() << "nobody has read it";
+        FAIL() << "finish() succeeded although the picture was not read";
     } catch (const std::runtime_error& e) {
         EXPECT_EQ(e.what(), "y4m:" + pipe.string() + ": the reader of the pipe accepts no data");
     }

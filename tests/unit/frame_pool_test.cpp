@@ -11,7 +11,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-TEST(FramePool, LendsEachBufferOnceUntilItComesBack) {
+TEST(FramePool, LendsABufferAgainOnlyAfterItWasReturned) {
     FramePool pool({4, 3}, PixelFormat::Rgba8, 2);
     const auto a = pool.acquire(milliseconds(0));
     const auto b = pool.acquire(milliseconds(0));
@@ -63,7 +63,7 @@ TEST(FramePool, FramesOutliveThePool) {
     frame.reset();
 }
 
-TEST(FramePool, AWaitingThreadGetsTheBufferThatComesBack) {
+TEST(FramePool, AWaitingThreadGetsTheReturnedBuffer) {
     FramePool pool({4, 3}, PixelFormat::Gray8, 1);
     auto frame = std::make_unique<Frame>(pool.lend(*pool.acquire(milliseconds(0)), {1}));
     std::thread consumer([&] { frame.reset(); });

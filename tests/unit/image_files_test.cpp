@@ -28,7 +28,7 @@ std::string errorOf(F&& f) {
     return "no error";
 }
 
-/// A picture with padded rows and a different value in every byte.
+/// A picture with padded rows, in which neighbouring bytes differ.
 struct Padded {
     Padded(Size size, PixelFormat format) {
         const std::size_t stride = static_cast<std::size_t>(size.width) * bytesPerPixel(format) + 5;
@@ -53,7 +53,7 @@ TEST(ImageFiles, ALargeProgressiveJpegIsRefusedAtItsHeader) {
     EXPECT_EQ(loadImage(MFAR_PROGRESSIVE_JPEG).size, (Size{16, 8}));
 }
 
-TEST(ImageFiles, PngKeepsEveryColourButAlpha) {
+TEST(ImageFiles, PngKeepsColoursButNotAlpha) {
     const TempFolder folder;
     const Padded source({5, 3}, PixelFormat::Rgba8);
     savePng(folder / "a.png", source.view);
@@ -82,7 +82,7 @@ TEST(ImageFiles, PngDoesNotDependOnTheOrderOfChannels) {
     EXPECT_EQ(red, blue);
 }
 
-TEST(ImageFiles, GreyPngComesBackAsEqualChannels) {
+TEST(ImageFiles, AGreyPngIsLoadedWithEqualChannels) {
     const TempFolder folder;
     const Padded source({4, 2}, PixelFormat::Gray8);
     savePng(folder / "g.png", source.view);
@@ -95,7 +95,7 @@ TEST(ImageFiles, GreyPngComesBackAsEqualChannels) {
     EXPECT_EQ(last[2], expected);
 }
 
-TEST(ImageFiles, BrokenPicturesAreRefusedByName) {
+TEST(ImageFiles, BrokenPicturesAreRefusedWithTheFilesName) {
     const TempFolder folder;
     const fs::path file = folder / "a.png";
     const auto error = [&] { return errorOf([&] { static_cast<void>(loadImage(file)); }); };
@@ -208,7 +208,7 @@ TEST(FloatFiles, BrokenFloIsRefused) {
               file.string() + ": size -1x2 is invalid: width and height must be from 1 to 16384");
 }
 
-TEST(SharedRecordings, MeasuredFlowLoads) {
+TEST(SharedRecordings, MeasuredFlowOfTheSharedRecordingsIsRead) {
     const fs::path file = fs::path(MFAR_SHARED_DATA) / "rubberwhale/flow10.flo";
     if (!fs::exists(file)) GTEST_SKIP() << "measured flow: no " << file;
     const FlowImage flow = loadFlo(file);

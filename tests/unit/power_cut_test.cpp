@@ -1,6 +1,7 @@
 // A recording must be readable after a power cut at any moment. The recorder's system calls are
-// logged (the linker's --wrap). Data that was written before the last synchronisation is on the
-// disk. Of later data, any part may be.
+// logged: the linker's option --wrap redirects them. From the log, the test builds possible states
+// of the disk: data that was written before the last synchronisation is on the disk, and any part
+// of later data.
 #include "base/whole_file.h"
 #include "hal/virtual/image_files.h"
 #include "hal/virtual/recorder.h"
@@ -33,7 +34,7 @@ struct Written {
 struct Renamed {
     std::string from, to;
 };
-struct Synced {};  ///< synchronises the whole file system
+struct Synced {};  ///< the whole file system was synchronised
 struct SyncedFile {
     std::string file;
 };
@@ -57,8 +58,8 @@ public:
         files_.erase(fd);
         if (fd >= 0 && isOurs(file)) files_[fd] = file;
     }
-    /// Called while the operation's own lock is held, so that the log has the order of the
-    /// operations.
+    /// Does an operation with `call`, which adds it to the log. The lock is held meanwhile, so that
+    /// the log has the order of the operations.
     template <class Call>
     auto note(const Call& call) {
         const std::lock_guard lock(mutex_);
@@ -152,7 +153,8 @@ StereoRig smallRig() {
     return rig;
 }
 
-/// Records 12 pictures, 4 stills and 12 poses. The writer synchronises as often as it has time to.
+/// Records 12 pictures, 4 stills and 12 poses. The recorder's thread synchronises as often as it
+/// can. Returns the log.
 std::vector<Operation> record(const fs::path& folder) {
     journal().begin(folder);
     Recorder recorder(folder, smallRig(), 30, {.syncEvery = {}});
@@ -185,7 +187,8 @@ std::string part(const std::string& safe, const std::string& now, std::mt19937& 
 /// A possible state of the disk if the power is cut after this number of operations.
 Files afterCut(const std::vector<Operation>& operations, std::size_t count, std::mt19937& random) {
     Files safe, now;
-    std::set<std::string> safeBytes;  // content that is on the disk, whatever the file's name
+    std::set<std::string>
+        safeBytes;  // files whose content is on the disk, but maybe not their names
     for (std::size_t i = 0; i < count; ++i) {
         const Operation& operation = operations[i];
         if (const auto* written = std::get_if<Written>(&operation)) {
@@ -213,7 +216,7 @@ Files afterCut(const std::vector<Operation>& operations, std::size_t count, std:
     return disk;
 }
 
-/// Rows of a list that synchronisations among the first operations have made safe.
+/// Number of rows of a list that were synchronised by the first `count` operations.
 std::size_t safeRows(const std::vector<Operation>& operations, std::size_t count,
                      const std::string& list) {
     std::size_t rows = 0, safe = 0;
@@ -226,7 +229,8 @@ std::size_t safeRows(const std::vector<Operation>& operations, std::size_t count
     return safe > 0 ? safe - 1 : 0;  // without the heading
 }
 
-/// Number of synchronisations after each addition to a list, up to the next addition or the end.
+/// For each addition to a list, the number of synchronisations between it and the next addition or
+/// the end.
 std::vector<int> syncsAfterRows(const std::vector<Operation>& operations, const std::string& list) {
     std::vector<int> out;
     for (const Operation& operation : operations) {
@@ -249,7 +253,8 @@ void expectWhole(const std::vector<RecordedImage>& images, Size size) {
 
 class PowerCut : public testing::Test {
 protected:
-    /// Reads the recording that is left after a cut. Empty if not even one picture was safe.
+    /// Reads the recording that is left if the power is cut after the first `count` operations.
+    /// Empty if no picture was synchronised.
     std::optional<Recording> leftAfter(std::size_t count) {
         fs::remove_all(cut_.path() / "run");
         for (const char* folder : {"cam0/data", "cam1/data"})
@@ -286,7 +291,7 @@ TEST_F(PowerCut, SynchronisedDataReadsBackAfterACutAtAnyMoment) {
         expectWhole(left->stills, test::kSmallStill);
         if (HasFailure()) return;
     }
-    EXPECT_GT(read, 300);  // most cuts are late enough for a recording
+    EXPECT_GT(read, 300);  // most cuts leave at least one picture
 }
 
 TEST_F(PowerCut, RowsAreSynchronisedBeforeTheNextPictures) {

@@ -42,7 +42,7 @@ private:
     std::FILE* file_;
 };
 
-TEST(ProgressText, EstimatesTheRest) {
+TEST(ProgressText, EstimatesTheRemainingTime) {
     EXPECT_EQ(progressText(0.25, "flow", 65), " 25 %  flow; 1:05, about 3:15 left");
     EXPECT_EQ(progressText(0, "flow", 0), "  0 %  flow; 0:00");
     EXPECT_EQ(progressText(1, "flow", 3725), "100 %  flow; 1:02:05");
@@ -57,7 +57,7 @@ TEST(Progress, ATerminalHasOneLineThatIsRewritten) {
     progress.show(0, "one", begin);
     EXPECT_THAT(out.taken(), HasSubstr("\r\x1b[K  0 %  one"));
     progress.show(0.1, "two", begin + milliseconds(20));
-    EXPECT_THAT(out.taken(), IsEmpty()) << "it is too soon for the next line";
+    EXPECT_THAT(out.taken(), IsEmpty()) << "the next update is not due yet";
     progress.show(0.2, "three", begin + milliseconds(150));
     const std::string third = out.taken();
     EXPECT_THAT(third, HasSubstr("\r\x1b[K 20 %  three"));
@@ -97,7 +97,7 @@ TEST(ProgressPart, PartsOfPartsAreSharesOfTheWhole) {
     EXPECT_THAT(out.taken(), HasSubstr(" 69 %  shelf, product, frame 2 of 2"));
 }
 
-TEST(ProgressPart, OfNothingShowsNothing) {
+TEST(ProgressPart, APartOfNoProgressPrintsNothing) {
     ProgressPart().part(0, 0, "none").show(0, 0, "none");
 }
 

@@ -73,7 +73,7 @@ TEST(Recorder, ARecordingPlaysBackUnchanged) {
     EXPECT_EQ(player.video().next(seconds(10))->view().data[0], 22);
 }
 
-TEST(Recorder, PicturesOfEveryFormatAreRecordedAsTheyLook) {
+TEST(Recorder, PicturesOfEveryFormatAreRecordedWithTheirColours) {
     const TempFolder folder;
     Recorder recorder(folder.path(), smallRig(), 30, {.videoBuffers = 32});
     std::int64_t time = 0;
@@ -140,7 +140,7 @@ std::set<fs::path> threads() {
     return out;
 }
 
-TEST(Recorder, ALockedDiskDropsAndCountsPicturesButNeverHoldsTheCaller) {
+TEST(Recorder, IfTheDiskHangsPicturesAreDroppedAndCountedWithoutDelayingTheCaller) {
     const TempFolder folder;
     const std::set<fs::path> before = threads();
     Recorder recorder(folder.path(), smallRig(), 30, {.videoBuffers = 4, .poses = 3});

@@ -15,8 +15,8 @@ using test::writeSmallRecording;
 
 constexpr std::int64_t kMs = 1'000'000;
 
-/// The frames that one thread gets if it asks both cameras in turn: "V" or "S", the time in ms, the
-/// level.
+/// The pictures that one thread gets if it asks both cameras in turn, as text: "V" (video) or "S"
+/// (still), the time [ms], "=", the grey level.
 std::string played(RecordingPlayer& player, std::size_t limit = 1000) {
     std::string seen;
     for (std::size_t n = 0; n < limit && !(player.video().ended() && player.stills().ended());) {
@@ -60,7 +60,7 @@ TEST(RecordingPlayer, ConsumerPaceHoldsAStillBackUntilTheVideoHasCome) {
     EXPECT_FALSE(player.video().ended());
 }
 
-TEST(RecordingPlayer, ConsumerPaceGivesStillsUpToTheRequestedVideoFirst) {
+TEST(RecordingPlayer, ConsumerPaceGivesAllStillsUpToTheLastDeliveredVideoFrame) {
     const TempFolder folder;
     writeSmallRecording(folder.path(), {0, 33 * kMs, 66 * kMs},
                         {5 * kMs, 33 * kMs, 40 * kMs, 90 * kMs});
@@ -73,19 +73,20 @@ TEST(RecordingPlayer, ConsumerPaceGivesStillsUpToTheRequestedVideoFirst) {
             return frame ? frame->time().ns : -1;
         };
         EXPECT_EQ(next(player.video()), 0);
-        EXPECT_EQ(next(player.stills()), -1) << "a later still is waited for";
+        EXPECT_EQ(next(player.stills()), -1)
+            << "the next still is later than the video and must wait";
         EXPECT_EQ(next(player.video()), 33 * kMs);
         EXPECT_EQ(next(player.stills()), 5 * kMs);
         EXPECT_EQ(next(player.stills()), 33 * kMs);
         EXPECT_EQ(next(player.stills()), -1);
         EXPECT_EQ(next(player.video()), 66 * kMs);
         EXPECT_EQ(next(player.stills()), 40 * kMs);
-        EXPECT_EQ(next(player.stills()), 90 * kMs) << "no video is left";
+        EXPECT_EQ(next(player.stills()), 90 * kMs) << "all video frames were played";
         EXPECT_TRUE(player.stills().ended());
     }
 }
 
-TEST(RecordingPlayer, ConsumerPaceWaitsOnlyForBuffersTheConsumerHolds) {
+TEST(RecordingPlayer, ConsumerPaceWaitsOnlyForBuffersThatTheConsumerHolds) {
     const TempFolder folder;
     writeSmallRecording(folder.path(), {0, 33 * kMs, 66 * kMs}, {});
     RecordingPlayer player(loadRecording(folder.path()),
@@ -160,7 +161,7 @@ TEST(RecordingPlayer, StopWakesAWaitingThread) {
     EXPECT_THROW(player.video().start(), std::runtime_error);
 }
 
-TEST(RecordingPlayer, LoopGoesOnWithRisingTimesThatMapBackToTheFiles) {
+TEST(RecordingPlayer, LoopContinuesWithRisingTimesThatMapBackToTheFiles) {
     const TempFolder folder;
     writeSmallRecording(folder.path(), {1000 * kMs, 1500 * kMs}, {1200 * kMs});
     RecordingPlayer player(loadRecording(folder.path()), {.pace = Pace::Consumer, .loop = true});

@@ -27,7 +27,8 @@ std::string faultOf(const fs::path& root) {
     return "no fault found";
 }
 
-/// One change that breaks a valid recording, and the required beginning and content of the message.
+/// One change that makes a valid recording invalid, and the required beginning and content of the
+/// error message.
 struct Fault {
     const char* name;
     std::function<void(const fs::path& root)> inflict;
@@ -257,7 +258,7 @@ TEST(Recording, PosesAreInterpolatedAndNotExtrapolated) {
     EXPECT_NEAR(Eigen::AngleAxisd(middle->T_world_video.rotation).angle(), M_PI / 2, 1e-6);
 }
 
-TEST(Recording, NoPoseIsGuessedInAGap) {
+TEST(Recording, NoPoseIsInterpolatedAcrossAGap) {
     const TempFolder folder;
     test::writeSmallRecording(folder.path());
     writeFile(folder / kPoses, "1000000000,1,0,0,1,0,0,0\n1250000000,2,0,0,1,0,0,0\n"
@@ -280,7 +281,7 @@ TEST(Recording, WindowsLineEndsCommentsSpacesAndExtraPoseColumnsAreRead) {
     EXPECT_EQ(r.poses.size(), 1U);
 }
 
-TEST(Recording, StillsAndPosesMayBeAbsent) {
+TEST(Recording, ARecordingWithoutStillsAndPosesIsValid) {
     const TempFolder folder;
     test::writeSmallRecording(folder.path());
     writeFile(folder / kStillCsv, "#timestamp [ns],filename\n");
@@ -303,7 +304,7 @@ TEST(Recording, TruthFilesAreFound) {
     EXPECT_FALSE(r.truthInverseDepth(a).has_value());
 }
 
-TEST(Recording, AnyDamageEitherLoadsOrIsARecordingError) {
+TEST(Recording, ADamagedRecordingIsEitherReadOrRefusedWithARecordingError) {
     const TempFolder folder;
     test::writeSmallRecording(folder.path());
     std::mt19937 random(7);
@@ -322,7 +323,7 @@ TEST(Recording, AnyDamageEitherLoadsOrIsARecordingError) {
     EXPECT_LT(refused, 200);
 }
 
-TEST(SharedRecordings, AllLoadAndTheirPicturesDecode) {
+TEST(SharedRecordings, AllSharedRecordingsAndTheirPicturesAreRead) {
     const fs::path data = MFAR_SHARED_DATA;
     if (!fs::is_directory(data)) GTEST_SKIP() << "recordings of real scenes: no " << data;
     for (const char* name : {"fountain", "motorcycle", "books", "dolls", "teddy"}) {

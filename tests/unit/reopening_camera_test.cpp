@@ -13,8 +13,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// A device that can be plugged and unplugged. It may outlive its cameras, and any thread may use
-/// it.
+/// A simulated device that can be plugged and unplugged. It may outlive its cameras. Thread-safe.
 struct Socket {
     std::atomic<bool> plugged{true};
     std::atomic<bool> sends{true};
@@ -87,7 +86,7 @@ ReopeningCamera cameraOn(Socket& socket, const ReopeningOptions& options = quick
             options};
 }
 
-/// Asks for frames until `done` returns true. Returns false after five seconds.
+/// Requests frames until `done` returns true. Returns false after five seconds.
 bool drivenUntil(ReopeningCamera& camera, const std::function<bool(bool frame)>& done) {
     const Timestamp end = Timestamp::now() + std::chrono::seconds(5);
     while (Timestamp::now() < end)
@@ -157,7 +156,7 @@ TEST(ReopeningCamera, ASilentCameraIsReopenedLaterWhileTheLibraryIsBusy) {
     EXPECT_TRUE(drivenUntil(camera, [&](bool) { return camera.losses() > 0; }));
 }
 
-TEST(ReopeningCamera, ASlowlyClosingDeviceDelaysNobody) {
+TEST(ReopeningCamera, ASlowlyClosingDeviceDelaysNoThread) {
     Socket socket;
     ReopeningCamera camera = cameraOn(socket);
     camera.start();
@@ -207,8 +206,8 @@ TEST(ReopeningCamera, AHangingDriverIsReportedAndStopDoesNotWaitForIt) {
     socket.answers = true;
 }
 
-/// What the watchdog finds out about a camera's opening thread after some time. The thread's budget
-/// is 10 s.
+/// What the watchdog reports about a camera's opening thread after some time. The thread's time
+/// budget is 10 s.
 struct WatchedOpener {
     [[nodiscard]] std::vector<std::string> lateAfter(std::chrono::seconds time) {
         passed = passed.load() + time.count();
@@ -238,7 +237,8 @@ TEST(ReopeningCamera, AnOpenThatNeverReturnsIsOverItsBudget) {
     EXPECT_EQ(watch.lateAfter(std::chrono::seconds(8)), std::vector<std::string>{"opener"});
     socket.opens = true;
     ASSERT_TRUE(drivenUntil(camera, [](bool frame) { return frame; }));
-    EXPECT_TRUE(watch.lateAfter(std::chrono::hours(1)).empty()) << "it waits for its next work";
+    EXPECT_TRUE(watch.lateAfter(std::chrono::hours(1)).empty())
+        << "the opening thread waits for work, which is no fault";
 }
 
 TEST(ReopeningCamera, ACloseThatNeverReturnsIsOverItsBudget) {
@@ -288,7 +288,7 @@ TEST(ReopeningCamera, CountersIncludeEarlierDevices) {
         EXPECT_TRUE(camera.takeWarnings().empty());
         socket.plugged = false;
         ASSERT_TRUE(drivenUntil(camera, [&](bool) { return camera.absent(); }));
-        EXPECT_EQ(camera.cameraCounters().missed, 3 * i) << "while it is away";
+        EXPECT_EQ(camera.cameraCounters().missed, 3 * i) << "while the camera is unplugged";
         EXPECT_EQ(camera.cameraCounters().reopened, i);
         socket.plugged = true;
     }
@@ -312,7 +312,7 @@ TEST(ReopeningCamera, ACameraLostBeforeItsFirstFrameIsReopenedSlowly) {
     EXPECT_EQ(camera.fault(), "video camera: it has gone");
 }
 
-TEST(ReopeningCamera, ATriggeredCameraMayBeSilent) {
+TEST(ReopeningCamera, ASilentTriggeredCameraIsNoFault) {
     Socket socket;
     socket.sends = false;
     ReopeningOptions options = quick();

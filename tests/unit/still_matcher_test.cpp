@@ -29,7 +29,7 @@ StillMatcherOptions fast() {
     return options;
 }
 
-TEST(StillMatcher, StillOfAPulseIsMatchedAndTimedByIt) {
+TEST(StillMatcher, StillOfAPulseIsMatchedAndGetsItsTimeFromThePulse) {
     StillMatcher matcher(fast());
     matcher.pulseFired(kStart);
     const auto match = matcher.stillArrived(kStart + 400us);
@@ -40,7 +40,7 @@ TEST(StillMatcher, StillOfAPulseIsMatchedAndTimedByIt) {
     EXPECT_TRUE(matcher.learned());
     matcher.pulseFired(kStart + 1s);
     EXPECT_EQ(matcher.stillArrived(kStart + 1s + 900us)->exposed, kStart + 1s + 400us)
-        << "the jitter of the still's own time is gone";
+        << "the jitter of the still's own time is removed";
 }
 
 TEST(StillMatcher, StillWithoutAPulseIsNeverUsed) {
@@ -50,7 +50,7 @@ TEST(StillMatcher, StillWithoutAPulseIsNeverUsed) {
     EXPECT_FALSE(matcher.stillArrived(kStart + 1001us));
     EXPECT_FALSE(matcher.stillArrived(kStart - 1001us));
     EXPECT_TRUE(matcher.stillArrived(kStart + 1000us));
-    EXPECT_FALSE(matcher.stillArrived(kStart + 1000us)) << "the pulse has its still";
+    EXPECT_FALSE(matcher.stillArrived(kStart + 1000us)) << "the pulse already has a still";
     EXPECT_EQ(matcher.counters().unmatched, 4U);
     EXPECT_EQ(matcher.counters().matched, 1U);
 }
@@ -70,14 +70,16 @@ TEST(StillMatcher, LatencyIsTheMedianOfTheFirstTwentyStills) {
         EXPECT_TRUE(matcher.stillArrived(pulse + off)) << i;
     }
     EXPECT_TRUE(matcher.learned());
-    // Without the 0.08 of pulse 4, the middle two of the twenty are 0.10 and 0.11.
+    // Pulse 4 has no latency of 30.08 ms. So the middle two of the 20 latencies are 30.10 and
+    // 30.11 ms.
     EXPECT_EQ(matcher.constant(), nanoseconds(30ms + 105us));
     matcher.pulseFired(kStart + 100s);
-    EXPECT_FALSE(matcher.stillArrived(kStart + 100s + 31106us)) << "1 ms now";
+    EXPECT_FALSE(matcher.stillArrived(kStart + 100s + 31106us))
+        << "the window is 1 ms once the latency is known";
     EXPECT_TRUE(matcher.stillArrived(kStart + 100s + 31105us));
 }
 
-TEST(StillMatcher, WindowNeverReachesPastHalfATriggerPeriod) {
+TEST(StillMatcher, MatchingWindowIsAtMostHalfATriggerPeriod) {
     StillMatcherOptions options;
     options.window = 50ms;
     options.wideWindow = 50ms;
@@ -85,13 +87,13 @@ TEST(StillMatcher, WindowNeverReachesPastHalfATriggerPeriod) {
     matcher.pulseFired(kStart);
     matcher.pulseFired(kStart + 20ms);
     EXPECT_FALSE(matcher.stillArrived(kStart + 31ms))
-        << "half of the period before, beyond the last";
+        << "after the last pulse, the window is half of the period before it";
     EXPECT_FALSE(matcher.stillArrived(kStart - 11ms));
     EXPECT_EQ(matcher.stillArrived(kStart + 10001us)->pulse, kStart + 20ms);
     EXPECT_EQ(matcher.stillArrived(kStart + 9999us)->pulse, kStart);
 }
 
-TEST(StillMatcher, SwappedStillsFindTheirPulses) {
+TEST(StillMatcher, StillsInSwappedOrderAreMatchedWithTheirPulses) {
     StillMatcher matcher(fast());
     for (int i = 0; i < 3; ++i)
         matcher.pulseFired(kStart + i * 100ms);
@@ -113,12 +115,12 @@ TEST(StillMatcher, LostPulseIsReportedOnceAndRepeatedOnce) {
     EXPECT_TRUE(due.repeat);
     due = matcher.poll(kStart + 502ms);
     EXPECT_EQ(due.lost, 0);
-    EXPECT_TRUE(due.repeat) << "until somebody fires";
+    EXPECT_TRUE(due.repeat) << "a repetition stays due until the trigger fires";
     matcher.pulseFired(kStart + 503ms, Pulse::Repetition);
     EXPECT_FALSE(matcher.poll(kStart + 504ms).repeat);
     due = matcher.poll(kStart + 2s);
     EXPECT_EQ(due.lost, 1) << "the repetition is lost as well";
-    EXPECT_FALSE(due.repeat) << "and not repeated";
+    EXPECT_FALSE(due.repeat) << "a repetition is not repeated again";
     EXPECT_EQ(matcher.counters().fired, 2U);
     EXPECT_EQ(matcher.counters().lost, 2U);
     EXPECT_EQ(matcher.counters().repeated, 1U);
@@ -138,7 +140,7 @@ TEST(StillMatcher, EachOfSeveralLostPulsesIsRepeatedOnce) {
     EXPECT_EQ(repeated, 3);
 }
 
-TEST(StillMatcher, RepetitionCanBeSwitchedOff) {
+TEST(StillMatcher, RepetitionOfLostPulsesCanBeSwitchedOff) {
     StillMatcherOptions options = fast();
     options.repeat = false;
     StillMatcher matcher(options);
@@ -148,7 +150,7 @@ TEST(StillMatcher, RepetitionCanBeSwitchedOff) {
     EXPECT_FALSE(due.repeat);
 }
 
-TEST(StillMatcher, LateStillIsMatchedAndSparesItsRepetition) {
+TEST(StillMatcher, LateStillIsMatchedAndItsPulseIsNotRepeated) {
     StillMatcher matcher(fast());
     matcher.pulseFired(kStart);
     EXPECT_TRUE(matcher.poll(kStart + 1s).repeat);
@@ -183,7 +185,7 @@ TEST(StillMatcher, LatencyIsLearnedAgainAfterAClockStep) {
     }
 }
 
-TEST(StillMatcher, InconsistentMissesAreNotAClockStep) {
+TEST(StillMatcher, UnmatchedStillsWithDifferentOffsetsAreNotAClockStep) {
     StillMatcherOptions wide = fast();
     wide.wideWindow = 100ms;
     StillMatcher scattered(wide);
@@ -230,7 +232,8 @@ TEST(StillMatcher, ManyPulsesWithoutStillsAreAllLost) {
     EXPECT_EQ(matcher.counters().lost, 1000U);
 }
 
-/// A camera and a trigger with every fault. Knows the true pulse of each still.
+/// A simulated camera and trigger that have every kind of fault. Knows the true pulse of each
+/// still.
 class Chaos {
 public:
     explicit Chaos(unsigned seed) : random_(seed) {
@@ -281,7 +284,7 @@ private:
         expose(now_, clean);
     }
 
-    /// Delivers everything that arrives until then, and checks for lost pulses between the
+    /// Delivers all stills that arrive until this time, and checks for lost pulses between the
     /// deliveries.
     void deliver(StillMatcher& matcher, Timestamp until) {
         const Timestamp end = until;
@@ -294,7 +297,7 @@ private:
             }
             const StillMatcher::Due due = matcher.poll(t);
             lost_ += due.lost;
-            // Pulses that are closer to each other are not tested here.
+            // Pulses closer than 60 ms to each other are not tested here.
             if (due.repeat && t - now_ > 60ms && end - t > 60ms) {
                 now_ = t;
                 fire(matcher, Pulse::Repetition, false);
@@ -307,13 +310,14 @@ private:
         const auto match = matcher.stillArrived(still.exposed);
         ++arrived_;
         if (!match) {
-            EXPECT_TRUE(!still.pulse || given_.contains(still.pulse->ns)) << "refused a good still";
+            EXPECT_TRUE(!still.pulse || given_.contains(still.pulse->ns))
+                << "a still with a free pulse was refused";
             return;
         }
         EXPECT_TRUE(given_.insert(match->pulse.ns).second) << "a pulse got two stills";
-        // A copy of a still counts as the still.
+        // A still that the camera sends twice counts as one still.
         const std::int64_t off = (still.exposed - match->pulse).count() - constant_.count();
-        EXPECT_LE(std::abs(off), 450'000) << "a stray was used";
+        EXPECT_LE(std::abs(off), 450'000) << "a still that belongs to no pulse was used";
         EXPECT_EQ(match->pulse, still.pulse.value_or(match->pulse)) << "swapped";
         EXPECT_LE(std::abs((match->exposed - match->pulse - constant_).count()), 450'000);
     }
@@ -327,7 +331,7 @@ private:
         EXPECT_EQ(counted.fired, counted.matched - counted.late + counted.lost);
         EXPECT_EQ(counted.repeated, repeated_);
         EXPECT_LE(counted.repeated, counted.lost);
-        EXPECT_GT(counted.repeated, 0U) << "the run has tried nothing";
+        EXPECT_GT(counted.repeated, 0U) << "no pulse was repeated in this run";
         EXPECT_GT(counted.late, 0U);
         EXPECT_EQ(counted.relearned, 0U);
     }
@@ -345,7 +349,7 @@ private:
     std::uint64_t arrived_ = 0;
 };
 
-TEST(StillMatcher, NoFaultSwapsStillsOrLosesCountOfPulses) {
+TEST(StillMatcher, NoFaultSwapsStillsOrMakesTheCountOfPulsesWrong) {
     for (unsigned seed = 0; seed < 200; ++seed) {
         SCOPED_TRACE(seed);
         Chaos(seed).run();

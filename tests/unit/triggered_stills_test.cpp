@@ -24,13 +24,13 @@ struct Sensor {
     std::deque<Frame> ready;
     std::vector<Timestamp> pulses;
     int loans = 0;
-    int busy = 0;   ///< this number of pulses will be refused
-    int blind = 0;  ///< this number of pulses will not expose a still
+    int busy = 0;   ///< number of coming pulses that the trigger will refuse
+    int blind = 0;  ///< number of coming pulses that will not expose a still
     bool stopped = false;
     int rests = 0;      ///< number of requests to set the line inactive
     bool high = false;  ///< level of the line after a pulse
     nanoseconds exposure{0};
-    nanoseconds delay{300us};  ///< from the edge to the start of the exposure
+    nanoseconds delay{300us};  ///< time from the pulse's edge to the start of the exposure
 
     void expose(Timestamp start) {
         ++loans;
@@ -167,7 +167,7 @@ TEST_F(TriggeredStills, StillsWithoutAPulseAreReturnedToTheCamera) {
     EXPECT_EQ(camera->counters().unmatched, 3U);
 }
 
-TEST_F(TriggeredStills, LoanEndsWithTheFrameAndMayOutliveTheCamera) {
+TEST_F(TriggeredStills, AFrameReturnsItsBufferAndCanOutliveTheCamera) {
     auto camera = open();
     camera->fire();
     auto still = camera->next(10s);
@@ -178,7 +178,7 @@ TEST_F(TriggeredStills, LoanEndsWithTheFrameAndMayOutliveTheCamera) {
     EXPECT_EQ(sensor.loans, 0);
 }
 
-TEST_F(TriggeredStills, LostPulseIsRepeatedOnceAndItsStillIsGiven) {
+TEST_F(TriggeredStills, LostPulseIsRepeatedOnceAndTheStillOfTheRepetitionIsDelivered) {
     sensor.blind = 1;
     TriggeredStillOptions options;
     options.matching.timeout = 5ms;
@@ -204,7 +204,7 @@ TEST_F(TriggeredStills, DeadSensorGetsOneRepetitionPerPulse) {
     EXPECT_EQ(sensor.pulses.size(), 2U);
 }
 
-TEST_F(TriggeredStills, RepetitionWaitsForABusyTrigger) {
+TEST_F(TriggeredStills, RepetitionIsFiredOnceTheTriggerIsNoLongerBusy) {
     sensor.blind = 1;
     TriggeredStillOptions options;
     options.matching.timeout = 2ms;
@@ -245,7 +245,7 @@ TEST_F(TriggeredStills, StopWakesTheWaitingThread) {
     waiting.join();
 }
 
-TEST_F(TriggeredStills, StopLeavesTheLineInactiveAndNobodyFires) {
+TEST_F(TriggeredStills, AfterStopTheLineIsInactiveAndNoPulseIsFired) {
     const auto camera = open();
     camera->fire();
     ASSERT_TRUE(sensor.high);

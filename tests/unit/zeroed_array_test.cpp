@@ -68,7 +68,7 @@ TEST(ZeroedArray, UnusedRowsTakeNoMemory) {
     EXPECT_EQ(rows[4095][4095], 0U);
 }
 
-TEST(ZeroedArray, UnlentBuffersOfAPoolTakeNoMemory) {
+TEST(ZeroedArray, BuffersOfAPoolThatWereNeverLentTakeNoMemory) {
     const std::size_t before = residentBytes();
     FramePool pool({2048, 2048}, PixelFormat::Rgba8, 4);
     const auto slot = pool.acquire(std::chrono::milliseconds(0));

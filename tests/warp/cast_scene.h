@@ -10,8 +10,9 @@
 
 namespace mfar::test {
 
-/// Spheres above the plane z = 0. Their pattern is a function of the point alone, and each casts a
-/// soft disc as its shadow. So casting rays computes any view exactly. World frame: z points up.
+/// Spheres above the plane z = 0. Their colour is a function of the point alone, and each casts a
+/// soft disc as its shadow. So casting rays computes the exact picture of any view. World frame: z
+/// points up.
 struct CastScene {
     struct Ball {
         Eigen::Vector3d centre;
@@ -21,7 +22,7 @@ struct CastScene {
     bool shadows = true;
     double contrast = 1;  ///< contrast of the pattern on the spheres
 
-    /// The same scene as triangles, with `segments` segments around each sphere.
+    /// The scene as triangles, with `segments` segments around each sphere.
     [[nodiscard]] mfar::Scene scene(int segments = 192) const;
     /// Casts `grid`^2 rays per pixel for its colour, and one through its centre for depth and id.
     [[nodiscard]] RenderedPicture cast(const RenderView& view, int grid = 1) const;
@@ -34,8 +35,8 @@ struct CastScene {
 [[nodiscard]] CastScene twoBalls();
 /// An off-centre lens with some distortion.
 [[nodiscard]] CameraModel bentCamera(Size size);
-/// Pose of a camera at `degrees` around the centre of the scene, at which it looks from 0.6 m.
-/// `up`: height above the plane.
+/// Pose of a camera at the azimuth `degrees` around the centre of the scene. It looks at the centre
+/// from `distance` [m] and `upDegrees` above the plane.
 [[nodiscard]] RigidTransform orbit(double degrees, double distance = 0.6, double upDegrees = 30);
 
 }  // namespace mfar::test

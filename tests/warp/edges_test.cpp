@@ -10,7 +10,7 @@ using test::CastScene;
 using WarpEdgesGl = GlTest;
 
 constexpr Size kEdgeLayer{200, 150};
-constexpr int kLongEnough = 12;  // number of frames until everything is requested and faded in
+constexpr int kLongEnough = 12;  // number of frames until all pixels are requested and faded in
 
 struct Resting {
     explicit Resting(const WarpOptions& options)
@@ -42,14 +42,14 @@ struct Resting {
     Warp warp;
 };
 
-TEST_F(WarpEdgesGl, EdgesAreRerenderedAtRest) {
+TEST_F(WarpEdgesGl, EdgesAreRenderedAgainWhenTheCameraRests) {
     Resting sharpened({}), plain({.sharpenShare = 0});
     const RenderedPicture truth = sharpened.truthAt(2);
     EXPECT_GT(test::psnrInside(sharpened.rest(2), truth),
               test::psnrInside(plain.rest(2), truth) + 3);
 }
 
-TEST_F(WarpEdgesGl, EdgesAreRequestedOncePerPoseAndAreAShareOfTheObjects) {
+TEST_F(WarpEdgesGl, EdgePixelsAreRequestedOncePerPoseUpToAShareOfTheObjectsPixels) {
     Resting s({.sharpenShare = 0.1});
     const auto request = s.edgesAt(2);
     ASSERT_TRUE(request);
@@ -61,7 +61,7 @@ TEST_F(WarpEdgesGl, EdgesAreRequestedOncePerPoseAndAreAShareOfTheObjects) {
     EXPECT_GT(request->pixels.size(), 100U);
     EXPECT_LE(static_cast<double>(request->pixels.size()), 0.1 * static_cast<double>(objects));
     s.warp.answer(test::answered(s.scene, *request));
-    EXPECT_FALSE(s.edgesAt(2)) << "they are known";
+    EXPECT_FALSE(s.edgesAt(2)) << "these edges were already answered";
     EXPECT_TRUE(s.edgesAt(3));
 }
 
@@ -82,7 +82,8 @@ TEST_F(WarpEdgesGl, EdgesFadeInAndVanishWithTheFirstMotion) {
     }
     EXPECT_NEAR(meanAt(2), 255, 0.5);
     EXPECT_NEAR(meanAt(2.2), before, 10);
-    EXPECT_NEAR(meanAt(2), before, 10) << "what was asked for another rest is forgotten";
+    EXPECT_NEAR(meanAt(2), before, 10)
+        << "pixels requested for an earlier pose at rest are not shown";
 }
 
 TEST_F(WarpEdgesGl, AnAnswerThatArrivesAfterAMotionIsIgnored) {
@@ -92,7 +93,7 @@ TEST_F(WarpEdgesGl, AnAnswerThatArrivesAfterAMotionIsIgnored) {
     const auto moved = test::bytesOf(s.warp.run(test::orbit(3)).colour);
     s.warp.answer(test::answered(s.scene, *request));
     EXPECT_EQ(test::bytesOf(s.warp.run(test::orbit(3)).colour), moved);
-    EXPECT_TRUE(s.edgesAt(3)) << "and does not keep the next ones from being asked for";
+    EXPECT_TRUE(s.edgesAt(3)) << "the late answer does not prevent the next request";
 }
 
 TEST_F(WarpEdgesGl, EdgesAreNotRequestedWhereNothingIsRendered) {

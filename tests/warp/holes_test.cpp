@@ -39,7 +39,7 @@ TEST_F(WarpHolesGl, HolesOfTheTracedPictureAreRequested) {
     const RenderedPicture before = s.scene.cast({s.warp.camera(), test::orbit(0)});
     int hidden = 0, surfaces = 0;
     for (const std::uint32_t pixel : request->pixels) {
-        if (now.id[pixel] == 0) continue;  // the plane beside the shadow has no depth
+        if (now.id[pixel] == 0) continue;  // pixels beside the shadow have no depth
         ++surfaces;
         const Eigen::Vector2d at(pixel % kHoleLayer.width, pixel / kHoleLayer.width);
         const Eigen::Vector3d p = now.depth[pixel] * s.warp.camera().unproject(at).homogeneous();
@@ -50,16 +50,16 @@ TEST_F(WarpHolesGl, HolesOfTheTracedPictureAreRequested) {
         hidden +=
             before.id[i] != now.id[pixel] || std::abs(before.depth[i] - q.z()) > 0.003 ? 1 : 0;
     }
-    // The other pixels are at the limb of a ball, where rounding decides.
+    // The other requested pixels are at the limb of a ball, where rounding decides.
     EXPECT_GT(surfaces, 100);
     EXPECT_GT(hidden, 0.8 * surfaces);
 }
 
-TEST_F(WarpHolesGl, OneRequestIsMadeAtATimeAndAnswersCloseTheirHoles) {
+TEST_F(WarpHolesGl, OnlyOneRequestIsOpenAtATimeAndItsAnswerFillsTheHoles) {
     Turned s({});
     const auto request = s.requestAt(15);
     ASSERT_TRUE(request);
-    EXPECT_FALSE(s.requestAt(15)) << "the first is not answered";
+    EXPECT_FALSE(s.requestAt(15)) << "the first request is not answered yet";
     s.warp.answer(test::answered(s.scene, *request));
     const auto second = s.requestAt(15);
     const std::size_t left = second ? second->pixels.size() : 0;
@@ -67,14 +67,15 @@ TEST_F(WarpHolesGl, OneRequestIsMadeAtATimeAndAnswersCloseTheirHoles) {
     EXPECT_EQ(s.warp.counters().answered, request->pixels.size());
 }
 
-TEST_F(WarpHolesGl, AnswersMoveWithTheCamera) {
+TEST_F(WarpHolesGl, AnsweredPixelsAreReusedAfterTheCameraMoved) {
     Turned s({.filling = HoleFilling::Rerender});
     const auto request = s.requestAt(15);
     ASSERT_TRUE(request);
     s.warp.answer(test::answered(s.scene, *request));
     const auto second = s.requestAt(16.5);
     const std::size_t left = second ? second->pixels.size() : 0;
-    EXPECT_LT(left, request->pixels.size() / 3) << "but for what one more degree uncovers";
+    EXPECT_LT(left, request->pixels.size() / 3)
+        << "only pixels that the further rotation uncovers are requested";
 }
 
 TEST_F(WarpHolesGl, AnswersFadeInOverSeveralFrames) {
@@ -139,7 +140,7 @@ TEST_F(WarpHolesGl, AppearingObjectsAreFilledAtOnce) {
     EXPECT_GT(uncovered, 20);
 }
 
-TEST_F(WarpHolesGl, FaultyAnswersAreRefusedAndAnswersOfAnotherSceneIgnored) {
+TEST_F(WarpHolesGl, InvalidAnswersAreRefusedAndAnswersOfAnotherSceneIgnored) {
     Turned s({});
     const auto request = s.requestAt(15);
     ASSERT_TRUE(request);

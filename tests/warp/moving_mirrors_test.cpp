@@ -15,7 +15,7 @@ namespace mfar::simd {
 namespace {
 
 constexpr Size kPicture{21, 40};
-constexpr float kTwice = 2;  // light of the rough table divided by that of the sharp one
+constexpr float kTwice = 2;  // light in the table of rough lobes / in the table of sharp lobes
 
 CameraModel camera() {
     return {kPicture, 30, 30, 9.5, 18.5, {-0.1, 0.02, 0, 0, 0}};
@@ -41,7 +41,7 @@ MirrorLight smoothLight() {
     return out;
 }
 
-/// A picture of random surfaces that face the camera.
+/// The surfaces in the pixels of a picture: random points whose normals face the camera.
 struct Surfaces {
     std::vector<Eigen::Vector3f> points, normals;
     std::vector<float> roughness;
@@ -97,7 +97,7 @@ Eigen::Vector3f specularOf(const LightWords& words) {
     return {rgb[0], rgb[1], rgb[2]};
 }
 
-/// The mirrors of a picture, with the rays of its camera.
+/// The inputs of the mirrors step for a picture, with the rays of the picture's camera.
 struct Mirrors {
     AlignedRows<float> rayX{kPicture}, rayY{kPicture};
     MovingMirrors mirrors;
@@ -121,7 +121,7 @@ void expectNear(const Eigen::Vector3f& a, const Eigen::Vector3f& b, std::size_t 
         << "pixel " << i << ": " << a.transpose() << ", not " << b.transpose();
 }
 
-TEST(MovingMirrors, ShowTheSkyInTheDirectionThatAnotherEyeSees) {
+TEST(MovingMirrors, ShowTheSkyInTheDirectionReflectedToANewCameraPosition) {
     Surfaces s(smoothLight());
     const Eigen::Vector3d eye = s.traced.T_world_camera.translation;
     // The pixels see in turn the whole sky, half of it, and the sky with other light.
@@ -143,7 +143,7 @@ TEST(MovingMirrors, ShowTheSkyInTheDirectionThatAnotherEyeSees) {
     }
 }
 
-TEST(MovingMirrors, TheEyeOfTheTracedPictureSeesItsLight) {
+TEST(MovingMirrors, FromTheTracedPicturesPositionMirrorsShowItsLight) {
     Surfaces s(smoothLight());
     const Eigen::Vector3d eye = s.traced.T_world_camera.translation;
     for (std::size_t i = 0; i < s.points.size(); ++i)
@@ -186,7 +186,7 @@ TEST(MovingMirrors, HighlightsOfTheSunMove) {
     const auto shown = moving.mirrors.lightFor(other);
     int bright = 0;
     for (std::size_t i = 0; i < s.points.size(); ++i) {
-        // A byte is too coarse for the roughness of the sharpest lobes.
+        // One byte stores the roughness, which is too coarse for the sharpest lobes.
         if (s.normals[i].dot(s.seenFrom(other, i)) < 0.05F || s.roughness[i] < 0.3F) continue;
         const Eigen::Vector3f truth = all(other, i);
         bright += truth.norm() > 1.3F * s.skyFor(other, i).norm() ? 1 : 0;
@@ -197,7 +197,7 @@ TEST(MovingMirrors, HighlightsOfTheSunMove) {
     EXPECT_GT(bright, 10);
 }
 
-TEST(MovingMirrors, ThreadsChangeNothing) {
+TEST(MovingMirrors, ResultIsIndependentOfTheNumberOfThreads) {
     Surfaces s(smoothLight());
     for (std::size_t i = 0; i < s.points.size(); ++i)
         s.setLight(i, {1, 2, 3});

@@ -76,9 +76,9 @@ TEST(ShowpiecePaint, MatchesTracedRays) {
     }
     const auto psnr = [&](double sum) { return 10 * std::log10(255.0 * 255 * pixels / sum); };
     EXPECT_GT(pixels, 12000);
-    // Rays multiply a colour and a metallic share that are interpolated separately, paint is
-    // interpolated as their product: at the border of the gilding, means over a texel differ. With
-    // texels a third as wide it is 34.7 dB.
+    // For rays, colour and metallic share are interpolated separately and then multiplied; for
+    // paint, their product is interpolated. So the means over a texel differ at the border of the
+    // gilding. With texels a third as wide, the PSNR is 34.7 dB.
     EXPECT_GT(psnr(diffuse), 30.5);
     EXPECT_GT(psnr(facing), 29.3);
 }

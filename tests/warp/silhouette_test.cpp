@@ -35,7 +35,7 @@ SceneObject turnedRound(SceneObject object) {
     return object;
 }
 
-/// For each object, the number of the surface's pixels that show it.
+/// For each object, the number of pixels of the texture `surface` that show it.
 std::array<int, 256> pixelsOfEach(const gpu::Texture& surface) {
     const Size size = surface.size();
     std::vector<std::array<std::uint32_t, 4>> texels(static_cast<std::size_t>(size.width) *
@@ -72,7 +72,7 @@ TEST_F(SilhouetteGl, BackFacesAreVisibleOnlyIfTwoSided) {
     EXPECT_NEAR(seen({turnedRound(squareAt(0, twoSided))})[1], kSquare, 200);
 }
 
-TEST_F(SilhouetteGl, TransparentAlphaFactorsMakeHoles) {
+TEST_F(SilhouetteGl, SurfacesWithTransparentAlphaFactorAreNotDrawn) {
     Material pane;
     pane.baseColour.w() = 0.2F;
     pane.alphaCutoff = 0.5F;
@@ -82,7 +82,7 @@ TEST_F(SilhouetteGl, TransparentAlphaFactorsMakeHoles) {
     EXPECT_NEAR(seen({squareAt(0, solid)})[1], kSquare, 200);
 }
 
-TEST_F(SilhouetteGl, AnotherSceneOfTheSameModelsShowsThemAtTheirNewPlaces) {
+TEST_F(SilhouetteGl, AnotherSceneWithTheSameModelsShowsThemAtTheirNewPoses) {
     const SceneObject left = squareAt(-0.25, {}), right = squareAt(0.25, {});
     ModelSilhouette silhouette(seeing());
     Scene scene;

@@ -35,7 +35,7 @@ SurfaceTexture noise(Size size, unsigned seed, bool srgb = true) {
     return out;
 }
 
-/// A square of 0.4 m about the origin that faces -z. It shows `uvScale` periods of the texture.
+/// A square of 0.4 m about the origin that faces -z. It shows `uvScale` periods of its texture.
 Mesh square(float uvScale = 1) {
     Mesh mesh;
     mesh.positions = {{-0.2F, -0.2F, 0}, {-0.2F, 0.2F, 0}, {0.2F, 0.2F, 0}, {0.2F, -0.2F, 0}};
@@ -106,7 +106,7 @@ Words paintOf(const Scene& scene, int threads = 1) {
     return paintOf(raster);
 }
 
-/// Diffuse colour, followed by the reflectance along the normal.
+/// Paint of a surface: diffuse colour (3), then reflectance along the normal (3).
 using Six = Eigen::Matrix<double, 6, 1>;
 
 Six bytesOf(const PaintWords& words) {
@@ -200,7 +200,7 @@ Material textured(int baseColour = 0, int metallic = -1) {
     return out;
 }
 
-TEST(SurfacePaint, PlanesAreAveragedOverEachPixel) {
+TEST(SurfacePaint, TextureOfAPlaneIsAveragedOverEachPixel) {
     for (const auto& [slant, side, mean, worst] : {std::tuple{0.3, 8, 1.0, 20.0},
                                                    {0.3, 32, 3.5, 40.0},
                                                    {0.3, 256, 3.0, 20.0},
@@ -266,9 +266,9 @@ TEST(SurfacePaint, WithoutTextureCoordinatesOnlyTheFactorIsUsed) {
     EXPECT_EQ(words.front(), PaintWords{});
 }
 
-// A nearer square covers the upper right quarter of pixel (30, 20) and half of each of two
-// neighbouring pixels.
-TEST(SurfacePaint, TheObjectWithMostQuartersIsPainted) {
+// Two squares overlap. The nearer one covers the upper right quarter of pixel (30, 20) and half of
+// each of two neighbouring pixels.
+TEST(SurfacePaint, TheObjectThatCoversMostQuartersOfAPixelIsPainted) {
     Material red, blue;
     red.baseColour = {1, 0, 0, 1};
     blue.baseColour = {0, 0, 1, 1};
@@ -281,7 +281,8 @@ TEST(SurfacePaint, TheObjectWithMostQuartersIsPainted) {
             return words[static_cast<std::size_t>(y) * kPainted.width + x].diffuse & 0xFFFFFFU;
         };
         EXPECT_EQ(at(30, 20), 0x000000FFU);
-        EXPECT_EQ(at(30, 19), 0x000000FFU);  // at a tie, the lowest quarter decides
+        EXPECT_EQ(at(30, 19),
+                  0x000000FFU);  // if both cover two quarters, the lowest quarter decides
         EXPECT_EQ(at(31, 20), 0x000000FFU);
         EXPECT_EQ(at(31, 19), 0x00FF0000U);
         EXPECT_EQ(at(39, 10), 0x00FF0000U);
@@ -311,8 +312,8 @@ TEST(SurfacePaint, SurfaceBehindAlphaHolesIsPainted) {
     EXPECT_EQ(at(34, 24), 0x0000FF00U);
 }
 
-// Two objects, and two triangles of one model, lie at the same places.
-TEST(SurfacePaint, ThreadsAndTheRowsEndsChangeNothing) {
+// Two objects, and two triangles of one model, coincide, so that the order of drawing could matter.
+TEST(SurfacePaint, PaintIsIndependentOfThreadsAndOfTheEndsOfRows) {
     const std::vector<SurfaceTexture> textures{noise({64, 64}, 5), noise({16, 16}, 6)};
     auto twice = modelOf(ball(0.15F, 64), textured(0), textures);
     twice->materials.push_back(textured(1));
@@ -321,7 +322,7 @@ TEST(SurfacePaint, ThreadsAndTheRowsEndsChangeNothing) {
     Scene scene = sceneOf({{twice, placed(0.8, {0, 0, 0.5}), 1},
                            {twice, placed(0.8, {0.05, 0, 0.5}), 0.9F},
                            {twice, placed(0.8, {0, 0, 0.5}), 1}});
-    // The catcher is bent, so that it is drawn. It has no paint.
+    // The shadow catcher is bent, so that it is drawn. It has no paint.
     scene.catcher.positions = {{-1, -1, 0.4F}, {1, -1, 0.4F}, {1, 1, 0.5F}, {-1, 1, 0.4F}};
     scene.catcher.triangles = {{0, 1, 2}, {0, 2, 3}};
     const Words one = paintOf(scene);
@@ -340,7 +341,7 @@ TEST(SurfacePaint, ThreadsAndTheRowsEndsChangeNothing) {
     }
 }
 
-TEST(SurfacePaint, FollowsSetScene) {
+TEST(SurfacePaint, ANewSceneIsPaintedAfterSetScene) {
     const auto made = [](unsigned seed) {
         return modelOf(square(), textured(), {noise({32, 16}, seed)});
     };

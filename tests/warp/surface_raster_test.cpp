@@ -73,7 +73,7 @@ float depthOf(std::uint32_t word) {
 
 // At a distance of 1 m, the square covers 40 pixels of the grid in each direction, beginning at
 // 39.99 and 19.99.
-TEST(SurfaceRaster, CoversASurfaceWithoutGapsOrRims) {
+TEST(SurfaceRaster, CoversASurfaceWithoutGapsAndNotBeyondItsOutline) {
     for (unsigned seed = 0; seed < 20; ++seed) {
         const auto words = drawn(
             sceneOf(shards(9, seed), {}, {Eigen::Quaterniond::Identity(), {0.0001, 0.0001, 1}}));
@@ -154,9 +154,9 @@ TEST(SurfaceRaster, AlphaMasksHaveHoles) {
         EXPECT_EQ(words[static_cast<std::size_t>(y) * 120 + x] != 0, shown) << x << " " << y;
 }
 
-TEST(SurfaceRaster, ObjectsCoverTheCatcherAndThreadsChangeNothing) {
+TEST(SurfaceRaster, ObjectsCoverTheShadowCatcherWithAnyNumberOfThreads) {
     Scene scene = sceneOf(shards(40, 5), {}, {Eigen::Quaterniond::Identity(), {0, 0, 1}});
-    // The catcher is bent, so that it is drawn. It is nearer than the square.
+    // The shadow catcher is bent, so that it is drawn. It is nearer than the square.
     scene.catcher.positions = {{-1, -1, 0.5F}, {1, -1, 0.5F}, {1, 1, 0.6F}, {-1, 1, 0.5F}};
     scene.catcher.triangles = {{0, 1, 2}, {0, 2, 3}};
     const auto one = drawn(scene);

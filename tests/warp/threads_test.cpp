@@ -44,7 +44,7 @@ std::uint64_t hashOfWarps(int threads) {
 
 TEST_F(WarpThreadsGl, WritesTheHashOfItsPicture) {
     const char* file = std::getenv(kHashFile);
-    if (file == nullptr) GTEST_SKIP() << "part of PicturesAreTheSameAtOneAndTwoThreads";
+    if (file == nullptr) GTEST_SKIP() << "run by WarpThreads.PicturesAreEqualWithOneAndTwoThreads";
     std::ofstream(file) << hashOfWarps(std::atoi(std::getenv("LP_NUM_THREADS")));
 }
 

@@ -9,7 +9,7 @@
 namespace mfar {
 namespace {
 
-/// A picture of 5x4 pixels. Object 1 covers the left three columns, in front of the catcher.
+/// A picture of 5x4 pixels. Object 1 covers the left three columns, in front of the shadow catcher.
 RenderedPicture smallPicture() {
     RenderedPicture p;
     p.camera = {{5, 4}, 5, 5, 2, 1.5, {}};
@@ -24,7 +24,7 @@ RenderedPicture smallPicture() {
     return p;
 }
 
-TEST(TracedPicture, EdgesTakeTheColourOfTheirObject) {
+TEST(TracedPicture, EdgePixelsGetTheColourOfTheirObject) {
     const TracedPicture r = tracedPicture(smallPicture());
     for (std::size_t i = 0; i < 20; ++i) {
         const std::array<std::uint8_t, 4> object{200, 100, 0, 255}, shadow{0, 0, 0, 60};
@@ -34,7 +34,7 @@ TEST(TracedPicture, EdgesTakeTheColourOfTheirObject) {
     EXPECT_EQ(r.picture, smallPicture().colour);
 }
 
-TEST(TracedPicture, ShadowsAreShownLiftedAndMovedUnlifted) {
+TEST(TracedPicture, ShadowsAreShownAboveTheSurfaceButMoveWithTheSurface) {
     const RenderedPicture p = smallPicture();
     const TracedPicture r = tracedPicture(p);
     for (std::size_t i = 0; i < 20; ++i) {
@@ -78,7 +78,7 @@ TEST(TracedPicture, InvalidPicturesAreRefused) {
     refused([&](RenderedPicture& p) { p.T_world_camera.translation.x() = kNan; });
 }
 
-TEST(TracedPicture, MotionBoundsContainEveryMovedPoint) {
+TEST(TracedPicture, BoundsOfTheMotionContainEveryMovedPoint) {
     const test::CastScene scene = test::twoBalls();
     const RenderView view{test::bentCamera({160, 120}), test::orbit(0)};
     const RenderedPicture picture = scene.cast(view);

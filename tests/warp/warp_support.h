@@ -42,7 +42,7 @@ inline HoleAnswer answered(const CastScene& scene, const HoleRequest& request, i
     return out;
 }
 
-/// Answers a request with plain white.
+/// Answers a request with white pixels.
 inline HoleAnswer answeredInWhite(const CastScene& scene, const HoleRequest& request) {
     HoleAnswer out = answered(scene, request);
     std::ranges::fill(out.colour, std::array<std::uint8_t, 4>{255, 255, 255, 255});

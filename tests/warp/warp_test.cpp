@@ -33,7 +33,7 @@ struct Shown {
     Warp warp;
 };
 
-TEST_F(WarpGl, UnmovedPoseShowsTheTracedPictureItself) {
+TEST_F(WarpGl, AtItsOwnPoseTheTracedPictureIsShownUnchanged) {
     Shown s;
     RigidTransform pose = test::orbit(0);
     pose.translation.x() += 2e-5;  // moves pixels by 0.01 px
@@ -48,13 +48,13 @@ TEST_F(WarpGl, UnmovedPoseShowsTheTracedPictureItself) {
     EXPECT_EQ(s.warp.counters().warped, 1U);
 }
 
-TEST_F(WarpGl, SmallTurnsAreAsSharpAsInterpolationAllows) {
+TEST_F(WarpGl, AfterSmallRotationsTheLayerIsAsSharpAsInterpolationAllows) {
     Shown s({.filling = HoleFilling::PushPull});
     for (const double degrees : {0.5, 1.0, 2.0})
         EXPECT_GT(s.psnrAt(degrees), 35) << degrees;
 }
 
-TEST_F(WarpGl, RenderedHolesBeatFilledOnesAndFilledOnesBeatOpenOnes) {
+TEST_F(WarpGl, PsnrRisesFromOpenHolesToFilledHolesToRenderedHoles) {
     std::array<double, 4> psnr{};
     for (int i = 0; i < 4; ++i) {
         // One ball is far in front of the other.
@@ -64,7 +64,7 @@ TEST_F(WarpGl, RenderedHolesBeatFilledOnesAndFilledOnesBeatOpenOnes) {
     }
     EXPECT_GT(psnr[1], psnr[0] + 1) << "push-pull over none";
     EXPECT_GT(psnr[2], psnr[1] + 1) << "re-rendered over push-pull";
-    EXPECT_NEAR(psnr[3], psnr[2], 0.3) << "both, once they have arrived";
+    EXPECT_NEAR(psnr[3], psnr[2], 0.3) << "both, once the rendered pixels have arrived";
 }
 
 TEST_F(WarpGl, NothingIsShownOutsideSilhouetteAndShadow) {
@@ -127,7 +127,7 @@ TEST_F(WarpGl, HugeMotionAndOddPosesAreHarmless) {
         33);
 }
 
-TEST_F(WarpGl, FaultyAndEmptyTracedPicturesAreHarmless) {
+TEST_F(WarpGl, InvalidAndEmptyTracedPicturesAreHarmless) {
     Shown s({.filling = HoleFilling::PushPull});
     RenderedPicture picture = s.scene.cast(s.view(0));
     for (std::size_t i = 0; i < picture.depth.size(); i += 3)
@@ -170,7 +170,7 @@ TEST_F(WarpGl, ATracedPictureOfAnotherResolutionIsAlwaysWarped) {
     EXPECT_GT(psnrInside(rgba, s.scene.cast(s.view(0), 3)), 30);
 }
 
-TEST_F(WarpGl, OddSizesWork) {
+TEST_F(WarpGl, LayersOfOddSizesAreWarped) {
     for (const Size size : {Size{1, 1}, Size{2, 3}, Size{7, 5}, Size{63, 65}}) {
         const CastScene scene = test::twoBalls();
         const auto engine = test::warpEngine();

@@ -1,9 +1,10 @@
-/* A plugin of QEMU's user mode: how often each translated block of a program ran. Prints to the file
- * that the argument out= names, for blocks of the program itself, not of its libraries: "OFFSET BYTES
- * INSTRUCTIONS COUNT", the offset from where its code begins; then "other INSTRUCTIONS".
+/* A plugin of QEMU's user mode that counts how often each translated block of a program runs. The argument
+ * out=FILE names the output file. It has a line "OFFSET BYTES INSTRUCTIONS COUNT" for each block of the
+ * program itself; OFFSET counts from the start of the program's code. The last line is "other INSTRUCTIONS",
+ * the number of instructions that ran in libraries.
  *
- * Debian has no header for plugins; what this needs of QEMU's API is declared here. It is the same in
- * versions 1 (QEMU 7) to 4 (QEMU 10), of which API_VERSION is one that the QEMU at hand takes. */
+ * Debian has no header for plugins; so the necessary part of QEMU's API is declared here. This part is the
+ * same in versions 1 (QEMU 7) to 4 (QEMU 10). API_VERSION is a version that the installed QEMU accepts. */
 #include <inttypes.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -47,7 +48,7 @@ static void ran(unsigned int cpu, void *block)
     ++((struct block *)block)->count;
 }
 
-/* QEMU holds a lock around translation. */
+/* Called when a block is translated. Needs no lock, because QEMU holds one during translation. */
 static void translated(qemu_plugin_id_t id, struct qemu_plugin_tb *tb)
 {
     struct block *b = calloc(1, sizeof *b);
@@ -90,7 +91,7 @@ EXPORT int qemu_plugin_install(qemu_plugin_id_t id, const qemu_info_t *info, int
         if (strncmp(argv[i], "out=", 4) == 0)
             out = argv[i] + 4;
     if (out == NULL) {
-        fprintf(stderr, "block_counts: needs out=FILE\n");
+        fprintf(stderr, "block_counts: the argument out=FILE is missing\n");
         return 1;
     }
     qemu_plugin_register_vcpu_tb_trans_cb(id, translated);

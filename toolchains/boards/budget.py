@@ -1,4 +1,4 @@
-"""Limits of each shader on each GPU (budget.csv), and the entries that exceed them."""
+"""The budget (budget.csv): limits for the instructions and spills of each shader on each GPU."""
 import csv
 
 COLUMNS = ('gpu', 'shader', 'instructions', 'spills', 'fills', 'scratch')
@@ -11,7 +11,7 @@ def row_of(gpu, shader):
 
 
 def read(path):
-    """(gpu, shader): row."""
+    """The rows of a budget file, keyed by (gpu, shader)."""
     with open(path, newline='', encoding='utf-8') as file:
         return {(row['gpu'], row['shader']): {k: v if k in COLUMNS[:2] else int(v) for k, v in row.items()}
                 for row in csv.DictReader(file)}
@@ -25,13 +25,13 @@ def write(path, rows):
 
 
 def faults(rows, budget):
-    """One line for each row that is worse than the budget, or has none."""
+    """One message for each row that exceeds its limits or has no limits."""
     out = []
     for row in rows:
         name = f'{row["shader"]} on {row["gpu"]}'
         may = budget.get((row['gpu'], row['shader']))
         if may is None:
-            out.append(f'{name}: has no budget')
+            out.append(f'{name}: has no budget in budget.csv')
             continue
         if row['instructions'] > ROOM * may['instructions']:
             out.append(f'{name}: {row["instructions"]} instructions, the budget is {may["instructions"]}')

@@ -1,4 +1,5 @@
-"""Runs mfar-frame-work: work of frames for a GPU and for processors, and their time on this machine."""
+"""Runs mfar-frame-work, which measures the work of frames on a GPU and on processors, and their time on this
+machine."""
 import json
 import os
 import re
@@ -8,34 +9,34 @@ import tempfile
 import cpu_model
 
 CASES = ('moving', 'rest')
-TIMED = 20  # frames
-# The difference of two runs is one frame, without work done once; at rest a frame is typical after
-# a few.
+TIMED = 20  # number of timed frames
+# Numbers of frames of two runs. The difference of the runs is one frame, without work that is done
+# only once. At rest, a frame is typical only after a few frames.
 FRAMES = {'moving': (2, 3), 'rest': (5, 6)}
 
 
 def run(command, **environment):
     result = subprocess.run(command, env=dict(os.environ, **environment), capture_output=True, text=True, check=False)
     if result.returncode != 0:
-        raise RuntimeError(f'{" ".join(command)} ended with {result.returncode}: {result.stderr[-500:]}')
+        raise RuntimeError(f'{" ".join(command)} ended with exit code {result.returncode}: {result.stderr[-500:]}')
     return result.stdout
 
 
 def gpu_work(program, case, width):
-    """Draws and dispatches of a frame, in order."""
+    """Draws and dispatches of a frame on GLES, in their order."""
     return json.loads(run([program, '--engine', 'gles', '--case', case, '--width', str(width), '--frames',
                            str(FRAMES[case][1])], MFAR_GL_DEVICE='software'))['frame']
 
 
 def build_plugin(source, out):
-    """The plugin that counts blocks, for the QEMU that is installed."""
+    """Builds the plugin that counts executed blocks, for the installed QEMU. Returns its path."""
     qemu = int(re.search(r'version (\d+)', run(['qemu-aarch64', '--version'])).group(1))
     run(['cc', f'-DAPI_VERSION={1 if qemu < 9 else 2}', '-O2', '-shared', '-fPIC', '-fvisibility=hidden', '-o', out, source])
     return out
 
 
 def frame_counts(emulator, plugin, program, case, width):
-    """Executed blocks of one frame on one thread."""
+    """How often each block of instructions runs for one frame on one thread."""
     counts = []
     with tempfile.TemporaryDirectory() as folder:
         for frames in FRAMES[case]:
@@ -48,13 +49,13 @@ def frame_counts(emulator, plugin, program, case, width):
 
 
 def host_times(program, threads, width, *more):
-    """Milliseconds of each stage of a frame on this machine, and its clock."""
+    """Times of each stage of a frame on this machine [ms], and the processor's clock."""
     return json.loads(run([program, '--time', '--frames', str(TIMED + 3), '--threads', str(threads), '--width',
                            str(width), *more]))
 
 
 def host_processor():
-    """Name, and llvm-mca's name for it; None where this is not x86-64."""
+    """Name of this machine's processor, and llvm-mca's name for it (None if it is not x86-64)."""
     name = ''
     with open('/proc/cpuinfo', encoding='ascii', errors='replace') as file:
         for line in file:

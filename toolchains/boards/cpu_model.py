@@ -1,10 +1,10 @@
-"""Cycles of a frame on a processor: executed blocks of the program, and llvm-mca's cycles for each.
+"""Predicts the cycles of a frame on a processor: the program's executed blocks, times llvm-mca's cycles for each.
 
-QEMU counts how often each block of instructions runs (block_counts.c). llvm-mca knows how many cycles a
-block takes on a processor when it runs again and again with everything in the first cache. Where a block
-is a loop of its own, that is its time. Others run but once in a row: a processor that looks ahead overlaps
-them with what comes next, so that only the units they use count, and one that runs in order does not. The
-sum over all blocks is the prediction; bytes and cores come in predict.py.
+QEMU counts how often each block of instructions runs (block_counts.c). llvm-mca computes how many cycles a
+block takes on a processor if it is repeated with all data in the first-level cache. If a block is a loop of its
+own, these cycles are its time. All other blocks run once at a time. An out-of-order processor overlaps such a
+block with the next ones; so only the execution units that it uses count. An in-order processor does not overlap
+blocks; so all cycles count. The sum over all blocks is the prediction. predict.py adds memory traffic and cores.
 """
 import collections
 import json
@@ -17,7 +17,7 @@ ITERATIONS = 50
 
 
 class Counts:
-    """Executions of each block, by its offset from the begin of the program's code."""
+    """How often each block was executed. Blocks are keyed by their offset from the start of the program's code."""
 
     def __init__(self, text=''):
         self.blocks = {}  # offset: (bytes, instructions, count)
@@ -32,7 +32,7 @@ class Counts:
             self.blocks[key] = size, self.blocks.get(key, (size, 0))[1] + count
 
     def less(self, before, share):
-        """The difference to `before`, times `share`: the counts of frames without the start of the program."""
+        """These counts minus `before`, times `share`: the counts of frames without the start of the program."""
         out = Counts()
         for key, (size, count) in self.blocks.items():
             more = count - before.blocks.get(key, (size, 0))[1]
@@ -47,7 +47,7 @@ class Counts:
 
 
 def code_address(readelf):
-    """From `readelf -lW`: the address of the executable segment."""
+    """Address of the program's executable segment. `readelf`: output of `readelf -lW`."""
     for line in readelf.splitlines():
         words = line.split()
         if words[:1] == ['LOAD'] and 'E' in words[6:-1]:
@@ -56,20 +56,20 @@ def code_address(readelf):
 
 
 def instruction_text(line):
-    """Address, instruction as llvm-mca reads it and where it branches to or 0, from a line of llvm-objdump;
-    None for other lines."""
+    """Parses a line of llvm-objdump: (address, instruction as llvm-mca reads it, target of a branch or 0). None if
+    the line is no instruction."""
     found = re.match(r'\s*([0-9a-f]+):\s+(\S.*)', line)
     if not found:
         return None
     text = re.sub(r'\s*(//|#\s|<unknown>).*', '', found.group(2).replace('\t', ' '))
-    # The assembler may refuse the real target as too far away.
+    # The target is replaced by a name, because the assembler refuses targets that are too far away.
     branch = re.search(r'#?0x([0-9a-f]+) <[^>]*>', text)
     text = re.sub(r'#?-?0x[0-9a-f]+ <[^>]*>', 'target', text)
     return int(found.group(1), 16), text.strip(), int(branch.group(1), 16) if branch else 0
 
 
 def disassemble(program):
-    """Address: (text, target), in the order of the program."""
+    """The program's instructions in their order: {address: (text, target of a branch or 0)}."""
     out = {}
     command = ['llvm-objdump-' + LLVM, '-d', '--no-show-raw-insn', program]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as run:
@@ -84,8 +84,9 @@ ENDS = re.compile(r'(j\w+|call\w*|ret\w*|b|bl|br|blr|cbn?z|tbn?z|b\.\w+)( |$)')
 
 
 def basic_blocks(counts, base, texts):
-    """[(addresses of its instructions, how often it ran)]. QEMU's own blocks end at pages and may begin within
-    another, so that they change with every place that the linker gives to code."""
+    """The program's basic blocks: [(addresses of the instructions, how often the block ran)]. QEMU's own blocks are
+    not used, because they end at page borders and may begin inside each other; so they change whenever the linker
+    moves code."""
     ran = {}
     for (offset, size), (_, count) in counts.blocks.items():
         for address in range(base + offset, base + offset + size):
@@ -105,7 +106,7 @@ def basic_blocks(counts, base, texts):
 
 
 def hottest(blocks, share):
-    """The fewest blocks that hold this share of the executed instructions."""
+    """The smallest set of blocks that contains this share of the executed instructions."""
     ordered = sorted(blocks, key=lambda block: -len(block[0]) * block[1])
     rest = sum(len(addresses) * count for addresses, count in blocks) * share
     out = []
@@ -118,7 +119,7 @@ def hottest(blocks, share):
 
 
 def mca_source(blocks, texts):
-    """`blocks`: addresses of each one's instructions."""
+    """Assembler text for llvm-mca, with one region per block. `blocks`: addresses of each block's instructions."""
     lines = []
     for at, addresses in enumerate(blocks):
         lines.append(f'# LLVM-MCA-BEGIN b{at}')
@@ -128,7 +129,8 @@ def mca_source(blocks, texts):
 
 
 def mca_cycles(answer):
-    """Region name: cycles of one iteration within a sequence, and the lower limit by its units."""
+    """For each region (block) in llvm-mca's answer: (cycles of one iteration in a sequence of iterations, smallest
+    number of cycles that its execution units allow)."""
     out = {}
     for region in json.loads(answer)['CodeRegions']:
         view = region.get('SummaryView')
@@ -142,7 +144,8 @@ def is_loop(addresses, texts):
 
 
 def block_cycles(blocks, texts, cpu, arm):
-    """Cycles of each block on a processor (an entry of model.toml's cpus), None where llvm-mca does not know one of its instructions."""
+    """Cycles of each block on the processor `cpu` (an entry of cpus in model.toml). None for a block with an
+    instruction that llvm-mca does not know."""
     triple = 'aarch64-linux-gnu' if arm else 'x86_64-linux-gnu'
     with tempfile.NamedTemporaryFile('w', suffix='.s') as source:
         source.write(mca_source(blocks, texts))
@@ -161,7 +164,7 @@ def block_cycles(blocks, texts, cpu, arm):
 
 
 def source_files(program, addresses):
-    """The file of the outermost function at each address, as the line tables have it."""
+    """For each address, the source file of the outermost function there, from the program's line tables."""
     run = subprocess.run(['llvm-symbolizer-' + LLVM, '--obj=' + program, '--output-style=JSON', '--relative-address'],
                          input='\n'.join(hex(a) for a in addresses) + '\n', capture_output=True, text=True, check=True)
     out = []
@@ -172,7 +175,7 @@ def source_files(program, addresses):
 
 
 def step_of(file, steps):
-    """The first step one of whose parts of a path is in the file's path; 'rest' without one."""
+    """The first step of which one part occurs in the file's path. 'rest' if there is none."""
     for step, parts in steps.items():
         if any(part in file for part in parts):
             return step
@@ -180,11 +183,11 @@ def step_of(file, steps):
 
 
 def frame_cycles(program, counts, cpus, steps, arm, coverage=0.99):
-    """Per processor and step: million cycles of a frame on one core, with the instructions beside it. `cpus`:
-    as in model.toml.
+    """Million cycles of a frame on one core, for each processor and step, and million instructions for each step.
+    `cpus`: the processors, as in model.toml.
 
-    Blocks beyond `coverage`, and those that llvm-mca does not know, take as many cycles an instruction as
-    the others do.
+    Blocks beyond `coverage`, and blocks that llvm-mca does not know, are assumed to take as many cycles per
+    instruction as the others.
     """
     base = code_address(subprocess.run(['readelf', '-lW', program], capture_output=True, text=True, check=True).stdout)
     texts = disassemble(program)

@@ -1,4 +1,4 @@
-"""Runs mfar-compile-shaders on a board's driver, without the board."""
+"""Runs mfar-compile-shaders with the OpenGL ES driver of a board's GPU, without the board."""
 import os
 import subprocess
 
@@ -9,15 +9,16 @@ STATISTICS = {'v3d': {'V3D_DEBUG': 'nir,shaderdb'}, 'panfrost': {'BIFROST_MESA_D
 
 
 def command(libraries, driver, program, arguments):
-    """With the libraries of the drivers' release, from its C library on."""
+    """Command line that runs the program with all libraries (even the C library) of the drivers' Debian release."""
     return [os.path.join(libraries, 'ld-linux-x86-64.so.2'), '--library-path', libraries, '--preload',
             os.path.join(libraries, f'lib{driver}_noop_drm_shim.so'), program, *arguments]
 
 
 def compile_shaders(libraries, gpu, program, files=()):
-    """Key: Shader, of every shader of the product or of these files. Raises RuntimeError where one does not
-    compile."""
-    # Without a GPU, Panfrost crashes on a dispatch and on a shader that spills.
+    """Compiles every shader of the product, or these files. Returns {key: Shader}. Raises RuntimeError if a shader
+    does not compile."""
+    # Without a GPU, Panfrost crashes at a dispatch and at a shader that spills registers; so it
+    # only links.
     arguments = (['--link-only'] if gpu['driver'] == 'panfrost' else []) + list(files)
     environment = dict(os.environ, LIBGL_DRIVERS_PATH=libraries, GBM_BACKENDS_PATH=libraries,
                        MESA_SHADER_CACHE_DISABLE='1', **STATISTICS[gpu['driver']], **gpu['environment'])
@@ -27,7 +28,7 @@ def compile_shaders(libraries, gpu, program, files=()):
     lines = run.stdout.splitlines()
     if run.returncode != 0:
         named = [line for line in lines if line.startswith('shader: ') and 'MESA_' not in line]
-        raise RuntimeError(f'{gpu["name"]}: mfar-compile-shaders ended with {run.returncode} after '
+        raise RuntimeError(f'{gpu["name"]}: mfar-compile-shaders ended with exit code {run.returncode} after '
                            f'{named[-1] if named else "no shader"}: {" | ".join(lines[-3:])[:500]}')
     if gpu['renderer'] not in run.stdout:
         raise RuntimeError(f'{gpu["name"]}: its driver does not report the renderer name "{gpu["renderer"]}"')

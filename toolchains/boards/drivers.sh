@@ -1,16 +1,17 @@
 #!/usr/bin/env bash
-# Builds Mesa's drivers for boards from a release's source package, unless they are there, and prints the
-# folder of the result. With them comes Mesa's drm-shim, libraries that stand in for a GPU's kernel driver
-# and do nothing: a program then meets the real driver, whose compiler says what it makes of each shader,
-# while nothing is drawn. The folder holds all libraries down to the C library, so that a release's drivers
-# run on another. Needs root; 10 to 20 minutes on two cores, 2 GB while it builds, 150 MB after.
-# Usage: drivers.sh [--if-built] CACHE SUITE   (--if-built: ends with 77 where they are not there)
+# Builds Mesa's OpenGL ES drivers for boards from the source package of a Debian release, if they do
+# not exist, and prints their folder. Also builds Mesa's drm-shim: libraries that replace a GPU's
+# kernel driver and do nothing. With them, a program can use a board's driver on any machine. The
+# driver compiles each shader and prints statistics, but nothing is drawn. The folder contains all
+# libraries (even the C library), so that the drivers of one release run on another. Needs root
+# rights; takes 10 to 20 minutes on two cores, 2 GB during the build and 150 MB afterwards.
+# Usage: drivers.sh [--if-built] CACHE SUITE   (--if-built: exit code 77 if the drivers are missing)
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 # shellcheck source=toolchains/debian.sh
 . "$here/../debian.sh"
 
-# What Mesa's build needs.
+# mesaPackages SUITE: prints the packages that Mesa's build needs.
 mesaPackages() {
     echo bison dpkg-dev flex g++ libdrm-dev libelf-dev libexpat1-dev meson ninja-build pkg-config \
         python3-mako zlib1g-dev
@@ -21,12 +22,13 @@ mesaPackages() {
     fi
 }
 
-# Makes a root of the release with the build's packages and Mesa's source in /mesa.
+# makeRoot SUITE ROOT: installs the Debian release with the packages for the build into the new
+# folder ROOT, and puts Mesa's source in its folder /mesa.
 makeRoot() {
     local suite=$1 root=$2 mirror
     mirror=$(debianMirror)
     [[ -n $mirror ]] || die "no source of Debian packages is configured"
-    # shellcheck disable=SC2046 # a list of words
+    # shellcheck disable=SC2046 # the package names are a list of words
     mmdebstrap --quiet --mode=root --variant=apt --aptopt='APT::Install-Recommends "false"' \
         --include="$(mesaPackages "$suite" | xargs | tr ' ' ,)" "$suite" "$root" \
         "deb $mirror $suite main" "deb-src $mirror $suite main"
@@ -35,8 +37,9 @@ makeRoot() {
         mkdir /mesa && tar xf mesa_*.orig.tar.*z -C /mesa --strip-components=1'
 }
 
-# The stand-in for V3D knows one GPU and, in Mesa 22.3, says nothing of what that kernel driver can do since
-# then: without compute there is no OpenGL ES 3.1. V3D_GPU_ID=71 makes it a V3D 7.1 with three slices.
+# amend ROOT: changes drm-shim's replacement of the V3D kernel driver in two ways. In Mesa 22.3, it
+# does not report support of compute shaders, without which there is no OpenGL ES 3.1. And it knows
+# only V3D 4.2; now it becomes V3D 7.1 with three slices if V3D_GPU_ID is set (to 71).
 amend() {
     local file=$1/mesa/src/broadcom/drm-shim/v3d_noop.c
     if ! grep -q PARAM_SUPPORTS_CSD "$file"; then
@@ -57,7 +60,7 @@ buildMesa() {
     chroot "$root" ninja -C /mesa/build
 }
 
-# Copies the drivers and every library that they and a program in C++ need.
+# collect ROOT OUT: copies the drivers, and all libraries that they and a C++ program need.
 collect() {
     local root=$1 out=$2 library
     mkdir -p "$out"
@@ -67,7 +70,7 @@ collect() {
             cp "$library" "$root/tmp/one.so"
             chroot "$root" ldd /tmp/one.so || true
         done
-        chroot "$root" ldd /usr/bin/ninja  # as in C++
+        chroot "$root" ldd /usr/bin/ninja # a C++ program
     } | sed -n 's/.* => \(\/[^ ]*\) .*/\1/p; s/^\s*\(\/lib64\/ld-[^ ]*\) .*/\1/p' | sort -u |
         while IFS= read -r library; do
             if [[ ! -e $out/${library##*/} ]]; then cp -L "$root$library" "$out/"; fi
@@ -85,10 +88,11 @@ suite=$2
 drivers=$cache/boards-$suite-$(inputHash "$suite" "$(cat "$here/drivers.sh")")
 if [[ ! -d $drivers ]]; then
     if [[ -n $ifBuilt ]]; then exit 77; fi
-    printf 'Making %s, 10 to 20 minutes\n' "$drivers" >&2
+    printf 'Building the drivers in %s; takes 10 to 20 minutes\n' "$drivers" >&2
     rm -rf "$drivers.part"
     mkdir -p "$drivers.part"
-    # In the background, as "||" would let each of these go on after a fault.
+    # Runs in the background. Directly before "||", bash would ignore errexit, and the commands
+    # would continue after a failure.
     {
         makeRoot "$suite" "$drivers.part/root"
         amend "$drivers.part/root"
@@ -97,12 +101,12 @@ if [[ ! -d $drivers ]]; then
     } >"$drivers.log" 2>&1 &
     wait $! || {
         tail -n 20 "$drivers.log" >&2
-        die "Mesa of $suite cannot be built, see $drivers.log"
+        die "the build of Mesa from Debian $suite failed, see $drivers.log"
     }
     rm -rf "$drivers.part/root" "$drivers.log"
     chmod -R a+rX "$drivers.part"
     mv "$drivers.part" "$drivers"
 fi
-# Those of earlier versions of this script.
+# Removes drivers of this release that other versions of this script built over two weeks ago.
 find "$cache" -maxdepth 1 -name "boards-$suite-*" ! -name "${drivers##*/}" -mtime +14 -exec rm -rf {} +
 echo "$drivers/lib"

@@ -1,17 +1,17 @@
-"""Time of a pass on a GPU, from the compiled shader's statistics and the number of its invocations."""
+"""Predicts the time of a pass on a GPU from the statistics of its compiled shader and its number of invocations."""
 import ast
 import math
 
 
-MOST_BYTES = 16  # per access
+MOST_BYTES = 16  # largest number of bytes per access
 
 
 class UnknownLoops(Exception):
-    """model.toml does not say how often these loops run."""
+    """model.toml does not contain how often these loops run."""
 
 
 def evaluate(expression, names):
-    """Sums, differences and products of integers and names."""
+    """Evaluates sums, differences and products of integers and of the values in `names`."""
     def value(node):
         if isinstance(node, ast.Constant):
             return node.value
@@ -25,18 +25,18 @@ def evaluate(expression, names):
 
 
 def trips_of(shader, params, loops):
-    """How often each loop of a shader runs. `loops`: the table of model.toml."""
+    """How often each loop of a shader runs (its trip count). `loops`: the table [[loops]] of model.toml."""
     lying = ' '.join(str(loop.depth) for loop in shader.loops[1:])
     if not lying:
         return []
     for entry in loops:
         if entry['shader'] == shader.name and lying in entry['trips']:
             return [evaluate(expression, params) for expression in entry['trips'][lying]]
-    raise UnknownLoops(f'{shader.key}: model.toml has no trip counts for loops that lie "{lying}"')
+    raise UnknownLoops(f'{shader.key}: model.toml has no trip counts for loops of these depths: "{lying}"')
 
 
 def unit_cycles(shader, trips, gpu):
-    """Cycles that one wave keeps each kind of unit busy, and how many cores share one of these."""
+    """For each kind of execution unit: (cycles that one wave keeps it busy, number of cores that share one unit)."""
     arithmetic, memory, texture = shader.weights(trips)
     if gpu['driver'] == 'panfrost':
         weights = {'texture': texture, 't': texture, 'ldst': memory, 'ls': memory, 'vary': 1, 'v': 1}
@@ -54,7 +54,8 @@ def unit_cycles(shader, trips, gpu):
 
 
 def executed_instructions(shader, trips):
-    """Of one invocation: those that stand there, weighed as its operations in NIR are."""
+    """Instructions that one invocation executes: those in the compiled shader, times the ratio of executed to
+    existing operations in NIR."""
     kinds = ('arithmetic', 'memory', 'texture')
     stands = sum(getattr(loop, kind) for loop in shader.loops for kind in kinds)
     runs = sum(shader.executed(kind, trips) for kind in kinds)
@@ -70,7 +71,7 @@ def waves_of_core(shader, gpu):
 
 
 def pass_time(work, shader, gpu, board, model):
-    """(time [ms], limiting resource, milliseconds by resource) of one draw or dispatch."""
+    """One draw or dispatch: (time [ms], resource that limits it, time of each resource [ms])."""
     trips = trips_of(shader, work['params'], model['loops'])
     cores, clock = board['gpu']['cores'], board['gpu']['clock'] * 1e3  # cycles per millisecond
     waves = math.ceil(work['invocations'] / gpu['lanes'])
@@ -80,7 +81,7 @@ def pass_time(work, shader, gpu, board, model):
     waits = shader.executed('memory', trips) + shader.executed('texture', trips)
     lone = executed_instructions(shader, trips) * gpu['lone_issue'] + waits * model['gpu_model']['memory_latency']
     ms['waiting'] = max(waves / (cores * waves_of_core(shader, gpu)), 1) * lone / clock
-    # A pass that looks up only a few cells does not read its whole inputs.
+    # A pass that reads only a few cells of its inputs does not read all bytes.
     read = min(work['read'], work['invocations'] * waits * MOST_BYTES)
     ms['bandwidth'] = (read + work['written']) / bandwidth(board, model)
     limit = max(ms, key=ms.get)
@@ -88,5 +89,5 @@ def pass_time(work, shader, gpu, board, model):
 
 
 def bandwidth(board, model):
-    """Bytes per millisecond."""
+    """Memory bandwidth that a board reaches [bytes/ms]."""
     return board['memory'] * 1e6 * model['gpu_model']['bandwidth_share']

@@ -1,4 +1,4 @@
-"""Bars of a frame's steps for each board and engine, as SVG."""
+"""Draws the predicted times of a frame's steps as bars for each board and engine, as SVG."""
 from xml.sax.saxutils import escape
 
 import predict
@@ -9,7 +9,7 @@ LEFT, WIDTH, ROW, TOP = 260, 620, 22, 72
 
 
 def bars(model, results, width):
-    """(label, {step: ms}) for each board and engine."""
+    """The bars: (label, {step: time [ms]}) for each board and engine."""
     for key, board in model['boards'].items():
         short = board['name'].split(' (')[0]
         one = results['boards'][key]['moving'][width]
@@ -23,7 +23,7 @@ def bars(model, results, width):
 
 
 def nice(most):
-    """A round step of the scale for about six marks."""
+    """A round distance of the marks on a scale up to `most`, for about six marks."""
     step = 1
     while most / step > 7:
         for factor in (2, 5, 10):
@@ -47,12 +47,12 @@ def scale(most, height):
         lines.append(f'<line x1="{x:.1f}" y1="{TOP - 6}" x2="{x:.1f}" y2="{height - 40}" stroke="#ddd"/>')
         lines.append(text(x, height - 24, f'{value}', 'middle'))
         value += step
-    lines.append(text(LEFT + WIDTH / 2, height - 6, 'ms a frame', 'middle'))
+    lines.append(text(LEFT + WIDTH / 2, height - 6, 'time of a frame [ms]', 'middle'))
     if most > 1000 / 30:  # the time of a frame at 30 Hz
         x = LEFT + WIDTH * 1000 / 30 / most
         lines.append(f'<line x1="{x:.1f}" y1="{TOP - 6}" x2="{x:.1f}" y2="{height - 40}" stroke="#c00" '
                      'stroke-dasharray="4 3"/>')
-        lines.append(text(x, TOP - 10, '30 a second', 'middle', 11))
+        lines.append(text(x, TOP - 10, '30 frames per second', 'middle', 11))
     return lines
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Predicts what mfar does on boards from what compilers make of it; see README.md. Called by
+"""Predicts the frame rate of mfar on boards from the code that compilers generate; see README.md. Called by
 ./run board-report."""
 import argparse
 import json
@@ -17,7 +17,7 @@ import tables
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.append(os.path.dirname(HERE))
-from progress import Progress  # noqa: E402 (its folder has to be known)
+from progress import Progress  # noqa: E402 (needs the line above)
 
 PROGRESS = Progress()
 BUDGET = os.path.join(HERE, 'budget.csv')
@@ -29,13 +29,14 @@ def read_model():
 
 
 def compile_all(model, folders, program, files=()):
-    """Kind of GPU: its shaders, or these files, where its drivers are there. `folders`: suite: libraries."""
+    """Compiles all shaders, or these files, for each kind of GPU whose drivers are built: {kind: {key: Shader}}.
+    `folders`: {Debian release: folder with the drivers}."""
     out = {}
     for done, (kind, gpu) in enumerate(model['gpus'].items()):
         PROGRESS.show(done, len(model['gpus']), f'compiling for {gpu["name"]}')
         if gpu['mesa'] not in folders:
             PROGRESS.clear()
-            print(f'skipped: {gpu["name"]}: the drivers of {gpu["mesa"]} are not built')
+            print(f'skipped: {gpu["name"]}: the Mesa drivers of Debian {gpu["mesa"]} are not built')
             continue
         out[kind] = drivers.compile_shaders(folders[gpu['mesa']], gpu, program, files)
     PROGRESS.clear()
@@ -47,11 +48,11 @@ def budget_rows(compiled):
 
 
 def check(compiled, allowed):
-    """Prints the entries over their budget; returns their number."""
+    """Prints the shaders that exceed their budget. Returns their number."""
     faults = budget.faults(budget_rows(compiled), allowed)
     for fault in faults:
         print(fault)
-    print(f'{sum(map(len, compiled.values()))} shaders on {len(compiled)} GPUs, {len(faults)} over their budget')
+    print(f'{sum(map(len, compiled.values()))} shaders on {len(compiled)} GPUs; {len(faults)} exceed their budget')
     return len(faults)
 
 
@@ -61,7 +62,7 @@ def outputs(model):
 
 
 def predict_board(board, model, works, compiled, cycles):
-    """case: output width: prediction."""
+    """The predictions for a board: {case: {output width: prediction}}."""
     gpu = board.get('gpu')
     known = gpu is not None and gpu['kind'] in compiled
     out = {}
@@ -84,7 +85,7 @@ def predict_board(board, model, works, compiled, cycles):
 
 
 def check_host(args, model, plugin):
-    """Compares the processor model with measurements on this machine."""
+    """Compares the predictions of the processor model with measurements on this machine."""
     name, mca = collect.host_processor()
     if mca is None:
         return None
@@ -96,7 +97,8 @@ def check_host(args, model, plugin):
     measured = collect.host_times(args.frame_work, 1, width, '--avx2')
     clock = measured['clockGhz'] * 1e3
     predicted = {step: million * 1e3 / clock for step, million in cycles['cycles']['host'].items()}
-    # The time of the fine check is in weigh; rows that it shares with detail are counted in detail.
+    # Measured times of the step weigh include the comparison of the finest detail. Its row kernels
+    # are predicted with the step detail, which uses them, too. So both steps are compared together.
     times = {step: one['least'] for step, one in measured.items() if isinstance(one, dict)}
     for table in (predicted, times):
         table['weigh and detail'] = table.pop('weigh', 0) + table.pop('detail', 0)
@@ -133,7 +135,7 @@ def report(args, model, compiled):
     write(args.out, 'predicted_frames.inc', tables.predicted_frames(model, results))
     write(args.out, 'boards.svg', plot.frames(model, results))
     print(text)
-    print(f'{args.out}/boards.md, boards.svg, passes.csv, boards.json, predicted_frames.inc')
+    print(f'Written to {args.out}: boards.md, boards.svg, passes.csv, boards.json, predicted_frames.inc')
 
 
 def write(folder, name, text):
@@ -150,7 +152,7 @@ def parse():
     parser.add_argument('--sysroot')
     parser.add_argument('--no-host', action='store_true', help='skip the check of the model on this machine')
     parser.add_argument('--out', default='out/boards')
-    parser.add_argument('--check', action='store_true', help='only compare all shaders with their budgets')
+    parser.add_argument('--check', action='store_true', help='only compare all shaders with their budgets (budget.csv)')
     parser.add_argument('--update-budget', action='store_true')
     parser.add_argument('--budget', default=BUDGET)
     parser.add_argument('--file', action='append', default=[], help='with --check: compare only this shader')

@@ -1,8 +1,8 @@
-"""Statistics of each shader as compiled by a driver: reads the output of mfar-compile-shaders.
+"""Reads the output of mfar-compile-shaders: statistics of each shader as compiled by a driver.
 
-Each driver prints a line of statistics, and the shader in NIR, Mesa's own form, just before it becomes
-machine code. The first counts instructions as they stand; the second has the loops, so that instructions
-can be weighed by how often they run.
+For each shader, a driver prints a line of statistics, and the shader in NIR (Mesa's intermediate language) just
+before it becomes machine code. The statistics count each instruction once. The NIR shows the loops, from which
+follows how often instructions run.
 """
 import dataclasses
 import re
@@ -13,8 +13,8 @@ MEMORY = re.compile(r'(load|store)_(ssbo|global|shared|scratch)|atomic|image_(lo
 
 @dataclasses.dataclass
 class Loop:
-    """Part of a shader that runs as often as everything around it, times its trips. The first is the
-    whole shader."""
+    """A loop of a shader. Its operations run as often as the loop around it, times its own trip count. The first
+    `loop` of a shader stands for the whole shader."""
     depth: int
     parent: int = -1
     arithmetic: int = 0
@@ -33,7 +33,7 @@ class Shader:
     spills: int = 0
     fills: int = 0
     scratch: int = 0  # accesses to local arrays in memory, each counted once
-    cycles: dict = dataclasses.field(default_factory=dict)  # cycles by unit of one invocation, with loops run once
+    cycles: dict = dataclasses.field(default_factory=dict)  # cycles of one invocation by unit, with loops run once
     loops: list = dataclasses.field(default_factory=list)
 
     @property
@@ -41,7 +41,7 @@ class Shader:
         return (self.name + ' ' + self.defines).strip()
 
     def structure(self):
-        """The structure of nested loops: 'L L(L)' is one loop, then one with another in it."""
+        """The structure of nested loops as text: 'L L(L)' is one loop, then a loop that contains another one."""
         out, depth = '', 0
         for loop in self.loops[1:]:
             if loop.depth > depth:
@@ -52,8 +52,8 @@ class Shader:
         return out + ')' * max(depth - 1, 0)
 
     def weights(self, trips):
-        """(arithmetic, memory, texture): how often an instruction of each kind runs for one that stands in
-        the shader. `trips`: of each loop, in order."""
+        """How often one invocation executes an operation of the shader's text, in the mean over all operations of
+        each kind: (arithmetic, memory, texture). `trips`: trip count of each loop, in order."""
         runs = [1.0]
         for loop, count in zip(self.loops[1:], trips):
             runs.append(runs[loop.parent] * count)
@@ -65,7 +65,7 @@ class Shader:
         return out
 
     def executed(self, kind, trips):
-        """Operations of a kind that one invocation executes."""
+        """Number of operations of a kind that one invocation executes."""
         weights = dict(zip(('arithmetic', 'memory', 'texture'), self.weights(trips)))
         return sum(getattr(loop, kind) for loop in self.loops) * weights[kind]
 
@@ -133,7 +133,8 @@ def _mali(shader, text):
     _fill(shader, text)
     units = r'([\d.]+) (arith|texture|vary|ldst|fma|cvt|sfu|v|t|ls)\b'
     shader.cycles = {unit: float(cycles) for cycles, unit in re.findall(units, text)}
-    # The driver only reports whether a core has room for all threads or for half of them.
+    # The driver does not report registers, only whether a core can hold all threads or half of
+    # them.
     shader.registers = 32 if shader.threads == 2 else 64
 
 
@@ -152,7 +153,7 @@ STAGES = {'comp': ('COMPUTE', 'CL'), 'frag': ('FRAGMENT', 'FRAG'), 'vert': ('VER
 
 
 def parse(lines):
-    """Key: Shader, of the last form in which each shader was compiled."""
+    """The shaders {key: Shader}, each as it was compiled last."""
     out, wanted, shader, nir, stage = {}, (), None, None, ''
     for line in lines:
         line = line.replace('MESA: info: ', '').rstrip('\n')

@@ -1,4 +1,4 @@
-"""The report as Markdown and CSV."""
+"""Writes the report as Markdown and CSV."""
 import csv
 import io
 
@@ -28,7 +28,7 @@ def gpu_name(board, model):
 
 
 def placement(result):
-    """The fastest placement of steps on engines, in one or two words."""
+    """Name of the fastest placement of steps on engines, for a table cell."""
     names = {'simd': 'SIMD', 'gles': 'GLES', 'match simd, draw gles': 'SIMD, detail GLES',
              'match gles, draw simd': 'GLES, detail SIMD'}
     return names[result['best']]
@@ -58,7 +58,8 @@ def frames_table(model, results):
 
 
 def predicted_frames(model, results):
-    """Rows of pipeline/engine_guess.cpp: GPU, moving frame by placement [ms]."""
+    """The table that pipeline/engine_guess.cpp includes: for each GPU, the time of a moving frame for each placement
+    [ms]."""
     order = ('simd', 'match simd, draw gles', 'match gles, draw simd', 'gles')
     lines = ['// Written by ./run board-report.']
     for key, board in model['boards'].items():
@@ -103,7 +104,7 @@ def dearest_passes(model, results, width, count=6):
 
 
 def instructions_table(results):
-    """Million instructions of a frame, counted in the emulator, from which cycles are computed."""
+    """Million instructions of a frame, counted in the emulator. The cycles are computed from them."""
     steps = predict.STEPS
     rows = [[case, *(f'{one.get(step, 0):.1f}' for step in steps), f'{sum(one.values()):.0f}']
             for case, one in results['instructions'].items()]
@@ -135,7 +136,7 @@ def markdown(model, compiled, results):
              steps_table(model, results, width), '## Most expensive shaders\n', dearest_passes(model, results, width),
              '## Instructions\n', instructions_table(results), '## Spills\n', spills_table(model, compiled)]
     if results['host']:
-        parts += ['## The model of processors on this machine\n', host_table(results['host'])]
+        parts += ['## Check of the processor model on this machine\n', host_table(results['host'])]
     return '\n'.join(parts)
 
 

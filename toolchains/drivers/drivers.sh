@@ -4,19 +4,20 @@
 driverPackages() {
     cat <<'EOF'
 mesa-vulkan-drivers     lavapipe, on which zink draws
-vulkan-validationlayers checks what zink asks of it
+vulkan-validationlayers checks zink's calls of Vulkan
 EOF
 }
 
-# Prints the complaints of Vulkan's validation layer in a log; fails when there are none.
+# complaints LOG: prints the messages of Vulkan's validation layer in a log. Fails if there are
+# none.
 complaints() {
     grep -E 'Validation (Error|Warning|Performance)' "$1" | sort | uniq -c | cut -c 1-400
 }
 
-# Arguments: the driver, then options of ctest. Runs tests with the label "driver": those that draw
-# with GL and whose display does not read pixels into a buffer. For such reads Mesa 22.3 draws into
-# a framebuffer without attachments, for which zink does not call vkCmdSetColorBlendEnableEXT; the
-# layer reports that as an error.
+# testDriver DRIVER [CTEST-OPTION...]: runs the tests with the label "driver" on this Mesa driver.
+# These tests draw with GL, and their display does not read pixels into a buffer. For such reads,
+# Mesa 22.3 draws into a framebuffer without attachments, and zink then does not call
+# vkCmdSetColorBlendEnableEXT, which the validation layer reports as an error.
 testDriver() {
     local driver=$1 icd log=.build/host/Testing/Temporary/LastTest.log label=driver said
     shift
@@ -33,15 +34,15 @@ testDriver() {
         export VK_LAYER_SETTINGS_PATH=$PWD/toolchains/drivers
         ;;
     softpipe) label=softpipe ;;
-    *) die "--driver needs zink or softpipe" ;;
+    *) die "test: --driver must be zink or softpipe, not '$driver'" ;;
     esac
     ctest --test-dir .build/host --parallel "$((jobs + 1))" --output-on-failure \
         --timeout 120 --label-regex "^$label\$" "$@"
     [[ $driver == zink ]] || return 0
     grep -q 'createinstance-status-message' "$log" ||
-        die "Vulkan's validation layer has checked nothing, see $log"
+        die "Vulkan's validation layer was not active, see $log"
     said=$(complaints "$log") || return 0
-    say "Vulkan's validation layer complains:"
+    say "Vulkan's validation layer reports:"
     say "$said"
     return 1
 }

@@ -1,5 +1,5 @@
-# CPack runs this script after it has copied the files of the package. The script determines which
-# Debian packages contain the shared libraries of the programs.
+# CPack runs this script after it has copied the files of the package. The script finds the Debian
+# packages of the programs' shared libraries and adds them to the package's dependencies.
 file(GLOB programs ${CPACK_TEMPORARY_DIRECTORY}/usr/bin/*)
 execute_process(
     COMMAND ${CMAKE_CURRENT_LIST_DIR}/shlibdeps.sh "${CPACK_MFAR_SYSROOT}"

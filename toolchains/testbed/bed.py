@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Boots the test bed, installs a package in it and runs the scenarios. See README.md."""
+"""Boots the emulated board, installs a package on it and runs the scenarios. See README.md."""
 
 import argparse
 import importlib.util
@@ -13,7 +13,7 @@ import traceback
 from pathlib import Path
 
 sys.path.append(str(Path(__file__).resolve().parent.parent))
-from progress import Progress  # noqa: E402 (its folder has to be known)
+from progress import Progress  # noqa: E402 (needs the line above)
 
 from camera import Camera
 from guest import Guest, GuestError
@@ -22,7 +22,8 @@ from pictures import Film, Pattern, film_times
 HERE = Path(__file__).resolve().parent
 VIDEO, STILL = (640, 480), (2304, 1728)
 
-# For mfard: the board's own devices; further keys of the trigger line may follow.
+# Configuration of mfard with the emulated board's devices. Further keys of [cameras.trigger] may
+# follow.
 DEVICES = '''source = "cameras"
 [cameras.video]
 camera = "Bed video"
@@ -33,7 +34,7 @@ chip = "/dev/gpiochip0"
 line = "5"
 '''
 
-# mfard requests stills only in some scenarios.
+# Configuration for scenarios in which mfard requests no stills.
 CAMERAS = DEVICES + '''[pose]
 source = "none"
 [trigger]
@@ -42,7 +43,7 @@ mode = "off"
 
 
 def pictures(options):
-    """Pictures of both cameras, of the same scene: the film, or patterns."""
+    """The pictures that both cameras send of the same scene: films of a recording, or test patterns."""
     if not options.film:
         return Pattern(*VIDEO), Pattern(*STILL)
     files = options.film / 'video', options.film / 'still'
@@ -51,7 +52,7 @@ def pictures(options):
 
 
 class Bed:
-    """The argument of a scenario: the guest, and its surroundings."""
+    """The argument of a scenario: the guest (the emulated board) and the cameras at it."""
 
     devices, cameras = DEVICES, CAMERAS
 
@@ -78,17 +79,17 @@ class Bed:
         shutil.rmtree(self.work)
 
     def numbered(self, on):
-        """Whether films show their numbers; patterns always do."""
+        """Sets whether films draw the pictures' numbers. Patterns always do."""
         for picture in self._pictures:
             picture.numbered = on
 
     def held(self, on):
-        """Whether films stand still."""
+        """Sets whether films show only their first picture."""
         for picture in self._pictures:
             picture.held = on
 
     def journal(self, since=None):
-        """Messages of mfard.service, without times."""
+        """The messages of mfard.service, without times. `since`: a time from now()."""
         return self.run('journalctl --no-pager -q -u mfard -o cat'
                         + (f' --since "{since}"' if since else ''))
 
@@ -97,12 +98,12 @@ class Bed:
         return self.run('date "+%F %T.%6N"')
 
     def property(self, name):
-        """A property of mfard.service, as systemctl show has it."""
+        """The value of a property of mfard.service, from `systemctl show`."""
         return self.run(f'systemctl show mfard --value -p {name}')
 
     def fresh_service(self, config, drop_in=''):
-        """Stops mfard and starts it with this configuration; the seconds until it was ready, on the
-        guest's clock. `drop_in` is added to the unit's section [Service]."""
+        """Stops mfard and starts it with this configuration. Returns the time until it was ready [s], on
+        the guest's clock. `drop_in` is added to the unit's section [Service]."""
         self.run('systemctl stop mfard; systemctl reset-failed mfard; true')
         self.write('/etc/mfar/mfard.toml', config)
         self.write('/etc/systemd/system/mfard.service.d/50-scenario.conf', '[Service]\n' + drop_in)
@@ -112,8 +113,8 @@ class Bed:
         return self.guest.clock() - begin
 
     def wait_for_pictures(self, count, limit=120):
-        """Until the service has shown so many. The first ones, for which shaders are compiled, take
-        up to half a minute here, in which it answers nothing."""
+        """Waits until the service has shown this number of pictures. The first pictures take up to half
+        a minute in the guest, because shaders are compiled; meanwhile mfard does not answer."""
         self.wait_for(f'(( $(mfarctl status | sed -n "s/^frames *//p") >= {count} ))', limit)
 
     def write(self, path, text):
@@ -145,7 +146,7 @@ def run_scenario(bed, scenario):
     try:
         scenario.run(bed)
         fault = None
-    except Exception:  # after any failure the other scenarios run all the same
+    except Exception:  # the other scenarios run after any failure
         fault = traceback.format_exc()
     took = time.monotonic() - begin
     print(f'{"ok" if fault is None else "FAILED":8}{scenario.name:40}{took:7.1f} s', flush=True)
@@ -160,19 +161,20 @@ def run_scenario(bed, scenario):
 
 
 def install(bed):
-    """Installs the package as on a configured board: the service starts with its cameras."""
+    """Installs the package with a configuration of the cameras, with which the service starts."""
     begin = time.monotonic()
     bed.run('mkdir -p /etc/mfar /etc/systemd/system/mfard.service.d')
     bed.write('/etc/mfar/mfard.toml', CAMERAS)
-    # The first picture, for which shaders are compiled, takes up to half a minute in the guest.
+    # The first picture takes up to half a minute in the guest, because shaders are compiled.
     bed.write('/etc/systemd/system/mfard.service.d/10-emulated.conf', '[Service]\nWatchdogSec=120\n')
     bed.run('dpkg --force-confold -i /share/mfar.deb', 180)
     print(f'ok      {"install":40}{time.monotonic() - begin:7.1f} s', flush=True)
 
 
 def run_boot(options, boot, scenarios, show):
-    """Starts the guest once and runs all scenarios for this start: (passed, failed). Calls `show`
-    before each step, with the number of finished scenarios and the name of the step."""
+    """Starts the guest with the options `boot` and runs all scenarios that need them. Returns (passed,
+    failed). Calls `show` before each step, with the number of finished scenarios and the name of the
+    step."""
     show(0, 'boot')
     print(f'boot    {boot or ""}', flush=True)
     try:
@@ -216,8 +218,8 @@ def main():
         show = lambda done, what: progress.show(before + done, len(scenarios), what)
         good, bad = run_boot(options, dict(boot), list(group), show)
         passed, failed = passed + good, failed + bad
-    print(f'{time.monotonic() - begin:.0f} s on {os.cpu_count()} processors')
-    print(f'{passed} passed, {failed} failed')
+    print(f'took {time.monotonic() - begin:.0f} s on {os.cpu_count()} processors')
+    print(f'{passed} scenarios passed, {failed} failed')
     sys.exit(1 if failed else 0)
 
 

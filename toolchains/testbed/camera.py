@@ -1,4 +1,4 @@
-"""A USB camera: plays pictures by time, or one for each pulse, with faults on demand."""
+"""An emulated USB camera. It sends pictures at a rate, or one for each trigger pulse, with faults on demand."""
 
 import struct
 import threading
@@ -8,12 +8,12 @@ from collections import deque
 import usbredir
 import uvc
 
-END_OF_PICTURE = 0x8e  # flags of the header: end of picture, both times present
+END_OF_PICTURE = 0x8e  # flags of the UVC header: end of picture, both times present
 ERROR = 0x40
 
 
 class Fault:
-    """A fault of one picture."""
+    """A fault of one picture. `seconds`: delay of a late picture."""
 
     def __init__(self, kind, seconds=0.0):
         if kind not in ('missing', 'late', 'torn', 'long', 'error'):
@@ -23,11 +23,12 @@ class Fault:
 
 
 class Camera:
-    """`picture(time, number)` gives the pixels, time in seconds since `epoch` (time.monotonic()).
+    """A camera. `picture(time, number)` gives the pixels of a picture; `time` is in seconds since `epoch`
+    (a value of time.monotonic()).
 
-    With a rate it delivers by itself, the number counting from the epoch; with rate 0 on pulse()
-    alone, the number counting the pulses from 1. What it could not deliver is counted, not sent later:
-    a sensor does not wait.
+    With a rate above 0, it sends pictures at this rate, and their numbers count from the epoch. With rate
+    0, it sends one picture for each pulse(), and the numbers count the pulses from 1. Pictures that it
+    cannot send in time are left out, as by a sensor; their numbers are missing.
     """
 
     def __init__(self, name, picture, rate, epoch):
@@ -42,7 +43,7 @@ class Camera:
         self._pulses = deque()
         self._faults = deque()
         self._streaming = False
-        self._generation = 0  # of the stream: pictures of an older stream are not sent
+        self._generation = 0  # number of the stream; pictures of an older stream are not sent
         self._toggle = 0
         self.pulses = 0
         self.ignored_pulses = 0
@@ -51,7 +52,7 @@ class Camera:
         self.link = None
         threading.Thread(target=self._stream, daemon=True).start()
 
-    # Called by the host, in the role of a person at the board.
+    # Functions for scenarios, which act as a person at the board.
 
     def attach(self, connection):
         self.link = usbredir.UsbRedirLink(connection, self)
@@ -76,7 +77,7 @@ class Camera:
                 self.ignored_pulses += 1
 
     def fault(self, kind, seconds=0.0, count=1):
-        """The next `count` pictures have this fault."""
+        """Gives the next `count` pictures this fault."""
         with self._changed:
             self._faults.extend([Fault(kind, seconds)] * count)
 
@@ -84,7 +85,7 @@ class Camera:
     def streaming(self):
         return self._streaming
 
-    # Called by the link.
+    # Functions that UsbRedirLink calls.
 
     def connected(self):
         if self.plugged:
@@ -110,7 +111,7 @@ class Camera:
             if (kind, request, value >> 8) == (0x21, uvc.SET_CUR, uvc.COMMIT):
                 self._start()
             return self._description.stream_request(kind, request, value >> 8)
-        if (kind, request, index) == (0x02, 1, 0x81):  # halt of the endpoint cleared: end of the stream
+        if (kind, request, index) == (0x02, 1, 0x81):  # the driver clears the endpoint: end of the stream
             self._stop()
         return self._description.standard_request(kind, request, value)
 
@@ -128,7 +129,7 @@ class Camera:
             self._requests.clear()
             self._changed.notify_all()
 
-    # The delivering thread.
+    # The thread that sends pictures.
 
     def _stream(self):
         while True:
@@ -146,7 +147,7 @@ class Camera:
                 return  # the guest has ended
 
     def _next(self):
-        """Waits until the next picture is due; returns its number, time and stream."""
+        """Waits until the next picture is due. Returns its number, its time and the number of the stream."""
         with self._changed:
             while True:
                 while not self._streaming:

@@ -1,4 +1,4 @@
-"""A Debian for arm64 under QEMU with two USB cameras, a GPIO chip, a display and a root shell."""
+"""The guest: Debian for arm64 under QEMU with two USB cameras, a GPIO chip, a display and a root shell."""
 
 import json
 import os
@@ -10,14 +10,14 @@ import time
 
 import usbredir
 
-TRIGGER_LINE = 5  # of the PL061, the guest's /dev/gpiochip0
-BOOT_LIMIT = 180  # s
-# A loop over the virtio devices that are displays (type 16).
+TRIGGER_LINE = 5  # line of the GPIO chip PL061, the guest's /dev/gpiochip0
+BOOT_LIMIT = 180  # largest duration of the boot [s]
+# Begin of a shell loop over the virtio devices that are displays (type 16).
 EACH_DISPLAY = 'for d in /sys/bus/virtio/devices/*; do [[ $(<$d/device) == 0x0010 ]] || continue; '
 
 
 class GuestError(Exception):
-    """A command or a wait failed in the guest."""
+    """A command failed in the guest, or a wait for the guest took too long."""
 
 
 class Result:
@@ -44,7 +44,7 @@ class Listener:
 
 
 class Shell:
-    """Commands for the guest's root shell, one after the other."""
+    """Runs commands in the guest's root shell, one after the other."""
 
     def __init__(self, connection):
         self._connection = connection
@@ -55,7 +55,7 @@ class Shell:
         """Runs a command line and waits for its end. Throws GuestError after `limit` seconds."""
         self._count += 1
         mark = b'\n\x01%d ' % self._count
-        # With eval, a syntax error in the command does not swallow the mark.
+        # With eval, the mark is printed even if the command has a syntax error.
         quoted = command.replace("'", "'\\''")
         self._connection.sendall(f"eval '{quoted}' </dev/null; "
                                  f"printf '\\n\\001{self._count} %d\\n' $?\n".encode())
@@ -72,10 +72,10 @@ class Shell:
             try:
                 part = self._connection.recv(65536)
             except TimeoutError:
-                raise GuestError(f'the command does not end within {limit:.0f} s: {command}\n'
+                raise GuestError(f'the command did not end within {limit:.0f} s: {command}\n'
                                  + data.decode(errors='replace')) from None
             if not part:
-                raise GuestError(f'the guest has ended during: {command}')
+                raise GuestError(f'the guest ended during the command: {command}')
             data += part
 
 
@@ -93,7 +93,7 @@ class Monitor:
         while True:
             line = self._lines.readline()
             if not line:
-                raise GuestError(f'QEMU has ended during: {command}')
+                raise GuestError(f'QEMU ended during the command: {command}')
             answer = json.loads(line)
             if 'error' in answer:
                 raise GuestError(f'{command}: {answer["error"]["desc"]}')
@@ -102,7 +102,7 @@ class Monitor:
 
 
 class Edges(threading.Thread):
-    """Levels to which the guest sets the lines of its GPIO chip, from QEMU's trace."""
+    """Reads from QEMU's trace to which levels the guest sets the lines of its GPIO chip."""
 
     LINE = re.compile(rb'setting output (\d+) to (\d)')
 
@@ -125,7 +125,7 @@ class Edges(threading.Thread):
                     self._on_rise()
 
     def level(self, line=TRIGGER_LINE):
-        """The last level of a line, 0 before the first."""
+        """The last level of a line; 0 if the guest has not set it."""
         return next((edge[2] for edge in reversed(self.seen) if edge[1] == line), 0)
 
     def rises(self, line=TRIGGER_LINE):
@@ -133,8 +133,8 @@ class Edges(threading.Thread):
 
 
 class Guest:
-    """`cameras` are plugged in from the start: the first as video sensor, the second as still sensor,
-    which gets the pulses. `share` is the folder that the guest has as /share."""
+    """The emulated board. `cameras` are plugged in from the start: the first is the video sensor, the
+    second the still sensor, which gets the pulses. The guest sees the folder `share` as /share."""
 
     def __init__(self, image, work, share, cameras, display=True):
         self._work = work
@@ -167,10 +167,10 @@ class Guest:
             '-accel', 'tcg,thread=multi', '-nodefaults', '-display', 'none', '-no-reboot',
             '-serial', f'file:{self.log}',
             '-kernel', f'{image}/vmlinuz', '-initrd', f'{image}/initrd',
-            # Without a blinking text cursor in the framebuffer.
+            # The last option of the kernel avoids a blinking text cursor in the framebuffer.
             '-append', 'console=ttyAMA0 quiet panic=-1 mitigations=off vt.global_cursor_default=0'
             + ('' if display else ' modprobe.blacklist=virtio_gpu'),
-            # PCI, as virtio-mmio disks are numbered in reverse order.
+            # A PCI disk, because virtio-mmio disks are numbered in reverse order.
             '-drive', f'if=none,id=disk,file={image}/root.img,format=raw,snapshot=on,cache=unsafe',
             '-device', 'virtio-blk-pci,drive=disk', '-device', 'virtio-rng-pci',
             '-virtfs', f'local,path={share},mount_tag=share,security_model=none',
@@ -187,24 +187,24 @@ class Guest:
         return command
 
     def run(self, command, limit=60, check=True):
-        """Runs a command line in the guest and returns its output. `check`: throws when its status is not 0."""
+        """Runs a command line in the guest and returns its output. `check`: throws if its exit status is not 0."""
         result = self._shell.run(command, limit)
         if check and result.status != 0:
             raise GuestError(f'{command}: ended with {result.status}\n{result.output}')
         return result.output.strip()
 
     def status(self, command, limit=60):
-        """The exit status of a command line in the guest."""
+        """Runs a command line in the guest and returns its exit status."""
         return self._shell.run(command, limit).status
 
     def wait_for(self, command, limit, pause=0.1):
-        """Waits until a command succeeds; returns the time [s] on the guest's clock."""
+        """Waits until a command succeeds. Returns the duration of the wait on the guest's clock [s]."""
         loop = (f'begin=$(date +%s%N); until {command}; do sleep {pause}; '
                 f'[ $(( $(date +%s%N) - begin )) -lt {int(limit * 1e9)} ] || exit 1; done '
                 '>/dev/null 2>&1; echo $(( $(date +%s%N) - begin ))')
         result = self._shell.run(f'( {loop} )', limit + 60)
         if result.status != 0:
-            raise GuestError(f'did not succeed within {limit} s: {command}')
+            raise GuestError(f'this command did not succeed within {limit} s: {command}')
         return int(result.output.split()[-1]) / 1e9
 
     def clock(self):
@@ -218,12 +218,12 @@ class Guest:
         with open(path, 'rb') as file:
             magic, size, depth = (file.readline() for _ in range(3))
             if (magic, depth) != (b'P6\n', b'255\n'):
-                raise GuestError(f'the screendump has an unknown format: {magic!r}')
+                raise GuestError(f"QEMU's screendump has an unknown format: {magic!r}")
             width, height = map(int, size.split())
             return width, height, file.read()
 
-    # QEMU can neither add nor remove this display while it runs, so its driver is bound and
-    # unbound.
+    # QEMU can neither add nor remove this display while it runs; so the guest's driver is bound and
+    # unbound instead.
 
     def plug_display(self):
         self.run('modprobe virtio_gpu; ' + EACH_DISPLAY

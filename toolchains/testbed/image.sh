@@ -1,14 +1,15 @@
 #!/usr/bin/env bash
-# Makes the disk of the test bed, unless it is there: a Debian for arm64 that boots under QEMU, with
-# what a package to be tested depends on. Prints the folder of root.img, vmlinuz and initrd. Needs
-# root; about 80 s and 1 GB. Nothing in the disk has been executed.
-# Usage: image.sh CACHE PACKAGE...   (what the package to be tested depends on)
+# Makes the disk of the emulated board, if it does not exist: Debian for arm64 that boots under
+# QEMU, with the dependencies of the package to be tested. Prints the folder that contains root.img,
+# vmlinuz and initrd. Needs root rights; takes about 80 s and 1 GB. Executes no program of the disk.
+# Usage: image.sh CACHE PACKAGE...   (the dependencies of the package to be tested)
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 # shellcheck source=toolchains/debian.sh
 . "$here/../debian.sh"
 
-# The guest without mfar: enough for systemd, dpkg and scripts, and the tools to look at devices.
+# Prints the packages of the guest (the emulated board) without mfar: enough for systemd, dpkg and
+# scripts, and tools for cameras, displays and GPIO lines.
 guestPackages() {
     cat <<'LIST'
 base-files base-passwd bash busybox-static coreutils dash debianutils diffutils dpkg findutils grep
@@ -18,7 +19,8 @@ gpiod libcamera-ipa libcamera-tools libdrm-tests v4l-utils
 LIST
 }
 
-# Users and groups, made by scripts otherwise, and what systemd expects of a disk.
+# completeRoot ROOT: makes the users and groups, which packages' scripts would otherwise make, and
+# the files and folders that systemd needs.
 completeRoot() {
     local root=$1
     cp "$root/usr/share/base-passwd/passwd.master" "$root/etc/passwd"
@@ -29,7 +31,8 @@ completeRoot() {
     chmod 1777 "$root/tmp"
     ln -sf mawk "$root/usr/bin/awk"
     echo mfar-bed >"$root/etc/hostname"
-    # A fixed identity, or each start would be a first one, on which all services are enabled.
+    # A fixed machine id. Without one, systemd would treat each boot as the first one and enable all
+    # services.
     echo 6d6661722d6265642d74657374626564 >"$root/etc/machine-id"
     cat >"$root/etc/fstab" <<'TAB'
 /dev/vda / ext4 rw,noatime 0 0
@@ -38,7 +41,8 @@ TAB
     printf '%s\n' virtio_console 9pnet_virtio 9p >"$root/etc/modules-load.d/bed.conf"
 }
 
-# A root shell on a virtio port: the host writes commands and reads what they say.
+# addShell ROOT: adds a service with a root shell on a virtio port. Through the port, the host
+# writes commands and reads their output.
 addShell() {
     local units=$1/etc/systemd/system unit
     mkdir -p "$units/multi-user.target.wants"
@@ -52,7 +56,7 @@ WorkingDirectory=/root
 KillMode=process
 UNIT
     ln -s ../bed-shell.service "$units/multi-user.target.wants/"
-    # What nothing here needs: a fourth of the time of the start.
+    # Disables units that the tests do not need. They take a quarter of the boot time.
     for unit in getty@tty1.service getty-static.service serial-getty@ttyAMA0.service \
         systemd-update-utmp.service systemd-journal-flush.service systemd-random-seed.service \
         dev-hugepages.mount dev-mqueue.mount sys-kernel-debug.mount sys-kernel-tracing.mount \
@@ -62,16 +66,17 @@ UNIT
     done
 }
 
-# Prints the files of a kernel module and of all it needs, in the order of loading.
+# moduleFiles FOLDER MODULE: prints the files of a kernel module and of the modules that it needs,
+# in the order of loading.
 moduleFiles() {
     local modules=$1 entry
-    entry=$(grep -m 1 "/$2\.ko" "$modules/modules.dep") || die "no kernel module $2"
-    # modules.dep names the last to be loaded first.
+    entry=$(grep -m 1 "/$2\.ko" "$modules/modules.dep") || die "$modules has no kernel module $2"
+    # modules.dep lists the modules in the opposite order.
     tr ' ' '\n' <<<"${entry/:/}" | tac
 }
 
-# Loads the modules for the disk and goes on to systemd; quicker to make than Debian's, and it needs
-# none of the guest's programs.
+# makeInitrd ROOT KERNEL OUT: makes an initrd that loads the modules for the disk and then starts
+# systemd. It is made faster than Debian's initrd, and without executing programs of the guest.
 makeInitrd() {
     local root=$1 kernel=$2 out=$3 tree module file
     tree=$(mktemp -d)
@@ -98,11 +103,12 @@ INIT
     rm -rf "$tree"
 }
 
+# makeImage FOLDER PACKAGE...: makes root.img, vmlinuz and initrd in a new folder.
 makeImage() {
     local part=$1 root=$1/root kernel
     shift
     mkdir -p "$part"
-    # shellcheck disable=SC2046 # a list of words
+    # shellcheck disable=SC2046 # the package names are a list of words
     extractPackages arm64 "$root" $(guestPackages) "$@"
     linkAlternatives "$root"
     completeRoot "$root"
@@ -124,12 +130,13 @@ mapfile -t packages < <(printf '%s\n' "$@" | sort -u)
 hash=$(inputHash "$(debianSuite)" "${packages[@]}" "$(cat "$here/image.sh" "$here/../debian.sh")")
 image=$cache/testbed-$hash
 if [[ ! -d $image ]]; then
-    printf 'Making %s, about 80 s\n' "$image" >&2
+    printf 'Making the disk of the emulated board in %s; takes about 80 s\n' "$image" >&2
     rm -rf "$image.part"
     makeImage "$image.part" "${packages[@]}"
     chmod -R a+rX "$image.part"
     mv "$image.part" "$image"
 fi
 touch "$image"
+# Removes disks that were not used for two weeks.
 find "$cache" -maxdepth 1 -name 'testbed-*' -mtime +14 -exec rm -rf {} +
 echo "$image"

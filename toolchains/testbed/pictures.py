@@ -1,6 +1,6 @@
 """Pictures of the emulated cameras: functions from a time to a picture in NV12.
 
-A number in the top rows tells pictures apart: 32 blocks side by side, bit 0 first, white for 1.
+The top rows can show the picture's number: 32 blocks side by side, bit 0 first; white stands for 1.
 """
 
 import bisect
@@ -33,10 +33,10 @@ class Pattern:
 
 
 class Film:
-    """Pictures of a file, one after the other without gaps, and their times [s], as mfar-film writes
-    them. They are shown forwards and backwards in turn, up to the time `span`, so that nothing ever
-    jumps; films with the same span stay together. `numbered`: the number is drawn in. `held`: the
-    film stands at its first picture."""
+    """Pictures from a file of mfar-film, which contains them one after the other, with their times [s]
+    in a second file. The film runs forwards and backwards in turn, up to the time `span`, so that the
+    view never jumps. Films with the same span stay synchronous. `numbered`: the picture's number is drawn
+    into it. `held`: only the first picture is shown."""
 
     held = False
 
@@ -49,10 +49,10 @@ class Film:
         with open(f'{path}.nv12', 'rb') as file:
             self._data = memoryview(mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ))
         if len(self._data) != len(self._times) * self._bytes:
-            raise ValueError(f'{path}.nv12: does not hold {len(self._times)} pictures of {width}x{height}')
+            raise ValueError(f'{path}.nv12: its size is not that of {len(self._times)} pictures of {width}x{height}')
 
     def index(self, time):
-        """The number of the picture nearest to this time."""
+        """The index of the picture that is nearest to this time."""
         phase = time % (2 * self._span)
         moment = min(phase, 2 * self._span - phase)
         after = bisect.bisect_left(self._times, moment)

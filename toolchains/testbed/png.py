@@ -1,4 +1,4 @@
-"""Reads PNG files of 8 bits a channel in R G B."""
+"""Reads PNG files with 8 bits per channel and the channels R G B."""
 
 import struct
 import zlib
@@ -19,12 +19,12 @@ def read_png(path):
             packed += body
         at += length + 12
     width, height = header[:2]
-    assert header[2:] == (8, 2, 0, 0, 0), f'{path}: {header}'
+    assert header[2:] == (8, 2, 0, 0, 0), f'{path}: expected 8 bits per channel and R G B, but the header is {header}'
     return width, height, unfiltered(zlib.decompress(packed), 3 * width, height)
 
 
 def unfiltered(data, stride, height):
-    """Undoes the prediction of each row, see the PNG specification, 9.2."""
+    """Undoes the filter of each row, see the PNG specification, 9.2."""
     out = bytearray()
     above = bytes(stride)
     for y in range(height):

@@ -1,7 +1,7 @@
-"""The device's side of usbredir, the protocol by which QEMU reaches USB devices elsewhere.
+"""The device's side of usbredir, the protocol by which QEMU uses USB devices of other processes or machines.
 
 Source: usbredirproto.h of the usbredir project. Numbers are little endian. A packet is a header
-(type, length, id) and its payload; ids have 32 bits until both sides have said hello, then 64.
+(type, length, id) and its payload. Ids have 32 bits until both sides have sent HELLO, then 64 bits.
 """
 
 import socket
@@ -15,7 +15,7 @@ SET_ALT_SETTING, GET_ALT_SETTING, ALT_SETTING_STATUS = 9, 10, 11
 CANCEL_DATA_PACKET = 21
 CONTROL_PACKET, BULK_PACKET = 100, 101
 
-# connect_device_version, ep_info_max_packet_size, 64bits_ids, 32bits_bulk_length
+# Bits for connect_device_version, ep_info_max_packet_size, 64bits_ids and 32bits_bulk_length.
 CAPABILITIES = 1 << 1 | 1 << 4 | 1 << 5 | 1 << 6
 
 SUCCESS, CANCELLED, STALL = 0, 1, 4
@@ -24,7 +24,8 @@ CONTROL_TYPE, BULK_TYPE, NO_ENDPOINT = 0, 2, 255
 
 
 class UsbRedirLink:
-    """One connection to QEMU. `device` has the methods that the packets are named after."""
+    """One connection to QEMU. It calls the methods connected(), control(), bulk_requested() and
+    bulk_cancelled() of `device` for the packets."""
 
     def __init__(self, connection, device):
         self._connection = connection
@@ -33,12 +34,12 @@ class UsbRedirLink:
         self._header = struct.Struct('<III')
 
     def send(self, kind, ident, payload):
-        """Sends one packet; from any thread."""
+        """Sends one packet. Thread-safe."""
         with self._sending:
             self._connection.sendall(self._header.pack(kind, len(payload), ident) + payload)
 
     def run(self):
-        """Handles packets until QEMU ends."""
+        """Receives and handles packets until QEMU ends."""
         self.send(HELLO, 0, b'mfar test bed'.ljust(64, b'\0') + struct.pack('<I', CAPABILITIES))
         try:
             while True:
@@ -84,12 +85,12 @@ class UsbRedirLink:
                                                      value, index, size) + answer)
 
     def send_bulk(self, ident, data, status=SUCCESS):
-        """Answers a request for data of endpoint 0x81."""
+        """Answers a request for data from endpoint 0x81."""
         header = struct.pack('<BBHIH', 0x81, status, len(data) & 0xffff, 0, len(data) >> 16)
         self.send(BULK_PACKET, ident, header + bytes(data))
 
     def plug(self, device_class, vendor, product, bulk_packet):
-        """Plugs in a device with a control endpoint and bulk endpoint 0x81 of interface 1."""
+        """Plugs in a device that has a control endpoint and, in interface 1, the bulk endpoint 0x81."""
         kinds, interfaces, sizes = [NO_ENDPOINT] * 32, [0] * 32, [0] * 32
         kinds[0] = kinds[16] = CONTROL_TYPE
         sizes[0] = sizes[16] = 64
@@ -106,7 +107,7 @@ class UsbRedirLink:
 
 
 def serve(path, device_of_link):
-    """Listens on a socket file for one QEMU, in a thread of its own."""
+    """Starts a thread that waits on a socket file for one QEMU and then handles its packets."""
     listener = socket.socket(socket.AF_UNIX)
     listener.bind(path)
     listener.listen(1)

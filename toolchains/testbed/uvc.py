@@ -1,7 +1,7 @@
 """Descriptors and requests of a USB camera (USB Video Class 1.0) with one size of NV12 pictures.
 
-The stream has one alternate setting with a bulk endpoint, and a picture is one payload: a header of
-12 bytes and the pixels, ended by a short packet.
+The stream has one alternate setting with a bulk endpoint. A picture is one payload: a header of 12
+bytes and the pixels. A packet shorter than the others ends it.
 """
 
 import struct
@@ -18,7 +18,7 @@ PROBE, COMMIT = 1, 2
 
 
 def descriptor(kind, *fields):
-    """Fields are bytes, or (value, struct format)."""
+    """A USB descriptor. Each field is a bytes object, a number (one byte), or (number, struct format)."""
     body = b''.join(f if isinstance(f, bytes) else struct.pack('<' + f[1], f[0]) if
                     isinstance(f, tuple) else bytes([f]) for f in fields)
     return bytes([len(body) + 2, kind]) + body
@@ -33,7 +33,7 @@ def u32(value):
 
 
 class UvcDescription:
-    """Descriptors of a camera. `rate` in frames per second."""
+    """Descriptors of a camera. `rate`: frames per second."""
 
     def __init__(self, name, serial, width, height, rate):
         self.frame_size = width * height * 3 // 2
@@ -68,7 +68,7 @@ class UvcDescription:
                 + descriptor(5, 0x81, 2, u16(BULK_PACKET), 0))
 
     def standard_request(self, kind, request, value):
-        """Answer to a request that every USB device knows, None when this one does not."""
+        """Answer to a standard USB request; None if the camera does not support it."""
         if (kind, request) == (0x80, 6):
             which, number = value >> 8, value & 255
             if which == 3 and number < len(self.strings):
@@ -81,7 +81,8 @@ class UvcDescription:
         return b'' if kind in (0x00, 0x01, 0x02) else None
 
     def stream_request(self, kind, request, selector):
-        """Answer to a request about the stream's format: there is only one."""
+        """Answer to a request about the stream's format, of which there is only one; None if the selector is
+        unknown."""
         if selector not in (PROBE, COMMIT):
             return None
         if kind == 0x21 and request == SET_CUR:

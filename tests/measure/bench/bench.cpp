@@ -19,7 +19,7 @@
 namespace mfar::bench {
 namespace {
 
-constexpr double kRestNoise = 2;  // grey levels
+constexpr double kRestNoise = 2;  // sigma of the noise of "rest-noise" [grey levels]
 constexpr std::size_t kWarmUp = 3;
 constexpr std::size_t kSetStillRuns = 5;
 
@@ -129,7 +129,8 @@ void measureStages(Ours& ours, std::size_t frames, CaseResult& result) {
     ours.pipeline().setMeasure(false);
     for (const auto& [stage, ms] : stages)
         result.stages.push_back({stage, summarise(ms)});
-    if (!gpuMs.empty()) result.stages.push_back({"all, by the GPU's clock", summarise(gpuMs)});
+    if (!gpuMs.empty())
+        result.stages.push_back({"all stages, by the GPU's clock", summarise(gpuMs)});
 }
 
 /// The paper's method with one of OpenCV's flow algorithms.

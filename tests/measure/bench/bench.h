@@ -29,16 +29,18 @@ struct CaseResult {
     std::array<double, kTileClasses> tileShare{};  ///< mean share of the tiles of each TileClass
 };
 
-/// OpenCV's version of the paper's method on a moving camera. Its frames alternate with ours.
+/// Times of the paper's method, built on OpenCV, with a moving camera. Its frames were run in turn
+/// with the product's.
 struct PeerResult {
     std::string name;
-    std::string of;  ///< name of our case that it is compared with
+    std::string of;  ///< name of the CaseResult with which the peer is compared
     Summary frame;
-    double ratio = 0;          ///< our median over the peer's; below 1: ours is faster
-    double low = 0, high = 0;  ///< 10th and 90th percentile of the ratio of single frames
+    double ratio = 0;          ///< the product's median time over the peer's; below 1: faster
+    double low = 0, high = 0;  ///< 10th and 90th percentile of the frames' ratios
 };
 
-/// Times with another number of threads or another output size, for moving and hand-held frames.
+/// Frame times with this number of threads and this output size, for the cases "moving" and
+/// "handheld".
 struct ScalingResult {
     int threads = 0;
     Size output;
@@ -46,31 +48,32 @@ struct ScalingResult {
 };
 
 struct BenchResult {
-    std::string workload;  ///< source of the moving and resting frames
-    std::string posed;     ///< source of the hand-held frames
+    std::string workload;  ///< name of the workload of "moving" and both "rest" cases
+    std::string posed;     ///< name of the workload of "handheld"; may be empty
     std::string renderer;
     Size video, still, output;
-    Summary setStill;  ///< work of our pipeline for each new still
+    Summary setStill;  ///< time of the pipeline's work for each new still
     std::vector<CaseResult> cases;
     std::vector<PeerResult> peers;
-    DepthTimes depth;  ///< on the hand-held frames
-    WarpTimes warp;    ///< at the video's size
+    DepthTimes depth;  ///< time of finding depth in the frames of "handheld"
+    WarpTimes warp;    ///< time of the warp of virtual objects at the video's size
     TriangulationTimes triangulation;
     std::vector<ScalingResult> scaling;
     RenderFigures render;
 };
 
-/// Learns filters from the lessons of a workload, as the daemon does; null without lessons. Prints
-/// one line on what was learned to stderr.
+/// Learns filters from the still and frame of each Lesson of a workload, as the daemon does. Prints
+/// one line on what was learned to stderr. Returns null if there is no lesson.
 [[nodiscard]] std::shared_ptr<const FilterBank> learnedFrom(const Workload& work);
 
-/// Needs a current GL context; `renderer` describes it. The first frames warm up and do not count.
-/// `moving`: its poses are not used. `posed`: its poses are used; it is skipped if it has no
-/// frames.
+/// Measures all cases. The first frames of each warm up and do not count. The cases "moving" and
+/// "rest" use the frames of `moving` without poses. "handheld" uses the frames and poses of
+/// `posed`; without frames, this case is left out. Needs a current GL context, which `renderer`
+/// describes.
 [[nodiscard]] BenchResult runBench(const Workload& moving, const Workload& posed, SuperResMode mode,
                                    EngineKind engine, const std::string& renderer,
                                    const ProgressPart& progress = {});
-/// Measures with one and with two threads, at three output sizes.
+/// Measures frame times with one and with two threads, each at three output sizes.
 [[nodiscard]] std::vector<ScalingResult> runScaling(const Workload& moving, const Workload& posed,
                                                     SuperResMode mode, EngineKind engine,
                                                     const ProgressPart& progress = {});

@@ -40,9 +40,11 @@ std::string benchSvg(const BenchResult& result) {
     }
     panels.push_back(
         {"other work [ms]",
-         {bar("new still", result.setStill, 3), bar("depth, tenth", result.depth.tenth, 3),
-          bar("depth, whole", result.depth.whole, 3), bar("warp, objects", result.warp.objects, 3),
-          bar("warp, whole", result.warp.whole, 3), bar("cv::remap", result.warp.remap, 1)},
+         {bar("new still", result.setStill, 3),
+          bar("depth, 1/10 of picture", result.depth.tenth, 3),
+          bar("depth, whole picture", result.depth.whole, 3),
+          bar("warp, small objects", result.warp.objects, 3),
+          bar("warp, whole picture", result.warp.whole, 3), bar("cv::remap", result.warp.remap, 1)},
          2});
     return eval::barsSvg(
         "mfar-bench: " + result.renderer, panels,

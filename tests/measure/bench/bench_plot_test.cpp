@@ -12,7 +12,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-TEST(BenchSvg, HasCasesStagesAndPeers) {
+TEST(BenchSvg, ShowsTheTimesOfCasesStagesAndPeers) {
     BenchResult result;
     result.renderer = "<llvmpipe>";
     result.cases = {{"moving", {20, 30, 18, 4}, {{"flow", {12, 14, 11, 4}}}, {}},
@@ -25,7 +25,7 @@ TEST(BenchSvg, HasCasesStagesAndPeers) {
         EXPECT_THAT(svg, HasSubstr(text));
 }
 
-TEST(SkipSvg, HasTimeAndQualityOfEachCase) {
+TEST(SkipSvg, ShowsSavedTimeAndLostQualityOfEachCase) {
     SkipReport report;
     report.cases = {{"office", 20, 0, 0, 0.5}};
     report.results = {{"unchanged", "office", 15, 20, 0.05, {}, {}},
@@ -36,7 +36,7 @@ TEST(SkipSvg, HasTimeAndQualityOfEachCase) {
         EXPECT_THAT(svg, HasSubstr(text));
 }
 
-TEST(GovernorSvg, HasALineOfEachSceneAndTheDeadline) {
+TEST(GovernorSvg, HasALineForEachSceneAndOneForTheDeadline) {
     const std::vector<GovernedRun> runs{{33, {{"office", {40, 30, 31}, {}}, {"still", {2, 2}, {}}}},
                                         {66, {}}};
     const std::string svg = governorSvg(runs);

@@ -72,11 +72,12 @@ nlohmann::json json(const RenderFigures& render) {
 std::string toTable(const RenderFigures& render) {
     std::string out;
     for (const RayRates& r : render.rates)
-        out += fmt::format("rays [M/s], {:>6} triangles: Embree {:.2f}, camera {:.2f} = {:.0f} %; "
-                           "samples {:.2f}\n",
+        out += fmt::format("rays [million/s], {:>6} triangles: plain Embree {:.2f}, mfar's camera "
+                           "rays {:.2f} = {:.0f} % of it; mfar's whole samples {:.2f}\n",
                            r.triangles, r.bare, r.ours, 100 * r.ours / r.bare, r.samples);
     for (const SamplingError& e : render.errors)
-        out += fmt::format("RMSE at 16 samples, {:<30} {:.5f}, independent {:.5f} = {:.1f} times\n",
+        out += fmt::format("RMSE of radiance at 16 samples per pixel, {:<30} mfar {:.5f}, "
+                           "independent random samples {:.5f} = {:.1f} times mfar's\n",
                            e.scene + ":", e.ours, e.independent, e.independent / e.ours);
     return out;
 }
@@ -127,7 +128,8 @@ std::string toTable(const BenchResult& result) {
                     result.renderer, result.workload, result.posed.empty() ? "none" : result.posed,
                     result.video.width, result.video.height, result.still.width,
                     result.still.height, result.output.width, result.output.height);
-    out += fmt::format("{:<28} {:>9} {:>9} {:>9} {:>6}\n", "[ms]", "median", "p99", "min", "runs");
+    out += fmt::format("{:<28} {:>9} {:>9} {:>9} {:>6}\n", "time [ms]", "median", "p99", "min",
+                       "runs");
     out += line("new still", result.setStill) + '\n';
     for (const CaseResult& c : result.cases) {
         out += line(c.name, c.frame) + tileLine(c) + '\n';
@@ -136,10 +138,12 @@ std::string toTable(const BenchResult& result) {
     }
     for (const PeerResult& peer : result.peers)
         out += line("peer " + peer.name, peer.frame) +
-               fmt::format("  {} / {} = {:.2f}, frame by frame {:.2f} to {:.2f}\n", peer.of,
-                           peer.name, peer.ratio, peer.low, peer.high);
+               fmt::format("  time of {} / {} = {:.2f}; of single frames {:.2f} (10th percentile) "
+                           "to {:.2f} (90th)\n",
+                           peer.of, peer.name, peer.ratio, peer.low, peer.high);
     for (const ScalingResult& s : result.scaling)
-        out += fmt::format("{} thread{}, {:>4}x{:<4}  moving {:>7.2f}  handheld {:>7.2f}\n",
+        out += fmt::format("{} thread{}, output {:>4}x{:<4}  frame time: moving {:>7.2f} ms  "
+                           "handheld {:>7.2f} ms\n",
                            s.threads, s.threads == 1 ? " " : "s", s.output.width, s.output.height,
                            s.moving.median, s.handheld.median);
     if (result.depth.whole.runs > 0)
@@ -151,8 +155,8 @@ std::string toTable(const BenchResult& result) {
            line("warp, new picture", result.warp.newPicture) + '\n' +
            line("peer cv::remap", result.warp.remap) + '\n';
     const TriangulationTimes& t = result.triangulation;
-    out += fmt::format("triangulation [ns a point]: flow {:.1f}, midpoint {:.1f}, "
-                       "cv::triangulatePoints {:.0f} = {:.0f} times flow\n",
+    out += fmt::format("triangulation [ns per point]: mfar from flow {:.1f}, mfar by midpoints "
+                       "{:.1f}, cv::triangulatePoints {:.0f} = {:.0f} times mfar from flow\n",
                        t.flow, t.midpoint, t.opencv, t.opencv / t.flow);
     return out + toTable(result.render);
 }

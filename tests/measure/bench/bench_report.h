@@ -8,9 +8,9 @@
 
 namespace mfar::bench {
 
-/// The whole result, times in ms, sizes as [width, height].
+/// The whole result with times in ms. Sizes are written as [width, height].
 [[nodiscard]] nlohmann::json toJson(const BenchResult& result);
-/// Human-readable: one line per case, stage and peer.
+/// A text for people: one line for each case, stage and peer.
 [[nodiscard]] std::string toTable(const BenchResult& result);
 /// Draws the times of whole frames, stages and peers as bars.
 [[nodiscard]] std::string benchSvg(const BenchResult& result);

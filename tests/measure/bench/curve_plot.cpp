@@ -64,7 +64,7 @@ std::string curvesSvg(const Curves& curves) {
         if (!panel.lines.empty()) panels.push_back(std::move(panel));
     }
     return eval::plotSvg("Time against error of the flow, one option varied at a time", panels,
-                         fmt::format("Diamonds: OpenCV, one direction. Samples: {}",
+                         fmt::format("Diamonds: OpenCV's flow in one direction. Samples: {}",
                                      fmt::join(curves.samples, ", ")));
 }
 

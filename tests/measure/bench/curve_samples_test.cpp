@@ -16,7 +16,7 @@ cv::Mat grey(const cv::Mat& picture) {
 }
 
 // OpenCV's flow between the two pictures must agree with the truth.
-TEST(SyntheticCurveSamples, TruthFitsThePictures) {
+TEST(SyntheticCurveSamples, TrueFlowAgreesWithOpenCvsFlow) {
     const auto samples = syntheticCurveSamples({320, 240});
     ASSERT_EQ(samples.size(), 2U);
     for (const CurveSample& sample : samples) {

@@ -60,7 +60,7 @@ CurvePoint measure(const CurveSample& sample, PipelineOptions options, bool alon
     return pointOf(sample, flow, summarise({run(), run(), run()}).median);
 }
 
-/// Mean over the samples. The search along lines is averaged only over samples with poses.
+/// Mean over the samples; for the search along epipolar lines, over the samples with poses.
 CurvePoint mean(const std::vector<CurveSample>& samples, const PipelineOptions& options,
                 bool alongLines) {
     const auto fits = [&](const CurveSample& s) { return !alongLines || s.hasPoses(); };

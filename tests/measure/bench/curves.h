@@ -8,11 +8,12 @@
 
 namespace mfar::bench {
 
-/// Time and error at one value of a knob. All other settings have their defaults.
+/// Time and error of a flow method at one value of a knob (an option that trades time for error).
+/// All other options have their defaults.
 struct CurvePoint {
     double value = 0;
     bool isDefault = false;
-    double ms = 0;    ///< mean over the samples; each is the median of three runs
+    double ms = 0;    ///< run time: median of three runs, mean over the samples
     double epe = 0;   ///< end-point error, mean over the samples [px]
     double bad1 = 0;  ///< share of the known pixels with an error above 1 px, mean over the samples
 };
@@ -24,7 +25,7 @@ struct Curve {
     std::vector<CurvePoint> points;
 };
 
-/// One of OpenCV's flow algorithms, computed in one direction, on the same samples.
+/// One of OpenCV's flow algorithms, computed in one direction, on the samples of the curves.
 struct CurvePeer {
     std::string name;
     CurvePoint point;

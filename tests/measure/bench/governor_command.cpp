@@ -14,7 +14,9 @@ GovernorCommand::GovernorCommand(CLI::App& app)
     : command_(app.add_subcommand("governor",
                                   "shows how the governor keeps deadlines: runs four scenes one "
                                   "after the other and prints for each deadline the 95th "
-                                  "percentile, late frames, frames until it settled, and levels")) {
+                                  "percentile of the frame times, the number of late frames, the "
+                                  "number of frames until the governor settled, and the frames at "
+                                  "each quality level")) {
     command_
         ->add_option("--deadlines", request_.deadlinesMs,
                      "deadlines of a frame [ms] (default 33,66,133)")
@@ -24,8 +26,9 @@ GovernorCommand::GovernorCommand(CLI::App& app)
         ->check(CLI::Range(2, 100000))
         ->capture_default_str();
     command_->add_option("--svg", svg_, "file to write a plot of the times of all frames into");
-    command_->add_option("--table", table_,
-                         "file with the levels, as mfar-bench pareto --table FILE writes it");
+    command_->add_option(
+        "--table", table_,
+        "file with the quality levels, as written by mfar-bench pareto --table FILE");
     const std::map<std::string, Clock> clocks{{"wall", Clock::Wall},
                                               {"processor", Clock::Processor}};
     command_

@@ -8,7 +8,8 @@
 namespace mfar::bench {
 namespace {
 
-constexpr std::size_t kSettling = 30;  // frames allowed for settling after a change of scene
+constexpr std::size_t kSettling =
+    30;  // largest number of frames for settling after a change of scene
 
 double percentile(std::vector<double> values, double share) {
     if (values.empty()) return 0;
@@ -51,11 +52,11 @@ double p95(const GovernedRun& run, std::size_t from) {
 std::string governorTable(std::span<const GovernedRun> runs) {
     std::string out;
     for (const GovernedRun& run : runs) {
-        out += fmt::format("deadline {:.0f} ms: p95 {:.1f} ms of all frames, {:.1f} ms from the "
-                           "{}th after each change of scene on\n",
+        out += fmt::format("deadline {0:.0f} ms: p95 of all frame times {1:.1f} ms; without the "
+                           "first {3} frames after each change of scene {2:.1f} ms\n",
                            run.deadlineMs, p95(run, 0), p95(run, kSettling), kSettling);
-        out += fmt::format("  {:<10}{:>9}{:>9}{:>7}{:>9}  levels (frames)\n", "scene", "median",
-                           "p95", "late", "settled");
+        out += fmt::format("  {:<10}{:>9}{:>9}{:>7}{:>9}  quality levels (frames)\n", "scene",
+                           "med. ms", "p95 ms", "late", "settled");
         for (const GovernedScene& scene : run.scenes)
             out += fmt::format(
                 "  {:<10}{:>9.1f}{:>9.1f}{:>7}{:>9} {}\n", scene.name, percentile(scene.ms, 0.5),

@@ -5,7 +5,7 @@
 namespace mfar::bench {
 namespace {
 
-TEST(GovernorReport, SettledIsWhenAtMostOneFrameInTwentyIsLate) {
+TEST(GovernorReport, IsSettledOnceAtMostOneFrameInTwentyIsLate) {
     std::vector<double> ms(100, 30);
     EXPECT_EQ(settledAfter(ms, 33), 0);
     ms[0] = ms[1] = ms[2] = 40;
@@ -17,13 +17,13 @@ TEST(GovernorReport, SettledIsWhenAtMostOneFrameInTwentyIsLate) {
     EXPECT_EQ(settledAfter(ms, 33), 9);
 }
 
-TEST(GovernorReport, UnmetDeadlinesNeverSettle) {
+TEST(GovernorReport, NeverSettlesIfTheDeadlineIsMissed) {
     const std::vector<double> ms(50, 40);
     EXPECT_EQ(settledAfter(ms, 33), 50);
     EXPECT_EQ(settledAfter({}, 33), 0);
 }
 
-TEST(GovernorReport, P95LeavesOutTheFirstFramesOfEachScene) {
+TEST(GovernorReport, PercentileLeavesOutTheFirstFramesOfEachScene) {
     GovernedRun run{33, {{"a", std::vector<double>(60, 20), {}}, {"b", {}, {}}}};
     for (std::size_t i = 0; i < 30; ++i)
         run.scenes[0].ms[i] = 50;

@@ -32,7 +32,7 @@ Shots shotsOf(synthetic::Scene which, synthetic::Path path, const char* name, in
     rig = scene.rig();
     Shots out{name, {}};
     scene.fire();
-    // The first still arrives some frames after its pulse.
+    // Skips the frames before the first still, which arrives some frames after its trigger pulse.
     for (SceneFrame frame; std::cmp_less(out.frames.size(), count);) {
         frame = nextFrame(scene);
         if (out.frames.empty() && frame.still.empty()) continue;
@@ -42,7 +42,7 @@ Shots shotsOf(synthetic::Scene which, synthetic::Path path, const char* name, in
     return out;
 }
 
-/// A pipeline whose levels are chosen by a governor, as in the daemon.
+/// A pipeline whose quality levels are chosen by a governor, as in the daemon.
 class Governed {
 public:
     Governed(const StereoRig& rig, const std::vector<QualityLevel>& levels, double deadlineMs,

@@ -14,8 +14,8 @@ namespace mfar::bench {
 /// What the governor did during one scene of a sequence.
 struct GovernedScene {
     std::string name;
-    std::vector<double> ms;             ///< frame times, the first is that after the change
-    std::map<std::string, int> levels;  ///< number of frames at each level
+    std::vector<double> ms;             ///< frame times, from the first frame of this scene on
+    std::map<std::string, int> levels;  ///< number of frames at each quality level
 };
 
 struct GovernedRun {

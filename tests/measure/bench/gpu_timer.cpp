@@ -5,7 +5,8 @@
 namespace mfar::gpu {
 namespace {
 
-// The same numbers in EXT_disjoint_timer_query and ARB_timer_query; not in the core header.
+// These constants have the same values in EXT_disjoint_timer_query and ARB_timer_query. The core
+// header does not define them.
 constexpr GLenum kTimeElapsed = 0x88BF;
 constexpr GLenum kGpuDisjoint = 0x8FBB;
 
@@ -33,7 +34,7 @@ Timer::~Timer() {
 void Timer::start() {
     if (query_ == 0) return;
     GLint changed = 0;
-    if (disjointKnown_) glGetIntegerv(kGpuDisjoint, &changed);  // reading it resets it
+    if (disjointKnown_) glGetIntegerv(kGpuDisjoint, &changed);  // reading this flag resets it
     glBeginQuery(kTimeElapsed, query_);
 }
 

@@ -27,7 +27,8 @@ public:
 
 private:
     GLuint query_ = 0;
-    bool disjointKnown_ = false;  // the context reports clock changes (OpenGL ES only)
+    bool disjointKnown_ =
+        false;  // the context can report changes of the GPU's clock (OpenGL ES only)
 };
 
 }  // namespace mfar::gpu

@@ -30,10 +30,10 @@ constexpr const char* kHelp =
     "moving: every frame differs from the one before, and there are no poses; handheld: the "
     "synthetic office seen by a hand-held camera with its exact poses, or the recording's frames "
     "with its poses; rest: the same frame again and again; rest-noise: the same view with sensor "
-    "noise of sigma 2.\n"
-    "mfar has learned its filters from stills before. Whole frames are timed without interruption "
-    "until the picture is finished; stages are timed in a separate run. The peers are the paper's "
-    "method on OpenCV (DIS medium, DIS fast), which run in turn with mfar.";
+    "noise of sigma 2 grey levels.\n"
+    "mfar learns its filters from stills before the measurement. Whole frames are timed without "
+    "interruption until the picture is finished; stages are timed in a separate run. The peers are "
+    "the paper's method with OpenCV's flow (DIS medium, DIS fast). They run in turn with mfar.";
 
 struct Options {
     std::string recording, json, mode = "detail", engine = "auto";
@@ -43,7 +43,7 @@ struct Options {
     std::vector<std::filesystem::path> data;
 };
 
-/// Workloads of a moving camera, without and with poses. One that is unavailable has no frames.
+/// Workloads of a moving camera, without and with poses. An unavailable workload has no frames.
 struct Workloads {
     Workload moving, posed;
 };
@@ -90,7 +90,7 @@ void addOptions(CLI::App& app, Options& o) {
                    "use the frames and stills of this recording instead of the synthetic board's");
     app.add_option("--frames", o.frames, "number of frames per case (default 40, with --quick 4)")
         ->check(CLI::Range(1, 100000));
-    app.add_option("--mode", o.mode, "mode of the super-resolution")
+    app.add_option("--mode", o.mode, "super-resolution mode, as the key mode of [superres]")
         ->check(CLI::IsMember({"detail", "blend"}))
         ->capture_default_str();
     app.add_option("--engine", o.engine,
@@ -99,14 +99,15 @@ void addOptions(CLI::App& app, Options& o) {
         ->capture_default_str();
     app.add_flag("--as-shipped", o.shipped,
                  "use the shipped filters, as mfar does before the first still");
-    app.add_flag("--scaling", o.scaling, "also compare one thread with two at three output sizes");
+    app.add_flag("--scaling", o.scaling,
+                 "also measure frame times with one and two threads at three output sizes");
     app.add_option("--json", o.json, "file to write all results into");
     app.add_option("--svg", o.svg, "file to write a plot of the times into");
     app.add_flag("--quick", o.quick,
                  "measure few small frames, only to check that the program runs");
     app.add_option("--curves", o.curves,
-                   "write curves.csv and curves.svg into this folder instead of the other "
-                   "measurements: time against error of the flow for each of its options");
+                   "make no other measurement; write curves.csv and curves.svg into this folder: "
+                   "time against error of the flow for each of its options");
     app.add_option("--data", o.data,
                    "recordings or pairs, as for mfar-eval flow, on which the curves are measured, "
                    "with --frames samples of each (default 2). Default: the stereo pairs of "

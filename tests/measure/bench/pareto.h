@@ -19,7 +19,7 @@ struct ParetoPoint {
 /// All methods for one stage. They were measured in turn in one run.
 struct ParetoStage {
     std::string name;
-    std::string measure;  ///< what the error is, with its unit
+    std::string measure;  ///< name of the error measure, with its unit
     std::string samples;  ///< names of the samples
     std::vector<ParetoPoint> points;
 };
@@ -38,8 +38,8 @@ struct ParetoStage {
 /// One line per point, with the columns stage,name,kind,ms,error,measure,front,dominated_by.
 [[nodiscard]] std::string paretoCsv(const std::vector<ParetoStage>& stages);
 
-/// A text for people: which of our points no peer dominates, and which peer dominates each other
-/// one.
+/// A text for people: first our points that no peer dominates, then each of our other points with
+/// the peers that dominate it, then the peers.
 [[nodiscard]] std::string paretoSummary(const std::vector<ParetoStage>& stages);
 
 /// One panel per stage with logarithmic axes: time on x, error on y. A line joins the points that

@@ -17,11 +17,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A level replaces the level before it, which is less accurate, unless it is slower by this factor.
-// Otherwise the governor could hardly gain time by choosing the less accurate one.
+// Smallest ratio of the run times of two neighbouring quality levels. If a level takes less than
+// this factor longer than the less accurate level before it, that level is left out: choosing it
+// would hardly save time.
 constexpr double kLeastStep = 1.05;
 
-/// Makes levels of our points that no other of our points dominates, from fast to accurate.
+/// Makes a quality level of each of our points that no other of our points dominates. Sorted from
+/// fast to accurate.
 std::vector<QualityLevel> levelsOf(const ParetoStage& superres) {
     std::vector<ParetoPoint> ours;
     for (const ParetoPoint& p : superres.points)
@@ -45,7 +47,7 @@ ParetoCommand::ParetoCommand(CLI::App& app)
     : command_(app.add_subcommand("pareto",
                                   "run time against error: measures every setting of flow, "
                                   "super-resolution, depth, slicing and warp, and every peer, in "
-                                  "turn in one run; each is a point (median time, error)")) {
+                                  "turn in one run; each gives a point (median time, error)")) {
     command_->add_option("--stages", stages_, fmt::format("of {}", fmt::join(stages_, ", ")))
         ->delimiter(',')
         ->check(CLI::IsMember(stages_));
@@ -54,9 +56,9 @@ ParetoCommand::ParetoCommand(CLI::App& app)
                          "measured. Default: the stereo pairs of ../shared/data or, where they are "
                          "absent and with --quick, synthetic scenes");
     command_
-        ->add_option(
-            "--frames", frames_,
-            "number of samples of each folder (default 2) and of frames of a sequence (default 12)")
+        ->add_option("--frames", frames_,
+                     "number of samples from each folder (default 2) and number of frames of each "
+                     "synthetic sequence (default 12)")
         ->check(CLI::Range(1, 1000));
     command_->add_option("--rounds", run_.rounds, "number of times that each point is timed")
         ->check(CLI::Range(1, 1000))
@@ -72,7 +74,8 @@ ParetoCommand::ParetoCommand(CLI::App& app)
     command_->add_option("--svg", svg_, "file to write a plot with the Pareto fronts into");
     command_->add_option(
         "--table", table_,
-        "file to write the governor's levels into: the Pareto front of super-resolution");
+        "file to write the governor's quality levels into; they are the Pareto front of "
+        "super-resolution");
     command_->add_flag("--quick", quick_,
                        "measure few small frames, only to check that the program runs");
 }
@@ -129,7 +132,7 @@ std::vector<ParetoStage> ParetoCommand::measure(const ProgressPart& progress) {
 
 void ParetoCommand::run(Progress& progress) {
     if (!table_.empty() && !wants("superres"))
-        throw eval::EvalError("--table needs the stage superres in --stages");
+        throw eval::EvalError("--table FILE needs superres among the stages that --stages lists");
     const auto context = createGlContext();
     const std::vector<ParetoStage> stages = measure(ProgressPart(progress));
     progress.clear();

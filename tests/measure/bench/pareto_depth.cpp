@@ -69,7 +69,7 @@ public:
 
     void measure(const ParetoRun& run, bool scored, WayTimes& out) {
         const CurveSample& shots = sample_.shots;
-        // Sets the still again, so that the same view is measured without a prediction.
+        // Sets the still again, so that no depth of the previous run predicts that of this run.
         pipeline_.setStill(eval::viewOf(still_), shots.still.time, shots.still.pose);
         const double ms = msOf(run.clock, [&] {
             pipeline_.run(eval::viewOf(frame_), shots.frame.time, shots.frame.pose);
@@ -129,7 +129,8 @@ std::vector<DepthSample> depthSamplesOf(const std::vector<std::filesystem::path>
     for (std::size_t i = 0; i < folders.size(); ++i) {
         const eval::FlowSet set = eval::depthSamplesOf(folders[i]);
         for (std::size_t k = 0; k < std::min(most, set.samples.size()); ++k) {
-            const cv::Mat flow = eval::loadTruth(set, set.samples[k]);  // marks occluded pixels
+            const cv::Mat flow = eval::loadTruth(
+                set, set.samples[k]);  // marks pixels that are occluded in the still
             FloatImage image = loadPfm(set.samples[k].truth);
             cv::Mat rho = cv::Mat(flow.size(), CV_32F, image.values.data()).clone();
             for (int y = 0; y < flow.rows; ++y)

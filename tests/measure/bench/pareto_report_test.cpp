@@ -32,7 +32,7 @@ TEST(Pareto, APointDominatesSlowerOrLessAccurateOnes) {
     EXPECT_FALSE(dominates({"b", Kind::Ours, 0, kNan}, a));
 }
 
-TEST(Pareto, FrontHoldsUndominatedPointsFromFastToAccurate) {
+TEST(Pareto, FrontHoldsPointsThatNothingDominatesFromFastToAccurate) {
     const ParetoStage stage = fivePoints();
     EXPECT_EQ(paretoFront(stage.points), (std::vector<std::size_t>{2, 3, 1}));
     auto broken = stage.points;
@@ -40,7 +40,7 @@ TEST(Pareto, FrontHoldsUndominatedPointsFromFastToAccurate) {
     EXPECT_EQ(paretoFront(broken), (std::vector<std::size_t>{3, 1}));
 }
 
-TEST(Pareto, SummaryNamesWhatAPeerDominates) {
+TEST(Pareto, SummaryNamesThePeersThatDominateAPoint) {
     const ParetoStage stage = fivePoints();
     EXPECT_EQ(dominatingPeers(stage, stage.points[0]), std::vector<std::string>{"slow peer"});
     EXPECT_TRUE(dominatingPeers(stage, stage.points[1]).empty());

@@ -23,7 +23,7 @@ struct ParetoRun {
     int rounds = 3;
     ProgressPart progress{};  ///< shows the progress while the command runs
 
-    /// Returns this run with the progress of one of several samples.
+    /// Returns a copy of this run that shows the progress of sample `index` of `count`.
     [[nodiscard]] ParetoRun part(std::size_t index, std::size_t count,
                                  std::string_view name) const {
         return {clock, rounds, progress.part(index, count, name)};
@@ -66,22 +66,26 @@ struct SequenceSample {
 [[nodiscard]] std::vector<SequenceSample> syntheticSequences(Size video, Size still, int frames,
                                                              std::size_t most = 2);
 
-/// Run time of whole frames and the root mean square error of their luma. Methods: the modes,
-/// settings of their flow, and combinations. Peers: bicubic enlargement and the paper's method on
-/// OpenCV. The first frame after a still does not count.
+/// Run time of whole frames and the root mean square error of their luma. Methods: the
+/// super-resolution modes, settings of their flow, and combinations of both. Peers: bicubic
+/// enlargement, and the paper's method with OpenCV's flow. The first frame after a still does not
+/// count.
 [[nodiscard]] ParetoStage superResStage(const std::vector<SequenceSample>& samples,
                                         const ParetoRun& run);
 
-/// A path-traced picture is warped to another view; run time, and error inside the silhouette.
-/// Methods: the ways to fill the holes. Peers: OpenCV's inpainting, and tracing the picture again.
+/// Run time of warping a path-traced picture to another view, and the error inside the silhouette
+/// of the objects. Methods: the ways to fill the holes. Peers: OpenCV's inpainting, and tracing the
+/// picture again.
 /// Throws EvalError if the path tracer is not built.
 [[nodiscard]] ParetoStage warpStage(bool quick);
 
-/// Error of a path-traced picture after some samples per pixel, traced in slices of both kinds and
-/// as a whole. Throws EvalError if the path tracer is not built. Needs no GL context.
+/// Run time and error of a path-traced picture after some samples per pixel. The picture is traced
+/// in time slices, in spatial slices, and as a whole. Throws EvalError if the path tracer is not
+/// built. Needs no GL context.
 [[nodiscard]] ParetoStage slicingStage(bool quick);
 
-/// A setting of superResStage() with its name. Levels of a quality table are made from it.
+/// A setting that superResStage() measures, with its name. Levels of a quality table are made from
+/// such settings.
 struct QualitySetting {
     std::string name;
     Quality quality;

@@ -38,8 +38,8 @@ double errorOf(const cv::Mat& bgr, const cv::Mat& truth) {
     return std::sqrt(eval::meanSquaredError(eval::luma(bgr)(inner), truth(inner)));
 }
 
-/// A method that makes the pictures of a sequence. Its frames are run one after the other, after
-/// their still.
+/// A method that makes the pictures of a sequence. It gets the still first, then the frames one
+/// after the other.
 struct SequenceWay {
     std::function<void()> begin;                  ///< sets the still
     std::function<void(std::size_t)> run;         ///< processes frame i; timed by msOf()

@@ -15,7 +15,7 @@
 
 namespace mfar::bench {
 
-/// Times and errors of one method, one sample after the other.
+/// Collects the times and errors of one method, one sample after the other.
 class WayTimes {
 public:
     void time(double ms) { ms_.push_back(ms); }
@@ -40,8 +40,8 @@ private:
     int count_ = 0;
 };
 
-/// The points of a stage. `times` begins with our settings, of which the first is the default, and
-/// ends with the peers.
+/// The points of a stage. `times` holds first our settings, of which the first is the default, then
+/// the peers.
 [[nodiscard]] inline std::vector<ParetoPoint> pointsOf(const std::vector<std::string>& ours,
                                                        const std::vector<std::string>& peers,
                                                        const std::vector<WayTimes>& times) {
@@ -56,7 +56,8 @@ private:
     return out;
 }
 
-/// Share of the last run's time that the named stages took. The run must have been measured.
+/// Share of the last run's time that the named stages took, 0 to 1. The pipeline must have measured
+/// its stages in that run.
 [[nodiscard]] inline double shareOfStages(const Pipeline& pipeline,
                                           const std::vector<std::string_view>& names) {
     double some = 0, all = 0;
@@ -68,10 +69,11 @@ private:
     return all > 0 ? some / all : 0;
 }
 
-/// Runs a peer and measures its time by this clock. `method`: a FlowMethod or a DepthMethod.
+/// Runs a peer and measures its time by `clock`. `method`: a FlowMethod or a DepthMethod.
 template <class Method>
 [[nodiscard]] auto timed(Method& method, const eval::Shot& frame, Clock clock) {
-    constexpr double kRuns = 4;  // the first gives the result, three are timed
+    constexpr double kRuns =
+        4;  // run() calls the peer once for the result and three times for its time
     typename Method::Result out;
     const double ms = msOf(clock, [&] { out = method.run(frame); });
     if (clock == Clock::Processor) out.ms = ms / kRuns;

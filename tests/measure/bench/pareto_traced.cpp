@@ -57,7 +57,7 @@ ParetoStage warpStage(bool quick) {
         ++sum.scenes;
     }
     sums.at(kInpainting).ms += sums.at("none").ms;
-    ParetoStage out{"warp and holes",
+    ParetoStage out{"warp and filling of its holes",
                     "RMSE inside the silhouette [grey levels]",
                     fmt::format("{}, turned by 10 degrees, {}x{}, wall clock",
                                 fmt::join(request.scenes, " and "), request.size.width,
@@ -74,7 +74,7 @@ ParetoStage warpStage(bool quick) {
 
 ParetoStage slicingStage(bool quick) {
     eval::SlicingRequest request;
-    request.frames = 8;  // small: only errors are used here, not the budget
+    request.frames = 8;  // few: the report's other columns are not used
     if (quick) {
         request.size = {48, 36};
         request.samples = 8;

@@ -71,7 +71,7 @@ std::vector<std::string> fields(const std::string& line) {
     return out;
 }
 
-TEST(MfarBench, CurvesHaveEveryValueOfEveryKnob) {
+TEST(MfarBench, CurvesHaveAPointForEveryValueOfEveryKnob) {
     const mfar::test::TempFolder folder;
     const auto out = folder / "new" / "curves";
     const std::string command =
@@ -125,7 +125,7 @@ std::map<std::string, std::map<std::string, int>> paretoKinds(const std::filesys
     return kinds;
 }
 
-TEST(MfarBench, ParetoOfTheVirtualLayerHasOursAndPeers) {
+TEST(MfarBench, ParetoOfTheVirtualLayerHasPointsOfMfarAndOfPeers) {
     if (!MFAR_PATH_TRACING) GTEST_SKIP() << "built without a path tracer";
     const mfar::test::TempFolder folder;
     const auto csv = folder / "pareto.csv";
@@ -142,7 +142,7 @@ TEST(MfarBench, ParetoOfTheVirtualLayerHasOursAndPeers) {
     }
 }
 
-TEST(MfarBench, ParetoHasOursAndPeersAndATableThatTheDaemonReads) {
+TEST(MfarBench, ParetoHasPointsOfMfarAndOfPeersAndWritesATableThatMfardReads) {
     const mfar::test::TempFolder folder;
     const auto csv = folder / "pareto.csv", svg = folder / "pareto.svg",
                table = folder / "levels.toml";
@@ -182,7 +182,7 @@ TEST(MfarBench, SkipMeasuresTheRequestedCasesAndSkips) {
     EXPECT_FALSE(std::getline(lines, line));
 }
 
-TEST(MfarBench, GovernorIsMeasuredAtTheRequestedDeadline) {
+TEST(MfarBench, GovernorIsMeasuredWithTheRequestedDeadline) {
     const mfar::test::TempFolder folder;
     const auto out = folder / "governor.txt", svg = folder / "governor.svg";
     const std::string command =

@@ -11,8 +11,9 @@ namespace mfar::bench {
 
 SkipCommand::SkipCommand(CLI::App& app)
     : command_(app.add_subcommand(
-          "skip", "shows what each kind of skipped work saves and which error it adds: runs every "
-                  "case with all skips and with each skip switched off, in turn for each frame")) {
+          "skip", "shows how much time each kind of skipped work saves and how much error it adds: "
+                  "runs every case with all skips, and with each skip switched off; these variants "
+                  "take turns at each frame")) {
     command_->add_option("--cases", request_.cases, "only these cases")
         ->delimiter(',')
         ->check(CLI::IsMember(skipCaseNames()));

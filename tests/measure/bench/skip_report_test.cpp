@@ -23,7 +23,7 @@ TEST(SkipReport, CsvHasALineForEachResult) {
               "office,objects,100.000,120.000,20.000,-0.05000,0.05000,-0.30000\n");
 }
 
-TEST(SkipReport, TableSaysWhatSavesAndWhatCostsTooMuch) {
+TEST(SkipReport, TableNamesSkipsThatSaveTimeAndSkipsThatLoseTooMuchAccuracy) {
     const std::string table = skipTable(twoSkips());
     EXPECT_NE(table.find("tiles                saves in: still; costs more than 0.1 in: office\n"),
               std::string::npos)
@@ -32,7 +32,7 @@ TEST(SkipReport, TableSaysWhatSavesAndWhatCostsTooMuch) {
     EXPECT_EQ(std::count(table.begin(), table.end(), '!'), 1);
 }
 
-TEST(SkipReport, UselessSkipsAreListed) {
+TEST(SkipReport, SkipsThatSaveNoTimeAreListed) {
     SkipReport report = twoSkips();
     report.results.resize(1);
     report.results[0].msWithout = 1.51;

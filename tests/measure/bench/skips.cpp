@@ -24,11 +24,11 @@ namespace {
 
 using synthetic::Path;
 
-/// Frames that are not scored: until the first still has arrived and depth has settled.
+/// Number of first frames that are not scored: until the first still has arrived and depth has
+/// settled.
 constexpr std::size_t kSettled = 8;
 constexpr std::size_t kScoredFrames = 4;  // every fourth frame is scored
-// bad-1 of depth is measured in pixels of disparity. It is that between two cameras at this
-// distance [m].
+// bad-1 of depth counts errors above 1 px of disparity, of two cameras at this distance [m].
 constexpr double kBaseline = 0.05;
 
 struct Skip {
@@ -121,7 +121,7 @@ std::optional<double> difference(std::optional<double> a, std::optional<double> 
 /// The true picture of a frame and its true visible objects.
 struct FrameTruth {
     cv::Mat luma;     ///< luma of the output's size, CV_64F
-    cv::Mat without;  ///< CV_8U: set where no object may be shown
+    cv::Mat without;  ///< pixels at which no object can be shown; CV_8U at the output's size
     cv::Mat visible;  ///< pixels that show an object; CV_8U at the video's size
     cv::Mat silhouette, undecided, rho;
 };
@@ -166,7 +166,7 @@ std::vector<CaseFrame> framesOf(const Case& one, eval::SceneRun& scene, int coun
     return out;
 }
 
-/// The pipeline of one case with one set of skips.
+/// The pipeline of one case, with one skip switched off or with all skips.
 class SkipWay {
 public:
     SkipWay(const Case& one, const StereoRig& rig, const Skip* off, Clock clock)

@@ -14,20 +14,21 @@ struct SkipResult {
     std::string skip, scene;  ///< the kind of work that is skipped; the case
     double ms = 0,
            msWithout = 0;  ///< median frame [ms] with the skip, and without it
-    /// Loss of accuracy by the skip: less PSNR, more depth errors, less overlap. Each is empty if
-    /// it cannot be measured.
+    /// Loss of accuracy by the skip: less PSNR, more depth errors, less overlap. A value is empty
+    /// if it cannot be measured.
     std::optional<double> psnrLost;  ///< PSNR of the picture outside virtual objects [dB]
-    /// Share of wrong depths where they decide the visibility of objects [percentage points].
+    /// Added share of wrong depths, among the pixels whose depth decides whether an object is
+    /// visible [percentage points].
     std::optional<double> bad1Added;
     std::optional<double>
-        overlapLost;  ///< overlap of shown and true visible object [percentage points]
+        overlapLost;  ///< less overlap of shown and true visible object [percentage points]
 };
 
 /// Counters of a case with all skips enabled.
 struct SkipCase {
     std::string scene;
-    double ms = 0;          ///< median frame [ms]
-    long depthTiles = 0;    ///< searched tiles, over all frames
+    double ms = 0;          ///< median frame time [ms]
+    long depthTiles = 0;    ///< tiles in which depth was searched, sum over all frames
     long framesInView = 0;  ///< frames with an object in view
     double changed = 0;     ///< mean share of tiles that changed
 };

@@ -13,7 +13,8 @@ namespace mfar::bench {
 namespace {
 
 constexpr int kRuns = 9;
-constexpr int kPeerPoints = 5000;  // few: the peer is slow, its time per point constant
+constexpr int kPeerPoints =
+    5000;  // few points: OpenCV's function is slow; its time per point is constant
 
 struct Views {
     explicit Views(Size size)

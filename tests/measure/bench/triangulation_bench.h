@@ -6,7 +6,7 @@ namespace mfar::bench {
 
 /// Time to triangulate one point, the median of several runs [ns].
 struct TriangulationTimes {
-    double flow = 0, midpoint = 0;  ///< our two methods, every pixel of the video, one thread
+    double flow = 0, midpoint = 0;  ///< the product's two methods on every video pixel, one thread
     double opencv = 0;              ///< cv::triangulatePoints, on undistorted points
 };
 

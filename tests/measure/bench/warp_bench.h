@@ -11,9 +11,9 @@ namespace mfar::bench {
 struct WarpTimes {
     Summary objects;     ///< balls that cover a ninth of the picture, with their shadows
     Summary whole;       ///< one ball that is larger than the picture
-    Summary still;       ///< as `objects`, but the camera is at rest
-    Summary newPicture;  ///< as `objects`: CPU work for a new traced picture, with its upload
-    Summary remap;       ///< the peer: cv::remap, bilinear, on the whole picture
+    Summary still;       ///< scene of `objects`, but the camera has not turned
+    Summary newPicture;  ///< scene of `objects`: CPU work and upload of a new traced picture
+    Summary remap;       ///< time of the peer: cv::remap, bilinear, of the whole picture
 };
 
 /// The first run does not count; `runs` runs follow. GLES needs a current context.

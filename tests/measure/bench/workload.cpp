@@ -20,7 +20,7 @@
 namespace mfar::bench {
 namespace {
 
-constexpr double kVideoNoise = 1.5;  // grey levels, as of a good sensor indoors
+constexpr double kVideoNoise = 1.5;  // sigma [grey levels], that of a good sensor indoors
 constexpr int kLessonEvery = 10;     // a lesson is made of every tenth frame
 
 /// Random blobs at four scales and hard-edged bars: much finer detail than the video's pixels.
@@ -43,8 +43,8 @@ cv::Mat texture(cv::Size size) {
     return out;
 }
 
-/// The camera's view at step k, at the still's resolution. Amplitudes are shares of the picture's
-/// width.
+/// The camera's view at step k, at the still's resolution. The camera shakes; the amplitudes are
+/// shares of the picture's width.
 cv::Mat viewAt(const cv::Mat& world, cv::Size size, double k) {
     const double dx = 0.015 * size.width * std::sin(0.45 * k);
     const double dy = 0.010 * size.width * std::sin(0.31 * k + 1);

@@ -34,12 +34,12 @@ struct Workload {
     /// Poses of the video camera at each frame and at each still. An unknown pose is an empty
     /// entry; if all are unknown, the vector is empty.
     std::vector<std::optional<Pose>> framePoses{}, stillPoses{};
-    std::vector<Lesson> lessons{};  ///< the product learned from them before the frames
-    std::shared_ptr<const FilterBank> filters{};  ///< learned from `lessons`; null: default
+    std::vector<Lesson> lessons{};  ///< pairs from which filters are learned before the frames
+    std::shared_ptr<const FilterBank> filters{};  ///< learned from `lessons`; null: shipped filters
 };
 
-/// Number of lessons. It is large enough that two stills can be compared, as in the running
-/// product.
+/// Number of lessons. It is large enough that guidance can be learned as in the running product,
+/// which needs two stills.
 inline constexpr int kLessons = 4;
 
 /// A synthetic textured plane seen by a hand-held camera: consecutive frames differ by about 4
@@ -49,7 +49,7 @@ inline constexpr int kLessons = 4;
 /// The synthetic board's office through a hand-held camera, with exact poses: one still, then
 /// frames, resized to the requested sizes. Needs no current GL context. Repeatable.
 [[nodiscard]] Workload handheldWorkload(Size video, Size still, int frames, int lessons = 0);
-/// As above, for any board of Pace::Consumer that has not been started.
+/// Makes such a workload from any `board` of Pace::Consumer that has not been started.
 [[nodiscard]] Workload handheldWorkload(SyntheticBoard& board, Size video, Size still, int frames,
                                         int lessons = 0);
 

@@ -10,7 +10,7 @@ double meanDifference(const cv::Mat& a, const cv::Mat& b) {
     return cv::norm(a, b, cv::NORM_L1) / static_cast<double>(a.total() * 3);
 }
 
-TEST(SyntheticWorkload, EveryFrameMovesAndCanBeRepeated) {
+TEST(SyntheticWorkload, EveryFrameDiffersAndRepeatedCallsGiveTheSameFrames) {
     const Workload work = syntheticWorkload({160, 120}, {576, 432}, 4);
     ASSERT_EQ(work.frames.size(), 4U);
     EXPECT_EQ(work.frames[0].size(), cv::Size(160, 120));
@@ -21,7 +21,7 @@ TEST(SyntheticWorkload, EveryFrameMovesAndCanBeRepeated) {
     EXPECT_EQ(meanDifference(work.frames[3], again.frames[3]), 0);
 }
 
-TEST(SyntheticWorkload, TheStillHasDetailTheVideoLacks) {
+TEST(SyntheticWorkload, TheStillHasDetailThatTheVideoLacks) {
     const Workload work = syntheticWorkload({160, 120}, {576, 432}, 1);
     cv::Mat down, up;
     cv::resize(work.stills[0], down, {160, 120}, 0, 0, cv::INTER_AREA);

@@ -156,18 +156,19 @@ Json timesOf(Frames& frames) {
 }
 
 int run(int argc, char** argv) {
-    CLI::App app("mfar-frame-work: measures the work of a frame, from which the speed on a board "
-                 "is predicted");
+    CLI::App app("mfar-frame-work: measures the work of a frame, from which ./run board-report "
+                 "predicts the speed on a board");
     Options o;
     app.add_option("--engine", o.engine)->check(CLI::IsMember({"gles", "simd"}));
     app.add_option("--case", o.shown)->check(CLI::IsMember({"moving", "rest"}));
     app.add_option("--recording", o.recording,
-                   "use the pictures and poses of this recording instead");
+                   "use the pictures and poses of this recording instead of synthetic ones");
     app.add_option("--frames", o.frames)->check(CLI::Range(1, 1000));
     app.add_option("--threads", o.threads)->check(CLI::Range(1, 64));
     app.add_option("--width", o.width, "width of the output")->check(CLI::Range(64, 8192));
-    app.add_flag("--time", o.time, "measure each stage");
-    app.add_flag("--avx2", o.avx2, "use no instruction set later than AVX2, as in the emulator");
+    app.add_flag("--time", o.time, "time each stage instead of counting its work");
+    app.add_flag("--avx2", o.avx2,
+                 "use no instruction set newer than AVX2, the newest of the emulator");
     CLI11_PARSE(app, argc, argv);
     if (o.avx2) hwy::DisableTargets(HWY_AVX2 - 1);
     std::unique_ptr<GlContext> context;

@@ -13,7 +13,7 @@ namespace mfar::boards {
 struct PassWork {
     std::string shader;            ///< name of the compute or fragment shader, as in gles_shaders/
     std::string defines;           ///< e.g. "#define LEARNED", or empty
-    std::int64_t invocations = 0;  ///< of the compute or fragment shader
+    std::int64_t invocations = 0;  ///< invocations of the compute or fragment shader
     std::int64_t vertices = 0;
     std::int64_t bytesRead = 0;         ///< each byte counted once
     std::int64_t bytesWritten = 0;      ///< each byte counted once

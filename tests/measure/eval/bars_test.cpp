@@ -31,7 +31,7 @@ std::size_t occurrences(const std::string& text, const std::string& what) {
     return out;
 }
 
-TEST(Bars, AReportHasAPanelOfEachMeasuredColumn) {
+TEST(Bars, EachMeasuredColumnOfAReportGetsAPanel) {
     const auto panels = barsOf(twoMethods({"office"}));
     ASSERT_EQ(panels.size(), 2U);
     EXPECT_EQ(panels[0].title, "ms");
@@ -41,13 +41,13 @@ TEST(Bars, AReportHasAPanelOfEachMeasuredColumn) {
     EXPECT_EQ(panels[1].bars[0].dots.size(), 2U) << "one for each frame";
 }
 
-TEST(Bars, SeveralRecordingsAreTheDots) {
+TEST(Bars, WithSeveralRecordingsTheDotsAreTheirMeans) {
     const auto panels = barsOf(twoMethods({"office", "shelf", "outdoor"}));
     EXPECT_EQ(panels[0].bars[1].value, 2);
     EXPECT_EQ(panels[0].bars[1].dots.size(), 3U);
 }
 
-TEST(Bars, AReportWithoutMeansHasABarOfEachRow) {
+TEST(Bars, WithoutMeansEachRowGetsABar) {
     Report report({{"ms", 1}});
     report.add("a", "0", "x", {1});
     report.add("b", "0", "x", {std::nullopt});
@@ -57,7 +57,7 @@ TEST(Bars, AReportWithoutMeansHasABarOfEachRow) {
     EXPECT_TRUE(std::isnan(panels[0].bars[1].value));
 }
 
-TEST(Bars, LengthsAreInProportion) {
+TEST(Bars, LengthsOfBarsAreProportionalToValues) {
     const std::string svg = barsSvg("", {{"t", {{"a", 10}, {"b", 5}}}}, "");
     const auto widthOf = [&](const char* colour) {
         const std::size_t end = svg.find(std::string("fill=\"") + colour);
@@ -72,13 +72,13 @@ TEST(Bars, LengthsAreInProportion) {
                 0.2);
 }
 
-TEST(Bars, ValuesFarFromZeroArePoints) {
+TEST(Bars, ValuesFarFromZeroAreDrawnAsPoints) {
     const std::string svg = barsSvg("", {{"psnr", {{"a", 30}, {"b", 28}}}}, "");
     EXPECT_EQ(occurrences(svg, "r=\"5\""), 2U);
     EXPECT_EQ(occurrences(svg, "height=\"14\" fill="), 0U);
 }
 
-TEST(Bars, AreXmlWhateverTheTextsAndValues) {
+TEST(Bars, SvgIsWellFormedForAnyTextsAndValues) {
     const double inf = std::numeric_limits<double>::infinity();
     const std::string svg =
         barsSvg("<&>",

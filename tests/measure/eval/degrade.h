@@ -10,7 +10,7 @@ namespace mfar::eval {
 /// How the recorded still is degraded. The steps follow the order of a real sensor: blur (lens),
 /// gain (exposure), gamma (tone curve), noise (read-out).
 struct Degradation {
-    double gain = 1;   ///< factor on the pixel value, > 0
+    double gain = 1;   ///< factor by which the pixel value is multiplied, > 0
     double gamma = 1;  ///< v -> v^gamma with v in [0, 1], > 0
     double blur = 0;   ///< sigma of a Gaussian [still px], >= 0
     double noise = 0;  ///< sigma of white noise, independent in each channel [grey levels], >= 0

@@ -8,7 +8,7 @@
 namespace mfar::eval {
 namespace {
 
-TEST(Degrade, ReadsAnySubset) {
+TEST(Degrade, ReadsAnySubsetOfGainGammaBlurAndNoise) {
     EXPECT_EQ(parseDegradation(""), Degradation{});
     EXPECT_EQ(parseDegradation("gamma=1.3,gain=0.7"), (Degradation{0.7, 1.3, 0, 0}));
     EXPECT_EQ(parseDegradation("gain=0.7,gamma=1.3,blur=0.7,noise=4"),

@@ -18,7 +18,7 @@ public:
     virtual void setStill(const Shot& still) = 0;
     struct Result {
         cv::Mat inverseDepth;  ///< CV_32F [1/m] of every video pixel, 0 = unknown
-        double ms = 0;         ///< wall time [ms], measured as in FlowMethod, with triangulation
+        double ms = 0;         ///< wall time [ms] as FlowMethod::Result::ms, with triangulation
         cv::Mat variance{};    ///< CV_32F of inverseDepth [1/m^2], empty if the method has none
     };
     [[nodiscard]] virtual Result run(const Shot& frame) = 0;

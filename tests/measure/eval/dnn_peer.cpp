@@ -13,7 +13,7 @@
 namespace mfar::eval {
 namespace {
 
-constexpr int kTrial = 32;  // side of the picture on which a model is tried [px]
+constexpr int kTrial = 32;  // side of the picture with which a model file is tested [px]
 
 /// An error that says in one line why OpenCV refused the file.
 EvalError unusable(const std::filesystem::path& file, std::string why) {

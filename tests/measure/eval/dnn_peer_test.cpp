@@ -86,7 +86,7 @@ bool builtWithout() {
     return refusal("EDSR_x2.pb").find("built without") != std::string::npos;
 }
 
-TEST(DnnPeer, TheNameContainsTheModelAndItsFactor) {
+TEST(DnnPeer, TheFileNameGivesTheModelAndItsFactor) {
     EXPECT_EQ(dnnModelNamed("/a/EDSR_x4.pb").algorithm, "edsr");
     EXPECT_EQ(dnnModelNamed("/a/EDSR_x4.pb").scale, 4);
     EXPECT_EQ(dnnModelNamed("FSRCNN-small_x3.pb").algorithm, "fsrcnn");

@@ -19,8 +19,8 @@
 namespace mfar::eval {
 namespace {
 
-constexpr int kStillEvery = 10;  // synthetic frames between stills
-constexpr int kScoredFrame = 5;  // number of frames from the request for a still
+constexpr int kStillEvery = 10;  // frames of a synthetic scene between two requests for a still
+constexpr int kScoredFrame = 5;  // the measured frame, counted from the request for a still
 
 /// Runs all methods on the frames of one scene.
 class Figure7Run {

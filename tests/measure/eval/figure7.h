@@ -13,8 +13,8 @@ struct Figure7Request {
     std::vector<synthetic::Scene> scenes{synthetic::Scene::Office, synthetic::Scene::Shelf,
                                          synthetic::Scene::Outdoor};
     std::vector<std::filesystem::path> recordings;  ///< recordings that have truth/highres
-    int frames = 3;                                 ///< upper limit per recording or scene
-    int learn = 0;  ///< stills per scene to learn from first; 0: default filters
+    int frames = 3;                                 ///< largest number per recording or scene
+    int learn = 0;  ///< stills per scene from which filters are learned; 0: shipped filters
     PictureMetrics metrics{{"psnr", "lpc_si", "lpc_si_tiles", "hdrvdp"}, {}};
     std::filesystem::path svg, save;  ///< files for figure and pictures; empty: not written
     ProgressPart progress{};          ///< shows the progress while the command runs

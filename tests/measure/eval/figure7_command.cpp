@@ -9,11 +9,13 @@ namespace mfar::eval {
 namespace {
 
 constexpr const char* kFigure7Help =
-    "The paper's Figure 7 again: ground truth, the product (detail), the paper's blending on the\n"
-    "product's flow (blend), the paper's method on OpenCV (paper), bicubic and bilinear\n"
-    "up-scaling, on luma (Rec. 601) without 32 px of border. Synthetic scenes are hand-held with\n"
-    "exact poses; a still every ten frames, the fifth after it is measured. Recordings as for\n"
-    "superres. A frame of 2304x1728 takes about 80 s of CPU time.\n";
+    "Repeats Figure 7 of the paper. Methods: ground truth, the product (detail), the paper's\n"
+    "blending with the product's flow (blend), the paper's method with OpenCV's flow (paper),\n"
+    "bicubic and bilinear enlargement. Values are those of luma (Rec. 601) without 32 px of\n"
+    "border. Synthetic scenes are seen by a hand-held camera with exact poses: a still is\n"
+    "requested every ten frames, and the fifth frame after each request is measured.\n"
+    "Recordings need truth/highres, as for superres. A frame of 2304x1728 takes about 80 s of\n"
+    "CPU time.\n";
 
 }  // namespace
 
@@ -21,18 +23,22 @@ CLI::App* addFigure7Command(CLI::App& app, Figure7Request& request, std::string&
     CLI::App* sub =
         app.add_subcommand("figure7", "measure quality and sharpness as in Figure 7 of the paper");
     sub->footer(std::string(kFigure7Help) + kPictureMetricsHelp);
-    sub->add_option("recording", request.recordings, "recordings, folders with truth/highres");
+    sub->add_option("recording", request.recordings,
+                    "folders of recordings that have truth/highres");
     addNames(*sub, "--scenes", request.scenes,
              "synthetic scenes of mfar-sim (default: office,shelf,outdoor)", synthetic::sceneNamed);
     sub->add_flag_callback(
            "--recordings-only", [&request] { request.scenes.clear(); },
            "measure no synthetic scenes")
         ->excludes("--scenes");
-    sub->add_option("--frames", request.frames, "number of frames of each scene, at most")
+    sub->add_option("--frames", request.frames,
+                    "measure at most this many frames of each scene or recording")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
-    sub->add_option("--learn", request.learn,
-                    "let mfar learn from this many stills of each scene or recording before")
+    sub->add_option(
+           "--learn", request.learn,
+           "number of stills of each scene or recording from which mfar learns its filters "
+           "before the measurement")
         ->check(CLI::Range(0, 1000));
     addMetricParameters(*sub, request.metrics);
     sub->add_option("--svg", request.svg, "file to write the figure into");
@@ -43,7 +49,8 @@ CLI::App* addFigure7Command(CLI::App& app, Figure7Request& request, std::string&
 
 Report runFigure7(const Figure7Request& request) {
     const auto scenes = evaluateFigure7(request);
-    if (scenes.empty()) throw EvalError("figure7 needs a scene or a recording; both are missing");
+    if (scenes.empty())
+        throw EvalError("figure7 needs a scene (--scenes) or a recording; both are missing");
     if (!request.svg.empty()) writeText(request.svg, figure7Svg(scenes, request.metrics));
     fmt::print("{}", figure7Summary(scenes));
     return figure7Report(scenes, request.metrics);

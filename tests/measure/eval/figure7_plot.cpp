@@ -15,7 +15,7 @@ constexpr double kFigureLeft = 64, kFigureTop = 72, kFigureHeight = 230, kFigure
 constexpr double kBar = 25, kBarGap = 3, kGroupGap = 34;
 constexpr std::array<const char*, 6> kBarColours{"#444444", "#0072b2", "#56b4e9",
                                                  "#d55e00", "#009e73", "#cc79a7"};
-// Colours of the numbers inside the bars.
+// For each method, the colour of the number inside its bar.
 constexpr std::array<const char*, 6> kBarInk{"#fff", "#fff", "#111", "#fff", "#fff", "#111"};
 
 /// One metric for all scenes and methods.
@@ -24,7 +24,7 @@ struct Figure7Panel {
     std::function<double(const PictureScores&)> value;
     double least, most, step;
     int decimals;
-    bool tiles;  ///< also draw the quantiles over the tiles
+    bool tiles;  ///< also draw quantiles of the values of 8x8 tiles
 };
 
 double groupWidth() {
@@ -75,7 +75,8 @@ private:
             out += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2\" fill=\"#fff\" "
                                "stroke=\"#222\" stroke-width=\"0.8\"/>\n",
                                x + kBar / 2, y(panel_.value(frame)));
-        const bool inside = zero - end > 18;  // at the bar's foot, where nothing else is drawn
+        const bool inside =
+            zero - end > 18;  // a high bar has its number at its foot, below all dots
         out += svg::text(x + kBar / 2, inside ? zero - 6 : std::min(zero, end) - 6, "middle",
                          fmt::format("{:.{}f}", mean, mean > 99.9 ? 0 : panel_.decimals), 10,
                          inside ? kBarInk[m] : "#222");
@@ -121,8 +122,8 @@ std::string legend(double top, const PictureMetrics& metrics) {
     }
     const HdrVdpDisplay& display = metrics.display;
     out += svg::text(kFigureLeft, top + 46, "start",
-                     "Bars: mean of the frames, each a dot. Black at LPC-SI: median and 10 to 90 % "
-                     "of 8x8 tiles. Dashed: ground truth.",
+                     "Bars: mean of the frames. Dots: single frames. Black marks at LPC-SI: median "
+                     "and 10 to 90 % of 8x8 tiles. Dashed: ground truth.",
                      11);
     return out + svg::text(kFigureLeft, top + 62, "start",
                            fmt::format("HDR-VDP 2.2.2 of luma at {:g} pixels per degree, display "

@@ -7,12 +7,13 @@
 namespace mfar::eval {
 
 const std::vector<Figure7Method>& figure7Methods() {
-    static const std::vector<Figure7Method> methods{{"truth", "ground truth"},
-                                                    {"detail", "ours"},
-                                                    {"blend", "the paper's blending on our flow"},
-                                                    {"paper", "the paper's method (OpenCV DIS)"},
-                                                    {"bicubic", "bicubic"},
-                                                    {"bilinear", "bilinear"}};
+    static const std::vector<Figure7Method> methods{
+        {"truth", "ground truth"},
+        {"detail", "ours"},
+        {"blend", "the paper's blending on mfar's flow"},
+        {"paper", "the paper's method (OpenCV DIS)"},
+        {"bicubic", "bicubic"},
+        {"bilinear", "bilinear"}};
     return methods;
 }
 
@@ -41,7 +42,7 @@ std::string figure7Summary(const std::vector<Figure7Scene>& scenes) {
             return scene.mean(method, [](const PictureScores& s) { return *s.lpcSi; });
         };
         out += fmt::format("{}: HDR-VDP-2 Q {:.2f}, {:+.2f} over the paper's method, {:+.2f} over "
-                           "its blending on our flow, {:+.2f} over bilinear; LPC-SI {:.4f}, "
+                           "its blending on mfar's flow, {:+.2f} over bilinear; LPC-SI {:.4f}, "
                            "{:+.4f} from the truth\n",
                            scene.name, q(1), q(1) - q(3), q(1) - q(2), q(1) - q(5), sharpness(1),
                            sharpness(1) - sharpness(0));

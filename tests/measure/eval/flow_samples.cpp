@@ -48,8 +48,8 @@ std::map<std::int64_t, fs::path> numbered(const fs::path& folder, std::string_vi
     return out;
 }
 
-/// The camera that is assumed for a pair of pictures, whose real camera is unknown: one pinhole for
-/// both, with a focal length equal to the picture's width, looking straight ahead.
+/// The rig that is assumed for a pair of pictures, whose real cameras are unknown: one pinhole
+/// camera for both, with a focal length equal to the picture's width, looking straight ahead.
 StereoRig pairRig(const fs::path& picture) {
     const Size size = loadImage(picture).size;
     StereoRig rig;
@@ -65,14 +65,16 @@ FlowSet pairsOf(const fs::path& folder) {
     for (const auto& [number, truth] : numbered(folder, "flow", ".flo")) {
         const auto a = frames.find(number), b = frames.upper_bound(number);
         if (a == frames.end() || b == frames.end())
-            throw EvalError(fmt::format("{}: needs frame{}.png and a later frame beside it",
+            throw EvalError(fmt::format("{}: frame{}.png or the frame with the next higher number "
+                                        "is missing in this folder",
                                         truth.string(), number));
         out.samples.push_back(
             {std::to_string(number), a->second, b->second, truth, {number}, {b->first}});
     }
     if (out.samples.empty())
-        throw EvalError(fmt::format("{}: neither a recording (no cam0) nor a pair (no flowNN.flo)",
-                                    folder.string()));
+        throw EvalError(
+            fmt::format("{}: neither a recording (no folder cam0) nor a pair (no flowNN.flo)",
+                        folder.string()));
     out.rig = pairRig(out.samples.front().video);
     return out;
 }
@@ -94,7 +96,8 @@ FlowSample sampleOf(const Recording& recording, const RecordedImage& video,
             posesOf(recording, video.time, still.time)};
 }
 
-/// The samples of truth/flow, separated by whether the flow leads to a still or to a frame.
+/// The samples of truth/flow: those whose flow leads to a still, and those whose flow leads to
+/// another video frame.
 struct RecordedFlows {
     std::vector<FlowSample> toStill, toVideo;
 
@@ -104,13 +107,15 @@ struct RecordedFlows {
         const auto from = parseDigits(stem.substr(0, bar));
         const auto to = parseDigits(stem.substr(std::min(bar + 1, stem.size())));
         if (!from || !to)
-            throw EvalError(fmt::format("{}: name is not <ns>_<ns>.flo", truth.string()));
+            throw EvalError(
+                fmt::format("{}: the file's name is not <ns>_<ns>.flo (times of two pictures)",
+                            truth.string()));
         const RecordedImage* frame = pictureAt(recording.video, *from);
         const RecordedImage* still = pictureAt(recording.stills, *to);
         const RecordedImage* video = pictureAt(recording.video, *to);
         if (!frame || (!still && !video))
-            throw EvalError(fmt::format("{}: the recording has no pictures of these two times",
-                                        truth.string()));
+            throw EvalError(fmt::format(
+                "{}: the recording has no pictures of the two times in this name", truth.string()));
         if (!still)
             toVideo.push_back(sampleOf(recording, *frame, *video, truth));
         else if (!showsOwnView(recording, still->time, frame->time))
@@ -187,8 +192,8 @@ FlowSet depthSamplesOf(const fs::path& folder) {
     const Recording recording = loadRecording(folder);
     FlowSet out{recording.rig, samplesByDepth(recording)};
     if (out.samples.empty())
-        throw EvalError(fmt::format("{}: no truth: truth/inverse_depth of no frame, or no still "
-                                    "with a known pose",
+        throw EvalError(fmt::format("{}: no truth: no frame has both truth/inverse_depth and a "
+                                    "still with a known pose",
                                     folder.string()));
     return out;
 }

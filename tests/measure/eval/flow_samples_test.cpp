@@ -22,7 +22,7 @@ void writeFlow(const std::filesystem::path& file, cv::Size size = {24, 16}) {
     ASSERT_TRUE(cv::writeOpticalFlow(file.string(), cv::Mat(size, CV_32FC2, cv::Scalar(1, -2))));
 }
 
-TEST(FlowSamples, AFlowBelongsToItsFrameAndTheNext) {
+TEST(FlowSamples, AFlowFileBelongsToTheFrameOfItsNumberAndTheNextFrame) {
     const TempFolder folder;
     for (const char* name : {"frame07.png", "frame10.png", "frame12.png"})
         writePicture(folder / name);
@@ -38,7 +38,7 @@ TEST(FlowSamples, AFlowBelongsToItsFrameAndTheNext) {
     EXPECT_EQ(loadTruth(set, set.samples[0]).at<cv::Vec2f>(3, 4), cv::Vec2f(1, -2));
 }
 
-TEST(FlowSamples, MissingPartsAreNamed) {
+TEST(FlowSamples, AFlowFileWithoutItsFramesIsNamedInTheError) {
     const TempFolder folder;
     EXPECT_THROW((void)flowSamplesOf(folder.path()), EvalError);
     EXPECT_THROW((void)flowSamplesOf(folder / "absent"), EvalError);
@@ -103,7 +103,7 @@ TEST(FlowSamples, ARecordingWithoutTruthIsRefused) {
     EXPECT_THROW((void)flowSamplesOf(folder / "r"), EvalError);
 }
 
-TEST(FlowSamples, FlowToAStillIsPreferredToDepthAndFlowToVideo) {
+TEST(FlowSamples, TrueFlowToAStillIsPreferredToDepthAndToFlowBetweenFrames) {
     const TempFolder folder;
     const auto truth = folder / "r/truth";
     writeRecording(folder / "r", true);
@@ -136,7 +136,7 @@ TEST(FlowSamples, FlowToAStillIsPreferredToDepthAndFlowToVideo) {
     EXPECT_EQ(depth.samples[0].truth.extension(), ".pfm");
 }
 
-TEST(FlowSamples, DepthGivesTheParallaxOfRigAndMotion) {
+TEST(FlowSamples, FlowFromDepthContainsTheParallaxOfRigAndMotion) {
     const TempFolder folder;
     writeRecording(folder / "r", true);
     writeDepth(folder / "r/truth/inverse_depth/200.pfm", 2);
@@ -150,7 +150,7 @@ TEST(FlowSamples, DepthGivesTheParallaxOfRigAndMotion) {
     EXPECT_THROW((void)loadTruth(set, set.samples.at(0)), EvalError);
 }
 
-TEST(FlowSamples, FlowsOfUnknownTimesAreRefused) {
+TEST(FlowSamples, FlowFilesOfUnknownTimesAreRefused) {
     const TempFolder folder;
     writeRecording(folder / "r");
     for (const char* name : {"100_175.flo", "100.flo", "100_.flo", "_150.flo", "-100_150.flo",

@@ -9,15 +9,15 @@ namespace mfar::eval {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-// A point is rejected if its depth from the still is at most this share of its depth in the frame.
+// A point is rejected if its depth in the still's camera is at most this share of its depth in the
+// frame's camera.
 constexpr double kNearPlane = 1e-3;
-constexpr double kSplatWeight = 0.25;  // a pixel with a greater bilinear weight counts as covered
+constexpr double kSplatWeight = 0.25;  // a pixel with a larger bilinear weight counts as covered
 
-/// Where the still shows a point of the frame, in the video's lens, and the point's inverse depth
-/// there.
+/// A point of the frame as the still's camera sees it.
 struct Seen {
-    Eigen::Vector2d pixel;
-    double inverseDepth;  ///< [1/m], along the still's axis, turned to the video's orientation
+    Eigen::Vector2d pixel;  ///< position in the still, resampled to the video's geometry
+    double inverseDepth;    ///< [1/m], along the still's axis, turned to the video's orientation
 };
 
 class Projection {
@@ -36,7 +36,8 @@ public:
         return Seen{rig_.video.project(point.head<2>() / point.z()), rho / point.z()};
     }
 
-    /// The difference of inverse depth that moves the look-up by one pixel [1/m].
+    /// The difference of inverse depth that moves a point's position in the still by one pixel
+    /// [1/m].
     [[nodiscard]] double onePixel() const {
         const double length = translation_.norm() * std::max(rig_.video.fx, rig_.video.fy);
         return length > 0 ? 1 / length : std::numeric_limits<double>::infinity();
@@ -64,7 +65,8 @@ class NearestSurface {
 public:
     explicit NearestSurface(cv::Size size) : rho_(size, CV_64F, -1.0) {}
 
-    /// Covers each pixel around a position whose bilinear weight is above a quarter.
+    /// Of the four pixels around the point's position, covers those whose bilinear weight is above
+    /// kSplatWeight.
     void add(const Seen& seen) {
         const double left = std::floor(seen.pixel.x()), top = std::floor(seen.pixel.y());
         for (const double y : {top, top + 1})

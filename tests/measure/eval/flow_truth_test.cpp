@@ -109,8 +109,8 @@ TEST(FlowTruth, ASlantedSurfaceDoesNotOccludeItself) {
     }
 }
 
-/// The exact world decides by rays which pixels are occluded; the truth under test is compared with
-/// it.
+/// flowOfInverseDepth() finds occluded pixels by projecting depth. Here it is compared with rays
+/// through the exact world.
 TEST(FlowTruth, AgreesWithRaysThroughTheWorld) {
     using synthetic::Path;
     StereoRig rig = synthetic::boardRig();
@@ -121,7 +121,8 @@ TEST(FlowTruth, AgreesWithRaysThroughTheWorld) {
         const RigidTransform T_world_frame = cameraPose(world, path, 1, 1.5);
         const RigidTransform T_world_still =
             cameraPose(world, path, 1, 0) * rig.T_still_video.inverse();
-        RigidTransform T_world_turned = T_world_still;  // as FlowField defines
+        RigidTransform T_world_turned =
+            T_world_still;  // orientation after resampling, see FlowField
         T_world_turned.rotation = T_world_still.rotation * rig.T_still_video.rotation;
         const synthetic::Viewpoint frame{rig.video, T_world_frame, 0};
         const FlowImage exact = flowBetween(world, frame, {rig.video, T_world_turned, 0});
@@ -139,7 +140,7 @@ TEST(FlowTruth, AgreesWithRaysThroughTheWorld) {
             }
         EXPECT_EQ(far, 0);
         EXPECT_GT(both, 8000);
-        EXPECT_GT(both, 0.95 * either);  // silhouettes are exact to a pixel; lenses differ
+        EXPECT_GT(both, 0.95 * either);  // silhouettes may differ by a pixel, borders by lens
     }
 }
 

@@ -29,57 +29,61 @@ using namespace mfar;
 using namespace mfar::eval;
 
 constexpr const char* kSuperResHelp =
-    "Enlarges every video frame with truth/highres to the still's resolution and compares it\n"
-    "with the truth.\n"
-    "Luma (Rec. 601), 32 px of border left out. harm_rate: share of pixels whose error\n"
-    "exceeds bicubic's by more than 2 grey levels. psnr_rgb_db: over red, green and blue.\n"
-    "tiles_below: share of the 64x64 output tiles whose root mean square error exceeds\n"
-    "bicubic's by more than 0.25 grey levels; incomplete tiles at the right and bottom are\n"
-    "left out.\n"
-    "flicker: deviation of the error from one frame to the next along the true motion [grey\n"
-    "levels], where truth/flow has it.\n"
-    "--classes adds three classes of pixels: outside of the still's view, unmatched (hidden\n"
-    "in the still, or confidence below 0.5), and matched; for each class its share and the\n"
-    "gain of every method over bicubic.\n"
+    "Enlarges every video frame that has a true picture (truth/highres) to the still's\n"
+    "resolution and compares the result with that picture.\n"
+    "Errors are those of luma (Rec. 601), without 32 px of border. psnr_rgb_db: of red, green\n"
+    "and blue instead. harm_rate: share of the pixels whose error exceeds that of bicubic\n"
+    "enlargement by more than 2 grey levels. tiles_below: share of the 64x64 output tiles\n"
+    "whose root mean square error exceeds bicubic's by more than 0.25 grey levels; incomplete\n"
+    "tiles at the right and bottom are left out.\n"
+    "flicker: root mean square change of the error from one frame to the next along the true\n"
+    "motion, over the square root of two [grey levels]; needs truth/flow between both frames.\n"
+    "--classes divides the pixels into three classes: outside of the still's view; unmatched\n"
+    "(occluded in the still, or confidence below 0.5); matched. For each class, the table\n"
+    "shows its share of the pixels and the gain of every method over bicubic.\n"
     "The reference of a frame is the still nearest to it in time that does not show the\n"
-    "frame's own view: a still whose pose relative to the frame is below 1e-6 (from the rig\n"
-    "at equal times, from the recorded poses otherwise) is never used.\n"
-    "ms: time of a second run on the same frame with every tile computed, without the work\n"
-    "per still.\n";
+    "frame's own view. A still shows the frame's own view if their relative pose is below\n"
+    "1e-6 (radians, metres). At equal times the rig gives this pose, otherwise the recorded\n"
+    "poses do.\n"
+    "ms: time of a second run on the same frame, in which every tile is computed, without the\n"
+    "work per still.\n";
 
 constexpr const char* kFlowHelp =
-    "Takes recordings with truth/flow from video frames to stills, or else with\n"
-    "truth/inverse_depth and known poses (a scene at rest; occluded pixels are found by\n"
-    "projecting the truth into the still), or else with truth/flow between video frames; and\n"
-    "folders with frameNN.png frameMM.png flowNN.flo.\n"
-    "Flow is in video pixels, to the still at the video's geometry (rotation of the rig and\n"
-    "both lenses, no parallax); the reference of a frame is chosen as for superres.\n"
-    "epe_px: mean end-point error where truth and answer are known; bad1, bad2: share of the\n"
-    "pixels with known truth that are off by more than 1, 2 px or have no answer; ms: median\n"
-    "of 3 runs after one to warm up, without work per still. flow2d and dis-medium-both\n"
-    "compute both directions; the time of sgbm and stereobm covers rectifying and matching.\n"
-    "sgbm and stereobm need poses; they have no answer where the camera does not move or the\n"
-    "two pictures cannot be rectified, and fill pixels without a match with the farther\n"
-    "neighbour.\n"
-    "angular_deg: mean angle between truth and answer as vectors (u, v, 1). ause: area\n"
-    "between two curves of the mean error of the remaining pixels while pixels are removed,\n"
-    "one in the order of confidence (eq. 2), one in the order of error; both are 1 when no\n"
-    "pixel is removed. 0: the least confident pixels are the worst. ause_rel: ause divided by\n"
-    "that of a random order.";
+    "A folder holds a pair of frames (frameNN.png, frameMM.png, flowNN.flo) or a recording.\n"
+    "The truth of a recording is the first of these that exists: truth/flow from video frames\n"
+    "to stills; truth/inverse_depth with known poses, for a scene at rest (occluded pixels are\n"
+    "found by projecting the truth into the still); truth/flow between video frames.\n"
+    "Flow leads from the frame to its reference, the still that superres would choose. It is\n"
+    "in video pixels: the still is first resampled to the video's geometry (rotation of the\n"
+    "rig and both lenses, no parallax).\n"
+    "epe_px: mean end-point error where truth and result are known; bad1, bad2: share of the\n"
+    "pixels with known truth that are off by more than 1 px, 2 px or have no result; ms:\n"
+    "median time of three runs after one that warms up, without work per still. flow2d and\n"
+    "dis-medium-both compute both directions; the time of sgbm and stereobm covers\n"
+    "rectification and matching. sgbm and stereobm need poses. They have no result if the\n"
+    "camera does not move or if the two pictures cannot be rectified. Pixels without a match\n"
+    "get the value of their farther neighbour in the row.\n"
+    "angular_deg: mean angle between truth and result as vectors (u, v, 1).\n"
+    "ause tells whether confidence (eq. 2 of the paper) is low where errors are large. Pixels\n"
+    "are removed, the least confident first, and the mean error of the remaining ones is\n"
+    "recorded as a curve that starts at 1. ause is the area between this curve and the best\n"
+    "one, for which the largest errors are removed first. 0: the order of the confidences is\n"
+    "the best. ause_rel: ause divided by the ause of a random order.";
 
 constexpr const char* kDepthHelp =
-    "Takes recordings with truth/inverse_depth and known poses (a scene at rest); frames,\n"
-    "their references, what is hidden, and time as for flow. Every method's flow is\n"
-    "triangulated:\n"
-    "flow: the product's, along epipolar lines, in closed form; midpoint: the same by the\n"
-    "paper's shortest line between both rays; sgbm, stereobm: as for flow.\n"
+    "Takes recordings with truth/inverse_depth and known poses, of a scene at rest. Frames,\n"
+    "their references, occluded pixels and times are those of the subcommand flow. Methods\n"
+    "that find flow triangulate it. flow: the product's flow along epipolar lines,\n"
+    "triangulated in closed form; midpoint: the same flow, triangulated by the midpoint of the\n"
+    "shortest line between both rays, as in the paper; sgbm, stereobm: see mfar-eval flow.\n"
     "absrel: median of |z - true z| / true z where depth and truth are known; bad1: share of\n"
     "the pixels with known truth that are off by more than 1 px of disparity (focal length\n"
-    "times baseline times inverse depth) or have no depth; completeness: share of them with a\n"
-    "depth; edge_: within 4 px of an edge, where neighbouring true depths differ by a tenth;\n"
-    "inner_: elsewhere; delta1, 2, 3: share of the pixels whose two depths are within a\n"
-    "factor of 1.25, its square, its cube; ause, ause_rel: as for flow, with the error of\n"
-    "disparities and the variance that the depth states.";
+    "times baseline times inverse depth) or have no depth; completeness: share of the pixels\n"
+    "with known truth that have a depth; edge_...: within 4 px of a depth edge, where\n"
+    "neighbouring true depths differ by more than a tenth; inner_...: elsewhere; delta1,\n"
+    "delta2, delta3: share of the pixels whose depth differs from the true one by less than a\n"
+    "factor of 1.25, 1.25^2, 1.25^3; ause, ause_rel: as for flow, with the error of the\n"
+    "disparity and the variance that the method reports with its depth.";
 
 std::string joined(const std::vector<std::string>& names) {
     return fmt::format("{}", fmt::join(names, ", "));
@@ -104,29 +108,31 @@ struct Options {
     std::filesystem::path svg;
 };
 
-/// Needed because CLI::Range accepts NaN.
+/// Checks an angle [degrees]. CLI::Range would accept NaN.
 std::string isAngle(const std::string& text) {
     double degrees = -1;
     const bool number = CLI::detail::lexical_cast(text, degrees);
-    return number && degrees >= 0 && degrees <= 180 ? "" : text + " is not from 0 to 180";
+    return number && degrees >= 0 && degrees <= 180 ? "" : text + " is not an angle from 0 to 180";
 }
 
 /// Adds the options for disturbances, which all tasks share.
 void addDisturbances(CLI::App& sub, Options& o) {
     sub.add_option("--degrade", o.degrade,
-                   "degrade the still: gain=0.7,gamma=1.3,blur=0.7,noise=4; applied as blur "
-                   "(sigma, still px), gain, v^gamma, noise (sigma, grey levels)");
+                   "degrade the still, for example gain=0.7,gamma=1.3,blur=0.7,noise=4; applied in "
+                   "this order: blur (sigma [still px]), gain (factor), gamma (v^gamma), noise "
+                   "(sigma [grey levels])");
     sub.add_option("--pose-noise-deg", o.poseNoise.degrees,
                    "rotate the pose of every frame by this angle about a random axis; all runs use "
                    "the same axes")
         ->check(isAngle);
-    sub.add_option("--pose-noise-seed", o.poseNoise.seed, "seed of the random axes");
+    sub.add_option("--pose-noise-seed", o.poseNoise.seed,
+                   "seed of the random axes of --pose-noise-deg");
 }
 
 void addStills(CLI::App& sub, SuperResRequest& request) {
-    sub.add_option(
-           "--stills", request.stills,
-           "number of stills; 2: give mfar a second still, the one next to the reference in time")
+    sub.add_option("--stills", request.stills,
+                   "number of stills that mfar gets for each frame; 2: also the second-nearest "
+                   "still in time")
         ->check(CLI::Range(1, 2));
     sub.add_option(
            "--learn", request.learn,
@@ -134,7 +140,8 @@ void addStills(CLI::App& sub, SuperResRequest& request) {
         ->check(CLI::Range(1, 100000));
     sub.add_option(
         "--learn-from", request.learnFrom,
-        "learn filters from these recordings; without --learn, from each of their stills once");
+        "learn filters from these recordings instead of the measured one; without --learn, from "
+        "each of their stills once");
 }
 
 CLI::App* addSuperRes(CLI::App& app, Options& o) {
@@ -142,25 +149,28 @@ CLI::App* addSuperRes(CLI::App& app, Options& o) {
         app.add_subcommand("superres", "compare super-resolved frames with truth/highres");
     sub->footer(std::string(kSuperResHelp) + kPictureMetricsHelp);
     o.superres.methods = superResMethodNames();
-    sub->add_option("recording", o.superres.recordings, "recordings, folders in the EuRoC layout")
+    sub->add_option("recording", o.superres.recordings,
+                    "folders of recordings, in the EuRoC layout")
         ->required();
-    sub->add_option("--methods", o.superres.methods, "of: " + joined(superResMethodNames()))
+    sub->add_option("--methods", o.superres.methods,
+                    "methods to measure, of: " + joined(superResMethodNames()))
         ->delimiter(',');
     sub->add_option(
         "--dnn-model", o.superres.dnnModels,
-        "files of OpenCV's dnn_superres as further peers: EDSR_x4.pb, or ESPCN, FSRCNN, "
-        "LapSRN and their factor");
+        "model files for OpenCV's dnn_superres, measured as further peers; a file's name is EDSR, "
+        "ESPCN, FSRCNN or LapSRN and the factor, as in EDSR_x4.pb");
     sub->add_flag("--classes", o.superres.classes,
                   "report separately the pixels that the still shows, that it does not show, and "
                   "that lie outside of its view");
     addPoseSource(*sub, o.superres.poses);
     addDisturbances(*sub, o);
     sub->add_option("--degrade-video", o.degradeVideo,
-                    "degrade the video in the same way [video px]");
+                    "degrade the video in the same way, but with blur in video px");
     addPictureMetrics(*sub, o.superres.metrics);
     sub->add_option(
            "--alpha", o.superres.alpha,
-           "for the peer `paper`: two-way error at which its confidence is zero [video px]")
+           "two-way error of the flow at which the confidence of the peer `paper` is zero [video "
+           "px]")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     sub->add_flag("--no-still", o.superres.noStill,
@@ -172,7 +182,7 @@ CLI::App* addSuperRes(CLI::App& app, Options& o) {
         ->check(CLI::Range(1, 1000000));
     sub->add_option("--save", o.superres.save,
                     "folder to write the pictures of every method and of the truth into");
-    sub->add_option("--csv", o.csv, "file for the table");
+    sub->add_option("--csv", o.csv, "file to write the table into");
     return sub;
 }
 
@@ -181,13 +191,15 @@ CLI::App* addSamples(CLI::App& app, const char* name, const char* what, const ch
     CLI::App* sub = app.add_subcommand(name, what);
     sub->footer(help);
     request.methods = methods;
-    sub->add_option("folder", request.folders, "recordings, or pairs of two frames")->required();
-    sub->add_option("--methods", request.methods, "of: " + joined(methods))->delimiter(',');
+    sub->add_option("folder", request.folders, "folders of recordings, or of pairs of frames")
+        ->required();
+    sub->add_option("--methods", request.methods, "methods to measure, of: " + joined(methods))
+        ->delimiter(',');
     addPoseSource(*sub, request.poses);
     addDisturbances(*sub, o);
     sub->add_option("--frames", request.frames, "measure at most this many frames of each folder")
         ->check(CLI::Range(1, 1000000));
-    sub->add_option("--csv", o.csv, "file for the table");
+    sub->add_option("--csv", o.csv, "file to write the table into");
     return sub;
 }
 
@@ -218,7 +230,8 @@ Report runPose(const Options& o) {
 /// Adds all subcommands. They store their options in `o`.
 std::vector<EvalCommand> addCommands(CLI::App& app, Options& o) {
     std::vector<EvalCommand> out = addTracedCommands(app, o.csv);
-    // `evaluate` uses `request`, which gets the progress before.
+    // The progress display is stored in `request` first, because `evaluate` shows its progress
+    // there.
     const auto add = [&](CLI::App* command, auto& request, auto evaluate) {
         out.push_back({command, [&request, evaluate](const ProgressPart& progress) {
                            request.progress = progress;

@@ -20,7 +20,7 @@ struct StillMatch {
 /// Pixels with at least this confidence count as well matched: both directions of the flow agree
 /// within one video pixel.
 inline constexpr float kWellMatched = 0.5F;
-/// A class with a smaller share of the picture is not measured.
+/// Smallest share of the picture's pixels with which a class is measured.
 inline constexpr double kSmallestClass = 0.001;
 
 /// Classes of pixels, by whether the still shows them.

@@ -39,7 +39,7 @@ TEST(MatchClasses, ConfidenceDistinguishesMatchedFromUnmatched) {
     EXPECT_EQ(count(classes, kMatched), 48 * 36 - 2 * 9);
 }
 
-TEST(MatchClasses, LookUpsBeyondTheStillAreOutside) {
+TEST(MatchClasses, PixelsWhoseFlowLeavesTheStillAreOutside) {
     const cv::Mat right = matchClasses(finerStillRig(), {48, 36}, evenMatch({4, 0}, 1));
     EXPECT_EQ(count(right, kOutside), 4 * 3 * 36);
     EXPECT_EQ(right.at<unsigned char>(0, 35), kMatched);
@@ -71,7 +71,8 @@ TEST(MatchClasses, EachClassHasItsShareAndGain) {
     EXPECT_FALSE(values[3]);
     EXPECT_DOUBLE_EQ(values[4].value(), 0.7);
     EXPECT_NEAR(values[5].value(), 20, 1e-9);
-    EXPECT_FALSE(matchClassValues(classes, truth, bicubic, truth)[5]) << "no error has no decibels";
+    EXPECT_FALSE(matchClassValues(classes, truth, bicubic, truth)[5])
+        << "PSNR is infinite without errors";
 }
 
 }  // namespace

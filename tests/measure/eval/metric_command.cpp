@@ -29,13 +29,14 @@ void scoreColours(const cv::Mat& test, const cv::Mat& reference, const HdrVdpDis
 
 CLI::App* addMetricCommand(CLI::App& app, MetricRequest& request, std::string& csv) {
     CLI::App* sub = app.add_subcommand("metric", "compare two pictures of the same size");
-    sub->footer(std::string("Of luma (Rec. 601), whole pictures. ") + kPictureMetricsHelp);
+    sub->footer(std::string("Values are those of luma (Rec. 601) of the whole pictures. ") +
+                kPictureMetricsHelp);
     sub->add_option("test", request.test, "PNG or JPEG file")->required();
     sub->add_option("reference", request.reference, "PNG or JPEG file")->required();
     addPictureMetrics(*sub, request.metrics);
     sub->add_flag("--colour", request.colour,
-                  "hdrvdp of the colours on an sRGB display (LCD with fluorescent light), which "
-                  "has no --gamma");
+                  "compute hdrvdp from colours on an sRGB display (LCD with fluorescent light) "
+                  "instead of luma; --gamma has no effect then");
     sub->add_option("--csv", csv, "file to write the table into");
     return sub;
 }

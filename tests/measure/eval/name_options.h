@@ -24,7 +24,7 @@ void addNames(CLI::App& sub, const char* option, std::vector<T>& values, const c
            what)
         ->delimiter(',')
         ->check([named](const std::string& name) {
-            return named(name) ? std::string() : fmt::format("there is no '{}'", name);
+            return named(name) ? std::string() : fmt::format("unknown name '{}'", name);
         });
 }
 

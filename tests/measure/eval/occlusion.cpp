@@ -18,7 +18,8 @@ namespace {
 
 using synthetic::Path;
 
-/// Frames that are not scored: until the first still has arrived and depth has settled.
+/// Number of first frames that are not scored: until the first still has arrived and depth has
+/// settled.
 constexpr int kSettling = 8;
 
 std::optional<double> measured(double value) {
@@ -111,8 +112,9 @@ std::vector<VirtualObject> objectsFor(const OcclusionRequest& request, synthetic
                          ? sceneObjects(scene)
                          : placedShapes(loadConfig(request.objects).objects, {});
     if (out.empty() && request.objects.empty())
-        throw EvalError(fmt::format("no objects are known for scene {}: name a file with --objects",
-                                    synthetic::name(scene)));
+        throw EvalError(fmt::format(
+            "mfar-eval has no objects for scene {}; name a configuration file with --objects",
+            synthetic::name(scene)));
     if (out.empty())
         throw EvalError(fmt::format("{}: the file has no [[objects]]", request.objects.string()));
     return out;
@@ -122,7 +124,8 @@ std::vector<VirtualObject> objectsFor(const OcclusionRequest& request, synthetic
 
 Report evaluateOcclusion(const OcclusionRequest& request) {
     if (request.poses == PoseSource::None)
-        throw EvalError("without poses no object is shown; use --poses recorded or tags");
+        throw EvalError(
+            "--poses none: without poses no object is shown; use --poses recorded or tags");
     Report report(
         {{"depth_ms", 2}, {"composite_ms", 2}, {"iou", 4}, {"boundary_px", 3}, {"flicker", 6}});
     const auto context = createGlContext();

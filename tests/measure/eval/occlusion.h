@@ -14,7 +14,7 @@ namespace mfar::eval {
 struct OcclusionRequest {
     std::vector<synthetic::Scene> scenes{synthetic::Scene::Office, synthetic::Scene::Shelf};
     std::vector<synthetic::Path> paths{synthetic::Path::Handheld, synthetic::Path::Rest};
-    std::filesystem::path objects;  ///< configuration of mfard; empty: sceneObjects()
+    std::filesystem::path objects;  ///< configuration file of mfard; empty: sceneObjects()
     PoseSource poses = PoseSource::Recorded;
     int frames = 24;          ///< scored frames per run
     double noise = 1;         ///< sensor noise of both sensors, see SyntheticOptions

@@ -7,21 +7,22 @@ namespace mfar::eval {
 namespace {
 
 constexpr const char* kOcclusionHelp =
-    "Shows each object alone in synthetic scenes and compares where it is visible with the\n"
-    "truth, at the middle of every video pixel. The exact poses of the synthetic board\n"
-    "replace recorded ones.\n"
-    "iou: intersection over union of the visible pixels and those of the truth; boundary_px:\n"
-    "mean distance of the object's boundary from the true one [video px]; flicker, on path\n"
-    "rest only: share of the object's pixels, at the output's resolution, hidden or not, that\n"
-    "are shown in only one of two consecutive frames; depth_ms, composite_ms: time of these\n"
-    "stages, each waited for. A frame in which nothing changed needs neither.\n"
-    "The first 8 frames are not scored; the still is requested in the first.";
+    "Shows each virtual object alone in synthetic scenes. Compares the pixels in which it is\n"
+    "visible with the truth at the centre of every video pixel. `recorded` poses are the exact\n"
+    "poses of the synthetic board.\n"
+    "iou: intersection over union of the visible and the truly visible pixels; boundary_px:\n"
+    "mean distance of the object's boundary from the true one [video px]; flicker (only for\n"
+    "path rest): share of all pixels of the object, occluded ones included, that are shown in\n"
+    "only one of two consecutive frames, at the output's resolution; depth_ms, composite_ms:\n"
+    "times of these two stages, each waited for. A frame in which nothing changed needs\n"
+    "neither stage.\n"
+    "The first 8 frames are not scored; the still is requested in the first of them.";
 
-/// Needed because CLI::Range accepts NaN.
+/// Checks a factor of the noise. CLI::Range would accept NaN.
 std::string isNoise(const std::string& text) {
     double factor = -1;
     const bool number = CLI::detail::lexical_cast(text, factor);
-    return number && factor >= 0 && factor <= 100 ? "" : text + " is not from 0 to 100";
+    return number && factor >= 0 && factor <= 100 ? "" : text + " is not a factor from 0 to 100";
 }
 
 }  // namespace
@@ -29,14 +30,14 @@ std::string isNoise(const std::string& text) {
 CLI::App* addOcclusionCommand(CLI::App& app, OcclusionRequest& request, std::string& csv) {
     CLI::App* sub = app.add_subcommand(
         "occlusion",
-        "compare virtual objects behind real things of synthetic scenes with the truth");
+        "compare with the truth how real things of synthetic scenes occlude virtual objects");
     sub->footer(kOcclusionHelp);
     addNames(*sub, "--scenes", request.scenes,
              "synthetic scenes of mfar-sim (default: office,shelf)", synthetic::sceneNamed);
     addNames(*sub, "--paths", request.paths, "paths of the camera (default: handheld,rest)",
              synthetic::pathNamed);
     sub->add_option("--objects", request.objects,
-                    "configuration of mfard whose [[objects]] are shown one after the other "
+                    "configuration file of mfard whose [[objects]] are shown one after the other "
                     "(default: one object that is half behind real things of office and shelf)");
     addPoseSource(*sub, request.poses);
     sub->add_option("--frames", request.frames, "number of scored frames on each path")

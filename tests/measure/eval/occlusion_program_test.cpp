@@ -52,8 +52,8 @@ TEST(MfarEvalOcclusion, WrongRequestsEndWithOneLineAndStatus2) {
     test::writeFile(folder / "wrong.toml", "[[objects]]\nshape = \"cone\"\n");
     const std::string dir = folder.path().string();
     const std::pair<std::string, std::string> cases[] = {
-        {"--scenes attic", "there is no 'attic'"},
-        {"--paths office", "there is no 'office'"},
+        {"--scenes attic", "unknown name 'attic'"},
+        {"--paths office", "unknown name 'office'"},
         {"--scenes flat", "no objects are known for scene flat"},
         {"--poses none", "without poses"},
         {"--objects " + dir + "/absent.toml", "cannot be read"},

@@ -16,7 +16,7 @@ StereoRig plainRig() {
     return rig;
 }
 
-/// Blobs of many sizes: each place looks different, and no detail is finer than two pixels.
+/// Blobs of many sizes: every region looks different, and no detail is finer than two pixels.
 cv::Mat texture(cv::Size size) {
     cv::Mat out(size, CV_32FC3, cv::Scalar::all(0));
     for (const int cell : {3, 9, 27}) {
@@ -36,14 +36,14 @@ TEST(RigResample, OutputHasTheStillsWidthAndTheVideosShape) {
     EXPECT_EQ(outputSize(rig), (Size{2304, 1728}));
 }
 
-TEST(RigResample, SameLensMapsByScaleAlone) {
+TEST(RigResample, WithEqualLensesTheMapOnlyScales) {
     const cv::Mat map = stillMap(plainRig(), {160, 120});
     const auto& p = map.at<cv::Vec2f>(10, 20);
     EXPECT_NEAR(p[0], 20.5 * 3 - 0.5, 1e-4);
     EXPECT_NEAR(p[1], 10.5 * 3 - 0.5, 1e-4);
 }
 
-TEST(RigResample, RotationMovesTheLookUp) {
+TEST(RigResample, ARotatedStillCameraShiftsTheMap) {
     StereoRig rig = plainRig();
     // The still camera looks 2 degrees to the right of the video camera: the centre of the video's
     // view lies to the left of the still's centre.
@@ -55,14 +55,14 @@ TEST(RigResample, RotationMovesTheLookUp) {
     EXPECT_NEAR(middle[1], rig.still.cy, 0.05);
 }
 
-TEST(RigResample, DownSamplingIsTheAreaMean) {
+TEST(RigResample, TheStillIsReducedByAreaMeans) {
     const cv::Mat still = texture({480, 360});
     cv::Mat mean;
     cv::resize(still, mean, {160, 120}, 0, 0, cv::INTER_AREA);
     EXPECT_LE(cv::norm(resampleStill(still, plainRig()), mean, cv::NORM_INF), 1);
 }
 
-TEST(TwoWayConfidence, FallsLinearlyAndIsZeroOutside) {
+TEST(TwoWayConfidence, FallsLinearlyAndIsZeroWhereTheFlowLeavesThePicture) {
     const cv::Mat forward(8, 8, CV_32FC2, cv::Scalar(1, 0));
     const cv::Mat backward(8, 8, CV_32FC2, cv::Scalar(-0.5, 0));
     const cv::Mat conf = twoWayConfidence(forward, backward, 2);
@@ -84,7 +84,7 @@ TEST(PaperPipeline, AnIdenticalStillGivesItsDetail) {
     EXPECT_GT(cv::mean(paper.confidence())[0], 0.9);
 }
 
-TEST(PaperPipeline, FollowsAShiftedStill) {
+TEST(PaperPipeline, MatchesAShiftedStill) {
     const StereoRig rig = plainRig();
     const cv::Mat scene = texture({540, 420});
     const cv::Mat truth = scene(cv::Rect(30, 30, 480, 360)).clone();

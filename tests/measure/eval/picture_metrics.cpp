@@ -29,7 +29,7 @@ bool PictureMetrics::has(const std::string& name) const {
 }
 
 PictureScores scoreOf(const cv::Mat& picture, const cv::Mat& truth, const PictureMetrics& metrics) {
-    requireSide(picture, "a measure", 17);
+    requireSide(picture, "every metric", 17);
     PictureScores out;
     if (metrics.has("psnr")) out.psnr = psnr(picture, truth);
     if (metrics.has("ssim")) out.ssim = ssim(picture, truth);

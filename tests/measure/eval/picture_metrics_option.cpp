@@ -7,7 +7,7 @@
 namespace mfar::eval {
 namespace {
 
-/// Needed because CLI::Range accepts NaN.
+/// Checks a number's range. CLI::Range would accept NaN.
 CLI::Validator within(double least, double most) {
     return CLI::Validator(
         [least, most](const std::string& text) {
@@ -23,37 +23,38 @@ CLI::Validator within(double least, double most) {
 }  // namespace
 
 const char* const kPictureMetricsHelp =
-    "msssim: five scales. lpc_si: local phase coherence (Hassen et al. 2013), release 1.0;\n"
-    "the sharpest few pixels decide it, so lpc_si_tiles gives quantiles over 8x8 tiles beside\n"
-    "it.\n"
-    "hdrvdp: hdrvdp_q is Q of HDR-VDP 2.2.1 and 2.2.2 (100: no difference, no lower bound),\n"
-    "hdrvdp_qmos Q_MOS of 2.2.0; luma V is shown as black + (peak - black) (V/255)^gamma in a\n"
-    "surround of 1e-5 cd/m2. Compare either of them only between pictures of the same ppd and\n"
-    "size.";
+    "msssim: multi-scale SSIM of five scales. lpc_si: sharpness by local phase coherence\n"
+    "(Hassen et al. 2013), as in release 1.0. Few very sharp pixels determine it; lpc_si_tiles\n"
+    "adds its quantiles over 8x8 tiles.\n"
+    "hdrvdp: hdrvdp_q is Q of HDR-VDP 2.2.1 and 2.2.2 (100: no difference, no lower bound);\n"
+    "hdrvdp_qmos is Q_MOS of 2.2.0. Luma V is shown as black + (peak - black) (V/255)^gamma in\n"
+    "a surround of 1e-5 cd/m2. Compare either value only between pictures of equal --ppd and\n"
+    "equal size.";
 
 void addMetricParameters(CLI::App& sub, PictureMetrics& metrics) {
     HdrVdpDisplay& display = metrics.display;
     sub.add_option("--ppd", display.pixelsPerDegree, "pixels per degree of the visual field")
         ->check(within(1, 1000))
         ->capture_default_str();
-    sub.add_option("--peak", display.peak, "luminance of white [cd/m2]")
+    sub.add_option("--peak", display.peak, "luminance of the display's white [cd/m2]")
         ->check(within(0.1, 10000))
         ->capture_default_str();
-    sub.add_option("--black", display.black, "luminance of black [cd/m2]")
+    sub.add_option("--black", display.black, "luminance of the display's black [cd/m2]")
         ->check(within(1e-4, 1000))
         ->capture_default_str();
     sub.add_option("--gamma", display.gamma, "gamma of the display")
         ->check(within(0.5, 4))
         ->capture_default_str();
     sub.add_option("--lpc-ratio", metrics.lpcRatio,
-                   "bandwidth ratio of LPC-SI's filters: 0.75 of release 1.0, 0.33 of a variant")
+                   "bandwidth ratio of LPC-SI's filters; 0.75: the authors' release 1.0, 0.33: "
+                   "another version in circulation")
         ->check(within(0.1, 0.95))
         ->capture_default_str();
 }
 
 void addPictureMetrics(CLI::App& sub, PictureMetrics& metrics) {
     sub.add_option("--metrics", metrics.names,
-                   fmt::format("of: {}", fmt::join(pictureMetricNames(), ", ")))
+                   fmt::format("metrics to compute, of: {}", fmt::join(pictureMetricNames(), ", ")))
         ->delimiter(',')
         ->check(CLI::IsMember(pictureMetricNames()))
         ->option_text(fmt::format("NAMES (default: {})", fmt::join(metrics.names, ",")));

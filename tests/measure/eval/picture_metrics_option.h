@@ -6,7 +6,7 @@
 
 namespace mfar::eval {
 
-/// Help text of every subcommand on the metrics and their parameters.
+/// Text on the metrics and their parameters, for the help of all subcommands that have them.
 extern const char* const kPictureMetricsHelp;
 
 /// Adds the option --metrics, whose default is the content of `metrics`, and the metrics'

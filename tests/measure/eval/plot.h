@@ -21,7 +21,7 @@ struct PlotLine {
 /// A panel with two logarithmic axes that span all points, and the lines between the points.
 struct PlotPanel {
     std::string title, xLabel, yLabel;
-    double leastY = 1e-9;  ///< smaller values are drawn here, because the axis is logarithmic
+    double leastY = 1e-9;  ///< smaller y are drawn here, because 0 has no logarithm
     std::vector<PlotLine> lines;
     std::vector<PlotPoint> diamonds;
     std::optional<PlotPoint> ringed;

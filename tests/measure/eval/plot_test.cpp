@@ -41,7 +41,7 @@ std::vector<std::pair<double, double>> polyline(const std::string& svg, int whic
     return out;
 }
 
-TEST(PlotSvg, IsXmlWhateverTheTexts) {
+TEST(PlotSvg, IsWellFormedForAnyTexts) {
     EXPECT_TRUE(bench::test::isWellFormed(plotSvg("<&>", {twoLines(), twoLines()}, "a<b>&c")));
     EXPECT_TRUE(bench::test::isWellFormed(plotSvg("", {}, "")));
 }
@@ -68,7 +68,7 @@ TEST(PlotSvg, LeavesOutInvalidPoints) {
     panel.leastY = 0.1;
     panel.ringed = PlotPoint{std::nan(""), 1, "", ""};
     const std::string svg = plotSvg("", {panel}, "");
-    EXPECT_EQ(polyline(svg, 0).size(), 1U) << "0 is drawn as the least";
+    EXPECT_EQ(polyline(svg, 0).size(), 1U) << "y = 0 is drawn at leastY";
     EXPECT_EQ(svg.find("nan"), std::string::npos);
     EXPECT_EQ(svg.find("inf"), std::string::npos);
 }

@@ -18,8 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A larger rotation of the error between consecutive frames counts as a flip: noise cannot explain
-// it [degrees].
+// Largest change of the rotation error between consecutive frames that noise can explain [degrees].
+// A larger change counts as a flip between the two planar solutions of a pose.
 constexpr double kFlipDeg = 3;
 
 const std::vector<Column> kColumns{
@@ -97,7 +97,8 @@ public:
         report_.add(recording_, std::to_string(time.ns), method_, std::move(row));
     }
 
-    /// Call this after the means are added; otherwise they would include the medians.
+    /// Adds the row with the medians. Call this after the means are added, because these would
+    /// include it.
     void addMedian() const {
         if (rows_.empty()) return;
         Values out = none();

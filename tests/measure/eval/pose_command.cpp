@@ -6,15 +6,16 @@ namespace mfar::eval {
 namespace {
 
 constexpr const char* kPoseHelp =
-    "Takes recordings with poses and tags.toml, and folders with NAME.jpg|png and the corners of "
-    "the tags in NAME.txt.\n"
-    "Recordings: rot_deg, trans_mm: error of the camera's pose against the recorded pose; "
-    "trans_percent: trans_mm in percent of the mean distance to the visible tags; jitter: change "
-    "of the error since the frame before; ms: time of search and pose of the frame; missed: frames "
-    "without a pose; flips, in rows `median`: how often the error turned by more than 3 degrees "
-    "from one frame to the next.\n"
-    "Pictures: corner_px: root mean square distance to the given corners; found, missed, false: "
-    "numbers of tags.";
+    "A folder holds a recording with poses and tags.toml, or pictures NAME.jpg|png, each with the "
+    "corners of its tags in NAME.txt.\n"
+    "Columns for recordings: rot_deg, trans_mm: error of the camera's pose against the recorded "
+    "pose; trans_percent: trans_mm in percent of the mean distance to the visible tags; "
+    "jitter_deg, "
+    "jitter_mm: change of the error since the previous frame; ms: time to search tags in the frame "
+    "and to find its pose; missed: 1 if the frame has no pose; flips, only in rows `median`: how "
+    "often the error turned by more than 3 degrees from one frame to the next.\n"
+    "Columns for pictures: corner_px: root mean square distance of found corners from the given "
+    "ones; found, missed, false: numbers of tags that were found, missed, and found by mistake.";
 
 }  // namespace
 
@@ -23,25 +24,26 @@ CLI::App* addPoseCommand(CLI::App& app, PoseRequest& request, std::string& csv) 
         app.add_subcommand("pose", "compare camera poses and tag corners with the true ones");
     sub->footer(kPoseHelp);
     request.methods = poseMethodNames();
-    sub->add_option("folder", request.folders, "recordings or folders of pictures")->required();
+    sub->add_option("folder", request.folders, "folders of recordings or of pictures")->required();
     sub->add_option("--methods", request.methods,
-                    fmt::format("of: {}", fmt::join(poseMethodNames(), ", ")))
+                    fmt::format("methods to measure, of: {}", fmt::join(poseMethodNames(), ", ")))
         ->delimiter(',');
     sub->add_option("--frames", request.frames, "measure at most this many frames of each folder")
         ->check(CLI::Range(1, 1000000));
     TrackerOptions& tracker = request.tracker;
     sub->add_option("--decimation", tracker.decimation,
-                    "decimation of the picture that is searched for quads")
+                    "factor by which the picture is reduced before tags are searched")
         ->capture_default_str();
     sub->add_option("--threads", tracker.threads, "number of threads of libapriltag")
         ->capture_default_str();
     sub->add_option("--full-search-interval", tracker.fullSearchInterval,
                     "number of frames between searches of the whole picture")
         ->capture_default_str();
-    sub->add_option("--gamma", tracker.gamma, "gamma of the video sensor, for the corners")
+    sub->add_option("--gamma", tracker.gamma,
+                    "gamma of the video sensor, used when corners are refined")
         ->capture_default_str();
     sub->add_option("--still-gamma", tracker.stillGamma,
-                    "gamma of the still sensor, for the corners")
+                    "gamma of the still sensor, used when corners are refined")
         ->capture_default_str();
     sub->add_option("--csv", csv, "file to write the table into");
     return sub;

@@ -120,7 +120,8 @@ TEST(MfarEvalPose, CountsTagsInPictures) {
     writeFile(folder / "tags" / "a.txt", line + "\n13, (9 9), (19 9), (19 19), (9 nan)\n");
     const Outcome broken = evaluate(folder, arguments);
     EXPECT_EQ(broken.status, 2);
-    EXPECT_NE(broken.text.find("a.txt:2: not \"id, (x y)"), std::string::npos) << broken.text;
+    EXPECT_NE(broken.text.find("a.txt:2: the line is not \"id, (x y)"), std::string::npos)
+        << broken.text;
 }
 
 TEST(MfarEvalPose, WrongRequestsEndWithOneLineAndStatus2) {

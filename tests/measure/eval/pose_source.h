@@ -9,8 +9,8 @@ namespace mfar::eval {
 
 /// Source of the poses that are given to the evaluated methods.
 enum class PoseSource {
-    Recorded,  ///< the recording, see posesOf()
-    Tags,      ///< the product's tracker, from the tags in frames and stills
+    Recorded,  ///< poses of the recording, see posesOf()
+    Tags,      ///< poses that the product's tracker finds from the tags in frames and stills
     None,      ///< methods get no poses
 };
 
@@ -22,7 +22,7 @@ public:
     /// itself. Throws TagMapError and ImageFileError.
     KnownPoses(const Recording& recording, PoseSource source);
 
-    /// `still` may also be the time of a video frame.
+    /// Poses at these two times. `still` may also be the time of a video frame.
     [[nodiscard]] PosePair of(Timestamp frame, Timestamp still) const;
 
 private:

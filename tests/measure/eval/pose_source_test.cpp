@@ -26,8 +26,8 @@ RigidTransform standsAt(Timestamp time) {
     return cameraAt(kDistance, 0.4 + 0.004 * static_cast<double>(time.ns) / 33e6, -0.3, 0.1);
 }
 
-/// Four frames with tags, a still between two of them, then a frame without tags. The recorded
-/// poses are wrong on purpose.
+/// A recording of four frames with tags, a still between two of these frames, then a frame without
+/// tags. The recorded poses are wrong on purpose.
 Recording recordedIn(const std::filesystem::path& root) {
     const StereoRig rig{testCamera(), testCamera().scaledTo({1280, 960}), {}};
     Recorder recorder(root, rig, 30);
@@ -73,7 +73,7 @@ TEST(KnownPoses, TagsGivePosesOfFramesAndStills) {
     EXPECT_FALSE(poses.of({5}, {6}).still);
 }
 
-TEST(KnownPoses, RecordedOrNoPosesAsSelected) {
+TEST(KnownPoses, GivesRecordedPosesOrNoneAsRequested) {
     const TempFolder folder;
     const Recording recording = recordedIn(folder / "recorded");
     const PosePair recorded = KnownPoses(recording, PoseSource::Recorded).of(timeOf(1), kStillTime);
@@ -83,7 +83,7 @@ TEST(KnownPoses, RecordedOrNoPosesAsSelected) {
     EXPECT_FALSE(none.frame || none.still);
 }
 
-TEST(KnownPoses, TagsNeedTheirMap) {
+TEST(KnownPoses, PosesFromTagsNeedATagMap) {
     const TempFolder folder;
     const Recording recording = recordedIn(folder / "bare");
     std::filesystem::remove(folder / "bare" / "tags.toml");

@@ -80,7 +80,7 @@ TEST(MfarEval, FlowMeasuresAKnownShift) {
     ASSERT_EQ(rows.size(), 1U + 10 + 10) << outcome.text;
     EXPECT_EQ(rows[0], split("recording,frame,method,ms,epe_px,bad1,bad2,coverage,angular_deg,"
                              "ause,ause_rel"));
-    EXPECT_LT(std::stod(rows[4].at(8)), 5);  // this method has no confidence
+    EXPECT_LT(std::stod(rows[4].at(8)), 5);  // row 4: dis-medium, which has no confidence
     EXPECT_TRUE(rows[4].at(9).empty());
     EXPECT_EQ(rows[5][2], "dis-medium-both");
     EXPECT_GE(std::stod(rows[5].at(10)), 0);
@@ -218,7 +218,7 @@ TEST(MfarEval, WrongRequestsEndWithOneLineAndStatus2) {
         {"superres " + dir + "/tiny --pose-noise-deg nan", "--pose-noise-deg"},
         {"superres " + dir + "/tiny --poses guessed", "--poses"},
         {"superres " + dir + "/truth --poses tags", "tags.toml: is missing"},
-        {"flow " + dir + "/pair --poses tags", "no recording, so no tags"},
+        {"flow " + dir + "/pair --poses tags", "--poses tags needs a recording"},
         {"depth " + dir + "/absent", "no such folder"},
         {"depth " + dir + "/tiny", "no truth"},
         {"depth " + dir + "/pair", "pair"},
@@ -245,7 +245,8 @@ TEST(MfarEval, TruthOfAnotherSizeIsRefused) {
     const Outcome outcome = execute(folder, fmt::format("{} superres {}/tiny --methods bicubic",
                                                         MFAR_EVAL, folder.path().string()));
     EXPECT_EQ(outcome.status, 2);
-    EXPECT_NE(outcome.text.find("1000.png: truth has 576x400 pixels, but the output has 576x432"),
+    EXPECT_NE(outcome.text.find(
+                  "1000.png: the true picture has 576x400 pixels, but the output has 576x432"),
               std::string::npos)
         << outcome.text;
 }

@@ -7,9 +7,9 @@
 namespace mfar::eval {
 namespace {
 
-constexpr double kShortest = 1e-9;  // a shorter baseline counts as none [m]
-constexpr double kFlattest = 0.2;   // smallest cosine between a ray and the rectified axis
-constexpr double kLargest = 3;      // a rectified side may be this many times the view's
+constexpr double kShortest = 1e-9;  // length of a baseline up to which it counts as zero [m]
+constexpr double kFlattest = 0.2;   // smallest cosine between a ray and the rectified optical axis
+constexpr double kLargest = 3;      // largest ratio of a rectified side to the view's width
 
 Eigen::Vector3d rayOf(const CameraModel& camera, const Eigen::Vector2d& pixel) {
     return camera.unproject(pixel).homogeneous();

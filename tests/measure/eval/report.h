@@ -34,7 +34,8 @@ public:
     /// Appends the means of each recording and method, with `frame` = "mean". With several
     /// recordings, appends the means over all their frames too, with `recording` = "all".
     void addMeans();
-    /// Appends the medians of the frames in the same way, with `frame` = "median".
+    /// Appends the medians over the frames of each recording and method, and with several
+    /// recordings those over all their frames, with `frame` = "median".
     void addMedians();
 
     /// Lines above the table that explain how to read it.

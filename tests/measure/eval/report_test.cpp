@@ -22,7 +22,7 @@ TEST(Report, CsvKeepsEveryColumnAndEndsWithTheMean) {
                                     "a,mean,x,2.000000,1.000000,\n");
 }
 
-TEST(Report, SeveralRecordingsHaveAMeanOverAll) {
+TEST(Report, WithSeveralRecordingsAMeanOverAllIsAdded) {
     const Report report = twoFrames("b");
     ASSERT_EQ(report.rows().size(), 5U);
     EXPECT_EQ(report.rows()[2].recording, "a");
@@ -32,7 +32,7 @@ TEST(Report, SeveralRecordingsHaveAMeanOverAll) {
     EXPECT_EQ(report.rows()[4].values[1], 1.0);
 }
 
-TEST(Report, MediansAreOfFramesAlone) {
+TEST(Report, MediansDoNotIncludeTheMeans) {
     Report report({{"ms", 1}});
     for (const double ms : {9.0, 1.0, 2.0})
         report.add("a", "1", "x", {ms});
@@ -44,7 +44,7 @@ TEST(Report, MediansAreOfFramesAlone) {
     EXPECT_EQ(report.rows()[4].values[0], 2.0);
 }
 
-TEST(Report, TableLeavesOutMissingMeasurements) {
+TEST(Report, TableLeavesOutColumnsWithoutMeasurements) {
     EXPECT_EQ(twoFrames("a").table(), "recording  frame  method   ms  epe_px\n"
                                       "a          1      x       1.0   0.500\n"
                                       "a          2      x       3.0   1.500\n"

@@ -18,10 +18,10 @@ namespace mfar::eval {
 /// the still. Parts that the still does not show repeat its border.
 [[nodiscard]] cv::Mat resampleStill(const cv::Mat& still, const StereoRig& rig);
 
-/// Map from pixels of the enlarged picture to still pixels, for peers that move the look-up by a
-/// flow: base(P) + up(M(p + flow(p)) - M(p)), where M is stillMap() at video size and `up` enlarges
-/// bilinearly. The difference is smooth; so enlarging it loses no accuracy except at depth edges.
-/// `flow`: [video px].
+/// For peers that move look-ups in the still by a flow: returns M(p + flow(p)) - M(p) for each
+/// video pixel p [still px], where M is `videoMap`, the stillMap() at video size. Peers enlarge
+/// this difference bilinearly and add it to the stillMap() of the enlarged picture. The difference
+/// is smooth; so enlarging it loses no accuracy except at depth edges. `flow`: [video px].
 [[nodiscard]] cv::Mat stillShift(const cv::Mat& videoMap, const cv::Mat& flow);
 
 }  // namespace mfar::eval

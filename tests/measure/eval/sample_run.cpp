@@ -17,7 +17,8 @@ void setPoses(std::vector<FlowSample>& samples, const fs::path& folder, PoseSour
     if (source == PoseSource::Recorded) return;
     if (!fs::exists(folder / "cam0")) {
         if (source == PoseSource::Tags)
-            throw EvalError(fmt::format("{}: no recording, so no tags are known", folder.string()));
+            throw EvalError(fmt::format("{}: --poses tags needs a recording; this folder is none",
+                                        folder.string()));
         return;  // a pair has no poses
     }
     const Recording recording = loadRecording(folder);

@@ -33,7 +33,7 @@ public:
     };
     /// Throws std::runtime_error after the last frame.
     [[nodiscard]] Shots next();
-    /// Asks for a still.
+    /// Fires the trigger, which requests a still.
     void fire() { board_->trigger().fire(); }
 
     [[nodiscard]] SyntheticBoard& board() const { return *board_; }
@@ -54,8 +54,8 @@ const FrameResult& runOn(Pipeline& pipeline, const SceneRun::Shots& shots);
 /// Share of each pixel of a pipeline's picture that shows a virtual object, CV_32F of the output's
 /// size; 0 everywhere without objects.
 [[nodiscard]] cv::Mat shownObjects(const Pipeline& pipeline);
-/// The same at the video's size, thresholded: CV_8U, 255 where at least half of a pixel shows an
-/// object, else 0.
+/// Reduces `shown`, a result of shownObjects(), to the video's size: CV_8U, 255 where at least half
+/// of a video pixel shows an object, else 0.
 [[nodiscard]] cv::Mat shownAtVideo(const cv::Mat& shown, Size video);
 
 }  // namespace mfar::eval

@@ -11,8 +11,8 @@
 
 namespace mfar::eval {
 
-/// A picture as methods get it: as the sensor took it, with the pose of the video camera at that
-/// time.
+/// A picture that methods get: unchanged from the sensor, with the pose of the video camera at the
+/// time of the picture.
 struct Shot {
     cv::Mat picture;  ///< CV_8UC3, B G R, in the sensor's size
     Timestamp time;
@@ -26,9 +26,9 @@ struct PosePair {
     std::optional<Pose> frame, still;
 };
 
-/// Poses from the recorded ones; empty outside their time range. If no poses are recorded, the view
-/// of the still is the world frame, and a frame's pose is known only if both have equal times: then
-/// the rig gives it.
+/// The poses at these two times, interpolated between recorded poses; empty outside their time
+/// range. If no poses are recorded, the view of the still is the world frame. A frame's pose is
+/// then known only if frame and still have equal times: the rig gives it.
 [[nodiscard]] PosePair posesOf(const Recording& recording, Timestamp frame, Timestamp still);
 
 /// T_still_frame = [R|t]: maps video camera coordinates at the frame's time to still camera

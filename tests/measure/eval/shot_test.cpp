@@ -21,7 +21,7 @@ TEST(PosesOf, PosesAreTheRecordedOnesWithinTheirTimeRange) {
     EXPECT_TRUE(beyond.frame && !beyond.still);
 }
 
-TEST(PosesOf, WithoutRecordedPosesOnlyEqualTimesHaveAPose) {
+TEST(PosesOf, WithoutRecordedPosesAFrameHasAPoseOnlyAtTheStillsTime) {
     const PosePair equal = posesOf({}, {100}, {100});
     ASSERT_TRUE(equal.frame && equal.still);
     StereoRig rig;
@@ -31,7 +31,7 @@ TEST(PosesOf, WithoutRecordedPosesOnlyEqualTimesHaveAPose) {
     EXPECT_FALSE(posesOf({}, {100}, {101}).frame);
 }
 
-TEST(Turned, TurnsTheRelativePoseByExactlyTheAngle) {
+TEST(Turned, RotatesTheRelativePoseByExactlyTheGivenAngle) {
     StereoRig rig;
     rig.T_still_video = {Eigen::Quaterniond(0.9, 0.1, 0.2, 0.3).normalized(), {-0.1, 0, 0.02}};
     const Pose frame = somePose(100), still = {{50}, {}};
@@ -47,7 +47,7 @@ TEST(Turned, TurnsTheRelativePoseByExactlyTheAngle) {
     EXPECT_LT(sum.norm() / 200, 0.2);  // all directions are equally probable, so the sum is small
 }
 
-TEST(Turned, EveryRecordingFrameAndSeedHasItsOwnAxis) {
+TEST(Turned, EveryRecordingFrameAndSeedHasItsOwnRotationAxis) {
     const auto axis = [](std::int64_t ns, std::uint64_t seed, std::string_view recording) {
         const Pose still{{ns}, {}};
         return turned(still, {1, seed}, recording).T_world_video.rotation.vec().eval();

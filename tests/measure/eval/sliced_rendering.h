@@ -20,7 +20,8 @@ struct SlicedScene {
 
     /// The small test scene of balls and boxes. `threads`: number of threads that trace the truth.
     SlicedScene(Size size, int truthSamples, int threads);
-    /// Root mean square difference from the truth inside the objects' bounds [grey levels].
+    /// Root mean square error of `film` inside the objects' bounds [grey levels]. `filter`: smooth
+    /// the noise first.
     [[nodiscard]] double error(const Film& film, bool filter = false) const;
 };
 
@@ -49,7 +50,7 @@ struct ErrorAt {
 /// frames. Meanwhile the view rotates by `degreesPerSecond` at 30 frames per second, so that new
 /// pictures are needed.
 struct BudgetRun {
-    double mean = 0, deviation = 0;  ///< as in BudgetKept
+    double mean = 0, deviation = 0;  ///< see BudgetKept
     double samplesPerSecond = 0;     ///< per second of processor time
 };
 [[nodiscard]] BudgetRun budgetRun(const SliceOptions& slices, Size size, double budgetMs,

@@ -15,7 +15,7 @@ namespace mfar::eval {
 namespace {
 
 constexpr const char* kSceneName = "still-life";
-// Number of frames for one picture in the paper.
+// Number of frames over which the paper traces one picture.
 constexpr int kFramesOfPicture = 64;
 // This rotation requires a new picture every few seconds, so that starts and ends of pictures are
 // measured too.
@@ -48,8 +48,8 @@ void addErrors(Report& report, const char* method, const std::vector<ErrorAt>& e
                    {e.ms, e.rmse, e.filtered, {}, {}, {}, {}, {}});
         line.points.push_back({e.ms,
                                e.rmse,
-                               fmt::format("{}, {:.4g} samples a pixel: {:.0f} ms, {:.2f} grey "
-                                           "levels",
+                               fmt::format("{}, {:.4g} samples per pixel: {:.0f} ms, error {:.2f} "
+                                           "grey levels (RMS)",
                                            method, e.samples, e.ms, e.rmse),
                                {}});
     }
@@ -88,14 +88,14 @@ void writePlot(const SlicingRequest& request, const PlotPanel& panel) {
 
 Report evaluateSlicing(const SlicingRequest& request) {
     Report report(columns());
-    // Steps: the truth; error against time of four methods and of a full rendering; times of two
-    // methods; the budget of two methods.
+    // The progress display has ten steps: the truth; error against time of four methods and of a
+    // full rendering; frame times of two methods; use of the budget by two methods.
     constexpr std::size_t kSteps = 10;
     std::size_t step = 0;
     const auto next = [&](const char* what, const char* method) {
         request.progress.show(step++, kSteps, fmt::format("{} {}", what, method));
     };
-    next("the picture that all", "are compared with");
+    next("true picture, with which all", "are compared");
     const SlicedScene scene(request.size, request.truthSamples, request.threads);
     PlotPanel panel;
     panel.title = "balls and boxes with sun and environment";
@@ -110,13 +110,13 @@ Report evaluateSlicing(const SlicingRequest& request) {
     addErrors(report, "full", wholeErrors(scene, request.samples), panel);
     for (const SlicingMethod& method : kSlicingMethods) {
         if (method.adaptive) continue;
-        next("frames of", method.name);
+        next("frame times of", method.name);
         addFrames(report, method.name,
                   frameTimes(scene, slicesOf(method, request.samples, 1), kFramesOfPicture));
     }
     for (const SlicingMethod& method : kSlicingMethods) {
         if (method.adaptive) continue;
-        next("budget of", method.name);
+        next("use of the budget by", method.name);
         const BudgetRun run =
             budgetRun(slicesOf(method, request.samples, 2), request.size, request.budgetMs,
                       request.threads, request.frames, kTurnPerSecond);

@@ -14,7 +14,7 @@ struct SlicingRequest {
     int truthSamples = 512;     ///< samples per pixel of the truth, with another seed
     double budgetMs = 4;        ///< processor time per frame [ms]
     int frames = 300;           ///< number of frames under the budget
-    int threads = 2;            ///< for these frames and the truth; all else uses one
+    int threads = 2;            ///< threads for `frames` and for the truth; else one
     std::filesystem::path svg;  ///< SVG of error against time; empty: not written
     ProgressPart progress{};    ///< shows the progress while the command runs
 };

@@ -9,20 +9,21 @@ namespace mfar::eval {
 namespace {
 
 constexpr const char* kSlicingHelp =
-    "Renders balls and boxes on a plane by time slices (time: one sample of every pixel,\n"
-    "again and again), by spatial slices (spatial: tile after tile with all samples) and as a\n"
-    "whole (full).\n"
-    "ms: processor time of one thread up to this number of samples per pixel; rmse: error\n"
-    "against a picture of many samples [grey levels, premultiplied RGBA inside the bounds];\n"
-    "rmse_filtered: the same with the noise smoothed, as it is shown; spatial slices show\n"
-    "nothing in tiles that are not rendered yet. -adaptive: pixels with little noise get no\n"
-    "more samples.\n"
-    "Row `frames`: a picture cut into 64 frames of equally many samples. ms: mean of a frame;\n"
-    "frame_cv, frame_p95, frame_max: standard deviation, 95th percentile and maximum, divided\n"
-    "by the mean.\n"
-    "Row `budget`: the renderer's threads under the budget while the view turns by 3 degrees\n"
-    "a second: budget_mean: used time divided by the budget, over all frames; budget_p95_off:\n"
-    "95th percentile of the deviation of a frame's quotient from 1.";
+    "Path-traces balls and boxes on a plane with several methods. time: time slices, one\n"
+    "sample of every pixel again and again; spatial: spatial slices, tile after tile with all\n"
+    "samples; time-adaptive, spatial-adaptive: pixels with little noise get no more samples;\n"
+    "full: the whole picture at once.\n"
+    "ms: processor time of one thread until this number of samples per pixel; rmse: root mean\n"
+    "square error against a picture of many samples [grey levels of premultiplied RGBA, inside\n"
+    "the objects' bounds]; rmse_filtered: the error after the noise was smoothed, as in mfard.\n"
+    "Tiles that spatial slices have not reached yet are empty.\n"
+    "Rows `frames`: a picture is divided into 64 frames with equal numbers of samples. ms:\n"
+    "mean time of a frame; frame_cv, frame_p95, frame_max: standard deviation, 95th percentile\n"
+    "and maximum of the times, divided by their mean.\n"
+    "Rows `budget`: the product's tracer keeps to the budget of processor time in each frame\n"
+    "while the view turns by 3 degrees per second. budget_mean: used time of all frames\n"
+    "divided by their budget; budget_p95_off: 95th percentile of the deviation of this\n"
+    "quotient from 1, over single frames.";
 
 }  // namespace
 

@@ -33,7 +33,7 @@ std::map<std::string, std::vector<std::string>> rowsOf(const std::string& csv) {
     return out;
 }
 
-TEST(MfarEvalSlicing, MeasuresEachWayAndDrawsIt) {
+TEST(MfarEvalSlicing, MeasuresAndPlotsEachSlicingMethod) {
     const TempFolder folder;
     const std::string dir = folder.path().string();
     const Outcome outcome = execute(

@@ -62,7 +62,7 @@ FlowError errorAfter(const RigidTransform& motion,
     return flowError(result.flow, flowOfInverseDepth(depth, rig, T_still_frame));
 }
 
-TEST(StereoPeer, FollowsAnyMotionAcrossTheView) {
+TEST(StereoPeer, FindsTheFlowOfMotionsAcrossTheOpticalAxis) {
     for (const Vector3d& step : {Vector3d(-0.1, 0, 0), Vector3d(0.1, 0, 0), Vector3d(0, 0.1, 0),
                                  Vector3d(0.07, -0.06, 0.02)}) {
         const FlowError error = errorAfter(moved(3, {1, 2, 1}, step));
@@ -72,14 +72,14 @@ TEST(StereoPeer, FollowsAnyMotionAcrossTheView) {
     }
 }
 
-TEST(StereoPeer, BlockMatchingWorksAsWell) {
+TEST(StereoPeer, StereoBmFindsTheFlowToo) {
     const FlowError error =
         errorAfter(moved(3, {1, 2, 1}, {-0.1, 0, 0}), StereoPeer::Matcher::Block);
     EXPECT_GT(error.coverage, 0.9);  // no result for half a block at the top and at the bottom
     EXPECT_LT(error.epe, 0.3);
 }
 
-TEST(StereoPeer, HasNoAnswerWithoutABaselineAcrossTheView) {
+TEST(StereoPeer, HasNoResultWithoutEnoughMotionAcrossTheOpticalAxis) {
     EXPECT_EQ(errorAfter(moved(3, {1, 2, 1}, {0, 0, 0})).coverage, 0);
     EXPECT_EQ(errorAfter(moved(0, {1, 0, 0}, {0, 0, -0.2})).coverage, 0);
     EXPECT_EQ(errorAfter(moved(0, {1, 0, 0}, {0.05, 0, 0.2})).coverage, 0);
@@ -108,7 +108,7 @@ TEST(Rectification, PutsEveryPointOnTheSameRowAndNearerPointsFartherLeft) {
             }
 }
 
-TEST(Rectification, KeepsRectifiedPictures) {
+TEST(Rectification, LeavesPicturesThatAreRectifiedUnchanged) {
     CameraModel camera = crookedPairRig().video;
     camera.distortion = {};
     camera.fy = camera.fx;

@@ -12,7 +12,7 @@ bool isIdentity(const RigidTransform& t) {
            t.rotation.angularDistance(Eigen::Quaterniond::Identity()) < kSameView;
 }
 
-/// The usable still that is nearest in time, apart from one that is excluded.
+/// Index of the usable still that is nearest in time, except still `but`.
 std::optional<std::size_t> nearestStill(const Recording& recording, Timestamp frame,
                                         std::optional<std::size_t> but) {
     std::optional<std::size_t> best;

@@ -13,7 +13,7 @@ namespace mfar::eval {
 [[nodiscard]] std::optional<std::size_t> referenceStill(const Recording& recording,
                                                         Timestamp frame);
 
-/// The still that the same rule chooses if the first one is excluded.
+/// Index of the still that referenceStill() would choose if its result were excluded.
 [[nodiscard]] std::optional<std::size_t> secondStill(const Recording& recording, Timestamp frame);
 
 /// True if the still taken at time `still` shows the same view as the video frame at time `frame`:

@@ -16,7 +16,7 @@ Pose poseAt(std::int64_t ns, double x) {
     return {{ns}, {Eigen::Quaterniond::Identity(), {x, 0, 0}}};
 }
 
-TEST(ReferenceStill, IsTheNearestInTimeOrTheEarlierOfTwo) {
+TEST(ReferenceStill, IsTheNearestInTimeOrTheEarlierOfTwoEquallyNear) {
     const Recording recording = withStillsAt({100, 200, 400});
     EXPECT_EQ(referenceStill(recording, {190}), 1U);
     EXPECT_EQ(referenceStill(recording, {150}), 0U);
@@ -39,7 +39,7 @@ TEST(ReferenceStill, NeverShowsTheFramesOwnViewAtEqualTime) {
     EXPECT_EQ(referenceStill(withStillsAt({100}), {100}), std::nullopt);
 }
 
-TEST(ReferenceStill, ABaselineMakesTheSameInstantAnotherView) {
+TEST(ReferenceStill, WithABaselineTheStillOfTheSameTimeShowsAnotherView) {
     Recording recording = withStillsAt({100, 300});
     recording.rig.T_still_video.translation = {-0.014, 0, 0};
     EXPECT_EQ(referenceStill(recording, {100}), 0U);

@@ -35,10 +35,12 @@ void StillLearning::report(const char* program) const {
     const EnlargerLearner::Counts& counts = learner_.counts();
     fmt::print(
         stderr,
-        "{}: learned from {} stills ({} refused, {} showed nothing new), {} of {} classes; on "
-        "held-out pixels {:.2f} dB better than bicubic, shipped filters {:.2f} dB; guidance {:.2f} "
-        "of the still, {:.2f} of the video, from {} pairs of stills, on held-out pixels {:.2f} dB; "
-        "the finest detail differs by {:.2f} + {:.3f} of its variance\n",
+        "{}: learned from {} stills ({} refused, {} showed nothing new); {} of {} classes have a "
+        "learned filter; on held-out pixels it is {:.2f} dB better than bicubic, the shipped "
+        "filters {:.2f} dB; guidance: {:.2f} of the still's finest detail added, {:.2f} of the "
+        "video's removed, learned from {} pairs of stills, gain on held-out pixels {:.2f} dB; a "
+        "matched still leaves {:.2f} grey levels^2 + {:.3f} of the variance of the video's finest "
+        "detail unexplained\n",
         program, counts.stills, counts.refused, counts.repeated, counts.classes, enlarge::kUnique,
         counts.gainDb, counts.priorDb, counts.guidance.still, counts.guidance.video, counts.pairs,
         counts.guidanceGainDb, counts.fineMatch.noise, counts.fineMatch.share);

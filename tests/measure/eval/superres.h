@@ -17,12 +17,12 @@ struct SuperResRequest {
     std::vector<std::filesystem::path> recordings;
     std::vector<std::string> methods;              ///< names out of superResMethodNames()
     std::vector<std::filesystem::path> dnnModels;  ///< model files of further peers
-    bool classes = false;                          ///< also measure each method's gain per class
-    bool noStill = false;                          ///< enlarge the video without a still
-    int stills = 1;                                ///< 2: also use the second-nearest still in time
-    Degradation degradation;                       ///< applied to every still
-    Degradation videoDegradation;                  ///< applied to every frame of the video
-    int learn = 0;  ///< number of matched stills to learn from first; 0: default filters
+    bool classes = false;          ///< also measure each method's gain per MatchClass
+    bool noStill = false;          ///< enlarge the video without a still
+    int stills = 1;                ///< 2: also use the second-nearest still in time
+    Degradation degradation;       ///< applied to every still
+    Degradation videoDegradation;  ///< applied to every frame of the video
+    int learn = 0;  ///< number of matched stills to learn from first; 0: shipped filters
     /// Recordings to learn from. Empty: each recording learns from its own stills.
     std::vector<std::filesystem::path> learnFrom;
     PoseSource poses = PoseSource::Recorded;

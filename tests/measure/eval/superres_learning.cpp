@@ -51,7 +51,7 @@ void learnFrom(const Recording& recording, const SuperResRequest& request, int& 
                                          request.degradation,
                                          static_cast<std::uint64_t>(stillAt.ns)),
                                  stillAt, pose.still};
-            // The noise must differ from that of the measured frame.
+            // The added noise must differ from that in the measurement of the same frame.
             const Shot video{degrade(loadPicture(recording.video[frame].file),
                                      request.videoDegradation,
                                      ~static_cast<std::uint64_t>(at.ns) - 1),

@@ -45,7 +45,7 @@ public:
 class SuperResFactory {
 public:
     explicit SuperResFactory(double alpha) : alpha_(alpha) {}
-    /// Sets the filters of the product's methods; null: default filters.
+    /// Sets the filters of the product's methods; null: shipped filters.
     void setFilters(std::shared_ptr<const FilterBank> filters) { filters_ = std::move(filters); }
     /// Creates the GL context now, because other pipelines need it.
     void requireContext();

@@ -22,7 +22,7 @@ std::vector<SuperResSample> superResSamplesOf(const Recording& recording, int li
         const auto still = referenceStill(recording, video.time);
         if (!still) {
             fmt::print(stderr,
-                       "mfar-eval: {}: there is no other still for frame {}, which is skipped\n",
+                       "mfar-eval: {}: frame {} is skipped: no still shows another view than it\n",
                        recording.root.string(), video.time.ns);
             continue;
         }
@@ -48,9 +48,9 @@ cv::Mat loadHighRes(const SuperResSample& sample, const StereoRig& rig) {
     cv::Mat truth = loadPicture(sample.truth);
     const Size wanted = outputSize(rig);
     if (truth.cols != wanted.width || truth.rows != wanted.height)
-        throw EvalError(fmt::format("{}: truth has {}x{} pixels, but the output has {}x{}",
-                                    sample.truth.string(), truth.cols, truth.rows, wanted.width,
-                                    wanted.height));
+        throw EvalError(fmt::format(
+            "{}: the true picture has {}x{} pixels, but the output has {}x{}",
+            sample.truth.string(), truth.cols, truth.rows, wanted.width, wanted.height));
     if (truth.cols < 2 * kSuperResBorder + 11 || truth.rows < 2 * kSuperResBorder + 11)
         throw EvalError(fmt::format("{}: the picture is too small to leave out borders of {} px",
                                     sample.truth.string(), kSuperResBorder));

@@ -14,7 +14,7 @@ namespace mfar::eval {
 struct SuperResSample {
     RecordedImage video;
     RecordedImage still;
-    std::optional<RecordedImage> second;  ///< another still, if there is one
+    std::optional<RecordedImage> second;  ///< secondStill() of the frame, if there is one
     std::filesystem::path truth;
 };
 

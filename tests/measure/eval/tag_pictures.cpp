@@ -28,8 +28,8 @@ KnownTag parseTag(const std::string& line, const fs::path& file, int number) {
     for (const Eigen::Vector2d& corner : c)
         good = good && corner.allFinite();
     if (!good)
-        throw EvalError(
-            fmt::format("{}:{}: not \"id, (x y), (x y), (x y), (x y)\"", file.string(), number));
+        throw EvalError(fmt::format("{}:{}: the line is not \"id, (x y), (x y), (x y), (x y)\"",
+                                    file.string(), number));
     for (Eigen::Vector2d& corner : c)
         corner.array() -= 0.5;
     return out;
@@ -50,8 +50,8 @@ Eigen::Vector2d middle(const std::array<Eigen::Vector2d, 4>& c) {
     return (c[0] + c[1] + c[2] + c[3]) / 4;
 }
 
-/// Squared distance of two sets of corners, in the cyclic order that fits best: the true corners do
-/// not say which one is the tag's first.
+/// Squared distance of two sets of corners. Tries all cyclic orders and returns the smallest
+/// distance, because it is not known which of the true corners is the tag's first.
 double cornerError(const std::array<Eigen::Vector2d, 4>& a,
                    const std::array<Eigen::Vector2d, 4>& b) {
     double least = INFINITY;

@@ -36,8 +36,9 @@ struct TagScore {
     int wrong = 0;  ///< detections that match none of the known tags
 };
 
-/// Scores of searching the whole picture: `detector`, and `refined`, whose corners are refined as
-/// if the lens had no distortion. Uses families, decimation, threads and gamma of the options.
+/// Scores of the tags that are found in the whole picture, under two names. `detector`: with the
+/// detector's corners; `refined`: with corners that are refined as if the lens had no distortion.
+/// Uses families, decimation, threads and gamma of the options.
 [[nodiscard]] std::vector<std::pair<std::string, TagScore>>
 compareTags(const TagPictureFile& picture, const TrackerOptions& options);
 

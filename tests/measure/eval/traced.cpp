@@ -29,10 +29,11 @@ namespace {
 using Rgb = std::array<float, 3>;
 using Picture = std::vector<Rgb>;
 
-constexpr double kRate = 30;      // frames per second
-constexpr int kFirstFrames = 15;  // frames at the start in which no picture may exist yet
-constexpr float kPaper = 200;     // grey level of the paper under the layer
-constexpr double kFill = 0.5;     // diameter of the objects' ball over the picture's height
+constexpr double kRate = 30;  // frames per second
+constexpr int kFirstFrames =
+    15;                        // first frames, not scored: the first picture is still being traced
+constexpr float kPaper = 200;  // grey level of the background under the layer
+constexpr double kFill = 0.5;  // diameter of the objects' bounding sphere / picture's height
 constexpr auto kPatience = std::chrono::seconds(20);
 constexpr std::uint64_t kWorldSeed = 1;
 

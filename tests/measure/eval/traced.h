@@ -13,12 +13,12 @@ namespace mfar::eval {
 
 struct TracedRequest {
     std::vector<std::string> scenes;     ///< names out of warpSceneNames(), or glTF files
-    std::vector<synthetic::Path> paths;  ///< of the synthetic board's camera
+    std::vector<synthetic::Path> paths;  ///< camera paths of the synthetic board
     std::vector<std::string> methods;    ///< names out of tracedMethodNames()
     Size size{640, 480};                 ///< size of the layer
     double budgetMs = 8;                 ///< processor time of the path tracer per frame [ms]
     int frames = 90;                     ///< frames per path, at 30 per second
-    int every = 10;                      ///< two consecutive frames in this number are compared
+    int every = 10;                      ///< of this many frames, two consecutive ones are compared
     int truthSamples = 256;              ///< samples per pixel of the truth
     bool hdrVdp = false;                 ///< also compute HDR-VDP-2 of the compared frames
     std::filesystem::path truth;         ///< folder that keeps the truth; empty: traced again

@@ -26,7 +26,7 @@ constexpr const char* kTracedHelp =
 
 CLI::App* addTracedCommand(CLI::App& app, TracedRequest& request) {
     CLI::App* sub = app.add_subcommand(
-        "traced", "compare virtual objects with the truth while the camera moves");
+        "traced", "compare path-traced objects with the truth while the camera moves");
     sub->footer(kTracedHelp);
     request.scenes = warpSceneNames();
     request.paths = {synthetic::Path::Handheld, synthetic::Path::Orbit, synthetic::Path::Forward};

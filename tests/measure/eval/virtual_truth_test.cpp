@@ -16,7 +16,7 @@ VirtualObject objectAt(VirtualShape shape, const Eigen::Vector3d& position) {
     return out;
 }
 
-TEST(VirtualTruth, AxesOfAnEllipsoidAreItsSize) {
+TEST(VirtualTruth, SizeOfAnEllipsoidGivesItsAxes) {
     const VirtualObject sphere = objectAt(VirtualShape::Sphere, {0, 0, 2});
     EXPECT_NEAR(surfaceDepth(sphere, {}, {0, 0}), 1.95, 1e-12);
     // This ray just touches the side: it is the tangent from the origin to the ellipse.
@@ -25,7 +25,7 @@ TEST(VirtualTruth, AxesOfAnEllipsoidAreItsSize) {
     EXPECT_EQ(surfaceDepth(sphere, {}, {reach + 1e-6, 0}), 0);
 }
 
-TEST(VirtualTruth, ATurnedBoxShowsItsEdge) {
+TEST(VirtualTruth, ARotatedBoxIsFirstHitAtItsEdge) {
     VirtualObject box = objectAt(VirtualShape::Box, {0, 0, 2});
     box.size.setConstant(0.2);
     box.T_world_object.rotation = Eigen::AngleAxisd(std::numbers::pi / 4, Eigen::Vector3d::UnitY());
@@ -36,7 +36,7 @@ TEST(VirtualTruth, ATurnedBoxShowsItsEdge) {
     EXPECT_EQ(surfaceDepth(box, {}, {0, 0}), 0);
 }
 
-TEST(VirtualTruth, AQuadIsSeenFromBothSidesAndFlat) {
+TEST(VirtualTruth, AQuadIsFlatAndSeenFromBothSides) {
     VirtualObject quad = objectAt(VirtualShape::Quad, {0, 0, 2});
     quad.size.z() = 0;  // a quad has no depth: its size.z is ignored
     EXPECT_NEAR(surfaceDepth(quad, {}, {0.09, 0.04}), 2, 1e-12);

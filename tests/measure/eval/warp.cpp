@@ -20,7 +20,7 @@
 namespace mfar::eval {
 namespace {
 
-constexpr int kFrames = 12;  // frames per view, in which requests for holes and edges are answered
+constexpr int kFrames = 12;  // frames per view; meanwhile, pixels of holes and edges are traced
 constexpr double kInpaintRadius = 3;
 
 std::size_t objectPixels(const RenderedPicture& picture) {

@@ -11,7 +11,7 @@
 namespace mfar::eval {
 
 struct WarpRequest {
-    std::vector<double> degrees{0.5, 1, 2, 5, 10, 20};  ///< angles around the scene
+    std::vector<double> degrees{0.5, 1, 2, 5, 10, 20};  ///< angles by which the view is turned
     std::vector<std::string> scenes;                    ///< warpSceneNames() or glTF files
     std::vector<std::string> methods;                   ///< warpMethodNames()
     Size size{640, 480};

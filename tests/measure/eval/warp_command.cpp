@@ -13,19 +13,22 @@ namespace {
 constexpr const char* kWarpHelp =
     "Path-traces a picture of each scene, turns the camera about it, warps the picture to the\n"
     "new view, and compares it with a picture that is path-traced in that view.\n"
-    "Methods: none, push-pull, re-render, both: what fills the pixels that the picture does\n"
-    "not show; inpaint: Telea's method in OpenCV, in the holes of none; full: the picture is\n"
-    "traced anew.\n"
-    "psnr_db: of red, green and blue where the truth shows an object; hole_share: pixels that\n"
-    "the picture does not show, of objects and shadow, divided by the pixels of the objects;\n"
-    "reray_share: rays for pixels that are rendered to fill holes, divided by the rays of\n"
-    "full, and divided by those of the objects' pixels only; ms: time of the warp once all\n"
-    "pixels have arrived, of inpaint only, of tracing.";
+    "Methods differ in how they fill holes, the pixels that the warped picture does not show.\n"
+    "none: not; push-pull: from pixels around them; re-render: these pixels are traced; both:\n"
+    "re-render, and push-pull until the traced pixels arrive; inpaint: by Telea's method in\n"
+    "OpenCV; full: no warp, the whole picture is traced anew.\n"
+    "psnr_db: of red, green and blue where the truth shows an object; hole_share: holes in\n"
+    "objects and shadow, divided by the pixels of the objects; reray_share: rays that fill\n"
+    "holes, divided by the rays of full; reray_of_objects: the same rays, divided by those of\n"
+    "the objects' pixels only; ms: time of the warp after all traced pixels have arrived; of\n"
+    "inpaint: time of the inpainting only; of full: time of the tracing.";
 
 std::string isTurn(const std::string& text) {
     double degrees = -1;
     const bool number = CLI::detail::lexical_cast(text, degrees);
-    return number && degrees > 0 && degrees <= 180 ? "" : text + " is not above 0 and at most 180";
+    return number && degrees > 0 && degrees <= 180
+               ? ""
+               : text + " is not an angle above 0 and up to 180 degrees";
 }
 
 }  // namespace
@@ -41,7 +44,7 @@ CLI::App* addWarpCommand(CLI::App& app, WarpRequest& request, WarpFiles& files) 
            fmt::format("scenes: any of {}, or glTF files", fmt::join(warpSceneNames(), ", ")))
         ->delimiter(',');
     sub->add_option("--methods", request.methods,
-                    fmt::format("of {}", fmt::join(warpMethodNames(), ", ")))
+                    fmt::format("methods to measure, of: {}", fmt::join(warpMethodNames(), ", ")))
         ->delimiter(',')
         ->check(CLI::IsMember(warpMethodNames()));
     sub->add_option("--degrees", request.degrees, "angles by which the view is turned [degrees]")
@@ -54,11 +57,11 @@ CLI::App* addWarpCommand(CLI::App& app, WarpRequest& request, WarpFiles& files) 
     sub->add_option("--truth-samples", request.truthSamples, "samples per pixel of the truth")
         ->check(CLI::Range(1, 65536));
     sub->add_option("--hole-samples", request.holeSamples,
-                    "samples per pixel of pixels that are rendered to fill holes")
+                    "samples of each pixel that is traced to fill a hole")
         ->check(CLI::Range(1, 256));
     sub->add_option("--save", request.save,
                     "folder to write the pictures of every method and of the truth into");
-    sub->add_option("--svg", files.svg, "file to write a plot into");
+    sub->add_option("--svg", files.svg, "file to write a plot of the PSNR over the angle into");
     return sub;
 }
 

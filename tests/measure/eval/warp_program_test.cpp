@@ -14,7 +14,7 @@ namespace {
 using test::execute;
 using test::TempFolder;
 
-TEST(MfarEvalWarp, WritesARowForEachTurnAndMethodAndAPlot) {
+TEST(MfarEvalWarp, WritesARowForEachAngleAndMethodAndAPlot) {
     const TempFolder folder;
     const auto outcome =
         execute(folder, fmt::format("'{0}' warp --scenes still-life --width 64 --height 48 "

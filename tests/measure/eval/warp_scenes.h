@@ -14,8 +14,8 @@ namespace mfar::eval {
 /// Names of the scenes. `still-life`: balls and boxes next to and behind each other. `showpiece`:
 /// the daemon's own object on a plane that catches its shadow.
 [[nodiscard]] std::vector<std::string> warpSceneNames();
-/// Loads one of those scenes, or a glTF file, which stands on the plane in its own size. Throws
-/// EvalError.
+/// Loads a scene of warpSceneNames(), or a glTF file, whose model stands on the plane in its own
+/// size. Throws EvalError.
 [[nodiscard]] std::shared_ptr<const Scene> warpScene(const std::string& name);
 
 /// A camera with a slightly distorting lens. It looks at the centre of the scene's objects from a

@@ -67,8 +67,8 @@ void measure(int threads, int runs) {
     const TileWork work = wholeWork(kVideo);
     Flow2d flow(kVideo, {}, workers);
     const Flow2d::Luma luma{pyramids.video(), pyramids.still(), pyramids.words()};
-    row("flow, both ways", leastMs(runs, [&] { flow.run(luma, work, false); }));
-    row("flow, after the first", leastMs(runs, [&] { flow.run(luma, work, true); }));
+    row("flow, first frame", leastMs(runs, [&] { flow.run(luma, work, false); }));
+    row("flow, later frame", leastMs(runs, [&] { flow.run(luma, work, true); }));
     TileWork few = work;
     few.draw = TileWork::Draw::Tiles;
     for (auto& tile : few.flags)

@@ -10,8 +10,8 @@ namespace {
 
 using namespace enlarge;
 
-constexpr int kBorder = 12;           // the outermost pixels of the picture are skipped
-constexpr double kLeastPixels = 400;  // lower limit for learning and for checking
+constexpr int kBorder = 12;           // width of the border that is skipped [px]
+constexpr double kLeastPixels = 400;  // smallest number of pixels for learning, and for checking
 
 }  // namespace
 

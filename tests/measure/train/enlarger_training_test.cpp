@@ -29,7 +29,7 @@ EnlargerTraining::Outcome learnedFrom(int pictures, double noise) {
     return training.solve(20);
 }
 
-TEST(EnlargerTraining, FiltersLearnedFromDiscsBeatTheCubic) {
+TEST(EnlargerTraining, FiltersLearnedFromDiscsBeatCubicEnlarging) {
     const auto outcome = learnedFrom(16, 0);
     EXPECT_EQ(outcome.filters.size(), std::size_t{enlarge::kUnique});
     EXPECT_GT(outcome.used, 20);
@@ -42,7 +42,7 @@ TEST(EnlargerTraining, TheSamePicturesGiveTheSameFilters) {
     EXPECT_NE(learnedFrom(2, 1).filters, learnedFrom(2, 0).filters);
 }
 
-TEST(EnlargerTraining, ExactlyCubicSlopesGiveZeroFilters) {
+TEST(EnlargerTraining, SlopesThatTheCubicEnlargesExactlyGiveZeroFilters) {
     EnlargerTraining training;
     const twin::Grey slope =
         twin::greyOf({256, 256}, [](int x, int y) { return 20 + 0.5625 * x + 0.28125 * y; });
@@ -54,7 +54,7 @@ TEST(EnlargerTraining, ExactlyCubicSlopesGiveZeroFilters) {
             ASSERT_LE(std::abs(weight), 820) << "a tenth";
 }
 
-TEST(EnlargerTraining, ClassesWithoutPixelsToCheckGetNoFilter) {
+TEST(EnlargerTraining, ClassesWithoutHeldOutPixelsGetNoFilter) {
     EnlargerTraining training;
     for (int i = 0; i < 2; ++i)
         training.add({discs(i + 1), {}}, false);

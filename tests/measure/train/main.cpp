@@ -58,9 +58,11 @@ void learn(const Options& options) {
     const auto gain = [&](int by) {
         return 10 * std::log10(outcome.cubicError[by] / outcome.error[by]);
     };
-    fmt::print("{} pictures, {} of {} classes; on held-out pictures {:.2f} dB better than bicubic "
-               "with classes by gradient, {:.2f} dB by curvature\n",
-               pictures, outcome.used, enlarge::kUnique, gain(0), gain(1));
+    fmt::print(
+        "learned from {} pictures; {} of {} classes have a filter; on held-out pictures they "
+        "are better than bicubic by {:.2f} dB (classes by gradient) and {:.2f} dB (classes "
+        "by curvature)\n",
+        pictures, outcome.used, enlarge::kUnique, gain(0), gain(1));
     const FilterBank checked(outcome.filters);
     const std::vector<std::uint8_t> bytes = storedFilters(outcome.filters);
     std::ofstream file(options.out, std::ios::binary);
@@ -75,7 +77,7 @@ int main(int argc, char** argv) {
     CLI::App app("mfar-train-enlarger: learns the filters that mfar ships");
     app.footer(kHelp);
     Options options;
-    app.add_option("recording", options.recordings, "recordings, folders in the EuRoC layout")
+    app.add_option("recording", options.recordings, "folders of recordings, in the EuRoC layout")
         ->required();
     app.add_option("--out", options.out, "file to write the filters into")->required();
     CLI11_PARSE(app, argc, argv);

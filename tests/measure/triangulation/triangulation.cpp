@@ -13,11 +13,11 @@ namespace {
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 
-constexpr double kShortest = 1e-9;     // a shorter baseline counts as zero [m]
+constexpr double kShortest = 1e-9;     // length of a baseline up to which it counts as zero [m]
 constexpr double kLongestLine = 1e30;  // clamp [m] that keeps single precision finite
-constexpr float kLargestRho = 1e6F;    // greater inverse depths are rejected [1/m]
-constexpr float kNearPlane = 0.05F;    // least z, in a's orientation, of the ray (x, y, 1) of b
-constexpr float kNoAngle = 1e-9F;      // [normalised units] below this, rays count as parallel
+constexpr float kLargestRho = 1e6F;    // largest inverse depth that is not rejected [1/m]
+constexpr float kNearPlane = 0.05F;    // smallest z, in a's orientation, of b's ray (x, y, 1)
+constexpr float kNoAngle = 1e-9F;  // angle up to which rays count as parallel [normalised units]
 
 std::size_t pixelsOf(Size size) {
     return static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);

@@ -45,7 +45,7 @@ TEST(TriangulationOdd, InvalidFlowAndFlowOutOfViewAreUnknown) {
             }
 }
 
-TEST(TriangulationOdd, WithoutParallaxTheDepthIsZero) {
+TEST(TriangulationOdd, WithoutParallaxTheInverseDepthIsZero) {
     const std::vector<float> still(2UL * 64 * 48, 0.0F);
     for (const TriangulationMethod method : kBothMethods)
         for (const Vector3d& step :
@@ -99,7 +99,7 @@ TEST(TriangulationOdd, AnyFlowUnderAnyPoseGivesUsableNumbers) {
 }
 
 // The camera moves forward. The epipole is then a pixel of the picture, at which e is zero.
-TEST(TriangulationOdd, TheEpipoleItselfIsUnknown) {
+TEST(TriangulationOdd, DepthAtTheEpipoleIsUnknown) {
     twin::TwoViews views = plainViews(moved(0, Vector3d::UnitX(), {0, 0, -0.1}));
     views.a.cx = views.b.cx = 30;
     views.a.cy = views.b.cy = 20;

@@ -54,7 +54,7 @@ double inverseDepthOfMidpoint(const twin::TwoViews& v, const Vector2d& p, const 
     return twin::midpoint(v, p, f).inverseDepth;
 }
 
-TEST(Triangulation, IsWithinAMillionthDownToAHundredthOfADegree) {
+TEST(Triangulation, AgreesWithinAMillionthDownToAHundredthOfADegreeOfParallax) {
     const RigidTransform motions[] = {moved(0, Vector3d::UnitX(), {-0.1, 0, 0}),
                                       moved(1, {1, 2, 3}, {0.02, 0.1, 0.03}),
                                       moved(10, {-1, 2, -2}, {-0.3, -0.05, 0.05})};
@@ -76,7 +76,7 @@ TEST(Triangulation, IsWithinAMillionthDownToAHundredthOfADegree) {
 }
 
 // The camera moves forward into the scene. Depth is unknown at the epipole itself.
-TEST(Triangulation, IsWithinATenThousandthAroundTheEpipole) {
+TEST(Triangulation, AgreesWithinATenThousandthAroundTheEpipole) {
     const twin::TwoViews views = bentViews(moved(3, {1, 1, 2}, {0.002, 0.003, -0.1}));
     const auto flow = fieldOf(views.a.size, [&](const Vector2d& p) { return views.flow(p, 0.5); });
     const Vector3d direction = views.T_b_a.inverse().translation;
@@ -98,7 +98,7 @@ TEST(Triangulation, IsWithinATenThousandthAroundTheEpipole) {
     EXPECT_GT(near, 2000);
 }
 
-TEST(Triangulation, FindsTheDepthThatMadeTheFlow) {
+TEST(Triangulation, FindsTheDepthFromWhichTheFlowWasComputed) {
     const twin::TwoViews views = bentViews(moved(4, {2, 1, 1}, {-0.2, 0.05, 0.02}));
     const auto rho = [](const Vector2d& p) { return 0.2 + 0.001 * p.x() + 0.002 * p.y(); };
     const auto flow =
@@ -224,7 +224,7 @@ TEST(Triangulation, SigmaGrowsWithoutBoundAsTheBaselineVanishes) {
     }
 }
 
-TEST(Triangulation, TheResidualHasTheSignAndTheLengthOfTheFlowBesideTheLine) {
+TEST(Triangulation, ResidualIsTheSignedFlowNormalToTheEpipolarLine) {
     const twin::TwoViews views = plainViews(moved(0, Vector3d::UnitX(), {-0.2, 0, 0}));
     // Nearer points move to the left; a quarter turn clockwise from left is up.
     for (const double off : {-3.0, 0.5}) {

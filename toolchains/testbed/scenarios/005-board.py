@@ -1,4 +1,4 @@
-"""The emulated board itself, tested with standard tools: 30 frames per second, one still for each pulse."""
+"""The emulated board sends 30 frames per second and one still for each pulse. Tested with standard tools."""
 
 import re
 import statistics
@@ -25,8 +25,8 @@ def video(bed):
     assert len(times) == FRAMES, said
     pauses = [b - a for a, b in zip(times, times[1:])]
     rate = 1 / statistics.median(pauses)
-    print(f'        {rate:.1f} frames a second')
-    assert 29 < rate < 31, f'{rate:.1f} frames a second'
+    print(f'        {rate:.1f} frames per second')
+    assert 29 < rate < 31, f'{rate:.1f} frames per second'
 
 
 def stills(bed):

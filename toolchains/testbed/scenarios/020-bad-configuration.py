@@ -1,4 +1,5 @@
-"""A wrong configuration ends the service with exit code 78 and its place; it is not tried again."""
+"""With an invalid configuration, the service reports the place of the fault, ends with exit code 78 and is not
+restarted."""
 
 CONFIG = 'source = "cameras"\nsuperres.mode = "sometimes"\n'
 

@@ -1,4 +1,5 @@
-"""A killed service runs again within 5 s and becomes ready as after a start; its trigger line is released."""
+"""After the service is killed, it runs again within 5 s and is ready within 10 s more. Its trigger line is
+released."""
 
 LIMIT = 5  # s
 READY_LIMIT = 10  # s
@@ -13,6 +14,6 @@ def run(bed):
         seconds = bed.wait_for(
             f'[[ $(systemctl show -P MainPID mfard) != @(0|{old}) ]]', LIMIT)
         ready = bed.wait_for('systemctl -q is-active mfard', READY_LIMIT)
-        print(f'        back after {seconds:.1f} s, ready {ready:.1f} s later')
+        print(f'        runs again after {seconds:.1f} s, ready {ready:.1f} s later')
         assert bed.guest.edges.level() == 0, 'the trigger line is high'
     assert int(bed.property('NRestarts')) == TIMES

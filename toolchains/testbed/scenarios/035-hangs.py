@@ -1,7 +1,8 @@
-"""A service that stops making pictures is ended by its watchdog and restarted; its trigger line is released."""
+"""If the service stops making pictures, the watchdog ends it and systemd restarts it. Its trigger line is
+released."""
 
-WATCHDOG = 20  # s; six times as long for the first pictures
-LIMIT = WATCHDOG + 10  # s: the process is first asked to end, then killed
+WATCHDOG = 20  # watchdog's limit [s]; six times as long for the first pictures
+LIMIT = WATCHDOG + 10  # largest time until the restart [s]; systemd first sends SIGABRT, then SIGKILL
 
 
 def run(bed):
@@ -11,6 +12,6 @@ def run(bed):
     bed.run(f'kill -STOP {hung}')
     seconds = bed.wait_for(f'[[ $(systemctl show -P MainPID mfard) != @(0|{hung}) ]]', LIMIT)
     print(f'        runs again after {seconds:.1f} s')
-    assert seconds > WATCHDOG / 2, 'ended by something else'
+    assert seconds > WATCHDOG / 2, f'restarted after {seconds:.1f} s, before the watchdog could act'
     assert int(bed.property('NRestarts')) == 1
     assert bed.guest.edges.level() == 0, 'the trigger line is high'

@@ -1,4 +1,4 @@
-"""A reload applies the new configuration, and keeps the old one when the new one is invalid."""
+"""A reload applies the new configuration. If it is invalid, the service keeps the old one."""
 
 
 def run(bed):

@@ -1,4 +1,4 @@
-"""Video comes through libcamera at 30 frames per second, with less than 1 % of the frames lost."""
+"""libcamera delivers video at 30 frames per second and loses less than 1 % of the frames."""
 
 import re
 import statistics
@@ -13,6 +13,6 @@ def run(bed):
     assert len(times) == FRAMES, said
     rate = 1 / statistics.median(b - a for a, b in zip(times, times[1:]))
     dropped = int(re.search(r'^frames \d+ dropped (\d+)', said, re.MULTILINE)[1])
-    print(f'        {rate:.1f} frames a second, {dropped} of {FRAMES} dropped')
-    assert 29 < rate < 31, f'{rate:.1f} frames a second'
-    assert dropped < FRAMES / 100, f'{dropped} dropped'
+    print(f'        {rate:.1f} frames per second, {dropped} of {FRAMES} frames dropped')
+    assert 29 < rate < 31, f'{rate:.1f} frames per second'
+    assert dropped < FRAMES / 100, f'{dropped} of {FRAMES} frames dropped'

@@ -1,4 +1,4 @@
-"""The service gets every frame of the video, however long its own pictures take."""
+"""The service receives every video frame, even if its own pictures take long."""
 
 import json
 
@@ -13,12 +13,12 @@ def run(bed):
     after, end = counted(bed), bed.guest.clock()
     came, lost = (b - a for a, b in zip(before, after))
     rate = (came + lost) / (end - begin)
-    print(f'        {rate:.1f} frames a second, {lost} of {came + lost} lost by the sensor or the driver')
-    assert 27 < rate < 33, f'{rate:.1f} frames a second'
-    assert lost < (came + lost) / 100, f'{lost} lost'
+    print(f'        {rate:.1f} frames per second, {lost} of {came + lost} lost by the sensor or the driver')
+    assert 27 < rate < 33, f'{rate:.1f} frames per second'
+    assert lost < (came + lost) / 100, f'{lost} of {came + lost} frames lost'
 
 
 def counted(bed):
-    """Numbers of received frames, used or too late, and of lost frames."""
+    """(number of received frames, whether used or dropped in the mailbox; number of lost frames)."""
     stats = json.loads(bed.run('mfarctl stats'))
     return stats['frames'] + stats['drops']['mailbox'], stats['drops']['sensor']

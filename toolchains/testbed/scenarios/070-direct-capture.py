@@ -1,4 +1,4 @@
-"""Pictures and controls straight from a V4L2 driver, the kernel's own test driver vivid."""
+"""mfar's V4L2 code gets pictures from the kernel's test driver vivid and sets its controls."""
 
 
 def run(bed):
@@ -6,11 +6,11 @@ def run(bed):
     try:
         device = bed.run("v4l2-ctl --list-devices | sed -n '/vivid/,/^$/p' | "
                          "sed -n 's/^\\t\\(.dev.video[0-9]*\\)$/\\1/p' | head -n 1")
-        # By default the time stamps of vivid's frames are their ends, in the future.
+        # By default, the time stamps of vivid are the ends of the frames, which lie in the future.
         said = bed.run(f'/share/v4l2-probe {device} 640x480 30 --format YUYV --rate 30 '
                        'timestamp_source=1 Brightness=200', 120)
         assert bed.run(f'v4l2-ctl -d {device} -C brightness') == 'brightness: 200', said
         refused = bed.guest.status(f'/share/v4l2-probe {device} 640x480 1 trigger_mode=1')
-        assert refused == 2, f'a control that is not there: {refused}'
+        assert refused == 2, f'a control that does not exist was not refused: exit status {refused}'
     finally:
         bed.run('modprobe -r vivid')

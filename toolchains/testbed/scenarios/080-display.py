@@ -1,4 +1,4 @@
-"""A screen shows exactly the pictures sent to it, pixel by pixel: over KMS and over the framebuffer."""
+"""The screen shows exactly the pictures that were sent to it, over KMS and over the framebuffer."""
 
 PICTURES = 5
 

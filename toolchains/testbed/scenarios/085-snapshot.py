@@ -1,4 +1,4 @@
-"""A snapshot of the screen equals the picture on the display, pixel by pixel."""
+"""A snapshot of the screen by mfarctl equals the picture on the display, pixel by pixel."""
 
 from png import read_png
 
@@ -29,10 +29,10 @@ def compare(bed, screen):
         if bed.guest.screen() == shown:
             break
     else:
-        raise AssertionError('the picture does not come to rest')
+        raise AssertionError('the picture on the screen keeps changing')
     taken = read_png(bed.share / 'snapshot.png')
     assert taken[:2] == shown[:2], f'{screen}: {taken[:2]} instead of {shown[:2]}'
-    assert len(set(taken[2])) > 50, f'{screen}: nothing is to be seen'
+    assert len(set(taken[2])) > 50, f'{screen}: the snapshot shows almost no different values'
     wrong = sum(1 for a, b in zip(taken[2], shown[2]) if a != b)
     print(f'        {screen}: {shown[0]}x{shown[1]}, {wrong} bytes differ')
     assert wrong == 0, f'{screen}: {wrong} of {len(shown[2])} bytes differ'

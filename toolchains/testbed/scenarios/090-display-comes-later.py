@@ -1,12 +1,12 @@
-"""Started without a display, it shows the picture within a second after one is plugged in, and again after that was
-unplugged for a while: the display's own program, and the service."""
+"""A program that was started without a display shows its picture within a second after a display is plugged in. The
+service does so again after the display was unplugged for a while. Tested with mfar-display-probe and the service."""
 
 import re
 
 BOOT = {'display': False}
 LIMIT = 1  # s
-# A size that a screen may have: otherwise a service without a screen makes its pictures as large as stills,
-# which take a second each in the guest.
+# run() also sets a size that a screen may have. Without a screen, the service would otherwise make
+# pictures as large as stills, which take a second each in the guest.
 CONFIG = '''[superres]
 mode = "off"
 [status]
@@ -28,7 +28,7 @@ def run(bed):
 
 
 def of_the_probe(bed):
-    # The guest's own clock measures when the device came and when the picture was there.
+    # The guest's clock measures when the device appeared and when the picture was shown.
     bed.run('/share/mfar-display-probe auto 3 /share/shown.ppm 600 2>&1 '
             '| while read -r line; do echo "$(cut -d " " -f 1 /proc/uptime) $line"; done '
             '>/tmp/probe & echo started')
@@ -60,5 +60,5 @@ def of_the_service(bed):
 def shown_in_time(bed, picture, said):
     device = float(bed.run('dmesg | sed -n "s/^\\[ *\\([0-9.]*\\)\\].*Initialized virtio_gpu.*/\\1/p" '
                            '| tail -n 1'))
-    print(f'        picture {picture - device:.2f} s after the device')
+    print(f'        picture shown {picture - device:.2f} s after the device appeared')
     assert picture - device < LIMIT, said

@@ -1,10 +1,10 @@
-"""Fifty pulses yield fifty stills, matched correctly; late and missing stills are detected."""
+"""Fifty pulses give fifty stills, which are matched correctly. Late and missing stills are detected."""
 
 import re
 
 PULSES = 50
-PERIOD = 600  # ms
-JITTER = 100  # ms: USB pictures are timed on arrival
+PERIOD = 600  # time between pulses [ms]
+JITTER = 100  # jitter of the stills' times [ms], because USB pictures get their time on arrival
 PROBE = '/share/trigger-probe "Bed still" 2304x1728 gpiochip0 5'
 
 
@@ -20,7 +20,8 @@ def run(bed):
 
 
 def fire(bed, pulses):
-    """The matched stills as (number of pulses so far, number in the picture), and the counters."""
+    """Fires pulses. Returns the matched stills as (number of pulses so far, number in the picture), and the
+    counters."""
     first = bed.still.pulses
     said = bed.run(f'{PROBE} {pulses} {PERIOD} {JITTER} 2>/tmp/probe.err || cat /tmp/probe.err',
                    pulses * PERIOD / 1000 + 60)
@@ -44,9 +45,10 @@ def late_and_missing_stills(bed):
     bed.still.fault('missing')
     stills, counters = fire(bed, 6)
     print(f'        {counters}')
-    # The late still may be inside or outside the window; the missing one is requested again.
+    # The late still can arrive within the matching window or after it. The missing still is
+    # requested again.
     assert counters['lost'] >= 1 and counters['repeated'] >= 1, counters
     numbers = [still for _, still in stills]
-    assert 2 not in numbers, 'a still that was never sent'
+    assert 2 not in numbers, 'the probe reports a still that was never sent'
     assert numbers == sorted(set(numbers)), stills
     assert counters['fired'] == 6 + counters['repeated'], counters

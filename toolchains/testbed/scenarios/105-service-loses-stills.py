@@ -1,5 +1,5 @@
-"""The service matches fifty stills to their pulses; a missing still is requested again, a late one is not
-used."""
+"""The service matches fifty stills with their pulses. It requests a missing still again and does not use a late
+one."""
 
 import json
 import time
@@ -18,7 +18,7 @@ LIMIT = 60  # s
 
 
 def run(bed):
-    bed.held(True)  # at rest only the stills requested here are needed
+    bed.held(True)  # at rest, mfard itself requests only the first still
     try:
         counts = lose_stills(bed)
     finally:
@@ -43,22 +43,22 @@ def lose_stills(bed):
 
     bed.still.fault('late', 3)
     ask(bed)
-    # A USB picture is timed on arrival: when the late one comes, its repetition has been matched
-    # already.
+    # A USB picture gets its time on arrival. When the late still arrives, the still of the repeated
+    # pulse has already been matched.
     return counted(bed, fired=GOOD + 4, matched=GOOD + 2, lost=2, repeated=2, unmatched=1)
 
 
 def ask(bed):
-    # In the guest a picture may take longer than mfarctl waits; the still is taken nevertheless.
+    # In the guest, mfard may answer later than mfarctl waits; the still is taken nevertheless.
     bed.run('mfarctl trigger', check=False)
 
 
 def counted(bed, **wanted):
-    """Waits until the counters have these values; returns all."""
+    """Waits until these counters have these values. Returns all counters."""
     end = time.monotonic() + LIMIT
     while True:
         counts = json.loads(bed.run('mfarctl stats'))['trigger_line']
         if all(counts[name] == count for name, count in wanted.items()):
             return counts
-        assert time.monotonic() < end, f'{counts} instead of {wanted}'
+        assert time.monotonic() < end, f'the counters are {counts}; expected: {wanted}'
         time.sleep(0.1)

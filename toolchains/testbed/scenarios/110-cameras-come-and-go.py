@@ -1,4 +1,4 @@
-"""The service on the board's cameras: pictures flow, and each camera may be unplugged and comes back."""
+"""Each camera of the board is unplugged and plugged in again. The service reports that and continues."""
 
 import re
 import time
@@ -12,8 +12,8 @@ source = "none"
 interval_s = 0.1
 '''
 TIMES = 10
-SAID_LIMIT = 2  # s: a picture that changes takes about one second in the guest
-BACK_LIMIT = 3  # s
+SAID_LIMIT = 2  # largest time until the picture reports a lost camera [s]; a picture takes about 1 s in the guest
+BACK_LIMIT = 3  # largest time until a plugged camera is used again [s]
 
 
 def run(bed):
@@ -27,37 +27,38 @@ def run(bed):
 def come_and_go(bed):
     seconds = bed.fresh_service('display = "auto"\n' + bed.devices + CONFIG, 'WatchdogSec=120\n')
     print(f'        ready after {seconds:.1f} s')
-    bed.wait_for_pictures(10)  # the first pictures take long, as shaders are compiled
+    bed.wait_for_pictures(10)  # the first pictures take long, because shaders are compiled
     before = None
     for round_ in range(TIMES):
         for camera, role in ((bed.video, 'video camera'), (bed.still, 'still camera')):
             said = told_after(bed, camera.unplug)
             bed.wait_for(status(role), 20)
             back = back_after(bed, camera.plug)
-            print(f'        {role}: said after {said:.2f} s, back after {back:.2f} s')
-            assert said < SAID_LIMIT, f'{role}: said after {said:.1f} s'
-            assert back < BACK_LIMIT, f'{role}: back after {back:.1f} s'
+            print(f'        {role}: loss reported after {said:.2f} s, used again after {back:.2f} s')
+            assert said < SAID_LIMIT, f'{role}: loss reported after {said:.1f} s'
+            assert back < BACK_LIMIT, f'{role}: used again after {back:.1f} s'
         if round_ == 0:
             before = used(bed)
     after = used(bed)
-    print(f'        descriptors and threads {before} -> {after}')
-    assert after <= before, f'descriptors and threads grew from {before} to {after}'
+    print(f'        (file descriptors, threads): {before} -> {after}')
+    assert after <= before, f'(file descriptors, threads) grew from {before} to {after}'
     assert bed.property('NRestarts') == '0'
 
 
 def told_after(bed, event):
-    """Time until the screen's picture changes [s]."""
+    """Time from `event` until the picture on the screen changes [s]."""
     before = bed.guest.screen()
     begin = time.monotonic()
     event()
     while time.monotonic() < begin + 20:
         if differ(before[2], bed.guest.screen()[2]):
             return time.monotonic() - begin
-    raise AssertionError('the picture says nothing')
+    raise AssertionError('the picture on the screen did not change within 20 s')
 
 
 def back_after(bed, event):
-    """Time from the kernel's message to the service's message about the device, on the guest's clock [s]."""
+    """Time from the kernel's message about the new device to the service's message that all devices are there, on the
+    guest's clock [s]."""
     since = bed.now()
     event()
     said = f'journalctl --no-pager -q -u mfard -o short-monotonic --since "{since}" | grep "all devices are available again"'
@@ -68,7 +69,7 @@ def back_after(bed, event):
 
 
 def differ(a, b):
-    """True when at least a thousandth of the bytes differ."""
+    """True if at least a thousandth of the bytes differ."""
     return a != b and sum(x != y for x, y in zip(a[::97], b[::97])) > len(a) / 97 / 1000
 
 

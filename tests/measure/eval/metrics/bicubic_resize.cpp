@@ -6,7 +6,7 @@
 namespace mfar::eval {
 namespace {
 
-/// One input sample of a result, with its weight.
+/// One tap of the filter: for each output sample, the index and weight of an input sample.
 struct ResizeTap {
     std::vector<int> index;
     std::vector<double> weight;

@@ -10,7 +10,7 @@
 namespace mfar::eval {
 namespace {
 
-constexpr float kStep = 1.1F;    // neighbouring depths with a greater ratio are an edge
+constexpr float kStep = 1.1F;    // largest ratio of neighbouring depths without an edge
 constexpr double kDelta = 1.25;  // base of the thresholds (Eigen et al. 2014)
 
 bool isKnown(float rho) {

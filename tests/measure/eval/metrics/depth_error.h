@@ -11,8 +11,8 @@ namespace mfar::eval {
 
 /// Errors of inverse depths over the pixels with known truth. NaN if no pixel has one.
 struct DepthError {
-    double absrel = 0;        ///< median of |z - true z| / true z over pixels with known depth
-    double bad1 = 0;          ///< share with a disparity error above 1 px or with unknown depth
+    double absrel = 0;  ///< median of |z - true z| / true z over pixels with known depth
+    double bad1 = 0;    ///< share of pixels off by more than 1 px of disparity or without depth
     double completeness = 0;  ///< share of the pixels with known depth
     std::size_t pixels = 0;   ///< pixels with known truth
     /// Shares of the pixels whose depth and true depth differ by less than a factor of 1.25, 1.25^2

@@ -6,8 +6,8 @@ namespace mfar::eval {
 
 /// Flicker of scene points from one picture to the next. It is the root mean square change of a
 /// point's error along the true motion, divided by the square root of two. For independent errors
-/// this is their standard deviation. An error that stays with its point does not count. [grey
-/// levels]
+/// this is their standard deviation. An error that stays with its point does not count. The unit is
+/// grey levels.
 ///
 /// `before`, `after`: errors of two consecutive pictures, CV_64F, same size; `border` pixels are
 /// cut off at each side. `flow`: CV_32FC2 of the video's size, from the first picture to the second

@@ -11,8 +11,8 @@ namespace mfar::eval {
 /// Errors of a flow field over the pixels with known truth. NaN if no pixel has one.
 struct FlowError {
     double epe = 0;       ///< mean end-point error of the covered pixels [px]
-    double bad1 = 0;      ///< share with an error above 1 px or without a result
-    double bad2 = 0;      ///< share with an error above 2 px or without a result
+    double bad1 = 0;      ///< share of the pixels with an error above 1 px or without a result
+    double bad2 = 0;      ///< share of the pixels with an error above 2 px or without a result
     double coverage = 0;  ///< share of the known pixels with a finite result
     double angular = 0;   ///< mean angle of (u, v, 1) to the truth, covered pixels [degrees]
     std::size_t known = 0;

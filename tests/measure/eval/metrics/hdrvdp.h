@@ -23,11 +23,11 @@ struct HdrVdpDisplay {
 /// impossible display.
 [[nodiscard]] cv::Mat displayedLight(const cv::Mat& picture, const HdrVdpDisplay& display);
 
-/// What one orientation of one band of the pyramid contributes, for both pictures together.
+/// What one orientation of one band of the steerable pyramid contributes to the score.
 struct HdrVdpBand {
     int band = 1, orientation = 1;  ///< counted from 1
     cv::Size size;
-    double frequency = 0;  ///< [cycles/degree]
+    double frequency = 0;  ///< spatial frequency of the band [cycles/degree]
     double weight = 0;     ///< weight in the quality score of release 2.2.2
     double error = 0;      ///< root of the summed squares of D where the pictures differ, per pixel
     double sumAbsolute = 0;                  ///< sum of |D|; D is the masked difference

@@ -15,7 +15,7 @@
 namespace mfar::eval::hdrvdp {
 namespace {
 
-constexpr int kLeastSide = 17;  // a picture with a smaller side is not divided further
+constexpr int kLeastSide = 17;  // smallest side of a picture that is divided into bands
 int levelsOf(cv::Size size) {
     int out = 0;
     for (; size.width >= kLeastSide && size.height >= kLeastSide; ++out)
@@ -35,8 +35,8 @@ cv::Mat logOfMean(const cv::Mat& a, const cv::Mat& b) {
     return out;
 }
 
-/// Input for comparing one row of a band. `sensitivity` is null for the base, which has none of its
-/// own.
+/// Input for comparing one row of a band. `sensitivity` is null for the base (the coarsest picture
+/// of the pyramid), because addBase() applies sensitivity beforehand.
 struct BandRow {
     const double *difference, *self, *others, *beside, *sensitivity, *weight;
 };
@@ -138,7 +138,7 @@ cv::Mat BandComparison::neighbours(std::size_t b, std::size_t o) const {
         out += cv::max(bicubicResize(mask, size), 0) / divisor;
     };
     if (b > 0) add(bands_[b - 1], band.norm / 2);
-    if (b + 2 < bands_.size()) add(bands_[b + 1], 2 * band.norm);  // the base does not mask
+    if (b + 2 < bands_.size()) add(bands_[b + 1], 2 * band.norm);  // the base masks no band
     return out;
 }
 

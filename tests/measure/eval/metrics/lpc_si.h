@@ -6,14 +6,15 @@
 
 namespace mfar::eval {
 
-/// Ratio of a filter's spread to its centre frequency: in the authors' release 1.0, and in another
-/// version that is in circulation. Values of that version are higher and cannot be compared.
+/// Ratio of a filter's spread to its centre frequency. kLpcRelease is that of the authors' release
+/// 1.0, kLpcVariant that of another version that is in circulation. Sharpness values of the other
+/// version are higher and cannot be compared with those of the release.
 inline constexpr double kLpcRelease = 0.75, kLpcVariant = 0.33;
 
 /// What one of the eight orientations contributes.
 struct LpcOrientation {
     std::array<double, 3> filterSum{};    ///< sum of the filter's gains at each scale, finest first
-    double mean = 0, deviation = 0;       ///< of the finest scale's amplitude, without border
+    double mean = 0, deviation = 0;       ///< of the amplitude at the finest scale, without border
     double threshold = 0;                 ///< smaller amplitudes do not count
     double energy = 0;                    ///< sum of amplitudes above the threshold, whole picture
     std::array<double, 2> coarserMean{};  ///< mean amplitude at the other scales, whole picture
@@ -21,7 +22,7 @@ struct LpcOrientation {
 
 struct LpcSharpness {
     double index = 0;                ///< LPC-SI, [0, 1): larger is sharper
-    double mapMax = 0, mapMean = 0;  ///< of the local values, without the border
+    double mapMax = 0, mapMean = 0;  ///< maximum, mean of the pixels' values, without border
     std::array<LpcOrientation, 8> orientations{};
 };
 

@@ -37,11 +37,11 @@ TEST(LpcSi, IndexFallsWithBlurInBothVersions) {
     }
 }
 
-TEST(LpcSi, EmptyPicturesAreNotSharp) {
+TEST(LpcSi, ConstantPicturesAreNotSharp) {
     EXPECT_NEAR(lpcSi(cv::Mat(40, 50, CV_64F, cv::Scalar(128))), 0, 1e-9);
 }
 
-// lpcTiles() exists for this case.
+// lpcSi() of a picture with one sharp patch is high. lpcTiles() shows that the rest is not sharp.
 TEST(LpcTiles, DistinguishOneSharpPatchFromASharpPicture) {
     const cv::Mat sharp = shapes({320, 256});
     cv::Mat patched = softened(sharp, 3);

@@ -53,7 +53,7 @@ TEST(Ssim, EqualPicturesScoreOne) {
     EXPECT_NEAR(ssim(noise(), noise()), 1, 1e-12);
 }
 
-TEST(Ssim, ConstantPicturesScoreTheLuminanceTerm) {
+TEST(Ssim, OfConstantPicturesOnlyTheLuminanceTermCounts) {
     const double c1 = 6.5025, x = 100, y = 150;
     EXPECT_NEAR(ssim(constant(x), constant(y)), (2 * x * y + c1) / (x * x + y * y + c1), 1e-9);
 }
@@ -63,19 +63,19 @@ TEST(Ssim, InvertedStructureScoresNegative) {
     EXPECT_LT(ssim(255 - picture, picture), -0.5);
 }
 
-TEST(HarmRate, CountsPixelsWorseThanBicubicByMoreThanTwo) {
+TEST(HarmRate, CountsPixelsMoreThanTwoGreyLevelsWorseThanBicubic) {
     const cv::Mat truth = constant(100, {10, 10}), bicubic = constant(104, {10, 10});
     cv::Mat picture = truth.clone();
     EXPECT_EQ(harmRate(picture, bicubic, truth), 0);
-    picture.at<double>(0, 0) = 106;  // two levels above bicubic's error: within the tolerance
+    picture.at<double>(0, 0) = 106;  // two grey levels above bicubic's error: within the tolerance
     picture.at<double>(0, 1) = 106.5;
     picture.at<double>(0, 2) = 93;  // the sign of the error does not matter
     EXPECT_DOUBLE_EQ(harmRate(picture, bicubic, truth), 0.02);
 }
 
-TEST(TilesBelow, CountsWholeTilesThatAreWorseByMoreThanAQuarter) {
+TEST(TilesBelow, CountsCompleteTilesMoreThanAQuarterGreyLevelWorseThanBicubic) {
     const cv::Mat truth = constant(100, {5 * 64 + 63, 2 * 64 + 1}), bicubic = truth + 3;
-    cv::Mat picture = truth - 3.2;  // within the tolerance
+    cv::Mat picture = truth - 3.2;  // 0.2 worse than bicubic: within the tolerance
     EXPECT_EQ(tilesBelow(picture, bicubic, truth), 0);
     picture(cv::Rect(64, 64, 64, 64)) = 96;
     picture(cv::Rect(5 * 64, 0, 63, 129)) = 0;  // the rest of an incomplete tile
@@ -93,11 +93,11 @@ TEST(TilesBelow, OneBadPixelMakesATileWorse) {
     EXPECT_EQ(tilesBelow(picture, bicubic, truth), 1);
 }
 
-TEST(TilesBelow, WithoutWholeTilesTheShareIsNan) {
+TEST(TilesBelow, WithoutCompleteTilesTheShareIsNan) {
     EXPECT_TRUE(std::isnan(tilesBelow(constant(1), constant(2), constant(3))));
 }
 
-TEST(FlowError, MeasuresDistanceAndShares) {
+TEST(FlowError, MeasuresEndPointErrorAndSharesOfWrongPixels) {
     const cv::Mat truth(1, 4, CV_32FC2, cv::Scalar(1, 2));
     cv::Mat flow = truth.clone();
     flow.at<cv::Vec2f>(0, 1) += cv::Vec2f(0.3F, 0.4F);
@@ -119,7 +119,7 @@ TEST(FlowError, AngleIsBetweenDirectionsInSpaceAndTime) {
     EXPECT_NEAR(flowError(flow, truth).angular, 45 / 2.0, 1e-6);
 }
 
-TEST(FlowSparsification, LowConfidenceShouldMeanLargeErrors) {
+TEST(FlowSparsification, AreaIsZeroIfConfidenceFallsAsErrorsRise) {
     const cv::Mat truth(1, 4, CV_32FC2, cv::Scalar(1, 2));
     cv::Mat flow = truth.clone();
     flow.at<cv::Vec2f>(0, 1) += cv::Vec2f(1, 0);

@@ -15,14 +15,14 @@ cv::Mat rectangle(const cv::Rect& where) {
     return out;
 }
 
-TEST(OcclusionScore, TheTruthScoresPerfectly) {
+TEST(OcclusionScore, EqualMasksHaveFullOverlapAndNoBoundaryError) {
     const cv::Mat mask = rectangle({5, 6, 10, 8});
     const OcclusionScore score = occlusionScore(mask, mask);
     EXPECT_EQ(score.overlap, 1);
     EXPECT_EQ(score.boundary, 0);
 }
 
-TEST(OcclusionScore, AMoveByTwoPixelsIsSeen) {
+TEST(OcclusionScore, AnObjectShiftedByTwoPixelsHasLessOverlapAndABoundaryError) {
     const OcclusionScore score = occlusionScore(rectangle({7, 6, 10, 8}), rectangle({5, 6, 10, 8}));
     EXPECT_DOUBLE_EQ(score.overlap, 8.0 / 12);
     // Mean over boundary pixels. Right side: 8 pixels with an error of 2 px and 2 with 1 px. Left
@@ -40,7 +40,7 @@ TEST(OcclusionScore, EmptyMasksScoreNanOrZero) {
     EXPECT_TRUE(std::isnan(occlusionScore(some, none).boundary));
 }
 
-TEST(OcclusionScore, FlickerCountsPixelsThatChangeClass) {
+TEST(OcclusionScore, FlickerCountsPixelsThatAppearOrDisappear) {
     cv::Mat before(kSize, CV_32F, cv::Scalar(0)), now;
     before(cv::Rect(0, 0, 20, 10)).setTo(1);
     now = before.clone();

@@ -32,8 +32,8 @@ std::vector<double> sumsInOrder(std::span<const float> error, std::span<const fl
     return out;
 }
 
-/// For every removed share, the mean error of the remaining pixels over the mean error of all.
-/// Pixels are removed from the end of the order.
+/// For every share of removed pixels, the mean error of the remaining pixels divided by the mean
+/// error of all. Pixels are removed from the end of the order.
 std::vector<double> curveOf(const std::vector<double>& sums) {
     const std::size_t all = sums.size() - 1;
     const double mean = sums.back() / static_cast<double>(all);

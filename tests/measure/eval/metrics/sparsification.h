@@ -8,12 +8,12 @@ namespace mfar::eval {
 /// Tells whether a method knows where it is wrong (Ilg et al. 2018). Pixels are removed by their
 /// uncertainty, the most uncertain first; the mean error of the remaining ones is recorded.
 struct Sparsification {
-    static constexpr int kSteps = 100;  ///< number of steps of the removed share
+    static constexpr int kSteps = 100;  ///< number of steps in which all pixels are removed
 
-    std::vector<double> byConfidence;  ///< remaining mean error over that of all; starts at 1
-    std::vector<double> byError;       ///< the same in the best order: largest errors removed first
-    double ause = 0;                   ///< area between both curves; 0: the order is the best
-    double ausePerRandom = 0;          ///< `ause` over the area for a random order
+    std::vector<double> byConfidence;  ///< mean error of the remaining pixels / of all pixels
+    std::vector<double> byError;       ///< the same if the largest errors are removed first
+    double ause = 0;                   ///< area between both curves; 0: no order is better
+    double ausePerRandom = 0;          ///< `ause` divided by that of a random order
 };
 
 /// `error`, `confidence`: values of each pixel, finite; errors are not negative. Only the order of

@@ -16,7 +16,7 @@ std::vector<float> ramp(std::size_t n) {
     return out;
 }
 
-TEST(Sparsification, PerfectConfidenceGivesNoArea) {
+TEST(Sparsification, PerfectConfidenceGivesZeroArea) {
     const auto error = ramp(1000);
     std::vector<float> confidence;
     for (const float e : error)
@@ -37,7 +37,7 @@ TEST(Sparsification, EqualConfidencesGiveTheAreaOfARandomOrder) {
     EXPECT_NEAR(got.ause, 0.5, 0.01);  // the area between 1 and a straight line from 1 to 0
 }
 
-TEST(Sparsification, AReversedOrderIsWorseThanARandomOne) {
+TEST(Sparsification, ReversedConfidenceIsWorseThanRandomConfidence) {
     const auto error = ramp(100);
     EXPECT_GT(sparsification(error, error).ausePerRandom, 1.5);
 }

@@ -10,7 +10,7 @@ namespace mfar::eval {
 /// matlabPyrTools). They are applied by correlation. CV_64F, rows downwards.
 struct SteerableFilters {
     cv::Mat highPass;                    ///< 15x15, applied to the whole picture, sums to 0
-    cv::Mat firstLowPass;                ///< 9x9, applied before the first level, sums to 1
+    cv::Mat firstLowPass;                ///< 9x9, applied before the first pyramid level, sums to 1
     cv::Mat lowPass;                     ///< 17x17, applied before each halving; sums to 2
     std::array<cv::Mat, 4> orientation;  ///< 9x9 each, sum to 0
 };

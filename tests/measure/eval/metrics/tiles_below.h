@@ -4,8 +4,8 @@
 
 namespace mfar::eval {
 
-inline constexpr int kTileSide = 64;            ///< [px]
-inline constexpr double kTileTolerance = 0.25;  ///< [grey levels]
+inline constexpr int kTileSide = 64;            ///< side of a tile [px]
+inline constexpr double kTileTolerance = 0.25;  ///< default of `tolerance` [grey levels]
 
 /// Share of the tiles whose root mean square error exceeds that of plain bicubic enlargement by
 /// more than `tolerance` grey levels. There a method did visible harm. Incomplete tiles at the
