@@ -14,7 +14,7 @@
 namespace mfar::twin {
 
 struct RealSample {
-    double rho, sigma;  ///< [1/m]
+    double inverseDepth, sigma;  ///< [1/m]
 };
 
 /// Visibility of a virtual surface at inverse depth `inverse`, given a real sample. An unknown
