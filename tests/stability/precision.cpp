@@ -90,7 +90,7 @@ std::vector<float> assessedStillPixels(const StereoRig& rig) {
     const Size cells = cellsOf(rig.video.size);
     const TestPicture even(rig.video.size, PixelFormat::Rgba8, 128);
     const LevelPair pair(even, even);
-    const gpu::Buffer cells(32UL * cells.width * cells.height);
+    const gpu::Buffer flows(32UL * cells.width * cells.height);
     const gpu::Texture displacement(cells, gpu::TexelFormat::Rgba32F);
     const gpu::Texture statistics(cells, gpu::TexelFormat::Rgba32F);
     gpu::ComputePass<params::AssessCells> pass("superres_assess.comp");
@@ -109,7 +109,7 @@ std::vector<float> assessedStillPixels(const StereoRig& rig) {
               .stillHeight = 1728,
               .scaleX = 3.6F,
               .scaleY = 3.6F},
-             {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, cells),
+             {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, flows),
               gpu::storage(2, pair.tiles.buffer()), gpu::imageWrite(0, displacement),
               gpu::imageWrite(1, statistics)},
              {gpu::groupsFor(cells.width, 4), gpu::groupsFor(cells.height, 4), 1});

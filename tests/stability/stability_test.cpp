@@ -70,10 +70,10 @@ TEST(HostileInput, InputDependsOnTheSeedAlone) {
 
 // The recursion of the depth filter in double precision.
 struct DoubleFilter {
-    double rho, variance;
+    double inverseDepth, variance;
     void fuse(double measured, double error, double leastShare) {
         const double gain = variance / (variance + error);
-        rho += gain * (measured - rho);
+        inverseDepth += gain * (measured - inverseDepth);
         variance = std::max((1 - gain) * variance, leastShare * error);
     }
 };

@@ -167,8 +167,8 @@ TEST_F(Assess, GainStatisticsMatchTheOracle) {
     twin::Cells field{forward, std::vector<float>(4UL * forward.width * forward.height)};
     for (float& v : field.values)
         v = flow(random);
-    gpu::Buffer cells(field.values.size() * 4);
-    cells.write(std::span<const float>(field.values));
+    gpu::Buffer flows(field.values.size() * 4);
+    flows.write(std::span<const float>(field.values));
     const gpu::Texture out(cells, gpu::TexelFormat::Rgba32F);
     gpu::ComputePass<params::MeasureGain> pass("superres_gain.comp");
     pass.run({.video = pair.pyramids.video()[1],
@@ -179,7 +179,7 @@ TEST_F(Assess, GainStatisticsMatchTheOracle) {
               .forwardRows = forward.height,
               .forward = 0,
               .tileColumns = pair.tiles.work().tiles.width},
-             {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, cells),
+             {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, flows),
               gpu::storage(2, pair.tiles.buffer()), gpu::imageWrite(0, out)},
              {4, 3, 1});
     ASSERT_EQ(a.size, half);

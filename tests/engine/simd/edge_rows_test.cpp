@@ -31,21 +31,21 @@ TEST(OpenRow, PixelsAreOpenAtEdgesAndWhereDepthIsUnknown) {
 
 struct Scene {
     Size size{61, 47};  // number of voters in each direction
-    AlignedRows<float> rho{size}, variance{size}, red{size}, green{size}, blue{size};
+    AlignedRows<float> inverseDepth{size}, variance{size}, red{size}, green{size}, blue{size};
 
     explicit Scene(double invalidShare) {
         std::mt19937 random(4);
         std::uniform_real_distribution<float> share(0, 1);
         for (int j = 0; j < size.height; ++j)
             for (int i = 0; i < size.width; ++i) {
-                rho[j][i] = share(random) < invalidShare ? -1 : 1 + share(random);
+                inverseDepth[j][i] = share(random) < invalidShare ? -1 : 1 + share(random);
                 variance[j][i] = share(random);
                 for (auto* channel : {&red, &green, &blue})
                     (*channel)[j][i] = std::floor(60 * share(random));
             }
     }
     [[nodiscard]] Voters voters() const {
-        return {rho.rows(), variance.rows(), red.rows(), green.rows(), blue.rows()};
+        return {inverseDepth.rows(), variance.rows(), red.rows(), green.rows(), blue.rows()};
     }
 };
 

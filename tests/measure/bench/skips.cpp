@@ -123,7 +123,7 @@ struct FrameTruth {
     cv::Mat luma;     ///< luma of the output's size, CV_64F
     cv::Mat without;  ///< pixels at which no object can be shown; CV_8U at the output's size
     cv::Mat visible;  ///< pixels that show an object; CV_8U at the video's size
-    cv::Mat silhouette, undecided, rho;
+    cv::Mat silhouette, undecided, inverseDepth;
 };
 
 FrameTruth truthOf(SyntheticBoard& board, const Case& one, Timestamp time) {
