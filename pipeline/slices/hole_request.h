@@ -23,7 +23,8 @@ struct HoleRequest {
     std::shared_ptr<const Scene> source{};
 };
 
-/// The rendered pixels. Values are as in RenderedPicture, one for each entry of `pixels`.
+/// The answer to a HoleRequest. Colours, depths, ids and light have one value for each entry of
+/// `pixels`, defined as in RenderedPicture.
 struct HoleAnswer {
     RenderView view;
     std::vector<std::uint32_t> pixels;  ///< in ascending order

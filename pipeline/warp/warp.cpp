@@ -166,8 +166,8 @@ void Warp::answer(const HoleAnswer& answer) {
     if (answer.colour.size() != pixels.size() || answer.depth.size() != pixels.size() ||
         answer.id.size() != pixels.size() ||
         (!answer.light.empty() && answer.light.size() != pixels.size()))
-        throw std::invalid_argument(
-            "a hole answer must have one colour, depth and id, and one light or none, per pixel");
+        throw std::invalid_argument("a hole answer must have a colour, a depth and an id for each "
+                                    "pixel, and a light for each pixel or for none");
     if (std::ranges::any_of(pixels, [&](std::uint32_t p) { return p >= count; }))
         throw std::invalid_argument("a hole answer has a pixel outside the virtual layer");
     if (!isFinite(answer.view.T_world_camera))
