@@ -65,7 +65,7 @@ private:
     std::vector<double> taken_, seen_;
 };
 
-/// Resolves the whole picture at once.
+/// Converts the whole film to a picture at once.
 void resolve(const Film& film, const RenderView& view, const Exposure& exposure,
              RenderedPicture& out, bool filter = false);
 

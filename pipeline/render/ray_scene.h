@@ -35,7 +35,7 @@ struct RayHit {
 /// Decides whether a point of a triangle is a hole. Any thread may call it.
 struct HoleTest {
     bool (*isHole)(const void* context, std::uint32_t triangle, float u, float v) = nullptr;
-    const void* context = nullptr;  ///< must outlive the scene
+    const void* context = nullptr;  ///< argument of isHole(); must outlive the RayScene
 };
 
 /// Triangle meshes in a common coordinate frame, in which Embree finds the hits of rays. After

@@ -17,7 +17,7 @@ struct PaintLevel {
     std::uint32_t size;   ///< width [texels] in the low, height in the high 16 bits
 };
 
-/// Data for painting a triangle. It fills one cache line, from which lanes gather words.
+/// Data for painting a triangle. It fills one cache line, from which vector lanes gather words.
 struct PaintTriangle {
     RasterPlane perZ, u, v;      ///< 1 / z, u / z and v / z on the grid; set only for triangles
                                  ///< that are drawn
@@ -34,8 +34,8 @@ struct PaintInput {
     const PaintTriangle* triangles;
 };
 
-/// Pixels of a row of the layer, which has half of the grid's resolution. Rows of the grid have
-/// AlignedRows::kPadding to spare.
+/// Pixels of a row of the layer, which has half of the grid's resolution. Rows of the grid must
+/// have AlignedRows::kPadding bytes of padding.
 struct PaintRow {
     int x, y, count;                                   ///< first pixel, number of pixels
     const std::uint32_t *upper, *lower;                ///< surfaces of the quarters, from `x` on

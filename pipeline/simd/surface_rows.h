@@ -46,8 +46,8 @@ struct RasterPlane {
     float first = 0, perX = 0, perY = 0;
 };
 
-/// A prepared triangle. Edges always run from the upper to the lower corner. So both triangles of
-/// an edge cross a row at the same place, and no pixel between them is omitted or drawn twice.
+/// A prepared triangle. Its edges run from the upper to the lower corner. So two triangles with a
+/// common edge cross a row at the same x, and no pixel between them is omitted or drawn twice.
 struct RasterTriangle {
     float top, middle, bottom;    ///< y of the corners
     float longX, upperX, lowerX;  ///< x at the upper end of each edge
@@ -80,7 +80,7 @@ struct RasterName {
 /// Prepares a triangle for drawing. Returns false if it covers no row's centre or has no area.
 [[nodiscard]] bool makeTriangle(const RasterCorner (&corners)[3], const RasterName& name,
                                 RasterTriangle& out);
-/// As makeTriangle(), but with a mask.
+/// Prepares a triangle with a mask; see makeTriangle().
 [[nodiscard]] bool makeMasked(const RasterCorner (&corners)[3], const RasterName& name,
                               const RasterMask& mask, MaskedTriangle& out);
 

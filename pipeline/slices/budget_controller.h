@@ -51,11 +51,11 @@ public:
     [[nodiscard]] double portionMs() const;
     /// Reports the time that a granted portion took. Negative and non-finite values count as 0.
     void spent(const BudgetGrant& grant, std::int64_t samples, double ms);
-    /// Reports other work that belongs to the budget. It does not change the estimated cost of a
+    /// Reports other work that belongs to the budget. It does not change the estimated time per
     /// sample.
     void spentElsewhere(double ms);
 
-    /// Estimated cost of a sample [ms]; 0 before the first portion.
+    /// Estimated time per sample [ms]; 0 before the first portion.
     [[nodiscard]] double msPerSample() const { return msPerSample_; }
     [[nodiscard]] double msPerFrame() const { return budget_; }
     /// Time used in the current frame [ms].
@@ -64,7 +64,7 @@ public:
 
 private:
     void learn(double msPerSample);
-    /// Part of the debt that a new frame repays [ms].
+    /// Part of debt_ that a new frame repays [ms].
     [[nodiscard]] double repayment(bool workWaits) const;
 
     static constexpr std::size_t kCosts = 9;

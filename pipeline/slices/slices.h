@@ -52,7 +52,7 @@ using PixelStates = std::function<PixelState(std::uint32_t)>;
 /// Tiles, and the pixels in a tile, are in Morton order (G. M. Morton, "A computer oriented
 /// geodetic data base", 1966), so that rays that are traced together hit the same objects.
 /// The number of samples of a pixel depends only on the errors in its tile. It is therefore the
-/// same in both orders and does not depend on how the work is distributed.
+/// same for both values of Slicing, and does not depend on which thread gets which portion.
 ///
 /// Slicing::Time begins with a turn that traces a ray through every pixel's centre. Pixels whose
 /// error is small after this turn get no samples. The first samples are taken in the next three
@@ -87,8 +87,8 @@ public:
     /// Whether no portion is outstanding and every pixel either has samples() samples or needs no
     /// more. Then the picture may be shown. Also true before the first turn.
     [[nodiscard]] bool turnComplete() const;
-    /// Number of samples that every pixel had, or did not need, after the last complete turn.
-    /// Slicing::Spatial has only one turn.
+    /// Number n of samples after the last complete turn: each pixel had n samples, or fewer if it
+    /// needed no more. Slicing::Spatial has only one turn.
     [[nodiscard]] int samples() const { return samples_; }
     /// Number of complete turns. In Slicing::Time, turn 1 is the ray through the centres, and turns
     /// 2 to 4 take the first samples.
