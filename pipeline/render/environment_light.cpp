@@ -26,8 +26,8 @@ double accumulate(std::span<const double> weights, float* shares) {
     return sum;
 }
 
-/// The interval of a cumulative distribution that contains u, and the relative position of u in
-/// this interval, in [0, 1).
+/// Where a number lies in a cumulative distribution: index of its interval, and relative position
+/// in this interval, in [0, 1).
 struct Drawn {
     int index;
     float rest;
@@ -57,8 +57,8 @@ EnvironmentLight::EnvironmentLight(std::shared_ptr<const Environment> environmen
             std::cos(kTurn / 2 * static_cast<float>(row) / static_cast<float>(size_.height)));
     rows_.resize(static_cast<std::size_t>(size_.height) + 1);
     texels_.resize((width + 1) * static_cast<std::size_t>(size_.height));
-    // Brightness of the interpolated picture: interpolation spreads the light of a texel over half
-    // of each neighbouring texel.
+    // Brightness of each texel of the interpolated picture. Interpolation spreads the light of a
+    // texel over half of each neighbouring texel.
     std::vector<double> brightnesses;
     double sum = 0;
     for (int row = 0; row < size_.height; ++row)
@@ -68,7 +68,7 @@ EnvironmentLight::EnvironmentLight(std::shared_ptr<const Environment> environmen
         }
     const double mean = sum / (2.0 * size_.width);
     dark_ = !(sum > 0);
-    // Light up to about the mean is found by sampling the surface's reflection (see the class).
+    // sample() returns only directions whose light exceeds the mean; see EnvironmentLight.
     for (double& b : brightnesses)
         b = std::max(0.0, b - (1 + kEvenLight) * mean);
     std::vector<double> rowWeights;

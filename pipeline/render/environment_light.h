@@ -11,9 +11,9 @@ namespace mfar {
 /// Light from an environment picture, interpolated between texels.
 /// The probability density of a sampled direction is constant on each texel (Pharr, Jakob,
 /// Humphreys, Physically Based Rendering, 12.5). It is proportional to the excess of the texel's
-/// luminance over the mean over all directions. Light up to the mean is found better by sampling
-/// the surface's reflection (MIS compensation, Karlik et al. 2019). A uniform picture is not
-/// sampled at all.
+/// luminance over the mean luminance of all directions. Light up to the mean is found better by
+/// sampling the surface's reflection (MIS compensation, Karlik et al. 2019). A uniform picture is
+/// not sampled at all.
 class EnvironmentLight {
 public:
     /// If `environment` is null, this light is dark.
@@ -38,11 +38,11 @@ private:
 
     std::shared_ptr<const Environment> environment_;
     Size size_;
-    std::vector<float> tops_;    // world z of each row's upper edge, then of the last row's lower
-                                 // edge
-    std::vector<float> rows_;    // cumulative distribution over the rows, from 0 to 1
-    std::vector<float> texels_;  // for each row, the cumulative distribution over its texels: width
-                                 // + 1 values
+    // World z of the unit directions on each row's upper edge. The last entry is for the last row's
+    // lower edge.
+    std::vector<float> tops_;
+    std::vector<float> rows_;    // cumulative probability of the rows, from 0 to 1
+    std::vector<float> texels_;  // for each row: cumulative probability of texels, width + 1 values
     bool dark_ = true, sampled_ = false;
 };
 

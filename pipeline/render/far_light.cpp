@@ -12,14 +12,17 @@ namespace mfar {
 namespace {
 
 constexpr float kFullSphere = 4 * std::numbers::pi_v<float>;
-constexpr int kFinest = 256;  // intervals per side; 0.45 degrees each at the poles
+// Intervals per side of the finest pyramid level; 0.45 degrees each at the poles.
+constexpr int kFinest = 256;
 constexpr int kCoarsest = 8;  // intervals per side of the coarsest pyramid level
 constexpr int kDiffuseEdge = 16;
-constexpr int kIntegrated = 32;  // intervals per side of the level from which irradiance is summed
-constexpr int kSamples = 64;     // samples per lobe
+// Intervals per side of the pyramid level from which the irradiance is summed.
+constexpr int kIntegrated = 32;
+constexpr int kSamples = 64;  // samples per reflection lobe
 
-/// Roughness and resolution of a table of mirrored light. Lobes sharper than those of the first
-/// table are interpolated between the first table and the environment itself.
+/// Roughness and resolution of a table of mirrored light. If a reflection lobe is sharper than that
+/// of the first table, its light is interpolated between the first table and the environment
+/// itself.
 struct MirrorLevel {
     float roughness;
     int edge;
@@ -31,8 +34,8 @@ float signOf(float x) {
     return x < 0 ? -1.0F : 1.0F;
 }
 
-/// Weight of texel i along one axis. It is 1/2 on the border, because border texels occur twice in
-/// the table.
+/// Weight of texel i in a sum over all directions, along one axis. It is 1/2 on the border, because
+/// each direction on the border has two texels.
 float partOfBorder(int i, int edge) {
     return i == 0 || i == edge - 1 ? 0.5F : 1.0F;
 }
@@ -40,7 +43,8 @@ float partOfBorder(int i, int edge) {
 /// Solid angle [sr] of the texel at `direction` in a table.
 float solidAngle(const Eigen::Vector3f& direction, int edge) {
     const float step = 2.0F / static_cast<float>(edge - 1);
-    const float norm1 = direction.lpNorm<1>();  // 1 / distance of the octahedron's surface
+    // 1 / (distance of the octahedron's surface in this direction)
+    const float norm1 = direction.lpNorm<1>();
     return step * step * norm1 * norm1 * norm1;
 }
 
@@ -227,8 +231,8 @@ Eigen::Vector3f FarLight::mirrored(const Eigen::Vector3f& direction, float rough
     const auto i = static_cast<std::size_t>(
         std::min<std::ptrdiff_t>(above - kMirrorLevels.begin(), kMirrorLevels.size() - 1));
     if (i == 0) {
-        // Interpolates between a perfect mirror and the first level. The level's share is
-        // proportional to the width of the reflection lobe.
+        // Interpolates between a perfect mirror and the first table of mirrored light. The table's
+        // share is proportional to the width of the reflection lobe.
         const float share =
             alphaOf(std::max(roughness, 0.0F)) / alphaOf(kMirrorLevels.front().roughness);
         const Eigen::Vector3f sharp = radiance(direction, environment_.radiance(direction));

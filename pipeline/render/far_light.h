@@ -12,7 +12,7 @@
 namespace mfar {
 
 /// An interpolated function of a direction, stored as a row-major table on the octahedral map
-/// (Cigolle et al. 2014). Texels on the border of the table occur twice.
+/// (Cigolle et al. 2014). Each direction on the border of the table has two texels.
 class DirectionTable {
 public:
     /// `edge`: texels per side, at least 2.
@@ -37,8 +37,8 @@ private:
 };
 
 /// Light that would reach a point if there were no objects. Above the horizon it comes from the
-/// environment. Below the horizon it comes from a ground of uniform radiance if there is a real
-/// surface (world z is up). The sun's direct light is not included.
+/// environment. Below the horizon it comes from a ground of uniform radiance if the scene has a
+/// shadow catcher (world z is up). The sun's direct light is not included.
 /// Integrals over this light are precomputed in tables, so that a surface's light is known without
 /// tracing a ray. Rays are traced only to measure how the objects change the light.
 class FarLight {
@@ -47,7 +47,7 @@ public:
              const ShadowCatcher& catcher);
 
     [[nodiscard]] bool dark() const { return dark_; }
-    /// Mean radiance over all directions and channels.
+    /// Mean radiance over all directions and colour channels.
     [[nodiscard]] float brightness() const { return brightness_; }
     /// Radiance from a direction. `environment` is the environment's radiance from there.
     [[nodiscard]] Eigen::Vector3f radiance(const Eigen::Vector3f& direction,
@@ -63,8 +63,8 @@ public:
     /// so the result is an approximation.
     [[nodiscard]] Eigen::Vector3f mirrored(const Eigen::Vector3f& direction, float roughness) const;
 
-    /// Returns tables of mirrored() and, for roughness 0, of the light itself. The sun is not in
-    /// them.
+    /// Returns tables of mirrored() and, for roughness 0, of the light itself. The tables do not
+    /// contain the sun.
     [[nodiscard]] MirrorLight tables() const;
 
 private:

@@ -8,16 +8,16 @@
 
 namespace mfar {
 
-/// CameraModel::unproject() from a table with a node every few pixels. The error inside the picture
-/// is below 0.05 px if the lens model is one-to-one there (0.01 px at a field of view of 60
-/// degrees).
+/// A fast approximation of CameraModel::unproject(). It interpolates in a table with a node every
+/// few pixels. The error inside the picture is below 0.05 px if the lens model is one-to-one there
+/// (0.01 px at a field of view of 60 degrees).
 class LensRays {
 public:
     explicit LensRays(const CameraModel& camera);
 
     [[nodiscard]] const CameraModel& camera() const { return camera_; }
-    /// Normalised ray (x/z, y/z) of a point in the picture [px]. The point may be up to a pixel
-    /// outside.
+    /// Normalised ray (x/z, y/z) of a point [px]. The point may be up to a pixel outside the
+    /// picture.
     [[nodiscard]] Eigen::Vector2f at(float x, float y) const;
     /// The smallest rectangle of whole table cells that contains all pixels whose ray is in the box
     /// from `least` to `most`.

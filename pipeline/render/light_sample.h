@@ -8,7 +8,7 @@ namespace mfar {
 struct LightSample {
     Eigen::Vector3f direction{0, 0, 1};  ///< in the world, unit length
     Eigen::Vector3f radiance{0, 0, 0};
-    float density = 0;  ///< [1/sr]; 0: no light was found
+    float density = 0;  ///< probability density of `direction` [1/sr]; 0: no light was found
 };
 
 /// Rotation whose columns x, y, z are an orthonormal frame with z = `normal` (Duff et al. 2017).

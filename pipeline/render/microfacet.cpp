@@ -15,8 +15,8 @@ constexpr float kLeastAlpha = 1e-3F;
 constexpr int kAngles = 32, kRoughnesses = 32;
 constexpr std::uint32_t kAlbedoSamples = 256;
 
-/// Tables over roughness and sqrt(mu). The square root puts more nodes where the albedo changes
-/// fast.
+/// Tables of the specular albedo over roughness and sqrt(mu). The square root puts more nodes where
+/// the albedo changes fast.
 struct AlbedoTables {
     std::array<std::array<SpecularAlbedo, kAngles>, kRoughnesses> at;
     std::array<SpecularAlbedo, kRoughnesses> mean;
@@ -68,7 +68,8 @@ const AlbedoTables& albedoTables() {
     return tables;
 }
 
-/// Position in a table of a value in [0, 1].
+/// Position of a value from [0, 1] in a table: the node before it, and the distance from that node
+/// as a share of the distance between nodes.
 struct Place {
     std::size_t index;
     float rest;
@@ -87,7 +88,7 @@ SpecularAlbedo between(const SpecularAlbedo& a, const SpecularAlbedo& b, float s
 }  // namespace
 
 float Ggx::density(const Eigen::Vector3f& h) const {
-    // This sum of squares is used because 1 - z^2 would lose its digits at the peak of a narrow
+    // The sum x^2 + y^2 is used, because 1 - z^2 would lose its digits at the peak of a narrow
     // lobe.
     const float slope = (h.x() * h.x() + h.y() * h.y()) / alpha2_ + h.z() * h.z();
     return 1 / (kPi * alpha2_ * slope * slope);

@@ -22,7 +22,8 @@ public:
     /// 2023).
     [[nodiscard]] Eigen::Vector3f sampleNormal(const Eigen::Vector3f& wo,
                                                const Eigen::Vector2f& u) const;
-    /// Probability density [1/sr] that reflection by a normal of sampleNormal() turns wo into wi.
+    /// Probability density [1/sr] of the direction into which `h`, a normal from sampleNormal(),
+    /// reflects `wo`.
     [[nodiscard]] float reflectedDensity(const Eigen::Vector3f& wo,
                                          const Eigen::Vector3f& h) const {
         return masking(wo.z()) * density(h) / (4 * wo.z());
@@ -44,9 +45,10 @@ struct SpecularAlbedo {
 /// GGX's alpha for a perceptual roughness in [0, 1]. It is slightly above 0 even for a mirror.
 [[nodiscard]] float alphaOf(float roughness);
 
-/// specularAlbedo() is the share for one direction; mu is the cosine of its angle from the normal.
-/// meanSpecularAlbedo() is the cosine-weighted mean of the share over all directions. Both read
-/// tables that the first call computes; the error is below 0.01.
+/// specularAlbedo() is the reflected share of light for one direction; mu is the cosine of the
+/// direction's angle from the normal. meanSpecularAlbedo() is the cosine-weighted mean of this
+/// share over all directions. Both functions read tables that the first call computes; the error is
+/// below 0.01.
 [[nodiscard]] SpecularAlbedo specularAlbedo(float roughness, float mu);
 [[nodiscard]] SpecularAlbedo meanSpecularAlbedo(float roughness);
 

@@ -13,12 +13,12 @@ namespace mfar {
 /// channel that reflects nothing, from which the light on the metal cannot be computed.
 inline constexpr float kLeastPaint = 0.01F;
 
-/// The colours with which a surface multiplies light, as in glTF's metallic-roughness material.
-/// Linear shares in [0, 1].
+/// The linear colours, in [0, 1], with which a surface multiplies light, as in glTF's
+/// metallic-roughness material.
 struct Paint {
-    Eigen::Vector3f diffuse{0, 0, 0};  ///< for diffuse light
+    Eigen::Vector3f diffuse{0, 0, 0};  ///< colour for diffuse light
     Eigen::Vector3f facing{0, 0, 0};   ///< reflectance along the normal, for specular light
-    SpecularAlbedo albedo{};           ///< albedo towards the eye
+    SpecularAlbedo albedo{};           ///< for specular light towards the eye
 
     /// Paint for specular light.
     [[nodiscard]] Eigen::Vector3f specular() const {
@@ -44,13 +44,14 @@ struct SurfaceLight {
     }
 };
 
-/// Channel-wise product. It is used for light that is stored as a multiple of other light.
+/// Product of each colour channel. It is used for light that is stored as a multiple of other
+/// light.
 [[nodiscard]] inline SurfaceLight product(const SurfaceLight& a, const SurfaceLight& b) {
     return {a.diffuse.cwiseProduct(b.diffuse), a.specular.cwiseProduct(b.specular)};
 }
 
-/// Packs light for a surface. The receiver knows the paint only by its reflectance along the
-/// normal.
+/// Packs the light of a surface, multiplied by `exposure`. The reader of the words knows only
+/// Paint::diffuse and Paint::facing. So the words also contain the paint's albedo towards the eye.
 [[nodiscard]] inline LightWords packed(const SurfaceLight& light, const Paint& paint,
                                        float exposure) {
     const float full = paint.albedo.full();
@@ -61,8 +62,8 @@ struct SurfaceLight {
                         full > 0 ? paint.albedo.offset / full : 0});
 }
 
-/// Splits `radiance` into diffuse and specular light. `white` is the diffuse light before the
-/// paint.
+/// Splits `radiance` into diffuse and specular light, both divided by the paint. `white` is the
+/// diffuse light, already divided by the paint.
 [[nodiscard]] inline SurfaceLight lightOf(const Eigen::Vector3f& radiance,
                                           const Eigen::Vector3f& white, const Paint& paint) {
     const Eigen::Vector3f rest = radiance - paint.diffuse.cwiseProduct(white);

@@ -4,16 +4,18 @@
 
 namespace mfar {
 
-/// The filter from which the positions of a pixel's samples are drawn.
+/// The distribution of the random positions of a pixel's samples around the pixel's centre.
 enum class PixelFilter {
     Box,   ///< uniform over the pixel itself
     Tent,  ///< falls to 0 at the centres of the neighbouring pixels
 };
 
 struct PathTracerOptions {
-    int maxDepth = 6;        ///< surfaces on a path, including the first; [1, 64]
-    int rouletteDepth = 3;   ///< surfaces after which Russian roulette may end a path; at least 1
-    float fireflyClamp = 0;  ///< limit of an indirect contribution's brightest channel; 0: no limit
+    int maxDepth = 6;       ///< largest number of surfaces on a path, including the first; [1, 64]
+    int rouletteDepth = 3;  ///< surfaces after which Russian roulette may end a path; at least 1
+    /// Upper limit of the brightest colour channel of indirect light that a path adds to a pixel;
+    /// 0: no limit.
+    float fireflyClamp = 0;
     PixelFilter filter = PixelFilter::Box;
     std::uint32_t seed = 0;
     bool independentSamples = false;  ///< independent random numbers instead of the Sobol sequence

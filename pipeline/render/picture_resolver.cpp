@@ -34,8 +34,8 @@ void PictureResolver::begin(const Film& film, const RenderView& view, const Pixe
     rowsOut_ = 0;
 }
 
-// The last stage also writes the pixels outside the traced part, because the memory still holds an
-// earlier picture.
+// The last stage also clears the pixels outside the traced part, because the memory of `out_` still
+// holds an earlier picture.
 int PictureResolver::rowsBegin() const {
     return stage_ == kLastStage ? 0 : traced_.y0;
 }

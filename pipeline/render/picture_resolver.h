@@ -11,19 +11,20 @@
 
 namespace mfar {
 
-/// Converts a film to a picture in portions of rows, so that a portion fits into the time left in a
-/// frame. Optionally smooths the noise.
-/// Threads may run portions of the same stage at the same time. The next stage begins when all
-/// portions of the stage are done. All functions except run() are for one thread at a time.
+/// Converts a film, which has the samples of a picture, to the picture. Optionally smooths the
+/// noise. The work is divided into portions of rows, so that a portion fits into the time left in a
+/// frame. Threads may run portions of the same stage at the same time. The next stage begins when
+/// all portions of the stage are done. All functions except run() are for one thread at a time.
 class PictureResolver {
 public:
     static constexpr int kStages = NoiseFilter::kStages + 2;
 
     /// Begins a picture. Pixels outside `traced` become empty. Film and picture must outlive the
     /// work; the picture keeps its allocated memory.
-    /// `memory` is null or the film. If it is the film, two kinds of pixels are stored in it.
-    /// Pixels without sampled or carried light store the filter's result. Pixels of the real
-    /// surface that were not traced store the mean of the neighbours with even column and even row.
+    /// `memory` is null or the film. If it is the film and `filter` is true, light is stored in two
+    /// kinds of its pixels. Pixels with neither samples nor light of the previous picture get the
+    /// noise filter's result. Pixels of the real surface that were not traced get the mean of the
+    /// neighbours with even column and even row.
     void begin(const Film& film, const RenderView& view, const PixelRect& traced,
                const Exposure& exposure, bool filter, RenderedPicture& out, Film* memory = nullptr);
 
@@ -60,10 +61,11 @@ private:
     RenderedPicture* out_ = nullptr;
     NoiseFilter filter_;
     int stage_ = kLastStage + 1, nextRow_ = 0, rowsOut_ = 0;
-    std::vector<double> taken_, seen_;  // for each row: samples, and pixels with a surface
+    // For each row: taken_ is the number of samples, seen_ the number of pixels with a surface.
+    std::vector<double> taken_, seen_;
 };
 
-/// Resolves the whole picture at once.
+/// Converts the whole film to a picture at once.
 void resolve(const Film& film, const RenderView& view, const Exposure& exposure,
              RenderedPicture& out, bool filter = false);
 

@@ -195,7 +195,7 @@ std::uint32_t RayScene::add(std::span<const Eigen::Vector3f> positions,
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(scene_.get(), geometry, meshes_);
     rtcReleaseGeometry(geometry);
-    check(device_.get(), "a mesh");
+    check(device_.get(), "adding a mesh");
     for (const auto& triangle : triangles)
         for (const std::uint32_t corner : triangle)
             box_.extend(positions[corner]);

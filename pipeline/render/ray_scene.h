@@ -25,7 +25,8 @@ struct RayHit {
     static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
     float t = std::numeric_limits<float>::infinity();
-    std::uint32_t mesh = kNone, triangle = 0;  ///< numbers in the order in which they were added
+    /// Number of the mesh, as returned by RayScene::add(), and of the triangle in the mesh.
+    std::uint32_t mesh = kNone, triangle = 0;
     float u = 0, v = 0;  ///< weights of the triangle's second and third corners
 
     [[nodiscard]] bool found() const { return mesh != kNone; }
@@ -34,11 +35,11 @@ struct RayHit {
 /// Decides whether a point of a triangle is a hole. Any thread may call it.
 struct HoleTest {
     bool (*isHole)(const void* context, std::uint32_t triangle, float u, float v) = nullptr;
-    const void* context = nullptr;  ///< must outlive the scene
+    const void* context = nullptr;  ///< argument of isHole(); must outlive the RayScene
 };
 
-/// Triangle meshes in a common frame; Embree searches them along rays. After commit(), threads may
-/// call const functions at the same time.
+/// Triangle meshes in a common coordinate frame, in which Embree finds the hits of rays. After
+/// commit(), several threads may call const functions at the same time.
 class RayScene {
 public:
     /// Throws std::runtime_error if Embree is unavailable. `buildThreads` must be at least 1.

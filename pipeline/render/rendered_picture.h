@@ -12,7 +12,7 @@
 
 namespace mfar {
 
-/// id of a pixel that shows a real surface whose light is changed by virtual objects.
+/// id of a pixel that shows the shadow catcher: a real surface whose light virtual objects change.
 inline constexpr std::uint8_t kCatcherId = 255;
 
 /// A finished picture of the virtual layer. Each array is row-major and has camera.size pixels.
@@ -20,7 +20,7 @@ struct RenderedPicture {
     CameraModel camera;  ///< of the video sensor with its lens, scaled to this picture's size
     RigidTransform T_world_camera;
     /// Display values (sRGB), premultiplied by coverage. The last byte is the coverage. A shadow is
-    /// black.
+    /// black with partial coverage.
     std::vector<std::array<std::uint8_t, 4>> colour;
     /// z [m] along the camera's optical axis of the first surface on the ray through the pixel's
     /// centre. If that ray hits nothing, z of the nearest surface that a sample hit; 0: no surface.
@@ -29,8 +29,8 @@ struct RenderedPicture {
     /// Light on the object in each pixel, without the object's paint. Empty if the renderer does
     /// not provide it.
     std::vector<LightWords> light;
-    /// How object pixels mirror the distant light `mirrors`, multiplied by `exposure`. Empty if the
-    /// renderer does not provide it.
+    /// How the object in each pixel mirrors distant light, which is `mirrors` times `exposure`.
+    /// Empty if the renderer does not provide it.
     std::vector<GlossWords> gloss;
     std::shared_ptr<const MirrorLight> mirrors;
     float exposure = 1;

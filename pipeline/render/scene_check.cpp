@@ -35,17 +35,18 @@ void requireIndices(const std::vector<std::array<std::uint32_t, 3>>& triangles, 
                     const char* what) {
     for (const auto& triangle : triangles)
         for (const std::uint32_t corner : triangle)
-            require(corner < count, std::string(what) + " has an index out of range");
+            require(corner < count,
+                    std::string(what) + " has a triangle with a vertex that does not exist");
 }
 
 void checkMesh(const Mesh& mesh, std::size_t materials) {
     const std::size_t n = mesh.positions.size();
     const auto fits = [n](std::size_t length) { return length == 0 || length == n; };
-    require(allFinite(mesh.positions), "a position is not finite");
+    require(allFinite(mesh.positions), "a vertex position of a mesh is not finite");
     require(allFinite(mesh.normals) && allFinite(mesh.tangents) && allFinite(mesh.uvs),
-            "a vertex is not finite");
+            "a normal, tangent or texture coordinate of a mesh is not finite");
     require(fits(mesh.normals.size()) && fits(mesh.uvs.size()) && fits(mesh.tangents.size()),
-            "vertex arrays differ in length");
+            "a mesh has normals, tangents or texture coordinates, but not one per vertex");
     require(mesh.material >= 0 && static_cast<std::size_t>(mesh.material) < materials,
             "a mesh names a material that the model does not have");
     requireIndices(mesh.triangles, n, "a mesh");
@@ -54,7 +55,8 @@ void checkMesh(const Mesh& mesh, std::size_t materials) {
 void checkMaterial(const Material& m, std::size_t textures) {
     require(m.baseColour.allFinite() && m.baseColour.minCoeff() >= 0,
             "a material's colour is negative or not finite");
-    require(isShare(m.metallic) && isShare(m.roughness), "metallic or roughness is not in [0, 1]");
+    require(isShare(m.metallic) && isShare(m.roughness),
+            "a material's metallic or roughness is not in [0, 1]");
     require(isRadiance(m.emission), "a material's emission is negative or not finite");
     require(std::isfinite(m.normalScale) && std::isfinite(m.alphaCutoff),
             "a material's normal scale or alpha cut-off is not finite");
@@ -74,7 +76,7 @@ void checkModel(const Model& model) {
         require(t.size.width >= 1 && t.size.height >= 1 &&
                     t.texels.size() == static_cast<std::size_t>(t.size.width) *
                                            static_cast<std::size_t>(t.size.height),
-                "the size of a texture differs from its number of texels");
+                "a texture's number of texels is not its width times its height");
 }
 
 void checkLighting(const Lighting& lighting) {
@@ -83,7 +85,7 @@ void checkLighting(const Lighting& lighting) {
         require(e.size.width >= 1 && e.size.height >= 1 &&
                     e.radiance.size() == static_cast<std::size_t>(e.size.width) *
                                              static_cast<std::size_t>(e.size.height),
-                "the size of the environment differs from its number of radiances");
+                "the environment's number of texels is not its width times its height");
         require(std::ranges::all_of(e.radiance, isRadiance),
                 "a radiance of the environment is negative or not finite");
     }
@@ -93,7 +95,7 @@ void checkLighting(const Lighting& lighting) {
             "the sun's direction does not have length 1");
     require(isRadiance(sun.irradiance), "the sun's irradiance is negative or not finite");
     require(sun.angularRadius > 0 && sun.angularRadius < kHalfTurn,
-            "the sun's angular radius is out of range");
+            "the sun's angular radius is not between 0 and pi/2 rad");
 }
 
 }  // namespace
@@ -104,7 +106,7 @@ void validate(const Scene& scene) {
         require(object.model != nullptr, "an object has no model");
         require(isFinite(object.T_world_object), "an object's pose is not finite");
         require(std::isfinite(object.scale) && object.scale > 0,
-                "an object's scale is not positive");
+                "an object's scale is not finite or not above 0");
         checkModel(*object.model);
     }
     checkLighting(scene.lighting);

@@ -4,8 +4,9 @@
 
 namespace mfar {
 
-/// Checks the scene's documented limits: null models, numbers that are not finite, indices out of
-/// range. Throws std::invalid_argument that names the first violation.
+/// Throws std::invalid_argument if the scene violates a limit that is documented in scene.h: for
+/// example, if a model is null, a number is not finite, or an index is out of range. The message
+/// names the first violation.
 void validate(const Scene& scene);
 
 }  // namespace mfar

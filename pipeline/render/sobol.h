@@ -41,9 +41,9 @@ namespace mfar {
     return reversedBits(scrambledReversed(reversedBits(index), seed));
 }
 
-/// Coordinates of a point of the first two Sobol dimensions: 32 bits each, in reversed order. The
-/// generator matrix of the second dimension is Pascal's triangle modulo 2, applied in five steps
-/// (Ahmed 2024).
+/// Point number `index` of the two-dimensional Sobol sequence. Each coordinate is a 32-bit fraction
+/// with its bits in reversed order. The generator matrix of the second dimension is Pascal's
+/// triangle modulo 2, applied in five steps (Ahmed 2024).
 [[nodiscard]] constexpr std::array<std::uint32_t, 2> sobolReversed(std::uint32_t index) {
     std::uint32_t y = index;
     y ^= (y & 0xAAAAAAAAU) >> 1;
@@ -67,7 +67,7 @@ public:
 
     /// Number of the sample in its pixel, from 0.
     [[nodiscard]] std::uint32_t number() const { return sample_; }
-    /// Pair number `dimension`, in [0, 1)^2.
+    /// The sample's pair of random numbers with this number, in [0, 1)^2.
     [[nodiscard]] Eigen::Vector2f pair(std::uint32_t dimension) const {
         const std::uint32_t seed = mixedBits(seed_ + dimension * 0x9E3779B9U);
         if (independent_) {

@@ -21,8 +21,9 @@ public:
     /// Angular radius of the disc [rad].
     [[nodiscard]] float angularRadius() const { return std::sqrt(chord2_); }
     [[nodiscard]] LightSample sample(const Eigen::Vector2f& u) const;
-    /// Radiance and probability density of sampling in `direction`, of unit length. Both are 0
-    /// outside the disc.
+    /// radiance() is the sun's radiance from `direction`. density() is the probability density
+    /// [1/sr] with which sample() returns `direction`. Both are 0 outside the disc. `direction`
+    /// must have unit length.
     [[nodiscard]] Eigen::Vector3f radiance(const Eigen::Vector3f& direction) const;
     [[nodiscard]] float density(const Eigen::Vector3f& direction) const;
 

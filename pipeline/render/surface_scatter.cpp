@@ -11,7 +11,7 @@ namespace {
 
 constexpr float kInversePi = std::numbers::inv_pi_v<float>;
 constexpr float kMostSpecular = 0.98F;  // upper limit of the share of samples for the mirrored lobe
-constexpr float kLeastPassed = 1e-4F;   // lower limit of a divisor
+constexpr float kLeastPassed = 1e-4F;   // lower limit of shares of light that are divisors
 constexpr float kLeastCosine = 1e-5F;
 
 float fifthPower(float x) {
@@ -19,8 +19,8 @@ float fifthPower(float x) {
     return x2 * x2 * x;
 }
 
-/// Share of the light that hits the microfacets more than once and finally leaves the surface
-/// (Kulla and Conty 2017).
+/// Light that hits several microfacets: the share of it that finally leaves the surface (Kulla and
+/// Conty 2017).
 float manyfoldShare(float f0, const SpecularAlbedo& mean) {
     const float fresnel = f0 + (1 - f0) / 21;  // mean of Schlick's Fresnel term
     return fresnel * fresnel * mean.full() / (1 - fresnel * std::max(1 - mean.full(), 0.0F));

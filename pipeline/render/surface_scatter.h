@@ -6,7 +6,7 @@
 
 namespace mfar {
 
-/// Appearance of a surface at a point. Shares are in [0, 1].
+/// Appearance of a surface at a point. All numbers are in [0, 1].
 struct SurfaceLook {
     Eigen::Vector3f baseColour{1, 1, 1};
     float metallic = 0, roughness = 1;
@@ -23,8 +23,8 @@ struct ScatterValue {
 struct ScatterSample {
     Eigen::Vector3f wi{0, 0, 1};
     Eigen::Vector3f weight{0, 0, 0};  ///< value / density
-    float white = 0;                  ///< diffuse part of `weight` divided by the paint
-    float density = 0;                ///< 0: the sample scatters no light
+    float white = 0;                  ///< diffuse part of `weight` divided by the diffuse paint
+    float density = 0;  ///< probability density of wi [1/sr]; 0: the sample scatters no light
 };
 
 /// The parts of a reflection: broad scattering, and the lobe around the mirrored direction.
@@ -33,8 +33,9 @@ enum class Lobes { Both, Broad, Mirrored };
 /// Shares of light that a surface sends to the eye, for uniform light from the hemisphere and for
 /// light in the mirrored lobe.
 struct Reflectance {
-    float white = 1;                    ///< share of uniform light, without the diffuse paint
-    Eigen::Vector3f manyfold{0, 0, 0};  ///< share of uniform light, after several reflections
+    float white = 1;  ///< share of uniform light that white paint scatters
+    /// Share of uniform light that is reflected by several microfacets, one after the other.
+    Eigen::Vector3f manyfold{0, 0, 0};
     Eigen::Vector3f mirrored{0, 0, 0};
 };
 
@@ -63,7 +64,7 @@ private:
     };
     [[nodiscard]] Passed passed(float mu) const;
     [[nodiscard]] Eigen::Vector3f fresnel(float cosH) const;
-    /// Share of the samples that is used for the mirrored lobe.
+    /// Share of the samples that sample() takes from the mirrored lobe.
     [[nodiscard]] float shareOf(Lobes lobes) const;
 
     Eigen::Vector3f wo_;
@@ -73,8 +74,8 @@ private:
     Eigen::Vector3f f0_{0, 0, 0};
     Eigen::Vector3f manyfoldFactor_{0, 0, 0}, diffuseColour_{0, 0, 0};
     float whiteFactor_ = 0;
-    // For a dielectric: of the light that hits further microfacets, the share that finally leaves
-    // the surface.
+    // Light that hits several microfacets of a dielectric: the share of it that finally leaves the
+    // surface.
     float dielectricManyfold_ = 0;
     Passed passedOut_;
     Reflectance reflectance_;

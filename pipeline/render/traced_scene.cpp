@@ -8,12 +8,15 @@
 namespace mfar {
 namespace {
 
-// Distance of a ray's start from the surface, relative to the largest coordinate: about 30 units in
-// the last place.
+// A ray starts at a distance from the surface, so that it does not hit the surface itself. Relative
+// to the largest coordinate, this distance is kStartOffset, about 30 units in the last place. It is
+// at least kLeastOffset [m].
 constexpr float kStartOffset = 0x1p-18F;
-constexpr float kLeastOffset = 1e-7F;  // [m] lower limit of this distance
-constexpr float kStepOver = 1e-6F;     // step behind a hit, relative to the hit's distance
-constexpr int kMostBackFaces = 64;     // back faces that one camera ray may pass
+constexpr float kLeastOffset = 1e-7F;
+// After a hit on a back face, the search continues behind the hit, at the hit's distance times
+// (1 + kStepOver).
+constexpr float kStepOver = 1e-6F;
+constexpr int kMostBackFaces = 64;  // largest number of back faces that one camera ray may pass
 // Lower limit of the cosine between shading normal and viewing direction. Interpolated and mapped
 // normals that point away from the viewer are turned up to this limit.
 constexpr float kLeastShown = 1e-3F;
@@ -153,7 +156,8 @@ Eigen::Vector3f TracedScene::mapped(const TracedMesh& mesh, const RayHit& hit,
         tangent =
             (mesh.positions[corners[1]] - p) * c.y() - (mesh.positions[corners[2]] - p) * b.y();
         if (area < 0) tangent = -tangent;
-        // A larger green value means up in the texture. In this direction v decreases.
+        // In a normal map, a larger green value means a normal that points up in the texture. The
+        // texture coordinate v decreases in this direction.
         sign = area < 0 ? 1.0F : -1.0F;
     }
     tangent = unitOr(tangent - normal * normal.dot(tangent), Eigen::Vector3f::Zero());
@@ -176,7 +180,7 @@ Eigen::Vector3f TracedScene::shadingNormal(const TracedMesh& mesh, const RayHit&
 }
 
 bool TracedScene::isEven(const RayHit& hit, float width) const {
-    constexpr float kTurn = 0.1F;  // [rad]
+    constexpr float kTurn = 0.1F;  // largest turn of the normal over `width` [rad]
     const TracedMesh& mesh = *meshes_[hit.mesh];
     if (mesh.texture(mesh.material().normalTexture) != nullptr) return false;
     if (mesh.mesh->normals.empty()) return true;

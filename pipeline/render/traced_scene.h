@@ -19,14 +19,15 @@ struct SurfacePoint {
     SurfaceLook look;
     Eigen::Vector3f emission{0, 0, 0};
 
-    /// Paint for a view along `direction`, which may have any length.
+    /// Paint as seen along `direction`, which may have any length.
     [[nodiscard]] Paint paint(const Eigen::Vector3f& direction) const;
     /// Ray from the point in `direction`. It starts off the surface, so that rounding errors cannot
     /// cause a hit of the same surface.
     [[nodiscard]] Ray leaving(const Eigen::Vector3f& direction) const;
 };
 
-/// A valid scene in world coordinates with a search structure. It keeps the models alive.
+/// A scene in world coordinates, with a structure in which rays search for hits. The scene must be
+/// valid (see scene_check.h). Its models stay alive as long as this object.
 class TracedScene {
 public:
     /// Throws std::runtime_error if the search structure cannot be built.
@@ -38,14 +39,15 @@ public:
     [[nodiscard]] const RayScene& objects() const { return objects_; }
     [[nodiscard]] const RayScene& catcher() const { return catcher_; }
 
-    /// The first hit on a surface that is visible from this side: single-sided surfaces are
-    /// invisible from behind. `hit` is the first hit on any surface.
+    /// The ray's first hit on a surface that is visible from the hit side. Single-sided surfaces
+    /// are invisible from behind. `hit` is the ray's first hit on any surface.
     [[nodiscard]] RayHit shown(const Ray& ray, RayHit hit) const;
     [[nodiscard]] std::uint8_t idOf(const RayHit& hit) const { return meshes_[hit.mesh]->id; }
 
-    /// True if the normal hardly turns over this width [m] of the triangle that was hit.
+    /// Whether the surface's normal turns by at most 0.1 rad over a distance of `width` [m] on the
+    /// triangle that was hit.
     [[nodiscard]] bool isEven(const RayHit& hit, float width) const;
-    /// `direction` is the direction of the ray, of any length.
+    /// The surface at a hit. `direction` is the direction of the ray, of any length.
     [[nodiscard]] SurfacePoint objectPoint(const RayHit& hit,
                                            const Eigen::Vector3f& direction) const;
     [[nodiscard]] SurfacePoint catcherPoint(const RayHit& hit,
@@ -79,8 +81,8 @@ private:
                                   const Eigen::Vector3f& normal);
 
     std::shared_ptr<const Scene> scene_;
-    std::vector<std::unique_ptr<const TracedMesh>> meshes_;  // addresses stay fixed, because hole
-                                                             // tests hold pointers
+    // Pointers, because the meshes' addresses must not change: HoleTest::context refers to them.
+    std::vector<std::unique_ptr<const TracedMesh>> meshes_;
     RayScene objects_, catcher_;
 };
 

@@ -6,7 +6,8 @@
 namespace mfar {
 namespace {
 
-constexpr double kNearest = 1e-4;  // [m] distance of the near plane at which a box is cut
+// Distance [m] of the near plane from the camera. Parts of a box behind this plane are cut off.
+constexpr double kNearest = 1e-4;
 
 struct RayRange {
     Eigen::Vector2f least = Eigen::Vector2f::Constant(std::numeric_limits<float>::infinity());

@@ -27,8 +27,8 @@ using U8 = hn::Rebind<std::uint8_t, I16>;
 constexpr std::int16_t fixed15(double value) {
     return static_cast<std::int16_t>(value * 32768 + (value < 0 ? -0.5 : 0.5));
 }
-// The result is in 1/64 grey level, computed from bytes times 128. The weights' sum is exactly one
-// half, so that grey stays grey.
+// Weights of the colours in luma. Applied to bytes times 128, they give luma in 1/64 grey level.
+// The sum of the weights is exactly one half, so that grey stays grey.
 constexpr std::int16_t kRed = fixed15(0.299 / 2), kBlue = fixed15(0.114 / 2);
 constexpr std::int16_t kGreen = 16384 - kRed - kBlue;
 
@@ -88,7 +88,7 @@ HWY_INLINE void StoreClass(hn::Vec<F> number, std::uint16_t* to) {
     hn::StoreU(hn::DemoteTo(U16Half(), hn::ConvertTo(I(), number)), U16Half(), to);
 }
 
-/// For each column, sums the products of the gradient over five rows.
+/// For each column, sums the products of the gradient's components (xx, xy, yy) over five rows.
 void SumColumns(const std::array<const std::int16_t*, 7>& luma, int begin, int end,
                 const std::array<float*, 3>& sums) {
     const F d;
@@ -118,8 +118,8 @@ HWY_INLINE hn::Vec<F> SumOfFive(const float* at) {
 HWY_INLINE hn::Vec<F> GradientClass(hn::Vec<F> xx, hn::Vec<F> xy, hn::Vec<F> yy) {
     using C = GradientClasses;
     const F d;
-    // Scale of twice an eigenvalue: pixel differences in 1/8 grey level over two pixels, squared
-    // and summed over 25 pixels.
+    // Scale of twiceLargest, which is twice the largest eigenvalue. An eigenvalue is a sum, over 25
+    // pixels, of squared differences [1/8 grey level] over a distance of two pixels.
     constexpr float kScale = 2.0F * 25 * (2 * kLumaScale) * (2 * kLumaScale);
     const auto sum = hn::Add(xx, yy), cosine = hn::Sub(xx, yy), sine = hn::Add(xy, xy);
     const auto spread = hn::Sqrt(hn::MulAdd(cosine, cosine, hn::Mul(sine, sine)));
@@ -128,7 +128,8 @@ HWY_INLINE hn::Vec<F> GradientClass(hn::Vec<F> xx, hn::Vec<F> xy, hn::Vec<F> yy)
     for (const float from : C::kStrengthFrom)
         kind = hn::Add(kind, Step(twiceLargest, from * from * kScale, 3));
     for (const float from : C::kCoherenceFrom) {
-        // (s1 - s2) / (s1 + s2) >= from, expressed by the sum and difference of the eigenvalues.
+        // The condition (s1 - s2) / (s1 + s2) >= from, where s1 and s2 are the square roots of the
+        // eigenvalues, is expressed by the sum and difference of the eigenvalues.
         const float share = 2 * from / (1 + from * from);
         kind = hn::Add(kind, Step(hn::Sub(spread, hn::Mul(sum, hn::Set(d, share))), 0));
     }
@@ -191,7 +192,8 @@ void RangeRow(const std::array<const std::int16_t*, 5>& luma, int begin, int end
     }
 }
 
-/// Shift that converts weight times luma to steps of the residual.
+/// Right shift that converts products of filter weight and luma to units of the residual
+/// (1 / kResidualScale grey level).
 constexpr int kSumShift = 12;
 static_assert(kWeightScale * kLumaScale == kResidualScale << kSumShift);
 

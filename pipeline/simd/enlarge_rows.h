@@ -8,7 +8,7 @@ namespace mfar::simd {
 
 // Functions of the learned enlarger for pixels [begin, end) of a row; see pipeline/enlarge. Luma is
 // in 1/8 grey level and is read up to three pixels before `begin` and after `end`. All rows except
-// the colours may be read and written up to 64 bytes beyond that.
+// the colours may be read and written up to 64 bytes beyond these pixels.
 
 /// Rec. 601 luma of red, green and blue.
 void lumaEighthsRow(const std::array<const std::uint8_t*, 3>& rgb, int begin, int end,
@@ -19,23 +19,26 @@ void lumaEighthsRow(const std::array<const std::uint8_t*, 3>& rgb, int begin, in
 void classRow(const std::array<const std::int16_t*, 7>& luma, int begin, int end,
               const std::array<float*, 3>& sums, std::uint16_t* gradient, std::uint16_t* curvature);
 
-/// Limits of luma plus residual, relative to the pixel's luma [1/8 grey level]: the range of its
-/// 5x5 pixels, extended by the allowed overshoot.
+/// Lowest and highest luma that the enlarged picture may have in a pixel, relative to the pixel's
+/// luma [1/8 grey level]. They are the range of the 5x5 pixels around it, extended by the allowed
+/// overshoot.
 void rangeRow(const std::array<const std::int16_t*, 5>& luma, int begin, int end,
               std::int16_t* lowest, std::int16_t* highest);
 
-/// The filters: rows of FilterBank, which are `pitch` numbers apart.
+/// The filters of a FilterBank. In `gradient`, the filters of successive classes are gradientPitch
+/// coefficients apart; in `curvature`, curvaturePitch.
 struct FilterRows {
     const std::int16_t *gradient, *curvature, *cubic;
     std::ptrdiff_t gradientPitch, curvaturePitch;
 };
-/// Input for the residual of a row of pixels.
+/// Input for residualRows(): five rows of luma, and results of classRow() and rangeRow().
 struct ResidualInput {
     std::array<const std::int16_t*, 5> luma;
     const std::uint16_t *gradient, *curvature;
     const std::int16_t *lowest, *highest;
 };
-/// Writes four rows of the grid of sub-pixels, with four values per pixel [1/32 grey level].
+/// Computes what the learned filters add to cubic interpolation [1/32 grey level], on a grid of 4x4
+/// sub-pixels per pixel. Writes four rows, with four values per pixel.
 void residualRows(const ResidualInput& in, const FilterRows& filters, int begin, int end,
                   const std::array<std::int16_t*, 4>& to);
 

@@ -6,14 +6,14 @@
 #define HWY_TARGET_INCLUDE "pipeline/simd/mirror_rows.cpp"
 
 #include <hwy/foreach_target.h>
-// It is included once per instruction set, like this file.
+// The next header is included once per instruction set, as this file is.
 #include "pipeline/simd/point_lens-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Vectors have at most 8 lanes, because rows have few entries to spare.
+// Vectors have at most 8 lanes, because rows are padded with only 7 entries.
 using D = hn::CappedTag<float, 8>;
 using DU = hn::RebindToUnsigned<D>;
 using DI = hn::RebindToSigned<D>;
@@ -22,8 +22,11 @@ using VU = hn::Vec<DU>;
 using VI = hn::Vec<DI>;
 using V3 = Triples<V>;
 
-constexpr float kLeastSun = 0.1F;    // as a share of the mirrored sky's light
-constexpr float kMostSunShare = 63;  // largest value of the free bits of two light words
+// The visible share of the sun is computed only for pixels that mirror more light of the sun than
+// this factor times the light of the sky.
+constexpr float kLeastSun = 0.1F;
+// Largest value of the free bits of two light words, which hold the sun's share.
+constexpr float kMostSunShare = 63;
 
 HWY_INLINE V F(float value) {
     return hn::Set(D(), value);
@@ -208,7 +211,8 @@ HWY_INLINE void ForGloss(const MirrorRow& row, const MirrorInput& in, const Body
     }
 }
 
-// Entries behind a row belong to the next one, which another thread may change.
+/// The two words of each lane's entry. LoadPairs() and StorePairs() do not access entries behind
+/// the row, because these belong to the next row, which another thread may change.
 struct Pair {
     VU first, second;
 };
@@ -255,7 +259,7 @@ void SplitMirrored(const MirrorRow& row, const MirrorInput& in, const LightWords
         const V3 share{ShareOf(all.x, far.sky.x), ShareOf(all.y, far.sky.y),
                        ShareOf(all.z, far.sky.z)};
         const V ofSky = Luminance(far.sky), ofSun = Luminance(sun), ofAll = Luminance(all);
-        // If a pixel mirrors little of the sun, the share of the sky is used for the sun too.
+        // If a pixel mirrors little sunlight, the visible share of the sky is used for the sun too.
         const auto bright = hn::Gt(ofSun, hn::Mul(F(kLeastSun), ofSky));
         const V sunShare =
             hn::IfThenElse(bright, ShareOf(hn::Sub(ofAll, ofSky), ofSun), Luminance(share));

@@ -76,8 +76,8 @@ void MovingMirrors::prepareTables() {
             ++low;
         tableOf_[i] = static_cast<std::int32_t>(low);
         if (tables.size() < 2) continue;
-        // Below the roughness of the second table, light is interpolated by the width of the lobe,
-        // as in FarLight::mirrored().
+        // Below the roughness of the second table, the weight is proportional to the width of the
+        // reflection lobe, as in FarLight::mirrored().
         const float from = tables[low].roughness, to = tables[low + 1].roughness;
         const float share =
             low == 0 ? roughness * roughness / (to * to) : (roughness - from) / (to - from);

@@ -12,9 +12,9 @@
 
 namespace mfar::simd {
 
-/// Computes the light of a traced picture's objects as another eye sees it. Mirrored distant
-/// light is computed again from each pixel's normal and roughness, so that mirror images and
-/// highlights move as they do in the scene and do not stick to the surface.
+/// Computes the light of a traced picture's objects as it is seen from another position. Mirrored
+/// distant light is computed again from each pixel's normal and roughness. So mirror images and
+/// highlights move as they do in the scene, and do not stick to the surface.
 class MovingMirrors {
 public:
     /// `rayX`, `rayY`: normalised rays of the layer's camera. If `workers` is null, all work runs
@@ -24,9 +24,9 @@ public:
 
     /// The traced picture must live until the next call.
     void setTracedPicture(const TracedPicture& traced);
-    /// Returns TracedPicture::light for an eye in the world. If the surfaces of the traced picture
-    /// are unknown or its camera is not the layer's, returns its own light. Valid until the next
-    /// call.
+    /// Returns TracedPicture::light as it is seen from the position `eye` in the world. Returns
+    /// TracedPicture::light unchanged if the gloss of its pixels is unknown, or if its camera is
+    /// not the layer's. Valid until the next call.
     [[nodiscard]] std::span<const LightWords> lightFor(const Eigen::Vector3d& eye);
 
 private:

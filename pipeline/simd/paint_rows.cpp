@@ -13,7 +13,7 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// At most 8 lanes, because the padding of rows of quarters has only that many words.
+// Vectors have at most 8 lanes, because rows of quarters are padded for only 8 pixels.
 using D = hn::CappedTag<float, 8>;
 using DU = hn::RebindToUnsigned<D>;
 using DI = hn::RebindToSigned<D>;
@@ -50,7 +50,7 @@ HWY_INLINE V HighHalf(VU word) {
     return hn::ConvertTo(D(), hn::BitCast(DI(), hn::ShiftRight<16>(word)));
 }
 
-/// Loads a word of each lane's triangle.
+/// Loads word number `word` of each lane's PaintTriangle.
 template <class DT>
 HWY_INLINE hn::Vec<DT> WordOf(DT d, const PaintTriangle* triangles, VU triangle, int word) {
     const auto* base = reinterpret_cast<const hn::TFromD<DT>*>(triangles) + word;
@@ -68,20 +68,20 @@ HWY_INLINE V At(const Plane& plane, V x, V y) {
     return hn::MulAdd(y, plane.perY, hn::MulAdd(x, plane.perX, plane.first));
 }
 
-/// Returns an approximate logarithm of numbers >= 1. The error is below 0.01.
+/// Returns an approximate binary logarithm of numbers >= 1. The error is below 0.01.
 HWY_INLINE V Log2(V x) {
     const DU du;
     const VU bits = hn::BitCast(du, x);
     const V exponent = hn::ConvertTo(D(), hn::BitCast(DI(), hn::ShiftRight<23>(bits)));
     const V m =
         hn::BitCast(D(), hn::Or(hn::And(bits, hn::Set(du, 0x007FFFFFU)), hn::Set(du, 0x3F800000U)));
-    // m - 1 + 0.34 (m - 1) (2 - m)
+    // For 1 <= m < 2, log2(m) is about m - 1 + 0.34 (m - 1) (2 - m).
     const V low = hn::Sub(m, F(1));
     return hn::Add(hn::Sub(exponent, F(127)),
                    hn::MulAdd(hn::Mul(F(0.34F), low), hn::Sub(F(2), m), low));
 }
 
-/// One level of each lane's texture.
+/// One pyramid level of each lane's texture.
 struct Level {
     VI first, width, height;  // first texel; size in texels
     V across, down;           // width and height as floats
@@ -97,7 +97,7 @@ HWY_INLINE Level LevelAt(const PaintInput& in, VI level) {
             hn::BitCast(di, hn::ShiftRight<16>(size)), LowHalf(size), HighHalf(size)};
 }
 
-/// Adds the weighted squares of the bytes of a word.
+/// Adds the squares of a word's bytes to `sum`, with the weight `share`.
 HWY_INLINE void AddSquares(VU word, V share, Colour& sum) {
     const VU bits = hn::Set(DU(), 0xFFU);
     const auto byte = [&](VU shifted) HWY_ATTR {
@@ -109,7 +109,7 @@ HWY_INLINE void AddSquares(VU word, V share, Colour& sum) {
     sum.b = hn::MulAdd(hn::Mul(b, b), share, sum.b);
 }
 
-/// Adds a weighted texel.
+/// Adds a texel to `sum`, with the weight `share`.
 HWY_INLINE void AddTexel(const PaintInput& in, VI texel, V share, Paint& sum) {
     const DU du;
     const auto* words = reinterpret_cast<const std::uint32_t*>(in.texels);
@@ -134,7 +134,7 @@ HWY_INLINE Around TexelsAround(V coordinate, VI side, V count) {
             hn::IfThenElse(hn::Lt(next, side), next, hn::Zero(di)), hn::Sub(place, low)};
 }
 
-/// Adds the paint at (u, v), interpolated bilinearly, times `weight`.
+/// Adds the paint at (u, v), interpolated bilinearly, to `sum` with a weight.
 HWY_INLINE void AddProbe(const PaintInput& in, const Level& level, V u, V v, float weight,
                          Paint& sum) {
     const Around x = TexelsAround(u, level.width, level.across);
@@ -171,10 +171,11 @@ HWY_INLINE Footprint FootprintAt(const PaintTriangle* triangles, VU triangle, V 
             hn::Mul(hn::NegMulAdd(v, perZ.perY, vPlane.perY), step)};
 }
 
-/// Returns the paint at a place on the grid, averaged over `spread` grid pixels along each axis.
-/// Four probes are taken in a level whose texels are at least half as wide as the distance of the
-/// probes. Compared with the mean over a pixel, one probe between two levels is 4 dB worse on the
-/// shipped showpiece; four probes along the longer side of the footprint are no better.
+/// Returns the paint at a position on the grid, averaged over `spread` grid pixels along each axis.
+/// It is the mean of four bilinear look-ups (probes) in a pyramid level whose texels are at least
+/// half as wide as the distance of the probes. Compared with the true mean over a pixel on the
+/// shipped showpiece, one probe, interpolated between two pyramid levels, is 4 dB worse. Four
+/// probes along the longer side of the footprint are no better.
 HWY_INLINE Paint Sample(const PaintInput& in, VU triangle, V x, V y, float spread) {
     const D d;
     const DI di;
@@ -183,7 +184,8 @@ HWY_INLINE Paint Sample(const PaintInput& in, VU triangle, V x, V y, float sprea
     const VU levels = WordOf(DU(), in.triangles, triangle, 10);
     const V texels = hn::Mul(LowHalf(size), HighHalf(size));
     const V area = hn::Mul(hn::Abs(hn::NegMulAdd(f.uy, f.vx, hn::Mul(f.ux, f.vy))), texels);
-    // Probes are two steps apart along each side.
+    // Area [texels] of the parallelogram between the probes, which are two steps apart along each
+    // side.
     const V apart = hn::Mul(area, F(4));
     const M finite = hn::Lt(apart, F(1e12F));
     const V held = hn::Max(hn::IfThenElse(finite, apart, F(1e12F)), F(1));
@@ -211,7 +213,7 @@ HWY_INLINE VU SrgbByte(V linear) {
     return Byte(SrgbLevel(D(), hn::Mul(linear, F(1.0F / 65025))));
 }
 
-/// Description of what each pixel shows.
+/// What each pixel shows: one object, in some of its quarters.
 struct Shown {
     M any;         ///< true if the pixel shows an object
     VU triangle;   ///< triangle in one of the object's quarters
@@ -290,7 +292,7 @@ HWY_INLINE Shown Choose(const PaintRow& row, int x) {
     return out;
 }
 
-/// True for pixels whose quarters have different materials.
+/// True for pixels in which the object's quarters have different materials.
 HWY_INLINE M Differ(const PaintInput& in, const Shown& s) {
     const D d;
     const DU du;

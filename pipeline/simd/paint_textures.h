@@ -15,16 +15,16 @@ namespace mfar::simd {
 
 /// The textures of a scene's surfaces for paintRow(), all in one array. A material's textures of
 /// base colour and of metallic are combined into one picture, with the larger of both sizes and all
-/// levels down to one texel. Equal materials share one picture.
+/// pyramid levels down to one texel. Equal materials share one picture.
 class PaintTextures {
 public:
-    /// Paint of a part: these are words of PaintTriangle.
+    /// The words of PaintTriangle that depend only on the material.
     struct Material {
         std::uint32_t size, levels, material;
     };
 
-    /// Prepares the pictures of materials that are new with these objects; keeps the others. Copies
-    /// all input. Takes 4 ns per texel.
+    /// Prepares the pictures of materials that the previous objects did not have, and keeps the
+    /// others. Copies all input. Takes 4 ns per texel.
     void set(std::span<const SilhouetteModels::Object> objects);
     /// Returns the material of a part of these objects.
     [[nodiscard]] const Material& of(const SilhouetteModels::Part& part) const {

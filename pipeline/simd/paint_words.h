@@ -5,7 +5,7 @@
 namespace mfar::simd {
 
 /// Paint of a texel or pixel: the diffuse colour, and the reflectance along the normal, each as
-/// bytes of red, green and blue. Means of these are right, whereas means of base colour and
+/// bytes of red, green and blue. Means of these colours are right. Means of base colour and
 /// metallic would be wrong where metal meets another material.
 struct PaintWords {
     std::uint32_t diffuse = 0, facing = 0;

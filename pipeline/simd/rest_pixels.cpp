@@ -12,7 +12,8 @@
 namespace mfar::simd {
 namespace {
 
-using Quarters = std::array<std::uint32_t, 4>;  // upper left and right, lower left and right
+// Surfaces of a pixel's quarters: upper left, upper right, lower left, lower right.
+using Quarters = std::array<std::uint32_t, 4>;
 
 std::uint32_t numberOf(std::uint32_t surface) {
     return surface & 0xFFU;
@@ -21,8 +22,8 @@ float depthOf(std::uint32_t surface) {
     return std::bit_cast<float>(surface & 0xFFFFFF00U);
 }
 
-/// Returns the object with most of the quarters. Of equal counts, the first wins, beginning with
-/// the lower quarters.
+/// Returns the number of the object that has the most quarters; 0: no object. Of objects with
+/// equally many quarters, it is the first one, beginning with the lower quarters.
 std::uint32_t mostOf(const Quarters& s) {
     std::uint32_t out = 0;
     int most = 0;
@@ -39,8 +40,8 @@ std::uint32_t mostOf(const Quarters& s) {
     return out;
 }
 
-/// Returns the mean position of the quarters that show the number: offset from the pixel's centre
-/// [px] and z [m]; z is 0 if no quarter shows it.
+/// Returns the mean position of the quarters that show the surface with this number: offset from
+/// the pixel's centre [px] and z [m]. z is 0 if no quarter shows the surface.
 Point3 middleOf(const Quarters& s, std::uint32_t number) {
     constexpr std::array<float, 4> kX{-0.25F, 0.25F, -0.25F, 0.25F};
     constexpr std::array<float, 4> kY{-0.25F, -0.25F, 0.25F, 0.25F};
@@ -94,7 +95,8 @@ RestPixels::RestPixels(const ViewLookUp::Input& input, const TracedPicture& trac
     : plain_(plain), layerLens_(pointLensOf(layer)),
       traced_{traced.surface, traced.colour, lights, traced.camera.size,
               plain.toTraced, &plain_.lens,  1} {
-    // The re-rendered pictures are ordered by slot: if two have equal shares, the first is shown.
+    // The order of the re-rendered pictures is that of their slots. known() shows the first one of
+    // those with equal shares.
     std::array<const RerenderedPictures::Picture*, RerenderedPictures::kPictures> bySlot{};
     for (const RerenderedPictures::Picture& rerendered : input.rerendered.pictures())
         bySlot[static_cast<std::size_t>(rerendered.slot)] = &rerendered;
@@ -124,9 +126,9 @@ bool RestPixels::inView(const View& view, const Point3& point, Point3& at) {
            at.y < static_cast<float>(view.size.height);
 }
 
-/// Interpolates bilinearly between those of the four surrounding texels that show the same surface.
-/// Returns false if their weight is too low. For the catcher, a texel without any surface counts as
-/// the catcher without shadow.
+/// Interpolates a surface's colour bilinearly between those of the four surrounding texels that
+/// show the surface. Returns false if the sum of their weights is too low. If the surface is the
+/// shadow catcher, texels without any surface count as shadow catcher without shadow.
 bool RestPixels::lookUp(const View& view, const Point3& at, const Wanted& wanted, Colour& found) {
     const float lowX = std::floor(at.x), lowY = std::floor(at.y);
     const float fx = at.x - lowX, fy = at.y - lowY;
@@ -158,12 +160,13 @@ bool RestPixels::lookUp(const View& view, const Point3& at, const Wanted& wanted
     return true;
 }
 
-/// Returns the share of the surface's colour that is known.
+/// Looks up a surface's colour in the traced picture and then in the re-rendered pictures. Returns
+/// the share of the colour that is known.
 float RestPixels::known(const Wanted& wanted, Colour& found) const {
     Point3 at;
     const bool inTraced = inView(traced_, wanted.point, at);
     if (inTraced && lookUp(traced_, at, wanted, found)) return 1;
-    float share = 0;  // share of the most visible picture; others do not reduce it
+    float share = 0;  // largest share of the re-rendered pictures that show the surface
     for (int i = 0; i < rerenderedCount_; ++i) {
         const View& rerendered = rerendered_[static_cast<std::size_t>(i)];
         Colour own;
@@ -174,7 +177,8 @@ float RestPixels::known(const Wanted& wanted, Colour& found) const {
         found = own;
     }
     if (share > 0) return share;
-    // Outside the traced picture, the catcher's colour is unknown, but it is not needed there.
+    // Outside the traced picture, the shadow catcher's colour is not needed. So it counts as known,
+    // without shadow.
     found = {};
     return wanted.id == kCatcherId && !inView(traced_, wanted.point, at) ? 1.0F : 0.0F;
 }

@@ -14,7 +14,7 @@ struct RestPixel {
     std::uint32_t colour;  ///< RGBA8 premultiplied
     float depth;
     std::uint32_t state;       ///< see WarpStep::state()
-    std::optional<Hole> hole;  ///< set if the pixel is a hole; its index is not set
+    std::optional<Hole> hole;  ///< set if the pixel is a hole; Hole::pixel is not set
 };
 
 /// Looks up the pixels that lookUpRow() does not: edges, which are divided into quarters, and
@@ -22,14 +22,14 @@ struct RestPixel {
 /// shadow on the real surface are two layers; the shadow is the lower one (warp_rest.comp).
 class RestPixels {
 public:
-    /// `lights`: light of the traced picture's pixels for this view.
+    /// `lights`: light of the traced picture's pixels as seen from T_world_camera.
     RestPixels(const ViewLookUp::Input& input, const TracedPicture& traced,
                std::span<const LightWords> lights, const ViewLookUpInput& plain,
                const LensProjection& layer, const RigidTransform& T_world_camera);
 
     /// A pixel of the layer to be looked up.
     struct Asked {
-        const std::uint32_t *upper, *lower;  ///< surfaces of the quarters, two words each
+        const std::uint32_t *upper, *lower;  ///< surfaces of the two upper and two lower quarters
         float rayX, rayY;
         PaintWords paint;
     };

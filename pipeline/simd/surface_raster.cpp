@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kBatch = 1024;  // number of triangles in a batch
 constexpr int kCornersAtATime = 2048;
-constexpr int kLeastBand = 16;  // [rows]
+constexpr int kLeastBand = 16;  // smallest height of a band [rows]
 constexpr int kBandsPerThread = 4;
 // Triangles with corners farther outside the grid than this [px] are clipped. For all others,
 // single precision is exact to a hundredth of a pixel.
@@ -209,7 +209,7 @@ bool SurfaceRaster::addTriangle(Batch& batch, const RasterCorner (&c)[3],
         !(top < static_cast<float>(grid_.y1)) || !(bottom > static_cast<float>(grid_.y0)))
         return false;
     const SilhouetteModels::Part& part = *batch.placed->part->source;
-    // Clockwise, if row 0 is on top: the triangle faces away.
+    // The triangle faces away if its corners are clockwise in the picture (row 0 is on top).
     if (!part.bothSides &&
         (c[1].x - c[0].x) * (c[2].y - c[0].y) >= (c[2].x - c[0].x) * (c[1].y - c[0].y))
         return false;
@@ -228,11 +228,10 @@ bool SurfaceRaster::addTriangle(Batch& batch, const RasterCorner (&c)[3],
     return true;
 }
 
-/// The corners may be those of the triangle or of a piece of it, because both lie in the same
-/// planes.
+/// `c` are the corners of the triangle or of a piece of it. Both give the same planes.
 void SurfaceRaster::setPaint(const Placed& placed, const RasterCorner (&c)[3],
                              std::uint32_t index) {
-    if (placed.part->source->material == nullptr) return;  // the catcher has no paint
+    if (placed.part->source->material == nullptr) return;  // the shadow catcher has no paint
     PaintTriangle& paint = paintTriangles_[index];
     const float area = doubleArea(c);
     paint.perZ = planeThrough(c, {c[0].perZ, c[1].perZ, c[2].perZ}, area);
@@ -242,7 +241,8 @@ void SurfaceRaster::setPaint(const Placed& placed, const RasterCorner (&c)[3],
 
 namespace {
 
-/// A corner (w x, w y, w) on the grid, and values that are linear in these coordinates.
+/// A corner in homogeneous grid coordinates (w x, w y, w). Its texture coordinates u, v are linear
+/// functions of these.
 struct ClipCorner {
     float x, y, w, u, v;
 };
@@ -261,7 +261,8 @@ std::vector<ClipCorner> clipped(const std::vector<ClipCorner>& polygon, const In
         const float from = inside(a), to = inside(b);
         if (from >= 0) out.push_back(a);
         if ((from >= 0) == (to >= 0)) continue;
-        // Always in the same order, so that both triangles at an edge get the same point.
+        // The ends of an edge are always used in the same order, from outside to inside. So both
+        // triangles at an edge get the same point.
         out.push_back(from >= 0 ? between(b, a, to / (to - from))
                                 : between(a, b, from / (from - to)));
     }

@@ -16,14 +16,14 @@
 
 namespace mfar::simd {
 
-/// Rasterises the visible surfaces of the virtual scene: the models and, below them, the real
-/// surface that catches their shadows. The grid has twice the layer's resolution, so a pixel of the
-/// layer has four quarters. The lens's distortion is applied to corners of triangles. Light is not
-/// computed; paint is looked up on request. CPU version of the GLES engine's ModelSilhouette.
+/// Rasterises the visible surfaces of the virtual scene: the models and, below them, the shadow
+/// catcher. They are drawn on a grid with twice the layer's resolution, so a pixel of the layer has
+/// four quarters. The lens's distortion is applied to corners of triangles. Light is not computed;
+/// paint is looked up on request. CPU version of the GLES engine's ModelSilhouette.
 class SurfaceRaster {
 public:
-    /// `layer`: the camera at the layer's resolution. Without workers, it runs in the caller's
-    /// thread.
+    /// `layer`: the camera at the layer's resolution. If `workers` is null, all work runs in the
+    /// caller's thread.
     SurfaceRaster(const CameraModel& layer, std::shared_ptr<Workers> workers);
 
     void setScene(const Scene& scene);
@@ -32,18 +32,19 @@ public:
     /// Draws within `where` [layer px]. Pixels elsewhere become invalid.
     void draw(const RigidTransform& T_world_camera, const PixelRect& where);
     /// The surfaces, at twice the layer's size: z and number, packed as in warp_surface.glsl; 0: no
-    /// surface. The catcher's number appears only where no object is, even if the catcher is
-    /// nearer.
+    /// surface. The shadow catcher's number appears only where no object is, even if the shadow
+    /// catcher is nearer.
     [[nodiscard]] Rows<const std::uint32_t> surface() const { return words_.rows(); }
     /// Writes the paint of layer pixels `x0` to `x1` of row `y`, which must be in the drawn part.
-    /// Paint is factor times texture over the pixel's footprint, averaged in linear light, as sRGB
-    /// bytes; it is 0 where no object is. If a pixel shows several objects, it is the paint of the
-    /// one with most quarters, as in RestPixels. Writes up to 7 words beyond. May be called from
-    /// any thread.
+    /// Paint is the material's colour factor times its texture, averaged in linear light over the
+    /// part of the texture that the pixel shows, as sRGB bytes. It is 0 where no object is. If a
+    /// pixel shows several objects, it is the paint of the object with the most quarters, as in
+    /// RestPixels. Writes up to 7 entries of `out` beyond the last pixel. May be called from any
+    /// thread.
     void paintRow(int y, int x0, int x1, PaintWords* out) const;
 
 private:
-    /// A part's corners in three rows: x, y, z [m].
+    /// A part of a model, with its corners in three rows: x, y, z [m].
     struct Part {
         explicit Part(const SilhouetteModels::Part& from);
         const SilhouetteModels::Part* source;
@@ -56,14 +57,14 @@ private:
         const SilhouetteModels::Object* object;
         std::uint32_t word;
         std::shared_ptr<const Part> part;
-        AlignedRows<float> seen;  // corners on the grid
+        AlignedRows<float> seen;  // projected corners: x and y [grid px], z [m]
         PointTransform view{};
         bool isInView = false;
-        std::uint32_t firstTriangle = 0;  // index in paintTriangles_
+        std::uint32_t firstTriangle = 0;  // index of the part's first triangle in paintTriangles_
     };
     struct Chunk {
         Placed* placed;
-        int first, count;  // first corner, number of corners
+        int first, count;  // index of the first corner, number of corners
     };
     /// Triangles that are prepared together.
     struct Batch {
@@ -92,7 +93,7 @@ private:
     PixelRect grid_;  // the part of the grid that is drawn
     AlignedRows<std::uint32_t> words_, indices_;
     PaintTextures paint_;
-    std::vector<PaintTriangle> paintTriangles_;  // of the triangles of all objects
+    std::vector<PaintTriangle> paintTriangles_;  // one entry for each triangle of all objects
 };
 
 [[nodiscard]] PointLens pointLensOf(const LensProjection& lens);

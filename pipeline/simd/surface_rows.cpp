@@ -37,7 +37,7 @@ struct Columns {
 };
 HWY_INLINE int FirstCentreFrom(float x, int least, int most) {
     const float centre = x - 0.5F, first = static_cast<float>(least);
-    // A positive test, so that NaN gives the first column.
+    // The comparison is false for NaN, so NaN gives the first column.
     const float held = centre > first ? std::min(centre, static_cast<float>(most)) : first;
     return static_cast<int>(std::ceil(held));
 }
@@ -122,7 +122,7 @@ void FinishBand(const RasterBand& band) {
     const auto none = hn::Set(d, kNoSurface), bits = hn::Set(d, ~kBehindObjects);
     for (int y = band.where.y0; y < band.where.y1; ++y) {
         std::uint32_t* words = band.words[y];
-        // Whole vectors, because words after the band's columns are padding.
+        // Whole vectors are written, because words after the band's columns are not used.
         for (int x = band.where.x0; x < band.where.x1; x += static_cast<int>(hn::Lanes(d))) {
             const auto word = hn::LoadU(d, words + x);
             hn::StoreU(hn::IfThenZeroElse(hn::Eq(word, none), hn::And(word, bits)), d, words + x);

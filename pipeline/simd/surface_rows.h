@@ -10,10 +10,10 @@
 
 namespace mfar::simd {
 
-// These functions rasterise surfaces into words of z and number, packed as in warp_surface.glsl:
-// the upper 24 bits of z [m], then the surface's number. A smaller word is nearer, so the order of
-// drawing does not matter. The index of a word's triangle is stored next to the word; of equal
-// words, the one drawn first remains.
+// These functions rasterise surfaces. Each pixel gets a word with the upper 24 bits of z [m] and
+// then the surface's number, packed as in warp_surface.glsl. A smaller word is nearer, so the order
+// of drawing does not matter. The index of the triangle is stored in a second word. Of surfaces
+// with equal words, the one drawn first remains.
 
 inline constexpr std::uint32_t kNoSurface = 0xFFFFFFFF;
 /// This bit sorts a surface behind all others. It is free because z has no sign.
@@ -46,17 +46,17 @@ struct RasterPlane {
     float first = 0, perX = 0, perY = 0;
 };
 
-/// A prepared triangle. Edges always run from the upper to the lower corner. So both triangles of
-/// an edge cross a row at the same place, and no pixel between them is omitted or drawn twice.
+/// A prepared triangle. Its edges run from the upper to the lower corner. So two triangles with a
+/// common edge cross a row at the same x, and no pixel between them is omitted or drawn twice.
 struct RasterTriangle {
     float top, middle, bottom;    ///< y of the corners
     float longX, upperX, lowerX;  ///< x at the upper end of each edge
     float longSlope, upperSlope, lowerSlope;
-    int firstRow, lastRow;  ///< rows whose centres it covers, without lastRow
+    int firstRow, lastRow;  ///< first row whose centre is covered; last such row + 1
     RasterPlane perZ;
     float leastPerZ, mostPerZ;
-    std::uint32_t word;   ///< number, with kBehindObjects
-    std::uint32_t index;  ///< stored next to the word
+    std::uint32_t word;   ///< surface number; the shadow catcher's also has kBehindObjects
+    std::uint32_t index;  ///< index of the triangle
     bool longIsLeft;
 };
 
@@ -72,25 +72,26 @@ struct MaskedTriangle {
     RasterMask mask;
 };
 
-/// Identifies a triangle: its word, and the index that is stored next to the word.
+/// What is stored where a triangle is visible.
 struct RasterName {
     std::uint32_t word, index;  ///< see RasterTriangle
 };
 
-/// Returns false if the triangle covers no row's centre or has no area.
+/// Prepares a triangle for drawing. Returns false if it covers no row's centre or has no area.
 [[nodiscard]] bool makeTriangle(const RasterCorner (&corners)[3], const RasterName& name,
                                 RasterTriangle& out);
-/// As makeTriangle(), but with a mask.
+/// Prepares a triangle with a mask; see makeTriangle().
 [[nodiscard]] bool makeMasked(const RasterCorner (&corners)[3], const RasterName& name,
                               const RasterMask& mask, MaskedTriangle& out);
 
-/// Returns twice the signed area between corners on the grid; negative if the triangle faces away.
+/// Returns twice the signed area of the triangle on the grid. It is positive if the triangle faces
+/// away: then its corners are clockwise in the picture (row 0 is on top).
 [[nodiscard]] float doubleArea(const RasterCorner (&corners)[3]);
 /// Returns the plane through the values at three corners.
 [[nodiscard]] RasterPlane planeThrough(const RasterCorner (&corners)[3], const float (&value)[3],
                                        float doubleArea);
 
-/// A part of the grid that is drawn: rows `where.y0` to `where.y1`, in the same columns.
+/// A band of rows, `where`, of the part of the grid that is drawn.
 struct RasterBand {
     Rows<std::uint32_t> words;    ///< rows of the whole grid
     Rows<std::uint32_t> indices;  ///< rows of the whole grid; valid where there is a word

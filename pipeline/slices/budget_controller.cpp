@@ -8,14 +8,15 @@
 namespace mfar {
 namespace {
 
-// First portion, while the cost of a sample is unknown. It is small enough for any scene.
+// Number of samples in the first portion, while the time per sample is unknown. It is small enough
+// for any scene.
 constexpr std::int64_t kFirstSamples = 64;
-// Smaller portions are not worth a call. If the portion exceeds the budget, the next frame repays
-// the excess.
+// Smallest number of samples in a portion; fewer are not worth a call. If this portion exceeds the
+// budget, the next frame repays the excess.
 constexpr std::int64_t kLeastSamples = 16;
 constexpr double kPortionsPerFrame = 16;
-// Upper limit of the unused time that is carried over to the next frame (share of the budget). Time
-// remains unused if the threads get too little processor time.
+// Upper limit of the unused time that is carried over to the next frame, as a share of the budget.
+// Time remains unused if the threads get too little processor time.
 constexpr double kMostSaved = 0.08;
 // Converting a picture may take the budget of several frames. The excess is a debt of at most
 // kMostDebt budgets. Each frame repays the share kRepaid of the budget, or of the debt if the debt
@@ -30,7 +31,8 @@ double valid(double ms) {
 
 BudgetController::BudgetController(double msPerFrame) : budget_(msPerFrame), balance_(msPerFrame) {
     if (!(std::isfinite(msPerFrame) && msPerFrame > 0))
-        throw std::invalid_argument("the budget must be a time above 0");
+        throw std::invalid_argument(
+            "the path tracer's time budget per frame must be finite and above 0 ms");
 }
 
 void BudgetController::beginFrame(bool workWaits) {

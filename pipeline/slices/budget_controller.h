@@ -8,13 +8,13 @@ namespace mfar {
 
 /// Permission to trace samples. The caller must return it with BudgetController::spent().
 struct BudgetGrant {
-    std::int64_t samples = 0;  ///< 0: the budget of this frame is used up
+    std::int64_t samples = 0;  ///< samples to trace; 0: the time budget of this frame is used up
     double reservedMs = 0;
 };
 
-/// How exactly the budget was kept in the last frames. `deviation` counts only frames that had work
-/// all the time and used up or exceeded the budget. In other frames the low-priority threads got
-/// too little processor time, which is not the controller's fault.
+/// How exactly the time budget was kept in the last frames. `deviation` counts only frames that had
+/// work all the time and used up or exceeded the budget. In other frames the low-priority threads
+/// got too little processor time, which is not the controller's fault.
 struct BudgetKept {
     int frames = 0;        ///< frames that `deviation` counts; at most BudgetController::kFrames
     double mean = 0;       ///< mean of used time / budget; also counts frames whose threads got too
@@ -23,12 +23,12 @@ struct BudgetKept {
                            ///< use up the budget
 };
 
-/// Limits work to a number of milliseconds per frame.
-/// The cost of a sample is estimated as the median over the last few portions. A single outlier
-/// does not change the estimate, and a lasting change is noticed after a few portions. A portion
-/// takes at most a sixteenth of the budget; the last portion of a frame is made smaller to fit.
-/// An overrun is subtracted from the next frame's budget. Other work that did not fit into its
-/// frame is repaid in small parts over many frames.
+/// Limits the path tracer's work to a number of milliseconds per frame, the budget.
+/// The time per sample is estimated as the median over the last few portions of work. A single
+/// outlier does not change the estimate, and a lasting change is noticed after a few portions. A
+/// portion takes at most a sixteenth of the budget; the last portion of a frame is made smaller to
+/// fit. An overrun is subtracted from the next frame's budget. Work that was reported to
+/// spentElsewhere() and did not fit into its frame is repaid in small parts over many frames.
 /// One thread at a time may call it. It allocates no memory.
 class BudgetController {
 public:
@@ -44,17 +44,18 @@ public:
 
     /// Returns a grant for the next portion. Several grants may be outstanding.
     [[nodiscard]] BudgetGrant grant();
-    /// Like grant(), for work whose expected duration is known.
+    /// Returns a grant for work that traces no samples and is expected to take this time [ms]. Its
+    /// `samples` is 1; 0 if the budget of this frame is used up.
     [[nodiscard]] BudgetGrant grant(double expectedMs);
     /// Target duration of a portion [ms]. It is short, so that the last portion of a frame fits.
     [[nodiscard]] double portionMs() const;
     /// Reports the time that a granted portion took. Negative and non-finite values count as 0.
     void spent(const BudgetGrant& grant, std::int64_t samples, double ms);
-    /// Reports other work that belongs to the budget. It does not change the estimated cost of a
+    /// Reports other work that belongs to the budget. It does not change the estimated time per
     /// sample.
     void spentElsewhere(double ms);
 
-    /// Estimated cost of a sample [ms]; 0 before the first portion.
+    /// Estimated time per sample [ms]; 0 before the first portion.
     [[nodiscard]] double msPerSample() const { return msPerSample_; }
     [[nodiscard]] double msPerFrame() const { return budget_; }
     /// Time used in the current frame [ms].
@@ -63,20 +64,20 @@ public:
 
 private:
     void learn(double msPerSample);
-    /// Part of the debt that a new frame repays [ms].
+    /// Part of debt_ that a new frame repays [ms].
     [[nodiscard]] double repayment(bool workWaits) const;
 
     static constexpr std::size_t kCosts = 9;
 
     const double budget_;
     double balance_, reserved_ = 0, used_ = 0;  // [ms]
-    double debt_ = 0;                           // [ms], not part of the balance
-    bool usedUp_ = false;                       // whether work was refused in this frame
+    double debt_ = 0;                           // [ms], still to be repaid; not part of balance_
+    bool usedUp_ = false;                       // whether grant() refused work in this frame
     double msPerSample_ = 0;
-    std::array<double, kCosts> costs_{};  // ring buffer: cost of a sample in the last portions
+    std::array<double, kCosts> costs_{};  // ring buffer: time per sample in the last portions [ms]
     std::size_t learned_ = 0;
-    /// Ring buffers of used time / budget. shares_: frames that could use up the budget; waited_:
-    /// frames in which work waited.
+    /// Ring buffers of (used time / budget). shares_ has the frames that could use up the budget;
+    /// waited_ has all frames in which work waited.
     std::array<float, kFrames> shares_{}, waited_{};
     std::size_t frames_ = 0, framesWaited_ = 0;
 };

@@ -16,14 +16,15 @@ struct HoleRequest {
     RenderView view;
     std::vector<std::uint32_t> pixels;  ///< row-major indices, in any order
     int samples = 4;                    ///< samples per pixel
-    std::uint64_t scene = 0;            ///< chosen by the caller, copied to the answer
+    std::uint64_t scene = 0;            ///< number chosen by the caller, copied to the answer
     bool edges = false;                 ///< true: older pictures show these pixels blurred
     /// Scene of the picture that has the holes. The request is dropped if pictures of another scene
     /// have replaced that picture. Null: the scene of the newest pictures.
     std::shared_ptr<const Scene> source{};
 };
 
-/// The rendered pixels. Values are as in RenderedPicture, one for each entry of `pixels`.
+/// The answer to a HoleRequest. Colours, depths, ids and light have one value for each entry of
+/// `pixels`, defined as in RenderedPicture.
 struct HoleAnswer {
     RenderView view;
     std::vector<std::uint32_t> pixels;  ///< in ascending order

@@ -10,13 +10,13 @@
 
 namespace mfar {
 
-/// Divides requests into portions, one request after the other. Only one thread at a time may call
-/// it. While prepare() or answer() runs, no other function may be called.
+/// Divides hole requests into portions to trace, one request after the other. Only one thread at a
+/// time may call it. While prepare() or answer() runs, no other function may be called.
 class HoleTracer {
 public:
     static constexpr int kMostSamples = 256;
 
-    /// `mostPixels`: upper limit of the number of pixels of a request. Further pixels are dropped.
+    /// `mostPixels`: largest number of pixels of a request. Further pixels are dropped.
     explicit HoleTracer(std::size_t mostPixels) : mostPixels_(mostPixels) {}
 
     [[nodiscard]] bool idle() const { return stage_ == Stage::Idle; }
@@ -27,8 +27,8 @@ public:
     /// view is invalid.
     void prepare();
 
-    /// Pixels to trace now, with request().samples samples each: about `mostSamples` samples in
-    /// total, or fewer. Empty if all pixels were handed out.
+    /// Pixels to trace now, with request().samples samples each. In total, these are at most
+    /// `mostSamples` samples, but at least one pixel. Empty if all pixels were handed out.
     [[nodiscard]] std::span<const std::uint32_t> next(std::int64_t mostSamples);
     void done(std::span<const std::uint32_t> pixels) { done_ += pixels.size(); }
     [[nodiscard]] bool tracing() const {

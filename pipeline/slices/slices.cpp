@@ -51,10 +51,10 @@ std::uint32_t rankOf(std::uint32_t pixel, int width) {
 
 Slices::Slices(const SliceOptions& options) : options_(options) {
     if (options.samples < 1 || options.samplesPerTurn < 1 || options.leastSamples < 2)
-        throw std::invalid_argument(
-            "slices need at least one sample, and at least two to estimate the error");
+        throw std::invalid_argument("path tracer: samples and samplesPerTurn must be at least 1, "
+                                    "and leastSamples at least 2");
     if (!(options.threshold >= 0))
-        throw std::invalid_argument("the error threshold must not be negative");
+        throw std::invalid_argument("path tracer: the error threshold must not be negative");
 }
 
 void Slices::begin(const PixelRect& bounds, Size picture,
@@ -189,7 +189,8 @@ void Slices::endRound(Tile& tile, const PixelStates& states) {
     } else if (tile.handed < tile.active) {
         if (adapts && turn_ + 1 == kFirstFull && isUntouched(tile, states)) {
             kept = 0;
-            settled_ -= tile.handed * static_cast<std::uint64_t>(step(tile));  // already traced
+            // dropActive() counts all samples of the tile as not needed, but these were traced.
+            settled_ -= tile.handed * static_cast<std::uint64_t>(step(tile));
         }
     } else {
         tile.samples += step(tile);
@@ -224,7 +225,8 @@ bool Slices::isUntouched(const Tile& tile, const PixelStates& states) const {
 }
 
 std::uint32_t Slices::keepNoisy(Tile& tile, const PixelStates& states) {
-    constexpr int kRow = kTileEdge + 2;  // a tile's row with a border, which is never noisy
+    // Length of a tile's row with one more pixel on each side. The additional pixels are not noisy.
+    constexpr int kRow = kTileEdge + 2;
     std::array<bool, kRow * kRow> noisy{};
     const auto placeOf = [&](std::uint32_t pixel) {
         const std::uint32_t x = pixel % static_cast<std::uint32_t>(width_);

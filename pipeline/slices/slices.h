@@ -13,20 +13,22 @@ namespace mfar {
 
 /// The order in which a picture's samples are taken.
 enum class Slicing {
-    Time,     ///< a few samples of every pixel per turn: soon complete, then less noisy with every
-              ///< turn
-    Spatial,  ///< all samples of one tile after the other: complete only at the end
+    /// A few samples of every pixel per turn: the picture is soon complete, and every turn makes it
+    /// less noisy.
+    Time,
+    /// All samples of a tile, then of the next tile: the picture is complete only at the end.
+    Spatial,
 };
 
 struct SliceOptions {
     Slicing slicing = Slicing::Time;
-    int samples = 64;        ///< largest number per pixel
-    int samplesPerTurn = 2;  ///< per pixel in one portion, in both orders
+    int samples = 64;        ///< largest number of samples per pixel
+    int samplesPerTurn = 2;  ///< samples per pixel in one portion, for both values of `slicing`
     /// A pixel gets no more samples if its standard error [grey levels] and those of the adjacent
     /// pixels in the tile are below this limit. The neighbours count, because the estimate of a
     /// single pixel may be low by chance. 0: every pixel gets all samples.
     float threshold = 1;
-    int leastSamples = 16;  ///< samples before an estimated error is trusted
+    int leastSamples = 16;  ///< from this number of samples on, an estimated error is trusted
     bool operator==(const SliceOptions&) const = default;
 };
 
@@ -38,10 +40,10 @@ struct Slice {
     std::uint32_t tile = 0;  ///< index of the tile in Morton order
 };
 
-/// State of a pixel.
+/// What Slices must know about a pixel.
 struct PixelState {
     float error = 0;         ///< standard error [grey levels]; infinite if unknown
-    float samples = 0;       ///< number of samples behind the error
+    float samples = 0;       ///< number of samples from which the error was estimated
     bool untouched = false;  ///< the pixel has shown no object and no changed light so far
 };
 using PixelStates = std::function<PixelState(std::uint32_t)>;
@@ -50,17 +52,17 @@ using PixelStates = std::function<PixelState(std::uint32_t)>;
 /// Tiles, and the pixels in a tile, are in Morton order (G. M. Morton, "A computer oriented
 /// geodetic data base", 1966), so that rays that are traced together hit the same objects.
 /// The number of samples of a pixel depends only on the errors in its tile. It is therefore the
-/// same in both orders and does not depend on how the work is distributed.
+/// same for both values of Slicing, and does not depend on which thread gets which portion.
 ///
-/// Slicing::Time begins with a ray through every pixel's centre. After this turn, pixels with a
-/// small error get no samples. The first samples are taken in three turns: in one pixel of 16, in
-/// one of 4, and in all pixels, evenly spread. Tiles that are untouched after the first two of
-/// these turns are left out of the third.
+/// Slicing::Time begins with a turn that traces a ray through every pixel's centre. Pixels whose
+/// error is small after this turn get no samples. The first samples are taken in the next three
+/// turns: in one pixel of 16, in one pixel of 4, and in all pixels; these pixels are evenly spread.
+/// Tiles that are untouched after the first two of these three turns are left out of the third.
 ///
 /// Only one thread at a time may call it. Only begin() allocates memory.
 class Slices {
 public:
-    /// Throws std::invalid_argument if a number is out of range.
+    /// Throws std::invalid_argument if an option is out of range.
     explicit Slices(const SliceOptions& options);
 
     /// Which pixels of a tile are sampled.
@@ -69,14 +71,14 @@ public:
         Quarter,  ///< the pixels with even column and even row
         Full,
     };
-    /// Begins a picture. `densityOf` returns the density of each tile in `bounds`; without it the
-    /// density is Full. All portions of the previous picture must be done.
+    /// Begins a picture. `densityOf` returns the density of each tile in `bounds`. Without
+    /// `densityOf`, all tiles have density Full. All portions of the previous picture must be done.
     void begin(const PixelRect& bounds, Size picture,
                const std::function<Density(const PixelRect& tile)>& densityOf = {});
 
-    /// The next portion, with at most about `mostSamples` samples (number of pixels times samples)
-    /// but at least one pixel. If there are no pixels, all work is done or the rest must wait for
-    /// outstanding portions.
+    /// The next portion. It has at most about `mostSamples` samples (pixels times samples per
+    /// pixel), but at least one pixel. It has no pixels if all work is done or if the rest of the
+    /// work must wait for outstanding portions.
     [[nodiscard]] Slice next(std::int64_t mostSamples);
 
     /// Reports that a portion was traced.
@@ -85,8 +87,8 @@ public:
     /// Whether no portion is outstanding and every pixel either has samples() samples or needs no
     /// more. Then the picture may be shown. Also true before the first turn.
     [[nodiscard]] bool turnComplete() const;
-    /// Number of samples that every pixel had, or did not need, after the last complete turn.
-    /// Slicing::Spatial has only one turn.
+    /// Number n of samples after the last complete turn: each pixel had n samples, or fewer if it
+    /// needed no more. Slicing::Spatial has only one turn.
     [[nodiscard]] int samples() const { return samples_; }
     /// Number of complete turns. In Slicing::Time, turn 1 is the ray through the centres, and turns
     /// 2 to 4 take the first samples.
@@ -94,21 +96,22 @@ public:
     [[nodiscard]] bool finished() const { return unfinished_ == 0; }
 
     [[nodiscard]] std::size_t pixels() const { return pixels_.size(); }
-    /// Number of samples (pixels times samples) done since begin().
+    /// Number of samples that all pixels together got since begin().
     [[nodiscard]] std::uint64_t traced() const { return traced_; }
     /// Share of the samples that are done or not needed, in [0, 1]; 1 when finished.
     [[nodiscard]] double progress() const;
 
 private:
     struct Tile {
-        std::uint32_t first = 0, count = 0;  ///< range in pixels_
-        std::uint32_t active = 0;            ///< number of pixels that get more samples; they are
-                                             ///< in front
-        std::uint32_t handed = 0;            ///< number of active pixels that were handed out in
-                                             ///< this round
-        std::uint32_t most = 0;              ///< upper limit of `handed` in this turn
-        std::uint32_t out = 0;               ///< number of outstanding portions
-        int samples = 0;                     ///< samples taken of each active pixel
+        std::uint32_t first = 0, count = 0;  ///< in pixels_: first pixel, number of pixels
+        /// Number of pixels that get more samples; they are the tile's first pixels in pixels_.
+        std::uint32_t active = 0;
+        /// Number of active pixels handed out in this round. A round gives each active pixel the
+        /// samples of one turn.
+        std::uint32_t handed = 0;
+        std::uint32_t most = 0;  ///< upper limit of `handed` in this turn
+        std::uint32_t out = 0;   ///< number of outstanding portions
+        int samples = 0;         ///< number of samples that each active pixel has
     };
 
     void addTile(const PixelRect& tile, Density density);
@@ -128,13 +131,17 @@ private:
     const SliceOptions options_;
     std::vector<std::uint32_t> pixels_;
     std::vector<Tile> tiles_;
-    std::vector<std::uint32_t> open_;   ///< Slicing::Spatial: tiles begun but not finished
+    std::vector<std::uint32_t> open_;   ///< Slicing::Spatial: indices of tiles in progress
     std::vector<std::uint64_t> order_;  ///< sorted Morton codes of the tiles
     int width_ = 1;
-    std::uint32_t cursor_ = 0;  ///< first tile not yet handed out completely in this turn
+    std::uint32_t cursor_ = 0;  ///< index of the first tile with pixels to hand out in this turn
     int samples_ = 0, turn_ = 0;
-    std::size_t unfinished_ = 0, ofTurn_ = 0;  ///< tiles; tiles whose turn is not over
-    std::uint64_t traced_ = 0, settled_ = 0;   ///< samples done; samples not needed
+    /// unfinished_: number of tiles that need more samples. ofTurn_: number of tiles with work left
+    /// in this turn.
+    std::size_t unfinished_ = 0, ofTurn_ = 0;
+    /// traced_: number of samples that were traced. settled_: number of samples that are not
+    /// needed.
+    std::uint64_t traced_ = 0, settled_ = 0;
 };
 
 }  // namespace mfar

@@ -9,11 +9,12 @@ namespace mfar {
 /// The tiles of 8x8 pixels in which a picture shows an object or changed light.
 class TouchedTiles {
 public:
-    /// Discards the picture. Nothing is known then.
+    /// Discards the picture. isFarFrom() is false until the next set().
     void clear() { tiles_.clear(); }
     void set(const RenderedPicture& picture);
 
-    /// Whether it is known that neither the pixel's tile nor an adjacent tile shows anything.
+    /// Whether neither the pixel's tile nor an adjacent tile shows an object or changed light.
+    /// False if this is unknown.
     [[nodiscard]] bool isFarFrom(const Eigen::Vector2d& pixel) const;
 
 private:

@@ -34,14 +34,16 @@ public:
     /// is used. Must be called once per frame.
     void update(const RenderView& now, Timestamp time);
 
-    /// The newest complete picture; null before the first. It stays valid until the next call. A
-    /// different picture has a different address.
+    /// The newest complete picture; null before the first. It stays valid until the next call of
+    /// newest(). Two successive pictures have different addresses.
     [[nodiscard]] const RenderedPicture* newest();
 
-    /// Only the newest request is used, but a request that is already being traced is still
-    /// answered. `request` gets the memory of an older request.
+    /// Requests pixels that are rendered individually. Only the newest request is used, but a
+    /// request that is already being traced is still answered. `request` gets the memory of an
+    /// older request.
     void requestHoles(HoleRequest& request);
-    /// The newest answer since the last call, or null. It is valid until the next call.
+    /// The newest answer to a hole request since the last call, or null. It is valid until the next
+    /// call.
     [[nodiscard]] const HoleAnswer* takeHoles();
 
     /// Whether the threads have finished the work that the last update() allows. It takes a lock,
@@ -50,9 +52,9 @@ public:
         return workers_.rest(updates_, static_cast<int>(threads_.size()));
     }
 
-    /// State at the last frame or picture, whichever is newer.
+    /// The counters as of the last frame or the last picture, whichever is newer.
     [[nodiscard]] const RenderCounters& counters();
-    /// The reason why a scene was rejected. It is returned once.
+    /// The reason why a scene was rejected; empty if none was rejected since the last call.
     [[nodiscard]] std::optional<std::string> takeError();
 
 private:
@@ -63,7 +65,7 @@ private:
     std::optional<RenderView> view_;
     std::uint64_t updates_ = 0;
     bool hasPicture_ = false;
-    std::vector<std::jthread> threads_;  // last member: the threads use the others
+    std::vector<std::jthread> threads_;  // last member, because the threads use the other members
 };
 
 }  // namespace mfar

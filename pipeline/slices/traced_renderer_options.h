@@ -19,12 +19,14 @@ struct TracedRendererOptions {
     Exposure exposure;
     TracedPolicy policy;
     PredictionLimits prediction;
-    double lightChange = 0.1;  ///< smaller changes of light are ignored; see lightChange()
-    double budgetMs = 4;       ///< processor time [ms] of all threads between two calls of update()
-    int threads = 2;           ///< number of threads, [1, 64]
-    double holeShare = 0.5;    ///< upper limit of the holes' share of the time while a traced
-                               ///< picture is incomplete, [0, 1]
-    std::size_t mostHolePixels = 20000;  ///< per request; further pixels are dropped
+    /// A new scene with the same objects is ignored if lightChange() from the old one is smaller.
+    double lightChange = 0.1;
+    double budgetMs = 4;  ///< processor time [ms] of all threads between two calls of update()
+    int threads = 2;      ///< number of threads, [1, 64]
+    /// While a traced picture is incomplete, tracing holes takes at most this share of the
+    /// processor time, [0, 1].
+    double holeShare = 0.5;
+    std::size_t mostHolePixels = 20000;  ///< largest number of pixels in a hole request
     bool operator==(const TracedRendererOptions&) const = default;
 };
 
@@ -35,10 +37,11 @@ struct RenderCounters {
     double msPerSample = 0;       ///< processor time per sample
     double cpuMs = 0;             ///< processor time that belongs to the budget, since the start
     BudgetKept budget;
-    std::uint64_t pictures = 0;    ///< finished: each pixel has a small error or all its samples
-    std::uint64_t shown = 0;       ///< published pictures, even if the reader did not take them
-    std::uint64_t holePixels = 0;  ///< number of answered pixels
-    double progress = 1;           ///< of the picture in progress, in [0, 1]
+    /// Number of finished pictures: each pixel has a small error or all its samples.
+    std::uint64_t pictures = 0;
+    std::uint64_t shown = 0;       ///< published pictures, even if the reader did not fetch them
+    std::uint64_t holePixels = 0;  ///< number of pixels that were rendered for hole requests
+    double progress = 1;           ///< share of the picture in progress that is done, [0, 1]
     std::optional<Timestamp> shownSince;  ///< when the shown picture's view was chosen
     bool idle = true;                     ///< there is no work left while the camera rests
     bool lowPriority = true;              ///< all threads were allowed to lower their priority

@@ -12,13 +12,15 @@
 namespace mfar {
 namespace {
 
-// The view is predicted only so far that its change from the present view stays below this limit,
-// because the picture must serve the present view, too.
+// Upper limit of viewChange() from the present view to the predicted view. It is less than 1,
+// because a picture of the predicted view must serve the present view, too.
 constexpr double kPredictedChange = 0.9;
-// Upper limit of the number of missed frames whose budget is granted after one long job.
+// After a job that lasted several frames, the time budgets of at most this number of frames are
+// granted.
 constexpr std::uint64_t kMostMissed = 16;
 constexpr double kRateSeconds = 1;
-// Number of pixels in the first portion, while the time per pixel is unknown.
+// Number of pixels in the first portion of converting a film to a picture, while the time per pixel
+// is unknown.
 constexpr std::int64_t kFirstResolved = 2048;
 
 double secondsBetween(Timestamp a, Timestamp b) {
@@ -31,10 +33,12 @@ TracedRendererOptions checked(const TracedRendererOptions& o) {
     if (!positive(o.policy.limits.turnDegrees) || !positive(o.policy.limits.zoom) ||
         !(o.lightChange >= 0) || o.policy.samplesToReplace < 1)
         throw std::invalid_argument(
-            "an option that decides when a new traced picture is made is out of range");
+            "path tracer: turnDegrees and zoom must be above 0, lightChange must not be negative, "
+            "and samplesToReplace must be at least 1");
     if (!(o.holeShare >= 0 && o.holeShare <= 1))
-        throw std::invalid_argument("the share of holes is not in [0, 1]");
-    if (!positive(o.exposure.scale)) throw std::invalid_argument("the exposure must be above 0");
+        throw std::invalid_argument("path tracer: holeShare is not in [0, 1]");
+    if (!positive(o.exposure.scale))
+        throw std::invalid_argument("path tracer: the scale of the exposure must be above 0");
     return o;
 }
 
@@ -50,7 +54,8 @@ void TracedWorkers::work() {
     std::unique_lock lock(mutex_);
     counters_.lowPriority = counters_.lowPriority && lowered;
     while (!mail_.stop) {
-        const std::uint32_t wakes = mail_.wakes;  // must be read before the mail
+        // `wakes` is read before the mail. So a message that arrives later ends the wait below.
+        const std::uint32_t wakes = mail_.wakes;
         readMail();
         Job job = chosenJob();
         if (job.kind == Job::Kind::None) {
@@ -82,8 +87,8 @@ void TracedWorkers::readMail() {
     if (mail_.ticks.fetch()) takeTick();
 }
 
-// Drops a request for a picture whose scene was replaced. The next picture will cause a new
-// request.
+// Takes a hole request, or drops it if the scene of its picture was replaced. The next picture will
+// cause a new request.
 void TracedWorkers::takeHoles(HoleRequest& request) {
     const std::shared_ptr<const Scene> source = std::exchange(request.source, nullptr);
     const std::shared_ptr<const PictureScene>& scene =

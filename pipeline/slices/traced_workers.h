@@ -52,10 +52,10 @@ private:
     struct Job {
         enum class Kind : unsigned char {
             None,
-            Build,  // one at a time; likewise one of PrepareHoles and AnswerHoles at a time
-            Begin,  // only one runs at a time, and not while a picture is resolved
+            Build,  // only one Build job runs at a time
+            Begin,  // only one Begin job runs at a time, and not while a picture is resolved
             Resolve,
-            PrepareHoles,
+            PrepareHoles,  // only one PrepareHoles or AnswerHoles job runs at a time
             AnswerHoles,
             Trace,
             TraceHoles,
@@ -65,16 +65,17 @@ private:
         TracedPictures::Portion portion;
         PictureResolver::Portion rows;
         std::span<const std::uint32_t> holes;
-        int holeSamples = 0;  // samples per pixel
+        int holeSamples = 0;  // samples per pixel of `holes`
         std::shared_ptr<const Scene> source, previousSource;
-        std::shared_ptr<const PictureScene> scene;  // Build: before the job the previous scene,
-                                                    // after it the new one
+        // Of a Build job: the previous scene until the job is done, then the new one (null if the
+        // previous scene stays in use).
+        std::shared_ptr<const PictureScene> scene;
         std::string error;
 
         [[nodiscard]] std::int64_t samples() const;
     };
 
-    // Called with the mutex locked:
+    // The functions from here to wakeOthers() are called with mutex_ locked.
     void readMail();
     void takeHoles(HoleRequest& request);
     void takeTick();
@@ -90,7 +91,7 @@ private:
     [[nodiscard]] bool hasWork() const { return toBuild_ || building_ || tracing(); }
     void publishCounters();
     void wakeOthers();
-    // Called with the mutex unlocked:
+    // perform() and build() are called with mutex_ unlocked.
     void perform(Job& job);
     void build(Job& job) const;
 
@@ -108,15 +109,14 @@ private:
     bool building_ = false;   // a Build job is running
     bool exclusive_ = false;  // a Begin job is running or a picture is being resolved
     bool resolves_ = false;
-    std::array<double, PictureResolver::kStages> resolveMs_{};  // [ms] per pixel
-    bool holesExclusive_ = false;                               // a PrepareHoles or AnswerHoles job
-                                                                // is running
+    std::array<double, PictureResolver::kStages> resolveMs_{};  // time of each stage [ms per pixel]
+    bool holesExclusive_ = false;  // a PrepareHoles or AnswerHoles job is running
     bool toLook_ = false, workAtBegin_ = false;
     double tickSeconds_ = 1.0 / 30;
-    double holeMs_ = 0;  // time spent on holes in the current frame
+    double holeMs_ = 0;  // processor time spent on holes in the current frame [ms]
     int asleep_ = 0;
     RenderCounters counters_;
-    std::uint64_t samplesThen_ = 0;  // counters_.samples at the last computation of the rate
+    std::uint64_t samplesThen_ = 0;  // counters_.samples at the time rateTime_
     Timestamp rateTime_;
 };
 

@@ -8,8 +8,8 @@ namespace mfar {
 
 /// Passes the newest value from one thread to another without locks and without waiting. One slot
 /// belongs to the writer, one to the reader, and the third is exchanged between them. Values that
-/// were never read are overwritten; their memory is reused. Several threads may share an end if
-/// other means prevent them from using it at the same time.
+/// were never read are overwritten; their memory is reused. There may be several writing or several
+/// reading threads if other means ensure that only one of them writes and one reads at a time.
 template <class T>
 class TripleBuffer {
 public:
@@ -34,7 +34,7 @@ public:
     [[nodiscard]] const T& front() const { return slots_[front_]; }
 
 private:
-    static constexpr std::uint8_t kFresh = 4;  // flag that is stored next to the slot's number
+    static constexpr std::uint8_t kFresh = 4;  // flag in between_: the slot's value was not fetched
 
     std::array<T, 3> slots_{};
     std::uint8_t back_ = 0, front_ = 1;

@@ -53,8 +53,8 @@ struct BallSight {
     }
 };
 
-/// Spherical harmonics of the light of degree 0 and 1, up to constant factors. The rows are the
-/// mean and the x, y and z components; the columns are the colour channels.
+/// Coefficients of the light in spherical harmonics of degree 0 and 1, without constant factors.
+/// The rows are the mean and the x, y and z components; the columns are the colour channels.
 using LightMoments = Eigen::Matrix<double, 4, 3>;
 
 LightMoments momentsOf(const Environment& environment) {

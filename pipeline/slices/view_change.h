@@ -21,16 +21,17 @@ struct ObjectBall {
 
 /// Up to these changes of the view a warped picture serves as well as a new one.
 struct ViewLimits {
-    double turnDegrees = 4;  ///< turn of the line of sight about an object's centre, above 0
-    double zoom = 0.2;       ///< relative change of the distance to the centre, above 0
+    /// Angle [degrees] by which the line from an object's centre to the camera turns, above 0.
+    double turnDegrees = 4;
+    double zoom = 0.2;  ///< relative change of the distance from camera to object, above 0
     bool operator==(const ViewLimits&) const = default;
 };
 
-/// How much two views of the objects differ, as a multiple of the limits; from 1 on, `from` does
-/// not serve any more. A rotation of the camera on the spot can be undone by a warp. The angle of
-/// rotation counts only for objects that `from` does not show completely. Objects that are not
-/// visible in `to` do not count. Infinite if the cameras differ, or if an object is visible in `to`
-/// but not in `from`.
+/// How much two views of the objects differ, as a multiple of the limits. From 1 on, a picture of
+/// the view `from` is too different to be warped to the view `to`. A rotation of the camera on the
+/// spot counts only for objects that `from` does not show completely, because the warp can undo it.
+/// Objects that are not visible in `to` do not count. Infinite if the cameras differ, or if an
+/// object is visible in `to` but not in `from`.
 [[nodiscard]] double viewChange(const RenderView& from, const RenderView& to,
                                 std::span<const ObjectBall> objects, const ViewLimits& limits);
 
@@ -39,8 +40,9 @@ struct ViewLimits {
 [[nodiscard]] double pixelChange(const RenderView& from, const RenderView& to,
                                  std::span<const ObjectBall> objects);
 
-/// Difference of two lightings relative to the stronger one: the largest difference of the mean
-/// radiance and of its first moments over all directions (spherical harmonics of degree 0 and 1).
+/// Difference of two lightings relative to the stronger one. It is the largest difference of a
+/// spherical harmonics coefficient of degree 0 or 1 (the mean radiance and its first moments over
+/// all directions).
 [[nodiscard]] double lightChange(const Lighting& a, const Lighting& b);
 
 /// Whether the scenes have the same objects. Their light may differ.

@@ -18,7 +18,8 @@ constexpr double kLongestGap = 0.5;
 ViewPredictor::ViewPredictor(const PredictionLimits& limits) : limits_(limits) {
     if (!(limits.seconds >= 0 && limits.turnDegrees >= 0) || !std::isfinite(limits.seconds) ||
         !std::isfinite(limits.turnDegrees))
-        throw std::invalid_argument("the limits of a prediction must be finite and not negative");
+        throw std::invalid_argument(
+            "the limits of the view prediction must be finite and not negative");
 }
 
 const ViewPredictor::Entry& ViewPredictor::back(std::size_t steps) const {

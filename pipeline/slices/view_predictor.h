@@ -9,9 +9,10 @@
 namespace mfar {
 
 struct PredictionLimits {
-    double seconds = 0.5;    ///< longest prediction time; 0: no prediction
-    double turnDegrees = 4;  ///< upper limit of the camera's rotation, and of the angle of its
-                             ///< translation as seen from the objects
+    double seconds = 0.5;  ///< longest prediction time; 0: no prediction
+    /// Upper limit of the angle [degrees] by which the camera is predicted to rotate. The angle by
+    /// which its position moves, as seen from the objects, has the same limit.
+    double turnDegrees = 4;
     bool operator==(const PredictionLimits&) const = default;
 };
 
@@ -27,8 +28,8 @@ public:
     /// second later, the measurement restarts.
     void add(const RigidTransform& T_world_camera, Timestamp time);
 
-    /// Pose `seconds` after the last pose, as far as the limits allow. `distance` is the distance
-    /// of the objects [m]. Returns the identity before the first pose.
+    /// Predicted pose `seconds` after the last pose, as far as the limits allow. `distance` is the
+    /// distance from the camera to the objects [m]. Returns the identity before the first pose.
     [[nodiscard]] RigidTransform predict(double seconds, double distance) const;
 
 private:

@@ -10,9 +10,10 @@
 
 namespace mfar {
 
-/// Pixels that were traced one by one for a camera pose, with their depths. Each re-rendered
-/// picture has only the pixels of one HoleAnswer, and its own pose. Colours are looked up in it
-/// like in the traced picture. The newest re-rendered picture replaces the oldest.
+/// Keeps the last kPictures re-rendered pictures. A re-rendered picture consists of the pixels of
+/// one HoleAnswer: they were traced individually, for the camera pose of the answer, and have
+/// depths. Colours are looked up in it as in the traced picture. A new re-rendered picture replaces
+/// the oldest.
 class RerenderedPictures {
 public:
     static constexpr int kPictures = 4;
@@ -21,8 +22,8 @@ public:
     /// once.
     RerenderedPictures(Size layer, int fadeFrames);
 
-    /// Whole rows [firstRow, lastRow) of the picture in `slot`. `store` must keep them until other
-    /// rows replace them.
+    /// Whole rows [firstRow, lastRow) of the picture in `slot`. add() passes them to its `store`,
+    /// which must copy them, and keep the copy until other rows replace them.
     struct StoredRows {
         int slot, firstRow, lastRow;
         std::span<const std::array<std::uint8_t, 4>> colours;  ///< RGBA8
@@ -30,11 +31,12 @@ public:
         std::span<const WarpSurface> surfaces;
     };
     /// Adds an answer as the newest picture. The answer must have at least one pixel, and all
-    /// pixels must be in the layer. Passes all rows that change to `store`; a slot that was never
-    /// stored counts as empty.
+    /// pixels must be in the layer. Passes all rows that change in the picture's slot to `store`. A
+    /// slot of which nothing was stored yet counts as empty.
     void add(const HoleAnswer& answer, const std::function<void(const StoredRows&)>& store);
     void clear();
-    /// Must be called once per displayed frame; advances the fading.
+    /// Must be called once per displayed frame. Increases the share of each picture that still
+    /// fades in.
     void age();
 
     /// Pose of a picture, and its share in the displayed colour. If the share is 0, the slot has no
@@ -42,7 +44,7 @@ public:
     struct Picture {
         int slot = 0;  ///< slot that stores the pixels
         RigidTransform T_world_camera;
-        PixelRect bounds;  ///< bounds of the pixels; valid even if the share is 0
+        PixelRect bounds;  ///< bounds of the stored pixels; valid even if the share is 0
         double share = 0;
     };
     [[nodiscard]] const std::array<Picture, kPictures>& pictures() const { return pictures_; }
@@ -54,8 +56,8 @@ private:
     int fadeFrames_;
     std::array<Picture, kPictures> pictures_;  // newest first
     std::vector<std::array<std::uint8_t, 4>> colours_;
-    std::vector<LightWords> lights_;     // empty until an answer with light
-    std::vector<WarpSurface> surfaces_;  // all unknown between two calls of add()
+    std::vector<LightWords> lights_;     // empty until add() gets an answer with light
+    std::vector<WarpSurface> surfaces_;  // between two calls of add(), all pixels are unknown
 };
 
 }  // namespace mfar

@@ -12,17 +12,19 @@
 namespace mfar {
 namespace {
 
-// Triangle edges are cut until they are not longer than the diagonal of the model divided by
-// kModelPieces (for the shadow catcher: its diagonal divided by kCatcherPieces). The catcher has
-// more pieces, because only a small part of it may be visible. At 640 px the straight edges then
-// differ from the curves of the distorted picture by less than a third of a pixel.
+// If the lens distorts the picture, triangle edges are cut into pieces. A piece of a model is not
+// longer than the model's diagonal divided by kModelPieces. A piece of the shadow catcher is not
+// longer than the catcher's diagonal divided by kCatcherPieces; it has more pieces, because only a
+// small part of it may be visible. At 640 px the straight pieces then differ from the curves of the
+// distorted picture by less than a third of a pixel.
 constexpr float kModelPieces = 16, kCatcherPieces = 32;
-// A software renderer needs 0.2 us per triangle. If a scene has more than kMostTriangles, each mesh
-// is reduced in proportion to its number of triangles, plus kLeastTriangles.
+// A software renderer needs 0.2 us per triangle. If a scene has n > kMostTriangles triangles, its
+// models are simplified: each mesh keeps at most (its triangles) * kMostTriangles / n +
+// kLeastTriangles triangles.
 constexpr double kMostTriangles = 20000;
 constexpr std::size_t kLeastTriangles = 2000;
-constexpr int kEdgePoints = 8;    // sample points along each edge of a box
-constexpr int kBoundsMargin = 2;  // [px]
+constexpr int kEdgePoints = 8;    // intervals between the projected points of a box's edge
+constexpr int kBoundsMargin = 2;  // [px], added to the bounds on each side
 constexpr double kFlat =
     1e-4;  // [m]: largest distance of a planar catcher's corners from its plane
 
@@ -124,7 +126,7 @@ SilhouetteModels::shapeOf(const std::shared_ptr<const Model>& model) const {
         };
         const SurfaceTexture* baseColour = texture(material.baseColourTexture);
         const bool masked = material.alphaCutoff > 0 && baseColour != nullptr;
-        // All points are holes, because the colour factor's alpha is below the cutoff.
+        // A mesh without a mask is invisible if the alpha of its colour factor is below the cutoff.
         if (!masked && cutoff > 1) continue;
         SurfaceMesh surface = surfaceMesh(mesh.positions, mesh.uvs, mesh.triangles,
                                           bent ? diagonal / kModelPieces : 0);

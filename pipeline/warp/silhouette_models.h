@@ -13,8 +13,8 @@
 
 namespace mfar {
 
-/// The models of a scene, and the real surface that catches their shadows, prepared for drawing
-/// silhouettes through a lens. It holds triangles and paint, but no light.
+/// The models of a scene and the shadow catcher, prepared for drawing silhouettes through a lens.
+/// It holds triangles, materials and textures, but no light.
 class SilhouetteModels {
 public:
     /// `layer` is the camera, scaled to the layer's resolution.
@@ -25,7 +25,7 @@ public:
 
     struct Part {
         SurfaceMesh mesh;
-        const SurfaceTexture* alpha = nullptr;  ///< alpha mask, repeats; null: no mask
+        const SurfaceTexture* alpha = nullptr;  ///< alpha mask, which repeats; null: no mask
         float cutoff = 0;                       ///< texels with a smaller alpha are holes
         bool bothSides = true;                  ///< whether the back side is visible
         const Material* material = nullptr;     ///< null for the shadow catcher
@@ -35,18 +35,19 @@ public:
     struct Shape {
         std::vector<Part> parts;
         Eigen::AlignedBox3d box;
-        std::shared_ptr<const Model> model;  ///< owns materials and textures; null: the catcher
+        std::shared_ptr<const Model> model;  ///< owns the materials; null: the shadow catcher
     };
     struct Object {
-        std::shared_ptr<const Shape> shape;  ///< scenes with the same model share it
+        std::shared_ptr<const Shape> shape;  ///< objects with the same model have the same shape
         RigidTransform T_world_object;
         double scale;
     };
     [[nodiscard]] const std::vector<Object>& objects() const { return objects_; }
-    /// The shadow catcher. Empty if it need not be drawn.
+    /// The shadow catcher as an object to draw. Empty if there is no shadow catcher or it is
+    /// planar.
     [[nodiscard]] const std::optional<Object>& catcher() const { return catcher_; }
-    /// Plane of a planar shadow catcher, which is not drawn: n . point = w in the world [m]. Zero
-    /// if the catcher is not planar.
+    /// Plane (n, w) of a planar shadow catcher, which is not drawn: n . point = w in the world [m].
+    /// Zero if the shadow catcher is not planar.
     [[nodiscard]] const Eigen::Vector4d& plane() const { return plane_; }
     [[nodiscard]] std::size_t triangles() const { return triangles_; }
     [[nodiscard]] const LensProjection& lens() const { return lens_; }
@@ -54,7 +55,8 @@ public:
     /// Bounds of all objects [layer px]. If an object crosses the near plane, the bounds are the
     /// whole layer.
     [[nodiscard]] PixelRect bounds(const RigidTransform& T_world_camera) const;
-    /// The same bounds for one object.
+    /// Bounds of one object [layer px]. If the object crosses the near plane, the bounds are the
+    /// whole layer.
     [[nodiscard]] PixelRect boundsOf(const Object& object,
                                      const RigidTransform& T_camera_world) const;
 
@@ -68,7 +70,7 @@ private:
     std::optional<Object> catcher_;
     Eigen::Vector4d plane_ = Eigen::Vector4d::Zero();
     std::size_t triangles_ = 0;
-    double share_ = 1;  // share of the models' triangles that is kept
+    double share_ = 1;  // share of the models' triangles that is kept when they are simplified
 };
 
 }  // namespace mfar

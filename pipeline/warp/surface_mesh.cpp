@@ -68,7 +68,7 @@ bool cut(SurfaceMesh& mesh, float longest, std::size_t most) {
 }
 
 struct Cell {
-    std::array<float, 3> position{};  // sum of the vertices' positions
+    std::array<float, 3> position{};  // sum of the positions of the cell's vertices
     float count = 0;
 };
 
@@ -173,7 +173,8 @@ SurfaceMesh simplified(SurfaceMesh mesh, std::size_t mostTriangles) {
     if (mesh.triangles.size() <= mostTriangles) return mesh;
     const Eigen::AlignedBox3f box = cornersBox(mesh);
     if (!(box.sizes().maxCoeff() > 0)) return {};
-    // Vertices that no triangle uses may have any position, even one that is not finite.
+    // Vertices that no triangle uses may have any position, even one that is not finite. They are
+    // moved to a corner of the box.
     for (SurfaceVertex& v : mesh.vertices)
         if (!box.contains(positionOf(v))) std::copy_n(box.min().data(), 3, v.position);
     for (int cells = 256; cells > 1; cells = cells * 3 / 4) {

@@ -22,10 +22,10 @@ struct SurfaceMesh {
 };
 
 /// Halves edges until no edge is longer than `longest` [m]. Two triangles with a common edge cut it
-/// at the same points, so that no gap appears. `longest` is increased if the result would otherwise
-/// have more triangles than `mostTriangles` and more than the mesh. `uvs` has one entry per vertex
-/// or is empty. A triangle is omitted if a corner is not finite or a corner's index is out of
-/// range.
+/// at the same points, so that no gap appears. If the result would have more than `mostTriangles`
+/// triangles, `longest` is doubled as often as necessary. A mesh that has more triangles before the
+/// cut is not cut. `uvs` has one entry per vertex or is empty. A triangle is omitted if a corner is
+/// not finite or a corner's index is out of range.
 [[nodiscard]] SurfaceMesh surfaceMesh(std::span<const Eigen::Vector3f> positions,
                                       std::span<const Eigen::Vector2f> uvs,
                                       std::span<const std::array<std::uint32_t, 3>> triangles,
@@ -33,7 +33,7 @@ struct SurfaceMesh {
 
 /// Reduces a mesh to at most `mostTriangles`. All corners in a cell of a grid are replaced by their
 /// mean (Rossignac and Borrel 1993), which moves a smooth surface by a small fraction of a cell. A
-/// mesh with fewer triangles stays unchanged.
+/// mesh that has no more triangles than this stays unchanged.
 [[nodiscard]] SurfaceMesh simplified(SurfaceMesh mesh, std::size_t mostTriangles);
 
 }  // namespace mfar

@@ -30,13 +30,15 @@ void requireFiniteCamera(const CameraModel& c, const RigidTransform& T) {
     if (c.size.width < 1 || c.size.height < 1 || c.size.width > kMostSide ||
         c.size.height > kMostSide)
         throw std::invalid_argument(
-            "width and height of a rendered picture must be from 1 to 16384");
+            "width and height of a rendered picture must be from 1 to 16384 pixels");
     if (!(c.fx > 0) || !(c.fy > 0) || !finite(c.fx) || !finite(c.fy) || !finite(c.cx) ||
         !finite(c.cy) || !std::ranges::all_of(c.distortion, finite) || !isFinite(T))
-        throw std::invalid_argument("the camera or pose of a rendered picture is not finite");
+        throw std::invalid_argument(
+            "a rendered picture has a camera parameter or a pose that is not "
+            "finite, or a focal length that is not above 0");
 }
 
-/// The picture as a grid; pixels outside are empty.
+/// Gives access to a traced picture by pixel coordinates. Pixels outside the picture are empty.
 class PictureGrid {
 public:
     explicit PictureGrid(TracedPicture& traced) : r_(traced), size_(traced.camera.size) {}
@@ -75,14 +77,14 @@ private:
     Size size_;
 };
 
-/// Sets the pixel's colour and light to the mean of adjacent plain pixels on the same surface.
-/// Returns false if there are no such pixels.
+/// Sets the pixel's colour and light to the mean of those adjacent pixels on the same surface that
+/// are plain (see PictureGrid::isPlain()). Returns false if there are none.
 bool takeFromNeighbours(const PictureGrid& grid, std::span<const LightWords> light,
                         TracedPicture& r, int x, int y) {
     const int own = grid.id(x, y);
     std::array<int, 4> sum{};
     UnpackedLight sumOfLight;
-    GlossWords gloss;  // from one neighbour, because octahedral directions have no mean
+    GlossWords gloss;  // of one neighbour, because directions in octahedral form have no mean
     int count = 0;
     for (int j = -1; j <= 1; ++j)
         for (int i = -1; i <= 1; ++i) {
@@ -110,7 +112,8 @@ bool takeFromNeighbours(const PictureGrid& grid, std::span<const LightWords> lig
     return true;
 }
 
-/// The smaller of the two steps of z to neighbours on the same surface along one axis.
+/// The smaller of the two steps of z to the neighbours along one axis. Only neighbours on the same
+/// surface count; without them, the result is kUnknownSlope * z.
 float slopeAlong(std::span<const WarpSurface> surface, Size size, int x, int y, int dx, int dy) {
     const auto at = [&](int i, int j) -> const WarpSurface& {
         return surface[static_cast<std::size_t>(j) * static_cast<std::size_t>(size.width) +
@@ -182,7 +185,8 @@ void requireAllPixels(const RenderedPicture& picture, std::size_t count) {
         picture.id.size() != count || (!picture.light.empty() && picture.light.size() != count) ||
         (!picture.gloss.empty() && picture.gloss.size() != count))
         throw std::invalid_argument("a rendered picture must have a colour, a depth and an id for "
-                                    "each pixel of its camera");
+                                    "each pixel of its camera, and a light and a gloss for each "
+                                    "pixel or for none");
 }
 
 }  // namespace

@@ -12,9 +12,11 @@ namespace mfar {
 
 inline constexpr float kFarthestSurface = 1e6F;  ///< [m]: surfaces farther away are ignored
 
-inline constexpr std::uint32_t kUnknownId = 254;  ///< number that no object has
+/// TracedPicture::packed of a pixel whose surface is unknown. No object has this number.
+inline constexpr std::uint32_t kUnknownId = 254;
 
-/// Data of a pixel for look-ups during a warp; the texel that the shaders read.
+/// The surface that a pixel of a picture shows, for the warp's look-ups. Shaders read it as a
+/// texel.
 struct WarpSurface {
     float z = 0;          ///< [m]; 0: no surface
     float id = 0;         ///< number of the surface; 0: no surface
@@ -27,15 +29,19 @@ struct WarpSurface {
 struct TracedPicture {
     CameraModel camera;
     RigidTransform T_world_camera;
-    std::vector<std::array<std::uint8_t, 4>> picture;  ///< rendered colours; valid where depth is
-    std::vector<float> depth;                          ///< z for display [m]; reduced at shadows
-                                                       ///< (kShadowLift); 0: no surface
-    /// Colour of a single surface. Pixels at an edge get the colour of the nearest pixels inside
-    /// the surface. Objects are opaque; the shadow catcher is premultiplied.
+    /// Colours as they were rendered; valid where `depth` is above 0.
+    std::vector<std::array<std::uint8_t, 4>> picture;
+    /// z for display [m]; 0: no surface. On the shadow catcher it is reduced (see kShadowLift).
+    std::vector<float> depth;
+    /// Colours for look-ups: each is the colour of a single surface. Pixels at an edge of a surface
+    /// get the mean colour of adjacent pixels inside the surface. Colours of objects are opaque;
+    /// those of the shadow catcher are premultiplied.
     std::vector<std::array<std::uint8_t, 4>> colour;
-    /// Light on objects in the same pixels. Empty if only colours are known.
+    /// Light on the object in each pixel, for look-ups like `colour`. Empty if only colours are
+    /// known.
     std::vector<LightWords> light;
-    /// How these pixels mirror the light `mirrors`, multiplied by `exposure`. Empty if unknown.
+    /// How the object in each pixel mirrors distant light, which is `mirrors` times `exposure`.
+    /// Empty if unknown.
     std::vector<GlossWords> gloss;
     std::shared_ptr<const MirrorLight> mirrors;
     float exposure = 1;
@@ -43,12 +49,12 @@ struct TracedPicture {
     /// z and number of the surface in one word, in the format of warp_surface.glsl. Unknown pixels
     /// have kUnknownId.
     std::vector<std::uint32_t> packed;
-    /// A part of the picture that is not empty. Tiles are used to bound the motion of the picture's
-    /// points.
+    /// A square part of the picture that shows a surface. motionOf() bounds the motion of the
+    /// picture's points by that of the tiles' corners.
     struct Tile {
         PixelRect pixels;
         std::array<Eigen::Vector2d, 4> rays;  ///< normalised rays of the tile's outer corners
-        float nearest, farthest;              ///< z [m]
+        float nearest, farthest;              ///< smallest and largest z in the tile [m]
     };
     std::vector<Tile> tiles;
     PixelRect bounds;  ///< bounds of all tiles; empty: there is no surface
@@ -71,7 +77,7 @@ struct TracedPicture {
 /// another view of the layer.
 struct WarpMotion {
     double greatest = 0;  ///< [px]; infinite if a point moves behind the near plane
-    PixelRect bounds;     ///< pixels of the other view that show a point
+    PixelRect bounds;     ///< pixels of the other view in which points of the picture lie
 };
 [[nodiscard]] WarpMotion motionOf(const TracedPicture& traced, const LensProjection& layer,
                                   const RigidTransform& T_world_camera);

@@ -10,8 +10,10 @@
 namespace mfar {
 namespace {
 
-constexpr int kRestFrames = 5;      // frames without motion until the camera is at rest
-constexpr double kSamePose = 1e-3;  // [px]: a repeated pose may differ by rounding errors
+// After this many frames without motion, the camera counts as resting.
+constexpr int kRestFrames = 5;
+// Smaller motions [px] count as none, because equal poses may differ by rounding errors.
+constexpr double kSamePose = 1e-3;
 
 WarpOptions validated(const WarpOptions& options) {
     validate(options);
@@ -136,7 +138,8 @@ std::optional<HoleRequest> Warp::request(std::vector<std::uint32_t> pixels, bool
     return out;
 }
 
-/// Whether no point of the traced picture moves by leastMotion or more.
+/// Whether all points of the traced picture move by less than leastMotion from one pose to the
+/// other.
 bool Warp::isUnmoved(const RigidTransform& from, const RigidTransform& to) const {
     const RigidTransform T = from.inverse() * to;
     float nearest = kFarthestSurface;
@@ -163,11 +166,12 @@ void Warp::answer(const HoleAnswer& answer) {
     if (answer.colour.size() != pixels.size() || answer.depth.size() != pixels.size() ||
         answer.id.size() != pixels.size() ||
         (!answer.light.empty() && answer.light.size() != pixels.size()))
-        throw std::invalid_argument("the fields of an answer differ in length");
+        throw std::invalid_argument("a hole answer must have a colour, a depth and an id for each "
+                                    "pixel, and a light for each pixel or for none");
     if (std::ranges::any_of(pixels, [&](std::uint32_t p) { return p >= count; }))
-        throw std::invalid_argument("a pixel of an answer lies outside of the layer");
+        throw std::invalid_argument("a hole answer has a pixel outside the virtual layer");
     if (!isFinite(answer.view.T_world_camera))
-        throw std::invalid_argument("the pose of an answer is not finite");
+        throw std::invalid_argument("the camera pose of a hole answer is not finite");
     if (answer.scene != scene_) return;
     asked_ = false;
     if (pixels.empty()) return;

@@ -15,12 +15,12 @@ namespace mfar {
 struct WarpCounters {
     std::uint64_t warped = 0;     ///< displayed frames that were warped
     std::uint64_t unmoved = 0;    ///< frames that show the traced picture unchanged
-    std::uint64_t empty = 0;      ///< frames without anything in view
+    std::uint64_t empty = 0;      ///< frames in which no virtual object is in view
     std::uint64_t requested = 0;  ///< pixels requested for individual rendering
     std::uint64_t answered = 0;   ///< pixels that were rendered and returned
-    std::uint64_t rays = 0;       ///< samples of the requested pixels
-    int openHoles = 0;            ///< pixels that no picture shows, in the frame last read
-    int cracks = 0;               ///< pixels in one-pixel-wide cracks, in the same frame
+    std::uint64_t rays = 0;       ///< number of samples of all requested pixels
+    int openHoles = 0;            ///< pixels that no picture shows, in the frame last evaluated
+    int cracks = 0;               ///< pixels in one-pixel-wide cracks, in the frame last evaluated
 };
 
 /// Image-based rendering of the virtual layer. It shows a finished picture, the traced picture,
@@ -31,15 +31,15 @@ struct WarpCounters {
 /// pixels are rendered individually.
 class Warp {
 public:
-    /// `video` is the camera at any resolution; the layer has size `output`. `engine` must outlive
-    /// this object. Throws std::invalid_argument if an option is out of range, and GlError if the
-    /// GL implementation cannot draw into R32F.
+    /// `video` is the video camera's model at any resolution; the layer has size `output`. `engine`
+    /// must outlive this object. Throws std::invalid_argument if an option is out of range. With
+    /// the GLES engine, throws GlError if the GL implementation cannot draw into R32F.
     Warp(const CameraModel& video, Size output, Engine& engine, const WarpOptions& options = {});
     Warp(const Warp&) = delete;
     Warp& operator=(const Warp&) = delete;
 
-    /// Sets the models. Discards the traced picture and all rendered holes, because they belong
-    /// to another scene.
+    /// Sets the models. Discards the traced picture and all re-rendered pictures, because they
+    /// belong to another scene.
     void setScene(const Scene& scene);
     /// Takes effect with the next run(). Replaces the traced picture. Re-rendered pictures
     /// stay valid, but a list of holes that is still being read back is discarded.
@@ -49,8 +49,8 @@ public:
     /// See WarpStep::takesLight().
     [[nodiscard]] bool takesLight() const { return step_->takesLight(); }
 
-    /// The returned picture is empty if there is no scene or no traced picture, or if the pose
-    /// is not finite. The result is valid until the next call of any member.
+    /// Returns the layer as seen from this pose. The picture is empty if there is no scene or no
+    /// traced picture, or if the pose is not finite. It is valid until the next call of any member.
     LayerPicture& run(const RigidTransform& T_world_camera);
 
     /// Must be called once per frame, including frames that are not drawn because the camera rests.
@@ -60,8 +60,9 @@ public:
     /// returned. Empty if no pixels are known, or if an earlier request for the same scene was not
     /// answered yet.
     [[nodiscard]] std::optional<HoleRequest> takeRequest();
-    /// Takes effect with the next run(). Answers for another scene are ignored. Throws
-    /// std::invalid_argument if the fields have different lengths or a pixel is outside the layer.
+    /// Adds the pixels that takeRequest() requested; they are shown from the next run() on. Answers
+    /// for another scene are ignored. Throws std::invalid_argument if the fields of the answer have
+    /// different lengths, a pixel is outside the layer, or the pose is not finite.
     void answer(const HoleAnswer& answer);
 
     [[nodiscard]] const WarpCounters& counters() const { return counters_; }
@@ -84,7 +85,7 @@ private:
     std::unique_ptr<WarpStep> step_;
     std::optional<TracedPicture> traced_;
     std::uint64_t scene_ = 0;
-    bool asked_ = false;  // a request was not answered yet
+    bool asked_ = false;  // whether a request was not answered yet
     HoleRequest lastRequest_;
     RigidTransform listPose_;                 // pose of the frame whose holes are being read back
     std::optional<RigidTransform> warpedTo_;  // pose of the displayed frame; empty: not warped

@@ -16,12 +16,14 @@ struct WarpOptions {
     /// Upper limit of the number of pixels in one request, at least 1. The default is 5 % of
     /// 640x480.
     int mostRequested = 15360;
-    int holeSamples = 4;  ///< samples per pixel, [1, 4096]
-    /// While the camera rests, this share of the objects' pixels is rendered individually, because
-    /// the warp blurs edges. Pixels at edges are chosen. Range [0, 1]; 0: no pixels.
+    int holeSamples = 4;  ///< samples per pixel of a hole, [1, 4096]
+    /// While the camera rests, pixels at edges are rendered individually, because the warp blurs
+    /// edges. This is the largest number of these pixels, as a share of the objects' pixels. Range
+    /// [0, 1]; 0: no pixels.
     double sharpenShare = 0.4;
-    int sharpenSamples = 40;  ///< samples per pixel, [1, 4096]
-    /// Number of frames in which rendered pixels fade in, [0, 100].
+    int sharpenSamples = 40;  ///< samples per pixel at an edge, [1, 4096]
+    /// Number of frames in which individually rendered pixels fade in, [0, 100]. Used only with
+    /// HoleFilling::Both.
     int fadeFrames = 4;
     /// The traced picture is shown unchanged if the new pose moves all of its points by less
     /// than this distance [px], [0, 10].

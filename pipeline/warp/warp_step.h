@@ -11,11 +11,11 @@
 
 namespace mfar {
 
-/// Pixels whose colour a frame did not find in the traced picture.
+/// The pixels of a warped frame that the traced picture does not show.
 struct WarpHoles {
     std::vector<std::uint32_t> open;  ///< pixels that no picture shows; row-major, ascending
     int cracks = 0;                   ///< number of pixels in cracks; they are not listed
-    int fading = 0;  ///< number of pixels from partly faded-in re-rendered pictures
+    int fading = 0;                   ///< number of pixels whose re-rendered pictures still fade in
 };
 
 /// Processes the pixels of a warp. Each engine implements it, and Warp decides when it runs. The
@@ -46,7 +46,8 @@ public:
     /// The result is valid until the next run().
     [[nodiscard]] virtual LayerPicture& run(const Frame& frame) = 0;
 
-    /// The holes of the frame with `lists`, once that frame is finished. Never waits.
+    /// The holes of the last frame that was run with Frame::lists. Empty until that frame is
+    /// finished. Never waits.
     [[nodiscard]] virtual std::optional<WarpHoles> takeHoles() = 0;
     [[nodiscard]] virtual bool holesPending() const = 0;
     virtual void dropHoles() = 0;
@@ -54,8 +55,8 @@ public:
     /// valid and not empty.
     virtual void addRerendered(const HoleAnswer& answer) = 0;
 
-    /// Discards the previous list and its answer. Then lists the pixels with the most contrast in
-    /// the last run()'s picture, because the look-up blurred them.
+    /// Lists the edge pixels of the last run()'s picture. These are the pixels with the most
+    /// contrast, which the look-up blurred. Discards the previous list and its answer.
     virtual void listEdges() = 0;
     /// Row-major indices of the listed pixels, ascending. Empty until the list is known. Never
     /// waits.
@@ -65,9 +66,9 @@ public:
     virtual void answerEdges(const HoleAnswer& answer) = 0;
     virtual void dropEdges() = 0;
 
-    /// State of each pixel as RGBA8, for tests. R: number of the missing surface. G: its share of
-    /// the pixel. B: 255 if no picture shows the missing surface. A: number of the surface that
-    /// fills the whole pixel.
+    /// State of each pixel as RGBA8, for tests. R: number of the surface whose colour is missing.
+    /// G: share of the pixel that this surface covers. B: 255 if no picture shows this surface. A:
+    /// number of the surface that fills the whole pixel.
     [[nodiscard]] virtual const Field<std::uint32_t>& state() const = 0;
 };
 
