@@ -28,7 +28,6 @@ constexpr milliseconds kMain{500};
 constexpr milliseconds kWatchdog{10'000};
 static_assert(kCapture + kPicture + kControl + kMain < kWatchdog / 2);
 
-/// Opening, stopping or closing a camera once. Other threads show the banner in the meantime. The
 /// Thread of a camera: opening, stopping or closing it once. Other threads show the banner in the
 /// meantime. The driver of USB cameras waits 5 s for an answer, several times in a row.
 constexpr milliseconds kOpener{20'000};

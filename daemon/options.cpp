@@ -67,7 +67,7 @@ void addOthers(CLI::App& app, Options& options, bool& printConfig) {
     app.add_flag("--print-config", printConfig,
                  "Only print a configuration file with every key, its meaning and default");
     app.add_flag("--release-trigger", options.releaseTrigger,
-                 "Only set the trigger line to its inactive level, after a crash");
+                 "Set the trigger line to its inactive level and end; for use after a crash");
     app.add_option("--record", options.recordTo, "Record video and stills into this new folder")
         ->type_name("DIR");
     app.add_option("--frames", options.frames, "End after N pictures")

@@ -28,8 +28,8 @@ struct Candidate {
     double Prediction::* frame;
 };
 
-/// All placements, in the order in which they are tried on GPUs without predictions. SIMD is first,
-/// because it needs no shader compilation.
+/// All placements of steps on engines, in the order in which they are tried on a GPU for which no
+/// times are predicted. SIMD is first, because it needs no shader compilation.
 std::array<Candidate, 4> candidates() {
     constexpr auto kSimd = EngineKind::Simd, kGles = EngineKind::Gles;
     return {{{placed(kSimd, kSimd), &Prediction::simd},

@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
-/// The world of the simulated board: a few convex solids with procedural materials. The world frame
-/// is the frame of the tag map, in metres, with z up. Times are in seconds since the world's epoch.
-/// The world depends only on scene, seed and time.
+/// The world that the simulated cameras see: a few convex solids with procedural materials. The
+/// world frame is the frame of the tag map, in metres, with z up. Times are in seconds since the
+/// world's epoch. The world depends only on scene, seed and time.
 namespace mfar::synthetic {
 
 enum class Scene { Office, Shelf, Outdoor, Flat, Moving, Still, Calibration };

@@ -136,7 +136,7 @@ public:
 struct TileSummary {
     std::array<int, kTileClasses> tiles{};  ///< number of tiles of each TileClass
     double meanConfidence = 0;              ///< [0, 1]
-    double explained = 0;  ///< share of tiles that are flat or explained by a still, [0, 1]
+    double explained = 0;  ///< share of tiles that are flat or match a still, [0, 1]
     double changed = 0;    ///< share of tiles that were drawn, [0, 1]
     int second = 0;        ///< number of tiles that show parts of the second still
 };

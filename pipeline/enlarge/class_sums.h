@@ -21,8 +21,8 @@ using Phases = Eigen::Matrix<double, kPhases, 1>;
 /// Weights of a class's filter. Unlike those of FilterBank::Filter, they are not halved.
 using ClassWeights = Eigen::Matrix<double, kTaps, kPhases>;
 
-/// The class whose stored filter another class uses, and the symmetry that maps the other class's
-/// pixels onto it.
+/// The stored filter that a class uses, and the symmetry that maps the class's pixels onto the
+/// filter's own class. Only classes that no symmetry maps onto each other have stored filters.
 struct UniqueClass {
     int number;  ///< index among the classes with stored filters, [0, kUnique)
     Symmetry same;

@@ -31,8 +31,8 @@ struct EpipolarOptions {
                                    ///< high and wide; [1, 4]
     double longestParallax = 0.8;  ///< largest parallax that is searched, as a fraction of the
                                    ///< picture's width; (0, 1]
-    int windowRadius = 2;          ///< a pixel's window of labels covers the results of the coarser
-                                   ///< pyramid level within this radius [px]; [0, 8]
+    int windowRadius = 2;          ///< a pixel's candidates of s cover the results that the coarser
+                                   ///< pyramid level has within this radius of it [px]; [0, 8]
     int stepPenalty = 12;          ///< Smoothness::step for a picture without noise; [1, 30]
     int jumpPenalty = 60;          ///< Smoothness::jump; [1, 60]
     int finest = 0;  ///< finest pyramid level that is searched; 0: full size, 1: half size, 2:

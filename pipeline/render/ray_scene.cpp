@@ -60,9 +60,9 @@ void occludedOne(RTCScene scene, RTCRay& query) {
 }
 #endif
 
-// A hit counts as on an edge if one of its barycentric weights is below this limit. The limit is
-// the rounding error relative to the size of a triangle whose width is a thousandth of its
-// distance.
+// A hit counts as on an edge if one of its barycentric weights is below this limit. Rounding errors
+// of a hit grow with the distance from the ray's origin. They reach this weight in a triangle that
+// is as wide as a thousandth of the distance.
 constexpr float kEdge = 4e-3F;
 
 RTCRay embreeRay(const Ray& ray) {

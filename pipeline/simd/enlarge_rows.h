@@ -14,8 +14,9 @@ namespace mfar::simd {
 void lumaEighthsRow(const std::array<const std::uint8_t*, 3>& rgb, int begin, int end,
                     std::int16_t* to);
 
-/// Classes of the pixels of the middle one of seven rows, numbered as in GradientClasses and
-/// CurvatureClasses. `sums`: three temporary rows, used from two pixels before `begin` on.
+/// Writes the class by gradient and the class by curvature of each pixel of a row, numbered as in
+/// GradientClasses and CurvatureClasses. `luma`: seven rows with this row in the middle. `sums`:
+/// three temporary rows, used from two pixels before `begin` on.
 void classRow(const std::array<const std::int16_t*, 7>& luma, int begin, int end,
               const std::array<float*, 3>& sums, std::uint16_t* gradient, std::uint16_t* curvature);
 

@@ -65,7 +65,8 @@ HWY_INLINE Bend bendAt(const AlignStep& step, int column, int row, Vector2 here)
             slope(seedAt(step, column, row - 2), seedAt(step, column, row + 2))};
 }
 
-/// Positions in the other picture of a patch's rows, or of the two halves of each row (kParts = 2).
+/// Where the rows of a patch lie in the other picture. If kParts is 2, each half of a row has its
+/// own position.
 template <int kParts>
 struct BentPlaces {
     static constexpr int kCount = kPatch * kParts;

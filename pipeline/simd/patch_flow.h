@@ -28,9 +28,10 @@ inline constexpr int kFieldMargin = 16;
 /// A flow field of another frame or step. Its vectors are candidates at every pyramid level.
 struct PriorField {
     const float *x = nullptr, *y = nullptr;
-    std::ptrdiff_t step = 1, pitch = 0;         ///< elements from cell to cell, from row to row
-    float scale = 1;                            ///< pixels of the searched level per field pixel
-    float columnsPerCell = 1, rowsPerCell = 1;  ///< field cells per cell of the searched level
+    std::ptrdiff_t step = 1, pitch = 0;  ///< elements from cell to cell, from row to row
+    float scale = 1;                     ///< pixels of the searched level per field pixel
+    /// Columns and rows of this field per column and row of cells of the searched pyramid level.
+    float columnsPerCell = 1, rowsPerCell = 1;
 };
 
 /// Parameters of searching one pyramid level in one direction, as flow_search.comp does.

@@ -80,7 +80,8 @@ private:
     int slots_ = 0;                                   // number of rows of luma_ in use
     std::array<int, GuideRows::kRows> comparedRows_;  // video row stored in each slot of seen_
     AlignedRows<std::int16_t> videoLuma_;             // a row of the video [1/8 grey level]
-    // Rows of the video with a margin, one per slot [1/32 grey level]; see GuideRows.
+    // Buffers of GuideRows::kRows rows. Each row has a margin and belongs to a row of the video
+    // (comparedRows_). Unit of grey levels: 1/32. See GuideRows.
     AlignedRows<float> seen_, differences_, trusted_;
 };
 

@@ -189,7 +189,8 @@ void Slices::endRound(Tile& tile, const PixelStates& states) {
     } else if (tile.handed < tile.active) {
         if (adapts && turn_ + 1 == kFirstFull && isUntouched(tile, states)) {
             kept = 0;
-            // dropActive() counts all samples of the tile as not needed, but these were traced.
+            // dropActive() counts all samples of the tile as not needed. Those that were handed out
+            // are subtracted here, because they were traced.
             settled_ -= tile.handed * static_cast<std::uint64_t>(step(tile));
         }
     } else {

@@ -165,7 +165,7 @@ TEST(RigFiles, TheDocumentationListsTheAcceptedRanges) {
             << range.what;
 }
 
-TEST(RigFiles, AnOpenCvFileWithoutSizeMustFitTheExpectedSize) {
+TEST(RigFiles, ImplausibleLensOfAnOpenCvFileWithoutSizeIsRefused) {
     const TempFolder folder;
     std::string text = openCvText();
     writeFile(folder / "cv.yml", text.substr(0, text.find("image_size1")));

@@ -23,8 +23,8 @@ using std::chrono::milliseconds;
 constexpr std::uint32_t kSeeds = 200;
 constexpr int kSteps = 200;
 constexpr milliseconds kEarly{500};
-/// Pause before a restart. The index is the number of early ends in a row; after the last entry the
-/// device counts as lost.
+/// Pause before the device is requested again. The index is the number of consecutive requests that
+/// ended early; after the last entry the device counts as lost.
 constexpr std::array<milliseconds, 5> kPauses = {milliseconds(0), milliseconds(0), milliseconds(50),
                                                  milliseconds(100), milliseconds(200)};
 

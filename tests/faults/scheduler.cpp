@@ -18,7 +18,8 @@ namespace mfar::faults {
 
 struct Scheduler::Task {
     std::atomic<int> turn{0};
-    /// The key that the task waits for; its files also wake it. Null: the task is ready.
+    /// Key that the task waits for; null: the task is ready. If one of `files` gets ready, the task
+    /// wakes up, too.
     const void* key = nullptr;
     pollfd* files = nullptr;
     nfds_t fileCount = 0;

@@ -89,7 +89,7 @@ TEST(Mended, InvalidDepthStaysUnknownAtEdges) {
 }
 
 // The only ray is the optical axis, so the rim of the lens has radius zero.
-TEST(Mended, APictureOfOnePixelHasALens) {
+TEST(Mended, EpipolarLensAcceptsAPictureOfOnePixel) {
     const EpipolarLens lens(smallCamera({1, 1}), 0);
     const auto p = lens.project(0, 0);
     EXPECT_EQ(p.x, 0);
@@ -97,7 +97,7 @@ TEST(Mended, APictureOfOnePixelHasALens) {
 }
 
 // The cells form only one column or one row.
-TEST(Mended, PicturesOneOrTwoPixelsWideHaveAFlow) {
+TEST(Mended, EpipolarFlowAcceptsPicturesOneOrTwoPixelsWide) {
     for (const Size size : {Size{1, 1}, Size{1, 40}, Size{40, 1}, Size{2, 3}}) {
         EpipolarFlow flow({smallCamera(size), smallCamera(size), {}}, oneWorker());
         const TestPicture picture = randomPicture(size, 1);

@@ -26,7 +26,7 @@ struct PlantedFault {
     const char* from;  ///< text to replace, as the program gets it
     const char* to;
     const char* what;
-    const char* cases;  ///< the cases that must detect it, separated by commas
+    const char* cases;  ///< names of the cases that must detect this fault, separated by commas
 };
 [[nodiscard]] std::span<const PlantedFault> plantedFaults();
 /// Must be called before the first shader is loaded. Throws std::runtime_error if the text does not

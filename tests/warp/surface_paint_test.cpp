@@ -313,7 +313,7 @@ TEST(SurfacePaint, SurfaceBehindAlphaHolesIsPainted) {
 }
 
 // Two objects, and two triangles of one model, coincide, so that the order of drawing could matter.
-TEST(SurfacePaint, PaintIsIndependentOfThreadsAndOfTheEndsOfRows) {
+TEST(SurfacePaint, PaintDependsNeitherOnThreadsNorOnWhereRowsAreSplit) {
     const std::vector<SurfaceTexture> textures{noise({64, 64}, 5), noise({16, 16}, 6)};
     auto twice = modelOf(ball(0.15F, 64), textured(0), textures);
     twice->materials.push_back(textured(1));

@@ -60,7 +60,7 @@ private:
     std::unique_ptr<VirtualView> view_;
 };
 
-TEST_F(ShadowDepthGl, TheShadowsSurfaceIsMeasuredPeriodically) {
+TEST_F(ShadowDepthGl, DepthUnderShadowsIsMeasuredAgainPeriodically) {
     int all = 0, none = 0;
     for (const PixelRect& r : placed(tableField(0.01))) {
         all += isAll(r) ? 1 : 0;

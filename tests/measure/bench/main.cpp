@@ -108,10 +108,12 @@ void addOptions(CLI::App& app, Options& o) {
     app.add_option("--curves", o.curves,
                    "make no other measurement; write curves.csv and curves.svg into this folder: "
                    "time against error of the flow for each of its options");
-    app.add_option("--data", o.data,
-                   "recordings or pairs, as for mfar-eval flow, on which the curves are measured, "
-                   "with --frames samples of each (default 2). Default: the stereo pairs of "
-                   "../shared/data or, where they are absent and with --quick, synthetic scenes")
+    app.add_option(
+           "--data", o.data,
+           "recordings or pairs on which the curves are measured, as for mfar-eval flow; "
+           "--frames is the number of samples of each (default 2). Without --data, the "
+           "curves are measured on the stereo pairs in ../shared/data. If these are absent, "
+           "or with --quick, they are measured on synthetic scenes")
         ->needs("--curves");
 }
 

@@ -49,7 +49,7 @@ std::vector<BenchCase> detailBenchCases() {
     for (const Size output : {Size{1280, 960}, Size{1920, 1440}, Size{2304, 1728}}) {
         const std::string to = " to " + std::to_string(output.width);
         out.push_back(preparing("still RGBA" + to, output, false));
-        out.push_back(preparing("still RGBA, picture kept" + to, output, true));
+        out.push_back(preparing("still RGBA with a copy of the picture" + to, output, true));
         using enum SuperResMode;
         out.push_back(drawing("detail, whole picture" + to, output, 1, true, Detail));
         out.push_back(drawing("detail, 10 % of the tiles" + to, output, 0.1, true, Detail));
