@@ -184,7 +184,7 @@ void WarpedStill::makeLow(int row) {
 }
 
 WarpedRow WarpedStill::row(int y) {
-    const ColumnTaps taps = taps_->cubicColumns.column(y);
+    const ColumnTaps& taps = taps_->cubicColumns.column(y);
     WarpedRow out{nullptr, {}, taps.weights};
     for (std::size_t k = 0; k < taps.rows.size(); ++k) {
         const int slot = taps.rows[k] % 4;
