@@ -68,6 +68,7 @@ TEST(WarpRow, InterpolatesTheStillWhereverItsPixelsLie) {
     expectPixelsOf("rows change slowly", [](int i) { return Place{i + 0.75, 3.25 + i / 16.0}; });
     expectPixelsOf("rows change quickly", [](int i) { return Place{i + 0.75, 80.25 - i / 4.0}; });
     expectPixelsOf("larger steps", [](int i) { return Place{1.25 * i, 20 + i / 32.0}; });
+    expectPixelsOf("double steps", [](int i) { return Place{2.0 * i - 100, 20.5}; });
     expectPixelsOf("too large steps", [](int i) { return Place{2.5 * i - 200, 20.5}; });
     expectPixelsOf("backwards", [](int i) { return Place{kPixels - i + 0.5, 20.5}; });
     expectPixelsOf("edges between surfaces",
