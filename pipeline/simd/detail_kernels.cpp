@@ -7,6 +7,8 @@
 #define HWY_TARGET_INCLUDE "pipeline/simd/detail_kernels.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+// The next header is included once per instruction set, as this file is.
+#include "pipeline/simd/still_blocks-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
@@ -16,21 +18,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 using F = hn::ScalableTag<float>;
 using I = hn::RebindToSigned<F>;
 using U = hn::RebindToUnsigned<F>;
-
-/// Loads 32-bit lanes from arbitrary byte offsets.
-HWY_INLINE hn::Vec<U> GatherAnywhere(const void* base, hn::Vec<I> bytes) {
-#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
-    return hn::GatherOffset(U(), static_cast<const std::uint32_t*>(base), bytes);
-#else
-    // Other targets of Highway do not support unaligned gathers.
-    HWY_ALIGN std::int32_t at[hn::MaxLanes(I())];
-    HWY_ALIGN std::uint32_t out[hn::MaxLanes(U())];
-    hn::Store(bytes, I(), at);
-    for (std::size_t i = 0; i < hn::Lanes(I()); ++i)
-        std::memcpy(out + i, static_cast<const char*>(base) + at[i], sizeof(out[0]));
-    return hn::Load(U(), out);
-#endif
-}
 
 /// Interpolates between two rows; `t` = 0 gives the first row.
 HWY_INLINE hn::Vec<F> Between(const std::array<const float*, 2>& rows, float t, int x) {
@@ -93,16 +80,14 @@ HWY_INLINE hn::Vec<F> MeanOfFour(hn::Vec<U> texels, const Positions& at) {
 void WarpRow(const StillPairs& still, const LookUpRows& rows, int begin, int end,
              std::int16_t* to) {
     const F df;
-    const I di;
     const hn::Rebind<std::int16_t, F> d16;
     const int lanes = static_cast<int>(hn::Lanes(df));
-    const auto pitch = hn::Set(di, static_cast<std::int32_t>(2 * still.pitch));
+    const StillBlocks blocks(still);
     const auto scale = hn::Set(df, 32.0F / 256);
     LookUp lookUp(rows, still.size, begin);
     for (int x = begin; x < end; x += lanes) {
         const Positions at = lookUp.next(x);
-        const auto bytes = hn::Add(hn::Mul(at.y, pitch), hn::Add(at.x, at.x));
-        const auto mean = MeanOfFour(GatherAnywhere(still.data, bytes), at);
+        const auto mean = MeanOfFour(blocks.at(at.x, at.y), at);
         hn::StoreU(hn::DemoteTo(d16, hn::NearestInt(hn::Mul(mean, scale))), d16, to + x);
     }
 }

@@ -197,7 +197,7 @@ void DetailStep::drawStrip(const Frame& frame, Scratch& s, const PixelRect& stri
 
 void DetailStep::drawRow(const Frame& frame, Scratch& s, int y) const {
     const RowTaps& columns = frame.linear ? videoTaps_.linearColumns : videoTaps_.cubicColumns;
-    const ColumnTaps taps = columns.column(y);
+    const ColumnTaps& taps = columns.column(y);
     const EnlargedRows rows = s.video.rows(taps.rows);
     std::uint32_t* to = frame.out[y];
     const std::int16_t* learnedRow = s.learnedSpans.empty() ? nullptr : s.learned.row(y);

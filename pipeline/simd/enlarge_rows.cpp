@@ -243,7 +243,8 @@ void ResidualOf(const ResidualInput& in, const FilterRows& filters, int x, std::
     }
 }
 #else
-void ResidualOf(const ResidualInput& in, const FilterRows& filters, int x, std::int16_t* out) {
+HWY_INLINE void ResidualOf(const ResidualInput& in, const FilterRows& filters, int x,
+                           std::int16_t* out) {
     const hn::CappedTag<std::int16_t, 2 * kPhases> d16;
     const hn::RepartitionToWide<decltype(d16)> d32;
     const hn::Rebind<std::int16_t, decltype(d32)> dOut;

@@ -54,9 +54,11 @@ RowTaps::RowTaps(int from, int to, const std::function<void(int, const Add&)>& s
     }
     // Vectors that read beyond the end use the last entry.
     std::fill(first_[0] + to, first_[0] + first_.pitch(), first_[0][to - 1]);
+    for (int y = 0; y < to && taps <= 4; ++y)
+        columns_.push_back(columnOf(y));
 }
 
-ColumnTaps RowTaps::column(int y) const {
+ColumnTaps RowTaps::columnOf(int y) const {
     ColumnTaps out{};
     int sum = 0, most = 0;
     for (int k = 0; k < 4; ++k) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 namespace mfar::simd {
 
@@ -39,7 +40,7 @@ public:
     [[nodiscard]] float weight(int tap, int x) const { return weights_[tap][x]; }
     /// Returns the taps for row y if the table is used for columns. The table must have at most
     /// four taps.
-    [[nodiscard]] ColumnTaps column(int y) const;
+    [[nodiscard]] const ColumnTaps& column(int y) const { return columns_[y]; }
     /// The table for resampleRow(). Sources must have at least taps() entries; missing entries must
     /// be zero.
     [[nodiscard]] TapTable table() const {
@@ -51,8 +52,11 @@ private:
     using Add = std::function<void(int, double)>;
     RowTaps(int from, int to, const std::function<void(int, const Add&)>& sample);
 
+    [[nodiscard]] ColumnTaps columnOf(int y) const;
+
     AlignedRows<std::int32_t> first_;
     AlignedRows<float> weights_;
+    std::vector<ColumnTaps> columns_;  // empty if there are more than four taps
 };
 
 }  // namespace mfar::simd

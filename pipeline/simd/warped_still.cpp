@@ -139,16 +139,16 @@ void WarpedStill::compare(int row) {
     float *differences = differences_[slot] + kMargin, *trusted = trusted_[slot] + kMargin;
     makeMean(row, seen);
     const LookUpCell* cells = field_[row / kCell];
+    const float video = guidance_.video * kMeanScale / enlarge::kLumaScale;
     for (const auto& [begin, end] : compared_) {
         lumaEighthsRow({guide_->row(0, row), guide_->row(1, row), guide_->row(2, row)}, begin, end,
                        videoLuma_[0]);
-        for (int x = begin; x < end; ++x) {
-            const bool counts = cells[x / kCell].weight > 0;
-            const float video =
-                kMeanScale / enlarge::kLumaScale * static_cast<float>(videoLuma_[0][x]);
-            trusted[x] = counts ? 1.0F : 0.0F;
-            differences[x] = counts ? guidance_.still * seen[x] - guidance_.video * video : 0.0F;
-        }
+        for (int cell = begin / kCell; cell * kCell < end; ++cell)
+            std::fill_n(trusted + static_cast<std::ptrdiff_t>(cell) * kCell, kCell,
+                        cells[cell].weight > 0 ? 1.0F : 0.0F);
+        for (int x = begin; x < end; ++x)
+            differences[x] = trusted[x] * (guidance_.still * seen[x] -
+                                           video * static_cast<float>(videoLuma_[0][x]));
         for (float* values : {differences, trusted}) {
             if (begin == 0) std::fill_n(values - kReach, kReach, values[0]);
             if (end == video_.width) std::fill_n(values + end, kReach, values[end - 1]);
@@ -184,7 +184,7 @@ void WarpedStill::makeLow(int row) {
 }
 
 WarpedRow WarpedStill::row(int y) {
-    const ColumnTaps taps = taps_->cubicColumns.column(y);
+    const ColumnTaps& taps = taps_->cubicColumns.column(y);
     WarpedRow out{nullptr, {}, taps.weights};
     for (std::size_t k = 0; k < taps.rows.size(); ++k) {
         const int slot = taps.rows[k] % 4;

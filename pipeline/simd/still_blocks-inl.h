@@ -1,0 +1,94 @@
+// Loads the still's pixels at positions that a row of the output looks up. Included once per
+// instruction set.
+#include "pipeline/simd/detail_kernels.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <hwy/cache_control.h>
+#include <hwy/highway.h>
+
+#if defined(MFAR_SIMD_STILL_BLOCKS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef MFAR_SIMD_STILL_BLOCKS_INL_H
+#undef MFAR_SIMD_STILL_BLOCKS_INL_H
+#else
+#define MFAR_SIMD_STILL_BLOCKS_INL_H
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace mfar::simd::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Loads blocks of 2x2 pixels of a still's luma, one per lane.
+class StillBlocks {
+    using I = hn::ScalableTag<std::int32_t>;
+    using U = hn::ScalableTag<std::uint32_t>;
+
+public:
+    explicit StillBlocks(const StillPairs& still)
+        : still_(still), pitch_(hn::Set(I(), static_cast<std::int32_t>(still.pitch))) {}
+
+    HWY_INLINE hn::Vec<U> at(hn::Vec<I> x, hn::Vec<I> y) const {
+        const std::int32_t left = hn::GetLane(x), top = hn::GetLane(y);
+        hwy::Prefetch(still_.data + (top + kRowsAhead) * still_.pitch + left);
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+        // Consecutive pixels are usually close together, in at most two rows. Permuting parts of
+        // these rows is faster than loading many lanes.
+        const I di;
+        const U du;
+        const std::int32_t begin = std::max(left - kBefore, 0);
+        const std::int32_t bottom = hn::ExtractLane(y, hn::Lanes(di) - 1);
+        const auto place = hn::BitCast(du, hn::Sub(x, hn::Set(di, begin)));
+        const auto inTop = hn::RebindMask(du, hn::Eq(y, hn::Set(di, top))),
+                   inBottom = hn::RebindMask(du, hn::Eq(y, hn::Set(di, bottom)));
+        const auto found = hn::And(hn::Lt(place, hn::Set(du, kReach)), hn::Or(inTop, inBottom));
+        if (hn::AllTrue(du, found))
+            return hn::IfThenElse(inTop, permuted(top, begin, place),
+                                  permuted(bottom, begin, place));
+#endif
+        return loaded(x, y);
+    }
+
+private:
+    /// The row is prefetched this number of rows ahead. Hardware does not foresee it, because the
+    /// output is drawn in strips.
+    static constexpr std::ptrdiff_t kRowsAhead = 2;
+
+    /// Loads lanes one by one. Highway's gathers need aligned lanes on most targets and are hardly
+    /// faster on the others.
+    HWY_INLINE hn::Vec<U> loaded(hn::Vec<I> x, hn::Vec<I> y) const {
+        HWY_ALIGN std::int32_t at[hn::MaxLanes(I())];
+        HWY_ALIGN std::uint32_t out[hn::MaxLanes(U())];
+        hn::Store(hn::Add(hn::Mul(y, pitch_), x), I(), at);
+        for (std::size_t i = 0; i < hn::Lanes(I()); ++i)
+            std::memcpy(out + i, still_.data + at[i], sizeof(out[0]));
+        return hn::Load(U(), out);
+    }
+
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+    static constexpr std::int32_t kBefore = 4;   // columns before that of the first lane
+    static constexpr std::uint32_t kReach = 31;  // number of columns that are found
+
+    /// Returns the blocks at columns `begin` + `place` of a row.
+    HWY_INLINE hn::Vec<U> permuted(std::int32_t row, std::int32_t begin, hn::Vec<U> place) const {
+        const U du;
+        const hn::Repartition<std::uint16_t, U> d16;
+        static_assert(hn::MaxLanes(d16) == kReach + 1);
+        const std::uint16_t* from = still_.data + row * still_.pitch + begin;
+        const auto even = hn::BitCast(du, hn::LoadU(d16, from));
+        const auto odd = hn::BitCast(du, hn::LoadU(d16, from + 1));
+        const auto indices = hn::IndicesFromVec(du, hn::ShiftRight<1>(place));
+        return hn::IfThenElse(hn::TestBit(place, hn::Set(du, 1)),
+                              hn::TableLookupLanes(odd, indices),
+                              hn::TableLookupLanes(even, indices));
+    }
+#endif
+
+    const StillPairs& still_;
+    hn::Vec<I> pitch_;
+};
+
+}  // namespace mfar::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
