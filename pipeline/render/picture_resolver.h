@@ -21,11 +21,13 @@ public:
 
     /// Begins a picture. Pixels outside `traced` become empty. Film and picture must outlive the
     /// work; the picture keeps its allocated memory.
-    /// `memory` is null or the film. If it is the film, two kinds of pixels are stored in it.
-    /// Pixels without sampled or carried light store the filter's result. Pixels of the real
-    /// surface that were not traced store the mean of the neighbours with even column and even row.
+    /// `layered`: see RenderedPicture; only if `filter` is true.
+    /// `memory` is null or the film. If it is the film, pixels without sampled or carried light
+    /// store the filter's result in it, and pixels of the real surface that were not traced show
+    /// the mean of the neighbours with even column and even row.
     void begin(const Film& film, const RenderView& view, const PixelRect& traced,
-               const Exposure& exposure, bool filter, RenderedPicture& out, Film* memory = nullptr);
+               const Exposure& exposure, bool filter, RenderedPicture& out, Film* memory = nullptr,
+               bool layered = false);
 
     struct Portion {
         int stage = 0, firstRow = 0, lastRow = 0;

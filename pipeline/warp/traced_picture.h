@@ -30,8 +30,9 @@ struct TracedPicture {
     std::vector<std::array<std::uint8_t, 4>> picture;  ///< rendered colours; valid where depth is
     std::vector<float> depth;                          ///< z for display [m]; reduced at shadows
                                                        ///< (kShadowLift); 0: no surface
-    /// Colour of a single surface. Pixels at an edge get the colour of the nearest pixels inside
-    /// the surface. Objects are opaque; the shadow catcher is premultiplied.
+    /// Colour of a single surface. Unless the picture is layered, pixels at an edge get the colour
+    /// of the nearest pixels inside the surface. Objects are opaque; the shadow catcher is
+    /// premultiplied.
     std::vector<std::array<std::uint8_t, 4>> colour;
     /// Light on objects in the same pixels. Empty if only colours are known.
     std::vector<LightWords> light;
@@ -39,6 +40,7 @@ struct TracedPicture {
     std::vector<GlossWords> gloss;
     std::shared_ptr<const MirrorLight> mirrors;
     float exposure = 1;
+    bool layered = false;  ///< see RenderedPicture
     std::vector<WarpSurface> surface;
     /// z and number of the surface in one word, in the format of warp_surface.glsl. Unknown pixels
     /// have kUnknownId.
