@@ -8,7 +8,7 @@ namespace {
 
 // With TracedPolicy::soon, a moving camera gets a new picture at this share of the limits. The
 // new picture inherits the light of the previous one.
-constexpr double kSoon = 0.5;
+constexpr double kSoon = 0.75;
 // The next picture is discarded if the camera returns to within this share of the change that
 // started the picture.
 constexpr double kBack = 0.5;
