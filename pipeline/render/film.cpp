@@ -1,13 +1,35 @@
 #include "pipeline/render/film.h"
 
+#include "base/large_pages.h"
 #include "pipeline/render/luminance.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <memory>
 
 namespace mfar {
 namespace {
+
+constexpr int kTileEdge = 8;
+constexpr std::size_t kTilePixels = kTileEdge * kTileEdge;
+
+/// Place of each pixel of a tile (row-major) in the order of Slices: the pixels with even column
+/// and even row come first.
+constexpr std::array<std::uint8_t, kTilePixels> ranks() {
+    std::array<std::uint8_t, kTilePixels> out{};
+    for (std::uint32_t y = 0; y < kTileEdge; ++y)
+        for (std::uint32_t x = 0; x < kTileEdge; ++x) {
+            std::uint32_t rank = 0;
+            for (std::uint32_t bit = 0; bit < 3; ++bit)
+                rank |= ((x >> bit & 1U) | (y >> bit & 1U) << 1) << (2 * (2 - bit));
+            out[y * kTileEdge + x] = static_cast<std::uint8_t>(rank);
+        }
+    return out;
+}
+constexpr std::array<std::uint8_t, kTilePixels> kRanks = ranks();
 
 constexpr float kGreyLevels = 255;
 constexpr float kEnough = 16;  // samples that suffice to conclude that the light is unchanged
@@ -47,13 +69,22 @@ float slopeAt(const Eigen::Vector3f& radiance, const Exposure& exposure) {
 
 }  // namespace
 
-void Film::begin(const PixelRect& where) {
-    ++picture_;
-    where_ = common(where, {0, 0, size_.width, size_.height});
-    if (where_.empty()) where_ = {};
-    const std::size_t count = static_cast<std::size_t>(where_.x1 - where_.x0) *
-                              static_cast<std::size_t>(where_.y1 - where_.y0);
-    if (count > pixels_.size()) pixels_.resize(count);
+Film::Film(Size size)
+    : size_(size),
+      tilesAcross_((static_cast<std::size_t>(size.width) + kTileEdge - 1) / kTileEdge) {
+    const std::size_t rows = (static_cast<std::size_t>(size.height) + kTileEdge - 1) / kTileEdge;
+    const std::size_t count = rows * tilesAcross_ * kTilePixels;
+    pictureOf_ = ZeroedArray<std::uint32_t>(count);
+    pixels_ = {std::allocator<Pixel>().allocate(count), FreePixels{count}};
+    preferLargePages(pixels_.get(), count * sizeof(Pixel));
+}
+
+std::size_t Film::placeOf(std::size_t pixel) const {
+    const auto width = static_cast<std::uint32_t>(size_.width);
+    const std::uint32_t x = static_cast<std::uint32_t>(pixel) % width;
+    const std::uint32_t y = static_cast<std::uint32_t>(pixel) / width;
+    const std::size_t tile = y / kTileEdge * tilesAcross_ + x / kTileEdge;
+    return tile * kTilePixels + kRanks[y % kTileEdge * kTileEdge + x % kTileEdge];
 }
 
 const Film::Pixel Film::kNothing{};
@@ -76,18 +107,20 @@ PaintWeights weightsOf(const Paint& paint) {
 }  // namespace
 
 Film::Pixel& Film::begun(std::size_t pixel) {
-    Pixel& p = memory(pixel);
-    if (p.picture != picture_) {
-        p = {};
-        p.picture = picture_;
+    const std::size_t place = placeOf(pixel);
+    Pixel& p = pixels_[place];
+    std::uint32_t& picture = pictureOf_.data()[place];
+    if (picture != picture_) {
+        std::construct_at(&p);
+        picture = picture_;
     }
     return p;
 }
 
 std::uint64_t Film::dropped() const {
     std::uint64_t sum = 0;
-    for (const Pixel& p : pixels_)
-        sum += p.picture == picture_ ? p.lost : 0;
+    for (std::size_t i = 0; i < pictureOf_.size(); ++i)
+        sum += pictureOf_.data()[i] == picture_ ? pixels_[i].lost : 0;
     return sum;
 }
 
@@ -127,18 +160,21 @@ void Film::add(std::size_t pixel, const FilmSample& sample) {
     }
     if (sample.hit.id == 0) return;
     keepNearest(isCatcher ? p.nearestCatcher : p.nearest, sample.hit);
-    LightSums& sums = isCatcher ? p.catcher : p.object;
-    ++sums.hits;
     if (isCatcher) {
-        sums.first.add(1, sample.radiance - sample.without, kNoFar);
-        sums.second.add(1, sample.without, kNoFar);
+        ++p.catcher.hits;
+        p.catcher.first.add(1, sample.radiance - sample.without, kNoFar);
+        p.catcher.second.add(1, sample.without, kNoFar);
         return;
     }
-    const auto [diffuse, specular] = weightsOf(sample.paint);
-    sums.first.add(diffuse, sample.light.diffuse, sample.far.diffuse);
-    sums.second.add(specular, sample.light.specular, sample.far.specular);
+    ++p.objectHits;
     p.radiance += sample.radiance.cast<double>();
     p.radianceSquares += squared(luminanceOf<double>(sample.radiance.cast<double>()));
+    // Light of two objects at an edge must not be mixed, because it is shown on one of them.
+    if (hasObjectAtCentre(p) && sample.hit.id != p.seen.hit.id) return;
+    ++p.object.hits;
+    const auto [diffuse, specular] = weightsOf(sample.paint);
+    p.object.first.add(diffuse, sample.light.diffuse, sample.far.diffuse);
+    p.object.second.add(specular, sample.light.specular, sample.far.specular);
     p.diffusePaint += sample.paint.diffuse;
     p.facingPaint += sample.paint.facing;
     p.albedoScale += sample.paint.albedo.scale;
@@ -148,7 +184,7 @@ void Film::add(std::size_t pixel, const FilmSample& sample) {
 // Whether all samples so far hit the same surface.
 bool Film::isWhole(const Pixel& p) {
     const std::uint32_t n = p.taken - p.lost;
-    if (p.seen.hit.id == 0) return n > 0 && (p.object.hits == n || p.catcher.hits == n);
+    if (p.seen.hit.id == 0) return n > 0 && (p.objectHits == n || p.catcher.hits == n);
     return (p.seen.hit.id == kCatcherId ? p.catcher : p.object).hits == n;
 }
 
@@ -176,7 +212,7 @@ KnownLight Film::knownOf(const LightSums& sums, const KnownLight& carried) {
 
 KnownLight Film::known(std::size_t pixel) const {
     const Pixel& p = at(pixel);
-    if (p.seen.hit.id == 0 || !isWhole(p)) return {};
+    if (p.seen.hit.id == 0) return {};
     return knownOf(p.seen.hit.id == kCatcherId ? p.catcher : p.object, p.carried);
 }
 
@@ -211,7 +247,7 @@ float Film::error(std::size_t pixel, const Exposure& exposure) const {
     const bool carries = p.carried.firstCount > 0 && isWhole(p);
     if (carries) return errorOfKnown(p, exposure);
     if (n < 2) return std::numeric_limits<float>::infinity();
-    const auto objects = static_cast<double>(p.object.hits);
+    const auto objects = static_cast<double>(p.objectHits);
     const auto catchers = static_cast<double>(p.catcher.hits);
     double variance = 0;
     if (objects > 0) {
@@ -259,8 +295,8 @@ float Film::errorOfKnown(const Pixel& p, const Exposure& exposure) {
 Film::Means Film::meansOf(const Pixel& p) {
     Means out;
     const auto n = static_cast<float>(p.taken - p.lost);
-    if (p.object.hits > 0) {
-        const double hits = p.object.hits;
+    if (p.objectHits > 0) {
+        const double hits = p.objectHits;
         out.object = (p.radiance / hits).cast<float>();
         out.objectShare = static_cast<float>(hits) / n;
     }
@@ -278,10 +314,10 @@ Film::Means Film::means(std::size_t pixel) const {
 }
 
 void Film::remember(std::size_t pixel, const LightPixel& light) {
-    if (!placeOf(pixel)) return;
-    Pixel& p = memory(pixel);
-    if (p.picture != picture_ || light.id == 0 || p.taken > 0 || p.carried.firstCount > 0) return;
-    if (!(light.firstCount > 0 && light.secondCount > 0)) return;
+    if (light.id == 0 || !(light.firstCount > 0 && light.secondCount > 0)) return;
+    if (!isSeen(pixel)) return;
+    Pixel& p = begun(pixel);
+    if (p.taken > 0 || p.carried.firstCount > 0) return;
     const Eigen::Vector3f first = light.first.matrix(), second = light.second.matrix();
     // If the filter found no change in the neighbourhood, this pixel is treated as unchanged.
     const bool untouched = light.id == kCatcherId && first.isZero(0);
@@ -301,10 +337,10 @@ LightPixel Film::light(std::size_t pixel, const Exposure& exposure) const {
     constexpr float kUnseen = 0.3F;
     const Pixel& p = at(pixel);
     LightPixel out;
-    if (!isWhole(p)) return out;
-    const FirstHit hit = p.seen.hit.id != 0  ? p.seen.hit
-                         : p.object.hits > 0 ? p.nearest
-                                             : p.nearestCatcher;
+    if (p.seen.hit.id == 0 && !isWhole(p)) return out;
+    const FirstHit hit = p.seen.hit.id != 0 ? p.seen.hit
+                         : p.objectHits > 0 ? p.nearest
+                                            : p.nearestCatcher;
     if (hit.id == 0) return out;
     const bool isCatcher = hit.id == kCatcherId;
     const KnownLight known = knownOf(isCatcher ? p.catcher : p.object, p.carried);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/zeroed_array.h"
 #include "pipeline/render/exposure.h"
 #include "pipeline/render/noise_filter.h"
 #include "pipeline/render/paint.h"
@@ -11,8 +12,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
-#include <vector>
+#include <memory>
 
 namespace mfar {
 
@@ -53,19 +53,17 @@ struct KnownLight {
     float firstCount = 0, secondCount = 0;    ///< numbers of samples; 0: the light is unknown
 };
 
-/// Sums of the samples of one view for each pixel, row-major. Memory is allocated only for a part
-/// of the picture; pixels outside this part are empty. Threads may process different pixels at the
-/// same time.
+/// Sums of the samples of one view for each pixel. Pixels are numbered row-major. The kernel
+/// provides the memory of a pixel when it is first used, so that unused parts of the picture cost
+/// neither time nor memory. Threads may process different pixels at the same time.
 class Film {
 public:
-    /// Allocates memory for the whole picture, or for the part `where`.
-    explicit Film(Size size) : Film(size, {0, 0, size.width, size.height}) {}
-    Film(Size size, const PixelRect& where) : size_(size) { begin(where); }
+    explicit Film(Size size);
 
     [[nodiscard]] Size size() const { return size_; }
-    /// Clears all pixels and allocates memory for those in `where`. Never frees memory.
-    void begin(const PixelRect& where);
-    void clear(std::size_t pixel) { memory(pixel) = Pixel{}; }
+    /// Clears all pixels. Never frees memory.
+    void begin() { ++picture_; }
+    void clear(std::size_t pixel) { begun(pixel) = Pixel{}; }
 
     /// Number of samples taken so far, including dropped samples. This is also the number of the
     /// next sample.
@@ -94,8 +92,8 @@ public:
     /// Adds light from an earlier picture to the surface at the pixel's centre. The weight of this
     /// light is its number of samples.
     void carry(std::size_t pixel, const KnownLight& light) { begun(pixel).carried = light; }
-    /// Sampled and carried light of the surface at the pixel's centre. Empty if a sample hit
-    /// another surface.
+    /// Sampled and carried light of the surface at the pixel's centre. Samples of other surfaces do
+    /// not count.
     [[nodiscard]] KnownLight known(std::size_t pixel) const;
 
     /// Whether the pixel shows only the real surface, and neither sampled nor carried light shows a
@@ -123,8 +121,9 @@ public:
     [[nodiscard]] LightPixel light(std::size_t pixel, const Exposure& exposure) const;
     /// Stores filtered light as carried light if the pixel has neither samples nor carried light.
     void remember(std::size_t pixel, const LightPixel& light);
+    /// `layered`: the pixel shows only the surface of `light`, also at edges.
     [[nodiscard]] Resolved resolvedFrom(const LightPixel& light, std::size_t pixel,
-                                        const Exposure& exposure) const;
+                                        const Exposure& exposure, bool layered = false) const;
 
 private:
     // The sums have double precision. In single precision the sums of a million samples would be
@@ -145,7 +144,10 @@ private:
         std::uint32_t hits = 0;
     };
     struct Pixel {
+        /// `object` holds samples of the object at the pixel's centre if there is one, else of all
+        /// objects.
         LightSums object, catcher;
+        std::uint32_t objectHits = 0;                                 // samples that hit any object
         Eigen::Vector3d radiance{0, 0, 0};                            // sum over object samples
         double radianceSquares = 0;                                   // sum of squared luminances
         Eigen::Vector3f diffusePaint{0, 0, 0}, facingPaint{0, 0, 0};  // sums over object samples
@@ -154,8 +156,7 @@ private:
         SeenSurface seen;  // surface at the pixel's centre
         bool isSeen = false;
         FirstHit nearest, nearestCatcher;
-        KnownLight carried;         // light from an earlier picture, at the centre
-        std::uint32_t picture = 0;  // number of the picture to which these values belong
+        KnownLight carried;  // light from an earlier picture, at the centre
     };
     struct Shown {
         Eigen::Vector3f colour{0, 0, 0};  // premultiplied, [0, 1]
@@ -164,6 +165,9 @@ private:
 
     [[nodiscard]] static Means meansOf(const Pixel& p);
     [[nodiscard]] static bool isWhole(const Pixel& p);
+    [[nodiscard]] static bool hasObjectAtCentre(const Pixel& p) {
+        return p.seen.hit.id != 0 && p.seen.hit.id != kCatcherId;
+    }
     [[nodiscard]] static KnownLight knownOf(const LightSums& sums, const KnownLight& carried);
     [[nodiscard]] static Paint paintOf(const Pixel& p);
     /// Far light on the object: mean over the object's samples and the pixel's centre.
@@ -179,29 +183,27 @@ private:
     [[nodiscard]] static FirstHit firstHit(const Pixel& p, bool changed);
     /// Returns an empty pixel if the stored values belong to an earlier picture.
     [[nodiscard]] const Pixel& at(std::size_t pixel) const {
-        const std::optional<std::size_t> place = placeOf(pixel);
-        if (!place) return kNothing;
-        const Pixel& p = pixels_[*place];
-        return p.picture == picture_ ? p : kNothing;
+        const std::size_t place = placeOf(pixel);
+        return pictureOf_.data()[place] == picture_ ? pixels_[place] : kNothing;
     }
-    [[nodiscard]] std::optional<std::size_t> placeOf(std::size_t pixel) const {
-        const auto width = static_cast<std::uint32_t>(size_.width);
-        const int x = static_cast<int>(static_cast<std::uint32_t>(pixel) % width);
-        const int y = static_cast<int>(static_cast<std::uint32_t>(pixel) / width);
-        if (x < where_.x0 || x >= where_.x1 || y < where_.y0 || y >= where_.y1) return {};
-        return static_cast<std::size_t>(y - where_.y0) *
-                   static_cast<std::size_t>(where_.x1 - where_.x0) +
-               static_cast<std::size_t>(x - where_.x0);
-    }
-    [[nodiscard]] Pixel& memory(std::size_t pixel) { return pixels_[placeOf(pixel).value()]; }
+    /// Place in memory. Pixels of a tile lie together in sampling order, so that a sparsely sampled
+    /// tile uses few pages.
+    [[nodiscard]] std::size_t placeOf(std::size_t pixel) const;
     [[nodiscard]] Pixel& begun(std::size_t pixel);
+
+    struct FreePixels {
+        std::size_t count;
+        void operator()(Pixel* pixels) const { std::allocator<Pixel>().deallocate(pixels, count); }
+    };
 
     static const Pixel kNothing;
 
     Size size_;
-    PixelRect where_;
-    std::uint32_t picture_ = 0;
-    std::vector<Pixel> pixels_;
+    std::size_t tilesAcross_ = 0;
+    std::uint32_t picture_ = 1;
+    ZeroedArray<std::uint32_t>
+        pictureOf_;  // for each place, the picture to which its pixel belongs
+    std::unique_ptr<Pixel[], FreePixels> pixels_;  // begun() constructs them
 };
 
 }  // namespace mfar

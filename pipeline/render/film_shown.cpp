@@ -42,7 +42,7 @@ Film::Shown Film::shown(const Means& m, const Exposure& exposure) {
 
 FirstHit Film::firstHit(const Pixel& p, bool changed) {
     if (!changed) return {};
-    const bool objects = p.object.hits > 0;
+    const bool objects = p.objectHits > 0;
     if (p.seen.hit.id != 0 && p.seen.hit.id != kCatcherId) return p.seen.hit;
     // A shadow catcher whose light the objects do not change is not shown.
     const bool catches = p.catcher.first.squares > 0 || p.carried.firstSquare > 0;
@@ -52,7 +52,7 @@ FirstHit Film::firstHit(const Pixel& p, bool changed) {
 }
 
 Film::Shown Film::shown(const Pixel& p, const Exposure& exposure) {
-    if (p.object.hits == 0 && p.catcher.first.light.isZero(0)) return {};
+    if (p.objectHits == 0 && p.catcher.first.light.isZero(0)) return {};
     return shown(meansOf(p), exposure);
 }
 
@@ -75,13 +75,13 @@ SurfaceLight Film::relativeOf(const KnownLight& light) {
 }
 
 Film::Resolved Film::resolvedFrom(const LightPixel& light, std::size_t pixel,
-                                  const Exposure& exposure) const {
+                                  const Exposure& exposure, bool layered) const {
     const Pixel& p = at(pixel);
     if (light.id == 0) return resolved(pixel, exposure);
     Means m;
     LightWords words;
     if (light.id == kCatcherId) {
-        if (light.first.isZero(0)) return {};
+        if (light.first.isZero(0) && (layered || isWhole(p))) return {};
         m.without = light.second.matrix();
         m.with = (light.first + light.second).matrix();
         m.catcherShare = 1;
@@ -95,7 +95,8 @@ Film::Resolved Film::resolvedFrom(const LightPixel& light, std::size_t pixel,
         words = packed(onObject, paint, exposure.scale);
         m.objectShare = 1;
     }
-    Resolved out = resolved(p, shown(m, exposure));
+    const bool mixed = !layered && !isWhole(p);
+    Resolved out = resolved(p, mixed ? shown(p, exposure) : shown(m, exposure));
     out.light = words;
     return out;
 }

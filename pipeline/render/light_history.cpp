@@ -45,6 +45,44 @@ bool LightHistory::isSame(std::size_t pixel, const Eigen::Vector2f& ray, const S
     return std::abs(seen.normal.dot(other - point)) < kOffPlane * there.hit.depth;
 }
 
+// Interpolates between the pixels whose columns and rows are multiples of `step`.
+KnownLight LightHistory::between(const Eigen::Vector2d& pixel, int step, const SeenSurface& seen,
+                                 const Eigen::Vector3f& point) const {
+    const Size size = camera_.size;
+    const Eigen::Vector2d at = pixel / step;
+    const double lowX = std::floor(at.x()), lowY = std::floor(at.y());
+    const auto fx = static_cast<float>(at.x() - lowX), fy = static_cast<float>(at.y() - lowY);
+    KnownLight sum;
+    float weights = 0;
+    for (int i = 0; i < 4; ++i) {
+        const int right = i & 1, down = i >> 1;
+        const int x = step * (static_cast<int>(lowX) + right);
+        const int y = step * (static_cast<int>(lowY) + down);
+        const float weight = (right != 0 ? fx : 1 - fx) * (down != 0 ? fy : 1 - fy);
+        if (x < 0 || y < 0 || x >= size.width || y >= size.height || !(weight > 0)) continue;
+        const std::size_t place = static_cast<std::size_t>(y) * size.width + x;
+        if (!isSame(place, lens_->at(static_cast<float>(x), static_cast<float>(y)), seen, point))
+            continue;
+        const KnownLight known = film_.known(place);
+        if (!(known.firstCount > 0 && known.secondCount > 0)) continue;
+        weights += weight;
+        addShare(sum, weight, known);
+    }
+    if (weights < kLeastWeight) return {};
+    KnownLight out;
+    addShare(out, 1 / weights, sum);
+    return out;
+}
+
+bool LightHistory::isSparseAt(const Eigen::Vector2d& pixel) const {
+    const auto odd = [](double at, int end) {
+        return std::min(2 * (static_cast<int>(at) / 2) + 1, end - 1);
+    };
+    const int x = odd(std::max(pixel.x(), 0.0), camera_.size.width);
+    const int y = odd(std::max(pixel.y(), 0.0), camera_.size.height);
+    return !film_.isSeen(static_cast<std::size_t>(y) * camera_.size.width + x);
+}
+
 KnownLight LightHistory::at(const SeenSurface& seen, const Eigen::Vector3f& point,
                             const Eigen::Vector3f& eye) const {
     if (seen.hit.id == 0) return {};
@@ -54,26 +92,10 @@ KnownLight LightHistory::at(const SeenSurface& seen, const Eigen::Vector3f& poin
     const Size size = camera_.size;
     if (!(pixel.x() > -1 && pixel.y() > -1 && pixel.x() < size.width && pixel.y() < size.height))
         return {};
-    const double lowX = std::floor(pixel.x()), lowY = std::floor(pixel.y());
-    const auto fx = static_cast<float>(pixel.x() - lowX), fy = static_cast<float>(pixel.y() - lowY);
-    KnownLight sum;
-    float weights = 0;
-    for (int i = 0; i < 4; ++i) {
-        const int right = i & 1, down = i >> 1;
-        const int x = static_cast<int>(lowX) + right, y = static_cast<int>(lowY) + down;
-        const float weight = (right != 0 ? fx : 1 - fx) * (down != 0 ? fy : 1 - fy);
-        if (x < 0 || y < 0 || x >= size.width || y >= size.height || !(weight > 0)) continue;
-        const std::size_t at = static_cast<std::size_t>(y) * size.width + x;
-        if (!isSame(at, lens_->at(static_cast<float>(x), static_cast<float>(y)), seen, point))
-            continue;
-        const KnownLight known = film_.known(at);
-        if (!(known.firstCount > 0 && known.secondCount > 0)) continue;
-        weights += weight;
-        addShare(sum, weight, known);
-    }
-    if (weights < kLeastWeight) return {};
     KnownLight out;
-    addShare(out, 1 / weights, sum);
+    // Where only a quarter of the pixels was sampled, the nearest samples are two pixels apart.
+    if (seen.hit.id == kCatcherId && isSparseAt(pixel)) out = between(pixel, 2, seen, point);
+    if (!(out.firstCount > 0)) out = between(pixel, 1, seen, point);
     out.firstCount = std::min(out.firstCount, mostSamples_);
     out.secondCount = std::min(out.secondCount, mostSamples_);
     if (seen.hit.id == kCatcherId) return out;

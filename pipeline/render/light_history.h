@@ -26,6 +26,9 @@ public:
                                 const Eigen::Vector3f& eye) const;
 
 private:
+    [[nodiscard]] bool isSparseAt(const Eigen::Vector2d& pixel) const;
+    [[nodiscard]] KnownLight between(const Eigen::Vector2d& pixel, int step,
+                                     const SeenSurface& seen, const Eigen::Vector3f& point) const;
     [[nodiscard]] bool isSame(std::size_t pixel, const Eigen::Vector2f& ray,
                               const SeenSurface& seen, const Eigen::Vector3f& point) const;
 

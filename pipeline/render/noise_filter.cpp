@@ -1,5 +1,7 @@
 #include "pipeline/render/noise_filter.h"
 
+#include "base/large_pages.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -96,9 +98,14 @@ void NoiseFilter::begin(Size size, const PixelRect& where) {
     where_ = common(where, {0, 0, size.width, size.height});
     const std::size_t count =
         static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
-    pixels_.resize(count);
-    other_.resize(count);
-    variances_.resize(count);
+    const auto resize = [count](auto& pixels) {
+        pixels.reserve(count);
+        preferLargePages(pixels.data(), count * sizeof(pixels[0]));
+        pixels.resize(count);
+    };
+    resize(pixels_);
+    resize(other_);
+    resize(variances_);
 }
 
 void NoiseFilter::run(int stage, int firstRow, int lastRow) {
@@ -176,8 +183,12 @@ void NoiseFilter::filter(int step, std::span<const LightPixel> from, std::span<L
                          int x, int y) const {
     const std::size_t i = static_cast<std::size_t>(y) * size_.width + x;
     const LightPixel& centre = from[i];
+    if (centre.id == 0) {
+        to[i].id = 0;
+        return;
+    }
     to[i] = centre;
-    if (centre.id == 0 || centre.kept) return;
+    if (centre.kept) return;
     LightMean first(centre.first, centre.firstVariance, centre.firstCount);
     LightMean second(centre.second, centre.secondVariance, centre.secondCount);
     forNeighbours(from, x, y, kReach, step, [&](std::size_t j, int dx, int dy) {

@@ -2,6 +2,7 @@
 
 #include "base/se3.h"
 #include "pipeline/render/lens_rays.h"
+#include "pipeline/render/microfacet.h"
 #include "pipeline/render/path_integrator.h"
 #include "pipeline/render/scene_check.h"
 #include "pipeline/render/traced_scene.h"
@@ -180,13 +181,19 @@ private:
         const TracedScene& scene = parts_.scene;
         Eigen::Vector3f sum = point.shading;
         float count = 1;
-        for (const Eigen::Vector2f& to :
-             {Eigen::Vector2f(-0.25F, -0.25F), {0.25F, -0.25F}, {-0.25F, 0.25F}, {0.25F, 0.25F}}) {
-            const Eigen::Vector2f at = Eigen::Vector2f(pixel % width_, pixel / width_) + to;
-            const Ray ray{eye_, rotation_ * lens_->at(at.x(), at.y()).homogeneous()};
-            const RayHit hit = scene.shown(ray, scene.objects().first(ray));
+        constexpr std::size_t kQuarters = 4;
+        std::array<Ray, kQuarters> rays;
+        std::array<RayHit, kQuarters> hits;
+        for (std::size_t i = 0; i < kQuarters; ++i) {
+            const float x = static_cast<float>(pixel % width_) + (i % 2 == 0 ? -0.25F : 0.25F);
+            const float y = static_cast<float>(pixel / width_) + (i / 2 == 0 ? -0.25F : 0.25F);
+            rays[i] = {eye_, rotation_ * lens_->at(x, y).homogeneous()};
+        }
+        scene.objects().firstOfEach(rays, hits);
+        for (std::size_t i = 0; i < kQuarters; ++i) {
+            const RayHit hit = scene.shown(rays[i], hits[i]);
             if (!hit.found() || scene.idOf(hit) != id) continue;
-            sum += scene.objectPoint(hit, ray.direction).shading;
+            sum += scene.bareObjectPoint(hit, rays[i].direction).shading;
             ++count;
         }
         const float length = sum.norm();
@@ -217,6 +224,8 @@ PathTracer::PathTracer(std::shared_ptr<const Scene> scene, const PathTracerOptio
     validate(options);
     if (!scene) throw std::invalid_argument("the scene is missing");
     validate(*scene);
+    // The first use makes tables, which takes as long as a picture's first samples.
+    static_cast<void>(meanSpecularAlbedo(1));
     parts_ = std::make_unique<const Parts>(std::move(scene), options);
 }
 

@@ -7,7 +7,7 @@ namespace mfar {
 
 void PictureResolver::begin(const Film& film, const RenderView& view, const PixelRect& traced,
                             const Exposure& exposure, bool filter, RenderedPicture& out,
-                            Film* memory) {
+                            Film* memory, bool layered) {
     const Size size = film.size();
     film_ = &film;
     memory_ = filter ? memory : nullptr;
@@ -26,6 +26,7 @@ void PictureResolver::begin(const Film& film, const RenderView& view, const Pixe
     out.light.resize(pixels);
     out.gloss.resize(pixels);
     out.exposure = exposure.scale;
+    out.layered = filter && layered;
     taken_.assign(static_cast<std::size_t>(size.height), 0);
     seen_ = taken_;
     if (filters_) filter_.begin(size, traced_);
@@ -78,8 +79,13 @@ void PictureResolver::done(const Portion& portion) {
 
 void PictureResolver::prepare(int row) {
     const auto begin = static_cast<std::size_t>(row) * film_->size().width;
-    for (int x = traced_.x0; x < traced_.x1; ++x)
-        filter_.pixels()[begin + x] = film_->light(begin + x, exposure_);
+    for (int x = traced_.x0; x < traced_.x1; ++x) {
+        const std::size_t i = begin + x;
+        if (film_->isSeen(i) || film_->samples(i) > 0)
+            filter_.pixels()[i] = film_->light(i, exposure_);
+        else
+            filter_.pixels()[i].id = 0;
+    }
 }
 
 void PictureResolver::write(int row) {
@@ -109,16 +115,15 @@ void PictureResolver::write(int row) {
 
 Film::Resolved PictureResolver::filtered(int x, int y) {
     const std::size_t i = static_cast<std::size_t>(y) * film_->size().width + x;
-    LightPixel light = filter_.filtered()[i];
-    if (memory_ != nullptr) {
-        if (!film_->isSeen(i)) {
-            light = between(x, y);
-            if (light.id != 0)
-                memory_->setCentre(i, {{light.depth, light.id}, light.normal.matrix(), {}, 1});
-        }
-        memory_->remember(i, light);
+    if (memory_ == nullptr || film_->isSeen(i)) {
+        const LightPixel& light = filter_.filtered()[i];
+        if (memory_ != nullptr) memory_->remember(i, light);
+        return film_->resolvedFrom(light, i, exposure_, out_->layered);
     }
-    return film_->resolvedFrom(light, i, exposure_);
+    const LightPixel light = between(x, y);
+    Film::Resolved out = film_->resolvedFrom(light, i, exposure_, true);
+    if (out.colour != std::array<std::uint8_t, 4>{}) out.hit = {light.depth, light.id};
+    return out;
 }
 
 // Mean of the real surface's pixels with even column and even row next to (x, y). Empty if none of

@@ -34,6 +34,9 @@ struct RenderedPicture {
     std::vector<GlossWords> gloss;
     std::shared_ptr<const MirrorLight> mirrors;
     float exposure = 1;
+    /// Whether each pixel shows only the surface at its centre, without the mixture at edges. Such
+    /// a picture must be warped.
+    bool layered = false;
     std::shared_ptr<const Scene> scene;  ///< the scene in this picture; may be null
     double samples = 0;                  ///< samples per pixel, averaged over the pixels with an id
 };

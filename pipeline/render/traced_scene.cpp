@@ -193,7 +193,8 @@ bool TracedScene::isEven(const RayHit& hit, float width) const {
     return true;
 }
 
-SurfacePoint TracedScene::objectPoint(const RayHit& hit, const Eigen::Vector3f& direction) const {
+SurfacePoint TracedScene::bareObjectPoint(const RayHit& hit,
+                                          const Eigen::Vector3f& direction) const {
     const TracedMesh& mesh = *meshes_[hit.mesh];
     const auto& corners = mesh.mesh->triangles[hit.triangle];
     const Eigen::Vector3f wo = -direction.normalized();
@@ -203,7 +204,12 @@ SurfacePoint TracedScene::objectPoint(const RayHit& hit, const Eigen::Vector3f& 
     out.position = interpolated(mesh.positions, corners, hit);
     out.geometric = side * front;
     out.shading = shownTowards(side * shadingNormal(mesh, hit, front), wo);
-    setLook(mesh, hit, out);
+    return out;
+}
+
+SurfacePoint TracedScene::objectPoint(const RayHit& hit, const Eigen::Vector3f& direction) const {
+    SurfacePoint out = bareObjectPoint(hit, direction);
+    setLook(*meshes_[hit.mesh], hit, out);
     return out;
 }
 

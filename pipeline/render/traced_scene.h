@@ -50,6 +50,9 @@ public:
     /// The surface at a hit. `direction` is the direction of the ray, of any length.
     [[nodiscard]] SurfacePoint objectPoint(const RayHit& hit,
                                            const Eigen::Vector3f& direction) const;
+    /// The same without look and emission, which take most of the time.
+    [[nodiscard]] SurfacePoint bareObjectPoint(const RayHit& hit,
+                                               const Eigen::Vector3f& direction) const;
     [[nodiscard]] SurfacePoint catcherPoint(const RayHit& hit,
                                             const Eigen::Vector3f& direction) const;
 

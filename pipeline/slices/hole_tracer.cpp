@@ -6,22 +6,6 @@
 #include <utility>
 
 namespace mfar {
-namespace {
-
-/// The smallest rectangle that contains all pixels. `pixels` are ascending indices into a picture
-/// with this width.
-PixelRect around(const std::vector<std::uint32_t>& pixels, int width) {
-    const auto rowOf = [width](std::uint32_t p) { return static_cast<int>(p) / width; };
-    PixelRect out{width, rowOf(pixels.front()), 0, rowOf(pixels.back()) + 1};
-    for (const std::uint32_t p : pixels) {
-        const int x = static_cast<int>(p) % width;
-        out.x0 = std::min(out.x0, x);
-        out.x1 = std::max(out.x1, x + 1);
-    }
-    return out;
-}
-
-}  // namespace
 
 void HoleTracer::take(HoleRequest& request) {
     std::swap(request_, request);
@@ -44,8 +28,8 @@ void HoleTracer::prepare() {
     while (!pixels.empty() && pixels.back() >= inside)
         pixels.pop_back();
     if (!pixels.empty() && !(film_ && film_->size() == view.camera.size))
-        film_.emplace(view.camera.size, PixelRect{});
-    if (!pixels.empty()) film_->begin(around(pixels, view.camera.size.width));
+        film_.emplace(view.camera.size);
+    if (film_) film_->begin();
     handed_ = done_ = 0;
     stage_ = Stage::Tracing;
 }

@@ -8,7 +8,7 @@ namespace {
 
 // With TracedPolicy::soon, a moving camera gets a new picture at this share of the limits. The
 // new picture inherits the light of the previous one.
-constexpr double kSoon = 0.25;
+constexpr double kSoon = 0.75;
 // The next picture is discarded if the camera returns to within this share of the change that
 // started the picture.
 constexpr double kBack = 0.5;
@@ -145,9 +145,9 @@ void TracedPictures::begin() {
             *shown.film, shown.view,
             shown.scene->light == scene_->light ? kMostCarried : kMostCarriedElsewhere));
     if (!picture.film || !(picture.film->size() == wanted_.camera.size))
-        picture.film = std::make_unique<Film>(wanted_.camera.size, PixelRect{});
+        picture.film = std::make_unique<Film>(wanted_.camera.size);
     picture.traced = scene_->tracer->bounds(wanted_);
-    picture.film->begin(picture.traced);
+    picture.film->begin();
     const PixelRect objects = scene_->tracer->objectBounds(wanted_);
     picture.slices.begin(picture.traced, wanted_.camera.size,
                          [&](const PixelRect& tile) { return densityOf(tile, picture, objects); });
@@ -218,7 +218,7 @@ bool TracedPictures::isSparse(const Picture& picture) const {
 void TracedPictures::beginShow(const Exposure& exposure, RenderedPicture& out) {
     const Picture& picture = pictures_[working()];
     resolver_.begin(*picture.film, picture.view, picture.traced, exposure, policy_.filter, out,
-                    picture.film.get());
+                    picture.film.get(), !picture.rests);
 }
 
 void TracedPictures::endShow(RenderedPicture& out) {

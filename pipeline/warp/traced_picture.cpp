@@ -148,7 +148,7 @@ void finishPixel(const PictureGrid& grid, std::span<const LightWords> light, Tra
     s.known = 1;
     if (s.id == 0) return;
     s.tolerance = toleranceAt(r.surface, grid.size(), x, y);
-    if (!grid.isPlain(x, y) && !takeFromNeighbours(grid, light, r, x, y)) {
+    if (!r.layered && !grid.isPlain(x, y) && !takeFromNeighbours(grid, light, r, x, y)) {
         if (s.id == kCatcherId)
             s.known = 0;
         else
@@ -223,6 +223,7 @@ TracedPicture tracedPicture(const RenderedPicture& picture) {
                     picture.gloss,
                     picture.mirrors,
                     picture.exposure,
+                    picture.layered,
                     {},
                     {},
                     {},

@@ -33,9 +33,9 @@ struct TracedPicture {
     std::vector<std::array<std::uint8_t, 4>> picture;
     /// z for display [m]; 0: no surface. On the shadow catcher it is reduced (see kShadowLift).
     std::vector<float> depth;
-    /// Colours for look-ups: each is the colour of a single surface. Pixels at an edge of a surface
-    /// get the mean colour of adjacent pixels inside the surface. Colours of objects are opaque;
-    /// those of the shadow catcher are premultiplied.
+    /// Colours for look-ups: each is the colour of a single surface. Unless the picture is layered,
+    /// pixels at an edge of a surface get the mean colour of adjacent pixels inside the surface.
+    /// Colours of objects are opaque; those of the shadow catcher are premultiplied.
     std::vector<std::array<std::uint8_t, 4>> colour;
     /// Light on the object in each pixel, for look-ups like `colour`. Empty if only colours are
     /// known.
@@ -45,6 +45,7 @@ struct TracedPicture {
     std::vector<GlossWords> gloss;
     std::shared_ptr<const MirrorLight> mirrors;
     float exposure = 1;
+    bool layered = false;  ///< see RenderedPicture
     std::vector<WarpSurface> surface;
     /// z and number of the surface in one word, in the format of warp_surface.glsl. Unknown pixels
     /// have kUnknownId.

@@ -82,7 +82,7 @@ LayerPicture& Warp::run(const RigidTransform& T_world_camera) {
         rested({});
         return nothing_;
     }
-    if (!traced_->tiles.empty() && motion.greatest < options_.leastMotion) {
+    if (!traced_->tiles.empty() && !traced_->layered && motion.greatest < options_.leastMotion) {
         ++counters_.unmoved;
         rested({});
         return step_->traced();

@@ -163,6 +163,54 @@ TEST(Film, UnknownLightIsShownUnshaded) {
     EXPECT_NEAR(film.resolvedFrom(unknown, 0, {}).colour[0], 255 * srgbEncoded(0.2F), 1);
 }
 
+TEST(Film, LightAtAnEdgeIsThatOfTheSurfaceAtTheCentre) {
+    const FilmSample shadow = catcherSample({0.1F, 0.1F, 0.1F}, {0.4F, 0.4F, 0.4F});
+    for (const std::uint8_t centre : {std::uint8_t{1}, std::uint8_t{2}, kCatcherId}) {
+        Film film({1, 1});
+        film.setCentre(0, {{1, centre}});
+        for (const FilmSample& sample :
+             {objectSample(0.2F, 1, 1), objectSample(0.8F, 1, 2), shadow})
+            for (int i = 0; i < 4; ++i)
+                film.add(0, sample);
+        const float expected = centre == 1 ? 0.2F : centre == 2 ? 0.8F : -0.3F;
+        EXPECT_NEAR(film.known(0).first[0], expected, 1e-4F) << int{centre};
+        EXPECT_EQ(film.known(0).firstCount, 4) << int{centre};
+        const LightPixel light = film.light(0, {});
+        EXPECT_EQ(light.id, centre);
+        EXPECT_NEAR(light.first[0], expected, 1e-4F) << int{centre};
+        // The means for display mix all objects.
+        EXPECT_NEAR(film.means(0).object[0], 0.5F, 1e-4F);
+        EXPECT_NEAR(film.means(0).objectShare, 2.0F / 3, 1e-4F);
+    }
+}
+
+TEST(Film, ALayeredPictureDoesNotMixSurfacesAtEdges) {
+    SeenSurface seen{{1, 1}};
+    seen.paint.diffuse = {1, 1, 1};
+    Film film({1, 1});
+    film.setCentre(0, seen);
+    film.add(0, objectSample(0.5F));
+    film.add(0, {});
+    const LightPixel light = film.light(0, {});
+    const Film::Resolved mixed = film.resolvedFrom(light, 0, {});
+    const Film::Resolved layered = film.resolvedFrom(light, 0, {}, true);
+    EXPECT_EQ(mixed.colour[3], 128);
+    EXPECT_EQ(layered.colour[3], 255);
+    EXPECT_NEAR(layered.colour[0], 255 * srgbEncoded(0.5F), 1);
+    EXPECT_EQ(mixed.light, layered.light);
+}
+
+TEST(Film, PixelsKeepTheirOwnPlaces) {
+    Film film({19, 11});  // the last tiles are incomplete
+    const auto count = static_cast<std::uint32_t>(19 * 11);
+    for (std::uint32_t i = 0; i < count; ++i)
+        film.setCentre(i, {{static_cast<float>(i + 1), 1}});
+    for (std::uint32_t i = 0; i < count; ++i)
+        ASSERT_EQ(film.centre(i).hit.depth, static_cast<float>(i + 1));
+    const Film moved = std::move(film);
+    EXPECT_EQ(moved.centre(count - 1).hit.depth, static_cast<float>(count));
+}
+
 TEST(Film, ErrorIsTheStandardErrorInGreyLevels) {
     Film film({1, 1});
     film.add(0, objectSample(0.4F));
@@ -209,7 +257,7 @@ TEST(Film, ClearDiscardsAllSamples) {
     EXPECT_EQ(film.samples(1), 1U);
     EXPECT_EQ(pictureOf(film).id[0], 0);
     film.add(0, objectSample(0.5F));
-    film.begin({0, 0, 2, 1});
+    film.begin();
     EXPECT_EQ(film.samples(0), 0U);
     EXPECT_EQ(film.samples(1), 0U);
     EXPECT_EQ(pictureOf(film).id[1], 0);

@@ -34,6 +34,20 @@ TEST(TracedPicture, EdgePixelsGetTheColourOfTheirObject) {
     EXPECT_EQ(r.picture, smallPicture().colour);
 }
 
+TEST(TracedPicture, PixelsOfALayeredPictureKeepTheirColourAndLight) {
+    RenderedPicture p = smallPicture();
+    p.layered = true;
+    for (std::size_t i = 0; i < 20; ++i) {
+        const auto shade = static_cast<std::uint8_t>(10 * i);
+        p.colour[i] = {shade, shade, shade, 255};
+        p.light.push_back(packedWords({{static_cast<float>(i), 0, 0}, {}, 0}));
+    }
+    const TracedPicture r = tracedPicture(p);
+    EXPECT_EQ(r.colour, p.colour);
+    EXPECT_EQ(r.light, p.light);
+    EXPECT_TRUE(r.layered);
+}
+
 TEST(TracedPicture, ShadowsAreShownAboveTheSurfaceButMoveWithTheSurface) {
     const RenderedPicture p = smallPicture();
     const TracedPicture r = tracedPicture(p);

@@ -48,6 +48,16 @@ TEST_F(WarpGl, AtItsOwnPoseTheTracedPictureIsShownUnchanged) {
     EXPECT_EQ(s.warp.counters().warped, 1U);
 }
 
+TEST_F(WarpGl, ALayeredPictureIsAlwaysWarped) {
+    Shown s;
+    RenderedPicture picture = s.scene.cast(s.view(0), 3);
+    picture.layered = true;
+    s.warp.setTracedPicture(tracedPicture(picture));
+    s.warp.run(test::orbit(0));
+    EXPECT_EQ(s.warp.counters().unmoved, 0U);
+    EXPECT_EQ(s.warp.counters().warped, 1U);
+}
+
 TEST_F(WarpGl, AfterSmallRotationsTheLayerIsAsSharpAsInterpolationAllows) {
     Shown s({.filling = HoleFilling::PushPull});
     for (const double degrees : {0.5, 1.0, 2.0})
