@@ -21,10 +21,10 @@ public:
 
     /// Begins a picture. Pixels outside `traced` become empty. Film and picture must outlive the
     /// work; the picture keeps its allocated memory.
-    /// `layered`: see RenderedPicture; only if `filter` is true. `memory` is null or the film. If it
-    /// is the film and `filter` is true, its pixels with neither samples nor light of the previous
-    /// picture get the noise filter's result. Pixels of the real surface that were not traced show
-    /// the mean of the neighbours with even column and even row.
+    /// `layered`: see RenderedPicture; only if `filter` is true. `memory` is null or the film. If
+    /// it is the film and `filter` is true, its pixels with neither samples nor light of the
+    /// previous picture get the noise filter's result. Pixels of the real surface that were not
+    /// traced show the mean of the neighbours with even column and even row.
     void begin(const Film& film, const RenderView& view, const PixelRect& traced,
                const Exposure& exposure, bool filter, RenderedPicture& out, Film* memory = nullptr,
                bool layered = false);
