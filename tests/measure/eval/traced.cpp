@@ -294,7 +294,7 @@ private:
 
     /// Values of one row of the report, see tracedColumns().
     struct Values {
-        std::optional<double> psnr, shadowPsnr, flicker, pictures, warpMs, hdrVdpQ;
+        std::optional<double> psnr{}, shadowPsnr{}, flicker{}, pictures{}, warpMs{}, hdrVdpQ{};
     };
     [[nodiscard]] std::vector<std::optional<double>> valuesOf(const Values& v) const {
         std::vector<std::optional<double>> out{v.psnr, v.shadowPsnr, v.flicker, v.pictures,
