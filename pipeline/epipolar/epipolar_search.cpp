@@ -27,9 +27,9 @@ Smoothness smoothnessFor(double noise, const EpipolarOptions& options) {
             .noise = 2 * noise};
 }
 
-// Returns the weight of each neighbour in the filter that smooths before the census. Up to a noise
-// of one grey level it is 0, as smoothing a clean picture causes a third more wrong matches. From a
-// noise of about two grey levels on, it is 1/4: the three-pixel binomial filter.
+// Returns the weight of both neighbours in the filter that smooths a picture before the census. Up
+// to a noise of one grey level it is 0, because smoothing clean pictures causes a third more wrong
+// pixels. Above a noise of about two grey levels it is 1/4, as in the 3-pixel binomial filter.
 float smoothingFor(double noise) {
     return static_cast<float>(std::clamp(0.2 * (noise - 1.0), 0.0, 0.25));
 }
@@ -47,7 +47,7 @@ std::size_t pixelsOf(Size size) {
     return static_cast<std::size_t>(size.width) * size.height;
 }
 
-/// Returns the number of label vectors of the whole picture at the pyramid level with the most.
+/// Returns the largest number of vectors of SemiGlobal::kLabels labels at any pyramid level.
 std::size_t mostVectors(Size size, const EpipolarOptions& options) {
     const std::size_t finest = pixelsOf(size);
     const double longest = options.longestParallax * size.width;
@@ -72,7 +72,7 @@ constexpr int kEnoughPatches = 16;
 
 /// Returns how far the uncertainty of a pose's rotation shifts the epipolar lines [px].
 double normalErrorOf(const Matrix6& covariance, double focal) {
-    constexpr double kNoLine = 1e6;  // [px]
+    constexpr double kNoLine = 1e6;  // largest returned value [px]
     const double variance = covariance.topLeftCorner<3, 3>().trace() / 3;
     return variance > 0 ? std::min(focal * std::sqrt(variance), kNoLine) : 0;
 }

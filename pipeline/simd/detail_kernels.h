@@ -20,7 +20,7 @@ struct LookUpRows {
                                         ///< [still px]
     std::array<const float*, 2> share;  ///< weight of the still's detail, or confidence of its
                                         ///< match
-    float t;                            ///< interpolates: 0 gives the first row, 1 the second
+    float t;                            ///< interpolation weight of the second row, [0, 1]
     /// Position of output pixel i before the offset is added: (stepX * i + startX, startY) [still
     /// px].
     float stepX, startX, startY;

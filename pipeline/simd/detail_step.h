@@ -23,7 +23,7 @@ namespace mfar::simd {
 
 struct DetailOptions {
     SuperResMode mode;
-    bool cubic;                      ///< see Quality::cubic
+    bool cubic;                      ///< true: cubic enlargement, see Quality
     bool upscaledTiles, plainTiles;  ///< whether work is skipped in these tiles, see SkipOptions
     /// Learned filters. In mode Detail, they enlarge the matched tiles; where the still's detail
     /// has a weight, their contribution is multiplied by one minus this weight. No tile is
@@ -98,7 +98,7 @@ private:
     void cut(const Frame& frame, int row, int begin, int end, Scratch& scratch) const;
     void drawRow(const Frame& frame, Scratch& scratch, int y) const;
     /// Returns what is added to the pixels of the enlarged video: the detail of the stills and,
-    /// where its weight is below one, also the residual of the learned filters.
+    /// where the weight of this detail is below one, also the residual of the learned filters.
     static const std::int16_t* detailOf(Scratch& scratch, const Segment& segment,
                                         const std::int16_t* learned, int y);
 

@@ -90,7 +90,7 @@ bool TileClasses::Fields::showsSecond(int column, int row) const {
     return false;
 }
 
-// A NaN weight counts as zero.
+// A weight that is NaN counts as zero.
 bool TileClasses::Fields::showsStillAlone(int column, int row) const {
     const int x0 = kCells * column - 1, y0 = kCells * row - 1;
     for (int i = 0; i < kWithBorder * kWithBorder; ++i)
