@@ -19,7 +19,8 @@ using F = hn::ScalableTag<float>;
 using I = hn::RebindToSigned<F>;
 using U = hn::RebindToUnsigned<F>;
 
-/// Interpolates between two rows; `t` = 0 gives the first row.
+/// Interpolates linearly between two rows, at the columns from `x` on. `t` = 0 gives the first row,
+/// `t` = 1 the second.
 HWY_INLINE hn::Vec<F> Between(const std::array<const float*, 2>& rows, float t, int x) {
     const F df;
     const auto a = hn::LoadU(df, rows[0] + x);
@@ -28,10 +29,10 @@ HWY_INLINE hn::Vec<F> Between(const std::array<const float*, 2>& rows, float t, 
 
 struct Positions {
     hn::Vec<I> x, y;    // whole pixels
-    hn::Vec<F> fx, fy;  // fraction towards the next pixel
+    hn::Vec<F> fx, fy;  // fraction of the way to the next pixel
 };
 
-/// Reads the look-up positions of consecutive vectors of pixels.
+/// Computes for consecutive vectors of output pixels the positions at which they read the still.
 class LookUp {
 public:
     LookUp(const LookUpRows& rows, Size size, int begin)
@@ -59,13 +60,15 @@ private:
     hn::Vec<F> stepX_, startX_, startY_, lastX_, lastY_, pixels_;
 };
 
-/// Bilinear interpolation of four bytes, packed as 0x(x1y1)(x1y0)(x0y1)(x0y0). The result is
+/// Interpolates bilinearly between 2x2 pixels. A lane of `texels` holds their four bytes, from the
+/// highest to the lowest: lower right, upper right, lower left, upper left. The result is
 /// multiplied by 256.
 HWY_INLINE hn::Vec<F> MeanOfFour(hn::Vec<U> texels, const Positions& at) {
     const F df;
     const I di;
     const U du;
-    // Both columns at once, because 255 * 256 fits into half a lane.
+    // A lane computes both columns at once, each in 16 of its 32 bits, because 255 * 256 fits into
+    // 16 bits.
     const auto scaled = hn::NearestInt(hn::Mul(at.fy, hn::Set(df, 256.0F)));
     const auto lower = hn::BitCast(du, scaled);
     const auto upper = hn::Sub(hn::Set(du, 256), lower);
@@ -158,7 +161,8 @@ void FadeRow(const std::int16_t* second, const LookUpRows& secondRows, const Loo
 using I16 = hn::ScalableTag<std::int16_t>;
 using U16 = hn::RebindToUnsigned<I16>;
 
-/// One channel of a vector of pixels, in [0, 255].
+/// Computes one colour channel of a vector of output pixels, in [0, 255]: the weighted sum of four
+/// rows, plus the added detail.
 class Channel {
 public:
     explicit Channel(const std::array<std::int16_t, 4>& weights) {
@@ -220,7 +224,7 @@ HWY_INLINE hn::Vec<F> ChannelOf(hn::Vec<U> pixels) {
     return hn::ConvertTo(F(), hn::BitCast(I(), byte));
 }
 
-/// The four pixels around a position.
+/// The four pixels around a position in the blended picture.
 struct Four {
     hn::Vec<U> here, right, below, belowRight;
 };

@@ -9,16 +9,20 @@
 
 namespace mfar::simd {
 
-// These functions process pixels [begin, end) of a row of the output. They may read and write rows
-// of fields up to 64 bytes beyond `end`; rows of the output are written only up to `end`.
+// These functions process pixels [begin, end) of a row of the output. They may read and write up to
+// 64 bytes beyond `end`, except in rows of the RGBA8 picture, which are written only up to `end`.
 
-/// Look-up positions of the pixels of a row: two rows of the look-up field, enlarged to the
-/// output's width, and the position between them. All numbers are finite.
+/// The positions at which the output pixels of a row read the still. They are interpolated between
+/// two rows of LookUpCells, which are already enlarged to the output's width. All numbers are
+/// finite.
 struct LookUpRows {
-    std::array<const float*, 2> x, y;   ///< [still px], see LookUpCell
-    std::array<const float*, 2> share;  ///< weight of the detail, or confidence
-    float t;                            ///< 0: the first row, 1: the second row
-    /// Position without the look-up's offset: (stepX px + startX, startY) [still px].
+    std::array<const float*, 2> x, y;   ///< LookUpCell::x and y, the offset of a position
+                                        ///< [still px]
+    std::array<const float*, 2> share;  ///< weight of the still's detail, or confidence of its
+                                        ///< match
+    float t;                            ///< interpolation weight of the second row, [0, 1]
+    /// Position of output pixel i before the offset is added: (stepX * i + startX, startY) [still
+    /// px].
     float stepX, startX, startY;
 };
 
@@ -30,48 +34,54 @@ struct StillPairs {
     Size size;
 };
 
-/// Samples the still's luma bilinearly at the look-up positions [1/32 grey level].
+/// Interpolates the still's luma bilinearly at the positions of a row, and writes it in units of
+/// 1/32 grey level.
 void warpRow(const StillPairs& still, const LookUpRows& lookUp, int begin, int end,
              std::int16_t* to);
 
-/// Input of guideRow(): rows of the video's pixels, with a margin of kGuideReach on both sides.
-/// `differences`: still minus video, scaled by Guidance. `trusted`: where the still is trusted.
+/// Input of guideRow(): rows of values for the video's pixels, with kGuideReach more values on both
+/// sides.
 struct GuideRows {
     static constexpr int kRows = 2 * params::kGuideReach + 1;
-    std::array<const float*, kRows> differences;  ///< 0 where the still is not trusted
-    std::array<const float*, kRows> trusted;      ///< 1 or 0
+    /// Still minus video, each multiplied by its factor in Guidance; 0 where the still is not
+    /// trusted.
+    std::array<const float*, kRows> differences;
+    std::array<const float*, kRows> trusted;  ///< 1 where the still is trusted, else 0
 };
 
-/// Writes `from`, the still as the video shows it, minus the amount by which the trusted
-/// differences exceed their local mean. All values have the same unit.
+/// Corrects `from`, a row of the still at the video's resolution, and writes it to `to`. A pixel
+/// where the still is trusted is reduced by the amount by which its difference exceeds the mean of
+/// the trusted differences around it. All values have the same unit.
 void guideRow(const GuideRows& rows, int begin, int end, const float* from, float* to);
 
-/// A row of the warped still, and the rows whose weighted sum is what the video can show of it.
+/// A row of the warped still, and what the video can show of it: the weighted sum of four rows of
+/// the still, reduced to the video's resolution and enlarged again to the output's width.
 struct WarpedRow {
-    const std::int16_t* luma;                ///< [1/32 grey level]
-    std::array<const std::int16_t*, 4> low;  ///< [1/64 grey level]
-    std::array<std::int16_t, 4> weights;     ///< [1/16384]
+    const std::int16_t* luma;                ///< the warped still [1/32 grey level]
+    std::array<const std::int16_t*, 4> low;  ///< the four reduced rows [1/64 grey level]
+    std::array<std::int16_t, 4> weights;     ///< weights of the rows in `low` [1/16384]
 };
 
-/// Computes the still's detail, which the video cannot show, times LookUpRows::share, and adds
-/// `learned` times the rest of the share; `learned` may be null. All values are in 1/32 grey level.
-/// The still's detail has priority over the learned residual. Adding the whole residual everywhere,
-/// and subtracting that of the still, lost 0.3 to 0.7 dB on synthetic scenes, because the residual
-/// also sharpens the sensors' differences in blur and noise.
+/// Computes the still's detail, which the video cannot show, and multiplies it by its weight
+/// LookUpRows::share. Adds `learned`, the residual of the learned filters, times 1 - weight (0 for
+/// weights above 1); `learned` may be null. All values are in 1/32 grey level. So the still's
+/// detail has priority over the residual. Adding the whole residual everywhere, and subtracting the
+/// residual of the still, lost 0.3 to 0.7 dB on synthetic scenes, because the residual also
+/// sharpens the sensors' differences in blur and noise.
 void detailRow(const WarpedRow& warped, const LookUpRows& lookUp, const std::int16_t* learned,
                int begin, int end, std::int16_t* to);
 
-/// Fades a row of detail over to that of a second still, depending on how much larger its share is,
-/// see params::kSecondFrom.
+/// Fades from the detail of the first still (`inOut`) to the detail of the second, the more the
+/// weight of the second still exceeds the weight of the first; see params::kSecondFrom.
 void fadeRow(const std::int16_t* second, const LookUpRows& secondLookUp, const LookUpRows& lookUp,
              int begin, int end, std::int16_t* inOut);
 
-/// Four rows of the video at the output's width, from the top, for each colour channel [1/64 grey
-/// level].
+/// Four consecutive rows of the video, enlarged to the output's width, for each colour channel
+/// [1/64 grey level].
 using EnlargedRows = std::array<std::array<const std::int16_t*, 4>, 3>;
 
-/// Writes RGBA8: the weighted sum of four rows, with weights [1/16384], plus `added` [1/32 grey
-/// level] in each channel; `added` may be null.
+/// Writes a row of the RGBA8 output. Each colour channel is the weighted sum of its four rows plus
+/// `added` [1/32 grey level]; `added` may be null. `weights`: weights of the rows [1/16384].
 void composeRow(const EnlargedRows& rows, const std::array<std::int16_t, 4>& weights,
                 const std::int16_t* added, int begin, int end, std::uint32_t* to);
 
@@ -82,8 +92,8 @@ struct BlendPicture {
     Size size;
 };
 
-/// Blends the picture, interpolated bilinearly, over `inOut`. Its opacity is LookUpRows::share, in
-/// [0, 1].
+/// Interpolates the picture bilinearly and blends it over `inOut`. The opacity of the picture is
+/// LookUpRows::share, which must be in [0, 1].
 void blendRow(const BlendPicture& picture, const LookUpRows& lookUp, int begin, int end,
               std::uint32_t* inOut);
 

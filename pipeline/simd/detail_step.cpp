@@ -11,9 +11,10 @@ constexpr int kGrain = 32;  // rows of the output that a thread takes at a time
 // Whole frames are drawn in strips of about this width, so that intermediate rows stay in the
 // first-level cache [px].
 constexpr int kStripWidth = 576;
-constexpr int kStripStep = 64;
+constexpr int kStripStep = 64;  // widths of strips are multiples of this [px]
 
-/// Returns the first output pixel whose centre lies in each tile, followed by the output's size.
+/// Returns for each tile along one axis the first output pixel whose centre lies in the tile. The
+/// last entry is the output's size.
 std::vector<int> tileStarts(int tiles, int video, int output) {
     std::vector<int> out;
     for (int i = 0; i < tiles; ++i) {
@@ -35,8 +36,10 @@ struct DetailStep::Frame {
     const DetailInput& in;
     DetailOptions options;
     Rows<std::uint32_t> out;
-    bool warps, blends, linear;  // how the still is used: warps and blends exclude each other
-    const FilterBank* bank;      // null: no learned filters
+    // warps: the still's detail is added; blends: the still's picture is blended in (never both);
+    // linear: the video is enlarged linearly.
+    bool warps, blends, linear;
+    const FilterBank* bank;  // null: no learned filters
     BlendPicture picture;
     const DetailStep& step;
 };
@@ -71,7 +74,8 @@ DetailStep::Show DetailStep::showOf(const Frame& frame, int column, int row) con
     if (work.draw != TileWork::Draw::Whole) return upscaled ? Show::Video : Show::Detail;
     const PixelRect& in = work.detailTiles;
     if (!(column >= in.x0 && column < in.x1 && row >= in.y0 && row < in.y1)) return Show::Video;
-    // Unmatched tiles are also classified as upscaled, but their neighbours may give them weight.
+    // Tiles that were not matched are also classified as upscaled. But the weights are interpolated
+    // between cells, so the still of a matched neighbour may be visible in such a tile.
     const bool weightless =
         upscaled && tile.matched != 0 && frame.options.mode == SuperResMode::Detail;
     return weightless ? Show::Video : Show::Detail;
@@ -107,8 +111,8 @@ TileSummary DetailStep::draw(const DetailInput& in, const DetailOptions& options
                 *this};
     if (frame.blends) frame.picture = {in.picture.data, in.picture.pitch, in.picture.size};
     choose(frame);
-    // The function captures only a pointer and a reference, so that std::function stores it without
-    // allocating.
+    // The lambda captures only a pointer and a reference, so that std::function stores it without
+    // allocating memory.
     workers_->forRange(output_.height, kGrain, [this, &frame](int first, int last) {
         scratch_.with([&](Scratch& scratch) { drawPart(frame, scratch, first, last); });
     });
@@ -142,7 +146,7 @@ void DetailStep::drawTileRow(const Frame& frame, Scratch& scratch, int row, int 
     }
 }
 
-// Cuts the drawn pixels of a row of tiles into segments.
+// Cuts the drawn pixels of a row of tiles into segments that are drawn in the same way.
 void DetailStep::cut(const Frame& frame, int row, int begin, int end, Scratch& scratch) const {
     std::vector<Segment>& segments = scratch.segments;
     segments.clear();

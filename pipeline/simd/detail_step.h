@@ -23,10 +23,11 @@ namespace mfar::simd {
 
 struct DetailOptions {
     SuperResMode mode;
-    bool cubic;                      ///< see Quality
-    bool upscaledTiles, plainTiles;  ///< see SkipOptions
-    /// Filters that enlarge tiles with structure in mode Detail, as far as the still's detail has a
-    /// weight below one; no tile is sharpened then. Null: tiles are sharpened as usual.
+    bool cubic;                      ///< true: cubic enlargement, see Quality
+    bool upscaledTiles, plainTiles;  ///< whether work is skipped in these tiles, see SkipOptions
+    /// Learned filters. In mode Detail, they enlarge the matched tiles; where the still's detail
+    /// has a weight, their contribution is multiplied by one minus this weight. No tile is
+    /// sharpened then. Null: no learned filters, and tiles are sharpened.
     const FilterBank* learned = nullptr;
 };
 
@@ -37,12 +38,12 @@ struct DetailInput {
     // enlarged.
     StillPairs still{};
     Rows<const std::uint32_t> picture{};
-    // Read only if there is a still; one entry per 4x4 video pixels.
+    // These fields are read only if there is a still. They have one entry per 4x4 video pixels.
     Rows<const WeighedCell> weighed;
     Rows<const LookUpCell> lookUps;
     Rows<const TrustCell> trust;
-    /// A second still, shown where its weight is larger than the first still's; only in mode
-    /// Detail. Without data, there is no second still.
+    /// A second still. It is shown where its weight is larger than the weight of the first still;
+    /// only in mode Detail. If `still` has no data, there is no second still.
     struct Second {
         StillPairs still{};
         Rows<const WeighedCell> weighed{};
@@ -53,16 +54,17 @@ struct DetailInput {
 };
 
 /// Turns video, still and flow into the high-resolution picture on the CPU. The result differs from
-/// that of the GLES engine's DetailPainter by at most a grey level. There, tiles next to drawn
-/// tiles may be sharpened from an older frame; here, they always belong to this frame. Allocates
+/// the result of the GLES engine's DetailPainter by at most a grey level, apart from one case: near
+/// the border of a drawn tile, sharpening also reads the tile beside it, which the GLES engine may
+/// have sharpened from an older frame; here, it is always sharpened from this frame. Allocates
 /// memory only in the constructor.
 class DetailStep {
 public:
     /// `stillRig`: see StillPreparation::rig(). `output`: size of the whole enlarged video.
     DetailStep(const StereoRig& stillRig, Size output, std::shared_ptr<Workers> workers);
 
-    /// Draws the tiles of `work` into `out`, which is RGBA8 (R in the lowest byte, alpha 255) and
-    /// has the output's size. Other tiles keep their pixels.
+    /// Draws the tiles that `work` says are drawn into `out`, a picture in RGBA8 (R in the lowest
+    /// byte, alpha 255) of the output's size. Other tiles keep their pixels.
     TileSummary draw(const DetailInput& in, const DetailOptions& options, Rows<std::uint32_t> out);
     /// Class of each tile in the last draw(), row-major.
     [[nodiscard]] const std::vector<TileClass>& classes() const { return classes_.classes(); }
@@ -82,8 +84,8 @@ private:
         LookUpRowCache lookUps;  // for mode Blend
         WarpedStill warped, second;
         LearnedRows learned;
-        WarpedRow detail{}, secondDetail{};  // current row
-        AlignedRows<std::int16_t> added;     // one row for each still
+        WarpedRow detail{}, secondDetail{};  // the current row of both stills
+        AlignedRows<std::int16_t> added;     // one row of added detail for each still
         std::vector<Segment> segments;
         PixelSpans learnedSpans, detailSpans, secondSpans;
     };
@@ -95,8 +97,8 @@ private:
     void drawStrip(const Frame& frame, Scratch& scratch, const PixelRect& strip) const;
     void cut(const Frame& frame, int row, int begin, int end, Scratch& scratch) const;
     void drawRow(const Frame& frame, Scratch& scratch, int y) const;
-    /// Returns what is added to the video's pixels: the detail of the stills and, where their
-    /// weights leave a share, the residual of the learned filters.
+    /// Returns what is added to the pixels of the enlarged video: the detail of the stills and,
+    /// where the weight of this detail is below one, also the residual of the learned filters.
     static const std::int16_t* detailOf(Scratch& scratch, const Segment& segment,
                                         const std::int16_t* learned, int y);
 
@@ -106,8 +108,8 @@ private:
     LearnedTaps learnedTaps_;
     LookUpTaps lookUpTaps_;
     WarpedStillTaps warpedTaps_;
-    std::vector<int> columnsAt_, rowsAt_;  // first output pixel of each tile, followed by the
-                                           // output's size
+    std::vector<int> columnsAt_, rowsAt_;  // first output column and row of each tile; the last
+                                           // entry is the output's width or height
     TileClasses classes_;
     std::vector<Show> shows_;  // per tile
     ScratchSlots<Scratch> scratch_;

@@ -40,7 +40,8 @@ HWY_INLINE V StepTo(V target, V at) {
     return hn::Max(hn::Min(hn::Sub(target, at), Const(0.5F)), Const(-0.5F));
 }
 
-// Fixed-point iterations as in camera.glsl, but only until all lanes have converged.
+// Returns the ray of a pixel. The lens distortion is removed by fixed-point iteration, as in
+// camera.glsl, but only until all lanes have converged.
 HWY_INLINE Point Unproject(const LensParams& lens, V x, V y) {
     constexpr float kAtRest = 3e-7F;  // 0.001 px at a focal length of 3000 px
     const Point target{hn::Mul(hn::Sub(x, Const(lens.cx)), Const(1 / lens.fx)),
@@ -56,7 +57,8 @@ HWY_INLINE Point Unproject(const LensParams& lens, V x, V y) {
     return ray;
 }
 
-// Returns the position in the still; far outside if the ray points away from the still's view.
+// Returns where a video pixel's ray, turned into the still camera's orientation, meets the still.
+// The position is far outside the still if the ray points away from the still's view.
 HWY_INLINE Point StillPixel(const LookUpParams& lookUp, V x, V y) {
     const Point ray = Unproject(lookUp.video, x, y);
     const auto turned = [&](int row) HWY_ATTR {
@@ -75,14 +77,14 @@ HWY_INLINE Point StillPixel(const LookUpParams& lookUp, V x, V y) {
                            far)};
 }
 
-// NaN counts as outside.
+// Returns whether a point is inside the picture. A point with NaN is outside.
 HWY_INLINE hn::Mask<D> Inside(const LensParams& lens, Point p) {
     const V zero = hn::Zero(D());
     const auto x = hn::And(hn::Ge(p.x, zero), hn::Le(p.x, Const(lens.width - 1)));
     return hn::And(x, hn::And(hn::Ge(p.y, zero), hn::Le(p.y, Const(lens.height - 1))));
 }
 
-// NaN becomes `least`.
+// Clamps to [`least`, `most`]; NaN becomes `least`.
 HWY_INLINE V Clamp(V value, float least, float most) {
     const V low = Const(least);
     return hn::IfThenElse(hn::Gt(value, low), hn::Min(value, Const(most)), low);
@@ -104,8 +106,8 @@ HWY_INLINE V Mix(V a, V b, V share) {
     return hn::MulAdd(hn::Sub(b, a), share, a);
 }
 
-/// Returns the two-way error: the length of the sum of the flow and of the backward field at the
-/// flow's end `q`.
+/// Returns the two-way error [video px]. The flow leads from a cell to `q`, and the backward field
+/// at `q` should lead back to the cell; the error is the length of the sum of these two vectors.
 HWY_INLINE V TwoWayError(const BackwardCells& backward, Point q, V flowX, V flowY) {
     const D d;
     const hn::RebindToSigned<D> di;

@@ -16,7 +16,7 @@ struct LensParams : params::Lens {
     bool distorts;        ///< true if any coefficient of the distortion is not zero
 };
 
-/// Two lenses, and the rows of R_still_video.
+/// The lenses of video and still, and the rows of the rotation matrix R_still_video.
 struct LookUpParams {
     explicit LookUpParams(const StereoRig& rig);
     LensParams video, still;
@@ -24,34 +24,35 @@ struct LookUpParams {
     float scaleX, scaleY;  ///< still pixels per video pixel
 };
 
-/// Two-way errors: either a row of known errors, or the backward field from which they are
-/// computed.
+/// The two-way errors of a row of cells (`errors`) or, if they are not known yet, the backward
+/// field from which they are computed.
 struct BackwardCells {
-    const ErrorCell* errors = nullptr;  ///< of the row's first cell; null: use the backward field
+    const ErrorCell* errors = nullptr;  ///< error of the row's first cell; null: not known yet
     const FlowCell* field = nullptr;
-    std::ptrdiff_t pitch = 0;  ///< cells from one row to the next
+    std::ptrdiff_t pitch = 0;  ///< cells from one row of `field` to the next
     int columns = 0, rows = 0;
-    float scale = 1;  ///< video pixels per pixel of the field's level
+    float scale = 1;  ///< video pixels per pixel of the pyramid level that `field` belongs to
 };
 
 /// Splits a row of the flow into its two components.
 void splitFlow(const FlowCell* cells, int count, float* x, float* y);
 
-/// Computes the mean flow of 2x2 cells, in pixels of the next coarser level. Reads 2 * count cells.
+/// Computes the mean flow of blocks of 2x2 cells, in pixels of the next coarser pyramid level.
+/// Reads 2 * count cells of each row.
 void halveFlow(const float* upper, const float* lower, int count, float* out);
 
-/// A row of cells with their flow, and results for where the flow ends in the still. The memory
-/// extends to a multiple of 16 cells; values beyond `count` are not used.
+/// A row of cells with their flow, and the results of lookUpCells() for them. The arrays extend to
+/// a multiple of 16 cells; values beyond `count` are not used.
 struct LookUpRow {
     int row, count;
     const float *flowX, *flowY;  ///< [video px]
-    float *lookX, *lookY;        ///< end of the flow minus the scaled cell centre [still px]
+    float *lookX, *lookY;        ///< LookUpCell::x and y [still px]
     float* confidence;           ///< eq. 2 of the paper with lambda(x) = min(x, 1); 0 if the flow
                                  ///< ends outside the still or the video
 };
 
-/// Computes where the flow ends in the still, and how well both fields agree
-/// (superres_assess.comp).
+/// Computes for each cell of a row where its flow ends in the still, and its confidence: how well
+/// the flow and the backward field agree. CPU version of superres_assess.comp.
 void lookUpCells(const LookUpParams& lookUp, const BackwardCells& backward, const LookUpRow& row);
 
 }  // namespace mfar::simd

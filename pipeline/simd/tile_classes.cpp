@@ -10,7 +10,7 @@ namespace mfar::simd {
 namespace {
 
 constexpr int kCells = 4;         // cells of a tile along each axis
-constexpr int kWithBorder = 6;    // the same with a border of one cell on each side
+constexpr int kWithBorder = 6;    // kCells and a border of one cell on each side
 constexpr int kTileRowGrain = 4;  // rows of tiles that a thread takes at a time
 
 }  // namespace
@@ -29,8 +29,8 @@ struct TileClasses::Fields {
     }
     [[nodiscard]] TileClass classOf(int column, int row) const;
     [[nodiscard]] int unexplainedCells(int column, int row) const;
-    /// The neighbouring cells count, too, because the tile's pixels interpolate between them and
-    /// the tile's own cells.
+    /// The cells next to the tile count, too, because the weights of the tile's pixels are
+    /// interpolated between the tile's own cells and those.
     [[nodiscard]] bool showsSecond(int column, int row) const;
     [[nodiscard]] bool showsStillAlone(int column, int row) const;
     [[nodiscard]] bool secondExplains(int x, int y) const {
@@ -40,8 +40,8 @@ struct TileClasses::Fields {
     [[nodiscard]] float confidence(int column, int row) const;
 };
 
-// A tile is plain (Trusted) if its flow is affine and its weight constant, within tolerances.
-// Fields with NaN fulfil neither.
+// A tile gets the class Trusted if, within tolerances, its flow is an affine function of the
+// position and its weight is constant. A flow with NaN is not affine.
 TileClass TileClasses::Fields::classOf(int column, int row) const {
     const int x0 = kCells * column, y0 = kCells * row;
     std::array<WeighedCell, kWithBorder * kWithBorder> cells;
@@ -90,7 +90,7 @@ bool TileClasses::Fields::showsSecond(int column, int row) const {
     return false;
 }
 
-// A NaN weight counts as zero.
+// A weight that is NaN counts as zero.
 bool TileClasses::Fields::showsStillAlone(int column, int row) const {
     const int x0 = kCells * column - 1, y0 = kCells * row - 1;
     for (int i = 0; i < kWithBorder * kWithBorder; ++i)
@@ -145,7 +145,8 @@ TileSummary TileClasses::classify(const TileWork& work, const Match& match, cons
         const TileWork& work;
         const Fields& fields;
     } loop{*this, work, fields};
-    // The function captures only a reference, so that std::function stores it without allocating.
+    // The lambda captures only a reference, so that std::function stores it without allocating
+    // memory.
     workers.forRange(tiles_.height, kTileRowGrain, [&loop](int first, int last) {
         for (int row = first; row < last; ++row)
             loop.self.classifyRow(loop.work, loop.fields, row);

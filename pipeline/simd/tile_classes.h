@@ -12,28 +12,28 @@
 
 namespace mfar::simd {
 
-/// Counts for a frame, as in superres_classify.comp.
+/// Numbers of tiles in a frame, computed as in superres_classify.comp.
 struct TileSummary {
     std::array<int, kTileClasses> tiles{};  ///< number of tiles of each TileClass
     int unexplained = 0;                    ///< number of tiles that no still explains
     int second = 0;                         ///< number of tiles that show the second still
     /// Sum of the confidence (eq. 2 of the paper) over the cells of all tiles, in units of 1/16;
-    /// the sum of each tile is rounded down. A tile has 16 cells, so full confidence adds 256. Zero
-    /// without a still.
+    /// the sum of each tile is rounded down to a whole number. A tile has 16 cells, so a tile with
+    /// full confidence adds 256. Zero if there is no still.
     double confidence = 0;
 };
 
-/// Determines the class of every tile of a frame. Remembers for each tile whether it was
-/// unexplained when it was drawn last.
+/// Determines the TileClass of every tile of a frame. Remembers for each tile how many of its cells
+/// were unexplained when it was drawn last.
 class TileClasses {
 public:
     explicit TileClasses(Size video);
 
-    /// Says which work is skipped, see SkipOptions.
+    /// The tiles in which work is skipped, see SkipOptions.
     struct Skips {
         bool upscaledTiles, plainTiles;
     };
-    /// Match of a still with the frame; without data, there is no still.
+    /// Match of a still with the frame. If the fields have no data, there is no such still.
     struct Match {
         Rows<const WeighedCell> weighed{};
         Rows<const TrustCell> trust{};
@@ -46,12 +46,13 @@ public:
         return classes_[static_cast<std::size_t>(row) * tiles_.width + column];
     }
 
-    /// True if every weight of the tile is at least one: then the still's detail replaces the
-    /// video's completely, and learned filters would add nothing.
+    /// True if the still's detail has a weight of at least one in every cell in and next to the
+    /// tile. Then it replaces the video's detail completely, and learned filters would add nothing.
     [[nodiscard]] bool showsStillAlone(int column, int row) const {
         return alone_[static_cast<std::size_t>(row) * tiles_.width + column] != 0;
     }
-    /// True if the second still's weight exceeds the first's somewhere in the tile.
+    /// True if in a cell in or next to the tile, the weight of the second still exceeds the weight
+    /// of the first by more than params::kSecondFrom.
     [[nodiscard]] bool showsSecond(int column, int row) const {
         return second_[static_cast<std::size_t>(row) * tiles_.width + column] != 0;
     }

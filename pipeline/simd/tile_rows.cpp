@@ -13,15 +13,17 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr float kMeanToDeviation = 1.2533F;  // standard deviation / mean absolute value of a
                                              // Gaussian
-// Threshold for the mean and both slopes of a tile's difference, squared and divided by their
-// variance. Of unchanged tiles, a share of 1e-8 exceeds it.
+// Threshold above which a tile has certainly changed. It holds for the sum of three squares, each
+// divided by its variance: of the mean and of both slopes of the tile's difference. Of unchanged
+// tiles, a share of 1e-8 exceeds it.
 constexpr float kSurelyChanged = 40;
-// The same for the mean of a cell.
+// Threshold for the squared mean of a cell's difference, divided by its variance.
 constexpr float kCellSurelyChanged = 30;
 constexpr float kByteRounding = 0.17F;  // variance of the rounding error of a difference of two
                                         // 8-bit pixels
 
-// From here on, each lane is a tile, so that sums are added in the same order on every CPU.
+// From here on, each lane of a vector belongs to one tile, so that the sums of a tile are added in
+// the same order on every CPU.
 using D = hn::CappedTag<float, kTileGroup>;
 using V = hn::Vec<D>;
 
@@ -29,13 +31,13 @@ HWY_INLINE V Const(float value) {
     return hn::Set(D(), value);
 }
 
-/// Loads the blocks of a row of tiles into one vector for each column of a tile.
+/// Loads a row of blocks of several tiles into eight vectors, one for each column of a tile.
 HWY_INLINE void Columns(const float* row, V* out) {
     const D d;
     hn::LoadInterleaved4(d, row, out[0], out[1], out[2], out[3]);
     hn::LoadInterleaved4(d, row + 4 * hn::Lanes(d), out[4], out[5], out[6], out[7]);
 #if HWY_TARGET != HWY_SCALAR
-    // Left and right halves of tiles alternate.
+    // Now the lanes alternate between left and right halves of tiles. Separate the halves.
     for (int i = 0; i < 4; ++i) {
         const V first = out[i], second = out[i + 4];
         out[i] = hn::ConcatEven(d, second, first);
@@ -44,10 +46,10 @@ HWY_INLINE void Columns(const float* row, V* out) {
 #endif
 }
 
-/// The 8x8 values of each tile, one per block.
+/// The 8x8 values of each tile, one for each block of 2x2 pixels.
 using Grid = V[kSide][kSide];
 
-/// Returns the squared residual of the best plane through 4x4 of the values.
+/// Fits a plane to 4x4 of the values and returns the sum of the squared remainders.
 HWY_INLINE V BesidePlane(const Grid& values, int top, int left) {
     const V zero = hn::Zero(D());
     V sum = zero, squares = zero, slopeX = zero, slopeY = zero;
@@ -74,7 +76,8 @@ HWY_INLINE V StructureOf(const Blocks& blocks, int tile) {
     return hn::Div(sum, Const(9));
 }
 
-/// Mean and slopes of the cells' means, squared and divided by their variance.
+/// The mean and both slopes of a tile's difference, from the means of its cells. over() returns the
+/// sum of their squares, each divided by its variance; `variance`: variance of a cell's mean.
 class Moments {
 public:
     HWY_INLINE Moments() : sum_(hn::Zero(D())), slopeX_(sum_), slopeY_(sum_) {}
@@ -106,9 +109,10 @@ HWY_INLINE Moments MomentsOf(const Blocks::CellSums& sums, int tile) {
     return out;
 }
 
-/// Sums over the luma of the difference of both pictures.
+/// Measurements of the difference between the lumas of both frames; see TileMeasure for means and
+/// bends.
 struct LumaDifference {
-    V means, bends, noise;  // noise: sum of squared twists
+    V means, bends, noise;  // noise: sum of squared twists of blocks
     Moments moments;
 };
 
@@ -148,7 +152,8 @@ HWY_INLINE V NoiseOf(const Blocks& blocks, int tile) {
     return hn::Mul(sum, Const(kMeanToDeviation / 64));
 }
 
-/// Returns the variance of a cell's mean that noise causes.
+/// Returns the variance that noise causes in the mean of a cell's difference. `variance`: variance
+/// of the noise in the difference of one pixel. `grain`: see ChangeBounds.
 HWY_INLINE V OfCell(V variance, float grain) {
     const V rounded = hn::Add(variance, Const(kByteRounding));
     return hn::Mul(hn::Mul(rounded, Const(1.0F / 16)), Const(grain));
@@ -188,7 +193,7 @@ HWY_INLINE auto ChangedCells(const Blocks& blocks, int tile, V noisiest,
     return out;
 }
 
-/// Measurements of a group of tiles before they are written.
+/// Measurements of a group of tiles, before they are copied to TileMeasure.
 struct Measures {
     using Values = std::array<float, kTileGroup>;
     HWY_ALIGN std::array<std::int32_t, kTileGroup> cells;

@@ -15,7 +15,7 @@ Size tilesOfCells(Size cells) {
     return {divideUp(cells.width, kCellsPerTile), divideUp(cells.height, kCellsPerTile)};
 }
 
-/// True if any flag is set in the rectangle of tiles [first, end).
+/// Returns whether any flag is set in the rectangle of tiles [first, end).
 bool anyWithin(const TileMask& mask, TileSearch::Group first, TileSearch::Group end) {
     for (int y = std::max(first.y, 0); y < std::min(end.y, mask.size.height); ++y)
         for (int x = std::max(first.x, 0); x < std::min(end.x, mask.size.width); ++x)

@@ -24,13 +24,13 @@ struct TileMask {
         return flags[static_cast<std::size_t>(y) * size.width + x];
     }
 };
-/// Sets flags in `out` (of the same size) for tiles that have a flagged tile within `margin` tiles
-/// along each axis. `between`: temporary memory.
+/// Sets the flag of every tile in `out` to 1 if `in` has a flagged tile at most `margin` tiles away
+/// along each axis, else to 0. All masks have the same size. `between`: temporary memory.
 void widen(const TileMask& in, int margin, TileMask& between, TileMask& out);
 
-/// Finds the tiles whose motion a field along epipolar lines does not explain. For each pyramid
-/// level, it lists the groups of 4x4 cells that have to be searched in two dimensions for this. CPU
-/// version of flow_flag.comp and flow_list.comp.
+/// Finds the tiles whose motion the flow along epipolar lines does not explain, so that they must
+/// be searched in two dimensions. Lists for each pyramid level the groups of 4x4 cells of that
+/// level that this search needs. CPU version of flow_flag.comp and flow_list.comp.
 class TileSearch {
 public:
     struct Group {
@@ -39,8 +39,8 @@ public:
 
     TileSearch(Size cells, int levels);
 
-    /// `noise`: standard deviation of the video's noise [grey levels]. `errors`: two-way errors,
-    /// row by row.
+    /// `field`: the flow along epipolar lines. `errors`: two-way errors of its cells, row-major.
+    /// `noise`: standard deviation of the video's noise [grey levels].
     void find(const FlowPlanes& field, std::span<const ErrorCell> errors, double noise);
     void clear();
 

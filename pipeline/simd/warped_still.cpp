@@ -12,20 +12,24 @@ namespace mfar::simd {
 namespace {
 
 constexpr int kReach = params::kGuideReach;
-constexpr int kMargin = 16;  // columns on each side of a row; as long as a cache line
-constexpr float kMeanScale = 32;
+constexpr int kMargin = 16;       // additional columns on each side of a row; one cache line
+constexpr float kMeanScale = 32;  // a grey level of the mean is stored as this number
 
-/// Taps of the mean over a video pixel along one axis. The warped still is interpolated linearly,
-/// which widens the footprint. To keep its total variance, the samples are closer together.
+/// Returns the weights for the mean of the warped still over a video pixel, along one axis. The
+/// mean is taken over four samples. The warped still is interpolated linearly, which widens the
+/// footprint of the samples. To keep the variance of the whole footprint, the samples are closer
+/// together.
 RowTaps meanOf(int output, int video) {
-    constexpr double kWidened = 2.0 + 2.0 / 15;  // variance of a tent / variance of four samples
+    // Variance of the tent of linear interpolation / variance of the four samples' positions.
+    constexpr double kWidened = 2.0 + 2.0 / 15;
     const double pitch = static_cast<double>(video) / output, seen = params::kSeen;
     return RowTaps::mean(output, video,
                          std::sqrt(std::max(seen * seen - kWidened * pitch * pitch, 0.0)));
 }
 
-/// Returns the largest number of rows from a row of detail to the last row that it reads. `reach`:
-/// additional rows of the video that guidance reads.
+/// Returns how many rows of the warped still must be kept: the largest number of rows from an
+/// output row to the last row that its detail reads. `reach`: number of additional rows of the
+/// video that guidance reads.
 int rowsLookedAt(const RowTaps& mean, const RowTaps& cubic, Size video, Size output, int reach) {
     int most = mean.taps();
     for (int y = 0; y < output.height; ++y) {
@@ -75,7 +79,7 @@ void WarpedStill::begin(const StillPairs& still, Rows<const LookUpCell> lookUps,
         spans->clear();
 }
 
-// Adds the columns that a span of the output needs to means_, compared_ and warped_.
+// Adds the columns that a span of an output row needs to means_, compared_ and warped_.
 void WarpedStill::spread(const PixelSpan& span) {
     const RowTaps &cubic = taps_->cubicRows, &mean = taps_->meanRows;
     const int first = cubic.first(span.begin),
@@ -111,7 +115,7 @@ void WarpedStill::warp(int y) {
     warpedRows_[slot] = y;
 }
 
-// Computes a row of the still as the video would show it.
+// Computes a row of the still at the video's resolution.
 void WarpedStill::makeMean(int row, float* to) {
     const RowTaps& columns = taps_->meanColumns;
     weighed_.clear();
@@ -131,7 +135,7 @@ void WarpedStill::makeMean(int row, float* to) {
         resampleRow(column_[0], taps_->meanRows.table(), span.begin, span.end, to);
 }
 
-// Computes differences and trust in one row of the video, for guidance.
+// Computes `differences` and `trusted` of GuideRows for one row of the video.
 void WarpedStill::compare(int row) {
     const int slot = row % GuideRows::kRows;
     if (comparedRows_[slot] == row) return;
@@ -170,8 +174,8 @@ void WarpedStill::makeGuided(int row, float* to) {
         guideRow(rows, begin, end, seen_[row % GuideRows::kRows] + kMargin, to);
 }
 
-// Computes a row of the still as the video would show it, with guidance, and enlarges it to the
-// output's width.
+// Computes a row of the still at the video's resolution, corrects it by guidance (if there is any),
+// and enlarges it to the output's width.
 void WarpedStill::makeLow(int row) {
     if (guide_ != nullptr)
         makeGuided(row, mean_[0]);

@@ -11,44 +11,45 @@
 
 namespace mfar::simd {
 
-/// Tables for the still as the video would show it. All threads share them.
+/// Tables that reduce the warped still to the video's resolution and enlarge it again. All threads
+/// share them.
 struct WarpedStillTaps {
     WarpedStillTaps(Size video, Size output);
 
-    RowTaps meanRows, meanColumns;    ///< resample output pixels to video pixels
-    RowTaps cubicRows, cubicColumns;  ///< resample video pixels to output pixels
-    /// Number of output rows that the detail of a row reads, from that row to the last one read:
-    /// without guidance (`kept`), and with it.
+    RowTaps meanRows, meanColumns;    ///< reduce output pixels to video pixels
+    RowTaps cubicRows, cubicColumns;  ///< enlarge video pixels to output pixels
+    /// Number of rows of the warped still that must be kept to compute the detail of a row, without
+    /// guidance (`kept`) and with guidance.
     int kept, keptGuided;
 };
 
-/// The still as seen by the camera of this frame, and its detail, which the video cannot show.
-/// Detail is the warped still minus its mean over each video pixel, which is enlarged again. The
-/// mean is taken over the pixels of this frame, because aliasing depends on their position.
-/// Compared with detail that is computed once per still, this gains 0.5 dB on photographs and 0.5
-/// to 0.9 dB on synthetic scenes. Rows at the output's size are computed on request. Each thread
-/// has its own object.
+/// The still warped to the view of this frame, and its detail, which the video cannot show. To
+/// compute the detail, the warped still is reduced to the video's resolution (its mean over each
+/// video pixel), enlarged again and subtracted from the warped still. The mean is taken over the
+/// pixels of this frame, because aliasing depends on their position. Compared with detail that is
+/// computed once per still, this gains 0.5 dB on photographs and 0.5 to 0.9 dB on synthetic scenes.
+/// Output rows are computed on request. Each thread has its own object.
 class WarpedStill {
 public:
     WarpedStill(Size video, Size output, const WarpedStillTaps& taps);
 
-    /// The video that a still guides, and the strength of the guidance.
+    /// The video whose finest detail the still replaces, and how strongly it does so.
     struct Guide {
         const RgbPlanes& video;
         Guidance guidance;
     };
 
-    /// Starts with a new still and a new field of look-ups. `pixels`: columns of the output that
-    /// cover() may choose from. No pixels are computed until cover() is called.
+    /// Starts with a new still and new LookUpCells. `pixels`: columns of the output that cover()
+    /// may choose from. No pixels are computed until cover() is called.
     void begin(const StillPairs& still, Rows<const LookUpCell> lookUps,
                const LookUpTaps& lookUpTaps, const WarpedStillTaps& taps, const PixelSpan& pixels,
                const Guide& guide);
-    /// From now on, row() computes only these columns. `pixels` must be ascending.
+    /// From now on, row() computes only these columns of the output. `pixels` must be ascending.
     void cover(const PixelSpans& pixels);
     /// Returns the detail of the covered pixels of a row; valid until the next call. Rows must be
     /// requested in ascending order.
     [[nodiscard]] WarpedRow row(int y);
-    /// Returns the look-up positions of a row, and the weight of the detail.
+    /// Returns where the pixels of an output row read the still, and the weight of its detail.
     [[nodiscard]] LookUpRows lookUps(int y) { return lookUps_.row(y); }
 
 private:
@@ -64,24 +65,30 @@ private:
     const WarpedStillTaps* taps_ = nullptr;
     LookUpRowCache lookUps_;
     PixelSpans covered_;
-    PixelSpans means_, warped_;    // means_: columns of the video; warped_: pixels of the output
-    PixelSpans compared_;          // columns of the video: means_; with guidance, more on each side
-    std::vector<int> warpedRows_;  // output row stored in each slot of luma_
-    std::array<int, 4> lowRows_{};
+    // Columns that are computed for covered_. means_: columns of the still at the video's
+    // resolution. warped_: columns of the warped still.
+    PixelSpans means_, warped_;
+    PixelSpans compared_;           // means_; with guidance, also kGuideReach columns on each side
+    std::vector<int> warpedRows_;   // output row stored in each row of luma_
+    std::array<int, 4> lowRows_{};  // video row stored in each row of low_
     std::vector<const std::int16_t*> weighed_;
     std::vector<float> weights_;
-    AlignedRows<std::int16_t> luma_;    // slots_ rows of the output [1/32 grey level]
-    AlignedRows<float> column_, mean_;  // column_: a row of the output; mean_: a row of the video
-    AlignedRows<std::int16_t> low_;     // four rows at the output's width [1/64 grey level]
+    AlignedRows<std::int16_t> luma_;  // slots_ rows of the warped still [1/32 grey level]
+    // column_: a row of the warped still, reduced only vertically; mean_: the same row, reduced to
+    // the video's resolution.
+    AlignedRows<float> column_, mean_;
+    AlignedRows<std::int16_t> low_;  // four reduced rows, enlarged to the output's width
+                                     // [1/64 grey level]
 
     const RgbPlanes* guide_ = nullptr;  // null: no guidance
     Guidance guidance_;
     Rows<const LookUpCell> field_{};
     int slots_ = 0;                                   // number of rows of luma_ in use
-    std::array<int, GuideRows::kRows> comparedRows_;  // video row stored in each slot of seen_
+    std::array<int, GuideRows::kRows> comparedRows_;  // video row stored in each row of seen_
     AlignedRows<std::int16_t> videoLuma_;             // a row of the video [1/8 grey level]
-    // Buffers of GuideRows::kRows rows. Each row has a margin and belongs to a row of the video
-    // (comparedRows_). Unit of grey levels: 1/32. See GuideRows.
+    // Buffers of GuideRows::kRows rows with a margin. comparedRows_ tells which row of the video
+    // each of them belongs to. seen_ is the warped still at the video's resolution; for the others
+    // see GuideRows. Luma is in units of 1/32 grey level.
     AlignedRows<float> seen_, differences_, trusted_;
 };
 

@@ -16,7 +16,7 @@ namespace {
 constexpr Size kStill{311, 90};
 constexpr int kPixels = 300;
 
-/// A still of noise: a pixel from a wrong place is almost always seen.
+/// Makes a still of noise: if warpRow() reads a wrong pixel, the result almost always differs.
 AlignedRows<std::uint16_t> noisePairs() {
     AlignedRows<std::uint16_t> out({kStill.width + 64, kStill.height});
     std::mt19937 random(3);
@@ -45,7 +45,8 @@ double luma(const AlignedRows<std::uint16_t>& still, const Place& place) {
     return std::lerp(mixed(still[row][column]), mixed(still[row][column + 1]), x - column);
 }
 
-/// Fractions of the rows are multiples of 1/256, to which the kernel rounds them.
+/// Expects that warpRow() returns the still's luma at the positions of `placeOf`. The fractions of
+/// their y must be multiples of 1/256, because warpRow() rounds them to these.
 void expectPixelsOf(const std::string& name, const PlaceOf& placeOf) {
     const AlignedRows<std::uint16_t> still = noisePairs();
     AlignedRows<float> places({kPixels + 64, 2});
@@ -63,17 +64,19 @@ void expectPixelsOf(const std::string& name, const PlaceOf& placeOf) {
         ASSERT_NEAR(out[0][i], 32 * luma(still, placeOf(i)), 1) << name << ": pixel " << i;
 }
 
-TEST(WarpRow, InterpolatesTheStillWhereverItsPixelsLie) {
-    expectPixelsOf("one row", [](int i) { return Place{i + 0.25, 7.5}; });
-    expectPixelsOf("rows change slowly", [](int i) { return Place{i + 0.75, 3.25 + i / 16.0}; });
-    expectPixelsOf("rows change quickly", [](int i) { return Place{i + 0.75, 80.25 - i / 4.0}; });
-    expectPixelsOf("larger steps", [](int i) { return Place{1.25 * i, 20 + i / 32.0}; });
-    expectPixelsOf("double steps", [](int i) { return Place{2.0 * i - 100, 20.5}; });
-    expectPixelsOf("too large steps", [](int i) { return Place{2.5 * i - 200, 20.5}; });
-    expectPixelsOf("backwards", [](int i) { return Place{kPixels - i + 0.5, 20.5}; });
-    expectPixelsOf("edges between surfaces",
+TEST(WarpRow, InterpolatesTheStillAtRegularAndIrregularPositions) {
+    expectPixelsOf("all positions in one row of the still",
+                   [](int i) { return Place{i + 0.25, 7.5}; });
+    expectPixelsOf("y changes slowly", [](int i) { return Place{i + 0.75, 3.25 + i / 16.0}; });
+    expectPixelsOf("y changes quickly", [](int i) { return Place{i + 0.75, 80.25 - i / 4.0}; });
+    expectPixelsOf("steps of 1.25 px", [](int i) { return Place{1.25 * i, 20 + i / 32.0}; });
+    expectPixelsOf("steps of 2 px", [](int i) { return Place{2.0 * i - 100, 20.5}; });
+    expectPixelsOf("steps of 2.5 px", [](int i) { return Place{2.5 * i - 200, 20.5}; });
+    expectPixelsOf("from right to left", [](int i) { return Place{kPixels - i + 0.5, 20.5}; });
+    expectPixelsOf("jumps of 40 px, as at edges between surfaces",
                    [](int i) { return Place{i + (i / 9 % 2) * 40 + 0.5, 20.0 + i / 7 % 3}; });
-    expectPixelsOf("beyond the borders", [](int i) { return Place{1.5 * i - 60, i - 40.0}; });
+    expectPixelsOf("positions beyond the still's borders",
+                   [](int i) { return Place{1.5 * i - 60, i - 40.0}; });
 }
 
 }  // namespace
