@@ -73,7 +73,7 @@ TEST(FilterBank, DamagedFiltersAreRefusedAndTheMessageSaysWhy) {
     EXPECT_NE(faultOf(damaged).find("other classes"), std::string::npos);
     EXPECT_NE(faultOf(std::span(whole).first(whole.size() - 1)).find("bytes; expected"),
               std::string::npos);
-    EXPECT_NE(faultOf(std::span(whole).first(10)).find("not a file"), std::string::npos);
+    EXPECT_NE(faultOf(std::span(whole).first(10)).find("not a filter file"), std::string::npos);
     for (const std::size_t at : {std::size_t{28}, whole.size() / 2, whole.size() - 1}) {
         damaged = whole;
         damaged[at] ^= 64;
