@@ -185,9 +185,10 @@ private:
         std::array<Ray, kQuarters> rays;
         std::array<RayHit, kQuarters> hits;
         for (std::size_t i = 0; i < kQuarters; ++i) {
-            const float x = static_cast<float>(pixel % width_) + (i % 2 == 0 ? -0.25F : 0.25F);
-            const float y = static_cast<float>(pixel / width_) + (i / 2 == 0 ? -0.25F : 0.25F);
-            rays[i] = {eye_, rotation_ * lens_->at(x, y).homogeneous()};
+            const Eigen::Vector2f at =
+                Eigen::Vector2f(pixel % width_, pixel / width_) +
+                Eigen::Vector2f((i & 1) != 0 ? 0.25F : -0.25F, (i & 2) != 0 ? 0.25F : -0.25F);
+            rays[i] = {eye_, rotation_ * lens_->at(at.x(), at.y()).homogeneous()};
         }
         scene.objects().firstOfEach(rays, hits);
         for (std::size_t i = 0; i < kQuarters; ++i) {

@@ -189,6 +189,35 @@ void requireAllPixels(const RenderedPicture& picture, std::size_t count) {
                                     "pixel or for none");
 }
 
+/// Returns the picture with depths and surfaces. Pixels without a surface are empty.
+TracedPicture withSurfaces(const RenderedPicture& picture) {
+    const std::size_t count = picture.id.size();
+    TracedPicture r{picture.camera,
+                    picture.T_world_camera,
+                    picture.colour,
+                    {},
+                    picture.colour,
+                    picture.light,
+                    picture.gloss,
+                    picture.mirrors,
+                    picture.exposure,
+                    picture.layered,
+                    {},
+                    {},
+                    {},
+                    {}};
+    r.depth.resize(count);
+    r.surface.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const float z = picture.depth[i];
+        const bool is = picture.id[i] != 0 && z > LensProjection::kNear && z < kFarthestSurface;
+        r.depth[i] = is ? z : 0;
+        if (!is) r.picture[i] = r.colour[i] = {};
+        r.surface[i] = {r.depth[i], is ? static_cast<float>(picture.id[i]) : 0, 0, 0};
+    }
+    return r;
+}
+
 }  // namespace
 
 float toleranceAt(std::span<const WarpSurface> surface, Size size, int x, int y) {
@@ -214,29 +243,7 @@ TracedPicture tracedPicture(const RenderedPicture& picture) {
     const Size size = picture.camera.size;
     const std::size_t count = static_cast<std::size_t>(size.width) * size.height;
     requireAllPixels(picture, count);
-    TracedPicture r{picture.camera,
-                    picture.T_world_camera,
-                    picture.colour,
-                    {},
-                    picture.colour,
-                    picture.light,
-                    picture.gloss,
-                    picture.mirrors,
-                    picture.exposure,
-                    picture.layered,
-                    {},
-                    {},
-                    {},
-                    {}};
-    r.depth.resize(count);
-    r.surface.resize(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const float z = picture.depth[i];
-        const bool is = picture.id[i] != 0 && z > LensProjection::kNear && z < kFarthestSurface;
-        r.depth[i] = is ? z : 0;
-        if (!is) r.picture[i] = r.colour[i] = {};
-        r.surface[i] = {r.depth[i], is ? static_cast<float>(picture.id[i]) : 0, 0, 0};
-    }
+    TracedPicture r = withSurfaces(picture);
     const PictureGrid grid(r);
     for (int y = 0; y < size.height; ++y)
         for (int x = 0; x < size.width; ++x)

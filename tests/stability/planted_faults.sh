@@ -148,7 +148,7 @@ rowFaults() {
         'wrong sign of a slope' label-places
     inHost $simd/label_lines.cpp 'hn::Or(hn::Eq(rise, hn::Zero(d)), hn::Eq(rise, hn::Set(d, Valley::kUnknown)))' \
         'hn::Eq(rise, hn::Zero(d))' 'missing guard against rises outside the window' label-places
-    inHost $simd/depth_rows.cpp 'const auto moved = hn::Mul(rho, inverse);' 'const auto moved = rho;' \
+    inHost $simd/depth_rows.cpp 'const auto moved = hn::Mul(inverseDepth, inverse);' 'const auto moved = inverseDepth;' \
         'depth not carried' depth-carried
     inHost $simd/depth_rows.cpp 'hn::Ge(hn::Add(s, set(rule.slack)), first)' 'hn::Ge(s, s)' \
         'missing test of what is in front' measured-row

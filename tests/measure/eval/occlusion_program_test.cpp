@@ -54,7 +54,7 @@ TEST(MfarEvalOcclusion, WrongRequestsEndWithOneLineAndStatus2) {
     const std::pair<std::string, std::string> cases[] = {
         {"--scenes attic", "unknown name 'attic'"},
         {"--paths office", "unknown name 'office'"},
-        {"--scenes flat", "no objects are known for scene flat"},
+        {"--scenes flat", "mfar-eval has no objects for scene flat"},
         {"--poses none", "without poses"},
         {"--objects " + dir + "/absent.toml", "cannot be read"},
         {"--objects " + dir + "/none.toml", "no [[objects]]"},
