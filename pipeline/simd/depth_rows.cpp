@@ -46,6 +46,8 @@ void LandRow(const Lens& lens, Size size, const Motion& motion, const float* ray
 /// The smallest rectangle around all added pixels. Pixels are added one vector at a time.
 class LaneBounds {
 public:
+    static constexpr std::size_t kLanes = hn::MaxLanes(hn::ScalableTag<std::int32_t>());
+
     HWY_INLINE explicit LaneBounds(Size size)
         : lowX_(hn::Set(D(), size.width)), lowY_(hn::Set(D(), size.height)),
           highX_(hn::Set(D(), -1)), highY_(highX_) {}
@@ -70,15 +72,14 @@ private:
 
 void MoveRow(const Lens& lens, Size size, const Motion& motion, const MoveRule& rule,
              const DepthPoints& from, std::size_t count, const MovedPoints& to, PixelRect& bounds) {
-    const hn::ScalableTag<std::int32_t> dBounds;
     LaneBounds lanes(size);
     PixelRect all;
     forLanes(hn::ScalableTag<float>(), count, [&](auto d, std::size_t i) HWY_ATTR {
         const hn::RebindToSigned<decltype(d)> dInt;
         const auto set = [d](float v) HWY_ATTR { return hn::Set(d, v); };
         const auto load = [&](const float* row) HWY_ATTR { return hn::LoadU(d, row + i); };
-        const auto one = set(1), inverseDepth = load(from.inverseDepth),
-                   before = load(from.variance);
+        const auto one = set(1), inverseDepth = load(from.inverseDepth);
+        const auto before = load(from.variance);
         const auto x = hn::MulAdd(set(rule.pixelX), load(from.x), load(from.raysX));
         const auto y = hn::MulAdd(set(rule.pixelY), load(from.y), load(from.raysY));
         const Turn<decltype(d)> turn(d, motion.turn.data());
@@ -91,8 +92,8 @@ void MoveRow(const Lens& lens, Size size, const Motion& motion, const MoveRule& 
         const PixelOf<decltype(d)> at(d, p, size);
         const auto moved = hn::Mul(inverseDepth, inverse);
         const auto slope = hn::Mul(hn::Mul(turnedZ, inverse), inverse);  // d moved / d inverseDepth
-        const auto grown =
-            hn::MulAdd(hn::Mul(set(rule.growth), inverseDepth), inverseDepth, before);
+        const auto growth = hn::Mul(set(rule.growth), inverseDepth);
+        const auto grown = hn::MulAdd(growth, inverseDepth, before);
         const auto variance = hn::Mul(hn::Mul(grown, slope), slope);
         const auto known = hn::And(hn::Lt(before, set(kUnknown)), hn::Gt(z, set(rule.leastDepth)));
         const auto valid = hn::And(hn::And(known, at.inside), isSound(d, moved, variance));
@@ -101,16 +102,15 @@ void MoveRow(const Lens& lens, Size size, const Motion& motion, const MoveRule& 
         hn::StoreU(hn::Sub(p.y, hn::ConvertTo(d, at.row)), d, to.y + i);
         hn::StoreU(moved, d, to.inverseDepth + i);
         hn::StoreU(variance, d, to.variance + i);
-        if constexpr (hn::MaxLanes(decltype(d)()) == hn::MaxLanes(decltype(dBounds)())) {
+        if constexpr (hn::MaxLanes(decltype(d)()) == LaneBounds::kLanes) {
             lanes.add(at.column, at.row, hn::RebindMask(dInt, valid));
         } else if (to.pixel[i] >= 0) {
             const int column = to.pixel[i] % size.width, row = to.pixel[i] / size.width;
             all = around(all, {column, row, column + 1, row + 1});
         }
     });
-    const PixelRect wide = lanes.rect();
-    if (!wide.empty()) all = around(all, wide);
-    if (!all.empty()) bounds = around(bounds, all);
+    for (const PixelRect& part : {lanes.rect(), all})
+        if (!part.empty()) bounds = around(bounds, part);
 }
 
 void MeasureRow(const SearchedRow& row, const MeasureRule& rule, std::size_t count,
