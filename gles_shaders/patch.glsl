@@ -35,7 +35,7 @@ uvec2 cellRow(uvec3 w) {
 // State while reading, row by row, a patch whose position is between pixels.
 struct Window {
     int first, y;   // index of the patch's first word in the level's first row; row of `above`
-    uint shift;     // bits of the patch's first word that are to the left of the patch
+    uint shift;     // number of bits in the first word before the patch's first pixel
     vec2 f;         // fractional part of the patch's position (x, y) [px]
     uvec3 above;    // nine pixels of the row that was read last
 };

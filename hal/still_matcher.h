@@ -16,9 +16,11 @@ struct StillMatcherOptions {
     /// First estimate of the delay from a pulse's leading edge to the start of the exposure that
     /// the camera reports. Its error must be less than half the shortest trigger period.
     std::chrono::nanoseconds guess{0};
-    std::chrono::nanoseconds wideWindow{std::chrono::milliseconds(100)};  ///< window while learning
-    /// Window after learning the delay. 1 ms suits timestamps that the sensor takes. If timestamps
-    /// are arrival times (USB cameras), more is needed.
+    /// Largest difference of a still's time from the expected time while the delay is being
+    /// learned.
+    std::chrono::nanoseconds wideWindow{std::chrono::milliseconds(100)};
+    /// The same limit after learning the delay. 1 ms suits timestamps that the sensor takes. If
+    /// timestamps are arrival times (USB cameras), more is needed.
     std::chrono::nanoseconds window{std::chrono::milliseconds(1)};
     int learnFrom = 20;  ///< number of matched pulses after which learning ends
     /// If a pulse's still does not arrive within this time after the exposure, the pulse counts as

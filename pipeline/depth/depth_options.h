@@ -15,8 +15,10 @@ enum class KeyframeRule {
 struct KeyframeOptions {
     KeyframeRule rule = KeyframeRule::Score;
     int frames = 12;            ///< number of earlier frames that are kept; [2, 64]
-    int distance = 6;           ///< for Fixed: age of the keyframe [frames]; [1, frames)
-    double angle = 0.035;       ///< for Angle: smallest parallax of the keyframe [rad]; (0, 1]
+    int distance = 6;           ///< for KeyframeRule::Fixed: age of the keyframe [frames];
+                                ///< [1, frames)
+    double angle = 0.035;       ///< for KeyframeRule::Angle: smallest parallax between keyframe and
+                                ///< frame [rad]; (0, 1]
     double leastAngle = 0.005;  ///< smallest parallax with which depth is measured at all [rad];
                                 ///< (0, 1]
     double leastOverlap = 0.6;  ///< smallest share of a part of the picture that the keyframe must

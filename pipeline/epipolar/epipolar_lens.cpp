@@ -62,7 +62,7 @@ EpipolarLens::EpipolarLens(const CameraModel& camera, int level)
             rim = std::max(rim, ray.squaredNorm());
         }
     }
-    // A picture of one pixel has one ray, which may be the optical axis.
+    // The limit 1e-12 is for a picture of one pixel, whose only ray may be the optical axis.
     lens_.rim2 = std::max(
         static_cast<float>(std::pow(rimOf(camera, std::sqrt(rim), kBeyondPicture), 2)), 1e-12F);
 }

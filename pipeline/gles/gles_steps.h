@@ -22,7 +22,8 @@ public:
     explicit FrameOnGpu(Size video) : tiles_{TileBuffer(video), TileBuffer(video)} {}
 
     [[nodiscard]] const gpu::Texture& video(const VideoFrame& frame);
-    /// Returns `work` on the GPU. Two TileWorks of a frame are kept, one for each still.
+    /// Returns the GPU's copy of `work`. A frame is matched with up to two stills, so two copies
+    /// are kept.
     [[nodiscard]] const TileBuffer& tiles(const TileWork& work);
     /// The newest still; see gpu::PictureTexture.
     [[nodiscard]] gpu::PictureTexture& stillPicture() { return still_; }

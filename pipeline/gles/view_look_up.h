@@ -31,8 +31,8 @@ public:
         const RigidTransform& T_world_traced;
         const RerenderedPictures& rerendered;
         const RerenderedTextures& rerenderedTextures;
-        /// Plane of the shadow catcher: n . point = w in the world [m]. Zero: the shadow catcher is
-        /// in `silhouette`, or there is none.
+        /// Plane of the shadow catcher: n . point = w in the world [m]. Zero: `silhouette` shows
+        /// the shadow catcher as well, because it is not a plane; or there is no shadow catcher.
         Eigen::Vector4d plane = Eigen::Vector4d::Zero();
     };
     /// Computes colour(), depth() and state() for the pixels in `where`, and no others. Appends

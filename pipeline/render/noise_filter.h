@@ -24,8 +24,8 @@ struct LightPixel {
 };
 
 /// Smooths noise and keeps differences that are larger than noise. It uses edge-avoiding wavelets
-/// (Dammertz et al. 2010) that ignore differences of two pixels larger than their variances explain
-/// (Schied et al. 2017).
+/// (Dammertz et al. 2010). Two pixels are not averaged if they differ by more than their variances
+/// explain (Schied et al. 2017).
 /// The filter works on light without the surface's paint, so that textures stay sharp. Neighbours
 /// across a depth edge or on another surface are ignored, and neighbours with another normal have
 /// less weight. Pixels without an id stay unchanged. A pixel without samples gets its neighbours'

@@ -11,7 +11,7 @@ namespace {
 // Numbers of the random pairs that each vertex of a path uses.
 constexpr std::uint32_t kSunPair = 0, kEnvironmentPair = 1, kScatterPair = 2, kRoulettePair = 3;
 constexpr std::uint32_t kPairsOfVertex = 4;
-constexpr std::uint32_t kPairsOfPath = kPairsOfVertex * 64;  // pairs for the longest path
+constexpr std::uint32_t kPairsOfPath = kPairsOfVertex * 64;  // for the longest path: 64 vertices
 // A path that carries at least this share of the light always survives. Ending such paths would add
 // noise that no sampler makes up for.
 constexpr float kSurvives = 0.25F;

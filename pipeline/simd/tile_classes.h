@@ -24,7 +24,7 @@ struct TileSummary {
 };
 
 /// Determines the TileClass of every tile of a frame. Remembers for each tile how many of its cells
-/// were unexplained when it was drawn last.
+/// had no trusted match in the still when it was drawn last.
 class TileClasses {
 public:
     explicit TileClasses(Size video);

@@ -337,7 +337,7 @@ TEST(Status, LineHasAProgressBarIfTheEndIsKnown) {
     EXPECT_THAT(statusLine(stats.count(), run, 1), testing::StartsWith("[####............]  25%"));
 }
 
-TEST(Summary, VirtualLayerIsCountedIfItExists) {
+TEST(Summary, ReportsTheVirtualLayerOnlyIfItExists) {
     Stats stats;
     EXPECT_FALSE(summary(stats.count(), {}, "", 0)["virtual"].contains("path_tracer"));
     TracedLayerCounters counters;

@@ -49,7 +49,8 @@ private:
     int readerStalls_ = 0, diskFull_ = 0, diskHangs_ = 0;
 };
 
-/// Reads the pipe and reports the shown pictures to the judge. Never returns.
+/// Runs the simulated screen: reads the daemon's pictures from its pipe and reports them to the
+/// Judge, which decides whether the test passes. Never returns.
 void runScreen();
 
 }  // namespace mfar::faults

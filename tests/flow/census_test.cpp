@@ -99,7 +99,7 @@ TEST(Census, IsInvariantToRisingToneCurves) {
 }
 
 // Where a curve makes neighbours equal, bits may be cleared, but no bit may be set.
-TEST(Census, FlatterToneCurvesClearBitsButNeverSetOnes) {
+TEST(Census, FlatterToneCurvesClearBitsButSetNone) {
     const LumaImage picture = randomPicture({31, 23}, 0, 255, 9);
     const auto bits = censusOf(picture);
     const auto flat = censusOf(toned(picture, [](double v) { return 100 + v / 5; }));

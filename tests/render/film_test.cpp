@@ -58,8 +58,8 @@ TEST(Film, ObjectPixelIsThePremultipliedMeanOfItsSamples) {
     EXPECT_EQ(picture.colour[0][0], expected);
     EXPECT_EQ(picture.colour[0][3], 128);
     EXPECT_EQ(picture.id[0], 7);
-    EXPECT_EQ(picture.depth[0],
-              1.2F);  // depth of the nearest hit, because the centre shows nothing
+    // The depth is that of the nearest sample, because the ray through the centre hits nothing.
+    EXPECT_EQ(picture.depth[0], 1.2F);
     EXPECT_EQ(picture.samples, 4);
 }
 

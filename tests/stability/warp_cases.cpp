@@ -155,8 +155,8 @@ gpu::Texture textureOf(Size size, const Pixels& pixels) {
     return out;
 }
 
-/// Oracle of warp_edges.comp: the largest difference of a colour in the 3x3 neighbourhood, in steps
-/// of kLevels.
+/// Oracle of warp_edges.comp: the largest difference of a colour channel in the 3x3 neighbourhood,
+/// as one of kLevels equal steps.
 int contrastAt(const Pixels& pixels, Size size, const PixelRect& where, int x, int y) {
     int most = 0;
     for (std::size_t c = 0; c < 3; ++c) {

@@ -86,7 +86,7 @@ TEST_F(WarpEdgesGl, EdgesFadeInAndVanishWithTheFirstMotion) {
         << "pixels requested for an earlier pose at rest are not shown";
 }
 
-TEST_F(WarpEdgesGl, AnAnswerThatArrivesAfterAMotionIsIgnored) {
+TEST_F(WarpEdgesGl, RenderedEdgesThatArriveAfterACameraMotionAreIgnored) {
     Resting s({});
     const auto request = s.edgesAt(2);
     ASSERT_TRUE(request);

@@ -121,7 +121,7 @@ void expectNear(const Eigen::Vector3f& a, const Eigen::Vector3f& b, std::size_t 
         << "pixel " << i << ": " << a.transpose() << ", not " << b.transpose();
 }
 
-TEST(MovingMirrors, ShowTheSkyInTheDirectionReflectedToANewCameraPosition) {
+TEST(MovingMirrors, AfterACameraMotionTheyReflectTheSkyAsSeenFromTheNewPosition) {
     Surfaces s(smoothLight());
     const Eigen::Vector3d eye = s.traced.T_world_camera.translation;
     // The pixels see in turn the whole sky, half of it, and the sky with other light.

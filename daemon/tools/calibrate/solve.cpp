@@ -14,7 +14,8 @@ namespace mfar::calibration {
 namespace {
 
 constexpr int kLeastVideoViews = 12, kLeastStillViews = 6, kLeastPairs = 5;
-constexpr double kMaxOffsetDeviation = 0.002;  // with more, the clock offset is unknown [s]
+// Largest standard deviation with which the clock offset counts as known [s].
+constexpr double kMaxOffsetDeviation = 0.002;
 constexpr double kLeastMotion = 1;  // smallest motion over three frame intervals [video px]
 constexpr int kLeastMoving = 3;     // moving stills that the clock offset needs
 constexpr double kMaxFocalDeviation = 0.005;     // largest, as a share of the focal length

@@ -160,8 +160,8 @@ CLI::App* addSuperRes(CLI::App& app, Options& o) {
         "model files for OpenCV's dnn_superres, measured as further peers; a file's name is EDSR, "
         "ESPCN, FSRCNN or LapSRN and the factor, as in EDSR_x4.pb");
     sub->add_flag("--classes", o.superres.classes,
-                  "report separately the pixels that the still shows, that it does not show, and "
-                  "that lie outside of its view");
+                  "report three groups of pixels separately: matched with the still, unmatched, "
+                  "and outside of the still's view");
     addPoseSource(*sub, o.superres.poses);
     addDisturbances(*sub, o);
     sub->add_option("--degrade-video", o.degradeVideo,
