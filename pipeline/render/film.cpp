@@ -2,6 +2,7 @@
 
 #include "base/large_pages.h"
 #include "pipeline/render/luminance.h"
+#include "pipeline/render/sampling_order.h"
 
 #include <algorithm>
 #include <array>
@@ -13,23 +14,17 @@
 namespace mfar {
 namespace {
 
-constexpr int kTileEdge = 8;
-constexpr std::size_t kTilePixels = kTileEdge * kTileEdge;
+using sampling::kTileEdge;
 
-/// Place of each pixel of a tile (row-major) in the order of Slices: the pixels with even column
-/// and even row come first.
-constexpr std::array<std::uint8_t, kTilePixels> ranks() {
-    std::array<std::uint8_t, kTilePixels> out{};
-    for (std::uint32_t y = 0; y < kTileEdge; ++y)
-        for (std::uint32_t x = 0; x < kTileEdge; ++x) {
-            std::uint32_t rank = 0;
-            for (std::uint32_t bit = 0; bit < 3; ++bit)
-                rank |= ((x >> bit & 1U) | (y >> bit & 1U) << 1) << (2 * (2 - bit));
-            out[y * kTileEdge + x] = static_cast<std::uint8_t>(rank);
-        }
+/// Number of each pixel of a tile (row-major) in the sampling order.
+constexpr auto kRanks = [] {
+    std::array<std::uint8_t, sampling::kTilePixels> out{};
+    for (int y = 0; y < kTileEdge; ++y)
+        for (int x = 0; x < kTileEdge; ++x)
+            out[static_cast<std::size_t>(y) * kTileEdge + x] =
+                static_cast<std::uint8_t>(sampling::rankOf(x, y));
     return out;
-}
-constexpr std::array<std::uint8_t, kTilePixels> kRanks = ranks();
+}();
 
 constexpr float kGreyLevels = 255;
 constexpr float kEnough = 16;  // samples that suffice to conclude that the light is unchanged
@@ -73,7 +68,7 @@ Film::Film(Size size)
     : size_(size),
       tilesAcross_((static_cast<std::size_t>(size.width) + kTileEdge - 1) / kTileEdge) {
     const std::size_t rows = (static_cast<std::size_t>(size.height) + kTileEdge - 1) / kTileEdge;
-    const std::size_t count = rows * tilesAcross_ * kTilePixels;
+    const std::size_t count = rows * tilesAcross_ * sampling::kTilePixels;
     pictureOf_ = ZeroedArray<std::uint32_t>(count);
     pixels_ = {std::allocator<Pixel>().allocate(count), FreePixels{count}};
     preferLargePages(pixels_.get(), count * sizeof(Pixel));
@@ -84,7 +79,7 @@ std::size_t Film::placeOf(std::size_t pixel) const {
     const std::uint32_t x = static_cast<std::uint32_t>(pixel) % width;
     const std::uint32_t y = static_cast<std::uint32_t>(pixel) / width;
     const std::size_t tile = y / kTileEdge * tilesAcross_ + x / kTileEdge;
-    return tile * kTilePixels + kRanks[y % kTileEdge * kTileEdge + x % kTileEdge];
+    return tile * sampling::kTilePixels + kRanks[y % kTileEdge * kTileEdge + x % kTileEdge];
 }
 
 const Film::Pixel Film::kNothing{};

@@ -99,6 +99,7 @@ void NoiseFilter::begin(Size size, const PixelRect& where) {
     const std::size_t count =
         static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
     const auto resize = [count](auto& pixels) {
+        if (pixels.size() == count) return;
         pixels.reserve(count);
         preferLargePages(pixels.data(), count * sizeof(pixels[0]));
         pixels.resize(count);

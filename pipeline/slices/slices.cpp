@@ -1,5 +1,7 @@
 #include "pipeline/slices/slices.h"
 
+#include "pipeline/render/sampling_order.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,22 +10,14 @@
 namespace mfar {
 namespace {
 
-constexpr int kTileEdge = 8;
+using sampling::evenlySpread, sampling::mortonCode, sampling::kTileEdge, sampling::kTilePixels;
+
 // Turns in Slicing::Time. Turn kLook traces a ray through each pixel's centre. The turns between
 // kLook and kFirstFull take the first samples of some pixels. From turn kFirstFull on, all pixels
 // are sampled.
 constexpr int kLook = 1, kFirstFull = 4;
-constexpr int kTilePixels = kTileEdge * kTileEdge;
 
-/// Puts a zero bit between adjacent bits of the lower 16 bits.
-std::uint32_t spread(std::uint32_t v) {
-    v = (v | v << 8) & 0x00ff00ff;
-    v = (v | v << 4) & 0x0f0f0f0f;
-    v = (v | v << 2) & 0x33333333;
-    return (v | v << 1) & 0x55555555;
-}
-
-/// Collects every other bit of the lower 16 bits; the inverse of spread().
+/// Collects every other bit of the lower 16 bits; the inverse of sampling::spread().
 int gathered(std::uint32_t v) {
     v &= 0x55555555;
     v = (v | v >> 1) & 0x33333333;
@@ -31,20 +25,10 @@ int gathered(std::uint32_t v) {
     return static_cast<int>((v | v >> 4) & 0x000000ff);
 }
 
-/// Morton code of the pixel with number `rank` in its tile's sampling order. Each of the first 4^n
-/// pixels lies in a different square of an even grid. The function is its own inverse.
-std::uint32_t evenlySpread(std::uint32_t rank) {
-    return (rank & 0x03) << 4 | (rank & 0x0c) | (rank & 0x30) >> 4;
-}
-
-std::uint32_t mortonCode(int x, int y) {
-    return spread(static_cast<std::uint32_t>(x)) | spread(static_cast<std::uint32_t>(y)) << 1;
-}
-
 /// Number of a pixel in its tile's sampling order. `width` is the picture's width.
 std::uint32_t rankOf(std::uint32_t pixel, int width) {
     const auto x = static_cast<int>(pixel) % width, y = static_cast<int>(pixel) / width;
-    return evenlySpread(mortonCode(x % kTileEdge, y % kTileEdge));
+    return sampling::rankOf(x % kTileEdge, y % kTileEdge);
 }
 
 }  // namespace
