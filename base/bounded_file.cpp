@@ -50,7 +50,8 @@ Bytes read(const std::filesystem::path& file, std::size_t most, FileTrust trust)
         if (got == 0) throw std::runtime_error("became shorter while it was read");
         at += static_cast<std::size_t>(got);
     }
-    // One more read(): files in /proc and /sys report a size of 0 but have content.
+    // A further read() is needed, because files in /proc and /sys report a size of 0 but have
+    // content.
     char more = 0;
     const ssize_t got = ::read(fd.get(), &more, 1);
     if (got < 0) fail("cannot be read");

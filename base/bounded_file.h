@@ -8,11 +8,9 @@
 
 namespace mfar {
 
-/// Returns all bytes of a regular file. Devices and named pipes are refused at once, without
-/// waiting. A file of more than `most` bytes is refused before memory is allocated. Throws
-/// std::runtime_error. The message names the fault but not the file: "is missing", "is not a
-/// regular file", "cannot be opened: reason", "has 9 bytes; the limit is 8 bytes", "became longer
-/// while it was read".
+/// Returns all bytes of a regular file. Devices and named pipes are refused without waiting. A
+/// longer file than `most` bytes is refused before memory is allocated. Throws std::runtime_error
+/// with the fault, but without the file's name, e.g. "has 9 bytes; the limit is 8 bytes".
 [[nodiscard]] std::vector<std::uint8_t> boundedFile(const std::filesystem::path& file,
                                                     std::size_t most);
 
@@ -23,7 +21,6 @@ enum class FileTrust {
     OwnFile,
 };
 
-/// Like boundedFile(), but returns the content as text.
 [[nodiscard]] std::string boundedText(const std::filesystem::path& file, std::size_t most,
                                       FileTrust trust = FileTrust::Any);
 

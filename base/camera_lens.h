@@ -5,7 +5,7 @@
 
 namespace mfar {
 
-/// Returns the camera's lens in single precision, the form that shaders and SIMD kernels use.
+/// Converts the lens to single precision for shaders and SIMD kernels.
 [[nodiscard]] inline params::Lens lensOf(const CameraModel& camera) {
     const auto single = [](double v) { return static_cast<float>(v); };
     const auto& d = camera.distortion;
@@ -14,7 +14,6 @@ namespace mfar {
             single(d[2]),      single(d[3]),      single(d[4])};
 }
 
-/// Returns the three rows of the rotation matrix.
 [[nodiscard]] inline std::array<params::Row3, 3> rowsOf(const Eigen::Quaterniond& rotation) {
     const Eigen::Matrix3f r = rotation.toRotationMatrix().cast<float>();
     return {

@@ -6,7 +6,7 @@
 namespace mfar {
 namespace {
 
-// Where the determinant of the lens model's Jacobian is at most kFold, the model counts as folded.
+// The lens model counts as folded where the determinant of its Jacobian is at most kFold.
 constexpr double kFold = 0.05;
 constexpr double kSquaredError = 1e-24;
 
@@ -31,7 +31,6 @@ Distorted distort(const Eigen::Vector2d& ray, const std::array<double, 5>& d) {
     return out;
 }
 
-/// Returns the ray that the pixel would have if the lens had no distortion.
 Eigen::Vector2d pinholeRay(const CameraModel& c, const Eigen::Vector2d& pixel) {
     return {(pixel.x() - c.cx) / c.fx, (pixel.y() - c.cy) / c.fy};
 }

@@ -41,21 +41,20 @@ struct PixelRect {
 /// order k1 k2 p1 p2 k3). Pixel centres have integer coordinates. Camera frame: x right, y down, z
 /// forward.
 struct CameraModel {
-    Size size;                           ///< [px]
-    double fx = 0, fy = 0;               ///< focal lengths [px]
-    double cx = 0, cy = 0;               ///< principal point [px]
-    std::array<double, 5> distortion{};  ///< k1 k2 p1 p2 k3
+    Size size;
+    /// Focal lengths and principal point in pixels.
+    double fx = 0, fy = 0;
+    double cx = 0, cy = 0;
+    std::array<double, 5> distortion{};
 
     /// Returns the pixel coordinates [px] of a normalised ray (x/z, y/z).
     [[nodiscard]] Eigen::Vector2d project(const Eigen::Vector2d& ray) const;
     /// Returns the derivative of project() with respect to the ray [px].
     [[nodiscard]] Eigen::Matrix2d projectJacobian(const Eigen::Vector2d& ray) const;
     /// Returns the normalised ray (x/z, y/z) of a pixel. Newton iterations invert the distortion.
-    /// Far from the principal point, the lens model may fold over. There the result is the ray with
-    /// the largest radius that the iterations reach before the fold.
+    /// They stop where the lens model folds over. The result is then the ray reached so far.
     [[nodiscard]] Eigen::Vector2d unproject(const Eigen::Vector2d& pixel) const;
-    /// Returns the same ray as unproject(pixel), but faster. `close` is the known ray of a nearby
-    /// pixel.
+    /// Returns unproject(pixel), but faster. `close` is the known ray of a nearby pixel.
     [[nodiscard]] Eigen::Vector2d unproject(const Eigen::Vector2d& pixel,
                                             const Eigen::Vector2d& close) const;
     /// Returns the model of the same lens for another resolution. With the scale s, a pixel
@@ -84,19 +83,19 @@ struct RigidTransform {
 struct StereoRig {
     CameraModel video;
     CameraModel still;
-    RigidTransform T_still_video;  ///< video camera coordinates -> still camera coordinates
+    RigidTransform T_still_video;
 };
 
-/// The pose of the video camera in the world, the frame of the tag map.
+/// The pose of the video camera in the world frame, which the tag map defines.
 struct Pose {
     Timestamp time;
-    RigidTransform T_world_video;  ///< video camera coordinates -> world coordinates
-    /// Covariance of a small error x = (rotation [rad], translation [m]) in the video camera's own
-    /// frame: the true pose is T_world_video * exp(x). Zero: the pose counts as exact. Recorded
-    /// poses have covariance zero.
+    RigidTransform T_world_video;
+    /// Covariance of a small error x = (rotation [rad], translation [m]) in the video camera's
+    /// frame: the true pose is T_world_video * exp(x). Zero means that the pose is exact, e.g.
+    /// recorded.
     Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
-    int tags = 0;  ///< number of tags that gave the pose; 0: the pose is predicted or recorded
-    double reprojectionError = 0;  ///< RMS reprojection error of the tags' corners [px]
+    int tags = 0;                  ///< number of tags used; 0: the pose is predicted or recorded
+    double reprojectionError = 0;  ///< RMS error of the tags' corners [px]
 };
 
 }  // namespace mfar

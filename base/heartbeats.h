@@ -20,7 +20,7 @@ enum class ThreadRole {
     Helper,  ///< e.g. a writer of files: the picture continues, and the fault is reported
 };
 
-/// The heartbeats of all threads, see Heartbeat. One thread checks them. Thread-safe.
+/// The heartbeats of all threads (see Heartbeat), which one thread checks. Thread-safe.
 class Heartbeats {
 public:
     using Clock = std::function<Timestamp()>;
@@ -32,10 +32,10 @@ public:
     struct Late {
         std::string thread;
         ThreadRole role = ThreadRole::Vital;
-        std::chrono::nanoseconds since{0};  ///< time since the thread's last beat
+        std::chrono::nanoseconds since{0};
     };
-    /// Returns the working threads whose last beat is older than `patience` times their time budget
-    /// (Slot::budget). The thread with the oldest beat comes first.
+    /// Returns the working threads whose last beat is older than `patience` times their budget. The
+    /// thread with the oldest beat comes first.
     [[nodiscard]] std::vector<Late> late(int patience = 1) const;
 
     struct Waiting {
@@ -44,8 +44,7 @@ public:
         std::string what;
         std::chrono::nanoseconds since{0};
     };
-    /// Returns the thread that has been in restFor() for the longest time, and what it waits for.
-    /// Returns nothing if no thread waits in restFor().
+    /// Returns the thread that has waited longest in restFor(), or nothing.
     [[nodiscard]] std::optional<Waiting> waiting() const;
 
 private:
@@ -81,7 +80,6 @@ public:
     /// `budget`: the longest allowed time between two beats. `all` must outlive this object.
     Heartbeat(Heartbeats& all, std::string thread, std::chrono::nanoseconds budget,
               ThreadRole role = ThreadRole::Vital);
-    /// If `as.all` is null, the object does nothing.
     explicit Heartbeat(const WatchedThread& as);
     Heartbeat(const Heartbeat&) = delete;
     Heartbeat& operator=(const Heartbeat&) = delete;
@@ -90,12 +88,12 @@ public:
     void beat();
     /// Marks the thread as waiting for work until the next beat().
     void rest() { restFor(""); }
-    /// Works like rest(), but names what the thread waits for, e.g. "the reader of the pipe", so
-    /// that waiting() can report it. The text must outlive this object.
+    /// Works like rest(), but waiting() also reports `what`, e.g. "the reader of the pipe". The
+    /// text must outlive this object.
     void restFor(const char* what);
 
 private:
-    Heartbeats* all_;  ///< null: the thread is not watched
+    Heartbeats* all_;
     std::list<Heartbeats::Slot>::iterator slot_;
 };
 

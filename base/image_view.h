@@ -7,14 +7,15 @@
 namespace mfar {
 
 struct Size {
-    int width = 0;   ///< pixels
-    int height = 0;  ///< pixels
+    /// Width and height in pixels.
+    int width = 0;
+    int height = 0;
     bool operator==(const Size&) const = default;
 };
 
 /// Layout of pixels in memory. Rows may be padded, see ImageView::stride.
 enum class PixelFormat : std::uint8_t {
-    Gray8,   ///< one byte of luma
+    Gray8,
     Rgba8,   ///< four bytes R G B A, alpha ignored
     Bgra8,   ///< four bytes B G R A, alpha ignored (DRM's XRGB8888)
     Yuyv,    ///< 4:2:2, four bytes Y0 U Y1 V for two pixels; even width

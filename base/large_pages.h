@@ -4,8 +4,8 @@
 
 namespace mfar {
 
-/// Asks the kernel to provide this memory in large pages, because thousands of small pages take
-/// milliseconds to provide. Call it before the memory is used. The kernel may ignore it.
+/// Asks the kernel for large pages, because it takes milliseconds to provide thousands of small
+/// ones. Must be called before the memory is used. The kernel may ignore it.
 void preferLargePages(void* memory, std::size_t bytes);
 
 }  // namespace mfar

@@ -9,7 +9,6 @@ struct alignas(16) Lens {
     float k1, k2, p1, p2, k3;
 };
 
-/// A row of a matrix.
 struct alignas(16) Row3 {
     float x, y, z;
 };

@@ -47,9 +47,8 @@ inline constexpr float kMostLight = 65280;  ///< larger values are clamped to th
 /// Reflectance of non-metals at normal incidence, as in glTF's metallic-roughness material.
 inline constexpr float kDielectricReflectance = 0.04F;
 
-/// The light of a surface, times the exposure: one light word for the diffuse and one for the
-/// specular light. The factor of the surface's own colour is not included. UnpackedLight::veil is
-/// stored in the 6 free bits of the two words.
+/// The light of a surface, times the exposure: one light word each for diffuse and specular light.
+/// It is not yet multiplied by the surface's colour. The 6 free bits store UnpackedLight::veil.
 struct LightWords {
     std::uint32_t diffuse = 0, specular = 0;
     bool operator==(const LightWords&) const = default;
@@ -75,7 +74,6 @@ inline constexpr float kMostVeil = 63;
             static_cast<float>(veil) / kMostVeil};
 }
 
-/// Adds `share` times `other` to `sum`.
 inline void addShare(UnpackedLight& sum, float share, const UnpackedLight& other) {
     for (std::size_t c = 0; c < 3; ++c) {
         sum.diffuse[c] += share * other.diffuse[c];

@@ -6,16 +6,15 @@
 
 namespace mfar {
 
-/// A line of a chart.
 struct ChartLine {
-    std::string name;       ///< text of the line in the legend
-    std::vector<double> y;  ///< a value for each x of the chart; NaN makes a gap
+    std::string name;       ///< name in the legend
+    std::vector<double> y;  ///< one value for each x of the chart; NaN makes a gap
 };
 
 /// A chart of lines that share their values of x. Both axes are linear.
 struct LineChart {
     std::string title, xLabel;
-    std::vector<double> x;  ///< the values of x that all lines share, in ascending order
+    std::vector<double> x;  ///< in ascending order
     std::vector<ChartLine> lines{};
     bool fills = false;             ///< shades the area between the first two lines
     std::optional<double> mostY{};  ///< upper end of the vertical axis; not set: it fits the lines

@@ -11,9 +11,9 @@
 
 namespace mfar {
 
-// Light that surfaces mirror changes with every motion of the camera. So a traced picture stores
-// for each pixel how the surface mirrors, and also stores the distant light that is mirrored. From
-// these, the mirrored light is computed again for the view that is shown.
+// Mirrored light changes whenever the camera moves. So a traced picture stores how each pixel's
+// surface mirrors, and the distant light that is mirrored. From these, the mirrored light is
+// computed for the view that is shown.
 
 /// How a pixel's surface mirrors light. `normal` is the surface normal in world coordinates on the
 /// octahedral map (Cigolle et al. 2014), with 16 bits per axis. `look` has one byte each for the
@@ -40,20 +40,21 @@ inline constexpr std::uint32_t kIsGloss = 1U << 24;  ///< bit of `look`: the sur
             steps(roughness, 255) | steps(facing, 255) << 8 | steps(full, 255) << 16 | kIsGloss};
 }
 
-/// The distant light that surfaces mirror. There is one table for each of several roughnesses. A
-/// table is an octahedral map of directions, with a light word per texel: the mean light over the
-/// lobe around that direction.
+/// The distant light that surfaces mirror, with one table for each of several roughnesses. A table
+/// is an octahedral map of directions. Each texel is a light word: the mean light over the lobe
+/// around its direction.
 struct MirrorLight {
     struct Table {
         float roughness = 0;
-        int edge = 0;             ///< number of texels per side, with the repeated border
+        int edge = 0;             ///< texels per side, including the repeated border
         std::uint32_t first = 0;  ///< index in `texels` of the table's first texel
     };
     std::vector<Table> tables;  ///< sorted by roughness; the first table has roughness 0
     std::vector<std::uint32_t> texels;
     std::array<float, 3> towardsSun{0, 0, 1}, sunIrradiance{};  ///< irradiance 0: there is no sun
-    float leastSunAlpha = 0;  ///< smallest width of a lobe that mirrors the sun: its disc's
-    float least = 0;          ///< is added to the mirrored light, so that this is never 0
+    /// Smallest width of a lobe that mirrors the sun: the sun's radius [rad].
+    float leastSunAlpha = 0;
+    float least = 0;  ///< small light that is added, so that mirrored light is never 0
 };
 
 }  // namespace mfar

@@ -31,8 +31,8 @@ private:
     int fd_ = -1;
 };
 
-/// Returns the owner of a file descriptor that a system call has returned. If `fd` is negative,
-/// throws std::system_error with errno as the cause and `what` in the message.
+/// Wraps the file descriptor that a system call returned. If it is negative, throws
+/// std::system_error with errno as the cause and `what` in the message.
 [[nodiscard]] inline OwnedFd opened(int fd, const char* what) {
     if (fd < 0) throw std::system_error(errno, std::generic_category(), what);
     return OwnedFd(fd);

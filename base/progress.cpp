@@ -31,7 +31,6 @@ std::string progressText(double share, std::string_view what, double seconds) {
     if (!std::isfinite(share)) return fmt::format("{}; {}", what, clockText(seconds));
     const double done = std::clamp(share, 0.0, 1.0);
     std::string out = fmt::format("{:3.0f} %  {}; {}", 100 * done, what, clockText(seconds));
-    // The remaining time can be estimated only if some of the work is done.
     if (done > 0.02 && done < 1 && seconds > 3)
         out += fmt::format(", about {} left", clockText(seconds * (1 - done) / done));
     return out;

@@ -20,11 +20,10 @@ public:
     Progress(std::FILE* out, bool isTerminal);
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
-    /// Erases the line.
     ~Progress() { clear(); }
 
-    /// Shows that `share` of the whole work, from 0 to 1, is done, and that `what` is next. If the
-    /// share is NaN, it is unknown and not shown.
+    /// Shows which share of the whole work is done (0 to 1) and that `what` is next. NaN means that
+    /// the share is unknown and not shown.
     void show(double share, std::string_view what, Clock::time_point now = Clock::now());
     /// Erases the line, so that other output can follow. The next show() draws it again.
     void clear();
@@ -37,8 +36,8 @@ private:
     std::optional<Clock::time_point> shown_;
 };
 
-/// The progress of a part of the work. A part can have parts itself. A ProgressPart can be copied.
-/// If it is default-constructed, it shows nothing: so a function can be called without a Progress.
+/// The progress of a part of the work, which can have parts itself. A default-constructed
+/// ProgressPart shows nothing, so that functions can be called without a Progress.
 class ProgressPart {
 public:
     ProgressPart() = default;
@@ -57,7 +56,6 @@ private:
     std::string what_{};
 };
 
-/// Returns "frame 3 of 29" for index 2 and count 29.
 [[nodiscard]] std::string frameOf(std::size_t index, std::size_t count);
 
 /// Returns a line such as "34 %  superres office, frame 3 of 29; 0:12, about 0:25 left".

@@ -10,7 +10,7 @@
 
 namespace mfar {
 
-/// A view of the rows of a picture or a field in host memory. It does not own them.
+/// A view of rows of values in host memory, e.g. of a picture. It does not own them.
 template <class T>
 struct Rows {
     T* data = nullptr;
@@ -18,7 +18,6 @@ struct Rows {
     Size size;                 ///< width: number of elements in a row; height: number of rows
 
     [[nodiscard]] T* operator[](int y) const { return data + y * pitch; }
-    /// Converts to a read-only view.
     // NOLINTNEXTLINE(google-explicit-constructor): as T* converts to const T*
     operator Rows<const T>() const
         requires(!std::is_const_v<T>)

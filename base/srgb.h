@@ -12,7 +12,7 @@ namespace mfar {
 /// Returns the inverse of srgbEncoded() for a value in [0, 1].
 [[nodiscard]] float srgbDecoded(float encoded);
 
-/// Returns a table with the linear value, in [0, 1], of each sRGB byte.
+/// Returns the linear value, in [0, 1], of each sRGB byte.
 [[nodiscard]] const std::array<float, 256>& linearOfSrgbByte();
 
 }  // namespace mfar

@@ -12,8 +12,7 @@ namespace mfar::svg {
 inline constexpr std::array<const char*, 7> kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                      "#e69f00", "#56b4e9", "#444444"};
 
-/// Replaces the characters of a text that have a meaning in XML, for use as the content of an
-/// element.
+/// Replaces characters that have a meaning in XML. The result can be an element's content.
 [[nodiscard]] std::string escaped(std::string_view text);
 
 /// Returns a text element. `anchor` is the part of the text that is at x: start, middle or end. y
@@ -25,7 +24,6 @@ inline constexpr std::array<const char*, 7> kColours{"#0072b2", "#d55e00", "#009
 [[nodiscard]] std::string line(double x0, double y0, double x1, double y1,
                                std::string_view colour = "#ddd", double width = 1);
 
-/// Returns a whole document with the given elements, on a white background.
 [[nodiscard]] std::string document(double width, double height, std::string_view body);
 
 }  // namespace mfar::svg

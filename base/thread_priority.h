@@ -6,7 +6,6 @@ namespace mfar {
 /// that wakes up does not preempt others. Returns false if the system refuses either.
 bool lowerThreadPriority();
 
-/// Returns the CPU time that the calling thread has used [ms].
 [[nodiscard]] double threadCpuMs();
 
 }  // namespace mfar

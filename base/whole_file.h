@@ -7,10 +7,10 @@
 
 namespace mfar {
 
-/// When written data become safe from a power cut.
+/// Selects when written data are safe from a power cut.
 enum class Durability {
     OnReturn,
-    WithSync,  ///< after the next syncFileSystem(); a power cut before may leave a truncated file
+    WithSync,  ///< after the next syncFileSystem(); until then, a power cut may truncate the file
 };
 
 /// Writes a file completely or not at all: the bytes go to a temporary file in the same folder,
@@ -19,8 +19,7 @@ enum class Durability {
 void writeWholeFile(const std::filesystem::path& file, std::span<const std::uint8_t> bytes,
                     Durability durability = Durability::OnReturn);
 
-/// Makes all data that was written to this folder's file system safe from a power cut. Throws like
-/// writeWholeFile().
+/// Makes all data on this folder's file system safe from a power cut. Throws like writeWholeFile().
 void syncFileSystem(const std::filesystem::path& folder);
 
 /// Appends the text to a file, completely or not at all. A missing file is created. A power cut

@@ -6,8 +6,8 @@ namespace mfar {
 namespace {
 
 constexpr int kMostThreads = 4;
-// A loop is divided into this many parts per thread. If a thread is interrupted, the other threads
-// execute the remaining parts.
+// Parts of a loop per thread. If a thread is interrupted, the other threads execute its remaining
+// parts.
 constexpr int kPartsPerThread = 4;
 
 }  // namespace

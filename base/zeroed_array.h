@@ -48,7 +48,7 @@ private:
         void operator()(void* memory) const { std::free(memory); }
     };
     std::unique_ptr<void, Free> memory_;
-    T* data_ = nullptr;  // first aligned element in memory_
+    T* data_ = nullptr;
     std::size_t size_ = 0;
 };
 

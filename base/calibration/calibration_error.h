@@ -6,13 +6,13 @@
 
 namespace mfar {
 
-/// Reports that a calibration cannot be used. The message states the fault in one line. It begins
-/// with "file:line: ", or with "file: " if the fault has no line.
+/// Reports that a calibration cannot be used. The message is one line that begins with "file:line:
+/// ", or with "file: " if the fault has no line.
 class CalibrationError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Throws CalibrationError. `line` counts from 1; 0: the fault concerns the whole file.
+/// Throws CalibrationError. `line` counts from 1. If it is 0, the fault concerns the whole file.
 [[noreturn]] void calibrationFault(const std::filesystem::path& file, int line,
                                    std::string_view what);
 

@@ -11,8 +11,8 @@
 namespace mfar {
 
 /// Reads a ROS camera_info file as camera_calibration_parsers writes it. The lens model must be
-/// plumb_bob, or rational_polynomial with a denominator of 1. If `wanted` is set, another picture
-/// size is refused. Throws CalibrationError.
+/// plumb_bob, or rational_polynomial with a denominator of 1. The picture size must equal `wanted`
+/// if that is set. Throws CalibrationError.
 [[nodiscard]] CameraModel readCameraInfo(const std::filesystem::path& file,
                                          std::optional<Size> wanted = {});
 

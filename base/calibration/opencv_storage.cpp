@@ -39,8 +39,6 @@ YAML::Node need(const YamlReader& in, const std::array<const char*, N>& keys, in
     in.fail("has no " + fmt::format(fmt::runtime(keys[0]), camera));
 }
 
-/// Reads the picture size. A file has one key for both cameras or one key for each. Returns nothing
-/// if the file states no size.
 std::optional<Size> readSize(const YamlReader& in, int camera, std::optional<Size> wanted) {
     std::optional<YAML::Node> node = find(in, kSizeKeys, camera);
     for (const char* const key : {"image_size", "imageSize", "size"})
@@ -56,8 +54,6 @@ std::optional<Size> readSize(const YamlReader& in, int camera, std::optional<Siz
                            in.number(height, "image_height"), wanted);
 }
 
-/// Refuses a camera matrix whose principal point is far from the picture's centre: the matrix was
-/// probably made for another picture size.
 void checkGuessedSize(const YamlReader& in, const YAML::Node& node, const CameraModel& c) {
     const auto central = [](double at, int side) { return at > 0.3 * side && at < 0.7 * side; };
     if (!central(c.cx, c.size.width) || !central(c.cy, c.size.height))

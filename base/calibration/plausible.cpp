@@ -13,19 +13,19 @@
 namespace mfar::plausible {
 namespace {
 
-// Largest error of an element; some files round to four digits.
+// Largest error of a matrix element; some files round to four digits.
 constexpr double kRotationTolerance = 1e-3;
-constexpr double kMaxFoldError = 0.5;  // [px]; a larger error of project(unproject()) shows a fold
+// Largest error of project(unproject(pixel)) [px]. A larger error shows that the lens model folds
+// over inside the picture.
+constexpr double kMaxFoldError = 0.5;
 
-/// Formats the range for a message.
 std::string text(const Range& range) {
     const bool hasUnit = std::string_view(range.unit) != "1";
     return fmt::format("{} to {}{}{}", range.least, range.most, hasUnit ? " " : "",
                        hasUnit ? range.unit : "");
 }
 
-/// Returns whether the lens model folds over inside the picture, so that several rays map to one
-/// pixel.
+/// Returns true if the lens model folds over inside the picture: several rays map to one pixel.
 bool foldsInside(const CameraModel& c) {
     const double right = c.size.width - 1, bottom = c.size.height - 1;
     const std::array<Eigen::Vector2d, 4> edges{
@@ -35,8 +35,8 @@ bool foldsInside(const CameraModel& c) {
     return false;
 }
 
-/// Computes for each corner of the picture: its distance from the principal point with distortion,
-/// divided by the distance without distortion. Returns the ratio that differs most from 1.
+/// Compares the distance of each corner of the picture from the principal point with and without
+/// distortion. Returns the ratio (with / without) that differs most from 1.
 double mostUnlikelyCorner(const CameraModel& c) {
     const double right = c.size.width - 1, bottom = c.size.height - 1;
     const Eigen::Vector2d centre(c.cx, c.cy);

@@ -7,17 +7,17 @@
 #include <string_view>
 #include <vector>
 
-/// These functions read parts of a calibration, whatever its file format. They refuse implausible
-/// values (plausible_ranges.h) with a CalibrationError that names the line of the value.
+/// Functions that read parts of a calibration, for all file formats. They refuse implausible values
+/// (plausible_ranges.h) with a CalibrationError that names the value's line.
 namespace mfar::plausible {
 
-/// Returns the picture size. If `wanted` is set, another size is refused.
+/// Returns the picture size. It must equal `wanted` if that is set.
 [[nodiscard]] Size size(const YamlReader& in, const YAML::Node& node, double width, double height,
                         std::optional<Size> wanted = {});
 /// Sets fx, fy, cx, cy from `values`. `camera.size` must be set already.
 void setIntrinsics(const YamlReader& in, const YAML::Node& node, const Eigen::Vector4d& values,
                    CameraModel& camera);
-/// Sets fx, fy, cx, cy from a 3x3 camera matrix. The skew must be 0. `camera.size` must be set
+/// Sets fx, fy, cx, cy from a 3x3 camera matrix, whose skew must be 0. `camera.size` must be set
 /// already.
 void setCameraMatrix(const YamlReader& in, const YAML::Node& node, const Eigen::Matrix3d& matrix,
                      CameraModel& camera);
@@ -25,18 +25,16 @@ void setCameraMatrix(const YamlReader& in, const YAML::Node& node, const Eigen::
 /// camera's intrinsics must be set already.
 void setDistortion(const YamlReader& in, const YAML::Node& node, const std::vector<double>& values,
                    CameraModel& camera);
-/// Returns the rotation and the translation [m] of a 4x4 matrix. `what` names the matrix in
-/// messages.
+/// Returns the rotation and the translation [m] of a 4x4 matrix, which messages call `what`.
 [[nodiscard]] RigidTransform transform(const YamlReader& in, const YAML::Node& node,
                                        const Eigen::Matrix4d& matrix, const char* what);
 [[nodiscard]] Eigen::Quaterniond rotation(const YamlReader& in, const YAML::Node& node,
                                           const Eigen::Matrix3d& matrix, const char* what);
-/// Refuses an implausible distance between the video camera and the still camera. `T`: the
-/// transform between them; its translation is in metres.
+/// Refuses an implausible distance between the cameras. `T` is the transform between them [m].
 void checkBaseline(const YamlReader& in, const YAML::Node& node, const RigidTransform& T);
-/// Reads a frame rate [Hz]; 0: the sensor takes pictures on trigger only.
+/// Reads a frame rate [Hz]. Rate 0 means that the sensor takes pictures on trigger only.
 [[nodiscard]] double rate(const YamlReader& in, const YAML::Node& node, const char* what);
-/// Reads the offset of the still camera's clock [s], see RigCalibration.
+/// Reads RigCalibration::stillTimeOffset [s].
 [[nodiscard]] double timeOffset(const YamlReader& in, const YAML::Node& node, const char* what);
 
 }  // namespace mfar::plausible

@@ -4,13 +4,13 @@
 
 namespace mfar::plausible {
 
-/// The allowed range of a number in a calibration or tag map, bounds included. docs/calibration.md
-/// shows the same table; a test compares the two.
+/// The allowed range of a number in a calibration or tag map, bounds included. A test compares
+/// these ranges with the table in docs/calibration.md.
 struct Range {
     const char *what, *unit;
     double least, most;
 
-    /// Returns whether the range contains the value; false for NaN.
+    /// Returns false for NaN, too.
     [[nodiscard]] constexpr bool holds(double value) const {
         return value >= least && value <= most;
     }
@@ -18,7 +18,7 @@ struct Range {
 
 /// 16384 px is the size limit of textures.
 inline constexpr Range kSide{"width and height", "px", 1, 16384};
-/// The limits correspond to horizontal fields of view of 169 degrees and of half a degree.
+/// These limits are horizontal fields of view of 169 degrees and of half a degree.
 inline constexpr Range kFocal{"focal length", "picture widths", 0.05, 100};
 inline constexpr Range kPrincipal{"principal point", "picture widths and heights", -1, 2};
 inline constexpr Range kCoefficient{"distortion coefficient", "1", -1000, 1000};
@@ -28,7 +28,7 @@ inline constexpr Range kCorner{"radius of a corner with distortion to that witho
                                1.5};
 inline constexpr Range kBaseline{"distance of the sensors", "m", 0, 2};
 inline constexpr Range kTimeOffset{"time offset of the stills", "s", -10, 10};
-/// A sensor that takes pictures on trigger only has rate 0, which is accepted as well.
+/// Rate 0 is accepted as well. It means that the sensor takes pictures on trigger only.
 inline constexpr Range kRate{"rate", "Hz", 0.01, 10000};
 
 inline constexpr Range kTagSize{"edge of a tag", "m", 0.001, 100};

@@ -8,7 +8,6 @@
 namespace mfar {
 namespace {
 
-/// Receives the parser's events and throws where the text exceeds a limit.
 class Bounds final : public YAML::EventHandler {
 public:
     void OnDocumentStart(const YAML::Mark& /*mark*/) override {}

@@ -12,29 +12,26 @@
 
 namespace mfar {
 
-/// Reads values of one YAML file, also of one that OpenCV's FileStorage wrote. Every failure throws
-/// a CalibrationError with the line of the value.
+/// Reads values of one YAML file, including files of OpenCV's FileStorage. Every failure throws a
+/// CalibrationError with the line of the value.
 class YamlReader {
 public:
     [[nodiscard]] const YAML::Node& root() const { return root_; }
     [[nodiscard]] const std::filesystem::path& file() const { return file_; }
     [[nodiscard]] bool has(const char* key) const { return root_[key].IsDefined(); }
-    /// Returns the value of a key. Throws if the key is missing.
     [[nodiscard]] YAML::Node at(const char* key) const { return at(root_, key); }
     [[nodiscard]] YAML::Node at(const YAML::Node& map, const char* key) const;
-    /// Reads finite numbers; throws for NaN and infinity. `what` names the value in messages.
+    /// Reads finite numbers. NaN and infinity are failures. `what` names the value in messages.
     [[nodiscard]] double number(const YAML::Node& node, const char* what) const;
     [[nodiscard]] std::vector<double> numbers(const YAML::Node& node, const char* what) const;
     [[nodiscard]] std::string word(const YAML::Node& node, const char* what) const;
-    /// If a matrix is written as a map with an entry `data`, returns this entry, otherwise `node`
-    /// itself.
+    /// Returns the entry `data` if the matrix is written as a map that has one, otherwise `node`.
     [[nodiscard]] YAML::Node data(const YAML::Node& node, const char* what) const;
     /// Reads a matrix that is written as a list of rows, as one flat list in row-major order, or as
     /// a map whose entry `data` is such a list.
     [[nodiscard]] Eigen::MatrixXd matrix(const YAML::Node& node, int rows, int columns,
                                          const char* what) const;
     [[noreturn]] void fail(const YAML::Node& node, const std::string& what) const;
-    /// Throws a CalibrationError about the whole file.
     [[noreturn]] void fail(const std::string& what) const;
 
 private:
@@ -46,8 +43,8 @@ private:
     YAML::Node root_;
 };
 
-/// Opens a file and calls `read` with a YamlReader of its content. Throws CalibrationError.
-/// Exceptions of the YAML library are converted to CalibrationError as well.
+/// Opens a file and calls `read` with a reader of its content. Throws CalibrationError, also for
+/// exceptions of the YAML library.
 void readYaml(const std::filesystem::path& file,
               const std::function<void(const YamlReader&)>& read);
 

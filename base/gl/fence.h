@@ -7,8 +7,8 @@
 
 namespace mfar::gpu {
 
-/// Longest wait for the GPU. A wait that takes longer means that the GPU hangs, because the kernel
-/// resets a busy GPU before this time.
+/// Longest wait for the GPU. A longer wait means that the GPU hangs, because the kernel resets a
+/// busy GPU earlier.
 inline constexpr std::chrono::milliseconds kLongestGpuWait{500};
 
 /// Marks a point in the stream of GL commands. Move-only.
@@ -26,8 +26,8 @@ public:
         if (sync_ != nullptr) glDeleteSync(sync_);
     }
 
-    /// Waits at most `limit` and returns whether the GPU has executed all commands before the
-    /// fence. Returns false if the context is lost.
+    /// Waits at most `limit`. Returns true if the GPU has executed all commands before the fence.
+    /// Returns false if it has not or if the context is lost.
     [[nodiscard]] bool passed(std::chrono::nanoseconds limit = std::chrono::nanoseconds{0}) const {
         const GLenum status = glClientWaitSync(sync_, GL_SYNC_FLUSH_COMMANDS_BIT,
                                                static_cast<GLuint64>(limit.count()));

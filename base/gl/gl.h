@@ -25,15 +25,14 @@ inline constexpr GLenum kContextLost = 0x0507;
         next = glGetError();
     return first;
 }
-/// Formats an error as a hexadecimal number, such as "0x0502".
 [[nodiscard]] inline std::string errorCode(GLenum error) {
     std::array<char, 16> code{};
     std::snprintf(code.data(), code.size(), "0x%04x", error);
     return code.data();
 }
 
-/// Throws GlError if the context has recorded an error; `where` names the place in the message. Too
-/// slow for the frame path.
+/// Throws GlError if the context has recorded an error. The message contains `where`. Too slow for
+/// the frame path.
 void checkErrors(const char* where);
 
 }  // namespace mfar::gpu

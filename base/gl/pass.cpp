@@ -37,7 +37,6 @@ std::string shaderPreamble(std::string_view defines) {
            "precision highp uimage2D;\nprecision highp iimage2D;\n#line 1\n";
 }
 
-/// Owns a program of the GL context.
 class LinkedProgram {
 public:
     LinkedProgram() : id_(glCreateProgram()) {}

@@ -15,7 +15,6 @@
 
 namespace mfar::gpu {
 
-/// One resource bound to one binding point of a shader.
 struct Binding {
     enum class Kind { Sampler, ImageWrite, Storage, Uniform };
     Kind kind;
@@ -45,13 +44,12 @@ inline constinit thread_local ProgramCache* programs = nullptr;
 /// The Validation that this thread uses; null: the thread's passes are not validated.
 inline constinit thread_local Validation* validation = nullptr;
 void validate(const Program& program, Bindings bindings, const Framebuffer* target);
-/// Validates the outputs of a pass if this thread has a Validation. Called after each pass.
+/// Called after each pass. Validates its outputs if this thread has a Validation.
 inline void ran(const Program& program, Bindings bindings, const Framebuffer* target = nullptr) {
     if (validation != nullptr) validate(program, bindings, target);
 }
 }  // namespace detail
 
-/// The numbers of workgroups of a dispatch.
 struct Groups {
     GLuint x = 1, y = 1, z = 1;
 };
@@ -121,7 +119,6 @@ struct InstanceList {
     std::size_t instanceOffset = 0;
 };
 
-/// A mesh of indexed triangles.
 struct Mesh {
     const Buffer& vertices;  ///< MeshVertex, attribute locations 0 (position), 1 (normal), 2 (uv)
     const Buffer& indices;   ///< three uints per triangle
@@ -190,7 +187,7 @@ public:
         detail::drawFullScreen();
         detail::ran(program_, bindings, &target);
     }
-    /// Draws one quad for each tile of the list. The vertex shader computes the quad's position.
+    /// Draws one quad for each tile of the list. The vertex shader computes its position.
     void runTiles(const P& params, Bindings bindings, const Framebuffer& target,
                   const InstanceList& tiles) {
         target.bind();
@@ -198,7 +195,6 @@ public:
         detail::drawTiles(tiles);
         detail::ran(program_, bindings, &target);
     }
-    /// Draws the triangles of a mesh. The vertex shader computes the triangles' positions.
     void runMesh(const P& params, Bindings bindings, const Framebuffer& target, const Mesh& mesh) {
         target.bind();
         program_.use(&params, sizeof(P), bindings);

@@ -9,7 +9,6 @@
 
 namespace mfar::gpu {
 
-/// The allowed range of a value, bounds included.
 struct ValueRange {
     double low, high;
 };
@@ -18,24 +17,23 @@ struct ValueRange {
 struct PassOutput {
     enum class Kind { Storage, Image, Colour };
     Kind kind;
-    std::string name;  ///< the variable's name in the shader
-    GLuint index;      ///< binding of the storage block, image unit, or colour attachment
-    /// One range per component. They come from the line "// Range: name low..high, low..high" in
-    /// the shader's header. The last range applies to all further components. If the list is empty,
-    /// any finite value is allowed.
+    std::string name;
+    GLuint index;  ///< binding of the storage block, image unit, or colour attachment
+    /// One range per component, from the line "// Range: name low..high, low..high" in the shader.
+    /// The last range also applies to all further components. An empty list allows any finite
+    /// value.
     std::vector<ValueRange> ranges;
     // Type and position of the variable in its storage block.
     bool isFloat = true;
     int components = 4;
     std::size_t offset = 0, stride = 0;  ///< [bytes]
-    std::size_t count = 0;               ///< number of elements; 0: as many as the buffer holds
+    std::size_t count = 0;  ///< number of array elements; 0: as many as the buffer holds
 };
 
 /// Returns the outputs of a linked program; `text` is the source of its compute or fragment shader.
 /// Storage blocks that the shader declares readonly are excluded.
 [[nodiscard]] std::vector<PassOutput> outputsOf(GLuint program, std::string_view text);
 
-/// Returns the ranges that the shader's source states for the variable `name`.
 [[nodiscard]] std::vector<ValueRange> statedRanges(std::string_view text, std::string_view name);
 
 }  // namespace mfar::gpu

@@ -5,7 +5,6 @@
 
 namespace mfar::gpu {
 
-/// Enables a capability of the GL context while the object exists.
 template <GLenum Capability>
 class Enabled {
 public:
@@ -25,7 +24,6 @@ private:
     Enabled<GL_SCISSOR_TEST> test_;
 };
 
-/// Enables the depth test, which keeps the surface with the smallest window depth.
 class DepthTest {
 public:
     DepthTest() { glDepthFunc(GL_LESS); }

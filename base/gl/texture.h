@@ -48,24 +48,21 @@ public:
     [[nodiscard]] TexelFormat format() const { return format_; }
 
     /// Replaces the pixels of an R8, Rg8 or Rgba8 texture (asserted). `rows` has the texture's
-    /// size. The upload is slow if the stride is not a multiple of the texel's size. This function
-    /// and the following ones access mipmap level 0 only.
+    /// size. The upload is slow if the stride is not a multiple of the texel's size. All uploads
+    /// and reads of this class access mipmap level 0 only.
     void upload(const PlaneView& rows);
     /// Replaces rows of an R32F, Rg32F or Rgba32F texture (asserted), beginning at `firstRow`.
-    /// `values` has one, two or four floats per texel, rows without padding, and whole rows only
-    /// (asserted).
+    /// `values` has one, two or four floats per texel and whole rows without padding (asserted).
     void upload(std::span<const float> values, int firstRow = 0);
-    /// Replaces rows of an Rgba8 texture, beginning at `firstRow`. `texels` has rows without
-    /// padding, and whole rows only (asserted).
+    /// Replaces rows of an Rgba8 texture, beginning at `firstRow`. `texels` has whole rows without
+    /// padding (asserted).
     void uploadRows(std::span<const std::array<std::uint8_t, 4>> texels, int firstRow = 0);
     /// Replaces the texels of an R32Ui or Rgba32Ui texture. `values` has one or four integers per
     /// texel.
     void upload(std::span<const std::uint32_t> values);
-    /// Reads the texture back as RGBA8, row 0 first. Waits for the GPU; too slow for the frame
-    /// path.
+    /// Returns the texture as RGBA8, row 0 first. Waits for the GPU; too slow for the frame path.
     [[nodiscard]] std::vector<std::uint8_t> readRgba8() const;
-    /// Reads the texture back, four floats per texel. Waits for the GPU; too slow for the frame
-    /// path.
+    /// Returns four floats per texel. Waits for the GPU; too slow for the frame path.
     [[nodiscard]] std::vector<float> readRgba32F() const;
 
 private:

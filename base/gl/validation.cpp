@@ -13,7 +13,6 @@
 namespace mfar::gpu {
 namespace {
 
-/// Binds a framebuffer for reading pixels. The destructor restores the previous binding.
 class ReadFrom {
 public:
     explicit ReadFrom(GLuint framebuffer) {

@@ -23,7 +23,7 @@ struct ValidationFault {
     int component = 0;
     double value = 0;
     ValueRange range{};  ///< the allowed range; {0, 0}: any finite value is allowed
-    long frame = 0;      ///< number of the frame, see nextFrame()
+    long frame = 0;      ///< see Validation::nextFrame()
 };
 [[nodiscard]] std::string describe(const ValidationFault& fault);
 
@@ -43,10 +43,10 @@ public:
     Validation& operator=(const Validation&) = delete;
     ~Validation();
 
-    /// Returns the faults since the last call. Only the first wrong value of each output of a pass
-    /// is ever reported.
+    /// Returns the faults since the last call. For each output of a pass, only the first fault is
+    /// ever reported.
     [[nodiscard]] std::vector<ValidationFault> takeFaults();
-    /// Increments the frame number that ValidationFault::frame reports.
+    /// Counts a frame, for ValidationFault::frame.
     void nextFrame() { ++frame_; }
 
     struct Count {
@@ -54,7 +54,7 @@ public:
         long values = 0;  ///< number of checked texels and buffer elements
         long pixels = 0;  ///< number of pixels that were drawn or written to images
     };
-    /// Returns the counts of each pass; the key is the shader's name.
+    /// The key is the shader's name.
     [[nodiscard]] const std::map<std::string, Count>& counts() const { return counts_; }
 
     static constexpr std::size_t kGuardBytes = 256;
@@ -76,7 +76,6 @@ private:
     void checkImage(const std::string& pass, const PassOutput& output, GLuint texture);
     void checkColour(const std::string& pass, const PassOutput& output, const Framebuffer& target);
     void checkPixels(const std::string& pass, const PassOutput& output, const Area& area);
-    /// Checks `count` elements and reports the first invalid one.
     void checkValues(const std::string& pass, const PassOutput& output, const std::uint8_t* first,
                      std::size_t count, const Area& area);
     void report(ValidationFault fault);
