@@ -8,9 +8,9 @@
 
 namespace mfar {
 
-/// Returns all bytes of a regular file. Devices and named pipes are refused without waiting. A
-/// longer file than `most` bytes is refused before memory is allocated. Throws std::runtime_error
-/// with the fault, but without the file's name, e.g. "has 9 bytes; the limit is 8 bytes".
+/// Returns all bytes of a regular file. Devices and named pipes are refused without waiting. A file
+/// of more than `most` bytes is refused before memory is allocated. Throws std::runtime_error with
+/// the fault, but without the file's name, e.g. "has 9 bytes; the limit is 8 bytes".
 [[nodiscard]] std::vector<std::uint8_t> boundedFile(const std::filesystem::path& file,
                                                     std::size_t most);
 

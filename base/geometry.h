@@ -26,7 +26,6 @@ struct PixelRect {
     return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
 }
 
-/// Returns the intersection of `a` and `b`, which may be empty.
 [[nodiscard]] inline PixelRect common(const PixelRect& a, const PixelRect& b) {
     return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
 }
@@ -79,7 +78,6 @@ struct RigidTransform {
     }
 };
 
-/// The lens models of the video camera and the still camera, and the transform between the two.
 struct StereoRig {
     CameraModel video;
     CameraModel still;

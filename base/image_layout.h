@@ -24,7 +24,7 @@ struct PlaneSize {
 /// Returns the size of a plane; 0 x 0 if the format does not have the plane.
 [[nodiscard]] PlaneSize planeSize(PixelFormat format, Size size, int plane);
 
-/// Returns the size of a packed picture, whose planes follow each other without padding.
+/// Returns the size [bytes] of a packed picture, whose planes follow each other without padding.
 [[nodiscard]] std::size_t packedBytes(PixelFormat format, Size size);
 [[nodiscard]] ImageView packedView(const std::uint8_t* data, Size size, PixelFormat format);
 /// Copies a valid picture into packedBytes() bytes at `data` and returns a view of the copy, with

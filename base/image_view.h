@@ -41,7 +41,6 @@ enum class YuvMatrix : std::uint8_t { Bt601, Bt709 };
 /// Limited: Y is in 16..235, U and V in 16..240. Full, as in JPEG: all three are in 0..255.
 enum class YuvRange : std::uint8_t { Limited, Full };
 
-/// A plane of a picture that has several planes.
 struct PlaneView {
     const std::uint8_t* data = nullptr;
     std::size_t stride = 0;  ///< bytes from one row to the next

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kWidth = 460, kHeight = 210;
 constexpr double kLeft = 46, kRight = 448, kTop = 46, kBottom = 174;
-constexpr int kAcross = 6, kUpwards = 4;  // number of ticks of each axis
-constexpr int kSmall = 11;                // size of small text [px]
+constexpr int kAcross = 6, kUpwards = 4;
+constexpr int kSmall = 11;
 
 class DrawnChart {
 public:

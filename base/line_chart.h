@@ -7,7 +7,7 @@
 namespace mfar {
 
 struct ChartLine {
-    std::string name;       ///< name in the legend
+    std::string name;
     std::vector<double> y;  ///< one value for each x of the chart; NaN makes a gap
 };
 

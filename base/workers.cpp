@@ -6,8 +6,8 @@ namespace mfar {
 namespace {
 
 constexpr int kMostThreads = 4;
-// Parts of a loop per thread. If a thread is interrupted, the other threads execute its remaining
-// parts.
+// Number of parts of a loop per thread. If a thread is interrupted, the other threads execute the
+// remaining parts.
 constexpr int kPartsPerThread = 4;
 
 }  // namespace

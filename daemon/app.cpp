@@ -21,7 +21,7 @@ namespace {
 using Seconds = std::chrono::duration<double>;
 
 constexpr Seconds kLookTime{1};  ///< longest interval between checks of the threads
-/// While fewer pictures were shown, time limits are kFirstPatience times as long.
+/// Until this number of pictures was shown, all time limits are kFirstPatience times as long.
 constexpr std::uint64_t kFirstPictures = 10;
 
 std::ofstream openSummary(const Options& options, const Config& config) {
@@ -45,13 +45,13 @@ std::ofstream openSummary(const Options& options, const Config& config) {
 App::App(const Options& options, Log& log)
     : options_(options), log_(log), config_(effectiveConfig(options)),
       summary_(openSummary(options, config_)) {
-    // SIGPIPE is ignored, so that writing to a closed pipe returns an error and does not end the
+    // SIGPIPE is ignored: writing to a closed pipe then returns an error and does not end the
     // process.
     signal(SIGPIPE, SIG_IGN);
     if (options_.report) {
         stats_.keepHistory();
-        // The report is written at the start too, so that a file that cannot be written is noticed
-        // before a long run and not after it.
+        // The report is written at the start too. So a file that cannot be written is noticed
+        // before a long run.
         orFail(ExitCode::OutputFailed,
                [this] { writeReport(results("the run has not ended", 0)); });
     }
@@ -147,7 +147,7 @@ void App::onReady() {
 
 void App::onHangUp() {
     if (options_.config)
-        (void)reload();  // the log reports the result
+        (void)reload();
     else
         log_.warning(
             "SIGHUP: mfard was started without --config, so there is no file to read again");
@@ -228,8 +228,7 @@ void App::onTick() {
     feedWatchdog(now);
     log_.sayKept();
     leaveIfHanging();
-    // Ticks may be more frequent than the interval of the status line, because the watchdog needs
-    // them.
+    // The watchdog may need more frequent ticks than the status line.
     const Timestamp time = Timestamp::now();
     if (time.seconds() - statusShown_.seconds() < 0.9 * config_.status.intervalS) return;
     statusShown_ = time;
@@ -256,8 +255,8 @@ Health App::health(const Counted& counted) {
     return health_.judge(seen);
 }
 
-// The watchdog is fed only between start and stop of the service, for which systemd has separate
-// limits.
+// The watchdog is fed only between start and stop of the service, because systemd limits start and
+// stop by other timeouts.
 void App::feedWatchdog(const Health& health) {
     if (!running_ || !service_.watchdogPeriod()) return;
     if (isProven_ && !std::exchange(patienceEnded_, true)) service_.watchdogPatience(1);
@@ -266,7 +265,7 @@ void App::feedWatchdog(const Health& health) {
 
 void App::logHealth(const Health& health) {
     if (health.state == told_.state && health.cause == told_.cause) return;
-    // During a shutdown, threads and pictures stop, too. That is not a fault.
+    // During a shutdown, threads and pictures stop as well. That is not a fault.
     if (stopReason_ && health.state == HealthState::Stalled) return;
     if (health.state != HealthState::Ok)
         log_.warning(sentence(health), health.cause, subjectOf(health));
@@ -278,8 +277,6 @@ void App::logHealth(const Health& health) {
     told_ = health;
 }
 
-// Updates the description of the run, which was made at the start of the run, and logs a change of
-// the display.
 void App::takeChanges(const Counted& counted) {
     RunDescription& run = running_->description;
     if (counted.rendering) {

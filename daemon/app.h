@@ -29,19 +29,19 @@
 
 namespace mfar {
 
-/// The main thread, which handles signals, timers, status and shutdown. It waits for its events
-/// only, so that it can end the program even if a device or a driver hangs.
+/// The main thread, which handles signals, timers, status and shutdown. It waits only for its
+/// events, so that it can end the program even if a device or a driver hangs.
 ///
 /// After a signal, no more frames are fetched and the trigger line is set inactive. Frames that are
-/// being processed are still shown and written. This time is limited:
+/// being processed are still shown and written, within these limits:
 ///   - If nothing is being written, the process ends after 0.2 s, even in the middle of a picture.
-///   - Otherwise, writing to slow readers of the display's pipe is cancelled after 0.4 s, and the
+///   - Otherwise, writing to slow readers of the display's pipe is cancelled after 0.4 s. The
 ///     process ends 0.5 s later.
 /// A second signal ends the process at once. If the main thread itself hangs during the shutdown,
-/// in a driver or on a disk, LastResort ends the process 2.5 s after the signal.
+/// LastResort ends the process 2.5 s after the signal.
 ///
-/// A run that ends without a signal waits for its output without a limit, and then at most 2.5 s
-/// for its devices.
+/// A run that ends without a signal waits for its output without a limit. Then it waits for its
+/// devices, for at most 2.5 s.
 class App {
 public:
     /// Throws ConfigError, Failure.
@@ -61,10 +61,9 @@ private:
     /// The GL thread sends this after it has written all output.
     struct Over {
         std::string reason;
-        std::exception_ptr error;  ///< null: there was no error
+        std::exception_ptr error;
     };
-    /// A reload of the configuration. A separate thread does it, because reading models may take
-    /// long.
+    /// A reload of the configuration. It has its own thread, because reading models may take long.
     struct Reload {
         Reload() : answer(said.get_future().share()) {}
 
@@ -88,7 +87,7 @@ private:
     void removeControl() const;
     [[noreturn]] void leaveFailed(const std::exception_ptr& error);
     void onHangUp();
-    /// Starts a reload of the configuration. The future becomes ready when the file has been read.
+    /// Starts a reload of the configuration. The future becomes ready when the file was read.
     /// Throws std::runtime_error if mfard has no configuration file.
     std::shared_future<std::string> reload();
     void readAgain();
@@ -110,11 +109,11 @@ private:
     [[nodiscard]] ExitCode finish(std::future<std::string>& end);
     [[nodiscard]] bool writeResults(const std::string& reason, ExitCode code);
     [[nodiscard]] nlohmann::ordered_json results(const std::string& reason, int code);
-    /// Throws std::runtime_error.
     void writeReport(const nlohmann::ordered_json& results);
 
     const Timestamp started_ = Timestamp::now();
-    LastResort lastResort_;  ///< first member, so that it also limits the others' destruction
+    /// First member, so that it also limits the destruction of the other members.
+    LastResort lastResort_;
     const Options options_;
     Log& log_;
     Config config_;
@@ -125,7 +124,6 @@ private:
     Mailbox<Tunables> changes_{HandOver::NewestWins};
     CallQueue<App> calls_{[this] { events_.wake(); }};
     CallQueue<Session> sessionCalls_;
-    /// Whether a recording is being completed after mfarctl ended it.
     std::atomic<bool> finishesRecording_{false};
     std::stop_source input_;
     std::stop_source cancel_;
@@ -134,16 +132,16 @@ private:
     std::optional<int> stopSignal_;
     std::optional<Ready> running_;
     std::optional<Over> ended_;
-    /// Whether all shaders are compiled, so that kFirstPatience is not used any more.
+    /// True when all shaders are compiled: kFirstPatience is not used any more.
     bool isProven_ = false;
-    bool patienceEnded_ = false;  ///< whether systemd's watchdog has its normal limit again
+    bool patienceEnded_ = false;  ///< true: systemd's watchdog has its normal timeout again
     HealthRecord health_;
     Timestamp statusShown_;
-    /// `nextReload_` was requested while `reload_` was running. It is done after `reload_`, because
+    /// `nextReload_` was requested while `reload_` was running. It starts after `reload_`, because
     /// the file may have changed in the meantime.
     std::optional<Reload> reload_, nextReload_;
-    Health told_;                     ///< the health that was last written to the log
-    bool firstPictureShown_ = false;  ///< whether the log has the line about the first picture
+    Health told_;  ///< the health that was last logged
+    bool firstPictureShown_ = false;
 
     std::mutex mutex_;
     // mutex_ guards ready_ and over_. The main thread moves them to running_ and ended_.

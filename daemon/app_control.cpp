@@ -11,8 +11,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Longest time in which a command of mfarctl is answered. It is longer than one picture takes on
-/// the slowest board.
+/// Longest wait for the answer to a command of mfarctl. It exceeds the time that one picture takes
+/// on the slowest board.
 constexpr std::chrono::milliseconds kAnswerTime{10'000};
 
 }  // namespace
@@ -81,8 +81,8 @@ ordered_json App::statsNow() {
     return out;
 }
 
-// An answer thread of the control socket calls this function. It creates the recording's folder, so
-// that the session does not wait for the disk.
+// Runs on an answer thread of the control socket. It creates the recording's folder, so that the
+// session does not wait for the disk.
 void App::startRecording(const std::string& name) {
     const auto make =
         sessionCalls_.call([name](Session& s) { return s.makeRecording(name); }, kAnswerTime);
@@ -90,8 +90,8 @@ void App::startRecording(const std::string& name) {
                        kAnswerTime);
 }
 
-// An answer thread of the control socket calls this function. It completes the recording, so that
-// the session does not wait for the disk.
+// Runs on an answer thread of the control socket. It completes the recording, so that the session
+// does not wait for the disk.
 ordered_json App::stopRecording() {
     const auto finish =
         sessionCalls_.call([](Session& s) { return s.stopRecording(); }, kAnswerTime);

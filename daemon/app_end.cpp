@@ -25,11 +25,12 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-// Time limits after a signal. If pictures are written, kFlushTime applies instead of kLeaveTime,
-// and kCancelTime comes after it.
-constexpr Seconds kLeaveTime{0.2};   ///< for finishing the current picture, if none are written
-constexpr Seconds kFlushTime{0.4};   ///< for finishing to write pictures
-constexpr Seconds kCancelTime{0.5};  ///< for ending the threads after writing was cancelled
+// Time limits after a signal: kLeaveTime to finish the current picture. While pictures are being
+// written, kFlushTime to finish writing, then kCancelTime to end the threads after writing was
+// cancelled.
+constexpr Seconds kLeaveTime{0.2};
+constexpr Seconds kFlushTime{0.4};
+constexpr Seconds kCancelTime{0.5};
 constexpr std::chrono::milliseconds kLastResort{2500};
 
 const char* signalName(int signal) {
@@ -102,7 +103,7 @@ void App::removeControl() const {
     if (options_.control) std::filesystem::remove(*options_.control, ignored);
 }
 
-// Handles a failure like main(), to which run() cannot return while a thread hangs.
+// Handles the failure here, because run() cannot return to main() while a thread hangs.
 void App::leaveFailed(const std::exception_ptr& error) {
     try {
         std::rethrow_exception(error);
@@ -129,7 +130,7 @@ ExitCode App::finish(std::future<std::string>& end) {
         if (*one)
             (*one)->said.set_exception(
                 std::make_exception_ptr(std::runtime_error("mfard is ending")));
-    control_.reset();  // after the lines above, which end answers that its destructor waits for
+    control_.reset();  // its destructor waits for answers, which the lines above have ended
     onReady();
     const Counted counted = stats_.count();
     const Health last = health(counted);
@@ -141,13 +142,13 @@ ExitCode App::finish(std::future<std::string>& end) {
         const ExitCode code = writeResults(stopReason_.value_or(reason), ExitCode::Ok)
                                   ? ExitCode::Ok
                                   : ExitCode::OutputFailed;
-        // Reading a configuration cannot be interrupted. The process ends without waiting for it,
-        // because all other work is done.
+        // Reading a configuration cannot be interrupted, so the process ends without waiting for
+        // it.
         if (isReading()) std::_Exit(static_cast<int>(code));
         return code;
     } catch (const std::exception& error) {
-        // If the reader of the display's pipe had read nothing before the signal, that is not a
-        // failure of mfard.
+        // If the reader of the display's pipe had stopped reading before the signal, the missing
+        // output is not a failure of mfard.
         if (cancel_.stop_requested() || (stopSignal_ && counted.displayFault)) {
             log_.warning(fmt::format("not all output was written: {}", error.what()), {},
                          {message::kEnded});
@@ -156,7 +157,7 @@ ExitCode App::finish(std::future<std::string>& end) {
         }
         (void)writeResults(fmt::format("error: {}", error.what()), exitCode(error));
         if (!stopSignal_) throw;
-        // mfard does not pause before this exit, because it is not restarted after a signal.
+        // mfard is not restarted after a signal, so it does not pause before this exit.
         log_.error(error.what());
         return exitCode(error);
     }
@@ -190,7 +191,7 @@ nlohmann::ordered_json App::results(const std::string& reason, int code) {
     return summary(stats_.count(), description, reason, code);
 }
 
-// Does not wait until the disk has the file, because there is little time after a signal.
+// Does not wait for the disk, because there is little time after a signal.
 void App::writeReport(const nlohmann::ordered_json& results) {
     const std::string written =
         fmt::format("{:%Y-%m-%d %H:%M:%S} UTC", fmt::gmtime(std::time(nullptr)));

@@ -5,7 +5,6 @@
 namespace mfar {
 namespace {
 
-/// Returns the text between the brackets `open` and `close`, or an empty text if there are none.
 std::string between(const std::string& text, char open, char close) {
     const std::size_t begin = text.find(open), end = text.rfind(close);
     if (begin == text.npos || end == text.npos || end < begin) return "";
@@ -39,7 +38,7 @@ std::vector<ArgumentText> argumentTexts(const CLI::App& app) {
     std::vector<ArgumentText> out;
     for (const CLI::Option* option : app.get_options()) {
         const bool isFlag = option->get_items_expected_max() == 0;
-        // In the type name, CLI11 appends the descriptions of the checks after a colon.
+        // CLI11 appends the descriptions of the checks to the type name, after a colon.
         const std::string type = option->get_type_name();
         const std::size_t colon = std::min(type.find(':'), type.size());
         out.push_back(

@@ -17,8 +17,8 @@ struct ArgumentText {
     [[nodiscard]] bool isPositional() const { return !names.starts_with('-'); }
 };
 
-/// Returns the arguments of a parser, without those of its subcommands. If the parser knows an
-/// argument's valid values, range or default, ArgumentText::meaning also states these.
+/// Returns the arguments of a parser, without those of its subcommands. ArgumentText::meaning
+/// includes the valid values, range and default that the parser knows.
 [[nodiscard]] std::vector<ArgumentText> argumentTexts(const CLI::App& app);
 
 }  // namespace mfar

@@ -14,10 +14,10 @@ namespace {
 
 const cv::Scalar kBackground(24, 24, 24, 255), kLetters(255, 200, 64, 255);
 constexpr int kFont = cv::FONT_HERSHEY_DUPLEX;
-constexpr double kLineShare = 1.0 / 24;  // height of a text line, as a share of the picture's
-constexpr double kLetterShare = 0.55;    // height of the font, as a share of a line's height
+constexpr double kLineShare = 1.0 / 24;  // height of a text line / height of the picture
+constexpr double kLetterShare = 0.55;    // height of the font / height of a text line
 constexpr int kMostLines = 4;
-constexpr std::uint32_t kBlack = 0xff000000;  // bytes R G B A: 0 0 0 255
+constexpr std::uint32_t kBlack = 0xff000000;
 
 int widthOf(const std::string& text, double scale) {
     return cv::getTextSize(text, kFont, scale, 1, nullptr).width;

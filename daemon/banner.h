@@ -14,12 +14,11 @@ namespace mfar {
 /// fault is drawn. Throws GlError.
 class Banner {
 public:
-    /// `size`: size of the pictures [px].
     explicit Banner(Size size) : size_(size) {}
 
     /// Returns a copy of the picture with the text at its lower edge. The copy is a texture if the
-    /// picture is one, otherwise it is on the host. For an empty picture, returns the text on
-    /// black, on the host. The result is valid until the next call.
+    /// picture is one, otherwise it is on the host. For an empty picture, the text is on black, on
+    /// the host. The copy is valid until the next call.
     [[nodiscard]] Picture over(const Picture& picture, const std::string& text);
 
 private:

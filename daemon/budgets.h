@@ -5,9 +5,9 @@
 
 namespace mfar {
 
-/// The time budget of each thread: the longest allowed time between two of its heartbeats, see
-/// Heartbeat. If a vital thread exceeds its time budget, it counts as hanging, and systemd's
-/// watchdog is not fed any more.
+/// The time budget of each thread: the longest allowed time between two heartbeats, see Heartbeat.
+/// If a vital thread exceeds its budget, it counts as hanging, and systemd's watchdog is not fed
+/// any more.
 namespace budget {
 
 using std::chrono::milliseconds;
@@ -19,12 +19,10 @@ constexpr milliseconds kCapture{1500};
 constexpr milliseconds kPicture{2000};
 /// Thread of the control socket: reading one request of mfarctl, without the time for its answer.
 constexpr milliseconds kControl{500};
-/// Main thread: handling one event.
 constexpr milliseconds kMain{500};
 
 /// WatchdogSec= of systemd/mfard.service.in. The threads above may wait for each other, so the sum
-/// of their time budgets must be less than half of this time. Otherwise slow devices could cause a
-/// watchdog timeout.
+/// of their budgets must be less than half of this time.
 constexpr milliseconds kWatchdog{10'000};
 static_assert(kCapture + kPicture + kControl + kMain < kWatchdog / 2);
 
@@ -38,24 +36,22 @@ constexpr milliseconds kReload{60'000};
 /// Answer thread: answering one request of mfarctl. Its waits for other threads and for the client
 /// have shorter limits.
 constexpr milliseconds kAnswer{20'000};
-/// Longest time in which the reader of a display's pipe or a disk accepts one picture. If it takes
-/// longer, the display reports a fault.
+/// Longest time in which a disk, or the reader of the display's pipe, accepts one picture. After
+/// that, the display reports a fault.
 constexpr milliseconds kTaken{2000};
 /// Writer thread: writing one picture to a file or pipe. A still of 12 megapixels takes 2 s on a
 /// small board.
 constexpr milliseconds kWriter{10'000};
-/// Learning thread: learning from one still, at low priority.
 constexpr milliseconds kLearning{60'000};
 
 }  // namespace budget
 
-/// Name of the thread that makes pictures and shows them.
 constexpr std::string_view kPictureThread = "picture";
 
 /// A displayed picture that is older than this counts as stale.
 constexpr std::chrono::milliseconds kStalePicture{3000};
-/// Factor of all time limits while the first pictures are made. Shaders are compiled for these
-/// pictures, which is slow on a small board.
+/// Factor of all time limits while the first pictures are made. Compiling their shaders is slow on
+/// a small board.
 constexpr int kFirstPatience = 6;
 
 }  // namespace mfar

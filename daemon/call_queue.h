@@ -21,9 +21,9 @@ public:
     /// poll.
     explicit CallQueue(std::function<void()> wake = {}) : wake_(std::move(wake)) {}
 
-    /// Waits until the Target's thread has called `work`. Returns the result of `work` or throws
-    /// its exception. Throws std::runtime_error if `limit` has passed (`work` may still be called
-    /// later), or if the queue was closed.
+    /// Waits until the Target's thread has called `work`. Returns its result or throws its
+    /// exception. Throws std::runtime_error if the queue was closed or `limit` has passed. In the
+    /// latter case, `work` may still be called later.
     template <class Work>
     std::invoke_result_t<Work, Target&> call(Work work, std::chrono::milliseconds limit) {
         using Result = std::invoke_result_t<Work, Target&>;
@@ -37,7 +37,7 @@ public:
         return result.get();
     }
 
-    /// Calls all queued functions. The Target's thread must call this.
+    /// Must be called by the Target's thread.
     void runAll(Target& target) {
         for (;;) {
             std::function<void(Target&)> next;
@@ -51,7 +51,6 @@ public:
         }
     }
 
-    /// Discards the queued calls and refuses further ones.
     void close() {
         std::deque<std::function<void(Target&)>> left;
         const std::lock_guard lock(mutex_);

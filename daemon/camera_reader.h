@@ -24,12 +24,12 @@ public:
     /// `rig` and `stats` must outlive this object.
     CameraReader(Rig& rig, CameraRole role, Stats& stats);
 
-    /// Returns the next frame, see Camera::next(). Throws Failure if the camera fails or if a frame
-    /// does not have the size in the calibration.
+    /// Returns the next frame, see Camera::next(). Throws Failure if the camera fails or if the
+    /// frame's size is not the one in the calibration.
     [[nodiscard]] std::optional<Frame> next(std::chrono::milliseconds timeout);
     [[nodiscard]] bool ended() const { return camera_.ended(); }
 
-    /// Returns whether next() is waiting for the camera. Thread-safe.
+    /// Returns true while next() waits for the camera. Thread-safe.
     [[nodiscard]] bool isWaiting() const { return waiting_; }
 
 private:
@@ -38,7 +38,7 @@ private:
     Camera& camera_;
     CameraRole role_;
     Size expected_;
-    ExitCode failure_;  ///< exit code if the camera fails
+    ExitCode failure_;
     CameraWatch watch_;
     Stats& stats_;
     std::atomic<bool> waiting_{false};

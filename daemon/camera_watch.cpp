@@ -54,8 +54,7 @@ void CameraWatch::add(const CameraCounters& counters) {
     state_.counters = counters;
     if (counters.missed) return;
     state_.counters.delivered = frames_;
-    // Without a configured frame rate, the intervals between frames do not show whether frames are
-    // missing.
+    // Without a configured frame rate, intervals between frames do not show missing frames.
     if (kind_ != CameraKind::Stored && state_.configuredHz > 0)
         state_.counters.missed = drops_.dropped();
 }
@@ -79,8 +78,7 @@ void CameraWatch::checkRate(Timestamp now) {
 void CameraWatch::checkRepeats(const Frame& frame, Timestamp now) {
     const std::uint64_t checksum = sparseChecksum(frame.view());
     if (std::exchange(checksum_, checksum) != checksum) {
-        // The time of the frame itself is used, not `now`, because the frame may have waited in the
-        // driver.
+        // The frame's own time is used, not `now`, because the frame may have waited in the driver.
         state_.lastDistinct = std::min(now, frame.time());
         state_.repeats = false;
         repeats_ = 0;

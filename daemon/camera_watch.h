@@ -15,46 +15,45 @@ namespace mfar {
 
 /// State of a running camera, as `mfarctl status` shows it.
 struct CameraState {
-    double configuredHz = 0;     ///< configured frame rate; 0: triggered or free-running
-    double rateHz = 0;           ///< frame rate measured over the last frames; 0: unknown
-    CameraCounters counters{};   ///< the camera's own counters, else counted from its frames
-    std::uint64_t repeated = 0;  ///< number of pictures that were equal to the previous one
-    std::optional<Timestamp> lastFrame{};  ///< arrival time of the last frame
+    double configuredHz = 0;     ///< 0: triggered or free-running
+    double rateHz = 0;           ///< measured over the last frames; 0: unknown
+    CameraCounters counters{};   ///< from the camera; if it has none, counted from its frames
+    std::uint64_t repeated = 0;  ///< number of pictures equal to the previous one
+    std::optional<Timestamp> lastFrame{};
     /// Time of the last picture that differed from the previous one. Not set: repeated pictures are
-    /// not looked for.
+    /// not detected.
     std::optional<Timestamp> lastDistinct{};
     std::optional<double> distinctAgeS{};  ///< age of lastDistinct when the state was queried [s]
-    bool repeats = false;  ///< whether the same picture has been sent for more than kRepeatTime
+    bool repeats = false;  ///< true: one picture was repeated for more than kRepeatTime
 };
 
-/// What a camera is. This decides which checks apply to its frames.
+/// The type of a camera, which decides which checks apply to its frames.
 enum class CameraKind {
-    Stored,  ///< a recording, none of whose frames is dropped: no checks
-    Live,    ///< a source whose frames may be dropped: missing frames are counted
-    Sensor,  ///< Live, with a configured rate, and with noise: no two pictures are equal
+    Stored,  ///< a recording, which drops no frames: no checks
+    Live,    ///< frames may be dropped: missing frames are counted
+    Sensor,  ///< Live, with noise: its rate and repeated pictures are checked, too
 };
 
-/// Checks the frames of one camera: the frame rate, missing frames if the camera does not count
-/// them, and whether the camera repeats one picture. Only one thread may use it.
+/// Checks the frames of one camera: the frame rate, repeated pictures, and missing frames if the
+/// camera does not count them. Only one thread may use it.
 class CameraWatch {
 public:
-    /// The user is warned if the frame rate differs from the configured one by more than this share
-    /// for longer than this time.
+    /// The user is warned if the frame rate differs from the configured one by more than
+    /// kRateTolerance (a share) for longer than kRateTime.
     static constexpr double kRateTolerance = 0.1;
     static constexpr std::chrono::seconds kRateTime{3};
-    /// The user is warned if the camera repeats a picture at least this often and for longer than
-    /// this time.
+    /// The user is warned if the camera repeats a picture at least kRepeats times and for longer
+    /// than kRepeatTime.
     static constexpr std::chrono::seconds kRepeatTime{2};
     static constexpr int kRepeats = 3;
 
     CameraWatch(const CameraInfo& info, CameraKind kind);
 
     void add(const Frame& frame, Timestamp now);
-    /// Sets the camera's own counters since its start.
     void add(const CameraCounters& counters);
 
     [[nodiscard]] const CameraState& state() const { return state_; }
-    /// Returns the new warnings about the camera. Each is returned once.
+    /// Returns the new warnings about the camera, each only once.
     [[nodiscard]] std::vector<std::string> takeWarnings();
 
 private:
@@ -66,10 +65,10 @@ private:
     CameraState state_;
     FrameDrops drops_;
     std::uint64_t frames_ = 0;
-    std::optional<Timestamp> wrongSince_;  ///< time since which the frame rate is wrong
+    std::optional<Timestamp> wrongSince_;
     bool rateTold_ = false;
     std::optional<std::uint64_t> checksum_;
-    int repeats_ = 0;  ///< number of consecutive repetitions of the last picture
+    int repeats_ = 0;
     std::vector<std::string> warnings_;
 };
 

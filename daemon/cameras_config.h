@@ -12,23 +12,21 @@ namespace mfar {
 
 class TomlReader;
 
-/// The library that drives a camera.
 enum class CameraDriver {
     Libcamera,
     V4l2,
 };
 
-/// Section [cameras.video] or [cameras.still] of the configuration: one camera.
 struct CameraConfig {
     CameraDriver driver = CameraDriver::Libcamera;
-    /// With libcamera: the camera's id, model or location. With V4L2: path of the device or name of
-    /// the card. Empty: any camera except the one that is configured for the other sensor.
+    /// With libcamera: id, model or location of the camera. With V4L2: path of the device or name
+    /// of the card. Empty: any camera, except the one configured for the other sensor.
     std::string camera{};
     Size size{};
-    double rateHz = 0;            ///< frame rate; 0: the camera is triggered
+    double rateHz = 0;            ///< 0: the camera is triggered
     std::string format = "auto";  ///< "auto" or the driver's name of a format
-    bool allowCrop = false;  ///< libcamera only: modes with a cropped field of view may be used
-    /// Names and values of camera controls. The camera's driver defines them.
+    bool allowCrop = false;  ///< libcamera only: modes with a cropped field of view are allowed
+    /// Names and values of controls of the camera's driver.
     std::vector<std::pair<std::string, std::string>> controls{};
     bool operator==(const CameraConfig&) const = default;
 };
@@ -39,25 +37,24 @@ struct TriggerLineConfig {
     std::string line;  ///< number or name of the line; empty: the still sensor is free-running
     bool activeLow = false;
     double pulseMs = 1;
-    bool pulseIsExposure = false;  ///< whether the sensor exposes as long as the pulse lasts
+    bool pulseIsExposure = false;  ///< true: the sensor exposes as long as the pulse lasts
     std::string loopbackChip;      ///< GPIO chip of `loopback`; empty: `chip`
-    std::string loopback;    ///< input that is wired to the trigger line, for timing; empty: none
-    double delayMs = 0;      ///< first estimate of the time from the trigger pulse to the exposure
-    double jitterMs = 1;     ///< largest error of the still camera's timestamps
-    double arrivalMs = 500;  ///< a still that comes later than this after its exposure is lost
+    std::string loopback;  ///< input wired to the trigger line, to measure its timing; empty: none
+    double delayMs = 0;    ///< first estimate of the time from trigger pulse to exposure
+    double jitterMs = 1;   ///< largest error of the still camera's timestamps
+    double arrivalMs = 500;  ///< a still that arrives later than this after its exposure is lost
     bool operator==(const TriggerLineConfig&) const = default;
 };
 
 /// Section [cameras] of the configuration: the cameras that `source = "cameras"` opens.
 struct CamerasConfig {
-    std::filesystem::path calibration;  ///< path; empty: nominal lenses, see nominalRig()
+    std::filesystem::path calibration;  ///< empty: nominal lenses, see nominalRig()
     CameraConfig video{.size = {640, 480}, .rateHz = 30};
     CameraConfig still{.size = {2304, 1728}};
     TriggerLineConfig trigger;
     bool operator==(const CamerasConfig&) const = default;
 };
 
-/// Reads section [cameras]. Faults are collected in `file`.
 void readCameras(TomlReader& file, CamerasConfig& cameras);
 
 }  // namespace mfar

@@ -9,8 +9,8 @@
 namespace mfar {
 namespace {
 
-/// Longest time that a working camera needs to react to stop(). A camera that hangs must not delay
-/// the end of the process much longer.
+/// Longest time that a working camera needs for stop(). A camera that hangs must not delay the end
+/// of the process much longer.
 constexpr std::chrono::milliseconds kStopTime{100};
 
 }  // namespace
@@ -47,7 +47,7 @@ CaptureThread::~CaptureThread() {
 void CaptureThread::stop() {
     stopped_ = true;
     if (stills_) stills_->stop();
-    rig_.still().stop();  // this also sets the trigger line to its inactive level
+    rig_.still().stop();  // also sets the trigger line to its inactive level
     rig_.video().stop();
     out_.close();
 }
@@ -55,8 +55,7 @@ void CaptureThread::stop() {
 void CaptureThread::join() {
     if (!thread_.joinable()) return;
     while (isOver_.wait_for(kStopTime) != std::future_status::ready)
-        // The capture thread hangs in its camera, so it cannot finish the recording. It is finished
-        // here.
+        // The capture thread hangs in its camera, so this thread finishes the recording instead.
         if (rig_.handOver() == HandOver::NewestWins && video_.isWaiting())
             return rig_.finishRecording();
     thread_.join();
@@ -74,8 +73,8 @@ void CaptureThread::run() {
     }
     if (stills_) stills_->stop();
     out_.finish();
-    // This thread finishes the recording, while the GL thread processes the last picture. So after
-    // a signal, the shutdown does not wait for that picture.
+    // The capture thread finishes the recording here, in parallel with the GL thread's last
+    // picture. So the shutdown takes less time.
     try {
         rig_.finishRecording();
     } catch (...) {
@@ -91,7 +90,7 @@ FramePairer::NextStill CaptureThread::stillSource() {
 
 bool CaptureThread::captureOne(FramePairer& pairer, Heartbeat& heart) {
     std::optional<Frame> video = video_.next(kFrameWait);
-    // Faults are reported here, because the GL thread may work on a picture for a while.
+    // Faults are reported by this thread, because the GL thread may work on a picture for a while.
     stats_.fault(rig_.fault());
     if (stills_) stills_->check();
     if (!video) return !stopped_ && !video_.ended();
@@ -104,9 +103,8 @@ bool CaptureThread::captureOne(FramePairer& pairer, Heartbeat& heart) {
         if (!still.measured) still.measured = poses_.measure(still.frame);
         still.pose = poses_.place(*still.measured, still.frame.time());
     }
-    // Poses that were predicted, and poses of stills, are not recorded. When the recording is
-    // played, the predicted poses are predicted again, and the poses of stills are interpolated
-    // between frames.
+    // Predicted poses and poses of stills are not recorded. When the recording is played, they are
+    // predicted and interpolated again.
     if (captured.pose && poses_.isMeasured(*captured.pose)) rig_.recordPose(*captured.pose);
     // With a lossless source, put() waits until the previous picture is processed. That is not a
     // fault.

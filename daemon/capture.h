@@ -19,16 +19,17 @@
 
 namespace mfar {
 
-/// A video frame, and the newest still that was exposed before it and has not been delivered yet.
+/// A video frame with the newest still that was exposed before it, unless an earlier frame got that
+/// still.
 struct CapturedFrame {
     Frame video;
     std::optional<CapturedStill> still;
-    Timestamp arrived;                   ///< time of the frame's arrival, CLOCK_MONOTONIC
-    std::optional<Pose> pose{};          ///< pose of the video frame
-    std::uint64_t stillsSuperseded = 0;  ///< number of stills discarded because `still` is newer
+    Timestamp arrived;  ///< time of arrival, CLOCK_MONOTONIC
+    std::optional<Pose> pose{};
+    std::uint64_t stillsSuperseded = 0;
 
-    /// If this frame replaces a dropped frame and has no still, it gets the still of the dropped
-    /// frame.
+    /// Must be called if this frame replaces the dropped frame `older`. A frame without a still
+    /// gets the still of the dropped frame.
     void supersede(CapturedFrame&& older) {
         stillsSuperseded += older.stillsSuperseded;
         if (!still)
@@ -46,8 +47,7 @@ public:
 
     explicit FramePairer(NextStill nextStill) : nextStill_(std::move(nextStill)) {}
 
-    /// Takes all stills that are not later than the frame. Returns the frame with the newest of
-    /// these stills.
+    /// Takes all stills up to the time of the frame. Returns the frame with the newest of them.
     [[nodiscard]] CapturedFrame pair(Frame video, Timestamp arrived);
 
 private:
@@ -55,23 +55,22 @@ private:
     std::optional<CapturedStill> upcoming_;  ///< a still that is later than the last video frame
 };
 
-/// The thread that fetches frames from the rig's video camera, finds their poses and puts them into
-/// the mailbox. So the search for tags runs in parallel with the GL thread's work on the previous
-/// frame.
+/// The thread that fetches video frames, finds their poses and puts them into the mailbox. So tags
+/// are searched in a frame while the GL thread works on the previous one.
 ///
-/// If a source is live, each camera has its own thread, so that the video continues if the still
-/// camera hangs. If a source is lossless, this thread also reads the stills, in a reproducible
-/// order.
+/// With a live source, the still camera has a thread of its own, so that the video continues if the
+/// still camera hangs. With a lossless source, this thread also reads the stills, so that the order
+/// is reproducible.
 class CaptureThread {
 public:
     /// Starts the cameras and the thread. All arguments must outlive this object. Throws Failure.
     CaptureThread(Rig& rig, PoseFinder& poses, Stats& stats, Mailbox<CapturedFrame>& out);
     CaptureThread(const CaptureThread&) = delete;
     CaptureThread& operator=(const CaptureThread&) = delete;
-    /// Waits for the threads, even for one that hangs in a camera.
+    /// Waits for the threads, even if one hangs in a camera.
     ~CaptureThread();
 
-    /// Stops the cameras and closes the mailbox. Thread-safe and idempotent.
+    /// Stops the cameras and closes the mailbox. Thread-safe; a second call does nothing.
     void stop();
     /// Waits for the end of the thread, but not for a live camera that hangs. Must be called after
     /// stop(). Throws the error that ended the thread: Failure if a camera failed or a frame had a
@@ -88,12 +87,12 @@ private:
     Stats& stats_;
     Mailbox<CapturedFrame>& out_;
     CameraReader video_;
-    CameraReader still_;  ///< used for a lossless source
+    CameraReader still_;  ///< used with a lossless source
     std::atomic<bool> stopped_{false};
     std::exception_ptr failure_;
-    std::optional<StillThread> stills_;  ///< used for a live source
+    std::optional<StillThread> stills_;  ///< used with a live source
     std::promise<void> over_;
-    std::future<void> isOver_;  ///< becomes ready when the thread has ended, see over_
+    std::future<void> isOver_;
     std::thread thread_;
 };
 

@@ -121,8 +121,8 @@ std::string needRestart(const Config& running, const Config& wanted) {
     compare(running.seed == wanted.seed, "seed");
     compare(running.record == wanted.record, "record");
     compare(running.limits == wanted.limits, "limits");
-    // A change of [pose] needs a restart: another tag map defines another world frame, and a new
-    // tracker has no pose for a while.
+    // [pose] needs a restart: another tag map defines another world frame, and a new tracker has no
+    // pose for a while.
     compare(running.pose == wanted.pose, "pose");
     compare(running.engine == wanted.engine, "engine");
     compare(running.virtualLayer == wanted.virtualLayer, "virtual");

@@ -23,7 +23,7 @@ namespace mfar {
 
 /// The pace at which a recording or the simulated board delivers its frames.
 enum class SourcePace {
-    Auto,      ///< Consumer for recordings, Realtime for every other source
+    Auto,      ///< Consumer for recordings, Realtime for other sources
     Realtime,  ///< at the times of the frames; frames that are not fetched in time are dropped
     Consumer,  ///< as fast as frames are fetched; no frame is dropped
 };
@@ -31,22 +31,22 @@ enum class SourcePace {
 struct SuperResConfig {
     SuperResMode mode = SuperResMode::Detail;
     bool skipUnchanged = true;
-    bool learn = true;  ///< learn the enlarger's filters from matched stills
+    bool learn = true;
     bool operator==(const SuperResConfig&) const = default;
 };
 
 struct StatusConfig {
     double intervalS = 1;
-    bool measure = false;  ///< wait for the GPU after each stage, to measure its work
+    bool measure = false;  ///< wait for the GPU after each stage, to measure the stage's time
     bool operator==(const StatusConfig&) const = default;
 };
 
 struct RecordConfig {
-    /// Each start records all frames and stills into a new folder inside this one. The new folder's
-    /// name is the time. Empty: nothing is recorded.
+    /// At each start, mfard records all frames and stills into a new folder inside this one. The
+    /// new folder's name is the time. Empty: nothing is recorded.
     std::filesystem::path directory;
-    double leastFreeMb = 512;  ///< disk space that must stay free
-    double mostMb = 0;         ///< largest size of one recording; 0: no limit
+    double leastFreeMb = 512;
+    double mostMb = 0;  ///< largest size of one recording; 0: no limit
     bool operator==(const RecordConfig&) const = default;
 };
 
@@ -58,11 +58,11 @@ struct Config {
     std::string display = "auto";
     PictureSize size;
     SourcePace pace = SourcePace::Auto;
-    std::uint64_t seed = 1;          ///< seed of the random numbers of the simulated board
+    std::uint64_t seed = 1;
     std::filesystem::path recordTo;  ///< new folder to record into (--record); empty: none
     RecordConfig record;
     LimitsConfig limits;
-    CamerasConfig cameras;  ///< used if source is "cameras"
+    CamerasConfig cameras;
     SuperResConfig superres;
     TriggerConfig trigger;
     PoseConfig pose;
@@ -72,7 +72,8 @@ struct Config {
     VirtualOptions virtualLayer;
     LightOptions light;
     std::vector<PlacedObject> objects;
-    /// Whether the outputs of all passes are checked; slow, so only on the command line.
+    /// True: the outputs of all passes are checked. This is slow, so only the command line can set
+    /// it.
     bool validate = false;
 };
 
@@ -88,19 +89,19 @@ public:
 /// ConfigError with all faults.
 [[nodiscard]] Config parseConfig(std::string_view toml, const std::string& file);
 
-/// Reads a configuration file. Throws ConfigError, or Failure(NoInput) if the file cannot be read.
+/// Throws ConfigError, or Failure(NoInput) if the file cannot be read.
 [[nodiscard]] Config loadConfig(const std::filesystem::path& file);
 
 /// Returns the text of a configuration file, which must be a regular file of at most 1 MiB. Throws
 /// Failure(NoInput) if it cannot be read.
 [[nodiscard]] std::string readConfigText(const std::filesystem::path& file);
 
-/// Returns the names of the keys that differ between two configurations and take effect only after
-/// a restart, e.g. "source, display". If there are none, the text is empty.
+/// Returns the keys that differ between two configurations and take effect only after a restart,
+/// e.g. "source, display". The text is empty if there are none.
 [[nodiscard]] std::string needRestart(const Config& running, const Config& wanted);
 
-/// These functions convert between a value and the word for it in the configuration and on the
-/// command line. For an unknown word, they return nothing.
+/// These functions convert between a value and its word in the configuration and on the command
+/// line. They return nothing for an unknown word.
 [[nodiscard]] std::optional<SuperResMode> superResMode(std::string_view word);
 [[nodiscard]] std::optional<SourcePace> sourcePace(std::string_view word);
 [[nodiscard]] std::string_view name(SuperResMode mode);

@@ -14,23 +14,20 @@ namespace mfar {
 /// The commands that mfarctl can send. All are thread-safe. If a command fails, it throws a
 /// std::exception whose message is one sentence.
 struct ControlActions {
-    /// Returns the current state, for people and scripts.
     std::function<nlohmann::ordered_json()> status;
     /// Returns all measurements since the start, see summary().
     std::function<nlohmann::ordered_json()> stats;
-    /// Returns the last finished picture as the display got it, or, if `screen` is set, as the
-    /// screen shows it.
+    /// Returns the last finished picture. If `screen` is set, it is the picture as the screen shows
+    /// it.
     std::function<ScreenPicture(bool screen)> snapshot;
     /// Reads the configuration again. Returns a message that names the settings that need a
     /// restart.
     std::function<std::string()> reload;
     /// Starts a recording into a new folder `name` in the working directory.
     std::function<void(const std::string& name)> record;
-    /// Ends the recording. Returns how many frames and stills it has and how many were dropped.
+    /// Ends the recording. Returns the numbers of its frames and stills, and of dropped pictures.
     std::function<nlohmann::ordered_json()> stopRecording;
-    /// Requests one still.
     std::function<void()> trigger;
-    /// Deletes the learned filters.
     std::function<void()> resetLearning;
 };
 
@@ -45,8 +42,8 @@ struct ControlActions {
 [[nodiscard]] ControlAnswer answerControl(const ControlActions& actions, std::string_view request,
                                           ControlRole role = ControlRole::Operator);
 
-/// Returns whether a folder's name is allowed: at most 100 letters, digits, dots, hyphens and
-/// underscores, the first of which is not a dot.
+/// Returns true for at most 100 letters, digits, dots, hyphens and underscores that do not begin
+/// with a dot.
 [[nodiscard]] bool isFolderName(std::string_view name);
 
 }  // namespace mfar

@@ -12,7 +12,7 @@
 namespace mfar {
 namespace {
 
-/// Returns the supplementary groups of the process at the other end of a socket. The list is empty
+/// Returns the supplementary groups of the process at the other end of a socket, or an empty list
 /// if the kernel does not report them.
 std::vector<gid_t> groupsOfPeer(int socket) {
     constexpr std::size_t kMost = 65536;

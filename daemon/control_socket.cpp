@@ -25,10 +25,10 @@ namespace {
 
 constexpr int kRequestMs = 2000;
 constexpr int kAnswerMs = 5000;
-constexpr int kPauseMs = 100;  // pause if the process has no free file descriptor for a connection
+constexpr int kPauseMs = 100;  // pause when the process has no free file descriptor
 constexpr int kWaitingClients = 8;
-constexpr std::size_t kMostClients = 16;  // largest number of connections at a time
-constexpr std::size_t kMostAnswers = 4;   // largest number of answers that are being made at a time
+constexpr std::size_t kMostClients = 16;
+constexpr std::size_t kMostAnswers = 4;
 constexpr mode_t kOwnerAndGroup = 0660;
 
 Failure cannotListen(const std::filesystem::path& path, const std::string& why) {
@@ -39,7 +39,6 @@ int streamSocket() {
     return ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
 }
 
-// Removes the socket file if the process that created it has died.
 void removeDead(const std::filesystem::path& path, const sockaddr_un& address) {
     struct stat there{};
     if (lstat(path.c_str(), &there) != 0) return;
@@ -87,7 +86,7 @@ ControlSocket::~ControlSocket() {
     unlink(path_.c_str());
 }
 
-// Waits until `fd` is ready. Returns false after the timeout, or if this object is being destroyed.
+// Waits until `fd` is ready. Returns false after the timeout, or when this object is destroyed.
 bool ControlSocket::isReady(int fd, short events, int timeoutMs) const {
     std::array<pollfd, 2> waiting{{{fd, events, 0}, {stop_.get(), POLLIN, 0}}};
     const Timestamp end = Timestamp::now() + std::chrono::milliseconds(timeoutMs);
@@ -133,16 +132,16 @@ void ControlSocket::startAnswers(std::vector<Client>& clients) {
     }
 }
 
-// Waits until a client sends data, a new client connects, an answer is finished, or a client's time
-// limit has passed. Returns false if this object is being destroyed.
+// Waits for data from a client, a new client, a finished answer, or the time limit of a client.
+// Returns false when this object is destroyed.
 bool ControlSocket::waitFor(std::vector<Client>& clients) {
     std::vector<pollfd> waiting{{stop_.get(), POLLIN, 0}, {answered_.get(), POLLIN, 0}};
     // While kMostClients clients are connected, further clients wait in the socket's queue.
     waiting.push_back({clients.size() < kMostClients ? listening_.get() : -1, POLLIN, 0});
     int timeout = -1;
     for (const Client& client : clients) {
-        // If a client's request is complete, no more data is read from the client: it waits for a
-        // free answer thread.
+        // No more data is read from a client whose request is complete. It waits for a free answer
+        // thread.
         waiting.push_back({client.isComplete ? -1 : client.fd.get(), POLLIN, 0});
         if (client.isComplete) continue;
         const int left = millisecondsTo(client.end);
@@ -161,14 +160,14 @@ bool ControlSocket::accept(std::vector<Client>& clients) {
         clients.push_back({OwnedFd(fd), Timestamp::now() + std::chrono::milliseconds(kRequestMs),
                            roleOfPeer(fd, operators_)});
     else if (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM)
-        // The client that cannot be accepted stays in the socket's queue, so that poll() returns at
-        // once. The pause prevents a busy loop.
+        // The client that was not accepted stays in the socket's queue, so poll() returns at once.
+        // The pause prevents a busy loop.
         return !isReady(stop_.get(), POLLIN, kPauseMs);
     return true;
 }
 
-// Reads data of a request, up to the end of the line or until the client has no more data. A
-// request that is too long is cut off; the handler recognises it by its length.
+// Reads data of a request, up to the end of the line or of the client's data. A request that is too
+// long is cut off; its length shows that to the handler.
 void ControlSocket::read(Client& client) {
     std::array<char, 1024> part{};
     const ssize_t bytes = recv(client.fd.get(), part.data(), part.size(), 0);
@@ -195,7 +194,7 @@ void ControlSocket::answer(Answering& one) {
         answer.line += '\n';
         send(client, answer.line.data(), answer.line.size());
         send(client, answer.data.data(), answer.data.size());
-        // This closes the connection, which marks the end of the answer.
+        // closes the connection, which marks the end of the answer
         one.client.fd = OwnedFd();
     }
     one.isOver = true;

@@ -20,45 +20,43 @@
 
 namespace mfar {
 
-/// An answer to a request: a line, and the data that follow the line.
 struct ControlAnswer {
     std::string line;  ///< without the newline
     std::vector<std::uint8_t> data{};
 };
 
 /// A Unix stream socket for requests of one line. Each connection carries one request and its
-/// answer. Several requests are read at the same time. Up to four are answered at the same time,
-/// each by its own thread, because an answer may wait for a disk. A client must send its request
-/// within 2 s and read the answer within 5 s; otherwise it is disconnected. The socket file's
-/// permissions let the user and the group of this process connect. roleOfPeer() decides which
-/// clients are operators.
+/// answer. Up to four requests are answered at the same time, each by its own thread, because an
+/// answer may wait for a disk.
+///
+/// A client is disconnected if it does not send its request within 2 s or does not read the answer
+/// within 5 s. The socket file's permissions let the user and the group of this process connect.
+/// roleOfPeer() decides which clients are operators.
 class ControlSocket {
 public:
     static constexpr std::size_t kLongestRequest = 4096;  ///< [bytes], including the newline
 
-    /// Answers a request, which is passed without its newline. Several threads may call the handler
-    /// at the same time. It must not throw.
+    /// Answers a request, which is passed without its newline. Must not throw. Several threads may
+    /// call it at the same time.
     using Handler = std::function<ControlAnswer(std::string_view request, ControlRole role)>;
 
-    /// Creates the socket and begins to listen. If the socket file of a process that has died
-    /// exists, it is replaced. Throws Failure(Unavailable) if another process listens at `path` or
-    /// the path cannot be used. The threads register at `hearts`, which must outlive this object.
+    /// Creates the socket and begins to listen. Replaces the socket file of a process that has
+    /// died. Throws Failure(Unavailable) if another process listens at `path` or the path cannot be
+    /// used. The threads register at `hearts`, which must outlive this object.
     ControlSocket(std::filesystem::path path, Handler handler, Heartbeats* hearts = nullptr);
     ControlSocket(const ControlSocket&) = delete;
     ControlSocket& operator=(const ControlSocket&) = delete;
-    /// Disconnects all clients.
     ~ControlSocket();
 
 private:
     struct Client {
         OwnedFd fd;
-        Timestamp end;  ///< time until which the client must have sent its request
+        Timestamp end;  ///< end of the time limit for sending the request
         ControlRole role = ControlRole::Observer;
         std::string request{};
         bool isReady = false, isComplete = false, isGone = false;
     };
 
-    /// A request that is being answered.
     struct Answering {
         Client client;
         std::atomic<bool> isOver{false};
@@ -80,8 +78,8 @@ private:
     std::optional<gid_t> operators_;
     OwnedFd listening_;
     OwnedFd stop_;
-    OwnedFd answered_;              ///< eventfd, readable when an answer thread has finished
-    std::list<Answering> answers_;  ///< only thread_ uses this
+    OwnedFd answered_;              ///< eventfd: an answer thread has finished
+    std::list<Answering> answers_;  ///< used by thread_ only
     std::thread thread_;
 };
 

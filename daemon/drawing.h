@@ -19,19 +19,20 @@ namespace mfar {
 /// If there is a GL context, it must be current when a Drawing is created, used and destroyed. If
 /// the context is lost, the Drawing must be created again.
 struct Drawing {
-    /// `gl` must outlive this object. The pointer in it may be null, or become null, if GL is not
-    /// used. Throws GlError.
+    /// `gl` must outlive this object. Its pointer may be null, or become null, if GL is not used.
+    /// Throws GlError.
     Drawing(const Config& config, const StereoRig& rig, Size output,
             const std::unique_ptr<GlContext>& gl);
 
     GpuWatch gpu;
-    std::unique_ptr<gpu::Validation> validation;  ///< checks all outputs of passes; null: no checks
+    /// Checks the outputs of all passes; null: no checks.
+    std::unique_ptr<gpu::Validation> validation;
     EngineChoice engines;
     Pipeline pipeline;
     VirtualWorld objects;
     Banner banner;
-    Picture last;  ///< the pipeline's last picture, without banner; empty before the first picture
-    std::optional<Picture> shown;  ///< the picture that the display got last
+    Picture last;                  ///< the pipeline's last picture, without banner; may be empty
+    std::optional<Picture> shown;  ///< the last picture that the display got
     std::string faultShown;        ///< text of the banner on `shown`; empty: no banner
 };
 

@@ -14,7 +14,6 @@ namespace {
 constexpr std::array<std::pair<std::string_view, EngineWish>, 3> kWishes = {
     {{"auto", EngineWish::Auto}, {"gles", EngineWish::Gles}, {"simd", EngineWish::Simd}}};
 
-/// A step of the pipeline: its name, its member in EngineConfig and its member in EngineChoice.
 struct Step {
     std::string_view name;
     EngineWish EngineConfig::* wish;
@@ -79,7 +78,7 @@ std::string describe(const EngineChoice& choice) {
     return out;
 }
 
-// Compares the text with the descriptions of all choices, of which there are only 64.
+// There are only 64 choices, so the text is compared with the description of each choice.
 std::optional<EngineChoice> parseEngineChoice(std::string_view text) {
     for (unsigned bits = 0; bits < 1U << kSteps.size(); ++bits) {
         EngineChoice choice;

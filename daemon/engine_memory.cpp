@@ -16,8 +16,8 @@
 namespace mfar {
 namespace {
 
-// Largest size of the file. The choices for hundreds of drivers fit into it, so a larger file was
-// not written by mfard.
+// Size limit of the file. Choices for hundreds of drivers are smaller, so a larger file was not
+// written by mfard.
 constexpr std::uintmax_t kMostBytes = 65536;
 
 nlohmann::json kept(const std::filesystem::path& file) {

@@ -42,7 +42,7 @@ void arm(const OwnedFd& timer, std::chrono::duration<double> time, bool repeat) 
         throw std::system_error(errno, std::generic_category(), "timer");
 }
 
-/// Reads and resets the counter of a timerfd or eventfd. Returns whether it was greater than zero.
+/// Resets the counter of a timerfd or eventfd. Returns true if it was greater than zero.
 bool drained(const OwnedFd& fd) {
     std::uint64_t count = 0;
     return read(fd.get(), &count, sizeof count) == sizeof count;
@@ -88,7 +88,7 @@ void Events::deadlineIn(std::chrono::duration<double> time) {
 
 void Events::wake() {
     const std::uint64_t one = 1;
-    // The write fails only if the counter has its largest value. Then the main thread wakes up
+    // write() fails only if the counter has its largest value. The main thread then wakes up
     // anyway.
     [[maybe_unused]] const ssize_t n = write(wake_.get(), &one, sizeof one);
 }

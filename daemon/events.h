@@ -8,18 +8,18 @@ namespace mfar {
 
 struct Event {
     enum class Kind {
-        Signal,    ///< SIGINT, SIGTERM or SIGHUP arrived
-        Tick,      ///< a period of tickEvery() has passed
-        Deadline,  ///< the time of deadlineIn() has passed
-        Wake,      ///< wake() was called
+        Signal,  ///< SIGINT, SIGTERM or SIGHUP
+        Tick,
+        Deadline,
+        Wake,
     };
     Kind kind;
     int signal = 0;
 };
 
 /// The events for which the main thread waits. The constructor blocks SIGINT, SIGTERM and SIGHUP in
-/// its thread, and so in all threads that this thread starts later. From then on, these signals are
-/// reported only here.
+/// its thread and in all threads that this thread starts later. So only this class reports these
+/// signals.
 class Events {
 public:
     /// Throws std::system_error.
@@ -28,9 +28,9 @@ public:
     /// Waits for the next event. Signals are reported before all other events.
     [[nodiscard]] Event wait();
     void tickEvery(std::chrono::duration<double> period);
-    /// Sets a deadline. An earlier deadline is replaced.
+    /// Sets the time of one Deadline event. An earlier deadline is replaced.
     void deadlineIn(std::chrono::duration<double> time);
-    /// Causes an event Wake. Thread-safe.
+    /// Causes a Wake event. Thread-safe.
     void wake();
 
 private:

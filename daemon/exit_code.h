@@ -7,17 +7,16 @@
 
 namespace mfar {
 
-/// Exit codes of the programs, with the values of sysexits.h, so that a service manager can
-/// distinguish failures.
+/// Exit codes of the programs, with the values of sysexits.h.
 enum class ExitCode {
     Ok = 0,
-    Usage = 64,         ///< wrong command line
+    Usage = 64,
     BadData = 65,       ///< an input exists but is invalid
     NoInput = 66,       ///< an input is missing or unreadable
     Unavailable = 69,   ///< a device or the GL renderer is not available
     Internal = 70,      ///< a bug
-    OutputFailed = 74,  ///< the output of the display or the recording cannot be written
-    BadConfig = 78,     ///< the configuration is invalid
+    OutputFailed = 74,  ///< the display's output or the recording cannot be written
+    BadConfig = 78,
 };
 
 /// An error that ends the program. It has a message of one line and an exit code.
@@ -29,8 +28,8 @@ public:
     const ExitCode code;
 };
 
-/// Calls `action` and returns its result. If `action` throws an Error, throws a Failure with `code`
-/// and the same message instead.
+/// Calls `action` and returns its result. Converts an Error that it throws to a Failure with `code`
+/// and the same message.
 template <class Error = std::runtime_error, class Action>
 decltype(auto) orFail(ExitCode code, Action&& action) {
     try {
@@ -40,7 +39,6 @@ decltype(auto) orFail(ExitCode code, Action&& action) {
     }
 }
 
-/// Returns the exit code of an error: Internal if the error is not a Failure.
 [[nodiscard]] inline ExitCode exitCode(const std::exception& error) {
     const auto* failure = dynamic_cast<const Failure*>(&error);
     return failure != nullptr ? failure->code : ExitCode::Internal;

@@ -16,14 +16,11 @@
 namespace mfar {
 namespace {
 
-// Learning uses at most this share of a CPU.
 constexpr double kShare = 0.1;
 constexpr std::chrono::minutes kStoreEvery{1};
-// Largest size of the file. The learned state has 1.2 MB, so a larger file was not written by
-// mfard.
+// Size limit of the file. The learned state has 1.2 MB, so a larger file was not written by mfard.
 constexpr std::size_t kMostFilterBytes = 4 << 20;
 
-/// Reads the file of the learned state. Throws FilterBankError.
 std::vector<std::uint8_t> bytesOf(const std::filesystem::path& file) {
     try {
         return boundedFile(file, kMostFilterBytes);
@@ -146,7 +143,7 @@ std::vector<std::string> FilterLearning::takeWarnings() {
 }
 
 void FilterLearning::run(const std::stop_token& stop) {
-    // If the picture thread waits for this thread, a low priority would only delay the frames.
+    // If the picture thread waits for learning, a low priority would only delay the frames.
     if (!options_.waits) lowerThreadPriority();
     Heartbeat heart(options_.watched);
     for (;;) {

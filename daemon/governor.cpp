@@ -8,23 +8,24 @@
 namespace mfar {
 namespace {
 
-// A level may be chosen if its expected time is at most this share of the deadline.
-constexpr double kRoom = 0.85;      // for a change to a better level
-constexpr double kDownRoom = 0.95;  // for a change to a faster level
+// A level may be chosen if its expected time is at most this share of the deadline. kRoom is for a
+// change to a better level, kDownRoom for a change to a faster one.
+constexpr double kRoom = 0.85;
+constexpr double kDownRoom = 0.95;
 // A faster level is chosen when more than kMostLate of the last kLateWindow counted frames are
-// late. Frames that bring in a still are not counted; one of them per kStillEvery frames may be
-// late. Together, at most one frame in twenty is late.
+// late. Frames with a new still are not counted, but only one in kStillEvery frames may be such a
+// late frame. Together, at most one frame in twenty is late.
 constexpr std::size_t kMostLate = 1;
-constexpr std::uint64_t kLateWindow = 40;  // number of counted frames
-constexpr std::uint64_t kSettle = 8;       // counted frames before a better level is tried
-// First and longest number of counted frames until a level that missed the deadline is tried again.
+constexpr std::uint64_t kLateWindow = 40;
+constexpr std::uint64_t kSettle = 8;  // counted frames before a change to a better level
+// A level that missed the deadline is not used for kFirstWait counted frames. This number doubles
+// with each failure, up to kLongestWait.
 constexpr std::uint64_t kFirstWait = 20, kLongestWait = 960;
-// If a level kept the deadline for at least kHeld counted frames and then misses it, the scene has
-// changed. The wait before this level is tried again then begins with kFirstWait.
-constexpr std::uint64_t kHeld = 100;  // number of counted frames
-// Number of consecutive frames without change after which the picture is at rest.
+// If a level misses the deadline after it was used for at least kHeld counted frames, the scene has
+// changed. The next wait for this level is then kFirstWait again.
+constexpr std::uint64_t kHeld = 100;
+// The picture is at rest after this number of consecutive frames without change.
 constexpr int kAtRest = 3;
-// Smallest number of frames between two late frames that bring in a still.
 constexpr std::uint64_t kStillEvery = 40;
 
 }  // namespace
@@ -94,7 +95,7 @@ void Governor::goTo(std::size_t level) {
     ++changes_;
 }
 
-// Returns the best level that may be tried now and whose expected time is at most `ms`.
+// Returns the best level that may be used now and whose expected time is at most `ms`.
 std::size_t Governor::bestWithin(double ms) const {
     std::size_t best = 0;
     for (std::size_t i = 1; i < levels_.size(); ++i)

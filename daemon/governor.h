@@ -10,29 +10,28 @@
 
 namespace mfar {
 
-/// Chooses, for each frame, the most accurate level of a quality table that keeps a deadline. It
-/// only uses the times of frames. Only one thread may use it.
+/// Chooses for each frame the most accurate level of a quality table that keeps a deadline. It only
+/// uses the times of frames. Only one thread may use it.
 ///
 /// The expected time of a level is its time in the table, multiplied by a factor for this machine
 /// and scene. The factor is the second largest ratio of measured time to table time among the last
-/// 20 counted frames. If two of 40 counted frames are late, a faster level is chosen: the best of
-/// those that are expected to keep the deadline. If a better level is expected to need at most 85 %
-/// of the deadline, the best such level is chosen. A level that missed the deadline is not tried
-/// again for some frames. The number of these frames doubles each time.
+/// 20 counted frames. If two of 40 counted frames are late, the governor chooses the best faster
+/// level that is expected to keep the deadline. If a better level is expected to need at most 85 %
+/// of the deadline, the governor chooses the best such level. A level that missed the deadline is
+/// not used again for some frames. The number of these frames doubles each time.
 ///
-/// Three types of frames are not counted: frames in which nothing changed, frames that bring in a
-/// still, and frames without a still at a level that uses one. When the picture comes to rest, it
-/// is drawn once more at the best level. That frame may be late, because nothing moves in it.
+/// Three types of frames are not counted: frames in which nothing changed, frames with a new still,
+/// and frames without a still at a level that uses one. When the picture comes to rest, it is drawn
+/// once more at the best level. That frame may be late, because nothing moves in it.
 class Governor {
 public:
     /// `levels` must not be empty and must be sorted by time. `deadlineMs` must be greater than
     /// zero.
     Governor(std::vector<QualityLevel> levels, double deadlineMs);
 
-    /// The settings for the next frame.
     struct Choice {
         std::size_t level = 0;
-        bool redraw = false;  ///< draw the whole picture again
+        bool redraw = false;
 
         bool operator==(const Choice&) const = default;
     };
@@ -41,23 +40,23 @@ public:
 
     struct Frame {
         double ms = 0;          ///< time from the start of processing to the shown picture
-        bool newStill = false;  ///< whether a still became the reference just before this frame
+        bool newStill = false;  ///< a still became the reference just before this frame
         bool usedStill = true;
         double changedBefore = 1;  ///< share of the picture that changed in the previous frame
     };
     /// Must be called for every frame. Frames whose time is negative or not finite are ignored.
     void add(const Frame& frame);
 
-    /// Returns whether a still may be triggered. Returns false if the level uses no still, or if
-    /// the late frames that bring in stills would be too frequent.
+    /// Returns false if the level uses no still, or if frames that are late because of a new still
+    /// would be too frequent.
     [[nodiscard]] bool mayTakeStill() const;
 
     [[nodiscard]] double deadlineMs() const { return deadline_; }
-    /// Returns the number of changes of the level, without those for pictures at rest.
+    /// Returns the number of level changes, without those for pictures at rest.
     [[nodiscard]] std::uint64_t changes() const { return changes_; }
 
 private:
-    static constexpr std::size_t kWindow = 20;  // size of ratios_ [counted frames]
+    static constexpr std::size_t kWindow = 20;
 
     struct Pending {
         double ms;
@@ -74,17 +73,17 @@ private:
 
     std::vector<QualityLevel> levels_;
     double deadline_;
-    std::size_t level_ = 0;  // index of the level of frames in which something changes
+    std::size_t level_ = 0;  // index of the level for frames in which something changes
     Choice next_;
-    std::optional<Pending> pending_;  // the previous frame, until it is known whether it changed
+    std::optional<Pending> pending_;        // the previous frame, while it is unknown if it changed
     std::array<double, kWindow> ratios_{};  // measured time / table time, ring buffer
     std::size_t ratioCount_ = 0;
     std::uint64_t frame_ = 0;            // number of counted frames
-    std::uint64_t changedAt_ = 0;        // value of frame_ at the last change of the level
-    std::vector<std::uint64_t> lateAt_;  // frame_ at each late frame since the last change of level
+    std::uint64_t changedAt_ = 0;        // value of frame_ at the last change of level
+    std::vector<std::uint64_t> lateAt_;  // value of frame_ at each late frame since that change
     struct Trial {
-        // notBefore: the value of frame_ before which the level is not tried. wait: the length of
-        // the last wait before a new try [counted frames].
+        // The level is not used before frame_ reaches notBefore. `wait` is the length of the
+        // level's last wait [counted frames].
         std::uint64_t notBefore = 0, wait = 0;
     };
     std::vector<Trial> trials_;

@@ -15,21 +15,20 @@ class GpuLost : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Counts how often the GPU was lost, and decides when to stop using it. Only one thread may use
-/// it.
+/// Counts losses of the GPU, and decides when to stop using it. Only one thread may use it.
 class GpuFailures {
 public:
     static constexpr std::chrono::seconds kWindow{60};
-    /// Number of losses within kWindow after which the GPU is not used any more.
+    /// After this number of losses within kWindow, the GPU is not used any more.
     static constexpr std::size_t kMost = 3;
 
-    /// Counts a loss. Returns whether the GPU must not be used any more.
+    /// Counts a loss. Returns true if the GPU must not be used any more.
     [[nodiscard]] bool add(Timestamp now, std::string why);
-    /// Returns a message about the lost GPU, or nothing. A loss is reported for the time kWindow.
-    /// If the GPU is not used any more, that is reported for ever.
+    /// Returns a message about a loss within the last kWindow, or nothing. If the GPU is not used
+    /// any more, the message stays for ever.
     [[nodiscard]] std::optional<std::string> fault(Timestamp now);
-    /// Returns the text of the banner. It is fault(), but only for the time kWindow after mfard
-    /// stopped using the GPU.
+    /// Returns the text of the banner. It is fault(), but ends kWindow after mfard stopped using
+    /// the GPU.
     [[nodiscard]] std::optional<std::string> banner(Timestamp now);
 
 private:

@@ -5,8 +5,7 @@
 namespace mfar {
 namespace {
 
-// The largest number of pictures that the GPU may have unfinished. It is the number of a display's
-// buffers.
+// Largest number of unfinished pictures on the GPU. It is the number of a display's buffers.
 constexpr std::size_t kMostInWork = 3;
 constexpr const char* kLate = "the GPU does not finish a picture";
 
@@ -37,7 +36,7 @@ void GpuWatch::drawn() {
     if (context_) inWork_.push_back({gpu::Fence(), Timestamp::now()});
 }
 
-// The type of the exception is not sufficient, because a lost GPU may cause any exception.
+// The type of the exception does not suffice, because a lost GPU may cause any exception.
 std::optional<std::string> GpuWatch::lossBehind(const std::exception& error) const {
     if (!context_) return std::nullopt;
     if (const auto* lost = dynamic_cast<const GpuLost*>(&error)) return lost->what();

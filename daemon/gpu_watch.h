@@ -19,20 +19,20 @@ namespace mfar {
 /// longer and does not count as lost, but each single wait for it is limited to half a second, too.
 class GpuWatch {
 public:
-    /// `context` must outlive this object. While it is null, nothing is checked.
+    /// `context` must outlive this object. While its pointer is null, nothing is checked.
     explicit GpuWatch(const std::unique_ptr<GlContext>& context) : context_(context) {}
 
     /// Must be called before each picture. If the GPU has three unfinished pictures, or has worked
-    /// on one for half a second, waits for half a second at most. Returns false if a software
-    /// renderer has not finished after this wait; nothing may be drawn then. Throws GpuLost.
+    /// on one for half a second, waits at most half a second. Throws GpuLost. Returns false if a
+    /// software renderer is still not finished; then nothing may be drawn.
     [[nodiscard]] bool isReady();
     /// Throws GpuLost if the pictures drawn so far may be wrong.
     void requireSound() const;
-    /// Must be called after the GL commands of a picture, before those of the display. Throws
-    /// GpuLost if the commands failed.
+    /// Must be called after a picture's GL commands and before the display's. Throws GpuLost if the
+    /// commands failed.
     void drawn();
-    /// If the GPU caused `error`, returns the reason why all objects on the GPU must be created
-    /// again. Otherwise returns nothing.
+    /// If a lost GPU caused `error`, returns the reason of the loss. All objects on the GPU must
+    /// then be created again. Otherwise returns nothing.
     [[nodiscard]] std::optional<std::string> lossBehind(const std::exception& error) const;
     /// Returns a message if a software renderer is late, or nothing.
     [[nodiscard]] std::optional<std::string> fault() const;

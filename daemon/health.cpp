@@ -11,11 +11,10 @@
 namespace mfar {
 namespace {
 
-/// Time for which a thread must have waited in Heartbeat::restFor() before the wait is reported.
+/// A wait in Heartbeat::restFor() is reported when it has lasted this long.
 constexpr std::chrono::seconds kWorthTelling{1};
 constexpr double kStalePeriods = 5;
 
-/// A state with its cause. `since` is the time when it began, if that is known.
 struct Judged {
     HealthState state = HealthState::Ok;
     std::string cause{};
@@ -36,7 +35,7 @@ std::optional<Judged> hanging(const Observed& seen, ThreadRole role, HealthState
     return std::nullopt;
 }
 
-// Returns whether the last picture is recent. The limit grows with the frame period of the camera,
+// Returns true if the last picture is recent. The limit grows with the camera's frame period,
 // because a low frame rate is not a fault.
 bool isFresh(std::optional<Timestamp> shown, const Observed& seen) {
     if (!shown) return false;

@@ -25,19 +25,18 @@ enum class HealthState {
 struct Health {
     HealthState state = HealthState::Ok;
     std::string cause{};                  ///< the cause, without times; empty in state Ok
-    double sinceS = 0;                    ///< how long the state has had this cause [s]
+    double sinceS = 0;                    ///< duration of the state with this cause [s]
     std::optional<double> pictureAgeS{};  ///< age of the last picture [s]; not set: there is none
-    std::string thread{};                 ///< name of the thread that hangs; empty: none
-    bool isDevice = false;                ///< whether the cause is a device that is being reopened
+    std::string thread{};
+    bool isDevice = false;  ///< true: the cause is a device that is being reopened
 
-    /// Returns whether systemd's watchdog may be fed.
     [[nodiscard]] bool isAlive() const { return state != HealthState::Stalled; }
 };
 
 /// Returns the health as text: "the capture thread hangs (stalled for 5.2 s, last picture 5.3 s
 /// ago)" or "ok".
 [[nodiscard]] std::string sentence(const Health& health);
-/// Returns the fields of the log message about this health: message id, camera and thread.
+/// Returns the log fields for this health: message id, camera and thread.
 [[nodiscard]] Subject subjectOf(const Health& health);
 [[nodiscard]] nlohmann::ordered_json healthJson(const Health& health);
 
@@ -46,23 +45,23 @@ struct Observed {
     Timestamp now;
     std::vector<Heartbeats::Late> late{};
     std::optional<Heartbeats::Waiting> waiting{};
-    std::optional<std::string> fault{};    ///< fault of a device that is being reopened
-    std::optional<std::string> gpu{};      ///< fault of the GPU
+    std::optional<std::string> fault{};  ///< fault of a device that is being reopened
+    std::optional<std::string> gpu{};
     std::optional<std::string> display{};  ///< reason why not all pictures are shown or written
-    std::optional<Timestamp> repeats{};    ///< since when the video camera repeats one picture
+    std::optional<Timestamp> repeats{};  ///< start of the video camera's repetition of one picture
     std::optional<Timestamp> lastPicture{};
     std::optional<Timestamp> lastBanner{};  ///< time when a banner with the fault was last shown
-    std::optional<Timestamp> started{};     ///< time from which on pictures could be made
+    std::optional<Timestamp> started{};     ///< time from which pictures could be made
     double rateHz = 0;                      ///< expected rate of pictures; 0: unknown
     int patience = 1;                       ///< factor of all time limits, see kFirstPatience
 };
 
-/// Judges the health, and remembers since when the state has had its cause. Only one thread may use
+/// Judges the health, and remembers when the state began to have its cause. Only one thread may use
 /// it.
 ///
-/// A hanging thread is more important than any other fault, because then only a restart helps. A
-/// banner counts as a new picture only while mfard tries to reopen a device and no thread hangs. If
-/// a thread hangs in a driver, mfard cannot reopen the device.
+/// A hanging thread is more important than any other fault, because only a restart helps. A banner
+/// counts as a new picture only while mfard reopens a device and no thread hangs. A device whose
+/// thread hangs in a driver cannot be reopened.
 class HealthRecord {
 public:
     [[nodiscard]] Health judge(const Observed& seen);

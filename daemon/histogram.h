@@ -5,13 +5,12 @@
 
 namespace mfar {
 
-/// Buckets for times. Each is 2^(1/perOctave) times as wide as the one before; bucket 0 begins at
-/// 1 us.
+/// Buckets for times. Bucket 0 begins at 1 us. Each bucket is 2^(1/perOctave) times as wide as the
+/// one before.
 struct TimeBuckets {
     int perOctave;
 
-    /// Returns the bucket that holds a time, with a fraction. Times up to 1 us, also negative ones,
-    /// and NaN give 0.
+    /// Returns the bucket of a time, with a fraction. Times up to 1 us and NaN give 0.
     [[nodiscard]] double of(double ms) const;
     /// Returns the time in the middle of a bucket [ms].
     [[nodiscard]] double middleMs(double bucket) const;
@@ -22,11 +21,10 @@ struct TimeBuckets {
 /// 1.1 %.
 class Histogram {
 public:
-    /// Adds a time [ms]. Zero, negative values and NaN are counted in the bucket of the shortest
-    /// times, 1 us.
+    /// Adds a time [ms]. Zero, negative values and NaN count as 1 us.
     void add(double ms);
     /// Returns the quantile q: the time [ms] that a share q of all times does not exceed. Returns 0
-    /// if no times were added.
+    /// without times.
     [[nodiscard]] double quantile(double q) const;
     [[nodiscard]] std::uint64_t count() const { return count_; }
 

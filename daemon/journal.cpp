@@ -8,8 +8,7 @@
 #include <sys/un.h>
 
 #include <cstring>
-// Suppresses the fields CODE_FILE, CODE_LINE and CODE_FUNC, which do not help readers of the
-// journal.
+// The fields CODE_FILE, CODE_LINE and CODE_FUNC do not help readers of the journal.
 #define SD_JOURNAL_SUPPRESS_LOCATION
 #include <systemd/sd-journal.h>
 
@@ -20,7 +19,7 @@ constexpr int kRoomMs = 500;
 
 }  // namespace
 
-// Returns whether the journal accepts a message. libsystemd's socket would block and cannot be
+// Returns true if the journal accepts a message. libsystemd's socket would block and cannot be
 // polled, so another socket is connected to the same address and polled.
 bool Journal::hasRoom() const {
     const OwnedFd probe(socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));

@@ -6,17 +6,16 @@
 
 namespace mfar {
 
-/// Sends messages to systemd's journal, see sd_journal_sendv(3). If the journal is full, the first
-/// message waits for half a second; after that, messages do not wait until the journal has accepted
-/// one again. Only one thread at a time may use it.
+/// Sends messages to systemd's journal, see sd_journal_sendv(3). If the journal is full, a message
+/// waits for half a second. Later messages do not wait until the journal accepts one again. Only
+/// one thread at a time may use it.
 class Journal {
 public:
-    /// `socket`: path of the journal's socket.
     explicit Journal(std::string socket = "/run/systemd/journal/socket")
         : socket_(std::move(socket)) {}
 
-    /// Sends a message, whose fields are "NAME=value". Returns false if there is no journal or it
-    /// is full.
+    /// Sends a message with fields "NAME=value". Returns false if there is no journal or it is
+    /// full.
     bool operator()(const std::vector<std::string>& fields);
 
 private:

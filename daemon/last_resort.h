@@ -10,11 +10,11 @@
 
 namespace mfar {
 
-/// Ends a shutdown that hangs: a separate thread calls a function after a time limit, unless this
-/// object was destroyed before. Only one thread may use it.
+/// Calls a function after a time limit, on its own thread, unless this object is destroyed before.
+/// It ends a shutdown that hangs. Only one thread may use it.
 class LastResort {
 public:
-    /// Calls `act` on a new thread after `limit`. A second call of arm() is ignored.
+    /// Starts the time limit. A second call is ignored.
     void arm(std::chrono::milliseconds limit, std::function<void()> act) {
         if (thread_.joinable()) return;
         thread_ = std::jthread([limit, act = std::move(act)](const std::stop_token& stop) {

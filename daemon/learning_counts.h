@@ -7,10 +7,9 @@
 
 namespace mfar {
 
-/// Counters of filter learning.
 struct LearningCounts {
     LearnerCounts learner;
-    std::uint64_t leftOut = 0;  ///< number of stills skipped because they came too soon
+    std::uint64_t leftOut = 0;  ///< stills that came too soon and were skipped
 };
 
 /// Returns a text such as "12 stills, learned filters for 71 of 104 classes of pixels, 1.02 dB

@@ -16,8 +16,8 @@ namespace {
 
 constexpr double kMegabyte = 1 << 20;
 constexpr double kLeastMb = 64;
-/// kShareOfMachine: the default memory budget as a share of the machine's memory, the rest of which
-/// is for the system, drivers and the program itself. kMostByMachine: largest default [bytes].
+/// kShareOfMachine: the default memory budget as a share of the machine's memory. The rest is for
+/// the system, drivers and the program. kMostByMachine: largest default [bytes].
 constexpr double kShareOfMachine = 0.75, kMostByMachine = 4096 * kMegabyte;
 constexpr double kShareOfFrames = 2.0 / 3, kShareOfFiles = 1.0 / 6;
 /// Memory of all buffers and textures [bytes per pixel of a still or video frame], measured with

@@ -15,10 +15,9 @@ struct LimitsConfig {
     double memoryMb = 0;  ///< memory budget; 0: three quarters of machineMemory(), at most 4096
 
     bool operator==(const LimitsConfig&) const = default;
-    /// Returns the whole memory budget [bytes].
     [[nodiscard]] std::uint64_t memoryBytes() const;
-    /// Returns the part of the memory budget for pictures and a recording's lists: two thirds of it
-    /// [bytes].
+    /// Returns the part of the memory budget for pictures and for the lists of a recording [bytes].
+    /// It is two thirds of the budget.
     [[nodiscard]] std::uint64_t pictureBytes() const;
 };
 
@@ -30,13 +29,13 @@ void readLimits(TomlReader& file, LimitsConfig& limits);
 
 /// Throws Failure(BadData) if pictures of these sizes need more memory than pictureBytes(). Must be
 /// called before the memory is allocated. `lists`: memory of a recording's lists [bytes]. `place`
-/// names the source in the message.
+/// names the source in messages.
 void requireMemory(const LimitsConfig& limits, Size video, Size still, std::string_view place,
                    std::size_t lists = 0);
 
-/// The memory that is left for a configuration's models and environment pictures. At first, this is
-/// only a sixth of the memory budget, because the files of an old configuration are released only
-/// after those of the new one have been read.
+/// The memory that is left for a configuration's models and environment pictures. It begins with a
+/// sixth of the memory budget, because a reload reads the new files before it releases the old
+/// ones.
 class FileMemory {
 public:
     explicit FileMemory(const LimitsConfig& limits);

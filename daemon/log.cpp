@@ -83,7 +83,7 @@ void Log::line(int priority, std::string_view word, std::string_view text, const
     say({priority, std::string(text), word, subject});
 }
 
-/// mutex_ must be locked.
+/// The caller must have locked mutex_.
 void Log::say(const RepeatLimit::Message& message) {
     if (style_ == Style::Journal && send_ && send_(fieldsOf(message))) return;
     std::string out = status_.empty() ? "" : "\r\x1b[K";
@@ -96,8 +96,8 @@ void Log::say(const RepeatLimit::Message& message) {
     put(out + status_);
 }
 
-// Returns whether a message can be written now. After a message was dropped, the following messages
-// do not wait until the output can be written.
+// Returns true if a message can be written now. After a message was dropped, later messages do not
+// wait for the output.
 bool Log::isWritable() {
     pollfd out{fd_, POLLOUT, 0};
     const int patience = dropped_ == 0 ? kPatienceMs : 0;
@@ -115,7 +115,7 @@ void Log::put(std::string_view bytes) {
             ++dropped_;
             return;
         }
-        // After poll() reports a pipe as writable, PIPE_BUF bytes can be written without blocking.
+        // poll() reports a pipe as writable if PIPE_BUF bytes can be written without blocking.
         const ssize_t n = write(fd_, left.data(), std::min<std::size_t>(left.size(), PIPE_BUF));
         if (n <= 0) return;
         left.remove_prefix(static_cast<std::size_t>(n));

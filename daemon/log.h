@@ -12,23 +12,22 @@
 namespace mfar {
 
 /// Writes messages to standard error. A message that cannot be written within half a second is
-/// dropped, so that no thread hangs because of its messages; the next message reports how many were
-/// dropped. On a terminal, the last line may be a status line, which is redrawn in place.
+/// dropped, so that no thread hangs because of its messages. The next message reports the number of
+/// dropped ones. On a terminal, the last line may be a status line, which is redrawn in place.
 /// Thread-safe.
 ///
 /// Under systemd, messages go to the journal, with the fields MESSAGE_ID, MFAR_CAMERA, MFAR_THREAD
-/// (see message_ids.h) and MFAR_COUNT, the number of events that the message reports. If the
-/// journal is full, messages go to standard error with a prefix "<priority>".
+/// (see message_ids.h) and MFAR_COUNT (number of events that the message reports). If the journal
+/// is full, they go to standard error with a prefix "<priority>".
 class Log {
 public:
     enum class Style { Terminal, Journal, Plain };
 
-    /// Returns the style for a file descriptor. It is Journal if the environment's JOURNAL_STREAM
-    /// names the same file.
+    /// Returns Journal if the environment's JOURNAL_STREAM names the file of this descriptor.
     [[nodiscard]] static Style styleOf(int fd);
 
     using Clock = std::function<Timestamp()>;
-    /// Sends a message whose fields are "NAME=value". Returns false if that fails.
+    /// Sends a message with fields "NAME=value". Returns false if that fails.
     using Send = std::function<bool(const std::vector<std::string>& fields)>;
     /// `send` is used for Style::Journal. It may be empty.
     Log(int fd, Style style, Clock clock = &Timestamp::now, Send send = {})
@@ -38,8 +37,8 @@ public:
         line(3, "error: ", text, subject);
     }
     /// Logs an event that may repeat, such as a fault of a device. Each event is logged at most
-    /// once in ten seconds, see RepeatLimit. `event` identifies the event if its messages differ,
-    /// for example in a number; if it is empty, the text identifies the event.
+    /// once in ten seconds, see RepeatLimit. `event` identifies the event, e.g. if its messages
+    /// contain different numbers. If it is empty, the text identifies the event.
     void warning(std::string_view text, std::string_view event = {}, const Subject& subject = {}) {
         limited(4, "warning: ", text, event, subject);
     }
@@ -47,11 +46,9 @@ public:
     void change(std::string_view text, std::string_view event = {}, const Subject& subject = {}) {
         limited(5, "", text, event, subject);
     }
-    /// Logs a message that comes only once or that a user requested, e.g. at the start or after a
-    /// reload.
+    /// Logs a message that comes only once or that a user requested, e.g. the answer to a reload.
     void notice(std::string_view text, const Subject& subject = {}) { line(5, "", text, subject); }
-    /// Logs the messages that RepeatLimit has delayed and that may be logged now. Must be called
-    /// regularly.
+    /// Logs the messages that RepeatLimit has delayed and now releases. Must be called regularly.
     void sayKept();
 
     /// Replaces the status line. Does nothing without a terminal.
@@ -75,8 +72,8 @@ private:
     const Send send_;
     std::mutex mutex_;
     RepeatLimit limit_;
-    int dropped_ = 0;     ///< number of messages dropped since the last one that was written
-    std::string status_;  ///< the visible status line, without line break
+    int dropped_ = 0;
+    std::string status_;
 };
 
 }  // namespace mfar

@@ -9,16 +9,16 @@
 
 namespace mfar {
 
-/// What a mailbox does if the sender is faster than the receiver.
+/// Behaviour of a mailbox whose sender is faster than its receiver.
 enum class HandOver {
-    NewestWins,  ///< the waiting item is replaced and counted as dropped (live sources)
-    /// The sender waits until the receiver has taken the item and asks for the next one. So no item
-    /// is lost. Sender and receiver work alternately, so that a run can be repeated exactly
-    /// (recordings at the pace "consumer").
+    /// For live sources: a newer item replaces the waiting one and is counted as a drop.
+    NewestWins,
+    /// The sender waits until the receiver has taken the item and waits for the next one. So no
+    /// item is lost, and a run can be repeated exactly (recordings at the pace "consumer").
     Lossless,
 };
 
-/// A slot for one item between a sending and a receiving thread. If an item is replaced and T has
+/// Holds one item on its way from a sending to a receiving thread. If an item is replaced and T has
 /// the member `void supersede(T&& older)`, it is called on the newer item, which may keep parts of
 /// the older one. Thread-safe.
 template <class T>
@@ -28,8 +28,8 @@ public:
 
     explicit Mailbox(HandOver handOver) : handOver_(handOver) {}
 
-    /// Puts an item into the slot. Returns Closed if the mailbox is closed; the item is destroyed
-    /// then, unless it was taken before.
+    /// Stores an item. Returns Closed if the mailbox is closed. The item is then destroyed, unless
+    /// the receiver took it before.
     Put put(T item) {
         std::unique_lock lock(mutex_);
         if (closed_) return Put::Closed;
@@ -54,28 +54,26 @@ public:
         });
     }
 
-    /// Waits for an item, at most `timeout`, and returns it. Returns nothing after the timeout or
-    /// if the mailbox is over().
+    /// Like take(), but returns nothing after the timeout.
     [[nodiscard]] std::optional<T> takeWithin(std::chrono::milliseconds timeout) {
         return take([&](std::unique_lock<std::mutex>& lock) {
             stored_.wait_for(lock, timeout, [&] { return closed_ || finished_ || slot_; });
         });
     }
 
-    /// Returns whether no further item will come: the mailbox is closed, or finished and empty.
+    /// Returns true if no further item will come: the mailbox is closed, or finished and empty.
     [[nodiscard]] bool over() const {
         const std::lock_guard lock(mutex_);
         return closed_ || (finished_ && !slot_);
     }
 
-    /// Returns the item if there is one. Never waits.
     [[nodiscard]] std::optional<T> tryTake() {
         const std::lock_guard lock(mutex_);
         return std::exchange(slot_, std::nullopt);
     }
 
-    /// Announces that the sender will put no further item. take() returns the item that is still in
-    /// the slot, and after that nothing.
+    /// Announces that the sender will store no further item. take() returns the item that is still
+    /// stored, and after that nothing.
     void finish() {
         {
             const std::lock_guard lock(mutex_);
@@ -84,8 +82,8 @@ public:
         stored_.notify_all();
     }
 
-    /// Closes the mailbox. Sender and receiver wake up at once, and an item in the slot is
-    /// destroyed. Idempotent.
+    /// Closes the mailbox. Sender and receiver wake up at once, and a stored item is destroyed. A
+    /// second call does nothing.
     void close() {
         std::optional<T> left;
         {
@@ -97,7 +95,6 @@ public:
         asked_.notify_all();
     }
 
-    /// Returns the number of items that were replaced before they were taken.
     [[nodiscard]] std::uint64_t dropped() const {
         const std::lock_guard lock(mutex_);
         return dropped_;
@@ -119,7 +116,7 @@ private:
     std::condition_variable stored_;
     std::condition_variable asked_;
     std::optional<T> slot_;
-    bool asking_ = false;  ///< whether the receiver waits in take()
+    bool asking_ = false;
     bool finished_ = false;
     bool closed_ = false;
     std::uint64_t dropped_ = 0;

@@ -18,9 +18,8 @@
 namespace mfar {
 namespace {
 
-/// Returns the trigger line that must be released. In the service's unit, this is the line that the
-/// service has requested, even if the configuration has changed since then. Otherwise, it is the
-/// configured line.
+/// Returns the trigger line to release. For the service, this is the line that it requested, even
+/// if the configuration has changed since then. Otherwise it is the configured line.
 TriggerLineConfig lineToRelease(const Options& options) {
     const std::filesystem::path note = takenLineFile();
     if (note.empty()) return effectiveConfig(options).cameras.trigger;

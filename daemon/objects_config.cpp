@@ -35,7 +35,7 @@ void readShape(TomlReader& file, const std::string& prefix, VirtualObject& out) 
     out.size.setConstant(0.1);
     file.choice<VirtualShape>(prefix + "shape", out.shape, kShapes);
     file.numbers(prefix + "size", {out.size.data(), 3});
-    // If there is no second colour, the first is used for the whole object.
+    // The first colour is used for the whole object, unless a second colour is given.
     Eigen::Vector3d first = Eigen::Vector3d::Constant(-1);
     file.numbers(prefix + "colour", {first.data(), 3});
     if (first.x() >= 0) out.colours.fill(first.cast<float>());
@@ -52,7 +52,6 @@ public:
     ModelReader(std::filesystem::path folder, FileMemory& memory)
         : folder_(std::move(folder)), memory_(memory) {}
 
-    /// Returns the model of this name. Throws ModelError.
     std::shared_ptr<const Model> operator()(std::string_view name) {
         std::shared_ptr<const Model>& known = models_[identity(name)];
         if (!known) {

@@ -15,25 +15,24 @@ class TomlReader;
 
 inline constexpr std::size_t kMostObjects = 64;
 
-/// Reads the sections [[objects]], which state what is shown and where. Models are read here, too,
-/// so that a fault of a model (missing, invalid, larger than `memory`) is reported with the line of
-/// the configuration file that names it. File names are relative to `folder`.
+/// Reads the sections [[objects]], including the model files. So a fault of a model (missing,
+/// invalid, larger than `memory`) is reported with the line of the configuration file that names
+/// the model. File names are relative to `folder`.
 void readObjects(TomlReader& file, const std::filesystem::path& folder, FileMemory& memory,
                  std::vector<PlacedObject>& objects);
 
-/// Returns the pose of an object in the world, or nothing if it stands on a tag that is not in the
-/// map.
+/// Returns the pose of an object in the world. Returns nothing if its tag is not in the map.
 [[nodiscard]] std::optional<RigidTransform> worldPlace(const PlacedObject& object,
                                                        const TagMap& tags);
 
-/// Returns one message for each object that is not shown. An object is not shown if it stands on a
-/// tag that is not in the map, or if it is a model and models are not shown. `shapesAlone` is the
-/// reason why models are not shown; empty: they are shown.
+/// Returns one message for each object that is not shown: its tag is not in the map, or it is a
+/// model and models are not shown. `shapesAlone` is the reason why models are not shown; empty:
+/// they are shown.
 [[nodiscard]] std::vector<std::string> leftOut(const std::vector<PlacedObject>& objects,
                                                const TagMap& tags, std::string_view shapesAlone);
 
-/// Returns the simple shapes among the objects, with their poses in the world. Shapes on a tag that
-/// is not in the map are skipped.
+/// Returns the simple shapes among the objects, with their poses in the world. Shapes whose tag is
+/// not in the map are skipped.
 [[nodiscard]] std::vector<VirtualObject> placedShapes(const std::vector<PlacedObject>& objects,
                                                       const TagMap& tags);
 

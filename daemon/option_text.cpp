@@ -56,7 +56,6 @@ std::string sectionText(const OptionSection& section) {
     return out;
 }
 
-/// Turns all lines into TOML comments.
 std::string commented(std::string_view text) {
     std::string out;
     while (!text.empty()) {

@@ -9,25 +9,23 @@
 
 namespace mfar {
 
-/// Returns the range of an option, e.g. "0.001 to 10000 ms", or an empty text if it has no range.
+/// Returns e.g. "0.001 to 10000 ms", or an empty text if the option has no range.
 [[nodiscard]] std::string rangeText(const Option& option);
 
-/// Describes an option in one paragraph: its meaning, its range, and its words if the meaning does
-/// not mention all of them. Returns an empty text if the option has no meaning of its own.
+/// Describes an option in one paragraph: its meaning, its range, and the words that the meaning
+/// does not mention. Returns an empty text if the option has no meaning of its own.
 [[nodiscard]] std::string describe(const Option& option);
 
-/// Breaks a text into lines of at most `width` characters. A word that is longer than that gets its
-/// own line.
+/// Breaks a text into lines of at most `width` characters. A longer word gets its own line.
 [[nodiscard]] std::vector<std::string> wrapped(std::string_view text, std::size_t width);
 
-/// Returns the text of the configuration file with all defaults, systemd/mfard.toml.
+/// Returns the text of systemd/mfard.toml, the configuration file with all defaults.
 [[nodiscard]] std::string defaultConfigText();
 
 /// Returns the configuration key that a command line option overrides. Throws std::logic_error if
-/// the command line option overrides no key.
+/// there is none.
 [[nodiscard]] const Option& overriddenBy(std::string_view argument);
 
-/// Returns the description of a command line option for --help.
 [[nodiscard]] std::string helpFor(std::string_view argument);
 
 /// Returns the words that a command line option accepts, e.g. "auto, gles, simd".

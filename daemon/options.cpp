@@ -31,13 +31,11 @@ struct Words {
     std::string size;
 };
 
-/// Adds an option that overrides a key of the configuration.
 template <class T>
 CLI::Option* addKey(CLI::App& app, const char* name, T& out, const char* value) {
     return app.add_option(name, out, helpFor(name))->type_name(value);
 }
 
-/// Adds an option that overrides a key whose value is one of several words.
 template <class E>
 void addWord(CLI::App& app, const char* name, std::string& out, const char* value,
              std::optional<E> (*meaning)(std::string_view)) {
@@ -88,7 +86,6 @@ void addOthers(CLI::App& app, Options& options, bool& printConfig) {
                  "faults. mfard becomes about ten times slower");
 }
 
-/// The command line parser and the values that it sets.
 struct Parser {
     CLI::App app{"mfard: lifts a fast video sensor to the resolution of a slow still sensor.\n"
                  "Signals: TERM and INT end it, HUP reads the configuration file again.\n",
@@ -125,7 +122,7 @@ CommandLine parseCommandLine(int argc, const char* const* argv) {
     if (parser.printConfig) line.print = defaultConfigText();
     line.options = parser.options;
     const Words& words = parser.words;
-    // The condition is written so that "nan" is refused.
+    // This condition is false for NaN.
     const double seconds = line.options.seconds.value_or(1);
     if (!(seconds > 0 && seconds <= 1e7))
         throw Failure(ExitCode::Usage, "--seconds must be more than 0 and at most 1e7");

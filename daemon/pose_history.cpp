@@ -9,7 +9,7 @@ double secondsBetween(Timestamp a, Timestamp b) {
     return std::chrono::duration<double>(b - a).count();
 }
 
-/// Returns the mean velocity of the camera between the poses a and b, in the camera's frame [rad/s,
+/// Returns the camera's mean velocity between the poses a and b, in the camera's frame [rad/s,
 /// m/s].
 Vector6 rate(const Pose& a, const Pose& b) {
     return logarithm(a.T_world_video.inverse() * b.T_world_video) / secondsBetween(a.time, b.time);
@@ -55,7 +55,7 @@ std::optional<Pose> PoseHistory::at(Timestamp t) const {
     Pose out;
     out.time = t;
     out.T_world_video = a.T_world_video * exponential(s * span * twist);
-    // The errors of neighbouring poses are strongly correlated, so the mean of two poses is not
+    // The errors of neighbouring poses are strongly correlated. So the mean of two poses is not
     // more precise than each of them.
     out.covariance = (1 - s) * a.covariance + s * b.covariance + arc * arc.transpose();
     return out;

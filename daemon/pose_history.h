@@ -9,22 +9,22 @@
 namespace mfar {
 
 /// Keeps the poses of the last video frames and interpolates between them. A still arrives tens of
-/// milliseconds after its exposure, when the poses of the frames before and after it are known. An
-/// interpolated pose is far more precise than a predicted one. Only one thread may use it.
+/// milliseconds after its exposure. By then, the poses of the frames before and after it are known.
+/// An interpolated pose is far more precise than a predicted one. Only one thread may use it.
 class PoseHistory {
 public:
-    /// Adds a pose. Times must increase; if one does not, the history is cleared first.
+    /// Adds a pose. If its time is not later than that of the last pose, the history is cleared
+    /// first.
     void add(const Pose& pose);
 
-    /// Returns the pose at t, interpolated between the poses before and after it. The camera's
-    /// velocity between these poses is assumed to be constant. The error of this assumption is
-    /// estimated from the change of the velocity to the interval before or after, and is added to
-    /// the covariance. Pose::tags is 0. Returns nothing if t is not between two poses at most
-    /// kLongestGap apart, or if there is no third pose to estimate the change of the velocity from.
+    /// Returns the pose at t, interpolated between the poses before and after it at constant
+    /// velocity. The error of this assumption is estimated from the velocity in the interval before
+    /// or after. It is added to the covariance. Pose::tags is 0. Returns nothing if t is not
+    /// between two poses at most kLongestGap apart, or if there is no third pose for the estimate.
     [[nodiscard]] std::optional<Pose> at(Timestamp t) const;
 
     static constexpr std::chrono::milliseconds kLongestGap{100};
-    static constexpr std::size_t kLength = 32;  ///< number of poses: one second of video
+    static constexpr std::size_t kLength = 32;  ///< one second of video
 
 private:
     [[nodiscard]] const Pose& pose(std::size_t i) const;  ///< i = 0: the oldest

@@ -18,8 +18,8 @@ double seconds(clockid_t clock) {
 }
 
 // Returns the time since the process started. Field 22 of /proc/self/stat is the start time, in
-// clock ticks since the machine started, see proc(5). Field 2, the program's name, may contain
-// spaces and ends with a bracket.
+// clock ticks since boot, see proc(5). Field 2, the program's name, may contain spaces and ends
+// with a bracket.
 double secondsSinceStart() {
     constexpr int kStartTime = 22;
     std::ifstream file("/proc/self/stat");

@@ -12,12 +12,12 @@ namespace mfar {
 
 /// Counts met and missed deadlines, and the frames of each level of the governor.
 struct QualityCounts {
-    std::string level;      ///< level of the latest frame; empty: there is no governor
-    double deadlineMs = 0;  ///< deadline of a frame; 0: there is none, because the level is pinned
-    Histogram frameMs;      ///< times from the start of processing to the shown picture [ms]
+    std::string level;      ///< of the latest frame; empty: there is no governor
+    double deadlineMs = 0;  ///< 0: no deadline, because the level is pinned
+    Histogram frameMs;      ///< times from the start of processing to the shown picture
     std::uint64_t frames = 0, late = 0;
-    std::vector<std::pair<std::string, std::uint64_t>>
-        framesOf;  ///< number of frames of each level
+    /// Number of frames of each level.
+    std::vector<std::pair<std::string, std::uint64_t>> framesOf;
 
     [[nodiscard]] bool isLate(double ms) const { return deadlineMs > 0 && ms > deadlineMs; }
 

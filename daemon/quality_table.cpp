@@ -14,11 +14,10 @@ namespace mfar {
 namespace {
 
 constexpr std::size_t kMostLevels = 64;
-constexpr double kShort = 1;  // times shorter than this are written with more digits [ms]
+constexpr double kShort = 1;
 constexpr std::pair<std::string_view, SuperResMode> kModes[] = {
     {"detail", SuperResMode::Detail}, {"blend", SuperResMode::Blend}, {"off", SuperResMode::Off}};
 
-/// An integer setting of a level: its key in the file of levels and its member in Quality.
 struct LevelKey {
     const char* name;
     int& (*in)(Quality&);
@@ -68,8 +67,8 @@ void requireWhole(const std::vector<QualityLevel>& levels, const std::string& fi
     }
 }
 
-// This is the output of `mfar-bench pareto --table FILE` for the SIMD engine. Only the most
-// accurate level uses a second still.
+// The output of `mfar-bench pareto --table FILE` for the SIMD engine. Only the most accurate level
+// uses a second still.
 constexpr std::string_view kBuiltInLevels = R"(
 [[level]]
 name = "off-linear"
@@ -148,8 +147,8 @@ std::string toToml(std::span<const QualityLevel> levels) {
         Quality quality = level.quality, usual = byDefault;
         std::ostringstream quoted;
         quoted << toml::value<std::string>(level.name);
-        // A short time is written with more digits, because parseQualityLevels() would refuse a
-        // time that is rounded to 0.
+        // With one digit, a short time could be rounded to 0, which parseQualityLevels() would
+        // refuse.
         const int digits = level.ms < kShort ? 3 : 1;
         out += fmt::format("[[level]]\nname = {}\nms = {:.{}f}\npsnr_db = {:.2f}\nmode = \"{}\"\n",
                            quoted.str(), level.ms, digits, level.psnrDb, name(quality.mode));

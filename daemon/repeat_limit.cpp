@@ -45,7 +45,7 @@ std::vector<RepeatLimit::Message> RepeatLimit::rest(Timestamp now) {
 }
 
 std::vector<RepeatLimit::Message> RepeatLimit::take(Timestamp now, bool all) {
-    std::multimap<Timestamp, Message> found;  // sorted by time, then by the name of the event
+    std::multimap<Timestamp, Message> found;  // sorted by time, then by the event's name
     for (auto one = events_.begin(); one != events_.end();) {
         Entry& entry = one->second;
         const bool isOver = all || now - entry.said >= kInterval;

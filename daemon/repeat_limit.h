@@ -13,10 +13,9 @@
 namespace mfar {
 
 /// Limits repeated messages, so that a loose plug cannot fill the disk with them. The first message
-/// about an event passes at once. After that, one message about the event passes every ten seconds,
-/// with the number of its repetitions. The last message about an event always passes. To limit the
-/// memory, all events beyond 64 at a time are treated as one event. Only one thread at a time may
-/// use it.
+/// about an event passes at once. Then one message about the event passes every ten seconds, with
+/// the number of repetitions. The last message about an event always passes. All events beyond 64
+/// at a time count as one event, which limits the memory. Only one thread at a time may use it.
 class RepeatLimit {
 public:
     static constexpr std::chrono::seconds kInterval{10};
@@ -27,16 +26,15 @@ public:
         std::string text;
         std::string_view word{};  ///< prefix, e.g. "warning: "; must outlive this object
         Subject subject{};
-        std::uint64_t count = 1;  ///< number of events that the message reports
+        std::uint64_t count = 1;
     };
 
-    /// Returns whether the message must be logged now. If not, the message is kept, and an older
-    /// kept message about the same event is dropped.
+    /// Returns true if the message must be logged now. Otherwise keeps it, and drops an older kept
+    /// message about the same event.
     [[nodiscard]] bool mayPass(std::string_view event, const Message& message, Timestamp now);
-    /// Returns the kept messages that may be logged now, sorted by the time of their last event.
-    /// Each ends with the number of its repetitions: "... (7 more times in 28 s)".
+    /// Returns the kept messages that may be logged now, in the order of their last events. Each
+    /// ends with the number of repetitions: "... (7 more times in 28 s)".
     [[nodiscard]] std::vector<Message> due(Timestamp now);
-    /// Returns all kept messages, for the end of the log.
     [[nodiscard]] std::vector<Message> rest(Timestamp now);
 
 private:

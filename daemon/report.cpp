@@ -16,7 +16,8 @@ namespace {
 using nlohmann::ordered_json;
 using svg::escaped;
 
-/// Smallest mean number of pictures per bin of a chart. With fewer, quantiles would mean little.
+/// Bins are merged until they have this number of pictures on average. With fewer, quantiles would
+/// mean little.
 constexpr double kPicturesPerBin = 2;
 
 constexpr std::string_view kStyle = R"(
@@ -71,8 +72,8 @@ std::string cell(const ordered_json& value) {
     return fmt::format("<td>{}</td>", escaped(text));
 }
 
-/// Returns a table row for each value of an object. If a value is an object itself, its values get
-/// rows whose headings begin with that object's name.
+/// Returns a table row for each value of an object. The values of an inner object get rows whose
+/// headings begin with the inner object's name.
 std::string rows(const ordered_json& object, const std::string& prefix = "") {
     std::string out;
     for (const auto& [key, value] : object.items())
@@ -82,8 +83,8 @@ std::string rows(const ordered_json& object, const std::string& prefix = "") {
     return out;
 }
 
-/// Returns whether an object has several values and all of them are objects, as in {"flow":
-/// {"median": 1, "p99": 2}, "detail": {"median": 3, "p99": 4}}.
+/// Returns true if an object has several values and all are objects, as in {"flow": {"median": 1,
+/// "p99": 2}, "detail": {"median": 3, "p99": 4}}.
 bool isMatrix(const ordered_json& object) {
     if (object.size() < 2) return false;
     for (const auto& value : object)
@@ -91,8 +92,8 @@ bool isMatrix(const ordered_json& object) {
     return true;
 }
 
-/// Returns a table with a row for each inner object and a column for each key that any inner object
-/// has. If an inner object lacks a key, the cell is empty.
+/// Returns a table with a row for each inner object and a column for each key. Cells stay empty
+/// where an inner object lacks the key.
 std::string columns(const ordered_json& object) {
     ordered_json keys = ordered_json::object();
     for (const auto& inner : object)
@@ -111,8 +112,7 @@ std::string columns(const ordered_json& object) {
     return out;
 }
 
-/// Swaps outer and inner keys. This is for an object that has few inner objects with many keys
-/// each.
+/// Swaps outer and inner keys, for an object with few inner objects of many keys.
 ordered_json transposed(const ordered_json& object) {
     ordered_json out = ordered_json::object();
     for (const auto& [name, inner] : object.items())
@@ -133,7 +133,7 @@ std::string table(const std::string& title, const std::string& body, std::string
 }
 
 /// Returns a table row for each step in a text such as "still gles, flow simd". Returns no row for
-/// a text such as "simd", which is the engine of all steps.
+/// "simd" or "gles", which is the engine of all steps.
 std::string engineRows(std::string_view engine) {
     std::string out;
     while (engine.find(' ') != engine.npos) {
@@ -147,7 +147,6 @@ std::string engineRows(std::string_view engine) {
     return out;
 }
 
-/// Returns tables of everything in the summary.
 std::string tables(const ordered_json& summary) {
     ordered_json scalars = ordered_json::object();
     std::string out;
@@ -166,7 +165,6 @@ std::string card(const std::string& value, std::string_view meaning, bool isBad 
                        isBad ? " bad" : "", escaped(value), meaning);
 }
 
-/// Returns cards that show the few most important numbers of the run.
 std::string cards(const ordered_json& summary) {
     const auto number = [&](const char* path) {
         return summary.value(ordered_json::json_pointer(path), 0.0);

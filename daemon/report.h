@@ -8,10 +8,9 @@
 
 namespace mfar {
 
-/// Returns an HTML page about a run. It shows the numbers of summary(), charts of how they changed,
-/// and pictures. It needs no other file and no scripts, and it is well-formed XML, too. Its size is
-/// limited, however long the run was. `written` is a text for the reader that states when the page
-/// was written.
+/// Returns an HTML page about a run: the numbers of summary(), charts of their changes, and
+/// pictures. The page needs no other file and no scripts, and is well-formed XML. Its size is
+/// limited, however long the run was. `written` tells the reader when the page was written.
 [[nodiscard]] std::string reportPage(const nlohmann::ordered_json& summary, RunHistory history,
                                      const RunPictures& pictures, const std::string& written);
 

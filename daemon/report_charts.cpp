@@ -18,12 +18,11 @@ double count(std::uint64_t value) {
     return static_cast<double>(value);
 }
 
-/// Returns part / all, or kGap, a gap in the chart, if `all` is 0.
+/// Returns part / all. If `all` is 0, returns kGap, which makes a gap in the chart.
 double share(std::uint64_t part, std::uint64_t all) {
     return all > 0 ? count(part) / count(all) : kGap;
 }
 
-/// Draws charts of one run's values against time.
 class Charts {
 public:
     explicit Charts(const RunHistory& history) : history_(history) {
@@ -34,7 +33,7 @@ public:
             x_.push_back((static_cast<double>(i) + 0.5) * history.binS() / unitS);
     }
 
-    /// Returns a value for each bin. Bins in which no picture was shown get a gap.
+    /// Returns a value for each bin. A bin without pictures makes a gap.
     [[nodiscard]] std::vector<double> each(const std::function<double(const Bin&)>& value) const {
         std::vector<double> out;
         for (const Bin& bin : history_.bins())
@@ -42,8 +41,7 @@ public:
         return out;
     }
 
-    /// Returns a value for each bin. `value` computes it from the totals of the bin and of the bin
-    /// before.
+    /// `value` computes a bin's value from the totals of the previous bin and of the bin itself.
     using Change = std::function<double(const RunTotals& before, const RunTotals& now)>;
     [[nodiscard]] std::vector<double> changes(const Change& value) const {
         RunTotals before;
@@ -51,7 +49,7 @@ public:
             [&](const Bin& bin) { return value(std::exchange(before, bin.totals), bin.totals); });
     }
 
-    /// Returns for each bin how much a total grows per second. The last bin gets a gap, because it
+    /// Returns the growth of a total per second, for each bin. The last bin makes a gap, because it
     /// is not full.
     [[nodiscard]] std::vector<double> rate(std::uint64_t RunTotals::* total) const {
         return full(changes([&](const RunTotals& before, const RunTotals& now) {
@@ -73,7 +71,7 @@ public:
     }
 
     /// Returns one chart line per quantile of a time. `spread` returns the distribution of the
-    /// times in a bin, or null if there is none.
+    /// times in a bin, or null.
     using Spread = std::function<const TimeSpread*(const Bin&)>;
     [[nodiscard]] std::vector<ChartLine> quantiles(const Spread& spread) const {
         const auto line = [&](const char* name, double q) {

@@ -7,11 +7,11 @@
 namespace mfar {
 
 /// Draws charts of the run as SVG elements: frame time and latency, rate and drops, late frames,
-/// confidence and tracked share, stills, learning. A chart without any values is left out.
-/// `deadlineMs` is 0 if there is no deadline.
+/// confidence and tracked share, stills, learning. A chart without values is omitted. `deadlineMs`
+/// 0: there is no deadline.
 [[nodiscard]] std::string runCharts(const RunHistory& history, double deadlineMs);
 
-/// Draws a chart for each stage: the median and the 95 % quantile of its time.
+/// Draws for each stage a chart of the median and the 95 % quantile of its time.
 [[nodiscard]] std::string stageCharts(const RunHistory& history);
 
 }  // namespace mfar

@@ -23,13 +23,12 @@ namespace {
 constexpr std::chrono::seconds kLongestWait{30};
 constexpr std::chrono::seconds kWaitWithoutCount{5};
 constexpr std::chrono::seconds kRan{60};
-// Two failures count as consecutive if at most this time is between the end of one process and the
-// start of the next. It includes RestartSec= and the delay of a busy system.
+// Two failures are consecutive if at most this time is between the end of one process and the start
+// of the next. It includes RestartSec= and delays of a busy system.
 constexpr std::chrono::seconds kInARow{60};
 constexpr int kMostCounted = 1000;
-constexpr std::size_t kMostBytes = 64;  // size limit of the file
+constexpr std::size_t kMostBytes = 64;
 
-/// Returns the content of a file, or an empty text if it cannot be read.
 std::string textOf(const std::filesystem::path& file) {
     try {
         return boundedText(file, kMostBytes);
@@ -58,7 +57,7 @@ std::filesystem::path RestartPause::defaultFile() {
 }
 
 // Returns the number of consecutive failures before this process. The file contains this number and
-// the time at which the last process ended, on the clock that starts at boot.
+// the end time of the last process, on the clock that starts at boot.
 int RestartPause::failuresBefore(Timestamp started) const {
     std::istringstream in(textOf(file_));
     int count = 0;
@@ -100,7 +99,7 @@ void pauseBeforeRestart(ExitCode code, const std::string& error, Timestamp start
     sigaddset(&ends, SIGINT);
     const timespec second{1, 0};
     for (std::chrono::seconds left = next.wait; left.count() > 0; left -= std::chrono::seconds(1)) {
-        // systemd's watchdog must be fed during this wait, although no pictures are made.
+        // systemd's watchdog must be fed during this pause.
         service.alive();
         if (sigtimedwait(&ends, nullptr, &second) > 0) return;
     }

@@ -36,7 +36,7 @@ struct SyntheticSource final : RigSource {
         handOver = handOverAt(options(config).pace);
         std::vector<MappedTag> known;
         for (const synthetic::Tag& tag : board.world().tags)
-            // A moving tag has no fixed pose in the world, so it is not in the tag map.
+            // A moving tag is not in the tag map, because it has no fixed pose in the world.
             if (!tag.moves)
                 known.push_back({{TagFamily::Tag36h11, tag.id}, tag.size, tag.T_world_tag});
         tags = TagMap(known);
@@ -85,7 +85,7 @@ struct PlayedSource final : RigSource {
     [[nodiscard]] const StereoRig& geometry() const override { return player.recording().rig; }
     [[nodiscard]] Camera& video() override { return player.video(); }
     [[nodiscard]] Camera& still() override { return player.stills(); }
-    // There is no trigger, because the stills of a recording exist already.
+    // The stills of a recording exist already, so there is no trigger.
     [[nodiscard]] Trigger* trigger() override { return nullptr; }
     [[nodiscard]] std::string name() const override {
         return "recording " + player.recording().root.string();
@@ -195,7 +195,7 @@ std::shared_ptr<Recorder> Rig::recorder() const {
     return recorder_;
 }
 
-// mutex_ must be locked.
+// The caller must have locked mutex_.
 void Rig::requireNoRecorder() const {
     if (recorder_) throw Failure(ExitCode::OutputFailed, "a recording is already running");
 }
@@ -265,8 +265,8 @@ std::optional<std::string> Rig::endBrokenRecording() {
     if (!error) return std::nullopt;
     lostBefore_ += lostBy(*recorder_);
     broke_ = error;
-    // The recorder's destructor may wait for a disk that hangs. So another thread destroys it,
-    // after all threads that copy a frame have released it.
+    // The recorder's destructor may wait for a disk that hangs. So another thread destroys the
+    // recorder, after all threads that copy a frame have released it.
     ending_.emplace_back([recorder = std::exchange(recorder_, nullptr)]() mutable {
         while (recorder.use_count() > 1)
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -291,8 +291,8 @@ void Rig::finishRecording() {
 std::filesystem::path newRecordingIn(const std::filesystem::path& directory) {
     const auto seconds = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
     const std::string name = fmt::format("{:%Y%m%d-%H%M%S}", fmt::gmtime(seconds));
-    // The folder may exist already: on a board without a battery-backed clock, the time is the same
-    // after every boot.
+    // The folder may exist already: without a battery-backed clock, the time is the same after
+    // every boot.
     std::filesystem::path folder = directory / name;
     std::error_code ignored;
     for (int i = 2; std::filesystem::exists(folder, ignored); ++i)

@@ -22,20 +22,20 @@
 namespace mfar {
 namespace {
 
-constexpr double kNominalView = std::numbers::pi / 3;  // horizontal field of view [rad]
-constexpr double kNominalBaseline = 0.014;             // distance between the sensors [m]
-// If a camera sends no frame for kSilentPeriods frame periods, it is reported as silent. After
-// kStalledPeriods frame periods, it is reopened.
+constexpr double kNominalView = std::numbers::pi / 3;
+constexpr double kNominalBaseline = 0.014;
+// After kSilentPeriods frame periods without a frame, a camera is reported as silent. After
+// kStalledPeriods, it is reopened.
 constexpr double kSilentPeriods = 4.5, kStalledPeriods = 20;
-// Assumed frame period of a free-running camera without a configured rate.
+// Assumed frame period of a free-running camera whose rate is not configured.
 constexpr double kUnknownPeriodMs = 500;
 
 std::chrono::nanoseconds nanoseconds(double ms) {
     return std::chrono::nanoseconds(static_cast<std::int64_t>(ms * 1e6));
 }
 
-/// A trigger whose GPIO line may not exist yet. Every pulse tries to open the line. If no pulses
-/// are requested, rest() tries to open it once a second.
+/// A trigger whose GPIO line may not exist yet. Every pulse tries to open the line. Without pulses,
+/// rest() tries to open it once a second.
 class WaitingTrigger final : public Trigger {
 public:
     explicit WaitingTrigger(const TriggerLineConfig& line)
@@ -85,12 +85,12 @@ public:
     }
 
 private:
-    /// Opens the line if it is not open. mutex_ must be locked. Throws std::runtime_error.
+    /// Opens the line if it is not open. The caller must have locked mutex_. Throws
+    /// std::runtime_error.
     void open() {
         if (open_) return;
         tried_ = Timestamp::now();
-        // The note of the requested line is written before the line is opened, so that it exists
-        // after a crash.
+        // The note is written before the line is opened, so that it exists after a crash.
         if (const auto file = takenLineFile(); !file.empty()) noteTakenLine(file, line_);
         open_ = openGpioTrigger(options_);
     }
@@ -99,13 +99,13 @@ private:
     const TriggerOptions options_;
     mutable std::mutex mutex_;
     std::unique_ptr<PulseTrigger> open_;
-    std::uint64_t missedBefore_ = 0;  ///< sum of missedEdges() of the lines that were closed
+    std::uint64_t missedBefore_ = 0;
     std::optional<Timestamp> tried_;
     std::optional<std::string> fault_;
 };
 
-/// Returns which camera to open. If none is configured for this sensor, it is any camera except the
-/// one that is configured for the other sensor.
+/// If no camera is configured for this sensor, any camera is opened, except the one configured for
+/// the other sensor.
 CameraWish wishFor(const CameraConfig& config, const CameraConfig& other, bool largest) {
     return {config.camera, config.driver == other.driver ? other.camera : "", largest};
 }
@@ -151,8 +151,7 @@ std::unique_ptr<ReopeningCamera> waitingCamera(const CameraConfig& config, const
         [config, wish] { return openCamera(config, wish); }, options);
 }
 
-// TriggeredStillCamera does not repeat the pulse of a lost still, because StillPolicy requests the
-// still again.
+// TriggeredStillCamera does not repeat the pulse of a lost still, because StillPolicy does that.
 TriggeredStillOptions stillOptions(const TriggerLineConfig& line) {
     TriggeredStillOptions out;
     out.matching.guess = nanoseconds(line.delayMs);

@@ -14,15 +14,15 @@
 
 namespace mfar {
 
-/// Returns a geometry for two cameras without a calibration: pinhole cameras with a horizontal
-/// field of view of 60 degrees, 14 mm apart. It is sufficient for matching in two dimensions. Poses
-/// and depth need a calibration.
+/// Returns the geometry of two cameras without a calibration: pinhole cameras with a horizontal
+/// field of view of 60 degrees, 14 mm apart. It suffices for matching in two dimensions, but not
+/// for poses and depth.
 [[nodiscard]] StereoRig nominalRig(Size video, Size still);
 
 [[nodiscard]] TriggerOptions triggerOptions(const TriggerLineConfig& line);
 
-/// The two cameras that are connected to this machine, and the GPIO line that triggers the still
-/// camera. If a camera is not connected, this object waits for it.
+/// The two cameras of this machine, and the GPIO line that triggers the still camera. If a camera
+/// is not connected, this object waits for it.
 class CamerasSource final : public RigSource {
 public:
     /// The threads that open the cameras register at `hearts`, which must outlive this object.
@@ -41,10 +41,10 @@ private:
     CamerasConfig config_;
     StereoRig geometry_;
     std::unique_ptr<ReopeningCamera> video_;
-    std::unique_ptr<ReopeningCamera> freeStill_;       ///< set if there is no trigger line
-    std::unique_ptr<TriggeredStillCamera> triggered_;  ///< set if there is a trigger line
-    const ReopeningCamera* still_ =
-        nullptr;  ///< the still camera: freeStill_, or a part of triggered_
+    std::unique_ptr<ReopeningCamera> freeStill_;
+    std::unique_ptr<TriggeredStillCamera> triggered_;
+    /// The still camera: freeStill_, or a part of triggered_.
+    const ReopeningCamera* still_ = nullptr;
     std::function<std::optional<std::string>()> triggerFault_{};
 };
 

@@ -16,32 +16,30 @@
 
 namespace mfar {
 
-/// The devices that one source of pictures consists of. Rig uses it.
 class RigSource {
 public:
     virtual ~RigSource() = default;
     [[nodiscard]] virtual const StereoRig& geometry() const = 0;
     [[nodiscard]] virtual Camera& video() = 0;
     [[nodiscard]] virtual Camera& still() = 0;
-    /// Returns the trigger of the still camera; null if stills are not triggered.
+    /// Returns null if stills are not triggered.
     [[nodiscard]] virtual Trigger* trigger() = 0;
     [[nodiscard]] virtual std::string name() const = 0;
 
     HandOver handOver = HandOver::NewestWins;
-    bool hasSensors = false;  ///< whether the cameras are real sensors, see CameraKind::Sensor
+    bool hasSensors = false;  ///< true: the cameras are real sensors, see CameraKind::Sensor
     ExitCode failure = ExitCode::Unavailable;
     std::optional<std::uint64_t> videoFrames{};
     /// Still's time + offset = time on the video's clock.
     std::chrono::nanoseconds stillTimeOffset{0};
-    TagMap tags{};  ///< the tags in the scene; empty: unknown
-    /// Returns the recorded pose at a point in time. The function is not set if there are no
-    /// recorded poses.
+    TagMap tags{};
+    /// Returns the recorded pose at a point in time. Not set without recorded poses.
     std::function<std::optional<Pose>(Timestamp)> recordedPoses{};
-    /// Returns the counters of the matching of stills to trigger pulses. The function is not set if
-    /// this source has no trigger line.
+    /// Returns the counters of the matching of stills to trigger pulses. Not set without a trigger
+    /// line.
     std::function<StillCounters()> matching{};
-    /// Returns the current fault of a device, or nothing if there is none. The function is not set
-    /// if this source cannot have faults.
+    /// Returns the current fault of a device, or nothing. Not set if this source cannot have
+    /// faults.
     std::function<std::optional<std::string>()> fault{};
 };
 

@@ -27,7 +27,7 @@ void merge(RunHistory::Bin& into, const RunHistory::Bin& later) {
 }  // namespace
 
 void TimeSpread::add(double ms) {
-    // std::min() returns `ms` if it is NaN.
+    // std::min() returns `ms` if `ms` is NaN.
     ++counts_[static_cast<std::int16_t>(kBuckets.of(std::min(ms, kMostMs)))];
 }
 
@@ -65,7 +65,7 @@ void RunHistory::add(const RunMoment& moment, const std::vector<StageTime>& stag
     bin.totals = moment.totals;
 }
 
-// Returns the bin of a time. Also adds empty bins for times without pictures; these become gaps in
+// Returns the bin of a time. Also adds empty bins for the time without pictures, which make gaps in
 // the charts.
 RunHistory::Bin& RunHistory::binAt(Timestamp shown) {
     if (!first_) first_ = shown;

@@ -11,34 +11,32 @@
 
 namespace mfar {
 
-/// The distribution of times in one bin of a history. Two distributions can be added. The memory
-/// grows with the number of different times, not with the number of all times. Each bucket is
-/// 2^(1/8) times as wide as the one before, so that the error of a quantile is at most 4.5 %.
+/// The distribution of times in one bin of a history. Its memory grows with the number of different
+/// times only. Each bucket is 2^(1/8) times as wide as the one before, so that the error of a
+/// quantile is at most 4.5 %.
 class TimeSpread {
 public:
-    /// Adds a time in milliseconds. Zero, negative numbers and NaN count as 1 us. Times of more
-    /// than 10 minutes count as 10 minutes.
+    /// Adds a time [ms]. Zero, negative numbers and NaN count as 1 us. Times of more than 10
+    /// minutes count as 10 minutes.
     void add(double ms);
     void add(const TimeSpread& other);
     /// Returns the quantile q: the time [ms] that a share q of all times does not exceed. Returns
-    /// NaN if no times were added.
+    /// NaN without times.
     [[nodiscard]] double quantile(double q) const;
 
 private:
     std::map<std::int16_t, std::uint64_t> counts_;
 };
 
-/// Numbers that are counted from the start of the run.
 struct RunTotals {
-    std::uint64_t notTaken = 0;     ///< frames lost by the sensor or replaced by newer frames
-    std::uint64_t notRecorded = 0;  ///< frames that were shown, but not recorded
-    std::uint64_t notWritten = 0;   ///< pictures that were finished, but not written by the display
+    std::uint64_t notTaken = 0;  ///< frames that the sensor lost or that a newer frame replaced
+    std::uint64_t notRecorded = 0;
+    std::uint64_t notWritten = 0;
     std::uint64_t stillsReceived = 0, stillsUsed = 0, stillsLost = 0;
     std::uint64_t posesAsked = 0, posesFound = 0;
     double learnedGainDb = 0;  ///< PSNR of the learned filters minus PSNR of bicubic enlargement
 };
 
-/// Times and counts of one picture of the run.
 struct RunMoment {
     Timestamp shown;
     double frameMs = 0, latencyMs = 0;
@@ -47,8 +45,8 @@ struct RunMoment {
     RunTotals totals{};
 };
 
-/// What happened in a run, in at most kMostBins bins of equal duration. If a run gets too long for
-/// them, every two neighbouring bins are merged, so that memory stays limited over months. Not
+/// The course of a run, in at most kMostBins bins of equal duration. If a longer run needs more,
+/// each pair of neighbouring bins is merged, so that memory stays limited over months. Not
 /// thread-safe.
 class RunHistory {
 public:
@@ -56,7 +54,7 @@ public:
 
     struct Bin {
         TimeSpread frameMs, latencyMs;
-        std::vector<TimeSpread> stageMs;  ///< same order as stages(); may be shorter
+        std::vector<TimeSpread> stageMs;  ///< in the order of stages(); may be shorter
         std::uint64_t frames = 0, late = 0;
         double confidenceSum = 0;
         std::uint64_t confidenceFrames = 0;
@@ -64,11 +62,10 @@ public:
     };
 
     void add(const RunMoment& moment, const std::vector<StageTime>& stages);
-    /// Merges neighbouring bins until they have at least this many pictures on average.
+    /// Merges neighbouring bins until they have at least this number of pictures on average.
     void fold(double picturesPerBin);
 
     [[nodiscard]] const std::vector<Bin>& bins() const { return bins_; }
-    /// Returns the duration of a bin [s].
     [[nodiscard]] double binS() const { return binS_; }
     /// Returns the names of the stages in the order of their first use.
     [[nodiscard]] const std::vector<std::string>& stages() const { return stages_; }
@@ -88,8 +85,8 @@ private:
 
 /// Small pictures for a report, as JPEG files. An empty file means that there is no picture.
 struct RunPictures {
-    std::vector<std::uint8_t> frame;  ///< the last picture that was shown
-    std::vector<std::uint8_t> still;  ///< the last still that was used
+    std::vector<std::uint8_t> frame;
+    std::vector<std::uint8_t> still;
 };
 
 }  // namespace mfar

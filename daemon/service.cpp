@@ -13,8 +13,7 @@
 namespace mfar {
 namespace {
 
-// Sends a notification to systemd. Errors are ignored, because a failed notification must not stop
-// the pictures.
+// Errors are ignored, because a failed notification must not stop the pictures.
 void tell(const std::string& state) {
     (void)sd_notify(0, state.c_str());
 }
@@ -29,7 +28,7 @@ std::string oneLine(std::string text) {
 
 Service::Service() : listening_(std::getenv("NOTIFY_SOCKET") != nullptr) {
     std::uint64_t us = 0;
-    // watchdogPeriod_ is half of systemd's watchdog timeout, so that one late call does no harm.
+    // watchdogPeriod_ is half of systemd's timeout, so that one late call does no harm.
     if (listening_ && sd_watchdog_enabled(0, &us) > 0)
         watchdogPeriod_ = std::chrono::duration<double>(static_cast<double>(us) * 1e-6 / 2);
 }

@@ -13,22 +13,19 @@ class Service {
 public:
     Service();
 
-    /// Returns whether a service manager listens.
     [[nodiscard]] bool listening() const { return listening_; }
-    /// Returns the longest allowed time between calls of alive(), or nothing if there is no
-    /// watchdog.
+    /// Returns the longest allowed time between calls of alive(), or nothing without a watchdog.
     [[nodiscard]] std::optional<std::chrono::duration<double>> watchdogPeriod() const {
         return watchdogPeriod_;
     }
 
     void ready(const std::string& status) const;
     void status(const std::string& status) const;
-    /// Reports that the configuration is being read again. ready() reports the end of this.
+    /// Reports that the configuration is being read again. ready() reports that this is done.
     void reloading() const;
     void stopping(const std::string& status) const;
     void alive() const;
-    /// Sets the timeout of systemd's watchdog to `times` times the timeout at the start of the
-    /// process.
+    /// Sets the timeout of systemd's watchdog to `times` times its value at the start.
     void watchdogPatience(int times) const;
 
 private:

@@ -14,7 +14,6 @@
 namespace mfar {
 namespace {
 
-/// Returns a text that identifies the video sensor and the still sensor, as far as they are known.
 std::string sensorsOf(const Config& config, Rig& rig) {
     const auto [video, still] = std::pair(rig.geometry().video.size, rig.geometry().still.size);
     return fmt::format("{} {} {}x{}, {} {} {}x{}", rig.video().info().name,
@@ -23,13 +22,12 @@ std::string sensorsOf(const Config& config, Rig& rig) {
                        still.height);
 }
 
-/// Interval of the checks for faults while no frames come.
 constexpr std::chrono::milliseconds kFaultInterval{30};
 
 }  // namespace
 
-// The GL context is created after the rig. The reason is that the simulated board creates its own
-// context, but in the end the session's context must be the current one on this thread.
+// The GL context is created after the rig. The simulated board in the rig creates its own context,
+// but the session's context must be the current one on this thread.
 Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
                  CallQueue<Session>& calls, StopTokens stop)
     : stats_(stats), changes_(changes), calls_(calls), stop_(std::move(stop)), config_(config),
@@ -60,7 +58,7 @@ Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
                     poses_.description(),
                     how.engine,
                     rig_.video().info().rateHz};
-    beginRecording(config);  // the last step, because it may wait for the disk
+    beginRecording(config);  // last step: may wait for the disk
 }
 
 Session::~Session() = default;
@@ -109,7 +107,7 @@ std::string Session::showFrames(Mailbox<CapturedFrame>& mailbox, CaptureThread& 
     Heartbeat heart(stats_.heartbeats(), std::string(kPictureThread), budget::kPicture);
     heart_ = &heart;
     const std::shared_ptr<void> atEnd(nullptr, [this](void*) { heart_ = nullptr; });
-    std::optional<CapturedFrame> captured;  // a frame that is not shown yet
+    std::optional<CapturedFrame> captured;
     bool enough = false;
     while (!enough) {
         heart.beat();
@@ -146,8 +144,8 @@ void Session::showNext(std::optional<CapturedFrame>& captured) {
     calls_.runAll(*this);
     checkRecording();
     if (!captured) return showFault();
-    // A lossless source waits for this thread. So the latency counts from now, not from the arrival
-    // of the frame.
+    // A lossless source waits for this thread, so the latency counts from now, not from the
+    // arrival.
     if (rig_.handOver() == HandOver::Lossless) captured->arrived = Timestamp::now();
     process(*captured);
     captured.reset();
@@ -158,7 +156,7 @@ void Session::finishDisplay() {
 }
 
 // With a lossless source, every picture is written. While this thread waits for a slow writer, it
-// reports that it waits, so that it does not count as hanging.
+// reports the wait and does not count as hanging.
 FileDisplayPolicy Session::displayPolicy() {
     FileDisplayPolicy policy;
     policy.isLive = rig_.handOver() == HandOver::NewestWins;
@@ -202,7 +200,7 @@ double Session::deadlineMs() const {
     return config_.governor.governs() ? config_.governor.deadlineMs : 0;
 }
 
-// Previews of virtual objects are drawn with GL, even if all steps run on the SIMD engine.
+// Previews of virtual objects are drawn with GL, even if all steps run on SIMD.
 bool Session::canShowObjects() {
     if (gl_.context || config_.objects.empty() ||
         !VirtualWorld::drawsPreviews(config_.virtualLayer))
@@ -275,8 +273,8 @@ void Session::tell(Timestamp time) {
         stats_.warn(*error + "; video frames are copied instead");
     stats_.recorderDropped(rig_.notRecorded());
     if (auto matching = rig_.matching()) {
-        // StillPolicy, not StillMatcher, repeats the pulses of lost stills and counts these
-        // repetitions.
+        // The pulses of lost stills are repeated by StillPolicy and not by StillMatcher, so
+        // StillPolicy counts the repetitions.
         matching->repeated = static_cast<std::uint64_t>(policy_.repetitions());
         stats_.matching(*matching);
     }
@@ -307,7 +305,7 @@ void Session::takeStill(CapturedStill still) {
     useStill();
 }
 
-// Gives the newest still to the pipeline. In mode Off, keeps it for a later mode instead.
+// Gives the newest still to the pipeline. In mode Off, it is kept for a later mode.
 void Session::useStill() {
     if (!newestStill_ || config_.superres.mode == SuperResMode::Off) return;
     const CapturedStill still = *std::exchange(newestStill_, std::nullopt);
@@ -346,8 +344,8 @@ void Session::fireIfNeeded(Timestamp frame, const FrameStats& stats) {
         } catch (const TriggerBusy&) {
             policy_.busy();
         } catch (const std::runtime_error& error) {
-            // If the rig is waiting for the trigger line, there is a banner about it, and the
-            // session goes on.
+            // If the rig waits for the trigger line, a banner reports that, and the session goes
+            // on.
             if (!rig_.fault())
                 throw Failure(ExitCode::Unavailable, trigger->name() + ": " + error.what());
         }
@@ -359,18 +357,17 @@ void Session::fireIfNeeded(Timestamp frame, const FrameStats& stats) {
     stats_.triggers(static_cast<std::uint64_t>(policy_.fired()), lost);
 }
 
-// If no frames arrive, shows the last picture again, with a banner about the fault. (If frames
-// arrive, their pictures get the banner.)
+// Shows the last picture again, with a banner about the fault, because no frames arrive.
 void Session::showFault() {
     const std::optional<std::string> fault = rig_.fault();
-    // The fault is reported here, too, because the capture thread may wait for the faulty device.
+    // The capture thread cannot report the fault while it waits for the faulty device.
     stats_.fault(fault);
     if (!fault) return;
     show(Timestamp::now(), true);
     stats_.bannerShown(Timestamp::now());
 }
 
-// Shows the pipeline's last picture. If there is a fault, the picture gets a banner about it.
+// Shows the pipeline's last picture, with a banner if there is a fault.
 void Session::show(Timestamp time, bool unchanged) {
     const std::string fault = bannerText();
     try {

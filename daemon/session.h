@@ -45,15 +45,13 @@ struct Tunables {
     return {config.superres, config.trigger, config.status.measure, config.objects, config.light};
 }
 
-/// Two requests by which other threads can end a session.
 struct StopTokens {
-    std::stop_token
-        input;  ///< fetch no more frames; those being processed are still shown and written
+    /// Fetch no more frames. Frames that are being processed are still shown and written.
+    std::stop_token input;
     std::stop_token cancel;  ///< do not wait any more for a slow reader of the display's pictures
 };
 
-/// One run, from the devices to the display. It owns all objects of the GL thread, which creates,
-/// runs and destroys it.
+/// One run, from the devices to the display. The GL thread creates, runs and destroys it.
 class Session {
 public:
     /// Opens devices, GL and display. All references must outlive this object. Throws Failure.
@@ -62,11 +60,10 @@ public:
     ~Session();
 
     [[nodiscard]] const RunDescription& description() const { return description_; }
-    /// Returns the line that is logged at the start. It describes the renderer, the sensors, the
-    /// display and the output size.
+    /// Returns the line that is logged at the start: renderer, sensors, display and output size.
     [[nodiscard]] std::string startLine() const;
 
-    /// A function that is called when no more pictures are made. It gets the reason or the error.
+    /// Is called when no more pictures are made, with the reason or the error.
     using Over = std::function<void(const std::string& reason, const std::exception_ptr& error)>;
     /// Processes frames until the source ends, a stop is requested or `maxFrames` frames are shown.
     /// Waits until their pictures are written, then calls `over`. After that, only the devices must
@@ -75,14 +72,12 @@ public:
 
     // Other threads must call the following functions through the CallQueue, which executes them
     // between two pictures. All throw std::runtime_error.
-    // pictures. All throw std::runtime_error.
-    /// Returns the last picture as the display got it; with `ofScreen`, as the screen shows it.
+
+    /// Returns the last picture as the display got it. With `ofScreen`, as the screen shows it.
     [[nodiscard]] ScreenPicture snapshot(bool ofScreen) const;
-    /// Requests one still, in any mode of the trigger.
     void askForStill();
-    /// Deletes the learned filters.
     void resetLearning();
-    /// The next three functions call the functions of the same names in Rig.
+    /// These three functions call the functions of the same names in Rig.
     [[nodiscard]] std::function<std::shared_ptr<Recorder>()>
     makeRecording(const std::filesystem::path& folder) const {
         return rig_.makeRecording(folder);
@@ -91,7 +86,6 @@ public:
     [[nodiscard]] std::function<Recorded()> stopRecording() { return rig_.stopRecording(); }
 
 private:
-    /// A copy of a still that the pipeline uses.
     struct UsedStill {
         std::vector<std::uint8_t> pixels;
         ImageView view;
@@ -99,27 +93,25 @@ private:
         std::optional<Pose> pose;
     };
     void beginRecording(const Config& config);
-    /// If the folder of the recording that beginRecording() requested exists by now, starts the
-    /// recording.
+    /// Starts the recording that beginRecording() requested, if its folder exists by now.
     void takeFirstRecording();
     void checkRecording();
     [[nodiscard]] std::string showFrames(Mailbox<CapturedFrame>& mailbox, CaptureThread& capture,
                                          std::optional<std::uint64_t> maxFrames);
     void apply(const Tunables& wanted);
-    /// Applies pending changes and calls, then processes and shows the frame. If there is no frame
-    /// but a fault, shows the fault.
+    /// Applies pending changes and calls, then processes and shows the frame. Without a frame,
+    /// shows the fault if there is one.
     void showNext(std::optional<CapturedFrame>& captured);
-    /// Returns the deadline of a picture [ms]; 0: there is no deadline.
     [[nodiscard]] double deadlineMs() const;
-    /// Returns whether virtual objects can be shown. If they need GL, opens it; a failure is
+    /// Returns true if virtual objects can be shown. If they need GL, opens it; a failure is
     /// reported.
     bool canShowObjects();
     void placeObjects();
-    /// Creates drawing_ with the open GL context, or without GL. All settings and the stills in use
-    /// are applied to it.
+    /// Creates drawing_ with the open GL context or without GL. Applies all settings and the stills
+    /// in use.
     void makeDrawing();
-    /// Creates drawing_ in a new GL context after the GPU lost all objects. `why` is the reason of
-    /// the loss. Throws Failure if drawing_ cannot be created.
+    /// Creates drawing_ in a new GL context after a loss of the GPU, for the reason `why`. Throws
+    /// Failure.
     void makeDrawingAnew(std::string why);
     [[nodiscard]] std::optional<std::string> gpuFault();
     [[nodiscard]] std::string bannerText();
@@ -129,7 +121,7 @@ private:
     /// Pipeline::setStill().
     void keepSecondStill();
     [[nodiscard]] bool mayDraw();
-    /// Processes and shows a frame. If it throws because the GPU is lost, `captured` can be
+    /// Processes and shows a frame. If this throws because the GPU is lost, `captured` can be
     /// processed again.
     void process(CapturedFrame& captured);
     void takeStill(CapturedStill still);
@@ -137,12 +129,10 @@ private:
     void fireIfNeeded(Timestamp frame, const FrameStats& stats);
     void setUpQuality(SuperResMode best);
     void setQuality(const QualityLevel& level);
-    /// Applies the governor's choice for the next frame.
     void govern();
     void showFault();
     void finishDisplay();
-    /// If a report will be written, makes small copies of the last picture and the last still for
-    /// it.
+    /// Makes small copies of the last picture and the last still, if a report will be written.
     void leavePictures();
     [[nodiscard]] FileDisplayPolicy displayPolicy();
     void setLearning(bool wanted);
@@ -158,35 +148,37 @@ private:
     Mailbox<Tunables>& changes_;
     CallQueue<Session>& calls_;
     StopTokens stop_;
-    Config config_;  ///< the configuration, with the changes made since the start
+    Config config_;  ///< includes the changes made since the start
     Rig rig_;
-    std::future<std::shared_ptr<Recorder>> firstRecording_;  ///< valid while its folder is made
+    /// Valid while the recording's folder is being created.
+    std::future<std::shared_ptr<Recorder>> firstRecording_;
     PoseFinder poses_;
     GlDevice device_ = GlDevice::Preferred;
     OpenedGl gl_;
     std::unique_ptr<Display> display_;
     Size output_;
     GpuFailures failures_;
-    std::unique_ptr<FilterLearning> learning_;  ///< null: filters are not learned
-    std::shared_ptr<const FilterBank>
-        filters_;  ///< the learned filters in use; null: the shipped ones are used
+    std::unique_ptr<FilterLearning> learning_;
+    /// The learned filters in use; null: the shipped filters are used.
+    std::shared_ptr<const FilterBank> filters_;
     std::optional<Quality> quality_;    ///< the pipeline's quality; not set: as configured
-    std::unique_ptr<Drawing> drawing_;  ///< uses learning_, so it is declared after it
+    std::unique_ptr<Drawing> drawing_;  ///< declared after learning_, which it uses
     StillPolicy policy_;
-    std::optional<CapturedStill> newestStill_;  ///< the newest still, until the pipeline gets it
-    // Copies of the newest still in use, of the pipeline's second still, and of the still that was
-    // in use before, whose memory is reused. The copies are needed after a loss of the GPU and for
-    // the report. Not set if no step runs on GLES and no report is written.
+    std::optional<CapturedStill> newestStill_;  ///< set until the pipeline gets the still
+    // Copies of the still in use, of the pipeline's second still, and of the still in use before.
+    // They are needed after a loss of the GPU and for the report. The memory of formerStill_ is
+    // reused. Not set if no step runs on GLES and no report is written.
     std::optional<UsedStill> usedStill_, secondStill_, formerStill_;
     TriggerReports triggerReports_;
-    std::vector<QualityLevel> levels_;  ///< levels of the governor; empty: quality as configured
+    std::vector<QualityLevel> levels_;  ///< the governor's levels; empty: quality as configured
     std::optional<Governor> governor_;
-    Governor::Choice choice_{};          ///< the choice that the pipeline uses now
-    std::vector<StageTime> stages_;      ///< times of the last picture's stages
-    std::optional<Timestamp> previous_;  ///< frame time of the pipeline's current statistics
+    Governor::Choice choice_{};
+    std::vector<StageTime> stages_;
+    /// Time of the frame to which the pipeline's statistics belong.
+    std::optional<Timestamp> previous_;
     std::optional<Timestamp> stillTime_;
     TagMap tags_;
-    std::string sensors_;  ///< identifies the sensors for which filters are learned
+    std::string sensors_;
     std::uint64_t pictures_ = 0;
     ValidationCounts validated_{};
     RunDescription description_;

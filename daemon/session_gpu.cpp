@@ -36,8 +36,8 @@ void Session::makeDrawingAnew(std::string why) {
         drawing_.reset();
         display_->releaseGl();
         gl_ = {};
-        // Returns free pages of the heap to the system. Almost the whole heap is free now, but
-        // glibc would keep its pages (45 of 157 MB were measured).
+        // Returns free pages of the heap to the system. glibc would keep them, although almost the
+        // whole heap is free now (45 of 157 MB were measured).
         malloc_trim(0);
         if (isLast) {
             config_.engine = {.use = EngineWish::Simd};
@@ -66,7 +66,7 @@ std::optional<std::string> Session::gpuFault() {
     return now ? now : failures_.fault(Timestamp::now());
 }
 
-// Returns the text of the banner. A missing device is more important than a lost GPU.
+// A missing device is more important than a lost GPU.
 std::string Session::bannerText() {
     if (const std::optional<std::string> fault = rig_.fault()) return *fault;
     return failures_.banner(Timestamp::now()).value_or("");
@@ -82,7 +82,7 @@ Rendering Session::rendering() const {
     return out;
 }
 
-// Keeps a copy of the still for the report, and for a loss of the GPU. After a loss, the next still
+// The copy of the still is for the report, and for a loss of the GPU. After a loss, the next still
 // may come late or never.
 void Session::keepUsedStill(const CapturedStill& still) {
     const bool mayBeLost = gl_.context && drawing_->engines.uses(EngineKind::Gles);

@@ -1,4 +1,3 @@
-// Copies pictures of the session for the report.
 
 #include "daemon/session.h"
 #include "daemon/thumbnail.h"
@@ -7,8 +6,7 @@
 
 namespace mfar {
 
-// If a picture cannot be read back from the GPU, mfard only warns, so that the run can end
-// successfully.
+// If a picture cannot be read from the GPU, mfard only warns, so that the run still succeeds.
 void Session::leavePictures() {
     if (!stats_.keepsHistory()) return;
     RunPictures pictures;

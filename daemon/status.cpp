@@ -12,7 +12,7 @@ namespace {
 constexpr std::array<const char*, kTileClasses> kTileNames = {"unchanged", "upscaled", "trusted",
                                                               "blended", "hidden"};
 
-// Returns which share of the run is done, or nothing if no end is planned.
+// Returns the finished share of the run, or nothing if no end is planned.
 std::optional<double> progress(const Counted& counted, const RunDescription& run, double elapsedS) {
     std::optional<double> done;
     if (run.plannedFrames && *run.plannedFrames > 0) {
@@ -43,7 +43,8 @@ std::array<double, kTileClasses> shares(const Tiles& tiles) {
     return out;
 }
 
-// Returns "tracked 98% (6 tags, 0.12 px, 2.1 ms)", or an empty text if no poses are searched.
+// Returns e.g. ", tracked 98% (6 tags, 0.12 px, 2.1 ms)", or an empty text if no poses are
+// searched.
 std::string tracking(const PoseCounts& poses) {
     if (poses.frames == 0) return "";
     std::string out = fmt::format(", tracked {:.0f}%", poses.trackedShare() * 100);
@@ -55,7 +56,7 @@ std::string tracking(const PoseCounts& poses) {
     return out + fmt::format(", {:.1f} ms)", poses.tracker.lastMs);
 }
 
-// Returns ", quality lines-2 (3% late)", or an empty text if there is no governor.
+// Returns e.g. ", quality lines-2 (3% late)", or an empty text without a governor.
 std::string quality(const QualityCounts& counts) {
     if (counts.level.empty()) return "";
     std::string out = ", quality " + counts.level;
@@ -82,7 +83,6 @@ nlohmann::ordered_json quantiles(const Histogram& times) {
     return {{"median", times.quantile(0.5)}, {"p99", times.quantile(0.99)}};
 }
 
-// If poses are not searched, all numbers are zero.
 nlohmann::ordered_json poseSummary(const Counted& counted, const std::string& from) {
     const PoseCounts& poses = counted.poses;
     return {
@@ -161,7 +161,7 @@ nlohmann::ordered_json lineSummary(const StillCounters& line) {
             {"missed_edges", line.missedEdges}};
 }
 
-// Counters that this camera does not have are absent from the result.
+// Counters that this camera does not have are omitted.
 nlohmann::ordered_json cameraSummary(const CameraState& camera) {
     const CameraCounters& c = camera.counters;
     nlohmann::ordered_json out = {{"configured_hz", camera.configuredHz},

@@ -11,28 +11,28 @@
 
 namespace mfar {
 
-/// Describes the run for the user. Complete after the set-up of the session.
+/// Describes the run for the user. Complete when the session is set up.
 struct RunDescription {
     std::string renderer;
     std::string source;
     std::string display;
     std::string mode;
     std::optional<std::uint64_t> plannedFrames;  ///< length of the recording, or --frames
-    std::optional<double> plannedSeconds;        ///< value of --seconds
-    std::string poses;                           ///< where the poses come from
-    std::string engine{};                        ///< see describe() in engine_config.h
-    double videoRateHz = 0;                      ///< expected rate of pictures [Hz]; 0: unknown
+    std::optional<double> plannedSeconds;
+    std::string poses;
+    std::string engine{};
+    double videoRateHz = 0;  ///< expected rate of pictures [Hz]; 0: unknown
 };
 
 /// Returns the status line. It has a progress bar if the end of the run is planned, and the health
-/// if that is not Ok. `elapsedS`: time since mfard was ready [s].
+/// if it is not Ok. `elapsedS`: time since mfard was ready [s].
 [[nodiscard]] std::string statusLine(const Counted& counted, const RunDescription& run,
                                      double elapsedS, const Health& health = {});
 
-/// Returns a line such as "first picture 430 ms after the start, 90 MB resident".
+/// Returns e.g. "first picture 430 ms after the start, 90 MB resident".
 [[nodiscard]] std::string firstPictureLine(const ProcessUse& use);
 
-/// Returns the states of the cameras as JSON. The keys are the cameras' names.
+/// Returns the states of the cameras as JSON, with the cameras' names as keys.
 [[nodiscard]] nlohmann::ordered_json cameraStatus(const Counted& counted);
 
 /// Returns the results of the run as JSON. Shares and confidences are in [0, 1], times in ms.

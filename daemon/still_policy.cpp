@@ -3,8 +3,8 @@
 namespace mfar {
 namespace {
 
-/// Smallest share of changed tiles that counts as motion. If fewer tiles have changed, the cause is
-/// noise, flicker or a blinking light.
+/// Smallest share of changed tiles that counts as motion. Noise, flicker or a blinking light change
+/// fewer tiles.
 constexpr double kMovedShare = 0.05;
 
 std::chrono::nanoseconds toNanoseconds(double s) {
@@ -15,8 +15,8 @@ std::chrono::nanoseconds toNanoseconds(double s) {
 
 bool StillPolicy::decide(Timestamp now, Timestamp statsOf, const FrameStats& stats) {
     if (still_ && !usedSince_) usedSince_ = now;
-    // The first frame with a new still or mode is drawn completely. So all its tiles count as
-    // changed, but that is not motion.
+    // The first frame with a new still or mode is drawn completely. All its tiles count as changed,
+    // but that is not motion.
     const bool changed = stats.changed > kMovedShare && statsOf != usedSince_;
     if (changed && firedAt_ && statsOf > *firedAt_) movedSinceTrigger_ = true;
     if (changed && usedSince_ && statsOf > *usedSince_) movedInUse_ = true;
@@ -53,8 +53,8 @@ bool StillPolicy::wanted(Timestamp now, Timestamp statsOf, const FrameStats& sta
     if (!still_) return true;
     if (firedAt_ && now - *firedAt_ < toNanoseconds(config_.minIntervalS)) return false;
     if (movedInUse_ && now - *still_ > toNanoseconds(config_.maxAgeS)) return true;
-    // If the scene is at rest, no still is requested, even if the current still explains little of
-    // the picture: a new still would show the same as the current one.
+    // While the scene is at rest, no still is requested, even if the current one explains little of
+    // the picture: a new still would show the same.
     return movedSinceTrigger_ && statsOf >= *usedSince_ && stats.explained < config_.explainedBelow;
 }
 
@@ -70,8 +70,8 @@ bool StillPolicy::timedOut(Timestamp now) {
 }
 
 void StillPolicy::fire(Timestamp now) {
-    // The next trigger is one period after the time when this trigger was due. If it were one
-    // period after `now`, the time of a frame, the rate would be too low.
+    // The next trigger is due one period after this one was due. One period after `now`, the time
+    // of a frame, would make the rate too low.
     const std::chrono::nanoseconds period = toNanoseconds(1 / config_.rateHz);
     due_ = due_ && now >= *due_ && now - *due_ < period ? *due_ + period : now + period;
     firedAt_ = now;

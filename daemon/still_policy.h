@@ -10,17 +10,18 @@ namespace mfar {
 
 enum class TriggerMode {
     Demand,  ///< trigger if the current still explains too little of the picture
-    Rate,    ///< trigger at a fixed rate
-    Off,     ///< never trigger
+    Rate,
+    Off,
 };
 
 struct TriggerConfig {
     TriggerMode mode = TriggerMode::Demand;
-    double rateHz = 2;            ///< mode rate: stills per second
-    double explainedBelow = 0.6;  ///< mode demand: trigger below this share of explained tiles
-    double maxAgeS = 10;          ///< mode demand: an older still is replaced while the scene moves
-    double minIntervalS = 0.3;    ///< mode demand: shortest time between two triggers
-    double timeoutS = 3;          ///< a still that does not arrive within this time is lost
+    double rateHz = 2;  ///< mode rate: stills per second
+    /// mode demand: trigger if FrameStats::explained is less
+    double explainedBelow = 0.6;
+    double maxAgeS = 10;        ///< mode demand: an older still is replaced while the scene moves
+    double minIntervalS = 0.3;  ///< mode demand: shortest time between two triggers
+    double timeoutS = 3;        ///< a still that does not arrive within this time is lost
 
     bool operator==(const TriggerConfig&) const = default;
 };
@@ -28,18 +29,17 @@ struct TriggerConfig {
 /// Decides when the still sensor is triggered. It only uses the times and statistics of video
 /// frames. Only one thread may use it.
 ///
-/// A lost still is counted and requested again at once. If the still of this second request is
-/// lost, too, the policy waits for maxAgeS (mode demand), for the next period (mode rate) or for
-/// ask() (mode off).
+/// A lost still is counted and requested again at once. If that still is lost, too, the policy
+/// waits: for maxAgeS (mode demand), for the next period (mode rate) or for ask() (mode off).
 class StillPolicy {
 public:
     explicit StillPolicy(const TriggerConfig& config) : config_(config) {}
 
-    /// Changes the configuration. It is used from the next decision on. A still that was triggered
-    /// but has not arrived stays pending, unless the mode changes to Off.
+    /// Changes the configuration for the following decisions. A still that was triggered but has
+    /// not arrived stays pending, unless the mode changes to Off.
     void configure(const TriggerConfig& config);
 
-    /// Decides, once per frame, whether to trigger. If this returns true, the caller must fire now.
+    /// Must be called once per frame. If it returns true, the caller must fire the trigger now.
     /// `now` is the time of the newest frame. `stats` belong to the frame at time `statsOf`, which
     /// may be older.
     [[nodiscard]] bool decide(Timestamp now, Timestamp statsOf, const FrameStats& stats);
@@ -47,8 +47,8 @@ public:
     /// Requests one still, in any mode. The next decision triggers it, unless a still is pending.
     void ask() { asked_ = true; }
 
-    /// Reports that the trigger could not fire because its last pulse has not ended. The next
-    /// decision triggers again.
+    /// Reports that the trigger could not fire, because its last pulse has not ended. The next
+    /// decision fires again.
     void busy();
 
     /// Reports a still that is the reference from the next frame on. If it was exposed before the
@@ -58,7 +58,7 @@ public:
     [[nodiscard]] bool pending() const { return firedAt_ && !arrived_; }
     [[nodiscard]] int fired() const { return fired_; }
     [[nodiscard]] int lost() const { return lost_; }
-    /// Returns how often a lost still was triggered again. fired() includes these triggers.
+    /// Returns the number of repeated triggers for lost stills. fired() includes them.
     [[nodiscard]] int repetitions() const { return repetitions_; }
 
 private:
@@ -67,13 +67,13 @@ private:
     void fire(Timestamp now);
 
     TriggerConfig config_;
-    std::optional<Timestamp> still_;      ///< time of exposure of the current reference
-    std::optional<Timestamp> usedSince_;  ///< time of the first frame with this reference and mode
-    std::optional<Timestamp> firedAt_;    ///< time of the last trigger
-    bool arrived_ = true;  ///< whether the still of the last trigger has arrived or counts as lost
-    bool repeated_ = false;  ///< whether the last trigger requested a lost still again
+    std::optional<Timestamp> still_;
+    std::optional<Timestamp> usedSince_;  ///< first frame with this reference and mode
+    std::optional<Timestamp> firedAt_;
+    bool arrived_ = true;  ///< true: the still of the last trigger has arrived or is lost
+    bool repeated_ = false;
     bool movedSinceTrigger_ = false;
-    bool movedInUse_ = false;  ///< whether the scene moved since the reference was first used
+    bool movedInUse_ = false;  ///< true: the scene moved since the reference was first used
     bool asked_ = false;
     std::optional<Timestamp> due_;        ///< mode rate: time of the next trigger
     std::optional<Timestamp> notBefore_;  ///< earliest time of a trigger after two lost stills

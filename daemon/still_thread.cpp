@@ -18,8 +18,8 @@ std::optional<CapturedStill> nextStill(CameraReader& reader, Rig& rig, Stats& st
 }
 
 bool StillBox::put(CapturedStill still) {
-    std::optional<CapturedStill>
-        oldest;  // declared before the lock, so that it is destroyed after the mutex is unlocked
+    // Declared before the lock, so that it is destroyed after the mutex is unlocked.
+    std::optional<CapturedStill> oldest;
     const std::lock_guard lock(mutex_);
     if (stills_.size() == kCapacity) {
         oldest = std::move(stills_.front());

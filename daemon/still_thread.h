@@ -16,21 +16,20 @@
 
 namespace mfar {
 
-/// A still, and the pose of the video camera at its time, if that is known.
+/// A still with the pose of the video camera at the still's time, if that is known.
 struct CapturedStill {
     Frame frame;
     std::optional<Pose> pose{};
     std::optional<StillMeasurement> measured{};  ///< not set: tags were not searched yet
 };
 
-/// Returns the next still of a rig, or nothing if none comes within `timeout`. Its time is
-/// converted to the video's clock, and it is counted and recorded. Throws Failure.
+/// Returns the next still of a rig, or nothing after `timeout`. Counts and records the still. The
+/// still's time is on the video's clock. Throws Failure.
 [[nodiscard]] std::optional<CapturedStill> nextStill(CameraReader& reader, Rig& rig, Stats& stats,
                                                      std::chrono::milliseconds timeout);
 
-/// A queue of stills from the still camera's thread to the video camera's thread, oldest still
-/// first. Its capacity is small, because each still occupies a buffer of the camera. Thread-safe;
-/// never waits.
+/// A queue of stills from the still camera's thread to the video camera's thread. It is short,
+/// because each still occupies a buffer of the camera. Thread-safe. Never waits.
 class StillBox {
 public:
     static constexpr std::size_t kCapacity = 2;
@@ -44,13 +43,12 @@ private:
     std::deque<CapturedStill> stills_;
 };
 
-/// The thread that fetches stills from a live still camera. It is separate from the video camera's
-/// thread, so that the video is not delayed if the still camera hangs or while tags are searched in
-/// a still.
+/// The thread that fetches stills from a live still camera. The video camera has a thread of its
+/// own, so that neither this camera nor the search for tags in a still delays the video.
 class StillThread {
 public:
-    /// Starts the thread. The caller must start the camera before and stop it afterwards. All
-    /// arguments must outlive this object.
+    /// The caller must start the camera before and stop it afterwards. All arguments must outlive
+    /// this object.
     StillThread(Rig& rig, PoseFinder& poses, Stats& stats);
     StillThread(const StillThread&) = delete;
     StillThread& operator=(const StillThread&) = delete;
@@ -59,10 +57,10 @@ public:
 
     /// Requests the end of the thread. Thread-safe; never waits.
     void stop() { stopped_ = true; }
-    /// If an error ended the thread, throws it: Failure if the camera failed or a still had a wrong
-    /// size.
+    /// Throws the error that ended the thread, if there is one: Failure if the camera failed or a
+    /// still had a wrong size.
     void check() const;
-    /// Returns the next still, if one has arrived. Never waits.
+    /// Returns the oldest still that has arrived, or nothing. Never waits.
     [[nodiscard]] std::optional<CapturedStill> take() { return box_.take(); }
 
 private:

@@ -13,8 +13,8 @@ namespace mfar {
 /// this variable is not an absolute path.
 [[nodiscard]] std::filesystem::path takenLineFile();
 
-/// Writes this file. It has three lines: "chip=", "line=" and "active_low=". Throws
-/// std::runtime_error.
+/// Writes the file of takenLineFile(), with the three lines "chip=", "line=" and "active_low=".
+/// Throws std::runtime_error.
 void noteTakenLine(const std::filesystem::path& file, const TriggerLineConfig& line);
 
 /// Returns the GPIO line that the file names, or nothing if there is no file. Throws

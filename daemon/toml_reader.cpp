@@ -16,7 +16,8 @@ namespace {
 constexpr std::size_t kMostFaults = 50;
 constexpr std::size_t kLongestKey = 200;
 
-/// Removes "section." or "section[0]." from the key. Returns whether the key is in the section.
+/// Removes "section." or "section[0]." from the key. Returns false if the key is not in the
+/// section.
 bool takeSection(const OptionSection& section, std::string_view& key) {
     if (section.name.empty()) return true;
     if (!key.starts_with(section.name)) return false;
@@ -58,14 +59,13 @@ std::string_view lastPart(std::string_view key) {
     return key.substr(key.rfind('.') + 1);
 }
 
-// Returns how different two keys are. A user may have written a key into a wrong section as likely
-// as have mistyped it, so the last parts of the keys are compared, too.
+// Returns the difference between two keys. The last parts of the keys are compared, too, because a
+// key may be in a wrong section.
 std::size_t distance(std::string_view given, std::string_view known) {
     return std::min(editDistance(given, known), editDistance(lastPart(given), lastPart(known)) + 1);
 }
 
-/// Returns the entries of a table in the order of the file, which may matter. TOML++ itself sorts
-/// the entries by name.
+/// Returns the entries of a table in the order of the file. TOML++ itself sorts them by name.
 std::vector<std::pair<std::string, const toml::node*>> asWritten(const toml::table& table) {
     std::vector<std::pair<std::string, const toml::node*>> out;
     for (const auto& [name, value] : table)
@@ -296,7 +296,7 @@ void TomlReader::refuseUnknown(const toml::table& table, const std::string& pref
 void TomlReader::refuseUnknown(const toml::key& key, const toml::node& value,
                                const std::string& name) {
     if (std::find(known_.begin(), known_.end(), name) != known_.end()) {
-        // If the section is a list, checks the keys of each of its entries.
+        // If the section is a list, the keys of each entry are checked.
         if (const toml::array* list = value.as_array())
             for (std::size_t i = 0; i < list->size(); ++i)
                 if (const toml::table* section = (*list)[i].as_table())

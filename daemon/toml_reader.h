@@ -15,14 +15,14 @@
 
 namespace mfar {
 
-/// Reads typed values from a TOML text. All faults and their places are collected, so that one
-/// message can report all faults of a file. finish() reports keys that were not read as unknown.
+/// Reads typed values from a TOML text. Collects all faults with their positions, so that one
+/// message reports all faults of a file. finish() reports keys that were not read as unknown.
 class TomlReader {
 public:
-    /// Returns what is wrong with the text of a value, or nothing if it is valid.
+    /// Returns the fault of a text, or nothing if the text is valid.
     using Check = std::function<std::optional<std::string>(std::string_view)>;
 
-    /// Returns what is wrong with a number that is within its range, or nothing if it is valid.
+    /// Returns the fault of a number that is within its range, or nothing if the number is valid.
     using NumberCheck = std::function<std::optional<std::string>(double)>;
 
     using NumbersCheck = std::function<std::optional<std::string>(std::span<const double>)>;
@@ -37,14 +37,12 @@ public:
     void number(std::string_view key, double& out, const NumberCheck& check = nullptr);
     void integer(std::string_view key, std::uint64_t& out);
     void integer(std::string_view key, int& out);
-    /// Reads an integer. `most` is its upper limit, lower than the limit in the table of keys.
+    /// Reads an integer of at most `most`, which is lower than the limit in the table of keys.
     void integer(std::string_view key, int& out, int most);
     void boolean(std::string_view key, bool& out);
-    /// Reads a text. It is valid if `check` returns nothing.
     void text(std::string_view key, std::string& out, const Check& check = nullptr);
-    /// Reads a list of at least one text, each of which is checked by `check`.
+    /// Reads a list of at least one text. `check` checks each text.
     void texts(std::string_view key, std::vector<std::string>& out, const Check& check = nullptr);
-    /// Reads a list of numbers, which must have the size of `out`.
     void numbers(std::string_view key, std::span<double> out, const NumbersCheck& check = nullptr);
     /// Reads a table with any keys, whose values are texts, numbers and booleans. The values are
     /// returned as text: "1", "0.5", "true", in the order of the file.
@@ -52,12 +50,12 @@ public:
     template <class E>
     void choice(std::string_view key, E& out,
                 std::span<const std::pair<std::string_view, E>> words);
-    /// Returns the prefix of the keys of each section [[key]]: "key[0].", "key[1]." and so on. More
-    /// than `most` sections are a fault.
+    /// Returns the prefixes of the keys of all sections [[key]]: "key[0].", "key[1]." and so on.
+    /// More than `most` sections are a fault.
     [[nodiscard]] std::vector<std::string> sections(std::string_view key, std::size_t most);
 
-    /// Must be called after all keys have been read. If there are faults, throws ConfigError with
-    /// all of them, in the order of the file.
+    /// Must be called after all keys have been read. Throws ConfigError with all faults, in the
+    /// order of the file, if there are any.
     void finish();
 
 private:
@@ -66,13 +64,12 @@ private:
         std::string message;
     };
 
-    /// Returns the entry for this key in the table of keys. Throws std::logic_error if there is
-    /// none of this type.
+    /// Throws std::logic_error if the table has no key of this name and type.
     [[nodiscard]] const Option& option(std::string_view key, OptionType type) const;
     void word(std::string_view key, OptionType type, std::string& out, const Check& check);
     const toml::node* find(std::string_view key);
-    /// Returns the node of a key. If its type is not the one that `wanted` names, adds a fault and
-    /// returns null.
+    /// Returns the node of a key. Adds a fault and returns null if the node's type is not the one
+    /// that `wanted` names.
     const toml::node* find(std::string_view key, std::string_view wanted,
                            bool (toml::node::*is)() const);
     void fault(const toml::source_region& at, std::string message);

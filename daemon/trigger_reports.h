@@ -10,12 +10,12 @@ namespace mfar {
 class TriggerReports {
 public:
     struct Seen {
-        std::uint64_t lost = 0;         ///< number of trigger pulses without a still
+        std::uint64_t lost = 0;
         std::uint64_t missedEdges = 0;  ///< see Trigger::missedEdges()
-        bool repeats = false;           ///< whether a lost still is requested again
+        bool repeats = false;
     };
-    /// Returns one sentence for each fault (lost stills, missed edges) that is new since the last
-    /// call. Allocates memory only if there is such a fault.
+    /// Returns one sentence for each fault (lost stills, missed edges) since the last call.
+    /// Allocates memory only if there is such a fault.
     [[nodiscard]] std::vector<std::string_view> newSince(const Seen& seen);
 
 private:

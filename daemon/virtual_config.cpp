@@ -32,7 +32,7 @@ std::optional<std::string> directionFault(std::span<const double> xyz) {
 }
 
 void readSun(TomlReader& file, std::optional<Sun>& sun) {
-    // If one of the keys below is set, there is a sun.
+    // There is a sun if one of these keys is set.
     Eigen::Vector3d towards = Eigen::Vector3d::Zero(), irradiance = Eigen::Vector3d::Constant(-1);
     double radiusDeg = 0;
     file.numbers("light.sun.direction", {towards.data(), 3}, directionFault);
@@ -46,8 +46,8 @@ void readSun(TomlReader& file, std::optional<Sun>& sun) {
     if (radiusDeg > 0) sun->angularRadius = static_cast<float>(radiusDeg * std::numbers::pi / 180);
 }
 
-/// Sets the light's source. `name` is one of the words for a source or a picture file. Returns what
-/// is wrong with it, or nothing if it is valid.
+/// Sets the light's source: `name` is a word for a source, or a picture file. Returns the fault of
+/// `name`, or nothing.
 std::optional<std::string> takeEnvironment(std::string_view name,
                                            const std::filesystem::path& folder, FileMemory& memory,
                                            LightOptions& light) {

@@ -11,9 +11,9 @@
 namespace mfar {
 namespace {
 
-// Largest brightness of caustics, the light that shiny objects focus on other surfaces. Brighter
-// caustics are clamped, because they would need very many samples to be free of noise. 1 is white
-// in the shown picture.
+// Largest brightness of caustics, which is light that shiny objects focus on other surfaces.
+// Brighter caustics are clamped, because they would need very many samples. 1 is white in the shown
+// picture.
 constexpr float kBrightestCaustic = 1;
 
 std::shared_ptr<const Environment> environmentOf(const LightOptions& light) {
@@ -46,7 +46,7 @@ TracedLayerOptions tracedLayerOptions(const VirtualOptions& options, float expos
     TracedLayerOptions out;
     out.renderer.slices.slicing = options.slicing;
     out.renderer.slices.samples = options.samples;
-    out.renderer.slices.samplesPerTurn = 1;  // so that the first traced picture is finished soon
+    out.renderer.slices.samplesPerTurn = 1;  // the first traced picture is finished soon
     out.renderer.tracer.shadowReach = kShadowReach;
     out.renderer.tracer.fireflyClamp = kBrightestCaustic / exposure;
     out.renderer.budgetMs = options.budgetMs;

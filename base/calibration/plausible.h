@@ -25,7 +25,8 @@ void setCameraMatrix(const YamlReader& in, const YAML::Node& node, const Eigen::
 /// camera's intrinsics must be set already.
 void setDistortion(const YamlReader& in, const YAML::Node& node, const std::vector<double>& values,
                    CameraModel& camera);
-/// Returns the rotation and the translation [m] of a 4x4 matrix, which messages call `what`.
+/// Returns the rotation and the translation [m] of a 4x4 matrix. `what` names the matrix in
+/// messages.
 [[nodiscard]] RigidTransform transform(const YamlReader& in, const YAML::Node& node,
                                        const Eigen::Matrix4d& matrix, const char* what);
 [[nodiscard]] Eigen::Quaterniond rotation(const YamlReader& in, const YAML::Node& node,

@@ -14,7 +14,6 @@ class GlError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// GL_CONTEXT_LOST of OpenGL ES 3.2 and GL_KHR_robustness.
 inline constexpr GLenum kContextLost = 0x0507;
 
 /// Returns the first error that the context has recorded since the last call, or GL_NO_ERROR. If

@@ -44,7 +44,6 @@ inline constinit thread_local ProgramCache* programs = nullptr;
 /// The Validation that this thread uses; null: the thread's passes are not validated.
 inline constinit thread_local Validation* validation = nullptr;
 void validate(const Program& program, Bindings bindings, const Framebuffer* target);
-/// Called after each pass. Validates its outputs if this thread has a Validation.
 inline void ran(const Program& program, Bindings bindings, const Framebuffer* target = nullptr) {
     if (validation != nullptr) validate(program, bindings, target);
 }
@@ -95,10 +94,8 @@ public:
     Program(std::string_view vertexShader, std::string_view fragmentShader,
             std::string_view defines, std::size_t paramsBytes);
 
-    /// Makes the program current, uploads its parameters and binds its resources.
     void use(const void* params, std::size_t bytes, Bindings bindings);
     [[nodiscard]] GLuint id() const;
-    /// Returns the file name of the compute or fragment shader.
     [[nodiscard]] const std::string& name() const { return name_; }
 
 private:
@@ -187,7 +184,6 @@ public:
         detail::drawFullScreen();
         detail::ran(program_, bindings, &target);
     }
-    /// Draws one quad for each tile of the list. The vertex shader computes its position.
     void runTiles(const P& params, Bindings bindings, const Framebuffer& target,
                   const InstanceList& tiles) {
         target.bind();

@@ -14,8 +14,8 @@ public:
     ~Enabled() { glDisable(Capability); }
 };
 
-/// Restricts draws and clears to a rectangle of the target, which must not be empty, while the
-/// object exists.
+/// While this object exists, draws and clears change only a rectangle of the target. The rectangle
+/// must not be empty.
 class Scissor {
 public:
     explicit Scissor(const PixelRect& r) { glScissor(r.x0, r.y0, r.x1 - r.x0, r.y1 - r.y0); }
@@ -32,7 +32,7 @@ private:
     Enabled<GL_DEPTH_TEST> test_;
 };
 
-/// Lets every fragment pass the depth test and write its depth.
+/// While this object exists, every fragment passes the depth test and writes its depth.
 class DepthWritten {
 public:
     DepthWritten() { glDepthFunc(GL_ALWAYS); }

@@ -17,7 +17,7 @@ struct Binding;
 /// Reports that a pass wrote a wrong value: NaN, infinity, or a value outside the range that its
 /// shader states.
 struct ValidationFault {
-    std::string pass;    ///< name of the shader, e.g. "flow_search.comp"
+    std::string pass;
     std::string output;  ///< variable in the shader; "guard": a write beyond the end of a buffer
     int x = 0, y = 0;    ///< texel; for a buffer, x is the index of the element
     int component = 0;
@@ -61,7 +61,6 @@ public:
 
     // Only Buffer and the passes call the following functions.
     static Validation* active();
-    /// Registers a buffer whose first `bytes` bytes are followed by guard bytes.
     void guard(GLuint buffer, std::size_t bytes) { guarded_[buffer] = bytes; }
     void check(const Program& program, std::initializer_list<Binding> bindings,
                const Framebuffer* target);
@@ -81,9 +80,9 @@ private:
     void report(ValidationFault fault);
 
     std::map<std::string, Count> counts_;
-    std::map<std::string, std::vector<PassOutput>> outputs_;  // key: name of the shader
+    std::map<std::string, std::vector<PassOutput>> outputs_;
     std::map<GLuint, std::size_t> guarded_;
-    std::map<std::string, bool> reported_;  // key: names of the pass and the output
+    std::map<std::string, bool> reported_;
     std::vector<ValidationFault> faults_;
     long frame_ = 0;
 };

@@ -21,13 +21,12 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-/// mfard's answer to a request, see answerControl().
 struct Reply {
     nlohmann::ordered_json body;
-    std::vector<std::uint8_t> data;  ///< data after the line; "bytes" in `body` is their size
+    std::vector<std::uint8_t> data;  ///< follows the line; "bytes" in `body` is its size
 };
 
-/// Sends a request to the mfard that listens at this socket, and waits up to 15 s for the answer.
+/// Sends a request to the mfard that listens at this socket. Waits up to 15 s for the answer.
 /// Throws NotReachable, Refused.
 [[nodiscard]] Reply ask(const std::filesystem::path& socket, const nlohmann::json& request);
 

@@ -6,7 +6,6 @@
 
 namespace mfar {
 
-/// Values of the command line of mfarctl.
 struct CtlArguments {
     std::string socket = "/run/mfar/control";
     std::string snapshot;
@@ -15,7 +14,6 @@ struct CtlArguments {
     bool stop = false;
 };
 
-/// The command line parser of mfarctl, for the program and its manual page.
 struct CtlParser {
     CtlParser();
 

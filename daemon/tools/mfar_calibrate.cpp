@@ -21,8 +21,8 @@ Target targetOf(const CalibrateArguments& a) {
         "a target is needed: --aprilgrid FILE or --checkerboard 9x6 --square 0.025");
 }
 
-/// Searches for the target in all pictures. On a terminal, the map of the found corners is redrawn
-/// after each picture; otherwise it is printed once at the end.
+/// Searches for the target in all pictures. On a terminal, redraws the map of the found corners
+/// after each picture. Otherwise prints it once at the end.
 SensorViews look(const std::vector<RecordedImage>& pictures, Size size, const Target& target,
                  const char* name) {
     const bool terminal = isatty(STDOUT_FILENO) == 1;

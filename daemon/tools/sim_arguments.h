@@ -13,7 +13,6 @@ namespace mfar {
 [[nodiscard]] std::vector<std::string> simSceneNames();
 [[nodiscard]] std::vector<std::string> simPathNames();
 
-/// Values of the command line of mfar-sim.
 struct SimArguments {
     std::string scene = "office", path;
     double seconds = 2, rateHz = 30;
@@ -22,7 +21,6 @@ struct SimArguments {
     SimOptions sim;
 };
 
-/// The command line parser of mfar-sim, for the program and its manual page.
 struct SimParser {
     SimParser();
 

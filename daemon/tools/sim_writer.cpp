@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 using View = SyntheticBoard::View;
 
-/// Returns the map of all tags. It includes moving tags, at their initial poses.
+/// The map includes moving tags, at their initial poses.
 TagMap mapOf(const std::vector<synthetic::Tag>& tags) {
     std::vector<MappedTag> out;
     for (const synthetic::Tag& tag : tags)
@@ -83,8 +83,8 @@ private:
         ++counts_.flows;
     }
 
-    /// Throws if `taken` is false, because the recorder then has refused a picture. The recorder
-    /// refuses pictures instead of waiting for the disk, but a simulation must not lose any.
+    /// The recorder refuses pictures instead of waiting for the disk, but a simulation must not
+    /// lose any. Throws if `taken` is false.
     void checked(bool taken) const {
         if (!taken)
             throw std::runtime_error(

@@ -12,25 +12,25 @@ namespace mfar {
 struct SimOptions {
     std::filesystem::path out;
     double stillsHz = 1;  ///< trigger pulses per second of simulated time; 0: no stills
-    bool highRes = true;  ///< whether to write truth/highres
-    bool depth = true;    ///< whether to write truth/inverse_depth
-    bool flow = true;     ///< whether to write truth/flow
+    /// True: truth/highres, truth/inverse_depth and truth/flow are written.
+    bool highRes = true;
+    bool depth = true;
+    bool flow = true;
 };
 
-/// How many files of each type a run has written.
 struct SimCounts {
     int video = 0, stills = 0, flows = 0;
 };
 
-/// Lets a simulated board run until its video ends, and writes a recording with ground truth. The
-/// layout of the recording's folder is that of recording.h. In addition, there are these files:
+/// Runs a simulated board until its video ends, and writes a recording with ground truth. The
+/// recording's folder has the files of recording.h, and also:
 ///   truth/highres/<t>.png         the video frame at time t, with the still's resolution
 ///   truth/inverse_depth/<t>.pfm   1 / z [1/m] of each video pixel; 0: there is no surface
 ///   truth/flow/<t0>_<t1>.flo      flow from the video frame at t0 to the next one at t1
 ///   truth/flow/<t0>_<s>.flo       flow from the video frame at t0 to the newest still, taken at s,
 ///                                 see SyntheticBoard::View::StillAtVideo
 ///   tags.toml                     the tags of the world, at their initial poses
-/// `progress` is called after each video frame with the number of frames so far. Throws
+/// `progress` is called after each video frame, with the number of frames so far. Throws
 /// std::runtime_error.
 [[nodiscard]] SimCounts writeSimulation(SyntheticBoard& board, const SimOptions& options,
                                         const std::function<void(int)>& progress);

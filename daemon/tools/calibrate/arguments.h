@@ -9,7 +9,6 @@
 
 namespace mfar::calibration {
 
-/// Values of the command line of mfar-calibrate.
 struct CalibrateArguments {
     std::filesystem::path recording, aprilGridFile, out;
     std::string board;
@@ -17,7 +16,6 @@ struct CalibrateArguments {
     SolveOptions solve;
 };
 
-/// The command line parser of mfar-calibrate, for the program and its manual page.
 struct CalibrateParser {
     CalibrateParser();
 

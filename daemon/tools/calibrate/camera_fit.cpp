@@ -11,10 +11,11 @@ namespace mfar::calibration {
 namespace {
 
 constexpr int kLeastCorners = 6;
-constexpr int kRounds = 4;  // number of rounds; each fits, then removes bad corners and views
-constexpr double kCornerLimit = 6;    // longest residual of a corner that is kept [sigma]
+constexpr int kRounds = 4;            // each round fits, then removes bad corners and views
+constexpr double kCornerLimit = 6;    // corners with a longer residual are removed [sigma]
 constexpr double kLeastSigma = 0.01;  // smallest sigma that is used [px]
-constexpr double kMaxViewError = 20;  // largest RMS error [px] of a view that shows the target
+// A view with a larger RMS error does not show the target [px].
+constexpr double kMaxViewError = 20;
 
 struct Points {
     std::vector<cv::Point3f> target;
@@ -44,8 +45,8 @@ RigidTransform transformOf(const cv::Vec3d& rotation, const cv::Vec3d& translati
             {translation[0], translation[1], translation[2]}};
 }
 
-/// The features by which views are compared: position of the target in the picture, its distance,
-/// tilt and rotation.
+/// Features by which views are compared: position of the target in the picture, distance, tilt and
+/// rotation.
 using Features = Eigen::Matrix<double, 6, 1>;
 
 Features featuresOf(const TargetView& view, const RigidTransform& T, Size picture) {
@@ -59,8 +60,8 @@ Features featuresOf(const TargetView& view, const RigidTransform& T, Size pictur
     return out;
 }
 
-/// Chooses views that differ as much as possible from each other. Starts with the view that has the
-/// most corners, then repeatedly adds the view that differs most from all chosen ones.
+/// Chooses views that differ as much as possible. Starts with the view that has the most corners.
+/// Repeatedly adds the view that differs most from all chosen ones.
 std::vector<int> mostDifferent(const std::vector<TargetView>& views,
                                const std::vector<std::optional<RigidTransform>>& poses,
                                Size picture, int most) {
@@ -117,8 +118,8 @@ double median(std::vector<double> v) {
     return *middle;
 }
 
-/// Returns the robust standard deviation of the residuals' coordinates over all views that have a
-/// pose [px].
+/// Returns the robust standard deviation of the residuals' coordinates in all views with a pose
+/// [px].
 double spreadOf(const Target& target, const std::vector<TargetView>& views, const CameraFit& fit) {
     std::vector<double> components;
     for (std::size_t i = 0; i < views.size(); ++i) {
@@ -131,8 +132,8 @@ double spreadOf(const Target& target, const std::vector<TargetView>& views, cons
     return std::max(kLeastSigma, 1.4826 * median(std::move(components)));
 }
 
-/// Removes corners with large residuals, which were not found at a corner of the target. Returns
-/// whether any corner was removed.
+/// Removes corners with large residuals, which are no corners of the target. Returns true if any
+/// corner was removed.
 bool dropCorners(const Target& target, TargetView& view, const CameraFit& fit,
                  const RigidTransform& pose) {
     const auto residuals = residualsOf(target, view, fit.camera, pose);
@@ -144,8 +145,8 @@ bool dropCorners(const Target& target, TargetView& view, const CameraFit& fit,
     return true;
 }
 
-/// Computes the target's pose in each view, with the fitted camera. Removes corners and views that
-/// do not fit. Returns whether any were removed.
+/// Computes the target's pose in each view with the fitted camera. Removes corners and views that
+/// do not fit. Returns true if any were removed.
 bool placeViews(const Target& target, std::vector<TargetView>& views, CameraFit& fit) {
     for (std::size_t i = 0; i < views.size(); ++i)
         if (fit.poses[i]) fit.poses[i] = targetPose(target, views[i], fit.camera);
@@ -184,7 +185,7 @@ std::optional<RigidTransform> targetPose(const Target& target, const TargetView&
                           rotation, translation))
             return std::nullopt;
     } catch (const cv::Exception&) {
-        return std::nullopt;  // OpenCV throws an exception if all corners are on one line
+        return std::nullopt;  // OpenCV throws if all corners are on one line
     }
     RigidTransform T = transformOf(rotation, translation);
     if (!(T.translation.z() > 0) || !(rms(residualsOf(target, view, camera, T)) < kMaxViewError))

@@ -10,14 +10,14 @@
 
 namespace mfar::calibration {
 
-/// Reports that the views are not sufficient for a calibration. The message is one sentence that
-/// states what is missing.
+/// Reports that the views do not suffice for a calibration. The message is one sentence about what
+/// is missing.
 class Unsuitable : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Returns the pose T_camera_target of the target in one view, for a given camera. Returns nothing
-/// if the view has fewer than six corners or they do not fit a plane.
+/// Returns the pose T_camera_target of the target in one view. Returns nothing if the view has
+/// fewer than six corners or they do not fit a plane.
 [[nodiscard]] std::optional<RigidTransform> targetPose(const Target& target, const TargetView& view,
                                                        const CameraModel& camera);
 
@@ -25,34 +25,31 @@ class Unsuitable : public std::runtime_error {
 [[nodiscard]] std::vector<Eigen::Vector2d> residualsOf(const Target& target, const TargetView& view,
                                                        const CameraModel& camera,
                                                        const RigidTransform& T_camera_target);
-/// Returns the root mean square of the residuals' lengths.
 [[nodiscard]] double rms(const std::vector<Eigen::Vector2d>& residuals);
 
-/// Returns a first estimate of a camera, with a field of view of 50 degrees.
+/// Returns a first estimate with a field of view of 50 degrees.
 [[nodiscard]] CameraModel guessedCamera(Size picture);
 
-/// Throws Unsuitable unless there are at least `leastViews` views that cover the picture and show
-/// the target from different directions and at different depths. `sensor` names the sensor in the
-/// message.
+/// Throws Unsuitable unless at least `leastViews` views cover the picture and show the target from
+/// different directions and at different depths. `sensor` names the sensor in the message.
 void checkViews(const Target& target, const std::vector<TargetView>& views, Size picture,
                 const std::string& sensor, int leastViews);
 
-/// The calibration of a single camera.
 struct CameraFit {
     CameraModel camera;
-    /// T_camera_target of each view. Not set: the view does not fit the others.
+    /// T_camera_target of each view. Not set: the view does not fit the other views.
     std::vector<std::optional<RigidTransform>> poses;
-    std::vector<int> chosen;  ///< indices of the views that were used for the fit
-    double sigma = 0;         ///< robust standard deviation of a corner's coordinate [px]
+    std::vector<int> chosen;
+    double sigma = 0;  ///< robust standard deviation of a corner's coordinate [px]
 };
 
-/// Fits intrinsics and distortion (k3 stays 0) to at most `most` views: those that differ most from
-/// each other. Views that do not fit are ignored. Corners that do not fit are removed from `views`.
+/// Fits intrinsics and distortion (k3 stays 0) to at most `most` views, chosen to differ as much as
+/// possible. Views that do not fit are ignored. Corners that do not fit are removed from `views`.
 /// Throws Unsuitable.
 [[nodiscard]] CameraFit fitCamera(const Target& target, std::vector<TargetView>& views,
                                   Size picture, const std::string& sensor, int most);
 
-/// Returns, for each value, whether it is an outlier: more than twice the median, and more than 4
+/// Returns true for each value that is an outlier: more than twice the median, and more than 4
 /// robust standard deviations above the median.
 [[nodiscard]] std::vector<bool> outliers(const std::vector<double>& values);
 

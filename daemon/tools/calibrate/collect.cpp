@@ -10,7 +10,7 @@
 namespace mfar::calibration {
 namespace {
 
-constexpr std::size_t kEnoughCorners = 12;  // with fewer, a view's pose is not precise enough
+constexpr std::size_t kEnoughCorners = 12;  // a view with fewer does not give a precise pose
 
 }  // namespace
 

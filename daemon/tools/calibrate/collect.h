@@ -8,10 +8,9 @@
 
 namespace mfar::calibration {
 
-/// How far the search for the target in a sensor's pictures has got.
 struct Progress {
     const Coverage& coverage;
-    int done = 0, of = 0, found = 0;  ///< numbers of pictures: searched, in total, with the target
+    int done = 0, of = 0, found = 0;  ///< pictures: searched, in total, with the target
 };
 
 /// Searches for the target in all pictures of one sensor. `progress` is called after each picture.

@@ -8,7 +8,7 @@
 
 namespace mfar::calibration {
 
-/// How the found corners are distributed over the picture. They are counted in a grid of cells.
+/// Counts the found corners in a grid of cells over the picture.
 class Coverage {
 public:
     static constexpr int kColumns = 16, kRows = 12;
@@ -16,9 +16,8 @@ public:
     explicit Coverage(Size picture);
     void add(const std::vector<Corner>& corners);
 
-    /// Returns the share of the cells that have a corner, [0, 1].
     [[nodiscard]] double share() const;
-    /// Returns a text for the part of the picture with the fewest corners, such as "the top left".
+    /// Returns the name of the area with the fewest corners, e.g. "the top left".
     [[nodiscard]] std::string emptiest() const;
     /// Returns the grid as kRows lines of kColumns characters, from ' ' (no corners) to '#' (many).
     [[nodiscard]] std::vector<std::string> map() const;

@@ -7,7 +7,7 @@
 namespace mfar::calibration {
 namespace {
 
-constexpr double kMaxGap = 1.7;  // largest gap [intervals]; one missing frame makes a gap of 2
+constexpr double kMaxGap = 1.7;  // [intervals]; one missing frame makes a gap of 2
 
 double seconds(Timestamp a, Timestamp b) {
     return static_cast<double>((b - a).count()) * 1e-9;

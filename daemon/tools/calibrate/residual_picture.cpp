@@ -14,18 +14,17 @@
 namespace mfar::calibration {
 namespace {
 
-// The picture is drawn at kFine times its size and then reduced, which smooths letters and thin
-// lines.
+// The picture is drawn at kFine times its size and then reduced, which smooths letters and lines.
 constexpr int kFine = 2;
 constexpr int kWidth = 1320, kRow = 620, kMargin = 40, kTop = 64, kBottom = 40;
-constexpr int kArea = kRow - kTop - kBottom;  // height of a panel
+constexpr int kArea = kRow - kTop - kBottom;
 constexpr int kColumns = 16, kRows = 12;
-constexpr int kLeastCount = 4;         // smallest number of corners in a cell that has an arrow
-constexpr double kLongestArrow = 1.3;  // [cell widths]; longer arrows are shortened to this
+constexpr int kLeastCount = 4;         // a cell with fewer corners has no arrow
+constexpr double kLongestArrow = 1.3;  // [cell widths]; longer arrows are shortened
 const cv::Scalar kPaper(255, 255, 255), kInk(40, 40, 40), kFaint(190, 190, 190),
     kPanel(248, 248, 248);
 
-/// A canvas. Its functions take coordinates in the final, reduced picture.
+/// Its functions take coordinates in the final, reduced picture.
 class Canvas {
 public:
     Canvas(int width, int height) : image_(height * kFine, width * kFine, CV_8UC3, kPaper) {}
@@ -49,7 +48,6 @@ public:
         cv::circle(image_, fine(at), static_cast<int>(std::lround(radius * kFine)), colour, 2,
                    cv::LINE_AA);
     }
-    /// Draws a translucent dot. Where many dots overlap, the picture becomes darker.
     void dot(cv::Point2d at, const cv::Vec3b& colour, double strength) {
         const cv::Point p = fine(at);
         for (int y = p.y - 1; y <= p.y + 1; ++y)
@@ -76,7 +74,7 @@ private:
     cv::Mat image_;
 };
 
-/// Returns the smallest number of the form 1, 2 or 5 times a power of ten that is at least `value`.
+/// Rounds up to 1, 2 or 5 times a power of ten.
 double roundedUp(double value) {
     const double power = std::pow(10, std::floor(std::log10(value)));
     for (const double step : {1., 2., 5.})
@@ -111,8 +109,8 @@ Cells cellsOf(const SensorResult& sensor) {
     return out;
 }
 
-/// Returns the scale of the arrows: the length of the residual [px] that is drawn one cell width
-/// long. Nine of ten arrows are not longer than that.
+/// Returns the scale of the arrows: the residual [px] that is drawn as one cell width. Nine of ten
+/// arrows are not longer.
 double arrowUnit(const Cells& cells) {
     std::vector<double> lengths{1e-4};
     for (const auto& row : cells)
@@ -140,7 +138,7 @@ void drawArea(Canvas& canvas, cv::Rect2d area, const SensorResult& sensor) {
     });
     const double cell = area.width / kColumns;
     const Cells cells = cellsOf(sensor);
-    const double unit = arrowUnit(cells);  // residual that is drawn one cell width long [px]
+    const double unit = arrowUnit(cells);
     for (int y = 0; y < kRows; ++y) {
         for (int x = 0; x < kColumns; ++x) {
             const Cell& c = cells[y][x];

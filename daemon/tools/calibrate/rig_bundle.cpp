@@ -12,10 +12,10 @@
 namespace mfar::calibration {
 namespace {
 
-constexpr double kHuber = 2.5;  // above this residual, a corner's cost grows linearly [sigma]
+constexpr double kHuber = 2.5;  // a corner's cost grows linearly above this residual [sigma]
 constexpr int kIterations = 40;
-constexpr double kConverged = 1e-9;  // relative decrease of the cost below which the iteration ends
-constexpr double kStep = 1e-6;  // step of numeric derivatives of interpolated poses [rad, m, s]
+constexpr double kConverged = 1e-9;  // iteration ends at a smaller relative decrease of the cost
+constexpr double kStep = 1e-6;       // for numeric derivatives of interpolated poses [rad, m, s]
 
 using Vector9 = Eigen::Matrix<double, 9, 1>;
 
@@ -101,9 +101,9 @@ double RigBundle::cost(const std::array<double, 2>& sigma) const {
     return sum;
 }
 
-/// Returns the derivative of the pose of a view, in the pose's own frame, with respect to its
-/// parameters. If the view has its own pose, the parameters are this pose. If its pose is
-/// interpolated, they are the extrinsics, the clock offset and four poses.
+/// Returns the derivative of a view's pose, in the pose's own frame, with respect to its
+/// parameters. For a view with its own pose, the parameters are this pose. For an interpolated
+/// pose, they are the extrinsics, the clock offset and four poses.
 Eigen::MatrixXd RigBundle::poseJacobian(const View& view) const {
     if (!view.tied) return Matrix6::Identity();
     Eigen::MatrixXd out(6, 31);

@@ -10,40 +10,40 @@
 
 namespace mfar::calibration {
 
-/// Indices of the parameters that all views share. Their order is: video camera (fx fy cx cy k1 k2
-/// p1 p2 k3); still camera (the same nine); T_still_video (rotation [rad], translation [m], in the
-/// still camera's frame); offset of the still camera's clock [s].
+/// Indices of the parameters that all views share. In this order: video camera (fx fy cx cy k1 k2
+/// p1 p2 k3), still camera (the same nine), T_still_video (rotation [rad] and translation [m] in
+/// the still camera's frame), offset of the still camera's clock [s].
 inline constexpr int kStillAt = 9, kExtrinsicAt = 18, kOffsetAt = 24, kShared = 25;
 
-/// Adjusts all parameters together to the corners in all views of both sensors. The parameters are
-/// the cameras, the extrinsics, the offset of the still camera's clock, and the target's pose in
-/// each video frame. A still's pose is interpolated between the four video frames around it. So
-/// stills determine the baseline and the clock offset, although no video frame was taken at exactly
-/// the same time. The method is Levenberg-Marquardt with a robust cost.
+/// Adjusts all parameters together to the corners in all views of both sensors: cameras,
+/// extrinsics, offset of the still camera's clock, and the target's pose in each video frame. The
+/// method is Levenberg-Marquardt with a robust cost.
+///
+/// A still's pose is interpolated between the four video frames around it. So stills determine the
+/// baseline and the clock offset, although no video frame was taken at exactly the same time.
 class RigBundle {
 public:
     RigBundle(const Target& target, const StereoRig& rig, double offset);
 
     /// Adds an unknown pose T_camera_target with its initial value. Returns the index of the pose.
     int addPose(const RigidTransform& start);
-    /// Adds a view whose pose is the one with index `pose`. The corners must outlive this object.
+    /// Adds a view that has the pose with index `pose`. The corners must outlive this object.
     /// Returns the index of the view.
     int addView(bool still, const std::vector<Corner>& corners, int pose);
-    /// Adds a still whose pose is interpolated between four poses of the video. `times`: the times
-    /// of these poses on the video's clock minus the still's time on the still camera's clock [s].
+    /// Adds a still whose pose is interpolated between four poses of the video. `times`: times of
+    /// these poses on the video's clock, minus the still's time on the still camera's clock [s].
     /// Returns the index of the view.
     int addTied(const std::vector<Corner>& corners, const std::array<int, 4>& poses,
                 const std::array<double, 4>& times);
 
-    /// Solves for all parameters. `sigma`: standard deviation of a corner's coordinate [px] for
-    /// each sensor, the video sensor first. `fixed`: which of the shared parameters keep their
-    /// values. Throws Unsuitable if the views do not determine the other parameters.
+    /// Solves for all parameters. `sigma`: standard deviation of a corner's coordinate [px], video
+    /// sensor first. `fixed`: true for each shared parameter that keeps its value. Throws
+    /// Unsuitable if the views do not determine the other parameters.
     void solve(const std::array<double, 2>& sigma, const std::array<bool, kShared>& fixed);
 
     [[nodiscard]] const StereoRig& rig() const { return rig_; }
     [[nodiscard]] double offset() const { return offset_; }
-    /// Returns the standard deviations of the shared parameters after solve(), 0 for fixed
-    /// parameters.
+    /// Returns the standard deviations of the shared parameters after solve(); 0: fixed.
     [[nodiscard]] const Eigen::Matrix<double, kShared, 1>& deviations() const {
         return deviations_;
     }

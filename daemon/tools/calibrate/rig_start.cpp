@@ -20,8 +20,8 @@ struct Agreement {
     int stills = 0;
 };
 
-/// Computes T_still_video from each still, for one clock offset. Of these results, returns the one
-/// with the smallest median difference from all others, which is robust against outliers.
+/// Computes T_still_video from each still, for one clock offset. Returns the result with the
+/// smallest median difference from all others, which is robust against outliers.
 Agreement agreementAt(const PoseTrack& video, const std::vector<StillPose>& stills, double offset) {
     std::vector<RigidTransform> candidates;
     double distance = 0;
@@ -56,13 +56,12 @@ RigStart startOfRig(const PoseTrack& video, const std::vector<StillPose>& stills
     RigStart out;
     Agreement best;
     const double step = std::max(1e-3, video.interval() / 8);
-    // The search begins at offset 0. If nothing moved, all offsets agree equally well, and 0 is
-    // kept.
+    // The search begins at offset 0. If nothing moved, all offsets agree equally well, and 0 stays.
     for (int i = 0; i * step <= maxOffset; ++i) {
         for (const double offset : {i * step, -i * step}) {
             const Agreement now = agreementAt(video, stills, offset);
-            // An offset that places many stills outside of the video's time is refused, because
-            // fewer stills agree more easily.
+            // An offset that puts many stills outside of the video's time is refused, because fewer
+            // stills agree more easily.
             if (now.stills * 4 < best.stills * 3 || !(now.spread < best.spread)) continue;
             best = now;
             out = {now.T_still_video, offset, now.stills};

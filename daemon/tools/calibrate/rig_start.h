@@ -6,7 +6,6 @@
 
 namespace mfar::calibration {
 
-/// The pose T_still_target of the target in one still, and the time of the still.
 struct StillPose {
     Timestamp time;
     RigidTransform T_still_target;
@@ -15,12 +14,12 @@ struct StillPose {
 struct RigStart {
     RigidTransform T_still_video;
     double offset = 0;  ///< [s] still's time + offset = time on the video's clock
-    int stills = 0;     ///< number of stills within the time of the video, at this offset
+    int stills = 0;     ///< stills within the time of the video, at this offset
 };
 
 /// Returns first estimates of the extrinsics and of the clock offset, which is within +-maxOffset
-/// [s]. The estimated offset is the one at which the extrinsics from different stills agree best.
-/// At a wrong offset, the extrinsics differ, because the camera moved.
+/// [s]. At the estimated offset, the extrinsics from different stills agree best. At a wrong offset
+/// they differ, because the camera moved.
 [[nodiscard]] RigStart startOfRig(const PoseTrack& video, const std::vector<StillPose>& stills,
                                   double maxOffset);
 

@@ -14,20 +14,19 @@ namespace mfar::calibration {
 namespace {
 
 constexpr int kLeastVideoViews = 12, kLeastStillViews = 6, kLeastPairs = 5;
-// Largest standard deviation with which the clock offset counts as known [s].
+// Largest standard deviation of a clock offset that counts as known [s].
 constexpr double kMaxOffsetDeviation = 0.002;
-constexpr double kLeastMotion = 1;  // smallest motion over three frame intervals [video px]
-constexpr int kLeastMoving = 3;     // moving stills that the clock offset needs
-constexpr double kMaxFocalDeviation = 0.005;     // largest, as a share of the focal length
-constexpr double kMaxBaselineDeviation = 0.002;  // largest [m]
+// Smallest motion of a moving still over three frame intervals [video px].
+constexpr double kLeastMotion = 1;
+constexpr int kLeastMoving = 3;                  // moving stills that the clock offset needs
+constexpr double kMaxFocalDeviation = 0.005;     // share of the focal length
+constexpr double kMaxBaselineDeviation = 0.002;  // [m]
 
-/// A view of a sensor that is part of the bundle adjustment.
 struct Member {
-    int view = 0;   ///< index of the view in the sensor's views
-    int index = 0;  ///< index of the view in RigBundle
+    int view = 0;
+    int index = 0;
 };
 
-/// Calibrates each camera alone, then adjusts the parameters of both cameras together.
 class Assembly {
 public:
     Assembly(const Target& target, const SensorViews& video, const SensorViews& still,
@@ -55,7 +54,7 @@ public:
         Calibration out;
         std::optional<RigBundle> bundle = adjusted(start_.offset, true, out);
         if (!out.offsetKnown) bundle = adjusted(0, false, out);
-        // Stills that contradict the video's motion can be found only after the joint adjustment.
+        // Stills that contradict the video's motion are found only after the joint adjustment.
         if (leaveOut(*bundle)) bundle = adjusted(bundle->offset(), out.offsetKnown, out);
         out.rig = {bundle->rig(), bundle->offset()};
         out.extrinsicDeviations = bundle->deviations().segment<6>(kExtrinsicAt);
@@ -68,8 +67,8 @@ public:
 
 private:
     /// Returns the number of stills during which the target moves in the video by more than noise.
-    /// If the camera were at rest, noise would look like motion, and the result would be a wrong
-    /// clock offset with a small standard deviation.
+    /// With a camera at rest, noise would look like motion, and the result would be a wrong clock
+    /// offset with a small standard deviation.
     [[nodiscard]] int movingStills() const {
         const CameraModel& camera = videoFit_.camera;
         const auto seen = [&](const RigidTransform& T, const Eigen::Vector3d& point) {
@@ -149,9 +148,8 @@ private:
     }
 
     bool leaveOut(const RigBundle& bundle) {
-        // The poses that are used here come from the video alone. The reason is that in RigBundle,
-        // a still changes the video poses around it, because it is more precise, and so hides its
-        // own error.
+        // These poses come from the video alone. In RigBundle, a still changes the video poses
+        // around it, because it is more precise, and so hides its own error.
         const auto shift = static_cast<std::int64_t>(std::llround(bundle.offset() * 1e9));
         std::vector<double> errors;
         for (const Member& m : stillMembers_) {
@@ -205,9 +203,9 @@ private:
     SolveOptions options_;
     CameraFit videoFit_, stillFit_;
     PoseTrack track_;
-    std::vector<int> trackViews_;  ///< index in `video_.views` of each pose of track_
+    std::vector<int> trackViews_;  ///< for each pose of track_: index in `video_.views`
     RigStart start_;
-    std::map<int, int> videoPoses_;  ///< index in `video_.views` -> index of its pose in RigBundle
+    std::map<int, int> videoPoses_;  ///< index in `video_.views` -> index of the pose in RigBundle
     std::vector<Member> videoMembers_, stillMembers_;
     int pairs_ = 0;
 };

@@ -9,7 +9,6 @@
 
 namespace mfar::calibration {
 
-/// All views of the target that one sensor took.
 struct SensorViews {
     Size picture;
     std::vector<TargetView> views;  ///< sorted by time
@@ -17,24 +16,25 @@ struct SensorViews {
 
 struct SolveOptions {
     double maxOffset = 0.25;  ///< largest absolute clock offset of the still camera [s]
-    bool k3 = false;          ///< whether the third radial coefficient is estimated
-    int videoViews = 40;      ///< largest number of video views for the lens calibration
-    int stillViews = 40;      ///< largest number of stills for the lens calibration
+    bool k3 = false;          ///< true: the third radial coefficient is estimated
+    /// Largest numbers of video views and stills for the lens calibration.
+    int videoViews = 40;
+    int stillViews = 40;
 };
 
 struct ViewResult {
     Timestamp time;
     std::vector<Corner> corners;
     std::vector<Eigen::Vector2d> residuals;  ///< measured minus expected positions [px]
-    bool used = false;  ///< false: the view was not used, because its error is large
+    bool used = false;                       ///< false: not used, because its error is large
 };
 
 struct SensorResult {
     CameraModel camera;
     /// Standard deviations of fx fy cx cy k1 k2 p1 p2 k3; 0: the parameter was not estimated.
     Eigen::Matrix<double, 9, 1> deviations;
-    std::vector<ViewResult> views;  ///< all views, used or not
-    double rms = 0;                 ///< root mean square of the residuals' lengths [px]
+    std::vector<ViewResult> views;
+    double rms = 0;
 };
 
 struct Calibration {
@@ -42,13 +42,13 @@ struct Calibration {
     SensorResult video, still;
     /// Standard deviations of T_still_video: rotation [rad] and translation [m].
     Eigen::Matrix<double, 6, 1> extrinsicDeviations;
-    double offsetDeviation = 0;  ///< standard deviation of the clock offset [s]
-    bool offsetKnown = true;     ///< false: there is too little motion, so the offset is 0
-    int pairs = 0;               ///< number of stills taken while the video saw the target
+    double offsetDeviation = 0;
+    bool offsetKnown = true;  ///< false: there is too little motion, so the offset is 0
+    int pairs = 0;            ///< number of stills taken while the video saw the target
 };
 
-/// Calibrates the two cameras and the transform between them. Throws Unsuitable, whose message is
-/// one sentence, if the views are not sufficient.
+/// Calibrates both cameras and the transform between them. Throws Unsuitable if the views do not
+/// suffice.
 [[nodiscard]] Calibration calibrate(const Target& target, const SensorViews& video,
                                     const SensorViews& still, const SolveOptions& options);
 

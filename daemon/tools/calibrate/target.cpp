@@ -12,7 +12,7 @@ namespace mfar::calibration {
 namespace {
 
 constexpr int kMaxSide = 50;
-constexpr int kFamilySize = 587;  // number of tags of family 36h11
+constexpr int kFamilySize = 587;
 
 int wholeNumber(const YamlReader& in, const char* key, int least, int most) {
     const YAML::Node node = in.at(key);

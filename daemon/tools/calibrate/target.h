@@ -8,22 +8,21 @@
 #include <string_view>
 #include <vector>
 
-/// The solver of mfar-calibrate.
 namespace mfar::calibration {
 
 enum class TargetKind { AprilGrid, Checkerboard };
 
-/// A flat target whose corners can be identified. The origin of its frame is the first corner. The
-/// x axis is along a row. The y axis points up (AprilGrid, as Kalibr defines it) or along a column
-/// (checkerboard). z is 0 for all corners.
+/// A flat target whose corners can be identified. The first corner is the origin of its frame, and
+/// the x axis is along a row. The y axis points up (AprilGrid, as Kalibr defines it) or along a
+/// column (checkerboard). z is 0 for all corners.
 struct Target {
     TargetKind kind = TargetKind::AprilGrid;
     int columns = 0, rows = 0;  ///< numbers of tags, or of a checkerboard's inner corners
     double size = 0;            ///< edge of a tag or of a square [m]
     double spacing = 0;         ///< gap between tags, divided by `size`
-    int firstId = 0;            ///< id of the first tag
-    /// Positions of all corners [m]. An AprilGrid has four for each tag, counter-clockwise from the
-    /// lower left.
+    int firstId = 0;
+    /// Positions of all corners [m]. An AprilGrid has four corners per tag, counter-clockwise from
+    /// the lower left.
     std::vector<Eigen::Vector3d> points;
 };
 
@@ -31,22 +30,19 @@ struct Target {
 [[nodiscard]] Target aprilGrid(int columns, int rows, double tagSize, double spacing,
                                int firstId = 0);
 /// Returns a checkerboard with `columns` x `rows` inner corners and squares of edge `square` [m].
-/// One of the two numbers must be odd and the other even, because otherwise the checkerboard would
-/// look the same upside down. Throws std::runtime_error.
+/// One number must be odd and the other even, because otherwise the checkerboard would look the
+/// same upside down. Throws std::runtime_error.
 [[nodiscard]] Target checkerboard(int columns, int rows, double square);
-/// Returns a checkerboard. `corners` are its numbers of inner corners, such as "9x6". Throws
-/// std::runtime_error.
+/// `corners` are the numbers of inner corners, such as "9x6". Throws std::runtime_error.
 [[nodiscard]] Target checkerboard(std::string_view corners, double square);
 /// Parses Kalibr's description of an aprilgrid. Throws CalibrationError.
 [[nodiscard]] Target readAprilGrid(const std::filesystem::path& file);
 
-/// A corner of the target that was found in a picture.
 struct Corner {
-    int index = 0;          ///< index of the corner in Target::points
-    Eigen::Vector2d pixel;  ///< position [px]; pixel centres have integer coordinates
+    int index = 0;
+    Eigen::Vector2d pixel;  ///< pixel centres have integer coordinates
 };
 
-/// The corners found in one picture.
 struct TargetView {
     Timestamp time;
     std::vector<Corner> corners;

@@ -11,10 +11,10 @@
 namespace mfar::calibration {
 namespace {
 
-constexpr int kLeastWindow = 2;  // half the side of the smallest refinement window [px]
+constexpr int kLeastWindow = 2;  // [px], half the side of a refinement window
 constexpr int kLargestWindow = 11;
-constexpr int kLargeWidth = 1000;  // from this width on, pictures are searched at half size [px]
-constexpr int kLeastTags = 3;      // smallest number of tags that show the print's orientation
+constexpr int kLargeWidth = 1000;  // [px]; from this width on, pictures are searched at half size
+constexpr int kLeastTags = 3;      // fewer tags do not show the orientation of the print
 
 cv::Mat matOf(const ImageView& luma) {
     // cv::Mat takes a non-const pointer, but the pixels are not changed.
@@ -38,9 +38,9 @@ double shortestEdge(const TagDetection& tag) {
     return out;
 }
 
-/// Returns half the side of a window around a corner of the tag. The window contains only the tag's
-/// border and the square in the gap between tags. The border is at least one of the tag's eight
-/// cells wide. The factor 0.9 is for slanted edges, which leave the window earlier.
+/// Returns half the side of a window around a tag's corner that contains only the tag's border and
+/// the square in the gap between tags. The border is at least one of the tag's eight cells wide.
+/// The factor 0.9 is for slanted edges, which leave the window earlier.
 int windowFor(const TagDetection& tag, const Target& target) {
     const double clear = shortestEdge(tag) * std::min(1. / 8, target.spacing);
     return std::min(kLargestWindow, static_cast<int>(0.9 * clear));
@@ -51,8 +51,8 @@ void refine(const cv::Mat& picture, std::vector<cv::Point2f>& points, int window
                      {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 40, 0.001});
 }
 
-/// Returns the four corners of the target at a detected tag. Corner k of the tag in the target is
-/// corner (k + turn) % 4 of the detected tag.
+/// Returns the four corners of the target at a detected tag. Corner k of the printed tag is corner
+/// (k + turn) % 4 of the detected tag.
 std::vector<Corner> cornersOf(const TagDetection& tag, int slot, int turn) {
     std::vector<Corner> out;
     for (int k = 0; k < 4; ++k)
@@ -60,7 +60,7 @@ std::vector<Corner> cornersOf(const TagDetection& tag, int slot, int turn) {
     return out;
 }
 
-/// Returns the mean error [px] with which the corners fit a homography of the target's plane.
+/// Returns the mean error [px] of a homography from the target's plane to the corners.
 double planeError(const Target& target, const std::vector<Corner>& corners) {
     std::vector<cv::Point2d> on, seen;
     for (const Corner& c : corners) {
@@ -82,8 +82,7 @@ double planeError(const Target& target, const std::vector<Corner>& corners) {
 void keepRefined(const cv::Mat& picture, std::vector<Corner>& corners, int window, double reach) {
     const cv::Rect inside(window + 2, window + 2, picture.cols - 2 * window - 4,
                           picture.rows - 2 * window - 4);
-    // If a tag is at the edge of the picture, some of its corners may be outside. OpenCV 4.10
-    // refuses corners that are outside.
+    // OpenCV 4.10 refuses corners outside the picture. A tag at the picture's edge may have some.
     std::erase_if(corners, [&](const Corner& c) {
         return !inside.contains(cv::Point2d(c.pixel.x(), c.pixel.y()));
     });
@@ -121,9 +120,8 @@ std::vector<Corner> TargetFinder::find(const ImageView& luma) {
     return target_.kind == TargetKind::AprilGrid ? findTags(luma) : findBoard(luma);
 }
 
-// Finds the orientation of the printed tags. Kalibr and other programs print tags in orientations
-// that differ from the AprilTag library's. Of the four possible orientations, only one fits a
-// plane.
+// Finds the orientation of the printed tags. Kalibr and other programs print tags in other
+// orientations than the AprilTag library. Only one of the four orientations fits a plane.
 void TargetFinder::learnTurn(const std::vector<TagDetection>& tags) {
     double least = std::numeric_limits<double>::infinity();
     for (int turn = 0; turn < 4; ++turn) {
@@ -138,10 +136,9 @@ void TargetFinder::learnTurn(const std::vector<TagDetection>& tags) {
     }
 }
 
-// Detects tags in a picture whose black areas have been made thinner by a pixel or two. Otherwise
-// black squares that meet at a corner may merge the whole grid into one shape, in which no tag is
-// found. In a clean print, 19 of 20 tags were found instead of 5. The positions of the corners are
-// measured in the original picture.
+// Detects tags in a picture whose black areas were made thinner by a pixel or two. Otherwise, black
+// squares that meet at a corner may merge the whole grid into one shape without tags. In a clean
+// print, this found 19 of 20 tags instead of 5. The corners are measured in the original picture.
 std::vector<TagDetection> TargetFinder::detect(const cv::Mat& picture) {
     const int side = picture.cols >= kLargeWidth ? 4 : 2;
     cv::dilate(picture, thinned_, cv::Mat::ones(side, side, CV_8U));
@@ -154,8 +151,7 @@ std::vector<TagDetection> TargetFinder::detect(const cv::Mat& picture) {
         if (found.size() > tags.size()) tags = std::move(found);
         if (border_ < 0 && static_cast<int>(tags.size()) >= leastTags()) border_ = border;
     }
-    // The dilation's kernel has an even size, so it shifts the picture by half a pixel. This undoes
-    // the shift.
+    // The dilation's kernel has an even size and shifts the picture by half a pixel.
     for (TagDetection& tag : tags)
         for (Eigen::Vector2d& corner : tag.corners)
             corner.array() -= 0.5;
@@ -194,8 +190,7 @@ std::vector<Corner> TargetFinder::findBoard(const ImageView& luma) const {
         edge = std::min(edge, static_cast<float>(cv::norm(points[i] - points[i - 1])));
     const int window = std::clamp(static_cast<int>(0.45F * edge), kLeastWindow, kLargestWindow);
     refine(picture, points, window);
-    // The first square must be dark. If it is not, OpenCV has begun at the other end of the
-    // checkerboard.
+    // The first square must be dark. Otherwise, OpenCV began at the other end of the checkerboard.
     const int first = squareLevel(picture, points, 0, columns);
     const int second = squareLevel(picture, points, 1, columns);
     if (first > second) std::reverse(points.begin(), points.end());

@@ -11,15 +11,15 @@
 
 namespace mfar::calibration {
 
-/// Finds the corners of a target in pictures of one size. In an AprilGrid and in a checkerboard, a
-/// corner is a point where two black and two white squares meet. Such a corner is symmetric under a
-/// rotation by 180 degrees, so that blur and gamma do not move it.
+/// Finds the corners of a target in pictures of one size. A corner is a point where two black and
+/// two white squares meet, also in an AprilGrid. It is symmetric under a rotation by 180 degrees,
+/// so that blur and gamma do not move it.
 class TargetFinder {
 public:
     /// `target` must outlive this object.
     TargetFinder(const Target& target, Size picture);
 
-    /// Returns the corners in a Gray8 picture, with an error of about 0.05 px. The list is empty if
+    /// Returns the corners in a Gray8 picture, with an error of about 0.05 px. Returns nothing if
     /// the target is not found.
     [[nodiscard]] std::vector<Corner> find(const ImageView& luma);
 
@@ -27,14 +27,13 @@ private:
     [[nodiscard]] std::vector<Corner> findTags(const ImageView& luma);
     [[nodiscard]] std::vector<Corner> findBoard(const ImageView& luma) const;
     [[nodiscard]] std::vector<TagDetection> detect(const cv::Mat& picture);
-    /// Returns how many tags one picture must show so that they determine the orientation of the
-    /// print.
+    /// Returns the number of tags in one picture that determines the orientation of the print.
     [[nodiscard]] int leastTags() const;
     void learnTurn(const std::vector<TagDetection>& tags);
 
     const Target& target_;
     std::array<TagDetector, 2> detectors_;  ///< for tags with borders of one and of two cells
-    int border_ = -1;  ///< index of the detector that finds this target's tags; -1: unknown
+    int border_ = -1;  ///< index of the detector for this target's tags; -1: unknown
     cv::Mat thinned_;
     int turn_ = -1;  ///< orientation of the printed tags in quarter turns; -1: unknown
 };

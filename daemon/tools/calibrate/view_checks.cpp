@@ -11,13 +11,12 @@ namespace mfar::calibration {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-// Smallest tilt and depth. With less, the focal length cannot be separated from the target's
-// distance.
+// Smallest tilt and depth. With less, focal length and target distance cannot be separated.
 constexpr double kLeastTilt = 12 * kDegree;
-constexpr double kLeastDepth = 1.2;     // distance of the farthest / nearest corner
-constexpr double kLeastCoverage = 0.6;  // smallest share of the cells that have a corner
-// Quantile that replaces the largest tilt or depth (1 - kMostlyAt: the smallest), because a single
-// view has little influence on it.
+constexpr double kLeastDepth = 1.2;  // distance of the farthest / distance of the nearest corner
+constexpr double kLeastCoverage = 0.6;
+// This quantile replaces the largest tilt or depth, because a single view has little influence on
+// it. The quantile 1 - kMostlyAt replaces the smallest.
 constexpr double kMostlyAt = 0.9;
 
 double quantile(std::vector<double> values, double q) {
@@ -28,8 +27,8 @@ double quantile(std::vector<double> values, double q) {
 }
 
 struct Spread {
-    double tilt = 0;   ///< angle of the target's normals to their mean [rad]
-    double depth = 1;  ///< distance of the farthest / distance of the nearest corner
+    double tilt = 0;  ///< angle of the target's normals to their mean [rad]
+    double depth = 1;
 };
 
 Spread spreadOf(const Target& target, const std::vector<TargetView>& views, Size picture) {
