@@ -28,7 +28,6 @@ Bytes read(const std::filesystem::path& file, std::size_t most, FileTrust trust)
         throw std::runtime_error("is a symbolic link");
     if (fd.get() < 0 && (errno == ENOENT || errno == ENOTDIR))
         throw std::runtime_error("is missing");
-    // open() fails with ENXIO or ENODEV for a socket and for a device without a driver.
     if (fd.get() < 0 && (errno == ENXIO || errno == ENODEV))
         throw std::runtime_error("is not a regular file");
     if (fd.get() < 0) fail("cannot be opened");

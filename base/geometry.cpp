@@ -20,7 +20,6 @@ Distorted distort(const Eigen::Vector2d& ray, const std::array<double, 5>& d) {
     const double x = ray.x(), y = ray.y();
     const double r2 = x * x + y * y;
     const double radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));
-    // Derivative of `radial` with respect to r2.
     const double slope = k1 + r2 * (2 * k2 + 3 * r2 * k3);
     Distorted out;
     out.point = {x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x),
@@ -40,7 +39,6 @@ struct Undistorted {
     bool isExact;
 };
 
-/// Inverts distort() with at most `most` Newton iterations that begin at `start`.
 Undistorted undistorted(const Eigen::Vector2d& target, const Eigen::Vector2d& start,
                         const std::array<double, 5>& distortion, int most) {
     if (distortion == std::array<double, 5>{}) return {target, true};

@@ -19,7 +19,6 @@ struct PixelRect {
     bool operator==(const PixelRect&) const = default;
 };
 
-/// Returns the smallest rectangle that contains `a` and `b`. An empty rectangle is ignored.
 [[nodiscard]] inline PixelRect around(const PixelRect& a, const PixelRect& b) {
     if (a.empty()) return b;
     if (b.empty()) return a;
@@ -78,6 +77,7 @@ struct RigidTransform {
     }
 };
 
+/// The lens models of both cameras and the transform between them.
 struct StereoRig {
     CameraModel video;
     CameraModel still;

@@ -14,7 +14,6 @@
 
 namespace mfar {
 
-/// A thread's role decides what happens when it hangs.
 enum class ThreadRole {
     Vital,   ///< the picture or the output needs this thread: the process must be restarted
     Helper,  ///< e.g. a writer of files: the picture continues, and the fault is reported

@@ -10,7 +10,7 @@
 
 namespace mfar {
 
-inline constexpr int kMaxPictureSide = 16384;  ///< [px]; larger pictures are refused
+inline constexpr int kMaxPictureSide = 16384;
 
 [[nodiscard]] std::string_view nameOf(PixelFormat format);
 

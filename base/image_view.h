@@ -41,6 +41,7 @@ enum class YuvMatrix : std::uint8_t { Bt601, Bt709 };
 /// Limited: Y is in 16..235, U and V in 16..240. Full, as in JPEG: all three are in 0..255.
 enum class YuvRange : std::uint8_t { Limited, Full };
 
+/// One plane of a picture.
 struct PlaneView {
     const std::uint8_t* data = nullptr;
     std::size_t stride = 0;  ///< bytes from one row to the next
@@ -48,14 +49,13 @@ struct PlaneView {
 
 /// Location of a picture's planes in memory that other devices can read, too (dma-buf).
 struct SharedMemory {
-    std::uint64_t id = 0;  ///< identifies this memory; never reused
+    std::uint64_t id = 0;
     struct Plane {
         int fd = -1;
-        std::size_t offset = 0;  ///< bytes from the start of the buffer
+        std::size_t offset = 0;
     };
     std::array<Plane, 3> planes{};
 };
-/// Returns an id that this process has not used before. Thread-safe.
 [[nodiscard]] std::uint64_t newSharedMemoryId();
 
 /// A read-only view of a picture; it does not own the pixels. The origin is top left, row 0 is

@@ -44,7 +44,6 @@ inline constexpr float kMostLight = 65280;  ///< larger values are clamped to th
     return {value(0), value(1), value(2)};
 }
 
-/// Reflectance of non-metals at normal incidence, as in glTF's metallic-roughness material.
 inline constexpr float kDielectricReflectance = 0.04F;
 
 /// The light of a surface, times the exposure: one light word each for diffuse and specular light.

@@ -27,7 +27,6 @@ public:
             include(line.y);
         if (chart.rule) include(chart.rule->y);
         if (chart.mostY) mostY_ = *chart.mostY;
-        // An axis needs some length, also if all values are zero or there are none.
         if (!(mostX_ > leastX_)) mostX_ = leastX_ + 1;
         if (!(mostY_ > leastY_)) mostY_ = leastY_ + 1;
         if (!chart.mostY) mostY_ += 0.06 * (mostY_ - leastY_);

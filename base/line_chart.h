@@ -25,7 +25,6 @@ struct LineChart {
 /// value if that is negative.
 [[nodiscard]] std::string chartSvg(const LineChart& chart);
 
-/// Returns about `count` round values from `least` to `most`, at equal distances.
 [[nodiscard]] std::vector<double> linearTicks(double least, double most, int count);
 
 }  // namespace mfar

@@ -16,7 +16,6 @@ public:
     using Clock = std::chrono::steady_clock;
 
     explicit Progress(std::FILE* out = stderr);
-    /// For tests. If `isTerminal` is set, writes as on a terminal, whatever `out` is.
     Progress(std::FILE* out, bool isTerminal);
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
@@ -47,7 +46,6 @@ public:
     /// this part, followed by `what`.
     [[nodiscard]] ProgressPart part(std::size_t index, std::size_t count,
                                     std::string_view what) const;
-    /// Shows that part number `index` of `count` equal parts begins.
     void show(std::size_t index, std::size_t count, std::string_view what) const;
 
 private:
@@ -58,7 +56,6 @@ private:
 
 [[nodiscard]] std::string frameOf(std::size_t index, std::size_t count);
 
-/// Returns a line such as "34 %  superres office, frame 3 of 29; 0:12, about 0:25 left".
 [[nodiscard]] std::string progressText(double share, std::string_view what, double seconds);
 
 }  // namespace mfar

@@ -9,7 +9,6 @@ namespace mfar {
 [[nodiscard]] float srgbEncoded(float linear);
 /// Returns the derivative of srgbEncoded(). Outside [0, 1], it is the derivative at the nearer end.
 [[nodiscard]] float srgbSlope(float linear);
-/// Returns the inverse of srgbEncoded() for a value in [0, 1].
 [[nodiscard]] float srgbDecoded(float encoded);
 
 /// Returns the linear value, in [0, 1], of each sRGB byte.

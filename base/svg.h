@@ -19,7 +19,6 @@ inline constexpr std::array<const char*, 7> kColours{"#0072b2", "#d55e00", "#009
 /// is the base line of the letters.
 [[nodiscard]] std::string text(double x, double y, std::string_view anchor, std::string_view what,
                                int size = 12, std::string_view colour = "#222");
-/// Returns a text element whose text runs upwards. Its centre is (x, y).
 [[nodiscard]] std::string textUpwards(double x, double y, std::string_view what);
 [[nodiscard]] std::string line(double x0, double y0, double x1, double y1,
                                std::string_view colour = "#ddd", double width = 1);

@@ -13,7 +13,6 @@ bool lowerThreadPriority() {
     constexpr int kNice = 10;
     const sched_param none{};
     const bool batch = pthread_setschedparam(pthread_self(), SCHED_BATCH, &none) == 0;
-    // On Linux, each thread has its own nice value.
     return setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice) == 0 && batch;
 }
 

@@ -7,7 +7,6 @@
 namespace mfar {
 namespace {
 
-/// Scans a text only far enough to recognise strings and comments.
 class TomlScanner {
 public:
     explicit TomlScanner(std::string_view text) : text_(text) {}

@@ -18,7 +18,7 @@ class ZeroedArray {
     static_assert(std::is_trivially_copyable_v<T>);
 
 public:
-    static constexpr std::size_t kAlignment = 64;  ///< bytes
+    static constexpr std::size_t kAlignment = 64;
 
     ZeroedArray() = default;
     explicit ZeroedArray(std::size_t size) : size_(size) {

@@ -20,7 +20,7 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-constexpr Seconds kLookTime{1};  ///< longest interval between checks of the threads
+constexpr Seconds kLookTime{1};
 /// Until this number of pictures was shown, all time limits are kFirstPatience times as long.
 constexpr std::uint64_t kFirstPictures = 10;
 
@@ -228,7 +228,6 @@ void App::onTick() {
     feedWatchdog(now);
     log_.sayKept();
     leaveIfHanging();
-    // The watchdog may need more frequent ticks than the status line.
     const Timestamp time = Timestamp::now();
     if (time.seconds() - statusShown_.seconds() < 0.9 * config_.status.intervalS) return;
     statusShown_ = time;

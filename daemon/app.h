@@ -67,7 +67,6 @@ private:
     struct Reload {
         Reload() : answer(said.get_future().share()) {}
 
-        /// Message that names the settings that need a restart, or the error.
         std::promise<std::string> said;
         std::shared_future<std::string> answer;
         std::future<Config> config;
@@ -112,7 +111,6 @@ private:
     void writeReport(const nlohmann::ordered_json& results);
 
     const Timestamp started_ = Timestamp::now();
-    /// First member, so that it also limits the destruction of the other members.
     LastResort lastResort_;
     const Options options_;
     Log& log_;
@@ -140,7 +138,7 @@ private:
     /// `nextReload_` was requested while `reload_` was running. It starts after `reload_`, because
     /// the file may have changed in the meantime.
     std::optional<Reload> reload_, nextReload_;
-    Health told_;  ///< the health that was last logged
+    Health told_;
     bool firstPictureShown_ = false;
 
     std::mutex mutex_;

@@ -1,5 +1,3 @@
-// The three ways in which a run ends: after a signal, by itself, or by force because a device
-// hangs.
 
 #include "base/whole_file.h"
 #include "daemon/app.h"

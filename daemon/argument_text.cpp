@@ -38,7 +38,6 @@ std::vector<ArgumentText> argumentTexts(const CLI::App& app) {
     std::vector<ArgumentText> out;
     for (const CLI::Option* option : app.get_options()) {
         const bool isFlag = option->get_items_expected_max() == 0;
-        // CLI11 appends the descriptions of the checks to the type name, after a colon.
         const std::string type = option->get_type_name();
         const std::size_t colon = std::min(type.find(':'), type.size());
         out.push_back(

@@ -7,7 +7,6 @@
 
 namespace mfar {
 
-/// The texts of one option or positional argument, for the manual page and shell completion.
 struct ArgumentText {
     std::string names;  ///< e.g. "-h,--help"; a positional argument has no dashes
     std::string value;  ///< e.g. "FILE"; empty: the option is a flag

@@ -23,7 +23,6 @@ int widthOf(const std::string& text, double scale) {
     return cv::getTextSize(text, kFont, scale, 1, nullptr).width;
 }
 
-/// Breaks a text into at most kMostLines lines, between words. Further text is cut off.
 std::vector<std::string> broken(const std::string& text, double scale, int width) {
     std::vector<std::string> lines(1);
     for (std::size_t at = 0; at < text.size();) {

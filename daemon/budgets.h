@@ -15,7 +15,6 @@ using std::chrono::milliseconds;
 /// Video capture thread: one frame of a camera and the search for tags in it. On a PC, this takes
 /// 50 ms of waiting and 20 ms of work.
 constexpr milliseconds kCapture{1500};
-/// Picture thread: processing and showing one picture, including a new still.
 constexpr milliseconds kPicture{2000};
 /// Thread of the control socket: reading one request of mfarctl, without the time for its answer.
 constexpr milliseconds kControl{500};
@@ -48,7 +47,6 @@ constexpr milliseconds kLearning{60'000};
 
 constexpr std::string_view kPictureThread = "picture";
 
-/// A displayed picture that is older than this counts as stale.
 constexpr std::chrono::milliseconds kStalePicture{3000};
 /// Factor of all time limits while the first pictures are made. Compiling their shaders is slow on
 /// a small board.

@@ -29,7 +29,6 @@ public:
     [[nodiscard]] std::optional<Frame> next(std::chrono::milliseconds timeout);
     [[nodiscard]] bool ended() const { return camera_.ended(); }
 
-    /// Returns true while next() waits for the camera. Thread-safe.
     [[nodiscard]] bool isWaiting() const { return waiting_; }
 
 private:

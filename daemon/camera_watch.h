@@ -23,7 +23,7 @@ struct CameraState {
     /// Time of the last picture that differed from the previous one. Not set: repeated pictures are
     /// not detected.
     std::optional<Timestamp> lastDistinct{};
-    std::optional<double> distinctAgeS{};  ///< age of lastDistinct when the state was queried [s]
+    std::optional<double> distinctAgeS{};
     bool repeats = false;  ///< true: one picture was repeated for more than kRepeatTime
 };
 

@@ -26,7 +26,6 @@ struct CameraConfig {
     double rateHz = 0;            ///< 0: the camera is triggered
     std::string format = "auto";  ///< "auto" or the driver's name of a format
     bool allowCrop = false;  ///< libcamera only: modes with a cropped field of view are allowed
-    /// Names and values of controls of the camera's driver.
     std::vector<std::pair<std::string, std::string>> controls{};
     bool operator==(const CameraConfig&) const = default;
 };
@@ -38,7 +37,7 @@ struct TriggerLineConfig {
     bool activeLow = false;
     double pulseMs = 1;
     bool pulseIsExposure = false;  ///< true: the sensor exposes as long as the pulse lasts
-    std::string loopbackChip;      ///< GPIO chip of `loopback`; empty: `chip`
+    std::string loopbackChip;
     std::string loopback;  ///< input wired to the trigger line, to measure its timing; empty: none
     double delayMs = 0;    ///< first estimate of the time from trigger pulse to exposure
     double jitterMs = 1;   ///< largest error of the still camera's timestamps

@@ -53,8 +53,8 @@ struct RecordConfig {
 /// All settings of the daemon, from the configuration file and the command line. The defaults here
 /// are those of option_table.h; a test compares both.
 struct Config {
-    std::string source = "cameras";   ///< not used when `recording` is set
-    std::filesystem::path recording;  ///< recording to play; empty: none
+    std::string source = "cameras";  ///< not used when `recording` is set
+    std::filesystem::path recording;
     std::string display = "auto";
     PictureSize size;
     SourcePace pace = SourcePace::Auto;

@@ -15,7 +15,6 @@ namespace mfar {
 /// std::exception whose message is one sentence.
 struct ControlActions {
     std::function<nlohmann::ordered_json()> status;
-    /// Returns all measurements since the start, see summary().
     std::function<nlohmann::ordered_json()> stats;
     /// Returns the last finished picture. If `screen` is set, it is the picture as the screen shows
     /// it.
@@ -23,7 +22,6 @@ struct ControlActions {
     /// Reads the configuration again. Returns a message that names the settings that need a
     /// restart.
     std::function<std::string()> reload;
-    /// Starts a recording into a new folder `name` in the working directory.
     std::function<void(const std::string& name)> record;
     /// Ends the recording. Returns the numbers of its frames and stills, and of dropped pictures.
     std::function<nlohmann::ordered_json()> stopRecording;

@@ -12,8 +12,6 @@
 namespace mfar {
 namespace {
 
-/// Returns the supplementary groups of the process at the other end of a socket, or an empty list
-/// if the kernel does not report them.
 std::vector<gid_t> groupsOfPeer(int socket) {
     constexpr std::size_t kMost = 65536;
     std::vector<gid_t> groups(32);

@@ -15,7 +15,6 @@ enum class ControlRole {
 /// Members of this group are operators, and so are root and the user that mfard runs as.
 inline constexpr const char* kOperatorsGroup = "mfar-operators";
 
-/// Returns nothing if the system does not have this group.
 [[nodiscard]] std::optional<gid_t> operatorsGroup();
 
 [[nodiscard]] ControlRole roleOf(uid_t user, std::span<const gid_t> groups,

@@ -25,7 +25,7 @@ namespace {
 
 constexpr int kRequestMs = 2000;
 constexpr int kAnswerMs = 5000;
-constexpr int kPauseMs = 100;  // pause when the process has no free file descriptor
+constexpr int kPauseMs = 100;
 constexpr int kWaitingClients = 8;
 constexpr std::size_t kMostClients = 16;
 constexpr std::size_t kMostAnswers = 4;
@@ -194,7 +194,6 @@ void ControlSocket::answer(Answering& one) {
         answer.line += '\n';
         send(client, answer.line.data(), answer.line.size());
         send(client, answer.data.data(), answer.data.size());
-        // closes the connection, which marks the end of the answer
         one.client.fd = OwnedFd();
     }
     one.isOver = true;

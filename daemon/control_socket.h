@@ -21,7 +21,7 @@
 namespace mfar {
 
 struct ControlAnswer {
-    std::string line;  ///< without the newline
+    std::string line;
     std::vector<std::uint8_t> data{};
 };
 

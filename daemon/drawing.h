@@ -31,9 +31,9 @@ struct Drawing {
     Pipeline pipeline;
     VirtualWorld objects;
     Banner banner;
-    Picture last;                  ///< the pipeline's last picture, without banner; may be empty
-    std::optional<Picture> shown;  ///< the last picture that the display got
-    std::string faultShown;        ///< text of the banner on `shown`; empty: no banner
+    Picture last;  ///< the pipeline's last picture, without banner; may be empty
+    std::optional<Picture> shown;
+    std::string faultShown;  ///< text of the banner on `shown`; empty: no banner
 };
 
 }  // namespace mfar

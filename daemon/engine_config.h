@@ -36,7 +36,6 @@ void readEngine(TomlReader& file, EngineConfig& engine);
 /// Returns "simd" or "gles" if all steps run on that engine, otherwise "still gles, flow simd,
 /// ...".
 [[nodiscard]] std::string describe(const EngineChoice& choice);
-/// Returns the choice that describe() describes with this text, or nothing.
 [[nodiscard]] std::optional<EngineChoice> parseEngineChoice(std::string_view text);
 
 }  // namespace mfar

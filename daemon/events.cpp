@@ -42,7 +42,6 @@ void arm(const OwnedFd& timer, std::chrono::duration<double> time, bool repeat) 
         throw std::system_error(errno, std::generic_category(), "timer");
 }
 
-/// Resets the counter of a timerfd or eventfd. Returns true if it was greater than zero.
 bool drained(const OwnedFd& fd) {
     std::uint64_t count = 0;
     return read(fd.get(), &count, sizeof count) == sizeof count;

@@ -8,7 +8,7 @@ namespace mfar {
 
 struct Event {
     enum class Kind {
-        Signal,  ///< SIGINT, SIGTERM or SIGHUP
+        Signal,
         Tick,
         Deadline,
         Wake,

@@ -11,10 +11,10 @@ namespace mfar {
 enum class ExitCode {
     Ok = 0,
     Usage = 64,
-    BadData = 65,       ///< an input exists but is invalid
-    NoInput = 66,       ///< an input is missing or unreadable
-    Unavailable = 69,   ///< a device or the GL renderer is not available
-    Internal = 70,      ///< a bug
+    BadData = 65,      ///< an input exists but is invalid
+    NoInput = 66,      ///< an input is missing or unreadable
+    Unavailable = 69,  ///< a device or the GL renderer is not available
+    Internal = 70,
     OutputFailed = 74,  ///< the display's output or the recording cannot be written
     BadConfig = 78,
 };

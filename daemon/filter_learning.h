@@ -22,7 +22,6 @@
 namespace mfar {
 
 struct FilterLearningOptions {
-    /// File that stores the learned state. Empty: the state is lost with this object.
     std::filesystem::path file;
     /// Names and picture sizes of the sensors; other sensors need other filters.
     std::string sensors;
@@ -58,7 +57,6 @@ public:
     void replaced(const RgbPlanes& video, Rows<const std::uint8_t> still,
                   Rows<const LookUpCell> lookUps,
                   const MatchedPictures::LookedUp& lookedUp) override;
-    /// Returns the current filters if they have changed since the last call, otherwise null.
     [[nodiscard]] std::shared_ptr<const FilterBank> takeFilters();
     /// If FilterLearningOptions::waits is set, waits until learning from the last still has ended.
     void finish();
@@ -67,7 +65,6 @@ public:
     /// Deletes all that was learned, and the file.
     void reset();
     [[nodiscard]] LearningCounts counts() const;
-    /// Returns the errors of reading and writing the file since the last call.
     [[nodiscard]] std::vector<std::string> takeWarnings();
 
 private:

@@ -24,7 +24,6 @@ constexpr std::uint64_t kFirstWait = 20, kLongestWait = 960;
 // If a level misses the deadline after it was used for at least kHeld counted frames, the scene has
 // changed. The next wait for this level is then kFirstWait again.
 constexpr std::uint64_t kHeld = 100;
-// The picture is at rest after this number of consecutive frames without change.
 constexpr int kAtRest = 3;
 constexpr std::uint64_t kStillEvery = 40;
 

@@ -42,7 +42,7 @@ public:
         double ms = 0;          ///< time from the start of processing to the shown picture
         bool newStill = false;  ///< a still became the reference just before this frame
         bool usedStill = true;
-        double changedBefore = 1;  ///< share of the picture that changed in the previous frame
+        double changedBefore = 1;
     };
     /// Must be called for every frame. Frames whose time is negative or not finite are ignored.
     void add(const Frame& frame);
@@ -73,7 +73,7 @@ private:
 
     std::vector<QualityLevel> levels_;
     double deadline_;
-    std::size_t level_ = 0;  // index of the level for frames in which something changes
+    std::size_t level_ = 0;
     Choice next_;
     std::optional<Pending> pending_;        // the previous frame, while it is unknown if it changed
     std::array<double, kWindow> ratios_{};  // measured time / table time, ring buffer

@@ -11,9 +11,9 @@ namespace mfar {
 class TomlReader;
 
 struct GovernorConfig {
-    double deadlineMs = 0;        ///< 0: there is no governor
-    std::string pin;              ///< name of the level to use always; empty: none
-    std::filesystem::path table;  ///< file with the levels; empty: the built-in table
+    double deadlineMs = 0;  ///< 0: there is no governor
+    std::string pin;
+    std::filesystem::path table;
 
     [[nodiscard]] bool governs() const { return pin.empty() && deadlineMs > 0; }
     bool operator==(const GovernorConfig&) const = default;

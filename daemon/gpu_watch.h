@@ -34,7 +34,6 @@ public:
     /// If a lost GPU caused `error`, returns the reason of the loss. All objects on the GPU must
     /// then be created again. Otherwise returns nothing.
     [[nodiscard]] std::optional<std::string> lossBehind(const std::exception& error) const;
-    /// Returns a message if a software renderer is late, or nothing.
     [[nodiscard]] std::optional<std::string> fault() const;
 
 private:

@@ -11,7 +11,6 @@
 namespace mfar {
 namespace {
 
-/// A wait in Heartbeat::restFor() is reported when it has lasted this long.
 constexpr std::chrono::seconds kWorthTelling{1};
 constexpr double kStalePeriods = 5;
 

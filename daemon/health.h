@@ -21,7 +21,6 @@ enum class HealthState {
 
 [[nodiscard]] std::string_view name(HealthState state);
 
-/// The state of mfard, as it is reported to the service manager, the log and mfarctl.
 struct Health {
     HealthState state = HealthState::Ok;
     std::string cause{};                  ///< the cause, without times; empty in state Ok
@@ -36,7 +35,6 @@ struct Health {
 /// Returns the health as text: "the capture thread hangs (stalled for 5.2 s, last picture 5.3 s
 /// ago)" or "ok".
 [[nodiscard]] std::string sentence(const Health& health);
-/// Returns the log fields for this health: message id, camera and thread.
 [[nodiscard]] Subject subjectOf(const Health& health);
 [[nodiscard]] nlohmann::ordered_json healthJson(const Health& health);
 
@@ -45,7 +43,7 @@ struct Observed {
     Timestamp now;
     std::vector<Heartbeats::Late> late{};
     std::optional<Heartbeats::Waiting> waiting{};
-    std::optional<std::string> fault{};  ///< fault of a device that is being reopened
+    std::optional<std::string> fault{};
     std::optional<std::string> gpu{};
     std::optional<std::string> display{};  ///< reason why not all pictures are shown or written
     std::optional<Timestamp> repeats{};  ///< start of the video camera's repetition of one picture
@@ -53,7 +51,7 @@ struct Observed {
     std::optional<Timestamp> lastBanner{};  ///< time when a banner with the fault was last shown
     std::optional<Timestamp> started{};     ///< time from which pictures could be made
     double rateHz = 0;                      ///< expected rate of pictures; 0: unknown
-    int patience = 1;                       ///< factor of all time limits, see kFirstPatience
+    int patience = 1;
 };
 
 /// Judges the health, and remembers when the state began to have its cause. Only one thread may use

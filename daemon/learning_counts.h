@@ -9,7 +9,7 @@ namespace mfar {
 
 struct LearningCounts {
     LearnerCounts learner;
-    std::uint64_t leftOut = 0;  ///< stills that came too soon and were skipped
+    std::uint64_t leftOut = 0;
 };
 
 /// Returns a text such as "12 stills, learned filters for 71 of 104 classes of pixels, 1.02 dB

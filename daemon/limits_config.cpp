@@ -39,7 +39,7 @@ std::uint64_t controlGroupMemory() {
         const std::filesystem::path top = "/sys/fs/cgroup";
         for (auto group = std::filesystem::path(line.substr(4)); !group.empty();
              group = group.parent_path()) {
-            std::uint64_t bytes = 0;  // stays 0 if the file contains "max"
+            std::uint64_t bytes = 0;
             std::ifstream limit(top / group / "memory.max");
             if (limit >> bytes && bytes > 0) least = least == 0 ? bytes : std::min(least, bytes);
         }

@@ -27,7 +27,6 @@ public:
     [[nodiscard]] static Style styleOf(int fd);
 
     using Clock = std::function<Timestamp()>;
-    /// Sends a message with fields "NAME=value". Returns false if that fails.
     using Send = std::function<bool(const std::vector<std::string>& fields)>;
     /// `send` is used for Style::Journal. It may be empty.
     Log(int fd, Style style, Clock clock = &Timestamp::now, Send send = {})

@@ -61,7 +61,6 @@ public:
         });
     }
 
-    /// Returns true if no further item will come: the mailbox is closed, or finished and empty.
     [[nodiscard]] bool over() const {
         const std::lock_guard lock(mutex_);
         return closed_ || (finished_ && !slot_);

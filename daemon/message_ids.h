@@ -36,7 +36,6 @@ constexpr std::string_view kRecording = "06d9228be6854df8919fb89c868ca2f5";
 constexpr std::string_view kObjects = "ab773ad30eb64201b8fa0c9f9e80db7f";
 /// The GPU failed. All objects on it were created again, or the CPU draws from now on.
 constexpr std::string_view kGpu = "a50b5b6556864ca4a2fa3a55314a3733";
-/// Learned filters could not be read or written.
 constexpr std::string_view kLearning = "a971f03ae21c4fdabf065e7fe8546f0b";
 
 }  // namespace message

@@ -21,7 +21,6 @@ inline constexpr std::size_t kMostObjects = 64;
 void readObjects(TomlReader& file, const std::filesystem::path& folder, FileMemory& memory,
                  std::vector<PlacedObject>& objects);
 
-/// Returns the pose of an object in the world. Returns nothing if its tag is not in the map.
 [[nodiscard]] std::optional<RigidTransform> worldPlace(const PlacedObject& object,
                                                        const TagMap& tags);
 

@@ -7,13 +7,13 @@ namespace mfar {
 
 enum class OptionType : unsigned char {
     Text,
-    Word,   ///< a text that is one of Option::words
+    Word,
     Texts,  ///< a list of texts; if Option::words is set, only these words
     Flag,
     Whole,
     Number,
-    Numbers,  ///< a list of Option::count numbers
-    Values,   ///< a table with any keys; its values are texts, numbers and flags
+    Numbers,
+    Values,  ///< a table with any keys; its values are texts, numbers and flags
 };
 
 /// The smallest and the largest valid number. If both are equal, any number is valid.

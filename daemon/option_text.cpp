@@ -48,7 +48,6 @@ std::string sectionText(const OptionSection& section) {
     std::string out = heading(section);
     bool isFirst = true;
     for (const Option& option : section.options) {
-        // No empty line precedes a key without a comment.
         if (!isFirst && !option.meaning.empty()) out += "\n";
         out += comment(describe(option)) + fmt::format("{} = {}\n", option.name, option.byDefault);
         isFirst = false;

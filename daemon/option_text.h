@@ -19,7 +19,6 @@ namespace mfar {
 /// Breaks a text into lines of at most `width` characters. A longer word gets its own line.
 [[nodiscard]] std::vector<std::string> wrapped(std::string_view text, std::size_t width);
 
-/// Returns the text of systemd/mfard.toml, the configuration file with all defaults.
 [[nodiscard]] std::string defaultConfigText();
 
 /// Returns the configuration key that a command line option overrides. Throws std::logic_error if
@@ -28,7 +27,6 @@ namespace mfar {
 
 [[nodiscard]] std::string helpFor(std::string_view argument);
 
-/// Returns the words that a command line option accepts, e.g. "auto, gles, simd".
 [[nodiscard]] std::string wordsFor(std::string_view argument);
 
 }  // namespace mfar

@@ -39,7 +39,7 @@ struct Options {
 
 struct CommandLine {
     Options options;
-    std::optional<std::string> print;  ///< set for --help, --version and --print-config
+    std::optional<std::string> print;
 };
 
 [[nodiscard]] std::vector<ArgumentText> argumentTexts();

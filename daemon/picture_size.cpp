@@ -5,7 +5,7 @@
 namespace mfar {
 namespace {
 
-constexpr int kMostPixels = 16384;  // width and height
+constexpr int kMostPixels = 16384;
 
 std::optional<int> pixels(std::string_view digits) {
     int out = 0;

@@ -15,7 +15,7 @@ struct PictureSize {
         Given,
     };
     Fits fits = Fits::Screen;
-    Size given{};  ///< for Fits::Given: pictures fit into this size [px]
+    Size given{};
     bool operator==(const PictureSize&) const = default;
 };
 

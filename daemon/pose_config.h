@@ -26,7 +26,7 @@ struct PoseConfig {
     /// describe the tags to detect.
     std::filesystem::path tags;
     std::vector<TagFamily> families{TagFamily::Tag36h11};
-    double tagSize = 0.1;   ///< edge of the tag that defines the world frame [m]
+    double tagSize = 0.1;
     double decimation = 2;  ///< tags are searched in video reduced by this factor: 1, 1.5, 2 to 8
     int threads = 1;
     int fullSearchInterval = 15;  ///< interval of tag searches in the whole picture [frames]

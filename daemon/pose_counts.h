@@ -25,9 +25,7 @@ struct PoseCounts {
     TrackStats tracker;  ///< zero if poses do not come from tags
     std::optional<Pose> last{};
 
-    /// `stats`: the tracker's statistics after this frame, if there is a tracker.
     void addFrame(const std::optional<Pose>& pose, const std::optional<TrackStats>& stats);
-    /// `tookMs`: time of the search for tags in the still [ms], if there was a search.
     void addStill(const std::optional<Pose>& pose, const std::optional<double>& tookMs);
 
     /// trackedShare() is the share of `frames` that have a pose, [0, 1]. meanTags() and

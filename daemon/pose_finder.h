@@ -22,10 +22,9 @@ struct PoseInputs {
     std::function<std::optional<Pose>(Timestamp)> recorded;
 };
 
-/// The pose of the video camera at the time of a still, measured from tags in the still.
 struct StillMeasurement {
     std::optional<Pose> pose{};
-    std::optional<double> ms{};  ///< duration of the search for tags; not set: there was none
+    std::optional<double> ms{};
 };
 
 /// Finds the pose of the video camera at the times of frames and stills. Only one thread, not the
@@ -52,7 +51,6 @@ public:
     /// If there was no tag map at the start, returns the map that the first picture gave: the tag
     /// that defines the world frame. Returns the map only once. Thread-safe.
     [[nodiscard]] std::optional<TagMap> takeFoundTags() { return found_.tryTake(); }
-    /// Returns true if there was no tag map at the start, so that takeFoundTags() may return one.
     [[nodiscard]] bool mayFindTags() const { return tracker_ && tags_.empty(); }
     [[nodiscard]] const std::string& description() const { return description_; }
 
@@ -64,7 +62,7 @@ private:
     std::optional<Tracker> tracker_;
     bool foundTags_ = false;
     Mailbox<TagMap> found_{HandOver::NewestWins};
-    PoseHistory history_;  ///< poses that were measured from tags in the frames themselves
+    PoseHistory history_;
 };
 
 }  // namespace mfar

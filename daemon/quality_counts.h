@@ -12,9 +12,9 @@ namespace mfar {
 
 /// Counts met and missed deadlines, and the frames of each level of the governor.
 struct QualityCounts {
-    std::string level;      ///< of the latest frame; empty: there is no governor
+    std::string level;
     double deadlineMs = 0;  ///< 0: no deadline, because the level is pinned
-    Histogram frameMs;      ///< times from the start of processing to the shown picture
+    Histogram frameMs;
     std::uint64_t frames = 0, late = 0;
     /// Number of frames of each level.
     std::vector<std::pair<std::string, std::uint64_t>> framesOf;

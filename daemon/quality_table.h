@@ -27,7 +27,6 @@ struct QualityLevel {
 [[nodiscard]] std::vector<QualityLevel> parseQualityLevels(std::string_view toml,
                                                            const std::string& file);
 
-/// Returns the levels as a TOML text that parseQualityLevels() can read.
 [[nodiscard]] std::string toToml(std::span<const QualityLevel> levels);
 
 /// Replaces each mode that is better than `best` by `best`. Of levels that become equal, only the

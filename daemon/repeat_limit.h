@@ -24,7 +24,7 @@ public:
     struct Message {
         int priority = 0;
         std::string text;
-        std::string_view word{};  ///< prefix, e.g. "warning: "; must outlive this object
+        std::string_view word{};
         Subject subject{};
         std::uint64_t count = 1;
     };

@@ -33,7 +33,6 @@ public:
             x_.push_back((static_cast<double>(i) + 0.5) * history.binS() / unitS);
     }
 
-    /// Returns a value for each bin. A bin without pictures makes a gap.
     [[nodiscard]] std::vector<double> each(const std::function<double(const Bin&)>& value) const {
         std::vector<double> out;
         for (const Bin& bin : history_.bins())

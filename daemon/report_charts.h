@@ -11,7 +11,6 @@ namespace mfar {
 /// 0: there is no deadline.
 [[nodiscard]] std::string runCharts(const RunHistory& history, double deadlineMs);
 
-/// Draws for each stage a chart of the median and the 95 % quantile of its time.
 [[nodiscard]] std::string stageCharts(const RunHistory& history);
 
 }  // namespace mfar

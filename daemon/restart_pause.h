@@ -23,7 +23,6 @@ public:
     /// `file` stores the number of consecutive failures for the next process. Without a writable
     /// file, each pause is 5 s.
     explicit RestartPause(std::filesystem::path file) : file_(std::move(file)) {}
-    /// Returns a path in $STATE_DIRECTORY, see systemd.exec(5).
     [[nodiscard]] static std::filesystem::path defaultFile();
 
     struct Next {

@@ -85,7 +85,6 @@ struct PlayedSource final : RigSource {
     [[nodiscard]] const StereoRig& geometry() const override { return player.recording().rig; }
     [[nodiscard]] Camera& video() override { return player.video(); }
     [[nodiscard]] Camera& still() override { return player.stills(); }
-    // The stills of a recording exist already, so there is no trigger.
     [[nodiscard]] Trigger* trigger() override { return nullptr; }
     [[nodiscard]] std::string name() const override {
         return "recording " + player.recording().root.string();

@@ -49,23 +49,18 @@ public:
     [[nodiscard]] const StereoRig& geometry() const;
     [[nodiscard]] Camera& video();
     [[nodiscard]] Camera& still();
-    /// Returns null if stills are not triggered.
     [[nodiscard]] Trigger* trigger();
     [[nodiscard]] HandOver handOver() const;
     [[nodiscard]] CameraKind cameraKind() const;
     /// Returns the offset that converts a still's time to the video camera's clock.
     [[nodiscard]] std::chrono::nanoseconds stillTimeOffset() const;
-    /// Returns the largest possible number of video frames, or nothing if it is unknown.
     [[nodiscard]] std::optional<std::uint64_t> videoFrames() const;
     /// Returns the tags and poses that the source knows: those of a recording, or the tags of the
     /// simulated board. The result is valid as long as the rig exists.
     [[nodiscard]] PoseInputs poseInputs() const;
     /// Returns e.g. "synthetic office: video 640x480 at 30 Hz, still 2304x1728".
     [[nodiscard]] std::string description() const;
-    /// Returns the counters of the matching of stills to trigger pulses, or nothing without a
-    /// trigger line.
     [[nodiscard]] std::optional<StillCounters> matching() const;
-    /// Returns the fault of a device that the rig waits for, or nothing if there is no fault.
     [[nodiscard]] std::optional<std::string> fault() const;
     [[nodiscard]] ExitCode inputFailure() const;
 
@@ -73,7 +68,6 @@ public:
     /// recordVideo(), and only one may call recordStill().
     void recordVideo(const Frame& frame);
     void recordStill(const Frame& frame);
-    /// Copies a pose into the recording, if one is running. Never waits.
     void recordPose(const Pose& pose);
     void recordTags(const TagMap& tags);
     /// Returns the number of frames and stills that are missing in this run's recordings.
@@ -109,7 +103,7 @@ private:
     bool mustRecord_ = false;
     mutable std::mutex mutex_;
     std::shared_ptr<Recorder> recorder_;
-    std::uint64_t lostBefore_ = 0;  ///< pictures missing in the recordings that have ended
+    std::uint64_t lostBefore_ = 0;
     std::optional<std::string> broke_;
     std::vector<std::jthread> ending_;
 };

@@ -27,7 +27,6 @@ constexpr double kNominalBaseline = 0.014;
 // After kSilentPeriods frame periods without a frame, a camera is reported as silent. After
 // kStalledPeriods, it is reopened.
 constexpr double kSilentPeriods = 4.5, kStalledPeriods = 20;
-// Assumed frame period of a free-running camera whose rate is not configured.
 constexpr double kUnknownPeriodMs = 500;
 
 std::chrono::nanoseconds nanoseconds(double ms) {

@@ -22,7 +22,6 @@ public:
     [[nodiscard]] virtual const StereoRig& geometry() const = 0;
     [[nodiscard]] virtual Camera& video() = 0;
     [[nodiscard]] virtual Camera& still() = 0;
-    /// Returns null if stills are not triggered.
     [[nodiscard]] virtual Trigger* trigger() = 0;
     [[nodiscard]] virtual std::string name() const = 0;
 
@@ -30,7 +29,6 @@ public:
     bool hasSensors = false;  ///< true: the cameras are real sensors, see CameraKind::Sensor
     ExitCode failure = ExitCode::Unavailable;
     std::optional<std::uint64_t> videoFrames{};
-    /// Still's time + offset = time on the video's clock.
     std::chrono::nanoseconds stillTimeOffset{0};
     TagMap tags{};
     /// Returns the recorded pose at a point in time. Not set without recorded poses.

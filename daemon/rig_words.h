@@ -8,7 +8,6 @@ namespace mfar {
 
 inline constexpr std::string_view kCameras = "cameras";
 
-/// The parts of a source's name, "kind[:scene[,path]]".
 struct SourceWords {
     std::string_view kind;
     std::optional<std::string_view> scene;

@@ -27,7 +27,6 @@ void merge(RunHistory::Bin& into, const RunHistory::Bin& later) {
 }  // namespace
 
 void TimeSpread::add(double ms) {
-    // std::min() returns `ms` if `ms` is NaN.
     ++counts_[static_cast<std::int16_t>(kBuckets.of(std::min(ms, kMostMs)))];
 }
 

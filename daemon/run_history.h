@@ -29,19 +29,19 @@ private:
 };
 
 struct RunTotals {
-    std::uint64_t notTaken = 0;  ///< frames that the sensor lost or that a newer frame replaced
+    std::uint64_t notTaken = 0;
     std::uint64_t notRecorded = 0;
     std::uint64_t notWritten = 0;
     std::uint64_t stillsReceived = 0, stillsUsed = 0, stillsLost = 0;
     std::uint64_t posesAsked = 0, posesFound = 0;
-    double learnedGainDb = 0;  ///< PSNR of the learned filters minus PSNR of bicubic enlargement
+    double learnedGainDb = 0;
 };
 
 struct RunMoment {
     Timestamp shown;
     double frameMs = 0, latencyMs = 0;
     bool isLate = false;
-    std::optional<double> confidence{};  ///< set if a still was used
+    std::optional<double> confidence{};
     RunTotals totals{};
 };
 
@@ -54,7 +54,7 @@ public:
 
     struct Bin {
         TimeSpread frameMs, latencyMs;
-        std::vector<TimeSpread> stageMs;  ///< in the order of stages(); may be shorter
+        std::vector<TimeSpread> stageMs;
         std::uint64_t frames = 0, late = 0;
         double confidenceSum = 0;
         std::uint64_t confidenceFrames = 0;
@@ -67,7 +67,6 @@ public:
 
     [[nodiscard]] const std::vector<Bin>& bins() const { return bins_; }
     [[nodiscard]] double binS() const { return binS_; }
-    /// Returns the names of the stages in the order of their first use.
     [[nodiscard]] const std::vector<std::string>& stages() const { return stages_; }
 
 private:

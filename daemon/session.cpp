@@ -58,7 +58,7 @@ Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
                     poses_.description(),
                     how.engine,
                     rig_.video().info().rateHz};
-    beginRecording(config);  // last step: may wait for the disk
+    beginRecording(config);
 }
 
 Session::~Session() = default;
@@ -305,7 +305,6 @@ void Session::takeStill(CapturedStill still) {
     useStill();
 }
 
-// Gives the newest still to the pipeline. In mode Off, it is kept for a later mode.
 void Session::useStill() {
     if (!newestStill_ || config_.superres.mode == SuperResMode::Off) return;
     const CapturedStill still = *std::exchange(newestStill_, std::nullopt);
@@ -367,7 +366,6 @@ void Session::showFault() {
     stats_.bannerShown(Timestamp::now());
 }
 
-// Shows the pipeline's last picture, with a banner if there is a fault.
 void Session::show(Timestamp time, bool unchanged) {
     const std::string fault = bannerText();
     try {

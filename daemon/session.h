@@ -32,7 +32,6 @@ namespace mfar {
 
 class FilterLearning;
 
-/// The settings that can change while mfard runs.
 struct Tunables {
     SuperResConfig superres;
     TriggerConfig trigger;
@@ -60,10 +59,8 @@ public:
     ~Session();
 
     [[nodiscard]] const RunDescription& description() const { return description_; }
-    /// Returns the line that is logged at the start: renderer, sensors, display and output size.
     [[nodiscard]] std::string startLine() const;
 
-    /// Is called when no more pictures are made, with the reason or the error.
     using Over = std::function<void(const std::string& reason, const std::exception_ptr& error)>;
     /// Processes frames until the source ends, a stop is requested or `maxFrames` frames are shown.
     /// Waits until their pictures are written, then calls `over`. After that, only the devices must
@@ -77,7 +74,6 @@ public:
     [[nodiscard]] ScreenPicture snapshot(bool ofScreen) const;
     void askForStill();
     void resetLearning();
-    /// These three functions call the functions of the same names in Rig.
     [[nodiscard]] std::function<std::shared_ptr<Recorder>()>
     makeRecording(const std::filesystem::path& folder) const {
         return rig_.makeRecording(folder);
@@ -117,8 +113,6 @@ private:
     [[nodiscard]] std::string bannerText();
     [[nodiscard]] Rendering rendering() const;
     void keepUsedStill(const CapturedStill& still);
-    /// Keeps a copy of the still that is now the pipeline's second still. Must be called after
-    /// Pipeline::setStill().
     void keepSecondStill();
     [[nodiscard]] bool mayDraw();
     /// Processes and shows a frame. If this throws because the GPU is lost, `captured` can be
@@ -132,7 +126,6 @@ private:
     void govern();
     void showFault();
     void finishDisplay();
-    /// Makes small copies of the last picture and the last still, if a report will be written.
     void leavePictures();
     [[nodiscard]] FileDisplayPolicy displayPolicy();
     void setLearning(bool wanted);
@@ -148,7 +141,7 @@ private:
     Mailbox<Tunables>& changes_;
     CallQueue<Session>& calls_;
     StopTokens stop_;
-    Config config_;  ///< includes the changes made since the start
+    Config config_;
     Rig rig_;
     /// Valid while the recording's folder is being created.
     std::future<std::shared_ptr<Recorder>> firstRecording_;
@@ -161,16 +154,16 @@ private:
     std::unique_ptr<FilterLearning> learning_;
     /// The learned filters in use; null: the shipped filters are used.
     std::shared_ptr<const FilterBank> filters_;
-    std::optional<Quality> quality_;    ///< the pipeline's quality; not set: as configured
+    std::optional<Quality> quality_;
     std::unique_ptr<Drawing> drawing_;  ///< declared after learning_, which it uses
     StillPolicy policy_;
-    std::optional<CapturedStill> newestStill_;  ///< set until the pipeline gets the still
+    std::optional<CapturedStill> newestStill_;
     // Copies of the still in use, of the pipeline's second still, and of the still in use before.
     // They are needed after a loss of the GPU and for the report. The memory of formerStill_ is
     // reused. Not set if no step runs on GLES and no report is written.
     std::optional<UsedStill> usedStill_, secondStill_, formerStill_;
     TriggerReports triggerReports_;
-    std::vector<QualityLevel> levels_;  ///< the governor's levels; empty: quality as configured
+    std::vector<QualityLevel> levels_;
     std::optional<Governor> governor_;
     Governor::Choice choice_{};
     std::vector<StageTime> stages_;

@@ -1,5 +1,3 @@
-// Creates the objects that use the GL context of a session, at the start and after a loss of the
-// GPU.
 
 #include "base/image_layout.h"
 #include "daemon/exit_code.h"

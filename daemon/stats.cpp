@@ -11,7 +11,6 @@ double milliseconds(std::chrono::nanoseconds d) {
     return static_cast<double>(d.count()) * 1e-6;
 }
 
-// Returns the frame intervals per second between two times, or 0 if `to` is not later than `from`.
 double rate(std::uint64_t intervals, Timestamp from, Timestamp to) {
     const double s = to.seconds() - from.seconds();
     return s > 0 ? static_cast<double>(intervals) / s : 0;

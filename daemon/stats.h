@@ -25,8 +25,9 @@
 
 namespace mfar {
 
+/// Numbers of lost frames and pictures.
 struct Drops {
-    std::uint64_t sensor = 0;   ///< lost by the video camera
+    std::uint64_t sensor = 0;
     std::uint64_t mailbox = 0;  ///< replaced by a newer frame before they were processed
     std::uint64_t recorder = 0;
     std::uint64_t display = 0;  ///< pictures that a slow display did not write
@@ -35,8 +36,8 @@ struct Drops {
 struct StillCounts {
     std::uint64_t triggered = 0;
     std::uint64_t received = 0;
-    std::uint64_t used = 0;        ///< became the reference of a frame
-    std::uint64_t superseded = 0;  ///< replaced by a newer still before a frame could use them
+    std::uint64_t used = 0;
+    std::uint64_t superseded = 0;
     std::uint64_t lost = 0;
 };
 
@@ -45,12 +46,12 @@ enum class CameraRole : std::uint8_t { Video, Still };
 struct Rendering {
     std::string engine;
     std::string renderer;
-    std::string source;  ///< the source, and the way of its pictures to the GPU
+    std::string source;
 };
 
 struct ValidationCounts {
     std::uint64_t values = 0;
-    std::uint64_t faults = 0;  ///< shader outputs with a wrong value
+    std::uint64_t faults = 0;
 };
 
 /// All counters since the start, and values of the latest frame.
@@ -58,32 +59,32 @@ struct Counted {
     std::uint64_t frames = 0;
     double seconds = 0;
     double fps = 0;
-    double recentFps = 0;  ///< rate over the last second, see PictureRate
+    double recentFps = 0;
     Histogram latencyMs;
     std::vector<std::pair<std::string, Histogram>> stageMs;
     std::array<std::uint64_t, kTileClasses> tiles{};
-    std::uint64_t tilesMatchedSecond = 0;  ///< tiles that were matched with the second still, too
+    std::uint64_t tilesMatchedSecond = 0;
     std::uint64_t tilesShowSecond = 0;
     double meanConfidence = 0;
     Drops drops;
     StillCounts stills;
-    std::array<CameraState, 2> cameras{};  ///< indexed by CameraRole
-    StillCounters matching;                ///< of stills to pulses; zero without a trigger line
+    std::array<CameraState, 2> cameras{};
+    StillCounters matching;  ///< of stills to pulses; zero without a trigger line
     PoseCounts poses;
     QualityCounts quality;
-    std::uint64_t epipolarFrames = 0;  ///< frames matched along epipolar lines
-    /// epipolarFrames that were searched near the previous result
+    std::uint64_t epipolarFrames = 0;
+    /// Epipolar frames that were searched near the previous result.
     std::uint64_t predictedFrames = 0;
-    /// epipolarFrames whose pose was refined from the pictures
+    /// Epipolar frames whose pose was refined from the pictures.
     std::uint64_t refinedFrames = 0;
     double meanEpipolarError = 0;  ///< over the frames with enough patches [video px]
     std::uint64_t depthTiles = 0;  ///< tiles with measured depth, summed over all frames
     /// Tiles without measured depth, because they are behind the objects.
     std::uint64_t depthTilesSkipped = 0;
-    std::uint64_t keyframeSearches = 0;  ///< frames whose depth was measured against a keyframe
-    std::uint64_t tilesSearched2d = 0;   ///< tiles without a reliable match along epipolar lines
+    std::uint64_t keyframeSearches = 0;
+    std::uint64_t tilesSearched2d = 0;  ///< tiles without a reliable match along epipolar lines
+    /// Frames with virtual objects in view, and those in which all objects were hidden.
     std::uint64_t objectFrames = 0;
-    /// objectFrames in which all virtual objects were hidden
     std::uint64_t hiddenFrames = 0;
     std::optional<TracedLayerCounters> traced;
     std::optional<double> referenceAgeS;
@@ -94,10 +95,10 @@ struct Counted {
     std::string display;
     std::uint64_t faults = 0;                ///< number of faults of devices
     std::optional<Timestamp> lastPicture{};  ///< see FinishedPicture::since
-    /// last time that a banner was shown without a new frame
+    /// Time of the last banner that was shown without a new frame.
     std::optional<Timestamp> lastBanner{};
     std::optional<std::string> displayFault{};
-    std::optional<std::string> gpuFault{};  ///< see GpuWatch and GpuFailures
+    std::optional<std::string> gpuFault{};
     std::uint64_t gpuFailures = 0;
     std::optional<Rendering> rendering{};  ///< set if it has changed since the start
     ValidationCounts validation{};         ///< zero without validation
@@ -137,7 +138,6 @@ private:
     std::size_t count_ = 0;
 };
 
-/// A message that is logged once.
 struct Warning {
     std::string text;
     Subject subject{};
@@ -150,7 +150,6 @@ public:
 
     void picture(const FinishedPicture& picture);
     void firstPicture(const ProcessUse& use);
-    /// Sets the current fault of a device. std::nullopt: there is none.
     void fault(const std::optional<std::string>& fault);
     void warn(std::string text, Subject subject = {});
     [[nodiscard]] std::vector<Warning> takeWarnings();
@@ -185,7 +184,6 @@ public:
 
     void keepHistory();
     [[nodiscard]] bool keepsHistory();
-    /// Returns an empty history if keepHistory() was not called.
     [[nodiscard]] RunHistory history();
     void pictures(RunPictures pictures);
     [[nodiscard]] RunPictures pictures();

@@ -12,7 +12,6 @@ namespace {
 constexpr std::array<const char*, kTileClasses> kTileNames = {"unchanged", "upscaled", "trusted",
                                                               "blended", "hidden"};
 
-// Returns the finished share of the run, or nothing if no end is planned.
 std::optional<double> progress(const Counted& counted, const RunDescription& run, double elapsedS) {
     std::optional<double> done;
     if (run.plannedFrames && *run.plannedFrames > 0) {
@@ -161,7 +160,6 @@ nlohmann::ordered_json lineSummary(const StillCounters& line) {
             {"missed_edges", line.missedEdges}};
 }
 
-// Counters that this camera does not have are omitted.
 nlohmann::ordered_json cameraSummary(const CameraState& camera) {
     const CameraCounters& c = camera.counters;
     nlohmann::ordered_json out = {{"configured_hz", camera.configuredHz},

@@ -11,13 +11,12 @@
 
 namespace mfar {
 
-/// Describes the run for the user. Complete when the session is set up.
 struct RunDescription {
     std::string renderer;
     std::string source;
     std::string display;
     std::string mode;
-    std::optional<std::uint64_t> plannedFrames;  ///< length of the recording, or --frames
+    std::optional<std::uint64_t> plannedFrames;
     std::optional<double> plannedSeconds;
     std::string poses;
     std::string engine{};
@@ -29,7 +28,6 @@ struct RunDescription {
 [[nodiscard]] std::string statusLine(const Counted& counted, const RunDescription& run,
                                      double elapsedS, const Health& health = {});
 
-/// Returns e.g. "first picture 430 ms after the start, 90 MB resident".
 [[nodiscard]] std::string firstPictureLine(const ProcessUse& use);
 
 /// Returns the states of the cameras as JSON, with the cameras' names as keys.

@@ -16,7 +16,7 @@ enum class TriggerMode {
 
 struct TriggerConfig {
     TriggerMode mode = TriggerMode::Demand;
-    double rateHz = 2;  ///< mode rate: stills per second
+    double rateHz = 2;
     /// mode demand: trigger if FrameStats::explained is less
     double explainedBelow = 0.6;
     double maxAgeS = 10;        ///< mode demand: an older still is replaced while the scene moves
@@ -44,7 +44,6 @@ public:
     /// may be older.
     [[nodiscard]] bool decide(Timestamp now, Timestamp statsOf, const FrameStats& stats);
 
-    /// Requests one still, in any mode. The next decision triggers it, unless a still is pending.
     void ask() { asked_ = true; }
 
     /// Reports that the trigger could not fire, because its last pulse has not ended. The next
@@ -68,14 +67,14 @@ private:
 
     TriggerConfig config_;
     std::optional<Timestamp> still_;
-    std::optional<Timestamp> usedSince_;  ///< first frame with this reference and mode
+    std::optional<Timestamp> usedSince_;
     std::optional<Timestamp> firedAt_;
     bool arrived_ = true;  ///< true: the still of the last trigger has arrived or is lost
     bool repeated_ = false;
     bool movedSinceTrigger_ = false;
     bool movedInUse_ = false;  ///< true: the scene moved since the reference was first used
     bool asked_ = false;
-    std::optional<Timestamp> due_;        ///< mode rate: time of the next trigger
+    std::optional<Timestamp> due_;
     std::optional<Timestamp> notBefore_;  ///< earliest time of a trigger after two lost stills
     int fired_ = 0;
     int lost_ = 0;

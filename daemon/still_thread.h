@@ -34,7 +34,6 @@ class StillBox {
 public:
     static constexpr std::size_t kCapacity = 2;
 
-    /// Adds a still. If the queue is full, discards the oldest still and returns false.
     bool put(CapturedStill still);
     [[nodiscard]] std::optional<CapturedStill> take();
 
@@ -55,7 +54,6 @@ public:
     /// Waits for the thread, which ends when the camera returns from its current call.
     ~StillThread();
 
-    /// Requests the end of the thread. Thread-safe; never waits.
     void stop() { stopped_ = true; }
     /// Throws the error that ended the thread, if there is one: Failure if the camera failed or a
     /// still had a wrong size.
@@ -73,7 +71,7 @@ private:
     StillBox box_;
     std::atomic<bool> stopped_{false};
     std::atomic<bool> failed_{false};
-    std::exception_ptr failure_;  ///< set before failed_ is
+    std::exception_ptr failure_;
     std::thread thread_;
 };
 

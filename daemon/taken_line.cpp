@@ -26,8 +26,6 @@ bool isName(std::string_view text) {
     return text.size() <= kLongestName && std::ranges::all_of(text, isPrintable);
 }
 
-/// Returns the value of `key` in the first line of `text`, and removes the line from `text`. Throws
-/// std::runtime_error if the line has another key.
 std::string_view valueOf(std::string_view key, std::string_view& text) {
     const std::size_t end = text.find('\n');
     if (end == text.npos || !text.starts_with(key))

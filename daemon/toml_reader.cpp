@@ -16,8 +16,6 @@ namespace {
 constexpr std::size_t kMostFaults = 50;
 constexpr std::size_t kLongestKey = 200;
 
-/// Removes "section." or "section[0]." from the key. Returns false if the key is not in the
-/// section.
 bool takeSection(const OptionSection& section, std::string_view& key) {
     if (section.name.empty()) return true;
     if (!key.starts_with(section.name)) return false;

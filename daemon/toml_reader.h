@@ -64,7 +64,6 @@ private:
         std::string message;
     };
 
-    /// Throws std::logic_error if the table has no key of this name and type.
     [[nodiscard]] const Option& option(std::string_view key, OptionType type) const;
     void word(std::string_view key, OptionType type, std::string& out, const Check& check);
     const toml::node* find(std::string_view key);
@@ -80,7 +79,7 @@ private:
     std::span<const OptionSection> table_;
     toml::table root_;
     std::vector<std::string> known_;
-    std::vector<Fault> faults_;  ///< in the order of the file
+    std::vector<Fault> faults_;
 };
 
 template <class E>

@@ -11,7 +11,7 @@ class TriggerReports {
 public:
     struct Seen {
         std::uint64_t lost = 0;
-        std::uint64_t missedEdges = 0;  ///< see Trigger::missedEdges()
+        std::uint64_t missedEdges = 0;
         bool repeats = false;
     };
     /// Returns one sentence for each fault (lost stills, missed edges) since the last call.

@@ -32,7 +32,6 @@ std::optional<std::string> directionFault(std::span<const double> xyz) {
 }
 
 void readSun(TomlReader& file, std::optional<Sun>& sun) {
-    // There is a sun if one of these keys is set.
     Eigen::Vector3d towards = Eigen::Vector3d::Zero(), irradiance = Eigen::Vector3d::Constant(-1);
     double radiusDeg = 0;
     file.numbers("light.sun.direction", {towards.data(), 3}, directionFault);

@@ -46,7 +46,7 @@ TracedLayerOptions tracedLayerOptions(const VirtualOptions& options, float expos
     TracedLayerOptions out;
     out.renderer.slices.slicing = options.slicing;
     out.renderer.slices.samples = options.samples;
-    out.renderer.slices.samplesPerTurn = 1;  // the first traced picture is finished soon
+    out.renderer.slices.samplesPerTurn = 1;
     out.renderer.tracer.shadowReach = kShadowReach;
     out.renderer.tracer.fireflyClamp = kBrightestCaustic / exposure;
     out.renderer.budgetMs = options.budgetMs;

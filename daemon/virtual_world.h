@@ -27,13 +27,12 @@ private:
     [[nodiscard]] TracedLayerOptions layerOptions() const;
 
     VirtualOptions options_;
-    Size fullSize_;  // output size if pictures have the still's resolution
+    Size fullSize_;
     Pipeline& pipeline_;
     bool traced_;
     float exposure_ = 1;
 };
 
-/// The caller must set the size of the result.
 [[nodiscard]] TracedLayerOptions tracedLayerOptions(const VirtualOptions& options, float exposure);
 
 /// Returns a scene with these objects at their poses in the tag map, in this light. A light that is

@@ -12,7 +12,6 @@ class CalibrationError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Throws CalibrationError. `line` counts from 1. If it is 0, the fault concerns the whole file.
 [[noreturn]] void calibrationFault(const std::filesystem::path& file, int line,
                                    std::string_view what);
 

@@ -16,7 +16,6 @@ namespace mfar {
 [[nodiscard]] CameraModel readCameraInfo(const std::filesystem::path& file,
                                          std::optional<Size> wanted = {});
 
-/// Returns the text of a camera_info file. readCameraInfo() reads exactly the same numbers from it.
 [[nodiscard]] std::string cameraInfoText(const CameraModel& camera, std::string_view name);
 
 }  // namespace mfar

@@ -35,7 +35,6 @@ void setDistortion(const YamlReader& in, const YAML::Node& node, const std::vect
 void checkBaseline(const YamlReader& in, const YAML::Node& node, const RigidTransform& T);
 /// Reads a frame rate [Hz]. Rate 0 means that the sensor takes pictures on trigger only.
 [[nodiscard]] double rate(const YamlReader& in, const YAML::Node& node, const char* what);
-/// Reads RigCalibration::stillTimeOffset [s].
 [[nodiscard]] double timeOffset(const YamlReader& in, const YAML::Node& node, const char* what);
 
 }  // namespace mfar::plausible

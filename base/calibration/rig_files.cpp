@@ -85,7 +85,6 @@ RigCalibration readTwo(const fs::path& first, const fs::path& second, const Want
     return euroc ? readEuroc(first, second, wanted) : out;
 }
 
-/// XML files get a message of their own, because the YAML parser's message would not help.
 void refuseXml(const fs::path& file) {
     std::ifstream in(file);
     if (in.peek() == '<')

@@ -10,6 +10,7 @@
 
 namespace mfar {
 
+/// The calibration of the video camera and the still camera.
 struct RigCalibration {
     StereoRig rig;
     double stillTimeOffset = 0;  ///< [s]; still's time + offset = same time on the video's clock

@@ -9,7 +9,6 @@ namespace mfar::rig_formats {
 [[nodiscard]] RigCalibration kalibr(const YamlReader& in, const WantedSizes& wanted);
 
 [[nodiscard]] bool isOpenCv(const YamlReader& in);
-/// Reads OpenCV's FileStorage. `intrinsics` and `extrinsics` may be the same file.
 [[nodiscard]] RigCalibration openCv(const YamlReader& intrinsics, const YamlReader& extrinsics,
                                     const WantedSizes& wanted);
 

@@ -10,6 +10,7 @@
 
 namespace mfar {
 
+/// Content of a camera's sensor.yaml in EuRoC's format.
 struct SensorYaml {
     CameraModel camera;
     RigidTransform T_body_sensor;  ///< T_BS: sensor coordinates -> body coordinates

@@ -10,7 +10,7 @@
 namespace mfar {
 namespace {
 
-constexpr std::size_t kMaxBytes = 1 << 20;  // a calibration file has only a few kilobytes
+constexpr std::size_t kMaxBytes = 1 << 20;
 
 int lineOf(const YAML::Mark& mark) {
     return mark.is_null() ? 0 : mark.line + 1;

@@ -14,7 +14,6 @@ namespace mfar::gpu {
 class Buffer {
 public:
     Buffer() = default;
-    /// The buffer is filled with zeros.
     explicit Buffer(std::size_t bytes);
     Buffer(Buffer&& other) noexcept;
     Buffer& operator=(Buffer&& other) noexcept;

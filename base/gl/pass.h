@@ -15,6 +15,7 @@
 
 namespace mfar::gpu {
 
+/// A resource that is bound to a binding point of a shader.
 struct Binding {
     enum class Kind { Sampler, ImageWrite, Storage, Uniform };
     Kind kind;
@@ -172,7 +173,6 @@ class DrawPass {
     static_assert(std::is_trivially_copyable_v<P> && sizeof(P) % 16 == 0, "std140 block");
 
 public:
-    /// The fragment shader is combined with the vertex shader of a full-screen triangle.
     explicit DrawPass(std::string_view fragment, std::string_view defines = {})
         : DrawPass("fullscreen.vert", fragment, defines) {}
     DrawPass(std::string_view vertex, std::string_view fragment, std::string_view defines)

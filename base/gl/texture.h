@@ -83,7 +83,6 @@ public:
     Framebuffer& operator=(const Framebuffer&) = delete;
     ~Framebuffer();
 
-    /// Makes this framebuffer the target of the following draws. The viewport covers all of it.
     void bind() const;
     [[nodiscard]] GLuint id() const { return id_; }
     [[nodiscard]] Size size() const { return size_; }

@@ -23,7 +23,7 @@ struct ValidationFault {
     int component = 0;
     double value = 0;
     ValueRange range{};  ///< the allowed range; {0, 0}: any finite value is allowed
-    long frame = 0;      ///< see Validation::nextFrame()
+    long frame = 0;
 };
 [[nodiscard]] std::string describe(const ValidationFault& fault);
 
@@ -46,7 +46,6 @@ public:
     /// Returns the faults since the last call. For each output of a pass, only the first fault is
     /// ever reported.
     [[nodiscard]] std::vector<ValidationFault> takeFaults();
-    /// Counts a frame, for ValidationFault::frame.
     void nextFrame() { ++frame_; }
 
     struct Count {
@@ -54,7 +53,6 @@ public:
         long values = 0;  ///< number of checked texels and buffer elements
         long pixels = 0;  ///< number of pixels that were drawn or written to images
     };
-    /// The key is the shader's name.
     [[nodiscard]] const std::map<std::string, Count>& counts() const { return counts_; }
 
     static constexpr std::size_t kGuardBytes = 256;

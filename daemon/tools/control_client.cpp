@@ -21,8 +21,8 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr timeval kPatience{15, 0};
-constexpr std::size_t kLongestLine = 1U << 20U;   // [bytes], of an answer
-constexpr std::uint64_t kMostData = 1ULL << 31U;  // [bytes]; the largest picture has 1 GiB
+constexpr std::size_t kLongestLine = 1U << 20U;
+constexpr std::uint64_t kMostData = 1ULL << 31U;
 
 class Connection {
 public:

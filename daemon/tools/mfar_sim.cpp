@@ -20,7 +20,6 @@ int list() {
     return 0;
 }
 
-/// Writes a description of the target in scene Calibration, for mfar-calibrate and Kalibr.
 void writeGrid(const std::filesystem::path& file) {
     std::ofstream out(file);
     out << fmt::format("target_type: 'aprilgrid'\ntagCols: {0}\ntagRows: {0}\n"

@@ -11,7 +11,6 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 using View = SyntheticBoard::View;
 
-/// The map includes moving tags, at their initial poses.
 TagMap mapOf(const std::vector<synthetic::Tag>& tags) {
     std::vector<MappedTag> out;
     for (const synthetic::Tag& tag : tags)

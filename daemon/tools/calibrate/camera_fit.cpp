@@ -11,9 +11,9 @@ namespace mfar::calibration {
 namespace {
 
 constexpr int kLeastCorners = 6;
-constexpr int kRounds = 4;            // each round fits, then removes bad corners and views
-constexpr double kCornerLimit = 6;    // corners with a longer residual are removed [sigma]
-constexpr double kLeastSigma = 0.01;  // smallest sigma that is used [px]
+constexpr int kRounds = 4;          // each round fits, then removes bad corners and views
+constexpr double kCornerLimit = 6;  // corners with a longer residual are removed [sigma]
+constexpr double kLeastSigma = 0.01;
 // A view with a larger RMS error does not show the target [px].
 constexpr double kMaxViewError = 20;
 
@@ -185,7 +185,7 @@ std::optional<RigidTransform> targetPose(const Target& target, const TargetView&
                           rotation, translation))
             return std::nullopt;
     } catch (const cv::Exception&) {
-        return std::nullopt;  // OpenCV throws if all corners are on one line
+        return std::nullopt;
     }
     RigidTransform T = transformOf(rotation, translation);
     if (!(T.translation.z() > 0) || !(rms(residualsOf(target, view, camera, T)) < kMaxViewError))

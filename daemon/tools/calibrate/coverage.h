@@ -17,7 +17,6 @@ public:
     void add(const std::vector<Corner>& corners);
 
     [[nodiscard]] double share() const;
-    /// Returns the name of the area with the fewest corners, e.g. "the top left".
     [[nodiscard]] std::string emptiest() const;
     /// Returns the grid as kRows lines of kColumns characters, from ' ' (no corners) to '#' (many).
     [[nodiscard]] std::vector<std::string> map() const;

@@ -9,7 +9,6 @@ namespace mfar::calibration {
 
 [[nodiscard]] std::string mapText(const Coverage& coverage, const std::string& title);
 
-/// Lists all views with their reprojection errors, and marks views that were not used.
 [[nodiscard]] std::string viewsText(const Calibration& calibration);
 
 [[nodiscard]] std::string resultText(const Calibration& calibration);

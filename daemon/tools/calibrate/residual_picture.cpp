@@ -19,12 +19,11 @@ constexpr int kFine = 2;
 constexpr int kWidth = 1320, kRow = 620, kMargin = 40, kTop = 64, kBottom = 40;
 constexpr int kArea = kRow - kTop - kBottom;
 constexpr int kColumns = 16, kRows = 12;
-constexpr int kLeastCount = 4;         // a cell with fewer corners has no arrow
+constexpr int kLeastCount = 4;
 constexpr double kLongestArrow = 1.3;  // [cell widths]; longer arrows are shortened
 const cv::Scalar kPaper(255, 255, 255), kInk(40, 40, 40), kFaint(190, 190, 190),
     kPanel(248, 248, 248);
 
-/// Its functions take coordinates in the final, reduced picture.
 class Canvas {
 public:
     Canvas(int width, int height) : image_(height * kFine, width * kFine, CV_8UC3, kPaper) {}
@@ -74,7 +73,6 @@ private:
     cv::Mat image_;
 };
 
-/// Rounds up to 1, 2 or 5 times a power of ten.
 double roundedUp(double value) {
     const double power = std::pow(10, std::floor(std::log10(value)));
     for (const double step : {1., 2., 5.})
@@ -121,7 +119,6 @@ double arrowUnit(const Cells& cells) {
     return roundedUp(*at);
 }
 
-/// Returns a colour from blue (0) to red (1).
 cv::Scalar heat(double share) {
     const double s = std::clamp(share, 0., 1.);
     return {40 + 180 * s, 90 - 30 * s, 170 - 130 * s};

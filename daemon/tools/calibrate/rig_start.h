@@ -14,7 +14,7 @@ struct StillPose {
 struct RigStart {
     RigidTransform T_still_video;
     double offset = 0;  ///< [s] still's time + offset = time on the video's clock
-    int stills = 0;     ///< stills within the time of the video, at this offset
+    int stills = 0;
 };
 
 /// Returns first estimates of the extrinsics and of the clock offset, which is within +-maxOffset

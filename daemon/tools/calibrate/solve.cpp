@@ -18,9 +18,9 @@ constexpr int kLeastVideoViews = 12, kLeastStillViews = 6, kLeastPairs = 5;
 constexpr double kMaxOffsetDeviation = 0.002;
 // Smallest motion of a moving still over three frame intervals [video px].
 constexpr double kLeastMotion = 1;
-constexpr int kLeastMoving = 3;                  // moving stills that the clock offset needs
-constexpr double kMaxFocalDeviation = 0.005;     // share of the focal length
-constexpr double kMaxBaselineDeviation = 0.002;  // [m]
+constexpr int kLeastMoving = 3;
+constexpr double kMaxFocalDeviation = 0.005;
+constexpr double kMaxBaselineDeviation = 0.002;
 
 struct Member {
     int view = 0;
@@ -54,7 +54,6 @@ public:
         Calibration out;
         std::optional<RigBundle> bundle = adjusted(start_.offset, true, out);
         if (!out.offsetKnown) bundle = adjusted(0, false, out);
-        // Stills that contradict the video's motion are found only after the joint adjustment.
         if (leaveOut(*bundle)) bundle = adjusted(bundle->offset(), out.offsetKnown, out);
         out.rig = {bundle->rig(), bundle->offset()};
         out.extrinsicDeviations = bundle->deviations().segment<6>(kExtrinsicAt);

@@ -11,7 +11,7 @@ namespace mfar::calibration {
 
 struct SensorViews {
     Size picture;
-    std::vector<TargetView> views;  ///< sorted by time
+    std::vector<TargetView> views;
 };
 
 struct SolveOptions {
@@ -44,7 +44,7 @@ struct Calibration {
     Eigen::Matrix<double, 6, 1> extrinsicDeviations;
     double offsetDeviation = 0;
     bool offsetKnown = true;  ///< false: there is too little motion, so the offset is 0
-    int pairs = 0;            ///< number of stills taken while the video saw the target
+    int pairs = 0;
 };
 
 /// Calibrates both cameras and the transform between them. Throws Unsuitable if the views do not

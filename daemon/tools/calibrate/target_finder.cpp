@@ -11,13 +11,12 @@
 namespace mfar::calibration {
 namespace {
 
-constexpr int kLeastWindow = 2;  // [px], half the side of a refinement window
+constexpr int kLeastWindow = 2;
 constexpr int kLargestWindow = 11;
 constexpr int kLargeWidth = 1000;  // [px]; from this width on, pictures are searched at half size
 constexpr int kLeastTags = 3;      // fewer tags do not show the orientation of the print
 
 cv::Mat matOf(const ImageView& luma) {
-    // cv::Mat takes a non-const pointer, but the pixels are not changed.
     return {luma.size.height, luma.size.width, CV_8UC1, const_cast<std::uint8_t*>(luma.data),
             luma.stride};
 }
@@ -100,7 +99,6 @@ void keepRefined(const cv::Mat& picture, std::vector<Corner>& corners, int windo
     corners = kept;
 }
 
-/// Returns the grey value in the middle of the square between four neighbouring inner corners.
 int squareLevel(const cv::Mat& picture, const std::vector<cv::Point2f>& c, int at, int columns) {
     const cv::Point2f middle = 0.25F * (c[at] + c[at + 1] + c[at + columns] + c[at + columns + 1]);
     return picture.at<std::uint8_t>(cv::Point(middle));

@@ -27,7 +27,7 @@ double quantile(std::vector<double> values, double q) {
 }
 
 struct Spread {
-    double tilt = 0;  ///< angle of the target's normals to their mean [rad]
+    double tilt = 0;
     double depth = 1;
 };
 
