@@ -29,7 +29,9 @@ std::ofstream openSummary(const Options& options, const Config& config) {
     if (!options.summary) return file;
     if (*options.summary == "-") {
         if (config.display == "y4m:-")
-            throw Failure(ExitCode::Usage, "standard output cannot take both video and summary");
+            throw Failure(ExitCode::Usage,
+                          "--summary - and display y4m:- both write to standard output; give one "
+                          "of them a file");
         return file;
     }
     // The file is opened now, because a failure after a long run would lose the summary.

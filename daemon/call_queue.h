@@ -33,7 +33,7 @@ public:
         // broken, and the caller's wait ends.
         put([task = std::move(task)](Target& target) { (*task)(target); });
         if (result.wait_for(limit) != std::future_status::ready)
-            throw std::runtime_error("mfard is too busy to answer");
+            throw std::runtime_error("mfard is too busy to answer; try again later");
         return result.get();
     }
 

@@ -80,10 +80,12 @@ void requireMemory(const LimitsConfig& limits, Size video, Size still, std::stri
     if (needed <= most) return;
     throw Failure(
         ExitCode::BadData,
-        fmt::format("{}: video of {}x{} and stills of {}x{} need about {:.0f} MB, but the {:.0f} "
-                    "MB of [limits] memory_mb leave only {:.0f} MB for pictures",
-                    place, video.width, video.height, still.width, still.height, needed / kMegabyte,
-                    static_cast<double>(limits.memoryBytes()) / kMegabyte, most / kMegabyte));
+        fmt::format(
+            "{}: video of {}x{} and stills of {}x{} need about {:.0f} MB, but the {:.0f} "
+            "MB of [limits] memory_mb leave only {:.0f} MB for pictures; use smaller pictures or a "
+            "higher memory_mb",
+            place, video.width, video.height, still.width, still.height, needed / kMegabyte,
+            static_cast<double>(limits.memoryBytes()) / kMegabyte, most / kMegabyte));
 }
 
 FileMemory::FileMemory(const LimitsConfig& limits)

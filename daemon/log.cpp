@@ -107,7 +107,9 @@ bool Log::isWritable() {
 void Log::put(std::string_view bytes) {
     // Errors of writing are ignored, because they cannot be reported anywhere.
     std::string all;
-    if (dropped_ > 0) all = fmt::format("mfard: {} messages were dropped\n", dropped_);
+    if (dropped_ > 0)
+        all = fmt::format("mfard: {} messages were dropped, because standard error was full\n",
+                          dropped_);
     all += bytes;
     std::string_view left = all;
     while (!left.empty()) {

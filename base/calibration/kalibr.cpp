@@ -47,7 +47,7 @@ RigidTransform readExtrinsics(const YamlReader& in, const YAML::Node& video,
     const bool direct = still["T_cn_cnm1"].IsDefined();
     const char* key = direct ? "T_cn_cnm1" : "T_cam_imu";
     if (!direct && !still[key].IsDefined())
-        in.fail(still, "has no T_cn_cnm1, the transform from cam0 to cam1");
+        in.fail(still, "has no key T_cn_cnm1, the transform from cam0 to cam1");
     const RigidTransform T =
         direct ? readTransform(in, still, key)
                : readTransform(in, still, key) * readTransform(in, video, key).inverse();
@@ -69,7 +69,7 @@ double readOffset(const YamlReader& in, const YAML::Node& video, const YAML::Nod
 RigCalibration kalibr(const YamlReader& in, const WantedSizes& wanted) {
     const YAML::Node video = in.at("cam0");
     if (!in.has("cam1"))
-        in.fail("has no cam1: a rig needs cam0 (video sensor) and cam1 (still sensor)");
+        in.fail("has no key cam1: a rig needs cam0 (video sensor) and cam1 (still sensor)");
     const YAML::Node still = in.at("cam1");
     RigCalibration out;
     out.rig.video = readCamera(in, video, wanted.video);

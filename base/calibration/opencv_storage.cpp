@@ -36,7 +36,7 @@ std::optional<YAML::Node> find(const YamlReader& in, const std::array<const char
 template <std::size_t N>
 YAML::Node need(const YamlReader& in, const std::array<const char*, N>& keys, int camera) {
     if (auto node = find(in, keys, camera)) return *node;
-    in.fail("has no " + fmt::format(fmt::runtime(keys[0]), camera));
+    in.fail("has no key " + fmt::format(fmt::runtime(keys[0]), camera));
 }
 
 std::optional<Size> readSize(const YamlReader& in, int camera, std::optional<Size> wanted) {
@@ -69,7 +69,7 @@ CameraModel readCamera(const YamlReader& in, int camera, std::optional<Size> wan
     CameraModel out;
     const std::optional<Size> size = readSize(in, camera, wanted);
     if (!size && !wanted)
-        in.fail("has no image_size, so the picture size of this calibration is unknown");
+        in.fail("has no key image_size, so the picture size of this calibration is unknown");
     out.size = size ? *size : *wanted;
     plausible::setCameraMatrix(in, matrix, in.matrix(matrix, 3, 3, name), out);
     if (!size) checkGuessedSize(in, matrix, out);

@@ -36,11 +36,11 @@ YamlReader::YamlReader(const std::filesystem::path& file) : file_(file) {
 }
 
 YAML::Node YamlReader::at(const YAML::Node& map, const char* key) const {
-    if (!map.IsMap()) fail(map, fmt::format("has no {}", key));
+    if (!map.IsMap()) fail(map, fmt::format("has no key {}", key));
     YAML::Node node = map[key];
     if (node.IsDefined() && !node.IsNull()) return node;
-    if (map.is(root_)) fail(fmt::format("has no {}", key));
-    fail(map, fmt::format("has no {}", key));
+    if (map.is(root_)) fail(fmt::format("has no key {}", key));
+    fail(map, fmt::format("has no key {}", key));
 }
 
 double YamlReader::number(const YAML::Node& node, const char* what) const {

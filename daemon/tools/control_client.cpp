@@ -31,7 +31,7 @@ public:
         sockaddr_un address{};
         address.sun_family = AF_UNIX;
         if (path_.native().size() >= sizeof address.sun_path)
-            fail("the path of the socket is too long");
+            fail("the path of the socket is too long; use a shorter --socket");
         path_.native().copy(address.sun_path, path_.native().size());
         setsockopt(fd_.get(), SOL_SOCKET, SO_RCVTIMEO, &kPatience, sizeof kPatience);
         setsockopt(fd_.get(), SOL_SOCKET, SO_SNDTIMEO, &kPatience, sizeof kPatience);
@@ -68,7 +68,7 @@ private:
         std::array<char, 65536> part{};
         const ssize_t got = recv(fd_.get(), part.data(), part.size(), 0);
         if (got < 0) fail(errno == EAGAIN ? "no answer within 15 s" : std::strerror(errno));
-        if (got == 0) fail("the answer ends too early");
+        if (got == 0) fail("mfard closed the connection before its answer was complete");
         read_.append(part.data(), static_cast<std::size_t>(got));
     }
     static std::string reason() {

@@ -37,7 +37,7 @@ TEST(Target, ImpossibleDescriptionsAreRefusedWithTheirLine) {
         {"'aprilgrid'", "'circlegrid'", ":1: ", "'circlegrid' is not supported"},
         {"tagCols: 6", "tagCols: 6.5", ":2: ", "whole number"},
         {"tagCols: 6", "tagCols: 0", ":2: ", "whole number"},
-        {"tagRows: 5", "tagCos: 5", ": ", "has no tagRows"},
+        {"tagRows: 5", "tagCos: 5", ": ", "has no key tagRows"},
         {"0.088", "-0.088", ":4: ", "is not between"},
         {"0.088", ".nan", ":4: ", "not finite"},
         {"0.3", "much", ":5: ", "is not a number"},

@@ -166,8 +166,9 @@ TEST(Log, MessagesThatNobodyReadsDoNotBlockAThread) {
     log.notice("here again");
     const ssize_t n = read(ends[0], taken.data(), taken.size());
     ASSERT_GT(n, 0);
-    EXPECT_EQ(taken.substr(0, static_cast<std::size_t>(n)),
-              "mfard: 20 messages were dropped\nmfard: here again\n");
+    EXPECT_EQ(
+        taken.substr(0, static_cast<std::size_t>(n)),
+        "mfard: 20 messages were dropped, because standard error was full\nmfard: here again\n");
     close(ends[0]);
     close(ends[1]);
 }
