@@ -15,9 +15,10 @@ namespace mfar {
 
 /// State of a running camera, as `mfarctl status` shows it.
 struct CameraState {
-    double configuredHz = 0;     ///< 0: triggered or free-running
-    double rateHz = 0;           ///< measured over the last frames; 0: unknown
-    CameraCounters counters{};   ///< from the camera; if it has none, counted from its frames
+    double configuredHz = 0;  ///< 0: triggered or free-running
+    double rateHz = 0;        ///< measured over the last frames; 0: unknown
+    /// The camera's own counters; if it has none, computed from its frames.
+    CameraCounters counters{};
     std::uint64_t repeated = 0;  ///< number of pictures equal to the previous one
     std::optional<Timestamp> lastFrame{};
     /// Time of the last picture that differed from the previous one. Not set: repeated pictures are

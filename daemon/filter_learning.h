@@ -31,7 +31,7 @@ struct FilterLearningOptions {
     bool waits = false;
     /// If the rig is set, guidance is learned, too, see enlarge::GuidanceLearner.
     std::optional<StereoRig> rig = std::nullopt;
-    WatchedThread watched{};  ///< the learning thread; its budget is for one still
+    WatchedThread watched{};  ///< the learning thread, with the time budget for one still
 };
 
 /// Learns the enlarger's filters from matched stills, in a thread of its own. This thread stores

@@ -28,7 +28,7 @@ namespace mfar {
 /// Numbers of lost frames and pictures.
 struct Drops {
     std::uint64_t sensor = 0;
-    std::uint64_t mailbox = 0;  ///< replaced by a newer frame before they were processed
+    std::uint64_t mailbox = 0;  ///< frames replaced by a newer frame before processing
     std::uint64_t recorder = 0;
     std::uint64_t display = 0;  ///< pictures that a slow display did not write
 };

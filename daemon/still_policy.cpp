@@ -70,8 +70,8 @@ bool StillPolicy::timedOut(Timestamp now) {
 }
 
 void StillPolicy::fire(Timestamp now) {
-    // The next trigger is due one period after this one was due. One period after `now`, the time
-    // of a frame, would make the rate too low.
+    // The next trigger is due one period after the due time of this trigger. One period after
+    // `now`, the time of a frame, would make the rate too low.
     const std::chrono::nanoseconds period = toNanoseconds(1 / config_.rateHz);
     due_ = due_ && now >= *due_ && now - *due_ < period ? *due_ + period : now + period;
     firedAt_ = now;

@@ -23,7 +23,8 @@ public:
 
 struct Reply {
     nlohmann::ordered_json body;
-    std::vector<std::uint8_t> data;  ///< follows the line; "bytes" in `body` is its size
+    /// The bytes after the answer's line; `body` has their number as "bytes".
+    std::vector<std::uint8_t> data;
 };
 
 /// Sends a request to the mfard that listens at this socket. Waits up to 15 s for the answer.

@@ -10,7 +10,8 @@ namespace mfar::calibration {
 
 struct Progress {
     const Coverage& coverage;
-    int done = 0, of = 0, found = 0;  ///< pictures: searched, in total, with the target
+    /// Numbers of pictures that were searched, of all pictures, and of those with the target.
+    int done = 0, of = 0, found = 0;
 };
 
 /// Searches for the target in all pictures of one sensor. `progress` is called after each picture.

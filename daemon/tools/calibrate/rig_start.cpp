@@ -14,7 +14,7 @@ Timestamp later(Timestamp t, double seconds) {
 }
 
 struct Agreement {
-    /// Median difference of results [rad].
+    /// Median difference between the results from different stills [rad].
     double spread = std::numeric_limits<double>::infinity();
     RigidTransform T_still_video;
     int stills = 0;
