@@ -9,8 +9,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-/// Largest number of pulses that are remembered. It is far more than can wait for their stills. If
-/// a still arrives later than this many further pulses, it is ignored.
+/// Number of remembered pulses. Far fewer can wait for their stills.
 constexpr std::size_t kRemembered = 64;
 /// Number of consecutive stills that must miss the window by about the same time before the
 /// camera's clock counts as stepped.
@@ -68,8 +67,8 @@ nanoseconds StillMatcher::constant() const {
     return nanoseconds{median(samples_)};
 }
 
-/// Returns the pulse whose expected exposure time is nearest. Returns nothing if it is more than
-/// three hours away from every pulse.
+/// Returns the pulse whose expected exposure is nearest in time. Returns nothing if every pulse is
+/// more than three hours away.
 std::optional<StillMatcher::Nearest> StillMatcher::nearest(Timestamp exposed) const {
     std::optional<Nearest> best;
     for (std::size_t i = 0; i < pulses_.size(); ++i) {
