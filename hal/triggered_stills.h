@@ -24,7 +24,9 @@ struct TriggeredStillOptions {
 
 /// Combines the still camera and its trigger. Delivers only stills that match a pulse, in the order
 /// of their times. If a still does not arrive, its pulse is repeated once. fire() and counters()
-/// are thread-safe. A still's time is the time of its pulse + the learned delay + half the
+/// are thread-safe.
+///
+/// A still's time is the time of its pulse + the learned delay + half the
 /// exposure. The delay is a median over twenty pulses, which removes the jitter of the camera's
 /// timestamps.
 class TriggeredStillCamera final : public Camera, public Trigger {
