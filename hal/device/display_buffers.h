@@ -8,7 +8,7 @@
 
 namespace mfar {
 
-/// How the pixels of a picture get to the screen.
+/// Ways to bring the pixels of a picture to the screen.
 enum class ScanoutMethod {
     GbmFenced,  ///< the GPU draws into the screen's memory; the kernel waits for the GPU's fence
     Gbm,        ///< the GPU draws into the screen's memory; this process waits for the GPU
@@ -16,15 +16,13 @@ enum class ScanoutMethod {
 };
 [[nodiscard]] const char* name(ScanoutMethod method);
 
-/// Buffers of the screen's size that the screen can show. They are used in turn. All calls must
-/// come from one thread. For each picture, begin() and complete() are called. The picture must be
-/// on the screen before the next call of complete().
+/// Buffers of the screen's size, which the screen shows in turn. All calls must come from one
+/// thread. For each picture, begin() and complete() are called.
 class ScanoutBuffers {
 public:
     struct Ready {
-        std::uint32_t framebuffer;  ///< DRM framebuffer id
-        /// Fence that is signalled when the GPU has drawn the picture. Invalid: the picture is
-        /// drawn already.
+        std::uint32_t framebuffer;
+        /// Signalled when the GPU has drawn the picture. Invalid: the picture is already drawn.
         OwnedFd fence;
     };
 
@@ -41,8 +39,8 @@ public:
     [[nodiscard]] virtual ScreenPicture last() const = 0;
 };
 
-/// Allocates buffers for a ScanoutMethod. Throws std::runtime_error if the card or the current GL
-/// context does not support the method. `scaler` must outlive the buffers.
+/// Throws std::runtime_error if the card or the current GL context does not support the method.
+/// `scaler` must outlive the buffers.
 [[nodiscard]] std::unique_ptr<ScanoutBuffers>
 makeScanoutBuffers(const DrmCard& card, Size size, ScanoutMethod method, ScreenScaler& scaler);
 
@@ -54,7 +52,7 @@ makeScanoutBuffers(const DrmCard& card, Size size, ScanoutMethod method, ScreenS
 [[nodiscard]] std::unique_ptr<ScanoutBuffers> makeGbmBuffers(const DrmCard& card, Size size,
                                                              bool fences, ScreenScaler& scaler);
 
-/// A DRM framebuffer with one linear XRGB8888 plane. The destructor removes it.
+/// A DRM framebuffer with one linear XRGB8888 plane.
 class DrmFramebuffer {
 public:
     /// Throws std::runtime_error if the driver refuses the buffer.

@@ -19,9 +19,8 @@ namespace {
 using GbmDevice = std::unique_ptr<gbm_device, FreedBy<gbm_device_destroy>>;
 using GbmBuffer = std::unique_ptr<gbm_bo, FreedBy<gbm_bo_destroy>>;
 
-// Returns whether a renderer is software. GBM buffers are not used with a software renderer,
-// because it is fastest in its own memory. Mesa's software renderer also crashes if it cannot map
-// an imported buffer, e.g. on the render node of a card without a GPU.
+// GBM buffers are not used with a software renderer, because it is fastest in its own memory.
+// Mesa's software renderer also crashes if it cannot map an imported buffer.
 bool isSoftware(std::string_view renderer) {
     return renderer.find("llvmpipe") != renderer.npos ||
            renderer.find("softpipe") != renderer.npos || renderer.find("swrast") != renderer.npos;
@@ -94,8 +93,8 @@ private:
     PFNEGLDUPNATIVEFENCEFDANDROIDPROC dup_ = nullptr;
 };
 
-/// Allocates a buffer with a linear layout, which is supported by the card that drives the screen
-/// and by a separate GPU.
+/// The layout is linear, because both the card that drives the screen and a separate GPU support
+/// it.
 GbmBuffer allocate(gbm_device* device, Size size) {
     GbmBuffer buffer(gbm_bo_create(device, static_cast<std::uint32_t>(size.width),
                                    static_cast<std::uint32_t>(size.height), GBM_FORMAT_XRGB8888,
@@ -104,7 +103,6 @@ GbmBuffer allocate(gbm_device* device, Size size) {
     return buffer;
 }
 
-/// A buffer that the GPU draws into and the screen shows.
 class GbmTarget {
 public:
     GbmTarget(const Importer& importer, gbm_device* device, int fd, Size size)
@@ -175,8 +173,8 @@ public:
         if (fences) fences_.emplace(importer_.display);
     }
 
-    // Of the three buffers, one is on the screen, and another one may wait for the vertical blank.
-    // The third is free.
+    // Of the three buffers, one is on the screen, one may wait for the vertical blank, and the
+    // third is free.
     void begin(const Picture& picture) override {
         const KeptTarget kept;
         current_ = (current_ + 1) % targets_.size();

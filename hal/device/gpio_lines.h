@@ -16,7 +16,7 @@ namespace mfar {
 struct GpioLine {
     unsigned offset = 0;
     std::string name;      ///< empty: the line has no name on this machine
-    std::string consumer;  ///< the program or driver that uses the line; empty: unknown
+    std::string consumer;  ///< program or driver that uses the line; empty: unknown
     bool used = false;
 };
 
@@ -28,19 +28,17 @@ struct GpioChip {
     int error = 0;  ///< errno of opening the chip or a line; 0: no error
 };
 
-/// Identifies a GPIO line, and names it in messages.
 struct GpioAddress {
     std::string path;
     unsigned offset = 0;
     bool activeLow = false;
     std::string text;  ///< for messages: "line 7 'TRIGGER' of gpiochip0 (9030000.pl061)"
-    /// The program or driver that used the line when it was looked up. Empty: the line was not in
-    /// use.
+    /// Program or driver that used the line when it was looked up. Empty: none.
     std::string consumer;
 };
 
-/// An output line. `active` is the logical level: if the line is active-low, the implementation
-/// inverts the level.
+/// An output line. `active` is the logical level; the implementation inverts it if the line is
+/// active-low.
 class OutputLine {
 public:
     virtual ~OutputLine() = default;
@@ -52,15 +50,14 @@ public:
 class EdgeInput {
 public:
     virtual ~EdgeInput() = default;
-    /// Returns the time (CLOCK_MONOTONIC) of the oldest edge that has not been read. Waits up to
-    /// `timeout` for an edge, then returns nothing. Throws std::runtime_error.
+    /// Waits up to `timeout` and returns the time (CLOCK_MONOTONIC) of the oldest unread edge.
+    /// Returns nothing if no edge came. Throws std::runtime_error.
     [[nodiscard]] virtual std::optional<Timestamp> next(std::chrono::microseconds timeout) = 0;
 };
 
-/// Returns all GPIO chips of this machine, ordered by number.
 [[nodiscard]] std::vector<GpioChip> listGpioChips();
-/// Requests the line as an output at its inactive level. When the returned object is destroyed, the
-/// line keeps its level. Throws std::runtime_error.
+/// Requests the line as an output at its inactive level. The line keeps its level after the
+/// destructor. Throws std::runtime_error.
 [[nodiscard]] std::unique_ptr<OutputLine> requestOutput(const GpioAddress& line);
 /// Requests the line as an input with events on both edges. Throws std::runtime_error.
 [[nodiscard]] std::unique_ptr<EdgeInput> requestEdges(const GpioAddress& line);

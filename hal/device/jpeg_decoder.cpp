@@ -19,8 +19,7 @@ void halveRows(std::uint8_t* plane, std::size_t rowBytes, int rows) {
     }
 }
 
-// Returns whether the decoder's warning can be ignored. Many cameras add padding before the end
-// marker of a picture; no pixels are missing then.
+// Many cameras add padding before the end marker of a picture; no pixels are missing then.
 bool harmless(void* handle) {
     return std::string_view(tjGetErrorStr2(handle)).find("before marker 0xd9") !=
            std::string_view::npos;

@@ -28,8 +28,8 @@ struct ConfiguredCamera {
 [[nodiscard]] std::optional<Size> activePixels(const libcamera::Camera& camera);
 
 /// Returns a message if pictures show only a part of the field of view. `crop` is the used part of
-/// the sensor. Returns nothing if pictures show the whole field of view, if the camera does not
-/// report its areas, or if the options allow a crop.
+/// the sensor. Returns nothing if the camera does not report its areas or if the options allow a
+/// crop.
 [[nodiscard]] std::optional<std::string> cropFault(const libcamera::Camera& camera,
                                                    const std::optional<libcamera::Rectangle>& crop,
                                                    const LibcameraOptions& options);

@@ -11,12 +11,12 @@ namespace {
 using std::chrono::microseconds;
 
 constexpr microseconds kLongest{10'000'000};
-/// Longest pulse that the caller of fire() ends itself. The time at which another thread wakes up
-/// is less accurate.
+/// Longest pulse that the caller of fire() ends itself. Another thread would end it less
+/// accurately.
 constexpr microseconds kInCaller{1000};
 /// Longest delay with which a sleeping thread wakes up, unless the machine is overloaded.
 constexpr microseconds kWakeUp{100};
-/// Longest wait until the kernel reports an edge. It reports an edge within microseconds or never.
+/// Longest wait for the kernel to report an edge. It reports an edge within microseconds or never.
 constexpr microseconds kEdgeWait{1000};
 
 std::chrono::steady_clock::time_point steady(Timestamp time) {
@@ -48,8 +48,7 @@ PulseTrigger::~PulseTrigger() {
     try {
         line_->set(false);
     } catch (const std::runtime_error&) {
-        // The GPIO chip is lost, so the line cannot be driven. Nothing is thrown, because a
-        // destructor calls this.
+        // The GPIO chip is lost. Nothing is thrown, because a destructor calls this function.
     }
 }
 
@@ -110,8 +109,8 @@ void PulseTrigger::end() {
 std::optional<Timestamp> PulseTrigger::edgeSince(Timestamp earliest) {
     while (loopback_) {
         const std::optional<Timestamp> edge = loopback_->next(kEdgeWait);
-        // Before version 5.7, the kernel uses another clock than CLOCK_MONOTONIC for the times of
-        // edges. Such times lie in the future and are ignored.
+        // Before version 5.7, the kernel takes the times of edges from another clock than
+        // CLOCK_MONOTONIC. Such times lie in the future and are ignored.
         if (!edge || *edge > Timestamp::now()) return std::nullopt;
         if (*edge >= earliest) return edge;
     }
@@ -119,7 +118,7 @@ std::optional<Timestamp> PulseTrigger::edgeSince(Timestamp earliest) {
 }
 
 /// Distinguishes the two edges of a pulse by their times. Their reported types (rising, falling)
-/// may be wrong, because the kernel reads the level after the edge, when a short pulse is over.
+/// may be wrong, because the kernel reads the level when a short pulse is already over.
 void PulseTrigger::measure(Timestamp endDriven) {
     if (!leading_) leading_ = edgeSince(begun_);
     if (leading_ && *leading_ >= endDriven) leading_.reset();  // this is the trailing edge

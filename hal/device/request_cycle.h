@@ -16,7 +16,7 @@
 
 namespace mfar {
 
-/// Limits for restarts of the stream. A restart is needed if a driver cancels all queued requests.
+/// Limits for restarts of the stream, which are needed if a driver cancels all queued requests.
 /// Raspberry Pi's driver does so after a second without a trigger pulse. This is not a fault.
 struct RestartLimits {
     /// If the driver cancels all requests within this time after the start, the stream has ended
@@ -24,11 +24,11 @@ struct RestartLimits {
     std::chrono::milliseconds early{500};
     /// Pause before the restart after two consecutive early ends. It doubles with each further one.
     std::chrono::milliseconds firstPause{50};
-    /// After this many consecutive early ends, the device counts as lost.
+    /// Number of consecutive early ends after which the device counts as lost.
     int most = 5;
 };
 
-/// A camera driver, which fills requests in any order. Requests are identified by number.
+/// A camera driver. It may complete requests in any order. Requests are identified by number.
 class RequestDriver {
 public:
     virtual ~RequestDriver() = default;
@@ -43,9 +43,8 @@ public:
 };
 
 /// Manages the requests of a camera. Each request goes through a cycle: it is queued, the driver
-/// completes it, a user holds its picture, the user returns the picture, and it is queued again.
-/// Thread-safe, but only one thread may call next(). next() may call the driver's start() and
-/// stop().
+/// completes it, a user holds its picture and returns it, and it is queued again. Thread-safe, but
+/// only one thread may call next(), which may call the driver's start() and stop().
 class RequestCycle {
 public:
     struct Done {
@@ -64,7 +63,7 @@ public:
 
     /// Adds a request. Must not be called after start(). Requests are numbered from 0.
     void add();
-    /// Starts the driver and queues all requests. Throws what the driver throws.
+    /// Starts the driver and queues all requests. Throws the exceptions of the driver.
     void start();
     void stop();
     /// Removes all requests. A request that is returned later is ignored.
@@ -83,7 +82,7 @@ public:
     void lose(const std::string& why);
 
     /// Waits until a picture comes, until no request is queued any more, or until stop(). Returns
-    /// false if none of these happens within this time.
+    /// false if nothing of this happens in time.
     [[nodiscard]] bool awaitSign(std::chrono::milliseconds within);
 
     void setName(std::string camera) { name_ = std::move(camera); }
@@ -114,7 +113,7 @@ private:
     std::vector<State> requests_;
     std::deque<Done> ready_;
     bool running_ = false;
-    std::string lost_;  ///< why the device is lost; empty: it is not lost
+    std::string lost_;  ///< reason why the device is lost; empty: it is not lost
     Timestamp begun_;
     int earlyEnds_ = 0;  ///< number of consecutive early ends
     std::optional<Timestamp> restartAt_;

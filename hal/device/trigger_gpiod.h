@@ -13,15 +13,15 @@ struct TriggerOptions {
     std::string line;  ///< number or name of the trigger line
     bool activeLow = false;
     std::chrono::microseconds pulse{1000};  ///< length of a pulse, 1 us to 10 s
-    std::string loopbackChip;               ///< GPIO chip of `loopback`; empty: `chip`
+    std::string loopbackChip;               ///< GPIO chip of `loopback`; empty: the same as `chip`
     /// Number or name of the loopback line, an input that is wired to `line` and reports its edges.
     /// Empty: there is none.
     std::string loopback;
 };
 
-/// Requests the trigger line at its inactive level, and the loopback line. Throws a
-/// std::runtime_error that lists the available chips or lines, or names the program that uses the
-/// line or the group that the user must join.
+/// Requests the trigger line at its inactive level, and the loopback line. Throws
+/// std::runtime_error whose message lists the available chips or lines, or names the program that
+/// uses the line or the group that the user must join.
 [[nodiscard]] std::unique_ptr<PulseTrigger> openGpioTrigger(const TriggerOptions& options);
 
 }  // namespace mfar

@@ -83,8 +83,7 @@ void setColours(const Answer& answer, V4l2Layout& out) {
                     : YuvRange::Limited;
 }
 
-/// Lays out all planes one after the other in one V4L2 plane. The stride of chroma is computed from
-/// the stride of luma.
+/// Lays out all planes one after the other in one V4L2 plane.
 void placeInOnePiece(std::size_t stride, V4l2Layout& out) {
     std::size_t offset = 0;
     for (int i = 0; i < planeCount(out.format.picture); ++i) {

@@ -14,10 +14,10 @@
 namespace mfar {
 namespace {
 
-/// The capture devices of this machine.
 struct Captures {
     std::vector<V4l2Device> devices;
-    std::string listed;  ///< the devices as text for messages, with those that cannot be opened
+    std::string listed;  ///< the devices as text for messages, including those that cannot be
+                         ///< opened
 };
 
 std::string lineOf(const V4l2Device& device) {
