@@ -19,10 +19,10 @@ struct LibcameraOptions {
     /// Frame rate [Hz], requested if the camera has the control FrameDurationLimits. 0: the camera
     /// takes pictures only when it is triggered, and drops are not counted.
     double rateHz = 30;
-    std::optional<double> exposureUs;     ///< fixed exposure; not set: automatic
-    std::optional<double> gain;           ///< fixed gain; 1: no gain; not set: automatic
-    std::optional<double> focusDioptres;  ///< fixed focus; 0: infinity; not set: the camera's
-                                          ///< default
+    /// Fixed values; not set: automatic. A gain of 1 is no gain; a focus of 0 is infinity.
+    std::optional<double> exposureUs;
+    std::optional<double> gain;
+    std::optional<double> focusDioptres;
     /// Names and values of further controls, see parseControls().
     std::vector<std::pair<std::string, std::string>> controls;
     bool still = false;      ///< true: configure the camera for single pictures instead of video
@@ -32,11 +32,11 @@ struct LibcameraOptions {
 
 struct LibcameraCounters {
     std::uint64_t frames = 0;
-    std::uint64_t dropped = 0;  ///< see FrameDrops
-    std::uint64_t broken = 0;   ///< frames marked as broken or with too few bytes; not delivered
-    std::uint64_t startup = 0;  ///< frames before the sensor had settled; not delivered
-    /// Frames whose timestamp is in the future, too old, or not later than the previous frame's
-    /// timestamp. They are not delivered.
+    std::uint64_t dropped = 0;
+    /// Frames that `broken`, `startup` and `badTimes` count are not delivered.
+    std::uint64_t broken = 0;
+    std::uint64_t startup = 0;
+    /// Frames whose timestamp is in the future, too old, or not later than the previous frame's.
     std::uint64_t badTimes = 0;
     std::uint64_t untimed = 0;    ///< delivered frames without a timestamp; they got their arrival
                                   ///< time
@@ -78,7 +78,6 @@ private:
     std::shared_ptr<Stream> stream_;
 };
 
-/// Throws std::runtime_error if libcamera cannot be started.
 [[nodiscard]] std::vector<ListedCamera> listLibcameras();
 
 }  // namespace mfar

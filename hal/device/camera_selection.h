@@ -7,16 +7,15 @@
 namespace mfar {
 
 struct ListedCamera {
-    std::string id;           ///< unique and the same after a restart
-    std::string model;        ///< several cameras may have the same model
-    std::string location;     ///< "front", "back", "external" or empty
-    std::int64_t pixels = 0;  ///< number of pixels of the camera's largest picture
+    std::string id;  ///< unique and the same after a restart
+    std::string model;
+    std::string location;  ///< "front", "back", "external" or empty
+    std::int64_t pixels = 0;
 };
 
-/// Selects one of several cameras.
 struct CameraWish {
-    std::string name{};    ///< id, location or model of the camera; empty: any camera
-    std::string except{};  ///< name of a camera that must not be chosen
+    std::string name{};    ///< id, location or model; empty: any camera
+    std::string except{};  ///< this camera must not be chosen
     /// If `name` is empty: true chooses the camera with the largest pictures, false the one with
     /// the smallest.
     bool largest = false;

@@ -29,7 +29,6 @@ constexpr std::chrono::milliseconds kTroublePause{5};
 /// With fewer buffers than this, the driver may have no free buffer while pictures are in use.
 constexpr int kEnoughBuffers = 4;
 
-/// Holds a filled buffer and returns it to the stream at destruction.
 class Loan {
 public:
     Loan(std::shared_ptr<V4l2Stream> stream, int index)
@@ -165,7 +164,6 @@ std::optional<Frame> CameraV4l2::frameOf(const V4l2Filled& filled) {
         else
             out.emplace(view, *time, [loan] {});
     }
-    // All buffers for copies are in use.
     if (!out && copies_) {
         drops_.lose();
         return refuse(nullptr);

@@ -89,7 +89,7 @@ private:
     std::chrono::nanoseconds exposure_{0};
     std::optional<Timestamp> last_;
     FrameDrops drops_;
-    mutable std::mutex countsMutex_;  ///< guards the following members
+    mutable std::mutex countsMutex_;  ///< guards the members below
     CameraCounters counts_;
     std::vector<std::string> warnings_;
 };

@@ -13,7 +13,6 @@
 namespace mfar {
 namespace {
 
-// Interval of the checks for added and removed devices.
 constexpr std::chrono::milliseconds kLookEvery{500};
 // Number of pictures after which a screen counts as working. The first picture sets the mode. The
 // third waits until the second is on the screen, which proves that the screen shows new pictures.
@@ -60,7 +59,7 @@ void ScreenDisplay::show(const Picture& picture, Timestamp) {
         failed_ = nullptr;
         if (shown_ == kProven) fault_.clear();
     } catch (const gpu::GlError&) {
-        throw;  // the GPU failed, not the screen
+        throw;
     } catch (const std::runtime_error& error) {
         lose(error.what());
     }

@@ -59,8 +59,8 @@ private:
     Clock clock_;
     Events changed_;
     Screen* active_ = nullptr;
-    Screen* failed_ = nullptr;  // a screen that could not show its first pictures
-    int shown_ = 0;             // number of pictures that active_ has shown, up to kProven
+    Screen* failed_ = nullptr;
+    int shown_ = 0;  // number of pictures that active_ has shown, up to kProven
     std::optional<Timestamp> lookedAt_;
     std::string fault_;  // reason why the last screen was lost; empty after kProven new pictures
 };

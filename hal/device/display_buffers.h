@@ -8,7 +8,6 @@
 
 namespace mfar {
 
-/// Ways to bring the pixels of a picture to the screen.
 enum class ScanoutMethod {
     GbmFenced,  ///< the GPU draws into the screen's memory; the kernel waits for the GPU's fence
     Gbm,        ///< the GPU draws into the screen's memory; this process waits for the GPU
@@ -35,7 +34,6 @@ public:
     /// Releases all GL objects, see Display::releaseGl(). After that, begin() must not be called.
     /// The screen keeps its picture.
     virtual void releaseGl() = 0;
-    /// Returns the picture of the last begin() as the screen shows it.
     [[nodiscard]] virtual ScreenPicture last() const = 0;
 };
 
@@ -52,10 +50,8 @@ makeScanoutBuffers(const DrmCard& card, Size size, ScanoutMethod method, ScreenS
 [[nodiscard]] std::unique_ptr<ScanoutBuffers> makeGbmBuffers(const DrmCard& card, Size size,
                                                              bool fences, ScreenScaler& scaler);
 
-/// A DRM framebuffer with one linear XRGB8888 plane.
 class DrmFramebuffer {
 public:
-    /// Throws std::runtime_error if the driver refuses the buffer.
     DrmFramebuffer(int fd, Size size, std::uint32_t handle, std::uint32_t pitch);
     DrmFramebuffer(const DrmFramebuffer&) = delete;
     DrmFramebuffer& operator=(const DrmFramebuffer&) = delete;

@@ -56,7 +56,6 @@ Connector connectorOf(int fd, std::uint32_t id, bool probe) {
     return Connector(probe ? drmModeGetConnector(fd, id) : drmModeGetConnectorCurrent(fd, id));
 }
 
-// Returns the CRTC that already drives the connector, e.g. for a console, or 0 if there is none.
 std::uint32_t currentCrtc(int fd, const drmModeConnector& connector) {
     if (connector.encoder_id == 0) return 0;
     const Encoder encoder(drmModeGetEncoder(fd, connector.encoder_id));

@@ -39,7 +39,6 @@ class DrmProperties {
 public:
     DrmProperties() = default;
     DrmProperties(int fd, std::uint32_t object, std::uint32_t type);
-    /// Throws std::runtime_error if the driver does not have the property.
     [[nodiscard]] std::uint32_t id(std::string_view name) const;
     [[nodiscard]] bool has(std::string_view name) const { return ids_.find(name) != ids_.end(); }
 
@@ -59,7 +58,6 @@ struct DrmOutput {
 /// A DRM device with connectors and atomic mode setting. This process is its DRM master.
 class DrmCard {
 public:
-    /// Throws std::runtime_error with the reason if this device cannot be used.
     explicit DrmCard(const std::string& path);
 
     [[nodiscard]] int fd() const { return fd_.get(); }

@@ -137,7 +137,7 @@ bool FbdevScreen::unchanged() const {
     try {
         return checkedGeometry(var, fix) == geometry_;
     } catch (const std::runtime_error&) {
-        return false;  // look() will then open the device again and report the fault
+        return false;
     }
 }
 

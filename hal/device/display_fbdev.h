@@ -76,7 +76,7 @@ private:
     fb_var_screeninfo var_{};
     FbGeometry geometry_;
     std::unique_ptr<Mapping> mapping_;
-    std::vector<std::uint8_t> before_;  // content of the memory before the first picture
+    std::vector<std::uint8_t> before_;
     std::unique_ptr<ScreenReader> reader_;
     int page_ = 0;
     bool pans_ = false;

@@ -64,8 +64,7 @@ struct Importer {
     }
 };
 
-/// Creates fences that are signalled when the GPU has finished drawing. The constructor throws if
-/// EGL does not support such fences.
+/// The constructor throws if EGL does not support fences with file descriptors.
 class NativeFences {
 public:
     explicit NativeFences(EGLDisplay display) : display_(display) {
@@ -75,7 +74,6 @@ public:
         Importer::load(destroy_, "eglDestroySyncKHR");
         Importer::load(dup_, "eglDupNativeFenceFDANDROID");
     }
-    /// Returns a fence that is signalled when the GPU has executed all commands so far.
     [[nodiscard]] OwnedFd insert() const {
         const EGLSyncKHR sync = create_(display_, EGL_SYNC_NATIVE_FENCE_ANDROID, nullptr);
         if (sync == EGL_NO_SYNC_KHR) throw std::runtime_error("EGL cannot create a fence");

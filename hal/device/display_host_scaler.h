@@ -23,11 +23,12 @@ public:
 
 private:
     /// The rows (or columns) of the picture whose weighted mean is one row (or column) of the
-    /// screen.
+    /// screen. All of them are inside the picture. `begin` is the index of their first weight in
+    /// `weights`.
     struct Footprint {
-        int first = 0;        ///< first row or column
-        int taps = 0;         ///< number of rows or columns, all inside the picture
-        std::size_t begin{};  ///< index of the first weight in `weights`
+        int first = 0;
+        int taps = 0;
+        std::size_t begin{};
     };
     struct Axis {
         Axis() = default;
@@ -39,7 +40,6 @@ private:
         std::vector<std::uint16_t> fixed;  ///< the same weights as integers; those of one footprint
                                            ///< add up to 65535
     };
-    /// Temporary memory of a thread for one row.
     struct Line {
         explicit Line(int width)
             : fixed(static_cast<std::size_t>(width) * 4),

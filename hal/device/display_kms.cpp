@@ -63,7 +63,6 @@ KmsScreen::~KmsScreen() {
     close();
 }
 
-// Opens the first card with a connected monitor, or else the first usable card.
 void KmsScreen::openCard() {
     const std::vector<std::string> paths =
         spec_.device.empty() ? cardPaths() : std::vector{spec_.device};

@@ -7,9 +7,10 @@
 
 namespace mfar {
 
-/// The position of one colour in the little-endian word of a screen's pixel.
+/// The position of one colour in the little-endian word of a screen's pixel: its lowest bit and its
+/// number of bits.
 struct PixelChannel {
-    int offset = 0, length = 0;  ///< lowest bit, and number of bits
+    int offset = 0, length = 0;
     bool operator==(const PixelChannel&) const = default;
 };
 

@@ -61,10 +61,9 @@ private:
 
 /// Scales pictures for a screen whose memory the CPU writes. The GPU scales textures, which are
 /// then read back. The CPU scales pictures on the host, without GL. From the first texture on, the
-/// GL context must exist until releaseGl().
+/// GL context must exist until releaseGl(). `scaler` must outlive this object.
 class ScreenReader {
 public:
-    /// `scaler` must outlive this object.
     ScreenReader(Size screen, ScreenScaler& scaler);
     ScreenReader(const ScreenReader&) = delete;
     ScreenReader& operator=(const ScreenReader&) = delete;
@@ -108,9 +107,9 @@ private:
 
     Size screen_;
     ScreenScaler& scaler_;
-    std::optional<Target> target_;  ///< created for the first texture
+    std::optional<Target> target_;
     HostScaler hostScaler_;
-    std::optional<Rows<const std::uint32_t>> onHost_;  ///< the last picture, if it is on the host
+    std::optional<Rows<const std::uint32_t>> onHost_;
 };
 
 /// Waits for the GPU.

@@ -14,7 +14,7 @@ public:
     enum class Presence {
         Absent,   ///< the device cannot be used; the next device may be checked
         Waiting,  ///< the device is held, but no screen is connected to it
-        Ready,    ///< show() may be called
+        Ready,
     };
 
     virtual ~Screen() = default;
@@ -36,7 +36,6 @@ public:
     /// Returns a text such as "kms:card0,HDMI-A-1,1280x720@60 ..." if the screen is ready,
     /// otherwise the reason why it is not ready.
     [[nodiscard]] virtual std::string status() const = 0;
-    /// Returns the picture that the last show() sent to the screen, with 8 bits per colour.
     [[nodiscard]] virtual std::optional<ScreenPicture> lastShown() const = 0;
 };
 

@@ -30,11 +30,10 @@ struct ScreenSpec {
 
 /// Throws std::runtime_error with the wrong part of the text.
 [[nodiscard]] ScreenSpec parseScreenSpec(std::string_view spec);
-/// Returns the error message of parseScreenSpec(), or nothing if it accepts the text.
 [[nodiscard]] std::optional<std::string> screenFault(std::string_view spec);
 
 struct ScreenRect {
-    int x = 0, y = 0;  ///< top left pixel
+    int x = 0, y = 0;
     Size size;
     bool operator==(const ScreenRect&) const = default;
 };

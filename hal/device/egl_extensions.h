@@ -16,7 +16,6 @@ namespace mfar {
     return false;
 }
 
-/// Returns an EGL or GL function, or null if it does not exist.
 template <class F>
 [[nodiscard]] F eglProc(const char* name) {
     return reinterpret_cast<F>(eglGetProcAddress(name));

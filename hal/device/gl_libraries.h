@@ -21,7 +21,6 @@ void loadGlLibraries(const GlLibraryNames& names = {});
 namespace gl_libraries {
 
 using Function = void (*)();
-/// Returns null if the function does not exist.
 using FindFunction = std::function<Function(const char* name)>;
 
 /// Makes the functions of one header jump to the functions that `find` returns. Returns the name of
@@ -38,7 +37,7 @@ Result nothing(Arguments... /*unused*/) {
 
 struct Connector {
     const FindFunction& find;
-    std::string missing;  ///< name of the first function that was not found
+    std::string missing;
 
     template <class Result, class... Arguments>
     void operator()(Result (*&entry)(Arguments...), const char* name) {

@@ -9,21 +9,22 @@
 #include <vector>
 
 /// The subset of a GPIO library that the trigger needs. It is implemented with libgpiod 1.6, with
-/// libgpiod 2.x, and, in the tests, without hardware.
+/// libgpiod 2.x, and, in the tests, without hardware. All functions throw std::runtime_error.
 
 namespace mfar {
 
 struct GpioLine {
     unsigned offset = 0;
-    std::string name;      ///< empty: the line has no name on this machine
+    std::string name;
     std::string consumer;  ///< program or driver that uses the line; empty: unknown
     bool used = false;
 };
 
+/// Example: path "/dev/gpiochip0", name "gpiochip0", label "pinctrl-bcm2711".
 struct GpioChip {
-    std::string path;   ///< e.g. "/dev/gpiochip0"
-    std::string name;   ///< e.g. "gpiochip0"
-    std::string label;  ///< e.g. "pinctrl-bcm2711"
+    std::string path;
+    std::string name;
+    std::string label;
     std::vector<GpioLine> lines;
     int error = 0;  ///< errno of opening the chip or a line; 0: no error
 };
@@ -33,7 +34,6 @@ struct GpioAddress {
     unsigned offset = 0;
     bool activeLow = false;
     std::string text;  ///< for messages: "line 7 'TRIGGER' of gpiochip0 (9030000.pl061)"
-    /// Program or driver that used the line when it was looked up. Empty: none.
     std::string consumer;
 };
 
@@ -42,7 +42,6 @@ struct GpioAddress {
 class OutputLine {
 public:
     virtual ~OutputLine() = default;
-    /// Throws std::runtime_error.
     virtual void set(bool active) = 0;
 };
 
@@ -51,15 +50,14 @@ class EdgeInput {
 public:
     virtual ~EdgeInput() = default;
     /// Waits up to `timeout` and returns the time (CLOCK_MONOTONIC) of the oldest unread edge.
-    /// Returns nothing if no edge came. Throws std::runtime_error.
+    /// Returns nothing if no edge came.
     [[nodiscard]] virtual std::optional<Timestamp> next(std::chrono::microseconds timeout) = 0;
 };
 
 [[nodiscard]] std::vector<GpioChip> listGpioChips();
 /// Requests the line as an output at its inactive level. The line keeps its level after the
-/// destructor. Throws std::runtime_error.
+/// destructor.
 [[nodiscard]] std::unique_ptr<OutputLine> requestOutput(const GpioAddress& line);
-/// Requests the line as an input with events on both edges. Throws std::runtime_error.
 [[nodiscard]] std::unique_ptr<EdgeInput> requestEdges(const GpioAddress& line);
 
 }  // namespace mfar

@@ -17,7 +17,6 @@ namespace mfar {
 /// Returns the message for a line that could not be requested. `error` is the errno of the request.
 [[nodiscard]] std::string gpioRequestFault(const GpioAddress& line, int error);
 
-/// Returns the paths of the GPIO character devices in `folder`, ordered by number.
 [[nodiscard]] std::vector<std::string> gpioChipPaths(const std::string& folder = "/dev");
 
 }  // namespace mfar

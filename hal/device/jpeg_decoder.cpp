@@ -47,7 +47,6 @@ void JpegDecoder::renew() {
     if (!handle_) throw std::runtime_error("the JPEG decoder cannot be set up");
 }
 
-/// Returns the chroma subsampling of a JPEG, or nothing if the JPEG must not be decoded.
 std::optional<int> JpegDecoder::subsamplingOf(std::span<const std::uint8_t> jpeg) {
     Size size;
     int subsampling = 0, colours = 0;

@@ -90,7 +90,6 @@ std::optional<ControlValue> parseAs(const ControlId& id, const ControlInfo& info
     return ControlValue(*value);
 }
 
-/// The control's type must be one of the template's C++ types.
 template <typename T, typename... Others>
 std::optional<ControlValue> parse(const ControlId& id, const ControlInfo& info,
                                   std::string_view text) {

@@ -37,7 +37,6 @@ void end(CameraManager* manager) {
     one.gone.notify_all();
 }
 
-/// Returns 0 if the camera reports no sizes.
 std::int64_t largestPicture(Camera& camera) {
     std::int64_t most = 0;
     const auto configuration = camera.generateConfiguration({libcamera::StreamRole::StillCapture});

@@ -11,7 +11,7 @@
 namespace mfar {
 
 struct ConfiguredCamera {
-    std::unique_ptr<libcamera::CameraConfiguration> configuration;  ///< has one stream
+    std::unique_ptr<libcamera::CameraConfiguration> configuration;
     PictureLayout layout;
 };
 
@@ -20,7 +20,6 @@ struct ConfiguredCamera {
 [[nodiscard]] ConfiguredCamera configureLibcamera(libcamera::Camera& camera,
                                                   const LibcameraOptions& options);
 
-/// Converts the options to values of this camera's controls. Throws std::runtime_error.
 [[nodiscard]] ControlValues controlsFor(const libcamera::Camera& camera,
                                         const LibcameraOptions& options);
 

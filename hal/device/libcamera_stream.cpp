@@ -161,13 +161,12 @@ void LibcameraCamera::Stream::stop() {
     camera_->stop();
 }
 
-/// libcamera's thread calls this function.
+/// libcamera's thread calls disconnected() and completed().
 void LibcameraCamera::Stream::disconnected() {
     unplugged_ = true;
     cycle_.lose(fmt::format("camera '{}' has been unplugged", id_));
 }
 
-/// libcamera's thread calls this function.
 void LibcameraCamera::Stream::completed(libcamera::Request* request) {
     const auto slot = static_cast<std::size_t>(request->cookie());
     if (request->status() == libcamera::Request::RequestCancelled) return cycle_.cancelled(slot);

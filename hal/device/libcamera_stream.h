@@ -65,7 +65,7 @@ private:
     libcamera::Stream* stream_ = nullptr;
     std::vector<Slot> slots_;
     RequestCycle cycle_{*this};
-    bool controlsDue_ = false;  ///< true: the next request must set the controls
+    bool controlsDue_ = false;
     std::atomic<bool> unplugged_{false};
 
     mutable std::mutex mutex_;  ///< lock order: first the mutex of cycle_, then mutex_
@@ -75,7 +75,7 @@ private:
     LibcameraCounters counters_;
     FrameDrops drops_;
     SensorClock clock_;
-    std::optional<Timestamp> last_;  ///< time of the last delivered frame
+    std::optional<Timestamp> last_;
 };
 
 }  // namespace mfar

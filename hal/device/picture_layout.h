@@ -8,7 +8,6 @@
 
 namespace mfar {
 
-/// A driver's layout of its pictures in memory.
 struct PictureLayout {
     Size size;
     PixelFormat format = PixelFormat::Nv12;
@@ -22,7 +21,6 @@ struct PlaneBytes {
     std::size_t length = 0;
 };
 
-/// Returns the minimum number of bytes of a picture, whose last row need not be padded.
 [[nodiscard]] std::size_t leastBytes(const PictureLayout& layout);
 
 /// Returns a view of the picture in a driver's buffer. `planes` has one element per plane of the

@@ -14,11 +14,11 @@
 
 namespace mfar {
 
-/// Times of a pulse's edges as the loopback line measured them. The loopback line is an input that
-/// is wired to the trigger line.
+/// Times of a pulse's leading and trailing edge. The loopback line, an input that is wired to the
+/// trigger line, measured them.
 struct MeasuredPulse {
-    Timestamp start;  ///< leading edge
-    Timestamp end;    ///< trailing edge; many sensors expose from start to end
+    Timestamp start;
+    Timestamp end;
 };
 
 /// Drives pulses on one GPIO line. The line is inactive from the constructor to the destructor,
@@ -34,7 +34,6 @@ public:
                  std::unique_ptr<EdgeInput> loopback, std::chrono::microseconds pulse);
     PulseTrigger(const PulseTrigger&) = delete;
     PulseTrigger& operator=(const PulseTrigger&) = delete;
-    /// Ends an active pulse at once.
     ~PulseTrigger() override;
 
     /// Starts a pulse and returns the time of its leading edge as the loopback line measured it.
@@ -45,7 +44,6 @@ public:
     void endPulse() override;
     [[nodiscard]] std::string name() const override { return name_; }
 
-    /// Returns the last pulse with two measured edges.
     [[nodiscard]] std::optional<MeasuredPulse> measured() const;
     [[nodiscard]] std::uint64_t missedEdges() const override;
 
@@ -62,10 +60,10 @@ private:
 
     mutable std::mutex mutex_;
     std::condition_variable_any wake_;
-    bool running_ = false;              ///< true: a pulse is active
-    Timestamp begun_;                   ///< time just before the leading edge was driven
-    Timestamp due_;                     ///< end of the pulse
-    std::optional<Timestamp> leading_;  ///< time of the leading edge from the loopback line
+    bool running_ = false;
+    Timestamp begun_;
+    Timestamp due_;
+    std::optional<Timestamp> leading_;
     /// Reason why a pulse could not be ended. The next fire() throws it.
     std::optional<std::string> failure_;
     std::optional<MeasuredPulse> measured_;

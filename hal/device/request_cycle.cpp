@@ -43,7 +43,7 @@ void RequestCycle::restart() {
     begin();
 }
 
-/// The caller must have locked lifecycle_.
+/// The caller of begin() and halt() must have locked lifecycle_.
 void RequestCycle::begin() {
     {
         const std::lock_guard lock(mutex_);
@@ -58,7 +58,6 @@ void RequestCycle::begin() {
     queueIdle();
 }
 
-/// The caller must have locked lifecycle_.
 void RequestCycle::halt() {
     driver_.prepareStop();
     {
@@ -78,7 +77,7 @@ bool RequestCycle::anyQueued() const {
     return std::ranges::find(requests_, State::Queued) != requests_.end();
 }
 
-/// The caller must have locked mutex_.
+/// The caller of queue(), queueIdle() and planRestart() must have locked mutex_.
 void RequestCycle::queue(std::size_t request) {
     requests_[request] = State::Queued;
     const int error = driver_.queue(request);
@@ -87,7 +86,6 @@ void RequestCycle::queue(std::size_t request) {
     loseLocked(fmt::format("{} accepts no more requests (error {})", name_, -error));
 }
 
-/// The caller must have locked mutex_.
 void RequestCycle::queueIdle() {
     for (std::size_t i = 0; i < requests_.size() && lost_.empty(); ++i)
         if (requests_[i] == State::Idle) queue(i);
@@ -105,14 +103,14 @@ void RequestCycle::lose(const std::string& why) {
 
 void RequestCycle::giveBack(std::size_t request) {
     const std::lock_guard lock(mutex_);
-    if (request >= requests_.size()) return;  // close() was called
+    if (request >= requests_.size()) return;  // close() was called before
     requests_[request] = State::Idle;
     if (running_ && lost_.empty()) queue(request);
 }
 
 void RequestCycle::completed(std::size_t request, const Judge& judge) {
     const std::lock_guard lock(mutex_);
-    if (request >= requests_.size()) return;  // close() was called
+    if (request >= requests_.size()) return;
     requests_[request] = State::Idle;
     changed_.notify_all();
     if (!running_) return;
@@ -127,14 +125,13 @@ void RequestCycle::completed(std::size_t request, const Judge& judge) {
 
 void RequestCycle::cancelled(std::size_t request) {
     const std::lock_guard lock(mutex_);
-    if (request >= requests_.size()) return;  // close() was called
+    if (request >= requests_.size()) return;
     requests_[request] = State::Idle;
     changed_.notify_all();
     if (running_ && !anyQueued()) planRestart();
 }
 
-/// The caller must have locked mutex_. restartAt_ may already be set by an earlier cancelled
-/// request.
+/// restartAt_ may already be set by an earlier cancelled request.
 void RequestCycle::planRestart() {
     if (restartAt_) return;
     const Timestamp now = clock_();

@@ -32,7 +32,6 @@ struct RestartLimits {
 class RequestDriver {
 public:
     virtual ~RequestDriver() = default;
-    /// Starts the stream. Throws DeviceLost, std::runtime_error.
     virtual void start() = 0;
     /// Queues a request. Returns 0 or a negative error number of errno.h. Never waits.
     [[nodiscard]] virtual int queue(std::size_t request) = 0;
@@ -44,7 +43,8 @@ public:
 
 /// Manages the requests of a camera. Each request goes through a cycle: it is queued, the driver
 /// completes it, a user holds its picture and returns it, and it is queued again. Thread-safe, but
-/// only one thread may call next(), which may call the driver's start() and stop().
+/// only one thread may call next(), which may call the driver's start() and stop(). `driver` must
+/// outlive this object.
 class RequestCycle {
 public:
     struct Done {
@@ -57,7 +57,6 @@ public:
 
     using Clock = std::function<Timestamp()>;
 
-    /// `driver` must outlive this object.
     explicit RequestCycle(RequestDriver& driver, const RestartLimits& limits = {},
                           Clock clock = &Timestamp::now);
 
@@ -76,7 +75,6 @@ public:
 
     // Only the driver's thread calls the following functions.
     void completed(std::size_t request, const Judge& judge);
-    /// Reports that the driver returned a request without a picture.
     void cancelled(std::size_t request);
     /// Reports that the device is lost. From then on, next() throws.
     void lose(const std::string& why);
@@ -86,9 +84,7 @@ public:
     [[nodiscard]] bool awaitSign(std::chrono::milliseconds within);
 
     void setName(std::string camera) { name_ = std::move(camera); }
-    /// Returns the number of pictures that passed the Judge.
     [[nodiscard]] std::uint64_t delivered() const;
-    /// Returns the number of restarts after the driver had cancelled all requests.
     [[nodiscard]] std::uint64_t restarts() const;
 
 private:
@@ -115,7 +111,7 @@ private:
     bool running_ = false;
     std::string lost_;  ///< reason why the device is lost; empty: it is not lost
     Timestamp begun_;
-    int earlyEnds_ = 0;  ///< number of consecutive early ends
+    int earlyEnds_ = 0;
     std::optional<Timestamp> restartAt_;
     std::uint64_t delivered_ = 0, restarts_ = 0;
 };

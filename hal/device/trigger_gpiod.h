@@ -10,10 +10,10 @@ namespace mfar {
 
 struct TriggerOptions {
     std::string chip;  ///< label, name or path of the GPIO chip; empty: any chip with the line
-    std::string line;  ///< number or name of the trigger line
+    std::string line;
     bool activeLow = false;
     std::chrono::microseconds pulse{1000};  ///< length of a pulse, 1 us to 10 s
-    std::string loopbackChip;               ///< GPIO chip of `loopback`; empty: the same as `chip`
+    std::string loopbackChip;               ///< empty: the same as `chip`
     /// Number or name of the loopback line, an input that is wired to `line` and reports its edges.
     /// Empty: there is none.
     std::string loopback;

@@ -149,7 +149,6 @@ V4l2Controls::V4l2Controls(const V4l2Device& device) : device_(&device) {
     }
 }
 
-// Indices without a menu entry are skipped.
 std::vector<V4l2Control::Entry> V4l2Controls::entriesOf(const V4l2Control& control,
                                                         bool numbers) const {
     std::vector<V4l2Control::Entry> out;

@@ -20,7 +20,6 @@ class V4l2Api {
 public:
     virtual ~V4l2Api() = default;
 
-    /// Returns the paths of this machine's video device nodes, sorted.
     [[nodiscard]] virtual std::vector<std::string> nodes() = 0;
     [[nodiscard]] virtual int open(const char* path) = 0;
     virtual int ioctl(int fd, unsigned long request, void* argument) = 0;
@@ -45,7 +44,6 @@ private:
 /// An open V4L2 device node. Thread-safe.
 class V4l2Device {
 public:
-    /// Throws V4l2Error if the node cannot be opened or is not a V4L2 node.
     V4l2Device(V4l2Api& api, const std::string& path);
 
     /// Calls ioctl() and returns 0 or the error number. Interrupted calls are repeated.
@@ -65,11 +63,9 @@ public:
 
     [[nodiscard]] int fd() const { return fd_.get(); }
     [[nodiscard]] const std::string& path() const { return path_; }
-    /// Returns the driver's name of the device.
     [[nodiscard]] const std::string& card() const { return card_; }
     /// Returns the driver's name of the bus and port at which the device is plugged in.
     [[nodiscard]] const std::string& bus() const { return bus_; }
-    /// Returns the V4L2_CAP_... flags of this node.
     [[nodiscard]] std::uint32_t capabilities() const { return capabilities_; }
     /// Returns true if the node delivers pictures through buffers.
     [[nodiscard]] bool captures() const;

@@ -12,7 +12,6 @@ namespace {
 // Largest plausible stride [bytes]. A larger stride is a fault of the driver.
 constexpr std::size_t kMostStride = std::size_t{1} << 20;
 
-/// The picture format as the driver reports it, through the single-planar or the multi-planar API.
 struct Answer {
     std::uint32_t fourcc = 0, colorspace = 0, matrix = 0, range = 0;
     Size size;

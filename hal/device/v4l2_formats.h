@@ -18,8 +18,9 @@ namespace mfar {
 struct V4l2PixelFormat {
     std::uint32_t fourcc;
     PixelFormat picture;
-    bool jpeg = false;            ///< true: pictures must be decoded
-    bool separatePlanes = false;  ///< true: each plane is its own V4L2 plane (multi-planar)
+    bool jpeg = false;
+    bool separatePlanes = false;  ///< true: each plane of the picture is its own V4L2 plane
+                                  ///< (multi-planar API)
     bool operator==(const V4l2PixelFormat&) const = default;
 };
 
@@ -48,11 +49,11 @@ struct V4l2Layout {
     Size size;
     YuvMatrix matrix = YuvMatrix::Bt601;
     YuvRange range = YuvRange::Limited;
-    int memoryPlanes = 1;  ///< number of V4L2 planes per buffer
+    int memoryPlanes = 1;
     struct Plane {
         int memory = 0;          ///< index of the V4L2 plane that contains this plane
-        std::size_t offset = 0;  ///< bytes from the start of the V4L2 plane to this plane
-        std::size_t stride = 0;  ///< bytes from one row to the next
+        std::size_t offset = 0;  ///< [bytes] from the start of the V4L2 plane
+        std::size_t stride = 0;
     };
     std::array<Plane, 3> planes{};
     /// For each V4L2 plane, the number of bytes of a complete picture. 0 for JPEG, whose size

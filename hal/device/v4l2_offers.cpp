@@ -27,12 +27,11 @@ constexpr std::array kUsable{
     V4l2PixelFormat{V4L2_PIX_FMT_GREY, PixelFormat::Gray8},
 };
 
-/// The driver's offer for one pixel format.
 struct Offer {
     std::uint32_t fourcc = 0;
-    bool hasSize = false;  ///< true: the wanted size is offered
-    double fastest = 0;    ///< highest frame rate at the wanted size [Hz]; 0: unknown
-    std::string sizes;     ///< list of the offered sizes, for messages
+    bool hasSize = false;
+    double fastest = 0;  ///< [Hz] at the wanted size; 0: unknown
+    std::string sizes;
 };
 
 double rateOf(const v4l2_fract& interval) {

@@ -16,8 +16,7 @@ namespace {
 
 struct Captures {
     std::vector<V4l2Device> devices;
-    std::string listed;  ///< the devices as text for messages, including those that cannot be
-                         ///< opened
+    std::string listed;  ///< text for messages, including the devices that cannot be opened
 };
 
 std::string lineOf(const V4l2Device& device) {

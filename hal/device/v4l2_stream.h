@@ -49,7 +49,6 @@ public:
     [[nodiscard]] std::optional<V4l2Filled> take();
     /// Returns a buffer to this object. Only takeBack() returns it to the driver.
     void giveBack(int index) noexcept;
-    /// Returns the buffers that giveBack() has collected to the driver.
     void takeBack() noexcept;
     /// Returns a file descriptor for poll(). It is readable while takeBack() has buffers to return.
     /// Must not be used after close().
@@ -64,7 +63,6 @@ public:
     /// Returns the buffer as dma-bufs, or null if the driver does not export it.
     [[nodiscard]] const SharedMemory* shared(int index) const;
 
-    /// Must not be called after close().
     [[nodiscard]] const V4l2Device& device() const { return *device_; }
 
 private:
