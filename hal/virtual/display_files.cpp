@@ -59,7 +59,7 @@ public:
         if (!slot) return;
         auto loan = std::make_shared<Frame>(pool_->lend(*slot, time));
         copyPicture(picture, slot->data, slot->stride);
-        // If the GL context is lost, the read-back leaves the pixels unchanged.
+        // If the GL context is lost, reading leaves the pixels unchanged.
         if (!picture.isOnHost() && gpu::takeError() != GL_NO_ERROR)
             throw gpu::GlError("the picture cannot be read back from GL");
         {
@@ -82,21 +82,21 @@ public:
     }
 
 protected:
-    /// Throws if pictures of this size cannot be written. Called on the thread of show() before the
+    /// Throws if pictures of this size cannot be written. The thread of show() calls it before the
     /// first picture of a size.
     virtual void checkSize(Size size) = 0;
-    /// Writes a picture. Called on a writer thread.
+    /// A writer thread calls it.
     virtual void write(const Frame& picture) = 0;
-    /// Returns what show() waits for, e.g. "the disk". Messages use it.
+    /// Returns the name of the device or program that show() may wait for, e.g. "the disk".
     [[nodiscard]] virtual const char* consumer() const = 0;
-    /// Returns the token that ends a wait for a pipe's reader if a stop is requested.
+    /// If a stop is requested, the token ends a wait for a pipe's reader.
     [[nodiscard]] std::stop_token cancelled() const { return cancel_.get_token(); }
-    /// Waits until all pictures are written. Destructors of derived classes must call this, because
+    /// Waits until all pictures are written. Destructors of derived classes must call it, because
     /// the writer's jobs call functions of these classes.
     void finishQuietly() noexcept {
         try {
-            // If writing one picture takes longer than policy_.finish, the wait for the pipe's
-            // reader ends.
+            // If writing one picture takes longer than policy_.finish, the wait for a pipe's reader
+            // ends.
             if (policy_.isLive && !drainWhileWriting()) cancel_.request_stop();
             writer_.drain();
         } catch (const std::exception&) {
@@ -125,13 +125,13 @@ private:
         return fmt::format("{}: {} accepts no data", name(), consumer());
     }
 
-    // Returns whether writing one picture has already taken longer than `time`.
+    // Returns true if writing one picture has already taken longer than `time`.
     [[nodiscard]] bool writesFor(std::chrono::milliseconds time) const {
         const std::lock_guard lock(mutex_);
         return !writing_.empty() && Timestamp::now() - *writing_.begin() > time;
     }
 
-    // Waits until all pictures are written. Returns false if writing one of them takes longer than
+    // Waits until all pictures are written. Returns false if writing one picture takes longer than
     // policy_.finish.
     [[nodiscard]] bool drainWhileWriting() {
         while (!writer_.drainWithin(kErrorPoll))
@@ -154,9 +154,8 @@ private:
         }
     }
 
-    // Returns a free buffer. If there is none, skips the oldest picture whose writing has not
-    // begun, and returns its buffer. Returns nothing if the pictures in all buffers are being
-    // written.
+    // Returns a free buffer. If there is none, skips the oldest picture that is not being written
+    // and returns its buffer. Returns nothing if all pictures are being written.
     std::optional<FramePool::Slot> freeBuffer() {
         throwError();
         if (const auto slot = pool_->acquire(std::chrono::milliseconds(0))) return slot;
@@ -194,10 +193,10 @@ private:
     std::optional<FramePool> pool_;
     std::atomic<std::uint64_t> leftOut_{0};
     mutable std::mutex mutex_;
-    std::deque<std::shared_ptr<Frame>> waiting_;  ///< pictures whose writing has not begun
-    std::multiset<Timestamp> writing_;            ///< when the writes that are in progress began
+    std::deque<std::shared_ptr<Frame>> waiting_;  ///< pictures that are not being written yet
+    std::multiset<Timestamp> writing_;            ///< start times of the running writes
     std::stop_callback<std::function<void()>> onCancel_;
-    BackgroundWriter writer_;  // must be the last member: its threads use the members above
+    BackgroundWriter writer_;  // must be the last member, because its threads use the members above
 };
 
 class PngDisplay final : public FileDisplay {

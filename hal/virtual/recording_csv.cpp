@@ -23,8 +23,8 @@ std::string_view trimmed(std::string_view s) {
     return s.substr(first, s.find_last_not_of(kSpace) - first + 1);
 }
 
-// Quotes a text for a message. Because damaged files may contain any bytes, control characters are
-// replaced and the text is cut to 60 characters.
+// Damaged files may contain any bytes, so control characters are replaced and the text is cut to 60
+// characters.
 std::string quoted(std::string_view s) {
     std::string out = "'";
     for (const char c : s.substr(0, 60)) {

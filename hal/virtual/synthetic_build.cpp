@@ -7,7 +7,7 @@
 namespace mfar::synthetic {
 namespace {
 
-// Edge of a plate: the tag and a white rim of one cell.
+// Side of the plate that carries a tag, with a white rim of one cell.
 constexpr double kPlateCells = kTagCells + 2;
 constexpr double kPlateThickness = 0.004;
 

@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-// Parameters of synthetic_world.frag and synthetic_sensor.frag.
-// gles_shaders/params_to_glsl.cmake translates this header to GLSL.
+// Parameters of synthetic_world.frag and synthetic_sensor.frag. gles_shaders/params_to_glsl.cmake
+// translates this header to GLSL.
 namespace mfar::params {
 
 /// Side of a tile [px]. The renderer lists for each tile the solids that may be visible in it.
@@ -30,7 +30,7 @@ struct alignas(16) SyntheticWorld {
 struct alignas(16) SyntheticSensor {
     float redGain, greenGain, blueGain;
     float inverseGamma;  ///< 1 / gamma
-    std::int32_t blurs;  ///< 1: blur with 3x3 weights, which are `centre`, `side` and `corner`
+    std::int32_t blurs;  ///< 1: blur with 3x3 weights
     float centreWeight, sideWeight, cornerWeight;
     /// 1: add noise with the variance noisePerSignal * x + noiseConstant to each linear value x.
     std::int32_t noisy;

@@ -12,8 +12,8 @@
 namespace mfar::synthetic {
 namespace {
 
-// A printed sheet is drawn as a picture of ink that has the aspect ratio of A4 and more than twice
-// the resolution of a texture layer. It is then reduced to the square layer.
+// A printed sheet is drawn as a picture of ink with the aspect ratio of A4 and more than twice the
+// resolution of a texture layer. It is then reduced to the square layer.
 constexpr int kInkWidth = 2100, kInkHeight = 2970;  // ten ink pixels per millimetre
 constexpr unsigned char kNoInk = 0;
 

@@ -19,21 +19,21 @@ namespace mfar::synthetic {
 enum class Scene { Office, Shelf, Outdoor, Flat, Moving, Still, Calibration };
 enum class Path { Handheld, Pan, Orbit, Forward, Rotate, Rest, Survey };
 
-/// These functions convert a scene or camera path to its name on the command line, and back. For an
-/// unknown name, they return nothing.
+/// Converts a scene or camera path to its name on the command line, and back. Returns nothing for
+/// an unknown name.
 [[nodiscard]] std::string_view name(Scene scene);
 [[nodiscard]] std::string_view name(Path path);
 [[nodiscard]] std::optional<Scene> sceneNamed(std::string_view name);
 [[nodiscard]] std::optional<Path> pathNamed(std::string_view name);
 
-/// Procedural texture layers, see synthetic_textures.h.
+/// Texture layers, see synthetic_textures.h.
 enum class Layer : std::uint8_t {
-    Paper,    ///< a page of text
-    Article,  ///< a page with two columns, a heading and diagrams
-    Cover,    ///< a book cover: a printed title on linen
-    Spine,    ///< the spine of a book, with letters that run downwards
-    Label,    ///< the label of a bottle
-    Edges,    ///< stacked sheets of paper, seen from the side
+    Paper,
+    Article,
+    Cover,  ///< a printed title on linen
+    Spine,  ///< the spine of a book, with letters that run downwards
+    Label,
+    Edges,  ///< stacked sheets of paper, seen from the side
     Wood,
     Plaster,
     Weave,
@@ -53,28 +53,28 @@ struct Material {
     Layer layer = Layer::Enamel;
     Eigen::Vector2d repeats{4, 4};     ///< texture repeats per metre; negative: mirrored
     Eigen::Vector2d offset{0.5, 0.5};  ///< texture coordinates at the centre of a face
-    Eigen::Vector3d tint{1, 1, 1};     ///< linear reflectance, by which the texture is multiplied
+    Eigen::Vector3d tint{1, 1, 1};     ///< linear reflectance; the texture is multiplied by it
     double variation = 0.15;           ///< strength of the low-frequency variation, 0..1
     double gloss = 0;                  ///< strength of the highlight, 0..1
 };
 
 enum class Shape : std::uint8_t { Box, Cylinder, Ellipsoid };
 
-/// A convex solid. The centre of the solid is the origin of its frame. The axis of a cylinder is z.
+/// A convex solid. Its centre is the origin of its frame. The axis of a cylinder is z.
 struct Primitive {
     Shape shape = Shape::Box;
     RigidTransform T_world_prim;     ///< pose at time 0
     Eigen::Vector3d half;            ///< half of the extent along each axis [m]
     std::array<int, 3> materials{};  ///< of the +-x, +-y and +-z faces; a cylinder's side uses x
     int lightTexels = 12;            ///< side of a face in the light map [texels]
-    bool moves = false;              ///< whether the solid moves, see World::moverPose()
+    bool moves = false;              ///< true: the solid moves, see World::moverPose()
 };
 
 /// A tag of family 36h11 in the world. Its frame is that of libapriltag: the origin is the tag's
 /// centre; seen from the front, x is right, y is down and z points into the surface.
 struct Tag {
     int id = 0;
-    double size = 0;  ///< edge of the black square [m]
+    double size = 0;  ///< side of the black square [m]
     RigidTransform T_world_tag;
     bool moves = false;
 };
@@ -84,7 +84,7 @@ struct Hit {
     double distance = 0;  ///< in multiples of the length of Ray::direction
     int primitive = 0;
     int axis = 0;           ///< axis of the face that was hit; ellipsoid: the nearest axis
-    bool positive = false;  ///< whether the face is on the positive side of this axis
+    bool positive = false;  ///< true: the face is on the positive side of this axis
     Eigen::Vector3d local;  ///< the point in the primitive's frame [m]
 };
 
@@ -104,28 +104,27 @@ struct World {
     Lighting light;
     Eigen::Vector3d eye;     ///< middle of the camera's path [m]
     Eigen::Vector3d target;  ///< point that the camera looks at [m]
-    /// Centre of the moving object at time 0 [m].
+    /// Centre of the moving object at time 0, and its radius [m]. Radius 0: there is no moving
+    /// object.
     Eigen::Vector3d moverPivot = Eigen::Vector3d::Zero();
-    /// Radius of the moving object [m]; 0: there is no moving object.
     double moverRadius = 0;
 
-    /// Returns the pose of a primitive at time t [s].
     [[nodiscard]] RigidTransform primitivePose(int index, double t) const;
-    /// Returns the motion of the moving object from time 0 to time t [s]. The pose at time t is
+    /// Returns the motion of the moving object from time 0 to time t [s]. Its pose at time t is
     /// moverPose(t) * T_world_prim.
     [[nodiscard]] RigidTransform moverPose(double t) const;
 };
 
-/// The largest number of primitives in a world. The renderer's tables have this size.
+/// Largest number of primitives in a world. The renderer's tables have this size.
 inline constexpr int kMaxPrimitives = 128;
-/// The ids of the tags in the layer Tags, row by row.
+/// Ids of the tags in the layer Tags, row by row.
 inline constexpr std::array<int, 4> kTagIds{0, 1, 2, 3};
 
 /// The target of scene Calibration, as Kalibr describes it: 6 x 6 tags of family 36h11 with a black
 /// square at each corner of a tag. The tag with id 0 is at the bottom left. Ids increase to the
 /// right, then upwards.
 inline constexpr int kGridTags = 6;            ///< number of tags per row and column
-inline constexpr double kGridTagSize = 0.064;  ///< edge of a tag's black border [m]
+inline constexpr double kGridTagSize = 0.064;  ///< side of a tag's black border [m]
 inline constexpr double kGridSpacing = 0.25;   ///< gap between tags, divided by kGridTagSize
 
 [[nodiscard]] World makeWorld(Scene scene, std::uint64_t seed);
@@ -134,8 +133,8 @@ inline constexpr double kGridSpacing = 0.25;   ///< gap between tags, divided by
 [[nodiscard]] RigidTransform cameraPose(const World& world, Path path, std::uint64_t seed,
                                         double t);
 
-/// Returns the cameras of the simulated board: video of 640x480 and stills of 2304x1728 pixels, 14
-/// mm apart.
+/// The cameras of the simulated board: video of 640x480 and stills of 2304x1728 pixels, 14 mm
+/// apart.
 [[nodiscard]] StereoRig boardRig();
 
 }  // namespace mfar::synthetic

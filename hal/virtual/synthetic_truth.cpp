@@ -33,8 +33,8 @@ Ray pixelRay(const Viewpoint& view, int x, int y) {
             view.T_world_camera.rotation * Eigen::Vector3d(ray.x(), ray.y(), 1)};
 }
 
-/// Returns the pixel in which a point of the world is seen. Returns nothing if the point is behind
-/// the camera, outside of the picture or occluded.
+/// Returns the pixel of a point of the world. Returns nothing if the point is behind the camera,
+/// outside of the picture or occluded.
 std::optional<Eigen::Vector2d> visiblePixel(const Snapshot& solids, const Viewpoint& view,
                                             const RigidTransform& T_camera_world,
                                             const Eigen::Vector3d& point) {

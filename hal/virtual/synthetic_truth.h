@@ -8,7 +8,7 @@
 /// model, not from rendered pictures.
 namespace mfar::synthetic {
 
-/// The pose and lens of a camera at one point in time.
+/// The pose and lens of a camera at one time.
 struct Viewpoint {
     CameraModel camera;
     RigidTransform T_world_camera;
