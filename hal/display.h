@@ -33,7 +33,6 @@ public:
     /// change the texture after the call. Throws std::runtime_error if the device is lost, GlError
     /// if the GPU is lost.
     virtual void show(const Picture& picture, Timestamp time) = 0;
-    /// Shows a picture that is identical to the last one. Displays may skip the work.
     virtual void showAgain(const Picture& picture, Timestamp time) { show(picture, time); }
     /// Releases all GL objects. Must be called before the GL context is destroyed.
     virtual void releaseGl() {}
@@ -43,7 +42,6 @@ public:
     /// Returns nothing without a screen. Waits for the GPU. Pixels in host memory that show() got
     /// must still be valid.
     [[nodiscard]] virtual std::optional<ScreenPicture> lastShown() const { return std::nullopt; }
-    /// Returns the size of the screen [px], or nothing without a screen.
     [[nodiscard]] virtual std::optional<Size> screenSize() { return std::nullopt; }
     /// Returns the reason why pictures are not shown or not written, or nothing if there is no
     /// fault.

@@ -70,11 +70,9 @@ public:
     };
     /// Waits up to `timeout` for a free buffer. Returns nothing if no buffer became free.
     [[nodiscard]] std::optional<Slot> acquire(std::chrono::milliseconds timeout);
-    /// Turns a filled buffer into a frame. The frame's destructor returns the buffer.
     [[nodiscard]] Frame lend(const Slot& slot, Timestamp time) const;
     /// `view` must lie in the buffer.
     [[nodiscard]] Frame lend(const Slot& slot, const ImageView& view, Timestamp time) const;
-    /// Returns a buffer that does not become a frame.
     void giveBack(const Slot& slot) const;
 
     [[nodiscard]] Size size() const { return size_; }

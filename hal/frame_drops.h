@@ -21,13 +21,11 @@ public:
     /// Adds a frame whose time must not be used, because the frame is broken or was triggered.
     /// Returns the number of frames missing before it.
     int addUntimed(std::optional<std::uint32_t> number);
-    /// Counts the last frame as dropped, because it could not be delivered.
     void lose() { ++dropped_; }
     /// Ignores the next interval, because the camera was stopped.
     void pause();
 
     [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
-    /// Returns nothing while the frame period is unknown.
     [[nodiscard]] std::optional<std::chrono::nanoseconds> period() const;
 
 private:
@@ -37,14 +35,13 @@ private:
 
     static constexpr std::size_t kKept = 31;
 
-    /// Ring buffer of intervals between frames [ns].
     std::array<std::int64_t, kKept> intervals_{};
     std::size_t known_ = 0;
     std::size_t next_ = 0;
     std::optional<Timestamp> last_;
     std::optional<std::uint32_t> lastNumber_;
-    int untimed_ = 0;  ///< frames since the last frame with a time
-    int counted_ = 0;  ///< drops since the last frame with a time
+    int untimed_ = 0;
+    int counted_ = 0;
     std::uint64_t dropped_ = 0;
 };
 

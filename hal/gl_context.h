@@ -18,7 +18,6 @@ public:
 
     virtual void makeCurrent() = 0;
     virtual void release() = 0;
-    /// Returns an extension function, or null if it does not exist.
     [[nodiscard]] virtual Proc getProcAddress(const char* name) const = 0;
     /// Returns null if the driver cannot import camera memory, or if uploads are faster, as with a
     /// software renderer.

@@ -14,7 +14,7 @@
 namespace mfar {
 namespace {
 
-constexpr std::int64_t kMostProgressive = 1 << 24;  // [px]; larger progressive JPEGs are refused
+constexpr std::int64_t kMostProgressive = 1 << 24;
 constexpr std::size_t kMostHeader = 4096;
 
 // libpng requires that its error function does not return, so fail() uses longjmp(). The functions

@@ -19,8 +19,8 @@ struct PixelTarget {
 using TargetOf = std::function<PixelTarget(Size size)>;
 
 enum class ImageAlpha : std::uint8_t {
-    Opaque,  ///< alpha is 255 in all pixels
-    Kept,    ///< alpha comes from the file; 255 if the file has no alpha
+    Opaque,
+    Kept,  ///< alpha comes from the file; 255 if the file has no alpha
 };
 
 /// Decodes a PNG or JPEG of any colour type to RGBA. 16-bit values are reduced to their upper 8

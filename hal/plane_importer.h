@@ -9,9 +9,10 @@ namespace mfar {
 /// An image plane in memory that several devices can use (dma-buf).
 struct SharedPlane {
     int fd = -1;
-    std::size_t offset = 0, stride = 0;  ///< [bytes]
-    Size size;                           ///< [texels]
-    int channels = 1;                    ///< number of 8-bit channels: 1, 2 or 4
+    /// Offset and stride in bytes, size in texels. A texel has 1, 2 or 4 channels of 8 bits.
+    std::size_t offset = 0, stride = 0;
+    Size size;
+    int channels = 1;
 };
 
 /// Creates textures from camera memory without a copy. The GL context must be current on the

@@ -68,7 +68,7 @@ void ReopeningCamera::keepOpen() {
     if (const std::shared_ptr<Camera> camera = camera_) work([&] { camera->stop(); });
 }
 
-/// The caller must have locked mutex_.
+/// take() and hangs() need a locked mutex_.
 void ReopeningCamera::take(std::shared_ptr<Camera> camera) {
     for (std::string& text : camera->takeWarnings())
         warnings_.push_back(std::move(text));
@@ -166,7 +166,6 @@ void ReopeningCamera::stop() {
     changed_.notify_all();
 }
 
-/// The caller must have locked mutex_.
 bool ReopeningCamera::hangs() const {
     const Timestamp now = Timestamp::now();
     return (answer_ && now - *answer_ >= options_.stalled) ||

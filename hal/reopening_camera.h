@@ -31,8 +31,6 @@ struct ReopeningOptions {
     /// delivers all frames. May be empty. Any thread may call it.
     std::function<bool()> busyElsewhere{};
     std::chrono::milliseconds excused{6000};
-    /// The thread that opens, stops and closes the device. Its time budget is for one of these
-    /// calls.
     WatchedThread opener{};
 };
 
@@ -41,7 +39,6 @@ struct ReopeningOptions {
 /// a driver hangs, only next() and the destructor block.
 class ReopeningCamera final : public Camera {
 public:
-    /// Opens the device. Throws std::exception.
     using Open = std::function<std::unique_ptr<Camera>()>;
 
     /// `info` describes the expected camera. A device with another picture size counts as missing.
@@ -58,13 +55,9 @@ public:
     void stop() override;
     [[nodiscard]] bool ended() const override { return false; }
 
-    /// Returns the reason why no frames come, or nothing while frames come.
     [[nodiscard]] std::optional<std::string> fault() const;
-    /// Returns true if no device is open.
     [[nodiscard]] bool absent() const;
-    /// Returns the number of times that the device was lost since start().
     [[nodiscard]] std::uint64_t losses() const;
-    /// Returns the sums over all devices that were opened so far.
     [[nodiscard]] CameraCounters cameraCounters() const override;
     [[nodiscard]] std::vector<std::string> takeWarnings() override;
 
@@ -83,18 +76,18 @@ private:
     const ReopeningOptions options_;
     mutable std::mutex mutex_;
     std::condition_variable changed_;
-    std::shared_ptr<Camera> camera_;    ///< a running next() also owns it
+    std::shared_ptr<Camera> camera_;
     std::optional<std::string> fault_;  ///< reason why no frames come; not set: frames come
-    Timestamp opened_, lastFrame_;      ///< lastFrame_ equals opened_ until the first frame
+    Timestamp opened_, lastFrame_;
     std::uint64_t losses_ = 0;
     CameraCounters before_;
     std::vector<std::string> warnings_;
-    std::shared_ptr<Camera> lost_;     ///< a lost device that must still be closed
+    std::shared_ptr<Camera> lost_;
     std::optional<Timestamp> answer_;  ///< deadline of the running next(); not set: next() is not
                                        ///< running
     std::optional<Timestamp> busy_;    ///< start of the running call that opens, stops or closes
                                        ///< the device
-    bool hasSent_ = false;             ///< true: the current or last device has sent a frame
+    bool hasSent_ = false;
     bool stopped_ = false;
     std::thread opener_;
 };

@@ -21,24 +21,24 @@ struct StillMatcherOptions {
     /// Window after the delay was learned. 1 ms suits timestamps of the sensor. Arrival times (USB
     /// cameras) need more.
     std::chrono::nanoseconds window{std::chrono::milliseconds(1)};
-    int learnFrom = 20;  ///< number of matched pulses after which learning ends
+    int learnFrom = 20;
     /// If a still does not arrive within this time after its exposure, its pulse counts as lost.
     std::chrono::nanoseconds timeout{std::chrono::milliseconds(500)};
     bool repeat = true;  ///< true: a lost pulse is fired once more
 };
 
 struct StillCounters {
-    std::uint64_t fired = 0;        ///< pulses, including the repeated ones
-    std::uint64_t matched = 0;      ///< stills that match a pulse, including late ones
-    std::uint64_t unmatched = 0;    ///< stills that match no pulse, or a pulse that already has a
-                                    ///< still
-    std::uint64_t lost = 0;         ///< pulses whose still did not arrive before the timeout
-    std::uint64_t late = 0;         ///< lost pulses whose still arrived later
-    std::uint64_t repeated = 0;     ///< pulses that repeat a lost one
-    std::uint64_t relearned = 0;    ///< detected steps of the camera's clock
-    std::uint64_t overtaken = 0;    ///< matched stills that were skipped because a newer still came
-                                    ///< first
-    std::uint64_t missedEdges = 0;  ///< see Trigger::missedEdges()
+    std::uint64_t fired = 0;      ///< pulses, including the repeated ones
+    std::uint64_t matched = 0;    ///< stills that match a pulse, including late ones
+    std::uint64_t unmatched = 0;  ///< stills that match no pulse, or a pulse that already has a
+                                  ///< still
+    std::uint64_t lost = 0;       ///< pulses whose still did not arrive before the timeout
+    std::uint64_t late = 0;
+    std::uint64_t repeated = 0;
+    std::uint64_t relearned = 0;
+    std::uint64_t overtaken = 0;  ///< matched stills that were skipped because a newer still came
+                                  ///< first
+    std::uint64_t missedEdges = 0;
 };
 
 /// Matches stills to trigger pulses by their times, because stills may be late, out of order or
@@ -55,13 +55,13 @@ public:
     enum class Pulse : std::uint8_t { Asked, Repetition };
 
     struct Match {
-        Timestamp pulse;    ///< leading edge
+        Timestamp pulse;
         Timestamp exposed;  ///< start of the exposure: pulse + constant(), without jitter
         bool late = false;  ///< true: the pulse had been counted as lost
     };
 
     struct Due {
-        int lost = 0;  ///< pulses that this call counted as lost
+        int lost = 0;
         /// True if a pulse must be fired now to repeat a lost one. Stays true until pulseFired(...,
         /// Repetition).
         bool repeat = false;
@@ -94,7 +94,7 @@ private:
     };
     struct Nearest {
         std::size_t index;
-        std::int64_t sinceEdge;  ///< from the leading edge to the exposure [ns]
+        std::int64_t sinceEdge;
     };
 
     [[nodiscard]] std::optional<Nearest> nearest(Timestamp exposed) const;

@@ -8,7 +8,6 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// Interval at which next() checks for lost pulses.
 constexpr milliseconds kLookAround{50};
 
 Frame retimed(Frame frame, Timestamp time, std::chrono::nanoseconds exposure) {

@@ -31,11 +31,9 @@ struct TriggeredStillOptions {
 /// timestamps.
 class TriggeredStillCamera final : public Camera, public Trigger {
 public:
-    /// Throws std::invalid_argument as StillMatcher does.
     TriggeredStillCamera(std::unique_ptr<Camera> camera, std::unique_ptr<Trigger> trigger,
                          const TriggeredStillOptions& options);
 
-    /// The frame rate is 0, because the camera is triggered.
     [[nodiscard]] CameraInfo info() const override;
     void start() override;
     /// Returns the next still. Also repeats lost pulses, so it must be called regularly. Throws the

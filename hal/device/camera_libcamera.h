@@ -23,11 +23,10 @@ struct LibcameraOptions {
     std::optional<double> exposureUs;
     std::optional<double> gain;
     std::optional<double> focusDioptres;
-    /// Names and values of further controls, see parseControls().
     std::vector<std::pair<std::string, std::string>> controls;
-    bool still = false;      ///< true: configure the camera for single pictures instead of video
-    bool allowCrop = false;  ///< true: accept pictures that show only a part of the field of view
-    unsigned buffers = 6;    ///< requested number of buffers; the driver may choose another
+    bool still = false;  ///< true: single pictures instead of video
+    bool allowCrop = false;
+    unsigned buffers = 6;
 };
 
 struct LibcameraCounters {
@@ -38,9 +37,9 @@ struct LibcameraCounters {
     std::uint64_t startup = 0;
     /// Frames whose timestamp is in the future, too old, or not later than the previous frame's.
     std::uint64_t badTimes = 0;
-    std::uint64_t untimed = 0;    ///< delivered frames without a timestamp; they got their arrival
-                                  ///< time
-    std::uint64_t restarted = 0;  ///< restarts after the driver cancelled all requests
+    std::uint64_t untimed = 0;  ///< delivered frames without a timestamp; they got their arrival
+                                ///< time
+    std::uint64_t restarted = 0;
     SensorClock::Kind clock = SensorClock::Kind::Monotonic;
 };
 
@@ -69,7 +68,6 @@ public:
     void stop() override;
     [[nodiscard]] bool ended() const override { return false; }
 
-    /// Thread-safe.
     [[nodiscard]] LibcameraCounters counters() const;
     [[nodiscard]] CameraCounters cameraCounters() const override;
 

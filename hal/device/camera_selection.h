@@ -9,19 +9,18 @@ namespace mfar {
 struct ListedCamera {
     std::string id;  ///< unique and the same after a restart
     std::string model;
-    std::string location;  ///< "front", "back", "external" or empty
+    std::string location;
     std::int64_t pixels = 0;
 };
 
 struct CameraWish {
     std::string name{};    ///< id, location or model; empty: any camera
-    std::string except{};  ///< this camera must not be chosen
+    std::string except{};  ///< name of a camera that must not be chosen
     /// If `name` is empty: true chooses the camera with the largest pictures, false the one with
     /// the smallest.
     bool largest = false;
 };
 
-/// Returns a list for messages: "'ID' (model M, location L), ...".
 [[nodiscard]] std::string describe(const std::vector<ListedCamera>& cameras);
 
 /// Returns the index of the chosen camera. If wish.name is empty, the cameras are ordered by

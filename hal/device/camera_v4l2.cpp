@@ -131,7 +131,6 @@ CameraV4l2::Wait CameraV4l2::wait(steady_clock::time_point until) const {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - steady_clock::now());
     const int ready =
         poll(fds.data(), fds.size(), static_cast<int>(std::max<std::int64_t>(left.count(), 0)));
-    // If a signal interrupted poll(), take() checks whether a picture has come.
     if (ready < 0 && errno == EINTR) return Wait::Picture;
     if (ready <= 0 || fds[1].revents != 0) return Wait::Nothing;
     if (fds[0].revents == 0) return Wait::Buffer;

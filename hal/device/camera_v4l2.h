@@ -20,7 +20,7 @@ namespace mfar {
 
 struct CameraV4l2Options {
     CameraWish device;  ///< path ("/dev/video0"), card name or bus
-    V4l2Wish wish;      ///< exact picture size; optional format and frame rate
+    V4l2Wish wish;
     /// Number of driver buffers, 2 to 32. It must be larger than the number of pictures in use.
     int buffers = 6;
     /// Added to the driver's timestamps. If the driver takes the timestamp at the end of a frame,
@@ -61,7 +61,6 @@ public:
     void stop() override;
     [[nodiscard]] bool ended() const override { return false; }
 
-    /// The reference is valid while the camera lives.
     [[nodiscard]] const V4l2Controls& controls() const { return *controls_; }
     [[nodiscard]] CameraCounters cameraCounters() const override;
     [[nodiscard]] std::vector<std::string> takeWarnings() override;
@@ -82,14 +81,14 @@ private:
     CameraInfo info_;
     std::shared_ptr<V4l2Stream> stream_;
     std::unique_ptr<V4l2Controls> controls_;
-    std::unique_ptr<JpegDecoder> decoder_;  // set if pictures arrive as JPEG
-    std::optional<FramePool> copies_;       // set if the driver grants too few buffers
-    OwnedFd wake_;                          // eventfd, readable after stop()
+    std::unique_ptr<JpegDecoder> decoder_;
+    std::optional<FramePool> copies_;
+    OwnedFd wake_;  // eventfd, readable after stop()
     std::atomic<bool> running_{false};
     std::chrono::nanoseconds exposure_{0};
     std::optional<Timestamp> last_;
     FrameDrops drops_;
-    mutable std::mutex countsMutex_;  ///< guards the members below
+    mutable std::mutex countsMutex_;
     CameraCounters counts_;
     std::vector<std::string> warnings_;
 };

@@ -65,7 +65,6 @@ void ScreenDisplay::show(const Picture& picture, Timestamp) {
     }
 }
 
-// Shows unchanged pictures until the screen counts as working.
 void ScreenDisplay::showAgain(const Picture& picture, Timestamp time) {
     refresh();
     if (active_ == nullptr || shown_ < kProven) show(picture, time);
@@ -129,7 +128,6 @@ std::optional<ScreenPicture> ScreenDisplay::lastShown() const {
 
 std::unique_ptr<ScreenDisplay> openScreen(std::string_view spec) {
     const ScreenSpec words = parseScreenSpec(spec);
-    // All screens share one scaler, because compiling its shader is slow.
     auto scaler = std::make_unique<ScreenScaler>();
     std::vector<std::unique_ptr<Screen>> screens;
     if (words.kind != ScreenSpec::Kind::Fbdev)

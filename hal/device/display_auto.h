@@ -55,12 +55,12 @@ private:
     void lose(const std::string& why);
 
     std::unique_ptr<ScreenScaler> scaler_;
-    std::vector<std::unique_ptr<Screen>> screens_;  // the screens use scaler_
+    std::vector<std::unique_ptr<Screen>> screens_;
     Clock clock_;
     Events changed_;
     Screen* active_ = nullptr;
     Screen* failed_ = nullptr;
-    int shown_ = 0;  // number of pictures that active_ has shown, up to kProven
+    int shown_ = 0;
     std::optional<Timestamp> lookedAt_;
     std::string fault_;  // reason why the last screen was lost; empty after kProven new pictures
 };

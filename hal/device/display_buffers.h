@@ -42,7 +42,6 @@ public:
 [[nodiscard]] std::unique_ptr<ScanoutBuffers>
 makeScanoutBuffers(const DrmCard& card, Size size, ScanoutMethod method, ScreenScaler& scaler);
 
-/// Allocates two DRM dumb buffers, which every driver supports.
 [[nodiscard]] std::unique_ptr<ScanoutBuffers> makeDumbBuffers(const DrmCard& card, Size size,
                                                               ScreenScaler& scaler);
 /// Allocates three GBM buffers and imports them into the EGL display of the current GL context. The

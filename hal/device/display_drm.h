@@ -34,7 +34,6 @@ namespace mfar {
 /// `limit` or if the device is lost.
 [[nodiscard]] bool waitForFlip(int fd, bool& pending, std::chrono::milliseconds limit);
 
-/// The ids of a KMS object's properties by name.
 class DrmProperties {
 public:
     DrmProperties() = default;
@@ -46,7 +45,6 @@ private:
     std::map<std::string, std::uint32_t, std::less<>> ids_;
 };
 
-/// A connected monitor with its mode, and the CRTC and primary plane that can drive it.
 struct DrmOutput {
     std::string connectorName;
     drmModeModeInfo mode{};
@@ -67,7 +65,6 @@ public:
     /// milliseconds; otherwise it reports the last known state. Throws std::runtime_error if the
     /// device is lost.
     [[nodiscard]] std::optional<DrmOutput> findOutput(const ScreenSpec& spec, bool probe) const;
-    /// Returns a text such as "HDMI-A-1 disconnected, ...".
     [[nodiscard]] std::string connectors() const;
 
 private:

@@ -15,7 +15,7 @@
 namespace mfar {
 namespace {
 
-constexpr int kDevices = 32;  // the kernel's largest number of framebuffer devices (FB_MAX)
+constexpr int kDevices = 32;
 
 std::string framebufferFault(const std::string& path) {
     if (errno == EACCES) return path + ": no permission, the user must be in group video";

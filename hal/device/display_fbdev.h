@@ -18,8 +18,7 @@ struct FbGeometry {
     PixelLayout layout;
     std::size_t stride = 0;
     std::size_t bytes = 0;
-    std::size_t visible = 0;  ///< bytes from the memory's start to the first visible pixel
-    /// Bytes from the memory's start to the first pixel that is visible after panning to the top.
+    std::size_t visible = 0;
     std::size_t page0 = 0;
     int pages = 1;  ///< 2: a second page lies below the first
     bool operator==(const FbGeometry&) const = default;

@@ -35,7 +35,6 @@ const char* eglExtensions(EGLDisplay display) {
     return display != EGL_NO_DISPLAY ? eglQueryString(display, EGL_EXTENSIONS) : nullptr;
 }
 
-/// The EGL and GL functions that GBM buffers need. The constructor throws if one is missing.
 struct Importer {
     EGLDisplay display = eglGetCurrentDisplay();
     bool modifiers = false;

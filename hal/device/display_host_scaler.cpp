@@ -8,7 +8,7 @@
 namespace mfar {
 namespace {
 
-constexpr std::uint32_t kBlack = 0xff000000;  // bytes R G B A: 0 0 0 255
+constexpr std::uint32_t kBlack = 0xff000000;
 constexpr int kFixedOne = 65535;
 // Number of strips of a picture per thread. If a thread is interrupted, the other threads process
 // its remaining strips.

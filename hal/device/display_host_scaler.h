@@ -35,10 +35,9 @@ private:
         Axis(int from, int to);
         std::vector<Footprint> footprints;
         /// Weights of all footprints, one after the other. The weights of one footprint add up to
-        /// 1.
+        /// 1, or to 65535 as integers.
         std::vector<float> weights;
-        std::vector<std::uint16_t> fixed;  ///< the same weights as integers; those of one footprint
-                                           ///< add up to 65535
+        std::vector<std::uint16_t> fixed;
     };
     struct Line {
         explicit Line(int width)

@@ -13,7 +13,7 @@ constexpr std::uint32_t ones(int bits) {
 /// Moves the bits of one colour from a pixel with 8 bits per colour to their position in the
 /// screen's pixel.
 struct Move {
-    int from, drop, to;  ///< bits to shift right, low bits to drop, bits to shift left
+    int from, drop, to;
 
     Move(int offset, PixelChannel channel)
         : from(offset), drop(8 - channel.length), to(channel.offset) {}
@@ -48,7 +48,6 @@ void packRow(const std::uint8_t* __restrict pixels, int width, const PixelLayout
     }
 }
 
-// Converts bytes R G B X to B G R 255.
 void swapRow(const std::uint8_t* __restrict rgba, int width, std::uint8_t* __restrict out) {
     for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x) {
         std::uint32_t pixel = 0;

@@ -88,7 +88,6 @@ public:
     /// Deletes all GL objects. After that, last() must not be called unless the last picture is on
     /// the host.
     void releaseGl() { target_.reset(); }
-    /// Returns the scaled picture of the last begin(), with alpha 255.
     [[nodiscard]] ScreenPicture last() const;
 
 private:
@@ -112,7 +111,6 @@ private:
     std::optional<Rows<const std::uint32_t>> onHost_;
 };
 
-/// Waits for the GPU.
 [[nodiscard]] ScreenPicture readFramebuffer(GLuint framebuffer, Size size, PixelFormat format);
 
 }  // namespace mfar

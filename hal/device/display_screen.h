@@ -12,7 +12,7 @@ namespace mfar {
 class Screen {
 public:
     enum class Presence {
-        Absent,   ///< the device cannot be used; the next device may be checked
+        Absent,
         Waiting,  ///< the device is held, but no screen is connected to it
         Ready,
     };
@@ -29,7 +29,6 @@ public:
     /// look() returned Ready. Throws std::runtime_error if the screen is lost; then close() must be
     /// called.
     virtual void show(const Picture& picture) = 0;
-    /// Releases all GL objects. The screen keeps its picture.
     virtual void releaseGl() = 0;
     /// Restores the device's previous state and releases it. Idempotent.
     virtual void close() = 0;

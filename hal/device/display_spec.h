@@ -16,7 +16,6 @@ struct ModeWish {
     bool operator==(const ModeWish&) const = default;
 };
 
-/// The parsed `spec` of openScreen().
 struct ScreenSpec {
     enum class Kind { Auto, Kms, Fbdev };
     Kind kind = Kind::Auto;
@@ -24,7 +23,7 @@ struct ScreenSpec {
     /// KMS only: name of the connector as in /sys/class/drm, e.g. "HDMI-A-1". Empty: the first
     /// connector with a monitor.
     std::string connector;
-    std::optional<ModeWish> mode;  ///< KMS only; not set: the monitor's preferred mode
+    std::optional<ModeWish> mode;
     bool operator==(const ScreenSpec&) const = default;
 };
 

@@ -9,7 +9,6 @@ namespace mfar {
 class DisplayEvents {
 public:
     DisplayEvents();
-    /// Returns true if a display was added, removed or changed since the last call. Never waits.
     [[nodiscard]] bool changed();
 
 private:

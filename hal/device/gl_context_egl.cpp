@@ -112,7 +112,6 @@ OpenedDisplay openDisplay(bool software) {
         "installed, and may this user read and write /dev/dri/renderD*?");
 }
 
-// The displays are never terminated, because another thread may use them.
 OpenedDisplay sharedDisplay(GlDevice device) {
     static std::mutex mutex;
     static std::array<OpenedDisplay, 2> all{{{EGL_NO_DISPLAY, ""}, {EGL_NO_DISPLAY, ""}}};

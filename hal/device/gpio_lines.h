@@ -16,7 +16,7 @@ namespace mfar {
 struct GpioLine {
     unsigned offset = 0;
     std::string name;
-    std::string consumer;  ///< program or driver that uses the line; empty: unknown
+    std::string consumer;
     bool used = false;
 };
 
@@ -45,7 +45,6 @@ public:
     virtual void set(bool active) = 0;
 };
 
-/// An input line whose edges get timestamps from the kernel.
 class EdgeInput {
 public:
     virtual ~EdgeInput() = default;

@@ -14,7 +14,6 @@ namespace mfar {
 [[nodiscard]] GpioAddress findGpioLine(const std::vector<GpioChip>& chips, std::string_view chip,
                                        std::string_view line);
 
-/// Returns the message for a line that could not be requested. `error` is the errno of the request.
 [[nodiscard]] std::string gpioRequestFault(const GpioAddress& line, int error);
 
 [[nodiscard]] std::vector<std::string> gpioChipPaths(const std::string& folder = "/dev");

@@ -12,7 +12,6 @@ namespace mfar {
 /// contain several planes.
 class MappedPicture {
 public:
-    /// Throws std::runtime_error if the memory cannot be mapped or is too small for the picture.
     MappedPicture(const libcamera::FrameBuffer& buffer, const PictureLayout& layout);
     MappedPicture(const MappedPicture&) = delete;
     MappedPicture& operator=(const MappedPicture&) = delete;

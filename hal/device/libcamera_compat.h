@@ -10,7 +10,6 @@
 /// functions are templates, because an unsatisfied `requires` outside of a template is an error.
 namespace mfar::libcamera_compat {
 
-/// Returns true if the sensor's mode can be chosen (since libcamera 0.2.0).
 template <typename Configuration = libcamera::CameraConfiguration>
 [[nodiscard]] constexpr bool hasSensorConfiguration() {
     return requires(Configuration& c) { c.sensorConfig; };
@@ -56,14 +55,11 @@ template <typename Id>
         return control.name() == "FrameDurationLimits";
 }
 
-/// Returns true if libcamera has controls of type T. Unsigned controls with 16 and 32 bits exist
-/// since 0.4.0.
 template <typename T>
 [[nodiscard]] constexpr bool hasControlType() {
     return requires { libcamera::details::control_type<T>::value; };
 }
 
-/// Since libcamera 0.6.0, text properties are string views.
 template <typename Text>
 [[nodiscard]] std::string text(const std::optional<Text>& property) {
     return property ? std::string(*property) : std::string();

@@ -11,7 +11,6 @@ namespace mfar {
 /// Names and values of controls as text: "ExposureTime" and "8000", "AfMode" and "0". Since
 /// libcamera 0.4, the value may be a name. The values of an array are separated by commas.
 using NamedValues = std::vector<std::pair<std::string, std::string>>;
-/// The key is libcamera's number of the control.
 using ControlValues = std::vector<std::pair<unsigned, libcamera::ControlValue>>;
 
 [[nodiscard]] bool hasControl(const libcamera::ControlInfoMap& camera, const std::string& name);

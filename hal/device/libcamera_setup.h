@@ -23,7 +23,6 @@ struct ConfiguredCamera {
 [[nodiscard]] ControlValues controlsFor(const libcamera::Camera& camera,
                                         const LibcameraOptions& options);
 
-/// Returns the size of the sensor's active area [px], or nothing if the camera does not report it.
 [[nodiscard]] std::optional<Size> activePixels(const libcamera::Camera& camera);
 
 /// Returns a message if pictures show only a part of the field of view. `crop` is the used part of

@@ -14,12 +14,10 @@
 namespace mfar {
 namespace {
 
-/// The camera fills one buffer while the user reads the other.
 constexpr std::size_t kLeastBuffers = 2;
 /// Longest time that libcamera needs, on a busy machine, to learn from udev that a device was
 /// unplugged.
 constexpr std::chrono::seconds kUdevTime{30};
-/// Interval of the checks during kUdevTime.
 constexpr std::chrono::milliseconds kNodeLook{100};
 
 void check(const LibcameraOptions& options) {

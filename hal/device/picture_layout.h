@@ -11,7 +11,7 @@ namespace mfar {
 struct PictureLayout {
     Size size;
     PixelFormat format = PixelFormat::Nv12;
-    std::size_t stride = 0;  ///< bytes per row of the first plane, including padding
+    std::size_t stride = 0;
     YuvMatrix matrix = YuvMatrix::Bt601;
     YuvRange range = YuvRange::Limited;
 };

@@ -86,7 +86,6 @@ void PulseTrigger::endPulse() {
 void PulseTrigger::endLater(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
     while (wake_.wait(lock, stop, [this] { return running_; })) {
-        // During this wait, endPulse() may end the pulse, and a new pulse may begin.
         const Timestamp due = due_;
         const auto isOver = [&] { return !running_ || due_ != due; };
         if (wake_.wait_until(lock, stop, steady(due - kWakeUp), isOver)) continue;
@@ -121,7 +120,7 @@ std::optional<Timestamp> PulseTrigger::edgeSince(Timestamp earliest) {
 /// may be wrong, because the kernel reads the level when a short pulse is already over.
 void PulseTrigger::measure(Timestamp endDriven) {
     if (!leading_) leading_ = edgeSince(begun_);
-    if (leading_ && *leading_ >= endDriven) leading_.reset();  // this is the trailing edge
+    if (leading_ && *leading_ >= endDriven) leading_.reset();
     const std::optional<Timestamp> trailing =
         leading_ ? edgeSince(endDriven) : std::optional<Timestamp>{};
     if (trailing)

@@ -103,7 +103,7 @@ void RequestCycle::lose(const std::string& why) {
 
 void RequestCycle::giveBack(std::size_t request) {
     const std::lock_guard lock(mutex_);
-    if (request >= requests_.size()) return;  // close() was called before
+    if (request >= requests_.size()) return;
     requests_[request] = State::Idle;
     if (running_ && lost_.empty()) queue(request);
 }
@@ -119,7 +119,6 @@ void RequestCycle::completed(std::size_t request, const Judge& judge) {
         ready_.push_back(*done);
         ++delivered_;
     }
-    // The driver fills requests again, so the requests that it cancelled can be queued again.
     queueIdle();
 }
 

@@ -24,7 +24,6 @@ struct RestartLimits {
     std::chrono::milliseconds early{500};
     /// Pause before the restart after two consecutive early ends. It doubles with each further one.
     std::chrono::milliseconds firstPause{50};
-    /// Number of consecutive early ends after which the device counts as lost.
     int most = 5;
 };
 
@@ -37,7 +36,6 @@ public:
     [[nodiscard]] virtual int queue(std::size_t request) = 0;
     /// Called before stop(), while the driver may still complete requests.
     virtual void prepareStop() = 0;
-    /// Stops the stream and completes all queued requests. May wait.
     virtual void stop() = 0;
 };
 
@@ -62,7 +60,6 @@ public:
 
     /// Adds a request. Must not be called after start(). Requests are numbered from 0.
     void add();
-    /// Starts the driver and queues all requests. Throws the exceptions of the driver.
     void start();
     void stop();
     /// Removes all requests. A request that is returned later is ignored.
@@ -73,7 +70,6 @@ public:
     [[nodiscard]] std::optional<Done> next(std::chrono::milliseconds timeout);
     void giveBack(std::size_t request);
 
-    // Only the driver's thread calls the following functions.
     void completed(std::size_t request, const Judge& judge);
     void cancelled(std::size_t request);
     /// Reports that the device is lost. From then on, next() throws.
@@ -109,7 +105,7 @@ private:
     std::vector<State> requests_;
     std::deque<Done> ready_;
     bool running_ = false;
-    std::string lost_;  ///< reason why the device is lost; empty: it is not lost
+    std::string lost_;
     Timestamp begun_;
     int earlyEnds_ = 0;
     std::optional<Timestamp> restartAt_;

@@ -12,8 +12,8 @@ struct TriggerOptions {
     std::string chip;  ///< label, name or path of the GPIO chip; empty: any chip with the line
     std::string line;
     bool activeLow = false;
-    std::chrono::microseconds pulse{1000};  ///< length of a pulse, 1 us to 10 s
-    std::string loopbackChip;               ///< empty: the same as `chip`
+    std::chrono::microseconds pulse{1000};
+    std::string loopbackChip;
     /// Number or name of the loopback line, an input that is wired to `line` and reports its edges.
     /// Empty: there is none.
     std::string loopback;

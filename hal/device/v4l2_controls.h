@@ -12,7 +12,6 @@ namespace mfar {
 struct V4l2Control {
     enum class Kind { Integer, Boolean, Menu, Button, Other };
 
-    /// An entry of a menu. If the menu lists numbers, `text` is the number.
     struct Entry {
         std::int64_t index;
         std::string text;
@@ -24,8 +23,8 @@ struct V4l2Control {
     Kind kind = Kind::Other;
     std::int64_t minimum = 0, maximum = 0, step = 1, standard = 0;
     bool readOnly = false, writeOnly = false;
-    bool inactive = false;  ///< has no effect now, because of another control's value
-    bool wide = false;      ///< the value has 64 bits
+    bool inactive = false;
+    bool wide = false;
     std::vector<Entry> entries;
 };
 
@@ -33,7 +32,6 @@ struct V4l2Control {
 /// of other characters. "White Balance, Automatic" becomes white_balance_automatic.
 [[nodiscard]] std::string foldedName(std::string_view name);
 
-/// Returns a line such as "exposure_time_absolute: 3 to 2047 in steps of 1, default 250".
 [[nodiscard]] std::string describe(const V4l2Control& control);
 
 /// The controls of a device. They are found by foldedName(), because vendors use the same id for
@@ -48,7 +46,6 @@ public:
     explicit V4l2Controls(const V4l2Device& device);
 
     [[nodiscard]] const std::vector<V4l2Control>& list() const { return controls_; }
-    /// Returns null if the control does not exist.
     [[nodiscard]] const V4l2Control* find(std::string_view name) const;
 
     [[nodiscard]] std::int64_t get(std::string_view name) const;

@@ -23,7 +23,6 @@ public:
     [[nodiscard]] virtual std::vector<std::string> nodes() = 0;
     [[nodiscard]] virtual int open(const char* path) = 0;
     virtual int ioctl(int fd, unsigned long request, void* argument) = 0;
-    /// Maps shared memory for reading and writing. The caller must call munmap().
     [[nodiscard]] virtual void* map(int fd, std::size_t length, std::int64_t offset) = 0;
 };
 
@@ -41,7 +40,6 @@ private:
     int errorNumber_;
 };
 
-/// An open V4L2 device node. Thread-safe.
 class V4l2Device {
 public:
     V4l2Device(V4l2Api& api, const std::string& path);
@@ -64,7 +62,6 @@ public:
     [[nodiscard]] int fd() const { return fd_.get(); }
     [[nodiscard]] const std::string& path() const { return path_; }
     [[nodiscard]] const std::string& card() const { return card_; }
-    /// Returns the driver's name of the bus and port at which the device is plugged in.
     [[nodiscard]] const std::string& bus() const { return bus_; }
     [[nodiscard]] std::uint32_t capabilities() const { return capabilities_; }
     /// Returns true if the node delivers pictures through buffers.

@@ -9,7 +9,7 @@
 namespace mfar {
 namespace {
 
-// Largest plausible stride [bytes]. A larger stride is a fault of the driver.
+// [bytes]; a larger stride is a fault of the driver.
 constexpr std::size_t kMostStride = std::size_t{1} << 20;
 
 struct Answer {
@@ -82,7 +82,6 @@ void setColours(const Answer& answer, V4l2Layout& out) {
                     : YuvRange::Limited;
 }
 
-/// Lays out all planes one after the other in one V4L2 plane.
 void placeInOnePiece(std::size_t stride, V4l2Layout& out) {
     std::size_t offset = 0;
     for (int i = 0; i < planeCount(out.format.picture); ++i) {

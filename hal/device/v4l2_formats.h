@@ -51,8 +51,8 @@ struct V4l2Layout {
     YuvRange range = YuvRange::Limited;
     int memoryPlanes = 1;
     struct Plane {
-        int memory = 0;          ///< index of the V4L2 plane that contains this plane
-        std::size_t offset = 0;  ///< [bytes] from the start of the V4L2 plane
+        int memory = 0;
+        std::size_t offset = 0;
         std::size_t stride = 0;
     };
     std::array<Plane, 3> planes{};
@@ -60,7 +60,6 @@ struct V4l2Layout {
     /// varies.
     std::array<std::size_t, 3> bytes{};
 
-    /// `memory` is the first byte of each V4L2 plane.
     [[nodiscard]] ImageView view(const std::array<const std::uint8_t*, 3>& memory) const;
 };
 
@@ -78,7 +77,6 @@ struct V4l2Layout {
 /// lists no sizes.
 [[nodiscard]] std::int64_t largestPicture(const V4l2Device& device);
 
-/// Returns the V4L2_BUF_TYPE_... with which this device captures.
 [[nodiscard]] std::uint32_t bufferType(const V4l2Device& device);
 
 }  // namespace mfar

@@ -30,7 +30,7 @@ constexpr std::array kUsable{
 struct Offer {
     std::uint32_t fourcc = 0;
     bool hasSize = false;
-    double fastest = 0;  ///< [Hz] at the wanted size; 0: unknown
+    double fastest = 0;
     std::string sizes;
 };
 

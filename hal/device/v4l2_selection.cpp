@@ -16,7 +16,7 @@ namespace {
 
 struct Captures {
     std::vector<V4l2Device> devices;
-    std::string listed;  ///< text for messages, including the devices that cannot be opened
+    std::string listed;
 };
 
 std::string lineOf(const V4l2Device& device) {

@@ -199,7 +199,7 @@ std::vector<int> V4l2Stream::takeReturned() noexcept {
     std::uint64_t drained = 0;
     static_cast<void>(!read(wake_.get(), &drained, sizeof drained));
     std::vector<int> out = returned_;
-    returned_.clear();  // keeps its capacity, so that giveBack() need not allocate
+    returned_.clear();
     return out;
 }
 

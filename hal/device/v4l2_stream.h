@@ -17,7 +17,7 @@ struct V4l2Filled {
     std::uint32_t flags = 0;
     std::uint32_t sequence = 0;  ///< number of the frame; numbers of lost frames are skipped
     std::int64_t seconds = 0, microseconds = 0;
-    std::array<std::size_t, 3> offset{}, bytes{};  ///< the filled part of each V4L2 plane
+    std::array<std::size_t, 3> offset{}, bytes{};
 };
 
 /// The memory-mapped buffers of a capture device, allocated once. The driver fills a buffer; then a
@@ -71,10 +71,8 @@ private:
         Holder holder = Holder::Nobody;
         std::array<V4l2Device::Mapping, 3> pieces;
         std::array<OwnedFd, 3> exported;
-        SharedMemory shared;  ///< id 0: not exported
+        SharedMemory shared;
     };
-    /// The argument of an ioctl() for one buffer, including its V4L2 planes for the multi-planar
-    /// API.
     struct Argument;
 
     void allocate(int buffers);
@@ -92,7 +90,7 @@ private:
 
     std::mutex returnedMutex_;  ///< guards returned_ and wake_; not locked during driver calls
     std::vector<int> returned_;
-    OwnedFd wake_;  ///< eventfd; close() closes it
+    OwnedFd wake_;
 };
 
 }  // namespace mfar

@@ -23,10 +23,8 @@ public:
     explicit BackgroundWriter(int threads, const WatchedThread& watched = {});
     BackgroundWriter(const BackgroundWriter&) = delete;
     BackgroundWriter& operator=(const BackgroundWriter&) = delete;
-    /// Waits for all posted jobs and ignores their errors.
     ~BackgroundWriter();
 
-    /// Thread-safe; never waits for a job.
     void post(std::function<void()> job);
     /// Waits until every posted job is done. Throws std::runtime_error with the error of the first
     /// job that failed.

@@ -42,7 +42,6 @@ public:
     [[nodiscard]] std::string name() const override { return "none"; }
 };
 
-/// Copies pictures into a few buffers and passes them to a thread that writes them.
 class FileDisplay : public Display {
 public:
     FileDisplay(int threads, std::stop_token cancel, FileDisplayPolicy policy)
@@ -85,11 +84,9 @@ protected:
     /// Throws if pictures of this size cannot be written. The thread of show() calls it before the
     /// first picture of a size.
     virtual void checkSize(Size size) = 0;
-    /// A writer thread calls it.
     virtual void write(const Frame& picture) = 0;
     /// Returns the name of the device or program that show() may wait for, e.g. "the disk".
     [[nodiscard]] virtual const char* consumer() const = 0;
-    /// If a stop is requested, the token ends a wait for a pipe's reader.
     [[nodiscard]] std::stop_token cancelled() const { return cancel_.get_token(); }
     /// Waits until all pictures are written. Destructors of derived classes must call it, because
     /// the writer's jobs call functions of these classes.
@@ -100,12 +97,10 @@ protected:
             if (policy_.isLive && !drainWhileWriting()) cancel_.request_stop();
             writer_.drain();
         } catch (const std::exception&) {
-            // A destructor cannot report errors; finish() reports them.
         }
     }
 
 private:
-    /// Calls policy_.waiting at the start and at the end of a wait.
     class Waits {
     public:
         explicit Waits(const FileDisplay& of) : of_(of) {
@@ -125,14 +120,11 @@ private:
         return fmt::format("{}: {} accepts no data", name(), consumer());
     }
 
-    // Returns true if writing one picture has already taken longer than `time`.
     [[nodiscard]] bool writesFor(std::chrono::milliseconds time) const {
         const std::lock_guard lock(mutex_);
         return !writing_.empty() && Timestamp::now() - *writing_.begin() > time;
     }
 
-    // Waits until all pictures are written. Returns false if writing one picture takes longer than
-    // policy_.finish.
     [[nodiscard]] bool drainWhileWriting() {
         while (!writer_.drainWithin(kErrorPoll))
             if (writesFor(policy_.finish)) return false;
@@ -193,8 +185,8 @@ private:
     std::optional<FramePool> pool_;
     std::atomic<std::uint64_t> leftOut_{0};
     mutable std::mutex mutex_;
-    std::deque<std::shared_ptr<Frame>> waiting_;  ///< pictures that are not being written yet
-    std::multiset<Timestamp> writing_;            ///< start times of the running writes
+    std::deque<std::shared_ptr<Frame>> waiting_;
+    std::multiset<Timestamp> writing_;  ///< start times of the running writes
     std::stop_callback<std::function<void()>> onCancel_;
     BackgroundWriter writer_;  // must be the last member, because its threads use the members above
 };

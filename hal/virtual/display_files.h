@@ -23,7 +23,7 @@ struct FileDisplayPolicy {
     std::chrono::milliseconds stalled{2000};
     /// With a live source: if writing one picture takes longer than this, finish() throws.
     std::chrono::milliseconds finish{5000};
-    WatchedThread writer{};  ///< the writing thread; its time budget is for one picture
+    WatchedThread writer{};
 };
 
 /// Opens a display that needs no screen. `spec` is one of:

@@ -91,7 +91,6 @@ private:
 /// Reads a Middlebury .flo file. A vector with a component that is not finite or greater than 1e9
 /// is unknown and becomes (NaN, NaN). Throws ImageFileError.
 [[nodiscard]] FlowImage loadFlo(const std::filesystem::path& file);
-/// Unknown vectors are written as (1e10, 1e10). Throws ImageFileError.
 void saveFlo(const std::filesystem::path& file, const FlowImage& image);
 
 }  // namespace mfar

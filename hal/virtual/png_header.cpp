@@ -21,7 +21,6 @@ namespace {
 // specification, 5.2 and 11.2.2).
 constexpr std::array<std::uint8_t, 16> kStart{0x89, 'P', 'N', 'G', 0x0D, 0x0A, 0x1A, 0x0A,
                                               0,    0,   0,   13,  'I',  'H',  'D',  'R'};
-// A PNG file ends with the IEND chunk of twelve constant bytes.
 constexpr std::array<std::uint8_t, 12> kEnd{0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xAE, 0x42, 0x60, 0x82};
 
 std::uint32_t bigEndian(const std::uint8_t* p) {

@@ -118,7 +118,7 @@ void Recorder::sync() {
         if (rows.empty()) return;
         for (const auto& [file, text] : rows)
             appendToFile(file, text);
-        syncFileSystem(root_);  // also writes the lists' new rows to the disk
+        syncFileSystem(root_);
     });
 }
 

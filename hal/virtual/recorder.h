@@ -23,7 +23,7 @@ struct RecorderOptions {
     /// Disk space that must stay free [bytes]. If less is free, the recording ends with an error.
     std::uint64_t leastFreeBytes = 64U << 20;
     std::uint64_t mostBytes = 0;  ///< largest size of a recording [bytes]; 0: no limit
-    WatchedThread writer{};       ///< the writing thread; its time budget is for one picture
+    WatchedThread writer{};
     /// Interval between synchronisations of the disk, which protect the recording from a power cut.
     /// The first picture or pose after the interval starts the next synchronisation.
     std::chrono::milliseconds syncEvery{1000};
@@ -52,19 +52,16 @@ public:
     /// std::runtime_error if the folder is not empty or cannot be written.
     Recorder(const std::filesystem::path& root, const StereoRig& rig, double videoRateHz,
              const RecorderOptions& options = {});
-    /// Finishes the recording like finish(), but ignores errors.
     ~Recorder();
 
     bool video(const ImageView& image, Timestamp time) { return picture(video_, image, time); }
     bool still(const ImageView& image, Timestamp time) { return picture(still_, image, time); }
     bool pose(const Pose& pose);
-    /// Writes a text file into the recording's folder. An existing file is replaced.
     void addFile(std::string_view name, std::string_view text);
 
     /// Waits until all accepted pictures and poses are written. Throws std::runtime_error with the
     /// first write error, e.g. that the disk is full. May be called several times.
     void finish();
-    /// Returns the first write error so far. Thread-safe; never waits.
     [[nodiscard]] std::optional<std::string> error() const;
 
     [[nodiscard]] Counts videoCounts() const { return video_.counts(); }
@@ -78,7 +75,7 @@ private:
         std::optional<Timestamp> last{};
         std::atomic<std::uint64_t> written{0};
         std::atomic<std::uint64_t> dropped{0};
-        std::string rows{};  ///< rows still missing in data.csv; only the writer's thread uses them
+        std::string rows{};
 
         [[nodiscard]] Counts counts() const { return {written.load(), dropped.load()}; }
     };
@@ -94,8 +91,6 @@ private:
     void writePose(const Pose& pose);
     void syncWhenDue();
     void sync();
-    /// Throws std::runtime_error if a picture of `bytes` bytes would make the disk too full or the
-    /// recording too large.
     void checkSpace(std::uintmax_t bytes);
 
     std::filesystem::path root_;

@@ -52,8 +52,6 @@ struct Recording {
 [[nodiscard]] Recording loadRecording(const std::filesystem::path& root,
                                       std::size_t most = std::numeric_limits<std::size_t>::max());
 
-/// Returns the largest number of bytes that the lists of a recording need, also while they are
-/// read.
 [[nodiscard]] std::size_t memoryOf(const Recording& recording);
 
 }  // namespace mfar

@@ -88,7 +88,7 @@ void forEachCsvRow(const std::filesystem::path& file,
         if (line > kMostLines)
             recordingFault(file, line, fmt::format("the file has more than {} lines", kMostLines));
         std::string_view row(text.data(), static_cast<std::size_t>(in.gcount()));
-        if (row.ends_with('\0')) row.remove_suffix(1);  // a zero instead of the newline
+        if (row.ends_with('\0')) row.remove_suffix(1);
         if (line == 1 && row.starts_with("\xEF\xBB\xBF")) row.remove_prefix(3);
         const bool isTorn = in.eof();
         row = trimmed(row.substr(0, row.find('\0')));

@@ -29,9 +29,7 @@ public:
     /// Returns field i as a timestamp [ns] in 0 <= t < 2^62, so that later sums and differences
     /// cannot overflow. Throws RecordingError.
     [[nodiscard]] Timestamp time(std::size_t i) const;
-    /// Returns field i as a finite number. Throws RecordingError.
     [[nodiscard]] double number(std::size_t i) const;
-    /// Throws a RecordingError that names this row.
     [[noreturn]] void fail(std::string_view what) const;
 
 private:

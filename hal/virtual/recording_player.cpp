@@ -29,14 +29,14 @@ struct RecordingPlayer::Timeline {
     Pace pace = Pace::Realtime;
     bool loop = false;
     bool asksVideoFirst = false;
-    Timestamp first;                  ///< time of the recording's first picture
+    Timestamp first;
     std::chrono::nanoseconds lap{0};  ///< duration of one pass through a looped recording
 
     mutable std::mutex mutex;
     std::condition_variable changed;
     std::optional<Clock::time_point> begin;
-    Timestamp nextVideo;    ///< time of the next video frame to deliver; kNever: there is none
-    Timestamp newestVideo;  ///< time of the last video frame that was delivered
+    Timestamp nextVideo;
+    Timestamp newestVideo;
 
     [[nodiscard]] Clock::time_point due(Timestamp t) const { return *begin + (t - first); }
 };

@@ -68,7 +68,6 @@ private:
 /// buffers, not waits for the decoder.
 class RecordingPlayer {
 public:
-    /// Throws std::invalid_argument if an option has an impossible value.
     RecordingPlayer(Recording recording, const PlayerOptions& options);
     RecordingPlayer(const RecordingPlayer&) = delete;
     RecordingPlayer& operator=(const RecordingPlayer&) = delete;
@@ -85,7 +84,6 @@ public:
     /// Returns the current time of the cameras. With Pace::Realtime, it is the time of their clock;
     /// otherwise it is the time of the last delivered video frame.
     [[nodiscard]] Timestamp now() const;
-    /// Returns the number of video frames that were skipped because they were late.
     [[nodiscard]] std::uint64_t skipped() const;
 
 private:

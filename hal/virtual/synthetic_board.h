@@ -21,7 +21,7 @@ struct SyntheticOptions {
     std::optional<synthetic::Path> path{};
     std::uint64_t seed = 1;
     Pace pace = Pace::Realtime;
-    int frames = 0;  ///< number of frames after which the video ends; 0: unlimited
+    int frames = 0;  ///< 0: unlimited
     double rateHz = 30;
     double noise = 1;  ///< factor of the standard deviation of both sensors' noise
     /// Number of buffers for pictures that are in use or ready.
@@ -59,14 +59,13 @@ class SyntheticStudio;
 /// thread-safe.
 class SyntheticBoard {
 public:
-    /// Camera for which ground truth is computed.
     enum class View {
         Video,
         Still,
-        StillAtVideo,  ///< still camera's position; video's orientation, lens, resolution
+        StillAtVideo,  ///< position of the still camera; orientation, lens and resolution of the
+                       ///< video camera
     };
 
-    /// Throws std::runtime_error if no GL context can be created.
     explicit SyntheticBoard(const SyntheticOptions& options);
     ~SyntheticBoard();
     SyntheticBoard(const SyntheticBoard&) = delete;
@@ -80,7 +79,6 @@ public:
     /// Returns the time at which the world's time is 0. The world is also defined at earlier times.
     [[nodiscard]] Timestamp epoch() const;
 
-    /// Returns the exact pose of the video camera.
     [[nodiscard]] Pose pose(Timestamp t) const;
     /// Returns the inverse depth 1 / z [1/m] of each video pixel; 0: background.
     [[nodiscard]] FloatImage inverseDepth(Timestamp t) const;
@@ -90,7 +88,6 @@ public:
     /// Returns the picture of the video camera at the still's resolution: same lens, gain and
     /// gamma, without noise and blur. Takes as long as rendering a still.
     [[nodiscard]] StoredImage highRes(Timestamp t);
-    /// Returns the picture of the video camera without noise.
     [[nodiscard]] StoredImage cleanVideo(Timestamp t);
 
 private:

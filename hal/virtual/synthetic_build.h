@@ -8,19 +8,18 @@
 namespace mfar::synthetic {
 
 /// Assembles a world from solids. Positions and sizes are in metres, in the world's frame. Yaw
-/// angles [rad] are about the world's z axis. Materials are given by their index.
+/// angles [rad] are about the world's z axis. Materials are given by the index that material(),
+/// sheet() or tiled() returned.
 class Builder {
 public:
     World world;
 
-    /// Returns the material's index.
     int material(const Material& m);
     /// Adds a material whose texture fills a face of this size exactly once. It suits the +x, -y
-    /// and +z faces of a box. Returns the material's index.
+    /// and +z faces of a box.
     int sheet(Layer layer, double width, double height, const Eigen::Vector3d& tint,
               double gloss = 0);
-    /// Adds a material whose texture repeats `perMetre` times per metre. Returns the material's
-    /// index.
+    /// Adds a material whose texture repeats `perMetre` times per metre.
     int tiled(Layer layer, double perMetre, const Eigen::Vector3d& tint, double variation = 0.15,
               double gloss = 0);
 
@@ -31,7 +30,6 @@ public:
     }
     Primitive& cylinder(const Eigen::Vector3d& centre, double radius, double height, int side,
                         int caps);
-    /// Adds a cylinder whose axis runs from one point to another. `m` is its material.
     Primitive& rod(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius, int m);
     Primitive& ellipsoid(const Eigen::Vector3d& centre, const Eigen::Vector3d& radii, double yaw,
                          int m);

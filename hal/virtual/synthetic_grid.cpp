@@ -74,7 +74,7 @@ TagCells tagCells(int id) {
 }
 
 cv::Mat4b aprilGrid(std::uint64_t seed) {
-    constexpr int kTexels = kLayerSize / kLayerCells;  // side of a cell [texels]
+    constexpr int kTexels = kLayerSize / kLayerCells;
     const cv::Mat1f grain = fractal(seed, 200, 200, 2, 0.7F);
     cv::Mat1b white(kLayerCells, kLayerCells, 255);
     for (int y = kRim; y < kLayerCells - kRim; ++y)

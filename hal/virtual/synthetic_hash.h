@@ -21,7 +21,6 @@ namespace mfar::synthetic {
     return static_cast<double>(h >> 11) * 0x1p-53;
 }
 
-/// Reproducible pseudo-random numbers.
 class Random {
 public:
     explicit constexpr Random(std::uint64_t seed) : state_(mix(seed)) {}

@@ -144,7 +144,6 @@ private:
         return out;
     }
 
-    /// Returns the solids that rays from a surface point may hit within reach().
     std::vector<int> withinReach(const Eigen::Vector3d& point,
                                  const Eigen::Vector3d& normal) const {
         std::vector<int> out;

@@ -15,7 +15,7 @@ int wrap(int i) {
 }
 
 cv::Mat4b wood(std::uint64_t seed) {
-    const cv::Mat1f bend = fractal(seed, 2, 6, 3);  // long waves of the growth rings
+    const cv::Mat1f bend = fractal(seed, 2, 6, 3);
     const cv::Mat1f fibre = fractal(seed + 1, 16, 256, 2, 0.8F);
     const cv::Mat1f pores = noise(seed + 2, 40, 512);
     const cv::Mat1f tone = fractal(seed + 3, 2, 24, 3);

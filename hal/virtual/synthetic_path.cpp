@@ -40,8 +40,6 @@ Eigen::Quaterniond tilt(double pitch, double yaw, double roll) {
            Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitZ());
 }
 
-/// Returns the motion of a hand that holds the camera. `amount` is 1 for a person who tries to hold
-/// it still.
 RigidTransform shake(std::uint64_t seed, double t, double amount) {
     const double metres = 0.005 * amount, angle = 1.1 * kDegree * amount;
     return {

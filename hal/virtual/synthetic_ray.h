@@ -41,7 +41,7 @@ private:
         RigidTransform T_world_prim;
         Eigen::Matrix3d toUnit;  ///< world direction -> primitive's frame, where half extents are 1
         Eigen::Vector3d half;
-        double radius;  ///< of the bounding sphere [m]
+        double radius;
     };
     std::vector<Solid> solids_;
     std::vector<int> all_;

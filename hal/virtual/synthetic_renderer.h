@@ -19,9 +19,10 @@ namespace mfar::synthetic {
 struct SensorLook {
     Eigen::Vector3f gain{1, 1, 1};
     float gamma = 2.2F;
-    float blurSigma = 0;  ///< standard deviation of the blur [px]; 0: no blur
-    float shotNoise = 0;  ///< noise variance per unit of the linear signal (1 = white)
-    float readNoise = 0;  ///< constant part of the noise variance (linear)
+    float blurSigma = 0;
+    /// Noise variance of a linear value x (1 = white): shotNoise * x + readNoise.
+    float shotNoise = 0;
+    float readNoise = 0;
 };
 
 /// GL resources that all views of a world share: textures, light map, materials and programs. The
@@ -41,7 +42,6 @@ private:
 
     World world_;
     LightMap light_;
-    /// Texture array index of each Layer.
     std::array<int, static_cast<std::size_t>(Layer::Count)> slots_{};
     GLuint layers_ = 0;
     gpu::Texture lightMap_;
@@ -59,7 +59,6 @@ public:
 
     /// Begins a picture at time t [s]. If `noiseSeed` is 0, the picture has no noise.
     void begin(const RigidTransform& T_world_camera, double t, std::uint64_t noiseSeed);
-    /// Renders the next step. Returns true if the picture is complete.
     bool step();
     [[nodiscard]] bool complete() const { return row_ == camera_.size.height; }
     /// Writes the complete picture as RGBA8, row 0 first, rows without padding.

@@ -26,14 +26,13 @@ enum class Path { Handheld, Pan, Orbit, Forward, Rotate, Rest, Survey };
 [[nodiscard]] std::optional<Scene> sceneNamed(std::string_view name);
 [[nodiscard]] std::optional<Path> pathNamed(std::string_view name);
 
-/// Texture layers, see synthetic_textures.h.
 enum class Layer : std::uint8_t {
     Paper,
     Article,
-    Cover,  ///< a printed title on linen
+    Cover,
     Spine,  ///< the spine of a book, with letters that run downwards
     Label,
-    Edges,  ///< stacked sheets of paper, seen from the side
+    Edges,
     Wood,
     Plaster,
     Weave,
@@ -41,69 +40,77 @@ enum class Layer : std::uint8_t {
     Foliage,
     Brick,
     Gravel,
-    Forest,     ///< distant trees under a sky
-    Enamel,     ///< a smooth, enamelled surface with fine specks
+    Forest,
+    Enamel,
     Clouds,     ///< low-frequency variation that hides the repeats of other layers
     Tags,       ///< 2 x 2 AprilTags 36h11, see kTagIds
     AprilGrid,  ///< a calibration target, see kGridTags
     Count
 };
 
+/// `repeats` is per metre; negative values mirror the texture. `offset` is the texture coordinate
+/// at a face's centre. The texture is multiplied by `tint`. `variation` and `gloss` are from 0 to
+/// 1.
 struct Material {
     Layer layer = Layer::Enamel;
-    Eigen::Vector2d repeats{4, 4};     ///< texture repeats per metre; negative: mirrored
-    Eigen::Vector2d offset{0.5, 0.5};  ///< texture coordinates at the centre of a face
-    Eigen::Vector3d tint{1, 1, 1};     ///< linear reflectance; the texture is multiplied by it
-    double variation = 0.15;           ///< strength of the low-frequency variation, 0..1
-    double gloss = 0;                  ///< strength of the highlight, 0..1
+    Eigen::Vector2d repeats{4, 4};
+    Eigen::Vector2d offset{0.5, 0.5};
+    Eigen::Vector3d tint{1, 1, 1};
+    double variation = 0.15;
+    double gloss = 0;
 };
 
 enum class Shape : std::uint8_t { Box, Cylinder, Ellipsoid };
 
-/// A convex solid. Its centre is the origin of its frame. The axis of a cylinder is z.
+/// A convex solid. Its centre is the origin of its frame. The axis of a cylinder is z. `half` is
+/// half of the extent along each axis [m]. T_world_prim is the pose at time 0.
 struct Primitive {
     Shape shape = Shape::Box;
-    RigidTransform T_world_prim;     ///< pose at time 0
-    Eigen::Vector3d half;            ///< half of the extent along each axis [m]
+    RigidTransform T_world_prim;
+    Eigen::Vector3d half;
     std::array<int, 3> materials{};  ///< of the +-x, +-y and +-z faces; a cylinder's side uses x
     int lightTexels = 12;            ///< side of a face in the light map [texels]
-    bool moves = false;              ///< true: the solid moves, see World::moverPose()
+    bool moves = false;
 };
 
 /// A tag of family 36h11 in the world. Its frame is that of libapriltag: the origin is the tag's
-/// centre; seen from the front, x is right, y is down and z points into the surface.
+/// centre; seen from the front, x is right, y is down and z points into the surface. `size` is the
+/// side of the black square [m].
 struct Tag {
     int id = 0;
-    double size = 0;  ///< side of the black square [m]
+    double size = 0;
     RigidTransform T_world_tag;
     bool moves = false;
 };
 
-/// The first intersection of a ray with a solid.
+/// The first intersection of a ray with a solid. `distance` is in multiples of the length of
+/// Ray::direction. `local` is the point in the primitive's frame [m].
 struct Hit {
-    double distance = 0;  ///< in multiples of the length of Ray::direction
+    double distance = 0;
     int primitive = 0;
     int axis = 0;           ///< axis of the face that was hit; ellipsoid: the nearest axis
     bool positive = false;  ///< true: the face is on the positive side of this axis
-    Eigen::Vector3d local;  ///< the point in the primitive's frame [m]
+    Eigen::Vector3d local;
 };
 
-/// A directed key light of finite angular size, and the ambient light of the sky.
+/// A directed key light of finite angular size, and the ambient light of the sky. `towards` is a
+/// unit vector. `background` is the radiance where a ray hits no solid.
 struct Lighting {
-    Eigen::Vector3d towards{0.3, -0.3, 0.9};  ///< unit vector towards the key light
-    double spread = 0.1;                      ///< tangent of the key light's angular radius
-    Eigen::Vector3d key{1, 1, 1};             ///< linear colour of the key light
+    Eigen::Vector3d towards{0.3, -0.3, 0.9};
+    double spread = 0.1;  ///< tangent of the key light's angular radius
+    Eigen::Vector3d key{1, 1, 1};
     Eigen::Vector3d ambient{0.4, 0.4, 0.4};
-    Eigen::Vector3d background{0.6, 0.7, 0.85};  ///< radiance where a ray hits no solid
+    Eigen::Vector3d background{0.6, 0.7, 0.85};
 };
 
+/// `eye` is the middle of the camera's path, `target` the point that the camera looks at [m].
 struct World {
     std::vector<Material> materials;
     std::vector<Primitive> primitives;
     std::vector<Tag> tags;
     Lighting light;
-    Eigen::Vector3d eye;     ///< middle of the camera's path [m]
-    Eigen::Vector3d target;  ///< point that the camera looks at [m]
+    Eigen::Vector3d eye;
+    Eigen::Vector3d target;
     /// Centre of the moving object at time 0, and its radius [m]. Radius 0: there is no moving
     /// object.
     Eigen::Vector3d moverPivot = Eigen::Vector3d::Zero();
@@ -117,19 +124,17 @@ struct World {
 
 /// Largest number of primitives in a world. The renderer's tables have this size.
 inline constexpr int kMaxPrimitives = 128;
-/// Ids of the tags in the layer Tags, row by row.
 inline constexpr std::array<int, 4> kTagIds{0, 1, 2, 3};
 
 /// The target of scene Calibration, as Kalibr describes it: 6 x 6 tags of family 36h11 with a black
 /// square at each corner of a tag. The tag with id 0 is at the bottom left. Ids increase to the
 /// right, then upwards.
-inline constexpr int kGridTags = 6;            ///< number of tags per row and column
+inline constexpr int kGridTags = 6;
 inline constexpr double kGridTagSize = 0.064;  ///< side of a tag's black border [m]
 inline constexpr double kGridSpacing = 0.25;   ///< gap between tags, divided by kGridTagSize
 
 [[nodiscard]] World makeWorld(Scene scene, std::uint64_t seed);
 
-/// Returns the pose of the video camera at time t [s].
 [[nodiscard]] RigidTransform cameraPose(const World& world, Path path, std::uint64_t seed,
                                         double t);
 

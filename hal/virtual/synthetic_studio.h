@@ -46,10 +46,10 @@ public:
     [[nodiscard]] Pose pose(Timestamp t) const;
 
 private:
-    struct Views;  ///< all objects that belong to the GL context
+    struct Views;
     struct Still {
-        Timestamp time;       ///< middle of the exposure
-        Timestamp available;  ///< time at which the camera delivers the still
+        Timestamp time;
+        Timestamp available;
         std::optional<Frame> frame{};
     };
     enum class Work { Request, Video, Still, Quit };
@@ -79,17 +79,17 @@ private:
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     bool quit_ = false, videoOn_ = false, stillsOn_ = false;
-    bool starved_ = false;  ///< true: the consumer holds all buffers for video frames
+    bool starved_ = false;
     /// True: a step of a still is rendered next. With Pace::Realtime, steps of stills and video
     /// frames alternate if both are due.
     bool stillsTurn_ = false;
-    Timestamp start_;          ///< time of the video frame with index 0
-    long long nextIndex_ = 0;  ///< index of the next video frame, including skipped frames
+    Timestamp start_;
+    long long nextIndex_ = 0;
     int videoMade_ = 0;
-    std::optional<Timestamp> handed_;  ///< time of the video frame that was delivered last
+    std::optional<Timestamp> handed_;
     std::optional<Timestamp> lastFire_;
-    std::deque<Frame> video_;   ///< frames that are ready to be delivered, oldest first
-    std::deque<Still> stills_;  ///< triggered stills that have not been delivered, oldest first
+    std::deque<Frame> video_;
+    std::deque<Still> stills_;
     std::deque<std::packaged_task<StoredImage(Views&)>> requests_;
     std::exception_ptr failure_;
     /// Time of the still that is being rendered. Only thread_ uses it.

@@ -12,7 +12,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::size_t kVideoAhead = 2;  // number of frames rendered in advance
+constexpr std::size_t kVideoAhead = 2;
 constexpr int kVideoNoise = 1, kStillNoise = 2;
 
 }  // namespace

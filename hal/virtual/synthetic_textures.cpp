@@ -23,7 +23,7 @@ cv::Mat4b plaster(std::uint64_t seed) {
 }
 
 cv::Mat4b weave(std::uint64_t seed) {
-    constexpr int kThread = 16;  // width of a thread of the cloth [texels]
+    constexpr int kThread = 16;
     constexpr int kThreads = kLayerSize / kThread;
     const cv::Mat1f fuzz = fractal(seed, 128, 128, 3, 0.7F);
     cv::Mat3f colour(kLayerSize, kLayerSize);

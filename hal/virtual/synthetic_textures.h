@@ -9,7 +9,6 @@
 
 namespace mfar::synthetic {
 
-/// Width and height of every texture layer [texels].
 inline constexpr int kLayerSize = 1024;
 
 /// Generates one texture layer. RGB is the linear reflectance, A the strength of highlights. All
@@ -38,10 +37,9 @@ void eachPixel(cv::Mat_<T>& image, const Paint& paint) {
 /// Returns the brightness of a surface that is lit from the upper left. `height` is the height of
 /// the surface at each texel. The brightness of a level surface is 1.
 [[nodiscard]] cv::Mat1f relief(const cv::Mat1f& height, float strength);
-/// Converts reflectance and strength of highlights to the bytes R G B A of a texture layer.
 [[nodiscard]] cv::Mat4b toBytes(const cv::Mat3f& colour, const cv::Mat1f& gloss);
 
-inline constexpr int kTagCells = 8;  ///< cells along a side of a tag, with the black border
+inline constexpr int kTagCells = 8;
 /// True for the white cells of a tag of family 36h11, as [row][column]. The outermost cells are the
 /// black border. tagCells() knows the ids 0 to 35.
 using TagCells = std::array<std::array<bool, kTagCells>, kTagCells>;
