@@ -26,8 +26,7 @@ struct Estimate {
     double edgeShift = 0;
 };
 
-// Whether a point is in front of the camera. Points almost in the image plane are excluded, because
-// no lens sees them.
+// Points almost in the image plane are excluded, because no lens sees them.
 bool inFront(const Eigen::Vector3d& p) {
     return p.z() > 1e-3 * p.norm();
 }
