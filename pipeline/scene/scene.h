@@ -17,16 +17,16 @@ namespace mfar {
 struct SurfaceTexture {
     Size size;
     bool srgb = true;
-    std::vector<std::array<std::uint8_t, 4>> texels;  ///< RGBA, row-major
+    std::vector<std::array<std::uint8_t, 4>> texels;
 };
 
-/// Metallic-roughness material of glTF 2.0. Factors are linear. A texture is an index of
-/// Model::textures, or -1 without a texture. Its values are multiplied by the factor of the same
-/// property.
+/// Metallic-roughness material of glTF 2.0. Factors are linear; `emission` is a radiance. A texture
+/// is an index of Model::textures, or -1 without a texture. Its values are multiplied by the factor
+/// of the same property.
 struct Material {
     Eigen::Vector4f baseColour{1, 1, 1, 1};
-    float metallic = 1, roughness = 1;  ///< [0, 1]
-    Eigen::Vector3f emission{0, 0, 0};  ///< radiance; finite and not negative
+    float metallic = 1, roughness = 1;
+    Eigen::Vector3f emission{0, 0, 0};
     float normalScale = 1;
     /// The surface is cut out where the base colour's alpha is below this limit. 0: the surface is
     /// opaque.
@@ -50,28 +50,28 @@ struct Mesh {
     int material = 0;
 };
 
-/// A rigid object in its own coordinates (z up, metres), without node transforms. It is valid: all
-/// numbers are finite and all indices are in range.
+/// A rigid object in its own coordinates (z up, metres), with at least one material. It is valid:
+/// all numbers are finite and all indices are in range.
 struct Model {
     std::vector<Mesh> meshes;
-    std::vector<Material> materials;  ///< at least one
+    std::vector<Material> materials;
     std::vector<SurfaceTexture> textures;
 };
 
-/// Distant light from all directions, as a latitude-longitude picture of linear RGB radiance. Row 0
-/// is up (world +z). Column 0 is world -x, and the column at three quarters of the width is world
-/// +y.
+/// Distant light from all directions, as a latitude-longitude picture of linear RGB radiance, row
+/// by row. Row 0 is up (world +z). Column 0 is world -x, and the column at three quarters of the
+/// width is world +y.
 struct Environment {
     Size size;
-    std::vector<Eigen::Vector3f> radiance;  ///< row-major; finite and not negative
+    std::vector<Eigen::Vector3f> radiance;
 };
 
 /// A distant light source that looks like a disc. `towards` is a unit vector in the world,
-/// `irradiance` that of a surface that faces the sun.
+/// `irradiance` that of a surface that faces the sun. `angularRadius` is in radians.
 struct Sun {
     Eigen::Vector3f towards{0.40562F, -0.30421F, 0.86194F};
     Eigen::Vector3f irradiance{1, 1, 1};
-    float angularRadius = 0.02F;  ///< [rad], above 0
+    float angularRadius = 0.02F;
 };
 
 struct Lighting {
@@ -84,7 +84,7 @@ struct Lighting {
 struct SceneObject {
     std::shared_ptr<const Model> model;
     RigidTransform T_world_object;
-    float scale = 1;  ///< above 0
+    float scale = 1;
 
     friend bool operator==(const SceneObject& a, const SceneObject& b) {
         return a.model == b.model && a.scale == b.scale &&

@@ -12,12 +12,13 @@
 
 namespace mfar {
 
-/// An object from the configuration file. It shows `model`, or `shape` if `model` is null.
+/// An object from the configuration file. It shows `model`, or `shape` (without its T_world_object)
+/// if `model` is null.
 struct PlacedObject {
     std::shared_ptr<const Model> model;
     std::string modelName;  ///< "showpiece" or a file name, for messages; empty without a model
-    VirtualObject shape;    ///< its T_world_object is ignored
-    float scale = 1;        ///< scale of the model, above 0; not used for `shape`
+    VirtualObject shape;
+    float scale = 1;  ///< of the model only, above 0
     RigidTransform T_anchor_object;
     /// T_anchor_object refers to this tag: origin in the tag's centre, x right and y up in the
     /// tag's print, z out of the print. Not set: it refers to the world of the tag map.
@@ -27,14 +28,14 @@ struct PlacedObject {
 enum class LightSource : unsigned char {
     Studio,
     Sky,
-    File,    ///< a latitude-longitude picture
+    File,
     Camera,  ///< estimated from the video by LightEstimator
 };
 
 struct LightOptions {
     LightSource source = LightSource::Studio;
-    std::shared_ptr<const Environment> environment;  ///< only for File, else null
-    std::string file;                                ///< for messages
+    std::shared_ptr<const Environment> environment;
+    std::string file;
     /// A sun in addition to the environment. With LightSource::Camera, it replaces the estimated
     /// sun.
     std::optional<Sun> sun;

@@ -23,7 +23,6 @@ constexpr double kFarthestMove = 2;  // largest shift of a corner or an edge poi
 constexpr double kLeastContrast = 0.006;  // smallest contrast of an edge [linear light; grey level
                                           // 255 is 1]
 
-/// Interpolates a picture's linear light. at() returns nothing outside the picture.
 class Light {
 public:
     Light(const ImageView& luma, const std::array<double, 256>& table)
@@ -47,7 +46,7 @@ private:
 
 struct EdgePoint {
     Vector2d pixel;
-    double weight;  ///< contrast of the edge [linear light]
+    double weight;
 };
 
 /// Finds the position near `middle` where the light increases along `normal` (from dark to bright).
@@ -75,7 +74,6 @@ std::optional<EdgePoint> findStep(const Light& light, const Vector2d& middle,
     return EdgePoint{middle + centre * normal, contrast};
 }
 
-/// n . p = d with |n| = 1.
 struct Line {
     Vector2d n;
     double d;
@@ -113,8 +111,8 @@ std::optional<Vector2d> intersect(const Line& a, const Line& b) {
     return Vector2d{(a.d * b.n.y() - b.d * a.n.y()) / det, (b.d * a.n.x() - a.d * b.n.x()) / det};
 }
 
-/// Measures the edge from corner a to corner b of a tag, whose inside is to the left. Returns a
-/// line in normalised rays.
+/// Measures the edge from corner a to corner b of a tag. Seen in the picture from a towards b, the
+/// tag's inside is to the left. Returns a line in normalised rays.
 std::optional<Line> measureEdge(const Light& light, const CameraModel& camera, const Vector2d& a,
                                 const Vector2d& b, const TagFamilyInfo& family) {
     const double length = (b - a).norm();

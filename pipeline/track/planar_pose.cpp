@@ -34,7 +34,6 @@ std::optional<Matrix3d> homography(const std::array<Vector2d, 4>& rays) {
     return H;
 }
 
-/// Returns the rotation that turns the z axis to the direction of the ray (p, 1).
 Matrix3d towards(const Vector2d& p) {
     return Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), p.homogeneous())
         .toRotationMatrix();

@@ -31,7 +31,6 @@ Matrix6 ambiguity(const CameraPoses& poses, const CameraPose& chosen, double sig
     return share * (1 - share) * way * way.transpose();
 }
 
-/// Mean distance of the camera from the tags that were used.
 double distanceTo(std::span<const TagObservation> tags, const std::vector<bool>& used,
                   const RigidTransform& T_world_camera) {
     double sum = 0;

@@ -22,7 +22,6 @@ struct PlanarChoiceOptions {
 /// straight ahead, and a wrong first choice is corrected.
 class PlanarChoice {
 public:
-    /// Throws std::invalid_argument if an option is out of range.
     explicit PlanarChoice(const PlanarChoiceOptions& options = {});
 
     /// Returns a reference into `poses`. Without a prediction, chooses the pose with the smaller
@@ -34,7 +33,7 @@ public:
 
 private:
     PlanarChoiceOptions options_;
-    double evidence_ = 0;  ///< for the solution that is not chosen
+    double evidence_ = 0;
     bool flipped_ = false;
 };
 
@@ -55,7 +54,6 @@ public:
     /// predicts.
     std::optional<Pose> update(std::span<const TagObservation> tags, const CameraModel& camera,
                                Timestamp time);
-    /// Unfiltered pose from the last frame's tags.
     [[nodiscard]] const std::optional<Pose>& raw() const { return raw_; }
     [[nodiscard]] std::optional<Pose> predict(Timestamp t) const { return filter_.predict(t); }
     /// Measures the pose of the video camera at the time of a picture that is not a video frame.
@@ -66,7 +64,6 @@ public:
                                               const RigidTransform& T_camera_video,
                                               Timestamp time) const;
 
-    /// Number of changes between the two solutions.
     [[nodiscard]] int flips() const { return flips_; }
     [[nodiscard]] int rejected() const { return rejected_; }
     /// Number of restarts of the filter after outliers that agreed with each other.

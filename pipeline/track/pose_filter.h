@@ -31,15 +31,14 @@ struct PoseFilterOptions {
 /// thread at a time may use it.
 class PoseFilter {
 public:
-    /// Throws std::invalid_argument if an option is not positive or not finite.
     explicit PoseFilter(const PoseFilterOptions& options = {});
 
     enum class Outcome {
-        Started,   ///< the filter starts: first pose, or first after too long a gap or a step back
-                   ///< in time
-        Accepted,  ///< the pose was averaged with the prediction
-        Rejected,  ///< the pose is an outlier, and the prediction is kept
-        Jumped     ///< several outliers agreed with each other, and the filter restarted from them
+        Started,  ///< the filter starts: first pose, or first after too long a gap or a step back
+                  ///< in time
+        Accepted,
+        Rejected,
+        Jumped  ///< several outliers agreed with each other, and the filter restarted from them
     };
     /// Adds a measured pose. `distance` is that of the camera from the measured tags, in the pose's
     /// unit of length.
@@ -57,7 +56,7 @@ private:
     struct State {
         Timestamp time;
         RigidTransform T_world_video;
-        Vector6 twist = Vector6::Zero();  ///< [rad/s, m/s]
+        Vector6 twist = Vector6::Zero();
         Matrix12 P = Matrix12::Zero();
         double distance = 1;
         int accepted = 1;

@@ -8,13 +8,14 @@
 #include <span>
 
 namespace mfar {
+/// Corners of a tag in the world [m] and in the distorted picture [px].
 
 struct CornerSet {
-    std::array<Eigen::Vector3d, 4> world;     ///< [m]
-    std::array<Eigen::Vector2d, 4> pixels;    ///< [px] in the distorted picture
+    std::array<Eigen::Vector3d, 4> world;
+    std::array<Eigen::Vector2d, 4> pixels;
     std::array<Eigen::Vector2d, 4> outwards;  ///< motion of each corner [px] if all edges move
                                               ///< outwards by 1 px
-    double weight = 1;                        ///< of the squared error; 0: ignored
+    double weight = 1;                        ///< of the squared error; 0: the tag is ignored
 };
 
 /// Computes CornerSet::outwards. The corners must be a convex quad in the order of
@@ -29,10 +30,10 @@ outwardsOf(const std::array<Eigen::Vector2d, 4>& corners);
 
 struct RefinedPose {
     RigidTransform T_world_camera;
-    Matrix6 information;      ///< J^T J of a motion in camera coordinates [px^2], without the part
-                              ///< that an edge shift explains
-    double squaredError = 0;  ///< weighted sum [px^2]
-    double edgeShift = 0;     ///< [px], see refinePose()
+    Matrix6 information;  ///< J^T J of a motion in camera coordinates [px^2], without the part
+                          ///< that an edge shift explains
+    double squaredError = 0;
+    double edgeShift = 0;
 };
 
 /// Weight that is so large that the estimated edge shift is zero.

@@ -17,7 +17,6 @@ namespace mfar {
                                                    const RigidTransform& T_world_camera,
                                                    const Matrix6& covariance);
 
-/// [px^2]
 [[nodiscard]] double areaOf(const std::vector<PixelRect>& regions);
 
 }  // namespace mfar

@@ -14,7 +14,7 @@ namespace mfar {
 
 struct TagDetection {
     TagKey tag;
-    int hamming = 0;    ///< number of corrected bits of the tag's code
+    int hamming = 0;    ///< number of corrected bits
     double margin = 0;  ///< mean difference between the data bits and their threshold [grey levels]
     /// Positions in the whole picture [px], with pixel centres at integers, in the order of
     /// kTagCorners: bottom left, bottom right, top right, top left of an upright tag seen from its
@@ -31,7 +31,7 @@ struct DetectorOptions {
     /// Factor by which the picture is reduced for the search for quads: 1.5 or a whole number from
     /// 1 to 8. Bits and edges are read in the full picture.
     double decimation = 2;
-    int threads = 1;     ///< 1 to 64
+    int threads = 1;
     double blur = 0;     ///< sigma of the blur before the search for quads [decimated px], 0 to 5
     bool refine = true;  ///< true: libapriltag moves the quad's edges to the strongest gradient
     /// Largest number of corrected bits of a detection, 0 or 1. tag16h5 is often found in noise, so
@@ -39,7 +39,7 @@ struct DetectorOptions {
     int maxHamming = 1;
     /// Width of the tags' black border [cells]: 2 for tags printed by Kalibr, otherwise 1.
     int borderCells = 1;
-    double minMargin = 20;  ///< smallest TagDetection::margin [grey levels]
+    double minMargin = 20;
 };
 
 /// Finds AprilTags with libapriltag. Only one thread at a time may use it.
@@ -65,7 +65,7 @@ private:
     struct Library;
     std::unique_ptr<Library> library_;
     DetectorOptions options_;
-    std::vector<unsigned char> copy_;  ///< used if libapriltag would blur its input in place
+    std::vector<unsigned char> copy_;
 };
 
 /// The black-and-white picture of a tag, with one pixel (0 or 255) per cell, including the white

@@ -12,11 +12,11 @@ enum class TagFamily : unsigned char { Tag36h11, Tag25h9, Tag16h5, TagStandard41
 
 struct TagFamilyInfo {
     TagFamily family;
-    std::string_view name;  ///< name in tags.toml and in libapriltag
-    int count;              ///< ids are 0 to count - 1
-    int cells;              ///< number of cells between two corners
-    bool brightInside;      ///< true: the cells just inside the corners are white, those just
-                            ///< outside are black
+    std::string_view name;
+    int count;  ///< ids are 0 to count - 1
+    int cells;
+    bool brightInside;  ///< true: the cells just inside the corners are white, those just
+                        ///< outside are black
 };
 
 inline constexpr std::array<TagFamilyInfo, 4> kTagFamilies{{

@@ -30,7 +30,6 @@ struct MappedTag {
     return {Eigen::Quaterniond(0, 1, 0, 0), Eigen::Vector3d::Zero()};
 }
 
-/// The poses of the tags. The coordinates of the map are the world coordinates of all poses.
 class TagMap {
 public:
     TagMap() = default;
@@ -56,14 +55,12 @@ private:
 /// `file` is the file name for error messages. Throws TagMapError.
 [[nodiscard]] TagMap tagMapFromToml(std::string_view text, const std::string& file);
 
-/// Returns the text of a tags.toml.
 [[nodiscard]] std::string tomlOf(const TagMap& map);
 
-/// Reads the tags.yaml of apriltag_ros (ROS 1). Its coordinates of `tag_bundles`, which may have
-/// one entry, become the world. Each tag in the entry's `layout` has `id`, `size` and a pose x, y,
-/// z, qw, qx, qy, qz (default: identity). Tags in `standalone_tags` have no pose in this world, so
-/// they are only checked. Without a bundle, there must be a single standalone tag, which is the
-/// world.
+/// Reads the tags.yaml of apriltag_ros (ROS 1). `tag_bundles` may have one entry, whose coordinates
+/// become the world. Each tag in the entry's `layout` has `id`, `size` and a pose x, y, z, qw, qx,
+/// qy, qz (default: identity). Tags in `standalone_tags` have no pose in this world, so they are
+/// only checked. Without a bundle, there must be a single standalone tag, which is the world.
 ///
 /// In the file's tag coordinates, y points up and z out of the surface; poses are converted to the
 /// tag coordinates of MappedTag. The file does not name the tag family. Throws TagMapError.

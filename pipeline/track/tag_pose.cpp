@@ -24,7 +24,7 @@ constexpr double kSameMinimum = 0.1 * kDegree;
 /// A usable tag, and the two camera poses that follow from this tag alone.
 struct Candidate {
     std::size_t index;
-    double area;  ///< [px^2]
+    double area;
     CornerSet corners;
     std::array<RigidTransform, 2> T_world_camera;
 };
@@ -143,7 +143,6 @@ std::optional<RefinedPose> refineRobustly(std::span<CornerSet> sets, RigidTransf
     return refined;
 }
 
-/// Computes the final pose and its covariance. With several tags, the edge shift is estimated, too.
 std::optional<CameraPose> finish(RefinedPose refined, std::span<const CornerSet> sets, int tags,
                                  const CameraModel& camera, const TagPoseOptions& options) {
     if (tags > 1) {

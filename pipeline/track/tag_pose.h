@@ -13,11 +13,11 @@
 
 namespace mfar {
 
-/// A tag in the picture whose pose in the world is known.
+/// A tag in the picture whose pose in the world is known. Tag coordinates: x right, y down, z into
+/// the surface. `size` is the side of the square between the corners [m].
 struct TagObservation {
-    double size = 0;                         ///< side of the square between the corners [m]
-    RigidTransform T_world_tag;              ///< tag coordinates: x right, y down, z into the
-                                             ///< surface
+    double size = 0;
+    RigidTransform T_world_tag;
     std::array<Eigen::Vector2d, 4> corners;  ///< in the distorted picture [px], in the order of
                                              ///< TagDetection::corners
 };
@@ -28,10 +28,10 @@ struct CameraPose {
     /// Covariance of a small motion in camera coordinates: T_world_camera * exp(rotation,
     /// translation).
     Matrix6 covariance = Matrix6::Zero();
-    double squaredError = 0;  ///< over all corners of the used tags [px^2]
-    int tags = 0;             ///< number of used tags
-    double edgeShift = 0;     ///< distance by which the tags' edges appear too far out [px]; 0 with
-                              ///< one tag
+    double squaredError = 0;
+    int tags = 0;
+    double edgeShift = 0;  ///< distance by which the tags' edges appear too far out [px]; 0 with
+                           ///< one tag
 
     /// Root mean square of the corners' errors [px].
     [[nodiscard]] double rms() const;

@@ -20,13 +20,12 @@ struct TrackerOptions {
     /// print, z out of the print.
     TagMap map;
     std::vector<TagFamily> families{TagFamily::Tag36h11};
-    double tagSize = 0.1;  ///< size of the tag that becomes the world if there is no map [m]
+    double tagSize = 0.1;  ///< size of the tag that becomes the world [m]
     /// Decimation of the search (DetectorOptions) and gamma (CornerRefiner), for video and stills.
     double decimation = 2;
     double stillDecimation = 4;
     int threads = 1;              ///< threads of libapriltag for each sensor
-    int fullSearchInterval = 15;  ///< number of frames from one search of the whole picture to the
-                                  ///< next
+    int fullSearchInterval = 15;  ///< number of frames between two searches of the whole picture
     double gamma = 2;
     double stillGamma = 2;
     PoseEstimatorOptions pose;
@@ -37,12 +36,13 @@ struct TrackStats {
     /// Number of frames that were searched completely: at the start, at intervals, and if no known
     /// tag was found in the predicted regions.
     std::int64_t fullSearches = 0;
-    std::int64_t roiSearches = 0;  ///< frames in which only predicted regions were searched
-    int flips = 0;                 ///< changes between the two planar solutions
-    int rejected = 0;              ///< poses that the filter rejected as outliers
-    int jumps = 0;                 ///< restarts of the filter after outliers that agreed with each
-                                   ///< other
-    double lastMs = 0;             ///< time for detection and pose of the last frame
+    std::int64_t roiSearches = 0;
+    /// `flips` counts changes between the two planar solutions, `rejected` outliers of the filter,
+    /// `jumps` restarts of the filter after outliers that agreed with each other.
+    int flips = 0;
+    int rejected = 0;
+    int jumps = 0;
+    double lastMs = 0;
     double meanMs = 0;
     double worstMs = 0;
 };
@@ -52,7 +52,6 @@ struct TrackStats {
 /// time. The remaining functions, except detections(), are thread-safe.
 class Tracker {
 public:
-    /// Throws std::invalid_argument if an option is out of range.
     Tracker(const StereoRig& rig, TrackerOptions options);
 
     /// Processes a video frame, Gray8 or Rgba8. Times must increase; a step back in time restarts
@@ -60,7 +59,6 @@ public:
     /// (tags = 0) as long as the filter predicts, then nothing. Throws std::invalid_argument if the
     /// picture does not have the size of the rig's video.
     std::optional<Pose> track(const ImageView& picture, Timestamp time);
-    /// Unfiltered pose from the tags of the last frame.
     [[nodiscard]] std::optional<Pose> raw() const;
     /// Returns the video camera's pose at another time, e.g. when the picture will be displayed.
     [[nodiscard]] std::optional<Pose> predict(Timestamp time) const;
