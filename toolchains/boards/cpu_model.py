@@ -62,7 +62,8 @@ def instruction_text(line):
     if not found:
         return None
     text = re.sub(r'\s*(//|#\s|<unknown>).*', '', found.group(2).replace('\t', ' '))
-    # The target is replaced by a name, because the assembler refuses targets that are too far away.
+    # The branch target is replaced by a name, because the assembler refuses targets that are too
+    # far away.
     branch = re.search(r'#?0x([0-9a-f]+) <[^>]*>', text)
     text = re.sub(r'#?-?0x[0-9a-f]+ <[^>]*>', 'target', text)
     return int(found.group(1), 16), text.strip(), int(branch.group(1), 16) if branch else 0

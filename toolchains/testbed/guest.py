@@ -12,7 +12,7 @@ import usbredir
 
 TRIGGER_LINE = 5  # line of the GPIO chip PL061, the guest's /dev/gpiochip0
 BOOT_LIMIT = 180  # largest duration of the boot [s]
-# Begin of a shell loop over the virtio devices that are displays (type 16).
+# Start of a shell loop over the virtio devices that are displays (type 16).
 EACH_DISPLAY = 'for d in /sys/bus/virtio/devices/*; do [[ $(<$d/device) == 0x0010 ]] || continue; '
 
 
@@ -222,7 +222,7 @@ class Guest:
             width, height = map(int, size.split())
             return width, height, file.read()
 
-    # QEMU can neither add nor remove this display while it runs; so the guest's driver is bound and
+    # QEMU can neither add nor remove this display while it runs, so the guest's driver is bound and
     # unbound instead.
 
     def plug_display(self):
