@@ -9,7 +9,7 @@ STATISTICS = {'v3d': {'V3D_DEBUG': 'nir,shaderdb'}, 'panfrost': {'BIFROST_MESA_D
 
 
 def command(libraries, driver, program, arguments):
-    """Command line that runs the program with all libraries (even the C library) of the drivers' Debian release."""
+    """Returns a command that runs the program with all libraries (even libc) of the drivers' Debian release."""
     return [os.path.join(libraries, 'ld-linux-x86-64.so.2'), '--library-path', libraries, '--preload',
             os.path.join(libraries, f'lib{driver}_noop_drm_shim.so'), program, *arguments]
 

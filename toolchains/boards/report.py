@@ -62,7 +62,7 @@ def outputs(model):
 
 
 def predict_board(board, model, works, compiled, cycles):
-    """The predictions for a board: {case: {output width: prediction}}."""
+    """Returns the predictions for a board: {case: {output width: prediction}}."""
     gpu = board.get('gpu')
     known = gpu is not None and gpu['kind'] in compiled
     out = {}

@@ -1,4 +1,4 @@
-"""With an invalid configuration, the service reports the place of the fault, ends with exit code 78 and is not
+"""With an invalid configuration, the service reports file and line of the fault, ends with exit code 78 and is not
 restarted."""
 
 CONFIG = 'source = "cameras"\nsuperres.mode = "sometimes"\n'

@@ -1,5 +1,5 @@
-"""The service matches fifty stills with their pulses. It requests a missing still again and does not use a late
-one."""
+"""The service matches fifty stills with their pulses. It requests a missing still again and does not use a
+late still."""
 
 import json
 import time
