@@ -62,7 +62,7 @@ struct PngWriter {
 
 void readBytes(png_structp png, png_bytep to, std::size_t count) {
     auto* left = static_cast<std::span<const std::uint8_t>*>(png_get_io_ptr(png));
-    if (count > left->size()) png_error(png, "the picture ends too early");
+    if (count > left->size()) png_error(png, "the file ends before the last pixel");
     std::memcpy(to, left->data(), count);
     *left = left->subspan(count);
 }

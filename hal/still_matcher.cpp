@@ -35,13 +35,12 @@ bool isLength(nanoseconds time) {
 
 StillMatcher::StillMatcher(const StillMatcherOptions& options) : options_(options) {
     require(isLength(options.window) && isLength(options.wideWindow),
-            "still matching: a window must be above 0 and at most an hour");
+            "StillMatcherOptions: window and wideWindow must be above 0 and at most 1 h");
     require(isLength(options.timeout),
-            "still matching: the timeout must be above 0 and at most an hour");
+            "StillMatcherOptions: timeout must be above 0 and at most 1 h");
     require(options.guess >= -kLongest && options.guess <= kLongest,
-            "still matching: the guessed delay must be at most an hour, early or late");
-    require(options.learnFrom > 0,
-            "still matching: the number of pulses to learn from must be at least 1");
+            "StillMatcherOptions: guess must be from -1 h to 1 h");
+    require(options.learnFrom > 0, "StillMatcherOptions: learnFrom must be at least 1");
 }
 
 void StillMatcher::pulseFired(Timestamp edge, Pulse kind) {

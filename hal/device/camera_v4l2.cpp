@@ -46,8 +46,9 @@ V4l2Layout negotiated(const V4l2Device& device, const V4l2Wish& wish) {
     if (wish.size.width < 1 || wish.size.height < 1)
         throw std::runtime_error(device.path() + ": the picture size must be at least 1x1");
     if (!(wish.rateHz >= 0 && wish.rateHz <= 1e4))
-        throw std::runtime_error(fmt::format("{}: the frame rate of {} Hz is not in 0 to 10000 Hz",
-                                             device.path(), wish.rateHz));
+        throw std::runtime_error(
+            fmt::format("{}: the frame rate must be from 0 to 10000 Hz, not {} Hz", device.path(),
+                        wish.rateHz));
     return setFormat(device, chooseFormat(device, wish), wish.size);
 }
 
@@ -72,7 +73,8 @@ CameraV4l2::CameraV4l2(const CameraV4l2Options& options, V4l2Api& api) : options
             stream_->device().path(), stream_->buffers(), options.buffers));
     }
     wake_ = OwnedFd(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
-    if (wake_.get() < 0) throw std::runtime_error("an eventfd cannot be created");
+    if (wake_.get() < 0)
+        throw std::runtime_error("eventfd() failed: too many open files or no memory");
 }
 
 CameraV4l2::~CameraV4l2() {

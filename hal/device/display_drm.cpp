@@ -178,7 +178,7 @@ DrmCard::DrmCard(const std::string& path) : path_(path), fd_(openCard(path)) {
     if (!isMaster(fd()) && dropMasterOfThisProcess(path)) fd_ = openCard(path);
     const Resources all = resources(fd());
     if (!all || all->count_connectors == 0)
-        throw std::runtime_error(path + ": has no connectors, this GPU only renders");
+        throw std::runtime_error(path + ": this GPU has no connectors for screens");
     if (drmSetClientCap(fd(), DRM_CLIENT_CAP_ATOMIC, 1) != 0)
         throw std::runtime_error(
             path + ": its driver lacks atomic mode setting, which display \"kms\" needs");

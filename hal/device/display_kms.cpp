@@ -47,7 +47,7 @@ private:
 void add(drmModeAtomicReq& request, std::uint32_t object, std::uint32_t property,
          std::uint64_t value) {
     if (drmModeAtomicAddProperty(&request, object, property, value) < 0)
-        throw std::runtime_error("a request to the display driver cannot be built");
+        throw std::runtime_error("no memory for a request to the display driver");
 }
 
 bool sameOutput(const DrmOutput& a, const DrmOutput& b) {
@@ -163,7 +163,7 @@ void KmsScreen::addModeSet(drmModeAtomicReq& request, std::uint32_t modeBlob) co
 
 void KmsScreen::commit(ScanoutBuffers::Ready ready, Commit kind) {
     const Request request(drmModeAtomicAlloc());
-    if (!request) throw std::runtime_error("a request to the display driver cannot be built");
+    if (!request) throw std::runtime_error("no memory for a request to the display driver");
     add(*request, output_->plane, properties_.plane.id("FB_ID"), ready.framebuffer);
     if (ready.fence)
         add(*request, output_->plane, properties_.plane.id("IN_FENCE_FD"),

@@ -86,7 +86,8 @@ OpenedDisplay openDisplay(bool software) {
     const auto platformDisplay =
         eglProc<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
     if (platformDisplay == nullptr)
-        throw std::runtime_error("EGL: EGL_EXT_platform_base is missing; a newer EGL is needed");
+        throw std::runtime_error(
+            "EGL: EGL_EXT_platform_base is missing; a newer EGL library is needed");
     if (!software && hasExtension(client, "EGL_EXT_platform_device")) {
         const auto queryDevices = eglProc<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
         const auto queryString = eglProc<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");

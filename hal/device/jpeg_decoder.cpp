@@ -37,7 +37,7 @@ void JpegDecoder::Close::operator()(void* handle) const {
 
 JpegDecoder::JpegDecoder(Size size, int buffers) : pool_(size, PixelFormat::Yuyv, buffers) {
     if (size.width % 2 != 0 || size.height % 2 != 0 || size.width <= 0 || size.height <= 0)
-        throw std::invalid_argument("JPEG pictures must have an even size");
+        throw std::invalid_argument("width and height of JPEG pictures must be even");
     renew();
 }
 

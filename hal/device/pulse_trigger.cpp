@@ -38,7 +38,7 @@ PulseTrigger::PulseTrigger(std::string name, std::unique_ptr<OutputLine> line,
     line_->set(false);
     if (pulse < microseconds{1} || pulse > kLongest)
         throw std::runtime_error(
-            fmt::format("a trigger pulse of {} us is not in 1 us to 10 s", pulse.count()));
+            fmt::format("a trigger pulse must be from 1 us to 10 s, not {} us", pulse.count()));
     ender_ = std::jthread([this](const std::stop_token& stop) { endLater(stop); });
 }
 

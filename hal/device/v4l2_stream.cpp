@@ -37,7 +37,8 @@ struct V4l2Stream::Argument {
 V4l2Stream::V4l2Stream(V4l2Device device, const V4l2Layout& layout, int buffers)
     : device_(std::move(device)), type_(bufferType(*device_)), pieces_(layout.memoryPlanes),
       wake_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
-    if (wake_.get() < 0) throw std::runtime_error("an eventfd cannot be created");
+    if (wake_.get() < 0)
+        throw std::runtime_error("eventfd() failed: too many open files or no memory");
     allocate(buffers);
     returned_.reserve(buffers_.size());
     for (int i = 0; i < static_cast<int>(buffers_.size()); ++i) {
