@@ -9,7 +9,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-/// Number of remembered pulses. Far fewer can wait for their stills.
+/// Number of remembered pulses; far more than can wait for their stills at a time.
 constexpr std::size_t kRemembered = 64;
 /// Number of consecutive stills that must miss the window by about the same time before the
 /// camera's clock counts as stepped.

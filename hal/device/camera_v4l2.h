@@ -37,8 +37,9 @@ struct CameraV4l2Options {
 ///     camera.start();
 ///     while (auto frame = camera.next(500ms)) ...
 /// Frames use the driver's buffers without a copy and may outlive the camera. Two exceptions: JPEG
-/// is decoded into separate buffers, and pictures are copied if the driver grants fewer than four
-/// buffers. The next call of next() gives returned buffers back to the driver.
+/// is decoded into separate buffers, and pictures are copied if the driver grants fewer buffers
+/// than requested and fewer than four. The next call of next() gives returned buffers back to the
+/// driver.
 ///
 /// Frame::time() is the middle of the exposure if the exposure is known (a manual
 /// exposure_time_absolute). It is computed from the driver's timestamp, which is at the start of

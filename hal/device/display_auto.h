@@ -26,8 +26,8 @@ public:
     using Events = std::function<bool()>;
 
     /// `screens` are in order of preference; `scaler` draws the pictures of all of them. `changed`
-    /// returns true if a device was added, removed or changed since its last call. Without its
-    /// reports, only changes of a screen's mode are missed.
+    /// returns true if a device was added, removed or changed since its last call. If it always
+    /// returns false, only changes of a screen's mode are missed.
     ScreenDisplay(std::unique_ptr<ScreenScaler> scaler,
                   std::vector<std::unique_ptr<Screen>> screens, Clock clock, Events changed);
     ScreenDisplay(const ScreenDisplay&) = delete;

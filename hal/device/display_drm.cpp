@@ -77,8 +77,8 @@ bool isMaster(int fd) {
 }
 
 // Drops this process's role as DRM master of a card and returns true if it had the role. Mesa's
-// software renderer may have got the role without need, because the kernel gives it to the first
-// process that opens the card.
+// software renderer may have opened the card first in this process. The kernel then made the
+// process DRM master, although the renderer does not need that role.
 bool dropMasterOfThisProcess(const std::string& path) {
     struct stat card{};
     bool dropped = false;

@@ -13,6 +13,8 @@
 namespace mfar {
 
 /// The validated layout of a framebuffer device's memory. All rows of all pages lie inside it.
+/// `visible` and `page0` are offsets [bytes] of the first visible pixel: now, and after panning to
+/// the top.
 struct FbGeometry {
     Size size;
     PixelLayout layout;

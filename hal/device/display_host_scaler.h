@@ -10,9 +10,9 @@
 
 namespace mfar {
 
-/// Scales pictures on the CPU, with the same result as ScreenScaler on the GPU. The aspect ratio is
-/// kept, with black borders (letterbox()). A picture is reduced by averaging areas and enlarged by
-/// linear interpolation.
+/// Scales pictures on the CPU, as ScreenScaler does on the GPU. The aspect ratio is kept, with
+/// black borders (letterbox()). A picture is reduced by averaging areas and enlarged by linear
+/// interpolation. The first scaling starts threads.
 class HostScaler {
 public:
     explicit HostScaler(Size screen) : screen_(screen) {}

@@ -9,7 +9,8 @@
 #include <vector>
 
 /// The subset of a GPIO library that the trigger needs. It is implemented with libgpiod 1.6, with
-/// libgpiod 2.x, and, in the tests, without hardware. All functions throw std::runtime_error.
+/// libgpiod 2.x, and, in the tests, without hardware. All functions except listGpioChips() may
+/// throw std::runtime_error.
 
 namespace mfar {
 

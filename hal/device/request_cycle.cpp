@@ -66,7 +66,8 @@ void RequestCycle::halt() {
         running_ = false;
     }
     changed_.notify_all();
-    driver_.stop();  // stop() completes queued requests, and their callbacks lock mutex_
+    // mutex_ is not locked here, because stop() completes queued requests, whose callbacks lock it.
+    driver_.stop();
     const std::lock_guard lock(mutex_);
     ready_.clear();
     for (State& state : requests_)

@@ -76,7 +76,7 @@ public:
     void lose(const std::string& why);
 
     /// Waits until a picture comes, until no request is queued any more, or until stop(). Returns
-    /// false if nothing of this happens in time.
+    /// false if none of these events happens in time.
     [[nodiscard]] bool awaitSign(std::chrono::milliseconds within);
 
     void setName(std::string camera) { name_ = std::move(camera); }

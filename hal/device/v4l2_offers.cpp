@@ -64,7 +64,8 @@ bool contains(const v4l2_frmsize_stepwise& s, Size size) {
            fits(static_cast<std::uint32_t>(size.height), s.min_height, s.max_height, s.step_height);
 }
 
-// A driver that lists no sizes counts as offering every size; setFormat() then finds out.
+// A driver that lists no sizes counts as offering every size; setFormat() then fails for an
+// unsupported size.
 void askSizes(const V4l2Device& device, Size wanted, Offer& offer) {
     for (int i = 0; i < kMostOffers; ++i) {
         v4l2_frmsizeenum query{};

@@ -15,8 +15,9 @@
 namespace mfar {
 
 /// Threads that write files for a caller that must not wait for the disk. Jobs start in the order
-/// in which they were posted. Only the buffers that jobs hold limit the number of jobs. After a job
-/// has thrown, further jobs are discarded, so that a full disk causes one error and not thousands.
+/// in which they were posted. The length of the queue is limited only by the number of buffers that
+/// jobs hold. After a job has thrown, further jobs are discarded, so that a full disk causes one
+/// error and not thousands.
 class BackgroundWriter {
 public:
     /// `watched` registers each thread with Heartbeats. Its time budget is for one job.

@@ -25,7 +25,8 @@ struct RecorderOptions {
     std::uint64_t mostBytes = 0;  ///< largest size of a recording [bytes]; 0: no limit
     WatchedThread writer{};
     /// Interval between synchronisations of the disk, which protect the recording from a power cut.
-    /// The first picture or pose after the interval starts the next synchronisation.
+    /// The first picture or pose starts the first synchronisation; the next one after the interval
+    /// starts the next synchronisation.
     std::chrono::milliseconds syncEvery{1000};
 };
 

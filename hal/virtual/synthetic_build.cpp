@@ -7,7 +7,7 @@
 namespace mfar::synthetic {
 namespace {
 
-// Side of the plate that carries a tag, with a white rim of one cell.
+// Side of the plate that carries a tag, including a white rim of one cell [cells].
 constexpr double kPlateCells = kTagCells + 2;
 constexpr double kPlateThickness = 0.004;
 

@@ -28,7 +28,7 @@ struct alignas(16) SyntheticWorld {
 
 struct alignas(16) SyntheticSensor {
     float redGain, greenGain, blueGain;
-    float inverseGamma;  ///< 1 / gamma
+    float inverseGamma;
     std::int32_t blurs;
     float centreWeight, sideWeight, cornerWeight;
     /// 1: add noise with the variance noisePerSignal * x + noiseConstant to each linear value x.

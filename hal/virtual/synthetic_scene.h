@@ -68,8 +68,9 @@ struct Primitive {
     Shape shape = Shape::Box;
     RigidTransform T_world_prim;
     Eigen::Vector3d half;
-    std::array<int, 3> materials{};  ///< of the +-x, +-y and +-z faces; a cylinder's side uses x
-    int lightTexels = 12;            ///< side of a face in the light map [texels]
+    /// Indices of the materials of the +-x, +-y and +-z faces. A cylinder's side uses the first.
+    std::array<int, 3> materials{};
+    int lightTexels = 12;  ///< side of a face in the light map [texels]
     bool moves = false;
 };
 

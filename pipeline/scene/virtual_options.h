@@ -18,7 +18,7 @@ struct PlacedObject {
     std::shared_ptr<const Model> model;
     std::string modelName;  ///< "showpiece" or a file name, for messages; empty without a model
     VirtualObject shape;
-    float scale = 1;  ///< of the model only, above 0
+    float scale = 1;  ///< scale of the model, above 0; not used for `shape`
     RigidTransform T_anchor_object;
     /// T_anchor_object refers to this tag: origin in the tag's centre, x right and y up in the
     /// tag's print, z out of the print. Not set: it refers to the world of the tag map.

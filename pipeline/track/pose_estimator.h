@@ -13,7 +13,7 @@ struct PlanarChoiceOptions {
     /// The evidence for a solution is the log likelihood ratio of the corners, summed over frames.
     /// The other solution is chosen if its evidence exceeds this.
     double threshold = 12;
-    double memory = 0.95;  ///< the evidence is multiplied by it with each frame, [0, 1)
+    double memory = 0.95;  ///< factor of the earlier evidence in each new frame, [0, 1)
 };
 
 /// Chooses one of the two poses from which a plane of tags looks nearly the same. The pose nearer

@@ -15,7 +15,7 @@ struct CornerSet {
     std::array<Eigen::Vector2d, 4> pixels;
     std::array<Eigen::Vector2d, 4> outwards;  ///< motion of each corner [px] if all edges move
                                               ///< outwards by 1 px
-    double weight = 1;                        ///< of the squared error; 0: the tag is ignored
+    double weight = 1;  ///< weight of the squared error; 0: the tag is ignored
 };
 
 /// Computes CornerSet::outwards. The corners must be a convex quad in the order of

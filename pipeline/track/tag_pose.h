@@ -42,7 +42,7 @@ struct CameraPose {
 struct CameraPoses {
     CameraPose best;
     std::optional<CameraPose> other;
-    std::vector<bool> used;  ///< per observation; false: unusable or an outlier
+    std::vector<bool> used;  ///< for each observation; false: unusable or an outlier
 };
 
 struct TagPoseOptions {
@@ -51,8 +51,8 @@ struct TagPoseOptions {
     double cornerSigma = 0.1;
     /// Standard deviation of the shift [px] that all tag edges of a picture have in common.
     double edgeShiftSigma = 0.1;
-    /// A tag is ignored if the rms error of its corners [px] is larger, if an edge [px] is shorter,
-    /// or if the angle between view and normal is larger.
+    /// A tag is ignored if the rms error of its corners is above farthestCorner [px], if an edge is
+    /// below smallestEdge [px], or if the angle between view and normal is above grazingAngleDeg.
     double farthestCorner = 2;
     double smallestEdge = 8;
     double grazingAngleDeg = 80;

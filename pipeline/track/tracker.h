@@ -21,11 +21,12 @@ struct TrackerOptions {
     TagMap map;
     std::vector<TagFamily> families{TagFamily::Tag36h11};
     double tagSize = 0.1;  ///< size of the tag that becomes the world [m]
-    /// Decimation of the search (DetectorOptions) and gamma (CornerRefiner), for video and stills.
+    /// Decimation of the search for tags, in video and stills, see DetectorOptions.
     double decimation = 2;
     double stillDecimation = 4;
     int threads = 1;              ///< threads of libapriltag for each sensor
     int fullSearchInterval = 15;  ///< number of frames between two searches of the whole picture
+    /// Gamma of video and stills, see CornerRefiner.
     double gamma = 2;
     double stillGamma = 2;
     PoseEstimatorOptions pose;

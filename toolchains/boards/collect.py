@@ -10,8 +10,8 @@ import cpu_model
 
 CASES = ('moving', 'rest')
 TIMED = 20  # number of timed frames
-# Numbers of frames of two runs. The difference of the runs is one frame, without work that is done
-# only once. At rest, a frame is typical only after a few frames.
+# Numbers of frames of two runs. Their difference is one frame without work that is done only once.
+# At rest, frames become typical only after a few frames.
 FRAMES = {'moving': (2, 3), 'rest': (5, 6)}
 
 

@@ -19,8 +19,8 @@ everything() {
         grep . # fails for an empty list
 }
 
-# unlinted STAMP: prints the files to check. They changed after STAMP, when clang-tidy last passed.
-# If a header or the checks changed, prints all files.
+# unlinted STAMP: prints the files that changed after STAMP, the time at which clang-tidy last
+# passed. If a header or the checks changed, prints all files.
 unlinted() {
     local stamp=$1 changed
     if [[ ! -f $stamp ]]; then everything; return; fi
