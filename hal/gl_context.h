@@ -25,7 +25,6 @@ public:
     /// Returns the reason why pictures drawn since the last call are invalid: a GPU reset or a
     /// failed GL call. Returns nothing if there was no fault. Never waits.
     [[nodiscard]] virtual std::optional<std::string> takeFault() = 0;
-    /// Returns true if the CPU renders instead of a GPU.
     [[nodiscard]] virtual bool isSoftware() const = 0;
     /// Returns a line for users, such as "EGL surfaceless: llvmpipe (...), OpenGL ES 3.2 ...,
     /// software".

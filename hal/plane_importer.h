@@ -24,7 +24,6 @@ public:
     /// Creates a texture that always shows the plane's current content, and returns its GL name.
     /// Throws std::runtime_error if the driver refuses the memory or the layout.
     [[nodiscard]] virtual unsigned import(const SharedPlane& plane) = 0;
-    /// Deletes a texture that import() created. Never throws.
     virtual void forget(unsigned texture) = 0;
 };
 

@@ -77,7 +77,7 @@ private:
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     std::shared_ptr<Camera> camera_;
-    std::optional<std::string> fault_;  ///< reason why no frames come; not set: frames come
+    std::optional<std::string> fault_;
     Timestamp opened_, lastFrame_;
     std::uint64_t losses_ = 0;
     CameraCounters before_;

@@ -24,7 +24,7 @@ struct StillMatcherOptions {
     int learnFrom = 20;
     /// If a still does not arrive within this time after its exposure, its pulse counts as lost.
     std::chrono::nanoseconds timeout{std::chrono::milliseconds(500)};
-    bool repeat = true;  ///< true: a lost pulse is fired once more
+    bool repeat = true;
 };
 
 struct StillCounters {
@@ -57,7 +57,7 @@ public:
     struct Match {
         Timestamp pulse;
         Timestamp exposed;  ///< start of the exposure: pulse + constant(), without jitter
-        bool late = false;  ///< true: the pulse had been counted as lost
+        bool late = false;
     };
 
     struct Due {
@@ -90,7 +90,7 @@ private:
         Timestamp edge;
         Pulse kind = Pulse::Asked;
         State state = State::Waiting;
-        bool owed = false;  ///< true: the pulse is lost and has not been repeated yet
+        bool owed = false;
     };
     struct Nearest {
         std::size_t index;

@@ -15,7 +15,6 @@ progress() {
     fi
 }
 
-# Erases the line, so that other output can follow.
 clearProgress() { if [[ -t 2 ]]; then printf '\r\e[K' >&2; fi; }
 
 # tick SECONDS WHAT: shows the share of the expected time that has passed. Runs in the background

@@ -18,8 +18,6 @@ std::string describe(const ListedCamera& camera) {
                        camera.location.empty() ? "unknown" : camera.location);
 }
 
-/// Compares `name` with the ids. If no id is equal, compares it with the locations, then with the
-/// models.
 std::vector<std::size_t> named(const std::vector<ListedCamera>& cameras, std::string_view name) {
     std::vector<std::size_t> found;
     for (const auto key : {&ListedCamera::id, &ListedCamera::location, &ListedCamera::model}) {

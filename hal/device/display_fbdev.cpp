@@ -123,7 +123,6 @@ void FbdevScreen::open(const std::string& path) {
     shown_ = false;
 }
 
-// Returns true if the path still names the same device with the same geometry.
 bool FbdevScreen::unchanged() const {
     struct stat byName{}, byFd{};
     if (stat(path_.c_str(), &byName) != 0 || fstat(fd_.get(), &byFd) != 0 ||

@@ -22,7 +22,6 @@ struct PixelLayout {
     bool operator==(const PixelLayout&) const = default;
 
     [[nodiscard]] std::size_t bytes() const { return static_cast<std::size_t>(bits) / 8; }
-    /// Returns true if the numbers of bits are allowed and every colour lies inside the word.
     [[nodiscard]] bool valid() const;
 };
 

@@ -27,7 +27,6 @@ struct ScreenSpec {
     bool operator==(const ScreenSpec&) const = default;
 };
 
-/// Throws std::runtime_error with the wrong part of the text.
 [[nodiscard]] ScreenSpec parseScreenSpec(std::string_view spec);
 [[nodiscard]] std::optional<std::string> screenFault(std::string_view spec);
 

@@ -14,7 +14,6 @@ namespace {
 // reports it when the permissions of its node are set.
 constexpr unsigned kKernelGroup = 1, kUdevGroup = 2;
 
-// Example of a message: "ACTION=change\0SUBSYSTEM=drm\0...".
 bool concernsDisplays(std::string_view message) {
     constexpr std::string_view kDrm{"\0SUBSYSTEM=drm\0", 15};
     constexpr std::string_view kFb{"\0SUBSYSTEM=graphics\0", 20};

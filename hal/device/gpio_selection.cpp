@@ -61,7 +61,6 @@ std::string listNames(const std::vector<const GpioChip*>& chips) {
     return fmt::format("named lines: {}", fmt::join(texts, "; "));
 }
 
-/// Compares `wanted` with paths and names first, then with labels, which several chips may share.
 std::vector<const GpioChip*> chipsFor(const std::vector<GpioChip>& chips, std::string_view wanted) {
     std::vector<const GpioChip*> found;
     for (const GpioChip& chip : chips)

@@ -194,7 +194,6 @@ bool LibcameraCamera::Stream::isSound(const libcamera::FrameMetadata& metadata) 
     return sound;
 }
 
-/// Returns the frame's time and exposure, or nothing if the time is implausible.
 std::optional<RequestCycle::Done>
 LibcameraCamera::Stream::describe(std::size_t slot, libcamera::Request& request,
                                   const libcamera::FrameMetadata& metadata) {

@@ -70,8 +70,7 @@ private:
 
     mutable std::mutex mutex_;  ///< lock order: first the mutex of cycle_, then mutex_
     bool viewChecked_ = false;
-    std::string viewFault_;  ///< reason why frames show only a part of the field of view; empty: no
-                             ///< fault
+    std::string viewFault_;
     LibcameraCounters counters_;
     FrameDrops drops_;
     SensorClock clock_;

@@ -64,9 +64,7 @@ public:
     [[nodiscard]] const std::string& card() const { return card_; }
     [[nodiscard]] const std::string& bus() const { return bus_; }
     [[nodiscard]] std::uint32_t capabilities() const { return capabilities_; }
-    /// Returns true if the node delivers pictures through buffers.
     [[nodiscard]] bool captures() const;
-    /// Returns true if the node must be used through the multi-planar API.
     [[nodiscard]] bool multiPlanar() const;
 
 private:

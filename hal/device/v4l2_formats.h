@@ -43,7 +43,6 @@ struct V4l2Wish {
 /// whose message lists the driver's formats and sizes.
 [[nodiscard]] V4l2PixelFormat chooseFormat(const V4l2Device& device, const V4l2Wish& wish);
 
-/// The validated layout of a picture in the driver's buffer.
 struct V4l2Layout {
     V4l2PixelFormat format{};
     Size size;

@@ -60,7 +60,6 @@ public:
     [[nodiscard]] std::array<const std::uint8_t*, 3> memory(int index) const;
     [[nodiscard]] std::size_t memoryBytes(int index, int piece) const;
 
-    /// Returns the buffer as dma-bufs, or null if the driver does not export it.
     [[nodiscard]] const SharedMemory* shared(int index) const;
 
     [[nodiscard]] const V4l2Device& device() const { return *device_; }

@@ -32,7 +32,6 @@ public:
     void drain();
     /// Waits like drain(), but at most `limit`. Returns false if jobs are then left.
     [[nodiscard]] bool drainWithin(std::chrono::milliseconds limit);
-    /// Returns the error of the first job that failed. Thread-safe; never waits.
     [[nodiscard]] std::optional<std::string> error() const;
 
 private:

@@ -186,7 +186,7 @@ private:
     std::atomic<std::uint64_t> leftOut_{0};
     mutable std::mutex mutex_;
     std::deque<std::shared_ptr<Frame>> waiting_;
-    std::multiset<Timestamp> writing_;  ///< start times of the running writes
+    std::multiset<Timestamp> writing_;
     std::stop_callback<std::function<void()>> onCancel_;
     BackgroundWriter writer_;  // must be the last member, because its threads use the members above
 };

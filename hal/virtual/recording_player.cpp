@@ -30,7 +30,7 @@ struct RecordingPlayer::Timeline {
     bool loop = false;
     bool asksVideoFirst = false;
     Timestamp first;
-    std::chrono::nanoseconds lap{0};  ///< duration of one pass through a looped recording
+    std::chrono::nanoseconds lap{0};
 
     mutable std::mutex mutex;
     std::condition_variable changed;
@@ -95,7 +95,7 @@ private:
     std::size_t toGive_ = 0;
     std::uint64_t skipped_ = 0;
     bool stopped_ = false;
-    bool starved_ = false;  ///< true: the decoder waits for a free buffer
+    bool starved_ = false;
 
     std::thread decoder_;
 };

@@ -15,7 +15,7 @@
 namespace mfar::synthetic {
 namespace {
 
-constexpr int kAtlas = 1024;     // side of the light map [texels]
+constexpr int kAtlas = 1024;
 constexpr double kSlack = 1e-3;  // margin around bounding spheres for rounding errors [m]
 // Number of rays per texel towards the key light and the sky. Neighbouring texels use different
 // rays and are blurred afterwards.
@@ -130,8 +130,6 @@ private:
         return sum / kSkyRays;
     }
 
-    /// Returns the solids whose bounding spheres touch the cone of rays from a point towards the
-    /// key light.
     std::vector<int> towardsLight(const Eigen::Vector3d& point) const {
         std::vector<int> out;
         for (int i = 0; i < solids_.size(); ++i) {

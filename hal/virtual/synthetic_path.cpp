@@ -24,8 +24,6 @@ double wobble(std::uint64_t seed, int channel, double t) {
     return sum;
 }
 
-/// Returns the pose of a camera at `eye` that looks at `target`. The world's z axis points up in
-/// the picture.
 RigidTransform lookAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& target) {
     const Eigen::Vector3d z = (target - eye).normalized();
     const Eigen::Vector3d x = z.cross(Eigen::Vector3d::UnitZ()).normalized();

@@ -29,7 +29,7 @@ std::string word(Random& random) {
 
 struct Column {
     int left, right, top, bottom;
-    double scale;  ///< scale of the font, as OpenCV defines it
+    double scale;
     int pitch;
 };
 
@@ -121,8 +121,6 @@ cv::Mat4b article(std::uint64_t seed) {
     return pressed(ink, seed, {0.04F, 0.04F, 0.06F});
 }
 
-/// Returns the texture layer of a book cover: gold print on linen. The material's tint colours the
-/// linen.
 cv::Mat4b bound(const cv::Mat1b& ink, std::uint64_t seed) {
     cv::Mat1b small;
     cv::resize(ink, small, {kLayerSize, kLayerSize}, 0, 0, cv::INTER_AREA);

@@ -22,13 +22,11 @@ public:
     /// Returns the nearest hit with a distance in (0, limit), or nothing. In the overloads below,
     /// `among` limits the search to these solids; their indices are in ascending order.
     [[nodiscard]] std::optional<Hit> cast(const Ray& ray, double limit) const;
-    /// Returns true if any solid except `except` is on the ray before `limit`.
     [[nodiscard]] bool blocked(const Ray& ray, double limit, int except) const;
     [[nodiscard]] std::optional<Hit> cast(const Ray& ray, double limit,
                                           std::span<const int> among) const;
     [[nodiscard]] bool blocked(const Ray& ray, double limit, int except,
                                std::span<const int> among) const;
-    /// Returns the radius [m] of a primitive's bounding sphere around pose().translation.
     [[nodiscard]] double radius(int primitive) const { return solids_[primitive].radius; }
     [[nodiscard]] const RigidTransform& pose(int primitive) const {
         return solids_[primitive].T_world_prim;

@@ -30,7 +30,7 @@ enum class Layer : std::uint8_t {
     Paper,
     Article,
     Cover,
-    Spine,  ///< the spine of a book, with letters that run downwards
+    Spine,
     Label,
     Edges,
     Wood,
@@ -89,8 +89,8 @@ struct Tag {
 struct Hit {
     double distance = 0;
     int primitive = 0;
-    int axis = 0;           ///< axis of the face that was hit; ellipsoid: the nearest axis
-    bool positive = false;  ///< true: the face is on the positive side of this axis
+    int axis = 0;  ///< axis of the face that was hit; ellipsoid: the nearest axis
+    bool positive = false;
     Eigen::Vector3d local;
 };
 

@@ -32,8 +32,6 @@ Ray pixelRay(const Viewpoint& view, int x, int y) {
             view.T_world_camera.rotation * Eigen::Vector3d(ray.x(), ray.y(), 1)};
 }
 
-/// Returns the pixel of a point of the world. Returns nothing if the point is behind the camera,
-/// outside of the picture or occluded.
 std::optional<Eigen::Vector2d> visiblePixel(const Snapshot& solids, const Viewpoint& view,
                                             const RigidTransform& T_camera_world,
                                             const Eigen::Vector3d& point) {

@@ -48,11 +48,11 @@ struct VirtualOptions {
     VirtualRendering rendering = VirtualRendering::PathTraced;
     double budgetMs = 8;  ///< processor time for path tracing in each frame [ms]
     Slicing slicing = Slicing::Time;
-    int samples = 64;          ///< samples per pixel of a finished picture
+    int samples = 64;
     double resolution = 0.28;  ///< width of a path-traced picture relative to the still's width
     HoleFilling holes = HoleFilling::Both;
     int threads = 1;
-    bool filter = true;  ///< true: the noise of pictures with few samples is smoothed
+    bool filter = true;
     /// Largest angle between the views of two consecutive traced pictures [degrees].
     double turnDeg = 4;
 

@@ -28,7 +28,6 @@ public:
     /// error.
     [[nodiscard]] const CameraPose& choose(const CameraPoses& poses,
                                            const std::optional<RigidTransform>& predicted);
-    /// True if the last choose() changed to the pose that is farther from the prediction.
     [[nodiscard]] bool flipped() const { return flipped_; }
 
 private:

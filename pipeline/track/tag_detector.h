@@ -45,8 +45,6 @@ struct DetectorOptions {
 /// Finds AprilTags with libapriltag. Only one thread at a time may use it.
 class TagDetector {
 public:
-    /// Throws std::invalid_argument if an option is out of range, std::runtime_error if libapriltag
-    /// is out of memory.
     explicit TagDetector(const DetectorOptions& options);
     ~TagDetector();
     TagDetector(TagDetector&&) noexcept;

@@ -21,7 +21,6 @@ constexpr std::size_t kStarts = 8;  // number of largest tags whose solutions ma
 constexpr double kStartCutoff = 10;
 constexpr double kSameMinimum = 0.1 * kDegree;
 
-/// A usable tag, and the two camera poses that follow from this tag alone.
 struct Candidate {
     std::size_t index;
     double area;

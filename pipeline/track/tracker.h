@@ -34,8 +34,6 @@ struct TrackerOptions {
 
 struct TrackStats {
     std::int64_t frames = 0;
-    /// Number of frames that were searched completely: at the start, at intervals, and if no known
-    /// tag was found in the predicted regions.
     std::int64_t fullSearches = 0;
     std::int64_t roiSearches = 0;
     /// `flips` counts changes between the two planar solutions, `rejected` outliers of the filter,
@@ -61,7 +59,6 @@ public:
     /// picture does not have the size of the rig's video.
     std::optional<Pose> track(const ImageView& picture, Timestamp time);
     [[nodiscard]] std::optional<Pose> raw() const;
-    /// Returns the video camera's pose at another time, e.g. when the picture will be displayed.
     [[nodiscard]] std::optional<Pose> predict(Timestamp time) const;
     /// Returns the video camera's pose at the time of a still. It is measured in the still, with
     /// the still camera and T_still_video, and not filtered. Returns nothing if the still shows no
