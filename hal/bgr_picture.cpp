@@ -9,7 +9,6 @@
 namespace mfar {
 namespace {
 
-// cv::Mat takes a non-const pointer, but the pixels are not changed.
 cv::Mat matOf(const PlaneView& plane, Size size, int type) {
     return {size.height, size.width, type, const_cast<std::uint8_t*>(plane.data), plane.stride};
 }
@@ -20,7 +19,6 @@ cv::Mat channelOf(const cv::Mat& picture, int channel) {
     return out;
 }
 
-/// Returns Y, U and V as separate planes. The chroma planes keep their lower resolution.
 std::vector<cv::Mat> planesOf(const ImageView& picture) {
     const PlaneView first{picture.data, picture.stride};
     const Size size = picture.size, half{size.width / 2, size.height / 2};

@@ -12,28 +12,30 @@
 namespace mfar {
 
 struct CameraInfo {
-    std::string name;  ///< the name that messages use
+    std::string name;
     Size size;
     PixelFormat format = PixelFormat::Rgba8;
-    double rateHz = 0;  ///< frame rate [Hz]; 0: the camera takes pictures on trigger only
+    double rateHz = 0;  ///< frame rate [Hz]; 0: the camera takes pictures only when it is triggered
 };
 
-/// Counts a camera's frames since its start. No frame is counted twice.
+/// Numbers of a camera's frames since its start. No frame is counted twice.
 struct CameraCounters {
     std::uint64_t delivered = 0;
-    /// Number of frames that the driver lost because it had no free buffer. Not set if the camera
-    /// does not count them.
+    /// Frames that the driver lost because it had no free buffer. Not set if the driver does not
+    /// report them.
     std::optional<std::uint64_t> missed{};
-    /// Number of frames that were not delivered because they are incomplete or the driver marked
-    /// them as broken.
+    /// Frames that were not delivered, because they are incomplete or marked as broken by the
+    /// driver.
     std::uint64_t broken = 0;
-    /// Number of frames that were not delivered because their timestamp is in the future, too old
-    /// or out of order.
+    /// Frames that were not delivered, because their timestamp is in the future, too old or out of
+    /// order.
     std::uint64_t badTimes = 0;
-    std::uint64_t startup = 0;   ///< number of frames before the sensor had settled; not delivered
-    std::uint64_t untimed = 0;   ///< frames without a timestamp; their arrival time is used
-    std::uint64_t restarts = 0;  ///< number of restarts after the driver cancelled all requests
-    std::uint64_t reopened = 0;  ///< number of times that the device was opened again after a loss
+    std::uint64_t startup = 0;   ///< frames that were not delivered, because the sensor had not
+                                 ///< settled
+    std::uint64_t untimed = 0;   ///< delivered frames without a timestamp; they got their arrival
+                                 ///< time
+    std::uint64_t restarts = 0;  ///< restarts of the stream after the driver cancelled all requests
+    std::uint64_t reopened = 0;
 
     CameraCounters& operator+=(const CameraCounters& other) {
         delivered += other.delivered;
@@ -61,22 +63,18 @@ public:
     virtual ~Camera() = default;
 
     [[nodiscard]] virtual CameraInfo info() const = 0;
-    /// Begins delivery. Throws std::runtime_error.
     virtual void start() = 0;
-    /// Waits up to `timeout` for the next frame and returns it. Returns nothing if no frame came or
-    /// after stop(). Throws DeviceLost if the device was unplugged or failed.
+    /// Waits up to `timeout` for the next frame. Returns nothing if no frame came or after stop().
+    /// Throws DeviceLost if the device was unplugged or failed.
     [[nodiscard]] virtual std::optional<Frame> next(std::chrono::milliseconds timeout) = 0;
     /// Ends delivery and wakes a waiting next(). Idempotent.
     virtual void stop() = 0;
-    /// Returns whether no further frame will come, because a recording has ended. Always false for
-    /// live cameras.
+    /// Returns true if a recording has ended, so that no further frame will come.
     [[nodiscard]] virtual bool ended() const = 0;
 
-    /// Returns the counters of frames. They are all zero for a camera that cannot lose frames.
-    /// Thread-safe.
+    /// Thread-safe. All counters are zero for a camera that cannot lose frames.
     [[nodiscard]] virtual CameraCounters cameraCounters() const { return {}; }
-    /// Returns the new warnings about the camera, while it works. Each warning is returned once.
-    /// Thread-safe.
+    /// Returns the warnings since the last call. Thread-safe.
     [[nodiscard]] virtual std::vector<std::string> takeWarnings() { return {}; }
 };
 

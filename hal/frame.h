@@ -17,8 +17,8 @@
 
 namespace mfar {
 
-/// A picture in a buffer that belongs to a camera. The destructor returns the buffer to the camera.
-/// Move-only. A frame may be moved to another thread, but only one thread at a time may use it.
+/// A picture in a buffer of a camera. The destructor returns the buffer to the camera. Only one
+/// thread at a time may use a frame.
 class Frame {
 public:
     Frame(ImageView view, Timestamp time, std::function<void()> giveBack)
@@ -41,14 +41,13 @@ public:
     }
 
     [[nodiscard]] const ImageView& view() const { return view_; }
-    /// Returns the time of the middle of the exposure, on CLOCK_MONOTONIC. A recording's frame has
-    /// the time from the recording's file.
+    /// Returns the middle of the exposure on CLOCK_MONOTONIC. In a recording, it is the recorded
+    /// time.
     [[nodiscard]] Timestamp time() const { return time_; }
 
-    /// Adds `by` to the time, to convert the time to another clock.
     void shift(std::chrono::nanoseconds by) { time_ = time_ + by; }
 
-    std::chrono::nanoseconds exposure{0};  ///< length of the exposure; 0: unknown
+    std::chrono::nanoseconds exposure{0};  ///< 0: unknown
 
 private:
     ImageView view_;
@@ -56,27 +55,24 @@ private:
     std::function<void()> giveBack_;
 };
 
-/// A fixed set of buffers of equal size for Frames. They are allocated once. A buffer that is never
-/// used takes no memory. Thread-safe. The pool may be destroyed before its frames: the memory lives
-/// until the last frame is destroyed. In a buffer, planes follow each other and rows have no
-/// padding (packedView() in image_layout.h).
+/// A fixed number of frame buffers of equal size, allocated once. Thread-safe. The pool may be
+/// destroyed before its frames. Rows have no padding, and planes follow each other (packedView() in
+/// image_layout.h).
 class FramePool {
 public:
     FramePool(Size size, PixelFormat format, int count);
 
-    /// A buffer that the caller fills. After that, it must be passed to lend() or giveBack().
+    /// A buffer that the caller fills. It must then be passed to lend() or giveBack().
     struct Slot {
         std::uint8_t* data;
         std::size_t stride;
         int index;
     };
-    /// Returns a free buffer. Waits for one up to `timeout`, then returns nothing.
+    /// Waits up to `timeout` for a free buffer. Returns nothing if no buffer became free.
     [[nodiscard]] std::optional<Slot> acquire(std::chrono::milliseconds timeout);
-    /// Turns a filled slot into a frame. The frame's destructor returns the buffer.
     [[nodiscard]] Frame lend(const Slot& slot, Timestamp time) const;
-    /// Turns a filled slot into a frame with another view, which must lie in the slot's memory.
+    /// `view` must lie in the buffer.
     [[nodiscard]] Frame lend(const Slot& slot, const ImageView& view, Timestamp time) const;
-    /// Returns the buffer of a slot that does not become a frame.
     void giveBack(const Slot& slot) const;
 
     [[nodiscard]] Size size() const { return size_; }

@@ -8,12 +8,11 @@ namespace mfar {
 namespace {
 
 constexpr std::size_t kNeeded = 8;
-/// Largest number of frame periods in an interval between two frames. After a longer interval, the
-/// camera must have been stopped, and no drops are counted.
+/// If an interval between two frames is longer than this number of frame periods, the camera was
+/// stopped. Then no drops are counted.
 constexpr double kMostMissing = 1000;
-/// If the gap between two frame numbers is larger than kMostNumbers, the numbering has restarted.
-/// It has also restarted if the gap in the numbers is kDoubtful times as large as the gap in the
-/// times.
+/// The driver's frame numbers have restarted if they skip more than kMostNumbers numbers, or
+/// kDoubtful times as many as the frame times suggest.
 constexpr std::uint32_t kMostNumbers = 10000;
 constexpr int kDoubtful = 8;
 
@@ -24,8 +23,8 @@ std::optional<std::chrono::nanoseconds> FrameDrops::period() const {
     std::array<std::int64_t, kKept> sorted = intervals_;
     const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(known_ / 2);
     std::nth_element(sorted.begin(), middle, sorted.begin() + static_cast<std::ptrdiff_t>(known_));
-    // The mean is better than the median here, because the jitter of consecutive timestamps cancels
-    // in it.
+    // The mean is more accurate than the median, because the jitter of consecutive timestamps
+    // cancels in the mean.
     std::int64_t sum = 0;
     std::int64_t usual = 0;
     for (std::size_t i = 0; i < known_; ++i) {
@@ -42,7 +41,6 @@ int FrameDrops::missingByTime(Timestamp time) {
     if (!last || time <= *last) return 0;
     const std::int64_t interval = (time - *last).count();
     const auto usual = period();
-    // The interval also contains the `untimed_` frames whose time was not used.
     intervals_[next_] = interval / (1 + untimed_);
     next_ = (next_ + 1) % kKept;
     known_ = std::min(known_ + 1, kKept);
@@ -56,7 +54,8 @@ std::optional<int> FrameDrops::missingByNumber(std::optional<std::uint32_t> numb
     const std::optional<std::uint32_t> last = lastNumber_;
     lastNumber_ = number;
     if (!number || !last) return std::nullopt;
-    const std::uint32_t step = *number - *last;  // is right even if the driver's counter wrapped
+    // Unsigned subtraction is correct even if the driver's counter has wrapped around.
+    const std::uint32_t step = *number - *last;
     if (step == 0 || step > kMostNumbers) return std::nullopt;
     return static_cast<int>(step) - 1;
 }

@@ -14,13 +14,11 @@
 namespace mfar {
 namespace {
 
-constexpr std::int64_t kMostProgressive = 1 << 24;  // [px]; larger progressive JPEGs are refused
-// Largest size of a PNG file without its pixels [bytes].
+constexpr std::int64_t kMostProgressive = 1 << 24;
 constexpr std::size_t kMostHeader = 4096;
 
-// libpng reports an error by calling fail(), which must not return. So fail() jumps (longjmp) to
-// the function that called libpng, and that function returns false. Such a function must not have
-// objects with destructors.
+// libpng requires that its error function does not return, so fail() uses longjmp(). The functions
+// that call libpng must not have objects with destructors, which longjmp() would skip.
 struct PngError {
     std::jmp_buf back;
     std::string text;
@@ -64,7 +62,7 @@ struct PngWriter {
 
 void readBytes(png_structp png, png_bytep to, std::size_t count) {
     auto* left = static_cast<std::span<const std::uint8_t>*>(png_get_io_ptr(png));
-    if (count > left->size()) png_error(png, "the picture ends too early");
+    if (count > left->size()) png_error(png, "the file ends before the last pixel");
     std::memcpy(to, left->data(), count);
     *left = left->subspan(count);
 }
@@ -78,8 +76,7 @@ void flushNothing(png_structp /*png*/) {}
 
 bool readHeader(PngReader& reader, std::span<const std::uint8_t>& left, ImageAlpha alpha) {
     if (setjmp(reader.error.back) != 0) return false;
-    // Chunks of the file that do not affect the pixels are skipped, because a text chunk of 8 kB
-    // may be decompressed to 8 MB.
+    // Text chunks are skipped, because a chunk of 8 kB may be decompressed to 8 MB.
     png_set_keep_unknown_chunks(reader.png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
     png_set_read_fn(reader.png, &left, readBytes);
     png_read_info(reader.png, reader.info);
@@ -117,7 +114,7 @@ void decodePng(std::span<const std::uint8_t> file, const TargetOf& targetOf, Ima
     if (!readRows(reader, rows.data())) throw std::runtime_error(reader.error.text);
 }
 
-/// Returns whether a JPEG is progressive (ITU T.81, frame SOF2 and others). The decoder keeps all
+/// Returns true if a JPEG is progressive (ITU T.81, frame SOF2 and others). The decoder keeps all
 /// coefficients of a progressive JPEG in memory, six bytes per pixel.
 bool isProgressive(std::span<const std::uint8_t> file) {
     constexpr std::uint8_t kStartOfScan = 0xda;
@@ -149,8 +146,8 @@ void decodeJpeg(std::span<const std::uint8_t> file, const TargetOf& targetOf) {
         throw std::runtime_error(tjGetErrorStr2(decoder.get()));
 }
 
-// Only one filter and run-length coding are used. This takes 8 ms for 648x432 pixels. zlib's level
-// 1 takes 22 ms, and its files of photographs are no smaller.
+// Only one PNG filter and run-length coding are used. This takes 8 ms for 648x432 pixels. zlib's
+// level 1 takes 22 ms, and its files of photographs are no smaller.
 bool write(PngWriter& writer, Size size, PixelBytes format, png_bytepp rows,
            std::vector<std::uint8_t>& out) {
     if (setjmp(writer.error.back) != 0) return false;
@@ -184,8 +181,8 @@ void decodeImage(std::span<const std::uint8_t> file, const TargetOf& targetOf, I
 void encodePng(const std::uint8_t* pixels, std::size_t stride, Size size, PixelBytes format,
                std::vector<std::uint8_t>& out) {
     out.clear();
-    // The reserved memory is enough for any picture, because a growing vector would copy the data
-    // several times. Pages of memory that are not used cost nothing.
+    // Reserves enough memory for any picture, because a growing vector would copy the data several
+    // times. Unused pages of memory cost nothing.
     out.reserve(std::size_t{4} * size.width * size.height + kMostHeader);
     PngWriter writer;
     std::vector<png_bytep> rows = rowsOf(pixels, stride, size.height);

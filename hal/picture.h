@@ -9,21 +9,18 @@
 
 namespace mfar {
 
-/// A finished picture in the current GL context: a 2-D texture of format RGBA8. Row 0 is the top
-/// row.
+/// A texture of format RGBA8 in the current GL context. Row 0 is the top row.
 struct GlImage {
     unsigned texture = 0;
     Size size;
 };
 
-/// A finished picture: either a texture of the current GL context (GLES engine), or rows in host
-/// memory with four bytes R G B A per pixel (SIMD engine). Row 0 is the top row. Alpha is
-/// undefined. A Picture does not own its pixels: they are valid until the engine makes the next
-/// picture.
+/// A finished picture: either a texture (GLES engine), or rows in host memory with bytes R G B A
+/// (SIMD engine). Row 0 is the top row. Alpha is undefined. The engine owns the pixels; they are
+/// valid until it makes the next picture.
 class Picture {
 public:
-    Picture() = default;  ///< an empty picture
-    /// If the texture is 0, the picture is empty.
+    Picture() = default;
     // NOLINTNEXTLINE(google-explicit-constructor): a Picture is a variant of the two types
     Picture(const GlImage& image) : pixels_(image) {}
     // NOLINTNEXTLINE(google-explicit-constructor): a Picture is a variant of the two types
@@ -34,12 +31,10 @@ public:
         return isOnHost() ? rows().data == nullptr : image().texture == 0;
     }
     [[nodiscard]] Size size() const { return isOnHost() ? rows().size : image().size; }
-    /// Returns the texture. Must not be called if the picture is on the host.
     [[nodiscard]] const GlImage& image() const {
         assert(!isOnHost());
         return *std::get_if<GlImage>(&pixels_);
     }
-    /// Returns the rows in host memory. Must be called only if the picture is on the host.
     [[nodiscard]] const Rows<const std::uint32_t>& rows() const {
         assert(isOnHost());
         return *std::get_if<HostRows>(&pixels_);
@@ -50,15 +45,14 @@ private:
     std::variant<GlImage, HostRows> pixels_;
 };
 
-/// Returns a view of the rows as Rgba8.
 [[nodiscard]] inline ImageView viewOf(const Rows<const std::uint32_t>& rows) {
     return {reinterpret_cast<const std::uint8_t*>(rows.data), rows.size,
             static_cast<std::size_t>(rows.pitch) * 4, PixelFormat::Rgba8};
 }
 
 /// Copies a picture that is not empty into `rgba`, row 0 first. `stride` [bytes] must be a multiple
-/// of four. A texture is read back, which waits for the GPU; the context's bindings are preserved.
-/// For a picture on the host, GL is not called. Throws std::runtime_error if GL fails.
+/// of four. Reading a texture waits for the GPU and keeps the context's bindings. Throws
+/// std::runtime_error if GL fails.
 void copyPicture(const Picture& picture, std::uint8_t* rgba, std::size_t stride);
 
 }  // namespace mfar

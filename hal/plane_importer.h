@@ -6,12 +6,13 @@
 
 namespace mfar {
 
-/// A plane of texels in memory that several devices can use (dma-buf).
+/// An image plane in memory that several devices can use (dma-buf).
 struct SharedPlane {
     int fd = -1;
-    std::size_t offset = 0, stride = 0;  ///< bytes
-    Size size;                           ///< [texels]
-    int channels = 1;                    ///< number of 8-bit channels: 1, 2 or 4
+    /// Offset and stride in bytes, size in texels. A texel has 1, 2 or 4 channels of 8 bits.
+    std::size_t offset = 0, stride = 0;
+    Size size;
+    int channels = 1;
 };
 
 /// Creates textures from camera memory without a copy. The GL context must be current on the
@@ -20,11 +21,9 @@ class PlaneImporter {
 public:
     virtual ~PlaneImporter() = default;
 
-    /// Creates a texture and returns its name. The texture always shows the plane's current
-    /// content, without another call. Throws std::runtime_error if the driver refuses the memory or
-    /// the layout.
+    /// Creates a texture that always shows the plane's current content, and returns its GL name.
+    /// Throws std::runtime_error if the driver refuses the memory or the layout.
     [[nodiscard]] virtual unsigned import(const SharedPlane& plane) = 0;
-    /// Deletes a texture that import() has created. Never throws.
     virtual void forget(unsigned texture) = 0;
 };
 

@@ -26,9 +26,8 @@ void ReopeningCamera::start() {
     opener_ = std::thread([this] { keepOpen(); });
 }
 
-// Runs on the opener's thread. A lost device must be closed before it can be opened again. Closing
-// and opening may take long, so this thread does both, and the thread that waits for pictures is
-// not blocked.
+// Runs on the opener's thread, because closing and opening a device may take long. A lost device
+// must be closed before it can be opened again.
 void ReopeningCamera::keepOpen() {
     Heartbeat heart(options_.opener);
     heart.rest();
@@ -69,7 +68,7 @@ void ReopeningCamera::keepOpen() {
     if (const std::shared_ptr<Camera> camera = camera_) work([&] { camera->stop(); });
 }
 
-/// mutex_ must be locked.
+/// take() and hangs() need a locked mutex_.
 void ReopeningCamera::take(std::shared_ptr<Camera> camera) {
     for (std::string& text : camera->takeWarnings())
         warnings_.push_back(std::move(text));
@@ -133,13 +132,14 @@ void ReopeningCamera::sent() {
 }
 
 bool ReopeningCamera::hasStalled() {
-    // busyElsewhere() is called before mutex_ is locked, because it may call the other camera,
-    // which may in turn call this one.
+    // busyElsewhere() is called before mutex_ is locked, because it may call another camera, which
+    // may in turn call this camera.
     const bool isExcused = options_.busyElsewhere && options_.busyElsewhere();
     const std::lock_guard lock(mutex_);
     answer_.reset();
     if (options_.silent.count() == 0) {
-        fault_.reset();  // a triggered camera may be silent; it works if the device is open
+        // A triggered camera may be silent; it works if the device is open.
+        fault_.reset();
         return false;
     }
     return Timestamp::now() - lastFrame_ >= (isExcused ? options_.excused : options_.stalled);
@@ -166,7 +166,6 @@ void ReopeningCamera::stop() {
     changed_.notify_all();
 }
 
-/// mutex_ must be locked.
 bool ReopeningCamera::hangs() const {
     const Timestamp now = Timestamp::now();
     return (answer_ && now - *answer_ >= options_.stalled) ||

@@ -18,33 +18,27 @@ namespace mfar {
 
 struct ReopeningOptions {
     /// If the camera sends no frame for this time, it is reported as silent. 0: the camera is
-    /// triggered, and silence is normal.
+    /// triggered and may be silent.
     std::chrono::milliseconds silent{150};
     /// If the camera sends no frame for this time, it is closed and opened again.
     std::chrono::milliseconds stalled{2000};
-    /// Pause between two attempts to open the device. It starts with firstPause and doubles with
-    /// each attempt, up to longestPause. After it is plugged in again, a camera must work within 3
-    /// s, and some libraries need 2 s of these to find it. There is also a pause if a device was
-    /// lost before it sent a frame.
+    /// Pause between two attempts to open the device. It doubles with each attempt, from firstPause
+    /// to longestPause. A camera must work within 3 s after it is plugged in, and some libraries
+    /// need 2 s of these to find it.
     std::chrono::milliseconds firstPause{100}, longestPause{500};
-    /// Returns whether frames may be late for a reason outside this device. Example: libcamera
-    /// probes a newly plugged device in the thread that delivers the frames of all cameras. While
-    /// it returns true, `excused` is used instead of `stalled`. May be empty. Any thread may call
-    /// it.
+    /// Returns true while frames may be late for a reason outside this device. Then `excused` is
+    /// used instead of `stalled`. Example: libcamera probes a new device in the thread that
+    /// delivers all frames. May be empty. Any thread may call it.
     std::function<bool()> busyElsewhere{};
     std::chrono::milliseconds excused{6000};
-    /// The thread that opens, stops and closes the device. Its time budget is for one of these
-    /// calls. If a driver never returns from a call, only a restart of the process helps.
     WatchedThread opener{};
 };
 
 /// A camera that opens its device again after the device was lost. A separate thread opens, stops
-/// and closes the device, so that callers of next() do not wait for these calls. Only one thread
-/// may call next(); the other functions are thread-safe. If a driver hangs, only next() and the
-/// destructor block, and fault() reports that the driver hangs.
+/// and closes the device. Only one thread may call next(); the other functions are thread-safe. If
+/// a driver hangs, only next() and the destructor block.
 class ReopeningCamera final : public Camera {
 public:
-    /// Opens the device. Throws a std::exception if that fails.
     using Open = std::function<std::unique_ptr<Camera>()>;
 
     /// `info` describes the expected camera. A device with another picture size counts as missing.
@@ -61,13 +55,9 @@ public:
     void stop() override;
     [[nodiscard]] bool ended() const override { return false; }
 
-    /// Returns why there are no frames, or nothing while there are frames.
     [[nodiscard]] std::optional<std::string> fault() const;
-    /// Returns whether no device is open.
     [[nodiscard]] bool absent() const;
-    /// Returns how often the device was lost since start().
     [[nodiscard]] std::uint64_t losses() const;
-    /// Returns the sums of the counters over all devices that were opened so far.
     [[nodiscard]] CameraCounters cameraCounters() const override;
     [[nodiscard]] std::vector<std::string> takeWarnings() override;
 
@@ -86,16 +76,18 @@ private:
     const ReopeningOptions options_;
     mutable std::mutex mutex_;
     std::condition_variable changed_;
-    std::shared_ptr<Camera> camera_;    ///< a running next() holds a reference, too
-    std::optional<std::string> fault_;  ///< why there are no frames; not set: there are frames
-    Timestamp opened_, lastFrame_;      ///< lastFrame_ equals opened_ until the first frame
+    std::shared_ptr<Camera> camera_;
+    std::optional<std::string> fault_;
+    Timestamp opened_, lastFrame_;
     std::uint64_t losses_ = 0;
-    CameraCounters before_;  ///< sums of the lost devices' counters
+    CameraCounters before_;
     std::vector<std::string> warnings_;
-    std::shared_ptr<Camera> lost_;     ///< a lost device that is still to be closed
-    std::optional<Timestamp> answer_;  ///< deadline of the running next(); not set: none is running
-    std::optional<Timestamp> busy_;    ///< since when a call opens, stops or closes the device
-    bool hasSent_ = false;             ///< whether the current or last device has sent a frame
+    std::shared_ptr<Camera> lost_;
+    std::optional<Timestamp> answer_;  ///< deadline of the running next(); not set: next() is not
+                                       ///< running
+    std::optional<Timestamp> busy_;    ///< start of the running call that opens, stops or closes
+                                       ///< the device
+    bool hasSent_ = false;
     bool stopped_ = false;
     std::thread opener_;
 };

@@ -9,8 +9,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-/// Largest number of pulses that are remembered. It is far more than can wait for their stills. If
-/// a still arrives later than this many further pulses, it is ignored.
+/// Number of remembered pulses; far more than can wait for their stills at a time.
 constexpr std::size_t kRemembered = 64;
 /// Number of consecutive stills that must miss the window by about the same time before the
 /// camera's clock counts as stepped.
@@ -36,13 +35,12 @@ bool isLength(nanoseconds time) {
 
 StillMatcher::StillMatcher(const StillMatcherOptions& options) : options_(options) {
     require(isLength(options.window) && isLength(options.wideWindow),
-            "still matching: a window must be above 0 and at most an hour");
+            "StillMatcherOptions: window and wideWindow must be above 0 and at most 1 h");
     require(isLength(options.timeout),
-            "still matching: the timeout must be above 0 and at most an hour");
+            "StillMatcherOptions: timeout must be above 0 and at most 1 h");
     require(options.guess >= -kLongest && options.guess <= kLongest,
-            "still matching: the guessed delay must be at most an hour, early or late");
-    require(options.learnFrom > 0,
-            "still matching: the number of pulses to learn from must be at least 1");
+            "StillMatcherOptions: guess must be from -1 h to 1 h");
+    require(options.learnFrom > 0, "StillMatcherOptions: learnFrom must be at least 1");
 }
 
 void StillMatcher::pulseFired(Timestamp edge, Pulse kind) {
@@ -68,8 +66,8 @@ nanoseconds StillMatcher::constant() const {
     return nanoseconds{median(samples_)};
 }
 
-/// Returns the pulse whose expected exposure time is nearest. Returns nothing if it is more than
-/// three hours away from every pulse.
+/// Returns the pulse whose expected exposure is nearest in time. Returns nothing if every pulse is
+/// more than three hours away.
 std::optional<StillMatcher::Nearest> StillMatcher::nearest(Timestamp exposed) const {
     std::optional<Nearest> best;
     for (std::size_t i = 0; i < pulses_.size(); ++i) {

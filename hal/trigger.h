@@ -8,32 +8,30 @@
 
 namespace mfar {
 
-/// Reports that the trigger cannot fire now, because its last pulse has not ended or the still
-/// camera is stopped.
+/// Thrown if the trigger cannot fire now, because its last pulse has not ended or the still camera
+/// is stopped.
 class TriggerBusy : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
 
-/// A trigger: each of its pulses starts one exposure of the still sensor.
+/// Each pulse of the trigger starts one exposure of the still sensor.
 class Trigger {
 public:
     virtual ~Trigger() = default;
 
-    /// Fires one pulse and returns the time of its leading edge. Does not wait for the still, which
-    /// the still camera delivers later. Throws TriggerBusy during a pulse, and std::runtime_error
-    /// if the line cannot be driven.
+    /// Fires one pulse and returns the time of its leading edge. Does not wait for the still.
+    /// Throws TriggerBusy during a pulse, and std::runtime_error if the line cannot be driven.
     virtual Timestamp fire() = 0;
-    /// Requests the trigger line at its inactive level, unless this object holds the line already.
-    /// May be called repeatedly while the camera runs. Never throws.
+    /// Requests the trigger line at its inactive level, unless this object already holds the line.
+    /// Never throws.
     virtual void rest() {}
-    /// Ends an active pulse at once: when this call returns, the trigger line is inactive. Does
-    /// nothing if there is no line. Thread-safe. Never throws; if the line cannot be driven, the
+    /// Ends an active pulse at once. Thread-safe. Never throws: if the line cannot be driven, the
     /// next fire() throws.
     virtual void endPulse() {}
     [[nodiscard]] virtual std::string name() const = 0;
-    /// Returns the number of pulses for which the loopback line did not report both edges. The
-    /// times of such pulses are not measured. Thread-safe.
+    /// Returns the number of pulses for which the loopback line did not report both edges. Their
+    /// times are not measured. Thread-safe.
     [[nodiscard]] virtual std::uint64_t missedEdges() const { return 0; }
 };
 

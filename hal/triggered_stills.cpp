@@ -8,10 +8,8 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// While no still arrives, next() checks for lost pulses once per this interval.
 constexpr milliseconds kLookAround{50};
 
-/// Returns the frame with another time and exposure.
 Frame retimed(Frame frame, Timestamp time, std::chrono::nanoseconds exposure) {
     const auto held = std::make_shared<std::optional<Frame>>(std::move(frame));
     Frame renamed((*held)->view(), time, [held] { held->reset(); });
@@ -41,7 +39,8 @@ void TriggeredStillCamera::start() {
 
 void TriggeredStillCamera::stop() {
     {
-        const std::lock_guard lock(mutex_);  // after stopped_ is set, no pulse can be fired
+        // fire() also locks mutex_, so that no pulse is fired after this.
+        const std::lock_guard lock(mutex_);
         stopped_ = true;
     }
     trigger_->endPulse();
@@ -72,7 +71,7 @@ void TriggeredStillCamera::repeatLost() {
     try {
         matcher_.pulseFired(trigger_->fire(), StillMatcher::Pulse::Repetition);
     } catch (const TriggerBusy&) {
-        // The trigger is busy. A later call repeats the lost pulse.
+        // A later call repeats the lost pulse.
     }
 }
 

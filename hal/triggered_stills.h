@@ -17,32 +17,29 @@ namespace mfar {
 
 struct TriggeredStillOptions {
     StillMatcherOptions matching;
-    /// The exposure of stills if the camera does not report it. If the sensor exposes during the
-    /// pulse, it is the length of the pulse. 0: unknown.
+    /// Exposure of stills if the camera does not report it. 0: unknown. If the sensor exposes
+    /// during the pulse, it is the length of the pulse.
     std::chrono::nanoseconds exposure{0};
 };
 
-/// Combines the still camera and its trigger. Delivers only stills that match a pulse, each once
-/// and in the order of their times. If a still does not arrive, repeats its pulse once.
+/// Combines the still camera and its trigger. Delivers only stills that match a pulse, in the order
+/// of their times. If a still does not arrive, its pulse is repeated once. fire() and counters()
+/// are thread-safe.
 ///
-/// The time of a still is the time of its pulse + the learned delay of the exposure + half the
+/// A still's time is the time of its pulse + the learned delay + half the
 /// exposure. The delay is a median over twenty pulses, which removes the jitter of the camera's
-/// timestamps. The time of a pulse is known to microseconds. fire() and counters() are thread-safe.
+/// timestamps.
 class TriggeredStillCamera final : public Camera, public Trigger {
 public:
-    /// Throws std::invalid_argument if StillMatcher refuses the options.
     TriggeredStillCamera(std::unique_ptr<Camera> camera, std::unique_ptr<Trigger> trigger,
                          const TriggeredStillOptions& options);
 
-    /// Returns the info of the camera, but with a frame rate of 0, because it is triggered.
     [[nodiscard]] CameraInfo info() const override;
     void start() override;
-    /// Returns the next still. Also repeats lost pulses, so it must be called regularly, e.g. with
-    /// timeout 0. Throws what the camera throws, and what the trigger throws when a pulse is
-    /// repeated.
+    /// Returns the next still. Also repeats lost pulses, so it must be called regularly. Throws the
+    /// errors of the camera, and those of the trigger when a pulse is repeated.
     [[nodiscard]] std::optional<Frame> next(std::chrono::milliseconds timeout) override;
-    /// Ends an active pulse, then stops the camera. From then on until start(), fire() throws
-    /// TriggerBusy.
+    /// Ends an active pulse, then stops the camera. Until start(), fire() throws TriggerBusy.
     void stop() override;
     [[nodiscard]] bool ended() const override { return camera_->ended(); }
 
@@ -70,7 +67,7 @@ private:
     std::atomic<bool> stopped_{false};
 
     /// Guards the members below. It stays locked from firing a pulse until the pulse is registered,
-    /// so that the pulse's still is not matched before that.
+    /// so that the pulse's still cannot be matched earlier.
     mutable std::mutex mutex_;
     StillMatcher matcher_;
     std::optional<Timestamp> newest_;

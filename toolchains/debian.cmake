@@ -1,7 +1,6 @@
-# Common part of the toolchain files. They set MFAR_TRIPLE, MFAR_EMULATOR and
-# CMAKE_SYSTEM_PROCESSOR before they include it.
-# The sysroot (headers and libraries of the board's architecture) is .build/sysroot-<processor>, a
-# symbolic link that `./run cross` creates.
+# Common part of the toolchain files, which first set MFAR_TRIPLE, MFAR_EMULATOR and
+# CMAKE_SYSTEM_PROCESSOR. The sysroot (headers and libraries of the board's architecture) is
+# .build/sysroot-<processor>, a symbolic link that `./run cross` creates.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_LIBRARY_ARCHITECTURE ${MFAR_TRIPLE})
 set(CMAKE_CXX_COMPILER ${MFAR_TRIPLE}-g++)

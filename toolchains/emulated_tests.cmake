@@ -1,6 +1,5 @@
-# Under an emulator, each start of a program takes seconds. So CTest runs all tests of a program in
-# one process. The tests of the programs in this list get the label "emulated"; `./run cross --test`
-# runs them.
+# In an emulator, each start of a program takes seconds. So CTest runs all tests of a program in one
+# process. The tests of these programs get the label "emulated"; `./run cross --test` runs them.
 set(mfar_emulated
     mfar-composite-tests
     mfar-daemon-tests

@@ -15,11 +15,10 @@ progress() {
     fi
 }
 
-# Erases the line, so that other output can follow.
 clearProgress() { if [[ -t 2 ]]; then printf '\r\e[K' >&2; fi; }
 
-# tick SECONDS WHAT: shows which share of the expected time has passed. Runs in the background until
-# it is killed or until the shell that started it ends.
+# tick SECONDS WHAT: shows the share of the expected time that has passed. Runs in the background
+# until it is killed or until the shell that started it ends.
 tick() {
     local begin=$EPOCHSECONDS spent
     while kill -0 "$$" 2>/dev/null; do

@@ -18,8 +18,6 @@ std::string describe(const ListedCamera& camera) {
                        camera.location.empty() ? "unknown" : camera.location);
 }
 
-/// Returns the indices of the cameras whose id is `name`. If no id is equal, compares the
-/// locations, and if no location is equal, the models.
 std::vector<std::size_t> named(const std::vector<ListedCamera>& cameras, std::string_view name) {
     std::vector<std::size_t> found;
     for (const auto key : {&ListedCamera::id, &ListedCamera::location, &ListedCamera::model}) {

@@ -21,17 +21,14 @@ namespace {
 using std::chrono::nanoseconds;
 using std::chrono::steady_clock;
 
-// Largest plausible distances of a frame's timestamp from now: kAhead in the future, kOldest in the
-// past. A timestamp may be in the future because clocks of CPU cores differ. It may be old because
-// next() was not called.
+// Limits for a frame's timestamp, relative to now. It may be in the future because clocks of CPU
+// cores differ. It may be old because next() was not called.
 constexpr nanoseconds kAhead = std::chrono::milliseconds(50), kOldest = std::chrono::seconds(10);
 constexpr std::chrono::milliseconds kTroublePause{5};
 
-/// If the driver grants fewer buffers than this, it may have no free buffer while pictures are in
-/// use.
+/// With fewer buffers than this, the driver may have no free buffer while pictures are in use.
 constexpr int kEnoughBuffers = 4;
 
-/// Holds a filled buffer. The destructor returns the buffer to the stream.
 class Loan {
 public:
     Loan(std::shared_ptr<V4l2Stream> stream, int index)
@@ -49,8 +46,9 @@ V4l2Layout negotiated(const V4l2Device& device, const V4l2Wish& wish) {
     if (wish.size.width < 1 || wish.size.height < 1)
         throw std::runtime_error(device.path() + ": the picture size must be at least 1x1");
     if (!(wish.rateHz >= 0 && wish.rateHz <= 1e4))
-        throw std::runtime_error(fmt::format("{}: the frame rate of {} Hz is not in 0 to 10000 Hz",
-                                             device.path(), wish.rateHz));
+        throw std::runtime_error(
+            fmt::format("{}: the frame rate must be from 0 to 10000 Hz, not {} Hz", device.path(),
+                        wish.rateHz));
     return setFormat(device, chooseFormat(device, wish), wish.size);
 }
 
@@ -75,7 +73,8 @@ CameraV4l2::CameraV4l2(const CameraV4l2Options& options, V4l2Api& api) : options
             stream_->device().path(), stream_->buffers(), options.buffers));
     }
     wake_ = OwnedFd(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
-    if (wake_.get() < 0) throw std::runtime_error("an eventfd cannot be created");
+    if (wake_.get() < 0)
+        throw std::runtime_error("eventfd() failed: too many open files or no memory");
 }
 
 CameraV4l2::~CameraV4l2() {
@@ -96,8 +95,8 @@ void CameraV4l2::start() {
 void CameraV4l2::stop() {
     running_ = false;
     constexpr std::uint64_t kOne = 1;
-    // wake_ is written before the stream stops, because a thread that wakes up when the stream
-    // stops must find wake_ readable.
+    // wake_ is written before the stream stops, because wait() must find wake_ readable when the
+    // stopped device reports an error.
     static_cast<void>(!write(wake_.get(), &kOne, sizeof kOne));
     stream_->stop();
 }
@@ -113,12 +112,12 @@ std::optional<Frame> CameraV4l2::next(std::chrono::milliseconds timeout) {
         const auto filled = stream_->take();
         if (filled) {
             if (auto frame = frameOf(*filled)) return frame;
-            // Each waiting buffer is tried once. After that, the timeout ends the loop, because a
-            // driver may deliver broken pictures as fast as they are read.
+            // After each buffer was tried once, the timeout ends the loop. Otherwise a driver that
+            // delivers broken pictures without pause would keep the loop running.
             if (++broken >= stream_->buffers() && steady_clock::now() >= until) return std::nullopt;
         } else if (waited == Wait::Trouble) {
             // The device is not lost; otherwise take() would have thrown. Drivers also set POLLERR
-            // if no buffer was queued since the start, because all pictures are in use.
+            // while no buffer is queued, because all pictures are in use.
             if (steady_clock::now() >= until) return std::nullopt;
             std::this_thread::sleep_for(kTroublePause);
         }
@@ -127,15 +126,13 @@ std::optional<Frame> CameraV4l2::next(std::chrono::milliseconds timeout) {
 }
 
 CameraV4l2::Wait CameraV4l2::wait(steady_clock::time_point until) const {
-    // After stop(), the device reports an error, too. wake_ is readable by then and is checked
-    // first.
+    // wake_ is checked first, because the device also reports an error after stop().
     std::array<pollfd, 3> fds{pollfd{stream_->device().fd(), POLLIN, 0},
                               pollfd{wake_.get(), POLLIN, 0},
                               pollfd{stream_->givenBack(), POLLIN, 0}};
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - steady_clock::now());
     const int ready =
         poll(fds.data(), fds.size(), static_cast<int>(std::max<std::int64_t>(left.count(), 0)));
-    // If a signal interrupted poll(), take() checks whether there is a picture.
     if (ready < 0 && errno == EINTR) return Wait::Picture;
     if (ready <= 0 || fds[1].revents != 0) return Wait::Nothing;
     if (fds[0].revents == 0) return Wait::Buffer;
@@ -146,8 +143,7 @@ std::optional<Frame> CameraV4l2::frameOf(const V4l2Filled& filled) {
     const auto loan = std::make_shared<Loan>(stream_, filled.index);
     const bool whole = isWhole(filled);
     const auto time = timeOf(filled);
-    // A triggered camera has no frame rate, so the times of its frames do not show whether any were
-    // dropped.
+    // A triggered camera has no frame rate, so the times of its frames do not show drops.
     if (whole && time && options_.wish.rateHz > 0)
         drops_.add(*time, filled.sequence);
     else
@@ -169,7 +165,7 @@ std::optional<Frame> CameraV4l2::frameOf(const V4l2Filled& filled) {
         else
             out.emplace(view, *time, [loan] {});
     }
-    if (!out && copies_) {  // all buffers for copies are in use
+    if (!out && copies_) {
         drops_.lose();
         return refuse(nullptr);
     }
@@ -192,7 +188,7 @@ bool CameraV4l2::isWhole(const V4l2Filled& filled) const {
     if ((filled.flags & V4L2_BUF_FLAG_ERROR) != 0) return false;
     for (int p = 0; p < layout_.memoryPlanes; ++p) {
         const auto i = static_cast<std::size_t>(p);
-        // V4L2's bytesused, which is `bytes` here, includes the data offset.
+        // `bytes` (V4L2's bytesused) includes the data offset.
         const std::size_t room = stream_->memoryBytes(filled.index, p);
         if (filled.bytes[i] > room || filled.offset[i] >= filled.bytes[i] ||
             filled.bytes[i] - filled.offset[i] < layout_.bytes[i])
@@ -216,8 +212,8 @@ std::optional<Timestamp> CameraV4l2::timeOf(const V4l2Filled& filled) {
     return out;
 }
 
-// Returns the manual exposure, if the camera has one. V4L2's unit of exposure is 100 us. Drivers
-// use one of two names for the exposure control, and one of two for the automatic mode.
+// Returns the manual exposure, or 0 if it is not set. V4L2's unit is 100 us. Drivers use different
+// names for these controls.
 nanoseconds CameraV4l2::manualExposure() const {
     constexpr std::int64_t kMost = 100'000;
     for (const char* automatic : {"auto_exposure", "exposure_auto"})

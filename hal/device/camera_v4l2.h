@@ -20,39 +20,35 @@ namespace mfar {
 
 struct CameraV4l2Options {
     CameraWish device;  ///< path ("/dev/video0"), card name or bus
-    V4l2Wish wish;      ///< exact picture size; format and frame rate if wanted
-    /// Number of driver buffers, 2 to 32. It must be larger than the number of pictures in use at a
-    /// time.
+    V4l2Wish wish;
+    /// Number of driver buffers, 2 to 32. It must be larger than the number of pictures in use.
     int buffers = 6;
-    /// Time that is added to the driver's timestamps. Example: if the driver takes the timestamp at
-    /// the end of a frame, use minus the sensor's readout time.
+    /// Added to the driver's timestamps. If the driver takes the timestamp at the end of a frame,
+    /// use minus the sensor's readout time.
     std::chrono::nanoseconds timeOffset{0};
-    /// Names and values of controls, which are set in this order before the stream starts, see
+    /// Names and values of controls, set in this order before the stream starts, see
     /// V4l2Controls::set().
     std::vector<std::pair<std::string, std::string>> controls{};
 };
 
 /// A camera that is driven through V4L2 directly: a USB camera, the kernel's test driver vivid, or
 /// a board's camera that libcamera does not support.
-///
 ///     CameraV4l2 camera({.device = {"/dev/video0"}, .wish = {{640, 480}, 30}});
 ///     camera.start();
 ///     while (auto frame = camera.next(500ms)) ...
+/// Frames use the driver's buffers without a copy and may outlive the camera. Two exceptions: JPEG
+/// is decoded into separate buffers, and pictures are copied if the driver grants fewer buffers
+/// than requested and fewer than four. The next call of next() gives returned buffers back to the
+/// driver.
 ///
-/// Frames use the driver's buffers without a copy and may outlive the camera. There are two
-/// exceptions. JPEG is decoded into separate buffers. Pictures are copied if the driver grants
-/// fewer buffers than requested and fewer than four. The next call of next() gives returned buffers
-/// back to the driver.
-///
-/// Frame::time() is the driver's timestamp plus timeOffset. If the exposure is known (a manual
-/// exposure_time_absolute), it is moved to the middle of the exposure: half the exposure is added
-/// if the driver takes the timestamp at the start of the exposure, and subtracted if it takes it at
-/// the end of the frame. Buffers that the driver marks as broken, that are not full, or that have
-/// an implausible timestamp are counted and not delivered.
+/// Frame::time() is the middle of the exposure if the exposure is known (a manual
+/// exposure_time_absolute). It is computed from the driver's timestamp, which is at the start of
+/// the exposure or at the end of the frame, plus timeOffset. Broken or incomplete pictures and
+/// those with an implausible timestamp are counted and not delivered.
 ///
 /// The constructor throws std::runtime_error if the camera is not found or busy, if it does not
-/// offer the size (the message lists the offered sizes), or if a control is refused. next() throws
-/// DeviceLost if the device is lost; then a new CameraV4l2 must be created.
+/// offer the size, or if a control is refused. next() throws DeviceLost if the device is lost; then
+/// a new CameraV4l2 must be created.
 class CameraV4l2 final : public Camera {
 public:
     explicit CameraV4l2(const CameraV4l2Options& options, V4l2Api& api = kernelV4l2());
@@ -66,7 +62,6 @@ public:
     void stop() override;
     [[nodiscard]] bool ended() const override { return false; }
 
-    /// Returns the camera's controls. The reference is valid while the camera lives.
     [[nodiscard]] const V4l2Controls& controls() const { return *controls_; }
     [[nodiscard]] CameraCounters cameraCounters() const override;
     [[nodiscard]] std::vector<std::string> takeWarnings() override;
@@ -87,14 +82,14 @@ private:
     CameraInfo info_;
     std::shared_ptr<V4l2Stream> stream_;
     std::unique_ptr<V4l2Controls> controls_;
-    std::unique_ptr<JpegDecoder> decoder_;  // set if pictures arrive as JPEG
-    std::optional<FramePool> copies_;       // set if the driver grants too few buffers
-    OwnedFd wake_;                          // eventfd, readable after stop()
+    std::unique_ptr<JpegDecoder> decoder_;
+    std::optional<FramePool> copies_;
+    OwnedFd wake_;  // eventfd, readable after stop()
     std::atomic<bool> running_{false};
     std::chrono::nanoseconds exposure_{0};
     std::optional<Timestamp> last_;
     FrameDrops drops_;
-    mutable std::mutex countsMutex_;  ///< guards the following members
+    mutable std::mutex countsMutex_;
     CameraCounters counts_;
     std::vector<std::string> warnings_;
 };

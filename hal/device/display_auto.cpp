@@ -13,12 +13,9 @@
 namespace mfar {
 namespace {
 
-// Interval of the checks for added and removed devices. A new device is used at most this time and
-// one frame later.
 constexpr std::chrono::milliseconds kLookEvery{500};
-// A screen counts as working after it has shown this number of pictures. The first picture sets the
-// mode. The third waits until the second is on the screen, which proves that the screen shows new
-// pictures.
+// Number of pictures after which a screen counts as working. The first picture sets the mode. The
+// third waits until the second is on the screen, which proves that the screen shows new pictures.
 constexpr int kProven = 3;
 
 }  // namespace
@@ -52,7 +49,7 @@ void ScreenDisplay::show(const Picture& picture, Timestamp) {
     if (active_ == nullptr) {
         if (picture.isOnHost()) return;
         if (scaler_) scaler_->warmUp(picture.image());
-        // Without a screen, only this wait limits how many frames are queued for the GPU.
+        // Without a screen, only this wait limits the number of frames that are queued for the GPU.
         (void)gpu::finishWithin();
         return;
     }
@@ -62,14 +59,12 @@ void ScreenDisplay::show(const Picture& picture, Timestamp) {
         failed_ = nullptr;
         if (shown_ == kProven) fault_.clear();
     } catch (const gpu::GlError&) {
-        throw;  // the GPU is at fault, not the screen
+        throw;
     } catch (const std::runtime_error& error) {
         lose(error.what());
     }
 }
 
-// While a screen has shown fewer than kProven pictures, an unchanged picture is shown again, so
-// that the screen comes to count as working.
 void ScreenDisplay::showAgain(const Picture& picture, Timestamp time) {
     refresh();
     if (active_ == nullptr || shown_ < kProven) show(picture, time);
@@ -89,8 +84,8 @@ void ScreenDisplay::lose(const std::string& why) {
     active_ = nullptr;
 }
 
-// While a screen works and no device has changed, only that screen is checked. The check of another
-// screen would open its device.
+// While a screen works and no device has changed, only that screen is checked, because checking
+// another screen opens its device.
 Screen* ScreenDisplay::look(bool changed) {
     if (active_ != nullptr && !changed && active_->look(false) == Screen::Presence::Ready)
         return active_;
@@ -102,8 +97,8 @@ Screen* ScreenDisplay::look(bool changed) {
         if (presence != Screen::Presence::Absent) holder = &screen;
         if (presence == Screen::Presence::Ready) ready = &screen;
     };
-    // If a device has no connected monitor, it is held open until a monitor is connected. The
-    // devices after it in the list are not checked, because nobody would notice pictures there.
+    // A device without a connected monitor is held open until a monitor is connected. Later devices
+    // in the list are not checked, because nobody would notice pictures there.
     for (const auto& screen : screens_)
         if (holder == nullptr && screen.get() != failed_) ask(*screen);
     if (holder == nullptr && failed_ != nullptr) ask(*failed_);
@@ -133,8 +128,6 @@ std::optional<ScreenPicture> ScreenDisplay::lastShown() const {
 
 std::unique_ptr<ScreenDisplay> openScreen(std::string_view spec) {
     const ScreenSpec words = parseScreenSpec(spec);
-    // All screens share one scaler, because compiling its shader is slow and a new screen should
-    // show a picture at once.
     auto scaler = std::make_unique<ScreenScaler>();
     std::vector<std::unique_ptr<Screen>> screens;
     if (words.kind != ScreenSpec::Kind::Fbdev)

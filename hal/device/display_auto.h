@@ -13,11 +13,11 @@
 namespace mfar {
 
 /// A display whose screen may be connected, disconnected or changed at any time. Without a screen,
-/// show() only waits for the GPU. A new screen shows the picture within a second. Devices are tried
-/// in a fixed order. A device that could not show its first pictures is tried last.
+/// show() only waits for the GPU. A new screen shows the picture within a second. Devices are
+/// checked in a fixed order. A device that could not show its first pictures is checked last.
 ///
-/// A missing screen never ends a run. name() reports a missing device, a missing permission or a
-/// driver that is too old. Its text changes over time, for example:
+/// A missing screen never ends a run. name() reports the screen or the reason why there is none,
+/// for example:
 ///   "kms:card0,HDMI-A-1,1280x720@60, GBM with fences"
 ///   "no screen yet (kms: there is no /dev/dri/card0; fbdev: there is no /dev/fb0)"
 class ScreenDisplay final : public Display {
@@ -25,10 +25,9 @@ public:
     using Clock = std::function<Timestamp()>;
     using Events = std::function<bool()>;
 
-    /// `scaler` draws the pictures of all screens. `screens` are in order of preference. `changed`
-    /// returns whether a device was added, removed or changed since its last call. If `changed`
-    /// always returns false, lost and new screens are still noticed, but changes of a screen's mode
-    /// are not.
+    /// `screens` are in order of preference; `scaler` draws the pictures of all of them. `changed`
+    /// returns true if a device was added, removed or changed since its last call. If it always
+    /// returns false, only changes of a screen's mode are missed.
     ScreenDisplay(std::unique_ptr<ScreenScaler> scaler,
                   std::vector<std::unique_ptr<Screen>> screens, Clock clock, Events changed);
     ScreenDisplay(const ScreenDisplay&) = delete;
@@ -45,10 +44,9 @@ public:
     /// a screen has shown pictures again.
     [[nodiscard]] std::optional<std::string> fault() const override;
 
-    /// Returns the picture that the last show() sent to the screen, in the screen's size and with
-    /// its black borders. Returns nothing without a screen. The picture equals a screenshot of a
-    /// screen with 24 or 32 bits per pixel. A screen with 16 bits shows only the upper 5, 6 and 5
-    /// bits of its red, green and blue. Waits for the GPU.
+    /// Returns the picture that the last show() sent to the screen, with its black borders. Returns
+    /// nothing without a screen. Waits for the GPU. A screen with 16 bits per pixel shows only the
+    /// upper 5, 6 and 5 bits of red, green and blue.
     [[nodiscard]] std::optional<ScreenPicture> lastShown() const override;
 
 private:
@@ -57,14 +55,14 @@ private:
     void lose(const std::string& why);
 
     std::unique_ptr<ScreenScaler> scaler_;
-    std::vector<std::unique_ptr<Screen>> screens_;  // the screens use scaler_
+    std::vector<std::unique_ptr<Screen>> screens_;
     Clock clock_;
     Events changed_;
     Screen* active_ = nullptr;
-    Screen* failed_ = nullptr;  // the screen that could not show its first pictures
-    int shown_ = 0;             // number of pictures that active_ has shown; counts to kProven
+    Screen* failed_ = nullptr;
+    int shown_ = 0;
     std::optional<Timestamp> lookedAt_;
-    std::string fault_;  // why the last screen was lost; empty after kProven new pictures
+    std::string fault_;  // reason why the last screen was lost; empty after kProven new pictures
 };
 
 /// Opens a screen. `spec` is "auto" (KMS, or a framebuffer device if KMS cannot be used),

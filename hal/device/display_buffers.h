@@ -8,7 +8,6 @@
 
 namespace mfar {
 
-/// How the pixels of a picture get to the screen.
 enum class ScanoutMethod {
     GbmFenced,  ///< the GPU draws into the screen's memory; the kernel waits for the GPU's fence
     Gbm,        ///< the GPU draws into the screen's memory; this process waits for the GPU
@@ -16,15 +15,13 @@ enum class ScanoutMethod {
 };
 [[nodiscard]] const char* name(ScanoutMethod method);
 
-/// Buffers of the screen's size that the screen can show. They are used in turn. All calls must
-/// come from one thread. For each picture, begin() and complete() are called. The picture must be
-/// on the screen before the next call of complete().
+/// Buffers of the screen's size, which the screen shows in turn. All calls must come from one
+/// thread. For each picture, begin() and complete() are called.
 class ScanoutBuffers {
 public:
     struct Ready {
-        std::uint32_t framebuffer;  ///< DRM framebuffer id
-        /// Fence that is signalled when the GPU has drawn the picture. Invalid: the picture is
-        /// drawn already.
+        std::uint32_t framebuffer;
+        /// Signalled when the GPU has drawn the picture. Invalid: the picture is already drawn.
         OwnedFd fence;
     };
 
@@ -37,16 +34,14 @@ public:
     /// Releases all GL objects, see Display::releaseGl(). After that, begin() must not be called.
     /// The screen keeps its picture.
     virtual void releaseGl() = 0;
-    /// Returns the picture of the last begin() as the screen shows it.
     [[nodiscard]] virtual ScreenPicture last() const = 0;
 };
 
-/// Allocates buffers for a ScanoutMethod. Throws std::runtime_error if the card or the current GL
-/// context does not support the method. `scaler` must outlive the buffers.
+/// Throws std::runtime_error if the card or the current GL context does not support the method.
+/// `scaler` must outlive the buffers.
 [[nodiscard]] std::unique_ptr<ScanoutBuffers>
 makeScanoutBuffers(const DrmCard& card, Size size, ScanoutMethod method, ScreenScaler& scaler);
 
-/// Allocates two DRM dumb buffers, which every driver supports.
 [[nodiscard]] std::unique_ptr<ScanoutBuffers> makeDumbBuffers(const DrmCard& card, Size size,
                                                               ScreenScaler& scaler);
 /// Allocates three GBM buffers and imports them into the EGL display of the current GL context. The
@@ -54,10 +49,8 @@ makeScanoutBuffers(const DrmCard& card, Size size, ScanoutMethod method, ScreenS
 [[nodiscard]] std::unique_ptr<ScanoutBuffers> makeGbmBuffers(const DrmCard& card, Size size,
                                                              bool fences, ScreenScaler& scaler);
 
-/// A DRM framebuffer with one linear XRGB8888 plane. The destructor removes it.
 class DrmFramebuffer {
 public:
-    /// Throws std::runtime_error if the driver refuses the buffer.
     DrmFramebuffer(int fd, Size size, std::uint32_t handle, std::uint32_t pitch);
     DrmFramebuffer(const DrmFramebuffer&) = delete;
     DrmFramebuffer& operator=(const DrmFramebuffer&) = delete;

@@ -56,7 +56,6 @@ Connector connectorOf(int fd, std::uint32_t id, bool probe) {
     return Connector(probe ? drmModeGetConnector(fd, id) : drmModeGetConnectorCurrent(fd, id));
 }
 
-// Returns the CRTC that already drives the connector, e.g. for a console; 0: there is none.
 std::uint32_t currentCrtc(int fd, const drmModeConnector& connector) {
     if (connector.encoder_id == 0) return 0;
     const Encoder encoder(drmModeGetEncoder(fd, connector.encoder_id));
@@ -77,9 +76,9 @@ bool isMaster(int fd) {
     return drmIsMaster(fd) != 0 || drmSetMaster(fd) == 0;
 }
 
-// If this process is DRM master of a card, drops this role and returns true. Mesa's software
-// renderer opens the card if it may not open a render node. If it opens the card first, the kernel
-// makes it DRM master, although it does not need that role.
+// Drops this process's role as DRM master of a card and returns true if it had the role. Mesa's
+// software renderer may have opened the card first in this process. The kernel then made the
+// process DRM master, although the renderer does not need that role.
 bool dropMasterOfThisProcess(const std::string& path) {
     struct stat card{};
     bool dropped = false;
@@ -152,7 +151,7 @@ bool waitForFlip(int fd, bool& pending, std::chrono::milliseconds limit) {
         if (count < 0 && errno == EINTR) continue;
         const bool told = count > 0 && (waiting.revents & POLLIN) != 0;
         if (!told || drmHandleEvent(fd, &events) != 0) return false;
-        // Events of other commits do not extend the wait beyond `limit`.
+        // Events of other commits must not extend the wait beyond `limit`.
         if (pending && left.count() <= 0) return false;
     }
     return true;
@@ -174,12 +173,12 @@ std::uint32_t DrmProperties::id(std::string_view name) const {
 }
 
 DrmCard::DrmCard(const std::string& path) : path_(path), fd_(openCard(path)) {
-    // A process without privileges becomes DRM master only if it opens a card that has no master.
-    // So after this process's own role was dropped, the card is opened again.
+    // A process without privileges becomes DRM master only when it opens a card that has no master.
+    // So after dropping the role, the card is opened again.
     if (!isMaster(fd()) && dropMasterOfThisProcess(path)) fd_ = openCard(path);
     const Resources all = resources(fd());
     if (!all || all->count_connectors == 0)
-        throw std::runtime_error(path + ": has no connectors, this GPU only renders");
+        throw std::runtime_error(path + ": this GPU has no connectors for screens");
     if (drmSetClientCap(fd(), DRM_CLIENT_CAP_ATOMIC, 1) != 0)
         throw std::runtime_error(
             path + ": its driver lacks atomic mode setting, which display \"kms\" needs");

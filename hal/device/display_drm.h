@@ -17,30 +17,27 @@
 
 namespace mfar {
 
-/// Returns the refresh rate [Hz], or 0 if the mode has none. It is computed from the mode's timing,
-/// because the mode's `vrefresh` is rounded.
+/// Returns the refresh rate [Hz] from the mode's timing, because the mode's `vrefresh` is rounded.
+/// Returns 0 if the mode has no rate.
 [[nodiscard]] double refreshHz(const drmModeModeInfo& mode);
 
-/// Chooses a connector's mode. If modes have the wanted size, a progressive one is preferred to an
-/// interlaced one; then the one with the nearest rate (at most 0.5 Hz away), or with the highest
-/// rate if the wish has no rate. If no mode fulfils the wish, the preferred mode is chosen, or else
-/// the first. Modes without a rate, or with a width or height that is not from 1 to 16384 pixels,
-/// are skipped. Returns nothing if no mode is left.
+/// Chooses a connector's mode. Among modes of the wanted size, progressive ones are preferred, then
+/// the nearest rate (at most 0.5 Hz away), or the highest rate if the wish has none. If no mode
+/// fulfils the wish, the preferred mode or else the first is chosen. Modes without a rate or with a
+/// side outside 1 to 16384 pixels are skipped. Returns nothing if no mode is left.
 [[nodiscard]] std::optional<drmModeModeInfo> chooseMode(std::span<const drmModeModeInfo> modes,
                                                         const std::optional<ModeWish>& wish);
 [[nodiscard]] bool fulfils(const drmModeModeInfo& mode, const ModeWish& wish);
 
-/// Waits until the picture of the last commit is on the screen. The address of `pending` must have
-/// been passed to that commit as user data; the event of the commit sets `pending` to false.
-/// Returns false if the wait takes longer than `limit` or if the device is lost.
+/// Waits until the picture of the last commit is on the screen. That commit must have got the
+/// address of `pending` as user data; its event sets `pending` to false. Returns false after
+/// `limit` or if the device is lost.
 [[nodiscard]] bool waitForFlip(int fd, bool& pending, std::chrono::milliseconds limit);
 
-/// The properties of one KMS object: finds a property's id by its name.
 class DrmProperties {
 public:
     DrmProperties() = default;
     DrmProperties(int fd, std::uint32_t object, std::uint32_t type);
-    /// Returns a property's id. Throws std::runtime_error if the driver does not have the property.
     [[nodiscard]] std::uint32_t id(std::string_view name) const;
     [[nodiscard]] bool has(std::string_view name) const { return ids_.find(name) != ids_.end(); }
 
@@ -48,7 +45,6 @@ private:
     std::map<std::string, std::uint32_t, std::less<>> ids_;
 };
 
-/// A connected monitor with its mode, and the CRTC and primary plane that can drive it.
 struct DrmOutput {
     std::string connectorName;
     drmModeModeInfo mode{};
@@ -60,17 +56,15 @@ struct DrmOutput {
 /// A DRM device with connectors and atomic mode setting. This process is its DRM master.
 class DrmCard {
 public:
-    /// Throws std::runtime_error with the reason if this device cannot be used.
     explicit DrmCard(const std::string& path);
 
     [[nodiscard]] int fd() const { return fd_.get(); }
     [[nodiscard]] const std::string& path() const { return path_; }
-    /// Returns the wanted connector, or the first connected one, with its mode. Returns nothing if
-    /// no monitor is connected. If `probe` is true, the driver queries the monitor, which may take
-    /// tens of milliseconds. Otherwise the driver reports the last state that it knows. Throws
-    /// std::runtime_error if the device is lost.
+    /// Returns the wanted connector, or the first connected one. Returns nothing if no monitor is
+    /// connected. With `probe`, the driver queries the monitor, which may take tens of
+    /// milliseconds; otherwise it reports the last known state. Throws std::runtime_error if the
+    /// device is lost.
     [[nodiscard]] std::optional<DrmOutput> findOutput(const ScreenSpec& spec, bool probe) const;
-    /// Returns the connectors and their states, e.g. "HDMI-A-1 disconnected, ...".
     [[nodiscard]] std::string connectors() const;
 
 private:

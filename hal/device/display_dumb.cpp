@@ -19,7 +19,6 @@ std::runtime_error refused(const char* what) {
     return std::runtime_error(fmt::format("{}: {}", what, std::strerror(errno)));
 }
 
-/// A dumb buffer in the card's memory, mapped for the CPU.
 class DumbMemory {
 public:
     DumbMemory(int fd, Size size) : fd_(fd) {

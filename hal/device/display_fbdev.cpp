@@ -15,7 +15,7 @@
 namespace mfar {
 namespace {
 
-constexpr int kDevices = 32;  // the kernel's largest number of framebuffer devices (FB_MAX)
+constexpr int kDevices = 32;
 
 std::string framebufferFault(const std::string& path) {
     if (errno == EACCES) return path + ": no permission, the user must be in group video";
@@ -27,8 +27,7 @@ bool readInfo(int fd, fb_var_screeninfo& var, fb_fix_screeninfo& fix) {
 }
 
 PixelChannel channel(const fb_bitfield& field) {
-    // A value above 255 is invalid. It is clamped, because plain narrowing to int could make it
-    // valid.
+    // Clamped, because narrowing an invalid value to int could make it valid.
     const auto bounded = [](std::uint32_t bits) { return static_cast<int>(std::min(bits, 255U)); };
     return {field.msb_right == 0 ? bounded(field.offset) : -1, bounded(field.length)};
 }
@@ -124,7 +123,6 @@ void FbdevScreen::open(const std::string& path) {
     shown_ = false;
 }
 
-// Returns whether the path still names the same device and the device's geometry has not changed.
 bool FbdevScreen::unchanged() const {
     struct stat byName{}, byFd{};
     if (stat(path_.c_str(), &byName) != 0 || fstat(fd_.get(), &byFd) != 0 ||
@@ -133,12 +131,12 @@ bool FbdevScreen::unchanged() const {
     fb_var_screeninfo var{};
     fb_fix_screeninfo fix{};
     if (!readInfo(fd_.get(), var, fix)) return false;
-    // The current pan offset is not compared, because this object changes it.
+    // The pan offset is not compared, because this object changes it.
     var.yoffset = var_.yoffset;
     try {
         return checkedGeometry(var, fix) == geometry_;
     } catch (const std::runtime_error&) {
-        return false;  // look() will then open the device again and report the fault
+        return false;
     }
 }
 
@@ -171,8 +169,7 @@ void FbdevScreen::show(const Picture& picture) {
     if (!shown_) before_.assign(mapping_->data(), mapping_->data() + geometry_.bytes);
     shown_ = true;
     reader_->begin(picture);
-    // If the device can pan, the last pan has taken effect after the vertical blank. So the other
-    // page is hidden now.
+    // After the vertical blank, the last pan has taken effect, so the other page is hidden.
     waitForBlank();
     page_ = 1 - page_;
     const std::size_t page = geometry_.page0 + static_cast<std::size_t>(page_) * geometry_.stride *

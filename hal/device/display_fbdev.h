@@ -13,29 +13,29 @@
 namespace mfar {
 
 /// The validated layout of a framebuffer device's memory. All rows of all pages lie inside it.
+/// `visible` and `page0` are offsets [bytes] of the first visible pixel: now, and after panning to
+/// the top.
 struct FbGeometry {
     Size size;
     PixelLayout layout;
-    std::size_t stride = 0;   ///< bytes from one row to the next
-    std::size_t bytes = 0;    ///< size of the whole memory [bytes]
-    std::size_t visible = 0;  ///< bytes from the memory's start to the first visible pixel
-    /// Bytes from the memory's start to the first pixel that is visible after panning to the top.
+    std::size_t stride = 0;
+    std::size_t bytes = 0;
+    std::size_t visible = 0;
     std::size_t page0 = 0;
     int pages = 1;  ///< 2: a second page lies below the first
     bool operator==(const FbGeometry&) const = default;
 };
 
-/// Validates the driver's description of its memory. Throws std::runtime_error if the format is not
-/// true colour with 16, 24 or 32 bits, or if the numbers contradict each other.
+/// Throws std::runtime_error if the format is not true colour with 16, 24 or 32 bits, or if the
+/// driver's numbers contradict each other.
 [[nodiscard]] FbGeometry checkedGeometry(const fb_var_screeninfo& var,
                                          const fb_fix_screeninfo& fix);
 
 /// A Linux framebuffer device, /dev/fbN. The GPU scales pictures that are textures; the CPU scales
-/// pictures on the host. In both cases, the CPU copies the result to the screen: after the vertical
-/// blank if the driver reports it, and into the hidden page if the driver can pan. close() restores
-/// the screen's previous content. A console's text cursor stays visible on the screen, because
-/// hiding it needs privileges that this program does not have; the kernel option
-/// vt.global_cursor_default=0 hides it.
+/// pictures on the host. The CPU copies the result to the screen: into the hidden page if the
+/// driver can pan, and after the vertical blank if the driver reports it. close() restores the
+/// screen's previous content. A console's text cursor stays visible, because hiding it needs
+/// privileges; the kernel option vt.global_cursor_default=0 hides it.
 class FbdevScreen final : public Screen {
 public:
     /// `path`: e.g. "/dev/fb0"; empty: the first usable device. `scaler` must outlive this object.
@@ -72,12 +72,12 @@ private:
     std::string wanted_;
     ScreenScaler& scaler_;
     std::string fault_;
-    std::string path_;  // path of the open device
+    std::string path_;
     OwnedFd fd_;
     fb_var_screeninfo var_{};
     FbGeometry geometry_;
     std::unique_ptr<Mapping> mapping_;
-    std::vector<std::uint8_t> before_;  // content of the memory before the first picture
+    std::vector<std::uint8_t> before_;
     std::unique_ptr<ScreenReader> reader_;
     int page_ = 0;
     bool pans_ = false;

@@ -19,9 +19,8 @@ namespace {
 using GbmDevice = std::unique_ptr<gbm_device, FreedBy<gbm_device_destroy>>;
 using GbmBuffer = std::unique_ptr<gbm_bo, FreedBy<gbm_bo_destroy>>;
 
-// Returns whether a renderer is software. GBM buffers are not used with a software renderer,
-// because it is fastest in its own memory. Mesa's software renderer also crashes if it cannot map
-// an imported buffer, e.g. on the render node of a card without a GPU.
+// GBM buffers are not used with a software renderer, because it is fastest in its own memory.
+// Mesa's software renderer also crashes if it cannot map an imported buffer.
 bool isSoftware(std::string_view renderer) {
     return renderer.find("llvmpipe") != renderer.npos ||
            renderer.find("softpipe") != renderer.npos || renderer.find("swrast") != renderer.npos;
@@ -36,7 +35,6 @@ const char* eglExtensions(EGLDisplay display) {
     return display != EGL_NO_DISPLAY ? eglQueryString(display, EGL_EXTENSIONS) : nullptr;
 }
 
-/// The EGL and GL functions that GBM buffers need. The constructor throws if one is missing.
 struct Importer {
     EGLDisplay display = eglGetCurrentDisplay();
     bool modifiers = false;
@@ -65,8 +63,7 @@ struct Importer {
     }
 };
 
-/// Creates fences that are signalled when the GPU has finished drawing. The constructor throws if
-/// EGL does not support such fences.
+/// The constructor throws if EGL does not support fences with file descriptors.
 class NativeFences {
 public:
     explicit NativeFences(EGLDisplay display) : display_(display) {
@@ -76,7 +73,6 @@ public:
         Importer::load(destroy_, "eglDestroySyncKHR");
         Importer::load(dup_, "eglDupNativeFenceFDANDROID");
     }
-    /// Returns a fence that is signalled when the GPU has executed all commands so far.
     [[nodiscard]] OwnedFd insert() const {
         const EGLSyncKHR sync = create_(display_, EGL_SYNC_NATIVE_FENCE_ANDROID, nullptr);
         if (sync == EGL_NO_SYNC_KHR) throw std::runtime_error("EGL cannot create a fence");
@@ -94,8 +90,8 @@ private:
     PFNEGLDUPNATIVEFENCEFDANDROIDPROC dup_ = nullptr;
 };
 
-/// Allocates a buffer with a linear layout, which is supported by the card that drives the screen
-/// and by a separate GPU.
+/// The layout is linear, because both the card that drives the screen and a separate GPU support
+/// it.
 GbmBuffer allocate(gbm_device* device, Size size) {
     GbmBuffer buffer(gbm_bo_create(device, static_cast<std::uint32_t>(size.width),
                                    static_cast<std::uint32_t>(size.height), GBM_FORMAT_XRGB8888,
@@ -104,7 +100,6 @@ GbmBuffer allocate(gbm_device* device, Size size) {
     return buffer;
 }
 
-/// A buffer that the GPU draws into and the screen shows.
 class GbmTarget {
 public:
     GbmTarget(const Importer& importer, gbm_device* device, int fd, Size size)
@@ -175,8 +170,8 @@ public:
         if (fences) fences_.emplace(importer_.display);
     }
 
-    // Of the three buffers, one is on the screen, and another one may wait for the vertical blank.
-    // The third is free.
+    // Of the three buffers, one is on the screen, one may wait for the vertical blank, and the
+    // third is free.
     void begin(const Picture& picture) override {
         const KeptTarget kept;
         current_ = (current_ + 1) % targets_.size();

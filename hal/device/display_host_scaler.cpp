@@ -8,14 +8,14 @@
 namespace mfar {
 namespace {
 
-constexpr std::uint32_t kBlack = 0xff000000;  // bytes R G B A: 0 0 0 255
+constexpr std::uint32_t kBlack = 0xff000000;
 constexpr int kFixedOne = 65535;
-// A picture is divided into this many strips per thread. If a thread is interrupted, the other
-// threads take its remaining strips.
+// Number of strips of a picture per thread. If a thread is interrupted, the other threads process
+// its remaining strips.
 constexpr int kStripsPerThread = 2;
 
-// Computes sum += pixel * weight in 8.8 fixed point. The pixel is the upper byte of a 16-bit
-// factor, and the upper 16 bits of the product are used. SIMD units have one instruction for this.
+// Computes sum += pixel * weight in 8.8 fixed point. SIMD units have one instruction for the upper
+// 16 bits of a 16-bit product.
 void addRow(const std::uint8_t* __restrict pixels, std::uint16_t weight,
             std::uint16_t* __restrict sum, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
@@ -32,8 +32,7 @@ void toReal(const std::uint16_t* __restrict sum, float* __restrict real, std::si
 
 }  // namespace
 
-// Pixels outside the picture count as copies of the pixel at the edge: their weight is added to the
-// edge pixel's weight.
+// Weights of pixels outside the picture are added to the weight of the edge pixel.
 HostScaler::Axis::Axis(int from, int to) {
     const double scale = static_cast<double>(from) / to, width = std::max(scale, 1.0);
     footprints.reserve(static_cast<std::size_t>(to));
@@ -46,8 +45,8 @@ HostScaler::Axis::Axis(int from, int to) {
         for (int p = first; p <= last; ++p) {
             const double begin = p == first ? lo : p, end = p == last ? hi : p + 1.0;
             weights.push_back(static_cast<float>((end - begin) / width));
-            // The running sums of the weights are rounded, not the weights themselves. So the
-            // weights add up to exactly kFixedOne.
+            // Rounds the running sums of the weights, so that the weights add up to exactly
+            // kFixedOne.
             const int upTo = static_cast<int>(std::lround((end - lo) / width * kFixedOne));
             fixed.push_back(static_cast<std::uint16_t>(upTo - before));
             before = upTo;
@@ -84,12 +83,12 @@ Rows<const std::uint32_t> HostScaler::scaled(const Rows<const std::uint32_t>& pi
     return out_.rows();
 }
 
-// First, the rows of the footprint are averaged. This gives a single row, which stays in the cache.
-// Second, the pixels along that row are averaged.
+// Averages the footprint's rows first, because the resulting single row stays in the cache. Then
+// averages pixels along that row.
 void HostScaler::scaleRow(const Rows<const std::uint32_t>& picture, int row, Line& line) {
     const Footprint& down = rows_.footprints[static_cast<std::size_t>(row)];
     // addRow() truncates each product, which loses half a unit on average. So the sums begin with
-    // the expected loss. It is limited to 255, so that the sums do not overflow.
+    // the expected loss, limited to 255 against overflow.
     std::ranges::fill(line.fixed, static_cast<std::uint16_t>(std::min(down.taps / 2, 255)));
     for (int tap = 0; tap < down.taps; ++tap)
         addRow(reinterpret_cast<const std::uint8_t*>(picture[down.first + tap]),
@@ -101,7 +100,8 @@ void HostScaler::scaleRow(const Rows<const std::uint32_t>& picture, int row, Lin
         const Footprint& across = columns_.footprints[static_cast<std::size_t>(x)];
         const float* pixel = &line.real[static_cast<std::size_t>(across.first) * 4];
         const float* weight = &columns_.weights[across.begin];
-        std::array<float, 4> sum{128, 128, 128, 128};  // half a grey level in 8.8, for rounding
+        std::array<float, 4> sum{128, 128, 128, 128};  // half a grey level in 8.8 fixed point, for
+                                                       // rounding
         for (int tap = 0; tap < across.taps; ++tap, pixel += 4)
             for (std::size_t k = 0; k < 4; ++k)
                 sum[k] += weight[tap] * pixel[k];

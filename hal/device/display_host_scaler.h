@@ -12,35 +12,33 @@ namespace mfar {
 
 /// Scales pictures on the CPU, as ScreenScaler does on the GPU. The aspect ratio is kept, with
 /// black borders (letterbox()). A picture is reduced by averaging areas and enlarged by linear
-/// interpolation. A picture that fits without scaling is copied unchanged. The first scaling starts
-/// threads.
+/// interpolation. The first scaling starts threads.
 class HostScaler {
 public:
     explicit HostScaler(Size screen) : screen_(screen) {}
 
-    /// Returns the picture in the screen's size. The returned rows are valid until the next call.
-    /// Alpha is undefined. If the picture has the screen's size, it is returned itself. Width and
-    /// height must be positive.
+    /// Returns the picture in the screen's size, valid until the next call. Alpha is undefined. A
+    /// picture of the screen's size is returned without a copy. Width and height must be positive.
     [[nodiscard]] Rows<const std::uint32_t> scaled(const Rows<const std::uint32_t>& picture);
 
 private:
     /// The rows (or columns) of the picture whose weighted mean is one row (or column) of the
-    /// screen.
+    /// screen. All of them are inside the picture. `begin` is the index of their first weight in
+    /// `weights`.
     struct Footprint {
-        int first = 0;        ///< index of the first row or column
-        int taps = 0;         ///< number of rows or columns, all inside the picture
-        std::size_t begin{};  ///< index of the first weight in `weights`
+        int first = 0;
+        int taps = 0;
+        std::size_t begin{};
     };
     struct Axis {
         Axis() = default;
         Axis(int from, int to);
         std::vector<Footprint> footprints;
-        /// The weights of all footprints, one after the other. Each footprint's weights add up
-        /// to 1.
+        /// Weights of all footprints, one after the other. The weights of one footprint add up to
+        /// 1, or to 65535 as integers.
         std::vector<float> weights;
-        std::vector<std::uint16_t> fixed;  ///< the same weights as integers that add up to 65535
+        std::vector<std::uint16_t> fixed;
     };
-    /// Temporary memory that a thread uses for one row.
     struct Line {
         explicit Line(int width)
             : fixed(static_cast<std::size_t>(width) * 4),

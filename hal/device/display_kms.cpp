@@ -27,7 +27,6 @@ std::vector<std::string> cardPaths() {
     return paths;
 }
 
-/// Owns a property blob that contains a mode. The kernel requires modes in this form.
 class ModeBlob {
 public:
     ModeBlob(int fd, const drmModeModeInfo& mode) : fd_(fd) {
@@ -45,11 +44,10 @@ private:
     std::uint32_t id_ = 0;
 };
 
-// drmModeAtomicAddProperty() fails only if memory is exhausted.
 void add(drmModeAtomicReq& request, std::uint32_t object, std::uint32_t property,
          std::uint64_t value) {
     if (drmModeAtomicAddProperty(&request, object, property, value) < 0)
-        throw std::runtime_error("a request to the display driver cannot be built");
+        throw std::runtime_error("no memory for a request to the display driver");
 }
 
 bool sameOutput(const DrmOutput& a, const DrmOutput& b) {
@@ -65,7 +63,6 @@ KmsScreen::~KmsScreen() {
     close();
 }
 
-// Opens a card that has a connected monitor. If there is none, keeps the first usable card open.
 void KmsScreen::openCard() {
     const std::vector<std::string> paths =
         spec_.device.empty() ? cardPaths() : std::vector{spec_.device};
@@ -88,7 +85,8 @@ Screen::Presence KmsScreen::look(bool thorough) {
         if (!card_) return Presence::Absent;
         auto found = card_->findOutput(spec_, thorough);
         if (!found && thorough && spec_.device.empty() && cardPaths().size() > 1) {
-            close();  // a monitor may have been connected to another card
+            // A monitor may have been connected to another card.
+            close();
             openCard();
             if (!card_) return Presence::Absent;
             found = card_->findOutput(spec_, thorough);
@@ -126,7 +124,6 @@ void KmsScreen::startOutput(const Picture& picture) {
     std::string faults;
     for (const ScanoutMethod method :
          {ScanoutMethod::GbmFenced, ScanoutMethod::Gbm, ScanoutMethod::Dumb}) {
-        // A picture on the host needs a dumb buffer, into which the CPU writes.
         if (picture.isOnHost() && method != ScanoutMethod::Dumb) continue;
         try {
             if (method == ScanoutMethod::GbmFenced) (void)properties_.plane.id("IN_FENCE_FD");
@@ -166,7 +163,7 @@ void KmsScreen::addModeSet(drmModeAtomicReq& request, std::uint32_t modeBlob) co
 
 void KmsScreen::commit(ScanoutBuffers::Ready ready, Commit kind) {
     const Request request(drmModeAtomicAlloc());
-    if (!request) throw std::runtime_error("a request to the display driver cannot be built");
+    if (!request) throw std::runtime_error("no memory for a request to the display driver");
     add(*request, output_->plane, properties_.plane.id("FB_ID"), ready.framebuffer);
     if (ready.fence)
         add(*request, output_->plane, properties_.plane.id("IN_FENCE_FD"),
@@ -187,7 +184,8 @@ void KmsScreen::commit(ScanoutBuffers::Ready ready, Commit kind) {
 
 void KmsScreen::waitForLastFlip() {
     if (waitForFlip(card_->fd(), flipPending_, kFlipTimeout)) return;
-    flipPending_ = false;  // the event may never come, so it must not be waited for again
+    // The event may never come, so later calls must not wait for it.
+    flipPending_ = false;
     throw std::runtime_error(
         fmt::format("{}, {}: the display driver did not show the new picture in time",
                     card_->path(), output_->connectorName));
@@ -199,14 +197,13 @@ void KmsScreen::releaseGl() {
     left_ = std::move(buffers_);
 }
 
-// The picture of the console is restored before the buffers are freed, because freeing a visible
-// buffer turns the screen off. Errors are ignored, because a lost device refuses all requests.
+// The console's picture is restored before the buffers are freed, because freeing a visible buffer
+// turns the screen off. Errors are ignored, because a lost device refuses all requests.
 void KmsScreen::leaveOutput() {
     if ((buffers_ || left_) && output_) {
         try {
             waitForLastFlip();
         } catch (const std::runtime_error&) {
-            // The device is lost, so there is nothing to wait for.
         }
         if (saved_ && saved_->mode_valid != 0 && saved_->buffer_id != 0)
             drmModeSetCrtc(card_->fd(), saved_->crtc_id, saved_->buffer_id, saved_->x, saved_->y,

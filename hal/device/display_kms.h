@@ -6,9 +6,8 @@
 namespace mfar {
 
 /// A monitor on a DRM/KMS driver with atomic mode setting. show() waits until the previous picture
-/// is on the screen, so pictures are shown at most at the monitor's refresh rate. The first
-/// ScanoutMethod that the driver accepts is used. close() restores the picture that the screen
-/// showed before.
+/// is on the screen. The first ScanoutMethod that the driver accepts is used. close() restores the
+/// picture that the screen showed before.
 class KmsScreen final : public Screen {
 public:
     /// If `spec.device` is empty, the first card with a connected monitor is used, or else the
@@ -48,7 +47,7 @@ private:
     Properties properties_;
     SavedCrtc saved_;
     std::unique_ptr<ScanoutBuffers> buffers_;
-    /// The buffers from before releaseGl(). One of them is on the screen until buffers_ shows a
+    /// Buffers from before releaseGl(). One of them is on the screen until buffers_ shows a
     /// picture.
     std::unique_ptr<ScanoutBuffers> left_;
     ScanoutMethod method_ = ScanoutMethod::Dumb;

@@ -13,7 +13,7 @@ constexpr std::uint32_t ones(int bits) {
 /// Moves the bits of one colour from a pixel with 8 bits per colour to their position in the
 /// screen's pixel.
 struct Move {
-    int from, drop, to;  ///< bits to shift right, low bits to drop, bits to shift left
+    int from, drop, to;
 
     Move(int offset, PixelChannel channel)
         : from(offset), drop(8 - channel.length), to(channel.offset) {}
@@ -22,7 +22,8 @@ struct Move {
     }
 };
 
-/// Writes the lower `Bytes` bytes of a word. Compilers vectorise loops over this for 2 or 4 bytes.
+/// Writes the lower `Bytes` bytes of a word. Compilers vectorise loops over this function for 2 or
+/// 4 bytes.
 template <std::size_t Bytes>
 void store(std::uint32_t word, std::uint8_t* out) {
     if constexpr (Bytes == 2) {
@@ -47,7 +48,6 @@ void packRow(const std::uint8_t* __restrict pixels, int width, const PixelLayout
     }
 }
 
-// Converts a row of pixels with bytes R G B X to bytes B G R 255.
 void swapRow(const std::uint8_t* __restrict rgba, int width, std::uint8_t* __restrict out) {
     for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x) {
         std::uint32_t pixel = 0;
@@ -57,7 +57,6 @@ void swapRow(const std::uint8_t* __restrict rgba, int width, std::uint8_t* __res
     }
 }
 
-// Returns whether a screen's pixels have the bytes B G R X, the order in which the GPU writes.
 bool isBgra(const PixelLayout& layout) {
     return layout.bits == 32 && layout.red == PixelChannel{16, 8} &&
            layout.green == PixelChannel{8, 8} && layout.blue == PixelChannel{0, 8};

@@ -36,9 +36,9 @@ ScalePicture scaleParams(Size picture, Size screen, ScreenScaler::Order order) {
             .blueFirst = order == ScreenScaler::Order::Bgra ? 1 : 0};
 }
 
-// Returns how many pairs of texels cover the footprint of a screen pixel along a row. A footprint
-// that begins and ends inside a texel touches one texel more. Returns 0 if the picture is shown in
-// its own size, so that it is copied.
+// Returns the number of texel pairs that cover the footprint of a screen pixel along a row. A
+// footprint that begins and ends inside a texel touches one texel more. Returns 0 if the picture
+// needs no scaling.
 int pairsFor(const ScalePicture& p) {
     if (p.width == p.pictureWidth && p.height == p.pictureHeight) return 0;
     const float footprint = std::max(p.footprintX, p.footprintY);
@@ -131,7 +131,7 @@ GlImage ScreenScaler::uploaded(const Rows<const std::uint32_t>& rows) {
     return {upload_.id(), rows.size};
 }
 
-// Compiles the shaders. Mesa compiles a shader when it is first used, so a few pixels are drawn.
+// Mesa compiles a shader when it is first used, so a few pixels are drawn.
 void ScreenScaler::warmUp(const GlImage& picture) {
     if (copy_ || picture.size.width < 1 || picture.size.height < 1) return;
     const KeptTarget kept;
@@ -144,7 +144,6 @@ void ScreenScaler::warmUp(const GlImage& picture) {
     glFinish();
 }
 
-// Draws the picture into the framebuffer that is bound.
 void ScreenScaler::render(const GlImage& picture, Size screen, Order order) {
     if (sampler_ == 0) sampler_ = linearSampler();
     const ScalePicture params = scaleParams(picture.size, screen, order);

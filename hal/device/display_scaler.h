@@ -27,9 +27,8 @@ private:
 
 /// Draws pictures in the screen's size. The aspect ratio is kept, with black borders (letterbox()).
 /// A picture is reduced by averaging areas and enlarged by linear interpolation. A picture that
-/// fits without scaling is copied unchanged. The result depends only on the picture, its size and
-/// the screen's size. A picture on the host is uploaded first. From the first picture on, the GL
-/// context must exist until releaseGl().
+/// fits is copied unchanged. From the first picture on, the GL context must exist until
+/// releaseGl().
 class ScreenScaler {
 public:
     enum class Order { Rgba, Bgra };
@@ -39,13 +38,12 @@ public:
     ScreenScaler& operator=(const ScreenScaler&) = delete;
     ~ScreenScaler();
 
-    /// Draws the picture over all of `framebuffer`, which has the size `screen` and whose row 0 is
-    /// the top row. The framebuffer stays bound. Throws std::runtime_error for an empty picture.
+    /// Draws the picture over all of `framebuffer`, which has the size `screen` and stays bound.
+    /// Row 0 is the top row. Throws std::runtime_error for an empty picture.
     void draw(const Picture& picture, GLuint framebuffer, Size screen, Order order);
-    /// Deletes all GL objects, see Display::releaseGl().
     void releaseGl();
     /// Compiles the shaders that screens from 1280x720 to 1920x1080 will probably need, so that the
-    /// first picture is not delayed. Does nothing if the shaders are compiled already.
+    /// first picture is not delayed.
     void warmUp(const GlImage& picture);
 
 private:
@@ -61,12 +59,11 @@ private:
     gpu::Texture upload_;
 };
 
-/// Scales pictures for a screen whose memory the CPU writes. The GPU scales a texture, and the
-/// result is read back. The CPU scales a picture on the host, without GL. The caller's framebuffer
-/// bindings are restored. From the first texture on, the GL context must exist until releaseGl().
+/// Scales pictures for a screen whose memory the CPU writes. The GPU scales textures, which are
+/// then read back. The CPU scales pictures on the host, without GL. From the first texture on, the
+/// GL context must exist until releaseGl(). `scaler` must outlive this object.
 class ScreenReader {
 public:
-    /// `scaler` must outlive this object.
     ScreenReader(Size screen, ScreenScaler& scaler);
     ScreenReader(const ScreenReader&) = delete;
     ScreenReader& operator=(const ScreenReader&) = delete;
@@ -75,9 +72,9 @@ public:
     /// Starts to draw a texture and to read it back, without waiting. A picture on the host is
     /// scaled at once. Throws std::runtime_error for an empty picture.
     void begin(const Picture& picture);
-    /// Waits for the GPU and calls `take(const ImageView&)` with the pixels of the picture that was
-    /// passed to the last begin(). The pixels are Bgra8 with alpha 255, or Rgba8 for a picture on
-    /// the host. They are valid only during the call. `take` must not throw.
+    /// Waits for the GPU and calls `take(const ImageView&)` with the pixels of the last begin().
+    /// The pixels are Bgra8 with alpha 255, or Rgba8 for a picture on the host. They are valid only
+    /// during the call. `take` must not throw.
     template <class Take>
     void finish(Take take) {
         if (onHost_) {
@@ -88,10 +85,9 @@ public:
         take(map());
         unmap();
     }
-    /// Deletes all GL objects, see Display::releaseGl(). After that, last() must not be called
-    /// unless the last picture is on the host.
+    /// Deletes all GL objects. After that, last() must not be called unless the last picture is on
+    /// the host.
     void releaseGl() { target_.reset(); }
-    /// Returns a copy, with alpha 255, of the scaled picture of the last begin().
     [[nodiscard]] ScreenPicture last() const;
 
 private:
@@ -110,12 +106,11 @@ private:
 
     Size screen_;
     ScreenScaler& scaler_;
-    std::optional<Target> target_;  ///< created for the first texture
+    std::optional<Target> target_;
     HostScaler hostScaler_;
-    std::optional<Rows<const std::uint32_t>> onHost_;  ///< the last picture, if it is on the host
+    std::optional<Rows<const std::uint32_t>> onHost_;
 };
 
-/// Reads the pixels of a framebuffer back and returns them. Waits for the GPU.
 [[nodiscard]] ScreenPicture readFramebuffer(GLuint framebuffer, Size size, PixelFormat format);
 
 }  // namespace mfar

@@ -7,22 +7,21 @@
 
 namespace mfar {
 
-/// A device that drives a screen, such as KMS or fbdev. It may be absent, have no screen connected,
-/// or be lost at any time. All calls come from the thread of Display::show().
+/// A device that drives a screen, such as KMS or fbdev. It may be missing or lost at any time. All
+/// calls come from the thread of Display::show().
 class Screen {
 public:
     enum class Presence {
-        Absent,   ///< there is no usable device; the next one may be tried
+        Absent,
         Waiting,  ///< the device is held, but no screen is connected to it
-        Ready,    ///< show() may be called
+        Ready,
     };
 
     virtual ~Screen() = default;
 
-    /// Looks for the device. If the device is open already, checks whether it has changed. With
-    /// `thorough`, this includes slow queries such as reading the monitor's data, so use `thorough`
-    /// only after a change. If the device is missing, look() does not throw, but status() reports
-    /// it.
+    /// Looks for the device, or checks whether an open device has changed. `thorough` includes slow
+    /// queries such as reading the monitor's data, so use it only after a change. Does not throw
+    /// for a missing device.
     virtual Presence look(bool thorough) = 0;
     /// Returns the screen's size [px]. May be called only after look() returned Ready.
     [[nodiscard]] virtual Size size() const = 0;
@@ -30,15 +29,12 @@ public:
     /// look() returned Ready. Throws std::runtime_error if the screen is lost; then close() must be
     /// called.
     virtual void show(const Picture& picture) = 0;
-    /// Releases all GL objects, see Display::releaseGl(). The screen keeps its picture.
     virtual void releaseGl() = 0;
     /// Restores the device's previous state and releases it. Idempotent.
     virtual void close() = 0;
     /// Returns a text such as "kms:card0,HDMI-A-1,1280x720@60 ..." if the screen is ready,
     /// otherwise the reason why it is not ready.
     [[nodiscard]] virtual std::string status() const = 0;
-    /// Returns the picture that the last show() sent to the screen, with 8 bits per colour, even if
-    /// the screen shows fewer.
     [[nodiscard]] virtual std::optional<ScreenPicture> lastShown() const = 0;
 };
 

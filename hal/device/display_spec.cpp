@@ -12,7 +12,6 @@ namespace {
 
 constexpr double kMaxRateHz = 1000;
 
-// Parses the whole text as a number. Returns nothing if it is not a number.
 template <class T>
 std::optional<T> number(std::string_view text) {
     T value{};
@@ -42,8 +41,7 @@ std::optional<ModeWish> parseMode(std::string_view word) {
     return wish;
 }
 
-// Returns whether a word is the name of a connector, which consists of a type and a number:
-// "HDMI-A-1", "Virtual-1".
+// A connector's name consists of a type and a number: "HDMI-A-1", "Virtual-1".
 bool isConnector(std::string_view word) {
     const std::size_t dash = word.rfind('-');
     const auto nameChar = [](char c) {
@@ -64,7 +62,7 @@ void takeKmsWord(ScreenSpec& spec, std::string_view word) {
     } else {
         throw std::runtime_error(
             fmt::format("kms: \"{}\" is not a card (like card0), a connector (like HDMI-A-1) or a "
-                        "mode (like 1280x720@60), or the text has two of these",
+                        "mode (like 1280x720@60), or it is given twice",
                         word));
     }
 }
@@ -72,7 +70,7 @@ void takeKmsWord(ScreenSpec& spec, std::string_view word) {
 ScreenSpec parseKms(std::string_view options) {
     ScreenSpec spec{ScreenSpec::Kind::Kms, {}, {}, {}};
     while (!options.empty()) {
-        options.remove_prefix(1);  // ':' or ','
+        options.remove_prefix(1);
         const std::size_t end = std::min(options.find(','), options.size());
         takeKmsWord(spec, options.substr(0, end));
         options.remove_prefix(end);

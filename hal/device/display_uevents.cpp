@@ -14,7 +14,6 @@ namespace {
 // reports it when the permissions of its node are set.
 constexpr unsigned kKernelGroup = 1, kUdevGroup = 2;
 
-// Returns whether a message, such as "ACTION=change\0SUBSYSTEM=drm\0...", is about a display.
 bool concernsDisplays(std::string_view message) {
     constexpr std::string_view kDrm{"\0SUBSYSTEM=drm\0", 15};
     constexpr std::string_view kFb{"\0SUBSYSTEM=graphics\0", 20};
@@ -38,7 +37,7 @@ bool DisplayEvents::changed() {
     std::array<char, 8192> message{};
     while (socket_) {
         const ssize_t bytes = recv(socket_.get(), message.data(), message.size(), 0);
-        // If a message was lost, it may have been about a display.
+        // A lost message may have been about a display.
         const bool lost = bytes < 0 && errno == ENOBUFS;
         if (bytes <= 0 && !lost) break;
         if (lost || concernsDisplays({message.data(), static_cast<std::size_t>(bytes)})) any = true;

@@ -4,12 +4,11 @@
 
 namespace mfar {
 
-/// Listens to uevents (AF_NETLINK) to notice that a display was added, removed or changed. If the
-/// process has no permission for such a socket, no change is ever noticed.
+/// Listens to uevents (AF_NETLINK) about displays. If the process has no permission for such a
+/// socket, changed() always returns false.
 class DisplayEvents {
 public:
     DisplayEvents();
-    /// Returns whether a display was added, removed or changed since the last call. Never waits.
     [[nodiscard]] bool changed();
 
 private:

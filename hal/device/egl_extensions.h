@@ -6,7 +6,7 @@
 
 namespace mfar {
 
-/// Returns whether a list of EGL or GL extensions contains the name. `list` may be null.
+/// Returns true if a list of EGL or GL extensions contains the name. `list` may be null.
 [[nodiscard]] inline bool hasExtension(const char* list, std::string_view name) {
     const std::string_view all = list != nullptr ? list : "";
     for (std::size_t at = 0; (at = all.find(name, at)) != all.npos; at += name.size()) {
@@ -16,7 +16,6 @@ namespace mfar {
     return false;
 }
 
-/// Returns the address of an EGL or GL function; null if it does not exist.
 template <class F>
 [[nodiscard]] F eglProc(const char* name) {
     return reinterpret_cast<F>(eglGetProcAddress(name));

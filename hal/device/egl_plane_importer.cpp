@@ -18,8 +18,8 @@ namespace {
 EGLint fourccOf(int channels) {
     switch (channels) {
     case 1: return static_cast<EGLint>(DRM_FORMAT_R8);
-    case 2: return static_cast<EGLint>(DRM_FORMAT_GR88);       // bytes R G
-    default: return static_cast<EGLint>(DRM_FORMAT_ABGR8888);  // bytes R G B A
+    case 2: return static_cast<EGLint>(DRM_FORMAT_GR88);
+    default: return static_cast<EGLint>(DRM_FORMAT_ABGR8888);
     }
 }
 

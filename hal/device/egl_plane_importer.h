@@ -8,8 +8,7 @@
 
 namespace mfar {
 
-/// Creates an importer for the current GL context. Returns null if EGL_EXT_image_dma_buf_import or
-/// GL_OES_EGL_image is not supported.
+/// Returns null if EGL_EXT_image_dma_buf_import or GL_OES_EGL_image is not supported.
 [[nodiscard]] std::unique_ptr<PlaneImporter> createPlaneImporter(EGLDisplay display);
 
 }  // namespace mfar

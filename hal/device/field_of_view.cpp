@@ -5,8 +5,8 @@
 namespace mfar {
 namespace {
 
-/// Smallest share of the pixels along each side that a crop must show to count as the whole field.
-/// Even full sensor modes leave out a few pixels, because sizes must be multiples of some number.
+/// Smallest share of the pixels along each side that a crop must show. Even full sensor modes leave
+/// out a few pixels, because sizes must be multiples of some number.
 constexpr double kAlike = 0.98;
 
 bool isPositive(Size size) {

@@ -9,8 +9,7 @@ cmake_minimum_required(VERSION 3.25)
 
 cmake_policy(VERSION 3.25)
 
-# Reduces a parameter list to names: "GLint location, const GLchar *const*string" becomes
-# "location, string".
+# "GLint location, const GLchar *const*string" becomes "location, string".
 function(parameter_names parameters out_var)
     set(names "")
     if(NOT parameters STREQUAL "void")

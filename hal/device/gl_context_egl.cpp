@@ -50,8 +50,7 @@ ResetStatus resetStatusOf(std::string_view version, const char* glExtensions) {
     return nullptr;
 }
 
-// Returns the message for a GPU whose driver does not support OpenGL ES 3.1, such as lima, vc4 and
-// etnaviv.
+// Returns the message for drivers without OpenGL ES 3.1, such as lima, vc4 and etnaviv.
 std::string tooOld(EGLDisplay display) {
     const char* name = nullptr;
     if (hasExtension(eglQueryString(display, EGL_EXTENSIONS), "EGL_MESA_query_driver"))
@@ -61,8 +60,8 @@ std::string tooOld(EGLDisplay display) {
            " has no OpenGL ES 3.1; use the SIMD engine (engine.use = \"simd\")";
 }
 
-// Creates a GL context. If the driver supports it, the context reports resets of the GPU. The EGL
-// extension and EGL 1.5 have different attributes for this, and some drivers know only one of them.
+// The context reports resets of the GPU if the driver supports that. The EGL extension and EGL 1.5
+// have different attributes for this, and some drivers know only one of them.
 EGLContext createContext(EGLDisplay display, EGLConfig config) {
     const auto create = [&](EGLint attribute, EGLint value) {
         const std::array<EGLint, 7> wanted{
@@ -79,15 +78,16 @@ EGLContext createContext(EGLDisplay display, EGLConfig config) {
     return context != EGL_NO_CONTEXT ? context : create(EGL_NONE, EGL_NONE);
 }
 
-// Opens the first EGL device that is a GPU, which means that it does not have
-// EGL_MESA_device_software. If there is none, opens the surfaceless platform. That uses the
-// software renderer, or possibly a GPU if EGL does not support devices.
+// Opens the first EGL device that is a GPU (without EGL_MESA_device_software). If there is none,
+// opens the surfaceless platform. If EGL does not support devices, that platform may also use a
+// GPU.
 OpenedDisplay openDisplay(bool software) {
     const char* client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     const auto platformDisplay =
         eglProc<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
     if (platformDisplay == nullptr)
-        throw std::runtime_error("EGL: EGL_EXT_platform_base is missing; a newer EGL is needed");
+        throw std::runtime_error(
+            "EGL: EGL_EXT_platform_base is missing; a newer EGL library is needed");
     if (!software && hasExtension(client, "EGL_EXT_platform_device")) {
         const auto queryDevices = eglProc<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
         const auto queryString = eglProc<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
@@ -113,8 +113,6 @@ OpenedDisplay openDisplay(bool software) {
         "installed, and may this user read and write /dev/dri/renderD*?");
 }
 
-// All contexts of the process share the EGL displays. The displays are never terminated, because
-// another thread may use them.
 OpenedDisplay sharedDisplay(GlDevice device) {
     static std::mutex mutex;
     static std::array<OpenedDisplay, 2> all{{{EGL_NO_DISPLAY, ""}, {EGL_NO_DISPLAY, ""}}};

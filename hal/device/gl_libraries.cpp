@@ -13,7 +13,7 @@ constexpr const char* kAdvice = "; install libegl1 and libgles2, or use the SIMD
 
 using gl_libraries::Function;
 
-// Loads a library. It is never closed, because drivers leave threads and thread-local data behind.
+// A library is never closed, because drivers leave threads and thread-local data behind.
 void* opened(const std::string& name) {
     void* library = dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (library != nullptr) return library;
@@ -32,8 +32,8 @@ Function findIn(void* library, const char* name) {
 void loadGlLibraries(const GlLibraryNames& names) {
     void* egl = opened(names.egl);
     void* gles = opened(names.gles);
-    // Missing EGL functions are accepted, because old versions lack some that are never called.
-    // Only eglGetProcAddress is required.
+    // Other missing EGL functions are accepted, because old versions lack some that are never
+    // called.
     gl_libraries::connectEgl([egl](const char* name) { return findIn(egl, name); });
     if (findIn(egl, "eglGetProcAddress") == nullptr)
         throw std::runtime_error(names.egl + " has no eglGetProcAddress" + kAdvice);

@@ -9,60 +9,55 @@
 #include <vector>
 
 /// The subset of a GPIO library that the trigger needs. It is implemented with libgpiod 1.6, with
-/// libgpiod 2.x, and, in the tests, without hardware.
+/// libgpiod 2.x, and, in the tests, without hardware. All functions except listGpioChips() may
+/// throw std::runtime_error.
 
 namespace mfar {
 
 struct GpioLine {
     unsigned offset = 0;
-    std::string name;      ///< empty: the line has no name on this machine
-    std::string consumer;  ///< the program or driver that uses the line; empty: unknown
+    std::string name;
+    std::string consumer;
     bool used = false;
 };
 
+/// Example: path "/dev/gpiochip0", name "gpiochip0", label "pinctrl-bcm2711".
 struct GpioChip {
-    std::string path;   ///< e.g. "/dev/gpiochip0"
-    std::string name;   ///< e.g. "gpiochip0"
-    std::string label;  ///< e.g. "pinctrl-bcm2711"
+    std::string path;
+    std::string name;
+    std::string label;
     std::vector<GpioLine> lines;
     int error = 0;  ///< errno of opening the chip or a line; 0: no error
 };
 
-/// Identifies a GPIO line, and names it in messages.
 struct GpioAddress {
     std::string path;
     unsigned offset = 0;
     bool activeLow = false;
     std::string text;  ///< for messages: "line 7 'TRIGGER' of gpiochip0 (9030000.pl061)"
-    /// The program or driver that used the line when it was looked up. Empty: the line was not in
-    /// use.
     std::string consumer;
 };
 
-/// An output line. `active` is the logical level: if the line is active-low, the implementation
-/// inverts the level.
+/// An output line. `active` is the logical level; the implementation inverts it if the line is
+/// active-low.
 class OutputLine {
 public:
     virtual ~OutputLine() = default;
-    /// Throws std::runtime_error.
     virtual void set(bool active) = 0;
 };
 
-/// An input line whose edges get timestamps from the kernel.
 class EdgeInput {
 public:
     virtual ~EdgeInput() = default;
-    /// Returns the time (CLOCK_MONOTONIC) of the oldest edge that has not been read. Waits up to
-    /// `timeout` for an edge, then returns nothing. Throws std::runtime_error.
+    /// Waits up to `timeout` and returns the time (CLOCK_MONOTONIC) of the oldest unread edge.
+    /// Returns nothing if no edge came.
     [[nodiscard]] virtual std::optional<Timestamp> next(std::chrono::microseconds timeout) = 0;
 };
 
-/// Returns all GPIO chips of this machine, ordered by number.
 [[nodiscard]] std::vector<GpioChip> listGpioChips();
-/// Requests the line as an output at its inactive level. When the returned object is destroyed, the
-/// line keeps its level. Throws std::runtime_error.
+/// Requests the line as an output at its inactive level. The line keeps its level after the
+/// destructor.
 [[nodiscard]] std::unique_ptr<OutputLine> requestOutput(const GpioAddress& line);
-/// Requests the line as an input with events on both edges. Throws std::runtime_error.
 [[nodiscard]] std::unique_ptr<EdgeInput> requestEdges(const GpioAddress& line);
 
 }  // namespace mfar

@@ -57,11 +57,10 @@ std::string listNames(const std::vector<const GpioChip*>& chips) {
         else if (chip->error != 0)
             texts.push_back(describe(*chip));
     }
-    if (texts.empty()) return "no GPIO line has a name, give the line by its number";
+    if (texts.empty()) return "no GPIO line has a name; set `line` to a number";
     return fmt::format("named lines: {}", fmt::join(texts, "; "));
 }
 
-/// Returns the chips whose path, name or label is `wanted`. Several chips may have the same label.
 std::vector<const GpioChip*> chipsFor(const std::vector<GpioChip>& chips, std::string_view wanted) {
     std::vector<const GpioChip*> found;
     for (const GpioChip& chip : chips)
@@ -90,7 +89,7 @@ GpioAddress byNumber(const std::vector<const GpioChip*>& chips, std::string_view
             fmt::format("GPIO line {} is given by its number, so `chip` must be set, too", wanted));
     if (chips.size() > 1)
         throw std::runtime_error(fmt::format(
-            "{} GPIO chips have the label '{}': give a name or path instead", chips.size(), chip));
+            "{} GPIO chips have the label '{}'; set `chip` to a name or path", chips.size(), chip));
     for (const GpioLine& line : chips[0]->lines)
         if (line.offset == wanted) return address(*chips[0], line);
     if (chips[0]->error != 0)
@@ -109,9 +108,9 @@ GpioAddress byName(const std::vector<const GpioChip*>& chips, std::string_view w
         throw std::runtime_error(
             fmt::format("no GPIO line is named '{}'; {}", wanted, listNames(chips)));
     if (found.size() > 1)
-        throw std::runtime_error(
-            fmt::format("more than one GPIO line is named '{}': {} and {}; give chip and number",
-                        wanted, found[0].text, found[1].text));
+        throw std::runtime_error(fmt::format(
+            "more than one GPIO line is named '{}': {} and {}; set `chip`, and `line` to a number",
+            wanted, found[0].text, found[1].text));
     return found[0];
 }
 

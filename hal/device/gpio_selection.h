@@ -10,16 +10,12 @@ namespace mfar {
 
 /// Finds a GPIO line. `chip` is the path, name or label of a chip; if it is empty, all chips are
 /// searched. `line` is a number if it consists of digits, otherwise a name. Throws
-/// std::runtime_error if the chip is not found (the message lists the chips), the line is not found
-/// (the message lists the lines that have names), several lines match, or the process has no
-/// permission.
+/// std::runtime_error if no line or several lines match, or if the process has no permission.
 [[nodiscard]] GpioAddress findGpioLine(const std::vector<GpioChip>& chips, std::string_view chip,
                                        std::string_view line);
 
-/// Returns the message for a line that could not be requested. `error` is the errno of the request.
 [[nodiscard]] std::string gpioRequestFault(const GpioAddress& line, int error);
 
-/// Returns the paths of the GPIO character devices in `folder`, ordered by number.
 [[nodiscard]] std::vector<std::string> gpioChipPaths(const std::string& folder = "/dev");
 
 }  // namespace mfar

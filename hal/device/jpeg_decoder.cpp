@@ -19,8 +19,7 @@ void halveRows(std::uint8_t* plane, std::size_t rowBytes, int rows) {
     }
 }
 
-// Returns whether the decoder's warning can be ignored. Many cameras add padding before the end
-// marker of a picture; no pixels are missing then.
+// Many cameras add padding before the end marker of a picture; no pixels are missing then.
 bool harmless(void* handle) {
     return std::string_view(tjGetErrorStr2(handle)).find("before marker 0xd9") !=
            std::string_view::npos;
@@ -38,7 +37,7 @@ void JpegDecoder::Close::operator()(void* handle) const {
 
 JpegDecoder::JpegDecoder(Size size, int buffers) : pool_(size, PixelFormat::Yuyv, buffers) {
     if (size.width % 2 != 0 || size.height % 2 != 0 || size.width <= 0 || size.height <= 0)
-        throw std::invalid_argument("JPEG pictures must have an even size");
+        throw std::invalid_argument("width and height of JPEG pictures must be even");
     renew();
 }
 
@@ -48,7 +47,6 @@ void JpegDecoder::renew() {
     if (!handle_) throw std::runtime_error("the JPEG decoder cannot be set up");
 }
 
-/// Returns the chroma subsampling of a JPEG, or nothing if the JPEG must not be decoded.
 std::optional<int> JpegDecoder::subsamplingOf(std::span<const std::uint8_t> jpeg) {
     Size size;
     int subsampling = 0, colours = 0;

@@ -11,15 +11,15 @@
 
 namespace mfar {
 
-/// Decodes the pictures of a camera that sends JPEGs into planes of Y, U and V. Only one thread at
-/// a time may call the decoder. Any thread may use the frames.
+/// Decodes JPEGs of a camera into planes of Y, U and V. Only one thread at a time may call the
+/// decoder. Any thread may use the frames.
 class JpegDecoder {
 public:
     /// Width and height must be even. Throws std::invalid_argument, std::runtime_error.
     JpegDecoder(Size size, int buffers);
 
-    /// Returns the picture as Yuv420 (BT.601, full range, as JFIF defines) or Gray8. If the chroma
-    /// is subsampled 4:2:2, the mean of two chroma rows is used. Returns nothing if the picture is
+    /// Returns the picture as Yuv420 (BT.601, full range, as JFIF defines) or Gray8. For chroma
+    /// subsampled 4:2:2, the mean of two chroma rows is used. Returns nothing if the picture is
     /// damaged or has another size or subsampling, or if all buffers are in use.
     [[nodiscard]] std::optional<Frame> decode(std::span<const std::uint8_t> jpeg, Timestamp time);
 
@@ -33,7 +33,7 @@ private:
         void operator()(void* handle) const;
     };
     std::unique_ptr<void, Close> handle_;
-    FramePool pool_;  // 2 bytes per pixel, because 4:2:2 needs them during decoding
+    FramePool pool_;  // 2 bytes per pixel, because decoding 4:2:2 needs them
 };
 
 }  // namespace mfar

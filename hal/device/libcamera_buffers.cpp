@@ -54,8 +54,8 @@ void MappedPicture::map(const libcamera::FrameBuffer& buffer) {
     }
 }
 
-// Sets the dma-buf and the offset of each plane. A plane may begin anywhere in one of the camera's
-// dma-bufs, so both are computed from the plane's address.
+// A plane may begin anywhere in one of the camera's dma-bufs, so dma-buf and offset of each plane
+// are computed from its address.
 void MappedPicture::share() {
     shared_.id = newSharedMemoryId();
     const std::array<const std::uint8_t*, 3> begins{view_.data, view_.chroma[0].data,
@@ -85,7 +85,7 @@ void MappedPicture::endRead() const {
 
 void MappedPicture::synchronize(std::uint64_t flags) const {
     const dma_buf_sync sync{flags};
-    // For memory that is not a dma-buf, the call fails. Such memory needs no synchronisation.
+    // The call fails for memory that is not a dma-buf. Such memory needs no synchronisation.
     for (const File& file : files_)
         ioctl(file.fd.get(), DMA_BUF_IOCTL_SYNC, &sync);
 }

@@ -8,19 +8,18 @@
 
 namespace mfar {
 
-/// One of a camera's buffers. It is mapped once into this process's memory and may outlive the
-/// camera. One file may contain several planes.
+/// A buffer of a camera, mapped into this process's memory. It may outlive the camera. One file may
+/// contain several planes.
 class MappedPicture {
 public:
-    /// Throws std::runtime_error if the memory cannot be mapped or is too small for the picture.
     MappedPicture(const libcamera::FrameBuffer& buffer, const PictureLayout& layout);
     MappedPicture(const MappedPicture&) = delete;
     MappedPicture& operator=(const MappedPicture&) = delete;
     ~MappedPicture();
 
     [[nodiscard]] const ImageView& view() const { return view_; }
-    /// beginRead() must be called before each read and endRead() after it, because the CPU's caches
-    /// may not be coherent with the camera.
+    /// Each read must lie between beginRead() and endRead(), because the CPU's caches may not be
+    /// coherent with the camera.
     void beginRead() const;
     void endRead() const;
 

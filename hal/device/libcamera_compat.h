@@ -6,12 +6,10 @@
 #include <string>
 #include <string_view>
 
-/// Handles all differences between libcamera 0.0.3 (Debian 12), 0.4.0 (Debian 13) and 0.7. The
-/// functions detect them from libcamera's types. All functions are templates, because an
-/// unsatisfied `requires` outside of a template is an error.
+/// Handles all differences between libcamera 0.0.3 (Debian 12), 0.4.0 (Debian 13) and 0.7. All
+/// functions are templates, because an unsatisfied `requires` outside of a template is an error.
 namespace mfar::libcamera_compat {
 
-/// Returns whether libcamera lets its caller choose the sensor's mode (since 0.2.0).
 template <typename Configuration = libcamera::CameraConfiguration>
 [[nodiscard]] constexpr bool hasSensorConfiguration() {
     return requires(Configuration& c) { c.sensorConfig; };
@@ -26,8 +24,8 @@ void setSensorMode(Configuration& configuration, libcamera::Size size, unsigned 
     }
 }
 
-/// Returns whether a frame was taken before the sensor had settled. libcamera marks such frames
-/// since 0.5.2.
+/// Returns true if a frame was taken before the sensor had settled (reported since libcamera
+/// 0.5.2).
 template <typename Metadata>
 [[nodiscard]] bool isStartup(const Metadata& metadata) {
     if constexpr (requires { Metadata::FrameStartup; })
@@ -36,8 +34,8 @@ template <typename Metadata>
         return false;
 }
 
-/// Returns the number for the name of a control's value, e.g. of "AfModeManual". Values have had
-/// names since libcamera 0.4.0.
+/// Returns the number of a control's value, e.g. of "AfModeManual". Values have names since
+/// libcamera 0.4.0.
 template <typename Id>
 [[nodiscard]] std::optional<std::int32_t> enumerator(const Id& control, std::string_view name) {
     if constexpr (requires { control.enumerators(); }) {
@@ -47,8 +45,8 @@ template <typename Id>
     return std::nullopt;
 }
 
-/// Returns whether a control has several values. libcamera reports this since 0.4.0; for older
-/// versions, FrameDurationLimits is the only such control.
+/// Returns true if a control has several values. libcamera reports this since 0.4.0; in older
+/// versions, only FrameDurationLimits has several.
 template <typename Id>
 [[nodiscard]] bool isArray(const Id& control) {
     if constexpr (requires { control.isArray(); })
@@ -57,14 +55,11 @@ template <typename Id>
         return control.name() == "FrameDurationLimits";
 }
 
-/// Returns whether libcamera has controls of the C++ type T. Controls of unsigned types with 16 and
-/// 32 bits exist since 0.4.0.
 template <typename T>
 [[nodiscard]] constexpr bool hasControlType() {
     return requires { libcamera::details::control_type<T>::value; };
 }
 
-/// Converts a text property to a string. Since 0.6.0, such properties are string views.
 template <typename Text>
 [[nodiscard]] std::string text(const std::optional<Text>& property) {
     return property ? std::string(*property) : std::string();

@@ -69,8 +69,8 @@ std::optional<ControlValue> several(const ControlId& id, std::string_view text) 
     return ControlValue(libcamera::Span<const T>(values.get(), count));
 }
 
-/// Returns whether the value is in the range that the camera states. Returns true if the range has
-/// another type than the value or is an array.
+/// Returns true if the value is in the camera's range, or if the range is an array or has another
+/// type.
 template <typename T>
 bool isWithin(const ControlInfo& info, T value) {
     const auto type = libcamera::details::control_type<T>::value;
@@ -90,7 +90,6 @@ std::optional<ControlValue> parseAs(const ControlId& id, const ControlInfo& info
     return ControlValue(*value);
 }
 
-/// Parses the text of a value. The control's type must be one of the template's C++ types.
 template <typename T, typename... Others>
 std::optional<ControlValue> parse(const ControlId& id, const ControlInfo& info,
                                   std::string_view text) {

@@ -8,18 +8,16 @@
 
 namespace mfar {
 
-/// Names and values of controls, as text: "ExposureTime" and "8000", "AfMode" and "0". Since
-/// libcamera 0.4, the value may be a name, too. If a control is an array, its values are separated
-/// by commas.
+/// Names and values of controls as text: "ExposureTime" and "8000", "AfMode" and "0". Since
+/// libcamera 0.4, the value may be a name. The values of an array are separated by commas.
 using NamedValues = std::vector<std::pair<std::string, std::string>>;
-/// Values of controls; the key is libcamera's number of the control.
 using ControlValues = std::vector<std::pair<unsigned, libcamera::ControlValue>>;
 
 [[nodiscard]] bool hasControl(const libcamera::ControlInfoMap& camera, const std::string& name);
 
-/// Converts names and texts to control values. The names are looked up among the controls of this
-/// camera, so that controls of its vendor work, too. Throws std::runtime_error if a name is unknown
-/// (the message lists the camera's controls) or a value is invalid (the message states the range).
+/// Converts names and texts to control values, also for controls of the camera's vendor. Throws
+/// std::runtime_error if a name is unknown (the message lists the controls) or a value is invalid
+/// (the message states the range).
 [[nodiscard]] ControlValues parseControls(const libcamera::ControlInfoMap& camera,
                                           const NamedValues& wanted);
 

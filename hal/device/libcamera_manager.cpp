@@ -37,7 +37,6 @@ void end(CameraManager* manager) {
     one.gone.notify_all();
 }
 
-/// Returns the number of pixels of the camera's largest picture; 0 if the camera reports no sizes.
 std::int64_t largestPicture(Camera& camera) {
     std::int64_t most = 0;
     const auto configuration = camera.generateConfiguration({libcamera::StreamRole::StillCapture});
@@ -90,8 +89,7 @@ std::vector<ListedCamera> listCameras(const std::vector<std::shared_ptr<Camera>>
 std::shared_ptr<Camera> findLibcamera(const CameraManager& manager, const CameraWish& wish) {
     const std::vector<std::shared_ptr<Camera>> cameras = manager.cameras();
     std::vector<ListedCamera> listed = listCameras(cameras);
-    // The largest picture sizes are queried only if they decide the choice, because a query takes
-    // time.
+    // Querying the largest picture sizes takes time, so it is done only if they decide the choice.
     for (std::size_t i = 0; i < cameras.size() && wish.name.empty() && cameras.size() > 1; ++i)
         listed[i].pixels = largestPicture(*cameras[i]);
     return cameras[chooseCamera(listed, wish)];

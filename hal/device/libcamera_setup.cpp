@@ -22,8 +22,8 @@ struct Offer {
     PixelFormat ours;
 };
 
-// The formats in order of preference. libcamera's names of RGB formats list the colours from the
-// last byte to the first.
+// In order of preference. libcamera's names of RGB formats list the colours from the last byte to
+// the first.
 const std::array<Offer, 5> kPreferred{{{libcamera::formats::NV12, PixelFormat::Nv12},
                                        {libcamera::formats::YUV420, PixelFormat::Yuv420},
                                        {libcamera::formats::YUYV, PixelFormat::Yuyv},
@@ -73,7 +73,7 @@ struct Chosen {
 };
 
 /// Returns a valid configuration of exactly the wanted size, in the most preferred format that
-/// works. If none works and `mode` is set, returns nothing; if `mode` is not set, throws.
+/// works. If no format works, returns nothing if `mode` is set, and throws otherwise.
 std::optional<Chosen> choose(libcamera::Camera& camera, const LibcameraOptions& options,
                              const std::optional<SensorMode>& mode) {
     Chosen chosen{generate(camera, options), {}};
@@ -101,7 +101,7 @@ std::optional<Chosen> choose(libcamera::Camera& camera, const LibcameraOptions& 
     failOnFormat(camera, options, configuration.at(0), became);
 }
 
-/// Returns the bit depth of a raw format, e.g. 10 for "SRGGB10_CSI2P" and "R10"; 0 for other
+/// Returns the bit depth of a raw format, e.g. 10 for "SRGGB10_CSI2P" and "R10", or 0 for other
 /// formats.
 unsigned bitDepth(const std::string& format) {
     const auto isDigit = [](char c) { return c >= '0' && c <= '9'; };
@@ -114,8 +114,8 @@ unsigned bitDepth(const std::string& format) {
     return depth;
 }
 
-/// Returns the sensor modes that are at least as large as `size`, smallest first. Returns an empty
-/// list if libcamera does not allow the caller to choose the mode.
+/// Returns the sensor modes that are at least as large as `size`, smallest first. Empty if
+/// libcamera does not let its caller choose the mode.
 std::vector<SensorMode> sensorModes(libcamera::Camera& camera, Size size) {
     std::vector<SensorMode> modes;
     if constexpr (!libcamera_compat::hasSensorConfiguration()) return modes;
@@ -129,8 +129,8 @@ std::vector<SensorMode> sensorModes(libcamera::Camera& camera, Size size) {
                 mode.height >= static_cast<unsigned>(size.height))
                 modes.push_back({mode, depth});
     }
-    // Modes of equal size are sorted by bit depth, greatest first. The greater the bit depth, the
-    // slower the mode.
+    // Among modes of equal size, the one with the greatest bit depth comes first. A greater bit
+    // depth makes the mode slower.
     std::ranges::sort(modes, {}, [](const SensorMode& mode) {
         return std::pair(std::uint64_t{mode.size.width} * mode.size.height, 64 - mode.bitDepth);
     });
@@ -159,7 +159,7 @@ void apply(libcamera::Camera& camera, CameraConfiguration& configuration) {
 }
 
 /// Chooses the first sensor mode that shows the whole field of view and reaches the frame rate. If
-/// there is none, lets libcamera choose the mode.
+/// there is none, libcamera chooses the mode.
 Chosen chooseMode(libcamera::Camera& camera, const LibcameraOptions& options) {
     for (const SensorMode& mode : sensorModes(camera, options.size)) {
         auto chosen = choose(camera, options, mode);

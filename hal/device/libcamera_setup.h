@@ -11,7 +11,7 @@
 namespace mfar {
 
 struct ConfiguredCamera {
-    std::unique_ptr<libcamera::CameraConfiguration> configuration;  ///< has one stream
+    std::unique_ptr<libcamera::CameraConfiguration> configuration;
     PictureLayout layout;
 };
 
@@ -20,16 +20,14 @@ struct ConfiguredCamera {
 [[nodiscard]] ConfiguredCamera configureLibcamera(libcamera::Camera& camera,
                                                   const LibcameraOptions& options);
 
-/// Converts the options to values of this camera's controls. Throws std::runtime_error.
 [[nodiscard]] ControlValues controlsFor(const libcamera::Camera& camera,
                                         const LibcameraOptions& options);
 
-/// Returns the size of the sensor's active area [px], or nothing if the camera does not report it.
 [[nodiscard]] std::optional<Size> activePixels(const libcamera::Camera& camera);
 
 /// Returns a message if pictures show only a part of the field of view. `crop` is the used part of
-/// the sensor. Returns nothing if pictures show the whole field of view, if the camera does not
-/// report its areas, or if the options allow a crop.
+/// the sensor. Returns nothing if the camera does not report its areas or if the options allow a
+/// crop.
 [[nodiscard]] std::optional<std::string> cropFault(const libcamera::Camera& camera,
                                                    const std::optional<libcamera::Rectangle>& crop,
                                                    const LibcameraOptions& options);

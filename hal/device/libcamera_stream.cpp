@@ -14,12 +14,10 @@
 namespace mfar {
 namespace {
 
-/// Smallest number of buffers: the camera fills one while the user reads the other.
 constexpr std::size_t kLeastBuffers = 2;
 /// Longest time that libcamera needs, on a busy machine, to learn from udev that a device was
 /// unplugged.
 constexpr std::chrono::seconds kUdevTime{30};
-/// While waiting for kUdevTime: interval of the checks whether the device's node is still lost.
 constexpr std::chrono::milliseconds kNodeLook{100};
 
 void check(const LibcameraOptions& options) {
@@ -40,11 +38,11 @@ void check(const LibcameraOptions& options) {
         throw std::runtime_error("the number of buffers of a camera must be from 2 to 64");
 }
 
-/// Returns whether this process has opened a video device whose node is deleted. The kernel deletes
+/// Returns true if this process has opened a video device whose node is deleted. The kernel deletes
 /// the node of an unplugged device before it notifies anybody.
 bool hasLostVideoNode() {
     namespace fs = std::filesystem;
-    // This function uses the overloads that do not throw, because a destructor calls it.
+    // A destructor calls this function, so it uses the overloads that do not throw.
     std::error_code ended, closed;
     for (fs::directory_iterator fd("/proc/self/fd", ended);
          !ended && fd != fs::directory_iterator(); fd.increment(ended)) {
@@ -140,7 +138,7 @@ void LibcameraCamera::Stream::start() {
 int LibcameraCamera::Stream::queue(std::size_t slot) {
     libcamera::Request& request = *slots_[slot].request;
     request.reuse(libcamera::Request::ReuseBuffers);
-    // Some drivers (uvcvideo) ignore the controls that start() gets and read only the controls of
+    // Some drivers (uvcvideo) ignore the controls of start() and read only the controls of
     // requests.
     for (const auto& [id, value] : controlsDue_ ? controls_ : ControlValues{})
         request.controls().set(id, value);
@@ -148,10 +146,9 @@ int LibcameraCamera::Stream::queue(std::size_t slot) {
     return camera_->queueRequest(&request);
 }
 
-// Waits while a device node is lost. The reason: libcamera learns from udev, with a delay, that a
-// running device was unplugged. If the camera is stopped earlier, while requests are queued,
-// libcamera ends the process. The lost node may belong to another camera; then the wait is
-// unnecessary.
+// Waits while the node of a video device is deleted. libcamera learns from udev, with a delay, that
+// a running device was unplugged. If the camera is stopped before that with queued requests,
+// libcamera ends the process.
 void LibcameraCamera::Stream::prepareStop() {
     const auto end = std::chrono::steady_clock::now() + kUdevTime;
     while (hasLostVideoNode() && std::chrono::steady_clock::now() < end)
@@ -162,13 +159,12 @@ void LibcameraCamera::Stream::stop() {
     camera_->stop();
 }
 
-/// libcamera's thread calls this.
+/// libcamera's thread calls disconnected() and completed().
 void LibcameraCamera::Stream::disconnected() {
     unplugged_ = true;
     cycle_.lose(fmt::format("camera '{}' has been unplugged", id_));
 }
 
-/// libcamera's thread calls this.
 void LibcameraCamera::Stream::completed(libcamera::Request* request) {
     const auto slot = static_cast<std::size_t>(request->cookie());
     if (request->status() == libcamera::Request::RequestCancelled) return cycle_.cancelled(slot);
@@ -198,7 +194,6 @@ bool LibcameraCamera::Stream::isSound(const libcamera::FrameMetadata& metadata) 
     return sound;
 }
 
-/// Returns the frame's time and exposure, or nothing if the time is implausible.
 std::optional<RequestCycle::Done>
 LibcameraCamera::Stream::describe(std::size_t slot, libcamera::Request& request,
                                   const libcamera::FrameMetadata& metadata) {

@@ -15,17 +15,16 @@
 
 namespace mfar {
 
-/// The stream of a LibcameraCamera. It owns the requests and their memory, and it checks the
-/// pictures of completed requests. A frame keeps the memory of its picture alive, but not the
-/// stream.
+/// The stream of a LibcameraCamera: owns the requests and their memory, and checks the pictures of
+/// completed requests. A frame keeps the memory of its picture alive, but not the stream.
 class LibcameraCamera::Stream : public std::enable_shared_from_this<Stream>, private RequestDriver {
 public:
     explicit Stream(const LibcameraOptions& options);
     Stream(const Stream&) = delete;
     Stream& operator=(const Stream&) = delete;
     ~Stream() override = default;
-    /// Releases the device. Must be called once. The destructor does not do this: if another thread
-    /// returns a frame at the same moment, the destructor may run late, on that thread.
+    /// Releases the device. Must be called once. The destructor does not release it, because a
+    /// frame that another thread returns may delay the destructor.
     void close();
 
     [[nodiscard]] CameraInfo info() const;
@@ -59,23 +58,23 @@ private:
     LibcameraOptions options_;
     std::shared_ptr<libcamera::CameraManager> manager_;
     std::shared_ptr<libcamera::Camera> camera_;
-    std::string id_;  ///< libcamera's id of the camera
+    std::string id_;
     ConfiguredCamera configured_;
     ControlValues controls_;
     std::unique_ptr<libcamera::FrameBufferAllocator> allocator_;
     libcamera::Stream* stream_ = nullptr;
     std::vector<Slot> slots_;
     RequestCycle cycle_{*this};
-    bool controlsDue_ = false;  ///< whether the next request must set the controls
+    bool controlsDue_ = false;
     std::atomic<bool> unplugged_{false};
 
-    mutable std::mutex mutex_;  ///< lock order: the mutex of cycle_, then this one
+    mutable std::mutex mutex_;  ///< lock order: first the mutex of cycle_, then mutex_
     bool viewChecked_ = false;
-    std::string viewFault_;  ///< why frames show only a part of the field of view; empty: no fault
+    std::string viewFault_;
     LibcameraCounters counters_;
     FrameDrops drops_;
     SensorClock clock_;
-    std::optional<Timestamp> last_;  ///< time of the last delivered frame
+    std::optional<Timestamp> last_;
 };
 
 }  // namespace mfar

@@ -41,8 +41,9 @@ void check(const PictureLayout& layout) {
     const bool sound = layout.size.width > 1 && layout.size.height > 1;
     const auto row = static_cast<std::size_t>(layout.size.width) * bytesPerPixel(layout.format);
     if (!sound || layout.stride < row)
-        throw std::runtime_error(fmt::format("a picture of {}x{} cannot have {} bytes per row",
-                                             layout.size.width, layout.size.height, layout.stride));
+        throw std::runtime_error(
+            fmt::format("a camera picture of {}x{} cannot have {} bytes per row", layout.size.width,
+                        layout.size.height, layout.stride));
 }
 
 }  // namespace
@@ -62,7 +63,8 @@ ImageView layOut(const PictureLayout& layout, std::span<const PlaneBytes> planes
     const bool together = planes.size() == 1;
     if (!together && planes.size() < wanted.count)
         throw std::runtime_error(
-            fmt::format("a picture has {} planes instead of {}", planes.size(), wanted.count));
+            fmt::format("the camera's buffer has {} planes; its pixel format needs {}",
+                        planes.size(), wanted.count));
     std::array<PlaneView, 3> views{};
     std::size_t offset = 0;
     for (std::size_t i = 0; i < wanted.count; ++i) {
@@ -70,7 +72,8 @@ ImageView layOut(const PictureLayout& layout, std::span<const PlaneBytes> planes
         const std::size_t needed = together ? least : wanted.plane[i].least();
         if (!bytes.data || bytes.length < needed)
             throw std::runtime_error(
-                fmt::format("a picture's plane has {} bytes instead of {}", bytes.length, needed));
+                fmt::format("a plane of the camera's buffer has {} bytes; a picture needs {}",
+                            bytes.length, needed));
         views[i] = {bytes.data + offset, wanted.plane[i].stride};
         if (together) offset += wanted.plane[i].padded();
     }

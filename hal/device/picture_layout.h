@@ -8,11 +8,10 @@
 
 namespace mfar {
 
-/// How a driver lays out its pictures in memory.
 struct PictureLayout {
     Size size;
     PixelFormat format = PixelFormat::Nv12;
-    std::size_t stride = 0;  ///< bytes per row of the first plane, with padding
+    std::size_t stride = 0;
     YuvMatrix matrix = YuvMatrix::Bt601;
     YuvRange range = YuvRange::Limited;
 };
@@ -22,7 +21,6 @@ struct PlaneBytes {
     std::size_t length = 0;
 };
 
-/// Returns the minimum number of bytes of a picture. Its last row need not be padded.
 [[nodiscard]] std::size_t leastBytes(const PictureLayout& layout);
 
 /// Returns a view of the picture in a driver's buffer. `planes` has one element per plane of the

@@ -11,12 +11,12 @@ namespace {
 using std::chrono::microseconds;
 
 constexpr microseconds kLongest{10'000'000};
-/// Longest pulse that the caller of fire() ends itself. The time at which another thread wakes up
-/// is less accurate.
+/// Longest pulse that the caller of fire() ends itself. Another thread would end it less
+/// accurately.
 constexpr microseconds kInCaller{1000};
 /// Longest delay with which a sleeping thread wakes up, unless the machine is overloaded.
 constexpr microseconds kWakeUp{100};
-/// Longest wait until the kernel reports an edge. It reports an edge within microseconds or never.
+/// Longest wait for the kernel to report an edge. It reports an edge within microseconds or never.
 constexpr microseconds kEdgeWait{1000};
 
 std::chrono::steady_clock::time_point steady(Timestamp time) {
@@ -38,7 +38,7 @@ PulseTrigger::PulseTrigger(std::string name, std::unique_ptr<OutputLine> line,
     line_->set(false);
     if (pulse < microseconds{1} || pulse > kLongest)
         throw std::runtime_error(
-            fmt::format("a trigger pulse of {} us is not in 1 us to 10 s", pulse.count()));
+            fmt::format("a trigger pulse must be from 1 us to 10 s, not {} us", pulse.count()));
     ender_ = std::jthread([this](const std::stop_token& stop) { endLater(stop); });
 }
 
@@ -48,8 +48,7 @@ PulseTrigger::~PulseTrigger() {
     try {
         line_->set(false);
     } catch (const std::runtime_error&) {
-        // The GPIO chip is lost, so the line cannot be driven. Nothing is thrown, because a
-        // destructor calls this.
+        // The GPIO chip is lost. Nothing is thrown, because a destructor calls this function.
     }
 }
 
@@ -87,7 +86,6 @@ void PulseTrigger::endPulse() {
 void PulseTrigger::endLater(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
     while (wake_.wait(lock, stop, [this] { return running_; })) {
-        // During this wait, endPulse() may end the pulse, and a new pulse may begin.
         const Timestamp due = due_;
         const auto isOver = [&] { return !running_ || due_ != due; };
         if (wake_.wait_until(lock, stop, steady(due - kWakeUp), isOver)) continue;
@@ -110,8 +108,8 @@ void PulseTrigger::end() {
 std::optional<Timestamp> PulseTrigger::edgeSince(Timestamp earliest) {
     while (loopback_) {
         const std::optional<Timestamp> edge = loopback_->next(kEdgeWait);
-        // Before version 5.7, the kernel uses another clock than CLOCK_MONOTONIC for the times of
-        // edges. Such times lie in the future and are ignored.
+        // Before version 5.7, the kernel takes the times of edges from another clock than
+        // CLOCK_MONOTONIC. Such times lie in the future and are ignored.
         if (!edge || *edge > Timestamp::now()) return std::nullopt;
         if (*edge >= earliest) return edge;
     }
@@ -119,10 +117,10 @@ std::optional<Timestamp> PulseTrigger::edgeSince(Timestamp earliest) {
 }
 
 /// Distinguishes the two edges of a pulse by their times. Their reported types (rising, falling)
-/// may be wrong, because the kernel reads the level after the edge, when a short pulse is over.
+/// may be wrong, because the kernel reads the level when a short pulse is already over.
 void PulseTrigger::measure(Timestamp endDriven) {
     if (!leading_) leading_ = edgeSince(begun_);
-    if (leading_ && *leading_ >= endDriven) leading_.reset();  // this is the trailing edge
+    if (leading_ && *leading_ >= endDriven) leading_.reset();
     const std::optional<Timestamp> trailing =
         leading_ ? edgeSince(endDriven) : std::optional<Timestamp>{};
     if (trailing)

@@ -14,20 +14,19 @@
 
 namespace mfar {
 
-/// The times of a pulse's edges as the loopback line measured them. The loopback line is an input
-/// that is wired to the trigger line.
+/// Times of a pulse's leading and trailing edge. The loopback line, an input that is wired to the
+/// trigger line, measured them.
 struct MeasuredPulse {
-    Timestamp start;  ///< leading edge
-    Timestamp end;    ///< trailing edge; many sensors expose from start to end
+    Timestamp start;
+    Timestamp end;
 };
 
 /// Drives pulses on one GPIO line. The line is inactive from the constructor to the destructor,
 /// except during a pulse. Thread-safe.
 ///
 /// The length of a pulse must be accurate, because many sensors expose as long as the pulse lasts.
-/// If the length is at most 1 ms, fire() waits and ends the pulse itself. A longer pulse is ended
-/// by a thread of this object: the thread sleeps until 0.1 ms before the end and then polls the
-/// clock.
+/// fire() itself waits for the end of a pulse of at most 1 ms. A thread ends longer pulses: it
+/// sleeps until 0.1 ms before the end and then polls the clock.
 class PulseTrigger final : public Trigger {
 public:
     /// `loopback` may be null. Throws std::runtime_error unless `pulse` is from 1 us to 10 s.
@@ -35,21 +34,17 @@ public:
                  std::unique_ptr<EdgeInput> loopback, std::chrono::microseconds pulse);
     PulseTrigger(const PulseTrigger&) = delete;
     PulseTrigger& operator=(const PulseTrigger&) = delete;
-    /// Ends an active pulse at once.
     ~PulseTrigger() override;
 
-    /// Starts a pulse and returns the time of its leading edge, as the loopback line measured it.
-    /// If the loopback line reports no edge, returns the mean of the times before and after the
-    /// line was driven. Throws TriggerBusy if a pulse is active: a second pulse is not queued,
-    /// because its edge would come too late. Throws std::runtime_error if the line cannot be driven
-    /// or an earlier pulse could not be ended.
+    /// Starts a pulse and returns the time of its leading edge as the loopback line measured it.
+    /// Without a report of the loopback line, returns the mean of the times before and after the
+    /// line was driven. Throws TriggerBusy if a pulse is active. Throws std::runtime_error if the
+    /// line cannot be driven or an earlier pulse could not be ended.
     Timestamp fire() override;
     void endPulse() override;
     [[nodiscard]] std::string name() const override { return name_; }
 
-    /// Returns the last pulse whose two edges the loopback line has reported.
     [[nodiscard]] std::optional<MeasuredPulse> measured() const;
-    /// Returns the number of pulses for which the loopback line did not report both edges.
     [[nodiscard]] std::uint64_t missedEdges() const override;
 
 private:
@@ -65,15 +60,15 @@ private:
 
     mutable std::mutex mutex_;
     std::condition_variable_any wake_;
-    bool running_ = false;              ///< whether a pulse is active
-    Timestamp begun_;                   ///< time just before the leading edge was driven
-    Timestamp due_;                     ///< end of the pulse
-    std::optional<Timestamp> leading_;  ///< time of the leading edge from the loopback line
-    /// Why a pulse could not be ended. The next fire() throws this.
+    bool running_ = false;
+    Timestamp begun_;
+    Timestamp due_;
+    std::optional<Timestamp> leading_;
+    /// Reason why a pulse could not be ended. The next fire() throws it.
     std::optional<std::string> failure_;
     std::optional<MeasuredPulse> measured_;
     std::uint64_t missed_ = 0;
-    std::jthread ender_;  ///< must be the last member: the thread uses the members above
+    std::jthread ender_;  ///< must be the last member, because the thread uses the members above
 };
 
 }  // namespace mfar

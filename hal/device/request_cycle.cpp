@@ -30,8 +30,8 @@ void RequestCycle::close() {
     requests_.clear();
 }
 
-/// The thread of next() calls this. The driver's thread must not wait here, because it serves other
-/// cameras as well.
+/// The thread of next() calls this function. The driver's thread must not wait here, because it
+/// serves other cameras as well.
 void RequestCycle::restart() {
     const std::lock_guard life(lifecycle_);
     {
@@ -43,7 +43,7 @@ void RequestCycle::restart() {
     begin();
 }
 
-/// lifecycle_ must be locked.
+/// The caller of begin() and halt() must have locked lifecycle_.
 void RequestCycle::begin() {
     {
         const std::lock_guard lock(mutex_);
@@ -58,7 +58,6 @@ void RequestCycle::begin() {
     queueIdle();
 }
 
-/// lifecycle_ must be locked.
 void RequestCycle::halt() {
     driver_.prepareStop();
     {
@@ -67,7 +66,8 @@ void RequestCycle::halt() {
         running_ = false;
     }
     changed_.notify_all();
-    driver_.stop();  // stop() completes queued requests, and their callbacks lock mutex_
+    // mutex_ is not locked here, because stop() completes queued requests, whose callbacks lock it.
+    driver_.stop();
     const std::lock_guard lock(mutex_);
     ready_.clear();
     for (State& state : requests_)
@@ -78,7 +78,7 @@ bool RequestCycle::anyQueued() const {
     return std::ranges::find(requests_, State::Queued) != requests_.end();
 }
 
-/// mutex_ must be locked.
+/// The caller of queue(), queueIdle() and planRestart() must have locked mutex_.
 void RequestCycle::queue(std::size_t request) {
     requests_[request] = State::Queued;
     const int error = driver_.queue(request);
@@ -87,7 +87,6 @@ void RequestCycle::queue(std::size_t request) {
     loseLocked(fmt::format("{} accepts no more requests (error {})", name_, -error));
 }
 
-/// mutex_ must be locked.
 void RequestCycle::queueIdle() {
     for (std::size_t i = 0; i < requests_.size() && lost_.empty(); ++i)
         if (requests_[i] == State::Idle) queue(i);
@@ -105,14 +104,14 @@ void RequestCycle::lose(const std::string& why) {
 
 void RequestCycle::giveBack(std::size_t request) {
     const std::lock_guard lock(mutex_);
-    if (request >= requests_.size()) return;  // after close()
+    if (request >= requests_.size()) return;
     requests_[request] = State::Idle;
     if (running_ && lost_.empty()) queue(request);
 }
 
 void RequestCycle::completed(std::size_t request, const Judge& judge) {
     const std::lock_guard lock(mutex_);
-    if (request >= requests_.size()) return;  // after close()
+    if (request >= requests_.size()) return;
     requests_[request] = State::Idle;
     changed_.notify_all();
     if (!running_) return;
@@ -121,20 +120,18 @@ void RequestCycle::completed(std::size_t request, const Judge& judge) {
         ready_.push_back(*done);
         ++delivered_;
     }
-    // Because the driver fills requests again, the requests that it cancelled can be queued again.
     queueIdle();
 }
 
 void RequestCycle::cancelled(std::size_t request) {
     const std::lock_guard lock(mutex_);
-    if (request >= requests_.size()) return;  // after close()
+    if (request >= requests_.size()) return;
     requests_[request] = State::Idle;
     changed_.notify_all();
     if (running_ && !anyQueued()) planRestart();
 }
 
-/// mutex_ must be locked. restartAt_ may be set already: then the driver also cancelled a request
-/// that was returned after the other ones.
+/// restartAt_ may already be set by an earlier cancelled request.
 void RequestCycle::planRestart() {
     if (restartAt_) return;
     const Timestamp now = clock_();

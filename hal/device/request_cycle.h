@@ -16,7 +16,7 @@
 
 namespace mfar {
 
-/// Limits for restarts of the stream. A restart is needed if a driver cancels all queued requests.
+/// Limits for restarts of the stream, which are needed if a driver cancels all queued requests.
 /// Raspberry Pi's driver does so after a second without a trigger pulse. This is not a fault.
 struct RestartLimits {
     /// If the driver cancels all requests within this time after the start, the stream has ended
@@ -24,28 +24,25 @@ struct RestartLimits {
     std::chrono::milliseconds early{500};
     /// Pause before the restart after two consecutive early ends. It doubles with each further one.
     std::chrono::milliseconds firstPause{50};
-    /// After this many consecutive early ends, the device counts as lost.
     int most = 5;
 };
 
-/// A camera driver, which fills requests in any order. Requests are identified by number.
+/// A camera driver. It may complete requests in any order. Requests are identified by number.
 class RequestDriver {
 public:
     virtual ~RequestDriver() = default;
-    /// Starts the stream. Throws DeviceLost, std::runtime_error.
     virtual void start() = 0;
     /// Queues a request. Returns 0 or a negative error number of errno.h. Never waits.
     [[nodiscard]] virtual int queue(std::size_t request) = 0;
     /// Called before stop(), while the driver may still complete requests.
     virtual void prepareStop() = 0;
-    /// Stops the stream and completes all queued requests. May wait.
     virtual void stop() = 0;
 };
 
 /// Manages the requests of a camera. Each request goes through a cycle: it is queued, the driver
-/// completes it, a user holds its picture, the user returns the picture, and it is queued again.
-/// Thread-safe, but only one thread may call next(). next() may call the driver's start() and
-/// stop().
+/// completes it, a user holds its picture and returns it, and it is queued again. Thread-safe, but
+/// only one thread may call next(), which may call the driver's start() and stop(). `driver` must
+/// outlive this object.
 class RequestCycle {
 public:
     struct Done {
@@ -58,13 +55,11 @@ public:
 
     using Clock = std::function<Timestamp()>;
 
-    /// `driver` must outlive this object.
     explicit RequestCycle(RequestDriver& driver, const RestartLimits& limits = {},
                           Clock clock = &Timestamp::now);
 
     /// Adds a request. Must not be called after start(). Requests are numbered from 0.
     void add();
-    /// Starts the driver and queues all requests. Throws what the driver throws.
     void start();
     void stop();
     /// Removes all requests. A request that is returned later is ignored.
@@ -75,21 +70,17 @@ public:
     [[nodiscard]] std::optional<Done> next(std::chrono::milliseconds timeout);
     void giveBack(std::size_t request);
 
-    // Only the driver's thread calls the following functions.
     void completed(std::size_t request, const Judge& judge);
-    /// Reports that the driver returned a request without a picture.
     void cancelled(std::size_t request);
     /// Reports that the device is lost. From then on, next() throws.
     void lose(const std::string& why);
 
     /// Waits until a picture comes, until no request is queued any more, or until stop(). Returns
-    /// false if none of these happens within this time.
+    /// false if none of these events happens in time.
     [[nodiscard]] bool awaitSign(std::chrono::milliseconds within);
 
     void setName(std::string camera) { name_ = std::move(camera); }
-    /// Returns the number of pictures that passed the Judge.
     [[nodiscard]] std::uint64_t delivered() const;
-    /// Returns the number of restarts after the driver had cancelled all requests.
     [[nodiscard]] std::uint64_t restarts() const;
 
 private:
@@ -114,9 +105,9 @@ private:
     std::vector<State> requests_;
     std::deque<Done> ready_;
     bool running_ = false;
-    std::string lost_;  ///< why the device is lost; empty: it is not lost
+    std::string lost_;
     Timestamp begun_;
-    int earlyEnds_ = 0;  ///< number of consecutive early ends
+    int earlyEnds_ = 0;
     std::optional<Timestamp> restartAt_;
     std::uint64_t delivered_ = 0, restarts_ = 0;
 };

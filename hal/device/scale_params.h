@@ -2,16 +2,16 @@
 
 #include <cstdint>
 
-// Parameters of display_scale.frag, which draws a picture on a screen.
-// gles_shaders/params_to_glsl.cmake translates this header to GLSL.
+// Parameters of display_scale.frag. gles_shaders/params_to_glsl.cmake translates this header to
+// GLSL.
 namespace mfar::params {
 
 struct alignas(16) ScalePicture {
-    std::int32_t left, top, width, height;     ///< where the picture is drawn on the screen [px]
-    float scaleX, scaleY;                      ///< picture pixels per screen pixel
-    float footprintX, footprintY;              ///< averaged area: scaleX and scaleY, but at least 1
-    std::int32_t pictureWidth, pictureHeight;  ///< [px]
-    std::int32_t blueFirst;                    ///< 1: the output's bytes are B G R; 0: R G B
+    std::int32_t left, top, width, height;  ///< the picture's rectangle on the screen [px]
+    float scaleX, scaleY;                   ///< picture pixels per screen pixel
+    float footprintX, footprintY;           ///< averaged area: scaleX and scaleY, but at least 1
+    std::int32_t pictureWidth, pictureHeight;
+    std::int32_t blueFirst;  ///< 1: the output's bytes are B G R; 0: R G B
 };
 
 }  // namespace mfar::params

@@ -7,11 +7,10 @@
 
 namespace mfar {
 
-/// Converts a camera's timestamps to CLOCK_MONOTONIC. libcamera documents that timestamps are of
-/// CLOCK_BOOTTIME, but its drivers use CLOCK_MONOTONIC. The two clocks differ by the time for which
-/// the machine was suspended. The first eight timestamps are compared with both clocks. If one of
-/// them is in the future on CLOCK_MONOTONIC but not on CLOCK_BOOTTIME, the camera uses
-/// CLOCK_BOOTTIME; otherwise it uses CLOCK_MONOTONIC.
+/// Converts a camera's timestamps to CLOCK_MONOTONIC. libcamera documents CLOCK_BOOTTIME, but its
+/// drivers use CLOCK_MONOTONIC. The clocks differ by the time for which the machine was suspended.
+/// If one of the first eight timestamps is in the future on CLOCK_MONOTONIC but not on
+/// CLOCK_BOOTTIME, the camera uses CLOCK_BOOTTIME.
 class SensorClock {
 public:
     enum class Kind : std::uint8_t { Monotonic, Boottime };
@@ -23,8 +22,7 @@ public:
         [[nodiscard]] static Now read();
     };
 
-    /// Returns the time on CLOCK_MONOTONIC. Returns nothing if the timestamp is implausible on the
-    /// camera's clock, which means that it is in the future or more than ten seconds old.
+    /// Returns nothing if the timestamp is in the future or more than ten seconds old.
     [[nodiscard]] std::optional<Timestamp> toMonotonic(Timestamp stamp, const Now& now);
     [[nodiscard]] Kind kind() const { return kind_; }
 

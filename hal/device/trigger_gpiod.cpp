@@ -32,7 +32,6 @@ std::unique_ptr<PulseTrigger> openGpioTrigger(const TriggerOptions& options) {
 }
 
 void driveSafe(const TriggerOptions& options) {
-    // requestOutput() already drives the line to its inactive level.
     requestOutput(outputOf(options, listGpioChips()))->set(false);
 }
 

@@ -10,18 +10,18 @@ namespace mfar {
 
 struct TriggerOptions {
     std::string chip;  ///< label, name or path of the GPIO chip; empty: any chip with the line
-    std::string line;  ///< number or name of the trigger line
+    std::string line;
     bool activeLow = false;
-    std::chrono::microseconds pulse{1000};  ///< length of a pulse, 1 us to 10 s
-    std::string loopbackChip;               ///< GPIO chip of `loopback`; empty: `chip`
+    std::chrono::microseconds pulse{1000};
+    std::string loopbackChip;
     /// Number or name of the loopback line, an input that is wired to `line` and reports its edges.
     /// Empty: there is none.
     std::string loopback;
 };
 
-/// Requests the trigger line at its inactive level, and the loopback line. Throws a
-/// std::runtime_error that lists the available chips or lines, or names the program that uses the
-/// line or the group that the user must join.
+/// Requests the trigger line at its inactive level, and the loopback line. Throws
+/// std::runtime_error whose message lists the available chips or lines, or names the program that
+/// uses the line or the group that the user must join.
 [[nodiscard]] std::unique_ptr<PulseTrigger> openGpioTrigger(const TriggerOptions& options);
 
 }  // namespace mfar

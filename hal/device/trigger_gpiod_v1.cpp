@@ -27,7 +27,7 @@ std::string text(const char* nullable) {
     return nullable ? nullable : "";
 }
 
-/// A requested line. Its chip must stay open, because closing the chip releases the line.
+/// The chip must stay open, because closing it releases the line.
 struct Requested {
     Chip chip;
     gpiod_line* line = nullptr;
@@ -68,7 +68,7 @@ public:
         : text_(address.text), taken_(request(address, GPIOD_LINE_REQUEST_EVENT_BOTH_EDGES)) {}
 
     std::optional<Timestamp> next(std::chrono::microseconds timeout) override {
-        // The casts are needed on 32-bit systems, where both fields of timespec have 32 bits.
+        // The casts are needed on 32-bit systems, where the fields of timespec have 32 bits.
         timespec wait{};
         wait.tv_sec = static_cast<time_t>(timeout.count() / 1'000'000);
         wait.tv_nsec = static_cast<decltype(wait.tv_nsec)>(timeout.count() % 1'000'000 * 1000);

@@ -17,7 +17,6 @@ namespace {
 
 constexpr const char* kConsumer = "mfar-trigger";
 
-/// A deleter for std::unique_ptr that calls a function of libgpiod.
 template <auto Free>
 struct Freed {
     template <typename T>

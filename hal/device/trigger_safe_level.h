@@ -4,8 +4,8 @@
 
 namespace mfar {
 
-/// Drives the trigger line to its inactive level and releases it. The service calls this after
-/// mfard has ended, because mfard may have crashed during a pulse. Throws std::runtime_error.
+/// Drives the trigger line to its inactive level and releases it. The service calls this function
+/// after mfard has ended, because mfard may have crashed during a pulse. Throws std::runtime_error.
 void driveSafe(const TriggerOptions& options);
 
 }  // namespace mfar

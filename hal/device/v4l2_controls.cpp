@@ -25,8 +25,8 @@ constexpr std::int64_t kMostEntries = 1024;
 constexpr int kTries = 3;
 constexpr std::chrono::milliseconds kBetweenTries{20};
 
-// Returns whether setting a control may succeed later after this error: the device was busy, or its
-// bus failed.
+// Returns true if setting a control may succeed later, because the device was busy or its bus
+// failed.
 bool mayPassLater(int error) {
     return error == EBUSY || error == EIO || error == EAGAIN || error == ETIMEDOUT ||
            error == EPROTO || error == EPIPE;
@@ -55,7 +55,8 @@ V4l2Control controlOf(const v4l2_query_ext_ctrl& query) {
     out.maximum = query.maximum;
     out.step = static_cast<std::int64_t>(query.step);
     out.standard = query.default_value;
-    if (query.type == V4L2_CTRL_TYPE_BITMASK) {  // bounds of a bitmask are unsigned 32-bit numbers
+    // Bounds of a bitmask are unsigned 32-bit numbers.
+    if (query.type == V4L2_CTRL_TYPE_BITMASK) {
         out.minimum = 0;
         out.maximum &= 0xffffffff;
     }
@@ -148,7 +149,6 @@ V4l2Controls::V4l2Controls(const V4l2Device& device) : device_(&device) {
     }
 }
 
-// Returns a menu's entries. Indices without an entry are skipped.
 std::vector<V4l2Control::Entry> V4l2Controls::entriesOf(const V4l2Control& control,
                                                         bool numbers) const {
     std::vector<V4l2Control::Entry> out;

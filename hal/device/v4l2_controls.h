@@ -9,57 +9,51 @@
 
 namespace mfar {
 
-/// A control of a V4L2 device.
 struct V4l2Control {
     enum class Kind { Integer, Boolean, Menu, Button, Other };
 
-    /// An entry of a menu. If the menu lists numbers, `text` is the number.
     struct Entry {
         std::int64_t index;
         std::string text;
     };
 
     std::uint32_t id = 0;
-    std::string name;    ///< the name that the driver reports, e.g. "Trigger Mode"
+    std::string name;    ///< the driver's name of the control, e.g. "Trigger Mode"
     std::string folded;  ///< the name in mfard's configuration, e.g. "trigger_mode"
     Kind kind = Kind::Other;
     std::int64_t minimum = 0, maximum = 0, step = 1, standard = 0;
     bool readOnly = false, writeOnly = false;
-    bool inactive = false;  ///< has no effect now, because of another control's value
-    bool wide = false;      ///< the value has 64 bits
+    bool inactive = false;
+    bool wide = false;
     std::vector<Entry> entries;
 };
 
-/// Returns a control's name for the configuration. Letters become lower case, and each run of other
-/// characters becomes one underscore: "White Balance, Automatic" becomes white_balance_automatic.
+/// Converts a control's name for the configuration: to lower case, with one underscore for each run
+/// of other characters. "White Balance, Automatic" becomes white_balance_automatic.
 [[nodiscard]] std::string foldedName(std::string_view name);
 
-/// Describes a control in one line: "exposure_time_absolute: 3 to 2047 in steps of 1, default 250".
 [[nodiscard]] std::string describe(const V4l2Control& control);
 
-/// The controls of a device. They are found by name, because vendors use the same id for different
-/// controls: 0x981901 is one vendor's trigger mode and another vendor's flash. Two names are equal
-/// if foldedName() is equal for both.
+/// The controls of a device. They are found by foldedName(), because vendors use the same id for
+/// different controls: 0x981901 is one vendor's trigger mode and another vendor's flash.
 ///
 /// If a control is busy or the bus fails, a value is set up to three times. All calls throw
-/// std::runtime_error if the control is unknown (the message lists the known ones), the value is
-/// out of range (the message states the range), or the control is read-only, busy or refuses the
-/// value. They throw DeviceLost if the device is lost. The device must outlive this object.
+/// std::runtime_error if the control is unknown, the value is out of range, or the control is
+/// read-only, busy or refuses the value. They throw DeviceLost if the device is lost. The device
+/// must outlive this object.
 class V4l2Controls {
 public:
-    /// Queries all controls of the device.
     explicit V4l2Controls(const V4l2Device& device);
 
     [[nodiscard]] const std::vector<V4l2Control>& list() const { return controls_; }
-    /// Returns the control of this name; null if it does not exist.
     [[nodiscard]] const V4l2Control* find(std::string_view name) const;
 
     [[nodiscard]] std::int64_t get(std::string_view name) const;
     /// Sets an integer, a boolean, or a menu (by the index of its entry). Returns the value that
-    /// the device reports after that.
+    /// the device then reports.
     std::int64_t set(std::string_view name, std::int64_t value) const;
-    /// Sets a control to a value that is given as text: a number; true, on, yes, false, off or no;
-    /// or the text of a menu entry. For a button, any text presses it.
+    /// The text is a number; true, on, yes, false, off or no; or a menu entry. For a button, any
+    /// text presses it.
     std::int64_t set(std::string_view name, std::string_view text) const;
     void press(std::string_view name) const;
 

@@ -20,19 +20,16 @@ class V4l2Api {
 public:
     virtual ~V4l2Api() = default;
 
-    /// Returns the paths of this machine's video device nodes, sorted.
     [[nodiscard]] virtual std::vector<std::string> nodes() = 0;
     [[nodiscard]] virtual int open(const char* path) = 0;
     virtual int ioctl(int fd, unsigned long request, void* argument) = 0;
-    /// Maps shared memory for reading and writing. The caller must call munmap().
     [[nodiscard]] virtual void* map(int fd, std::size_t length, std::int64_t offset) = 0;
 };
 
-/// Returns the real system calls.
 [[nodiscard]] V4l2Api& kernelV4l2();
 
-/// Reports that a system call to the device failed. The message names the device, the action and
-/// the reason.
+/// Thrown if a system call to the device failed. The message names the device, the action and the
+/// reason.
 class V4l2Error : public std::runtime_error {
 public:
     V4l2Error(const std::string& message, int errorNumber)
@@ -43,10 +40,8 @@ private:
     int errorNumber_;
 };
 
-/// An open V4L2 device node. Thread-safe.
 class V4l2Device {
 public:
-    /// Throws V4l2Error if the node cannot be opened or is not a V4L2 node.
     V4l2Device(V4l2Api& api, const std::string& path);
 
     /// Calls ioctl() and returns 0 or the error number. Interrupted calls are repeated.
@@ -66,16 +61,10 @@ public:
 
     [[nodiscard]] int fd() const { return fd_.get(); }
     [[nodiscard]] const std::string& path() const { return path_; }
-    /// Returns the name that the driver reports for the device.
     [[nodiscard]] const std::string& card() const { return card_; }
-    /// Returns the name that the driver reports for the bus and port at which the device is plugged
-    /// in.
     [[nodiscard]] const std::string& bus() const { return bus_; }
-    /// Returns the V4L2_CAP_... flags of this node.
     [[nodiscard]] std::uint32_t capabilities() const { return capabilities_; }
-    /// Returns whether the node delivers pictures through buffers.
     [[nodiscard]] bool captures() const;
-    /// Returns whether the node must be used through the multi-planar API.
     [[nodiscard]] bool multiPlanar() const;
 
 private:
@@ -85,8 +74,7 @@ private:
     OwnedFd fd_;
 };
 
-/// Returns the text in a driver's field of fixed size. The field need not contain a terminating
-/// zero.
+/// Returns the text in a driver's character array. The array need not contain a terminating zero.
 [[nodiscard]] std::string fieldText(const void* field, std::size_t bytes);
 
 }  // namespace mfar

@@ -9,10 +9,9 @@
 namespace mfar {
 namespace {
 
-// Largest plausible stride [bytes]. A larger stride is a fault of the driver.
+// [bytes]; a larger stride is a fault of the driver.
 constexpr std::size_t kMostStride = std::size_t{1} << 20;
 
-/// The picture format as the driver reports it, through the single-planar or the multi-planar API.
 struct Answer {
     std::uint32_t fourcc = 0, colorspace = 0, matrix = 0, range = 0;
     Size size;
@@ -83,8 +82,6 @@ void setColours(const Answer& answer, V4l2Layout& out) {
                     : YuvRange::Limited;
 }
 
-/// Lays out all planes one after the other in one V4L2 plane. The stride of chroma is computed from
-/// the stride of luma.
 void placeInOnePiece(std::size_t stride, V4l2Layout& out) {
     std::size_t offset = 0;
     for (int i = 0; i < planeCount(out.format.picture); ++i) {

@@ -15,55 +15,50 @@
 
 namespace mfar {
 
-/// A supported V4L2 pixel format.
 struct V4l2PixelFormat {
     std::uint32_t fourcc;
     PixelFormat picture;
-    bool jpeg = false;            ///< whether pictures must be decoded
-    bool separatePlanes = false;  ///< whether each plane is its own V4L2 plane (multi-planar)
+    bool jpeg = false;
+    bool separatePlanes = false;  ///< true: each plane of the picture is its own V4L2 plane
+                                  ///< (multi-planar API)
     bool operator==(const V4l2PixelFormat&) const = default;
 };
 
-/// Returns the supported formats in order of preference. First come formats with luma in a separate
-/// plane, those with the fewest planes first; then packed formats, the smallest first; then JPEG,
-/// whose decoding takes time; and last grey, which has no colour.
+/// Returns the supported formats in order of preference: luma in a separate plane (fewest planes
+/// first), packed (smallest first), JPEG (decoding takes time), grey.
 [[nodiscard]] std::span<const V4l2PixelFormat> usableFormats();
 
 /// Returns the four characters of a format's number, e.g. "YUYV". Unprintable characters become
 /// dots.
 [[nodiscard]] std::string fourccText(std::uint32_t fourcc);
 
-/// The wanted picture size, frame rate and format.
 struct V4l2Wish {
     Size size;
-    double rateHz = 0;   ///< frame rate [Hz]; 0: the driver chooses the rate
+    double rateHz = 0;   ///< [Hz]; 0: the driver chooses the rate
     std::string format;  ///< V4L2's four characters, e.g. "YUYV"; empty: automatic
 };
 
-/// Returns the first supported format that the driver offers in exactly the wanted size and whose
-/// highest frame rate reaches the wanted one. If no format reaches the rate, returns the first one
-/// that has the wanted size. If none has it, throws a std::runtime_error that lists the driver's
-/// formats and sizes.
+/// Returns the first supported format that the driver offers in exactly the wanted size, preferably
+/// one that reaches the wanted frame rate. If no format has the size, throws std::runtime_error
+/// whose message lists the driver's formats and sizes.
 [[nodiscard]] V4l2PixelFormat chooseFormat(const V4l2Device& device, const V4l2Wish& wish);
 
-/// The layout of a picture in its buffer, as the driver reported it. It was validated.
 struct V4l2Layout {
     V4l2PixelFormat format{};
     Size size;
     YuvMatrix matrix = YuvMatrix::Bt601;
     YuvRange range = YuvRange::Limited;
-    int memoryPlanes = 1;  ///< number of V4L2 planes per buffer
+    int memoryPlanes = 1;
     struct Plane {
-        int memory = 0;          ///< index of the V4L2 plane that contains this plane
-        std::size_t offset = 0;  ///< bytes from the start of the V4L2 plane to this plane
-        std::size_t stride = 0;  ///< bytes from one row to the next
+        int memory = 0;
+        std::size_t offset = 0;
+        std::size_t stride = 0;
     };
     std::array<Plane, 3> planes{};
-    /// For each V4L2 plane, the number of bytes that the driver must fill for a complete picture.
-    /// It is 0 for JPEG, whose size varies.
+    /// For each V4L2 plane, the number of bytes of a complete picture. 0 for JPEG, whose size
+    /// varies.
     std::array<std::size_t, 3> bytes{};
 
-    /// Returns a view of the picture. `memory`: the first byte of each V4L2 plane.
     [[nodiscard]] ImageView view(const std::array<const std::uint8_t*, 3>& memory) const;
 };
 
@@ -73,15 +68,14 @@ struct V4l2Layout {
 [[nodiscard]] V4l2Layout setFormat(const V4l2Device& device, const V4l2PixelFormat& format,
                                    Size size);
 
-/// Requests a frame rate. Returns the rate that the driver uses [Hz]; 0 if the driver does not
+/// Requests a frame rate. Returns the rate that the driver uses [Hz], or 0 if the driver does not
 /// report it.
 [[nodiscard]] double setRate(const V4l2Device& device, double rateHz);
 
-/// Returns the number of pixels of the largest picture in a supported format; 0 if the driver lists
-/// no sizes.
+/// Returns the number of pixels of the largest picture in a supported format, or 0 if the driver
+/// lists no sizes.
 [[nodiscard]] std::int64_t largestPicture(const V4l2Device& device);
 
-/// Returns the V4L2_BUF_TYPE_... with which this device captures.
 [[nodiscard]] std::uint32_t bufferType(const V4l2Device& device);
 
 }  // namespace mfar

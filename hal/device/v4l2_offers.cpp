@@ -10,7 +10,7 @@
 namespace mfar {
 namespace {
 
-constexpr std::uint32_t kMostSide = 65535;  // [px]; reported widths and heights are clamped to this
+constexpr std::uint32_t kMostSide = 65535;  // [px]; larger reported widths and heights are clamped
 constexpr int kMostOffers = 512;  // limits the list of a faulty driver, which may never end
 
 constexpr std::array kUsable{
@@ -27,12 +27,11 @@ constexpr std::array kUsable{
     V4l2PixelFormat{V4L2_PIX_FMT_GREY, PixelFormat::Gray8},
 };
 
-/// What the driver offers for one pixel format.
 struct Offer {
     std::uint32_t fourcc = 0;
-    bool hasSize = false;  ///< whether the wanted size is offered
-    double fastest = 0;    ///< highest frame rate at the wanted size [Hz]; 0: unknown
-    std::string sizes;     ///< list of the offered sizes, for messages
+    bool hasSize = false;
+    double fastest = 0;
+    std::string sizes;
 };
 
 double rateOf(const v4l2_fract& interval) {
@@ -65,8 +64,8 @@ bool contains(const v4l2_frmsize_stepwise& s, Size size) {
            fits(static_cast<std::uint32_t>(size.height), s.min_height, s.max_height, s.step_height);
 }
 
-// If a driver lists no sizes, it counts as offering every size. Then setFormat() finds out whether
-// it offers the wanted one.
+// A driver that lists no sizes counts as offering every size; setFormat() then fails for an
+// unsupported size.
 void askSizes(const V4l2Device& device, Size wanted, Offer& offer) {
     for (int i = 0; i < kMostOffers; ++i) {
         v4l2_frmsizeenum query{};

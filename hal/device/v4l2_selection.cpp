@@ -14,10 +14,9 @@
 namespace mfar {
 namespace {
 
-/// The capture devices of this machine.
 struct Captures {
     std::vector<V4l2Device> devices;
-    std::string listed;  ///< the devices as text for messages, with those that cannot be opened
+    std::string listed;
 };
 
 std::string lineOf(const V4l2Device& device) {

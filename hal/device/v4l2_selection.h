@@ -5,9 +5,9 @@
 
 namespace mfar {
 
-/// Opens the capture device whose path, card name or bus name is wish.name. If that is empty, a
-/// device is chosen as in chooseCamera(), with the path as id. Throws a std::runtime_error that
-/// lists the devices if no device or several devices match.
+/// Opens the capture device whose path, card name or bus name is wish.name. If the name is empty,
+/// chooses a device like chooseCamera(), with the path as id. Throws std::runtime_error whose
+/// message lists the devices if no device or several devices match.
 [[nodiscard]] V4l2Device openCapture(V4l2Api& api, const CameraWish& wish);
 
 }  // namespace mfar

@@ -37,7 +37,8 @@ struct V4l2Stream::Argument {
 V4l2Stream::V4l2Stream(V4l2Device device, const V4l2Layout& layout, int buffers)
     : device_(std::move(device)), type_(bufferType(*device_)), pieces_(layout.memoryPlanes),
       wake_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
-    if (wake_.get() < 0) throw std::runtime_error("an eventfd cannot be created");
+    if (wake_.get() < 0)
+        throw std::runtime_error("eventfd() failed: too many open files or no memory");
     allocate(buffers);
     returned_.reserve(buffers_.size());
     for (int i = 0; i < static_cast<int>(buffers_.size()); ++i) {
@@ -56,8 +57,8 @@ void V4l2Stream::allocate(int buffers) {
     v4l2_requestbuffers request{};
     auto count = static_cast<std::uint32_t>(std::clamp(buffers, 2, 32));
     int error = ENOMEM;
-    // The driver may not have enough memory for all buffers, so after ENOMEM, smaller numbers are
-    // tried.
+    // The driver may not have enough memory for all buffers, so after ENOMEM, fewer buffers are
+    // requested.
     for (; error == ENOMEM && count > 0; --count) {
         request = {};
         request.type = type_;
@@ -90,8 +91,8 @@ void V4l2Stream::mapBuffer(int index) {
     }
 }
 
-// Exports the memory of a buffer as dma-bufs. If the driver does not support this, the pixels of
-// pictures are uploaded to the GPU instead.
+// Exports the memory of a buffer as dma-bufs. If the driver does not support this, pictures are
+// uploaded to the GPU instead.
 void V4l2Stream::exportBuffer(int index, const V4l2Layout& layout) {
     if (layout.format.jpeg) return;
     Buffer& buffer = buffers_[static_cast<std::size_t>(index)];
@@ -150,8 +151,8 @@ void V4l2Stream::close() noexcept {
     stop();
     const std::scoped_lock lock(mutex_);
     if (!device_) return;
-    // This call frees the driver's buffers. Without it, pictures in use, whose memory is mapped,
-    // would keep the device in use until the last of them is returned.
+    // Frees the driver's buffers. Otherwise, pictures whose memory is still mapped would keep the
+    // device busy.
     v4l2_requestbuffers none{};
     none.type = type_;
     none.memory = V4L2_MEMORY_MMAP;
@@ -168,8 +169,8 @@ std::optional<V4l2Filled> V4l2Stream::take() {
     const v4l2_buffer& buffer = argument.buffer;
     if (const int error = device_->tryCall(VIDIOC_DQBUF, &argument.buffer)) {
         if (error == EAGAIN) return std::nullopt;
-        // EIO also means that the device is lost, because drivers report errors from which they
-        // recover with a flag of the buffer.
+        // EIO also means that the device is lost. Errors from which drivers recover are reported
+        // with a flag of the buffer.
         throw DeviceLost(fmt::format("{}: the camera has stopped delivering pictures ({})",
                                      device_->path(), std::generic_category().message(error)));
     }
@@ -199,7 +200,7 @@ std::vector<int> V4l2Stream::takeReturned() noexcept {
     std::uint64_t drained = 0;
     static_cast<void>(!read(wake_.get(), &drained, sizeof drained));
     std::vector<int> out = returned_;
-    returned_.clear();  // keeps its capacity, so giveBack() need not allocate
+    returned_.clear();
     return out;
 }
 

@@ -11,26 +11,25 @@
 
 namespace mfar {
 
-/// What the driver reports about a buffer that it has filled. Only `index` is validated.
+/// The driver's report about a buffer that it has filled. Only `index` is validated.
 struct V4l2Filled {
     int index = 0;
-    std::uint32_t flags = 0;     ///< V4L2_BUF_FLAG_...
+    std::uint32_t flags = 0;
     std::uint32_t sequence = 0;  ///< number of the frame; numbers of lost frames are skipped
     std::int64_t seconds = 0, microseconds = 0;
-    std::array<std::size_t, 3> offset{}, bytes{};  ///< the part of each V4L2 plane that was filled
+    std::array<std::size_t, 3> offset{}, bytes{};
 };
 
-/// The memory-mapped buffers of a capture device. They are allocated once. The driver fills a
-/// buffer; then a user holds its picture and returns it. Thread-safe. Users of pictures hold a
-/// shared_ptr to this object, so that a picture can be read and returned after the device was
-/// closed.
+/// The memory-mapped buffers of a capture device, allocated once. The driver fills a buffer; then a
+/// user holds its picture and returns it. Thread-safe. Users of pictures hold a shared_ptr to this
+/// object, so that a picture can be read and returned after the device was closed.
 ///
 /// If a driver hangs, calls of start(), stop(), close(), takeBack() and take() block. giveBack()
 /// never blocks, because the thread that processes frames may call it.
 class V4l2Stream {
 public:
-    /// Takes ownership of the device, whose format must be set already. The driver may allocate
-    /// fewer or more buffers than requested. Throws std::runtime_error, DeviceLost.
+    /// The device's format must already be set. The driver may allocate fewer or more buffers than
+    /// requested. Throws std::runtime_error, DeviceLost.
     V4l2Stream(V4l2Device device, const V4l2Layout& layout, int buffers);
     V4l2Stream(const V4l2Stream&) = delete;
     V4l2Stream& operator=(const V4l2Stream&) = delete;
@@ -50,23 +49,19 @@ public:
     [[nodiscard]] std::optional<V4l2Filled> take();
     /// Returns a buffer to this object. Only takeBack() returns it to the driver.
     void giveBack(int index) noexcept;
-    /// Returns the buffers that giveBack() has collected to the driver.
     void takeBack() noexcept;
     /// Returns a file descriptor for poll(). It is readable while takeBack() has buffers to return.
     /// Must not be used after close().
     [[nodiscard]] int givenBack() const { return wake_.get(); }
 
-    /// Returns the number of buffers.
     [[nodiscard]] int buffers() const { return static_cast<int>(buffers_.size()); }
     /// Returns the first byte of each V4L2 plane of a buffer. The planes may be read while the
     /// caller holds the buffer.
     [[nodiscard]] std::array<const std::uint8_t*, 3> memory(int index) const;
     [[nodiscard]] std::size_t memoryBytes(int index, int piece) const;
 
-    /// Returns the buffer as dma-bufs; null if the driver does not export it.
     [[nodiscard]] const SharedMemory* shared(int index) const;
 
-    /// Returns the device. Must not be called after close().
     [[nodiscard]] const V4l2Device& device() const { return *device_; }
 
 private:
@@ -75,10 +70,8 @@ private:
         Holder holder = Holder::Nobody;
         std::array<V4l2Device::Mapping, 3> pieces;
         std::array<OwnedFd, 3> exported;
-        SharedMemory shared;  ///< id 0: not exported
+        SharedMemory shared;
     };
-    /// The argument of an ioctl() for one buffer. It includes the V4L2 planes for the multi-planar
-    /// API.
     struct Argument;
 
     void allocate(int buffers);
@@ -96,7 +89,7 @@ private:
 
     std::mutex returnedMutex_;  ///< guards returned_ and wake_; not locked during driver calls
     std::vector<int> returned_;
-    OwnedFd wake_;  ///< eventfd; close() closes it
+    OwnedFd wake_;
 };
 
 }  // namespace mfar

@@ -52,8 +52,8 @@ std::optional<std::string> BackgroundWriter::error() const {
 }
 
 void BackgroundWriter::work(const WatchedThread& watched) {
-    // SIGPIPE is blocked in this thread, so that write() to a pipe without a reader fails and does
-    // not end the process.
+    // SIGPIPE is blocked, so that write() to a pipe without a reader fails and does not end the
+    // process.
     sigset_t brokenPipe;
     sigemptyset(&brokenPipe);
     sigaddset(&brokenPipe, SIGPIPE);
@@ -77,8 +77,7 @@ void BackgroundWriter::work(const WatchedThread& watched) {
         } catch (const std::exception& e) {
             failure = e.what();
         }
-        // The job is destroyed before the queue is reported as idle, because its destructor returns
-        // its buffer.
+        // The job is destroyed before idle_ is notified, because its destructor returns its buffer.
         job = nullptr;
         lock.lock();
         if (failure && !error_) error_ = std::move(failure);

@@ -42,7 +42,6 @@ public:
     [[nodiscard]] std::string name() const override { return "none"; }
 };
 
-/// Copies pictures into a few buffers and passes them to a thread that writes them.
 class FileDisplay : public Display {
 public:
     FileDisplay(int threads, std::stop_token cancel, FileDisplayPolicy policy)
@@ -59,7 +58,7 @@ public:
         if (!slot) return;
         auto loan = std::make_shared<Frame>(pool_->lend(*slot, time));
         copyPicture(picture, slot->data, slot->stride);
-        // If the GL context is lost, the read-back leaves the pixels unchanged.
+        // If the GL context is lost, reading leaves the pixels unchanged.
         if (!picture.isOnHost() && gpu::takeError() != GL_NO_ERROR)
             throw gpu::GlError("the picture cannot be read back from GL");
         {
@@ -82,30 +81,26 @@ public:
     }
 
 protected:
-    /// Throws if pictures of this size cannot be written. Called on the thread of show() before the
+    /// Throws if pictures of this size cannot be written. The thread of show() calls it before the
     /// first picture of a size.
     virtual void checkSize(Size size) = 0;
-    /// Writes a picture. Called on a writer thread.
     virtual void write(const Frame& picture) = 0;
-    /// Returns what show() waits for, e.g. "the disk". Messages use it.
+    /// Returns the name of the device or program that show() may wait for, e.g. "the disk".
     [[nodiscard]] virtual const char* consumer() const = 0;
-    /// Returns the token that ends a wait for a pipe's reader if a stop is requested.
     [[nodiscard]] std::stop_token cancelled() const { return cancel_.get_token(); }
-    /// Waits until all pictures are written. Destructors of derived classes must call this, because
+    /// Waits until all pictures are written. Destructors of derived classes must call it, because
     /// the writer's jobs call functions of these classes.
     void finishQuietly() noexcept {
         try {
-            // If writing one picture takes longer than policy_.finish, the wait for the pipe's
-            // reader ends.
+            // If writing one picture takes longer than policy_.finish, the wait for a pipe's reader
+            // ends.
             if (policy_.isLive && !drainWhileWriting()) cancel_.request_stop();
             writer_.drain();
         } catch (const std::exception&) {
-            // A destructor cannot report errors; finish() reports them.
         }
     }
 
 private:
-    /// Calls policy_.waiting at the start and at the end of a wait.
     class Waits {
     public:
         explicit Waits(const FileDisplay& of) : of_(of) {
@@ -125,14 +120,11 @@ private:
         return fmt::format("{}: {} accepts no data", name(), consumer());
     }
 
-    // Returns whether writing one picture has already taken longer than `time`.
     [[nodiscard]] bool writesFor(std::chrono::milliseconds time) const {
         const std::lock_guard lock(mutex_);
         return !writing_.empty() && Timestamp::now() - *writing_.begin() > time;
     }
 
-    // Waits until all pictures are written. Returns false if writing one of them takes longer than
-    // policy_.finish.
     [[nodiscard]] bool drainWhileWriting() {
         while (!writer_.drainWithin(kErrorPoll))
             if (writesFor(policy_.finish)) return false;
@@ -154,9 +146,8 @@ private:
         }
     }
 
-    // Returns a free buffer. If there is none, skips the oldest picture whose writing has not
-    // begun, and returns its buffer. Returns nothing if the pictures in all buffers are being
-    // written.
+    // Returns a free buffer. If there is none, skips the oldest picture that is not being written
+    // and returns its buffer. Returns nothing if all pictures are being written.
     std::optional<FramePool::Slot> freeBuffer() {
         throwError();
         if (const auto slot = pool_->acquire(std::chrono::milliseconds(0))) return slot;
@@ -194,10 +185,10 @@ private:
     std::optional<FramePool> pool_;
     std::atomic<std::uint64_t> leftOut_{0};
     mutable std::mutex mutex_;
-    std::deque<std::shared_ptr<Frame>> waiting_;  ///< pictures whose writing has not begun
-    std::multiset<Timestamp> writing_;            ///< when the writes that are in progress began
+    std::deque<std::shared_ptr<Frame>> waiting_;
+    std::multiset<Timestamp> writing_;
     std::stop_callback<std::function<void()>> onCancel_;
-    BackgroundWriter writer_;  // must be the last member: its threads use the members above
+    BackgroundWriter writer_;  // must be the last member, because its threads use the members above
 };
 
 class PngDisplay final : public FileDisplay {
@@ -272,8 +263,8 @@ std::unique_ptr<Display> openFileDisplay(std::string_view spec, double rateHz,
         return std::make_unique<PngDisplay>(spec.substr(4), std::move(cancel), policy);
     if (spec.starts_with("y4m:")) {
         if (!(rateHz >= 0.001 && rateHz < 1e6))
-            throw std::runtime_error(
-                fmt::format("y4m: the frame rate of {} Hz is not in 0.001 to 1000000 Hz", rateHz));
+            throw std::runtime_error(fmt::format(
+                "y4m: the frame rate must be from 0.001 to 1000000 Hz, not {} Hz", rateHz));
         return std::make_unique<Y4mDisplay>(spec.substr(4), rateHz, std::move(cancel), policy);
     }
     throw std::runtime_error(

@@ -11,20 +11,19 @@
 
 namespace mfar {
 
-/// What a file display does if pictures arrive faster than it writes them.
+/// Behaviour of a file display if pictures come faster than it writes them.
 struct FileDisplayPolicy {
-    /// True for a live source: show() never waits. If pictures come too fast, the oldest are
-    /// skipped and counted, see Display::leftOut(). If writing stops, fault() reports it. False:
-    /// every picture is written, and show() waits.
+    /// True for a live source: show() never waits, and the oldest pictures are skipped and counted,
+    /// see Display::leftOut(). False: every picture is written, and show() waits.
     bool isLive = false;
-    /// show() and finish() call this at the start of a wait with the name of what they wait for,
-    /// e.g. "the disk", and at the end of the wait with null.
+    /// Called at the start of a wait with the name of the slow device or program, e.g. "the disk",
+    /// and at the end of the wait with null.
     std::function<void(const char* what)> waiting{};
     /// If writing one picture takes longer than this, fault() reports a fault.
     std::chrono::milliseconds stalled{2000};
     /// With a live source: if writing one picture takes longer than this, finish() throws.
     std::chrono::milliseconds finish{5000};
-    WatchedThread writer{};  ///< the writing thread; its time budget is for one picture
+    WatchedThread writer{};
 };
 
 /// Opens a display that needs no screen. `spec` is one of:

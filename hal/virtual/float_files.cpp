@@ -72,7 +72,7 @@ public:
     }
 
     Size size;
-    double scale = 0;  ///< negative: the data are little-endian
+    double scale = 0;
 
 private:
     static bool isSpace(char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; }

@@ -40,8 +40,8 @@ public:
     ~OsMesaContext() override { OSMesaDestroyContext(context_); }
 
     void makeCurrent() override {
-        // OSMesa needs a buffer for the window, but nothing is drawn into it, because all passes
-        // draw into framebuffer objects.
+        // OSMesa needs a buffer for the window. It stays unused, because all passes draw into
+        // framebuffer objects.
         if (OSMesaMakeCurrent(context_, window_.data(), GL_UNSIGNED_BYTE, 4, 4) != GL_TRUE)
             throw std::runtime_error("OSMesa: the context cannot be made current");
     }

@@ -17,7 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns the largest plausible size [bytes] of a file with a picture of this size [px].
 std::size_t mostBytes(Size size) {
     constexpr std::size_t kBytesPerPixel = 8, kHeader = 1 << 20;
     return kBytesPerPixel * size.width * size.height + kHeader;

@@ -12,7 +12,7 @@
 
 namespace mfar {
 
-/// Reports that an image file cannot be read or written. The message is "file: fault".
+/// Thrown if an image file cannot be read or written. The message is "file: fault".
 class ImageFileError : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
@@ -34,20 +34,19 @@ struct StoredImage {
     }
 };
 
-/// Reads a PNG or JPEG file (colour or grey, 8 or 16 bits) as RGBA8 with alpha 255. A camera's
-/// orientation tag is ignored: the pixels stay in the order of the file. Throws ImageFileError.
+/// Reads a PNG or JPEG file as RGBA8 with alpha 255. A camera's orientation tag is ignored. Throws
+/// ImageFileError.
 [[nodiscard]] StoredImage loadImage(const std::filesystem::path& file);
-/// Reads a file as loadImage() does, but into the caller's buffer. Also throws ImageFileError if
-/// the picture does not have the size `expected`.
+/// Reads a file into the caller's buffer. Throws ImageFileError if the file cannot be read or the
+/// picture does not have the size `expected`.
 void loadImageInto(const std::filesystem::path& file, Size expected, std::uint8_t* rgba,
                    std::size_t stride);
 
-/// Encodes a picture of any format as PNG (RGB without alpha, or grey). The encoder is optimised
-/// for speed, not for size. The content of `out` is replaced. Throws std::invalid_argument if the
-/// view is invalid (requireSound()).
+/// Encodes a picture of any format as PNG, optimised for speed and not for size. Replaces the
+/// content of `out`. Throws std::invalid_argument if the view is invalid (requireSound()).
 void encodePng(const ImageView& image, std::vector<std::uint8_t>& out);
-/// Writes a PNG file completely or not at all (Durability::WithSync). Throws ImageFileError, and
-/// what encodePng() throws.
+/// Writes the file completely or not at all (Durability::WithSync). Throws ImageFileError and the
+/// exceptions of encodePng().
 void savePng(const std::filesystem::path& file, const ImageView& image);
 
 /// A picture with one number per pixel. NaN: the number is unknown. Rows have no padding; row 0 is
@@ -89,10 +88,9 @@ private:
     }
 };
 
-/// Reads a Middlebury .flo file. If a component of a vector is not finite or is greater than 1e9,
-/// the vector is unknown and becomes (NaN, NaN). Throws ImageFileError.
+/// Reads a Middlebury .flo file. A vector with a component that is not finite or greater than 1e9
+/// is unknown and becomes (NaN, NaN). Throws ImageFileError.
 [[nodiscard]] FlowImage loadFlo(const std::filesystem::path& file);
-/// Writes a .flo file. Unknown vectors are written as (1e10, 1e10). Throws ImageFileError.
 void saveFlo(const std::filesystem::path& file, const FlowImage& image);
 
 }  // namespace mfar

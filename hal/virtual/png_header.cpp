@@ -17,18 +17,16 @@
 namespace mfar {
 namespace {
 
-// The first bytes of a PNG file: its signature, and the length and name of the IHDR chunk (PNG
+// A PNG file begins with its signature, and the length and name of the IHDR chunk (PNG
 // specification, 5.2 and 11.2.2).
 constexpr std::array<std::uint8_t, 16> kStart{0x89, 'P', 'N', 'G', 0x0D, 0x0A, 0x1A, 0x0A,
                                               0,    0,   0,   13,  'I',  'H',  'D',  'R'};
-// The last bytes of a PNG file: the IEND chunk always consists of these twelve.
 constexpr std::array<std::uint8_t, 12> kEnd{0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xAE, 0x42, 0x60, 0x82};
 
 std::uint32_t bigEndian(const std::uint8_t* p) {
     return std::uint32_t{p[0]} << 24 | std::uint32_t{p[1]} << 16 | std::uint32_t{p[2]} << 8 | p[3];
 }
 
-/// Reads bytes at an offset of a file and returns how many were read.
 std::size_t readAt(int fd, off_t at, std::span<std::uint8_t> to) {
     ssize_t got = -1;
     do
@@ -42,7 +40,7 @@ std::size_t readAt(int fd, off_t at, std::span<std::uint8_t> to) {
 
 Size pngSize(const std::filesystem::path& file) {
     // Without O_NONBLOCK, open() would wait for the writer of a named pipe. std::ifstream is not
-    // used, because its buffers would fragment the heap while a long list of files is read.
+    // used, because its buffers would fragment the heap while thousands of files are read.
     const OwnedFd fd(open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
     struct stat about{};
     if (!fd && errno != ENOENT && errno != ENOTDIR && errno != ENXIO)

@@ -6,9 +6,8 @@
 
 namespace mfar {
 
-/// Reads a picture's size from the header of a PNG file, without decoding the file. Also reads the
-/// last bytes of the file, to detect a truncated file. Throws a std::runtime_error whose message
-/// names the fault but not the file.
+/// Reads a picture's size from the header of a PNG file. Also reads the last bytes, to detect a
+/// truncated file. Throws std::runtime_error whose message names the fault but not the file.
 [[nodiscard]] Size pngSize(const std::filesystem::path& file);
 
 }  // namespace mfar

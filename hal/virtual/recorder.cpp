@@ -85,7 +85,8 @@ void Recorder::writePicture(PictureStream& stream, const ImageView& picture, Tim
         checkSpace(picture.stride * picture.size.height);
         savePng(file, picture);
     } catch (const std::runtime_error&) {
-        sync();  // no more pictures will be written, so list the last ones now
+        // No more pictures will be written, so the last ones are listed now.
+        sync();
         throw;
     }
     std::error_code ignored;
@@ -117,7 +118,7 @@ void Recorder::sync() {
         if (rows.empty()) return;
         for (const auto& [file, text] : rows)
             appendToFile(file, text);
-        syncFileSystem(root_);  // also writes the lists' new rows to the disk
+        syncFileSystem(root_);
     });
 }
 

@@ -16,33 +16,32 @@
 namespace mfar {
 
 struct RecorderOptions {
-    int videoBuffers = 16;  ///< largest number of video frames that wait to be written
-    int stillBuffers = 3;   ///< largest number of stills that wait to be written
-    int poses = 256;        ///< largest number of poses that wait to be written
+    /// Largest number of frames, stills and poses that wait to be written.
+    int videoBuffers = 16;
+    int stillBuffers = 3;
+    int poses = 256;
     /// Disk space that must stay free [bytes]. If less is free, the recording ends with an error.
     std::uint64_t leastFreeBytes = 64U << 20;
     std::uint64_t mostBytes = 0;  ///< largest size of a recording [bytes]; 0: no limit
-    WatchedThread writer{};       ///< the writing thread; its time budget is for one picture
+    WatchedThread writer{};
     /// Interval between synchronisations of the disk, which protect the recording from a power cut.
-    /// The first picture starts the first one. After this interval, the next picture or pose starts
-    /// the next one.
+    /// The first picture or pose starts the first synchronisation; the next one after the interval
+    /// starts the next synchronisation.
     std::chrono::milliseconds syncEvery{1000};
 };
 
-/// Writes a recording. video(), still() and pose() copy their argument and return at once; they
-/// never wait for the disk. If all buffers are in use, the picture is dropped and counted.
+/// Writes a recording. video(), still() and pose() copy their argument and never wait for the disk.
+/// If all buffers are in use, the picture is dropped and counted. The recording's body frame B is
+/// the frame of the video camera.
 ///
 /// data.csv lists a picture only after its file is on the disk. At finish() and every `syncEvery`,
-/// the file system is synchronised, the new pictures are listed, and the lists are synchronised,
-/// too. So a recording can be loaded even if a power cut interrupted it at any moment; only the
-/// pictures after the last synchronisation may be missing. The recording's body frame B is the
-/// frame of the video camera.
+/// first the pictures and then the lists are written to the disk. So a power cut only loses the
+/// pictures after the last synchronisation.
 ///
-/// Each of video(), still() and pose() must be called from one thread only, but these may be three
-/// different threads. The functions return false if something is not recorded: all buffers are in
-/// use, the time is not later than the previous one, the size differs from the rig's, a pose is not
-/// finite, or a write has failed before. Pictures may have any format; the writer's thread converts
-/// them to RGB. An invalid view (requireSound()) throws std::invalid_argument.
+/// video(), still() and pose() may be called from three different threads, but each of them from
+/// one thread only. They return false if all buffers are in use, the time is not later than the
+/// previous one, the size differs from the rig's, a pose is not finite, or a write has failed
+/// before. An invalid view (requireSound()) throws std::invalid_argument.
 class Recorder {
 public:
     struct Counts {
@@ -54,19 +53,16 @@ public:
     /// std::runtime_error if the folder is not empty or cannot be written.
     Recorder(const std::filesystem::path& root, const StereoRig& rig, double videoRateHz,
              const RecorderOptions& options = {});
-    /// Finishes the recording like finish(), but ignores errors.
     ~Recorder();
 
     bool video(const ImageView& image, Timestamp time) { return picture(video_, image, time); }
     bool still(const ImageView& image, Timestamp time) { return picture(still_, image, time); }
     bool pose(const Pose& pose);
-    /// Writes a text file `name` into the recording's folder. An existing file is replaced.
     void addFile(std::string_view name, std::string_view text);
 
     /// Waits until all accepted pictures and poses are written. Throws std::runtime_error with the
     /// first write error, e.g. that the disk is full. May be called several times.
     void finish();
-    /// Returns the first write error so far. Thread-safe; never waits.
     [[nodiscard]] std::optional<std::string> error() const;
 
     [[nodiscard]] Counts videoCounts() const { return video_.counts(); }
@@ -80,7 +76,7 @@ private:
         std::optional<Timestamp> last{};
         std::atomic<std::uint64_t> written{0};
         std::atomic<std::uint64_t> dropped{0};
-        std::string rows{};  ///< rows still missing in data.csv; only the writer's thread uses them
+        std::string rows{};
 
         [[nodiscard]] Counts counts() const { return {written.load(), dropped.load()}; }
     };
@@ -95,24 +91,22 @@ private:
     void writePicture(PictureStream& stream, const ImageView& picture, Timestamp time);
     void writePose(const Pose& pose);
     void syncWhenDue();
-    /// Writes all picture files to the disk, lists them, and writes the lists to the disk.
     void sync();
-    /// Throws std::runtime_error if a picture of `bytes` bytes must not be written, because the
-    /// disk would be too full or the recording too large.
     void checkSpace(std::uintmax_t bytes);
 
     std::filesystem::path root_;
     RecorderOptions options_;
-    // Only the writer's thread uses bytes_ and synced_.
-    std::uintmax_t bytes_ = 0;                                     // size of all pictures
-    std::optional<std::chrono::steady_clock::time_point> synced_;  // start of the last sync
+    // Only the writer's thread uses bytes_ (size of all pictures) and synced_ (start of the last
+    // synchronisation).
+    std::uintmax_t bytes_ = 0;
+    std::optional<std::chrono::steady_clock::time_point> synced_;
     PictureStream video_;
     PictureStream still_;
     Stream poses_;
     std::atomic<int> pendingPoses_{0};
     std::atomic<bool> isSyncing_{false};
     BackgroundWriter syncer_;  // must be declared before writer_, whose thread posts jobs to it
-    BackgroundWriter writer_;  // must be the last member: its thread uses the members above
+    BackgroundWriter writer_;  // must be the last member, because its thread uses the members above
 };
 
 }  // namespace mfar

@@ -17,15 +17,14 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t kLongestPoseGap =
     250'000'000;  // [ns]; in a longer gap, a hand-held camera may turn far
-// Tolerance of a quaternion's norm; some files have four digits.
+// Tolerance of a quaternion's norm. It is large because some files have only four digits.
 constexpr double kUnitTolerance = 1e-3;
 
-/// Estimated memory of one entry of a list [bytes]. The factor 2 is for a vector while it grows.
-/// 400 is for the path of the file and for temporary strings.
+/// Estimated memory of one entry of a list [bytes]. The factor 2 is for a vector while it grows;
+/// 400 is for the file's path and for temporary strings.
 constexpr std::size_t kBytesPerPicture = 2 * sizeof(RecordedImage) + 400,
                       kBytesPerPose = 2 * sizeof(Pose);
 
-/// Counts how much memory the lists of the recording may still use.
 class ListMemory {
 public:
     explicit ListMemory(std::size_t most) : most_(most), left_(most) {}
@@ -48,8 +47,7 @@ void checkIncreasing(const CsvRow& row, Timestamp previous, Timestamp t) {
             fmt::format("timestamp {} follows {}; timestamps must increase", t.ns, previous.ns));
 }
 
-// Returns whether a file name contains no folder. A recording that was made elsewhere must not
-// refer to files outside its own folders.
+// A recording that was made elsewhere must not refer to files outside its own folders.
 bool isPlainName(std::string_view name) {
     return !name.empty() && name != "." && name != ".." && name.find('/') == name.npos &&
            name.find('\\') == name.npos && name.find('\0') == name.npos;

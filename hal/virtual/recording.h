@@ -13,8 +13,8 @@
 
 namespace mfar {
 
-/// Reports that a recording is invalid. The message states the fault in one line. It begins with
-/// "file:line: ", or with "file: " if the fault has no line.
+/// Thrown if a recording is invalid. The message is one line and begins with "file:line: " or
+/// "file: ".
 class RecordingError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -24,16 +24,17 @@ struct RecordedImage {
     std::filesystem::path file;
 };
 
-/// A recording in the EuRoC layout. Folder cam0 contains the video, cam1 the stills. Each has a
-/// sensor.yaml and a data.csv. All fields are validated. The pixels of the pictures are read later,
-/// one picture at a time.
+/// A recording in the EuRoC layout. Folder cam0 contains the video, cam1 the stills, each with
+/// sensor.yaml and data.csv. All fields are validated. Pixels are read later, one picture at a
+/// time.
 struct Recording {
     std::filesystem::path root;
     StereoRig rig;
     double videoRateHz = 0;
-    std::vector<RecordedImage> video;   ///< sorted by time; times differ; never empty
-    std::vector<RecordedImage> stills;  ///< sorted by time; times differ; may be empty
-    std::vector<Pose> poses;            ///< sorted by time; times differ; may be empty
+    /// Video (never empty), stills and poses are sorted by time. Their times differ.
+    std::vector<RecordedImage> video;
+    std::vector<RecordedImage> stills;
+    std::vector<Pose> poses;
 
     /// Returns the pose at t, interpolated if necessary. Returns nothing if t is before the first
     /// pose, after the last pose, or in a gap of more than a quarter of a second.
@@ -45,14 +46,12 @@ struct Recording {
                                                                  Timestamp to) const;
 };
 
-/// Reads and validates a recording. The files must exist, the sizes in their headers must agree
-/// with sensor.yaml, the times must be sorted and unique, and the poses must be finite. Otherwise
-/// throws RecordingError. Also throws if the lists need more than `most` bytes of memory.
+/// Reads and validates a recording: the files must exist, their sizes must agree with sensor.yaml,
+/// times must be sorted and unique, and poses finite. Otherwise, or if the lists need more than
+/// `most` bytes of memory, throws RecordingError.
 [[nodiscard]] Recording loadRecording(const std::filesystem::path& root,
                                       std::size_t most = std::numeric_limits<std::size_t>::max());
 
-/// Returns the largest number of bytes that the lists of a recording need, even while they are
-/// read.
 [[nodiscard]] std::size_t memoryOf(const Recording& recording);
 
 }  // namespace mfar

@@ -23,8 +23,8 @@ std::string_view trimmed(std::string_view s) {
     return s.substr(first, s.find_last_not_of(kSpace) - first + 1);
 }
 
-// Quotes a text for a message. Because damaged files may contain any bytes, control characters are
-// replaced and the text is cut to 60 characters.
+// Damaged files may contain any bytes, so control characters are replaced and the text is cut to 60
+// characters.
 std::string quoted(std::string_view s) {
     std::string out = "'";
     for (const char c : s.substr(0, 60)) {
@@ -88,7 +88,7 @@ void forEachCsvRow(const std::filesystem::path& file,
         if (line > kMostLines)
             recordingFault(file, line, fmt::format("the file has more than {} lines", kMostLines));
         std::string_view row(text.data(), static_cast<std::size_t>(in.gcount()));
-        if (row.ends_with('\0')) row.remove_suffix(1);  // a zero instead of the newline
+        if (row.ends_with('\0')) row.remove_suffix(1);
         if (line == 1 && row.starts_with("\xEF\xBB\xBF")) row.remove_prefix(3);
         const bool isTorn = in.eof();
         row = trimmed(row.substr(0, row.find('\0')));

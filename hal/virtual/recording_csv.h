@@ -21,17 +21,15 @@ class CsvRow {
 public:
     CsvRow(const std::filesystem::path& file, int line, std::string_view text, bool isTorn);
 
-    /// Returns whether this is the last row and has no newline or contains zeros. A power cut may
+    /// Returns true if this is the last row and has no newline or contains zeros. A power cut may
     /// have truncated such a row.
     [[nodiscard]] bool isTorn() const { return isTorn_; }
     [[nodiscard]] std::size_t size() const { return fields_.size(); }
     [[nodiscard]] std::string_view text(std::size_t i) const { return fields_.at(i); }
-    /// Returns field i as a timestamp [ns]. It must be in 0 <= t < 2^62, so that later sums and
-    /// differences cannot overflow. Throws RecordingError.
+    /// Returns field i as a timestamp [ns] in 0 <= t < 2^62, so that later sums and differences
+    /// cannot overflow. Throws RecordingError.
     [[nodiscard]] Timestamp time(std::size_t i) const;
-    /// Returns field i as a finite number. Throws RecordingError.
     [[nodiscard]] double number(std::size_t i) const;
-    /// Throws a RecordingError that names this row.
     [[noreturn]] void fail(std::string_view what) const;
 
 private:
@@ -41,9 +39,8 @@ private:
     std::vector<std::string_view> fields_;
 };
 
-/// Visits the rows of data in a CSV file, in the order of the file. Skips blank lines, lines that
-/// begin with '#', a byte order mark and carriage returns. Throws RecordingError if the file cannot
-/// be read.
+/// Visits the rows of data in a CSV file. Skips blank lines, lines that begin with '#', a byte
+/// order mark and carriage returns. Throws RecordingError if the file cannot be read.
 void forEachCsvRow(const std::filesystem::path& file,
                    const std::function<void(const CsvRow&)>& visit);
 

@@ -19,24 +19,24 @@ using Clock = std::chrono::steady_clock;
 
 constexpr Timestamp kNever{std::numeric_limits<std::int64_t>::max()};
 constexpr std::chrono::milliseconds kLongestWait{
-    3'600'000};  // longest timeout; so now + timeout cannot overflow
+    3'600'000};  // longest timeout, so that now + timeout cannot overflow
 constexpr std::chrono::milliseconds kBufferPoll{20};
 
 }  // namespace
 
-/// The state that the streams of both cameras share. The mutex guards the members after it.
+/// The state that both cameras share. The mutex guards the members after it.
 struct RecordingPlayer::Timeline {
     Pace pace = Pace::Realtime;
     bool loop = false;
     bool asksVideoFirst = false;
-    Timestamp first;                  ///< time of the recording's first picture
-    std::chrono::nanoseconds lap{0};  ///< duration of one pass through a looped recording
+    Timestamp first;
+    std::chrono::nanoseconds lap{0};
 
     mutable std::mutex mutex;
     std::condition_variable changed;
     std::optional<Clock::time_point> begin;
-    Timestamp nextVideo;    ///< time of the next video frame to deliver; kNever: there is none
-    Timestamp newestVideo;  ///< time of the last video frame that was delivered
+    Timestamp nextVideo;
+    Timestamp newestVideo;
 
     [[nodiscard]] Clock::time_point due(Timestamp t) const { return *begin + (t - first); }
 };
@@ -95,7 +95,7 @@ private:
     std::size_t toGive_ = 0;
     std::uint64_t skipped_ = 0;
     bool stopped_ = false;
-    bool starved_ = false;  ///< whether the decoder waits for a free buffer
+    bool starved_ = false;
 
     std::thread decoder_;
 };
@@ -106,7 +106,6 @@ Timestamp RecordingPlayer::Stream::timeOf(std::size_t number) const {
     return images_[number % images_.size()].time + laps * timeline_.lap;
 }
 
-// Returns whether a picture with time t may be delivered now.
 bool RecordingPlayer::Stream::isOpen(Timestamp t) const {
     if (timeline_.pace == Pace::Consumer) {
         const bool follows = timeline_.asksVideoFirst && timeline_.nextVideo != kNever;

@@ -20,13 +20,14 @@ enum class Pace {
 
 struct PlayerOptions {
     Pace pace = Pace::Realtime;
-    bool loop = false;     ///< restart at the end; times go on increasing, see recordedTime()
-    int videoBuffers = 8;  ///< number of buffers for frames that are in use or decoded, at least 2
-    int stillBuffers = 4;  ///< number of buffers for stills that are in use or decoded, at least 2
+    bool loop = false;  ///< restart at the end; times still increase, see recordedTime()
+    /// Number of buffers for pictures that are in use or decoded, at least 2.
+    int videoBuffers = 8;
+    int stillBuffers = 4;
     bool asksVideoFirst = false;  ///< for Pace::Consumer only, see RecordingPlayer
 };
 
-/// The trigger of a recording. It only counts its calls, because the stills are recorded already.
+/// The trigger of a recording. It only counts its calls, because the stills are already recorded.
 class RecordedTrigger final : public Trigger {
 public:
     explicit RecordedTrigger(std::function<Timestamp()> now) : now_(std::move(now)) {}
@@ -45,30 +46,28 @@ private:
     std::atomic<std::uint64_t> fired_{0};
 };
 
-/// Plays a recording as two cameras. Each has a thread that decodes a few pictures ahead. Frames
-/// have the times of the recording. Each camera can be started once and lives as long as the
-/// player; frames may outlive the player. If a picture cannot be decoded, next() throws
-/// RecordingError, and the next call continues with the following picture.
+/// Plays a recording as two cameras. Each has a thread that decodes a few pictures ahead. Each
+/// camera can be started once and lives as long as the player; frames may outlive the player. If a
+/// picture cannot be decoded, next() throws RecordingError, and the next call continues with the
+/// following picture.
 ///
-/// Pace::Realtime: both cameras share one clock, which begins with the first start(). If the
-/// decoder or the consumer is so slow that the following video frame is already due, the older
-/// frame is skipped and counted, as a sensor overwrites frames that are not read. Stills are never
-/// skipped.
+/// Pace::Realtime: both cameras share one clock, which begins with the first start(). If the next
+/// video frame is already due, an older one that is still waiting is skipped and counted, as a
+/// sensor overwrites unread frames. Stills are never skipped.
 ///
-/// Pace::Consumer: stills().next() returns a still only if its time is not later than the time of
-/// the frame that video().next() will return next. After the end of the video, it returns any
-/// still. So a thread that requests stills and frames alternately gets all pictures in the order of
-/// their times, in every run. At equal times, the still comes first.
+/// Pace::Consumer: stills().next() returns a still only if its time is not later than that of the
+/// frame that video().next() will return next. So a thread that requests stills and frames
+/// alternately gets all pictures in the order of their times, in every run. At equal times, the
+/// still comes first. After the end of the video, any still is returned.
 ///
-/// With `asksVideoFirst`, a still is returned only if its time is not later than the time of the
-/// last frame that video().next() returned. This suits a thread that requests a frame and then the
+/// With `asksVideoFirst`, a still is returned only if its time is not later than that of the last
+/// frame that video().next() returned. This suits a thread that requests a frame and then the
 /// stills up to it.
 ///
-/// With Pace::Consumer, the timeout of next() does not include waits for the decoder. It includes
-/// only waits while the consumer holds all buffers.
+/// With Pace::Consumer, the timeout of next() includes only waits while the consumer holds all
+/// buffers, not waits for the decoder.
 class RecordingPlayer {
 public:
-    /// Throws std::invalid_argument if an option has an impossible value.
     RecordingPlayer(Recording recording, const PlayerOptions& options);
     RecordingPlayer(const RecordingPlayer&) = delete;
     RecordingPlayer& operator=(const RecordingPlayer&) = delete;
@@ -79,13 +78,12 @@ public:
     [[nodiscard]] RecordedTrigger& trigger() { return trigger_; }
     [[nodiscard]] const Recording& recording() const { return recording_; }
 
-    /// Converts the time of a delivered frame to the time in the recording's files. If the
-    /// recording loops, the two times differ from the second loop on.
+    /// Converts the time of a delivered frame to the time in the recording's files. They differ
+    /// from the second pass through a looped recording on.
     [[nodiscard]] Timestamp recordedTime(Timestamp played) const;
     /// Returns the current time of the cameras. With Pace::Realtime, it is the time of their clock;
     /// otherwise it is the time of the last delivered video frame.
     [[nodiscard]] Timestamp now() const;
-    /// Returns the number of video frames that were skipped because they were late.
     [[nodiscard]] std::uint64_t skipped() const;
 
 private:

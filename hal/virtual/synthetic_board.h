@@ -16,29 +16,28 @@ namespace mfar {
 
 struct SyntheticOptions {
     synthetic::Scene scene = synthetic::Scene::Office;
-    /// The path along which the camera moves. Not set: Rest in scene Still, Survey in scene
+    /// Path along which the camera moves. Not set: Rest in scene Still, Survey in scene
     /// Calibration, otherwise Handheld.
     std::optional<synthetic::Path> path{};
     std::uint64_t seed = 1;
     Pace pace = Pace::Realtime;
-    int frames = 0;        ///< number of frames after which the video ends; 0: unlimited
-    double rateHz = 30;    ///< frame rate of the video camera
-    double noise = 1;      ///< factor of the noise of both sensors (standard deviation)
-    int videoBuffers = 8;  ///< number of buffers for frames that are in use or ready
-    int stillBuffers = 4;  ///< number of buffers for stills that are in use or ready
-    /// Delay from a trigger pulse to the start of the exposure.
+    int frames = 0;  ///< 0: unlimited
+    double rateHz = 30;
+    double noise = 1;  ///< factor of the standard deviation of both sensors' noise
+    /// Number of buffers for pictures that are in use or ready.
+    int videoBuffers = 8;
+    int stillBuffers = 4;
+    /// Delays from a trigger pulse to the start of the exposure and to the delivery of the still.
     std::chrono::nanoseconds stillDelay = std::chrono::milliseconds(1);
     std::chrono::nanoseconds stillExposure = std::chrono::milliseconds(8);
-    /// Delay from a trigger pulse to the delivery of its still.
     std::chrono::nanoseconds stillLatency = std::chrono::milliseconds(60);
 };
 
 class SyntheticStudio;
 
-/// A simulated board in a generated world: a video camera of 640x480 pixels and, 14 mm from it, a
-/// triggered still camera of 2304x1728 pixels. Each has its own lens, gain, gamma, blur and noise.
-/// The world is defined for any time and has exact ground truth. There is no motion blur and no
-/// rolling shutter.
+/// A simulated board with a video camera of 640x480 pixels and, 14 mm from it, a triggered still
+/// camera of 2304x1728 pixels. Each has its own lens, gain, gamma, blur and noise, but no motion
+/// blur and no rolling shutter. They see a generated world with exact ground truth at any time.
 ///
 /// Pace::Realtime: the clock is Timestamp::now(), and frames come at rateHz. If the renderer or the
 /// consumer is too slow, frames are skipped. Stills are rendered in steps between video frames. The
@@ -49,25 +48,24 @@ class SyntheticStudio;
 /// video().next() returned, or epoch() before the first frame. A pulse is fired at the current
 /// time. Its still can be requested as soon as a frame that is at least stillLatency later was
 /// returned. After the end of the video, next() with a timeout above zero returns the remaining
-/// stills. The timeout of video().next() does not include waits for the renderer, only waits while
-/// the consumer holds all buffers.
+/// stills. The timeout of video().next() includes only waits while the consumer holds all buffers,
+/// not waits for the renderer.
 ///
-/// As with a real sensor, a pulse is lost if it comes during the previous exposure, while
-/// stillBuffers - 1 stills are pending, or while the still camera is not started.
+/// As with a real sensor, a pulse is lost during the previous exposure, while stillBuffers - 1
+/// stills are pending, and while the still camera is not started.
 ///
 /// The program must link a createGlContext(); the board's thread has its own GL context. The
 /// cameras and the trigger live as long as the board; frames may outlive it. All functions are
 /// thread-safe.
 class SyntheticBoard {
 public:
-    /// The camera for which ground truth is computed.
     enum class View {
-        Video,         ///< the video camera
-        Still,         ///< the still camera
-        StillAtVideo,  ///< still camera's position; video's orientation, lens, resolution
+        Video,
+        Still,
+        StillAtVideo,  ///< position of the still camera; orientation, lens and resolution of the
+                       ///< video camera
     };
 
-    /// Throws std::runtime_error if no GL context can be created.
     explicit SyntheticBoard(const SyntheticOptions& options);
     ~SyntheticBoard();
     SyntheticBoard(const SyntheticBoard&) = delete;
@@ -78,21 +76,18 @@ public:
     [[nodiscard]] Camera& video() { return *video_; }
     [[nodiscard]] Camera& stills() { return *stills_; }
     [[nodiscard]] Trigger& trigger() { return *trigger_; }
-    /// Returns the epoch of the world, at which the world's time is 0. The world is also defined at
-    /// earlier times.
+    /// Returns the time at which the world's time is 0. The world is also defined at earlier times.
     [[nodiscard]] Timestamp epoch() const;
 
-    /// Returns the exact pose of the video camera at t.
     [[nodiscard]] Pose pose(Timestamp t) const;
-    /// Returns the inverse depth 1 / z [1/m] of each video pixel at t; 0: background.
+    /// Returns the inverse depth 1 / z [1/m] of each video pixel; 0: background.
     [[nodiscard]] FloatImage inverseDepth(Timestamp t) const;
     /// Returns, for each pixel of `from`, the offset [px] to the same point in `to`. NaN: the point
     /// is occluded in `to` or outside of the picture.
     [[nodiscard]] FlowImage flow(View from, Timestamp fromTime, View to, Timestamp toTime) const;
-    /// Returns the picture that the video camera would take at t with the still's resolution: same
-    /// lens, gain and gamma, without noise and blur. Takes as long as rendering a still.
+    /// Returns the picture of the video camera at the still's resolution: same lens, gain and
+    /// gamma, without noise and blur. Takes as long as rendering a still.
     [[nodiscard]] StoredImage highRes(Timestamp t);
-    /// Returns the picture of the video camera at t without noise.
     [[nodiscard]] StoredImage cleanVideo(Timestamp t);
 
 private:

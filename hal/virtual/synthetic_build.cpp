@@ -7,7 +7,7 @@
 namespace mfar::synthetic {
 namespace {
 
-// Edge of a plate: the tag and a white rim of one cell.
+// Side of the plate that carries a tag, including a white rim of one cell [cells].
 constexpr double kPlateCells = kTagCells + 2;
 constexpr double kPlateThickness = 0.004;
 
@@ -15,8 +15,6 @@ Eigen::Quaterniond aboutZ(double yaw) {
     return Eigen::Quaterniond(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()));
 }
 
-/// Returns the rotation from the tag's frame to the plate's frame. `x` and `y` are the tag's axes
-/// in the plate's frame.
 Eigen::Quaterniond axes(const Eigen::Vector3d& x, const Eigen::Vector3d& y) {
     Eigen::Matrix3d m;
     m << x, y, x.cross(y);

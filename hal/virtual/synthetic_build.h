@@ -8,12 +8,12 @@
 namespace mfar::synthetic {
 
 /// Assembles a world from solids. Positions and sizes are in metres, in the world's frame. Yaw
-/// angles [rad] are about the world's z axis.
+/// angles [rad] are about the world's z axis. Materials are given by the index that material(),
+/// sheet() or tiled() returned.
 class Builder {
 public:
     World world;
 
-    /// Adds a material and returns its index.
     int material(const Material& m);
     /// Adds a material whose texture fills a face of this size exactly once. It suits the +x, -y
     /// and +z faces of a box.
@@ -28,19 +28,16 @@ public:
     Primitive& box(const Eigen::Vector3d& centre, const Eigen::Vector3d& size, double yaw, int m) {
         return box(centre, size, yaw, {m, m, m});
     }
-    /// Adds an upright cylinder. `side` and `caps` are the indices of its materials.
     Primitive& cylinder(const Eigen::Vector3d& centre, double radius, double height, int side,
                         int caps);
-    /// Adds a cylinder whose axis runs from one point to another. `m` is the index of its material.
     Primitive& rod(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius, int m);
     Primitive& ellipsoid(const Eigen::Vector3d& centre, const Eigen::Vector3d& radii, double yaw,
                          int m);
-    /// These functions add a plate with tag `id` (0..3), whose black square has the edge `size`. A
-    /// standing tag faces -y, rotated by yaw. A lying tag faces up.
+    /// Adds a plate with tag `id` (0..3), whose black square has the side `size`. A standing tag
+    /// faces -y, rotated by yaw. A lying tag faces up.
     void standingTag(int id, const Eigen::Vector3d& centre, double size, double yaw);
     void lyingTag(int id, const Eigen::Vector3d& centre, double size, double yaw);
-    /// These functions add a book. A lying book has its cover on top. A standing book has its spine
-    /// towards -y.
+    /// A lying book has its cover on top. A standing book has its spine towards -y.
     void lyingBook(const Eigen::Vector3d& bottom, const Eigen::Vector3d& size, double yaw,
                    const Eigen::Vector3d& tint);
     void standingBook(const Eigen::Vector3d& bottom, const Eigen::Vector3d& size, double yaw,

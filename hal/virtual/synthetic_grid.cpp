@@ -8,8 +8,8 @@ namespace {
 
 using V = Eigen::Vector3d;
 
-/// The codes of tags 0 to 35 of family 36h11. The bits are in the family's order, the first bit is
-/// the most significant.
+/// The codes of tags 0 to 35 of family 36h11. The first bit in the family's order is the most
+/// significant.
 constexpr std::array<std::uint64_t, 36> kTagCodes{
     0xd7e00984bULL, 0xdda664ca7ULL, 0xdc4a1c821ULL, 0xe17b470e9ULL, 0xef91d01b1ULL, 0xf429cdd73ULL,
     0x05da29225ULL, 0x1106cba43ULL, 0x223bed79dULL, 0x21f51213cULL, 0x33eb19ca6ULL, 0x3f76eb0f8ULL,
@@ -19,21 +19,22 @@ constexpr std::array<std::uint64_t, 36> kTagCodes{
     0xe2cfda160ULL, 0x2ff497c63ULL, 0x47240671bULL, 0x5047a2e55ULL, 0x635ca87c7ULL, 0x691254166ULL};
 static_assert(kTagCodes.size() == static_cast<std::size_t>(kGridTags) * kGridTags);
 
-// The texture layer is a grid of cells: a white rim, then black squares and tags alternately. The
-// size of a cell is a whole number of texels down to the fourth mipmap level, so that edges have
-// exact positions.
+// The texture is a grid of square cells: a white rim, then black squares and tags alternately. A
+// cell is a whole number of texels down to the fourth mipmap level, so that edges have exact
+// positions.
 constexpr int kGapCells = 2, kPitch = kTagCells + kGapCells;
 constexpr int kRim = 1;
 constexpr int kLayerCells = 2 * kRim + kGridTags * kPitch + kGapCells;
 static_assert(kLayerSize % (16 * kLayerCells) == 0);
 static_assert(kGapCells == kTagCells * kGridSpacing);
 
-constexpr double kCell = kGridTagSize / kTagCells;  // edge of a cell [m]
-constexpr double kPlate = kLayerCells * kCell;      // edge of the whole plate [m]
-const V kMiddle{0, 0.3, 0.46};                      // centre of the plate's front face [m]
+// Side of a cell, side of the whole plate, centre of the plate's front face [m].
+constexpr double kCell = kGridTagSize / kTagCells;
+constexpr double kPlate = kLayerCells * kCell;
+const V kMiddle{0, 0.3, 0.46};
 constexpr double kThickness = 0.01;
 
-/// Returns whether a cell is white. Column 0 and row 0 contain the outermost black squares.
+/// Column 0 and row 0 contain the outermost black squares.
 bool isWhite(int column, int row) {
     const int right = column % kPitch - kGapCells, down = row % kPitch - kGapCells;
     if (right < 0 || down < 0) return !(right < 0 && down < 0);
@@ -41,8 +42,8 @@ bool isWhite(int column, int row) {
     return tagCells(id)[down][right];
 }
 
-/// Returns the tag in a column (counted from the left) and a row (counted from the bottom). Both
-/// begin at 0.
+/// Returns the tag in a column (counted from the left) and a row (counted from the bottom), both
+/// from 0.
 Tag gridTag(int column, int row) {
     const auto place = [](int i) { return (i - 0.5 * (kGridTags - 1)) * kPitch * kCell; };
     Eigen::Matrix3d turn;  // columns: the tag's x, y and z axes
@@ -54,8 +55,8 @@ Tag gridTag(int column, int row) {
 
 }  // namespace
 
-// Returns which cells of a tag are white. The 36 bits fill four quarters of the tag, with nine bits
-// each. The positions of each quarter are those of the previous quarter, rotated by 90 degrees.
+// The 36 bits fill four quarters of the tag, with nine bits each. The positions in a quarter are
+// those of the previous quarter, rotated by 90 degrees.
 TagCells tagCells(int id) {
     constexpr std::array<std::array<int, 2>, 9> kFirst{
         {{1, 1}, {2, 1}, {3, 1}, {4, 1}, {5, 1}, {2, 2}, {3, 2}, {4, 2}, {3, 3}}};
@@ -73,7 +74,7 @@ TagCells tagCells(int id) {
 }
 
 cv::Mat4b aprilGrid(std::uint64_t seed) {
-    constexpr int kTexels = kLayerSize / kLayerCells;  // side of a cell [texels]
+    constexpr int kTexels = kLayerSize / kLayerCells;
     const cv::Mat1f grain = fractal(seed, 200, 200, 2, 0.7F);
     cv::Mat1b white(kLayerCells, kLayerCells, 255);
     for (int y = kRim; y < kLayerCells - kRim; ++y)

@@ -17,12 +17,10 @@ namespace mfar::synthetic {
     return mix(mix(seed ^ mix(static_cast<std::uint64_t>(a))) ^ static_cast<std::uint64_t>(b));
 }
 
-/// Maps a hash to [0, 1).
 [[nodiscard]] constexpr double hashUnit(std::uint64_t h) {
     return static_cast<double>(h >> 11) * 0x1p-53;
 }
 
-/// A sequence of reproducible pseudo-random numbers.
 class Random {
 public:
     explicit constexpr Random(std::uint64_t seed) : state_(mix(seed)) {}

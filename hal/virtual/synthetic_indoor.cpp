@@ -10,7 +10,6 @@ using V = Eigen::Vector3d;
 
 const V kWhite{1, 1, 1};
 
-/// Returns the light that falls through a tall window to the left of the desk.
 Lighting windowLight() {
     Lighting light;
     light.towards = V(-0.75, -0.30, 0.68).normalized();

@@ -15,7 +15,7 @@
 namespace mfar::synthetic {
 namespace {
 
-constexpr int kAtlas = 1024;     // side of the light map [texels]
+constexpr int kAtlas = 1024;
 constexpr double kSlack = 1e-3;  // margin around bounding spheres for rounding errors [m]
 // Number of rays per texel towards the key light and the sky. Neighbouring texels use different
 // rays and are blurred afterwards.
@@ -25,8 +25,8 @@ struct SurfacePoint {
     Eigen::Vector3d position, normal;  ///< in the primitive's frame [m]
 };
 
-/// Returns the point of a primitive's face with the face coordinates (s, t) in [-1, 1]^2. The
-/// shader's function chart() is the inverse.
+/// Returns the point of a primitive's face with the face coordinates (s, t) in [-1, 1]^2. It is the
+/// inverse of the shader's function chart().
 SurfacePoint surfacePoint(const Primitive& p, int axis, double sign, double s, double t) {
     Eigen::Vector3d unit, normal;
     if (p.shape == Shape::Cylinder && axis < 2) {
@@ -65,7 +65,7 @@ public:
                 light(j, i) = cv::Vec3f(cv::Vec3d(e.x(), e.y(), e.z()));
             }
         }
-        // This blur removes the noise of ray sampling and hardly changes the shadows.
+        // Removes the noise of ray sampling and hardly changes the shadows.
         if (n >= 12) cv::GaussianBlur(light, light, {0, 0}, 0.9, 0.9, cv::BORDER_REPLICATE);
         cv::Mat4b out = map_.texels(area);
         eachPixel(out, [&](cv::Vec4b& o, const int* q) {
@@ -75,8 +75,8 @@ public:
     }
 
 private:
-    /// Returns the world without its moving objects. In the light map, they cast no shadows and
-    /// reflect no light.
+    /// Moves the moving objects far away, so that they cast no shadows and reflect no light in the
+    /// light map.
     static World still(const World& world) {
         World out = world;
         for (Primitive& p : out.primitives)
@@ -105,8 +105,8 @@ private:
         return light.key * key + skyAt(index, origin, normal, turn, shift);
     }
 
-    /// Returns the cosine-weighted light that arrives from the surroundings: light of the sky, and
-    /// light that solids within reach() reflect with their colours.
+    /// Returns the cosine-weighted light of the sky, and of solids within reach() that reflect
+    /// light with their colours.
     Eigen::Vector3d skyAt(int index, const Eigen::Vector3d& origin, const Eigen::Vector3d& normal,
                           double turn, double shift) const {
         const Eigen::Vector3d side = normal.unitOrthogonal(), up = normal.cross(side);
@@ -130,8 +130,6 @@ private:
         return sum / kSkyRays;
     }
 
-    /// Returns the solids that may hide a part of the key light from a point: those whose bounding
-    /// spheres touch the cone of rays towards the light.
     std::vector<int> towardsLight(const Eigen::Vector3d& point) const {
         std::vector<int> out;
         for (int i = 0; i < solids_.size(); ++i) {
@@ -144,7 +142,6 @@ private:
         return out;
     }
 
-    /// Returns the solids that rays from a surface point may hit within reach().
     std::vector<int> withinReach(const Eigen::Vector3d& point,
                                  const Eigen::Vector3d& normal) const {
         std::vector<int> out;

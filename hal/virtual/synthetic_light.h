@@ -12,8 +12,8 @@ namespace mfar::synthetic {
 /// The light that arrives at every surface: the key light with soft shadows, the ambient light with
 /// occlusion, and the light of one reflection. It is ray traced once, for the world at time 0.
 struct LightMap {
-    /// Irradiance divided by kFullScale, times 255, per channel. The 3 x 2 faces (axis, sign) of a
-    /// primitive are side by side. Moving objects cast no shadow in the light map.
+    /// Irradiance / kFullScale * 255, per channel. The 3 x 2 faces (axis, sign) of a primitive are
+    /// side by side. Moving objects cast no shadow.
     cv::Mat4b texels;
     /// For each primitive, in texture coordinates: x and y of its first face, and width and height
     /// of one face.

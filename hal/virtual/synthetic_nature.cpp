@@ -15,7 +15,7 @@ int wrap(int i) {
 }
 
 cv::Mat4b wood(std::uint64_t seed) {
-    const cv::Mat1f bend = fractal(seed, 2, 6, 3);  // long waves of the growth rings
+    const cv::Mat1f bend = fractal(seed, 2, 6, 3);
     const cv::Mat1f fibre = fractal(seed + 1, 16, 256, 2, 0.8F);
     const cv::Mat1f pores = noise(seed + 2, 40, 512);
     const cv::Mat1f tone = fractal(seed + 3, 2, 24, 3);
@@ -91,8 +91,7 @@ cv::Mat4b foliage(std::uint64_t seed) {
     for (int i = 0; i < kLeaves; ++i) {
         const float depth = 0.16F + 0.95F * std::pow(static_cast<float>(i) / kLeaves, 2.F);
         const double x = random.range(0, kLayerSize), y = random.range(0, kLayerSize);
-        // Leaves are painted in clumps, so that the deeper, darker leaves stay visible in the gaps
-        // between clumps.
+        // Leaves are painted in clumps, so that deeper, darker leaves stay visible between them.
         const double clump = std::sin(x * 0.0368155) * std::sin(y * 0.0429515 + 1) +
                              std::sin(x * 0.0122718 + y * 0.0184078);
         if (i > kLeaves / 3 && clump < random.range(-1.6, 0.6)) continue;
@@ -101,8 +100,8 @@ cv::Mat4b foliage(std::uint64_t seed) {
     return toBytes(colour, cv::Mat1f(colour.size(), 0.25F));
 }
 
-/// Distances of a texel from the nearest and the second nearest of many random points. There is one
-/// point in each cell of a grid, which continues at the opposite edge.
+/// Distances of a texel from the nearest and the second nearest of many random points. Each cell of
+/// a grid, which continues at the opposite edge, contains one point.
 struct Cell {
     float nearest, second;
     std::uint64_t id;

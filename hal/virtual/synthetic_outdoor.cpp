@@ -19,7 +19,6 @@ void addTree(Builder& b, Random& random, const V& foot, double radius, double he
     }
 }
 
-/// Adds a brick house with windows. Its front is rotated slightly away from the gravel path.
 void addHouse(Builder& b) {
     const int brick = b.tiled(Layer::Brick, 1.0, {1, 1, 1}, 0.25);
     const int roof = b.tiled(Layer::Brick, 1.4, {0.7, 0.6, 0.6}, 0.2);

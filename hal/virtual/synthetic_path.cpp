@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// Returns a smooth random movement with mean 0 and an amplitude of about 1. It is a sum of sines
-/// with different frequencies [Hz]. The fast sines are weak, as in the tremor of a hand.
+/// Returns a smooth random movement with mean 0 and an amplitude of about 1: a sum of sines with
+/// different frequencies [Hz]. Fast sines are weak, as in the tremor of a hand.
 double wobble(std::uint64_t seed, int channel, double t) {
     constexpr std::array<double, 5> kFrequency{0.31, 0.73, 1.57, 3.13, 5.71};
     constexpr std::array<double, 5> kWeight{0.55, 0.30, 0.20, 0.07, 0.03};
@@ -24,8 +24,6 @@ double wobble(std::uint64_t seed, int channel, double t) {
     return sum;
 }
 
-/// Returns the pose of a camera at `eye` that looks at `target`. The world's z axis points up in
-/// the picture.
 RigidTransform lookAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& target) {
     const Eigen::Vector3d z = (target - eye).normalized();
     const Eigen::Vector3d x = z.cross(Eigen::Vector3d::UnitZ()).normalized();
@@ -40,8 +38,6 @@ Eigen::Quaterniond tilt(double pitch, double yaw, double roll) {
            Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitZ());
 }
 
-/// Returns the motion of a hand that holds the camera. `amount` is 1 for a person who tries to hold
-/// it still.
 RigidTransform shake(std::uint64_t seed, double t, double amount) {
     const double metres = 0.005 * amount, angle = 1.1 * kDegree * amount;
     return {
@@ -50,9 +46,9 @@ RigidTransform shake(std::uint64_t seed, double t, double amount) {
         {metres * wobble(seed, 0, t), metres * wobble(seed, 1, t), metres * wobble(seed, 2, t)}};
 }
 
-/// Returns the pose at time t of a camera that moves around the world's target, as a person moves
-/// cameras for a calibration: near and far, from all sides, rotated, and with the target in every
-/// part of the picture.
+/// Returns the pose at time t of a camera that a person moves around the world's target for a
+/// calibration: near and far, from all sides, rotated, and with the target in every part of the
+/// picture.
 RigidTransform survey(const World& world, double t) {
     const auto swing = [t](double amplitude, double period, double phase) {
         return amplitude * std::sin(2 * std::numbers::pi * (t / period + phase));

@@ -12,8 +12,8 @@
 namespace mfar::synthetic {
 namespace {
 
-// A printed sheet is drawn as a picture of ink that has the aspect ratio of A4 and more than twice
-// the resolution of a texture layer. It is then reduced to the square layer.
+// A printed sheet is drawn as a picture of ink with the aspect ratio of A4 and more than twice the
+// resolution of a texture layer. It is then reduced to the square layer.
 constexpr int kInkWidth = 2100, kInkHeight = 2970;  // ten ink pixels per millimetre
 constexpr unsigned char kNoInk = 0;
 
@@ -28,12 +28,11 @@ std::string word(Random& random) {
 }
 
 struct Column {
-    int left, right, top, bottom;  ///< edges of the column [ink pixels]
-    double scale;                  ///< scale of the font, as OpenCV defines it
-    int pitch;                     ///< distance between text lines [ink pixels]
+    int left, right, top, bottom;
+    double scale;
+    int pitch;
 };
 
-/// Fills a column of the sheet with paragraphs of random words.
 void setText(cv::Mat1b& ink, Random& random, const Column& column) {
     constexpr int kFont = cv::FONT_HERSHEY_COMPLEX;
     const int thickness = column.scale > 1 ? 3 : 2;
@@ -87,7 +86,6 @@ void drawDiagram(cv::Mat1b& ink, Random& random, cv::Rect box) {
     }
 }
 
-/// Returns the texture layer of a sheet: ink on paper.
 cv::Mat4b pressed(const cv::Mat1b& ink, std::uint64_t seed, cv::Vec3f inkColour) {
     cv::Mat1b small;
     cv::resize(ink, small, {kLayerSize, kLayerSize}, 0, 0, cv::INTER_AREA);
@@ -123,8 +121,6 @@ cv::Mat4b article(std::uint64_t seed) {
     return pressed(ink, seed, {0.04F, 0.04F, 0.06F});
 }
 
-/// Returns the texture layer of a book cover: gold print on linen. The material's tint colours the
-/// linen.
 cv::Mat4b bound(const cv::Mat1b& ink, std::uint64_t seed) {
     cv::Mat1b small;
     cv::resize(ink, small, {kLayerSize, kLayerSize}, 0, 0, cv::INTER_AREA);
@@ -193,7 +189,7 @@ cv::Mat4b edges(std::uint64_t seed) {
 }
 
 cv::Mat4b tags(std::uint64_t seed) {
-    constexpr int kHalf = kLayerSize / 2;  // side of a tag with its rim [texels]
+    constexpr int kHalf = kLayerSize / 2;
     const cv::Mat1f grain = fractal(seed, 200, 200, 2, 0.7F);
     cv::Mat3f colour(kLayerSize, kLayerSize);
     std::array<TagCells, 4> cells{};

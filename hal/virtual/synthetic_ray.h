@@ -10,7 +10,7 @@ namespace mfar::synthetic {
 
 struct Ray {
     Eigen::Vector3d origin;
-    Eigen::Vector3d direction;  ///< of any length, which is the unit of distances
+    Eigen::Vector3d direction;  ///< its length is the unit of distances along the ray
 };
 
 /// The solids of a world at one time, for ray casting in double precision. Thread-safe, because it
@@ -19,18 +19,14 @@ class Snapshot {
 public:
     Snapshot(const World& world, double t);
 
-    /// Returns the nearest hit with a distance in (0, limit), or nothing.
+    /// Returns the nearest hit with a distance in (0, limit), or nothing. In the overloads below,
+    /// `among` limits the search to these solids; their indices are in ascending order.
     [[nodiscard]] std::optional<Hit> cast(const Ray& ray, double limit) const;
-    /// Returns whether any solid except `except` is on the ray before `limit`.
     [[nodiscard]] bool blocked(const Ray& ray, double limit, int except) const;
-    /// These two functions do the same, but only with the solids whose indices are in `among`, in
-    /// ascending order.
     [[nodiscard]] std::optional<Hit> cast(const Ray& ray, double limit,
                                           std::span<const int> among) const;
     [[nodiscard]] bool blocked(const Ray& ray, double limit, int except,
                                std::span<const int> among) const;
-    /// Returns the radius [m] of a primitive's bounding sphere. The centre of the sphere is
-    /// pose().translation.
     [[nodiscard]] double radius(int primitive) const { return solids_[primitive].radius; }
     [[nodiscard]] const RigidTransform& pose(int primitive) const {
         return solids_[primitive].T_world_prim;
@@ -43,10 +39,10 @@ private:
         RigidTransform T_world_prim;
         Eigen::Matrix3d toUnit;  ///< world direction -> primitive's frame, where half extents are 1
         Eigen::Vector3d half;
-        double radius;  ///< radius of the bounding sphere [m]
+        double radius;
     };
     std::vector<Solid> solids_;
-    std::vector<int> all_;  ///< indices of all solids
+    std::vector<int> all_;
 };
 
 }  // namespace mfar::synthetic

@@ -12,7 +12,7 @@ namespace mfar::synthetic {
 namespace {
 
 constexpr int kTile = params::kSyntheticTile;
-constexpr int kStepPixels = 640 * 480;  // pixels per step: a video frame is rendered in one step
+constexpr int kStepPixels = 640 * 480;  // pixels per step; a video frame is rendered in one step
 
 using Four = std::array<float, 4>;
 
@@ -78,8 +78,8 @@ SensorView::SensorView(WorldGl& world, const CameraModel& camera, const SensorLo
 }
 
 void SensorView::findTiles() {
-    // Margin around a tile [px]. It allows for rays inside a pixel, and for lens distortion between
-    // the points that are sampled.
+    // Margin around a tile [px], for rays inside a pixel and for lens distortion between the
+    // sampled points.
     constexpr double kMargin = 2;
     constexpr int kSamples = 4;
     for (int ty = 0; ty < tilesY_; ++ty) {
@@ -183,8 +183,8 @@ bool SensorView::step() {
                            gpu::storage(0, tiles_)},
                           radianceTarget_);
     glDisable(GL_SCISSOR_TEST);
-    // Waits for the GPU to limit the work that is queued for it. So stopping the board waits for
-    // one step at most, not for a whole picture.
+    // Limits the work that is queued for the GPU, so that stopping the board waits for one step at
+    // most.
     glFinish();
     row_ = until;
     return complete();

@@ -16,17 +16,17 @@
 
 namespace mfar::synthetic {
 
-/// The response, blur and noise of a simulated sensor.
 struct SensorLook {
     Eigen::Vector3f gain{1, 1, 1};
     float gamma = 2.2F;
-    float blurSigma = 0;  ///< standard deviation of the blur [px]; 0: no blur
-    float shotNoise = 0;  ///< noise variance per unit of the linear signal (1 = white)
-    float readNoise = 0;  ///< constant part of the noise variance (linear)
+    float blurSigma = 0;
+    /// Noise variance of a linear value x (1 = white): shotNoise * x + readNoise.
+    float shotNoise = 0;
+    float readNoise = 0;
 };
 
-/// The GL resources that all views of a world share: textures, light map, materials and programs.
-/// The GL context must be current whenever this object is used or destroyed. Throws GlError.
+/// GL resources that all views of a world share: textures, light map, materials and programs. The
+/// GL context must be current whenever this object is used or destroyed. Throws GlError.
 class WorldGl {
 public:
     WorldGl(const World& world, std::uint64_t seed);
@@ -42,7 +42,6 @@ private:
 
     World world_;
     LightMap light_;
-    /// Texture array index of each Layer.
     std::array<int, static_cast<std::size_t>(Layer::Count)> slots_{};
     GLuint layers_ = 0;
     gpu::Texture lightMap_;
@@ -51,19 +50,18 @@ private:
     gpu::DrawPass<params::SyntheticSensor> sensorPass_;
 };
 
-/// Renders the pictures that one sensor takes of a world. The WorldGl and this object must use the
-/// same GL context. A picture is rendered in steps. A step has at most as many pixels as a video
-/// frame, so that the thread's other work need not wait for a large picture.
+/// Renders the pictures of one sensor, in the GL context of the WorldGl. A picture is rendered in
+/// steps of at most the pixels of a video frame, so that other work need not wait for a large
+/// picture.
 class SensorView {
 public:
     SensorView(WorldGl& world, const CameraModel& camera, const SensorLook& look);
 
-    /// Begins a picture of the world at time t [s]. If `noiseSeed` is 0, the picture has no noise.
+    /// Begins a picture at time t [s]. If `noiseSeed` is 0, the picture has no noise.
     void begin(const RigidTransform& T_world_camera, double t, std::uint64_t noiseSeed);
-    /// Renders the next step. Returns whether the picture is complete.
     bool step();
     [[nodiscard]] bool complete() const { return row_ == camera_.size.height; }
-    /// Writes the complete picture to `out` as RGBA8, row 0 first, rows without padding.
+    /// Writes the complete picture as RGBA8, row 0 first, rows without padding.
     void read(std::uint8_t* out);
 
     [[nodiscard]] Size size() const { return camera_.size; }

@@ -19,21 +19,20 @@ namespace mfar::synthetic {
 enum class Scene { Office, Shelf, Outdoor, Flat, Moving, Still, Calibration };
 enum class Path { Handheld, Pan, Orbit, Forward, Rotate, Rest, Survey };
 
-/// These functions convert a scene or camera path to its name on the command line, and back. For an
-/// unknown name, they return nothing.
+/// Converts a scene or camera path to its name on the command line, and back. Returns nothing for
+/// an unknown name.
 [[nodiscard]] std::string_view name(Scene scene);
 [[nodiscard]] std::string_view name(Path path);
 [[nodiscard]] std::optional<Scene> sceneNamed(std::string_view name);
 [[nodiscard]] std::optional<Path> pathNamed(std::string_view name);
 
-/// Procedural texture layers, see synthetic_textures.h.
 enum class Layer : std::uint8_t {
-    Paper,    ///< a page of text
-    Article,  ///< a page with two columns, a heading and diagrams
-    Cover,    ///< a book cover: a printed title on linen
-    Spine,    ///< the spine of a book, with letters that run downwards
-    Label,    ///< the label of a bottle
-    Edges,    ///< stacked sheets of paper, seen from the side
+    Paper,
+    Article,
+    Cover,
+    Spine,
+    Label,
+    Edges,
     Wood,
     Plaster,
     Weave,
@@ -41,101 +40,107 @@ enum class Layer : std::uint8_t {
     Foliage,
     Brick,
     Gravel,
-    Forest,     ///< distant trees under a sky
-    Enamel,     ///< a smooth, enamelled surface with fine specks
+    Forest,
+    Enamel,
     Clouds,     ///< low-frequency variation that hides the repeats of other layers
     Tags,       ///< 2 x 2 AprilTags 36h11, see kTagIds
     AprilGrid,  ///< a calibration target, see kGridTags
     Count
 };
 
+/// `repeats` is per metre; negative values mirror the texture. `offset` is the texture coordinate
+/// at a face's centre. The texture is multiplied by `tint`. `variation` and `gloss` are from 0 to
+/// 1.
 struct Material {
     Layer layer = Layer::Enamel;
-    Eigen::Vector2d repeats{4, 4};     ///< texture repeats per metre; negative: mirrored
-    Eigen::Vector2d offset{0.5, 0.5};  ///< texture coordinates at the centre of a face
-    Eigen::Vector3d tint{1, 1, 1};     ///< linear reflectance, by which the texture is multiplied
-    double variation = 0.15;           ///< strength of the low-frequency variation, 0..1
-    double gloss = 0;                  ///< strength of the highlight, 0..1
+    Eigen::Vector2d repeats{4, 4};
+    Eigen::Vector2d offset{0.5, 0.5};
+    Eigen::Vector3d tint{1, 1, 1};
+    double variation = 0.15;
+    double gloss = 0;
 };
 
 enum class Shape : std::uint8_t { Box, Cylinder, Ellipsoid };
 
-/// A convex solid. The centre of the solid is the origin of its frame. The axis of a cylinder is z.
+/// A convex solid. Its centre is the origin of its frame. The axis of a cylinder is z. `half` is
+/// half of the extent along each axis [m]. T_world_prim is the pose at time 0.
 struct Primitive {
     Shape shape = Shape::Box;
-    RigidTransform T_world_prim;     ///< pose at time 0
-    Eigen::Vector3d half;            ///< half of the extent along each axis [m]
-    std::array<int, 3> materials{};  ///< of the +-x, +-y and +-z faces; a cylinder's side uses x
-    int lightTexels = 12;            ///< side of a face in the light map [texels]
-    bool moves = false;              ///< whether the solid moves, see World::moverPose()
+    RigidTransform T_world_prim;
+    Eigen::Vector3d half;
+    /// Indices of the materials of the +-x, +-y and +-z faces. A cylinder's side uses the first.
+    std::array<int, 3> materials{};
+    int lightTexels = 12;  ///< side of a face in the light map [texels]
+    bool moves = false;
 };
 
 /// A tag of family 36h11 in the world. Its frame is that of libapriltag: the origin is the tag's
-/// centre; seen from the front, x is right, y is down and z points into the surface.
+/// centre; seen from the front, x is right, y is down and z points into the surface. `size` is the
+/// side of the black square [m].
 struct Tag {
     int id = 0;
-    double size = 0;  ///< edge of the black square [m]
+    double size = 0;
     RigidTransform T_world_tag;
     bool moves = false;
 };
 
-/// The first intersection of a ray with a solid.
+/// The first intersection of a ray with a solid. `distance` is in multiples of the length of
+/// Ray::direction. `local` is the point in the primitive's frame [m].
 struct Hit {
-    double distance = 0;  ///< in multiples of the length of Ray::direction
+    double distance = 0;
     int primitive = 0;
-    int axis = 0;           ///< axis of the face that was hit; ellipsoid: the nearest axis
-    bool positive = false;  ///< whether the face is on the positive side of this axis
-    Eigen::Vector3d local;  ///< the point in the primitive's frame [m]
+    int axis = 0;  ///< axis of the face that was hit; ellipsoid: the nearest axis
+    bool positive = false;
+    Eigen::Vector3d local;
 };
 
-/// A directed key light of finite angular size, and the ambient light of the sky.
+/// A directed key light of finite angular size, and the ambient light of the sky. `towards` is a
+/// unit vector. `background` is the radiance where a ray hits no solid.
 struct Lighting {
-    Eigen::Vector3d towards{0.3, -0.3, 0.9};  ///< unit vector towards the key light
-    double spread = 0.1;                      ///< tangent of the key light's angular radius
-    Eigen::Vector3d key{1, 1, 1};             ///< linear colour of the key light
+    Eigen::Vector3d towards{0.3, -0.3, 0.9};
+    double spread = 0.1;  ///< tangent of the key light's angular radius
+    Eigen::Vector3d key{1, 1, 1};
     Eigen::Vector3d ambient{0.4, 0.4, 0.4};
-    Eigen::Vector3d background{0.6, 0.7, 0.85};  ///< radiance where a ray hits no solid
+    Eigen::Vector3d background{0.6, 0.7, 0.85};
 };
 
+/// `eye` is the middle of the camera's path, `target` the point that the camera looks at [m].
 struct World {
     std::vector<Material> materials;
     std::vector<Primitive> primitives;
     std::vector<Tag> tags;
     Lighting light;
-    Eigen::Vector3d eye;     ///< middle of the camera's path [m]
-    Eigen::Vector3d target;  ///< point that the camera looks at [m]
-    /// Centre of the moving object at time 0 [m].
+    Eigen::Vector3d eye;
+    Eigen::Vector3d target;
+    /// Centre of the moving object at time 0, and its radius [m]. Radius 0: there is no moving
+    /// object.
     Eigen::Vector3d moverPivot = Eigen::Vector3d::Zero();
-    /// Radius of the moving object [m]; 0: there is no moving object.
     double moverRadius = 0;
 
-    /// Returns the pose of a primitive at time t [s].
     [[nodiscard]] RigidTransform primitivePose(int index, double t) const;
-    /// Returns the motion of the moving object from time 0 to time t [s]. The pose at time t is
+    /// Returns the motion of the moving object from time 0 to time t [s]. Its pose at time t is
     /// moverPose(t) * T_world_prim.
     [[nodiscard]] RigidTransform moverPose(double t) const;
 };
 
-/// The largest number of primitives in a world. The renderer's tables have this size.
+/// Largest number of primitives in a world. The renderer's tables have this size.
 inline constexpr int kMaxPrimitives = 128;
-/// The ids of the tags in the layer Tags, row by row.
 inline constexpr std::array<int, 4> kTagIds{0, 1, 2, 3};
 
 /// The target of scene Calibration, as Kalibr describes it: 6 x 6 tags of family 36h11 with a black
 /// square at each corner of a tag. The tag with id 0 is at the bottom left. Ids increase to the
 /// right, then upwards.
-inline constexpr int kGridTags = 6;            ///< number of tags per row and column
-inline constexpr double kGridTagSize = 0.064;  ///< edge of a tag's black border [m]
+inline constexpr int kGridTags = 6;
+inline constexpr double kGridTagSize = 0.064;  ///< side of a tag's black border [m]
 inline constexpr double kGridSpacing = 0.25;   ///< gap between tags, divided by kGridTagSize
 
 [[nodiscard]] World makeWorld(Scene scene, std::uint64_t seed);
 
-/// Returns the pose of the video camera at time t [s].
 [[nodiscard]] RigidTransform cameraPose(const World& world, Path path, std::uint64_t seed,
                                         double t);
 
-/// Returns the cameras of the simulated board: video of 640x480 and stills of 2304x1728 pixels, 14
-/// mm apart.
+/// The cameras of the simulated board: video of 640x480 and stills of 2304x1728 pixels, 14 mm
+/// apart.
 [[nodiscard]] StereoRig boardRig();
 
 }  // namespace mfar::synthetic

@@ -161,7 +161,7 @@ std::optional<Frame> SyntheticStudio::nextVideo(std::chrono::milliseconds timeou
     std::unique_lock lock(mutex_);
     const auto ready = [&] {
         if (video_.empty()) return false;
-        // Before a frame is delivered, all stills that are available at its time must be complete,
+        // All stills that are available at a frame's time must be complete before it is delivered,
         // so that every run gives the same result.
         const Timestamp time = video_.front().time();
         return options_.pace == Pace::Realtime || std::ranges::all_of(stills_, [&](const Still& s) {
@@ -184,8 +184,8 @@ std::optional<Frame> SyntheticStudio::nextVideo(std::chrono::milliseconds timeou
 }
 
 // After the end of the video, a still is delivered without waiting for the rest of its latency, but
-// only to a caller that may wait. A caller that only polls does not get it, because the caller's
-// result would depend on the renderer's speed.
+// only to a caller that may wait. Otherwise the result of a caller that only polls would depend on
+// the renderer's speed.
 bool SyntheticStudio::stillReady(bool mayWait) const {
     if (stills_.empty() || !stills_.front().frame) return false;
     return now() >= stills_.front().available ||

@@ -36,9 +36,8 @@ public:
     [[nodiscard]] bool stillsEnded() const;
     Timestamp fire();
 
-    /// cleanVideo() and highRes() return what the video camera sees, without noise. cleanVideo()
-    /// has the video's resolution and blur. highRes() has the still's resolution and no blur. Both
-    /// wait for the studio's thread.
+    /// Returns the picture of the video camera without noise, after waiting for the studio's
+    /// thread. highRes() has the still's resolution and no blur.
     [[nodiscard]] StoredImage cleanVideo(Timestamp t);
     [[nodiscard]] StoredImage highRes(Timestamp t);
 
@@ -47,10 +46,10 @@ public:
     [[nodiscard]] Pose pose(Timestamp t) const;
 
 private:
-    struct Views;  ///< all objects that belong to the GL context
+    struct Views;
     struct Still {
-        Timestamp time;       ///< middle of the exposure
-        Timestamp available;  ///< time at which the camera delivers the still
+        Timestamp time;
+        Timestamp available;
         std::optional<Frame> frame{};
     };
     enum class Work { Request, Video, Still, Quit };
@@ -80,20 +79,20 @@ private:
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     bool quit_ = false, videoOn_ = false, stillsOn_ = false;
-    bool starved_ = false;  ///< whether the consumer holds all buffers for video frames
-    /// Whether a step of a still is rendered next. With Pace::Realtime, steps of stills and video
+    bool starved_ = false;
+    /// True: a step of a still is rendered next. With Pace::Realtime, steps of stills and video
     /// frames alternate if both are due.
     bool stillsTurn_ = false;
-    Timestamp start_;          ///< time of the video frame with index 0
-    long long nextIndex_ = 0;  ///< index of the next video frame; counts skipped frames
+    Timestamp start_;
+    long long nextIndex_ = 0;
     int videoMade_ = 0;
-    std::optional<Timestamp> handed_;  ///< time of the video frame that was delivered last
+    std::optional<Timestamp> handed_;
     std::optional<Timestamp> lastFire_;
-    std::deque<Frame> video_;   ///< frames that are ready to be delivered, oldest first
-    std::deque<Still> stills_;  ///< triggered stills that have not been delivered, oldest first
+    std::deque<Frame> video_;
+    std::deque<Still> stills_;
     std::deque<std::packaged_task<StoredImage(Views&)>> requests_;
     std::exception_ptr failure_;
-    /// Time of the still being rendered; only thread_ uses it.
+    /// Time of the still that is being rendered. Only thread_ uses it.
     std::optional<Timestamp> rendering_;
     std::thread thread_;
 };

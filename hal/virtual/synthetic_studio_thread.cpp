@@ -12,7 +12,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::size_t kVideoAhead = 2;  // largest number of frames rendered in advance
+constexpr std::size_t kVideoAhead = 2;
 constexpr int kVideoNoise = 1, kStillNoise = 2;
 
 }  // namespace
@@ -142,7 +142,7 @@ void SyntheticStudio::stepStill(Views& views) {
     rendering_.reset();
     Frame frame = stillPool_.lend(*slot, time);
     frame.exposure = options_.stillExposure;
-    // If the camera was stopped in the meantime, stills_ does not contain this still. Then the
+    // If the camera was stopped in the meantime, stills_ does not contain this still, and the
     // rendered picture is discarded.
     const auto at = std::ranges::find(stills_, time, &Still::time);
     if (at != stills_.end()) at->frame = std::move(frame);

@@ -23,7 +23,7 @@ cv::Mat4b plaster(std::uint64_t seed) {
 }
 
 cv::Mat4b weave(std::uint64_t seed) {
-    constexpr int kThread = 16;  // width of a thread of the cloth [texels]
+    constexpr int kThread = 16;
     constexpr int kThreads = kLayerSize / kThread;
     const cv::Mat1f fuzz = fractal(seed, 128, 128, 3, 0.7F);
     cv::Mat3f colour(kLayerSize, kLayerSize);
@@ -101,8 +101,7 @@ cv::Mat1f noise(std::uint64_t seed, int cellsX, int cellsY) {
             grid(y, x) = static_cast<float>(hashUnit(hash(seed, x, y)));
     cv::Mat1f padded;
     cv::copyMakeBorder(grid, padded, kPad, kPad, kPad, kPad, cv::BORDER_WRAP);
-    // warpAffine() is used instead of cv::resize(), because kLayerSize need not be a multiple of
-    // the number of cells.
+    // cv::resize() is not used, because kLayerSize need not be a multiple of the number of cells.
     const double sx = 1. * cellsX / kLayerSize, sy = 1. * cellsY / kLayerSize;
     const cv::Matx23d toGrid{sx, 0, kPad + 0.5 * sx - 0.5, 0, sy, kPad + 0.5 * sy - 0.5};
     cv::Mat1f out;

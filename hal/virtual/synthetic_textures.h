@@ -9,12 +9,10 @@
 
 namespace mfar::synthetic {
 
-/// Width and height of every texture layer [texels].
 inline constexpr int kLayerSize = 1024;
 
-/// Generates one texture layer of kLayerSize x kLayerSize texels. RGB is the linear reflectance, A
-/// the strength of highlights. All layers except Paper, Article, Cover, Label, Forest and Tags
-/// repeat without a seam.
+/// Generates one texture layer. RGB is the linear reflectance, A the strength of highlights. All
+/// layers except Paper, Article, Cover, Label, Forest and Tags repeat without a seam.
 [[nodiscard]] cv::Mat4b makeLayer(Layer layer, std::uint64_t seed);
 
 /// Calls paint(pixel, {row, column}) for every pixel. OpenCV's forEach() is not used, because race
@@ -29,29 +27,24 @@ void eachPixel(cv::Mat_<T>& image, const Paint& paint) {
     }
 }
 
-// The following functions are shared by the files that paint texture layers.
-
 /// Returns smooth noise of about 0..1, interpolated from a grid of `cellsX` by `cellsY` random
 /// values. It repeats without a seam.
 [[nodiscard]] cv::Mat1f noise(std::uint64_t seed, int cellsX, int cellsY);
 /// Returns a weighted sum of several octaves of noise, about 0..1. Each octave is twice as fine as
-/// the previous one, and its weight is `gain` times the weight of the previous one.
+/// the previous octave and has `gain` times its weight.
 [[nodiscard]] cv::Mat1f fractal(std::uint64_t seed, int cellsX, int cellsY, int octaves,
                                 float gain = 0.5F);
 /// Returns the brightness of a surface that is lit from the upper left. `height` is the height of
-/// the surface at each texel. Where the surface is level, the brightness is 1.
+/// the surface at each texel. The brightness of a level surface is 1.
 [[nodiscard]] cv::Mat1f relief(const cv::Mat1f& height, float strength);
-/// Converts reflectance and strength of highlights to the bytes R G B A of a texture layer.
 [[nodiscard]] cv::Mat4b toBytes(const cv::Mat3f& colour, const cv::Mat1f& gloss);
 
-inline constexpr int kTagCells = 8;  ///< cells along a side of a tag, with the black border
-/// Which cells of a tag of family 36h11 are white, as [row][column]. The outermost cells are the
+inline constexpr int kTagCells = 8;
+/// True for the white cells of a tag of family 36h11, as [row][column]. The outermost cells are the
 /// black border. tagCells() knows the ids 0 to 35.
 using TagCells = std::array<std::array<bool, kTagCells>, kTagCells>;
 [[nodiscard]] TagCells tagCells(int id);
 
-/// These functions generate the printed layers (synthetic_print.cpp), the calibration target
-/// (synthetic_grid.cpp) and the natural layers (synthetic_nature.cpp).
 [[nodiscard]] cv::Mat4b makePrint(Layer layer, std::uint64_t seed);
 [[nodiscard]] cv::Mat4b aprilGrid(std::uint64_t seed);
 [[nodiscard]] cv::Mat4b makeNature(Layer layer, std::uint64_t seed);

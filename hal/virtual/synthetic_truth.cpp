@@ -13,7 +13,6 @@ namespace {
 constexpr double kFar = 1e6;  // length of rays [m]; nothing in the world is farther away
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
-/// Calls row(y) for every row of a picture. Two threads share the rows.
 template <class Row>
 void eachRow(int rows, const Row& row) {
     const auto half = [&](int first) {
@@ -33,12 +32,10 @@ Ray pixelRay(const Viewpoint& view, int x, int y) {
             view.T_world_camera.rotation * Eigen::Vector3d(ray.x(), ray.y(), 1)};
 }
 
-/// Returns the pixel in which a point of the world is seen. Returns nothing if the point is behind
-/// the camera, outside of the picture or occluded.
 std::optional<Eigen::Vector2d> visiblePixel(const Snapshot& solids, const Viewpoint& view,
                                             const RigidTransform& T_camera_world,
                                             const Eigen::Vector3d& point) {
-    constexpr double kReach = 1 - 1e-4;  // the ray ends just before the point itself
+    constexpr double kReach = 1 - 1e-4;
     const Eigen::Vector3d inCamera = T_camera_world * point;
     if (!(inCamera.z() > 1e-6)) return std::nullopt;
     Eigen::Vector2d pixel =

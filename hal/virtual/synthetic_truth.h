@@ -8,11 +8,10 @@
 /// model, not from rendered pictures.
 namespace mfar::synthetic {
 
-/// The pose and lens of a camera at one point in time.
 struct Viewpoint {
     CameraModel camera;
     RigidTransform T_world_camera;
-    double t = 0;  ///< time since the world's epoch [s]
+    double t = 0;
 };
 
 /// Returns the inverse depth 1 / z of each pixel [1/m], with z along the optical axis. 0: the ray

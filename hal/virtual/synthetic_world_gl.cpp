@@ -17,7 +17,6 @@ struct MaterialEntry {
     std::array<float, 4> mapping, tint, look;
 };
 
-/// Paints all texture layers, with two threads.
 std::vector<cv::Mat4b> paintLayers(const std::vector<Layer>& layers, std::uint64_t seed) {
     std::vector<cv::Mat4b> out(layers.size());
     const auto paintEvery = [&](std::size_t first, std::size_t step) {

@@ -26,7 +26,7 @@ void appendY4mFrame(const ImageView& rgba, std::vector<std::uint8_t>& out);
 /// That thread must block or ignore SIGPIPE.
 class ByteSink {
 public:
-    /// Opens the target. If it is a FIFO, waits up to 5 s for a reader. Throws std::runtime_error.
+    /// If the target is a FIFO, waits up to 5 s for a reader. Throws std::runtime_error.
     ByteSink(std::string_view target, std::stop_token cancel);
     ByteSink(const ByteSink&) = delete;
     ByteSink& operator=(const ByteSink&) = delete;

@@ -15,24 +15,24 @@ namespace mfar {
 /// A picture that is mapped onto a surface and repeats in u and v. Row 0 is at v = 0, and texel
 /// centres are at half-integers. Values are as in glTF: colours are sRGB, other data is linear.
 struct SurfaceTexture {
-    Size size;  ///< at least 1x1
+    Size size;
     bool srgb = true;
-    std::vector<std::array<std::uint8_t, 4>> texels;  ///< RGBA, row-major
+    std::vector<std::array<std::uint8_t, 4>> texels;
 };
 
-/// Metallic-roughness material of glTF 2.0. The factors are linear. The members with "Texture" are
-/// indices of Model::textures; -1: no texture. The values of a texture are multiplied by the factor
+/// Metallic-roughness material of glTF 2.0. Factors are linear; `emission` is a radiance. A texture
+/// is an index of Model::textures, or -1 without a texture. Its values are multiplied by the factor
 /// of the same property.
 struct Material {
     Eigen::Vector4f baseColour{1, 1, 1, 1};
-    float metallic = 1, roughness = 1;  ///< [0, 1]
-    Eigen::Vector3f emission{0, 0, 0};  ///< radiance; finite and not negative
+    float metallic = 1, roughness = 1;
+    Eigen::Vector3f emission{0, 0, 0};
     float normalScale = 1;
-    /// The surface has holes where the base colour's alpha is below this limit. 0: the surface is
+    /// The surface is cut out where the base colour's alpha is below this limit. 0: the surface is
     /// opaque.
     float alphaCutoff = 0;
     bool doubleSided = false;
-    /// The texture of metallicRoughnessTexture has roughness in G and metallic in B.
+    /// metallicRoughnessTexture has roughness in G and metallic in B.
     int baseColourTexture = -1, metallicRoughnessTexture = -1;
     int normalTexture = -1, emissionTexture = -1;
 };
@@ -41,37 +41,37 @@ struct Material {
 /// attribute is absent.
 struct Mesh {
     std::vector<Eigen::Vector3f> positions;  ///< [m], in the model's coordinates
-    std::vector<Eigen::Vector3f> normals;    ///< unit length; empty: the normals of the triangles
-                                             ///< are used
+    std::vector<Eigen::Vector3f> normals;    ///< unit length; empty: the triangles' normals are
+                                             ///< used
     std::vector<Eigen::Vector2f> uvs;
-    std::vector<Eigen::Vector4f> tangents;  ///< xyz: tangent, of unit length; w: sign of the
-                                            ///< bitangent, +1 or -1
+    std::vector<Eigen::Vector4f> tangents;  ///< xyz: unit tangent; w: sign of the bitangent, +1 or
+                                            ///< -1
     std::vector<std::array<std::uint32_t, 3>> triangles;
     int material = 0;
 };
 
-/// A rigid object in its own coordinates (z up, metres). The transforms of all glTF nodes are
-/// applied already. It is valid: all numbers are finite and all indices are in range.
+/// A rigid object in its own coordinates (z up, metres), with at least one material. It is valid:
+/// all numbers are finite and all indices are in range.
 struct Model {
     std::vector<Mesh> meshes;
-    std::vector<Material> materials;  ///< at least one
+    std::vector<Material> materials;
     std::vector<SurfaceTexture> textures;
 };
 
-/// Distant light from all directions, as a latitude-longitude picture of linear RGB radiance. Row 0
-/// is up (world +z). Column 0 is world -x, and the column at three quarters of the width is world
-/// +y.
+/// Distant light from all directions, as a latitude-longitude picture of linear RGB radiance, row
+/// by row. Row 0 is up (world +z). Column 0 is world -x, and the column at three quarters of the
+/// width is world +y.
 struct Environment {
     Size size;
-    std::vector<Eigen::Vector3f> radiance;  ///< row-major; finite and not negative
+    std::vector<Eigen::Vector3f> radiance;
 };
 
-/// A distant light source that looks like a disc.
+/// A distant light source that looks like a disc. `towards` is a unit vector in the world,
+/// `irradiance` that of a surface that faces the sun. `angularRadius` is in radians.
 struct Sun {
-    /// Direction to the sun in the world, of unit length.
     Eigen::Vector3f towards{0.40562F, -0.30421F, 0.86194F};
-    Eigen::Vector3f irradiance{1, 1, 1};  ///< irradiance of a surface that faces the sun
-    float angularRadius = 0.02F;          ///< [rad], above 0
+    Eigen::Vector3f irradiance{1, 1, 1};
+    float angularRadius = 0.02F;
 };
 
 struct Lighting {
@@ -79,14 +79,13 @@ struct Lighting {
     std::optional<Sun> sun;
 };
 
-/// A model placed in the world. In rendered pictures, the number of the object is its index in
+/// A model placed in the world. In rendered pictures, the object's number is its index in
 /// Scene::objects + 1.
 struct SceneObject {
     std::shared_ptr<const Model> model;
     RigidTransform T_world_object;
-    float scale = 1;  ///< above 0
+    float scale = 1;
 
-    /// Whether both objects have the same model at the same position, rotation and scale.
     friend bool operator==(const SceneObject& a, const SceneObject& b) {
         return a.model == b.model && a.scale == b.scale &&
                a.T_world_object.rotation == b.T_world_object.rotation &&
@@ -95,8 +94,7 @@ struct SceneObject {
 };
 
 /// The real surface that receives shadows and reflected light of the virtual objects, as diffuse
-/// triangles in the world [m]. The surface itself is not drawn. Only the change of its light by the
-/// objects is shown.
+/// triangles in the world [m]. Only the change of its light is drawn, not the surface itself.
 struct ShadowCatcher {
     std::vector<Eigen::Vector3f> positions;
     std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -106,7 +104,7 @@ struct ShadowCatcher {
 struct Scene {
     std::vector<SceneObject> objects;  ///< at most 250
     Lighting lighting;
-    ShadowCatcher catcher;  ///< may be empty
+    ShadowCatcher catcher;
 };
 
 }  // namespace mfar

@@ -12,32 +12,30 @@
 
 namespace mfar {
 
-/// An object from the configuration file.
+/// An object from the configuration file. It shows `model`, or `shape` (without its T_world_object)
+/// if `model` is null.
 struct PlacedObject {
-    /// The model. Null: `shape` is shown.
     std::shared_ptr<const Model> model;
-    std::string modelName;  ///< "showpiece" or a file name, for messages; empty if there is no
-                            ///< model
-    VirtualObject shape;    ///< used if there is no model; its T_world_object is ignored
-    float scale = 1;        ///< scale of the model, above 0; not used for `shape`
+    std::string modelName;  ///< "showpiece" or a file name, for messages; empty without a model
+    VirtualObject shape;
+    float scale = 1;  ///< scale of the model, above 0; not used for `shape`
     RigidTransform T_anchor_object;
-    /// The tag whose coordinates T_anchor_object refers to. Their origin is the tag's centre; x
-    /// points to the right and y up in the tag's print, and z points out of the print. Empty:
-    /// T_anchor_object refers to the world of the tag map.
+    /// T_anchor_object refers to this tag: origin in the tag's centre, x right and y up in the
+    /// tag's print, z out of the print. Not set: it refers to the world of the tag map.
     std::optional<TagKey> tag;
 };
 
 enum class LightSource : unsigned char {
-    Studio,  ///< studioEnvironment()
-    Sky,     ///< skyEnvironment()
-    File,    ///< a latitude-longitude picture
+    Studio,
+    Sky,
+    File,
     Camera,  ///< estimated from the video by LightEstimator
 };
 
 struct LightOptions {
     LightSource source = LightSource::Studio;
-    std::shared_ptr<const Environment> environment;  ///< only for File, else null
-    std::string file;                                ///< file name, for messages
+    std::shared_ptr<const Environment> environment;
+    std::string file;
     /// A sun in addition to the environment. With LightSource::Camera, it replaces the estimated
     /// sun.
     std::optional<Sun> sun;
@@ -46,16 +44,15 @@ struct LightOptions {
 
 enum class VirtualRendering : unsigned char { PathTraced, Preview };
 
-/// Settings of the virtual layer.
 struct VirtualOptions {
     VirtualRendering rendering = VirtualRendering::PathTraced;
     double budgetMs = 8;  ///< processor time for path tracing in each frame [ms]
     Slicing slicing = Slicing::Time;
-    int samples = 64;          ///< number of samples per pixel of a finished picture
-    double resolution = 0.28;  ///< width of a path-traced picture relative to the still's
+    int samples = 64;
+    double resolution = 0.28;  ///< width of a path-traced picture relative to the still's width
     HoleFilling holes = HoleFilling::Both;
-    int threads = 1;     ///< number of threads of the path tracer
-    bool filter = true;  ///< whether the noise of pictures with few samples is smoothed
+    int threads = 1;
+    bool filter = true;
     /// Largest angle between the views of two consecutive traced pictures [degrees].
     double turnDeg = 4;
 

@@ -15,15 +15,14 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kStep = 0.25;       // distance between samples along the edge's normal [px]
-constexpr double kMostReach = 2.5;   // largest distance that is sampled on both sides of an edge
-                                     // [px]; suffices for a blur of 1 px
-constexpr double kEnds = 0.08;       // fraction of an edge that is ignored at each end, because
-                                     // corners look round
+constexpr double kMostReach = 2.5;   // largest distance of a sample from the edge [px]; suffices
+                                     // for a blur of 1 px
+constexpr double kEnds = 0.08;       // ignored fraction at each end of an edge, because corners
+                                     // look round
 constexpr double kFarthestMove = 2;  // largest shift of a corner or an edge point [px]
 constexpr double kLeastContrast = 0.006;  // smallest contrast of an edge [linear light; grey level
                                           // 255 is 1]
 
-/// Interpolates the linear light of a picture bilinearly. at() returns nothing outside the picture.
 class Light {
 public:
     Light(const ImageView& luma, const std::array<double, 256>& table)
@@ -47,12 +46,12 @@ private:
 
 struct EdgePoint {
     Vector2d pixel;
-    double weight;  ///< contrast of the edge [linear light]
+    double weight;
 };
 
 /// Finds the position near `middle` where the light increases along `normal` (from dark to bright).
-/// The result is the mean of all positions, weighted with the increase there. A second pass centres
-/// the search window on the result of the first pass.
+/// The result is the mean of all positions, weighted with the increase at each. A second pass
+/// centres the search window on the result of the first pass.
 std::optional<EdgePoint> findStep(const Light& light, const Vector2d& middle,
                                   const Vector2d& normal, double reach) {
     double centre = 0, contrast = 0;
@@ -75,13 +74,12 @@ std::optional<EdgePoint> findStep(const Light& light, const Vector2d& middle,
     return EdgePoint{middle + centre * normal, contrast};
 }
 
-/// The line n . p = d with |n| = 1.
 struct Line {
     Vector2d n;
     double d;
 };
 
-/// Fits a line by total least squares. Repeats the fit without the outliers of the first fit.
+/// Fits a line by total least squares, then again without the outliers of the first fit.
 std::optional<Line> fitLine(std::vector<EdgePoint> points) {
     Line line{};
     for (int turn = 0; turn < 2; ++turn) {
@@ -113,8 +111,8 @@ std::optional<Vector2d> intersect(const Line& a, const Line& b) {
     return Vector2d{(a.d * b.n.y() - b.d * a.n.y()) / det, (b.d * a.n.x() - a.d * b.n.x()) / det};
 }
 
-/// Measures the edge from corner a to corner b of a tag. Returns a line in normalised rays. In the
-/// picture, seen from a towards b, the inside of the quad is to the left.
+/// Measures the edge from corner a to corner b of a tag. Seen in the picture from a towards b, the
+/// tag's inside is to the left. Returns a line in normalised rays.
 std::optional<Line> measureEdge(const Light& light, const CameraModel& camera, const Vector2d& a,
                                 const Vector2d& b, const TagFamilyInfo& family) {
     const double length = (b - a).norm();

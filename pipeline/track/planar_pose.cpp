@@ -34,14 +34,13 @@ std::optional<Matrix3d> homography(const std::array<Vector2d, 4>& rays) {
     return H;
 }
 
-/// The rotation that turns the z axis to the direction of the ray (p, 1).
 Matrix3d towards(const Vector2d& p) {
     return Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), p.homogeneous())
         .toRotationMatrix();
 }
 
-/// Least-squares solution for the translation t of the equations u (r3 . X + tz) = r1 . X + tx and
-/// v (r3 . X + tz) = r2 . X + ty of the four corners X and their rays (u, v).
+/// Returns the least-squares translation t for u (r3 . X + tz) = r1 . X + tx and v (r3 . X + tz) =
+/// r2 . X + ty, with the four corners X and their rays (u, v).
 Vector3d translationOf(const Matrix3d& R, const std::array<Vector2d, 4>& rays) {
     Eigen::Matrix<double, 8, 3> A;
     Eigen::Matrix<double, 8, 1> b;

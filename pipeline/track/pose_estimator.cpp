@@ -18,9 +18,9 @@ Pose poseOf(const CameraPose& solved, const Matrix6& ambiguous,
     return out;
 }
 
-/// Covariance that results from the uncertain choice between the two solutions of the pose. Each
-/// solution is the true one with a probability that follows from its error. The filter must
-/// therefore expect an error in the direction from one solution to the other.
+/// Returns the covariance of the choice between the two solutions of the pose. Each solution is the
+/// true one with a probability that follows from its error. So the filter must expect an error in
+/// the direction from one solution to the other.
 Matrix6 ambiguity(const CameraPoses& poses, const CameraPose& chosen, double sigma) {
     if (!poses.other) return Matrix6::Zero();
     const bool isBest = &chosen == &poses.best;
@@ -31,7 +31,6 @@ Matrix6 ambiguity(const CameraPoses& poses, const CameraPose& chosen, double sig
     return share * (1 - share) * way * way.transpose();
 }
 
-/// Mean distance of the camera from the tags that were used.
 double distanceTo(std::span<const TagObservation> tags, const std::vector<bool>& used,
                   const RigidTransform& T_world_camera) {
     double sum = 0;

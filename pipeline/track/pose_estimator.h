@@ -9,34 +9,30 @@
 namespace mfar {
 
 struct PlanarChoiceOptions {
-    double errorSigma = 0.25;  ///< standard deviation of a corner's coordinates that the evidence
-                               ///< assumes [px]
-    /// The other solution is chosen if the evidence for it exceeds this. The evidence is the log
-    /// likelihood ratio of the corners, summed over frames.
+    double errorSigma = 0.25;  ///< assumed standard deviation of a corner's coordinates [px]
+    /// The evidence for a solution is the log likelihood ratio of the corners, summed over frames.
+    /// The other solution is chosen if its evidence exceeds this.
     double threshold = 12;
-    double memory = 0.95;  ///< factor by which the evidence is multiplied with each frame, [0, 1)
+    double memory = 0.95;  ///< factor of the earlier evidence in each new frame, [0, 1)
 };
 
-/// Chooses one of the two poses from which a plane of tags looks nearly the same.
-/// The pose nearer to the predicted motion is kept until the other pose explains the corners
-/// significantly better, in one frame or over many frames. Noise therefore does not flip the pose
-/// when the plane is seen from straight ahead, where both errors are equal. A wrong first choice is
-/// corrected.
+/// Chooses one of the two poses from which a plane of tags looks nearly the same. The pose nearer
+/// to the predicted motion is kept until the other pose explains the corners significantly better,
+/// in one frame or over many frames. So noise does not flip the pose when the plane is seen from
+/// straight ahead, and a wrong first choice is corrected.
 class PlanarChoice {
 public:
-    /// Throws std::invalid_argument if an option is out of range.
     explicit PlanarChoice(const PlanarChoiceOptions& options = {});
 
-    /// Returns the chosen pose, as a reference into `poses`. Without a prediction, this is the pose
-    /// with the smaller error.
+    /// Returns a reference into `poses`. Without a prediction, chooses the pose with the smaller
+    /// error.
     [[nodiscard]] const CameraPose& choose(const CameraPoses& poses,
                                            const std::optional<RigidTransform>& predicted);
-    /// Whether the last choose() changed to the pose that is farther from the prediction.
     [[nodiscard]] bool flipped() const { return flipped_; }
 
 private:
     PlanarChoiceOptions options_;
-    double evidence_ = 0;  ///< evidence for the solution that is not chosen
+    double evidence_ = 0;
     bool flipped_ = false;
 };
 
@@ -47,7 +43,7 @@ struct PoseEstimatorOptions {
 };
 
 /// Estimates the camera's motion from the tags in each video frame: computes both solutions of the
-/// pose, chooses one, and filters it. One thread at a time may use it.
+/// pose, chooses one, and filters it. Only one thread at a time may use it.
 class PoseEstimator {
 public:
     explicit PoseEstimator(const PoseEstimatorOptions& options = {});
@@ -57,23 +53,19 @@ public:
     /// predicts.
     std::optional<Pose> update(std::span<const TagObservation> tags, const CameraModel& camera,
                                Timestamp time);
-    /// The unfiltered pose from the last frame's tags.
     [[nodiscard]] const std::optional<Pose>& raw() const { return raw_; }
     [[nodiscard]] std::optional<Pose> predict(Timestamp t) const { return filter_.predict(t); }
     /// Measures the pose of the video camera at the time of a picture that is not a video frame.
-    /// The filter's prediction determines which of both solutions is chosen. The pose is not
-    /// filtered, and the filter does not change. `T_camera_video` transforms video camera
-    /// coordinates to those of the picture's camera.
+    /// The filter's prediction selects one of the two solutions. The pose is not filtered, and the
+    /// filter does not change.
     [[nodiscard]] std::optional<Pose> measure(std::span<const TagObservation> tags,
                                               const CameraModel& camera,
                                               const RigidTransform& T_camera_video,
                                               Timestamp time) const;
 
-    /// Number of changes between the two solutions.
     [[nodiscard]] int flips() const { return flips_; }
-    /// Number of poses rejected as outliers.
     [[nodiscard]] int rejected() const { return rejected_; }
-    /// Number of restarts of the filter after outliers that agreed.
+    /// Number of restarts of the filter after outliers that agreed with each other.
     [[nodiscard]] int jumps() const { return jumps_; }
 
 private:

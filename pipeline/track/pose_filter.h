@@ -12,46 +12,43 @@ namespace mfar {
 
 struct PoseFilterOptions {
     /// In the constant-velocity model, accelerations are white noise. Lengths are relative to the
-    /// distance from the tags, because the errors of a pose are proportional to this distance. The
-    /// unit of length is therefore irrelevant.
+    /// distance from the tags, because the errors of a pose are proportional to it.
     double angularAcceleration = 0.4;  ///< [rad/s^2 per root Hz]
     double linearAcceleration = 0.4;   ///< [distances/s^2 per root Hz]
-    double gate = 50;    ///< largest squared Mahalanobis distance (6 degrees of freedom) of a pose
-                         ///< from the prediction; above it, the pose is an outlier
-    int jumpFrames = 3;  ///< number of consecutive outliers that restart the filter if they agree
-                         ///< with each other
-    /// Longest time of a prediction.
+    /// Largest squared Mahalanobis distance (6 degrees of freedom) of a pose from the prediction.
+    /// Above it, the pose is an outlier.
+    double gate = 50;
+    /// Number of consecutive outliers that restart the filter if they agree with each other.
+    int jumpFrames = 3;
+    /// Predictions end after this time or after bridgeFrames frames without an accepted pose.
     std::chrono::nanoseconds bridge = std::chrono::milliseconds(400);
-    int bridgeFrames = 12;  ///< number of frames without an accepted pose after which predictions
-                            ///< end
+    int bridgeFrames = 12;
 };
 
 /// Constant-velocity Kalman filter on SE(3). The camera is assumed to keep its rates of rotation
-/// and translation in its own coordinates. The error state has 12 dimensions: error of the pose
-/// (rotation, translation) and error of the twist (the rates), both in the camera's coordinates.
-/// One thread at a time may use it.
+/// and translation in its own coordinates. The error state has 12 dimensions in the camera's
+/// coordinates: errors of the pose (rotation, translation) and of the twist (the rates). Only one
+/// thread at a time may use it.
 class PoseFilter {
 public:
-    /// Throws std::invalid_argument if an option is not positive or not finite.
     explicit PoseFilter(const PoseFilterOptions& options = {});
 
     enum class Outcome {
-        Started,   ///< the pose starts the filter: it is the first one, or the first after too long
-                   ///< a gap or a step back in time
-        Accepted,  ///< the pose was averaged with the prediction
-        Rejected,  ///< the pose is an outlier, and the prediction is kept
-        Jumped     ///< several outliers agreed with each other, and the filter restarted from them
+        Started,  ///< the filter starts: first pose, or first after too long a gap or a step back
+                  ///< in time
+        Accepted,
+        Rejected,
+        Jumped  ///< several outliers agreed with each other, and the filter restarted from them
     };
-    /// Adds a measured pose with its time and covariance. `distance`: distance of the camera from
-    /// the measured tags, in the unit of length of the pose.
+    /// Adds a measured pose. `distance` is that of the camera from the measured tags, in the pose's
+    /// unit of length.
     Outcome update(const Pose& measured, double distance);
-    /// Reports a frame without a measured pose.
     void missed();
     void reset();
 
-    /// Returns pose and covariance at time t, with tags = 0. Time t may be up to `bridge` before or
-    /// after the last accepted pose. Empty outside this range, after bridgeFrames frames without an
-    /// accepted pose, or before the first pose.
+    /// Returns the pose at time t, with tags = 0. Returns nothing before the first pose, more than
+    /// `bridge` before or after the last accepted pose, or after bridgeFrames frames without an
+    /// accepted pose.
     [[nodiscard]] std::optional<Pose> predict(Timestamp t) const;
 
 private:
@@ -59,7 +56,7 @@ private:
     struct State {
         Timestamp time;
         RigidTransform T_world_video;
-        Vector6 twist = Vector6::Zero();  ///< [rad/s, m/s]
+        Vector6 twist = Vector6::Zero();
         Matrix12 P = Matrix12::Zero();
         double distance = 1;
         int accepted = 1;
@@ -67,8 +64,7 @@ private:
 
     [[nodiscard]] State started(const Pose& measured, double distance) const;
     [[nodiscard]] State propagated(const State& from, Timestamp to) const;
-    /// Updates `state` with a measured pose. Returns false and changes nothing if the pose is an
-    /// outlier.
+    /// Returns false and changes nothing if the pose is an outlier.
     [[nodiscard]] bool correct(State& state, const Pose& measured, double distance) const;
     [[nodiscard]] bool reaches(const State& state, Timestamp t) const;
 

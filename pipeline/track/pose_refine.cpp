@@ -15,7 +15,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 using Vector7 = Eigen::Matrix<double, 7, 1>;
 using Matrix7 = Eigen::Matrix<double, 7, 7>;
 
-/// Normal equations for seven unknowns: the camera's motion (6) and the edge shift (1).
 struct NormalEquations {
     Matrix7 A = Matrix7::Zero();
     Vector7 b = Vector7::Zero();
@@ -26,8 +25,7 @@ struct Estimate {
     double edgeShift = 0;
 };
 
-// Whether a point is in front of the camera. Points almost in the image plane are excluded, because
-// no lens sees them.
+// Points almost in the image plane are excluded, because no lens sees them.
 bool inFront(const Eigen::Vector3d& p) {
     return p.z() > 1e-3 * p.norm();
 }

@@ -8,14 +8,14 @@
 #include <span>
 
 namespace mfar {
+/// Corners of a tag in the world [m] and in the distorted picture [px].
 
-/// The corners of one tag in the world and in the picture.
 struct CornerSet {
-    std::array<Eigen::Vector3d, 4> world;     ///< [m]
-    std::array<Eigen::Vector2d, 4> pixels;    ///< [px] in the distorted picture
+    std::array<Eigen::Vector3d, 4> world;
+    std::array<Eigen::Vector2d, 4> pixels;
     std::array<Eigen::Vector2d, 4> outwards;  ///< motion of each corner [px] if all edges move
                                               ///< outwards by 1 px
-    double weight = 1;                        ///< weight of the squared error; 0: ignored
+    double weight = 1;  ///< weight of the squared error; 0: the tag is ignored
 };
 
 /// Computes CornerSet::outwards. The corners must be a convex quad in the order of
@@ -23,39 +23,38 @@ struct CornerSet {
 [[nodiscard]] std::array<Eigen::Vector2d, 4>
 outwardsOf(const std::array<Eigen::Vector2d, 4>& corners);
 
-/// Sum of the squared reprojection errors of one tag [px^2]. Infinite if a corner is not in front
-/// of the camera. `edgeShift` [px] is the distance by which all edges of the tags appear too far
-/// out; see refinePose().
+/// Returns the sum of the squared reprojection errors of one tag [px^2]. Infinite if a corner is
+/// not in front of the camera. `edgeShift` [px]: see refinePose().
 [[nodiscard]] double squaredError(const CornerSet& set, const RigidTransform& T_camera_world,
                                   const CameraModel& camera, double edgeShift = 0);
 
 struct RefinedPose {
     RigidTransform T_world_camera;
-    Matrix6 information;      ///< information matrix J^T J of a motion in camera coordinates
-                              ///< [px^2], without the part that an edge shift explains
-    double squaredError = 0;  ///< weighted sum of the squared errors [px^2]
-    double edgeShift = 0;     ///< estimated edge shift [px], see refinePose()
+    Matrix6 information;  ///< J^T J of a motion in camera coordinates [px^2], without the part
+                          ///< that an edge shift explains
+    double squaredError = 0;
+    double edgeShift = 0;
 };
 
-/// A weight of the squared edge shift, relative to that of a corner, that is so large that the edge
-/// shift stays zero.
+/// Weight that is so large that the estimated edge shift is zero.
 inline constexpr double kNoEdgeShift = 1e12;
 
 /// Minimises the weighted squared reprojection error by Levenberg-Marquardt, from `start` to the
 /// nearest local minimum. Marquardt's scaling makes the result independent of the unit of length.
-/// Empty if a corner is behind the camera at the start or if the corners do not determine the pose.
+/// Returns nothing if a corner is behind the camera at the start or if the corners do not determine
+/// the pose.
 ///
-/// The edges of all tags in a picture appear slightly too far out or in, because of blur, gamma and
-/// the printer's ink. With one tag, this edge shift cannot be distinguished from a different
-/// distance of the tag. With several tags it can; it is then estimated, unless `shiftWeight`
-/// prevents it.
+/// Blur, gamma and the printer's ink move the edges of all tags in a picture slightly out or in.
+/// With one tag, this edge shift cannot be distinguished from another distance of the tag. With
+/// several tags, the edge shift is estimated. `shiftWeight` is the weight of its square, relative
+/// to a corner's weight.
 [[nodiscard]] std::optional<RefinedPose> refinePose(std::span<const CornerSet> sets,
                                                     const RigidTransform& start,
                                                     const CameraModel& camera,
                                                     double shiftWeight = kNoEdgeShift);
 
-/// Inverse of an information matrix whose rows may have different units. Empty if the matrix is
-/// singular.
+/// Returns the inverse of an information matrix whose rows may have different units, or nothing if
+/// the matrix is singular.
 [[nodiscard]] std::optional<Matrix6> inverseOf(const Matrix6& information);
 
 }  // namespace mfar

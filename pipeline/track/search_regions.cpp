@@ -8,10 +8,10 @@ namespace mfar {
 namespace {
 
 constexpr double kRoom = 10;         // margin for errors that the prediction does not model [px]
-constexpr double kQuietZone = 0.3;   // margin for the tag's white border, as a fraction of the
-                                     // tag's size; the border is 1/8 to 1/5 of it
+constexpr double kQuietZone = 0.3;   // margin for the tag's white border, relative to the tag's
+                                     // size; the border is 1/8 to 1/5 of it
 constexpr double kMostRoom = 80;     // largest uncertainty of a prediction that is used [px]
-constexpr double kSmallestTag = 10;  // a tag with a smaller extent is not searched [px]
+constexpr double kSmallestTag = 10;  // smallest extent of a searched tag [px]
 
 bool overlap(const PixelRect& a, const PixelRect& b) {
     return a.x0 < b.x1 && b.x0 < a.x1 && a.y0 < b.y1 && b.y0 < a.y1;

@@ -19,10 +19,8 @@ namespace {
 
 constexpr int kLargestSide = 32767;  // libapriltag stores half pixels in 16 bits
 constexpr int kSmallestSide = 16;    // [decimated px]; tags in smaller pictures cannot be read
-constexpr int kTile = 4;             // width and height of libapriltag's threshold tiles [decimated
-                                     // px]
+constexpr int kTile = 4;             // side of libapriltag's threshold tiles [decimated px]
 
-/// The functions of libapriltag that create and free a tag family.
 struct FamilyMaker {
     apriltag_family_t* (*create)();
     void (*destroy)(apriltag_family_t*);
@@ -45,7 +43,7 @@ FamilyHandle makeFamily(TagFamily family) {
     return {maker.create(), maker.destroy};
 }
 
-/// Widens the black border of the family's tags by one cell. The codes of the tags stay the same.
+/// Widens the black border by one cell. The codes of the tags stay the same.
 void widenBorder(apriltag_family_t& family) {
     family.width_at_border += 2;
     family.total_width += 2;
@@ -86,8 +84,8 @@ void check(const DetectorOptions& o) {
     require(o.minMargin >= 0 && o.minMargin <= 255, "minMargin must be from 0 to 255");
 }
 
-/// Returns the part of the picture that is searched for `region`. It is aligned to the grid of
-/// threshold tiles of the whole picture.
+/// Returns the part of the picture that is searched for `region`, aligned to the threshold tiles of
+/// the whole picture.
 PixelRect searched(Size size, const std::optional<PixelRect>& region, double decimation) {
     if (!region) return {0, 0, size.width, size.height};
     const int grid = static_cast<int>(kTile * decimation);
@@ -115,7 +113,7 @@ struct TagDetector::Library {
         out.tag = {tagFamilyNamed(found.family->name).value(), found.id};
         out.hamming = found.hamming;
         out.margin = found.decision_margin;
-        // For the library, the centre of the first pixel is at (0.5, 0.5).
+        // In libapriltag, the centre of the first pixel is at (0.5, 0.5).
         for (int k = 0; k < 4; ++k)
             out.corners[k] = {found.p[k][0] - 0.5 + from.x0, found.p[k][1] - 0.5 + from.y0};
         return out;
@@ -158,8 +156,7 @@ std::vector<TagDetection> TagDetector::detect(const ImageView& luma,
     const double least = kSmallestSide * options_.decimation;
     if (!(width >= least && height >= least)) return {};
     const std::uint8_t* first = luma.data + part.y0 * luma.stride + part.x0;
-    // libapriltag writes to its input only if it blurs it without decimation. In this case it gets
-    // a copy.
+    // libapriltag writes to its input only if it blurs it without decimation. Then it gets a copy.
     auto* pixels = const_cast<std::uint8_t*>(first);
     auto stride = static_cast<int>(luma.stride);
     if (options_.blur > 0 && options_.decimation == 1) {
@@ -180,7 +177,7 @@ std::vector<TagDetection> TagDetector::detect(const ImageView& luma,
         const TagDetection detection = library_->translate(*one, part);
         if (trusted(detection, options_)) out.push_back(detection);
     }
-    // The library's order depends on the number of threads, so the detections are sorted.
+    // libapriltag's order depends on the number of threads.
     std::sort(out.begin(), out.end(), [](const TagDetection& a, const TagDetection& b) {
         return std::tuple(a.tag, a.corners[0].x(), a.corners[0].y()) <
                std::tuple(b.tag, b.corners[0].x(), b.corners[0].y());

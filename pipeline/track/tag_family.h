@@ -8,16 +8,15 @@
 
 namespace mfar {
 
-/// Supported AprilTag families.
 enum class TagFamily : unsigned char { Tag36h11, Tag25h9, Tag16h5, TagStandard41h12 };
 
 struct TagFamilyInfo {
     TagFamily family;
-    std::string_view name;  ///< name in tags.toml and in libapriltag
-    int count;              ///< ids are 0 to count - 1
-    int cells;              ///< number of cells along the edge between two corners
-    bool brightInside;      ///< true: the ring of cells just inside the corners is white, and the
-                            ///< ring just outside is black
+    std::string_view name;
+    int count;  ///< ids are 0 to count - 1
+    int cells;
+    bool brightInside;  ///< true: the cells just inside the corners are white, those just
+                        ///< outside are black
 };
 
 inline constexpr std::array<TagFamilyInfo, 4> kTagFamilies{{
@@ -37,7 +36,6 @@ inline constexpr std::array<TagFamilyInfo, 4> kTagFamilies{{
     return std::nullopt;
 }
 
-/// Identifies a tag uniquely.
 struct TagKey {
     TagFamily family = TagFamily::Tag36h11;
     int id = 0;

@@ -12,40 +12,33 @@
 
 namespace mfar {
 
-/// Thrown if a tag map is invalid. The message is one line that begins with "file:line: " (or with
-/// "file: " if the fault is not in a single line).
+/// Thrown if a tag map is invalid. The message is one line and begins with "file:line: " or "file:
+/// ".
 class TagMapError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
 struct MappedTag {
     TagKey tag;
-    double size = 0;             ///< edge length of the square between the detected corners [m]
+    double size = 0;             ///< side of the square between the detected corners [m]
     RigidTransform T_world_tag;  ///< tag coordinates: x right, y down, z into the surface
 };
 
-/// Transforms coordinates of objects on a tag (x to the right and y up in the tag's print, z out of
-/// the print) to tag coordinates.
+/// Transforms coordinates of objects on a tag (x right and y up in the tag's print, z out of the
+/// print) to tag coordinates.
 [[nodiscard]] inline RigidTransform standOnTag() {
     return {Eigen::Quaterniond(0, 1, 0, 0), Eigen::Vector3d::Zero()};
 }
 
-/// The poses of the tags in the world. The coordinates of the map are the world coordinates of all
-/// poses.
 class TagMap {
 public:
     TagMap() = default;
-    /// Throws std::invalid_argument if a tag occurs twice, a size is not positive or a pose is not
-    /// finite.
     explicit TagMap(const std::vector<MappedTag>& tags);
 
-    /// Returns the tag's entry, or nullptr if the tag is not in the map. The result is valid as
-    /// long as the map exists.
+    /// Returns null if the tag is not in the map. The result is valid as long as the map exists.
     [[nodiscard]] const MappedTag* find(TagKey tag) const;
     [[nodiscard]] bool empty() const { return tags_.empty(); }
-    /// All tags of the map, sorted by family and id.
     [[nodiscard]] const std::map<TagKey, MappedTag>& tags() const { return tags_; }
-    /// Families that occur in the map.
     [[nodiscard]] std::vector<TagFamily> families() const;
 
 private:
@@ -54,21 +47,19 @@ private:
 
 /// Reads tags.toml. The file has `family` for all tags, and a list `[[tags]]` with `id`, `size`
 /// [m], `position` [x, y, z] [m], `orientation` [w, x, y, z] and, if it differs, `family`. Files
-/// whose name ends in .yaml or .yml are read as the tags.yaml of apriltag_ros, see
-/// tagMapFromRosYaml(). Throws TagMapError.
+/// with the ending .yaml or .yml are read by tagMapFromRosYaml(). Throws TagMapError.
 [[nodiscard]] TagMap loadTagMap(const std::filesystem::path& file);
 
-/// Reads the text of a tags.toml. `file`: file name in error messages. Throws TagMapError.
+/// `file` is the file name for error messages. Throws TagMapError.
 [[nodiscard]] TagMap tagMapFromToml(std::string_view text, const std::string& file);
 
-/// Returns the map as the text of a tags.toml.
 [[nodiscard]] std::string tomlOf(const TagMap& map);
 
-/// Reads the tags.yaml of apriltag_ros (ROS 1). The file may have one entry in `tag_bundles`, whose
-/// coordinates become the world. Each tag in the entry's `layout` has `id`, `size` and a pose x, y,
-/// z, qw, qx, qy, qz (default: identity). Tags in `standalone_tags` have no pose in this world, so
-/// they are only checked. Without a bundle, there must be a single standalone tag, which is the
-/// world.
+/// Reads the tags.yaml of apriltag_ros (ROS 1). `tag_bundles` may have one entry, whose coordinates
+/// become the world. Each tag in the entry's `layout` has `id`, `size` and a pose x, y, z, qw, qx,
+/// qy, qz (default: identity). Tags in `standalone_tags` have no pose in this world, so they are
+/// only checked. Without a bundle, there must be a single standalone tag, which is the world.
+///
 /// In the file's tag coordinates, y points up and z out of the surface; poses are converted to the
 /// tag coordinates of MappedTag. The file does not name the tag family. Throws TagMapError.
 [[nodiscard]] TagMap tagMapFromRosYaml(std::string_view text, const std::string& file,

@@ -12,8 +12,7 @@
 
 namespace mfar {
 
-/// The values of a tag as read from a file. The readers of all file formats use it, so that they
-/// share the checks of the values.
+/// The values of a tag as read from a file of any format. wrongWith() checks them.
 struct RawTag {
     TagFamily family = TagFamily::Tag36h11;
     std::int64_t id = -1;
@@ -27,8 +26,8 @@ struct RawTag {
                                : fmt::format("{}: {}", file, what));
 }
 
-/// Returns a description of what is wrong with the tag's values. If the tag is valid, adds it to
-/// `seen` and returns nothing.
+/// Returns a description of the fault in the tag's values. If the tag is valid, adds it to `seen`
+/// and returns nothing.
 inline std::optional<std::string> wrongWith(const RawTag& raw, std::set<TagKey>& seen) {
     const TagFamilyInfo& family = info(raw.family);
     if (raw.id < 0 || raw.id >= family.count)
@@ -44,8 +43,7 @@ inline std::optional<std::string> wrongWith(const RawTag& raw, std::set<TagKey>&
             return fmt::format("the position must be from {} to {} m, not {}",
                                plausible::kTagPosition.least, plausible::kTagPosition.most,
                                coordinate);
-    // Numbers in the files have nine digits. If the length differs from 1 by more than this, the
-    // values are not meant as a rotation.
+    // Numbers in the files have nine digits. A larger difference is no rounding error.
     if (!(std::abs(raw.wxyz.norm() - 1) < 1e-3))
         return fmt::format("the quaternion must have length 1, not {}", raw.wxyz.norm());
     if (!seen.insert({raw.family, static_cast<int>(raw.id)}).second)

@@ -15,16 +15,15 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr std::size_t kStarts = 8;   // number of largest tags whose solutions are candidates for
-                                     // the start
-constexpr double kStartCutoff = 10;  // [px]; with the pose from a single tag, the corners of
-                                     // distant tags may have an error of this size
+constexpr std::size_t kStarts = 8;  // number of largest tags whose solutions may become the start
+// [px]; with the pose from a single tag, the corners of distant tags may have an error of this
+// size.
+constexpr double kStartCutoff = 10;
 constexpr double kSameMinimum = 0.1 * kDegree;
 
-/// A usable tag, and the two camera poses that follow from this tag alone.
 struct Candidate {
-    std::size_t index;  ///< index of the tag's observation
-    double area;        ///< area of the tag in the picture [px^2]
+    std::size_t index;
+    double area;
     CornerSet corners;
     std::array<RigidTransform, 2> T_world_camera;
 };
@@ -33,8 +32,8 @@ double cross(const Vector2d& a, const Vector2d& b) {
     return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Returns the area of a tag's quad [px^2], or 0 if the quad is not a tag seen from its front or is
-/// too small.
+/// Returns the area of a tag's quad [px^2], or 0 if the quad is too small or is not a tag seen from
+/// its front.
 double usableArea(const TagObservation& tag, const CameraModel& camera, double smallestEdge) {
     const auto& c = tag.corners;
     double area = 0;
@@ -87,8 +86,8 @@ double cappedError(std::span<const CornerSet> sets, const RigidTransform& T_worl
     return sum;
 }
 
-/// Returns the pose that fits all tags best, among the two solutions of each single tag. Larger
-/// tags come first and are preferred if errors are equal.
+/// Returns the pose that fits all tags best, among the two solutions of each single tag. If errors
+/// are equal, larger tags are preferred.
 RigidTransform bestStart(std::span<const Candidate> tags, std::span<const CornerSet> sets,
                          const CameraModel& camera) {
     RigidTransform best = tags[0].T_world_camera[0];
@@ -117,9 +116,9 @@ bool keepFitting(std::span<CornerSet> sets, const RigidTransform& T_world_camera
     return any;
 }
 
-/// Refines a pose that comes from one tag to the minimum of the error over all tags that agree. At
-/// first a tag's weight is the smaller the larger its error is (Geman-McClure), with a scale that
-/// decreases. Then the weights are 1 or 0.
+/// Minimises the error over all tags that agree, starting at the pose from one tag. At first, tags
+/// with larger errors have smaller weights (Geman-McClure), with a scale that decreases. Then the
+/// weights are 1 or 0.
 std::optional<RefinedPose> refineRobustly(std::span<CornerSet> sets, RigidTransform T,
                                           const CameraModel& camera, double farthest) {
     for (const double scale : {kStartCutoff, 0.5 * (kStartCutoff + farthest), farthest}) {
@@ -143,8 +142,6 @@ std::optional<RefinedPose> refineRobustly(std::span<CornerSet> sets, RigidTransf
     return refined;
 }
 
-/// Computes the final pose and its covariance. If there are several tags, the edge shift is
-/// estimated, too.
 std::optional<CameraPose> finish(RefinedPose refined, std::span<const CornerSet> sets, int tags,
                                  const CameraModel& camera, const TagPoseOptions& options) {
     if (tags > 1) {
@@ -169,8 +166,8 @@ bool sameMinimum(const RigidTransform& a, const RigidTransform& b) {
     return a.rotation.angularDistance(b.rotation) < kSameMinimum;
 }
 
-/// Finds the second local minimum of the error over the tags in use. Starts from the two solutions
-/// of the largest tag in use.
+/// Finds the second local minimum of the error over the used tags. Starts from the two solutions of
+/// the largest used tag.
 std::optional<RefinedPose> otherMinimum(std::span<const Candidate> tags,
                                         std::span<const CornerSet> sets, const RefinedPose& best,
                                         const CameraModel& camera) {

@@ -127,8 +127,7 @@ std::optional<Pose> Tracker::track(const ImageView& picture, Timestamp time) {
     const bool adopts = map_.empty();
     if (adopts) adoptWorld(detections_);
     const auto out = estimator_.update(placed(detections_), rig_.video, time);
-    // If there is no valid pose, the tag that became the world may be a false detection. It is then
-    // removed from the map.
+    // Without a valid pose, the tag that became the world may be a false detection. It is removed.
     if (adopts && !estimator_.raw()) map_ = {};
     const std::chrono::duration<double, std::milli> span = std::chrono::steady_clock::now() - begin;
     count(span.count());

@@ -14,73 +14,66 @@
 namespace mfar {
 
 struct TrackerOptions {
-    /// The poses of the tags. The coordinates of the map are the world, and only tags of the map's
-    /// families are searched.
-    /// If the map is empty, tags of `families` are searched, and the largest tag of the first
-    /// picture with a tag becomes the map. In this case the world's origin is in this tag: x points
-    /// to the right and y up in the tag's print, and z points out of the print.
+    /// The coordinates of the map are the world, and only tags of the map's families are searched.
+    /// If the map is empty, tags of `families` are searched. Then the largest tag of the first
+    /// picture with a tag becomes the world: origin in its centre, x right and y up in the tag's
+    /// print, z out of the print.
     TagMap map;
     std::vector<TagFamily> families{TagFamily::Tag36h11};
-    double tagSize = 0.1;         ///< size of the tag that becomes the world if there is no map [m]
-    double decimation = 2;        ///< decimation for video frames; see DetectorOptions
-    double stillDecimation = 4;   ///< decimation for stills; see DetectorOptions
-    int threads = 1;              ///< number of threads of libapriltag for each sensor
-    int fullSearchInterval = 15;  ///< number of frames from one search of the whole picture to the
-                                  ///< next
-    double gamma = 2;             ///< gamma of the video; see CornerRefiner
-    double stillGamma = 2;        ///< gamma of the stills; see CornerRefiner
+    double tagSize = 0.1;  ///< size of the tag that becomes the world [m]
+    /// Decimation of the search for tags, in video and stills, see DetectorOptions.
+    double decimation = 2;
+    double stillDecimation = 4;
+    int threads = 1;              ///< threads of libapriltag for each sensor
+    int fullSearchInterval = 15;  ///< number of frames between two searches of the whole picture
+    /// Gamma of video and stills, see CornerRefiner.
+    double gamma = 2;
+    double stillGamma = 2;
     PoseEstimatorOptions pose;
 };
 
 struct TrackStats {
     std::int64_t frames = 0;
-    /// Number of frames that were searched completely: at the start, at intervals, and if no known
-    /// tag was found in the predicted regions.
     std::int64_t fullSearches = 0;
-    std::int64_t roiSearches = 0;  ///< number of frames in which only predicted regions were
-                                   ///< searched
-    int flips = 0;                 ///< number of changes between the two planar solutions
-    int rejected = 0;              ///< number of poses that the filter rejected as outliers
-    int jumps = 0;                 ///< number of restarts of the filter after outliers that agreed
-    double lastMs = 0;             ///< time for detection and pose of the last frame
+    std::int64_t roiSearches = 0;
+    /// `flips` counts changes between the two planar solutions, `rejected` outliers of the filter,
+    /// `jumps` restarts of the filter after outliers that agreed with each other.
+    int flips = 0;
+    int rejected = 0;
+    int jumps = 0;
+    double lastMs = 0;
     double meanMs = 0;
     double worstMs = 0;
 };
 
-/// Tracks the pose of the video camera from AprilTags, frame by frame.
-///
-/// track() must be called from one thread, which need not be the GL thread. trackStill() may be
-/// called from another thread at the same time. All other functions may be called from any thread.
+/// Tracks the pose of the video camera from AprilTags. track() must be called from one thread,
+/// which need not be the GL thread. trackStill() may be called from one other thread at the same
+/// time. The remaining functions, except detections(), are thread-safe.
 class Tracker {
 public:
-    /// Throws std::invalid_argument if an option is out of range.
     Tracker(const StereoRig& rig, TrackerOptions options);
 
-    /// Processes a video frame of the rig's video size, Gray8 or Rgba8. Times must increase; a step
-    /// back in time restarts the filter.
-    /// Returns the filtered pose at `time`. If no tag is visible, returns the predicted pose (tags
-    /// = 0) as long as the filter predicts, then nothing. Throws std::invalid_argument if the
-    /// picture's size is not that of the rig's video camera.
+    /// Processes a video frame, Gray8 or Rgba8. Times must increase; a step back in time restarts
+    /// the filter. Returns the filtered pose. If no tag is visible, returns the predicted pose
+    /// (tags = 0) as long as the filter predicts, then nothing. Throws std::invalid_argument if the
+    /// picture does not have the size of the rig's video.
     std::optional<Pose> track(const ImageView& picture, Timestamp time);
-    /// The unfiltered pose from the tags of the last frame.
     [[nodiscard]] std::optional<Pose> raw() const;
-    /// The video camera's pose at another time, for example at the time when the picture will be
-    /// displayed.
     [[nodiscard]] std::optional<Pose> predict(Timestamp time) const;
-    /// The video camera's pose at the time of a still. It is measured in the still itself, with the
-    /// still camera and T_still_video, and is not filtered. Empty if the still shows no usable tag.
+    /// Returns the video camera's pose at the time of a still. It is measured in the still, with
+    /// the still camera and T_still_video, and not filtered. Returns nothing if the still shows no
+    /// usable tag.
     [[nodiscard]] std::optional<Pose> trackStill(const ImageView& still, Timestamp time);
 
     /// Tags of the last frame with refined corners, including tags that are not in the map. May be
-    /// called only from the thread that calls track(); valid until the next call of track().
+    /// called only from the thread of track(). Valid until the next call of track().
     [[nodiscard]] const std::vector<TagDetection>& detections() const { return detections_; }
     [[nodiscard]] TrackStats stats() const;
-    /// The map of the options, or the map with the tag that became the world. Empty if no tag has
-    /// become the world yet.
+    /// Returns the map of the options, or the map with the tag that became the world. Empty if no
+    /// tag has become the world yet.
     [[nodiscard]] TagMap map() const;
 
 private:
-    /// Everything that is needed to detect tags in the pictures of one sensor.
     struct Eye {
         CameraModel camera;
         double decimation;
@@ -107,7 +100,7 @@ private:
     std::vector<TagDetection> detections_;
     int sinceFullSearch_ = 0;
 
-    mutable std::mutex mutex_;  ///< protects all members below
+    mutable std::mutex mutex_;  ///< guards the members below
     TagMap map_;
     PoseEstimator estimator_;
     TrackStats stats_;

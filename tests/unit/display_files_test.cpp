@@ -343,7 +343,7 @@ TEST(OpenFileDisplay, ErrorsAreReported) {
     EXPECT_EQ(refusal("png:" + under), under + ": Not a directory");
     EXPECT_EQ(refusal("y4m:" + under), under + ": Not a directory");
     EXPECT_EQ(refusal("y4m:" + (folder / "a").string(), 0),
-              "y4m: the frame rate of 0 Hz is not in 0.001 to 1000000 Hz");
+              "y4m: the frame rate must be from 0.001 to 1000000 Hz, not 0 Hz");
 }
 
 TEST(Y4mHeader, GivesCommonRatesAsTheirFractions) {

@@ -104,7 +104,7 @@ TEST(ImageFiles, BrokenPicturesAreRefusedWithTheFilesName) {
     EXPECT_EQ(error(), file.string() + ": cannot be decoded: is neither PNG nor JPEG");
     savePng(file, test::plain({40, 30}, 9).view());
     fs::resize_file(file, fs::file_size(file) - 1);
-    EXPECT_EQ(error(), file.string() + ": cannot be decoded: the picture ends too early");
+    EXPECT_EQ(error(), file.string() + ": cannot be decoded: the file ends before the last pixel");
     savePng(file, test::plain({40, 30}, 9).view());
     std::fstream(file, std::ios::in | std::ios::out | std::ios::binary).seekp(60).put('x');
     EXPECT_NE(error(), "no error");

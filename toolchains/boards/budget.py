@@ -11,7 +11,7 @@ def row_of(gpu, shader):
 
 
 def read(path):
-    """The rows of a budget file, keyed by (gpu, shader)."""
+    """Returns the rows of a budget file: {(gpu, shader): row}."""
     with open(path, newline='', encoding='utf-8') as file:
         return {(row['gpu'], row['shader']): {k: v if k in COLUMNS[:2] else int(v) for k, v in row.items()}
                 for row in csv.DictReader(file)}
@@ -25,7 +25,7 @@ def write(path, rows):
 
 
 def faults(rows, budget):
-    """One message for each row that exceeds its limits or has no limits."""
+    """Returns a message for each row that exceeds its limits or has no limits."""
     out = []
     for row in rows:
         name = f'{row["shader"]} on {row["gpu"]}'

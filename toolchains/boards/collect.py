@@ -10,8 +10,8 @@ import cpu_model
 
 CASES = ('moving', 'rest')
 TIMED = 20  # number of timed frames
-# Numbers of frames of two runs. The difference of the runs is one frame, without work that is done
-# only once. At rest, a frame is typical only after a few frames.
+# Numbers of frames of two runs. Their difference is one frame without work that is done only once.
+# At rest, frames become typical only after a few frames.
 FRAMES = {'moving': (2, 3), 'rest': (5, 6)}
 
 
@@ -23,7 +23,7 @@ def run(command, **environment):
 
 
 def gpu_work(program, case, width):
-    """Draws and dispatches of a frame on GLES, in their order."""
+    """Returns the draws and dispatches of a frame on GLES, in their order."""
     return json.loads(run([program, '--engine', 'gles', '--case', case, '--width', str(width), '--frames',
                            str(FRAMES[case][1])], MFAR_GL_DEVICE='software'))['frame']
 
@@ -36,7 +36,7 @@ def build_plugin(source, out):
 
 
 def frame_counts(emulator, plugin, program, case, width):
-    """How often each block of instructions runs for one frame on one thread."""
+    """Returns the number of executions of each block of instructions, for one frame on one thread."""
     counts = []
     with tempfile.TemporaryDirectory() as folder:
         for frames in FRAMES[case]:
@@ -49,13 +49,13 @@ def frame_counts(emulator, plugin, program, case, width):
 
 
 def host_times(program, threads, width, *more):
-    """Times of each stage of a frame on this machine [ms], and the processor's clock."""
+    """Returns the times of each stage of a frame on this machine [ms], and the processor's clock."""
     return json.loads(run([program, '--time', '--frames', str(TIMED + 3), '--threads', str(threads), '--width',
                            str(width), *more]))
 
 
 def host_processor():
-    """Name of this machine's processor, and llvm-mca's name for it (None if it is not x86-64)."""
+    """Returns the names of this machine's processor: its own and llvm-mca's (None if it is not x86-64)."""
     name = ''
     with open('/proc/cpuinfo', encoding='ascii', errors='replace') as file:
         for line in file:

@@ -1,6 +1,6 @@
 """Predicts the cycles of a frame on a processor: the program's executed blocks, times llvm-mca's cycles for each.
 
-QEMU counts how often each block of instructions runs (block_counts.c). llvm-mca computes how many cycles a
+QEMU counts the executions of each block of instructions (block_counts.c). llvm-mca computes the cycles that a
 block takes on a processor if it is repeated with all data in the first-level cache. If a block is a loop of its
 own, these cycles are its time. All other blocks run once at a time. An out-of-order processor overlaps such a
 block with the next ones; so only the execution units that it uses count. An in-order processor does not overlap
@@ -17,7 +17,7 @@ ITERATIONS = 50
 
 
 class Counts:
-    """How often each block was executed. Blocks are keyed by their offset from the start of the program's code."""
+    """Number of executions of each block. The key is the block's offset from the start of the program's code."""
 
     def __init__(self, text=''):
         self.blocks = {}  # offset: (bytes, instructions, count)
@@ -32,7 +32,7 @@ class Counts:
             self.blocks[key] = size, self.blocks.get(key, (size, 0))[1] + count
 
     def less(self, before, share):
-        """These counts minus `before`, times `share`: the counts of frames without the start of the program."""
+        """Returns (these counts - `before`) * `share`: the counts of frames without the start of the program."""
         out = Counts()
         for key, (size, count) in self.blocks.items():
             more = count - before.blocks.get(key, (size, 0))[1]
@@ -62,14 +62,15 @@ def instruction_text(line):
     if not found:
         return None
     text = re.sub(r'\s*(//|#\s|<unknown>).*', '', found.group(2).replace('\t', ' '))
-    # The target is replaced by a name, because the assembler refuses targets that are too far away.
+    # The branch target is replaced by a name, because the assembler refuses targets that are too
+    # far away.
     branch = re.search(r'#?0x([0-9a-f]+) <[^>]*>', text)
     text = re.sub(r'#?-?0x[0-9a-f]+ <[^>]*>', 'target', text)
     return int(found.group(1), 16), text.strip(), int(branch.group(1), 16) if branch else 0
 
 
 def disassemble(program):
-    """The program's instructions in their order: {address: (text, target of a branch or 0)}."""
+    """Returns the program's instructions in their order: {address: (text, target of a branch or 0)}."""
     out = {}
     command = ['llvm-objdump-' + LLVM, '-d', '--no-show-raw-insn', program]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as run:
@@ -84,8 +85,8 @@ ENDS = re.compile(r'(j\w+|call\w*|ret\w*|b|bl|br|blr|cbn?z|tbn?z|b\.\w+)( |$)')
 
 
 def basic_blocks(counts, base, texts):
-    """The program's basic blocks: [(addresses of the instructions, how often the block ran)]. QEMU's own blocks are
-    not used, because they end at page borders and may begin inside each other; so they change whenever the linker
+    """Returns the basic blocks: [(addresses of the instructions, number of executions)]. QEMU's own blocks are not
+    used, because they end at page borders and may begin inside each other; so they change whenever the linker
     moves code."""
     ran = {}
     for (offset, size), (_, count) in counts.blocks.items():
@@ -106,7 +107,7 @@ def basic_blocks(counts, base, texts):
 
 
 def hottest(blocks, share):
-    """The smallest set of blocks that contains this share of the executed instructions."""
+    """Returns the smallest set of blocks that contains this share of the executed instructions."""
     ordered = sorted(blocks, key=lambda block: -len(block[0]) * block[1])
     rest = sum(len(addresses) * count for addresses, count in blocks) * share
     out = []
@@ -119,7 +120,7 @@ def hottest(blocks, share):
 
 
 def mca_source(blocks, texts):
-    """Assembler text for llvm-mca, with one region per block. `blocks`: addresses of each block's instructions."""
+    """Returns assembler text for llvm-mca, with one region per block. `blocks`: addresses of the instructions."""
     lines = []
     for at, addresses in enumerate(blocks):
         lines.append(f'# LLVM-MCA-BEGIN b{at}')
@@ -129,8 +130,8 @@ def mca_source(blocks, texts):
 
 
 def mca_cycles(answer):
-    """For each region (block) in llvm-mca's answer: (cycles of one iteration in a sequence of iterations, smallest
-    number of cycles that its execution units allow)."""
+    """Returns for each region (block) in llvm-mca's output: (cycles of one iteration in a sequence of iterations,
+    smallest number of cycles that its execution units allow)."""
     out = {}
     for region in json.loads(answer)['CodeRegions']:
         view = region.get('SummaryView')
@@ -144,8 +145,8 @@ def is_loop(addresses, texts):
 
 
 def block_cycles(blocks, texts, cpu, arm):
-    """Cycles of each block on the processor `cpu` (an entry of cpus in model.toml). None for a block with an
-    instruction that llvm-mca does not know."""
+    """Returns the cycles of each block on the processor `cpu` (an entry of cpus in model.toml). None for a block
+    with an instruction that llvm-mca does not know."""
     triple = 'aarch64-linux-gnu' if arm else 'x86_64-linux-gnu'
     with tempfile.NamedTemporaryFile('w', suffix='.s') as source:
         source.write(mca_source(blocks, texts))
@@ -164,7 +165,7 @@ def block_cycles(blocks, texts, cpu, arm):
 
 
 def source_files(program, addresses):
-    """For each address, the source file of the outermost function there, from the program's line tables."""
+    """Returns the source file of the outermost function at each address, from the program's line tables."""
     run = subprocess.run(['llvm-symbolizer-' + LLVM, '--obj=' + program, '--output-style=JSON', '--relative-address'],
                          input='\n'.join(hex(a) for a in addresses) + '\n', capture_output=True, text=True, check=True)
     out = []
@@ -175,7 +176,7 @@ def source_files(program, addresses):
 
 
 def step_of(file, steps):
-    """The first step of which one part occurs in the file's path. 'rest' if there is none."""
+    """Returns the first step with a path part (model.toml) that occurs in the file's path, or 'rest'."""
     for step, parts in steps.items():
         if any(part in file for part in parts):
             return step
@@ -183,8 +184,8 @@ def step_of(file, steps):
 
 
 def frame_cycles(program, counts, cpus, steps, arm, coverage=0.99):
-    """Million cycles of a frame on one core, for each processor and step, and million instructions for each step.
-    `cpus`: the processors, as in model.toml.
+    """Returns million cycles of a frame on one core, for each processor and step, and million instructions for each
+    step. `cpus` contains the processors, as in model.toml.
 
     Blocks beyond `coverage`, and blocks that llvm-mca does not know, are assumed to take as many cycles per
     instruction as the others.

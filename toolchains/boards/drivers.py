@@ -9,7 +9,7 @@ STATISTICS = {'v3d': {'V3D_DEBUG': 'nir,shaderdb'}, 'panfrost': {'BIFROST_MESA_D
 
 
 def command(libraries, driver, program, arguments):
-    """Command line that runs the program with all libraries (even the C library) of the drivers' Debian release."""
+    """Returns a command that runs the program with all libraries (even libc) of the drivers' Debian release."""
     return [os.path.join(libraries, 'ld-linux-x86-64.so.2'), '--library-path', libraries, '--preload',
             os.path.join(libraries, f'lib{driver}_noop_drm_shim.so'), program, *arguments]
 
@@ -17,8 +17,8 @@ def command(libraries, driver, program, arguments):
 def compile_shaders(libraries, gpu, program, files=()):
     """Compiles every shader of the product, or these files. Returns {key: Shader}. Raises RuntimeError if a shader
     does not compile."""
-    # Without a GPU, Panfrost crashes at a dispatch and at a shader that spills registers; so it
-    # only links.
+    # Without a GPU, Panfrost crashes at a dispatch and at a shader that spills registers, so the
+    # shaders are only linked.
     arguments = (['--link-only'] if gpu['driver'] == 'panfrost' else []) + list(files)
     environment = dict(os.environ, LIBGL_DRIVERS_PATH=libraries, GBM_BACKENDS_PATH=libraries,
                        MESA_SHADER_CACHE_DISABLE='1', **STATISTICS[gpu['driver']], **gpu['environment'])

@@ -7,7 +7,7 @@ MOST_BYTES = 16  # largest number of bytes per access
 
 
 class UnknownLoops(Exception):
-    """model.toml does not contain how often these loops run."""
+    """model.toml has no trip counts for the loops of this shader."""
 
 
 def evaluate(expression, names):
@@ -25,7 +25,7 @@ def evaluate(expression, names):
 
 
 def trips_of(shader, params, loops):
-    """How often each loop of a shader runs (its trip count). `loops`: the table [[loops]] of model.toml."""
+    """Returns the trip count of each loop of a shader. `loops` is the table [[loops]] of model.toml."""
     lying = ' '.join(str(loop.depth) for loop in shader.loops[1:])
     if not lying:
         return []
@@ -36,7 +36,7 @@ def trips_of(shader, params, loops):
 
 
 def unit_cycles(shader, trips, gpu):
-    """For each kind of execution unit: (cycles that one wave keeps it busy, number of cores that share one unit)."""
+    """Returns for each kind of unit: (cycles that one wave keeps it busy, number of cores that share one unit)."""
     arithmetic, memory, texture = shader.weights(trips)
     if gpu['driver'] == 'panfrost':
         weights = {'texture': texture, 't': texture, 'ldst': memory, 'ls': memory, 'vary': 1, 'v': 1}
@@ -54,8 +54,8 @@ def unit_cycles(shader, trips, gpu):
 
 
 def executed_instructions(shader, trips):
-    """Instructions that one invocation executes: those in the compiled shader, times the ratio of executed to
-    existing operations in NIR."""
+    """Returns the number of instructions that one invocation executes: those of the compiled shader, times the ratio
+    of executed to existing operations in NIR."""
     kinds = ('arithmetic', 'memory', 'texture')
     stands = sum(getattr(loop, kind) for loop in shader.loops for kind in kinds)
     runs = sum(shader.executed(kind, trips) for kind in kinds)
@@ -71,7 +71,7 @@ def waves_of_core(shader, gpu):
 
 
 def pass_time(work, shader, gpu, board, model):
-    """One draw or dispatch: (time [ms], resource that limits it, time of each resource [ms])."""
+    """Returns for one draw or dispatch: (time [ms], resource that limits it, time of each resource [ms])."""
     trips = trips_of(shader, work['params'], model['loops'])
     cores, clock = board['gpu']['cores'], board['gpu']['clock'] * 1e3  # cycles per millisecond
     waves = math.ceil(work['invocations'] / gpu['lanes'])
@@ -89,5 +89,5 @@ def pass_time(work, shader, gpu, board, model):
 
 
 def bandwidth(board, model):
-    """Memory bandwidth that a board reaches [bytes/ms]."""
+    """Returns the memory bandwidth that a board reaches [bytes/ms]."""
     return board['memory'] * 1e6 * model['gpu_model']['bandwidth_share']

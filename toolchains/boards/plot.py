@@ -9,7 +9,7 @@ LEFT, WIDTH, ROW, TOP = 260, 620, 22, 72
 
 
 def bars(model, results, width):
-    """The bars: (label, {step: time [ms]}) for each board and engine."""
+    """Returns (label, {step: time [ms]}) for each board and engine."""
     for key, board in model['boards'].items():
         short = board['name'].split(' (')[0]
         one = results['boards'][key]['moving'][width]
@@ -23,7 +23,7 @@ def bars(model, results, width):
 
 
 def nice(most):
-    """A round distance of the marks on a scale up to `most`, for about six marks."""
+    """Returns a round distance of about six marks on a scale up to `most`."""
     step = 1
     while most / step > 7:
         for factor in (2, 5, 10):

@@ -15,7 +15,7 @@ def step_of_shader(name, steps):
 
 
 def passes(board, works, shaders, model):
-    """The predictions for every draw and dispatch in `works`."""
+    """Returns the predictions for every draw and dispatch in `works`."""
     gpu = model['gpus'][board['gpu']['kind']]
     out = []
     for work in works:
@@ -27,7 +27,7 @@ def passes(board, works, shaders, model):
 
 
 def gpu_steps(board, works, shaders, model):
-    """Time of each step on the GPU [ms]. The first step includes the upload of the picture."""
+    """Returns the time of each step on the GPU [ms]. The first step includes the upload of the picture."""
     out = {step: 0.0 for step in STEPS[1:]}
     for one in passes(board, works, shaders, model):
         out[one['step']] = out.get(one['step'], 0.0) + one['ms']
@@ -38,8 +38,8 @@ def gpu_steps(board, works, shaders, model):
 
 
 def cpu_steps(board, cycles, output, model, cores, moving=True):
-    """Time of each step on `cores` cores [ms]. `cycles`: million cycles of each step for a frame on one core. At rest,
-    only the step plan reads pixels."""
+    """Returns the time of each step on `cores` cores [ms]. `cycles`: million cycles of each step for a frame on one
+    core. At rest, only the step plan reads pixels."""
     share = model['cpu_model']['parallel_share']
     video, still = (w * h for w, h in (model['frame']['video'], model['frame']['still']))
     pixels = {'video': video, 'output': output[0] * output[1], 'still': still}
@@ -54,8 +54,8 @@ def cpu_steps(board, cycles, output, model, cores, moving=True):
 
 
 def placements(cpu, gpu):
-    """Time of a frame [ms] for each placement of its steps on engines. `cpu`, `gpu`: times of the steps; `gpu` is None
-    without a GPU."""
+    """Returns the time of a frame [ms] for each placement of its steps on engines. `cpu` and `gpu` are times of the
+    steps; `gpu` is None without a GPU."""
     host = cpu.get('plan', 0) + cpu.get('rest', 0)  # steps without shaders
     sums = {'simd': sum(cpu.values())}
     if gpu is None:
@@ -68,12 +68,12 @@ def placements(cpu, gpu):
 
 
 def winners(cpu, gpu):
-    """For each step, the faster engine."""
+    """Returns the faster engine of each step."""
     return {step: 'simd' if gpu is None or cpu.get(step, 0) <= gpu[step] else 'gles' for step in STEPS[1:]}
 
 
 def error_table(predicted, measured):
-    """For each step in both tables: (step, predicted [ms], measured [ms], measured / predicted)."""
+    """Returns for each step in both tables: (step, predicted [ms], measured [ms], measured / predicted)."""
     rows = [(step, predicted[step], measured[step]) for step in predicted if step in measured]
     rows.append(('all of these', sum(r[1] for r in rows), sum(r[2] for r in rows)))
     return [(step, p, m, m / p if p else float('nan')) for step, p, m in rows]

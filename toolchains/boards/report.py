@@ -62,7 +62,7 @@ def outputs(model):
 
 
 def predict_board(board, model, works, compiled, cycles):
-    """The predictions for a board: {case: {output width: prediction}}."""
+    """Returns the predictions for a board: {case: {output width: prediction}}."""
     gpu = board.get('gpu')
     known = gpu is not None and gpu['kind'] in compiled
     out = {}
@@ -97,8 +97,8 @@ def check_host(args, model, plugin):
     measured = collect.host_times(args.frame_work, 1, width, '--avx2')
     clock = measured['clockGhz'] * 1e3
     predicted = {step: million * 1e3 / clock for step, million in cycles['cycles']['host'].items()}
-    # Measured times of the step weigh include the comparison of the finest detail. Its row kernels
-    # are predicted with the step detail, which uses them, too. So both steps are compared together.
+    # The measured time of the step weigh includes the comparison of the finest detail. The
+    # prediction counts its row kernels in the step detail. So both steps are compared together.
     times = {step: one['least'] for step, one in measured.items() if isinstance(one, dict)}
     for table in (predicted, times):
         table['weigh and detail'] = table.pop('weigh', 0) + table.pop('detail', 0)

@@ -13,8 +13,8 @@ MEMORY = re.compile(r'(load|store)_(ssbo|global|shared|scratch)|atomic|image_(lo
 
 @dataclasses.dataclass
 class Loop:
-    """A loop of a shader. Its operations run as often as the loop around it, times its own trip count. The first
-    `loop` of a shader stands for the whole shader."""
+    """A loop of a shader. Its operations run as often as the outer loop, times its own trip count. The first `loop`
+    of a shader is the whole shader."""
     depth: int
     parent: int = -1
     arithmetic: int = 0
@@ -41,7 +41,7 @@ class Shader:
         return (self.name + ' ' + self.defines).strip()
 
     def structure(self):
-        """The structure of nested loops as text: 'L L(L)' is one loop, then a loop that contains another one."""
+        """Returns the nested loops as text: 'L L(L)' is one loop, then a loop that contains another loop."""
         out, depth = '', 0
         for loop in self.loops[1:]:
             if loop.depth > depth:
@@ -52,8 +52,8 @@ class Shader:
         return out + ')' * max(depth - 1, 0)
 
     def weights(self, trips):
-        """How often one invocation executes an operation of the shader's text, in the mean over all operations of
-        each kind: (arithmetic, memory, texture). `trips`: trip count of each loop, in order."""
+        """Returns the mean number of executions of an operation in one invocation: (arithmetic, memory, texture).
+        `trips` contains the trip count of each loop, in order."""
         runs = [1.0]
         for loop, count in zip(self.loops[1:], trips):
             runs.append(runs[loop.parent] * count)
@@ -65,7 +65,7 @@ class Shader:
         return out
 
     def executed(self, kind, trips):
-        """Number of operations of a kind that one invocation executes."""
+        """Returns the number of operations of a kind that one invocation executes."""
         weights = dict(zip(('arithmetic', 'memory', 'texture'), self.weights(trips)))
         return sum(getattr(loop, kind) for loop in self.loops) * weights[kind]
 
@@ -153,7 +153,7 @@ STAGES = {'comp': ('COMPUTE', 'CL'), 'frag': ('FRAGMENT', 'FRAG'), 'vert': ('VER
 
 
 def parse(lines):
-    """The shaders {key: Shader}, each as it was compiled last."""
+    """Returns {key: Shader}, each as it was compiled last."""
     out, wanted, shader, nir, stage = {}, (), None, None, ''
     for line in lines:
         line = line.replace('MESA: info: ', '').rstrip('\n')

@@ -16,8 +16,8 @@ complaints() {
 
 # testDriver DRIVER [CTEST-OPTION...]: runs the tests with the label "driver" on this Mesa driver.
 # These tests draw with GL, and their display does not read pixels into a buffer. For such reads,
-# Mesa 22.3 draws into a framebuffer without attachments, and zink then does not call
-# vkCmdSetColorBlendEnableEXT, which the validation layer reports as an error.
+# Mesa 22.3 draws into a framebuffer without attachments. Then zink does not call
+# vkCmdSetColorBlendEnableEXT, and the validation layer reports an error.
 testDriver() {
     local driver=$1 icd log=.build/host/Testing/Temporary/LastTest.log label=driver said
     shift

@@ -1,6 +1,6 @@
-// A plugin of clang-tidy with the check mfar-own-code. It reports nothing and limits all other
-// checks to declarations outside of system headers. Otherwise clang-tidy runs every check on the
-// standard library, Eigen and OpenCV and discards the results, which takes most of its time.
+// A plugin of clang-tidy with the check mfar-own-code. It reports nothing, but limits all other
+// checks to declarations outside of system headers. Otherwise, clang-tidy checks the standard
+// library, Eigen and OpenCV and discards the results, which takes most of its time.
 #include <clang-tidy/ClangTidyCheck.h>
 #include <clang-tidy/ClangTidyModule.h>
 #include <clang-tidy/ClangTidyModuleRegistry.h>

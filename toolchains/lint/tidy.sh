@@ -1,8 +1,8 @@
 # Functions that run clang-tidy on all files that have changed since clang-tidy last passed. `run`
 # reads this file in the project's folder.
 
-# Writes the compile commands for clang-tidy, which checks a file once for each of its commands. The
-# second build of the SIMD kernels, for Highway's scalar target, is left out.
+# Writes the compile commands for clang-tidy, which checks a file once for each of its commands. So
+# the second build of the SIMD kernels, for Highway's scalar target, is left out.
 tidyCommands() {
     mkdir -p .build/host/lint
     awk -v RS='}' -v ORS='' \
@@ -10,8 +10,8 @@ tidyCommands() {
         .build/host/compile_commands.json >.build/host/lint/compile_commands.json
 }
 
-# Prints all files to check. These are the build's unity files, so that headers that several sources
-# include are parsed and checked once. Generated sources are left out.
+# Prints all files to check: the build's unity files, so that a header of several sources is checked
+# once. Generated sources are left out.
 everything() {
     sed -n 's|^ *"file": "\(.*\)",\?$|\1|p' .build/host/lint/compile_commands.json |
         sort -u |
@@ -19,8 +19,8 @@ everything() {
         grep . # fails for an empty list
 }
 
-# unlinted STAMP: prints the files to check because they changed after STAMP, when clang-tidy last
-# passed; all files if a header or the checks changed.
+# unlinted STAMP: prints the files that changed after STAMP, the time at which clang-tidy last
+# passed. If a header or the checks changed, prints all files.
 unlinted() {
     local stamp=$1 changed
     if [[ ! -f $stamp ]]; then everything; return; fi
@@ -38,8 +38,8 @@ unlinted() {
     } | sort -u
 }
 
-# tidyPlugin PLUGIN: builds the plugin that limits clang-tidy to the project's own code, with which
-# it takes a third of the time. -fno-rtti, because LLVM is built without RTTI.
+# tidyPlugin PLUGIN: builds the plugin that limits clang-tidy to the project's own code, which takes
+# a third of the time. -fno-rtti, because LLVM is built without RTTI.
 tidyPlugin() {
     local plugin=$1 source=toolchains/lint/own_code.cpp
     [[ $plugin -nt $source ]] ||
@@ -48,8 +48,7 @@ tidyPlugin() {
 }
 
 # tidyFile FILE: checks a file. Prints the names of its sources as progress, then clang-tidy's
-# messages. Warning flags that only GCC knows are ignored. A kernel's file is checked for one
-# instruction set.
+# messages. A kernel's file is checked for one instruction set only.
 tidyFile() {
     local file=$1 sources=$1 said status=0
     if [[ $file == */Unity/* ]]; then

@@ -1,5 +1,5 @@
-# CPack runs this script after it has copied the files of the package. The script finds the Debian
-# packages of the programs' shared libraries and adds them to the package's dependencies.
+# CPack runs this script after it has copied the files of the package. It adds the Debian packages
+# of the programs' shared libraries to the package's dependencies.
 file(GLOB programs ${CPACK_TEMPORARY_DIRECTORY}/usr/bin/*)
 execute_process(
     COMMAND ${CMAKE_CURRENT_LIST_DIR}/shlibdeps.sh "${CPACK_MFAR_SYSROOT}"

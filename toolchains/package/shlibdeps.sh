@@ -14,8 +14,8 @@ split() { sed -E 's/^(.*)\.so\.(.*)$/\1 \2/; t; s/^(.*)-([0-9][^-]*)\.so$/\1 \2/
 needed=$(readelf -d "$@" | sed -n 's/.*(NEEDED).*\[\(.*\)\]$/\1/p' | sort -u | split)
 [[ -n $needed ]] || { echo "shlibdeps: these programs need no shared library: $*" >&2; exit 1; }
 while read -r library version; do
-    # Files of this architecture are searched first, because a machine may have libraries of
-    # several.
+    # Files of this architecture are searched first, because a machine may have libraries of several
+    # architectures.
     found=$(awk -v l="$library" -v v="$version" \
         '$1 == l && $2 == v { $1 = $2 = ""; sub(/^ +/, ""); print; exit }' "$info"/*":$architecture.shlibs" "$info"/*.shlibs)
     [[ -n $found ]] || { echo "shlibdeps: no package in $info has $library $version" >&2; exit 1; }

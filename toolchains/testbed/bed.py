@@ -89,16 +89,16 @@ class Bed:
             picture.held = on
 
     def journal(self, since=None):
-        """The messages of mfard.service, without times. `since`: a time from now()."""
+        """Returns the messages of mfard.service, without times. `since`: a time from now()."""
         return self.run('journalctl --no-pager -q -u mfard -o cat'
                         + (f' --since "{since}"' if since else ''))
 
     def now(self):
-        """The guest's time of day, in the format for journal()."""
+        """Returns the guest's time of day, in the format for journal()."""
         return self.run('date "+%F %T.%6N"')
 
     def property(self, name):
-        """The value of a property of mfard.service, from `systemctl show`."""
+        """Returns the value of a property of mfard.service, from `systemctl show`."""
         return self.run(f'systemctl show mfard --value -p {name}')
 
     def fresh_service(self, config, drop_in=''):

@@ -28,7 +28,7 @@ class Camera:
 
     With a rate above 0, it sends pictures at this rate, and their numbers count from the epoch. With rate
     0, it sends one picture for each pulse(), and the numbers count the pulses from 1. Pictures that it
-    cannot send in time are left out, as by a sensor; their numbers are missing.
+    cannot send in time are skipped, as by a sensor; their numbers are missing.
     """
 
     def __init__(self, name, picture, rate, epoch):

@@ -12,7 +12,7 @@ import usbredir
 
 TRIGGER_LINE = 5  # line of the GPIO chip PL061, the guest's /dev/gpiochip0
 BOOT_LIMIT = 180  # largest duration of the boot [s]
-# Begin of a shell loop over the virtio devices that are displays (type 16).
+# Start of a shell loop over the virtio devices that are displays (type 16).
 EACH_DISPLAY = 'for d in /sys/bus/virtio/devices/*; do [[ $(<$d/device) == 0x0010 ]] || continue; '
 
 
@@ -125,7 +125,7 @@ class Edges(threading.Thread):
                     self._on_rise()
 
     def level(self, line=TRIGGER_LINE):
-        """The last level of a line; 0 if the guest has not set it."""
+        """Returns the last level of a line; 0 if the guest has not set it."""
         return next((edge[2] for edge in reversed(self.seen) if edge[1] == line), 0)
 
     def rises(self, line=TRIGGER_LINE):
@@ -208,11 +208,11 @@ class Guest:
         return int(result.output.split()[-1]) / 1e9
 
     def clock(self):
-        """The guest's monotonic clock [s]."""
+        """Returns the time on the guest's monotonic clock [s]."""
         return float(self.run('cut -d " " -f 1 /proc/uptime'))
 
     def screen(self):
-        """The picture on the display: (width, height, bytes of R G B)."""
+        """Returns the picture on the display: (width, height, bytes of R G B)."""
         path = self._path('screen.ppm')
         self.monitor('screendump', filename=path)
         with open(path, 'rb') as file:
@@ -222,7 +222,7 @@ class Guest:
             width, height = map(int, size.split())
             return width, height, file.read()
 
-    # QEMU can neither add nor remove this display while it runs; so the guest's driver is bound and
+    # QEMU can neither add nor remove this display while it runs, so the guest's driver is bound and
     # unbound instead.
 
     def plug_display(self):

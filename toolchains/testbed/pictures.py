@@ -52,7 +52,7 @@ class Film:
             raise ValueError(f'{path}.nv12: its size is not that of {len(self._times)} pictures of {width}x{height}')
 
     def index(self, time):
-        """The index of the picture that is nearest to this time."""
+        """Returns the index of the picture that is nearest to this time."""
         phase = time % (2 * self._span)
         moment = min(phase, 2 * self._span - phase)
         after = bisect.bisect_left(self._times, moment)

@@ -5,7 +5,7 @@ import zlib
 
 
 def read_png(path):
-    """(width, height, bytes of R G B)"""
+    """Returns (width, height, bytes of R G B)."""
     with open(path, 'rb') as file:
         data = file.read()
     assert data[:8] == b'\x89PNG\r\n\x1a\n', f'{path}: is not a PNG file'

@@ -68,7 +68,7 @@ class UvcDescription:
                 + descriptor(5, 0x81, 2, u16(BULK_PACKET), 0))
 
     def standard_request(self, kind, request, value):
-        """Answer to a standard USB request; None if the camera does not support it."""
+        """Returns the answer to a standard USB request, or None if the camera does not support it."""
         if (kind, request) == (0x80, 6):
             which, number = value >> 8, value & 255
             if which == 3 and number < len(self.strings):
@@ -81,8 +81,7 @@ class UvcDescription:
         return b'' if kind in (0x00, 0x01, 0x02) else None
 
     def stream_request(self, kind, request, selector):
-        """Answer to a request about the stream's format, of which there is only one; None if the selector is
-        unknown."""
+        """Returns the answer to a request about the stream's only format, or None if the selector is unknown."""
         if selector not in (PROBE, COMMIT):
             return None
         if kind == 0x21 and request == SET_CUR:

@@ -1,4 +1,4 @@
-"""With an invalid configuration, the service reports the place of the fault, ends with exit code 78 and is not
+"""With an invalid configuration, the service reports file and line of the fault, ends with exit code 78 and is not
 restarted."""
 
 CONFIG = 'source = "cameras"\nsuperres.mode = "sometimes"\n'
@@ -10,7 +10,7 @@ def run(bed):
     bed.write('/etc/mfar/mfard.toml', CONFIG)
     bed.run('systemctl start mfard; true')
     bed.wait_for('systemctl is-failed mfard', 20)
-    # Longer than the pause before a restart, so that a restart would be seen.
+    # Longer than the pause before a restart, so that a restart would be noticed.
     bed.run('sleep 3')
     assert bed.property('ActiveState') == 'failed'
     assert bed.property('ExecMainStatus') == '78', bed.property('ExecMainStatus')

@@ -19,6 +19,6 @@ def run(bed):
 
 
 def counted(bed):
-    """(number of received frames, whether used or dropped in the mailbox; number of lost frames)."""
+    """Returns (number of received frames, used or dropped in the mailbox; number of lost frames)."""
     stats = json.loads(bed.run('mfarctl stats'))
     return stats['frames'] + stats['drops']['mailbox'], stats['drops']['sensor']

@@ -6,7 +6,7 @@ def run(bed):
     try:
         device = bed.run("v4l2-ctl --list-devices | sed -n '/vivid/,/^$/p' | "
                          "sed -n 's/^\\t\\(.dev.video[0-9]*\\)$/\\1/p' | head -n 1")
-        # By default, the time stamps of vivid are the ends of the frames, which lie in the future.
+        # By default, vivid's timestamps are the ends of the frames, which lie in the future.
         said = bed.run(f'/share/v4l2-probe {device} 640x480 30 --format YUYV --rate 30 '
                        'timestamp_source=1 Brightness=200', 120)
         assert bed.run(f'v4l2-ctl -d {device} -C brightness') == 'brightness: 200', said

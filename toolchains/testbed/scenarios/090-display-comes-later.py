@@ -5,8 +5,8 @@ import re
 
 BOOT = {'display': False}
 LIMIT = 1  # s
-# run() also sets a size that a screen may have. Without a screen, the service would otherwise make
-# pictures as large as stills, which take a second each in the guest.
+# Also sets a screen size. Without a screen, the service would otherwise make pictures as large as
+# stills, which take a second each in the guest.
 CONFIG = '''[superres]
 mode = "off"
 [status]

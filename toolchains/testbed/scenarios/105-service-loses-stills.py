@@ -1,5 +1,5 @@
-"""The service matches fifty stills with their pulses. It requests a missing still again and does not use a late
-one."""
+"""The service matches fifty stills with their pulses. It requests a missing still again and does not use a
+late still."""
 
 import json
 import time
@@ -43,13 +43,13 @@ def lose_stills(bed):
 
     bed.still.fault('late', 3)
     ask(bed)
-    # A USB picture gets its time on arrival. When the late still arrives, the still of the repeated
+    # A USB picture gets its arrival time. When the late still arrives, the still of the repeated
     # pulse has already been matched.
     return counted(bed, fired=GOOD + 4, matched=GOOD + 2, lost=2, repeated=2, unmatched=1)
 
 
 def ask(bed):
-    # In the guest, mfard may answer later than mfarctl waits; the still is taken nevertheless.
+    # In the guest, mfard may answer later than mfarctl waits; the still is captured nevertheless.
     bed.run('mfarctl trigger', check=False)
 
 

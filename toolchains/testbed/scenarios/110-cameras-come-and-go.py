@@ -46,7 +46,7 @@ def come_and_go(bed):
 
 
 def told_after(bed, event):
-    """Time from `event` until the picture on the screen changes [s]."""
+    """Returns the time from `event` until the picture on the screen changes [s]."""
     before = bed.guest.screen()
     begin = time.monotonic()
     event()
@@ -57,8 +57,8 @@ def told_after(bed, event):
 
 
 def back_after(bed, event):
-    """Time from the kernel's message about the new device to the service's message that all devices are there, on the
-    guest's clock [s]."""
+    """Returns the time from the kernel's message about the new device to the service's message that all devices are
+    available, on the guest's clock [s]."""
     since = bed.now()
     event()
     said = f'journalctl --no-pager -q -u mfard -o short-monotonic --since "{since}" | grep "all devices are available again"'
