@@ -7,24 +7,23 @@
 
 namespace mfar {
 
-inline constexpr int kTileSize = 16;  ///< edge of a tile [video px]
+inline constexpr int kTileSize = 16;  ///< [video px], along each axis
 
-/// Numbers of tile columns and rows that cover a picture.
+/// Number of tile columns and rows of a picture.
 [[nodiscard]] constexpr Size tilesOf(Size pixels) {
     return {(pixels.width + kTileSize - 1) / kTileSize,
             (pixels.height + kTileSize - 1) / kTileSize};
 }
 
-/// What super-resolution does with a tile of 16x16 video pixels, in ascending order of cost.
+/// Work that a tile needs, in ascending order of cost.
 enum class TileClass : unsigned {
-    Unchanged = params::kTileUnchanged,  ///< video and still did not change: the tile's pixels stay
-    Upscaled = params::kTileUpscaled,    ///< the video is only enlarged: no detail of the still
-                                         ///< fits
-    Trusted = params::kTileTrusted,      ///< detail is drawn with a smooth flow and one weight for
-                                         ///< the whole tile
-    Blended = params::kTileBlended,      ///< detail is drawn with flow and weight that vary within
-                                         ///< the tile
-    Hidden,                              ///< an opaque virtual object covers the tile
+    Unchanged = params::kTileUnchanged,  ///< video and still did not change, the pixels stay
+    /// only the video is enlarged, because no detail of the still fits
+    Upscaled = params::kTileUpscaled,
+    Trusted = params::kTileTrusted,  ///< detail is drawn with a smooth flow and one weight
+    /// detail is drawn with flow and weight that vary within the tile
+    Blended = params::kTileBlended,
+    Hidden,  ///< an opaque virtual object covers the tile
 };
 inline constexpr std::size_t kTileClasses = 5;
 
