@@ -17,6 +17,7 @@ namespace mfar {
 /// Decides what a frame has to compute. On the CPU, it compares each tile of the video with the
 /// video from which the tile was last drawn. A frame without any changed tile costs only this
 /// comparison.
+///
 /// A tile is drawn again when noise does not explain the difference. In addition, the differences
 /// are summed over the unchanged tiles of each block of 8x8 tiles and of the whole picture; their
 /// tiles are drawn again if the sum exceeds the noise. The accumulated mean squared error stays
