@@ -9,16 +9,16 @@
 
 namespace mfar {
 
-/// Inputs of CellWeigher: luma pyramids and flow on the GPU.
 struct WeighInput {
     const std::vector<LumaLevel>&video, &still;
     const gpu::Buffer& words;
     const gpu::Buffer& cells;
-    int first;               ///< index in `cells` of the forward field's first cell; the backward
-                             ///< field follows that field
-    Size forward, backward;  ///< sizes of both fields [cells]
-    int backwardLevel;       ///< pyramid level of the backward field
-    bool errorsGiven;        ///< two-way errors replace the backward field
+    /// Index in `cells` of the forward field's first cell. The backward field follows the forward
+    /// field.
+    int first;
+    Size forward, backward;
+    int backwardLevel;
+    bool errorsGiven;  ///< two-way errors replace the backward field
 };
 
 /// Computes the weight of the still in each cell from the cell's match and from the photometric
@@ -27,7 +27,7 @@ class CellWeigher {
 public:
     explicit CellWeigher(const StereoRig& rig);
 
-    /// Computes weighed(), lookUps() and trust(). Does nothing if no tile has changed.
+    /// Does nothing if no tile has changed.
     void run(const WeighInput& in, const TileBuffer& tiles);
 
     /// WeighedCell of each cell; Rgba32F.

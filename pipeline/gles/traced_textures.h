@@ -14,7 +14,7 @@ namespace mfar {
 /// The traced picture that is warped, as textures. See TracedPicture for their contents.
 class TracedTextures {
 public:
-    /// Uploads the picture. Allocates textures when the size changes.
+    /// Allocates textures when the size changes.
     void upload(const TracedPicture& traced);
 
     /// Valid after the first upload.
