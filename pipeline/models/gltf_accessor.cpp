@@ -13,7 +13,7 @@ namespace {
 
 using Accessor = tinygltf::Accessor;
 
-/// Where the elements of an accessor are in a bufferView, and their type.
+/// Position and type of an accessor's elements in a bufferView.
 struct ElementView {
     std::span<const std::uint8_t> bytes;
     std::size_t stride = 0, count = 0;
@@ -61,7 +61,6 @@ std::uint32_t unsignedAt(const std::uint8_t* p, int componentType) {
     }
 }
 
-/// Reads a number of this type as float. Converts normalised integers (glTF 2.0, 3.6.2.2).
 float floatAt(const std::uint8_t* p, int componentType, bool normalized) {
     const auto scaled = [&](auto value) {
         constexpr auto kMost = static_cast<float>(std::numeric_limits<decltype(value)>::max());
@@ -101,8 +100,8 @@ ElementView elementsIn(const GltfDocument& document, int bufferView, std::uint64
     return wanted;
 }
 
-/// Returns accessor `index`. Throws if its elements do not have `components` components, or if it
-/// has no element or more than `most`.
+/// Throws if the elements do not have `components` components, or if there is none or more than
+/// `most`.
 const Accessor& checkedAccessor(const GltfDocument& document, int index, int components,
                                 std::size_t most, std::string_view place) {
     const Accessor& accessor = document.at(document.gltf.accessors, index, place);

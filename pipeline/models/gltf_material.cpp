@@ -12,8 +12,8 @@
 namespace mfar {
 namespace {
 
-/// Returns `value`, which glTF limits to [least, most], as float. Tolerates rounding errors of the
-/// program that wrote the file.
+/// Returns `value`, which glTF limits to [least, most]. Tolerates rounding errors of the program
+/// that wrote the file.
 float rangedFactor(const GltfDocument& document, double value, float least, float most,
                    const std::string& place) {
     constexpr double kRounding = 1e-3;
@@ -22,7 +22,6 @@ float rangedFactor(const GltfDocument& document, double value, float least, floa
     return std::clamp(static_cast<float>(value), least, most);
 }
 
-/// Returns a number in the JSON object of an extension; empty if there is none.
 std::optional<double> numberIn(const tinygltf::Value& object, const std::string& key) {
     if (!object.IsObject() || !object.Has(key) || !object.Get(key).IsNumber()) return std::nullopt;
     return object.Get(key).GetNumberAsDouble();
@@ -82,7 +81,6 @@ Eigen::Vector3f emissionOf(const GltfDocument& document, const tinygltf::Materia
     return emission * rangedFactor(document, strength, 0, kStrongest, place + ".emissiveStrength");
 }
 
-/// Converts tinygltf's structure for normal textures to its general texture structure.
 tinygltf::TextureInfo plainInfo(const tinygltf::NormalTextureInfo& info) {
     tinygltf::TextureInfo out;
     out.index = info.index;
