@@ -7,9 +7,9 @@
 namespace mfar {
 namespace {
 
-constexpr double kFollows = 1.0 / 8;  // weight of a new frame in the average Reference::shows
-// Mean motion of the cells below which two stills count as taken from the same view: half a tile.
-// Their occlusions and borders then differ by no more than parts of a tile.
+constexpr double kFollows = 1.0 / 8;  // weight of a new frame in Reference::shows
+// Two stills count as taken from the same view if the mean motion of the cells is smaller. Their
+// occlusions and borders then differ only by parts of a tile.
 constexpr double kSameView = 0.5 * kTileSize;  // [video px]
 
 }  // namespace

@@ -2,10 +2,10 @@
 
 namespace mfar {
 
-/// Each option lets frames skip work whose result would not be visible. All are on by default.
-/// Benchmarks turn one off to measure the time that it saves and the error that it adds. Other
-/// options that skip work are PipelineOptions::skipUnchanged and depthEverywhere,
-/// EpipolarOptions::mostPredicted, KeyframeOptions and DepthOptions.
+/// Each option lets frames skip work whose result would not be visible. Benchmarks turn one off to
+/// measure the time that it saves and the error that it adds. Other such options are
+/// PipelineOptions::skipUnchanged and depthEverywhere, EpipolarOptions::mostPredicted,
+/// KeyframeOptions and DepthOptions.
 struct SkipOptions {
     bool upscaledTiles = true;  ///< a tile to which the still adds nothing is only enlarged
     bool smoothTiles = true;    ///< a tile without structure is not matched but only enlarged
