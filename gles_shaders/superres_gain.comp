@@ -1,8 +1,8 @@
-// Computes the statistics from which the photometric gain between the sensors follows. They are
-// measured at half resolution, where the difference between the sensors' blur is negligible.
-// In: forward field (from video to still), second luma pyramid level of both pictures. Out:
-// covariance, variance of the video and variance of the still, for each half-resolution cell (8x8
-// video pixels); zero in tiles that are not matched.
+// Computes the statistics for the photometric gain between the sensors, at half resolution, where
+// the difference between the sensors' blur is negligible.
+// In: forward field (from video to still), second luma pyramid level of both pictures.
+// Out: covariance, variance of the video and variance of the still, for each half-resolution cell
+// (8x8 video pixels); zero in tiles that are not matched.
 // Range: statistics -4.2e6..4.2e6, 0..4.2e6, 0..4.2e6, 0..0
 #include "luma.glsl"
 #include "pipeline/engine/params/weigh.h"
