@@ -137,7 +137,7 @@ struct Pipeline::State {
     Quality quality;
     std::shared_ptr<const FilterBank> filters, nextFilters;  // null: the built-in filters
     MatchListener* matchListener = nullptr;
-    bool isNewStill = false;  // true if no frame was matched with it yet
+    bool isNewStill = false;  // true if no frame was matched with the newest still yet
     bool redraw = true;       // true if the next frame must draw all tiles
     int depthAge = 0;         // number of frames since depth was last measured
     std::uint64_t frames = 0;
