@@ -27,7 +27,6 @@ Eigen::Vector3d nearCut(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 constexpr double kGrid = 1.0 / 256;
 constexpr double kFarthest = 3e5;
 
-/// The part of a triangle beyond the near plane. Each corner is (w u, w v, w).
 struct Clipped {
     std::array<Eigen::Vector3d, 4> corners;
     std::size_t count = 0;
@@ -48,7 +47,6 @@ Clipped clipped(const std::array<Eigen::Vector3d, 3>& triangle) {
     return out;
 }
 
-/// Returns a lower limit of a convex polygon's width [px].
 double leastWidth(const Clipped& polygon) {
     double area = 0, longest = 0;
     const Eigen::Vector2d origin = polygon.pixel(0);

@@ -45,7 +45,7 @@ public:
 private:
     LensProjection lens_;
     std::array<ShapeMesh, kVirtualShapes> meshes_;
-    std::vector<Eigen::Vector3d> projected_;  // as (w u, w v, w)
+    std::vector<Eigen::Vector3d> projected_;
     std::vector<SurfaceExtent> extents_;
 };
 

@@ -17,29 +17,29 @@ struct alignas(16) Transform {
 
 struct alignas(16) Projection {
     Lens lens;
-    float rim;  ///< see LensProjection, also for rimRadial
+    float rim;
     float rimRadial;
-    float nearPlane;  ///< [m]
+    float nearPlane;
 };
 
-/// Pixels with x0 <= x < x1 and y0 <= y < y1.
 struct alignas(16) PixelBounds {
     std::int32_t x0, y0, x1, y1;
 };
 
 struct alignas(16) Colour {
-    float red, green, blue;  ///< display values, [0, 1]
+    float red, green, blue;
 };
 
 struct alignas(16) PreviewObject {
-    Transform object;  ///< T_video_object
+    /// Lengths are in metres, the size of the target in pixels.
+    Transform object;
     Projection projection;
-    Colour colours[2];           ///< the two colours of the checkerboard
-    float width, height, depth;  ///< [m]
+    Colour colours[2];
+    float width, height, depth;
     float squares;
     float lightX, lightY, lightZ;  ///< unit vector towards the light, in camera coordinates
     float ambient;
-    float targetWidth, targetHeight;  ///< [px]
+    float targetWidth, targetHeight;
     /// Limits of the unit shape: largest coordinate, and squared distance of its corners from the
     /// centre.
     float reach, squaredRadius;

@@ -11,7 +11,6 @@
 
 namespace mfar {
 
-/// Lighting of the preview.
 struct PreviewLight {
     /// Direction to the light in world coordinates (z up), of any length.
     Eigen::Vector3d towards{0.4, -0.3, 0.85};

@@ -23,7 +23,7 @@ public:
     [[nodiscard]] const std::vector<Eigen::AlignedBox3d>& world() const { return boxes_; }
 
 private:
-    std::vector<Eigen::AlignedBox3d> boxes_;  // [m], parallel to the world's axes
+    std::vector<Eigen::AlignedBox3d> boxes_;
     std::vector<SurfaceExtent> extents_;
 };
 

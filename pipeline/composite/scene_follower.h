@@ -10,19 +10,19 @@
 
 namespace mfar {
 
-/// Decides when the shadow catcher is measured again.
+/// Rule for measuring the shadow catcher. A measured surface replaces the plane after `settling`
+/// frames, if the depth of the share `leastKnown` of the pixels around the objects is known. It is
+/// measured again after `leastInterval` [s] if the camera has moved around the objects by the angle
+/// `turn` [rad].
 struct CatcherRule {
-    /// Smallest number of frames before a measured surface replaces the plane.
     int settling = 12;
-    /// Smallest share of the pixels around the objects whose depth must be known.
     double leastKnown = 0.7;
-    /// Smallest angle by which the camera moves around the objects between measurements [rad].
     double turn = 0.35;
-    double leastInterval = 4;  ///< shortest time between measurements [s]
+    double leastInterval = 4;
 };
 
-/// Keeps the scene's shadow catcher up to date with the real scene. At first, shadows of virtual
-/// objects fall onto the plane of the tag map; later, they fall onto the measured surface.
+/// Replaces the plane of the tag map, onto which shadows of virtual objects fall at first, by the
+/// measured surface of the real scene.
 class SceneFollower {
 public:
     explicit SceneFollower(const CatcherRule& rule = {}) : rule_(rule) {}
@@ -48,7 +48,7 @@ private:
     Scene scene_;
     Eigen::AlignedBox3d objects_;
     int frames_ = 0;
-    std::optional<Timestamp> caught_;  // time of the frame from which the catcher was measured
+    std::optional<Timestamp> caught_;
     Eigen::Vector3d caughtFrom_{0, 0, 0};
 };
 

@@ -30,8 +30,6 @@ public:
         at(column, row) = static_cast<int>(out_.positions.size());
         out_.positions.push_back(p.cast<float>());
     }
-    /// Adds two triangles below and to the right of the vertex (column, row) if all four corners
-    /// exist.
     void addCell(int column, int row) {
         const int a = at(column, row), b = at(column + 1, row);
         const int c = at(column, row + 1), d = at(column + 1, row + 1);

@@ -14,7 +14,7 @@ struct VirtualLayer {
     /// R32F: z along the camera's axis [m]; 0 where there is no surface. The z of shadows is
     /// reduced, see kShadowLift.
     const gpu::Texture* depth = nullptr;
-    PixelRect bounds;  ///< bounds of the covered pixels
+    PixelRect bounds;
 };
 
 }  // namespace mfar

@@ -6,7 +6,6 @@
 namespace mfar {
 namespace {
 
-/// One side of a box: its normal and the directions of the texture coordinates u and v.
 struct Side {
     Eigen::Vector3f normal, u, v;
 };

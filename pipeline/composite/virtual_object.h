@@ -34,7 +34,7 @@ struct VirtualObject {
 struct ShapeMesh {
     struct Vertex {
         Eigen::Vector3f position, normal;  ///< the normal is a unit vector that points outwards
-        Eigen::Vector2f uv;                ///< [0, 1] over each side
+        Eigen::Vector2f uv;
     };
     std::vector<Vertex> vertices;
     std::vector<std::array<std::uint32_t, 3>> triangles;

@@ -41,7 +41,7 @@ PixelRect tilesOf(const PixelRect& pixels, Size layer, Size video) {
 enum class Surface { Unknown, Finding, Other };
 
 struct TileBounds {
-    int findings, unknown;  // largest number of pixels with this result in a tile
+    int findings, unknown;
 };
 
 /// True if a tile has more pixels with Surface::Finding or with Surface::Unknown than `most`

@@ -28,13 +28,11 @@ public:
     /// Throws the same exceptions as TracedLayer.
     VirtualView(const CameraModel& video, Engine& occludes, TracedLayerOptions options);
 
-    /// Sets the objects of the preview, from the next place() on.
     void setObjects(std::vector<VirtualObject> objects);
     void setSkips(const SkipOptions& skips) { skips_ = skips; }
     /// Sets the scene for path tracing. It becomes visible when its first traced picture is
     /// finished. Null hides the scene.
     void setScene(std::shared_ptr<const Scene> scene);
-    /// Null if the preview draws the objects.
     [[nodiscard]] TracedLayer* traced() { return traced_.get(); }
 
     /// Places the objects for a camera at this pose and hides them without a pose. Returns the
@@ -44,13 +42,12 @@ public:
     /// real scene as the camera sees it.
     PixelRect place(const std::optional<RigidTransform>& T_world_video, Timestamp time,
                     const InverseDepthField& known);
-    /// Bounds of all placed objects [video px].
     [[nodiscard]] const PixelRect& region() const { return region_; }
     /// True if the real scene completely hides all placed objects. Shadows are ignored.
     [[nodiscard]] bool isHidden() const { return hidden_; }
-    /// Returns which changes of the video force a redraw of the objects. If objects were changed,
-    /// appeared or disappeared: none is needed, they are always drawn. If the camera has moved: any
-    /// change. Otherwise: changes near the objects.
+    /// Returns the changes of the video after which the objects must be drawn again. Objects that
+    /// were changed, appeared or disappeared are always drawn. After a motion of the camera, any
+    /// change counts, otherwise only changes near the objects.
     [[nodiscard]] WorkPlan::Redraw redraw() const;
     /// Tiles of the video that must be drawn again before draw().
     [[nodiscard]] PixelRect staleTiles() const;
@@ -65,9 +62,6 @@ public:
     [[nodiscard]] std::vector<float> readShown(Size output) const;
 
 private:
-    /// Extends region_ by the tiles with virtual surfaces, and `decides` by those tiles in which
-    /// real depth must be measured. `objects`: true for tiles of objects, false for tiles of the
-    /// shadow catcher.
     void addTiles(const std::vector<SurfaceRange>& tiles, const InverseDepthField& known,
                   bool objects, PixelRect& decides);
     [[nodiscard]] bool shows() const { return !region_.empty() && !hidden_; }
@@ -91,13 +85,12 @@ private:
     std::unique_ptr<TracedLayer> traced_;  // either traced_ or preview_ is null
     std::unique_ptr<OcclusionStep> occlusion_;
     CompositeOptions hiding_;
-    // focal_: focal length [px]; nearest_: largest inverse depth of the objects [1/m].
-    double focal_, nearest_ = 0;
+    double focal_, nearest_ = 0;  // nearest_: largest inverse depth of the objects [1/m]
     std::optional<RigidTransform> placedPose_, drawnPose_;
     PixelRect region_, drawn_;  // region_ [video px]; drawn_ [tiles]
     TextureLayer previewLayer_;
     LayerPicture* layer_ = nullptr;
-    int relied_ = 0;  // number of consecutive frames that used known depth
+    int relied_ = 0;
     bool changed_ = false, hidden_ = false, shown_ = false;
 };
 
