@@ -37,7 +37,6 @@ public:
     /// disagree repeatedly, the last of them replaces the known depth. Pixels of `measured` without
     /// a valid inverse depth and variance are ignored.
     void fuse(const InverseDepthField& measured, const PixelRect& where);
-    /// Discards the depths of these pixels, for example because something moves there.
     void forget(const PixelRect& where);
 
     [[nodiscard]] const InverseDepthField& field() const { return field_; }
@@ -58,15 +57,12 @@ private:
     };
     [[nodiscard]] bool moves(const RigidTransform& T_now_before) const;
     void carry(const RigidTransform& T_now_before, float growth);
-    /// Stores the moved points that land in these rows of the picture. Of several points on one
-    /// pixel, the nearest is kept.
     void takeLanded(int firstRow, int lastRow);
     void closeCracks();
     void closeCrack(std::size_t i, std::size_t before, std::size_t after);
     void fusePixel(std::size_t i, float inverseDepth, float variance);
 
     EpipolarLens lens_;
-    // focal_: focal length [px]; pixelX_, pixelY_: size of a pixel at z = 1.
     float focal_, pixelX_, pixelY_;
     std::shared_ptr<Workers> workers_;
     std::optional<RigidTransform> fieldPose_;

@@ -140,7 +140,7 @@ std::span<const float> DepthStage::predicted(const UnitPose& relative, const Pix
         (relative.T_other_frame.rotation.conjugate() * relative.T_other_frame.translation).z();
     predicted_.clear();
     int inside = 0, known = 0;
-    float last = 0;  // value of the last cell with known depth
+    float last = 0;
     for (int y = area.y0 + kCell / 2; y < area.y1 + kCell / 2; y += kCell) {
         for (int x = area.x0 + kCell / 2; x < area.x1 + kCell / 2; x += kCell) {
             const int row = std::min(y, area.y1 - 1), column = std::min(x, area.x1 - 1);

@@ -20,13 +20,15 @@ public:
     DepthStage(const CameraModel& video, std::shared_ptr<Workers> workers,
                const DepthOptions& options = {});
 
-    /// Results of the epipolar search that matched this frame with the still.
+    /// Results of the epipolar search that matched this frame with the still. `R_still_video`
+    /// rotates video rays to still coordinates. `unit` is the search's unit of length [m],
+    /// `lengthError` its relative error. For `cells`, see DepthMeasurement::run().
     struct StillSearch {
         const EpipolarSearch& search;
-        const Eigen::Matrix3f& R_still_video;  ///< rotates video rays to still coordinates
-        double unit;                           ///< the search's unit of length [m]
-        double lengthError;                    ///< relative error of `unit`, see UnitPose
-        std::span<const float> cells;          ///< see DepthMeasurement::run()
+        const Eigen::Matrix3f& R_still_video;
+        double unit;
+        double lengthError;
+        std::span<const float> cells;
     };
 
     void forget();
@@ -37,7 +39,6 @@ public:
     /// be empty. `still` is empty if the frame was not matched along epipolar lines.
     void run(const Rows<const std::uint8_t>& luma, const Pose& pose,
              const std::optional<StillSearch>& still, const PixelRect& where);
-    /// Discards the depths of these pixels, for example because something moves there.
     void forget(const PixelRect& where) { filter_.forget(where); }
 
     [[nodiscard]] const InverseDepthField& field() const { return filter_.field(); }
@@ -48,7 +49,6 @@ private:
         double inverseDepth = 0;  ///< median over an area [1/m]
         double share = 1;  ///< median of the relative standard deviation, or 1 if no depth is known
     };
-    /// A part of the picture whose depth is too uncertain, and the keyframe that would improve it.
     struct Need {
         PixelRect part;
         double share;

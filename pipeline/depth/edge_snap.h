@@ -32,7 +32,6 @@ public:
 private:
     void findEdges(const InverseDepthField& in, const PixelRect& where);
     void gatherVoters(const InverseDepthField& in, const ImageView& frame, const PixelRect& where);
-    /// Copies the valid depths of row y within `where`. The rest of the row becomes unknown.
     void takeRow(const InverseDepthField& in, const PixelRect& where, int y);
     void snapRow(const ImageView& frame, const PixelRect& where, int y);
     void decide(const PixelRect& where, int y, std::span<simd::OpenPixel> pixels);

@@ -15,7 +15,7 @@ struct Keyframe {
     LumaImage luma;
     Pose pose;
     double brightness = 0;
-    long number = 0;  ///< 1 for the first frame
+    long number = 0;
 };
 
 /// The last frames from different camera positions. While the camera rests, no frame is added or
@@ -43,10 +43,10 @@ public:
 
 private:
     /// Relation of a keyframe to a part of the picture whose points all have the same inverse
-    /// depth.
+    /// depth: mean parallax [rad], and share of the points inside the keyframe's picture.
     struct Relation {
-        double angle = 0;    ///< mean parallax [rad]
-        double overlap = 0;  ///< share of the points inside the keyframe's picture
+        double angle = 0;
+        double overlap = 0;
     };
     [[nodiscard]] Relation relationOf(const RigidTransform& T_key_now,
                                       std::span<const Eigen::Vector2d> rays,
