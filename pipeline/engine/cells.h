@@ -7,9 +7,8 @@ namespace mfar {
 // Fields with one entry per cell, as both engines store them. A GPU reads the four floats of an
 // entry as one vec4.
 
-/// A flow vector and the cost of its match.
 struct FlowCell {
-    float x = 0, y = 0;  ///< from pixel p to p + flow [px of the field's pyramid level]
+    float x = 0, y = 0;  ///< points from pixel p to p + flow [px of the field's pyramid level]
     float cost = 0;      ///< 0: equal patches up to gain and offset; 1: unrelated; 2: negatives
     /// Sum of the squared deviations from the mean in the 8x8 patch around the cell [grey
     /// levels^2].
@@ -22,11 +21,10 @@ struct ErrorCell {
     float unused[3] = {};
 };
 
-/// Weight of the still at a cell.
 struct WeighedCell {
-    float x = 0, y = 0;    ///< flow [video px]
-    float weight = 0;      ///< weight of the still's detail, [0, 2.31]
-    float confidence = 0;  ///< eq. 2 of the paper, [0, 1]
+    float x = 0, y = 0;  ///< flow [video px]
+    float weight = 0;    ///< weight of the still's detail, [0, 2.31]
+    float confidence = 0;
 };
 
 /// Offset and weight with which output pixels in the cell read the still.

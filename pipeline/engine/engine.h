@@ -44,7 +44,7 @@ struct StepSetup {
     Size output;
     Flow2dOptions flow2d{};
     std::shared_ptr<Workers> workers{};
-    Transfers* transfers = nullptr;  ///< counts the transferred bytes; may be null
+    Transfers* transfers = nullptr;
 };
 
 /// Creates the steps of one engine. The steps must not outlive the Engine.

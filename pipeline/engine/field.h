@@ -22,7 +22,6 @@ public:
     DeviceCopy& operator=(const DeviceCopy&) = delete;
     virtual ~DeviceCopy() = default;
 
-    /// Writes all rows. `pitch` is the distance between two rows [bytes].
     virtual void upload(const void* data, std::ptrdiff_t pitch) = 0;
     /// Reads all rows. Waits for the GPU.
     virtual void download(void* data, std::ptrdiff_t pitch) = 0;
@@ -110,9 +109,9 @@ private:
     Size size_;
     Transfers* transfers_;
     // Mutable, because reading may copy the rows without changing their values.
-    mutable Rows<const T> host_;            // without data if only the GPU has the rows
-    mutable Rows<T> editable_;              // equal to host_ if drawing is allowed
-    mutable DeviceCopy* device_ = nullptr;  // null if only the host has the rows
+    mutable Rows<const T> host_;
+    mutable Rows<T> editable_;
+    mutable DeviceCopy* device_ = nullptr;
     mutable AlignedRows<T> downloaded_;
     mutable std::unique_ptr<DeviceCopy> uploaded_;
     mutable Size uploadedSize_{};

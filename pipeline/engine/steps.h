@@ -30,17 +30,17 @@ class PlaneImporter;
 struct VideoFrame {
     const ImageView& view;
     const RgbPlanes& planes;
-    std::uint64_t number;  ///< unique for each frame
+    std::uint64_t number;
 };
 
 struct StillPictures {
-    std::uint64_t number = 0;  ///< unique for each still
-    StereoRig rig;             ///< its still camera has the resolution of the fields
+    std::uint64_t number = 0;
+    StereoRig rig;  ///< its still camera has the resolution of the fields
     Field<std::uint8_t> luma;
-    // Luma with amplified finest detail, see params::kLinearLoss. An engine fills only the field of
-    // its own format.
-    Field<std::uint8_t> raised;  ///< GLES engine
-    /// SIMD engine. The low byte is a pixel; the high byte is the pixel below it.
+    // Luma with amplified finest detail, see params::kLinearLoss. The GLES engine fills only
+    // `raised`. The SIMD engine fills only `pairs`: the low byte is a pixel, and the high byte is
+    // the pixel below it.
+    Field<std::uint8_t> raised;
     Field<std::uint16_t> pairs;
     Field<std::uint32_t> picture;  ///< RGBA8, only for SuperResMode::Blend
 };
@@ -56,8 +56,8 @@ struct LumaPyramid {
 /// errors (ErrorCell) instead.
 struct FlowCells {
     Field<FlowCell> cells;
-    Size forward, backward;  ///< numbers of columns and rows
-    int backwardLevel = 0;   ///< pyramid level of the backward field
+    Size forward, backward;
+    int backwardLevel = 0;
     bool errorsGiven = false;
 
     [[nodiscard]] std::size_t count() const {
@@ -125,7 +125,7 @@ public:
 };
 
 struct TileSummary {
-    std::array<int, kTileClasses> tiles{};  ///< number of tiles of each TileClass
+    std::array<int, kTileClasses> tiles{};
     double meanConfidence = 0;
     double explained = 0;  ///< share of tiles that are flat or match a still, [0, 1]
     double changed = 0;    ///< share of drawn tiles, [0, 1]
@@ -134,16 +134,15 @@ struct TileSummary {
 
 struct DetailOptions {
     SuperResMode mode = SuperResMode::Detail;
-    bool cubic = true;          ///< see Quality
-    bool upscaledTiles = true;  ///< see SkipOptions
-    bool plainTiles = true;     ///< see SkipOptions
+    bool cubic = true;
+    bool upscaledTiles = true;
+    bool plainTiles = true;
     /// Filters for Quality::learned. Null: the video is enlarged without learned filters.
     const FilterBank* filters = nullptr;
 };
 
 class DetailStep {
 public:
-    /// A still and its weights.
     struct Matched {
         const StillPictures& still;
         const CellWeights& weights;
@@ -160,7 +159,7 @@ public:
     /// The output picture: RGBA8, row 0 on top, alpha 255. Pixels that other code draws into it
     /// remain until draw() redraws their tiles.
     [[nodiscard]] virtual Field<std::uint32_t>& output() = 0;
-    /// Summary of the last frame. May wait for the GPU.
+    /// May wait for the GPU.
     [[nodiscard]] virtual TileSummary summary() const = 0;
     /// Returns a summary without waiting: of the last frame on a CPU, of the frame before it on a
     /// GPU.
@@ -175,7 +174,7 @@ using params::kShadowLift;
 struct LayerPicture {
     Field<std::uint32_t> colour;  ///< RGBA8, premultiplied by coverage
     Field<float> depth;           ///< z along the camera's axis [m]; 0 where there is no object
-    PixelRect bounds;             ///< bounds of the covered pixels
+    PixelRect bounds;
 };
 
 class OcclusionStep {

@@ -53,22 +53,21 @@ inline constexpr int kTileAround = 8;
 struct alignas(16) ClassifyTiles {
     std::int32_t columns, rows;
     std::int32_t cellColumns, cellRows;
-    float leastWeight;          ///< kLeastDetailWeight; -1: no tile gets the class Upscaled
-    float plainFlow;            ///< kPlainFlow [video px]; 0: no tile is plain
-    std::int32_t stillGiven;    ///< 1 if there is a still, else 0
+    float leastWeight;  ///< kLeastDetailWeight; -1: no tile gets the class Upscaled
+    float plainFlow;    ///< kPlainFlow [video px]; 0: no tile is plain
+    std::int32_t stillGiven;
     std::uint32_t detailFrame;  ///< number of the frame; 0: no tile depends on its neighbours
-    std::int32_t learns;        ///< 1: learned filters enlarge matched tiles
-    std::int32_t secondGiven;   ///< 1 if there is a second still, else 0
+    std::int32_t learns;
+    std::int32_t secondGiven;
 };
 
-/// Parameters of all shaders that draw tiles.
 struct alignas(16) DrawTiles {
     std::int32_t videoWidth, videoHeight;
     std::int32_t cellColumns, cellRows;
-    float scaleX, scaleY;                ///< video pixels per output pixel
-    float stillTexelX, stillTexelY;      ///< 1 / size of the still [1/px]
-    float stillScaleX, stillScaleY;      ///< still pixels per output pixel
-    float sharpening;                    ///< strength; 0: none
+    float scaleX, scaleY;            ///< video pixels per output pixel
+    float stillTexelX, stillTexelY;  ///< 1 / size of the still [1/px]
+    float stillScaleX, stillScaleY;  ///< still pixels per output pixel
+    float sharpening;
     float guidanceStill, guidanceVideo;  ///< see FilterBank::guidance()
 };
 

@@ -12,8 +12,9 @@ inline constexpr int kGridShift = 2;
 static_assert(kGrid == 1 << kGridShift);
 inline constexpr int kPairs = 12;  ///< number of pairs of taps in a filter
 
-inline constexpr int kLumaScale = 8;       ///< luma is stored in steps of 1/8 grey level
-inline constexpr int kResidualScale = 32;  ///< residuals are stored in steps of 1/32 grey level
+/// Luma is stored in steps of 1/8 grey level, and residuals in steps of 1/32.
+inline constexpr int kLumaScale = 8;
+inline constexpr int kResidualScale = 32;
 /// Between passes, shaders store colours and luma in steps of 1/64 grey level.
 inline constexpr int kPassScale = 64;
 

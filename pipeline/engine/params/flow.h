@@ -68,23 +68,23 @@ inline constexpr float kSlopeDamping = 0.5F;
 inline constexpr float kSlopeDampingPerWeight = 0.05F;
 
 /// Parameters of flow_search.comp. A field is a part of cells[]. The members target, coarser,
-/// lastFrame and errors are indices of the field's first cell, or -1 if the field does not exist.
+/// lastFrame and errors are indices of the field's first cell, or -1 if there is no such field.
 struct alignas(16) SearchFlow {
     /// Pyramid levels of the patches and of the searched picture.
     LumaLevel from, to;
     std::int32_t columns, rows;
     std::int32_t coarserColumns, coarserRows;
     std::int32_t target;
-    std::int32_t coarser;  ///< -1 at the coarsest pyramid level
+    std::int32_t coarser;
     std::int32_t lastFrame;
     std::int32_t lastFrameColumns;
-    std::int32_t radius;  ///< search radius at the coarsest pyramid level [px]
+    std::int32_t radius;
     std::int32_t candidates, steps;
     /// Pixels of this pyramid level per pixel of the last frame's field.
     float perLastFrame;
     float lastFrameX, lastFrameY;  ///< cells of the last frame's field per cell of this field
-    std::int32_t firstGroup;       ///< index in lists[]
-    std::int32_t errors;           ///< field of two-way errors
+    std::int32_t firstGroup;
+    std::int32_t errors;
 };
 
 struct alignas(16) RefineFlow {
@@ -103,7 +103,7 @@ struct alignas(16) FilterFlow {
 
 struct alignas(16) FlagTiles {
     std::int32_t tileColumns, tileRows;
-    std::int32_t columns, rows;  ///< number of cells
+    std::int32_t columns, rows;
     std::int32_t field, errors;
     /// Smallest texture of a patch (see FlowCell) for which the cost is meaningful [grey levels^2].
     float leastTexture;

@@ -39,23 +39,23 @@ inline constexpr float kFarOutside = -1e6F;
 /// iteration adds at least one correct digit.
 inline constexpr int kUndistortSteps = 12;
 
-/// Both lenses and the rotation between the cameras. They determine where the still shows a video
-/// pixel at infinity.
+/// Both lenses and the rotation R_still_video between the cameras. They determine where the still
+/// shows a video pixel at infinity.
 struct alignas(16) Rig {
     Lens video, still;
-    Row3 rotation[3];  ///< R_still_video
+    Row3 rotation[3];
 };
 
 struct alignas(16) LumaFromVideo {
     LumaLevel target;
-    float smoothing;  ///< weight of each neighbour
+    float smoothing;
 };
 
 struct alignas(16) LumaFromStill {
     Rig rig;
     LumaLevel target;
-    float texelX, texelY;  ///< 1 / size of the still [1/px]
-    float footprint;       ///< size of a video pixel [still px]
+    float texelX, texelY;
+    float footprint;  ///< size of a video pixel [still px]
 };
 
 struct alignas(16) LumaDown {

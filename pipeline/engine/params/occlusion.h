@@ -25,8 +25,8 @@ struct alignas(16) Visibility {
     std::int32_t layerWidth, layerHeight;
     float scaleX, scaleY;            ///< video pixels per output pixel
     float layerScaleX, layerScaleY;  ///< layer pixels per output pixel
-    float bias, softness;            ///< as in CompositeOptions [sigmas]
-    float virtualSigma;              ///< as in CompositeOptions
+    float bias, softness;
+    float virtualSigma;
     /// Factor of the squared distance of colours in [0, 1], in the exponent of the weight.
     float likeness;
 };

@@ -63,9 +63,9 @@ struct alignas(16) AssessCells {
     Rig rig;
     LumaLevel video, still;  ///< finest pyramid levels, in the video's geometry
     std::int32_t columns, rows;
-    std::int32_t backwardColumns, backwardRows;  ///< size of the backward field
-    std::int32_t forward, backward;              ///< indices in cells[] of the fields' first cells
-    std::int32_t errorsGiven;                    ///< 1: `backward` is a field of two-way errors
+    std::int32_t backwardColumns, backwardRows;
+    std::int32_t forward, backward;  ///< indices in cells[] of the fields' first cells
+    std::int32_t errorsGiven;        ///< 1: `backward` is a field of two-way errors
     /// Video pixels per pixel of the backward field's pyramid level.
     std::int32_t backwardScale;
     float stillWidth, stillHeight;
@@ -73,24 +73,24 @@ struct alignas(16) AssessCells {
 };
 
 struct alignas(16) MeasureGain {
-    LumaLevel video, still;  ///< second pyramid levels
+    LumaLevel video, still;
     std::int32_t columns, rows;
     std::int32_t forwardColumns, forwardRows;
-    std::int32_t forward;  ///< index in cells[] of the forward field's first cell
+    std::int32_t forward;
     std::int32_t tileColumns;
 };
 
 struct alignas(16) WeighCells {
     std::int32_t columns, rows;
-    std::int32_t halfColumns, halfRows;  ///< number of half-resolution cells
-    float noise;                         ///< standard deviation of the video's noise [grey levels]
+    std::int32_t halfColumns, halfRows;
+    float noise;
 };
 
 struct alignas(16) SumFine {
     std::int32_t columns, rows;
     std::int32_t videoWidth, videoHeight;
-    float scaleX, scaleY;  ///< still pixels per video pixel
-    float texelX, texelY;  ///< 1 / size of the still [1/px]
+    float scaleX, scaleY;
+    float texelX, texelY;
 };
 
 struct alignas(16) ConfirmCells {
