@@ -32,7 +32,6 @@ PixelRect searchedFor(const PixelRect& where, Size video) {
             up(around.y1, video.height)};
 }
 
-/// The middle two columns (or rows) of a cell, clamped to the picture.
 struct Middle {
     int first, last;
     [[nodiscard]] float middle() const { return 0.5F * static_cast<float>(first + last); }
@@ -141,7 +140,6 @@ void EpipolarFlow::search(const UnitPose& relative, const PixelRect& where) {
     search_.run(frame_, relative.T_other_frame, relative.covariance, ofArea(predicted));
 }
 
-// Returns the entries of `cells`, which cover the whole picture, inside the search's area.
 std::span<const float> EpipolarFlow::ofArea(std::span<const float> cells) {
     if (cells.empty()) return cells;
     const PixelRect& area = search_.area();
@@ -155,7 +153,6 @@ std::span<const float> EpipolarFlow::ofArea(std::span<const float> cells) {
     return predicted_;
 }
 
-// Returns s at a pixel, or that of the nearest pixel of the searched area.
 float EpipolarFlow::nearnessAt(int x, int y) const {
     const PixelRect& area = search_.area();
     const int column = std::clamp(x, area.x0, area.x1 - 1) - area.x0;
@@ -214,7 +211,6 @@ const std::vector<float>& EpipolarFlow::inverseDepthOf(const Cells& flow) {
     workers_->forRange(cells_.height, 8, [&](int first, int last) {
         for (int j = first; j < last; ++j) {
             const std::size_t cell = static_cast<std::size_t>(j) * cells_.width;
-            // Both flow fields start at the centres of the cells, so their rays are used.
             simd::alignCells(ends, cellRow(j, cellRays_.raysX().data(), cellRays_.raysY().data()),
                              flow.data() + cell, forward_.data() + cell, pixel, kLeastWay,
                              aligned_.data() + cell);

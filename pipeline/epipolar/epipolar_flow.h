@@ -22,9 +22,7 @@ public:
 
     void setOptions(const EpipolarOptions& options);
 
-    /// Sets a new still, as its sensor delivered it, and the video camera's pose at that time.
     void setStill(const ImageView& still, const Pose& pose);
-    /// Sets a new still by its luma.
     void setStill(const Rows<const std::uint8_t>& still, const Pose& pose);
     void dropStill();
     [[nodiscard]] bool hasStill() const { return stillPose_.has_value(); }
@@ -84,7 +82,7 @@ private:
     std::shared_ptr<Workers> workers_;
     int mostPredicted_;
     FieldPrediction prediction_;
-    int predictedFrames_ = 0;  // number of frames since the last search from coarse to fine
+    int predictedFrames_ = 0;
     EpipolarLens lens_, cellRays_;
     Eigen::Matrix3f rotation_;
     double unit_ = 1, lengthError_ = 0;
@@ -95,10 +93,10 @@ private:
     std::vector<float> predicted_;
     // nearness_, aligned_: s of each video cell. nearest_: largest s that lands on each still cell.
     std::vector<float> nearness_, aligned_, nearest_;
-    std::vector<std::int32_t> landing_;  // index of the still cell on which each video cell lands
+    std::vector<std::int32_t> landing_;
     // Rays through the middle of each cell's four central pixels.
     std::vector<float> middleRaysX_, middleRaysY_;
-    std::vector<float> middlesX_, middlesY_;  // middle of each column and row of cells [px]
+    std::vector<float> middlesX_, middlesY_;
 };
 
 }  // namespace mfar

@@ -37,7 +37,6 @@ public:
     [[nodiscard]] Size size() const { return size_; }
     [[nodiscard]] float rayX(std::size_t pixel) const { return rays_->x[pixel]; }
     [[nodiscard]] float rayY(std::size_t pixel) const { return rays_->y[pixel]; }
-    /// Rays of all pixels, row-major.
     [[nodiscard]] const std::vector<float>& raysX() const { return rays_->x; }
     [[nodiscard]] const std::vector<float>& raysY() const { return rays_->y; }
     [[nodiscard]] const simd::Lens& lens() const { return lens_; }

@@ -47,7 +47,6 @@ std::size_t pixelsOf(Size size) {
     return static_cast<std::size_t>(size.width) * size.height;
 }
 
-/// Returns the largest number of vectors of SemiGlobal::kLabels labels at any pyramid level.
 std::size_t mostVectors(Size size, const EpipolarOptions& options) {
     const std::size_t finest = pixelsOf(size);
     const double longest = options.longestParallax * size.width;
@@ -70,14 +69,12 @@ float soundLabel(float label, float longest) {
 // estimate of normalError() than the covariance of the pose.
 constexpr int kEnoughPatches = 16;
 
-/// Returns the shift of the epipolar lines by the uncertainty of a pose's rotation [px].
 double normalErrorOf(const Matrix6& covariance, double focal) {
     constexpr double kNoLine = 1e6;
     const double variance = covariance.topLeftCorner<3, 3>().trace() / 3;
     return variance > 0 ? std::min(focal * std::sqrt(variance), kNoLine) : 0;
 }
 
-// Returns the index of the pixel of a coarser pyramid level that covers this finest pixel.
 std::size_t coarseIndex(const Eigen::Vector2d& pixel, Size size, int level) {
     const double scale = 1 << level;
     const int x = std::min(static_cast<int>((pixel.x() + 0.5) / scale), size.width - 1);

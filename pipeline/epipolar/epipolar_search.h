@@ -37,7 +37,6 @@ public:
 
     /// Sets the still as its sensor delivered it.
     void setStill(const ImageView& still);
-    /// Sets a still by its luma.
     void setStill(const Rows<const std::uint8_t>& still);
 
     /// From now on, only these video pixels are matched, widened to a grid of a few pixels.
@@ -81,7 +80,7 @@ public:
 private:
     struct Level {
         EpipolarLens lens;
-        PixelOffset origin;  // position of the drawn still's first pixel [px of the lens]
+        PixelOffset origin;
         LumaImage video, still, smoothVideo, smoothStill;
         std::vector<std::uint8_t> seen;
         std::vector<std::uint32_t> videoCensus, stillCensus;
@@ -91,7 +90,6 @@ private:
         [[nodiscard]] TurnedPair pair() const { return {lens, origin, video, still, seen}; }
     };
 
-    /// Draws the still in the frame's orientation, at the finest `levels` pyramid levels.
     [[nodiscard]] bool place(const RigidTransform& T_still_video, int levels);
     [[nodiscard]] bool turnStill(const Eigen::Matrix3d& R_still_video, int levels);
     [[nodiscard]] bool matchAll(const std::optional<Matrix6>& covariance,
@@ -123,7 +121,7 @@ private:
     EpipolarOptions options_;
     CameraModel whole_, video_, still_;  // video_: camera of the area; still_: see atScaleOf()
     PixelRect area_;
-    std::vector<EpipolarLens> lenses_;  // one per pyramid level, for the whole picture
+    std::vector<EpipolarLens> lenses_;
     std::shared_ptr<Workers> workers_;
     TurnedPicture turned_;
     std::vector<Level> levels_;

@@ -33,8 +33,8 @@ private:
 
     EpipolarLens cells_;
     std::vector<float> kept_, landed_, filled_;
-    std::vector<std::int32_t> landing_;  // index of the cell on which each cell of kept_ lands
-    std::vector<float> moved_;           // s of each cell of kept_ after the motion
+    std::vector<std::int32_t> landing_;
+    std::vector<float> moved_;
     RigidTransform keptPose_;
     double unit_ = 1;
 };

@@ -24,7 +24,7 @@ constexpr double kRivalDistance = 2.5;
 // [px]. A step shorter than kShortStep [px] ends the refinement.
 constexpr int kMatchSteps = 6;
 constexpr float kLongestWay = 1.5F, kShortStep = 0.01F;
-constexpr double kFar = 1e6;  // [px]; outside any picture
+constexpr double kFar = 1e6;
 
 const Eigen::Vector2d kHalf = Eigen::Vector2d::Constant(0.5 * (kPatch - 1));
 
@@ -115,7 +115,6 @@ struct Candidate {
     double score = -1;
 };
 
-/// Subtracts the mean and returns the norm of the result.
 float withoutMean(Grey& values) {
     float sum = 0, squares = 0;
     for (const float v : values)

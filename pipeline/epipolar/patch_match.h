@@ -10,7 +10,6 @@
 
 namespace mfar {
 
-/// Width and height of a patch [px].
 inline constexpr int kPatch = 8;
 
 /// First column and row of a patch. The patch is at least one pixel away from the border of its
@@ -31,8 +30,8 @@ struct PatchPlace {
 /// Positions at which a patch is searched: from `middle`, up to alongSteps pixels along the
 /// epipolar line and up to acrossSteps pixels across it, in both directions.
 struct PatchWindow {
-    Eigen::Vector2d middle;  ///< expected middle of the patch [px]
-    Eigen::Vector2d along;   ///< unit vector along the epipolar line
+    Eigen::Vector2d middle;
+    Eigen::Vector2d along;  ///< unit vector along the epipolar line
     int alongSteps = 0, acrossSteps = 0;
 };
 

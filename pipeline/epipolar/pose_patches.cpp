@@ -47,15 +47,13 @@ private:
         return ((pixel.array() + 0.5) * scale_ - 0.5).matrix();
     }
 
-    /// Returns the ray of the half-size pixel that contains the point, which must be in the
-    /// picture.
+    /// The point must be in the picture of half size.
     [[nodiscard]] Eigen::Vector2d rayNear(const Eigen::Vector2d& point) const {
         const auto pixel = static_cast<std::size_t>(point.y()) * half_.lens.size().width +
                            static_cast<std::size_t>(point.x());
         return {half_.lens.rayX(pixel), half_.lens.rayY(pixel)};
     }
 
-    /// Returns the half-size pixel that shows a point with inverse depth s.
     [[nodiscard]] Eigen::Vector2d pointAt(const Eigen::Vector2d& ray, double s) const {
         const Eigen::Vector3d& t = prior_.pose.translation;
         const Eigen::Vector2d moved = ray + s * (t.head<2>() - ray * t.z());

@@ -19,7 +19,6 @@ struct TurnedPair {
     const std::vector<std::uint8_t>& seen;  ///< 1 for valid pixels of the still
 };
 
-/// Knowledge before patches are matched.
 struct PatchPrior {
     const CameraModel& camera;
     const PosePrior& pose;

@@ -22,8 +22,8 @@ public:
     /// The rays of points [x0, x1) x [y0, y1) of the lattice, counted in steps. Valid until the
     /// next call of part(). A ray is NaN if the lens maps no ray to its pixel.
     struct Part {
-        const float *x, *y;  ///< ray of point (x0, y0)
-        int pitch;           ///< distance between two rows [floats]
+        const float *x, *y;
+        int pitch;  ///< distance between two rows [floats]
     };
     [[nodiscard]] Part part(const CameraModel& camera, const PixelRect& points);
 

@@ -23,7 +23,6 @@ constexpr double kFewestShare = 0.4;
 constexpr double kTukey = 4.685;
 // Standard deviation of a good match [px]. The scale of the robust weights is at least half of it.
 constexpr double kMatchError = 0.3;
-// Largest distance of an inlier from its epipolar line [px].
 constexpr double kExplained = 1;
 constexpr double kNotExplained = 1e6;  // [px]; error of a match that fits no pose
 
@@ -161,7 +160,7 @@ private:
     Vector6 motion_ = Vector6::Zero();
     std::vector<std::optional<Residual>> residuals_;
     std::vector<double> errors_;
-    double scale_ = kNotExplained;  // standard deviation of the inliers [px]
+    double scale_ = kNotExplained;
 };
 
 }  // namespace

@@ -15,7 +15,6 @@ struct RayMatch {
     Eigen::Vector2d video, still;
 };
 
-/// Prior knowledge of T_still_video.
 struct PosePrior {
     /// Moves points from the frame to the still, in the frame's orientation and in any unit of
     /// length.
@@ -28,7 +27,7 @@ struct PoseRefinement {
     bool accepted = false;
     RigidTransform motion;  ///< refined T_still_video = prior T_still_video * motion
     int patches = 0;
-    int inliers = 0;  ///< number of matches that agree with the refined pose
+    int inliers = 0;
     /// Median distance of the matches from the epipolar lines of the prior pose and of the final
     /// pose [video px]. The final pose is the prior pose if the refinement was rejected.
     double normalBefore = 0;

@@ -13,10 +13,11 @@
 
 namespace mfar {
 
-/// Penalties for different labels of neighbouring pixels, in bits of the census cost.
+/// Penalties for different labels of neighbouring pixels, in bits of the census cost: `step` for a
+/// difference of one label, `jump` (at most 60) for a larger difference in uniform areas.
 struct Smoothness {
-    int step = 12;  ///< for a difference of one label
-    int jump = 60;  ///< for a larger difference in uniform areas; at most 60
+    int step = 12;
+    int jump = 60;
     /// Two neighbours are at an edge if their luma differs by more than this [grey levels].
     double noise = 0;
 };
@@ -33,7 +34,7 @@ float vertexOf(const Valley& valley);
 /// bytes. Source: Hirschmueller, PAMI 2008; windows per pixel: Rothermel et al., LC3D 2012 (tSGM).
 class SemiGlobal {
 public:
-    static constexpr int kLabels = simd::kLabels;  ///< per vector
+    static constexpr int kLabels = simd::kLabels;
 
     /// Writes the costs of row y: kLabels * vectors bytes per pixel, for the labels base, base + 1,
     /// ... of the pixel. Each cost is at most kCensusBits. May be called from several threads at
@@ -53,7 +54,6 @@ public:
 private:
     ZeroedArray<std::uint8_t> costs_, sums_;
     std::vector<std::uint8_t> scratch_;  // for vectors that do not fit into registers
-    // Penalty of a jump, by the difference of both pixels' luma.
     std::array<std::uint8_t, 256> jumps_{};
 };
 

@@ -13,7 +13,6 @@ static_assert(TurnedPicture::kAlign == simd::kTurnedCell);
 
 // A ray with a smaller z after the rotation counts as outside the camera's view.
 constexpr double kBeside = 0.2;
-// Number of rays through each side of the picture. They bound its visible part.
 constexpr int kSidePoints = 16;
 
 // Largest radius of a valid ray, as a multiple of the radius of the picture's corners. It is
@@ -76,7 +75,6 @@ Eigen::AlignedBox2d TurnedPicture::boundsOf(const Eigen::Matrix3d& R_source_came
         bounds.extend(known_.camera.project(there * std::min(1.0, known_.rim / there.norm())));
         before = true;
     }
-    // The rays of the outline enclose all rays of the picture.
     return before ? bounds.intersection(whole) : Eigen::AlignedBox2d();
 }
 

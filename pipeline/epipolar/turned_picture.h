@@ -38,8 +38,8 @@ private:
     /// changes.
     struct Cameras {
         CameraModel camera, source;
-        double rim = 0, sourceRim = 0;         ///< largest radius of a valid ray of each camera
-        std::vector<Eigen::Vector2d> outline;  ///< rays through the border of the source's picture
+        double rim = 0, sourceRim = 0;
+        std::vector<Eigen::Vector2d> outline;
     };
     void know(const CameraModel& camera, const CameraModel& source);
     [[nodiscard]] Eigen::AlignedBox2d boundsOf(const Eigen::Matrix3d& R_source_camera,
