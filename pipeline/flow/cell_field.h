@@ -10,7 +10,7 @@ namespace mfar {
 
 /// Width and height of a cell [px].
 inline constexpr int kCell = 4;
-inline constexpr int kCellsPerTile = 4;  ///< along each axis
+inline constexpr int kCellsPerTile = 4;
 
 /// Quotient of two positive numbers, rounded up.
 [[nodiscard]] constexpr int divideUp(int a, int b) {

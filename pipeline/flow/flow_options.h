@@ -26,8 +26,8 @@ struct Flow2dOptions {
 /// because their costs are processed as vectors of 16 bytes. The cost aggregation always has four
 /// directions.
 struct EpipolarOptions {
-    int levels = 4;  ///< largest number of pyramid levels of at least 60x60 px, [1, 4]
-    /// largest searched parallax as a fraction of the picture's width, (0, 1]
+    int levels = 4;  ///< Largest number of pyramid levels, [1, 4]. All have at least 60x60 px.
+    /// largest searched parallax, as a share of the picture's width, (0, 1]
     double longestParallax = 0.8;
     /// A pixel's candidates of s cover the results of the coarser pyramid level within this radius
     /// [px], [0, 8].

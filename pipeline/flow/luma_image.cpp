@@ -160,7 +160,7 @@ void smooth(const LumaImage& in, float side, LumaImage& out) {
 }
 
 double noiseOf(const Rows<const std::uint8_t>& picture) {
-    constexpr int kBlock = 8, kRun = 32;  // kRun: number of blocks that are processed together
+    constexpr int kBlock = 8, kRun = 32;
     std::vector<int> sums;
     const int blocks = (picture.size.width - 2) / kBlock;
     for (int y = 1; y + kBlock < picture.size.height; y += kBlock) {
