@@ -147,7 +147,6 @@ void DetailPainter::drawDetail(Composites passes, const TileParams& params, gpu:
     passes.whole.run(params, bindings, outputTarget_);
 }
 
-// Returns the rectangle of output pixels that show any part of these tiles.
 PixelRect DetailPainter::outputOf(const PixelRect& tiles) const {
     const auto [width, height] = output_.size();
     const auto at = [](int tile, int video, int out, int rest) {

@@ -21,7 +21,6 @@ public:
     /// The still camera of `stillRig` has the resolution of the still's detail and picture.
     DetailPainter(const StereoRig& stillRig, Size output);
 
-    /// A still on the GPU and its match with the video.
     struct Matched {
         /// The still with a linear filter: StillReference::raised(), or in mode Blend the still
         /// itself.
@@ -39,7 +38,6 @@ public:
               const DetailOptions& options);
 
     [[nodiscard]] const gpu::Texture& output() const { return output_; }
-    /// Framebuffer that draws into output(), for overlays.
     [[nodiscard]] const gpu::Framebuffer& target() const { return outputTarget_; }
 
     /// Statistics of the frame before the last one, without waiting for the GPU.
@@ -58,8 +56,6 @@ private:
 
         TilePass columns, rows;
     };
-    /// Programs that draw the output: enlarged video only, a whole frame with detail, tiles with
-    /// detail, and plain tiles with detail.
     struct Composites {
         TilePass& enlarged;
         gpu::DrawPass<TileParams>& whole;
@@ -99,12 +95,11 @@ private:
     std::array<gpu::Buffer, 2> draws_;
     int current_ = 0, restingFrames_ = 0;
     std::uint32_t classified_ = 0;
-    bool sharpenedIsOld_ = true;  // true if the last frame was not sharpened
+    bool sharpenedIsOld_ = true;
     gpu::ComputePass<params::ClassifyTiles> classify_;
     TilePass sharpen_, columnsPass_;
     DetailPasses detailPasses_;
     gpu::DrawPass<TileParams> wholeBlend_, blend_, plainBlend_;
-    // Created for the first frame that needs them.
     std::optional<Linear> linear_;
     std::optional<LearnedEnlarger> learned_;
 };

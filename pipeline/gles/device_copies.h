@@ -57,8 +57,6 @@ private:
     bool floats_;
 };
 
-/// Returns the field's copy in a storage buffer. Creates the buffer and uploads the field if
-/// necessary.
 template <class T>
 [[nodiscard]] const BufferCopy& bufferOf(const Field<T>& field) {
     DeviceCopy& copy = field.device([&] {
@@ -68,7 +66,6 @@ template <class T>
     return static_cast<const BufferCopy&>(copy);
 }
 
-/// Returns the field's copy in a texture. Creates the texture and uploads the field if necessary.
 template <class T>
 [[nodiscard]] TextureCopy& textureOf(const Field<T>& field, gpu::TexelFormat format,
                                      gpu::Filter filter = gpu::Filter::Nearest,

@@ -47,11 +47,10 @@ private:
     double share_, step_;
     int most_;
     gpu::Buffer counts_, list_, entries_;
-    std::optional<gpu::Fence> fence_;  // has a value while the GPU makes the list
-    // Index and colour of each listed pixel, by ascending index.
+    std::optional<gpu::Fence> fence_;
     std::vector<std::array<std::uint32_t, 2>> listed_;
     params::RefineEdges params_{};
-    double shown_ = 0;  // weight of the rendered colours, 0 without an answer
+    double shown_ = 0;
     gpu::ComputePass<params::RefineEdges> count_, choose_, sharpen_;
 };
 

@@ -11,16 +11,16 @@
 
 namespace mfar {
 
-/// Computes the dense flow between video and still in both directions, without the pose, by
-/// coarse-to-fine inverse search, propagation, Gauss-Newton refinement, and removal of outliers and
-/// noise. Each cell is matched by the 8x8 patch around it. The cost of a match does not depend on
-/// gain and offset. Sources: Kroeger et al., ECCV 2016 (inverse search); Barnes et al., 2009
-/// (propagation).
+/// Computes the dense flow from video to still (forward) and from still to video (backward),
+/// without the pose: by coarse-to-fine inverse search, propagation, Gauss-Newton refinement, and
+/// removal of outliers and noise. Each cell is matched by the 8x8 patch around it. The cost of a
+/// match does not depend on gain and offset. Sources: Kroeger et al., ECCV 2016 (inverse search);
+/// Barnes et al., 2009 (propagation).
 class Flow2d {
 public:
     /// A part of cells() with one flow vector per cell.
     struct Field {
-        int offset = 0;  ///< index of the first FlowCell in cells()
+        int offset = 0;
         Size cells;
         int level = 0;
     };
@@ -44,11 +44,10 @@ public:
     using Cells = std::span<const std::array<float, 4>>;
     void refine(const LumaOnGpu& luma, const TileBuffer& tiles, Cells forward, Cells errors);
 
-    /// Lists of the tiles that the last refine() searched.
     [[nodiscard]] const TileLists& searched() const { return searched_; }
 
     [[nodiscard]] const gpu::Buffer& cells() const { return cells_; }
-    [[nodiscard]] const Field& forward() const { return forward_; }  ///< from video to still
+    [[nodiscard]] const Field& forward() const { return forward_; }
     /// Reads x, y [px], unused, unused for each cell. Waits for the GPU.
     [[nodiscard]] std::vector<std::array<float, 4>> readForward() const {
         return cells_.read<std::array<float, 4>>(static_cast<std::size_t>(forward_.cells.width) *
@@ -58,7 +57,7 @@ public:
     /// True after refine(). Then backward() contains the two-way errors of the video's cells
     /// instead of flow.
     [[nodiscard]] bool errorsGiven() const { return errorsGiven_; }
-    [[nodiscard]] const Field& backward() const { return backward_; }  ///< from still to video
+    [[nodiscard]] const Field& backward() const { return backward_; }
 
 private:
     /// The memory in cells_ for the flow in one direction at one pyramid level. It has two areas,
@@ -69,10 +68,10 @@ private:
         gpu::Groups groups;
     };
     struct Direction {
-        const std::vector<LumaLevel>& from;  ///< picture with the patches
-        const std::vector<LumaLevel>& to;    ///< picture that is searched
+        const std::vector<LumaLevel>& from;
+        const std::vector<LumaLevel>& to;
         const std::vector<Stage>& stages;
-        int finest;  // finest searched pyramid level
+        int finest;
         int finestPropagations;
         bool usePrior;
     };
@@ -83,7 +82,6 @@ private:
     [[nodiscard]] params::SearchFlow searchParams(const Direction& way, int level, int area,
                                                   int radius, int prior) const;
     void propagate(const Direction& way, int level, int toArea, const LumaOnGpu& luma);
-    /// Refines the field at index `in` of cells_ by Gauss-Newton steps.
     void align(int in, const LumaOnGpu& luma, const TileBuffer& tiles);
     void filter(const Stage& stage, const Field& out, const TileBuffer& tiles);
 
@@ -91,7 +89,7 @@ private:
     std::vector<Stage> forwardStages_, backwardStages_;
     Field forward_, backward_;
     bool errorsGiven_ = false;
-    int seed_;  // index in cells_ of the first input vector of refine()
+    int seed_;
     gpu::Buffer cells_;
     TileLists searched_;
     gpu::ComputePass<params::SearchFlow> search_, searchListed_;

@@ -33,7 +33,7 @@ private:
     gpu::PictureTexture video_, still_{gpu::Filter::Linear};
     std::optional<std::uint64_t> number_;
     std::array<TileBuffer, 2> tiles_;
-    std::size_t used_ = 0;  // index in tiles_ of the last used TileWork
+    std::size_t used_ = 0;
 };
 
 [[nodiscard]] std::unique_ptr<StillStep> makeStillStep(const StepSetup& setup, FrameOnGpu& frame);

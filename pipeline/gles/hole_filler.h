@@ -43,7 +43,6 @@ public:
     /// frame, until then empty. Never waits.
     std::optional<WarpHoles> poll();
     [[nodiscard]] bool isPending() const { return fence_.has_value(); }
-    /// Discards a list that is being read back.
     void drop() { fence_.reset(); }
 
 private:
@@ -55,9 +54,9 @@ private:
     void pull(const gpu::Texture& colour, const gpu::Texture& state);
 
     Size layer_;
-    std::array<Lists, 2> lists_;  // the CPU may be reading back one of them
+    std::array<Lists, 2> lists_;
     std::size_t current_ = 0;
-    std::optional<gpu::Fence> fence_;  // passed when the list can be read back
+    std::optional<gpu::Fence> fence_;
     gpu::Buffer pyramid_;
     params::FillHoles params_{};
     std::array<Command, kLevels> wanted_{};

@@ -35,12 +35,11 @@ public:
 
 private:
     [[nodiscard]] params::Visibility visibilityParams() const;
-    /// Returns the video pixels whose depth range the output pixels in `bounds` read.
     [[nodiscard]] PixelRect videoPixels(const PixelRect& bounds) const;
 
     Size video_, layer_;
     CompositeOptions options_;
-    gpu::Texture range_, visibility_, open_;  // open_: depth buffer of visibility_decide.frag
+    gpu::Texture range_, visibility_, open_;
     gpu::Framebuffer rangeTarget_, visibilityTarget_;
     gpu::DrawPass<params::Visibility> rangePass_, decidePass_, samplePass_, blendPass_;
 };

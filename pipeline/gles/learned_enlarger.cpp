@@ -27,7 +27,6 @@ void setGuidance(params::DrawTiles& params, const FilterBank& filters) {
     params.guidanceVideo = filters.guidance().video;
 }
 
-/// Returns the smallest rectangle around all tiles that use learned filters, widened by one tile.
 PixelRect tilesAround(const TileWork& work) {
     PixelRect out{work.tiles.width, work.tiles.height, 0, 0};
     for (int row = 0, i = 0; row < work.tiles.height; ++row)

@@ -47,7 +47,7 @@ private:
 
     Size video_, tiles_;
     std::uint64_t number_ = 0;
-    std::vector<std::uint8_t> mask_;  // pixels of learned_: 255 for matched tiles
+    std::vector<std::uint8_t> mask_;
     // True if the texture was not computed in the last frame.
     bool columnsAreOld_ = true, seenIsOld_ = true;
     bool guidedIsOld_ = true;

@@ -47,7 +47,7 @@ private:
     struct Part {
         gpu::Buffer vertices, indices;
         int indexCount;
-        std::optional<gpu::Texture> alpha;  // only for masked surfaces
+        std::optional<gpu::Texture> alpha;
         float cutoff;
         bool bothSides;  // true if the surface has no back face
     };

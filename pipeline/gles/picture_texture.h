@@ -64,7 +64,7 @@ private:
     Texture picture_;
     std::optional<Planes> planes_;
     PlaneImporter* importer_ = nullptr;
-    std::vector<Imported> imported_;  // the most recently used is last
+    std::vector<Imported> imported_;
     GLsync reading_ = nullptr;
     std::optional<std::string> importFault_;
 };

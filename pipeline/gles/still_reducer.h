@@ -19,7 +19,7 @@ public:
     [[nodiscard]] const gpu::Texture& picture() const { return reduced_; }
 
 private:
-    std::array<float, 2> scale_;  // pixels of the input per pixel of the result
+    std::array<float, 2> scale_;
     gpu::Texture narrow_, reduced_;
     gpu::Framebuffer narrowTarget_, reducedTarget_;
     gpu::DrawPass<params::ReduceStill> across_, down_;

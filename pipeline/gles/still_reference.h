@@ -23,7 +23,7 @@ public:
     /// the next.
     void set(const ImageView& still);
 
-    /// The rig whose still camera has picture()'s resolution and an unchanged lens.
+    /// The rig with picture()'s resolution as resolution of the still camera.
     [[nodiscard]] const StereoRig& rig() const { return rig_; }
     [[nodiscard]] const gpu::Texture& whole() const { return picture_.texture(); }
     [[nodiscard]] const gpu::Texture& picture() const {

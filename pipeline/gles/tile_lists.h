@@ -34,7 +34,6 @@ public:
     /// Number of tiles that were listed before the last find() or clear(), without waiting for the
     /// GPU.
     [[nodiscard]] int countBefore() const { return countBefore_; }
-    /// Waits for the GPU.
     [[nodiscard]] int count() const;
     /// Returns for each tile, row-major, true if it is listed. Waits for the GPU.
     [[nodiscard]] std::vector<bool> read() const;

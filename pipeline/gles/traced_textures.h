@@ -14,10 +14,9 @@ namespace mfar {
 /// The traced picture that is warped, as textures. See TracedPicture for their contents.
 class TracedTextures {
 public:
-    /// Allocates textures when the size changes.
     void upload(const TracedPicture& traced);
 
-    /// Valid after the first upload.
+    /// Must be called only after the first upload.
     [[nodiscard]] const LensProjection& lens() const { return *lens_; }
     [[nodiscard]] const gpu::Texture& picture() const { return picture_; }  ///< RGBA8, as traced
     [[nodiscard]] const gpu::Texture& depth() const { return depth_; }      ///< R32F, as traced

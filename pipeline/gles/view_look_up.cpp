@@ -12,7 +12,6 @@ namespace {
 
 constexpr int kListGroup = 8;  // width and height, as in warp_rest_list.comp
 
-/// Transforms a plane (n . point = w) from world to camera coordinates.
 Eigen::Vector4d planeIn(const Eigen::Vector4d& world, const RigidTransform& T_world_camera) {
     const Eigen::Vector3d normal = T_world_camera.rotation.conjugate() * world.head<3>();
     return {normal.x(), normal.y(), normal.z(),

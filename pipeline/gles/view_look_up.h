@@ -25,7 +25,7 @@ public:
     explicit ViewLookUp(const LensProjection& layer);
 
     struct Input {
-        const gpu::Texture& silhouette;  ///< ModelSilhouette::surface() at the current pose
+        const gpu::Texture& silhouette;
         const TracedTextures& traced;
         const RigidTransform& T_world_traced;
         const RerenderedPictures& rerendered;
@@ -42,9 +42,9 @@ public:
 
     [[nodiscard]] const gpu::Texture& colour() const { return colour_; }  ///< RGBA8 premultiplied
     [[nodiscard]] const gpu::Texture& depth() const { return depth_; }    ///< R32F
-    /// State of each pixel, RGBA8. R: number of the surface with unknown colour. G: its share of
-    /// the pixel. B: 1 if no picture shows this surface. A: number of a surface that fills the
-    /// whole pixel with a known colour.
+    /// State of each pixel, RGBA8. R: number of the surface with unknown colour. G: share of the
+    /// pixel with unknown colour. B: 1 if no picture shows this surface. A: number of a surface
+    /// that fills the whole pixel with a known colour.
     [[nodiscard]] const gpu::Texture& state() const { return state_; }
 
 private:
