@@ -31,7 +31,6 @@ void requireLatLong(Size size, int mostWidth) {
                         size.width, size.height));
 }
 
-/// Throws if the decoded picture and its environment together need more than `memory` bytes.
 void requireMemory(Size size, std::size_t memory) {
     const std::size_t pixels = static_cast<std::size_t>(size.width) * size.height;
     const std::size_t kept =

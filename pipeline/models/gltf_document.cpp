@@ -24,7 +24,6 @@ bool isBinary(std::span<const std::uint8_t> bytes) {
     return bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
 }
 
-/// Returns the JSON text of a file. In a .glb file, it is the first chunk.
 std::string_view jsonOf(std::span<const std::uint8_t> bytes) {
     const auto* text = reinterpret_cast<const char*>(bytes.data());
     if (!isBinary(bytes)) return {text, bytes.size()};

@@ -33,7 +33,6 @@ struct GltfDocument {
     [[nodiscard]] std::span<const std::uint8_t> view(int bufferView, std::string_view place) const;
 };
 
-/// Reads and validates a glTF file. `name` is its name in error messages. Throws ModelError.
 [[nodiscard]] GltfDocument readDocument(std::span<const std::uint8_t> bytes,
                                         const std::string& name,
                                         const std::filesystem::path& folder,

@@ -13,8 +13,7 @@ namespace mfar {
 struct PrimitiveSource {
     const tinygltf::Primitive& primitive;
     TextureMapping mapping;
-    /// True if the material has any texture, or a normal texture.
-    bool textured = false, bumpy = false;
+    bool textured = false, bumpy = false;  ///< bumpy: the material has a normal texture
     std::string place;
 };
 [[nodiscard]] std::optional<Mesh> readPrimitive(const GltfDocument& document,

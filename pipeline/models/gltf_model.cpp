@@ -15,7 +15,6 @@
 namespace mfar {
 namespace {
 
-/// Rotates glTF's coordinates, where y is up, so that z is up.
 Eigen::Affine3d upright() {
     Eigen::Affine3d T = Eigen::Affine3d::Identity();
     T.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;

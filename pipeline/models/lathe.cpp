@@ -71,7 +71,6 @@ private:
 
 LatheProfile smoothProfile(const LatheProfile& knots, int count) {
     const auto last = static_cast<std::ptrdiff_t>(knots.size()) - 1;
-    // Both ends are extended by a straight line.
     const auto knot = [&](std::ptrdiff_t i) -> Eigen::Vector2f {
         if (i < 0) return 2 * knots[0] - knots[1];
         if (i > last) return 2 * knots[last] - knots[last - 1];

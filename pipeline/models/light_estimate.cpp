@@ -43,7 +43,6 @@ float luminanceOf(const Eigen::Vector3f& rgb) {
     return rgb.dot(Eigen::Vector3f(0.2126F, 0.7152F, 0.0722F));
 }
 
-/// Returns the index of a direction's texel in a map with the layout of Environment.
 std::size_t texelOf(const Eigen::Vector3f& direction) {
     constexpr float kTurn = 2 * std::numbers::pi_v<float>;
     const float u = std::atan2(direction.y(), direction.x()) / kTurn + 0.5F,

@@ -25,7 +25,7 @@ struct LightEstimatorOptions {
     /// Time constant for light from directions that are out of view [s], above 0. After this time,
     /// its weight is 1/e.
     double memoryS = 120;
-    float surfaceAlbedo = 0.5F;  ///< mean albedo of the visible surfaces
+    float surfaceAlbedo = 0.5F;
 };
 
 /// Estimates the light around the scene from the camera's pictures. The seen radiance is stored in
@@ -58,7 +58,7 @@ private:
 
     LightEstimatorOptions options_;
     std::optional<Timestamp> last_;
-    std::vector<Seen> map_;  ///< layout of Environment
+    std::vector<Seen> map_;
     std::vector<SeenRadiance> frame_;
 };
 

@@ -61,7 +61,6 @@ private:
     YuvToRgb toRgb_;
 };
 
-/// Returns the pixel in the centre of part i of a row that is divided into equal parts.
 int middleOf(int i, int parts, int pixels) {
     return static_cast<int>((2 * std::int64_t{i} + 1) * pixels / (2 * std::int64_t{parts}));
 }

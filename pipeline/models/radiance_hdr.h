@@ -10,7 +10,6 @@
 
 namespace mfar {
 
-/// True if the file is a Radiance picture (.hdr) according to its first bytes.
 [[nodiscard]] bool isRadianceHdr(std::span<const std::uint8_t> bytes);
 
 /// Reads a Radiance picture (RGBE; uncompressed, or with the old or the new run-length coding;

@@ -134,7 +134,6 @@ void addStand(Mesh& mesh) {
     const Eigen::Vector2f* end = nullptr;
     const std::vector<LatheProfile> pieces = standPieces();
     for (const LatheProfile& piece : pieces) {
-        // The straight connection between two pieces also belongs to the profile.
         if (end != nullptr) {
             const LatheProfile step = {*end, piece.front()};
             if (lengthOf(step) > 0)
@@ -150,7 +149,7 @@ void addStand(Mesh& mesh) {
     }
 }
 
-constexpr float kMeanCircumference = 0.22F;  ///< [m]
+constexpr float kMeanCircumference = 0.22F;
 
 void paintGlaze(Model& model) {
     constexpr Size kTexels{1536, 768};

@@ -10,7 +10,7 @@ namespace mfar {
 namespace {
 
 constexpr float kCircle = 2 * std::numbers::pi_v<float>;
-constexpr float kBandLow = 0.0872F, kBandHigh = 0.1000F;  ///< edges of the gilded band [m]
+constexpr float kBandLow = 0.0872F, kBandHigh = 0.1000F;
 constexpr int kScalesAround = 26, kFlutes = 22;
 
 float step(float from, float to, float x) {
@@ -41,7 +41,6 @@ float scales(float x, float y) {
 }
 
 float gildingAt(float u, float height) {
-    // With this height, scales at the shoulder are as high as wide.
     constexpr float kHeightOfScale = 0.0098F;
     const float edges =
         std::max({line(height - kBandLow, 0.00042F), line(height - kBandHigh, 0.00042F),
@@ -54,7 +53,7 @@ float gildingAt(float u, float height) {
 }  // namespace
 
 float fluteAt(float angle, float height) {
-    constexpr float kTwist = 16;  // [rad/m]
+    constexpr float kTwist = 16;
     const float inside = step(0.029F, 0.045F, height) * (1 - step(0.072F, 0.0845F, height));
     const float wave = std::cos(kFlutes * 0.5F * (angle + kTwist * height));
     return inside * (1 - std::sqrt(wave * wave + 0.03F));

@@ -11,7 +11,6 @@ namespace mfar {
 /// of Game Engine Development 2, 2019, sec. 7.5.
 void addTangents(Mesh& mesh);
 
-/// Returns a unit vector that is orthogonal to the unit vector `unit`.
 [[nodiscard]] Eigen::Vector3f anyOrthogonal(const Eigen::Vector3f& unit);
 
 }  // namespace mfar
