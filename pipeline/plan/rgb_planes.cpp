@@ -98,7 +98,7 @@ private:
     void combine(const std::array<std::int16_t, 3>& factors, std::int16_t offset,
                  std::uint8_t* to) const {
         const auto times = [](std::int16_t a, std::int16_t b) {
-            return static_cast<std::int16_t>((std::int32_t{a} * b) >> 16);  // [1/16 grey level]
+            return static_cast<std::int16_t>((std::int32_t{a} * b) >> 16);
         };
         const std::int16_t *luma = luma_.data(), *u = chroma_[0].data(), *v = chroma_[1].data();
         for (int x = 0; x < size_.width; ++x) {

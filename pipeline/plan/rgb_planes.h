@@ -13,18 +13,15 @@ namespace mfar {
 /// and blue. The planes are padded to whole tiles by repeating the border pixels.
 class RgbPlanes {
 public:
-    /// Creates a black picture.
     explicit RgbPlanes(Size size);
 
     /// Converts a valid picture of this size, in any format. Colours differ from those of
     /// picture_from_yuv.frag by at most one grey level.
     void take(const ImageView& picture);
-    /// Copies one tile from planes of the same size.
     void takeTile(const RgbPlanes& from, int column, int row);
 
     [[nodiscard]] Size size() const { return size_; }
     [[nodiscard]] Size tiles() const { return tiles_; }
-    /// Bytes of a row, including the padding.
     [[nodiscard]] int pitch() const { return pitch_; }
     /// Channels: 0 red, 1 green, 2 blue.
     [[nodiscard]] const std::uint8_t* row(int channel, int y) const {

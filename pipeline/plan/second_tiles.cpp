@@ -10,7 +10,6 @@ constexpr int kCells = 4;
 // the choice of tiles in every frame.
 constexpr float kRather = 1.5F;
 
-/// Calls body(x, y) for each cell of the tile that exists.
 template <class Body>
 void forCells(Size tiles, int tile, Size cells, const Body& body) {
     const int x0 = kCells * (tile % tiles.width), y0 = kCells * (tile / tiles.width);

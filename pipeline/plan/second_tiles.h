@@ -24,7 +24,6 @@ public:
     /// A tile that the second still does not show is not matched with it for this number of frames.
     static constexpr int kRest = 8;
 
-    /// Match of the frame with the newest still.
     struct Match {
         Rows<const WeighedCell> weighed;
         Rows<const TrustCell> trust;
@@ -56,7 +55,6 @@ private:
 
     TileWork work_;
     std::vector<Candidate> candidates_;
-    // Per tile: true if the second still showed it when it was last matched.
     std::vector<bool> showed_;
     // Per tile: number of coming frames in which it is not matched with the second still.
     std::vector<std::uint8_t> rest_;

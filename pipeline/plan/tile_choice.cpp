@@ -7,7 +7,7 @@
 namespace mfar {
 namespace {
 
-constexpr int kTileBlock = 8;  // [tiles]
+constexpr int kTileBlock = 8;
 // kSpread: standard deviation of a tile's sum of squares, divided by its mean. A difference is
 // significant if it exceeds kSignificant standard deviations.
 constexpr double kSpread = 0.27;

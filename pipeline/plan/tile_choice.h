@@ -13,7 +13,7 @@ namespace mfar {
 /// Sums over the tiles that are not marked as changed.
 struct TileEnergy {
     int tiles = 0;
-    double pixels = 0, means = 0, bends = 0;  ///< sums of these members of TileMeasure
+    double pixels = 0, means = 0, bends = 0;
 
     void add(const TileMeasure& tile);
     /// True if the differences of the 2x2 means are larger than `grain` times the noise of the

@@ -18,7 +18,6 @@ struct TileWork {
         /// The whole frame is enlarged at once. Detail is drawn only in matched tiles.
         WholeEnlarged
     };
-    /// Flags with the values 1 or 0.
     struct Tile {
         std::uint8_t changed = 0;  ///< the video differs from the video of the last drawing
         std::uint8_t matched = 0;  ///< the tile has structure and is matched with the still
@@ -27,7 +26,7 @@ struct TileWork {
     Size tiles;
     std::vector<Tile> flags;
     int changed = 0;
-    int matched = 0;  ///< number of changed tiles that are matched
+    int matched = 0;
     Draw draw = Draw::Whole;
     PixelRect detailTiles;  ///< the smallest rectangle around all matched tiles [tiles]
     double noise = 0;       ///< standard deviation of the video's noise [grey levels]
@@ -45,7 +44,6 @@ struct TileWork {
     [[nodiscard]] const Tile& at(int column, int row) const {
         return flags[static_cast<std::size_t>(row) * tiles.width + column];
     }
-    /// True if this tile or the whole frame is drawn.
     [[nodiscard]] bool draws(std::size_t tile) const {
         return drawsWhole() || flags[tile].changed != 0;
     }

@@ -9,7 +9,6 @@ namespace mfar {
 
 inline constexpr int kTileSize = 16;  ///< [video px], along each axis
 
-/// Number of tile columns and rows of a picture.
 [[nodiscard]] constexpr Size tilesOf(Size pixels) {
     return {(pixels.width + kTileSize - 1) / kTileSize,
             (pixels.height + kTileSize - 1) / kTileSize};

@@ -31,11 +31,11 @@ public:
     /// Compares `now` with `drawn`, both of the video's size. If `force` is true, every tile counts
     /// as changed.
     void update(const RgbPlanes& now, const RgbPlanes& drawn, bool force);
-    /// Changes of the video after which an overlay (the virtual objects) must be drawn again.
+    /// Changes of the video after which an overlay (the virtual objects) is drawn again.
     enum class Redraw : std::uint8_t {
         WithThem,    ///< a change of one of the overlay's tiles or of an adjacent tile
         WithOthers,  ///< a change of any tile
-        Always,      ///< no change is needed
+        Always,      ///< it is drawn again even without a change
     };
     /// Reports that an overlay was drawn over these tiles of the output picture. If the next
     /// update() finds that the overlay must be drawn again, all of these tiles count as changed.
@@ -51,7 +51,6 @@ public:
     void matchStructured(double mostShare) { matchedShare_ = mostShare; }
     void matchEverything() { matchedShare_ = 0; }
     [[nodiscard]] const TileWork& work() const { return work_; }
-    /// True if the last update() found that the overlay must be drawn again.
     [[nodiscard]] bool redraws() const { return redraws_; }
     [[nodiscard]] const std::vector<TileMeasure>& measured() const { return measured_; }
     [[nodiscard]] Size tileCount() const { return work_.tiles; }
@@ -64,7 +63,6 @@ public:
     [[nodiscard]] double grain() const { return grain_; }
 
 private:
-    /// False if all tiles are matched or frames are always drawn at once.
     [[nodiscard]] bool mayList() const { return matchedShare_ > 0 && wholeShare_ > 0; }
     void chooseMatched();
     void chooseChanged(Redraw redraw);
@@ -73,7 +71,7 @@ private:
 
     std::shared_ptr<Workers> workers_;
     double noise_, grain_ = 1, wholeShare_, matchedShare_ = 0;
-    PixelRect drawnOver_;  // [tiles]
+    PixelRect drawnOver_;
     Redraw redraw_ = Redraw::WithThem;
     std::vector<TileMeasure> measured_;
     StructuredTiles structured_;
