@@ -21,7 +21,6 @@ layout(std140) uniform Params {
 layout(binding = 0) uniform sampler2D picture;
 layout(location = 0) out vec4 colour;
 
-// Returns the overlap of [lo, hi] with the texels `first` and `first + 1`.
 vec2 overlap(float first, float lo, float hi) {
     vec2 begin = vec2(first, first + 1.0);
     return max(min(vec2(hi), begin + 1.0) - max(vec2(lo), begin), 0.0);

@@ -1,6 +1,6 @@
-// Find the class of a pixel by its gradient and by its curvature, for the learned enlarger. Class
-// indices are those of GradientClasses and CurvatureClasses in pipeline/enlarge/filter_layout.h.
-// Needs pipeline/engine/params/enlarge.h.
+// Finds the classes of a pixel by its gradient and by its curvature, for the learned enlarger.
+// Class indices are those of GradientClasses and CurvatureClasses in
+// pipeline/enlarge/filter_layout.h. Needs pipeline/engine/params/enlarge.h.
 
 // Returns the bin of an angle; see Symmetry in pipeline/enlarge/filter_layout.h. `cosine` and
 // `sine` are those of twice the angle, times any common factor. `inQuadrant` is the bin of their

@@ -28,7 +28,7 @@ vec4 pairOf(ivec2 classes, int at, uint taps) {
 // along columns first. The order of the taps is that of kTapAt in pipeline/enlarge/filter_layout.h.
 vec4 cubicOf(int row, uvec4 above, uvec4 below, uvec4 beside) {
     vec4 w = cubicWeights(fract(0.625 + 0.25 * float(row)));
-    vec4 upper = row < 2 ? w : vec4(0.0, w.xyz);  // weights of the first four rows of taps
+    vec4 upper = row < 2 ? w : vec4(0.0, w.xyz);
     float lower = row < 2 ? 0.0 : w.w;
     vec4 sides = floatsOf(beside.xy), ends = floatsOf(beside.zw);
     vec4 column = upper.x * floatsOf(above.xy) + upper.y * floatsOf(above.zw) + upper.w * floatsOf(below.xy) +

@@ -11,7 +11,6 @@ vec4 columnAt(ivec2 p) {
     return vec4(texelFetch(columns, p, 0)) / (255.0 * float(kPassScale));
 }
 
-// Returns the residual as a colour value (white is 1).
 float learned() {
     ivec2 tile = ivec2(gl_FragCoord.xy * vec2(params.scaleX, params.scaleY)) >> 4;
     if (!(texelFetch(learnedTiles, min(tile, textureSize(learnedTiles, 0) - 1), 0).r > 0.0)) return 0.0;

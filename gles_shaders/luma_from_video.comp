@@ -13,7 +13,6 @@ layout(std430, binding = 0) writeonly buffer Luma {
     uint luma[];
 };
 
-// Returns the luma in column x, smoothed vertically around row y.
 float column(int x, int y) {
     ivec2 last = ivec2(params.target.width, params.target.height) - 1;
     float sum = 0.0;

@@ -36,7 +36,7 @@ struct Window {
     int first, y;   // index of the patch's first word in the level's first row; row of `above`
     uint shift;     // number of bits in the first word before the patch's first pixel
     vec2 f;         // fractional part of the patch's position (x, y) [px]
-    uvec3 above;    // nine pixels of the row that was read last
+    uvec3 above;
 };
 
 uvec3 fetchPixels(LumaLevel l, Window w) {

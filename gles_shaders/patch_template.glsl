@@ -25,7 +25,7 @@ struct Match {
     vec2 step;  // Gauss-Newton step of the displacement [px]; length at most 1
 };
 
-// Pixels of row r of the template, -1 <= r <= kRows.
+// r is in [-1, kRows].
 Row templateRow(int r) {
     int at = 3 * r + 3;
     return Row(unpackPixels(templateWords[at]), unpackPixels(templateWords[at + 1]));
@@ -120,7 +120,6 @@ Match matchOf(Sums sums) {
     return m;
 }
 
-// Returns the cost at the displacement u [px]; see costOf().
 float costAt(vec2 known, LumaLevel l, ivec2 cell, vec2 u) {
     Window w = windowAt(l, cell, u);
     Sums sums = Sums(0.0, 0.0, 0.0, vec2(0.0));

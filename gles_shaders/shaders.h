@@ -6,7 +6,7 @@
 namespace mfar::shaders {
 
 struct Source {
-    std::string_view name;  ///< file name, for example "flow_search.comp"
+    std::string_view name;
     std::string_view text;  ///< all #include lines are resolved; without #version
 };
 

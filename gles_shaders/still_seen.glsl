@@ -2,7 +2,6 @@
 layout(binding = 2) uniform sampler2D lookupField;
 layout(binding = 3) uniform sampler2D still;
 
-// Returns the texture coordinates in the still of the video position p [px].
 vec2 inStill(vec2 p) {
     vec2 scale = vec2(params.stillScaleX, params.stillScaleY) / vec2(params.scaleX, params.scaleY);
     return (p * scale + textureLod(lookupField, p / vec2(4 * cellCount()), 0.0).xy) *

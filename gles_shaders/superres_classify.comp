@@ -73,7 +73,6 @@ uint classOf(ivec2 first) {
     return kTileTrusted;
 }
 
-// True if the second still's weight in cell c exceeds the first still's by more than kSecondFrom.
 bool secondIsMore(ivec2 c) {
     return texelFetch(secondCells, c, 0).z > texelFetch(cellField, c, 0).z + kSecondFrom;
 }

@@ -91,7 +91,6 @@ float most(vec4 v) {
     return max(max(v.x, v.y), max(v.z, v.w));
 }
 
-// Returns the sums of gx * gx, gx * gy and gy * gy over the 5x5 pixels around this one.
 vec3 sumsAround() {
     int i = int(gl_LocalInvocationID.y) * kSumPitch + int(gl_LocalInvocationID.x);
     vec3 sums = vec3(0.0);
@@ -100,7 +99,6 @@ vec3 sumsAround() {
     return sums;
 }
 
-// Writes the residual of all sub-pixels of a pixel. `at` is the index of the pixel in luma[].
 void enlarge(ivec2 pixel, int at) {
     float here = luma[at];
     int up = at - kPitch, down = at + kPitch;

@@ -23,7 +23,6 @@ layout(binding = 1) uniform sampler2D lookupField;
 layout(binding = 2) uniform sampler2D still;
 layout(rgba32f, binding = 0) uniform writeonly highp image2D fineField;
 
-// Returns the mean of 2x2 samples of the still over the area of a video pixel.
 float stillAt(ivec2 pixel) {
     float sum = 0.0;
     for (int i = 0; i < 4; ++i) {

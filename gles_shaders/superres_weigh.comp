@@ -56,7 +56,6 @@ vec4 statisticsAt(ivec2 c) {
     return texelFetch(statistics, clamp(c, ivec2(0), lastCell()), 0);
 }
 
-// Returns the mean of halfStatistics over the four half-resolution cells that are nearest.
 vec3 halfAround(ivec2 cell) {
     vec3 sum = vec3(0.0);
     ivec2 last = ivec2(params.halfColumns, params.halfRows) - 1;

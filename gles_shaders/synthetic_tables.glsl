@@ -90,8 +90,8 @@ void castRound(int index, vec2 rays[4], inout vec4 t, inout ivec4 hit) {
 }
 
 struct Chart {
-    vec2 at;       // texture position [m]
-    vec3 u, v;     // directions of texture axes on the surface
+    vec2 at;
+    vec3 u, v;
     vec3 normal;
     vec2 light;    // position in the face's light map, [0, 1]
     float positive;

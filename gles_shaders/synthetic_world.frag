@@ -72,7 +72,6 @@ vec3 shade(Group g, vec4 t, vec2 rays[4], mat2 perPixel) {
     vec3 d = turn * vec3(ray / count, 1.0);
     Chart c = chart(f, g.axis, middle);
 
-    // Footprint of a pixel on the surface, first in metres, then in texels of the texture layer.
     Material m = materials[f.materials[g.axis]];
     vec3 across = turn * vec3(perPixel[0], 0.0), down = turn * vec3(perPixel[1], 0.0);
     float facing = dot(c.normal, d);

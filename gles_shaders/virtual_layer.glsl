@@ -23,7 +23,6 @@ vec4 layerColour(highp sampler2D colours) {
 #endif
 }
 
-// Returns z of the virtual surface [m], or 0 without a surface.
 float layerDepth(highp sampler2D depths) {
 #ifdef SCALED_LAYER
     ivec2 base;

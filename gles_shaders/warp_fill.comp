@@ -58,8 +58,6 @@ bool isCrack(ivec2 p, float id) {
     return same >= 5;
 }
 
-// Combines the samples of pyramid levels 1 to `last` at pixel p. Gives the sum of colour times
-// weight, and the sum of the weights.
 void gather(ivec2 p, uint id, int last, out vec4 sum, out float weight) {
     sum = vec4(0.0);
     weight = 0.0;

@@ -9,7 +9,7 @@ namespace {
 /// Predicted time of a frame during camera motion [ms], for each assignment of the steps to
 /// engines, on one GPU.
 struct Prediction {
-    std::string_view gpu;  ///< substring of the GPU driver's description
+    std::string_view gpu;
     double simd, matchSimdDrawGles, matchGlesDrawSimd, gles;
 };
 

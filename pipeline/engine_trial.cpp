@@ -26,7 +26,7 @@ std::uint8_t greyAt(int x, int y) {
     return static_cast<std::uint8_t>(sum);
 }
 
-/// A picture of the texture. Each pixel is `scale` texels wide. `shift` moves the picture [texels].
+/// Each pixel of the picture is `scale` texels wide. `shift` moves the picture [texels].
 std::vector<std::uint8_t> pictureOf(Size size, double scale, int shift) {
     std::vector<std::uint8_t> rgba;
     rgba.reserve(4UL * size.width * size.height);

@@ -68,7 +68,6 @@ public:
     /// Time of the second, older still, which is shown in areas that the newest still does not
     /// show. Empty if there is no second still.
     [[nodiscard]] std::optional<Timestamp> secondStill() const;
-    /// Discards all stills. Until the next still, the enlarged video is shown.
     void dropStill();
     /// Computes one output picture. Throws std::invalid_argument like setStill().
     const FrameResult& run(const ImageView& video, Timestamp time,
@@ -86,7 +85,6 @@ public:
     /// Sets the importer that lets the GPU read camera memory without a copy. Null: every picture
     /// is uploaded. The importer must outlive the pipeline.
     void setImporter(PlaneImporter* importer);
-    /// Returns the reason of a failed import of camera memory, once for each failure.
     [[nodiscard]] std::optional<std::string> takeImportFault();
     /// Takes effect with the next run and allocates nothing. Throws std::invalid_argument if a
     /// setting is out of range.
@@ -106,7 +104,6 @@ public:
     [[nodiscard]] PixelRect objectsRegion() const;
     /// Counters of the path tracer and the warp. Empty without a path tracer.
     [[nodiscard]] std::optional<TracedLayerCounters> tracedCounters() const;
-    /// Returns the reason why a scene could not be shown, once for each failure.
     [[nodiscard]] std::optional<std::string> takeSceneError();
 
     [[nodiscard]] Size outputSize() const;
@@ -135,9 +132,7 @@ public:
     [[nodiscard]] std::vector<float> readFlow() const;
     /// Confidence (eq. 2) of every video pixel, [0, 1]. Empty without a still.
     [[nodiscard]] std::vector<float> readConfidence() const;
-    /// Classes of all tiles, row-major, ceil(video / kTileSize) tiles.
     [[nodiscard]] std::vector<TileClass> readTileClasses() const;
-    /// For each tile, true if FrameStats::searched2d counts it.
     [[nodiscard]] std::vector<bool> readSearchedTiles() const;
     /// Coverage of each output pixel by virtual objects, [0, 1]. Empty without objects.
     [[nodiscard]] std::vector<float> readShownObjects() const;

@@ -53,7 +53,7 @@ struct Pipeline::State {
     struct Match {
         const FlowCells& flow;
         const CellWeights& weights;
-        const CellWeights* second = nullptr;  ///< match with the second still, or null
+        const CellWeights* second = nullptr;
     };
 
     /// Starts a thread that creates the epipolar search unless it exists. So the first pictures
@@ -62,8 +62,6 @@ struct Pipeline::State {
     /// Returns the epipolar search. Creates it, or waits for the thread that creates it.
     EpipolarFlow& needEpipolar();
     void needDepth();
-    /// Places the virtual objects. Returns the rectangle in which this frame needs the real depth
-    /// [video px].
     PixelRect placeObjects(const std::optional<Pose>& pose, Timestamp time);
     const TileWork& planFrame(const VideoFrame& frame);
     /// Matches the frame with the newest still: along epipolar lines with a pose, otherwise in both
@@ -92,7 +90,6 @@ struct Pipeline::State {
     void drawDetail(const VideoFrame& frame, const TileWork& work, const Match* match);
     void measureDepth(const VideoFrame& frame, const Pose& pose, const DepthTask& task);
     void showObjects(const VideoFrame& frame);
-    /// Records this frame's view of the real scene around the objects, for the next frame.
     void followScene(const VideoFrame& frame, const std::optional<Pose>& pose, Timestamp time);
     void publish(const TileWork& work, bool usedStill, bool usedPose);
 
@@ -119,8 +116,8 @@ struct Pipeline::State {
     PipelineOptions options;
     Size output;
     std::shared_ptr<Workers> workers;
-    Transfers transfers, transfersBefore;  // totals now, and before this frame
-    std::unique_ptr<Engine> gles, simd;    // null if no step uses this engine
+    Transfers transfers, transfersBefore;
+    std::unique_ptr<Engine> gles, simd;
     Reference newest, second;
     std::unique_ptr<DetailStep> detail;
     // now: video of this frame. drawn: for each tile, the video with which it was last drawn.
@@ -139,7 +136,7 @@ struct Pipeline::State {
     MatchListener* matchListener = nullptr;
     bool isNewStill = false;  // true if no frame was matched with the newest still yet
     bool redraw = true;       // true if the next frame must draw all tiles
-    int depthAge = 0;         // number of frames since depth was last measured
+    int depthAge = 0;
     std::uint64_t frames = 0;
     StageClock clock;
     FrameResult result;

@@ -15,9 +15,9 @@ struct Reference {
     std::unique_ptr<PyramidStep> pyramid;
     std::unique_ptr<FlowStep> flow;
     std::unique_ptr<WeighStep> weigh;
-    const StillPictures* pictures = nullptr;  // null without a still
+    const StillPictures* pictures = nullptr;
     Timestamp time{};
-    const FlowCells* lastFlow = nullptr;  // from the last frame to this still
+    const FlowCells* lastFlow = nullptr;
     const CellWeights* lastWeights = nullptr;
     /// Share of the tiles matched with this still that it showed, averaged over recent frames.
     double shows = 1;

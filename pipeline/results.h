@@ -19,9 +19,9 @@ struct FrameStats {
     /// Share of tiles whose video differs from the video of their last drawing.
     double changed = 0;
     bool usedStill = false;
-    bool usedPose = false;     ///< matched along epipolar lines, because still and frame have poses
-    bool predicted = false;    ///< the epipolar search started from the last frame's result
-    bool refinedPose = false;  ///< the relative pose was refined from the pictures
+    bool usedPose = false;  ///< matched along epipolar lines, because still and frame have poses
+    bool predicted = false;
+    bool refinedPose = false;
     /// Number of patches for the refinement of the pose, and their median distance from their
     /// epipolar lines [px]. Without patches, epipolarError is 0.
     int posePatches = 0;
@@ -40,16 +40,16 @@ struct FrameStats {
     /// Number of tiles under a virtual object without a depth measurement, because the real surface
     /// is known to lie behind the object.
     int depthTilesSkipped = 0;
-    bool objectsInView = false;  ///< at least one virtual object is inside the picture
+    bool objectsInView = false;
     bool objectsHidden = false;  ///< no object was drawn, because real things occlude all objects
     DepthSource depth = DepthSource::None;
-    Transfers transfers{};  ///< between CPU memory and GPU, in this frame
+    Transfers transfers{};
 };
 
 /// Result of Pipeline::run(), valid until the next run.
 struct FrameResult {
-    Picture picture;         ///< in the memory of the engine that drew it; alpha is 255
-    bool unchanged = false;  ///< identical to the picture of the last run
+    Picture picture;  ///< in the memory of the engine that drew it; alpha is 255
+    bool unchanged = false;
     FrameStats stats;
 };
 

@@ -22,7 +22,6 @@ struct TracedLayer::State {
         return out;
     }
 
-    /// Passes a new traced picture to the warp, and its models if the scene has changed.
     void take(const RenderedPicture& picture) {
         if (picture.scene != scene) {
             const bool sameModels = scene && sameObjects(*scene, *picture.scene);
@@ -38,7 +37,7 @@ struct TracedLayer::State {
     Warp warp;
     TracedRenderer renderer;
     int fadeFrames;
-    std::shared_ptr<const Scene> scene;  // scene of the shown picture
+    std::shared_ptr<const Scene> scene;
     // Only used to compare its address with the next picture's.
     const RenderedPicture* shown = nullptr;
     // Number of frames in which the layer still changes without motion of the camera.

@@ -23,10 +23,10 @@ struct TracedLayerOptions {
 /// Counters of the path tracer and the warp, for the status and the summary.
 struct TracedLayerCounters {
     RenderCounters render{};
-    std::uint64_t warped = 0;     ///< frames drawn by warping
+    std::uint64_t warped = 0;
     std::uint64_t unmoved = 0;    ///< frames that showed a traced picture without warping it
     std::uint64_t requested = 0;  ///< pixels requested to be traced individually
-    std::uint64_t answered = 0;   ///< requested pixels that were traced
+    std::uint64_t answered = 0;
     /// Number of pixels that no picture shows, in the newest frame with a known number.
     int openHoles = 0;
 };
@@ -64,7 +64,6 @@ public:
     [[nodiscard]] bool rests() const;
 
     [[nodiscard]] TracedLayerCounters counters() const;
-    /// Returns the reason why a scene could not be used, once for each failure.
     [[nodiscard]] std::optional<std::string> takeError();
 
 private:
