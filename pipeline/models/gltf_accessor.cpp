@@ -85,9 +85,8 @@ ElementView elementsIn(const GltfDocument& document, int bufferView, std::uint64
     const std::span<const std::uint8_t> view = document.view(bufferView, place);
     wanted.stride = stride == 0 ? one : stride;
     if (wanted.stride < one)
-        document.refuse(
-            place,
-            fmt::format("the stride of {} bytes is invalid for elements of {} bytes", stride, one));
+        document.refuse(place,
+                        fmt::format("byteStride is {}, but an element has {} bytes", stride, one));
     const std::uint64_t left = offset > view.size() ? 0 : view.size() - offset;
     // Counts are below 2^32 and element sizes below 2^8, so the product cannot overflow.
     const std::uint64_t needed = std::uint64_t{wanted.count - 1} * wanted.stride + one;
@@ -107,7 +106,9 @@ const Accessor& checkedAccessor(const GltfDocument& document, int index, int com
     const Accessor& accessor = document.at(document.gltf.accessors, index, place);
     if (bytesOf(accessor.componentType) == 0 || componentsOf(accessor.type) != components)
         document.refuse(
-            place, fmt::format("accessor {} does not have the type that is needed here", index));
+            place,
+            fmt::format("accessor {} must have {} numbers per element and a valid componentType",
+                        index, components));
     if (accessor.count == 0 || accessor.count > most)
         document.refuse(place, fmt::format("accessor {} has {} elements; 1 to {} are supported",
                                            index, accessor.count, most));
@@ -141,7 +142,10 @@ void replaceSparse(const GltfDocument& document, const Accessor& accessor, int c
     const auto& sparse = accessor.sparse;
     if (sparse.count < 1 || static_cast<std::size_t>(sparse.count) > accessor.count ||
         !isIndexType(sparse.indices.componentType))
-        document.refuse(place, "the count or the index type of the sparse elements is invalid");
+        document.refuse(place,
+                        fmt::format("invalid sparse elements: sparse.count must be from 1 to {}, "
+                                    "and sparse.indices must be unsigned integers",
+                                    accessor.count));
     const auto count = static_cast<std::size_t>(sparse.count);
     const ElementView indices = elementsIn(document, sparse.indices.bufferView,
                                            static_cast<std::uint64_t>(sparse.indices.byteOffset), 0,

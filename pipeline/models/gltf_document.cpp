@@ -28,7 +28,7 @@ std::string_view jsonOf(std::span<const std::uint8_t> bytes) {
     const auto* text = reinterpret_cast<const char*>(bytes.data());
     if (!isBinary(bytes)) return {text, bytes.size()};
     if (bytes.size() < kGlbHeader + kChunkHeader)
-        throw std::runtime_error("ends within the header of a .glb file");
+        throw std::runtime_error("the file ends within the .glb header");
     const std::uint32_t version = littleEndian(&bytes[4]);
     if (version != 2)
         throw std::runtime_error(
@@ -120,7 +120,10 @@ void requireVersionAndExtensions(const GltfDocument& document) {
                                                      document.gltf.asset.version));
     for (const std::string& name : document.gltf.extensionsRequired)
         if (name != "KHR_texture_transform" && name != "KHR_materials_emissive_strength")
-            document.refuse("extensionsRequired", fmt::format("{} is not supported", name));
+            document.refuse("extensionsRequired",
+                            fmt::format("{} is not supported; only KHR_texture_transform and "
+                                        "KHR_materials_emissive_strength are",
+                                        name));
 }
 
 }  // namespace

@@ -64,7 +64,10 @@ float alphaCutoffOf(const GltfDocument& document, const tinygltf::Material& from
     constexpr float kCutoffOfBlend = 0.5F;
     if (from.alphaMode == "OPAQUE") return 0;
     if (from.alphaMode == "BLEND") return kCutoffOfBlend;
-    if (from.alphaMode != "MASK") document.refuse(place + ".alphaMode", from.alphaMode);
+    if (from.alphaMode != "MASK")
+        document.refuse(
+            place + ".alphaMode",
+            fmt::format("{} is not supported; expected OPAQUE, MASK or BLEND", from.alphaMode));
     return rangedFactor(document, from.alphaCutoff, 0, 1, place + ".alphaCutoff");
 }
 
@@ -147,7 +150,7 @@ void GltfMaterials::takeMapping(const TextureMapping& wanted, const std::string&
     if (!mapping_) mapping_ = wanted;
     if (*mapping_ != wanted)
         document_.refuse(place,
-                         "all textures of a material must have the same coordinates: texCoord and "
+                         "all textures of a material must have the same texCoord and the same "
                          "KHR_texture_transform");
 }
 
@@ -175,8 +178,8 @@ SurfaceTexture GltfMaterials::decode(const tinygltf::Image& image, const std::st
                             size.width, size.height, limits.textureSide));
         const std::size_t texels = static_cast<std::size_t>(size.width) * size.height;
         if (texels > limits.texels - texels_)
-            throw std::runtime_error(
-                fmt::format("the textures of the model have more than {} pixels", limits.texels));
+            throw std::runtime_error(fmt::format(
+                "the textures of the model have more than {} pixels in total", limits.texels));
         texels_ += texels;
         out.size = size;
         out.texels.resize(texels);

@@ -65,7 +65,8 @@ double readHeader(HdrBytes& in) {
     double exposure = 1;
     for (std::string_view line = in.line(); !line.empty(); line = in.line()) {
         if (line.starts_with("FORMAT=") && !line.starts_with("FORMAT=32-bit_rle_rgbe"))
-            throw std::runtime_error(fmt::format("{} is not supported", line));
+            throw std::runtime_error(
+                fmt::format("{} is not supported; expected FORMAT=32-bit_rle_rgbe", line));
         if (!line.starts_with("EXPOSURE=")) continue;
         exposure *= numberIn(line.substr(9)).value_or(0);
         if (!(exposure >= 1e-9 && exposure <= 1e9))
@@ -83,7 +84,8 @@ Size readResolution(std::string_view line) {
         if (rest.starts_with(" +X ")) std::from_chars(rest.data() + 4, end, size.width);
     }
     if (size.width < 1 || size.height < 1)
-        throw std::runtime_error(fmt::format("the row order \"{}\" is not supported", line));
+        throw std::runtime_error(fmt::format(
+            "the row order \"{}\" is not supported; expected \"-Y HEIGHT +X WIDTH\"", line));
     return size;
 }
 
