@@ -16,7 +16,7 @@ layout(std430, binding = 1) buffer Cells {
 };
 layout(std430, binding = 2) readonly buffer Tiles {
     uvec2 header;
-    uvec2 tiles[];  // x: 1 if the tile changed; y: 1 if it is matched
+    uvec2 tiles[];
 };
 
 vec4 cellIn(ivec2 c) {

@@ -22,7 +22,7 @@ struct Sums {
 
 struct Match {
     float cost;
-    vec2 step;  // Gauss-Newton step of the displacement [px]; length at most 1
+    vec2 step;  // Gauss-Newton step of the displacement, at most one pixel long
 };
 
 // r is in [-1, kRows].

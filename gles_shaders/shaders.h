@@ -7,7 +7,7 @@ namespace mfar::shaders {
 
 struct Source {
     std::string_view name;
-    std::string_view text;  ///< all #include lines are resolved; without #version
+    std::string_view text;  ///< with all #include lines resolved, without #version
 };
 
 /// All shaders of mfar, embedded at build time.

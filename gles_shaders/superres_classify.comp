@@ -40,7 +40,7 @@ layout(std430, binding = 3) buffer Lists {
 };
 layout(binding = 0) uniform sampler2D cellField;
 layout(binding = 1) uniform sampler2D weightField;
-layout(binding = 2) uniform sampler2D secondCells;  // of the second still
+layout(binding = 2) uniform sampler2D secondCells;
 layout(binding = 3) uniform sampler2D secondWeights;
 
 ivec2 lastCell() {

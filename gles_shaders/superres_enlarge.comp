@@ -24,7 +24,7 @@ layout(std140, binding = 0) uniform Params {
 };
 layout(std430, binding = 0) readonly buffer Tiles {
     uvec2 header;
-    uvec2 tiles[];  // x: 1 if the tile changed; y: 1 if it is matched
+    uvec2 tiles[];
 };
 layout(binding = 0) uniform sampler2D picture;
 layout(rgba16i, binding = 0) uniform writeonly highp iimage2D residual;
@@ -34,7 +34,6 @@ shared float sumsXx[kSums];  // sums of gx * gx over five rows; (gx, gy) is the 
 shared float sumsXy[kSums];
 shared float sumsYy[kSums];
 
-// True if a tile is drawn and enlarged by learned filters.
 bool learns(ivec2 tile) {
     if (any(lessThan(tile, ivec2(0))) || any(greaterThanEqual(tile, ivec2(params.columns, params.rows))))
         return false;

@@ -16,7 +16,7 @@ layout(std140, binding = 0) uniform Params {
 };
 layout(std430, binding = 0) readonly buffer Tiles {
     uvec2 header;
-    uvec2 tiles[];  // x: 1 if the tile changed; y: 1 if it is matched
+    uvec2 tiles[];
 };
 layout(binding = 0) uniform sampler2D picture;
 layout(binding = 1) uniform sampler2D lookupField;

@@ -19,7 +19,7 @@ layout(std430, binding = 1) readonly buffer Cells {
 };
 layout(std430, binding = 2) readonly buffer Tiles {
     uvec2 header;
-    uvec2 tiles[];  // x: 1 if the tile changed; y: 1 if it is matched
+    uvec2 tiles[];
 };
 layout(rgba32f, binding = 0) uniform writeonly highp image2D statistics;
 

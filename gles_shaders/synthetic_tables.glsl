@@ -93,7 +93,7 @@ struct Chart {
     vec2 at;
     vec3 u, v;
     vec3 normal;
-    vec2 light;    // position in the face's light map, [0, 1]
+    vec2 light;
     float positive;
 };
 

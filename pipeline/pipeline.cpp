@@ -263,7 +263,7 @@ const CellWeights* Pipeline::State::matchSecond(const VideoFrame& frame, const T
     const TileWork& missed = secondTiles.choose(work, plan.measured(), shown, most);
     newest.count(secondTiles.matched(), secondTiles.shownByNewest());
     if (missed.matched == 0) {
-        second.lastFlow = nullptr;  // later frames must not start their search from it
+        second.lastFlow = nullptr;  // later frames must not start their search from the old flow
         return nullptr;
     }
     const LumaPyramid& pyramids = second.pyramid->video(frame, missed);

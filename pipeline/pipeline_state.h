@@ -48,7 +48,7 @@ struct Pipeline::State {
 
         DepthStage stage;
         EdgeSnap snap;
-        LumaImage luma;  // of a frame that was not matched along epipolar lines
+        LumaImage luma;
     };
     struct Match {
         const FlowCells& flow;
@@ -132,10 +132,10 @@ struct Pipeline::State {
     std::optional<SceneFollower> sceneFollower;
     std::optional<LightFollower> lightFollower;
     Quality quality;
-    std::shared_ptr<const FilterBank> filters, nextFilters;  // null: the built-in filters
+    std::shared_ptr<const FilterBank> filters, nextFilters;  // null means the built-in filters
     MatchListener* matchListener = nullptr;
     bool isNewStill = false;  // true if no frame was matched with the newest still yet
-    bool redraw = true;       // true if the next frame must draw all tiles
+    bool redraw = true;
     int depthAge = 0;
     std::uint64_t frames = 0;
     StageClock clock;

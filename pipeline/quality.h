@@ -4,10 +4,13 @@
 
 namespace mfar {
 
+/// Off: the video is enlarged by bicubic interpolation. Blend is the paper's method: the warped
+/// still is blended in by confidence. Detail: the still's fine detail is added where the video
+/// confirms it.
 enum class SuperResMode {
-    Off,     ///< the video is enlarged by bicubic interpolation
-    Blend,   ///< the paper's method: the warped still is blended in by confidence
-    Detail,  ///< the still's fine detail is added where the video confirms it
+    Off,
+    Blend,
+    Detail,
 };
 
 /// Settings that trade time per frame for accuracy. The defaults are the most accurate. Changing

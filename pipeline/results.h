@@ -46,7 +46,6 @@ struct FrameStats {
     Transfers transfers{};
 };
 
-/// Result of Pipeline::run(), valid until the next run.
 struct FrameResult {
     Picture picture;  ///< in the memory of the engine that drew it; alpha is 255
     bool unchanged = false;

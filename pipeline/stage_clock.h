@@ -30,7 +30,8 @@ public:
 
 private:
     using Clock = std::chrono::steady_clock;
-    static constexpr std::size_t kMostStages = 12;  // reserved, so that frames do not allocate
+    // Reserved at the start, so that frames do not allocate memory.
+    static constexpr std::size_t kMostStages = 12;
 
     std::vector<StageTime> times_;
     Clock::time_point last_;

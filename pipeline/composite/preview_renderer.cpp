@@ -108,7 +108,7 @@ const VirtualLayer& PreviewRenderer::render(std::span<const VirtualObject> objec
         const ShapeBuffers& shape = shapes_[static_cast<std::size_t>(object.shape)];
         const gpu::Scissor scissor(bounds);
         const gpu::DepthTest depthTest;
-        std::optional<gpu::InsidesCulled> culled;  // saves a third of the time
+        std::optional<gpu::InsidesCulled> culled;  // culling the insides saves a third of the time
         if (object.shape != VirtualShape::Quad) culled.emplace();
         pass_.runMesh(paramsOf(object, T_world_video), {}, target_,
                       {shape.vertices, shape.indices, shape.indexCount});

@@ -30,7 +30,6 @@ struct VirtualObject {
     int squares = 4;
 };
 
-/// The triangles of a shape with size 1 along each axis.
 struct ShapeMesh {
     struct Vertex {
         Eigen::Vector3f position, normal;  ///< the normal is a unit vector that points outwards

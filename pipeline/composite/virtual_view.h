@@ -87,7 +87,7 @@ private:
     CompositeOptions hiding_;
     double focal_, nearest_ = 0;  // nearest_: largest inverse depth of the objects [1/m]
     std::optional<RigidTransform> placedPose_, drawnPose_;
-    PixelRect region_, drawn_;  // region_ [video px]; drawn_ [tiles]
+    PixelRect region_, drawn_;  // region_ in video pixels, drawn_ in tiles
     TextureLayer previewLayer_;
     LayerPicture* layer_ = nullptr;
     int relied_ = 0;

@@ -5,11 +5,13 @@
 namespace mfar {
 
 /// Rule that chooses the keyframe: the earlier frame with which a frame is matched to measure
-/// depth.
+/// depth. Fixed: the newest frame that is at least `distance` frames old. Angle: the newest frame
+/// with a parallax of at least `angle`. Score: the frame with the smallest expected error, see
+/// Keyframes::choose().
 enum class KeyframeRule {
-    Fixed,  ///< the newest frame that is at least `distance` frames old
-    Angle,  ///< the newest frame with a parallax of at least `angle`
-    Score,  ///< the frame with the smallest expected error, see Keyframes::choose()
+    Fixed,
+    Angle,
+    Score,
 };
 
 struct KeyframeOptions {

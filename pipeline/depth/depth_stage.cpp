@@ -14,7 +14,7 @@ constexpr int kPart = 160;
 // Margin around the searched area [px]. Its pixels influence the result at the area's border.
 constexpr int kSupport = 24;
 constexpr double kSameView = 0.3;  // smallest motion of the picture that counts as a new view [px]
-constexpr double kNearest = 0.01;  // smallest assumed distance of the scene [m]
+constexpr double kNearest = 0.01;  // smallest distance that is assumed for the scene [m]
 // Depth is measured with a keyframe only if its parallax exceeds this multiple of the still's
 // parallax.
 constexpr double kWorth = 2;

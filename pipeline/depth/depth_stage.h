@@ -46,7 +46,7 @@ public:
 
 private:
     struct Summary {
-        double inverseDepth = 0;  ///< median over an area [1/m]
+        double inverseDepth = 0;
         double share = 1;  ///< median of the relative standard deviation, or 1 if no depth is known
     };
     struct Need {

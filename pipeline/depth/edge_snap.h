@@ -40,7 +40,8 @@ private:
     std::shared_ptr<Workers> workers_;
     InverseDepthField out_;
     PixelRect where_;
-    std::vector<std::uint8_t> open_;  // per pixel: 1 if colours decide its depth
+    // Per pixel: 1 if colours decide its depth.
+    std::vector<std::uint8_t> open_;
     // Per pixel: range of the inverse depths around it.
     std::vector<float> low_, high_;
     struct {

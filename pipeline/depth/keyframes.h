@@ -54,11 +54,10 @@ private:
 
     CameraModel video_;
     KeyframeOptions options_;
-    std::deque<Keyframe> frames_;  // newest first
+    std::deque<Keyframe> frames_;  // the newest frame is first
     long count_ = 0;
 };
 
-/// Returns the mean luma.
 [[nodiscard]] double brightnessOf(const Rows<const std::uint8_t>& luma);
 
 }  // namespace mfar

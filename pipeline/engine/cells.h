@@ -17,7 +17,7 @@ struct FlowCell {
 
 /// Two-way error (eq. 2 of the paper), determined by the epipolar search.
 struct ErrorCell {
-    float error = 0;  ///< [px]
+    float error = 0;
     float unused[3] = {};
 };
 
@@ -37,7 +37,7 @@ struct LookUpCell {
 
 /// Values in [0, 1] that determine the sharpening and the classes of tiles.
 struct TrustCell {
-    float halfWeight = 0;  ///< half of WeighedCell::weight
+    float halfWeight = 0;
     float confidence = 0;
     float signal = 0;       ///< share of the video's variance that is not noise
     float unexplained = 0;  ///< 1 for a textured cell without a reliable match, else 0

@@ -35,7 +35,7 @@ struct VideoFrame {
 
 struct StillPictures {
     std::uint64_t number = 0;
-    StereoRig rig;  ///< its still camera has the resolution of the fields
+    StereoRig rig;  ///< its still camera has the resolution of `raised` and `pairs`
     Field<std::uint8_t> luma;
     // Luma with amplified finest detail, see params::kLinearLoss. The GLES engine fills only
     // `raised`. The SIMD engine fills only `pairs`: the low byte is a pixel, and the high byte is
@@ -128,8 +128,8 @@ struct TileSummary {
     std::array<int, kTileClasses> tiles{};
     double meanConfidence = 0;
     double explained = 0;  ///< share of tiles that are flat or match a still, [0, 1]
-    double changed = 0;    ///< share of drawn tiles, [0, 1]
-    int second = 0;        ///< number of tiles that show the second still
+    double changed = 0;
+    int second = 0;
 };
 
 struct DetailOptions {
@@ -159,7 +159,7 @@ public:
     /// The output picture: RGBA8, row 0 on top, alpha 255. Pixels that other code draws into it
     /// remain until draw() redraws their tiles.
     [[nodiscard]] virtual Field<std::uint32_t>& output() = 0;
-    /// May wait for the GPU.
+    /// Summary of the last frame. May wait for the GPU.
     [[nodiscard]] virtual TileSummary summary() const = 0;
     /// Returns a summary without waiting: of the last frame on a CPU, of the frame before it on a
     /// GPU.

@@ -87,7 +87,7 @@ private:
     Eigen::Matrix3f rotation_;
     double unit_ = 1, lengthError_ = 0;
     std::optional<Pose> stillPose_;
-    LumaImage luma_;  // luma of the frame if run() got another format
+    LumaImage luma_;
     Rows<const std::uint8_t> frame_;
     Cells forward_, hidden_;
     std::vector<float> predicted_;

@@ -76,7 +76,7 @@ private:
 
     Size size_;
     simd::Lens lens_;
-    std::shared_ptr<Rays> rays_;  // written only while no copy shares it
+    std::shared_ptr<Rays> rays_;  // may be written only while no copy shares it
 };
 
 }  // namespace mfar

@@ -18,7 +18,7 @@ constexpr int kCoarsest = 60;
 constexpr int kBeyond = 4;
 constexpr int kSmallestCanvas = 16;
 constexpr int kMostStep = 30;
-constexpr int kPredictedLevel = 2;  // its pixels are cells
+constexpr int kPredictedLevel = 2;  // a pixel of this pyramid level is a cell
 
 Smoothness smoothnessFor(double noise, const EpipolarOptions& options) {
     const int step = options.stepPenalty;

@@ -8,7 +8,7 @@
 namespace mfar {
 namespace {
 
-constexpr int kCellLevel = 2;  // its pixels are cells
+constexpr int kCellLevel = 2;  // a pixel of this pyramid level is a cell
 constexpr float kUnknown = -1e9F;
 // Widest gap that is filled at the picture's border and at depth edges [cells]. It allows motions
 // of 12 px per frame.

@@ -31,7 +31,7 @@ struct PatchPlace {
 /// epipolar line and up to acrossSteps pixels across it, in both directions.
 struct PatchWindow {
     Eigen::Vector2d middle;
-    Eigen::Vector2d along;  ///< unit vector along the epipolar line
+    Eigen::Vector2d along;
     int alongSteps = 0, acrossSteps = 0;
 };
 

@@ -13,7 +13,7 @@ namespace mfar {
 /// data that must outlive it.
 struct TurnedPair {
     const EpipolarLens& lens;
-    PixelOffset origin;  ///< pixel of the frame's camera at the still's first pixel
+    PixelOffset origin;  ///< position of the still's first pixel in the frame [px]
     const LumaImage& video;
     const LumaImage& still;
     const std::vector<std::uint8_t>& seen;  ///< 1 for valid pixels of the still

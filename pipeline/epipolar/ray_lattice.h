@@ -23,14 +23,15 @@ public:
     /// next call of part(). A ray is NaN if the lens maps no ray to its pixel.
     struct Part {
         const float *x, *y;
-        int pitch;  ///< distance between two rows [floats]
+        int pitch;
     };
     [[nodiscard]] Part part(const CameraModel& camera, const PixelRect& points);
 
 private:
     void cover(const PixelRect& points);
 
-    CameraModel camera_;  // has size 0x0 and its principal point within the first step
+    // Has size 0x0, and its principal point is within the first step.
+    CameraModel camera_;
     PixelRect known_;
     std::vector<float> x_, y_;
 };

@@ -16,15 +16,15 @@ using Matrix26 = Eigen::Matrix<double, 2, 6>;
 using Matrix23 = Eigen::Matrix<double, 2, 3>;
 
 constexpr int kMostSolves = 15;
-constexpr double kSettled = 0.01;  // [px]; a shorter step ends the refinement
+constexpr double kSettled = 0.01;  // a step shorter than this ends the refinement [px]
 constexpr int kFewest = 16;
 constexpr double kFewestShare = 0.4;
-// Matches with a larger error have no weight [standard deviations].
+// Matches whose error is larger than this have no weight [standard deviations].
 constexpr double kTukey = 4.685;
 // Standard deviation of a good match [px]. The scale of the robust weights is at least half of it.
 constexpr double kMatchError = 0.3;
 constexpr double kExplained = 1;
-constexpr double kNotExplained = 1e6;  // [px]; error of a match that fits no pose
+constexpr double kNotExplained = 1e6;  // error of a match that fits no pose [px]
 
 /// Estimated motion of points, relative to the orientation of the prior pose. The unit of length is
 /// Solver::unit_.

@@ -41,7 +41,7 @@ public:
     /// once.
     using CostRow = std::function<void(int y, std::uint8_t* costs)>;
 
-    /// `vectors` is the largest number of label vectors in a picture.
+    /// `vectors` is the largest number of label vectors that a picture needs in total.
     explicit SemiGlobal(std::size_t vectors);
 
     /// Finds the best label of every pixel. `base` is the first label of each pixel. At edges of
@@ -53,7 +53,7 @@ public:
 
 private:
     ZeroedArray<std::uint8_t> costs_, sums_;
-    std::vector<std::uint8_t> scratch_;  // for vectors that do not fit into registers
+    std::vector<std::uint8_t> scratch_;  // memory for vectors that do not fit into registers
     std::array<std::uint8_t, 256> jumps_{};
 };
 

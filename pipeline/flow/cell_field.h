@@ -8,7 +8,6 @@
 
 namespace mfar {
 
-/// Width and height of a cell [px].
 inline constexpr int kCell = 4;
 inline constexpr int kCellsPerTile = 4;
 

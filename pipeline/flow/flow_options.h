@@ -17,7 +17,7 @@ struct Flow2dOptions {
     /// pyramid level.
     int propagations = 0;
     int coarsestPropagations = 4;
-    int planeFits = 2;  ///< rounds of plane fits (flow_filter.comp), [0, 2]
+    int planeFits = 2;  ///< number of rounds of plane fits (flow_filter.comp), [0, 2]
 
     bool operator==(const Flow2dOptions&) const = default;
 };

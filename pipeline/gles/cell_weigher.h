@@ -18,7 +18,7 @@ struct WeighInput {
     int first;
     Size forward, backward;
     int backwardLevel;
-    bool errorsGiven;  ///< two-way errors replace the backward field
+    bool errorsGiven;  ///< true if two-way errors replace the backward field
 };
 
 /// Computes the weight of the still in each cell from the cell's match and from the photometric
@@ -30,11 +30,10 @@ public:
     /// Does nothing if no tile has changed.
     void run(const WeighInput& in, const TileBuffer& tiles);
 
-    /// WeighedCell of each cell; Rgba32F.
+    /// WeighedCell of each cell (Rgba32F), LookUpCell of each cell (Rgba16F, linear filter) and
+    /// TrustCell of each cell (Rgba8, linear filter).
     [[nodiscard]] const gpu::Texture& weighed() const { return weighed_; }
-    /// LookUpCell of each cell; Rgba16F, linear filter.
     [[nodiscard]] const gpu::Texture& lookUps() const { return lookUps_; }
-    /// TrustCell of each cell; Rgba8, linear filter.
     [[nodiscard]] const gpu::Texture& trust() const { return trust_; }
 
 private:

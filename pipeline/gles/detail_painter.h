@@ -25,9 +25,11 @@ public:
         /// The still with a linear filter: StillReference::raised(), or in mode Blend the still
         /// itself.
         const gpu::Texture& still;
-        const gpu::Texture& weighed;  ///< WeighedCell of each cell; Rgba32F
-        const gpu::Texture& lookUps;  ///< LookUpCell of each cell; Rgba16F, linear filter
-        const gpu::Texture& trust;    ///< TrustCell of each cell; Rgba8, linear filter
+        /// WeighedCell of each cell (Rgba32F), LookUpCell of each cell (Rgba16F, linear filter) and
+        /// TrustCell of each cell (Rgba8, linear filter).
+        const gpu::Texture& weighed;
+        const gpu::Texture& lookUps;
+        const gpu::Texture& trust;
         /// A second still that is shown where its weight is larger than that of the first, or null.
         /// Used only in mode Detail with learned filters.
         const Matched* second = nullptr;

@@ -8,7 +8,7 @@
 namespace mfar {
 namespace {
 
-constexpr int kGroup = 4;  // along each axis, as in the shaders [cells]
+constexpr int kGroup = 4;  // width and height of the shaders' workgroups [cells]
 Size cellsOf(const LumaLevel& level) {
     return cellsOf(Size{level.width, level.height});
 }

@@ -18,7 +18,7 @@ namespace mfar {
 /// Barnes et al., 2009 (propagation).
 class Flow2d {
 public:
-    /// A part of cells() with one flow vector per cell.
+    /// A part of cells() with one flow vector (FlowCell) per cell, starting at index `offset`.
     struct Field {
         int offset = 0;
         Size cells;
@@ -48,7 +48,7 @@ public:
 
     [[nodiscard]] const gpu::Buffer& cells() const { return cells_; }
     [[nodiscard]] const Field& forward() const { return forward_; }
-    /// Reads x, y [px], unused, unused for each cell. Waits for the GPU.
+    /// Returns x, y [px] and two unused numbers for each cell. Waits for the GPU.
     [[nodiscard]] std::vector<std::array<float, 4>> readForward() const {
         return cells_.read<std::array<float, 4>>(static_cast<std::size_t>(forward_.cells.width) *
                                                      forward_.cells.height,

@@ -23,7 +23,7 @@ const gpu::Texture& raisedOf(const StillPictures& still) {
                                   : textureOf(still.raised, gpu::TexelFormat::R8, linear).texture();
 }
 
-/// On the GPU the whole still, in CPU memory its luma.
+/// The GPU has the whole still, CPU memory only its luma.
 class StillLumaCopy final : public DeviceCopy {
 public:
     explicit StillLumaCopy(const gpu::PictureTexture& picture) : picture_(picture) {}

@@ -49,7 +49,7 @@ private:
         int indexCount;
         std::optional<gpu::Texture> alpha;
         float cutoff;
-        bool bothSides;  // true if the surface has no back face
+        bool bothSides;
     };
     using ShapePointer = std::shared_ptr<const Models::Shape>;
     using PartsOfShapes = std::map<ShapePointer, std::shared_ptr<std::vector<Part>>>;

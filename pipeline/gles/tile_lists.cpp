@@ -8,7 +8,7 @@
 namespace mfar {
 namespace {
 
-constexpr int kTileGroup = 8;  // along each axis, as in the shaders [tiles]
+constexpr int kTileGroup = 8;  // width and height of the shaders' workgroups [tiles]
 
 gpu::Groups groupsOf(Size size) {
     return {gpu::groupsFor(size.width, kTileGroup), gpu::groupsFor(size.height, kTileGroup), 1};

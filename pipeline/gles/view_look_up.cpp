@@ -10,7 +10,7 @@
 namespace mfar {
 namespace {
 
-constexpr int kListGroup = 8;  // width and height, as in warp_rest_list.comp
+constexpr int kListGroup = 8;  // width and height of a workgroup in warp_rest_list.comp
 
 Eigen::Vector4d planeIn(const Eigen::Vector4d& world, const RigidTransform& T_world_camera) {
     const Eigen::Vector3d normal = T_world_camera.rotation.conjugate() * world.head<3>();

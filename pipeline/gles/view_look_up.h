@@ -40,8 +40,9 @@ public:
              const HoleFiller& holes);
     void clear(const PixelRect& where) const;
 
-    [[nodiscard]] const gpu::Texture& colour() const { return colour_; }  ///< RGBA8 premultiplied
-    [[nodiscard]] const gpu::Texture& depth() const { return depth_; }    ///< R32F
+    /// RGBA8 premultiplied, and R32F.
+    [[nodiscard]] const gpu::Texture& colour() const { return colour_; }
+    [[nodiscard]] const gpu::Texture& depth() const { return depth_; }
     /// State of each pixel, RGBA8. R: number of the surface with unknown colour. G: share of the
     /// pixel with unknown colour. B: 1 if no picture shows this surface. A: number of a surface
     /// that fills the whole pixel with a known colour.

@@ -6,7 +6,8 @@
 namespace mfar::params {
 
 struct alignas(16) YuvPicture {
-    Row4 rows[3];  ///< times (Y, U, V, 1) gives R, G and B; all in [0, 1]
+    /// The rows times (Y, U, V, 1) give R, G and B. All values are in [0, 1].
+    Row4 rows[3];
     float texelX, texelY;
 };
 

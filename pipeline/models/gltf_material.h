@@ -15,7 +15,7 @@ namespace mfar {
 struct TextureMapping {
     int set = 0;  ///< the n of the attribute TEXCOORD_n
     Eigen::Vector2f offset{0, 0}, scale{1, 1};
-    float rotation = 0;  ///< [rad]
+    float rotation = 0;  ///< angle of R [rad]
 
     bool operator==(const TextureMapping&) const = default;
     [[nodiscard]] Eigen::Vector2f operator()(const Eigen::Vector2f& uv) const;

@@ -24,7 +24,7 @@ std::size_t bytesOf(const std::vector<T>& list) {
 ModelLimits limitsWithin(std::size_t bytes) {
     const std::size_t part = bytes / kParts;
     ModelLimits out;
-    out.bytes = std::min(out.bytes, part / 2);  // tinygltf copies the buffers
+    out.bytes = std::min(out.bytes, part / 2);  // half, because tinygltf copies the buffers
     out.jsonValues = std::min(out.jsonValues, part / kBytesPerJsonValue);
     out.texels = std::min(out.texels, part / kBytesPerTexel);
     out.vertices = std::min(out.vertices, part / 2 / kBytesPerVertex);

@@ -7,9 +7,9 @@
 namespace mfar {
 
 struct SeenRadiance {
-    Eigen::Vector3f direction;  ///< unit vector in the world
+    Eigen::Vector3f direction;  ///< unit vector in world coordinates
     Eigen::Vector3f radiance;   ///< linear RGB; 1 is the picture's white
-    float solidAngle = 0;       ///< [sr]
+    float solidAngle = 0;
 };
 
 /// Computes the radiance that a picture shows, in a grid of cells, from a few pixels of each. The

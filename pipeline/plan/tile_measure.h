@@ -29,7 +29,6 @@ struct TileMeasure {
     float pixels = 0, means = 0, bends = 0;
 };
 
-/// Limits of differences above which a tile has certainly changed.
 struct ChangeBounds {
     /// Largest mean difference and largest mean absolute difference of an unchanged cell [grey
     /// levels].

@@ -29,7 +29,7 @@ struct TileWork {
     int matched = 0;
     Draw draw = Draw::Whole;
     PixelRect detailTiles;  ///< the smallest rectangle around all matched tiles [tiles]
-    double noise = 0;       ///< standard deviation of the video's noise [grey levels]
+    double noise = 0;
 
     [[nodiscard]] static TileWork everything(Size tiles) {
         const int count = tiles.width * tiles.height;

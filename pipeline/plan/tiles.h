@@ -7,22 +7,23 @@
 
 namespace mfar {
 
-inline constexpr int kTileSize = 16;  ///< [video px], along each axis
+inline constexpr int kTileSize = 16;  ///< width and height of a tile [video px]
 
 [[nodiscard]] constexpr Size tilesOf(Size pixels) {
     return {(pixels.width + kTileSize - 1) / kTileSize,
             (pixels.height + kTileSize - 1) / kTileSize};
 }
 
-/// Work that a tile needs, in ascending order of cost.
+/// Work that a tile needs, in ascending order of cost. Unchanged: video and still did not change,
+/// and the pixels stay. Upscaled: only the video is enlarged, because no detail of the still fits.
+/// Trusted: detail is drawn with a smooth flow and one weight. Blended: detail is drawn with flow
+/// and weight that vary within the tile. Hidden: an opaque virtual object covers the tile.
 enum class TileClass : unsigned {
-    Unchanged = params::kTileUnchanged,  ///< video and still did not change, the pixels stay
-    /// only the video is enlarged, because no detail of the still fits
+    Unchanged = params::kTileUnchanged,
     Upscaled = params::kTileUpscaled,
-    Trusted = params::kTileTrusted,  ///< detail is drawn with a smooth flow and one weight
-    /// detail is drawn with flow and weight that vary within the tile
+    Trusted = params::kTileTrusted,
     Blended = params::kTileBlended,
-    Hidden,  ///< an opaque virtual object covers the tile
+    Hidden,
 };
 inline constexpr std::size_t kTileClasses = 5;
 

@@ -35,7 +35,7 @@ constexpr double kRestingShare = 0.75;
 constexpr double kMaxGrain = 8;
 // Largest grain that is accepted from one frame. Without noise, the divisor is almost 0.
 constexpr double kMostRatio = 64;
-constexpr int kNoiseBins = 64;  // of 1/16 grey level
+constexpr int kNoiseBins = 64;  // number of bins of 1/16 grey level
 
 }  // namespace
 

@@ -31,11 +31,13 @@ public:
     /// Compares `now` with `drawn`, both of the video's size. If `force` is true, every tile counts
     /// as changed.
     void update(const RgbPlanes& now, const RgbPlanes& drawn, bool force);
-    /// Changes of the video after which an overlay (the virtual objects) is drawn again.
+    /// Changes of the video after which an overlay (the virtual objects) is drawn again. WithThem:
+    /// a change of one of the overlay's tiles or of an adjacent tile. WithOthers: a change of any
+    /// tile. Always: it is drawn again even without a change.
     enum class Redraw : std::uint8_t {
-        WithThem,    ///< a change of one of the overlay's tiles or of an adjacent tile
-        WithOthers,  ///< a change of any tile
-        Always,      ///< it is drawn again even without a change
+        WithThem,
+        WithOthers,
+        Always,
     };
     /// Reports that an overlay was drawn over these tiles of the output picture. If the next
     /// update() finds that the overlay must be drawn again, all of these tiles count as changed.

@@ -53,10 +53,13 @@ inline constexpr int kTileAround = 8;
 struct alignas(16) ClassifyTiles {
     std::int32_t columns, rows;
     std::int32_t cellColumns, cellRows;
-    float leastWeight;  ///< kLeastDetailWeight; -1: no tile gets the class Upscaled
-    float plainFlow;    ///< kPlainFlow [video px]; 0: no tile is plain
+    /// kLeastDetailWeight, or -1: no tile gets the class Upscaled.
+    float leastWeight;
+    /// kPlainFlow [video px], or 0: no tile is plain.
+    float plainFlow;
     std::int32_t stillGiven;
-    std::uint32_t detailFrame;  ///< number of the frame; 0: no tile depends on its neighbours
+    /// Number of the frame, or 0: no tile depends on its neighbours.
+    std::uint32_t detailFrame;
     std::int32_t learns;
     std::int32_t secondGiven;
 };
@@ -64,9 +67,11 @@ struct alignas(16) ClassifyTiles {
 struct alignas(16) DrawTiles {
     std::int32_t videoWidth, videoHeight;
     std::int32_t cellColumns, cellRows;
-    float scaleX, scaleY;            ///< video pixels per output pixel
-    float stillTexelX, stillTexelY;  ///< 1 / size of the still [1/px]
-    float stillScaleX, stillScaleY;  ///< still pixels per output pixel
+    /// Video pixels per output pixel, 1 / size of the still [1/px], and still pixels per output
+    /// pixel.
+    float scaleX, scaleY;
+    float stillTexelX, stillTexelY;
+    float stillScaleX, stillScaleY;
     float sharpening;
     float guidanceStill, guidanceVideo;  ///< see FilterBank::guidance()
 };

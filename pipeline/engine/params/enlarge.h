@@ -25,7 +25,7 @@ inline constexpr float kMediumFrom = 6.0F;
 inline constexpr float kStrongFrom = 16.0F;
 inline constexpr float kPartlyCoherentFrom = 0.25F;
 inline constexpr float kCoherentFrom = 0.5F;
-/// GradientClasses per angle, and number of angles.
+/// Number of GradientClasses for each angle, and number of angles.
 inline constexpr int kGradientKinds = 12;
 inline constexpr int kGradientAngles = 16;
 
@@ -52,7 +52,7 @@ inline constexpr float kOvershoot = 0.25F;
 struct alignas(16) EnlargeTiles {
     std::int32_t videoWidth, videoHeight;
     std::int32_t columns, rows;
-    std::int32_t firstColumn, firstRow;  ///< first tile of the dispatch
+    std::int32_t firstColumn, firstRow;  ///< tile with which the dispatch begins
 };
 
 }  // namespace mfar::params

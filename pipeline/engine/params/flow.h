@@ -80,9 +80,10 @@ struct alignas(16) SearchFlow {
     std::int32_t lastFrameColumns;
     std::int32_t radius;
     std::int32_t candidates, steps;
-    /// Pixels of this pyramid level per pixel of the last frame's field.
+    /// Pixels of this pyramid level per pixel of the last frame's field, and cells of that field
+    /// per cell of this field.
     float perLastFrame;
-    float lastFrameX, lastFrameY;  ///< cells of the last frame's field per cell of this field
+    float lastFrameX, lastFrameY;
     std::int32_t firstGroup;
     std::int32_t errors;
 };
@@ -98,7 +99,8 @@ struct alignas(16) FilterFlow {
     std::int32_t columns, rows;
     std::int32_t target, source;
     std::int32_t planeFits;
-    std::int32_t byTile;  ///< 1: each workgroup processes a tile, only if it is matched
+    /// 1: each workgroup processes one tile, and only matched tiles are filtered. 0: all cells are.
+    std::int32_t byTile;
 };
 
 struct alignas(16) FlagTiles {
@@ -113,8 +115,9 @@ struct alignas(16) ListTiles {
     std::int32_t tileColumns, tileRows;
     std::int32_t groupColumns, groupRows;
     std::int32_t tilesPerGroup;
-    std::int32_t margin;          ///< around a group [tiles]
-    std::int32_t command, first;  ///< indices in commands[] and of the first group in lists[]
+    std::int32_t margin;  ///< margin around a group [tiles]
+    /// Index of the command in commands[] and of the first group in lists[].
+    std::int32_t command, first;
 };
 
 }  // namespace mfar::params

@@ -11,8 +11,8 @@ namespace mfar::params {
 /// One level of a luma pyramid with 8 bits per pixel. A word contains four pixels, the leftmost in
 /// the low byte.
 struct alignas(16) LumaLevel {
-    std::int32_t offset;  ///< start in the pyramid's memory [words]
-    std::int32_t pitch;   ///< words per row, including the margins
+    std::int32_t offset;  ///< start of the level in the pyramid's memory [words]
+    std::int32_t pitch;   ///< words per row, including both margins
     std::int32_t width;
     std::int32_t height;
 };

@@ -23,8 +23,9 @@ struct alignas(16) Visibility {
     std::int32_t videoWidth, videoHeight;
     std::int32_t outputWidth, outputHeight;
     std::int32_t layerWidth, layerHeight;
-    float scaleX, scaleY;            ///< video pixels per output pixel
-    float layerScaleX, layerScaleY;  ///< layer pixels per output pixel
+    /// Video pixels per output pixel, and layer pixels per output pixel.
+    float scaleX, scaleY;
+    float layerScaleX, layerScaleY;
     float bias, softness;
     float virtualSigma;
     /// Factor of the squared distance of colours in [0, 1], in the exponent of the weight.

@@ -61,11 +61,14 @@ inline constexpr float kFineLeast = 0.1F;
 
 struct alignas(16) AssessCells {
     Rig rig;
-    LumaLevel video, still;  ///< finest pyramid levels, in the video's geometry
+    /// Finest pyramid levels, in the video's geometry.
+    LumaLevel video, still;
     std::int32_t columns, rows;
     std::int32_t backwardColumns, backwardRows;
-    std::int32_t forward, backward;  ///< indices in cells[] of the fields' first cells
-    std::int32_t errorsGiven;        ///< 1: `backward` is a field of two-way errors
+    /// Indices in cells[] of the first cells of both fields. With errorsGiven, `backward` is a
+    /// field of two-way errors.
+    std::int32_t forward, backward;
+    std::int32_t errorsGiven;
     /// Video pixels per pixel of the backward field's pyramid level.
     std::int32_t backwardScale;
     float stillWidth, stillHeight;
