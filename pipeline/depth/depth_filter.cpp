@@ -15,8 +15,8 @@ namespace {
 constexpr float kNearestShare = 0.05F;
 // Relative standard deviation that each second of camera motion adds to inverse depth.
 constexpr double kDrift = 0.02;
-// Longest time between two predictions that counts as motion [s]. After a longer time, the camera
-// must have rested in between.
+// At most this time between two predictions counts as camera motion [s]. If more time has passed,
+// the camera must have rested.
 constexpr double kMostMoving = 0.2;
 // Points are moved only after a motion of the picture by at least this [px], because each move
 // rounds them to pixels.

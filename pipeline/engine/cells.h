@@ -5,7 +5,7 @@
 namespace mfar {
 
 // Fields with one entry per cell, as both engines store them. A GPU reads the four floats of an
-// entry as one vec4.
+// entry as one vec4. `confidence` is eq. 2 of the paper, in [0, 1].
 
 struct FlowCell {
     float x = 0, y = 0;  ///< points from pixel p to p + flow [px of the field's pyramid level]
@@ -15,7 +15,7 @@ struct FlowCell {
     float texture = 0;
 };
 
-/// Two-way error (eq. 2 of the paper), determined by the epipolar search.
+/// Two-way error [px] (eq. 2 of the paper), determined by the epipolar search.
 struct ErrorCell {
     float error = 0;
     float unused[3] = {};

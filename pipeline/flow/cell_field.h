@@ -11,7 +11,6 @@ namespace mfar {
 inline constexpr int kCell = 4;
 inline constexpr int kCellsPerTile = 4;
 
-/// Quotient of two positive numbers, rounded up.
 [[nodiscard]] constexpr int divideUp(int a, int b) {
     return (a + b - 1) / b;
 }
