@@ -12,7 +12,7 @@ struct Source {
 
 /// All shaders of mfar, embedded at build time.
 [[nodiscard]] std::span<const Source> all();
-/// Returns the text of the shader with this file name. Throws std::out_of_range without one.
+/// Returns the text of the shader with this file name. Throws std::out_of_range if there is none.
 [[nodiscard]] std::string_view source(std::string_view name);
 
 }  // namespace mfar::shaders

@@ -36,7 +36,7 @@ struct Reference {
 };
 
 /// Decides which of two stills becomes the second one when a third still arrives: true for `older`,
-/// false for `newest`. It should be the one that has shown the larger share of its matched tiles.
+/// false for `newest`. The still that has shown the larger share of its matched tiles is preferred.
 /// The older still is also preferred if the camera has hardly moved since the newest: a still from
 /// the same position as the new one misses the same areas.
 [[nodiscard]] bool keepsOlder(const Reference& older, const Reference& newest);

@@ -53,7 +53,7 @@ public:
     /// Begins a frame with the camera at this pose. Uses the finished results of the threads and
     /// allows them some more processor time. Without further calls, they pause.
     void update(const RigidTransform& T_world_video, Timestamp time);
-    /// True if the next render() would differ from the last one even without motion of the camera.
+    /// True if the next render() would give a different result even if the camera does not move.
     [[nodiscard]] bool isStale() const;
 
     /// Draws the layer at this pose. The layer is empty before the first traced picture is

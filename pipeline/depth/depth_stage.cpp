@@ -20,7 +20,7 @@ constexpr double kNearest = 0.01;  // smallest distance that is assumed for the 
 constexpr double kWorth = 2;
 // Largest relative error of the baseline. Depth has the same relative error.
 constexpr double kMostLengthError = 0.15;
-// A search starts from the known depths if at least this share of the pixels has one.
+// A search starts from the known depths if at least this share of the pixels has a known depth.
 constexpr double kMostlyKnown = 0.97;
 
 double medianOf(std::vector<float>& values) {

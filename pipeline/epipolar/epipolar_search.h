@@ -58,7 +58,8 @@ public:
              const std::optional<Matrix6>& covariance = std::nullopt,
              std::span<const float> predicted = {});
 
-    /// The T_still_video that was searched. refinement() shows its difference from the given one.
+    /// The T_still_video that was searched. If it was refined, refinement() describes the
+    /// difference from the argument of run().
     [[nodiscard]] const RigidTransform& pose() const { return pose_; }
     [[nodiscard]] const PoseRefinement& refinement() const { return refinement_; }
     /// Expected distance of matches from their epipolar lines [px]. At pyramid levels where it

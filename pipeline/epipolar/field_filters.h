@@ -7,8 +7,8 @@
 
 namespace mfar {
 
-/// Writes the 3x3 median of `in`, multiplied by `scale`, to `out`. Values outside the border repeat
-/// it. `in` and `out` must be different vectors of `size` pixels.
+/// Writes the 3x3 median of `in`, multiplied by `scale`, to `out`. Pixels outside the picture
+/// repeat its border. `in` and `out` must be different vectors of `size` pixels.
 void median3x3(const std::vector<float>& in, Size size, Workers& workers, std::vector<float>& out,
                float scale = 1);
 

@@ -33,7 +33,7 @@ struct EpipolarOptions {
     /// [px], [0, 8].
     int windowRadius = 2;
     int stepPenalty = 12;  ///< Smoothness::step for a picture without noise, [1, 30]
-    int jumpPenalty = 60;  ///< Smoothness::jump, [1, 60]
+    int jumpPenalty = 60;  ///< see Smoothness::jump, [1, 60]
     /// finest searched pyramid level (0 is full size, 1 half, 2 a quarter), [0, 2]
     int finest = 0;
     /// Largest number of consecutive frames that EpipolarFlow searches only around a prediction

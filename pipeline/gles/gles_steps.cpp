@@ -66,7 +66,7 @@ private:
     StillReference still_;
     StillLumaCopy lumaCopy_;
     TextureCopy raisedCopy_;
-    // Replaced with each still, because the still's texture may be another one.
+    // Created again for each still, because the still's texture may change.
     std::optional<TextureCopy> pictureCopy_;
     StillPictures pictures_;
 };

@@ -35,8 +35,8 @@ public:
     [[nodiscard]] int levels() const { return params_.levelCount; }
 
     /// Fills pixels of `colour` (RGBA8 premultiplied). `colour` and `state` are the results of
-    /// ViewLookUp. With `wantList`, the CPU reads back this frame's list, unless it is reading back
-    /// another one.
+    /// ViewLookUp. With `wantList`, the CPU reads back this frame's list, unless it is still
+    /// reading back an older list.
     void fill(const gpu::Texture& colour, const gpu::Texture& state, bool wantList);
 
     /// Returns the listed pixels of the last frame with `wantList` after the GPU has finished that

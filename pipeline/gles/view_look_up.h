@@ -35,7 +35,7 @@ public:
         Eigen::Vector4d plane = Eigen::Vector4d::Zero();
     };
     /// Computes colour(), depth() and state() for the pixels in `where`, and no others. Adds pixels
-    /// without a known colour to the list that `holes` has begun.
+    /// without a known colour to the list in `holes`.
     void run(const Input& input, const RigidTransform& T_world_camera, const PixelRect& where,
              const HoleFiller& holes);
     void clear(const PixelRect& where) const;

@@ -26,7 +26,7 @@ struct ModelLimits {
     std::size_t elements = 100'000;
     int nodeDepth = 64;
     std::size_t textures = 128;
-    int textureSide = 8192;  ///< width and height [px]
+    int textureSide = 8192;  ///< largest width and height of a texture [px]
     std::size_t texels = std::size_t{64} << 20U;
     std::size_t jsonValues = 2'000'000;
     /// Absolute value of a coordinate after all transforms [m].
