@@ -3,8 +3,8 @@
 #include <cstdint>
 
 // Parameters for classifying and drawing tiles, in the shaders superres_classify.comp,
-// superres_sharpen.frag, superres_vertical.frag, composite_*.frag and tile_rect.vert and in SIMD.
-// params_to_glsl.cmake translates this header to GLSL.
+// superres_sharpen.frag, superres_vertical.frag, composite_*.frag and tile_rect.vert and in the
+// SIMD code. params_to_glsl.cmake translates this header to GLSL.
 namespace mfar::params {
 
 inline constexpr std::uint32_t kTileUnchanged = 0U;

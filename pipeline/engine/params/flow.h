@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-// Parameters of the 2-D flow in the shaders flow_*.comp and in SIMD. params_to_glsl.cmake
+// Parameters of the 2-D flow in the shaders flow_*.comp and in the SIMD code. params_to_glsl.cmake
 // translates this header to GLSL.
 namespace mfar::params {
 

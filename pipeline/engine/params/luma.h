@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-// Parameters of the luma pyramids in the shaders that make or read them and in SIMD.
+// Parameters of the luma pyramids in the shaders that make or read them and in the SIMD code.
 // params_to_glsl.cmake translates this header to GLSL.
 namespace mfar::params {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 // Parameters that decide which pixels of virtual objects the real scene hides, in the shaders
-// visibility_*.frag and in SIMD. params_to_glsl.cmake translates this header to GLSL.
+// visibility_*.frag and in the SIMD code. params_to_glsl.cmake translates this header to GLSL.
 namespace mfar::params {
 
 /// A sample of the real depth is valid if its inverse depth [1/m] is between kLeastInverseDepth and

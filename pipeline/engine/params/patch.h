@@ -1,7 +1,7 @@
 #pragma once
 
-// Parameters for comparing 8x8 patches in patch.glsl and in SIMD. params_to_glsl.cmake translates
-// this header to GLSL.
+// Parameters for comparing 8x8 patches in patch.glsl and in the SIMD code. params_to_glsl.cmake
+// translates this header to GLSL.
 namespace mfar::params {
 
 inline constexpr float kPatchPixels = 64.0F;

@@ -6,8 +6,8 @@
 #include <cstdint>
 
 // Parameters for weighing the still at each cell, in the shaders superres_assess.comp,
-// superres_gain.comp and superres_weigh.comp and in SIMD. params_to_glsl.cmake translates this
-// header to GLSL.
+// superres_gain.comp and superres_weigh.comp and in the SIMD code. params_to_glsl.cmake translates
+// this header to GLSL.
 namespace mfar::params {
 
 /// Two-way error above which the confidence is zero [video px]: alpha in eq. 2 of the paper.
