@@ -1,4 +1,4 @@
-// Mode `blend`, the paper's method: blends the enlarged video with the warped still. The weight of
+// Mode Blend, the paper's method: blends the enlarged video with the warped still. The weight of
 // the still is the confidence of the match (eq. 2).
 // Variant: #define PLAIN_TILE
 #include "tile_params.glsl"

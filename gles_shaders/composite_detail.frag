@@ -1,10 +1,9 @@
-// Mode `detail`: out = up(video) + weight * (still - up(mean of the still over each video pixel)),
+// Mode Detail: out = up(video) + weight * (still - up(mean of the still over each video pixel)),
 // where up() enlarges to the output's size.
-// LEARNED: also adds the learned enlarger's residual times max(1 - weight, 0), because the still is
-// the better source of detail where its weight is large.
-// SECOND: draws with LEARNED, but from the second still, and blends the result over the picture
-// that shows the first still. Its opacity rises with the difference between the weight of the
-// second still and that of the first.
+// LEARNED: also adds the learned enlarger's residual times max(1 - weight, 0). Where the weight is
+// large, the still is the better source of detail.
+// SECOND: draws with LEARNED from the second still, over the picture with the first still. The
+// opacity rises with the weight of the second still minus that of the first.
 // Variant: #define PLAIN_TILE
 // Variant: #define LEARNED
 // Variant: #define SECOND
@@ -21,11 +20,11 @@
 #endif
 #include "upscale.glsl"
 
-layout(binding = 1) uniform sampler2D still;  // luma with amplified finest detail
+layout(binding = 1) uniform sampler2D still;
 #ifdef SECOND
 layout(binding = 5) uniform sampler2D newestField;
 
-// The weight of the first still's detail. The picture already contains this detail.
+// Weight of the first still's detail, which the picture already contains.
 float newestShare() {
     return textureLod(newestField, gl_FragCoord.xy * vec2(params.scaleX, params.scaleY) / vec2(4 * cellCount()), 0.0).z;
 }

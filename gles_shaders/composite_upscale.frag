@@ -1,4 +1,4 @@
-// Output pixels to which the still adds nothing: the video, enlarged by Keys' cubic. LINEAR:
+// Draws output pixels without detail of the still: the video, enlarged by Keys' cubic. LINEAR:
 // enlarged by linear interpolation instead. LEARNED: Keys' cubic plus the learned enlarger's
 // residual.
 // Variant: #define LINEAR

@@ -1,5 +1,5 @@
-// Keys' cubic interpolation: weights of the four samples around a position. t is the position's
-// distance from the second sample, in sample spacings.
+// Keys' cubic interpolation: weights of the four samples around a position. t is the distance of
+// the position from the second sample, in sample spacings.
 #include "pipeline/engine/params/detail.h"
 
 vec4 cubicWeights(float t) {

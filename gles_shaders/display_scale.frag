@@ -1,12 +1,12 @@
 // Shows a picture on a screen, scaled into a rectangle. The rest of the screen is black.
 // Each screen pixel is the mean of the picture over the pixel's footprint, which is at least one
-// picture pixel wide. A picture that is reduced is thus filtered by area (no aliasing), one that is
-// enlarged is interpolated linearly, and one of equal size is copied. One texture fetch reads two
-// neighbouring texels; the sampling position between them determines their weights. The sampler
-// must therefore filter linearly and clamp to the edge. Gamma-encoded values are averaged as they
-// are stored.
-// PAIRS: largest number of texel pairs in a row of a footprint. It is a constant, so that the
-// compiler can unroll the loops. 0: the picture is copied.
+// picture pixel wide. So a picture is averaged without aliasing if it is reduced, interpolated
+// linearly if it is enlarged, and copied if it has equal size. Gamma-encoded values are averaged as
+// they are stored.
+// One texture fetch reads two neighbouring texels with weights that the sampling position
+// determines. The sampler must therefore filter linearly and clamp to the edge.
+// PAIRS: largest number of texel pairs in a row of a footprint; 0 copies the picture. It is a
+// constant, so that the compiler can unroll the loops.
 // Variant: #define PAIRS 0
 // Variant: #define PAIRS 2
 #ifndef PAIRS
@@ -21,7 +21,6 @@ layout(std140) uniform Params {
 layout(binding = 0) uniform sampler2D picture;
 layout(location = 0) out vec4 colour;
 
-// Overlap of [lo, hi] with the texel `first` and with the texel `first + 1`.
 vec2 overlap(float first, float lo, float hi) {
     vec2 begin = vec2(first, first + 1.0);
     return max(min(vec2(hi), begin + 1.0) - max(vec2(lo), begin), 0.0);
@@ -48,7 +47,7 @@ void main() {
             float x = first.x + float(2 * i);
             vec2 wx = overlap(x, lo.x, hi.x);
             float weightX = wx.x + wx.y;
-            // If both texels are outside the footprint, their weight is zero, and the sampling
+            // The weight is zero if both texels are outside the footprint; then the sampling
             // position does not matter. The limit 1.0e-6 only avoids a division by zero.
             vec2 between = vec2(wx.y, wy.y) / max(vec2(weightX, weightY), 1.0e-6);
             vec2 at = (vec2(x, y) + 0.5 + between) * texel;

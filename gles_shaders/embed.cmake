@@ -1,9 +1,9 @@
 cmake_minimum_required(VERSION 3.25)
 
 # cmake -DOUT=file.cpp -DDIR=folder -DROOT=folder -DNAMES="a.comp,b.frag" -P embed.cmake
-# Writes the sources of all shaders as strings into one C++ file. Each #include "x.glsl" is replaced
-# by that file in DIR. Each #include "path/x.h" is replaced by that parameter header in ROOT,
-# converted to GLSL. Each file is included only once per shader.
+# Writes the sources of all shaders as strings into one C++ file. #include "x.glsl" is replaced by
+# that file in DIR. #include "path/x.h" is replaced by that parameter header in ROOT, translated to
+# GLSL. Each file is included only once per shader.
 
 cmake_policy(VERSION 3.25)
 include(${CMAKE_CURRENT_LIST_DIR}/params_to_glsl.cmake)

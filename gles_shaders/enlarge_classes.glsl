@@ -1,11 +1,10 @@
-// Find the class of a pixel by its gradient and by its curvature, for the learned enlarger. The
-// index of a class is that of GradientClasses or CurvatureClasses in
-// pipeline/enlarge/filter_layout.h.
-// Needs pipeline/engine/params/enlarge.h.
+// Finds the classes of a pixel by its gradient and by its curvature, for the learned enlarger.
+// Class indices are those of GradientClasses and CurvatureClasses in
+// pipeline/enlarge/filter_layout.h. Needs pipeline/engine/params/enlarge.h.
 
 // Returns the bin of an angle; see Symmetry in pipeline/enlarge/filter_layout.h. `cosine` and
-// `sine` are the cosine and sine of twice the angle, times any common factor. `inQuadrant` is the
-// bin that belongs to their absolute values.
+// `sine` are those of twice the angle, times any common factor. `inQuadrant` is the bin of their
+// absolute values.
 int angleBin(float cosine, float sine, int inQuadrant, int bins) {
     bool left = cosine < 0.0, lower = sine < 0.0;
     int bin = left != lower ? bins / 2 - 1 - inQuadrant : inQuadrant;
@@ -18,8 +17,8 @@ int gradientClass(vec3 sums) {
     float spread = sqrt(cosine * cosine + sine * sine);
     vec3 strengths = scale * vec3(kWeakFrom * kWeakFrom, kMediumFrom * kMediumFrom, kStrongFrom * kStrongFrom);
     vec2 roots = vec2(kPartlyCoherentFrom, kCoherentFrom);
-    // Thresholds of the coherence (s1 - s2) / (s1 + s2). They are converted to thresholds of s1^2 -
-    // s2^2 (`spread`), because the sums give the eigenvalues s1^2 and s2^2 of the structure tensor.
+    // Thresholds of the coherence (s1 - s2) / (s1 + s2), converted to thresholds of s1^2 - s2^2
+    // (`spread`). The structure tensor has the eigenvalues s1^2 and s2^2.
     vec2 coherences = sum * 2.0 * roots / (1.0 + roots * roots);
     int kind = int(dot(step(strengths, vec3(sum + spread)), vec3(3.0)) + dot(step(coherences, vec2(spread)), vec2(1.0)));
     float c = abs(cosine), s = abs(sine);
@@ -27,8 +26,8 @@ int gradientClass(vec3 sums) {
     return angleBin(cosine, sine, bin, kGradientAngles) * kGradientKinds + kind;
 }
 
-// Class of a pixel by its second derivatives [1/8 grey level per px^2]. `fourXy` is four times the
-// mixed derivative.
+// Returns the class of a pixel by its second derivatives [1/8 grey level per px^2]. `fourXy` is
+// four times the mixed derivative.
 int curvatureClass(float xx, float yy, float fourXy) {
     float cosine = xx - yy, sine = 0.5 * fourXy, scale = float(kLumaScale);
     float square = cosine * cosine + sine * sine;

@@ -1,11 +1,11 @@
 // Filters of the learned enlarger. Needs cubic.glsl.
-// The texture has one row per class. Such a row has four texels for each pair of taps, one for each
-// row of sub-pixels. A texel has four channels, one for each sub-pixel of that row. A channel holds
-// the weights of both taps as half floats.
+// The texture has one row per class. A row has four texels for each pair of taps, one for each row
+// of sub-pixels. A texel has four channels, one for each sub-pixel of that row. A channel has the
+// weights of both taps as half floats.
 layout(binding = 1) uniform usampler2D filters;
 
-// Differences of luma have at most eleven bits. Half floats therefore represent them exactly, and
-// they need half as many registers as floats.
+// Half floats represent differences of luma exactly, because these have at most eleven bits. They
+// need half as many registers as floats.
 uvec2 halvesOf(vec4 v) {
     return uvec2(packHalf2x16(v.xy), packHalf2x16(v.zw));
 }
@@ -13,8 +13,8 @@ vec4 floatsOf(uvec2 v) {
     return vec4(unpackHalf2x16(v.x), unpackHalf2x16(v.y));
 }
 
-// Contribution of a pair of taps to the four sub-pixels of a row: the sum over the filters of both
-// classes. `taps` holds the luma differences of the two taps.
+// Returns the contribution of a pair of taps to the four sub-pixels of a row, summed over the
+// filters of both classes. `taps` contains the luma differences of the two taps.
 vec4 pairOf(ivec2 classes, int at, uint taps) {
     uvec4 a = texelFetch(filters, ivec2(at, classes.x), 0), b = texelFetch(filters, ivec2(at, classes.y), 0);
     vec2 steps = unpackHalf2x16(taps);
@@ -24,11 +24,11 @@ vec4 pairOf(ivec2 classes, int at, uint taps) {
                 dot(unpackHalf2x16(a.w) + unpackHalf2x16(b.w), steps));
 }
 
-// The four sub-pixels of a row, enlarged by Keys' cubic, minus the pixel's value. Filters along
-// columns first. The order of the taps is that of kTapAt in pipeline/enlarge/filter_layout.h.
+// Returns the four sub-pixels of a row, enlarged by Keys' cubic, minus the pixel's value. Filters
+// along columns first. The order of the taps is that of kTapAt in pipeline/enlarge/filter_layout.h.
 vec4 cubicOf(int row, uvec4 above, uvec4 below, uvec4 beside) {
     vec4 w = cubicWeights(fract(0.625 + 0.25 * float(row)));
-    vec4 upper = row < 2 ? w : vec4(0.0, w.xyz);  // weights of the first four rows of taps
+    vec4 upper = row < 2 ? w : vec4(0.0, w.xyz);
     float lower = row < 2 ? 0.0 : w.w;
     vec4 sides = floatsOf(beside.xy), ends = floatsOf(beside.zw);
     vec4 column = upper.x * floatsOf(above.xy) + upper.y * floatsOf(above.zw) + upper.w * floatsOf(below.xy) +
@@ -39,7 +39,6 @@ vec4 cubicOf(int row, uvec4 above, uvec4 below, uvec4 beside) {
                 dot(cubicWeights(0.125), shifted), dot(cubicWeights(0.375), shifted));
 }
 
-// Sum of the residuals of both classes, for the four sub-pixels of a row.
 vec4 residualOf(ivec2 classes, int row, uvec4 above, uvec4 below, uvec4 beside) {
     vec4 sum = pairOf(classes, row, above.x);
     sum += pairOf(classes, row + 4, above.y);

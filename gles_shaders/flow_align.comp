@@ -32,9 +32,9 @@ vec2 flowAt(ivec2 c) {
     return cells[params.source + c.y * params.columns + c.x].xy;
 }
 
-// Change of the flow per pixel along `step`: the smaller of the two one-sided differences, or zero
-// if they have different signs. The differences span two cells, because the flow of adjacent cells
-// differs more by noise than by its true change.
+// Returns the change of the flow per pixel along `step`: the smaller of the two one-sided
+// differences, or zero if they have different signs. The differences span two cells, because
+// between adjacent cells noise exceeds the true change.
 vec2 slopeAt(ivec2 cell, ivec2 step) {
     vec2 here = flowAt(cell);
     vec2 before = here - flowAt(cell - 2 * step), after = flowAt(cell + 2 * step) - here;
@@ -51,9 +51,9 @@ uvec2 fetchShort(LumaLevel l, int wx, int y, uint shift) {
     return uvec2((w.x >> shift) | (w.y << (32u - shift)), w.y >> shift);
 }
 
-// Four pixels of the deformed patch, beginning at `first`. The flow changes by dx and dy per pixel.
-// The words are read once for all four pixels, because the deformation moves each of them by less
-// than half a pixel.
+// Returns four pixels of the deformed patch, beginning at `first`. The flow changes by dx and dy
+// per pixel. The words are read once for all four pixels, because the deformation moves each of
+// them by less than half a pixel.
 vec4 bentRow(LumaLevel l, ivec2 cell, vec2 u, vec2 dx, vec2 dy, vec2 first) {
     const vec4 along = vec4(-1.5, -0.5, 0.5, 1.5);
     vec2 middle = first - vec2(2.0, 3.5);
@@ -87,8 +87,7 @@ void addHalf(inout Sums sums, int r, int side, vec4 b) {
     sums.gb += vec2(dot(gx, b), dot(gy, b));
 }
 
-// Compares the template with the searched picture. The flow changes by dx and dy per pixel of the
-// patch.
+// Compares the template with the searched picture. The flow changes by dx and dy per pixel.
 Match compareBent(LumaLevel l, ivec2 cell, vec2 u, vec2 dx, vec2 dy) {
     Sums sums = Sums(0.0, 0.0, 0.0, vec2(0.0));
     // Each iteration processes half a row, because a whole row with its gradients needs more
@@ -114,8 +113,8 @@ void main() {
     prepareSteps(known, cell);
     vec2 u = flowAt(cell), best = u;
     float cost = 1e9;
-    // The loop has no early exit, because on vector processors an exit costs more than repeated
-    // evaluations. Once the cost stops falling, the same position is evaluated again.
+    // On vector processors, an early exit costs more than repeated evaluations. Once the cost stops
+    // falling, the same position is evaluated again.
     for (int k = 0; k <= params.steps; ++k) {
         Match m = compareBent(lb, cell, u, dx, dy);
         bool better = m.cost < cost;

@@ -16,7 +16,7 @@ layout(std430, binding = 1) buffer Cells {
 };
 layout(std430, binding = 2) readonly buffer Tiles {
     uvec2 header;
-    uvec2 tiles[];  // x: 1 if the tile changed; y: 1 if it is matched
+    uvec2 tiles[];
 };
 
 vec4 cellIn(ivec2 c) {
@@ -28,10 +28,10 @@ struct Plane {
     vec2 value, dx, dy;  // flow at the cell [px], change of the flow per cell
 };
 
-// Fits a plane to the flow vectors of the neighbours. `about` is the plane of the round before. A
-// neighbour's weight is smaller the less reliable it is and the more it differs from `about`. From
-// a difference of `reach` [px] on, the weight is zero, so that the other side of a depth edge has
-// no influence.
+// Fits a plane to the flow vectors of the neighbours. `about` is the plane of the round before.
+// Neighbours that are less reliable or differ more from `about` have smaller weights. From a
+// difference of `reach` [px] on, the weight is zero, so that the other side of a depth edge has no
+// influence.
 Plane planeAt(ivec2 cell, Plane about, float reach) {
     float w0 = 0.0;
     vec2 wx = vec2(0.0), u0 = vec2(0.0), ux = vec2(0.0), uy = vec2(0.0);
@@ -79,8 +79,8 @@ void main() {
     }
     vec2 v[9];
     for (int i = 0; i < 9; ++i) v[i] = cellIn(cell + ivec2(i % 3 - 1, i / 3 - 1)).xy;
-    // The median of 3x3 values: sorts each column of three. The median is then the median of these
-    // three values: the largest minimum, the median of the middle values, and the smallest maximum.
+    // Finds the median of 3x3 values. After sorting each column, it is the median of the largest
+    // minimum, the median of the middle values and the smallest maximum.
     for (int c = 0; c < 3; ++c) {
         order(v[c], v[c + 3]);
         order(v[c + 3], v[c + 6]);

@@ -1,8 +1,8 @@
-// Flags tiles of 16x16 pixels in which the flow along epipolar lines does not fit. In such a tile,
-// textured cells match badly although they are within the still's view. Either something moved or
-// came into view there, or the pose is wrong.
-// In: the refined forward field (from video to still) and its two-way errors, both in cells[]. Out:
-// flags[] = 1 or 0. One invocation per tile.
+// Flags tiles in which the flow along epipolar lines does not fit: textured cells match badly
+// although the still shows them. Either something moved or came into view there, or the pose is
+// wrong.
+// In: the refined forward field (from video to still) and its two-way errors, both in cells[].
+// Out: flags[] = 1 or 0. One invocation per tile.
 // Range: flags 0..1
 #include "pipeline/engine/params/flow.h"
 

@@ -1,5 +1,5 @@
-// Evaluates the flow vectors of each cell's four neighbours at the cell. If one of them costs less
-// than the cell's own vector, refines the best one.
+// Evaluates the flow vectors of each cell's four neighbours. If one of them costs less than the
+// cell's own vector, refines the best one.
 // In, out: two fields in cells[], in the format of flow_search.comp. One invocation per cell.
 // Range: cells -2e4..2e4, -2e4..2e4, 0..2.02, 0..4.2e6
 #include "luma.glsl"
@@ -49,8 +49,7 @@ void main() {
             moved = true;
         }
     }
-    // refine() is always called, because a branch around the call would need one more register than
-    // a V3D has.
+    // A branch around this call would need one more register than a V3D has.
     refine(known, lb, cell, moved ? params.steps : -1, best, found);
     cells[params.target + cell.y * params.columns + cell.x] = vec4(best, found, momentAt(1));
 }

@@ -1,12 +1,12 @@
-// Flow of every cell at one pyramid level: takes the best candidate and refines it by Gauss-Newton
+// Computes the flow of every cell at one pyramid level: refines the best candidate by Gauss-Newton
 // steps. Candidates are the last frame's vector and the vectors of the next coarser pyramid level
-// around the cell. At the coarsest pyramid level they are the last frame's vector and all
+// around the cell. At the coarsest pyramid level, they are the last frame's vector and all
 // whole-pixel displacements within a square.
 // Out: cells[] = flow (x, y) [px of this pyramid level], cost, texture (sum of the squared
 // deviations of the patch from its mean). One invocation per cell.
 // After: Kroeger et al., Fast optical flow using dense inverse search, ECCV 2016, section 2.
-// LISTED: processes only the groups of 4x4 cells in lists[]. If the vector that is found is off the
-// cell's epipolar line, the cell's two-way error is derived from the cost of the match.
+// LISTED: processes only the groups of 4x4 cells in lists[]. If the best vector is off the cell's
+// epipolar line, the cell's two-way error is derived from the cost of the match.
 // Variant: #define LISTED
 // Range: cells -2e4..2e4, -2e4..2e4, 0..2.02, 0..4.2e6
 #include "luma.glsl"
@@ -49,8 +49,8 @@ vec2 candidate(ivec2 cell, int k) {
     if (params.lastFrame >= 0) --k;
     if (params.coarser < 0) {
         int n = 2 * params.radius + 1;
-        k = (k + n * n / 2) % (n * n);  // zero motion comes first: of two equal costs, the earlier
-                                        // wins
+        // Zero motion comes first, because the first of two vectors with equal costs wins.
+        k = (k + n * n / 2) % (n * n);
         return vec2(k % n - params.radius, k / n - params.radius);
     }
     ivec2 c = cell >> 1;

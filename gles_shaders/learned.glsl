@@ -1,17 +1,16 @@
 // The learned enlarger's residual at an output pixel. superres_vertical.frag (variant LEARNED)
-// interpolated it along columns; this code interpolates it along rows. Needs tile_params.glsl.
+// interpolates along columns, this code along rows. Needs tile_params.glsl.
 #include "pipeline/engine/params/enlarge.h"
 
 layout(binding = 0) uniform isampler2D columns;
-layout(binding = 3) uniform isampler2D residuals;     // written by superres_vertical.frag
-layout(binding = 4) uniform sampler2D learnedTiles;   // one texel per tile; above 0: the tile is
-                                                      // enlarged by learned filters
+layout(binding = 3) uniform isampler2D residuals;
+// One texel per tile, above 0 for tiles with learned filters.
+layout(binding = 4) uniform sampler2D learnedTiles;
 
 vec4 columnAt(ivec2 p) {
     return vec4(texelFetch(columns, p, 0)) / (255.0 * float(kPassScale));
 }
 
-// The residual as a colour value (white is 1).
 float learned() {
     ivec2 tile = ivec2(gl_FragCoord.xy * vec2(params.scaleX, params.scaleY)) >> 4;
     if (!(texelFetch(learnedTiles, min(tile, textureSize(learnedTiles, 0) - 1), 0).r > 0.0)) return 0.0;

@@ -1,5 +1,5 @@
-// Projects points to pixels. The projection is also defined for points outside the lens's field of
-// view and behind the camera. Must give the same results as pipeline/composite/lens_projection.h.
+// Projects points to pixels, also from outside the lens's field of view and from behind the camera.
+// Must give the same results as pipeline/composite/lens_projection.h.
 #include "camera.glsl"
 #include "pipeline/composite/pass_params.h"
 
@@ -10,8 +10,8 @@ vec3 transformed(Transform t, vec3 p) {
     return to;
 }
 
-// Projects a point in camera coordinates [m]. Returns homogeneous pixel coordinates (w u, w v, w),
-// where w is the point's z.
+// Projects a point in camera coordinates [m] to homogeneous pixel coordinates (w u, w v, w), where
+// w is the point's z.
 vec3 projectPoint(Projection c, vec3 p) {
     float r = length(p.xy);
     bool within = p.z * c.rim > r;

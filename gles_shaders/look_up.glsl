@@ -1,6 +1,6 @@
-// Position of this output pixel in the still, and the still's weight there. Needs tile_params.glsl.
-// In a plain tile, both are linear functions over the whole tile. In other tiles, they are
-// interpolated between the cells.
+// Looks up this output pixel in the still. In a plain tile, position and weight are linear
+// functions over the whole tile. In other tiles, they are interpolated between the cells. Needs
+// tile_params.glsl.
 #ifdef PLAIN_TILE
 in vec4 plainLookUp;
 #else
@@ -8,7 +8,7 @@ layout(binding = 2) uniform sampler2D lookupField;
 #endif
 
 // Returns the offset (x, y) [still px] of superres_weigh.comp, the weight of the detail, and the
-// confidence (eq. 2). `uv` is the position in the still, in texture coordinates.
+// confidence (eq. 2). `uv` becomes the position in the still, in texture coordinates.
 vec4 lookUp(out vec2 uv) {
 #ifdef PLAIN_TILE
     vec4 l = plainLookUp;

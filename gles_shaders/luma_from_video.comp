@@ -1,6 +1,6 @@
 // Computes the finest pyramid level of the video frame: its luma, smoothed over 3x3 pixels. Text
-// and fabric alias at the video's resolution. Without smoothing, displacements would tend to whole
-// pixels in such areas.
+// and fabric alias at the video's resolution. Without smoothing, displacements there would tend to
+// whole pixels.
 // In: picture, RGBA8 or grey. Out: words of luma. One invocation per word, including margins.
 #include "luma.glsl"
 
@@ -13,7 +13,6 @@ layout(std430, binding = 0) writeonly buffer Luma {
     uint luma[];
 };
 
-// Luma in column x, smoothed vertically around row y.
 float column(int x, int y) {
     ivec2 last = ivec2(params.target.width, params.target.height) - 1;
     float sum = 0.0;

@@ -60,8 +60,7 @@ function(params_expression where type text out_var)
     set(${out_var} "${glsl}" PARENT_SCOPE)
 endfunction()
 
-# Records that a header defines `name`. Each name must be unique among all headers, because GLSL has
-# no namespaces.
+# Names must be unique among all headers, because GLSL has no namespaces.
 function(params_define where kind name value)
     get_property(known GLOBAL PROPERTY "params_${kind}_${name}" SET)
     if(known)

@@ -1,12 +1,11 @@
-// Reads patches of 8x8 pixels of a luma pyramid level, row by row. A cell has 4x4 pixels. Its patch
-// has the same centre, so it begins 2 px to the left of the cell and 2 px above it.
-// Needs: `uint luma[]` and the functions of luma.glsl.
+// Reads patches of 8x8 pixels of a luma pyramid level, row by row. The patch of a cell has the same
+// centre, so it begins 2 px to the left of the cell and 2 px above it. Needs `uint luma[]` and the
+// functions of luma.glsl.
 
 #include "pipeline/engine/params/patch.h"
 
 const int kRows = 8;
 
-// One row of a patch: eight pixels.
 struct Row {
     vec4 left, right;
 };
@@ -17,8 +16,8 @@ float sumOf(Row a) {
 float product(Row a, Row b) {
     return dot(a.left, b.left) + dot(a.right, b.right);
 }
-// Index in luma[] of a word in row y of a pyramid level. `column` is counted in words from the
-// level's left edge, without the margin.
+// Returns the index in luma[] of a word in row y of a pyramid level. `column` is counted in words
+// from the level's left edge, without the margin.
 int wordAt(LumaLevel l, int column, int y) {
     return l.offset + clamp(y, 0, l.height - 1) * l.pitch + kLumaMarginWords + column;
 }
@@ -26,24 +25,24 @@ uvec3 fetchWords(int at) {
     return uvec3(luma[at], luma[at + 1], luma[at + 2]);
 }
 
-// Extracts a row of a cell's patch: eight pixels, in two words. The three words `w` begin four
-// pixels to the left of the cell; the row begins two pixels to the left of it.
+// Extracts a row of a cell's patch: eight pixels, in two words. The row begins two pixels to the
+// left of the cell. The three words `w` begin four pixels to the left of it.
 uvec2 cellRow(uvec3 w) {
     return uvec2((w.x >> 16) | (w.y << 16), (w.y >> 16) | (w.z << 16));
 }
 
-// State while reading, row by row, a patch whose position is between pixels.
+// State of reading, row by row, a patch whose position is between pixels.
 struct Window {
     int first, y;   // index of the patch's first word in the level's first row; row of `above`
     uint shift;     // number of bits in the first word before the patch's first pixel
     vec2 f;         // fractional part of the patch's position (x, y) [px]
-    uvec3 above;    // nine pixels of the row that was read last
+    uvec3 above;
 };
 
 uvec3 fetchPixels(LumaLevel l, Window w) {
     uvec3 words = fetchWords(w.first + clamp(w.y, 0, l.height - 1) * l.pitch);
-    uint up = 31u - w.shift;  // one less than needed, as a shift by 32 is undefined; `<< 1` adds
-                              // the rest
+    // A shift by 32 is undefined, so `up` is one too small, and `<< 1` adds the rest.
+    uint up = 31u - w.shift;
     return uvec3((words.x >> w.shift) | (words.y << 1 << up), (words.y >> w.shift) | (words.z << 1 << up),
                  words.z >> w.shift);
 }
@@ -71,9 +70,9 @@ Row nextRow(inout Window w, LumaLevel l) {
     return Row(q0 + (vec4(q0.yzw, q1.x) - q0) * w.f.x, q1 + (vec4(q1.yzw, q2) - q1) * w.f.x);
 }
 
-// Compares two patches: the cell's patch in pyramid level a, and the patch in pyramid level b that
-// is displaced by u pixels. Returns their covariance, the variance in a and the variance in b, each
-// as a sum over the pixels.
+// Compares the cell's patch in pyramid level a with the patch in pyramid level b that is displaced
+// by u pixels. Returns their covariance, the variance in a and the variance in b, each as a sum
+// over the pixels.
 vec3 spreadOf(LumaLevel a, LumaLevel b, ivec2 cell, vec2 u) {
     Window w = windowAt(b, cell, u);
     vec2 sum = vec2(0.0);

@@ -1,12 +1,9 @@
-// Refines an approximate displacement by Gauss-Newton steps until the cost no longer falls.
 #include "patch_template.glsl"
 
-// Takes Gauss-Newton steps from `best` as long as they lower the cost. If `steps` is -1, takes no
-// step.
+// Takes Gauss-Newton steps from `best` as long as they lower the cost, or none if `steps` is -1.
 // The comparison of the patches needs all registers of a V3D (the GPU of a Raspberry Pi). Values
-// that are needed after the comparison are therefore stored in memory, behind the template in
-// templateWords[]. They are read back only when they are needed. The indices `none` and `later` are
-// always 0, but the compiler does not know this. It can therefore neither keep the values in
+// for later are therefore stored behind the template in templateWords[]. The indices `none` and
+// `later` are always 0, but the compiler does not know this. So it can neither keep the values in
 // registers nor read them early.
 void refine(vec2 known, LumaLevel l, ivec2 cell, int steps, inout vec2 best, inout float cost) {
     prepareSteps(known, cell);

@@ -7,15 +7,14 @@
 // squared deviations), sum of the gradient (x, y), sum of the gradient times the deviation of the
 // pixel from the mean (x, y), inverse Hessian (xx, xy, yy). The last five floats belong to
 // patch_refine.glsl.
-// No GPU has enough registers for the template and a comparison. The array is indexed by variables,
-// so that the compiler keeps it in memory; on Mali this works only for arrays of more than 64
-// words. Loops over the rows have a length that the compiler does not know, so that it does not
-// unroll them and keeps only one row in registers. This also holds in the files that include this
-// file.
+// No GPU has enough registers for the template and a comparison. Indexing by variables makes the
+// compiler keep the array in memory; on Mali, this needs more than 64 words. Loops over the rows
+// have a length that the compiler does not know, here and in the files that include this file. So
+// it does not unroll them and keeps only one row in registers.
 uint templateWords[72];
 
-// Sums over the pixels of a patch. b is a pixel of the searched picture. The members are the sums
-// of b, of b^2, of b times the template's pixel, and of b times twice the template's gradient.
+// Sums over the pixels of a patch: of b, of b^2, of b times the template's pixel, and of b times
+// twice the template's gradient. b is a pixel of the searched picture.
 struct Sums {
     float b, bb, ab;
     vec2 gb;
@@ -23,10 +22,10 @@ struct Sums {
 
 struct Match {
     float cost;
-    vec2 step;  // Gauss-Newton step of the displacement [px]; length at most 1
+    vec2 step;  // Gauss-Newton step of the displacement, at most one pixel long
 };
 
-// Pixels of row r of the template, -1 <= r <= kRows.
+// r is in [-1, kRows].
 Row templateRow(int r) {
     int at = 3 * r + 3;
     return Row(unpackPixels(templateWords[at]), unpackPixels(templateWords[at + 1]));
@@ -72,7 +71,7 @@ vec2 loadTemplate(LumaLevel l, ivec2 cell) {
     return vec2(mean, variance);
 }
 
-// Stores the other floats that a Gauss-Newton step needs in templateWords[]. `known` holds the
+// Stores the other floats that a Gauss-Newton step needs in templateWords[]. `known` is the
 // template's mean and variance.
 void prepareSteps(vec2 known, ivec2 cell) {
     vec2 sum = vec2(0.0), sumA = vec2(0.0);
@@ -99,8 +98,8 @@ void add(inout Sums sums, Row a, Row b) {
 }
 
 // Returns the cost: 0 if the patches are equal up to gain and offset, 1 if they are unrelated, 2 if
-// one is the negative of the other. `known` holds the template's mean and variance. `gain`: a pixel
-// of the template is about gain * b + offset, where b is the pixel of the searched picture.
+// one is the negative of the other. `known` is the template's mean and variance. A pixel of the
+// template is about gain * b + offset, where b is the pixel of the searched picture.
 float costOf(vec2 known, Sums sums, out float gain) {
     float mean = sums.b / kPatchPixels;
     float variance = max(sums.bb - sums.b * mean, 0.0);
@@ -121,7 +120,6 @@ Match matchOf(Sums sums) {
     return m;
 }
 
-// Cost of the cell's template at the displacement u [px]; see costOf().
 float costAt(vec2 known, LumaLevel l, ivec2 cell, vec2 u) {
     Window w = windowAt(l, cell, u);
     Sums sums = Sums(0.0, 0.0, 0.0, vec2(0.0));

@@ -1,7 +1,7 @@
 // Converts a picture from Y U V to R G B. Chroma has a lower resolution and is interpolated; a
 // chroma sample is in the middle of the pixels that share it.
-// In: planes of 8 bits (luma is read at its texel, chroma with a bilinear filter).
-// Out: RGBA8, alpha 1.
+// In: planes of 8 bits (luma is read at its texel, chroma with a bilinear filter). Out: RGBA8,
+// alpha 1.
 // Source: ITU-R BT.601-7, BT.709-6; matrix rows of base/image_layout.h.
 // Variant: #define PACKED 1 Y U Y V of two pixels in one texel
 // Variant: #define PAIRS 1 a plane of Y, a plane of U V

@@ -15,16 +15,16 @@ vec3 colourOf(Colour c) {
 }
 
 void main() {
-    // GL rounds the corners of triangles to a grid. A triangle seen edge-on may be thinner than
-    // this grid. A pixel's centre can then be inside the rounded triangle but far outside the true
-    // one, and its colour and depth are meaningless.
+    // GL rounds the corners of triangles to a grid. If a triangle seen edge-on is thinner than this
+    // grid, a pixel in the rounded triangle may be far outside the true one. Its colour and depth
+    // are then meaningless.
     if (any(greaterThan(abs(place), vec3(params.reach))) || dot(place, place) > params.squaredRadius) discard;
     vec3 n = normalize(facing);
     if (dot(n, point) > 0.0) n = -n;
     float lit = mix(max(dot(n, vec3(params.lightX, params.lightY, params.lightZ)), 0.0), 1.0, params.ambient);
     // Signed distance [px] to the nearest line of the checkerboard. The transition at a line is one
-    // pixel wide. The border of a face is not treated as a line between two squares, because the
-    // colour beyond the border may be the same.
+    // pixel wide. The border of a face is not such a line, because the colour beyond it may be the
+    // same.
     vec2 inner = clamp(square, vec2(0.5), vec2(params.squares - 0.5));
     vec2 wave = 2.0 * abs(fract(0.5 * inner + 0.25) - 0.5) - 0.5;
     vec2 side = clamp(wave / max(fwidth(square), 1e-6), vec2(-0.5), vec2(0.5));

@@ -1,6 +1,6 @@
 // Vertices of a virtual object, seen through the video camera's lens.
-// In: vertices of the unit shape. Out: position in the camera's coordinates [m], normal, position
-// on the checkerboard [squares], position on the unit shape.
+// In: vertices of the unit shape. Out: position in camera coordinates [m], normal, position on the
+// checkerboard [squares], position on the unit shape.
 #include "preview_params.glsl"
 #include "lens_projection.glsl"
 
@@ -15,7 +15,7 @@ out vec3 place;
 void main() {
     vec3 size = vec3(params.width, params.height, params.depth);
     // A normal must be divided by the size along each axis. Multiplying each component by the sizes
-    // along the two other axes gives the same direction, also if one size is zero.
+    // along the two other axes gives the same direction, even if one size is zero.
     vec3 n = normal * size.yzx * size.zxy;
     point = transformed(params.object, position * size);
     for (int i = 0; i < 3; ++i) {

@@ -1,10 +1,8 @@
-// Where the still shows a video pixel that is infinitely far away. This depends on both lenses and
-// on the rotation between the cameras, but not on parallax.
 #include "camera.glsl"
 #include "pipeline/engine/params/luma.h"
 
-// Position in the still [px] of a video pixel. It is far outside the still if the pixel's ray
-// points away from what the still shows.
+// Returns the position in the still [px] of a video pixel at infinity, which does not depend on
+// parallax. It is far outside the still if the pixel's ray points away from the still's picture.
 vec2 stillPixel(Rig r, vec2 videoPixel) {
     vec3 p = vec3(unprojectPixel(r.video, videoPixel), 1.0);
     vec3 s;

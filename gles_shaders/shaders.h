@@ -6,13 +6,13 @@
 namespace mfar::shaders {
 
 struct Source {
-    std::string_view name;  ///< file name, for example "flow_search.comp"
-    std::string_view text;  ///< source with all #include lines resolved, without #version
+    std::string_view name;
+    std::string_view text;  ///< with all #include lines resolved, without #version
 };
 
-/// All shaders of mfar. Their sources are embedded at build time.
+/// All shaders of mfar, embedded at build time.
 [[nodiscard]] std::span<const Source> all();
-/// Source text of the shader with this file name. Throws std::out_of_range if there is none.
+/// Returns the text of the shader with this file name. Throws std::out_of_range if there is none.
 [[nodiscard]] std::string_view source(std::string_view name);
 
 }  // namespace mfar::shaders

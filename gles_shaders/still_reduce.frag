@@ -1,8 +1,8 @@
-// Reduces the still along one axis by a tent filter. The tent is two pixels of the result wide.
-// In: RGBA8. Out: RGBA8.
-// Sharper kernels are worse, because they keep high frequencies, and matches are least exact for
-// these. Measured on photographs reduced from 2304 to 1067 pixels across: Keys' cubic is 0.2 to 1.3
-// dB worse than the tent, and Mitchell's filter is between the two.
+// Reduces the still along one axis by a tent filter. The tent is two pixels of the result wide. In:
+// RGBA8. Out: RGBA8.
+// Sharper kernels are worse, because they keep high frequencies, for which matches are least exact.
+// Measured on photographs reduced from 2304 to 1067 pixels across: Keys' cubic is 0.2 to 1.3 dB
+// worse than the tent, and Mitchell's filter is between the two.
 // TAPS: largest number of pixels under the tent. It is a constant, so that the compiler can unroll
 // the loop.
 // Variant: #define TAPS 8

@@ -1,16 +1,15 @@
 // Computes the mean luma of the still over the area of a video pixel. Needs tile_params.glsl.
 layout(binding = 2) uniform sampler2D lookupField;
-layout(binding = 3) uniform sampler2D still;  // luma with amplified finest detail
+layout(binding = 3) uniform sampler2D still;
 
-// Position in the still (texture coordinates) of the position p in the video [px].
 vec2 inStill(vec2 p) {
     vec2 scale = vec2(params.stillScaleX, params.stillScaleY) / vec2(params.scaleX, params.scaleY);
     return (p * scale + textureLod(lookupField, p / vec2(4 * cellCount()), 0.0).xy) *
            vec2(params.stillTexelX, params.stillTexelY);
 }
 
-// Mean luma of the still over this video pixel, from 4x4 samples. The samples' positions in the
-// still are interpolated bilinearly between the positions of the four outermost samples.
+// Returns the mean of 4x4 samples of the still over this video pixel. Positions between the four
+// outermost samples are interpolated bilinearly.
 float stillSeen() {
     const float reach = 0.375 * kSeen;
     vec2 first = inStill(gl_FragCoord.xy - reach), last = inStill(gl_FragCoord.xy + reach);

@@ -2,9 +2,9 @@
 // In: the forward field (from video to still) in cells[]; also in cells[] either the backward
 // field, which may be of a coarser pyramid level, or two-way errors; the finest luma pyramid level
 // of both pictures.
-// Out: displacement image = flow (x, y) [video px], and the position in the still to which the flow
-// leads minus the scaled cell centre (x, y) [still px]. Statistics image = covariance, variance of
-// the video and of the still in the patch, confidence; the first three are 0 in tiles that are not
+// Out: displacement image = flow (x, y) [video px], and the end of the flow vector in the still
+// minus the scaled cell centre (x, y) [still px]. Statistics image = covariance, variance of the
+// video and of the still in the patch, confidence; the first three are 0 in tiles that are not
 // matched.
 // Source: paper, eq. 2 with lambda(x) = min(x, 1).
 // Range: displacement -2e4..2e4, -2e4..2e4, -4e3..4e3, -4e3..4e3

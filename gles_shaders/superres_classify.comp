@@ -1,11 +1,11 @@
-// Finds the class of every tile and makes the frame's draw lists.
+// Finds the class of every tile and makes the frame's draw lists. One invocation per tile.
 // In: change flags; cell fields of one or two stills.
 // Out: lists[] = five lists of changed tiles: 0 all, 1 upscaled (only enlarged), 2 trusted, 3
 // blended, 4 tiles that show some of the second still. Lists 0 to 3 are empty if header.x is 1.
 // Only lists 0 and 1 are empty if header.x is 2. List 0 also contains neighbours of tiles that show
-// detail or are enlarged by filters, because such tiles read their neighbours. draws[] = indirect
-// draw commands, one per list; before this shader runs, only the number of vertices in each is set.
-// counts[] = counters of the frame, initially 0. classes[] = class of each tile. One invocation per
+// detail or are enlarged by filters, because such tiles read their neighbours.
+// draws[] = indirect draw commands, one per list; before this shader runs, only the number of
+// vertices in each is set. counts[] = counters of the frame, initially 0. classes[] = class of each
 // tile.
 // Range: classes 0..3, 0..16
 #include "tiles.glsl"
@@ -19,26 +19,28 @@ layout(std430, binding = 0) readonly buffer Changed {
     // frame is enlarged at once, and detail is added in the listed tiles). y: number of changed
     // tiles.
     uvec2 header;
-    uvec2 changed[];  // x: 1 if the tile changed; y: 1 if it is matched
+    uvec2 changed[];
 };
 layout(std430, binding = 1) buffer Classes {
-    uvec2 classes[];  // x: class in this frame; y: number of unexplained cells when the tile was
-                      // last drawn
+    // x: class in this frame; y: number of cells without a reliable match when the tile was last
+    // drawn.
+    uvec2 classes[];
 };
 layout(std430, binding = 2) buffer Draws {
     uvec4 draws[5];    // vertices, instances, first vertex, reserved
-    // Numbers of tiles of each of the four classes; unused; number of unexplained tiles; 256 * the
-    // sum of the tiles' mean confidences; number of tiles that show the second still.
+    // Numbers of tiles of each of the four classes; unused; number of tiles that the still does not
+    // explain; 256 * the sum of the tiles' mean confidences; number of tiles that show the second
+    // still.
     uint counts[8];
 };
 layout(std430, binding = 3) buffer Lists {
-    // The five lists; then, for each tile, the number of the frame in which the tile was last
-    // listed as a neighbour.
+    // The five lists. Then, for each tile, the number of the last frame that listed it as a
+    // neighbour.
     uint lists[];
 };
 layout(binding = 0) uniform sampler2D cellField;
 layout(binding = 1) uniform sampler2D weightField;
-layout(binding = 2) uniform sampler2D secondCells;  // cell field of the second still
+layout(binding = 2) uniform sampler2D secondCells;
 layout(binding = 3) uniform sampler2D secondWeights;
 
 ivec2 lastCell() {
@@ -49,9 +51,8 @@ vec4 cellAt(ivec2 c) {
     return texelFetch(cellField, clamp(c, ivec2(0), lastCell()), 0);
 }
 
-// Finds the class of a changed tile; `first` is the tile's first cell. A tile is trusted (plain) if
-// it can be drawn as one rectangle, because its flow is affine and its weight is uniform (within
-// tolerances).
+// Finds the class of a changed tile, whose first cell is `first`. A tile is trusted (plain) if it
+// can be drawn as one rectangle: its flow is affine and its weight is uniform (within tolerances).
 uint classOf(ivec2 first) {
     vec4 low = vec4(1e9), high = vec4(-1e9);
     for (int i = 0; i < 36; ++i) {
@@ -72,13 +73,12 @@ uint classOf(ivec2 first) {
     return kTileTrusted;
 }
 
-// Whether the second still's weight in cell c exceeds the first still's by more than kSecondFrom.
 bool secondIsMore(ivec2 c) {
     return texelFetch(secondCells, c, 0).z > texelFetch(cellField, c, 0).z + kSecondFrom;
 }
 
-// Whether a tile shows some of the second still. Also tests the cells around the tile, because the
-// tile's outer pixels are interpolated between these and the tile's cells.
+// True if a tile shows some of the second still. The cells around the tile are tested too, because
+// the tile's outer pixels are interpolated with them.
 bool showsSecond(ivec2 first) {
     ivec2 low = max(first - 1, ivec2(0)), high = min(first + 4, lastCell());
     for (int y = low.y; y <= high.y; ++y)

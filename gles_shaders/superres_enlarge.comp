@@ -1,10 +1,9 @@
 // Residual of the learned enlarger relative to Keys' cubic, on a grid of 4x4 sub-pixels per pixel.
-// A pixel has two classes, each with a filter. The residual of a class is the sum of the
-// differences between the pixel's neighbours and the pixel, weighted with the filter. The result is
-// the mean of both residuals. It is computed for tiles that are drawn and enlarged by learned
-// filters, and for the pixels around these tiles.
+// A pixel has two classes with a filter each; the result is the mean of both residuals. A residual
+// is the weighted sum of the differences between the pixel's neighbours and the pixel. It is
+// computed for drawn tiles with learned filters and for the pixels around them.
 // In: video, states of the tiles, filters of all classes. Out: residual image [1/32 grey level]. A
-// pixel has four texels, one below the other. Each texel holds one row of four sub-pixels.
+// pixel has four texels, one below the other, with a row of four sub-pixels each.
 // Method: see pipeline/enlarge/filter_layout.h. One workgroup per upper or lower half of a tile.
 #include "cubic.glsl"
 #include "luma.glsl"
@@ -13,7 +12,7 @@
 #include "enlarge_filters.glsl"
 
 const int kGroupWidth = 16, kGroupHeight = 8, kGroupSize = kGroupWidth * kGroupHeight;
-const int kReach = 3;  // distance of the farthest pixel that influences class or residual [px]
+const int kReach = 3;  // largest distance of a pixel that influences class or residual [px]
 const int kPitch = kGroupWidth + 2 * kReach;
 const int kLumas = kPitch * (kGroupHeight + 2 * kReach);
 const int kSumPitch = kGroupWidth + 4;
@@ -25,17 +24,16 @@ layout(std140, binding = 0) uniform Params {
 };
 layout(std430, binding = 0) readonly buffer Tiles {
     uvec2 header;
-    uvec2 tiles[];  // x: 1 if the tile changed; y: 1 if it is matched
+    uvec2 tiles[];
 };
 layout(binding = 0) uniform sampler2D picture;
 layout(rgba16i, binding = 0) uniform writeonly highp iimage2D residual;
 
-shared float luma[kLumas];   // luma of the group's pixels and their surroundings [1/8 grey level]
-shared float sumsXx[kSums];  // sums of gx * gx over five rows, where (gx, gy) is the gradient
+shared float luma[kLumas];   // luma of the group and its surroundings [1/8 grey level]
+shared float sumsXx[kSums];  // sums of gx * gx over five rows; (gx, gy) is the gradient
 shared float sumsXy[kSums];
 shared float sumsYy[kSums];
 
-// Whether a tile is drawn and enlarged by learned filters.
 bool learns(ivec2 tile) {
     if (any(lessThan(tile, ivec2(0))) || any(greaterThanEqual(tile, ivec2(params.columns, params.rows))))
         return false;
@@ -43,8 +41,7 @@ bool learns(ivec2 tile) {
     return (header.x != 0u || flags.x != 0u) && flags.y != 0u;
 }
 
-// Whether learns() is true for a tile that contains or touches one of the pixels from `first` to
-// `last`.
+// True if learns() is true for a tile that contains or touches a pixel from `first` to `last`.
 bool learnsAround(ivec2 first, ivec2 last) {
     ivec2 low = (first - 1) >> 4, high = (last + 1) >> 4;
     bool any = false;
@@ -93,7 +90,6 @@ float most(vec4 v) {
     return max(max(v.x, v.y), max(v.z, v.w));
 }
 
-// Sums of gx * gx, gx * gy and gy * gy over the 5x5 pixels around this one.
 vec3 sumsAround() {
     int i = int(gl_LocalInvocationID.y) * kSumPitch + int(gl_LocalInvocationID.x);
     vec3 sums = vec3(0.0);
@@ -102,12 +98,10 @@ vec3 sumsAround() {
     return sums;
 }
 
-// Writes the residual of all sub-pixels of a pixel. `at` is the index of the pixel in luma[].
 void enlarge(ivec2 pixel, int at) {
     float here = luma[at];
     int up = at - kPitch, down = at + kPitch;
     int gradient = gradientClass(sumsAround());
-    // Differences between the neighbours and the pixel, in the order of kTapAt.
     vec4 above2 = rowFrom(up - kPitch - 2) - here, above = rowFrom(up - 2) - here;
     vec4 below = rowFrom(down - 2) - here, below2 = rowFrom(down + kPitch - 2) - here;
     vec4 beside = vec4(luma[at - 2], luma[at - 1], luma[at + 1], luma[at + 2]) - here;

@@ -2,8 +2,8 @@
 // the difference between a pixel and the mean of its 2x2 block.
 // In: states of the tiles, look-ups, luma of the still with amplified finest detail, video.
 // Out: means, over the middle two rows of the cell, of the products of the details: video * video,
-// video * still, still * still [grey levels^2]. Zero in tiles that are not matched and in cells
-// that are only partly inside the frame.
+// video * still, still * still [grey levels^2]. They are zero in tiles that are not matched and in
+// cells that are only partly inside the frame.
 // One workgroup per tile, one invocation per cell. Only every kFineStep-th row of cells is sampled.
 // Range: fineField 0..65025, -65025..65025, 0..65025, 0
 #include "luma.glsl"
@@ -16,14 +16,13 @@ layout(std140, binding = 0) uniform Params {
 };
 layout(std430, binding = 0) readonly buffer Tiles {
     uvec2 header;
-    uvec2 tiles[];  // x: 1 if the tile changed; y: 1 if it is matched
+    uvec2 tiles[];
 };
 layout(binding = 0) uniform sampler2D picture;
 layout(binding = 1) uniform sampler2D lookupField;
-layout(binding = 2) uniform sampler2D still;  // luma with amplified finest detail
+layout(binding = 2) uniform sampler2D still;
 layout(rgba32f, binding = 0) uniform writeonly highp image2D fineField;
 
-// Mean luma of the still over the area of a video pixel, from 2x2 samples.
 float stillAt(ivec2 pixel) {
     float sum = 0.0;
     for (int i = 0; i < 4; ++i) {

@@ -1,8 +1,8 @@
-// Computes the statistics from which the photometric gain between the sensors follows. They are
-// measured at half resolution, where the difference between the sensors' blur is negligible.
-// In: forward field (from video to still), second luma pyramid level of both pictures. Out:
-// covariance, variance of the video and variance of the still, for each half-resolution cell (8x8
-// video pixels); zero in tiles that are not matched.
+// Computes the statistics for the photometric gain between the sensors, at half resolution, where
+// the difference between the sensors' blur is negligible.
+// In: forward field (from video to still), second luma pyramid level of both pictures.
+// Out: covariance, variance of the video and variance of the still, for each half-resolution cell
+// (8x8 video pixels); zero in tiles that are not matched.
 // Range: statistics -4.2e6..4.2e6, 0..4.2e6, 0..4.2e6, 0..0
 #include "luma.glsl"
 #include "pipeline/engine/params/weigh.h"
@@ -19,7 +19,7 @@ layout(std430, binding = 1) readonly buffer Cells {
 };
 layout(std430, binding = 2) readonly buffer Tiles {
     uvec2 header;
-    uvec2 tiles[];  // x: 1 if the tile changed; y: 1 if it is matched
+    uvec2 tiles[];
 };
 layout(rgba32f, binding = 0) uniform writeonly highp image2D statistics;
 

@@ -1,8 +1,7 @@
-// Computes the mean luma of the still over each video pixel. Used if the video is enlarged by
-// learned filters and not sharpened.
-// In: video, look-ups, luma of the still with amplified finest detail. Out: luma [1/64 grey level];
-// guidance signal [1/64 grey level], which is zero where the still is not trusted; 1 where the
-// still is trusted, else 0.
+// Computes the mean luma of the still over each video pixel, for learned filters.
+// In: video, look-ups, luma of the still with amplified finest detail.
+// Out: luma [1/64 grey level]; guidance signal [1/64 grey level], which is zero where the still is
+// not trusted; 1 where the still is trusted, else 0.
 #include "tile_params.glsl"
 #include "still_seen.glsl"
 #include "luma.glsl"

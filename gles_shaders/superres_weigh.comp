@@ -1,19 +1,18 @@
-// Computes how far the still is trusted in each cell, from the statistics of 3x3 cells.
+// Computes the weight of the still in each cell, from the statistics of 3x3 cells.
 // In: images of superres_assess.comp.
 // Out: cells image = flow (x, y) [video px], weight of the detail, confidence (eq. 2). Look-up
-// image = the position in the still to which the flow leads minus the scaled cell centre (x, y)
-// [still px], weight, confidence. Weights image = weight / 2, confidence, share of the video's
-// variance that is signal and not noise (for the sharpening), 1 if the cell is unexplained.
+// image = end of the flow vector in the still minus the scaled cell centre (x, y) [still px],
+// weight, confidence. Weights image = weight / 2, confidence, share of the video's variance that is
+// not noise (for the sharpening), 1 if the cell has no reliable match.
 // The weight of the detail is the photometric gain between the sensors times the trust in the
 // match. The gain is covariance / (variance of the still + noise). It is measured at half
 // resolution where the contrast there suffices.
-// The trust depends on the flow:
 // Where the flow is uniform, both sensors see the surface from the same direction. Their
 // correlation at the video's resolution says little about detail that aliases in the video. A match
 // that is probably correct is therefore trusted fully.
-// Where the flow varies, the still shows the surface from another direction. The trust is the
-// square of the share of the video's variance that the still explains.
-// Where the flow is discontinuous, look-ups between cells are invalid, and nothing is trusted.
+// Where the flow varies, the still shows the surface from another direction. The trust is then the
+// square of the share of the video's variance that the still explains. Where the flow is
+// discontinuous, look-ups between cells are invalid, and the trust is 0.
 // Range: cellField -2e4..2e4, -2e4..2e4, 0..2.31, 0..1
 // Range: lookupField -4e3..4e3, -4e3..4e3, 0..2.31, 0..1
 #include "pipeline/engine/params/weigh.h"
@@ -37,15 +36,15 @@ vec2 flowAt(ivec2 c) {
     return texelFetch(displacement, clamp(c, ivec2(0), lastCell()), 0).xy;
 }
 
-// How much the flow changes around the cell [px per px].
+// Returns the change of the flow around the cell [px per px].
 float bendAt(ivec2 c) {
     vec2 dx = flowAt(c + ivec2(1, 0)) - flowAt(c - ivec2(1, 0));
     vec2 dy = flowAt(c + ivec2(0, 1)) - flowAt(c - ivec2(0, 1));
     return sqrt(dot(dx, dx) + dot(dy, dy)) / 8.0;
 }
 
-// Magnitude of the second difference of the flow at the cell [px]. It is zero for rotations and
-// zooms, because their flow has the same first difference everywhere.
+// Returns the magnitude of the second difference of the flow at the cell [px]. Rotations and zooms
+// have a second difference of zero.
 float tearAt(ivec2 c) {
     vec2 here = 2.0 * flowAt(c);
     vec2 dx = flowAt(c + ivec2(1, 0)) + flowAt(c - ivec2(1, 0)) - here;
@@ -57,7 +56,6 @@ vec4 statisticsAt(ivec2 c) {
     return texelFetch(statistics, clamp(c, ivec2(0), lastCell()), 0);
 }
 
-// Mean of halfStatistics over the 2x2 half-resolution cells that are nearest to the cell.
 vec3 halfAround(ivec2 cell) {
     vec3 sum = vec3(0.0);
     ivec2 last = ivec2(params.halfColumns, params.halfRows) - 1;

@@ -18,8 +18,8 @@ uint mixed(uint h) {
     return h ^ (h >> 16);
 }
 
-// An approximately normally distributed random number with mean 0 and variance 1: the scaled sum of
-// the four bytes of a hash.
+// Returns a random number with approximately normal distribution, mean 0 and variance 1: the scaled
+// sum of the four bytes of a hash.
 float bell(uint h) {
     float sum = float(h & 255u) + float((h >> 8) & 255u) + float((h >> 16) & 255u) + float(h >> 24);
     return (sum - 510.0) / 147.8;

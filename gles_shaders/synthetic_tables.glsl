@@ -1,17 +1,17 @@
-// Tables of the synthetic world, and functions that intersect rays with it. A solid is a box, a
-// cylinder or an ellipsoid. Rays are transformed to the solid's coordinate system, which is scaled
-// so that the solid becomes a unit cube, unit cylinder or unit sphere.
+// Tables of the synthetic world, and functions that intersect rays with its solids. A solid is a
+// box, a cylinder or an ellipsoid. Rays are transformed to scaled coordinates in which the solid is
+// a unit cube, unit cylinder or unit sphere.
 
 struct Solid {
-    vec4 x, y, z;  // rows of the matrix from camera directions to scaled coordinates; w: camera
-                   // position in scaled coordinates
+    // Rows of the matrix from camera directions to scaled coordinates. w: camera position in scaled
+    // coordinates.
+    vec4 x, y, z;
 };
 struct Surface {
     vec4 size;        // half extents [m]; w: 0 box, 1 cylinder, 2 ellipsoid
-    vec4 face;        // xy: corner of the solid's first face in the light map; zw: size of a face
-                      // there
-    vec4 light;       // xyz: direction to the key light; w: half a texel / width of a face in the
-                      // light map
+    vec4 face;        // in the light map, xy: corner of the first face; zw: size of a face
+    // xyz: direction to the key light; w: half a texel / width of a face in the light map.
+    vec4 light;
     ivec4 materials;  // indices in `materials` of the x, y and z faces; w: 1 if the solid moves
 };
 struct Material {
@@ -64,8 +64,8 @@ void castRound(int index, vec2 rays[4], inout vec4 t, inout ivec4 hit) {
         vec3 d = local(s, rays[k]);
         vec3 dk = d * keep, ok = o * keep;
         float a = dot(dk, dk), b = dot(ok, dk);
-        // Uses the ray's point nearest to the axis or centre. The discriminant b*b - a*c would lose
-        // precision at a large distance.
+        // The ray's point nearest to the axis or centre is used, because the discriminant b*b - a*c
+        // would lose precision at a large distance.
         vec3 nearest = ok - dk * (b / a);
         float disc = (1.0 - dot(nearest, nearest)) / a;
         if (!(disc > 0.0)) continue;
@@ -89,12 +89,11 @@ void castRound(int index, vec2 rays[4], inout vec4 t, inout ivec4 hit) {
     }
 }
 
-// A point on a face, in the coordinates of the face.
 struct Chart {
-    vec2 at;       // texture position [m]
-    vec3 u, v;     // directions of texture axes on the surface
+    vec2 at;
+    vec3 u, v;
     vec3 normal;
-    vec2 light;    // position in the face's light map, 0..1
+    vec2 light;
     float positive;
 };
 
@@ -127,9 +126,9 @@ Chart chart(Surface f, int axis, vec3 p) {
     return c;
 }
 
-// Factor by which the moving object's shadow darkens a point; the object is treated as a sphere.
-// Needed because the light map contains only the shadows of static objects. `light`: direction to
-// the light; w: radius of the sphere, 0: there is no moving object.
+// Returns the factor by which the moving object's shadow darkens a point, because the light map
+// contains only shadows of static objects. The object is treated as a sphere. `light`: direction to
+// the light; w: radius of the sphere, 0 without a moving object.
 float moverShade(vec3 point, vec3 middle, vec4 light) {
     vec3 v = point - middle;
     float along = dot(v, light.xyz), off = length(v - along * light.xyz);

@@ -32,8 +32,8 @@ vec2 distort(vec2 p, out mat2 jacobian) {
                              t.x * (r2 + 2.0 * p.y * p.y) + 2.0 * t.y * p.x * p.y);
 }
 
-// Normalised ray of a pixel. The columns of `perPixel` are the ray's derivatives by x and y of the
-// pixel.
+// Returns the normalised ray of a pixel. The columns of `perPixel` are its derivatives by x and y
+// of the pixel.
 vec2 unproject(vec2 pixel, out mat2 perPixel) {
     Lens lens = params.lens;
     vec2 target = (pixel - vec2(lens.cx, lens.cy)) / vec2(lens.fx, lens.fy);
@@ -72,7 +72,6 @@ vec3 shade(Group g, vec4 t, vec2 rays[4], mat2 perPixel) {
     vec3 d = turn * vec3(ray / count, 1.0);
     Chart c = chart(f, g.axis, middle);
 
-    // Footprint of a pixel on the surface, first in metres, then in texels of the texture layer.
     Material m = materials[f.materials[g.axis]];
     vec3 across = turn * vec3(perPixel[0], 0.0), down = turn * vec3(perPixel[1], 0.0);
     float facing = dot(c.normal, d);

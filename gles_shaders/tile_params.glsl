@@ -1,4 +1,3 @@
-// Parameters of all shaders that draw tiles.
 #include "pipeline/engine/params/detail.h"
 
 layout(std140, binding = 0) uniform Params {

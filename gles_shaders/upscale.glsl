@@ -1,6 +1,5 @@
-// Second half of the bicubic enlargement: along rows. The first half is superres_vertical.frag,
-// which also says what alpha contains.
-// Needs tile_params.glsl, and columns.glsl or learned.glsl.
+// Second half of the bicubic enlargement: along rows. superres_vertical.frag is the first half and
+// says what alpha contains. Needs tile_params.glsl, and columns.glsl or learned.glsl.
 #include "cubic.glsl"
 
 vec4 upscaled() {

@@ -1,6 +1,6 @@
 // Reads the layer of virtual objects at an output pixel. Needs visibility.glsl.
 // SCALED_LAYER: the layer's size differs from the output's. Colours are interpolated linearly. The
-// depth is that of the nearest one of the four surrounding layer pixels whose depth is valid.
+// depth is that of the nearest one of the four surrounding layer pixels with a valid depth.
 // Variant: #define SCALED_LAYER 1
 
 bool isVirtual(float z) {
@@ -23,7 +23,6 @@ vec4 layerColour(highp sampler2D colours) {
 #endif
 }
 
-// z of the virtual surface [m]; 0: the layer shows no surface here.
 float layerDepth(highp sampler2D depths) {
 #ifdef SCALED_LAYER
     ivec2 base;

@@ -12,12 +12,12 @@ ivec2 lastVideoPixel() {
 ivec2 outputSize() {
     return ivec2(params.outputWidth, params.outputHeight);
 }
-// Position of the fragment in the video; pixel centres are at integers.
+// Returns the position of the fragment in the video; pixel centres are at integers.
 vec2 inVideo() {
     return gl_FragCoord.xy * vec2(params.scaleX, params.scaleY) - 0.5;
 }
 
-// Whether a sample of the real scene's depth (inverse depth [1/m], sigma [1/m]) is valid. False for
+// True if a sample of the real scene's depth (inverse depth [1/m], sigma [1/m]) is valid. False for
 // NaN, infinity, zero and negative values.
 bool known(vec2 real) {
     return real.x > kLeastInverseDepth && real.x < kMostInverseDepth && real.y > kLeastDepthSigma &&

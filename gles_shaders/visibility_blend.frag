@@ -1,4 +1,4 @@
-// Computes the visible part of the virtual layer, which is blended over the picture.
+// Multiplies the virtual layer by its visibility. The result is blended over the picture.
 // In: layer, RGBA8 premultiplied by coverage; visibility, R8. Out: their product, premultiplied.
 #include "visibility.glsl"
 #include "virtual_layer.glsl"

@@ -1,15 +1,14 @@
-// Decides which virtual pixels are certainly in front of the real scene and which are certainly
-// behind it.
+// Finds the virtual pixels that are certainly in front of or certainly behind the real scene.
 // In: virtual z [m]; result of visibility_range.frag. Out: visibility, R8, 1 or 0; fragment depth:
-// 1 if visibility_sample.frag must decide, otherwise 0. In visibility_sample.frag, the depth test
-// then skips the decided pixels. On a software renderer, a branch in the shader would save no time.
+// 0 for decided pixels, otherwise 1. The depth test in visibility_sample.frag skips the decided
+// pixels. On a software renderer, a branch in the shader would save no time.
 #include "visibility.glsl"
 #include "virtual_layer.glsl"
 
 layout(binding = 0) uniform sampler2D virtualDepth;
 layout(binding = 1) uniform sampler2D rangeField;
-// The output is a vec4, because Mesa 22.3 for Mali crashes if a shader that writes depth has a
-// single output channel.
+// A vec4, because Mesa 22.3 for Mali crashes if a shader that writes depth has a single output
+// channel.
 layout(location = 0) out vec4 visibility;
 
 void main() {

@@ -1,4 +1,4 @@
-// Finds the range of a virtual pixel's inverse depth for which visibility_sample.frag must weigh
+// Finds the range of a virtual pixel's inverse depth in which visibility_sample.frag must weigh
 // samples of the real depth. The samples are the 4x4 video pixels around a position between this
 // pixel and the next ones to the right and below.
 // In: inverse depth and sigma of the real scene [1/m], Rg32F.

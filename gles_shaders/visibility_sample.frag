@@ -1,8 +1,7 @@
-// Computes the visibility [0, 1] of virtual pixels for which visibility_decide.frag has not
-// decided. It is the weighted mean over the 4x4 nearest samples of the real depth. A sample's
-// weight depends on its distance and on how similar the video's colour at the sample is to the
-// picture's colour at the pixel. Depth edges therefore follow image edges (joint bilateral
-// upsampling, Kopf et al. 2007).
+// Computes the visibility [0, 1] of virtual pixels that visibility_decide.frag left undecided: the
+// weighted mean over the 4x4 nearest samples of the real depth. Weights depend on the distance, and
+// on the similarity of the video's colour at the sample to the picture's colour at the pixel. Depth
+// edges therefore follow image edges (joint bilateral upsampling, Kopf et al. 2007).
 // In: virtual z [m], inverse depth and sigma of the real scene [1/m], video, output picture. Out:
 // visibility, R8.
 #include "visibility.glsl"
@@ -14,8 +13,8 @@ layout(binding = 2) uniform sampler2D videoPicture;
 layout(binding = 3) uniform sampler2D picture;
 layout(location = 0) out float visibility;
 
-// Visibility of a virtual surface with this inverse depth behind one sample of the real depth. If
-// the real depth is unknown, the surface is fully visible.
+// Returns the visibility of a virtual surface behind one sample of the real depth: 1 if the real
+// depth is unknown.
 float visibleOver(vec2 real, float inverse) {
     if (!known(real)) return 1.0;
     float sigma = max(length(vec2(real.y, params.virtualSigma * inverse)), 1e-9);
@@ -34,8 +33,7 @@ void main() {
         vec2 tent = 2.0 - abs(vec2(q) - at);
         q = clamp(q, ivec2(0), lastVideoPixel());
         vec3 unlike = texelFetch(videoPicture, q, 0).rgb - here;
-        // If no sample has a similar colour, kLikenessFloor lets the distance alone determine the
-        // weight.
+        // If no sample has a similar colour, kLikenessFloor lets the distance determine the weight.
         float w = tent.x * tent.x * tent.y * tent.y *
                   (exp(-params.likeness * dot(unlike, unlike)) + kLikenessFloor);
         sum += w * visibleOver(texelFetch(realDepth, q, 0).rg, inverse);

@@ -1,12 +1,12 @@
-// Lists the least exact pixels of a warped picture. These are the pixels with the most contrast to
-// their neighbours: the warp interpolated there between colours that are mixtures already.
-// First pass (COUNT): counts the pixels of each contrast level. Second pass: lists the pixels of
-// the highest contrast levels, as many levels as stay within the given share of the objects'
-// pixels, but at least the highest level. The set of listed pixels does not depend on the order of
-// the threads.
-// In: colour (RGBA8 premultiplied) and state, from warp_look_up.frag and warp_rest.comp. Out:
-// count[] = number of pixels of each contrast level, number of pixels of objects, length of the
-// list; list[] = row-major index and colour of each listed pixel.
+// Lists the least exact pixels of a warped picture: those with the most contrast to their
+// neighbours. There, the warp interpolated between colours that already are mixtures.
+// The first pass (COUNT) counts the pixels of each contrast level. The second pass lists the pixels
+// of the highest contrast levels: as many levels as stay within the given share of the objects'
+// pixels, but at least the highest. The set of listed pixels does not depend on the order of the
+// threads.
+// In: colour (RGBA8 premultiplied) and state, from warp_look_up.frag and warp_rest.comp.
+// Out: count[] = number of pixels of each contrast level, number of pixels of objects, length of
+// the list; list[] = row-major index and colour of each listed pixel.
 // Variant: #define COUNT
 #include "warp_edge_params.glsl"
 
@@ -27,9 +27,9 @@ layout(std430, binding = 1) writeonly buffer List {
 shared uint least;
 #endif
 
-// Contrast level at p: the largest difference of a colour channel within the 3x3 pixels around p,
-// scaled to kLevels levels. Alpha is ignored, so that outlines of dark objects have little
-// contrast. This is intended, because the silhouette already makes outlines exact.
+// Returns the contrast level at p: the largest difference of a colour channel within the 3x3 pixels
+// around p, scaled to kLevels levels. Alpha is ignored, because the silhouette already makes the
+// outlines of dark objects exact.
 uint levelAt(ivec2 p) {
     vec3 low = vec3(1.0), high = vec3(0.0);
     for (int i = 0; i < 9; ++i) {

@@ -1,12 +1,11 @@
-// Fills the listed holes (pixels whose colour is unknown) from the pyramid of warp_pull.comp. Goes
-// from fine to coarse pyramid levels; each fills the share of a pixel that the finer levels leave
-// unfilled.
-// An object of which no colour is known gets the colour of the objects around it. An object that
-// has just emerged from behind others is therefore neither a hole nor transparent.
-// A hole is a crack if it is at an edge, or if most of its neighbours show the same surface. Cracks
-// are always filled, from nearby pixels.
-// In: holes[] (here list[]) and state of warp_rest.comp; pyramid. Out: colours of the holes, RGBA8
-// premultiplied; bit 30 in list[] marks a crack.
+// Fills listed pixels without a known colour from the pyramid of warp_pull.comp. Finer pyramid
+// levels come first; each level fills the share of a pixel that the finer levels leave unfilled.
+// An object without any known colour, for example one that has just emerged from behind others,
+// gets the colour of the objects around it.
+// A pixel belongs to a crack if it is at an edge, or if most of its neighbours show the same
+// surface. Cracks are always filled, from nearby pixels.
+// In: list[] (holes[] of warp_rest.comp) and state of warp_rest.comp; pyramid. Out: colours of the
+// listed pixels, RGBA8 premultiplied; bit 30 in list[] marks a crack.
 #include "warp_hole_params.glsl"
 #include "warp_pyramid.glsl"
 
@@ -25,7 +24,7 @@ layout(std430, binding = 2) readonly buffer Pyramid {
 
 const uint kAnyObject = kAnyObjectNumber;
 
-// Bilinear sample of the surface `id` in pyramid level l at pixel p. Gives the sum of colour times
+// Samples the surface `id` in pyramid level l at pixel p, bilinearly. Gives the sum of colour times
 // weight, and the sum of the weights.
 void sampleLevel(int l, ivec2 p, uint id, out vec4 sum, out float weights) {
     HoleLevel level = params.levels[l - 1];
@@ -59,8 +58,6 @@ bool isCrack(ivec2 p, float id) {
     return same >= 5;
 }
 
-// Combines the samples of pyramid levels 1 to `last` at pixel p. Gives the sum of colour times
-// weight, and the sum of the weights.
 void gather(ivec2 p, uint id, int last, out vec4 sum, out float weight) {
     sum = vec4(0.0);
     weight = 0.0;

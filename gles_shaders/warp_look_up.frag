@@ -1,10 +1,10 @@
-// The second pass of the warp, for plain pixels. A pixel is plain if one surface fills it
-// completely and if the traced picture shows this surface, at the same depth, in the four texels
-// around the looked-up position. All other pixels are left to warp_rest.comp. There are no
-// branches, because a software renderer executes both sides anyway.
-// In: silhouette at twice the resolution. Out: colour, RGBA8 premultiplied; z [m], 0 = no surface;
-// state = (0, 1 if the pixel is left to warp_rest.comp, 0, number of the surface that fills the
-// pixel).
+// Second pass of the warp for simple pixels: one surface fills the pixel, and the four texels
+// around the looked-up position in the traced picture show this surface at the same depth. All
+// other pixels are left to warp_rest.comp. There are no branches, because a software renderer
+// executes both sides anyway.
+// In: silhouette at twice the resolution.
+// Out: colour, RGBA8 premultiplied; z [m], 0 without a surface; state = (0, 1 if the pixel is left
+// to warp_rest.comp, 0, number of the surface that fills the pixel).
 // Source: paper, eq. 5.
 // Range: depth 0..1e6
 #include "warp_view_params.glsl"
@@ -12,10 +12,9 @@
 #include "warp_surface.glsl"
 
 layout(binding = 0) uniform usampler2D silhouette;
-layout(binding = 1) uniform sampler2D rays;  // normalised ray of each layer pixel
+layout(binding = 1) uniform sampler2D rays;
 layout(binding = 2) uniform sampler2D colours;
-layout(binding = 3) uniform usampler2D surfaces;  // packed by packSurface(); surface number 254:
-                                                  // unknown surface
+layout(binding = 3) uniform usampler2D surfaces;  // packed by packSurface(); 254: unknown surface
 layout(location = 0) out vec4 colour;
 layout(location = 1) out float depth;
 layout(location = 2) out vec4 state;
@@ -32,8 +31,8 @@ void main() {
     id = open ? kCatcher : id;
     bool empty = open && z == 0.0;
     vec3 at = inView(0, z * vec3(ray, 1.0));
-    // The corner that the four texels share. The gather samples exactly there, because rounding in
-    // the texture unit can then not select other texels.
+    // The corner that the four texels share. Because the gather samples exactly there, rounding in
+    // the texture unit cannot select other texels.
     vec2 corner = floor(at.xy) + 1.0;
     uvec4 t = textureGather(surfaces, corner / vec2(tracedSize()));
     vec4 off = abs(uintBitsToFloat(t & 0xffffff00u) - at.z);

@@ -1,4 +1,4 @@
-// Computes one level of the push-pull pyramid from the next finer level. FIRST_LEVEL: computes the
+// Computes a level of the push-pull pyramid from the next finer level. FIRST_LEVEL: computes the
 // first level from the picture.
 // In: colour and state of warp_rest.comp. Out: texels[].
 // Variant: #define FIRST_LEVEL

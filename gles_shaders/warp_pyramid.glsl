@@ -1,9 +1,9 @@
 // The pyramid of push-pull filling (Gortler et al. 1996, section 3.5). Objects and the shadow
-// catcher below them have separate colours, so that these do not mix. Needs warp_hole_params.glsl.
+// catcher have separate colours, so that these do not mix. Needs warp_hole_params.glsl.
 
-// One texel of the pyramid, which stands for an area of the picture: colour of the object that
-// covers most of the area, and colour of the shadow catcher (both premultiplied; packed as RGBA8);
-// number of the object; weights of both colours [0, 1] (packed as bytes).
+// A texel of the pyramid, which stands for an area of the picture: colour of the object that covers
+// most of the area, and colour of the shadow catcher (both premultiplied; packed as RGBA8); number
+// of the object; weights of both colours [0, 1] (packed as bytes).
 struct Area {
     vec4 object, catcher;
     uint id;

@@ -1,7 +1,7 @@
 // Functions on the four quarters of a pixel. The quarters are packed surfaces in the order of
 // textureGather(). Needs warp_surface.glsl.
 
-// Number of the object that covers the most quarters; 0: no object covers any.
+// Returns the number of the object that covers the most quarters, or 0 without an object.
 uint mostOf(uvec4 s) {
     uint id = 0u;
     int most = 0;
@@ -16,8 +16,8 @@ uint mostOf(uvec4 s) {
     return id;
 }
 
-// Centre of the quarters that show surface `id`: offset from the pixel's centre [px], and z [m]; z
-// is 0 if no quarter shows the surface.
+// Returns the centre of the quarters that show surface `id`: offset from the pixel's centre [px],
+// and z [m]. z is 0 if no quarter shows the surface.
 vec3 middleOf(uvec4 s, uint id) {
     vec4 own = vec4(equal(s & 0xffu, uvec4(id)));
     float count = dot(own, vec4(1.0));

@@ -1,16 +1,15 @@
-// The second pass of the warp, for pixels that warp_look_up.frag cannot process. These are pixels
-// at edges, whose coverage is a multiple of a quarter, and pixels that the traced picture does not
-// show but re-rendered pictures may show. A pixel is composed of an object and, below it, the
-// shadow catcher.
+// Second pass of the warp for the pixels that warp_look_up.frag leaves: pixels at edges, whose
+// coverage is a multiple of a quarter, and pixels that only re-rendered pictures may show. A pixel
+// is composed of an object and, below it, the shadow catcher.
 // In: list[] of warp_rest_list.comp. Out: colour, z and state of the pixels; holes[];
 // holeCommands[].
-// State: number of the surface whose colour is missing; the missing share of the pixel; 1 if this
-// surface fills the pixel and no picture shows it; number of the surface that fills the whole pixel
-// with a known colour.
-// holes[] = pixel index, colour so far (RGBA8). Bit 31 of the index: the third component of the
-// state is 1. Bit 30: the pixel is at an edge.
-// holeCommands[0] = number of groups of 64 holes (x), number of holes (w). holeCommands[l] =
-// dispatch command for pyramid level l; set when the first hole is found.
+// State: number of the surface with unknown colour; share of the pixel with unknown colour; 1 if
+// this surface fills the pixel and no picture shows it; number of the surface that fills the whole
+// pixel with a known colour.
+// holes[] = pixels without a known colour: pixel index, colour so far (RGBA8). Bit 31 of the index:
+// the third component of the state is 1. Bit 30: the pixel is at an edge.
+// holeCommands[0] = number of groups of 64 entries of holes[] (x), number of entries (w).
+// holeCommands[l] = dispatch command for pyramid level l, set with the first entry.
 // Range: depth 0..1e6
 #include "warp_view_params.glsl"
 #include "warp_view.glsl"
@@ -21,8 +20,8 @@ layout(local_size_x = 64) in;
 layout(binding = 0) uniform usampler2D silhouette;
 layout(binding = 1) uniform sampler2D rays;
 layout(binding = 2) uniform sampler2D colours;
-layout(binding = 3) uniform sampler2D surfaces;  // WarpSurface: z [m], surface number, tolerance of
-                                                 // z [m], 1 if known
+// WarpSurface: z [m], surface number, tolerance of z [m], 1 if known.
+layout(binding = 3) uniform sampler2D surfaces;
 layout(binding = 4) uniform sampler2D rerenderedColours;
 layout(binding = 5) uniform sampler2D rerenderedSurfaces;
 layout(binding = 0, rgba8) writeonly uniform image2D colour;
@@ -41,11 +40,10 @@ layout(std430, binding = 3) writeonly buffer Holes {
     uvec2 holes[];
 };
 
-// Bilinear look-up of the surface `id` at `at` (pixel, z). Uses those of the four texels around
-// `at` that show this surface at this z. The rows of the picture begin at `firstRow`. Returns the
-// sum of the texels' weights, and in `found` the premultiplied colour. Returns 0 if this sum is not
-// above kLeastLookUpWeight. For the shadow catcher, texels without a surface count as shadow
-// catcher without a shadow.
+// Looks up the surface `id` bilinearly at `at` (pixel, z), in those of the four texels that show
+// this surface at this z. The rows of the picture begin at `firstRow`. `found` becomes the
+// premultiplied colour. Returns the sum of the weights, or 0 if it is not above kLeastLookUpWeight.
+// For the shadow catcher, texels without a surface count as catcher without a shadow.
 float lookUp(sampler2D from, sampler2D shown, ivec2 size, int firstRow, vec3 at, float id, out vec4 found) {
     vec2 low = floor(at.xy), f = at.xy - low;
     vec4 sum = vec4(0.0);
@@ -66,12 +64,12 @@ float lookUp(sampler2D from, sampler2D shown, ivec2 size, int firstRow, vec3 at,
     return weights > kLeastLookUpWeight ? weights : 0.0;
 }
 
-// Returns how much of the colour of surface `id` at `point` is known, [0, 1], and the colour in
+// Returns the known share of the colour of surface `id` at `point`, [0, 1], and the colour in
 // `found`.
 float known(vec3 point, float id, out vec4 found) {
     if (lookUp(colours, surfaces, tracedSize(), 0, inView(0, point), id, found) > 0.0) return 1.0;
-    float share_ = 0.0;  // share of the re-rendered picture that has faded in most; others do not
-                         // reduce it
+    // Share of the re-rendered picture that has faded in most. Others do not reduce it.
+    float share_ = 0.0;
     for (int i = 0; i < params.rerendered; ++i) {
         vec4 own;
         vec3 at = inView(i + 1, point);
@@ -80,7 +78,7 @@ float known(vec3 point, float id, out vec4 found) {
         found = own;
     }
     if (share_ > 0.0) return share_;
-    // Outside the traced picture the shadow catcher's colour is unknown. It is not reported as
+    // Outside the traced picture, the shadow catcher's colour is unknown. It is not reported as
     // missing, and the catcher stays transparent.
     found = vec4(0.0);
     return id == float(kCatcher) && !(inView(0, point).z > 0.0) ? 1.0 : 0.0;
@@ -113,8 +111,8 @@ void main() {
     if (below > 0.0) shown += below * catcherKnown * ofCatcher;
     bool missed = objectKnown < 1.0, hole = missed || catcherKnown < 1.0;
     bool nowhere = objectKnown == 0.0 || catcherKnown == 0.0;
-    // A hole at an edge is filled from its neighbours. It is not rendered individually, because
-    // that would give the colour of a mixture of surfaces.
+    // At an edge, a pixel without a known colour is filled from its neighbours. Rendering it
+    // individually would give the colour of a mixture of surfaces.
     bool edge = (missed ? covered : below) < 1.0;
     float z = covered > 0.0 ? object.z : shown.a > 0.0 || hole ? (1.0 - kShadowLift) * catcher.z : 0.0;
     float plain = hole ? 0.0 : covered == 1.0 ? float(id) : below == 1.0 ? float(kCatcher) : 0.0;

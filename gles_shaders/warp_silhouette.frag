@@ -5,8 +5,8 @@
 #include "warp_surface.glsl"
 
 #ifdef ALPHA_MASK
-layout(binding = 0) uniform sampler2D alpha;  // alpha times the material's alpha factor; the
-                                              // texture repeats
+// Alpha times the material's alpha factor; the texture repeats.
+layout(binding = 0) uniform sampler2D alpha;
 in vec2 texel;
 #endif
 layout(location = 0) out uint surface;

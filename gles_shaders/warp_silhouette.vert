@@ -15,7 +15,6 @@ void main() {
     texel = uv;
 #endif
     vec3 h = projectPoint(params.layer, point);
-    // Pixel centres are at integers. The far plane is at infinity.
     gl_Position = vec4((2.0 * h.xy + h.z) / vec2(params.width, params.height) - h.z,
                        h.z - 2.0 * params.layer.nearPlane, h.z);
 }

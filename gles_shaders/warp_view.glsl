@@ -1,9 +1,9 @@
 // Finds where a traced or re-rendered picture shows a point. Needs warp_view_params.glsl.
 #include "lens_projection.glsl"
 
-// `point` [m] is in the coordinates of the layer's camera. Returns the point's pixel in view `v`
-// and its z in the camera of this view; z = 0 if the view cannot show the point. View 0 is the
-// traced picture; the others are re-rendered pictures.
+// `point` [m] is in coordinates of the layer's camera. Returns the point's pixel in view `v` and
+// its z in that view's camera; z = 0 if the view cannot show the point. View 0 is the traced
+// picture; the others are re-rendered pictures.
 vec3 inView(int v, vec3 point) {
     vec3 there = transformed(params.views[v].toView, point);
     int c = min(v, 1);

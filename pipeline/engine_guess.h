@@ -7,16 +7,17 @@
 
 namespace mfar {
 
-/// A placement of the steps (which engine runs which step) is given up if a frame takes longer with
-/// it than this factor times a frame with the fastest placement.
+/// An assignment of steps to engines is discarded if a frame takes more than this factor times a
+/// frame with the fastest assignment.
 inline constexpr double kHopelessFrame = 2;
 
-/// Placements of the steps that may be the fastest while the camera moves, the most promising
-/// first. Either all steps run on one engine, or matching (pyramid, flow, weigh) runs on one engine
-/// and drawing (still, detail, occlusion) on the other.
-/// Placements are excluded if `./run board-report` predicts for this GPU that they take longer than
-/// kHopelessFrame times the fastest. The predictions may be wrong by a factor of two. `driver` is
-/// GlContext::description().
+/// Returns the assignments of steps to engines that may be the fastest during camera motion, the
+/// most promising first. Either one engine runs all steps, or one engine runs matching (pyramid,
+/// flow, weigh) and the other drawing (still, detail, occlusion).
+///
+/// Excludes those that take longer than kHopelessFrame times the fastest, according to the
+/// predictions of `./run board-report` for this GPU. They may be wrong by a factor of two. `driver`
+/// is GlContext::description().
 [[nodiscard]] std::vector<EngineChoice> promisingEngines(std::string_view driver);
 
 }  // namespace mfar

@@ -11,7 +11,7 @@ namespace mfar {
 namespace {
 
 constexpr int kWarmUp = 2, kFrames = 5;
-constexpr int kShift = 3;  // motion per frame [px]
+constexpr int kShift = 3;
 
 /// Grey value of a texture of random squares in three sizes, so that every pyramid level has
 /// structure.
@@ -26,7 +26,7 @@ std::uint8_t greyAt(int x, int y) {
     return static_cast<std::uint8_t>(sum);
 }
 
-/// A picture of the texture. Each pixel is `scale` texels wide; `shift` moves the picture [texels].
+/// Each pixel of the picture is `scale` texels wide. `shift` moves the picture [texels].
 std::vector<std::uint8_t> pictureOf(Size size, double scale, int shift) {
     std::vector<std::uint8_t> rgba;
     rgba.reserve(4UL * size.width * size.height);
@@ -43,8 +43,8 @@ ImageView viewOf(const std::vector<std::uint8_t>& rgba, Size size) {
     return {rgba.data(), size, 4UL * size.width, PixelFormat::Rgba8};
 }
 
-/// Median time of a frame [ms]. If the first measured frame takes longer than `most` [ms], returns
-/// its time without measuring more frames.
+/// Median time of a frame [ms]. If the first measured frame takes longer than `most` [ms], its time
+/// is returned without further measurements.
 double medianFrame(const EngineChoice& engines, const StereoRig& rig, Size output,
                    EngineKind shownFrom, double most) {
     using Clock = std::chrono::steady_clock;

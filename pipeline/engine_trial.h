@@ -6,18 +6,18 @@
 
 namespace mfar {
 
-/// A placement of the steps (which engine runs which step), and the time that a frame takes with it
-/// while the camera moves.
+/// An assignment of steps to engines, and the time of a frame with it during camera motion.
 struct EngineTrial {
     EngineChoice engines;
     double frameMs = 0;  ///< median; includes transfers between CPU and GPU
 };
 
-/// Measures the placements on generated moving pictures, and returns them with the fastest first.
-/// The measurement of a placement ends early if its frame takes more than kHopelessFrame times as
-/// long as with the fastest placement so far. `shownFrom`: whether the display shows the picture
-/// from GPU memory (Gles) or from CPU memory (Simd).
-/// Needs a current GL context. Four placements take about a second, mostly for compiling shaders.
+/// Measures the assignments of steps to engines on generated moving pictures and returns them, the
+/// fastest first. An assignment that takes more than kHopelessFrame times the fastest so far is not
+/// measured to the end. `shownFrom`: the display reads the picture from GPU memory (Gles) or from
+/// CPU memory (Simd).
+///
+/// Needs a current GL context. Four assignments take about a second, mostly for compiling shaders.
 /// Throws like Pipeline.
 [[nodiscard]] std::vector<EngineTrial> tryEngines(const std::vector<EngineChoice>& placements,
                                                   const StereoRig& rig, Size output,

@@ -18,7 +18,7 @@ void FrameMatcher::match(const RgbPlanes& video, Rows<const std::uint8_t> still,
     const StillPictures& pictures = still_->run(view, SuperResMode::Detail);
     pyramid_->still(pictures);
     const TileWork work = TileWork::everything(tilesOf(rig_.video.size));
-    const VideoFrame frame{view, video, ++frames_};  // the steps read the planes, not the view
+    const VideoFrame frame{view, video, ++frames_};  // the steps read only the planes, not the view
     const LumaPyramid& luma = pyramid_->video(frame, work);
     const CellWeights& weights = weigh_->run(luma, flow_->run(luma, work, false), work);
     const CameraModel& looked = pictures.rig.still;

@@ -10,8 +10,8 @@
 namespace mfar {
 
 /// Matches a video frame with a still, independently of the frames that the daemon processes. It
-/// runs on the CPU in the caller's thread, searches in both dimensions, and uses no predictions
-/// from earlier frames. Allocates its memory in the constructor.
+/// searches in both dimensions on the CPU, in the caller's thread. It uses no predictions from
+/// earlier frames. Only the constructor allocates memory.
 class FrameMatcher {
 public:
     explicit FrameMatcher(const StereoRig& rig);

@@ -263,7 +263,7 @@ const CellWeights* Pipeline::State::matchSecond(const VideoFrame& frame, const T
     const TileWork& missed = secondTiles.choose(work, plan.measured(), shown, most);
     newest.count(secondTiles.matched(), secondTiles.shownByNewest());
     if (missed.matched == 0) {
-        second.lastFlow = nullptr;  // later frames must not start their search from this old flow
+        second.lastFlow = nullptr;  // later frames must not start their search from the old flow
         return nullptr;
     }
     const LumaPyramid& pyramids = second.pyramid->video(frame, missed);
@@ -360,7 +360,6 @@ void Pipeline::State::lap(const char* stage) {
     clock.lap(stage);
 }
 
-// Rectangle of the video pixels in these tiles.
 PixelRect Pipeline::State::pixelsOf(const PixelRect& tiles) const {
     const auto [width, height] = rig.video.size;
     return common(

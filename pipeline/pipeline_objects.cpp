@@ -91,8 +91,8 @@ PixelRect Pipeline::State::placeObjects(const std::optional<Pose>& pose, Timesta
         where = objects->place(pose ? std::optional(pose->T_world_video) : std::nullopt, time,
                                depth->stage.field());
         // If detail and occlusion run on different engines, there are two copies of the picture.
-        // When the engine of the detail step draws a tile, the other engine's copy is replaced, and
-        // the objects that were drawn into that copy are lost.
+        // When the detail step draws a tile, it replaces the other copy, and the objects in that
+        // copy are lost.
         const bool apart = options.engines.detail != options.engines.occlusion;
         const WorkPlan::Redraw redrawn = objects->redraw();
         plan.drawnOver(objects->staleTiles(), apart && redrawn == WorkPlan::Redraw::WithThem
@@ -143,7 +143,7 @@ void Pipeline::State::measureDepth(const VideoFrame& frame, const Pose& pose,
     lap("depth");
 }
 
-// Discards the depth of moving real things: of tiles in which the flow is off the epipolar lines.
+// Things that move are in tiles with flow off the epipolar lines.
 void Pipeline::State::forgetMoving(const DepthMatches& matches) {
     const Size tiles = plan.tileCount();
     for (int t = 0; t < tiles.width * tiles.height; ++t) {
@@ -154,7 +154,7 @@ void Pipeline::State::forgetMoving(const DepthMatches& matches) {
     }
 }
 
-// Whether the flow of at least a quarter of the tile's cells is off the epipolar lines.
+// True if the flow of at least a quarter of the tile's cells is off the epipolar lines.
 bool Pipeline::State::leavesLines(const PixelRect& tile, const EpipolarFlow::Cells& vectors) const {
     const int columns = cellsOf(rig.video.size).width;
     int off = 0, all = 0;

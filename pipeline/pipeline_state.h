@@ -16,28 +16,30 @@
 
 namespace mfar {
 
-/// Smallest distance of a flow vector's end from the epipolar line [px] at which the vector cannot
-/// belong to a static point.
+/// A flow vector cannot belong to a static point if it ends at least this far from the epipolar
+/// line [px].
 inline constexpr float kOffLine = 3;
 
-/// What Pipeline keeps between frames. It is used by pipeline.cpp (which processes frames),
-/// pipeline_objects.cpp and readback.cpp. Data that belongs to a single frame is not kept here, but
-/// passed as arguments and returned.
+/// The data of Pipeline between frames. Data of a single frame is not stored here, but passed as
+/// arguments and returned. pipeline.cpp processes frames; pipeline_objects.cpp and readback.cpp
+/// contain other member functions.
 struct Pipeline::State {
     State(const StereoRig& rig, const PipelineOptions& options);
 
-    /// The results of a frame's flow step that the depth measurement needs.
+    /// Results of a frame's flow step that the depth measurement needs. `searched2d` has one entry
+    /// per tile.
     struct DepthMatches {
         EpipolarFlow::Cells vectors;
-        std::vector<bool> searched2d;  ///< one entry per tile
+        std::vector<bool> searched2d;
     };
-    /// How depth is measured in one frame.
+    /// Depth measurement of one frame. `where` is the area that needs depth [video px]. `matches`
+    /// is empty if the flow did not follow epipolar lines. If `isDue` is false, the last depth is
+    /// only moved to this frame.
     struct DepthTask {
-        PixelRect where;  ///< where depth is needed [video px]
+        PixelRect where;
         bool measures = false;
-        std::optional<DepthMatches> matches;  ///< present if the flow followed epipolar lines
-        bool isDue = false;                   ///< true: depth is measured anew; false: the last
-                                              ///< depth is carried on to this frame
+        std::optional<DepthMatches> matches;
+        bool isDue = false;
     };
     struct RealDepth {
         RealDepth(const CameraModel& video, const std::shared_ptr<Workers>& workers,
@@ -46,55 +48,48 @@ struct Pipeline::State {
 
         DepthStage stage;
         EdgeSnap snap;
-        LumaImage luma;  // luma of a frame that was not matched along epipolar lines
+        LumaImage luma;
     };
-    /// Match of a frame with the newest still.
     struct Match {
         const FlowCells& flow;
         const CellWeights& weights;
-        const CellWeights* second = nullptr;  ///< match with the second still; null: not used
+        const CellWeights* second = nullptr;
     };
 
-    /// Starts a thread that creates the epipolar search unless it exists. The first pictures then
-    /// do not wait for its creation; it is needed only once a still with a pose arrives.
+    /// Starts a thread that creates the epipolar search unless it exists. So the first pictures
+    /// need not wait for it.
     void beginEpipolar();
     /// Returns the epipolar search. Creates it, or waits for the thread that creates it.
     EpipolarFlow& needEpipolar();
-    /// Allocates memory for depth measurement unless this was done before.
     void needDepth();
-    /// Places the virtual objects. Returns the rectangle in which this frame needs the real depth
-    /// [video px].
     PixelRect placeObjects(const std::optional<Pose>& pose, Timestamp time);
     const TileWork& planFrame(const VideoFrame& frame);
-    /// Matches the frame with the newest still: along epipolar lines if a pose is given, otherwise
-    /// in both dimensions. `forDepth`: where the depth measurement needs the epipolar search [video
-    /// px].
+    /// Matches the frame with the newest still: along epipolar lines with a pose, otherwise in both
+    /// dimensions. `forDepth` is the area in which the depth measurement needs the epipolar search
+    /// [video px].
     Match matchStill(const VideoFrame& frame, const TileWork& work, const std::optional<Pose>& pose,
                      const PixelRect& forDepth);
-    /// Computes the weight of each cell of the match with a still.
     const CellWeights& weighed(const Reference& still, const VideoFrame& frame,
                                const LumaPyramid& pyramids, const FlowCells& flow,
                                const TileWork& work);
-    /// Must be called before a new still is stored. Keeps the newest still as the second one if
-    /// keepsOlder() does not prefer the present second one.
+    /// Must be called before a new still is stored. The newest still becomes the second still
+    /// unless keepsOlder() prefers the older one.
     void retireNewest();
-    /// Matches the second still in the tiles that the newest still does not show. Returns null if
-    /// there are no such tiles. Must be called after matchStill().
+    /// Matches the second still in the tiles that the newest still does not show. Returns null
+    /// without such tiles. Must be called after matchStill().
     const CellWeights* matchSecond(const VideoFrame& frame, const TileWork& work);
-    /// Decides whether depth is measured, and copies the flow results that the measurement needs.
-    /// They are copied before the frame is drawn, because a later copy would wait until the GPU has
-    /// drawn it. `alongLines`: the flow if it was searched along epipolar lines, else null.
+    /// Decides if depth is measured, and copies the necessary flow results. A copy after drawing
+    /// would wait until the GPU has drawn the frame. `alongLines` is the flow if it was searched
+    /// along epipolar lines, else null.
     DepthTask prepareDepth(const PixelRect& where, bool hasPose, const FlowCells* alongLines);
     void listen(const CellWeights& weights);
-    /// Must be called before a new still is stored. Reports to the listener how the newest still,
-    /// which is about to be replaced, was matched.
+    /// Must be called before a new still is stored. Reports to the listener how the newest still
+    /// was matched.
     void tellReplaced();
     [[nodiscard]] MatchedPictures::LookedUp lookedUp() const;
     void drawDetail(const VideoFrame& frame, const TileWork& work, const Match* match);
     void measureDepth(const VideoFrame& frame, const Pose& pose, const DepthTask& task);
     void showObjects(const VideoFrame& frame);
-    /// Records what this frame shows of the real scene around the objects, for use in the next
-    /// frame.
     void followScene(const VideoFrame& frame, const std::optional<Pose>& pose, Timestamp time);
     void publish(const TileWork& work, bool usedStill, bool usedPose);
 
@@ -111,38 +106,37 @@ struct Pipeline::State {
     [[nodiscard]] const FilterBank* filterBank() const {
         return filters ? filters.get() : &FilterBank::prior();
     }
-    /// Ends a stage of the frame and records its duration.
     void lap(const char* stage);
 
     [[nodiscard]] Reference makeReference();
-    /// `wanted`, or the full size if `wanted` is 0x0.
+    /// Returns `wanted`, or the full size for 0x0.
     static Size outputSize(const StereoRig& rig, Size wanted);
 
     StereoRig rig;
     PipelineOptions options;
     Size output;
     std::shared_ptr<Workers> workers;
-    Transfers transfers, transfersBefore;  // totals now, and before this frame
-    std::unique_ptr<Engine> gles, simd;    // null: no step uses this engine
+    Transfers transfers, transfersBefore;
+    std::unique_ptr<Engine> gles, simd;
     Reference newest, second;
     std::unique_ptr<DetailStep> detail;
-    RgbPlanes now, drawn;  // video of this frame; for each tile, the video from which it was last
-                           // drawn
+    // now: video of this frame. drawn: for each tile, the video with which it was last drawn.
+    RgbPlanes now, drawn;
     WorkPlan plan;
     SecondTiles secondTiles;
-    std::unique_ptr<EpipolarFlow> epipolar;  // created for the first still with a pose
+    std::unique_ptr<EpipolarFlow> epipolar;
     std::future<std::unique_ptr<EpipolarFlow>> comingEpipolar;
-    std::optional<RealDepth> depth;  // set when first needed
+    std::optional<RealDepth> depth;
     std::optional<VirtualView> objects;
-    TracedLayerOptions traced;  // options of path-traced objects
+    TracedLayerOptions traced;
     std::optional<SceneFollower> sceneFollower;
     std::optional<LightFollower> lightFollower;
     Quality quality;
-    std::shared_ptr<const FilterBank> filters, nextFilters;  // null: the built-in filters
+    std::shared_ptr<const FilterBank> filters, nextFilters;  // null means the built-in filters
     MatchListener* matchListener = nullptr;
-    bool isNewStill = false;  // true: no frame was matched with the newest still yet
-    bool redraw = true;       // true: the next frame must draw all tiles
-    int depthAge = 0;         // frames since depth was last measured
+    bool isNewStill = false;  // true if no frame was matched with the newest still yet
+    bool redraw = true;
+    int depthAge = 0;
     std::uint64_t frames = 0;
     StageClock clock;
     FrameResult result;

@@ -7,10 +7,9 @@
 namespace mfar {
 namespace {
 
-constexpr float kSameSurface = 0.5F;  // two flow vectors that differ by less [px] belong to the
-                                      // same surface
+// Two flow vectors that differ by less [px] belong to the same surface.
+constexpr float kSameSurface = 0.5F;
 
-/// Interpolates one channel of the weighed cells for every video pixel.
 void channelInto(std::vector<float>& out, int stride, int at, const CellWeights& weights,
                  int channel, Size video) {
     const Rows<const WeighedCell> rows = weights.weighed.host();
@@ -51,9 +50,9 @@ std::vector<float> Pipeline::readFlow() const {
     for (int channel = 0; channel < 2; ++channel)
         channelInto(out, 2, channel, *s.newest.lastWeights, channel, video);
     if (!s.newest.lastFlow->errorsGiven) return out;
-    // A cell's flow vector is accurate to a fraction of a pixel, but covers 4x4 pixels. The
-    // epipolar search gives each pixel its own vector, which shows on which side of a depth edge
-    // the pixel lies.
+    // The flow vector of a cell is accurate to a fraction of a pixel, but covers 4x4 pixels. Only a
+    // pixel's own vector from the epipolar search shows on which side of a depth edge the pixel
+    // lies.
     const std::vector<bool> searched = readSearchedTiles();
     const std::vector<float> alongLines = s.epipolar->flow();
     for (int y = 0; y < video.height; ++y)

@@ -7,10 +7,10 @@
 namespace mfar {
 namespace {
 
-constexpr double kFollows = 1.0 / 8;  // weight of a new frame in the average Reference::shows
-// Mean motion of the cells below which two stills count as taken from the same view: half a tile.
-// Their occlusions and borders then differ by no more than parts of a tile.
-constexpr double kSameView = 0.5 * kTileSize;  // [video px]
+constexpr double kFollows = 1.0 / 8;
+// Two stills count as taken from the same view if the mean motion of the cells is smaller [video
+// px]. Their occlusions and borders then differ only by parts of a tile.
+constexpr double kSameView = 0.5 * kTileSize;
 
 }  // namespace
 

@@ -2,21 +2,21 @@
 
 namespace mfar {
 
-/// Each option lets frames skip work whose result would not be visible. All are on by default.
-/// Benchmarks turn one off to measure the time that it saves and the error that it adds. Other
-/// options that skip work are PipelineOptions::skipUnchanged and depthEverywhere,
-/// EpipolarOptions::mostPredicted, KeyframeOptions and DepthOptions.
+/// Each option lets frames skip work whose result would not be visible. Benchmarks turn one off to
+/// measure the time that it saves and the error that it adds. Other such options are
+/// PipelineOptions::skipUnchanged and depthEverywhere, EpipolarOptions::mostPredicted,
+/// KeyframeOptions and DepthOptions.
 struct SkipOptions {
     bool upscaledTiles = true;  ///< a tile to which the still adds nothing is only enlarged
     bool smoothTiles = true;    ///< a tile without structure is not matched but only enlarged
     /// A tile with nearly constant flow and weight is drawn as one quad.
     bool plainTiles = true;
-    bool tileLists = true;      ///< only changed tiles are drawn, unless most tiles changed
-    bool knownFlow = true;      ///< the 2-D flow search starts from the last frame's flow
+    bool tileLists = true;  ///< only changed tiles are drawn, unless most tiles changed
+    bool knownFlow = true;
     bool knownBehind = true;    ///< depth is not measured where it is known to lie behind objects
     bool objectsAtRest = true;  ///< objects over unchanged tiles are not drawn again
     bool hiddenObjects = true;  ///< objects completely occluded by real things are not drawn
-    bool objectBounds = true;   ///< objects are composited only within their bounds
+    bool objectBounds = true;
 };
 
 }  // namespace mfar

@@ -5,13 +5,11 @@
 
 namespace mfar {
 
-/// Duration of one stage in the processing of the last frame.
 struct StageTime {
     const char* stage;
     double ms;
 };
 
-/// Measures the durations of a frame's consecutive stages.
 class StageClock {
 public:
     StageClock() { times_.reserve(kMostStages); }
@@ -20,8 +18,7 @@ public:
         times_.clear();
         last_ = Clock::now();
     }
-    /// Ends the stage `stage`: records the time since the last call of start() or lap() as its
-    /// duration.
+    /// Ends a stage, which began with the last call of start() or lap().
     void lap(const char* stage) {
         const auto now = Clock::now();
         times_.push_back({stage, std::chrono::duration<double, std::milli>(now - last_).count()});
@@ -29,11 +26,12 @@ public:
     }
     [[nodiscard]] const std::vector<StageTime>& times() const { return times_; }
 
-    bool measures = false;  ///< whether each stage waits until its work is done
+    bool measures = false;  ///< true if each stage waits until its work is done
 
 private:
     using Clock = std::chrono::steady_clock;
-    static constexpr std::size_t kMostStages = 12;  // reserved, so that frames do not allocate
+    // Reserved at the start, so that frames do not allocate memory.
+    static constexpr std::size_t kMostStages = 12;
 
     std::vector<StageTime> times_;
     Clock::time_point last_;

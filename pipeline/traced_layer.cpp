@@ -13,9 +13,8 @@ struct TracedLayer::State {
         : camera(video.scaledTo(options.size)), warp(camera, options.size, warps, options.warp),
           renderer(rendererOptions(options, warp)), fadeFrames(options.warp.fadeFrames) {}
 
-    // The policy `soon`, which shows a new picture after few samples, is used only if the warp
-    // takes light apart from colours. A warp that takes finished colours would show the noise of
-    // such a picture.
+    // The policy `soon` shows a picture after few samples. A warp that does not separate light from
+    // colours would show the noise of such a picture.
     static TracedRendererOptions rendererOptions(const TracedLayerOptions& options,
                                                  const Warp& warp) {
         TracedRendererOptions out = options.renderer;
@@ -23,8 +22,6 @@ struct TracedLayer::State {
         return out;
     }
 
-    /// Passes a new traced picture to the warp. If the picture shows another scene than the last
-    /// one, the warp gets the models of that scene, too.
     void take(const RenderedPicture& picture) {
         if (picture.scene != scene) {
             const bool sameModels = scene && sameObjects(*scene, *picture.scene);
@@ -40,9 +37,10 @@ struct TracedLayer::State {
     Warp warp;
     TracedRenderer renderer;
     int fadeFrames;
-    std::shared_ptr<const Scene> scene;      // scene of the traced picture that is shown
-    const RenderedPicture* shown = nullptr;  // only its address is compared with the next picture's
-    // Number of frames in which the layer still changes although the camera does not move.
+    std::shared_ptr<const Scene> scene;
+    // Only used to compare its address with the next picture's.
+    const RenderedPicture* shown = nullptr;
+    // Number of frames in which the layer still changes without motion of the camera.
     int changing = 0;
 };
 

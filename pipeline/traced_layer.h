@@ -13,7 +13,7 @@
 namespace mfar {
 
 struct TracedLayerOptions {
-    /// Size of the layer [px]; 0x0: half the output size, rounded up.
+    /// Size of the layer [px]; 0x0 means half the output size, rounded up.
     Size size;
     TracedRendererOptions renderer{};
     WarpOptions warp{};
@@ -23,51 +23,47 @@ struct TracedLayerOptions {
 /// Counters of the path tracer and the warp, for the status and the summary.
 struct TracedLayerCounters {
     RenderCounters render{};
-    std::uint64_t warped = 0;     ///< frames drawn by warping
+    std::uint64_t warped = 0;
     std::uint64_t unmoved = 0;    ///< frames that showed a traced picture without warping it
-    std::uint64_t requested = 0;  ///< pixels that were requested to be traced individually
-    std::uint64_t answered = 0;   ///< requested pixels that were traced
-    int openHoles = 0;            ///< pixels that no picture shows, in the newest frame for which
-                                  ///< this is known
+    std::uint64_t requested = 0;  ///< pixels requested to be traced individually
+    std::uint64_t answered = 0;
+    /// Number of pixels that no picture shows, in the newest frame with a known number.
+    int openHoles = 0;
 };
 
-/// The path-traced virtual layer. Threads of low priority render traced pictures over many
-/// frames, and these pictures are warped to each frame's pose. Pixels that the pictures do not show
-/// are traced individually. No function waits for the threads.
+/// The path-traced virtual layer. Threads of low priority render traced pictures over many frames,
+/// and these are warped to each frame's pose. Pixels that no picture shows are traced individually.
+/// No function waits for the threads.
 class TracedLayer {
 public:
-    /// Whether this build has a path tracer. Builds for 32-bit ARM have no path tracer.
+    /// False in builds for 32-bit ARM, which have no path tracer.
     [[nodiscard]] static bool isAvailable();
 
-    /// `video` is the video camera at any resolution; the step that warps the pictures comes from
-    /// `warps`. `warps` must outlive this object. Throws std::invalid_argument if an option is out
-    /// of range, std::runtime_error if the build has no path tracer, and GlError if the set-up of
-    /// GL fails.
+    /// `video` is the video camera at any resolution. `warps` creates the warp step and must
+    /// outlive this object. Throws std::invalid_argument if an option is out of range,
+    /// std::runtime_error if the build has no path tracer, and GlError if the set-up of GL fails.
     TracedLayer(const CameraModel& video, Engine& warps, const TracedLayerOptions& options);
     ~TracedLayer();
     TracedLayer(const TracedLayer&) = delete;
     TracedLayer& operator=(const TracedLayer&) = delete;
 
-    /// Sets the scene, which must be valid. The present picture stays until there is a picture of
-    /// the new scene.
+    /// Sets a valid scene. The present picture stays until there is a picture of the new scene.
     void setScene(std::shared_ptr<const Scene> scene);
 
-    /// Begins a frame with the camera at this pose. Allows the threads some more processor time,
-    /// and uses the results that they have finished. Without further calls, the threads pause.
+    /// Begins a frame with the camera at this pose. Uses the finished results of the threads and
+    /// allows them some more processor time. Without further calls, they pause.
     void update(const RigidTransform& T_world_video, Timestamp time);
-    /// Whether the result of the next render() would differ from the last one even if the camera
-    /// does not move.
+    /// True if the next render() would give a different result even if the camera does not move.
     [[nodiscard]] bool isStale() const;
 
     /// Draws the layer at this pose. The layer is empty before the first traced picture is
     /// finished. The result is valid until the next call of any member function.
     LayerPicture& render(const RigidTransform& T_world_video);
 
-    /// Whether the threads have done all work that the last update() allowed; for measurements.
+    /// True if the threads have done all work that the last update() allowed; for measurements.
     [[nodiscard]] bool rests() const;
 
     [[nodiscard]] TracedLayerCounters counters() const;
-    /// Returns why a scene could not be used. Each failure is returned once; empty: there was none.
     [[nodiscard]] std::optional<std::string> takeError();
 
 private:

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-// This file replaces traced_layer.cpp in builds without Embree, the library that traces the rays.
+// Replaces traced_layer.cpp in builds without Embree, the library that traces rays.
 namespace mfar {
 
 struct TracedLayer::State {};
@@ -17,7 +17,7 @@ TracedLayer::TracedLayer(const CameraModel&, Engine&, const TracedLayerOptions&)
 }
 TracedLayer::~TracedLayer() = default;
 
-// These functions are never called, because no TracedLayer can be constructed.
+// Never called, because no TracedLayer can be constructed.
 void TracedLayer::setScene(std::shared_ptr<const Scene>) {}
 void TracedLayer::update(const RigidTransform&, Timestamp) {}
 bool TracedLayer::isStale() const {

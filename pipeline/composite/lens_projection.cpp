@@ -7,8 +7,8 @@
 namespace mfar {
 namespace {
 
-// Largest radius of the rim, relative to the radius of the picture's corners. The rim is then so
-// far outside the picture that the projection beyond the rim distorts no visible part.
+// Largest radius of the rim, as a multiple of the radius of the picture's corners. It is large
+// enough that the projection beyond the rim distorts no visible part.
 constexpr double kBeyondPicture = 2;
 
 }  // namespace

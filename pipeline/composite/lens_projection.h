@@ -5,11 +5,11 @@
 namespace mfar {
 
 /// A camera's projection that is defined for all points in space, so that projected triangles can
-/// be clipped. Up to a certain radius of rays, the rim, it equals CameraModel::project. Beyond the
-/// rim, where the lens model may fold points back into the picture, pixels move outwards in
-/// proportion to the ray instead. lens_projection.glsl implements the same projection.
+/// be clipped. For rays inside a certain radius, the rim, it equals CameraModel::project. Beyond
+/// the rim, the lens model may fold points back into the picture; here, the distance of the pixel
+/// grows linearly with the ray instead. lens_projection.glsl implements the same projection.
 struct LensProjection {
-    static constexpr double kNear = 0.01;  ///< z of the near plane [m]: nothing nearer is drawn
+    static constexpr double kNear = 0.01;  ///< z of the near plane [m]
 
     explicit LensProjection(const CameraModel& model);
 
@@ -18,8 +18,8 @@ struct LensProjection {
     [[nodiscard]] Eigen::Vector3d operator()(const Eigen::Vector3d& p) const;
 
     CameraModel camera;
-    double rim;        ///< radius of the outermost ray (x/z, y/z) for which the lens model is valid
-    double rimRadial;  ///< radial factor of the distortion at the rim
+    double rim;  ///< radius of the outermost ray (x/z, y/z) for which the lens model is valid
+    double rimRadial;
 };
 
 }  // namespace mfar

@@ -9,11 +9,12 @@ namespace mfar {
 namespace {
 
 bool isPlausible(const Eigen::Vector3d& metres) {
-    constexpr double kFarthest = 1e5;  // [m]; beyond it, single precision cannot resolve pixels
+    constexpr double kFarthest = 1e5;  // [m]; single precision cannot resolve pixels beyond it
     return (metres.array().abs() < kFarthest).all();
 }
 
-/// Intersection of the line through a and b with the near plane, as (w u, w v, w).
+/// Returns the intersection of the line through a and b with the near plane. Points are given as (w
+/// u, w v, w).
 Eigen::Vector3d nearCut(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     constexpr double kNear = LensProjection::kNear;
     Eigen::Vector3d cut = a + (b - a) * ((kNear - a.z()) / (b.z() - a.z()));
@@ -22,11 +23,10 @@ Eigen::Vector3d nearCut(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 }
 
 // kGrid: a GPU rounds the corners of triangles to this grid [px], which changes the depth between
-// the corners. kFarthest: no surface is farther than this [m].
+// the corners. kFarthest: all surfaces are nearer than this [m].
 constexpr double kGrid = 1.0 / 256;
 constexpr double kFarthest = 3e5;
 
-/// The part of a triangle beyond the near plane; each corner is (w u, w v, w).
 struct Clipped {
     std::array<Eigen::Vector3d, 4> corners;
     std::size_t count = 0;
@@ -47,7 +47,6 @@ Clipped clipped(const std::array<Eigen::Vector3d, 3>& triangle) {
     return out;
 }
 
-/// A lower limit of a convex polygon's width [px].
 double leastWidth(const Clipped& polygon) {
     double area = 0, longest = 0;
     const Eigen::Vector2d origin = polygon.pixel(0);

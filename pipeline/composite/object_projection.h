@@ -11,30 +11,29 @@
 
 namespace mfar {
 
-/// The bounds of the pixels that a piece of a surface covers, and the range of its z.
+/// Bounds of the pixels that a piece of a surface covers, and the range of its z [m].
 struct SurfaceExtent {
     Eigen::AlignedBox2d pixels;
-    double nearest = std::numeric_limits<double>::max();  ///< smallest z [m]
+    double nearest = std::numeric_limits<double>::max();
     double farthest = 0;
 
-    /// Extends the bounds and the range by a point beyond the near plane. The point is given as (w
-    /// u, w v, w), see LensProjection.
+    /// Includes a point beyond the near plane, given as (w u, w v, w), see LensProjection.
     void extend(const Eigen::Vector3d& point);
-    /// Extends the bounds and the range by the part of a line from a to b that is beyond the near
-    /// plane, as a rasteriser clips it. Both ends are given as (w u, w v, w).
+    /// Includes the part of the line from a to b beyond the near plane. Both ends are given as (w
+    /// u, w v, w).
     void extendBySegment(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 };
 
-/// Projects the triangles of virtual objects on the CPU. Computes only which pixels and depths they
-/// cover, not their colours. Allocates only in its constructor.
+/// Computes on the CPU which pixels and depths the triangles of virtual objects cover, without
+/// their colours. Only the constructor allocates memory.
 class ObjectProjection {
 public:
     explicit ObjectProjection(const CameraModel& camera);
 
-    /// Returns the extents of all triangles that lie at least partly beyond the near plane, even
-    /// outside the picture. The ranges of depth include the error of a GPU that rounds corners to
-    /// 1/256 px. Returns no extents if the object's pose or size is not finite or exceeds 100 km,
-    /// or if a size is negative. The result is valid until the next call.
+    /// Returns the extents of all triangles that lie at least partly beyond the near plane, also
+    /// outside the picture. The depth ranges allow for a GPU that rounds corners to 1/256 px.
+    /// Returns none if pose or size is not finite or exceeds 100 km, or if a size is negative. The
+    /// result is valid until the next call.
     const std::vector<SurfaceExtent>& operator()(const VirtualObject& object,
                                                  const RigidTransform& T_world_video);
 
@@ -46,7 +45,7 @@ public:
 private:
     LensProjection lens_;
     std::array<ShapeMesh, kVirtualShapes> meshes_;
-    std::vector<Eigen::Vector3d> projected_;  // (w u, w v, w)
+    std::vector<Eigen::Vector3d> projected_;
     std::vector<SurfaceExtent> extents_;
 };
 

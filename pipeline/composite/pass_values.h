@@ -6,8 +6,8 @@
 
 namespace mfar {
 
-/// Converts the transform T to single precision, for shaders. Points are scaled by `scale` before
-/// they are transformed by T.
+/// Converts T to single precision for shaders. The result multiplies points by `scale` before it
+/// applies T.
 [[nodiscard]] inline params::Transform transformOf(const RigidTransform& T, double scale = 1) {
     const Eigen::Matrix3f r = (scale * T.rotation.toRotationMatrix()).cast<float>();
     const Eigen::Vector3f t = T.translation.cast<float>();

@@ -75,8 +75,7 @@ params::PreviewObject PreviewRenderer::paramsOf(const VirtualObject& object,
 PixelRect PreviewRenderer::boundsOf(const VirtualObject& object,
                                     const RigidTransform& T_world_video) {
     const Size size = projection_.lens().camera.size;
-    // The box is widened by a margin of one pixel, because the GPU computes vertices in single
-    // precision.
+    // The margin of one pixel allows for vertices that the GPU computes in single precision.
     const Eigen::AlignedBox2d picture(Eigen::Vector2d(-1, -1),
                                       Eigen::Vector2d(size.width, size.height));
     Eigen::AlignedBox2d box;
@@ -109,7 +108,7 @@ const VirtualLayer& PreviewRenderer::render(std::span<const VirtualObject> objec
         const ShapeBuffers& shape = shapes_[static_cast<std::size_t>(object.shape)];
         const gpu::Scissor scissor(bounds);
         const gpu::DepthTest depthTest;
-        std::optional<gpu::InsidesCulled> culled;  // culling insides saves a third of the time
+        std::optional<gpu::InsidesCulled> culled;  // culling the insides saves a third of the time
         if (object.shape != VirtualShape::Quad) culled.emplace();
         pass_.runMesh(paramsOf(object, T_world_video), {}, target_,
                       {shape.vertices, shape.indices, shape.indexCount});

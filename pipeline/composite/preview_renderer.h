@@ -11,25 +11,23 @@
 
 namespace mfar {
 
-/// Lighting of the preview.
 struct PreviewLight {
-    Eigen::Vector3d towards{0.4, -0.3, 0.85};  ///< direction to the light in the world (z up), of
-                                               ///< any length
-    double ambient = 0.35;                     ///< share of light from all directions, [0, 1]
+    /// Direction to the light in world coordinates (z up), of any length.
+    Eigen::Vector3d towards{0.4, -0.3, 0.85};
+    double ambient = 0.35;  ///< share of the light that comes from all directions, [0, 1]
 };
 
 /// Draws the fast preview: rasterises virtual objects as the video camera would see them. The lens
-/// distortion is applied to the vertices. Only pixels that an object covers, or covered in the last
-/// picture, are processed. OpenGL must be able to draw into R32F textures; otherwise the
-/// constructor throws GlError.
+/// distortion is applied to the vertices. Only pixels that an object covers now or covered in the
+/// last picture are processed. The constructor throws GlError if OpenGL cannot draw into R32F
+/// textures.
 class PreviewRenderer {
 public:
-    /// `video`: the camera model at any resolution; the layer has size `output`.
+    /// `video` may have any resolution. The layer has the size `output`.
     PreviewRenderer(const CameraModel& video, Size output, const PreviewLight& light = {});
 
-    /// Draws the objects as a camera at this pose sees them. Only the outside of solids is drawn,
-    /// so a camera inside a solid does not see it. Objects behind the camera, outside the picture
-    /// or without a finite pose are not drawn and cost no time.
+    /// Draws the objects as seen by a camera at this pose. Of solids, only the outside is drawn.
+    /// Objects behind the camera, outside the picture or without a finite pose cost no time.
     const VirtualLayer& render(std::span<const VirtualObject> objects,
                                const RigidTransform& T_world_video);
 
@@ -42,7 +40,6 @@ private:
     static ShapeBuffers buffersOf(const ShapeMesh& mesh);
     [[nodiscard]] params::PreviewObject paramsOf(const VirtualObject& object,
                                                  const RigidTransform& T_world_video) const;
-    /// Bounds of the pixels that the object covers.
     [[nodiscard]] PixelRect boundsOf(const VirtualObject& object,
                                      const RigidTransform& T_world_video);
     void clear(const PixelRect& pixels) const;

@@ -10,17 +10,15 @@
 namespace mfar {
 namespace {
 
-// An object's bounding box is divided into this number of cells along each axis, which gives about
-// 150 boxes around its surface.
+// Number of cells of an object's bounding box along each axis. It gives about 150 boxes around the
+// object's surface.
 constexpr int kCells = 6;
-// Edges of a box are divided into this number of pieces before they are projected, because the lens
-// bends straight edges.
+// Edges of a box are projected in this number of pieces, because the lens bends straight edges.
 constexpr int kEdgePieces = 4;
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// Assigns each triangle to the cell that contains its centre, and bounds the triangles of each
-/// cell by a box.
+/// Bounds the triangles of each cell by a box. A triangle belongs to the cell with its centre.
 class CellBoxes {
 public:
     explicit CellBoxes(const Eigen::AlignedBox3d& all) : all_(all) {}
@@ -44,7 +42,6 @@ private:
     std::unordered_map<int, Eigen::AlignedBox3d> cells_;
 };
 
-/// A triangle list and its pose in the world.
 struct Surface {
     std::span<const Eigen::Vector3f> positions;
     std::span<const Triangle> triangles;

@@ -7,15 +7,12 @@
 
 namespace mfar {
 
-/// Boxes around the parts of a scene's surfaces. They show which parts of a picture can contain
-/// virtual surfaces. The time for this does not depend on the number of triangles.
+/// Boxes around the parts of a scene's surfaces, which show where a picture can contain virtual
+/// surfaces. The time for projecting them does not depend on the number of triangles.
 class SceneBoxes {
 public:
-    /// Creates no boxes.
     SceneBoxes() = default;
-    /// Creates boxes around the scene's objects.
     explicit SceneBoxes(const Scene& scene);
-    /// Creates boxes around the shadow catcher.
     explicit SceneBoxes(const ShadowCatcher& catcher);
 
     /// Returns the extent of each box that lies at least partly beyond the near plane. The result
@@ -26,7 +23,7 @@ public:
     [[nodiscard]] const std::vector<Eigen::AlignedBox3d>& world() const { return boxes_; }
 
 private:
-    std::vector<Eigen::AlignedBox3d> boxes_;  // in the world, parallel to its axes [m]
+    std::vector<Eigen::AlignedBox3d> boxes_;
     std::vector<SurfaceExtent> extents_;
 };
 

@@ -6,7 +6,6 @@
 namespace mfar {
 namespace {
 
-// Smallest number of triangles of a measured surface. A surface with fewer triangles is not used.
 constexpr std::size_t kLeastTriangles = 50;
 
 double knownShare(const InverseDepthField& field, const PixelRect& region) {

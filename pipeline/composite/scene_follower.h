@@ -10,33 +10,33 @@
 
 namespace mfar {
 
-/// Decides when the shadow catcher is measured again.
+/// Rule for measuring the shadow catcher. A measured surface replaces the plane after `settling`
+/// frames, if the depth of the share `leastKnown` of the pixels around the objects is known. It is
+/// measured again after `leastInterval` [s] if the camera has moved around the objects by the angle
+/// `turn` [rad].
 struct CatcherRule {
-    int settling = 12;         ///< number of frames after which a measured surface may replace the
-                               ///< plane
-    double leastKnown = 0.7;   ///< smallest share of pixels around the objects whose depth must be
-                               ///< known
-    double turn = 0.35;        ///< angle by which the camera must have moved around the objects
-                               ///< [rad]
-    double leastInterval = 4;  ///< shortest time between two measurements [s]
+    int settling = 12;
+    double leastKnown = 0.7;
+    double turn = 0.35;
+    double leastInterval = 4;
 };
 
-/// Keeps the scene's shadow catcher up to date with the real scene. At first, shadows of virtual
-/// objects fall onto the plane of the tag map; later, they fall onto the measured surface.
+/// Replaces the plane of the tag map, onto which shadows of virtual objects fall at first, by the
+/// measured surface of the real scene.
 class SceneFollower {
 public:
     explicit SceneFollower(const CatcherRule& rule = {}) : rule_(rule) {}
 
-    /// Replaces the scene. The shadow catcher is the plane of the tag map again. Returns the scene
-    /// that is to be shown.
+    /// Replaces the scene and starts again with the plane of the tag map as shadow catcher. Returns
+    /// the scene that must be shown.
     std::shared_ptr<const Scene> set(Scene scene);
 
-    /// Changes the light. Returns the scene that is to be shown.
+    /// Returns the scene with the changed light. It must be shown.
     std::shared_ptr<const Scene> relight(Lighting lighting);
 
-    /// Must be called after each frame. `field`: depth of the real scene, measured in the rectangle
-    /// `region` [video px] around the objects. If the shadow catcher has changed, returns the scene
-    /// that is to be shown, otherwise null.
+    /// Must be called after each frame. `field` is the depth of the real scene, measured in the
+    /// rectangle `region` [video px] around the objects. Returns the scene that must be shown if
+    /// the shadow catcher has changed, otherwise null.
     std::shared_ptr<const Scene> follow(const InverseDepthField& field, const CameraModel& video,
                                         const RigidTransform& T_world_video,
                                         const PixelRect& region, Timestamp time);
@@ -48,8 +48,7 @@ private:
     Scene scene_;
     Eigen::AlignedBox3d objects_;
     int frames_ = 0;
-    std::optional<Timestamp> caught_;  // time of the frame from which the shadow catcher was last
-                                       // measured
+    std::optional<Timestamp> caught_;
     Eigen::Vector3d caughtFrom_{0, 0, 0};
 };
 

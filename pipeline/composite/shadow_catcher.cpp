@@ -7,23 +7,20 @@
 namespace mfar {
 namespace {
 
-// Number of cells of the plane along each axis.
 constexpr int kPlaneCells = 8;
-// Distance between vertices [video px]. Shadows need no finer grid, and a finer grid would only
-// show the noise of the depth.
+// Distance between vertices [video px]. A finer grid would only show the noise of the depth.
 constexpr int kStep = 4;
 // Two neighbouring vertices are on different surfaces if their depths differ by at least this
 // fraction of the smaller depth.
 constexpr double kJump = 0.04;
-// A surface within this distance of the tags' plane [m] counts as the plane, because the paper with
-// the tags has a thickness and waves.
+// A surface within this distance of the tags' plane [m] counts as the plane, because the tags'
+// paper has a thickness and waves.
 constexpr double kPlaneSlack = 0.004;
 
 double radiusOf(const Eigen::AlignedBox3d& box) {
     return 0.5 * box.diagonal().norm();
 }
 
-/// Builds a surface from vertices on a grid and triangles between them.
 class Grid {
 public:
     Grid(int columns, int rows)
@@ -33,8 +30,6 @@ public:
         at(column, row) = static_cast<int>(out_.positions.size());
         out_.positions.push_back(p.cast<float>());
     }
-    /// Adds the two triangles of the grid cell whose upper left corner is the vertex (column, row),
-    /// if all four corners were set.
     void addCell(int column, int row) {
         const int a = at(column, row), b = at(column + 1, row);
         const int c = at(column, row + 1), d = at(column + 1, row + 1);
@@ -58,7 +53,6 @@ private:
     ShadowCatcher out_;
 };
 
-/// Converts the real scene's depth at video pixels to points in the world.
 class SeenSurface {
 public:
     SeenSurface(const InverseDepthField& field, const CameraModel& video,
@@ -92,7 +86,7 @@ private:
 
     const InverseDepthField& field_;
     const CameraModel& video_;
-    const RigidTransform& eye_;  // T_world_video
+    const RigidTransform& eye_;
 };
 
 }  // namespace

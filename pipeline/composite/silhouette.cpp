@@ -8,8 +8,8 @@
 namespace mfar {
 namespace {
 
-// Added to the margin [px]: distance between the straight edges of the triangles and the true
-// outline, which the lens and the shape of a sphere make a curve, plus the size of a pixel.
+// Added to the margin [px]. It covers the size of a pixel, and the distance of straight triangle
+// edges from the curved outlines of a sphere or of a picture with lens distortion.
 constexpr double kSlack = 1;
 
 }  // namespace
@@ -43,7 +43,7 @@ void Silhouette::add(const SurfaceExtent& extent) {
     const int y0 = static_cast<int>(std::clamp(least.y(), 0.0, bottom + 1));
     const int x1 = static_cast<int>(std::clamp(most.x(), -1.0, right));
     const int y1 = static_cast<int>(std::clamp(most.y(), -1.0, bottom));
-    // Round outwards, so that the range of depth never becomes too small.
+    // Rounding outwards keeps the range of depth from becoming too small.
     const float nearest = std::nextafter(static_cast<float>(extent.nearest), 0.0F);
     const float farthest = std::nextafter(static_cast<float>(extent.farthest), 1e9F);
     for (int y = y0; y <= y1; ++y) {

@@ -8,28 +8,24 @@
 
 namespace mfar {
 
-/// Smallest and largest z [m] of the virtual surfaces in and around a tile; both 0: there is no
-/// surface.
+/// Smallest and largest z [m] of the virtual surfaces in and around a tile. Both are 0 if there is
+/// no virtual surface.
 struct SurfaceRange {
     float nearest = 0, farthest = 0;
 };
 
-/// Finds the tiles of the video that contain virtual objects, and the range of their z, on the CPU.
-/// Real depth is needed only in these tiles, and only if the real surface may be nearer than the
-/// farthest virtual surface. The result is conservative: there may be too many tiles, and ranges
-/// may be too wide, but never too few tiles or too narrow ranges. Allocates only in its
-/// constructor.
+/// Finds the tiles of the video that contain virtual objects and the range of their z, on the CPU.
+/// The result is conservative: it may contain too many tiles and too wide ranges, never too few
+/// tiles or too narrow ranges. Only the constructor allocates memory.
 class Silhouette {
 public:
-    /// `margin`: the range of a tile includes every surface within this distance of its pixels
-    /// [video px].
+    /// The range of a tile includes all surfaces within `margin` [video px] of its pixels.
     Silhouette(const CameraModel& video, int margin);
 
-    /// Returns the ranges of ceil(video / kTileSize) tiles, row-major. Valid until the next run.
+    /// Returns the ranges of all tiles, row-major. They are valid until the next run.
     const std::vector<SurfaceRange>& run(std::span<const VirtualObject> objects,
                                          const RigidTransform& T_world_video);
 
-    /// Like the other run(), but for the objects of a path-traced scene or for a shadow catcher.
     const std::vector<SurfaceRange>& run(SceneBoxes& scene, const RigidTransform& T_world_video);
 
     [[nodiscard]] Size tileCount() const { return tileCount_; }

@@ -9,13 +9,12 @@ namespace mfar {
 /// A picture of only the virtual objects, as the video camera sees them. The textures belong to the
 /// object that drew them and are valid until it draws again.
 struct VirtualLayer {
-    /// RGBA8, premultiplied by coverage. Its texture filter is Filter::Linear if its size differs
-    /// from the output's.
+    /// RGBA8, premultiplied by coverage. Has Filter::Linear if its size differs from the output's.
     const gpu::Texture* colour = nullptr;
-    /// R32F: z along the camera's axis [m]; 0: no surface. The z of shadows is reduced, see
-    /// kShadowLift.
+    /// R32F: z along the camera's axis [m]; 0 where there is no surface. The z of shadows is
+    /// reduced, see kShadowLift.
     const gpu::Texture* depth = nullptr;
-    PixelRect bounds;  ///< bounds of the covered pixels; empty: nothing is drawn
+    PixelRect bounds;
 };
 
 }  // namespace mfar

@@ -6,8 +6,6 @@
 namespace mfar {
 namespace {
 
-/// One side of a box: its normal, and the directions in which the texture coordinates u and v
-/// increase.
 struct Side {
     Eigen::Vector3f normal, u, v;
 };
@@ -17,8 +15,8 @@ void addSide(ShapeMesh& mesh, const Side& side, bool round, float offset) {
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     const auto along = [&](int i) {
         const float t = 2.0F * static_cast<float>(i) / kShapeSegments - 1;
-        // Cells of equal angle have more similar sizes on a sphere than cells of equal length on
-        // the box.
+        // On a sphere, steps of equal angle give cells of more similar size than steps of equal
+        // length.
         return round ? std::tan(t * std::numbers::pi_v<float> / 4) : t;
     };
     for (int j = 0; j <= kShapeSegments; ++j) {

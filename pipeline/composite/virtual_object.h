@@ -13,37 +13,34 @@ namespace mfar {
 /// Built-in shapes, centred at the origin of the object's coordinates.
 enum class VirtualShape : unsigned {
     Box,
-    Sphere,  ///< an ellipsoid if the sizes differ
-    Quad,    ///< in the plane z = 0, visible from both sides; size z is ignored
+    Sphere,
+    Quad,  ///< in the plane z = 0, visible from both sides; size z is ignored
 };
 inline constexpr std::size_t kVirtualShapes = 3;
 
-/// A virtual object of simple shape, placed in the world. The preview rasterises it; the path
-/// tracer uses its triangles.
+/// A virtual object of simple shape. The preview rasterises it; the path tracer uses its triangles.
 struct VirtualObject {
     VirtualShape shape = VirtualShape::Box;
     Eigen::Vector3d size{1, 1, 1};  ///< extent along x, y, z [m]
     RigidTransform T_world_object;
-    /// The two colours of the checkerboard that covers each side, as RGB display values in [0, 1].
-    /// If they are equal, the sides are uniform.
+    /// The two colours of the checkerboard on each side, as RGB display values in [0, 1]. Equal
+    /// colours give a uniform side.
     std::array<Eigen::Vector3f, 2> colours{Eigen::Vector3f{0.9F, 0.9F, 0.9F},
                                            Eigen::Vector3f{0.8F, 0.2F, 0.1F}};
-    int squares = 4;  ///< number of squares along each side; at least 1
+    int squares = 4;
 };
 
-/// The triangles of a shape that extends over 1 unit along each axis.
 struct ShapeMesh {
     struct Vertex {
-        Eigen::Vector3f position, normal;  ///< the normal points outwards and has unit length
-        Eigen::Vector2f uv;                ///< [0, 1] over each side
+        Eigen::Vector3f position, normal;  ///< the normal is a unit vector that points outwards
+        Eigen::Vector2f uv;
     };
     std::vector<Vertex> vertices;
     std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// A side consists of kShapeSegments^2 cells with two triangles each. Even if the side fills the
-/// picture of a lens with k1 = -0.3, its edges deviate from the exact curves by at most 0.25 px (of
-/// 2304). The triangles of a sphere are those of a box, projected onto the sphere.
+/// Each side has kShapeSegments^2 cells of two triangles. Even if the side fills the picture of a
+/// lens with k1 = -0.3, its edges deviate from the exact curves by at most 0.25 px (of 2304).
 inline constexpr int kShapeSegments = 24;
 [[nodiscard]] ShapeMesh shapeMesh(VirtualShape shape);
 

@@ -9,44 +9,43 @@
 namespace mfar {
 namespace {
 
-// Real depth is also needed within this distance around the objects [video px], because depth edges
-// are aligned with edges of the picture there.
+// Real depth is also measured within this distance of the objects [video px], because EdgeSnap
+// needs it there.
 constexpr int kMargin = 8;
 // Largest number of consecutive frames in which depth is not measured because the real surface is
-// known to lie behind the objects. Then it is measured again, because something may have moved in
-// front of them.
+// known to lie behind the objects. After them, depth is measured again, because something may have
+// moved in front of the objects.
 constexpr int kMostRelied = 8;
-// The camera counts as at rest as long as the objects move by at most this in the picture [px],
-// because poses from tags are not more accurate.
+// Motions of the objects in the picture up to this limit [px] do not count, because poses from tags
+// are not more accurate.
 constexpr double kLeastMotion = 0.3;
 // Largest number of pixels with unknown depth in a tile whose objects count as hidden. With more
 // such pixels, specks of the objects would be visible.
 constexpr int kMostGaps = 4;
-constexpr int kMostUnknown = kTileSize * kTileSize / 4;  // largest number of pixels with unknown
-                                                         // depth in a tile whose depth is not
-                                                         // measured
+// Depth is measured in a tile if more than this number of its pixels have unknown depth.
+constexpr int kMostUnknown = kTileSize * kTileSize / 4;
 
 PixelRect tilesOf(const PixelRect& pixels, Size layer, Size video) {
     const auto tile = [](int pixel, int from, int to) {
         return static_cast<double>(pixel) * to / from / kTileSize;
     };
-    // Colours are interpolated, so a pixel of the layer is visible beyond its own borders.
+    // Colours are interpolated, so a pixel of the layer is also visible outside its own borders.
     return {static_cast<int>(std::floor(tile(pixels.x0 - 1, layer.width, video.width))),
             static_cast<int>(std::floor(tile(pixels.y0 - 1, layer.height, video.height))),
             static_cast<int>(std::ceil(tile(pixels.x1 + 1, layer.width, video.width))),
             static_cast<int>(std::ceil(tile(pixels.y1 + 1, layer.height, video.height)))};
 }
 
-/// What a test found out about the real surface at a pixel. Finding: the surface has the property
-/// that the test looks for. Other: it does not have it.
+/// Result of a test of the real surface at a pixel. Finding: the surface has the property that the
+/// test looks for. Other: it does not.
 enum class Surface { Unknown, Finding, Other };
 
 struct TileBounds {
-    int findings, unknown;  // largest numbers of pixels in a tile
+    int findings, unknown;
 };
 
 /// True if a tile has more pixels with Surface::Finding or with Surface::Unknown than `most`
-/// allows. `ask` tests a pixel, given its index in the picture.
+/// allows. `ask` tests the pixel with the given index.
 template <typename Ask>
 bool holdsMore(const TileBounds& most, const PixelRect& tile, Size video, const Ask& ask) {
     TileBounds found{};
@@ -73,8 +72,8 @@ VirtualView::VirtualView(const CameraModel& video, Engine& occludes, TracedLayer
       occlusion_(occludes.occlusion(options.size)), focal_(std::max(video.fx, video.fy)) {}
 
 void VirtualView::setScene(std::shared_ptr<const Scene> scene) {
-    // Replacing a scene by another is not a change yet, because the new scene becomes visible only
-    // when its first traced picture is finished.
+    // Exchanging one scene for another does not set changed_: the new scene only becomes visible
+    // with its first traced picture.
     if (!scene || !scene_) changed_ = true;
     if (!scene || !scene_ || scene->objects != scene_->objects)
         boxes_ = scene ? SceneBoxes(*scene) : SceneBoxes();
@@ -128,8 +127,8 @@ void VirtualView::addTiles(const std::vector<SurfaceRange>& tiles, const Inverse
     }
 }
 
-// True if the real surface may be in front of the farthest virtual surface of the tile (within
-// three standard deviations of its depth), or if the depth of too many pixels is unknown.
+// True if the real surface may be in front of the tile's farthest virtual surface (within three
+// standard deviations), or if the depth of too many pixels is unknown.
 bool VirtualView::mayHide(const PixelRect& tile, float farthest,
                           const InverseDepthField& known) const {
     const float behind = 1 / farthest;
@@ -140,10 +139,9 @@ bool VirtualView::mayHide(const PixelRect& tile, float farthest,
     });
 }
 
-// Like mayHide(), but for the shadow catcher. The real surface that a shadow falls onto always has
-// nearly the depth of the shadow, and need not be measured in each frame. Depth is measured only if
-// real things may be in front of the shadow, or where the relative error of the known depth is at
-// least kShadowLift.
+// The real surface under a shadow always has nearly the same depth as the shadow. So its depth is
+// measured only if a real thing may be in front of the shadow, or if the relative error of the
+// known depth is at least kShadowLift.
 bool VirtualView::mayHideShadow(const PixelRect& tile, float nearest,
                                 const InverseDepthField& known) const {
     const float before = 1 / nearest;
@@ -155,8 +153,8 @@ bool VirtualView::mayHideShadow(const PixelRect& tile, float nearest,
     });
 }
 
-// True if the real scene hides all virtual surfaces of the tile. Only the tile's own pixels are
-// tested, because `nearest` includes the virtual surfaces around the tile.
+// Only the tile's own pixels are tested, because `nearest` includes the virtual surfaces around the
+// tile.
 bool VirtualView::isHidden(const PixelRect& tile, float nearest,
                            const InverseDepthField& known) const {
     const TileBounds most{.findings = 0, .unknown = kMostGaps};
@@ -179,8 +177,8 @@ WorkPlan::Redraw VirtualView::redraw() const {
 }
 
 PixelRect VirtualView::staleTiles() const {
-    // While all objects are hidden, none is drawn. But their tiles still count as stale, because
-    // the real things in front of them may move away.
+    // While all objects are hidden, none is drawn. Their tiles still count as stale, because the
+    // real things in front of them may move away.
     const bool keepsAll = !mustRedraw() && !hidden_;
     if (keepsAll || region_.empty()) return drawn_;
     return around(drawn_, tilesAround(region_));

@@ -17,58 +17,51 @@
 
 namespace mfar {
 
-/// Shows virtual objects in the picture of the real scene. Determines where real depth is needed to
-/// decide which parts of the objects are visible, and draws the objects over the picture.
+/// Shows virtual objects in the picture of the real scene. Determines where real depth must be
+/// measured to decide which parts of the objects are visible, and draws the objects over the
+/// picture.
 class VirtualView {
 public:
-    /// Creates a view whose objects the preview renderer draws. `occludes` creates the occlusion
-    /// step. It must outlive this object.
+    /// Creates a view whose objects PreviewRenderer draws. `occludes` must outlive this object.
     VirtualView(const CameraModel& video, Size output, Engine& occludes);
-    /// Creates a view of path-traced objects. `occludes` creates the occlusion step and the warp
-    /// step. It must outlive this object. Throws the same exceptions as TracedLayer.
+    /// Creates a view whose objects the path tracer draws. `occludes` must outlive this object.
+    /// Throws the same exceptions as TracedLayer.
     VirtualView(const CameraModel& video, Engine& occludes, TracedLayerOptions options);
 
-    /// Sets the objects of the preview. Takes effect with the next place().
     void setObjects(std::vector<VirtualObject> objects);
     void setSkips(const SkipOptions& skips) { skips_ = skips; }
     /// Sets the scene for path tracing. It becomes visible when its first traced picture is
-    /// finished. Null: nothing is shown.
+    /// finished. Null hides the scene.
     void setScene(std::shared_ptr<const Scene> scene);
-    /// The path-traced layer; null if the preview draws the objects.
     [[nodiscard]] TracedLayer* traced() { return traced_.get(); }
 
-    /// Places the objects for a camera at this pose; without a pose, they are not shown. Returns
-    /// the rectangle of the video pixels whose real depth decides which parts of the objects are
-    /// visible. `known`: approximate depth of the real scene, seen by the camera. Returns an empty
-    /// area if no object is in the picture. In most frames, the area is also empty if the known
-    /// depth certainly lies behind all objects.
+    /// Places the objects for a camera at this pose and hides them without a pose. Returns the
+    /// rectangle of the video pixels whose real depth decides which parts of the objects are
+    /// visible. The rectangle is empty if no object is in the picture, and in most frames in which
+    /// the known depth certainly lies behind all objects. `known` is the approximate depth of the
+    /// real scene as the camera sees it.
     PixelRect place(const std::optional<RigidTransform>& T_world_video, Timestamp time,
                     const InverseDepthField& known);
-    /// Bounds of all placed objects [video px].
     [[nodiscard]] const PixelRect& region() const { return region_; }
-    /// True if the real scene hides all placed objects completely. Shadows are ignored.
+    /// True if the real scene completely hides all placed objects. Shadows are ignored.
     [[nodiscard]] bool isHidden() const { return hidden_; }
-    /// Returns after which changes of the video the objects must be drawn again. If objects were
-    /// changed, appeared or disappeared: always. If the camera has moved: after any change.
-    /// Otherwise: only after changes near the objects.
+    /// Returns the changes of the video after which the objects must be drawn again. Objects that
+    /// were changed, appeared or disappeared are always drawn. After a motion of the camera, any
+    /// change counts, otherwise only changes near the objects.
     [[nodiscard]] WorkPlan::Redraw redraw() const;
-    /// Tiles of the video that must be drawn again before the next draw(), if the objects are drawn
-    /// again.
+    /// Tiles of the video that must be drawn again before draw().
     [[nodiscard]] PixelRect staleTiles() const;
 
-    /// Draws the placed objects over the picture. `real`: depth of the real scene, which is unknown
-    /// outside `where`.
+    /// Draws the placed objects over the picture. `real` is the depth of the real scene. It is
+    /// unknown outside `where`.
     void draw(const InverseDepthField& real, const PixelRect& where, const VideoFrame& frame,
               Field<std::uint32_t>& picture);
 
-    /// Returns how much the virtual objects covered each output pixel in the last draw(), [0, 1].
+    /// Returns how much the virtual objects cover each output pixel after the last draw(), [0, 1].
     /// Waits for the GPU.
     [[nodiscard]] std::vector<float> readShown(Size output) const;
 
 private:
-    /// Extends region_ by the tiles with virtual surfaces, and `decides` by those of them in which
-    /// real depth must be measured. `objects`: whether `tiles` belong to objects or to the shadow
-    /// catcher.
     void addTiles(const std::vector<SurfaceRange>& tiles, const InverseDepthField& known,
                   bool objects, PixelRect& decides);
     [[nodiscard]] bool shows() const { return !region_.empty() && !hidden_; }
@@ -92,13 +85,12 @@ private:
     std::unique_ptr<TracedLayer> traced_;  // either traced_ or preview_ is null
     std::unique_ptr<OcclusionStep> occlusion_;
     CompositeOptions hiding_;
-    double focal_, nearest_ = 0;  // focal_: focal length [px]; nearest_: largest inverse depth of
-                                  // the objects [1/m]
+    double focal_, nearest_ = 0;  // nearest_: largest inverse depth of the objects [1/m]
     std::optional<RigidTransform> placedPose_, drawnPose_;
-    PixelRect region_, drawn_;  // region_ [video px]; drawn_ [tiles]
+    PixelRect region_, drawn_;  // region_ in video pixels, drawn_ in tiles
     TextureLayer previewLayer_;
-    LayerPicture* layer_ = nullptr;  // the layer that was drawn last
-    int relied_ = 0;                 // number of consecutive frames in which known depth was used
+    LayerPicture* layer_ = nullptr;
+    int relied_ = 0;
     bool changed_ = false, hidden_ = false, shown_ = false;
 };
 

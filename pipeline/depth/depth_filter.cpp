@@ -11,22 +11,21 @@
 namespace mfar {
 namespace {
 
-constexpr float kNearestShare = 0.05F;  // smallest allowed depth of a point after a camera motion,
-                                        // as a fraction of its depth before
-// Relative standard deviation that one second of camera motion without measurements adds to inverse
-// depth.
+// A point is dropped if a camera motion makes its depth smaller than this fraction.
+constexpr float kNearestShare = 0.05F;
+// Relative standard deviation that each second of camera motion adds to inverse depth.
 constexpr double kDrift = 0.02;
-// Longest time [s] for which a camera motion between two predictions counts. If more time has
-// passed, the camera must have rested before.
+// At most this time between two predictions counts as camera motion [s]. If more time has passed,
+// the camera must have rested.
 constexpr double kMostMoving = 0.2;
-// Smallest motion of the picture [px] for which the points are moved. Smaller motions are summed up
-// first, because points are rounded to pixels each time they are moved.
+// Points are moved only after a motion of the picture by at least this [px], because each move
+// rounds them to pixels.
 constexpr float kLeastMotion = 0.25F;
-// Measurements against the same still are not independent. The fused variance therefore never falls
-// below this fraction of the variance of one measurement.
+// Smallest fused variance, as a fraction of the variance of one measurement. Measurements with the
+// same still are not independent.
 constexpr float kLeastShare = 0.09F;
-constexpr float kGate = 9;  // largest squared difference of two values that agree, divided by the
-                            // sum of their variances
+// Largest squared difference of two values that agree, divided by the sum of their variances.
+constexpr float kGate = 9;
 constexpr std::uint8_t kMostOutliers = 2;
 
 }  // namespace
@@ -76,8 +75,8 @@ bool DepthFilter::moves(const RigidTransform& T) const {
     return focal_ * (turn + nearest * static_cast<float>(T.translation.norm())) > kLeastMotion;
 }
 
-// Moves all points by the camera's motion. Points are homogeneous, (x, y, 1, inverseDepth), so that
-// points at infinity (inverse depth 0) are only rotated.
+// Points are homogeneous, (x, y, 1, inverseDepth). Points at infinity (inverse depth 0) are only
+// rotated.
 void DepthFilter::carry(const RigidTransform& T_now_before, float growth) {
     const Eigen::Matrix3d R = T_now_before.rotation.toRotationMatrix();
     simd::Motion motion{};
@@ -137,8 +136,8 @@ void DepthFilter::takeLanded(int firstRow, int lastRow) {
     }
 }
 
-// Fills the cracks that appear between the points of a surface that comes nearer, because these
-// points move apart.
+// When a surface comes nearer, its points move apart, and pixels between them have no depth. Fills
+// these pixels.
 void DepthFilter::closeCracks() {
     const int width = field_.size.width;
     const int columns = known_.x1 - known_.x0 - 2, rows = known_.y1 - known_.y0;

@@ -8,13 +8,13 @@
 namespace mfar {
 namespace {
 
-// Standard deviation of the error of a match along its epipolar line [px], measured with ground
-// truth in smooth areas.
+// Standard deviation of a match along its epipolar line [px], measured with ground truth in smooth
+// areas.
 constexpr float kMatchError = 0.3F;
-// Largest difference of the displacements [px] of two points on one slanted surface that land on
-// the same pixel.
+// Two points that land on the same pixel count as one slanted surface if their displacements [px]
+// differ by at most this.
 constexpr float kSlope = 1.5F;
-// Largest distance [px] of a cell's match from a pixel's own match on the same surface.
+// Largest difference [px] between the match of a cell and that of a pixel on the same surface.
 constexpr double kSameSurface = 0.5;
 constexpr float kLeastDepth = 0.05F;
 constexpr float kNothing = -1e9F;
@@ -31,9 +31,9 @@ DepthMeasurement::DepthMeasurement(const CameraModel& video, EpipolarLens lens,
     s_.resize(pixels);
 }
 
-// The matches of cells are accurate to a fraction of a pixel, but only a pixel's own match shows on
-// which side of a depth edge the pixel lies. So a pixel takes the value of its cell where this
-// value agrees with its own match, and keeps its own value elsewhere.
+// The matches of cells are accurate to a fraction of a pixel. But only a pixel's own match shows on
+// which side of a depth edge the pixel lies. So a pixel takes its cell's value only where that
+// value agrees with its own match.
 void DepthMeasurement::takeField(const EpipolarSearch& search, std::span<const float> cells,
                                  const PixelRect& where) {
     const int width = lens_.size().width;
@@ -74,8 +74,7 @@ void DepthMeasurement::land(const EpipolarSearch& search, const Eigen::Matrix3f&
     findNearest(where);
 }
 
-// Finds the nearest point that lands on each pixel of the other picture. Each thread processes the
-// points that land in one part of that picture.
+// Each thread processes the points that land in one part of the other picture.
 void DepthMeasurement::findNearest(const PixelRect& where) {
     const auto [width, height] = lens_.size();
     const int parts = std::min(workers_->count(), height);

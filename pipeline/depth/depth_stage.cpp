@@ -8,18 +8,17 @@
 namespace mfar {
 namespace {
 
-constexpr int kSampleStep = 5;  // distance between sampled pixels [px]
-constexpr int kPart = 160;      // largest width and height of a part of the picture; each part has
-                                // its own keyframe [px]
-constexpr int kSupport = 24;    // margin around the searched area, because neighbours influence the
-                                // result [px]
-constexpr double kSameView = 0.3;  // smallest motion of the picture that gives a new view [px]
+constexpr int kSampleStep = 5;
+// Largest width and height of a part of the picture [px]. Each part has its own keyframe.
+constexpr int kPart = 160;
+// Margin around the searched area [px]. Its pixels influence the result at the area's border.
+constexpr int kSupport = 24;
+constexpr double kSameView = 0.3;  // smallest motion of the picture that counts as a new view [px]
 constexpr double kNearest = 0.01;  // smallest distance that is assumed for the scene [m]
-// Depth is measured with a keyframe only if its parallax exceeds this factor times the still's
+// Depth is measured with a keyframe only if its parallax exceeds this multiple of the still's
 // parallax.
 constexpr double kWorth = 2;
-// Largest relative error of the baseline with which depth is measured. Depth has the same relative
-// error.
+// Largest relative error of the baseline. Depth has the same relative error.
 constexpr double kMostLengthError = 0.15;
 // A search starts from the known depths if at least this share of the pixels has a known depth.
 constexpr double kMostlyKnown = 0.97;
@@ -73,8 +72,8 @@ void DepthStage::run(const Rows<const std::uint8_t>& luma, const Pose& pose,
     keyframes_.add(luma, pose, brightness, before.inverseDepth);
 }
 
-// Whether this view is new since the last measurement. Measuring the same view again would repeat
-// the same errors, but reduce the variance of the filtered depth.
+// True if the view is new since the last measurement. Another measurement of the same view would
+// repeat its errors but reduce the filtered variance.
 bool DepthStage::seesMore(const Pose& pose, double inverseDepth, const PixelRect& where) const {
     if (!measuredPose_ || around(measuredWhere_, where) != measuredWhere_) return true;
     const RigidTransform T = measuredPose_->inverse() * pose.T_world_video;
@@ -82,9 +81,9 @@ bool DepthStage::seesMore(const Pose& pose, double inverseDepth, const PixelRect
     return focal_ * (turn + inverseDepth * T.translation.norm()) >= kSameView;
 }
 
-// Finds the parts of the picture for which a keyframe would give a more accurate depth, and chooses
-// a keyframe for each. Not all parts can use the same keyframe: when the camera moves towards the
-// scene, the area straight ahead has no parallax to a keyframe that suits the rest of the picture.
+// Finds the parts of the picture for which a keyframe would give a more accurate depth, and a
+// keyframe for each. One keyframe does not suit all parts: when the camera moves forwards, the area
+// straight ahead has no parallax to a keyframe that suits the rest.
 void DepthStage::findNeeds(const Pose& pose, double brightness, double stillBaseline,
                            const PixelRect& where) {
     const int columns = (where.x1 - where.x0 + kPart - 1) / kPart;
@@ -107,8 +106,8 @@ void DepthStage::findNeeds(const Pose& pose, double brightness, double stillBase
     }
 }
 
-// Measures depth with one keyframe: the one of the part with the largest uncertainty. All parts
-// with this keyframe are measured.
+// Uses the keyframe of the part with the largest uncertainty and measures all parts that have this
+// keyframe.
 void DepthStage::searchKeyframe(const Rows<const std::uint8_t>& luma, const Pose& pose) {
     if (needs_.empty()) return;
     const auto knowsMore = [](const Need& a, const Need& b) { return a.share < b.share; };
@@ -133,7 +132,7 @@ void DepthStage::searchKeyframe(const Rows<const std::uint8_t>& luma, const Pose
 }
 
 // Returns the s (see EpipolarLens) that the known depth predicts for every cell of the search's
-// area, in the search's unit. Empty if depth is known in too few pixels of `where`.
+// area, in the search's unit. Empty if too few pixels of `where` have a known depth.
 std::span<const float> DepthStage::predicted(const UnitPose& relative, const PixelRect& where) {
     const InverseDepthField& field = filter_.field();
     const PixelRect& area = search_.area();
@@ -141,7 +140,7 @@ std::span<const float> DepthStage::predicted(const UnitPose& relative, const Pix
         (relative.T_other_frame.rotation.conjugate() * relative.T_other_frame.translation).z();
     predicted_.clear();
     int inside = 0, known = 0;
-    float last = 0;  // value of the last cell with known depth; used for cells without
+    float last = 0;
     for (int y = area.y0 + kCell / 2; y < area.y1 + kCell / 2; y += kCell) {
         for (int x = area.x0 + kCell / 2; x < area.x1 + kCell / 2; x += kCell) {
             const int row = std::min(y, area.y1 - 1), column = std::min(x, area.x1 - 1);
@@ -174,7 +173,8 @@ DepthStage::Summary DepthStage::summaryOf(const PixelRect& where, const Pose& po
             shares_.push_back(std::sqrt(field.variance[i]) / field.inverseDepth[i]);
         }
     }
-    // While no depth is known, the distance to the world's origin, where a tag is, is used.
+    // As long as no depth is known, the distance to the world's origin is used, because a tag is
+    // there.
     out.inverseDepth = 1 / std::max(pose.T_world_video.translation.norm(), kNearest);
     if (samples_.empty()) return out;
     out.inverseDepth = medianOf(samples_);

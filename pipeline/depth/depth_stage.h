@@ -12,33 +12,33 @@
 
 namespace mfar {
 
-/// Measures the depth of the real scene and filters it over time. Depth is measured from the match
-/// with the still, which costs little, because this match is known anyway. Where a match with an
-/// earlier frame (keyframe) promises more accuracy, depth is also measured from this match. Runs on
-/// the CPU, without GL.
+/// Measures the depth of the real scene and filters it over time. Depth from the match with the
+/// still costs little, because the frame is matched with the still anyway. A match with an earlier
+/// frame (keyframe) is added where it promises more accuracy. Runs on the CPU, without GL.
 class DepthStage {
 public:
     DepthStage(const CameraModel& video, std::shared_ptr<Workers> workers,
                const DepthOptions& options = {});
 
-    /// Results of the epipolar search that matched this frame with the still.
+    /// Results of the epipolar search that matched this frame with the still. `R_still_video`
+    /// rotates video rays to still coordinates. `unit` is the search's unit of length [m],
+    /// `lengthError` its relative error. For `cells`, see DepthMeasurement::run().
     struct StillSearch {
         const EpipolarSearch& search;
-        const Eigen::Matrix3f& R_still_video;  ///< rotates video rays to still coordinates
-        double unit;                           ///< the search's unit of length [m]
-        double lengthError;                    ///< relative error of `unit`, see UnitPose
-        std::span<const float> cells;          ///< see DepthMeasurement::run()
+        const Eigen::Matrix3f& R_still_video;
+        double unit;
+        double lengthError;
+        std::span<const float> cells;
     };
 
     void forget();
-    /// Must be called when the still changes, so that depth is measured again even if the view has
-    /// not changed.
+    /// Must be called when the still changes. Otherwise, depth is not measured before the view
+    /// changes.
     void renew() { measuredPose_.reset(); }
-    /// Processes a frame: carries the known depth to its pose and measures depth inside `where`,
-    /// which may be empty. `still`: empty if the frame was not matched along epipolar lines.
+    /// Moves the known depth to the pose of this frame and measures depth inside `where`, which may
+    /// be empty. `still` is empty if the frame was not matched along epipolar lines.
     void run(const Rows<const std::uint8_t>& luma, const Pose& pose,
              const std::optional<StillSearch>& still, const PixelRect& where);
-    /// Discards the depths of these pixels, because something moves there.
     void forget(const PixelRect& where) { filter_.forget(where); }
 
     [[nodiscard]] const InverseDepthField& field() const { return filter_.field(); }
@@ -46,10 +46,9 @@ public:
 
 private:
     struct Summary {
-        double inverseDepth = 0;  ///< median of the inverse depths in an area [1/m]
-        double share = 1;         ///< median of their relative standard deviations; 1: unknown
+        double inverseDepth = 0;
+        double share = 1;  ///< median of the relative standard deviation, or 1 if no depth is known
     };
-    /// A part of the picture whose depth is too uncertain, and the keyframe that would improve it.
     struct Need {
         PixelRect part;
         double share;

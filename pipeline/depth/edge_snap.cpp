@@ -11,18 +11,17 @@
 namespace mfar {
 namespace {
 
-constexpr int kBand = 4;         // width of the band on each side of a depth edge in which colours
-                                 // decide [px]
-constexpr int kVoteRadius = 10;  // radius around a pixel in which other pixels vote on its depth
-                                 // [px]
+// Width of the band on each side of a depth edge in which colours decide [px].
+constexpr int kBand = 4;
+// Pixels within this radius vote on the depth of a pixel [px].
+constexpr int kVoteRadius = 10;
 constexpr int kVoters = simd::kVoterStep;
-// At a depth edge, in contrast to a slope, the inverse depth changes by more than this within 2
-// kBand + 1 pixels: kJump times the larger value plus kSigmas standard deviations.
+// At a depth edge, the inverse depth changes within 2 kBand + 1 pixels by more than kJump times the
+// larger value plus kSigmas standard deviations.
 constexpr float kJump = 0.08F, kSigmas = 3;
-constexpr float kLikeness = 12;        // colour distance at which a vote has half of its weight
-                                       // [grey levels]
-constexpr float kLeastWeight = 0.75F;  // smallest sum of the weights of votes that decides; each
-                                       // weight is at most one
+constexpr float kLikeness = 12;  // colour distance that halves the weight of a vote [grey levels]
+// Votes decide only if their weights, each at most 1, add up to at least this.
+constexpr float kLeastWeight = 0.75F;
 
 static_assert(kBand <= simd::kMostRange);
 
@@ -32,8 +31,8 @@ constexpr int nextVoter(int from) {
 
 using Colour = std::array<int, 3>;
 
-/// Reads colours from a picture of any format. Converts each pixel when it is requested, because
-/// only few are needed.
+/// Reads colours from a picture of any format. Converts only the requested pixels, because they are
+/// few.
 class Colours {
 public:
     explicit Colours(const ImageView& picture) : picture_(picture) {
@@ -49,7 +48,8 @@ public:
         switch (picture_.format) {
         case PixelFormat::Gray8: return {p[0], p[0], p[0]};
         case PixelFormat::Rgba8:
-        case PixelFormat::Bgra8: return {p[0], p[1], p[2]};  // distances ignore the channel order
+        // colour distances ignore the channel order
+        case PixelFormat::Bgra8: return {p[0], p[1], p[2]};
         case PixelFormat::Yuyv: {
             const std::uint8_t* pair = p - 2 * (x % 2);
             return rgbOf(p[0], pair[1], pair[3]);
@@ -113,8 +113,8 @@ const InverseDepthField& EdgeSnap::run(const InverseDepthField& in, const ImageV
     return out_;
 }
 
-// Finds the pixels near a depth edge or of unknown depth (open_), from the range of the inverse
-// depths around each pixel. The range is computed first along rows, then along columns.
+// Finds the pixels near a depth edge or of unknown depth (open_) from the range of the inverse
+// depths around each pixel. The range is computed along rows, then along columns.
 void EdgeSnap::findEdges(const InverseDepthField& in, const PixelRect& where) {
     if (where.empty()) return;
     const std::ptrdiff_t pitch = size_.width;

@@ -14,11 +14,11 @@ struct InverseDepthField {
     static constexpr float kUnknown = std::numeric_limits<float>::infinity();
 
     Size size;
-    /// 1 / z along the video camera's axis [1/m]; 0: infinitely far
+    /// 1 / z along the video camera's axis [1/m]. 0 is infinitely far.
     std::vector<float> inverseDepth;
-    std::vector<float> variance;       ///< variance of the inverse depth [1/m^2]; kUnknown: depth
-                                       ///< is unknown
-    std::vector<std::uint8_t> filled;  ///< 1: not measured, but derived from nearby pixels
+    std::vector<float> variance;  ///< variance of the inverse depth [1/m^2], or kUnknown
+    /// 1 if the depth is derived from nearby pixels instead of measured
+    std::vector<std::uint8_t> filled;
 
     InverseDepthField() = default;
     explicit InverseDepthField(Size s)
@@ -26,8 +26,8 @@ struct InverseDepthField {
           variance(inverseDepth.size(), kUnknown), filled(inverseDepth.size()) {}
 
     [[nodiscard]] bool isKnown(std::size_t pixel) const { return variance[pixel] < kUnknown; }
-    /// True if these values are valid for a pixel with known depth. The limits ensure that products
-    /// of values, and sums over a picture, are finite in single precision.
+    /// True if these values are valid for a pixel with known depth. The limits keep products of
+    /// values and sums over a picture finite in single precision.
     [[nodiscard]] static bool isSound(float inverseDepth, float variance) {
         return inverseDepth >= 0 && inverseDepth < 1e15F && variance > 1e-30F && variance < 1e30F;
     }
@@ -36,7 +36,6 @@ struct InverseDepthField {
         variance[pixel] = kUnknown;
         filled[pixel] = 0;
     }
-    /// Makes columns [x0, x1) of row y unknown.
     void forgetRow(int y, int x0, int x1) {
         const auto row = static_cast<std::size_t>(y) * size.width;
         for (std::size_t i = row + x0; i < row + x1; ++i)

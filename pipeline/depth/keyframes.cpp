@@ -10,14 +10,13 @@
 namespace mfar {
 namespace {
 
-// A frame is kept if the direction to a typical point of the scene has changed by at least this
-// angle since the newest keyframe [rad].
+// Smallest change of the direction to a typical point of the scene between two keyframes [rad].
 constexpr double kLeastStep = 0.002;
-// The score of a keyframe (lower is better) is doubled at this age [frames], and tripled if the
-// exposures differ by a factor of e.
+// The score of a keyframe (lower is better) is doubled at age kAge [frames]. It is multiplied by 1
+// + kExposure if the exposures differ by a factor of e.
 constexpr double kAge = 60;
 constexpr double kExposure = 2;
-constexpr int kGrid = 4;  // number of sample points in a part of the picture along each axis
+constexpr int kGrid = 4;  // number of sample points along each axis of a part of the picture
 
 }  // namespace
 
@@ -46,7 +45,7 @@ void Keyframes::add(const Rows<const std::uint8_t>& luma, const Pose& pose, doub
     }
     Keyframe frame;
     if (frames_.size() >= static_cast<std::size_t>(options_.frames)) {
-        frame = std::move(frames_.back());  // reuses its memory
+        frame = std::move(frames_.back());
         frames_.pop_back();
     }
     cut(luma, {0, 0, luma.size.width, luma.size.height}, frame.luma);

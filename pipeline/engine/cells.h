@@ -4,44 +4,43 @@
 
 namespace mfar {
 
-// Fields with one entry per cell of 4x4 video pixels, as both engines store them: four floats per
-// entry, which a GPU reads as one vec4.
+// Fields with one entry per cell, as both engines store them. A GPU reads the four floats of an
+// entry as one vec4. `confidence` is eq. 2 of the paper, in [0, 1].
 
-/// A flow vector and the cost of its match.
 struct FlowCell {
-    float x = 0, y = 0;  ///< flow [px of the field's pyramid level]; p matches p + flow
-    float cost = 0;      ///< 0: patches equal up to gain and offset; 1: unrelated; 2: negatives
-    float texture = 0;   ///< sum of the squared deviations of the 8x8 patch around the cell from
-                         ///< its mean [grey levels^2]
+    float x = 0, y = 0;  ///< points from pixel p to p + flow [px of the field's pyramid level]
+    float cost = 0;      ///< 0: equal patches up to gain and offset; 1: unrelated; 2: negatives
+    /// Sum of the squared deviations from the mean in the 8x8 patch around the cell [grey
+    /// levels^2].
+    float texture = 0;
 };
 
-/// Two-way error of a cell (eq. 2 of the paper), determined by the search along epipolar lines.
+/// Two-way error [px] (eq. 2 of the paper), determined by the epipolar search.
 struct ErrorCell {
-    float error = 0;  ///< two-way error [px]
+    float error = 0;
     float unused[3] = {};
 };
 
-/// How far the still is trusted at a cell.
 struct WeighedCell {
-    float x = 0, y = 0;    ///< flow [video px]
-    float weight = 0;      ///< weight of the still's detail, [0, 2.31]
-    float confidence = 0;  ///< eq. 2 of the paper, [0, 1]
-};
-
-/// Where output pixels in the cell read the still, and with which weight.
-struct LookUpCell {
-    float x = 0, y = 0;  ///< position in the still to which the flow leads, minus the cell's centre
-                         ///< scaled to the still [still px]
-    float weight = 0;    ///< see WeighedCell
+    float x = 0, y = 0;  ///< flow [video px]
+    float weight = 0;    ///< weight of the still's detail, [0, 2.31]
     float confidence = 0;
 };
 
-/// Values of a cell, each in [0, 1], that determine the sharpening and the classes of tiles.
+/// Offset and weight with which output pixels in the cell read the still.
+struct LookUpCell {
+    /// End of the flow vector in the still, minus the cell's centre scaled to the still [still px].
+    float x = 0, y = 0;
+    float weight = 0;
+    float confidence = 0;
+};
+
+/// Values in [0, 1] that determine the sharpening and the classes of tiles.
 struct TrustCell {
-    float halfWeight = 0;   ///< half of WeighedCell::weight
-    float confidence = 0;   ///< eq. 2 of the paper
-    float signal = 0;       ///< share of the video's variance that noise does not explain
-    float unexplained = 0;  ///< 1: the cell is textured, but the still does not explain it; else 0
+    float halfWeight = 0;
+    float confidence = 0;
+    float signal = 0;       ///< share of the video's variance that is not noise
+    float unexplained = 0;  ///< 1 for a textured cell without a reliable match, else 0
 };
 
 static_assert(sizeof(FlowCell) == 16 && sizeof(ErrorCell) == 16 && sizeof(WeighedCell) == 16 &&

@@ -9,13 +9,12 @@
 
 namespace mfar {
 
-/// Numbers of bytes copied between CPU memory (host) and GPU. The counters only increase; readers
-/// take differences.
+/// Numbers of bytes copied between CPU memory (host) and GPU. They only increase.
 struct Transfers {
     std::uint64_t uploadedBytes = 0, downloadedBytes = 0;
 };
 
-/// The GPU's copy of a field. Implemented in pipeline/gles; other code sees only this interface.
+/// The GPU's copy of a field. Implemented in pipeline/gles.
 class DeviceCopy {
 public:
     DeviceCopy() = default;
@@ -23,20 +22,20 @@ public:
     DeviceCopy& operator=(const DeviceCopy&) = delete;
     virtual ~DeviceCopy() = default;
 
-    /// Writes all rows. `pitch`: bytes from the start of one row to the next.
     virtual void upload(const void* data, std::ptrdiff_t pitch) = 0;
     /// Reads all rows. Waits for the GPU.
     virtual void download(void* data, std::ptrdiff_t pitch) = 0;
 };
 
-/// The result of a step: rows of T in CPU memory (host), on the GPU or in both. The step that
-/// writes the rows reports where they are. A reader calls host() or device(); only then are the
-/// rows copied to there if necessary. The memory that a step wrote belongs to the step; the memory
-/// of the other copy belongs to the field.
+/// The result of a step: rows of T in CPU memory (host), on the GPU or in both. The step reports
+/// where it wrote the rows. They are copied only when a reader calls host() or device() and the
+/// copy does not exist. The written memory belongs to the step, the memory of the copy to the
+/// field.
 template <class T>
 class Field {
 public:
-    /// `transfers` counts the copied bytes and must outlive the field; null: they are not counted.
+    /// `transfers` counts the copied bytes and must outlive the field. If it is null, nothing is
+    /// counted.
     explicit Field(Size size = {}, Transfers* transfers = nullptr)
         : size_(size), transfers_(transfers) {}
 
@@ -53,7 +52,7 @@ public:
         device_ = nullptr;
         editable_ = {};
     }
-    /// Reports new rows in CPU memory that edit() may later return for drawing.
+    /// Reports new rows in CPU memory that edit() may return for drawing.
     void writtenOnHost(Rows<T> rows)
         requires(!std::is_const_v<T>)
     {
@@ -72,8 +71,7 @@ public:
     [[nodiscard]] bool isOnDevice() const { return device_ != nullptr; }
     [[nodiscard]] bool isEmpty() const { return !isOnHost() && !isOnDevice(); }
 
-    /// Returns the rows in CPU memory. If only the GPU has them, waits for the GPU and downloads
-    /// them.
+    /// Returns the rows in CPU memory. Downloads them if necessary and then waits for the GPU.
     [[nodiscard]] Rows<const T> host() const {
         if (!isOnHost() && isOnDevice()) {
             if (downloaded_.size() != size_) downloaded_ = AlignedRows<T>(size_);
@@ -84,16 +82,15 @@ public:
         }
         return host_;
     }
-    /// Returns the rows in CPU memory, so that the caller can draw into them. The copy on the GPU
-    /// is then out of date. The step must have reported non-const rows, or rows on the GPU.
+    /// Returns the rows in CPU memory for drawing. The copy on the GPU becomes invalid. Requires
+    /// that the last rows were reported as non-const or on the GPU.
     [[nodiscard]] Rows<T> edit() {
         (void)host();
         device_ = nullptr;
         return editable_;
     }
-    /// Returns the GPU's copy, and uploads the rows first if only the host has them. `make` creates
-    /// a GPU copy of this field's size. It is called only for the first upload, and after the size
-    /// has changed.
+    /// Returns the GPU's copy. Uploads the rows if necessary. `make` creates a GPU copy of this
+    /// field's size; it is called for the first upload and after changes of the size.
     template <class Make>
     [[nodiscard]] DeviceCopy& device(const Make& make) const {
         if (!isOnDevice()) {
@@ -111,10 +108,10 @@ public:
 private:
     Size size_;
     Transfers* transfers_;
-    // These members are mutable, because reading may copy the rows but changes no value.
-    mutable Rows<const T> host_;            // no data: only the GPU has the rows
-    mutable Rows<T> editable_;              // the rows of host_, if they may be drawn into
-    mutable DeviceCopy* device_ = nullptr;  // null: only the host has the rows
+    // Mutable, because reading may copy the rows without changing their values.
+    mutable Rows<const T> host_;
+    mutable Rows<T> editable_;
+    mutable DeviceCopy* device_ = nullptr;
     mutable AlignedRows<T> downloaded_;
     mutable std::unique_ptr<DeviceCopy> uploaded_;
     mutable Size uploadedSize_{};

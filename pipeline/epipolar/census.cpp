@@ -8,12 +8,11 @@ namespace mfar {
 namespace {
 
 constexpr int kRadius = simd::kCensusRadius, kSide = 2 * kRadius + 1;
-// Largest number of pixels that censusAtEnd() processes: the pixels at one end of a row whose
-// windows extend beyond the picture, or a whole row of a narrow picture.
+// Largest number of pixels for censusAtEnd(): pixels at one end of a row whose windows extend
+// beyond the picture, or a whole row of a narrow picture.
 constexpr int kMostAtEnd = 2 * kRadius;
 
-/// Computes the census of `count` pixels of a row, beginning with column `first`. Works on a copy
-/// of the rows that is extended by repeating the border pixels.
+/// Works on a copy of the rows that repeats the border pixels.
 void censusAtEnd(const std::uint8_t* const (&rows)[kSide], int width, int first, int count,
                  const std::uint8_t* seen, std::uint32_t* out) {
     std::array<std::array<std::uint8_t, kMostAtEnd + 2 * kRadius>, kSide> padded{};

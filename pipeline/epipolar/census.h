@@ -10,11 +10,11 @@ namespace mfar {
 
 using simd::kCensusBits, simd::kNoCensus;
 
-/// Computes the census transform of a picture over 5x5 pixels. A pixel's census has a bit for each
-/// neighbour, which is set if the neighbour is darker than the pixel. A rising tone curve does not
-/// change it. Fills rows [first, last) of `out`. Pixels beyond the picture repeat its border.
-/// `seen`: one byte per pixel; where it is 0, the pixel is invalid, and `out` becomes kNoCensus.
-/// Null: all pixels are valid. Source: Zabih and Woodfill, ECCV 1994.
+/// Computes the census transform of a picture over 5x5 pixels, for rows [first, last) of `out`.
+/// Each bit of a pixel's census is set if one neighbour is darker than the pixel. A rising tone
+/// curve does not change it. Pixels outside the picture repeat its border. Pixels with 0 in `seen`
+/// are invalid and get kNoCensus. If `seen` is null, all pixels are valid. Source: Zabih and
+/// Woodfill, ECCV 1994.
 void census(const LumaImage& picture, int first, int last, std::vector<std::uint32_t>& out,
             const std::uint8_t* seen = nullptr);
 

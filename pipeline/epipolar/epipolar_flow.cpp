@@ -13,17 +13,17 @@ namespace mfar {
 namespace {
 
 constexpr float kNowhere = 1e4F;
-constexpr float kLeastWay = 0.05F;  // smallest motion of a pixel [px] for a change of s that moves
-                                    // the fastest pixel by 1 px
-// Largest difference of the displacements [px] of two neighbours on one slanted surface that land
-// on the same cell.
+// Smallest motion of a pixel [px] for a change of s that moves the fastest pixel by 1 px.
+constexpr float kLeastWay = 0.05F;
+// Two neighbours that land on the same cell count as one slanted surface if their displacements
+// [px] differ by at most this.
 constexpr float kSlope = 1.0F;
-// Margin around the searched rectangle [px]. It gives room for census windows, for the cost
-// aggregation, and for the motion until the next frame.
+// Margin around the searched rectangle [px] for census windows, for the cost aggregation, and for
+// the motion until the next frame.
 constexpr int kRoom = 16;
 
-/// Returns the rectangle that is searched if depth is needed in `where`: it has a margin and
-/// consists of whole cells of 4x4 pixels, except at the picture's border.
+/// Returns the searched rectangle if depth is needed in `where`. It has a margin and, except at the
+/// picture's border, consists of whole cells.
 PixelRect searchedFor(const PixelRect& where, Size video) {
     const PixelRect around = widened(where, kRoom, video);
     const auto down = [](int x) { return x / kRoom * kRoom; };
@@ -32,7 +32,6 @@ PixelRect searchedFor(const PixelRect& where, Size video) {
             up(around.y1, video.height)};
 }
 
-/// The middle two columns (or rows) of a cell, clamped to the picture.
 struct Middle {
     int first, last;
     [[nodiscard]] float middle() const { return 0.5F * static_cast<float>(first + last); }
@@ -115,8 +114,8 @@ void EpipolarFlow::run(const Rows<const std::uint8_t>& video, const Pose& pose,
     unit_ = relative.unit;
     lengthError_ = relative.lengthError;
     search(relative, where);
-    // The search draws the still with the video's lens and in the frame's orientation. This
-    // rotation leads from the frame's orientation to that of the still.
+    // Rotates from the frame's orientation, in which the search draws the still, to that of the
+    // still.
     rotation_ = (rig_.T_still_video.rotation.conjugate() * search_.pose().rotation)
                     .toRotationMatrix()
                     .cast<float>();
@@ -130,8 +129,8 @@ void EpipolarFlow::run(const Rows<const std::uint8_t>& video, const Pose& pose,
 
 void EpipolarFlow::search(const UnitPose& relative, const PixelRect& where) {
     const PixelRect wanted = searchedFor(where, rig_.video.size);
-    // The prediction does not contain objects that enter the picture or move by themselves. Only a
-    // search from coarse to fine finds them.
+    // Only a search from coarse to fine finds objects that enter the picture or move by themselves.
+    // The prediction does not contain them.
     const bool isNew = around(search_.area(), wanted) != search_.area();
     const auto predicted = predictedFrames_ < mostPredicted_ && !isNew
                                ? prediction_.in(relative.T_other_frame, relative.unit)
@@ -141,8 +140,6 @@ void EpipolarFlow::search(const UnitPose& relative, const PixelRect& where) {
     search_.run(frame_, relative.T_other_frame, relative.covariance, ofArea(predicted));
 }
 
-// Returns the values of the cells within the search's area. `cells`: values of the cells of the
-// whole picture.
 std::span<const float> EpipolarFlow::ofArea(std::span<const float> cells) {
     if (cells.empty()) return cells;
     const PixelRect& area = search_.area();
@@ -156,7 +153,6 @@ std::span<const float> EpipolarFlow::ofArea(std::span<const float> cells) {
     return predicted_;
 }
 
-// Returns s at a pixel. Outside the searched area, this is the value of the nearest searched pixel.
 float EpipolarFlow::nearnessAt(int x, int y) const {
     const PixelRect& area = search_.area();
     const int column = std::clamp(x, area.x0, area.x1 - 1) - area.x0;
@@ -164,9 +160,9 @@ float EpipolarFlow::nearnessAt(int x, int y) const {
     return search_.inverseDepth()[static_cast<std::size_t>(row) * (area.x1 - area.x0) + column];
 }
 
-// Returns where the still, drawn with the video's lens, shows the point on a ray that has inverse
-// depth s. The result is far outside the picture if the point is behind the still camera, or so
-// close to its image plane that the pixel is meaningless.
+// Returns the position of a ray's point with inverse depth s in the still drawn with the video's
+// lens. It is far outside the picture if the point is behind the still camera or too close to its
+// image plane.
 EpipolarLens::Point EpipolarFlow::endOf(float rayX, float rayY, float s) const {
     const Eigen::Vector3f& t = search_.translation();
     const Eigen::Vector3f p = rotation_ * Eigen::Vector3f(rayX + s * (t.x() - rayX * t.z()),
@@ -201,7 +197,6 @@ simd::FlowEnds EpipolarFlow::flowEnds() const {
     return out;
 }
 
-// Returns the rays of all cells in row j.
 simd::CellRow EpipolarFlow::cellRow(int j, const float* raysX, const float* raysY) const {
     const std::size_t first = static_cast<std::size_t>(j) * cells_.width;
     return {raysX + first, raysY + first, middlesX_.data(), middlesY_[j],
@@ -216,7 +211,6 @@ const std::vector<float>& EpipolarFlow::inverseDepthOf(const Cells& flow) {
     workers_->forRange(cells_.height, 8, [&](int first, int last) {
         for (int j = first; j < last; ++j) {
             const std::size_t cell = static_cast<std::size_t>(j) * cells_.width;
-            // Uses the rays through the centres of the cells, because both flow fields start there.
             simd::alignCells(ends, cellRow(j, cellRays_.raysX().data(), cellRays_.raysY().data()),
                              flow.data() + cell, forward_.data() + cell, pixel, kLeastWay,
                              aligned_.data() + cell);
@@ -253,8 +247,8 @@ void EpipolarFlow::fillForward() {
     });
 }
 
-// Returns s of a cell: of the values at the cell's four central pixels, the mean of the middle two.
-// A depth edge between these pixels does not distort it.
+// Returns s of a cell: the mean of the two middle values of its four central pixels. A depth edge
+// between these pixels does not distort it.
 float EpipolarFlow::depthOf(int i, int j) const {
     const Middle x = middleOf(i, rig_.video.size.width), y = middleOf(j, rig_.video.size.height);
     std::array<float, 4> s{nearnessAt(x.first, y.first), nearnessAt(x.last, y.first),
@@ -267,7 +261,6 @@ void EpipolarFlow::fillDepths(int j) {
     const PixelRect& area = search_.area();
     float* out = nearness_.data() + static_cast<std::size_t>(j) * cells_.width;
     const int y = kCell * j;
-    // The cells that are completely inside the area.
     int first = (area.x0 + kCell - 1) / kCell, last = area.x1 / kCell;
     if (y < area.y0 || y + kCell > area.y1 || first >= last) first = last = 0;
     for (int i = 0; i < first; ++i)

@@ -3,8 +3,8 @@
 namespace mfar {
 namespace {
 
-// Largest radius of a valid ray, in units of the radius of the picture's corners. It is smaller if
-// the lens model folds rays back before.
+// Largest radius of a valid ray, as a multiple of the radius of the picture's corners. It is
+// smaller if the lens model folds rays back before.
 constexpr double kBeyondPicture = 2;
 
 }  // namespace
@@ -51,7 +51,7 @@ EpipolarLens::EpipolarLens(const CameraModel& camera, int level)
     const auto pixels = static_cast<std::size_t>(size_.width) * size_.height;
     rays_->x.reserve(pixels);
     rays_->y.reserve(pixels);
-    double rim = 0;  // largest squared radius of a pixel's ray
+    double rim = 0;
     Eigen::Vector2d ray(0, 0);
     for (int y = 0; y < size_.height; ++y) {
         for (int x = 0; x < size_.width; ++x) {
@@ -76,7 +76,7 @@ void EpipolarLens::cover(const EpipolarLens& whole, const PixelRect& pixels) {
         rays_ = whole.rays_;
         return;
     }
-    // Reuses the memory of the last part, unless copies of this lens share it.
+    // Reuses the memory of the last part unless copies of this lens share it.
     if (rays_.use_count() > 1) rays_ = std::make_shared<Rays>();
     const auto take = [&](const std::vector<float>& from, std::vector<float>& to) {
         to.clear();

@@ -13,45 +13,41 @@ namespace mfar {
 /// Returns the largest radius of the rays (x/z, y/z) through the picture's corners.
 [[nodiscard]] double cornerRadius(const CameraModel& camera);
 
-/// Returns the rim of a lens: the largest radius of rays up to which the radial distortion does not
-/// fold rays back. It is searched between `picture`, the radius of the picture's corners, and
-/// `beyond` times that radius.
+/// Returns the largest radius of rays up to which the radial distortion does not fold rays back.
+/// The search starts at `picture`, the radius of the picture's corners, and ends at `beyond` times
+/// that radius.
 [[nodiscard]] double rimOf(const CameraModel& camera, double picture, double beyond);
 
-/// The rays of a camera's pixels at one pyramid level, and where a translation of the camera moves
-/// their points. Copies share the table of rays.
+/// The rays of a camera's pixels at one pyramid level, and the motion of their points under a
+/// translation of the camera. Copies share the table of rays.
 ///
-/// The unknown is s [1/unit of length], the inverse depth of a point seen from the second view. The
-/// first view sees the point at ray r = (x, y) and depth Z. The second view has the same
-/// orientation; its motion moves points by t. It sees the point at r + s (t.xy - r t.z) with s = 1
-/// / (Z + t.z). This is linear in s, so equal steps of s are equal steps on the epipolar line. The
-/// inverse depth in the first view is s / (1 - s t.z). Source: Hartley and Zisserman, 9.5.
+/// The unknown is s [1/unit of length], the inverse depth of a point in the second view. The first
+/// view sees the point at ray r = (x, y) and depth Z. The second view has the same orientation, and
+/// points move by t between both. It sees the point at r + s (t.xy - r t.z) with s = 1 / (Z + t.z).
+/// This is linear in s, so equal steps of s are equal steps on the epipolar line. The inverse depth
+/// in the first view is s / (1 - s t.z). Source: Hartley and Zisserman, 9.5.
 class EpipolarLens {
 public:
-    /// `camera`: the camera at the finest level. `level`: number of halvings; each of them rounds
-    /// the size up.
+    /// `camera` is that of the finest level. `level` is the number of halvings, each rounded up.
     EpipolarLens(const CameraModel& camera, int level);
 
-    /// Makes this the lens of a picture that consists of the rectangle `pixels` of the picture of
-    /// `whole`.
+    /// Makes this the lens of the rectangle `pixels` in the picture of `whole`.
     void cover(const EpipolarLens& whole, const PixelRect& pixels);
 
     [[nodiscard]] Size size() const { return size_; }
     [[nodiscard]] float rayX(std::size_t pixel) const { return rays_->x[pixel]; }
     [[nodiscard]] float rayY(std::size_t pixel) const { return rays_->y[pixel]; }
-    /// The rays of all pixels, row-major.
     [[nodiscard]] const std::vector<float>& raysX() const { return rays_->x; }
     [[nodiscard]] const std::vector<float>& raysY() const { return rays_->y; }
-    /// The lens in the form that the SIMD code needs.
     [[nodiscard]] const simd::Lens& lens() const { return lens_; }
 
     struct Point {
         float x, y;
     };
-    /// Maps a ray (x / z, y / z) to a pixel of this level, with the lens's distortion. Rays beyond
-    /// the rim of the lens are moved to the rim, so that distortion never folds them back.
+    /// Maps a ray (x / z, y / z) to a pixel of this level, with distortion. Rays outside the valid
+    /// radius are first moved to it, so that distortion never folds them back.
     [[nodiscard]] Point project(float x, float y) const {
-        // Written without a branch, so that the compiler can vectorize loops over pixels.
+        // Has no branch, so that the compiler can vectorize loops over pixels.
         const float r2 = x * x + y * y;
         const float c = std::sqrt(lens_.rim2 / std::max(r2, lens_.rim2));
         x *= c;
@@ -63,10 +59,10 @@ public:
                 lens_.fy * (y * radial + lens_.p2 * xy + lens_.p1 * (q + 2 * y * y)) + lens_.cy};
     }
 
-    /// Returns the row-major index of the pixel that contains a point; -1 outside the picture.
+    /// Returns the row-major index of the pixel that contains the point, or -1 outside the picture.
     [[nodiscard]] int pixelAt(Point p) const {
-        // Adds 0.5 and truncates, because the oldest supported x86 CPUs have no instruction that
-        // rounds.
+        // Adds 0.5 and truncates, because the oldest supported x86 CPUs cannot round in one
+        // instruction.
         const float u = p.x + 0.5F, v = p.y + 0.5F;
         const bool inside = u >= 0 && v >= 0 && u < static_cast<float>(size_.width) &&
                             v < static_cast<float>(size_.height);
@@ -80,7 +76,7 @@ private:
 
     Size size_;
     simd::Lens lens_;
-    std::shared_ptr<Rays> rays_;  // written only while no copy shares it
+    std::shared_ptr<Rays> rays_;  // may be written only while no copy shares it
 };
 
 }  // namespace mfar

@@ -5,8 +5,8 @@
 namespace mfar {
 namespace {
 
-constexpr double kNoSlack = 0.5;  // largest error that needs no slack [px of the pyramid level];
-                                  // see normalError()
+// Lines with a smaller error [px of the pyramid level] are searched alone, see normalError().
+constexpr double kNoSlack = 0.5;
 
 simd::LabelRow rowOf(const EpipolarLens& lens, int y) {
     const auto width = static_cast<std::size_t>(lens.size().width), first = y * width;

@@ -11,14 +11,14 @@
 namespace mfar {
 namespace {
 
-// Smallest length of the shorter side of the coarsest pyramid level [px].
+// Shortest side of a pyramid level [px].
 constexpr int kCoarsest = 60;
-// Number of labels beyond infinity (s < 0) that are searched at the finest pyramid level: noise and
-// errors of the pose can move the match of a distant point there.
+// Number of labels beyond infinity (s < 0) at the finest pyramid level. Noise and pose errors can
+// move the match of a distant point there.
 constexpr int kBeyond = 4;
 constexpr int kSmallestCanvas = 16;
 constexpr int kMostStep = 30;
-constexpr int kPredictedLevel = 2;  // pyramid level of cells of 4x4 pixels
+constexpr int kPredictedLevel = 2;  // a pixel of this pyramid level is a cell
 
 Smoothness smoothnessFor(double noise, const EpipolarOptions& options) {
     const int step = options.stepPenalty;
@@ -27,9 +27,9 @@ Smoothness smoothnessFor(double noise, const EpipolarOptions& options) {
             .noise = 2 * noise};
 }
 
-// Returns the weight of both neighbours in the filter that smooths a picture before the census. Up
-// to a noise of one grey level it is 0, because smoothing clean pictures causes a third more wrong
-// pixels. Above a noise of about two grey levels it is 1/4, as in the 3-pixel binomial filter.
+// Returns the weight of both neighbours in the smoothing before the census. It is 0 up to a noise
+// of one grey level, because smoothing clean pictures causes a third more wrong pixels. From about
+// two grey levels, it is 1/4, as in the 3-pixel binomial filter.
 float smoothingFor(double noise) {
     return static_cast<float>(std::clamp(0.2 * (noise - 1.0), 0.0, 0.25));
 }
@@ -47,7 +47,6 @@ std::size_t pixelsOf(Size size) {
     return static_cast<std::size_t>(size.width) * size.height;
 }
 
-/// Returns the largest number of vectors of SemiGlobal::kLabels labels at any pyramid level.
 std::size_t mostVectors(Size size, const EpipolarOptions& options) {
     const std::size_t finest = pixelsOf(size);
     const double longest = options.longestParallax * size.width;
@@ -61,23 +60,21 @@ std::size_t mostVectors(Size size, const EpipolarOptions& options) {
     return std::max(finest, coarsest * pixelsOf(size));
 }
 
-/// Clamps a label to the range that can be searched; NaN becomes the smallest label.
+/// Clamps a label to the searched range. NaN becomes the smallest label.
 float soundLabel(float label, float longest) {
     return label > -kBeyond ? std::min(label, longest) : static_cast<float>(-kBeyond);
 }
 
-// With at least this number of matched patches, their median distance from the epipolar lines is a
-// better estimate of EpipolarSearch::normalError() than the covariance of the pose.
+// With this number of matched patches, their median distance from the epipolar lines is a better
+// estimate of normalError() than the covariance of the pose.
 constexpr int kEnoughPatches = 16;
 
-/// Returns how far the uncertainty of a pose's rotation shifts the epipolar lines [px].
 double normalErrorOf(const Matrix6& covariance, double focal) {
-    constexpr double kNoLine = 1e6;  // largest returned value [px]
+    constexpr double kNoLine = 1e6;
     const double variance = covariance.topLeftCorner<3, 3>().trace() / 3;
     return variance > 0 ? std::min(focal * std::sqrt(variance), kNoLine) : 0;
 }
 
-// Returns the index of the pixel of a coarser pyramid level that covers this pixel of the finest.
 std::size_t coarseIndex(const Eigen::Vector2d& pixel, Size size, int level) {
     const double scale = 1 << level;
     const int x = std::min(static_cast<int>((pixel.x() + 0.5) / scale), size.width - 1);
@@ -85,7 +82,6 @@ std::size_t coarseIndex(const Eigen::Vector2d& pixel, Size size, int level) {
     return static_cast<std::size_t>(y) * size.width + x;
 }
 
-// Returns the camera with its sensor cut to these pixels.
 CameraModel partOf(CameraModel camera, const PixelRect& pixels) {
     camera.size = {pixels.x1 - pixels.x0, pixels.y1 - pixels.y0};
     camera.cx -= pixels.x0;
@@ -115,7 +111,6 @@ EpipolarSearch::EpipolarSearch(const StereoRig& rig, std::shared_ptr<Workers> wo
 }
 
 void EpipolarSearch::setArea(const PixelRect& pixels) {
-    // Side of a pixel of the coarsest pyramid level [video px]. The area is widened to its grid.
     const int grid = 1 << (levels_.size() - 1);
     const auto up = [&](int x, int most) { return std::min((x + grid - 1) / grid * grid, most); };
     const PixelRect area{pixels.x0 / grid * grid, pixels.y0 / grid * grid,
@@ -158,7 +153,7 @@ bool EpipolarSearch::run(const Rows<const std::uint8_t>& video, const RigidTrans
     videoNoise_ = noiseOf(levels_[0].video);
     refinement_ = {};
     normalError_ = 0;
-    // A search around predicted s needs one pyramid level; matching patches needs the finest two.
+    // A search around predicted s needs one pyramid level. Matching patches needs the finest two.
     const int all = static_cast<int>(levels_.size());
     const int searched = predicted.empty() ? all : finestLevel() + 1;
     const int drawn = covariance ? std::min(std::max(searched, 2), all) : searched;
@@ -190,8 +185,8 @@ int EpipolarSearch::finestLevel() const {
     return std::min(options_.finest, static_cast<int>(levels_.size()) - 1);
 }
 
-// Gives each pixel the s of the pixel of finestLevel() that covers it. Half size suffices for cells
-// of 4x4 pixels: the four middle pixels of a cell lie in four different pixels of half size.
+// Gives each pixel the s of its pixel of finestLevel(). Half size suffices for the flow of cells,
+// because the four middle pixels of a cell lie in four different pixels of half size.
 void EpipolarSearch::readInverseDepth() {
     const int finest = finestLevel();
     const Level& level = levels_[finest];
@@ -227,9 +222,9 @@ bool EpipolarSearch::place(const RigidTransform& told, int levels) {
     return true;
 }
 
-// Matching patches needs s. Predicted s is used as it is, because it was computed with refined
-// poses. Without it, s comes from the coarsest pyramid level, whose pixels are so large that the
-// epipolar lines of the unrefined pose still pass through the matches.
+// Matching patches needs s. Predicted s was computed with refined poses and is accurate enough.
+// Otherwise, s comes from the coarsest pyramid level: its pixels are so large that the epipolar
+// lines of the unrefined pose still pass through the matches.
 void EpipolarSearch::refine(const Matrix6& covariance, std::span<const float> predicted) {
     const PosePrior prior{translation_.cast<double>(), covariance};
     const Level& half = levels_[std::min<std::size_t>(1, levels_.size() - 1)];
@@ -252,8 +247,8 @@ void EpipolarSearch::refine(const Matrix6& covariance, std::span<const float> pr
                                                         : refinement_.normalAfter;
 }
 
-// Draws the still as a camera in the still's position and the frame's orientation would see it,
-// which needs no depth. The drawn part is as large as the longest parallax requires.
+// Draws the still as seen from the still's position in the frame's orientation, which needs no
+// depth. The drawn part is as large as the longest parallax requires.
 bool EpipolarSearch::turnStill(const Eigen::Matrix3d& R_still_video, int levels) {
     const double beyond = options_.longestParallax * whole_.size.width / video_.size.width;
     turned_.place(video_, still_, R_still_video, beyond);
@@ -277,8 +272,7 @@ bool EpipolarSearch::turnStill(const Eigen::Matrix3d& R_still_video, int levels)
     return true;
 }
 
-// Chooses the step of s between labels: where a change of s moves a pixel farthest, one label moves
-// it by one pixel.
+// Chooses the step of s between labels so that no pixel moves by more than one pixel per label.
 void EpipolarSearch::measureParallax() {
     const EpipolarLens& lens = levels_[0].lens;
     const Size size = lens.size();
@@ -368,8 +362,8 @@ void EpipolarSearch::match(int index, int vectors) {
         placeLabels(index);
 }
 
-// Centres the window of labels that each pixel searches on the labels that the coarser pyramid
-// level found around the pixel, with kRoom more labels on both sides.
+// Each pixel searches the labels that the coarser pyramid level found around it, plus kRoom labels
+// on both sides. Its window of labels is centred on this range.
 void EpipolarSearch::centreWindows(const Coarser& coarse, Level& fine) {
     constexpr int kRoom = 2;
     const Size from = coarse.size, to = fine.lens.size();

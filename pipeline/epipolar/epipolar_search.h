@@ -18,72 +18,70 @@
 
 namespace mfar {
 
-/// Returns the still camera, scaled so that it has about as many pixels per ray as the video
-/// camera, but never scaled up.
+/// Returns the still camera, scaled down to about as many pixels per ray as the video camera. It is
+/// never scaled up.
 [[nodiscard]] CameraModel atScaleOf(const StereoRig& rig);
 
-/// Matches every pixel of a video frame with a still whose relative pose is known. Searches along
-/// each pixel's epipolar line, from coarse to fine, with a census cost and semi-global smoothness.
-/// Runs on the CPU, without GL.
+/// Matches every pixel of a video frame with a still of known relative pose. Searches along each
+/// pixel's epipolar line, from coarse to fine, with a census cost and semi-global smoothness. Runs
+/// on the CPU, without GL.
 class EpipolarSearch {
 public:
     /// Throws std::invalid_argument if an option is out of range.
     EpipolarSearch(const StereoRig& rig, std::shared_ptr<Workers> workers,
                    const EpipolarOptions& options = {});
 
-    /// Takes over the options that may change between frames (see changed() in flow_options.h),
-    /// from the next run on. Throws std::invalid_argument if an option is out of range.
+    /// Sets the options that may change between frames (see changed() in flow_options.h) for the
+    /// next run. Throws std::invalid_argument if an option is out of range.
     void setOptions(const EpipolarOptions& options) { options_ = changed(options_, options); }
 
     /// Sets the still as its sensor delivered it.
     void setStill(const ImageView& still);
-    /// Like the other setStill(), for the luma of a still.
     void setStill(const Rows<const std::uint8_t>& still);
 
-    /// From now on, only these pixels of the video are matched. The area is widened to a grid of a
-    /// few pixels. Initially it is the whole picture.
+    /// From now on, only these video pixels are matched, widened to a grid of a few pixels.
+    /// Initially, the whole picture is matched.
     void setArea(const PixelRect& pixels);
     [[nodiscard]] const PixelRect& area() const { return area_; }
-    /// The lens for the video's whole picture.
     [[nodiscard]] const EpipolarLens& videoLens() const { return lenses_.front(); }
 
-    /// Matches the pixels of the area. `video`: the whole frame. `T_still_video`: transforms video
+    /// Matches the pixels of the area. `video` is the whole frame. `T_still_video` transforms video
     /// camera coordinates at the frame's time to still camera coordinates at the still's time, in
-    /// any unit of length. `covariance`: covariance of a small motion x in T_still_video * exp(x).
-    /// If it is given, the pose is first refined from the pictures; otherwise the pose counts as
-    /// exact. `predicted`: approximate s of every cell of 4x4 pixels in the area, row-major. If it
-    /// is given, the coarser pyramid levels are skipped, because they would only find these values.
-    /// Returns false, and inverseDepth() is zero, if the pose is invalid (soundMotion()) or no part
-    /// of the still can show the area.
+    /// any unit of length.
+    ///
+    /// `covariance` is that of a small motion x in T_still_video * exp(x). If given, the pose is
+    /// first refined from the pictures, otherwise it counts as exact. `predicted` is an approximate
+    /// s of every cell in the area, row-major. If given, the coarser pyramid levels are skipped.
+    /// Returns false and sets inverseDepth() to zero if the pose is invalid (soundMotion()) or no
+    /// part of the still can show the area.
     bool run(const Rows<const std::uint8_t>& video, const RigidTransform& T_still_video,
              const std::optional<Matrix6>& covariance = std::nullopt,
              std::span<const float> predicted = {});
 
-    /// The T_still_video whose epipolar lines were searched; see refinement() for how it was
-    /// refined.
+    /// The T_still_video that was searched. If it was refined, refinement() describes the
+    /// difference from the argument of run().
     [[nodiscard]] const RigidTransform& pose() const { return pose_; }
     [[nodiscard]] const PoseRefinement& refinement() const { return refinement_; }
-    /// Expected distance of matches from their epipolar lines [px]. On pyramid levels where it
-    /// exceeds half a pixel, one pixel to both sides of each line is searched, too.
+    /// Expected distance of matches from their epipolar lines [px]. At pyramid levels where it
+    /// exceeds half a pixel, one pixel on both sides of each line is searched too.
     [[nodiscard]] double normalError() const { return normalError_; }
 
-    /// s [1/unit of length] of each pixel of the area, see EpipolarLens. It is negative where,
-    /// because of noise or errors of the pose, the best match is beyond infinity.
+    /// s [1/unit of length] of each pixel of the area, see EpipolarLens. Noise or pose errors can
+    /// make it negative, which is beyond infinity.
     [[nodiscard]] const std::vector<float>& inverseDepth() const { return inverseDepth_; }
-    /// Largest motion of any pixel along its epipolar line [px] per unit of inverseDepth(); zero if
-    /// there is no parallax. Nothing was searched then.
+    /// Largest motion of any pixel along its epipolar line [px] per unit of s. Zero if there is no
+    /// parallax; then nothing was searched.
     [[nodiscard]] double pixelsPerUnit() const { return pixelsPerUnit_; }
-    /// Translation of points from the frame's camera to the still's camera, in the frame's
-    /// orientation.
+    /// Translation of points from the frame's to the still's camera, in the frame's orientation.
     [[nodiscard]] const Eigen::Vector3f& translation() const { return translation_; }
-    /// Number of labels (candidates of s) that were compared per pixel at the finest pyramid level;
-    /// zero if nothing was searched.
+    /// Number of labels (candidates of s) per pixel at the finest pyramid level. Zero if nothing
+    /// was searched.
     [[nodiscard]] int labels() const { return labels_; }
 
 private:
     struct Level {
         EpipolarLens lens;
-        PixelOffset origin;  // position of the drawn still's first pixel [px of the lens]
+        PixelOffset origin;
         LumaImage video, still, smoothVideo, smoothStill;
         std::vector<std::uint8_t> seen;
         std::vector<std::uint32_t> videoCensus, stillCensus;
@@ -93,7 +91,6 @@ private:
         [[nodiscard]] TurnedPair pair() const { return {lens, origin, video, still, seen}; }
     };
 
-    /// Draws the still at the finest `levels` pyramid levels, as seen in the frame's orientation.
     [[nodiscard]] bool place(const RigidTransform& T_still_video, int levels);
     [[nodiscard]] bool turnStill(const Eigen::Matrix3d& R_still_video, int levels);
     [[nodiscard]] bool matchAll(const std::optional<Matrix6>& covariance,
@@ -107,8 +104,8 @@ private:
     void refine(const Matrix6& covariance, std::span<const float> predicted);
     void prepare(int index);
     /// Approximate labels (steps of s, see simd::LabelLines), either predicted or found at the next
-    /// coarser pyramid level. `scale`: a label times this is a label of the finer pyramid level.
-    /// `shift`: each value covers 2^shift pixels of the finer pyramid level along each axis.
+    /// coarser pyramid level. `scale` converts them to labels of the finer level. Each value covers
+    /// 2^shift pixels of the finer level along each axis.
     struct Coarser {
         const std::vector<float>& labels;
         Size size;
@@ -123,16 +120,16 @@ private:
     void placeLabels(int index);
 
     EpipolarOptions options_;
-    CameraModel whole_, video_, still_;  // video_: the camera of the area; still_: see atScaleOf()
+    CameraModel whole_, video_, still_;  // video_: camera of the area; still_: see atScaleOf()
     PixelRect area_;
-    std::vector<EpipolarLens> lenses_;  // one per pyramid level, for the whole picture
+    std::vector<EpipolarLens> lenses_;
     std::shared_ptr<Workers> workers_;
     TurnedPicture turned_;
     std::vector<Level> levels_;
-    LumaImage picture_;  // the still
+    LumaImage picture_;
     SemiGlobal matcher_;
     std::vector<Valley> valleys_;
-    RigidTransform pose_;  // T_still_video
+    RigidTransform pose_;
     PoseRefinement refinement_;
     double stillNoise_ = 0, videoNoise_ = 0, normalError_ = 0;
     Eigen::Vector3f translation_ = Eigen::Vector3f::Zero();

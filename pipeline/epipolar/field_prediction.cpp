@@ -8,7 +8,7 @@
 namespace mfar {
 namespace {
 
-constexpr int kCellLevel = 2;  // pyramid level whose pixels are cells of 4x4 pixels
+constexpr int kCellLevel = 2;  // a pixel of this pyramid level is a cell
 constexpr float kUnknown = -1e9F;
 // Widest gap that is filled at the picture's border and at depth edges [cells]. It allows motions
 // of 12 px per frame.
@@ -31,8 +31,8 @@ std::span<const float> FieldPrediction::in(const RigidTransform& T_still_frame, 
     return fillGaps() ? std::span<const float>(landed_) : std::span<const float>();
 }
 
-// Moves the points of the kept cells to the new pose. Points are homogeneous, (x, y, z, s), so that
-// s is near zero for distant points.
+// Moves the points of the stored cells to the new pose. Points are homogeneous, (x, y, z, s), so
+// that s is near zero for distant points.
 void FieldPrediction::land(const RigidTransform& T_still_frame, double unit) {
     RigidTransform T_still_next = T_still_frame, T_still_last = keptPose_;
     T_still_next.translation *= unit / unit_;
@@ -63,7 +63,7 @@ void FieldPrediction::land(const RigidTransform& T_still_frame, double unit) {
     }
 }
 
-// Fills cells on which nothing landed. An area that comes into view beside a depth edge gets the
+// Fills cells on which no point landed. An area that becomes visible beside a depth edge gets the
 // depth of the farthest surface next to it. Returns false if a gap is too wide.
 bool FieldPrediction::fillGaps() {
     const Size size = cells_.size();

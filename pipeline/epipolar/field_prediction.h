@@ -9,23 +9,22 @@
 
 namespace mfar {
 
-/// Predicts the inverse depths of the next frame. Moves the inverse depths of one frame according
-/// to the poses, onto cells of 4x4 pixels. Where several surfaces land on a cell, the nearest is
-/// kept (z-test).
+/// Predicts the inverse depths of the next frame: moves those of one frame according to the poses.
+/// If several surfaces land on a cell, the nearest is kept (z-test).
 class FieldPrediction {
 public:
     explicit FieldPrediction(const CameraModel& video);
 
-    /// Keeps the result of a frame. `nearness`: s of every cell [1/unit], row-major, see
-    /// EpipolarLens. `T_still_frame`: relative pose, with a translation in units. `unit`: length of
-    /// a unit, in the unit of length of the poses.
+    /// Stores the result of a frame. `nearness` is s of every cell [1/unit], row-major, see
+    /// EpipolarLens. `T_still_frame` has its translation in units. `unit` is the length of a unit
+    /// [unit of length of the poses].
     void keep(std::span<const float> nearness, const RigidTransform& T_still_frame, double unit);
-    /// Discards the kept frame, because the still is new or the depths are no longer valid.
+    /// Must be called when the still is replaced or the depths are no longer valid.
     void forget() { kept_.clear(); }
 
     /// Returns the predicted s [1/unit] of every cell of a frame with the relative pose
-    /// `T_still_frame`. Empty if no frame is kept, or if the kept frame does not show the same part
-    /// of the scene. Valid until the next call.
+    /// `T_still_frame`. Empty if no frame is stored, or if it does not show the same part of the
+    /// scene. Valid until the next call.
     [[nodiscard]] std::span<const float> in(const RigidTransform& T_still_frame, double unit);
 
 private:
@@ -34,8 +33,8 @@ private:
 
     EpipolarLens cells_;
     std::vector<float> kept_, landed_, filled_;
-    std::vector<std::int32_t> landing_;  // index of the cell on which each cell of kept_ lands
-    std::vector<float> moved_;           // s of each cell of kept_ after the motion
+    std::vector<std::int32_t> landing_;
+    std::vector<float> moved_;
     RigidTransform keptPose_;
     double unit_ = 1;
 };

@@ -9,22 +9,22 @@
 namespace mfar {
 namespace {
 
-// Width and height of the blocks over which structure tensors are summed [px]; a patch consists of
-// two by two blocks.
+// Width and height of the blocks over which structure tensors are summed [px]. A patch has two by
+// two blocks.
 constexpr int kBlock = kPatch / 2;
-constexpr int kPlaces = 300;  // smallest number of cells into which the picture is divided, if it
-                              // has enough blocks
+// Smallest number of parts into which the picture is divided, if it has enough blocks.
+constexpr int kPlaces = 300;
 constexpr int kPixels = kPatch * kPatch;
 // Smallest correlation of a match. The match is ambiguous if a position farther away than
 // kRivalDistance has a correlation that is lower by less than kRival.
 constexpr double kLeastScore = 0.75;
 constexpr double kRival = 0.06;
-constexpr double kRivalDistance = 2.5;  // [px]
-// Largest number of inverse-compositional steps, and largest total length of the steps along each
-// axis [px]. A step shorter than kShortStep [px] ends the refinement.
+constexpr double kRivalDistance = 2.5;
+// Largest number of inverse-compositional steps and largest sum of their lengths along each axis
+// [px]. A step shorter than kShortStep [px] ends the refinement.
 constexpr int kMatchSteps = 6;
 constexpr float kLongestWay = 1.5F, kShortStep = 0.01F;
-constexpr double kFar = 1e6;  // [px]; beyond any picture
+constexpr double kFar = 1e6;
 
 const Eigen::Vector2d kHalf = Eigen::Vector2d::Constant(0.5 * (kPatch - 1));
 
@@ -46,7 +46,7 @@ struct Tensor {
 };
 
 /// Structure tensors of all blocks of a picture, from central differences (twice the gradient).
-/// Block (i, j) starts at pixel 1 + kBlock (i, j), so that no difference needs a pixel beyond the
+/// Block (i, j) starts at pixel 1 + kBlock (i, j), so that no difference needs a pixel outside the
 /// border.
 struct TensorField {
     int width = 0, height = 0;
@@ -85,7 +85,7 @@ struct Sums {
             }
         }
     }
-    /// Returns the variance of the patch b times the square of its number of pixels.
+    /// Returns the variance of the second patch times the square of its number of pixels.
     [[nodiscard]] double power() const { return 1.0 * kPixels * ss - 1.0 * s * s; }
 };
 
@@ -95,8 +95,8 @@ public:
         : own_(picture.row(place.y) + place.x), stride_(picture.size.width),
           self_(own_, stride_, own_, stride_) {}
 
-    /// Returns the correlation with the patch at (x, y) of `picture`, in [-1, 1]; 0 if either patch
-    /// is uniform.
+    /// Returns the correlation with the patch at (x, y) of `picture`, in [-1, 1], or 0 if either
+    /// patch is uniform.
     [[nodiscard]] double with(const LumaImage& picture, int x, int y) const {
         const Sums sums(own_, stride_, picture.row(y) + x, picture.size.width);
         const double powers = self_.power() * sums.power();
@@ -111,11 +111,10 @@ private:
 };
 
 struct Candidate {
-    int x = 0, y = 0;  // first column and row of the patch
+    int x = 0, y = 0;
     double score = -1;
 };
 
-/// Subtracts the mean from the values and returns the norm of the result.
 float withoutMean(Grey& values) {
     float sum = 0, squares = 0;
     for (const float v : values)
@@ -150,8 +149,8 @@ public:
         if (tensor.determinant() > 1) inverse_ = tensor.inverse();
     }
 
-    /// Returns the displacement [px] of a sampled patch from its true position. `seen`: the sampled
-    /// patch minus its mean; `norm`: the norm of `seen`.
+    /// Returns the displacement [px] of a sampled patch from its true position. `seen` is the
+    /// sampled patch minus its mean, `norm` the norm of `seen`.
     [[nodiscard]] Eigen::Vector2f step(const Grey& seen, float norm) const {
         const float gain = norm_ / norm;
         Eigen::Vector2f sum = Eigen::Vector2f::Zero();
@@ -166,8 +165,7 @@ private:
     Eigen::Matrix2f inverse_ = Eigen::Matrix2f::Zero();
 };
 
-/// Samples the patch that begins at a position between pixels, bilinearly. Subtracts the mean from
-/// the samples and returns their norm.
+/// Samples the patch that begins at `first` bilinearly. Subtracts the mean and returns the norm.
 float sample(const LumaImage& picture, const Eigen::Vector2f& first, Grey& out) {
     const int x = static_cast<int>(first.x()), y = static_cast<int>(first.y());
     const float u = first.x() - static_cast<float>(x), v = first.y() - static_cast<float>(y);
@@ -190,8 +188,7 @@ std::vector<PatchPlace> texturedPlaces(const LumaImage& picture, double noise) {
     if (field.width < 2 || field.height < 2) return out;
     const int right = field.width - 1, bottom = field.height - 1;
     const int cell = std::max(2, static_cast<int>(std::sqrt(1.0 * right * bottom / kPlaces)));
-    // Twice the contribution of noise to the squared central differences, plus the contribution of
-    // rounding.
+    // Twice the contribution of noise to the squared central differences, plus that of rounding.
     const double least = kPixels * (4 * noise * noise + 8);
     for (int j0 = 0; j0 < bottom; j0 += cell) {
         for (int i0 = 0; i0 < right; i0 += cell) {
@@ -211,8 +208,8 @@ std::vector<PatchPlace> texturedPlaces(const LumaImage& picture, double noise) {
     return out;
 }
 
-// Whether all pixels of the patch at (x, y) are valid. Bilinear samples need one pixel more than
-// the patch. Testing the corners suffices, because the valid area is nearly convex.
+// True if all pixels of the patch at (x, y) are valid, with one more for bilinear samples. Testing
+// the corners suffices, because the valid area is nearly convex.
 bool PatchMatcher::shows(int x, int y) const {
     const int w = to_.size.width;
     if (x < 0 || y < 0 || x + kPatch >= w || y + kPatch >= to_.size.height) return false;

@@ -12,7 +12,7 @@ namespace {
 // Largest number of steps across an epipolar line [px of the searched pyramid level].
 constexpr int kMostSteps = 8;
 
-/// Matches one patch at a time: searches it at half size and refines the match at full size.
+/// Searches a patch at half size and refines its match at full size.
 class PatchSearch {
 public:
     PatchSearch(const TurnedPair& full, const TurnedPair& half, const PatchPrior& prior)
@@ -29,8 +29,8 @@ public:
         if (!placed) return std::nullopt;
         Eigen::Vector2d seen = toFull(*placed + originOf(half_));
         if (scale_ > 1) {
-            // The patch at full size that has the same middle. If it has too little texture, the
-            // match at half size is kept.
+            // The patch at full size with the same middle. If it has too little texture, the match
+            // at half size remains.
             const PatchPlace inner{2 * place.x + kPatch / 2, 2 * place.y + kPatch / 2};
             if (const auto finer = atFull_.polish(inner, seen - originOf(full_)))
                 seen = *finer + originOf(full_);
@@ -47,14 +47,13 @@ private:
         return ((pixel.array() + 0.5) * scale_ - 0.5).matrix();
     }
 
-    /// Returns the ray of the half-size pixel that contains a point, which must be in the picture.
+    /// The point must be in the picture of half size.
     [[nodiscard]] Eigen::Vector2d rayNear(const Eigen::Vector2d& point) const {
         const auto pixel = static_cast<std::size_t>(point.y()) * half_.lens.size().width +
                            static_cast<std::size_t>(point.x());
         return {half_.lens.rayX(pixel), half_.lens.rayY(pixel)};
     }
 
-    /// Returns the pixel at half size that shows a point with inverse depth s.
     [[nodiscard]] Eigen::Vector2d pointAt(const Eigen::Vector2d& ray, double s) const {
         const Eigen::Vector3d& t = prior_.pose.translation;
         const Eigen::Vector2d moved = ray + s * (t.head<2>() - ray * t.z());
@@ -82,7 +81,7 @@ private:
         const Eigen::Vector2d across(-out.along.y(), out.along.x());
         out.acrossSteps = stepsFor(across.dot(spread * across));
         // A very short search along the line may be shorter than the error of the prior pose in
-        // this direction. It is then extended to this error.
+        // this direction, and then covers this error instead.
         if (out.alongSteps <= 1) out.alongSteps = stepsFor(out.along.dot(spread * out.along));
         return out;
     }

@@ -6,8 +6,7 @@
 namespace mfar {
 namespace {
 
-// Number of additional points on each side of the requested ones. The next frame often needs some
-// of them.
+// Additional points on each side of the requested ones, because the next frame often needs them.
 constexpr int kRoom = 4;
 
 }  // namespace
@@ -54,7 +53,7 @@ void RayLattice::cover(const PixelRect& points) {
             }
             const Eigen::Vector2d pixel(kStep * i, kStep * j);
             const Eigen::Vector2d ray = camera_.unproject(pixel);
-            // Beyond the radius where the lens model folds back, no ray belongs to a pixel.
+            // Outside the radius where the lens model folds back, no ray belongs to a pixel.
             const bool shown = (camera_.project(ray) - pixel).squaredNorm() < 1e-2;
             constexpr float kNoRay = std::numeric_limits<float>::quiet_NaN();
             x.push_back(shown ? static_cast<float>(ray.x()) : kNoRay);

@@ -6,32 +6,32 @@
 
 namespace mfar {
 
-/// An offset in whole pixels.
 struct PixelOffset {
     int x = 0, y = 0;
 };
 
 [[nodiscard]] bool isSame(const CameraModel& a, const CameraModel& b);
 
-/// Rays of every kStep-th pixel of a camera, also outside its picture. Rays are computed when they
-/// are first requested, and kept. They are also used for a camera that differs only in its size and
-/// in the position of its principal point, if that differs by whole steps.
+/// Rays of every kStep-th pixel of a camera, also outside its picture. They are computed at the
+/// first request and stored. A camera that differs only in size, and in its principal point by
+/// whole steps, uses the same rays.
 class RayLattice {
 public:
-    static constexpr int kStep = 8;  ///< [px]
+    static constexpr int kStep = 8;
 
     /// The rays of points [x0, x1) x [y0, y1) of the lattice, counted in steps. Valid until the
     /// next call of part(). A ray is NaN if the lens maps no ray to its pixel.
     struct Part {
-        const float *x, *y;  ///< ray of point (x0, y0)
-        int pitch;           ///< distance between two rows [floats]
+        const float *x, *y;
+        int pitch;
     };
     [[nodiscard]] Part part(const CameraModel& camera, const PixelRect& points);
 
 private:
     void cover(const PixelRect& points);
 
-    CameraModel camera_;  // size 0x0, and the principal point is within the first step
+    // Has size 0x0, and its principal point is within the first step.
+    CameraModel camera_;
     PixelRect known_;
     std::vector<float> x_, y_;
 };

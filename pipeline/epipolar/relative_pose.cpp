@@ -16,20 +16,18 @@ using Matrix26 = Eigen::Matrix<double, 2, 6>;
 using Matrix23 = Eigen::Matrix<double, 2, 3>;
 
 constexpr int kMostSolves = 15;
-constexpr double kSettled = 0.01;  // [px]; a step shorter than this ends the refinement
+constexpr double kSettled = 0.01;  // a step shorter than this ends the refinement [px]
 constexpr int kFewest = 16;
 constexpr double kFewestShare = 0.4;
-// A match has no weight if its error is at least this number of standard deviations.
+// Matches whose error is larger than this have no weight [standard deviations].
 constexpr double kTukey = 4.685;
-// Standard deviation of the error of a good match [px]. The scale of the robust weights is at least
-// half of it.
+// Standard deviation of a good match [px]. The scale of the robust weights is at least half of it.
 constexpr double kMatchError = 0.3;
-// Largest distance of an inlier from its epipolar line [px].
 constexpr double kExplained = 1;
-constexpr double kNotExplained = 1e6;  // [px]; error of a match that no pose explains
+constexpr double kNotExplained = 1e6;  // error of a match that fits no pose [px]
 
-/// Estimated rotation and translation of points, relative to the orientation of the prior pose. The
-/// unit of length is Solver::unit_.
+/// Estimated motion of points, relative to the orientation of the prior pose. The unit of length is
+/// Solver::unit_.
 struct Estimate {
     Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
     Eigen::Vector3d translation;
@@ -38,8 +36,8 @@ struct Estimate {
 /// Residual of a match under an estimated pose, at the inverse depth that fits best.
 struct Residual {
     Eigen::Vector2d error;  // predicted minus matched ray (x/z, y/z)
-    Matrix26 jacobian;      // derivatives by rotation and translation, with inverse depth
-                            // eliminated
+    // Derivatives by rotation and translation, with inverse depth eliminated.
+    Matrix26 jacobian;
 };
 
 Matrix23 rayOfPoint(const Eigen::Vector2d& ray, double z) {
@@ -48,9 +46,9 @@ Matrix23 rayOfPoint(const Eigen::Vector2d& ray, double z) {
     return out / z;
 }
 
-// Near the epipole, a change of depth hardly moves the point, so an unlimited depth could explain
-// any error. The inverse depth therefore has a prior that keeps it near zero there: its mean is
-// zero, and its standard deviation is one per unit of length.
+// Near the epipole, depth hardly moves the point, so an unlimited depth could explain any error. A
+// prior therefore keeps the inverse depth near zero there: its mean is zero, and its standard
+// deviation is one per unit of length.
 std::optional<Residual> residualOf(const RayMatch& match, const Estimate& at, double focal) {
     const double held = std::pow(kMatchError / focal, 2);
     const Eigen::Vector3d turned = at.rotation * match.video.homogeneous();
@@ -78,8 +76,8 @@ double quantileOf(std::vector<double> values, double quantile) {
     return values[place];
 }
 
-/// Robust Gauss-Newton solver with normalised units: rotations are in radians, and translations in
-/// lengths of the prior's translation.
+/// Robust Gauss-Newton solver. Rotations are in radians, translations in lengths of the prior's
+/// translation.
 class Solver {
 public:
     Solver(std::span<const RayMatch> matches, const PosePrior& prior, double focal)
@@ -91,7 +89,7 @@ public:
         Vector6 scale = Vector6::Ones();
         scale.tail<3>().setConstant(1 / unit_);
         Matrix6 covariance = scale.asDiagonal() * prior.covariance * scale.asDiagonal();
-        // Unknowns that the prior gives as exact get a standard deviation of a millionth.
+        // Exact unknowns of the prior get a standard deviation of a millionth.
         covariance.diagonal().array() += 1e-12;
         const Eigen::LLT<Matrix6> factors(covariance);
         usable_ = covariance.allFinite() && prior.translation.allFinite() &&
@@ -120,14 +118,14 @@ public:
             const double error = r ? focal_ * r->error.norm() : kNotExplained;
             errors_.push_back(error < kNotExplained ? error : kNotExplained);
         }
-        // This quantile is below one half, so that the scale is still correct if slightly more than
-        // half of the matches are outliers.
-        // kNormal: this quantile of the absolute value of a standard normal variable.
+        // A quantile below one half gives a correct scale even if slightly more than half of the
+        // matches are outliers. kNormal is this quantile of the absolute value of a standard normal
+        // variable.
         constexpr double kQuantile = 0.4, kNormal = 0.5244;
         scale_ = std::clamp(quantileOf(errors_, kQuantile) / kNormal, 0.5 * kMatchError, scale_);
     }
 
-    /// Takes a Gauss-Newton step. Returns false if no step is possible.
+    /// Returns false if no Gauss-Newton step is possible.
     bool step() {
         Matrix6 A = information_;
         Vector6 b = -information_ * motion_;
@@ -161,8 +159,8 @@ private:
     Estimate at_;
     Vector6 motion_ = Vector6::Zero();
     std::vector<std::optional<Residual>> residuals_;
-    std::vector<double> errors_;    // error of each match [px]
-    double scale_ = kNotExplained;  // standard deviation of the inliers [px]
+    std::vector<double> errors_;
+    double scale_ = kNotExplained;
 };
 
 }  // namespace

@@ -6,7 +6,7 @@
 namespace mfar {
 namespace {
 
-/// Temporary memory that is divided into slots, one for each part into which Workers splits a loop.
+/// Temporary memory for the parts into which Workers splits a loop.
 class Slots {
 public:
     Slots(std::vector<std::uint8_t>& memory, std::size_t bytes, int most)
@@ -55,7 +55,7 @@ void SemiGlobal::run(const LumaImage& guide, const std::vector<std::int16_t>& ba
                                   sums_.data()};
     const std::size_t row = static_cast<std::size_t>(width) * kLabels * vectors;
     constexpr int kRows = simd::kRowsTogether, kColumns = simd::kColumnsTogether;
-    const int parts = 4 * workers.count();  // largest number of parts of a loop
+    const int parts = 4 * workers.count();
     Slots forRows(scratch_, simd::pathScratch(vectors, 1), parts);
     workers.forRange((height + kRows - 1) / kRows, 1, [&](int first, int last) {
         std::uint8_t* scratch = forRows.next();

@@ -11,15 +11,12 @@ namespace {
 
 static_assert(TurnedPicture::kAlign == simd::kTurnedCell);
 
-// A ray (x, y, 1) of the picture counts as outside the camera's view if its z after the rotation is
-// not larger than this.
+// A ray with a smaller z after the rotation counts as outside the camera's view.
 constexpr double kBeside = 0.2;
-// Number of points along each side of the picture. The rays through these points bound the visible
-// part.
 constexpr int kSidePoints = 16;
 
-// Largest radius of a valid ray, in units of the radius of the picture's corners. It is smaller if
-// the lens model folds rays back before.
+// Largest radius of a valid ray, as a multiple of the radius of the picture's corners. It is
+// smaller if the lens model folds rays back before.
 constexpr double kFarthestRay = 4;
 
 double rimOf(const CameraModel& camera) {
@@ -61,15 +58,15 @@ void TurnedPicture::know(const CameraModel& camera, const CameraModel& source) {
     }
 }
 
-/// Returns the bounds [px of the camera], within `whole`, of the part of the source's picture that
-/// the camera sees. Empty if the camera sees nothing of it.
+/// Returns the bounds [px of the camera] of the source's picture as the camera sees it, within
+/// `whole`. Empty if the camera sees nothing of it.
 Eigen::AlignedBox2d TurnedPicture::boundsOf(const Eigen::Matrix3d& R_source_camera,
                                             const Eigen::AlignedBox2d& whole) const {
     Eigen::AlignedBox2d bounds;
     bool before = false;
     for (const Eigen::Vector2d& ray : known_.outline) {
         const Eigen::Vector3d turned = R_source_camera.transpose() * ray.homogeneous();
-        // If a ray is beside or behind the camera, the whole of `whole` counts as visible.
+        // If a ray points sideways or backwards, all of `whole` counts as visible.
         if (!(turned.z() > kBeside)) {
             bounds.extend(whole);
             continue;
@@ -78,7 +75,6 @@ Eigen::AlignedBox2d TurnedPicture::boundsOf(const Eigen::Matrix3d& R_source_came
         bounds.extend(known_.camera.project(there * std::min(1.0, known_.rim / there.norm())));
         before = true;
     }
-    // All rays of the picture lie between the rays of its outline.
     return before ? bounds.intersection(whole) : Eigen::AlignedBox2d();
 }
 

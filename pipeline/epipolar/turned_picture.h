@@ -17,30 +17,29 @@ namespace mfar {
 /// (the canvas) may extend beyond that camera's own picture.
 class TurnedPicture {
 public:
-    /// Sets size and position of the canvas. It contains the part of the picture of `source` that
-    /// `camera` would see if the picture of `camera` were extended on each side by `beyond` times
-    /// its width. `R_source_camera` rotates rays from `camera` to `source`. The size is 0x0 if
-    /// there is no such part.
+    /// Sets size and position of the canvas: the part of the source's picture that `camera` would
+    /// see if its picture were extended on each side by `beyond` times its width. `R_source_camera`
+    /// rotates rays from `camera` to `source`. The size is 0x0 if there is no such part.
     void place(const CameraModel& camera, const CameraModel& source,
                const Eigen::Matrix3d& R_source_camera, double beyond);
 
     [[nodiscard]] Size size() const { return size_; }
-    /// Pixel of `camera` at canvas pixel (0, 0). Both coordinates are multiples of kAlign.
+    /// Pixel of `camera` at canvas pixel (0, 0), a multiple of kAlign along each axis.
     [[nodiscard]] PixelOffset origin() const { return origin_; }
     static constexpr int kAlign = RayLattice::kStep;
 
-    /// Draws `picture`, the picture of the source, into the canvas `out`, bilinearly. `seen`
-    /// becomes 1 where the picture covers the canvas, else 0.
+    /// Draws the source's `picture` into the canvas `out`, bilinearly. `seen` is 1 where the
+    /// picture covers the canvas, else 0.
     void draw(const LumaImage& picture, Workers& workers, LumaImage& out,
               std::vector<std::uint8_t>& seen) const;
 
 private:
-    /// A pair of cameras, and values that depend only on them. The values are kept as long as the
-    /// pair stays the same.
+    /// A pair of cameras and values that depend only on them. They are computed again when the pair
+    /// changes.
     struct Cameras {
         CameraModel camera, source;
-        double rim = 0, sourceRim = 0;         ///< largest radius of a valid ray of each camera
-        std::vector<Eigen::Vector2d> outline;  ///< rays through the border of the source's picture
+        double rim = 0, sourceRim = 0;
+        std::vector<Eigen::Vector2d> outline;
     };
     void know(const CameraModel& camera, const CameraModel& source);
     [[nodiscard]] Eigen::AlignedBox2d boundsOf(const Eigen::Matrix3d& R_source_camera,
@@ -52,8 +51,8 @@ private:
     Cameras known_;
     RayLattice lattice_;
     int gridWidth_ = 0;
-    std::vector<float> gridX_, gridY_;  // position in the source's picture of every kAlign-th
-                                        // canvas pixel [px]
+    // Position in the source's picture of every kAlign-th canvas pixel [px].
+    std::vector<float> gridX_, gridY_;
 };
 
 }  // namespace mfar

@@ -8,23 +8,19 @@
 
 namespace mfar {
 
-/// Width and height of a cell of a flow field [px].
 inline constexpr int kCell = 4;
-inline constexpr int kCellsPerTile = 4;  ///< cells of a tile (plan/tiles.h) along each axis
+inline constexpr int kCellsPerTile = 4;
 
-/// Quotient of two positive numbers, rounded up.
 [[nodiscard]] constexpr int divideUp(int a, int b) {
     return (a + b - 1) / b;
 }
 
-/// Number of cells that cover a picture.
 [[nodiscard]] constexpr Size cellsOf(Size picture) {
     return {divideUp(picture.width, kCell), divideUp(picture.height, kCell)};
 }
 
-/// Interpolates one channel of a field bilinearly at pixel (x, y). `cells`: one entry of four
-/// channels per cell of 4x4 pixels. Beyond the centres of the outermost cells, returns the value of
-/// the nearest cell.
+/// Interpolates one channel bilinearly at pixel (x, y). `cells` has four channels per cell. Beyond
+/// the centres of the outermost cells, returns the value of the nearest cell.
 [[nodiscard]] inline float sampleCells(const std::vector<float>& cells, Size count, int channel,
                                        double x, double y) {
     const double gx = std::clamp((x + 0.5) / 4 - 0.5, 0.0, count.width - 1.0);

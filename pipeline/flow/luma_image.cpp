@@ -11,7 +11,7 @@
 namespace mfar {
 namespace {
 
-// Rec. 601 weights, multiplied by 65536. They add up to 65536.
+// Rec. 601 weights, multiplied by 65536.
 constexpr int kRed = 19595, kGreen = 38470, kBlue = 7471;
 
 void lumaRow(const ImageView& picture, int y, std::uint8_t* to) {
@@ -35,8 +35,8 @@ void lumaRow(const ImageView& picture, int y, std::uint8_t* to) {
     }
 }
 
-/// The range of pixels that one pixel of a smaller picture covers along one axis. It may cover the
-/// first and the last of them only partly. The weights of all pixels add up to one.
+/// The range of pixels that one pixel of a smaller picture covers along one axis. The first and the
+/// last of them may be covered only partly. All weights add up to one.
 struct Span {
     int first, last;
     float firstWeight, innerWeight, lastWeight;
@@ -77,8 +77,8 @@ void lumaOf(const ImageView& picture, LumaImage& out) {
 
 namespace {
 
-/// Shrinks a picture to `size`. `rowOf(y, scratch)` returns row y of the picture's luma, either in
-/// the picture's memory or written to `scratch`.
+/// `rowOf(y, scratch)` returns row y of the luma, which is either in the picture's memory or
+/// written to `scratch`.
 template <class RowOf>
 void shrinkRows(Size from, Size size, const RowOf& rowOf, Workers& workers, LumaImage& out) {
     if (!(out.size == size)) out = LumaImage(size);
@@ -160,7 +160,7 @@ void smooth(const LumaImage& in, float side, LumaImage& out) {
 }
 
 double noiseOf(const Rows<const std::uint8_t>& picture) {
-    constexpr int kBlock = 8, kRun = 32;  // kRun: number of blocks that are processed together
+    constexpr int kBlock = 8, kRun = 32;
     std::vector<int> sums;
     const int blocks = (picture.size.width - 2) / kBlock;
     for (int y = 1; y + kBlock < picture.size.height; y += kBlock) {
@@ -179,7 +179,7 @@ double noiseOf(const Rows<const std::uint8_t>& picture) {
     const auto quiet = sums.begin() + static_cast<std::ptrdiff_t>(sums.size() / 5);
     std::nth_element(sums.begin(), quiet, sums.end());
     // The mask in noiseColumns() multiplies the standard deviation of white noise by 6. The factor
-    // sqrt(pi / 2) converts the mean absolute value of the noise to a standard deviation.
+    // sqrt(pi / 2) converts a mean absolute value to a standard deviation.
     return std::sqrt(1.5708) * *quiet / (6.0 * kBlock * kBlock);
 }
 

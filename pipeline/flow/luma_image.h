@@ -17,7 +17,7 @@ struct LumaImage {
 
     LumaImage() = default;
     explicit LumaImage(Size s) : size(s), pixels(static_cast<std::size_t>(s.width) * s.height) {}
-    /// Keeps the memory if it is large enough. The pixel values are undefined afterwards.
+    /// Pixel values are undefined afterwards. The memory is kept if it is large enough.
     void setSize(Size s) {
         size = s;
         pixels.resize(static_cast<std::size_t>(s.width) * s.height);
@@ -37,33 +37,30 @@ struct LumaImage {
 
 [[nodiscard]] ImageView viewOf(const LumaImage& picture);
 
-/// Converts a picture to luma. For RGBA and BGRA the luma is computed as in luma.glsl (Rec. 601).
-/// For other formats it is the camera's Y, with any matrix and range: the costs of flow and pose do
-/// not depend on gain and offset, so limited range (219/255 of the contrast of full range) need not
-/// be stretched. Sets the size of `out`.
+/// Converts a picture to luma and sets the size of `out`. The luma of RGBA and BGRA is computed as
+/// in luma.glsl (Rec. 601). For other formats it is the camera's Y with any matrix and range,
+/// because the costs of flow and pose do not depend on gain and offset.
 void lumaOf(const ImageView& picture, LumaImage& out);
 
 /// Computes the luma of the picture at `size`, which must not be larger than the picture. Each
-/// pixel of `out` is the mean of the area of the picture that it covers.
+/// pixel of `out` is the mean of the area that it covers.
 void shrinkLuma(const ImageView& picture, Size size, Workers& workers, LumaImage& out);
 
-/// Like the other shrinkLuma(), for a picture that is luma already.
 void shrinkLuma(const Rows<const std::uint8_t>& luma, Size size, Workers& workers, LumaImage& out);
 
-/// Copies the rectangle `pixels` of a picture. It must be completely inside the picture.
+/// Copies the rectangle `pixels`, which must be completely inside the picture.
 void cut(const Rows<const std::uint8_t>& picture, const PixelRect& pixels, LumaImage& out);
 
-/// Halves the size, rounded up. Each pixel is the mean of 2x2 pixels. If the width or height is
-/// odd, the last column or row is repeated.
+/// Halves the size, rounded up, by the means of 2x2 pixels. An odd last column or row is repeated.
 void halve(const LumaImage& fine, LumaImage& coarse);
 
 /// Smooths with a three-tap filter along both axes. `side` is the weight of a neighbour, in [0,
-/// 1/3]. `in` and `out` must differ.
+/// 1/3]. `in` and `out` must be different pictures.
 void smooth(const LumaImage& in, float side, LumaImage& out);
 
 /// Standard deviation of the picture's noise [grey levels]. A mask (Immerkaer, Fast noise variance
-/// estimation, 1996) first suppresses planes, and steps and lines along the axes. The noise is then
-/// that of the block of 8x8 pixels at the 20 % quantile of all blocks.
+/// estimation, 1996) first suppresses planes, and steps and lines along the axes. The result is the
+/// noise at the 20 % quantile of all blocks of 8x8 pixels.
 [[nodiscard]] double noiseOf(const Rows<const std::uint8_t>& picture);
 
 }  // namespace mfar

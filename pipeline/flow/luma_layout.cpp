@@ -6,8 +6,7 @@
 namespace mfar {
 namespace {
 
-// Smallest height and width of a pyramid level [px]. A smaller level would be too small for the
-// patches.
+// Smallest height and width of a pyramid level [px], because patches must fit.
 constexpr int kShortestSide = 26;
 constexpr std::size_t kMaxLevels = 6;
 // The second level always exists, because the gain between the sensors is measured there.
@@ -15,8 +14,8 @@ constexpr std::size_t kMinLevels = 2;
 
 }  // namespace
 
-// A box of one pixel has a variance of 1/12 px^2. The three-tap smoothing adds a variance of twice
-// the weight of a neighbour [px^2].
+// A box of one pixel has a variance of 1/12 px^2. The three-tap smoothing adds twice the weight of
+// a neighbour [px^2].
 double lumaBoxWidening() {
     return std::sqrt(1 + 12 * 2 * kLumaSmoothing);
 }

@@ -12,8 +12,8 @@ using params::kLumaMarginWords;
 using params::kLumaSmoothing;
 using params::LumaLevel;
 
-/// Number of unused words after the last pyramid level. They are needed because reading a row of a
-/// patch always reads three words.
+/// Number of unused words after the last pyramid level. The shaders always read three words for a
+/// row of a patch, and may thus read these words.
 inline constexpr int kLumaSpareWords = 2;
 
 /// Width of a box filter [video px] that blurs as much (has the same variance) as the area of a
@@ -21,8 +21,8 @@ inline constexpr int kLumaSpareWords = 2;
 [[nodiscard]] double lumaBoxWidening();
 
 /// Layout of the pyramid levels for a picture of `size`, finest first. Each level has half the size
-/// of the level before, rounded up. The first level begins at offset `words`, which is advanced to
-/// the end of the last level.
+/// of the level before, rounded up. `words` is the offset of the first level and becomes the offset
+/// after the last level.
 [[nodiscard]] std::vector<LumaLevel> lumaLayout(Size size, std::int32_t& words);
 
 }  // namespace mfar

@@ -9,16 +9,16 @@
 
 namespace mfar {
 
-/// Inputs of CellWeigher: luma pyramids and flow on the GPU.
 struct WeighInput {
     const std::vector<LumaLevel>&video, &still;
     const gpu::Buffer& words;
     const gpu::Buffer& cells;
-    int first;               ///< index in `cells` of the forward field's first cell; the backward
-                             ///< field follows that field
-    Size forward, backward;  ///< sizes of both fields [cells]
-    int backwardLevel;       ///< pyramid level of the backward field
-    bool errorsGiven;        ///< two-way errors replace the backward field
+    /// Index in `cells` of the forward field's first cell. The backward field follows the forward
+    /// field.
+    int first;
+    Size forward, backward;
+    int backwardLevel;
+    bool errorsGiven;  ///< true if two-way errors replace the backward field
 };
 
 /// Computes the weight of the still in each cell from the cell's match and from the photometric
@@ -27,14 +27,13 @@ class CellWeigher {
 public:
     explicit CellWeigher(const StereoRig& rig);
 
-    /// Computes weighed(), lookUps() and trust(). Does nothing if no tile has changed.
+    /// Does nothing if no tile has changed.
     void run(const WeighInput& in, const TileBuffer& tiles);
 
-    /// WeighedCell of each cell; Rgba32F.
+    /// WeighedCell of each cell (Rgba32F), LookUpCell of each cell (Rgba16F, linear filter) and
+    /// TrustCell of each cell (Rgba8, linear filter).
     [[nodiscard]] const gpu::Texture& weighed() const { return weighed_; }
-    /// LookUpCell of each cell; Rgba16F, linear filter.
     [[nodiscard]] const gpu::Texture& lookUps() const { return lookUps_; }
-    /// TrustCell of each cell; Rgba8, linear filter.
     [[nodiscard]] const gpu::Texture& trust() const { return trust_; }
 
 private:

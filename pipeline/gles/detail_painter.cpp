@@ -105,8 +105,7 @@ void DetailPainter::enlargeLearned(const TileParams& params, const gpu::Texture&
     learned_->run(video, &seen, tiles, filters, params, list(List::All));
 }
 
-// First half of the enlargement: enlarges along columns. The programs composite_*.frag read the
-// result.
+// Enlarges along columns. The programs composite_*.frag then enlarge along rows.
 void DetailPainter::enlargeColumns(const TileParams& params, const gpu::Texture& video,
                                    const Matched* matched, const TileBuffer& tiles,
                                    const DetailOptions& options) {
@@ -148,7 +147,6 @@ void DetailPainter::drawDetail(Composites passes, const TileParams& params, gpu:
     passes.whole.run(params, bindings, outputTarget_);
 }
 
-// Rectangle of the output pixels that show any part of these tiles.
 PixelRect DetailPainter::outputOf(const PixelRect& tiles) const {
     const auto [width, height] = output_.size();
     const auto at = [](int tile, int video, int out, int rest) {
@@ -173,7 +171,7 @@ void DetailPainter::draw(const gpu::Texture& video, const Matched* matched, cons
     const Composites passes = compositesFor(options);
     const bool learns = filtersOf(options) != nullptr;
     const gpu::Texture& columns = learns ? learned_->columns() : columns_;
-    // Without a still the shaders do not read these textures.
+    // Without a still, the shaders do not read these textures.
     const gpu::Texture& still = matched != nullptr ? matched->still : blank_;
     const gpu::Texture& lookUps = matched != nullptr ? matched->lookUps : blank_;
     if (learns)
@@ -189,8 +187,8 @@ void DetailPainter::draw(const gpu::Texture& video, const Matched* matched, cons
         drawSecond(p, video, *matched, *filtersOf(options));
 }
 
-// Draws the second still over the detail of the first one, in the tiles where the second still has
-// more weight. The detail of the first still is faded out there.
+// Draws the second still in the tiles where it has more weight, over the detail of the first still,
+// which is faded out there.
 void DetailPainter::drawSecond(const TileParams& params, const gpu::Texture& video,
                                const Matched& matched, const FilterBank& filters) {
     const Matched& second = *matched.second;

@@ -14,24 +14,24 @@
 
 namespace mfar {
 
-/// Combines the video, a still and its weights into the high-resolution picture. Draws only tiles
-/// that the TileWork marks as changed. Other tiles keep their pixels from earlier frames.
+/// Combines the video, a still and its weights into the output picture. Draws only the tiles that
+/// TileWork requests. Other tiles keep their pixels from earlier frames.
 class DetailPainter {
 public:
-    /// `stillRig` is the rig whose still camera has the resolution of the still's detail and
-    /// picture.
+    /// The still camera of `stillRig` has the resolution of the still's detail and picture.
     DetailPainter(const StereoRig& stillRig, Size output);
 
-    /// A still on the GPU and its match with the video.
     struct Matched {
-        const gpu::Texture& still;    ///< luma with amplified finest detail
-                                      ///< (StillReference::raised()), or in mode Blend the still
-                                      ///< itself; linear filter
-        const gpu::Texture& weighed;  ///< WeighedCell of each cell; Rgba32F
-        const gpu::Texture& lookUps;  ///< LookUpCell of each cell; Rgba16F, linear filter
-        const gpu::Texture& trust;    ///< TrustCell of each cell; Rgba8, linear filter
-        /// A second still, which is shown where its weight is larger than that of the first still;
-        /// null: there is none. Used only in mode Detail with learned filters.
+        /// The still with a linear filter: StillReference::raised(), or in mode Blend the still
+        /// itself.
+        const gpu::Texture& still;
+        /// WeighedCell of each cell (Rgba32F), LookUpCell of each cell (Rgba16F, linear filter) and
+        /// TrustCell of each cell (Rgba8, linear filter).
+        const gpu::Texture& weighed;
+        const gpu::Texture& lookUps;
+        const gpu::Texture& trust;
+        /// A second still that is shown where its weight is larger than that of the first, or null.
+        /// Used only in mode Detail with learned filters.
         const Matched* second = nullptr;
     };
     /// Classifies the changed tiles and draws them. If `matched` is null, the tiles are only
@@ -40,19 +40,17 @@ public:
               const DetailOptions& options);
 
     [[nodiscard]] const gpu::Texture& output() const { return output_; }
-    /// Framebuffer that draws into output(), for overlays.
     [[nodiscard]] const gpu::Framebuffer& target() const { return outputTarget_; }
 
-    /// Statistics of the frame before the last one. Does not wait for the GPU.
+    /// Statistics of the frame before the last one, without waiting for the GPU.
     [[nodiscard]] TileSummary summaryBefore() const { return summary(1 - current_); }
     /// Statistics of the last frame. Waits for the GPU.
     [[nodiscard]] TileSummary summaryNow() const { return summary(current_); }
-    /// Class of each tile in the last frame, row-major. Waits for the GPU.
+    /// Classes of all tiles in the last frame, row-major. Waits for the GPU.
     [[nodiscard]] std::vector<TileClass> readClasses() const;
 
 private:
     using TileParams = params::DrawTiles;
-    /// The programs that enlarge the video linearly, along columns and along rows.
     struct Linear {
         Linear()
             : columns("superres_vertical.frag", "#define LINEAR\n"),
@@ -60,15 +58,12 @@ private:
 
         TilePass columns, rows;
     };
-    /// Programs that draw the output: enlarged video only, the detail of a whole frame, tiles with
-    /// detail, and plain tiles with detail.
     struct Composites {
         TilePass& enlarged;
         gpu::DrawPass<TileParams>& whole;
         gpu::DrawPass<TileParams>& tiles;
         gpu::DrawPass<TileParams>& plain;
     };
-    /// The buffer that superres_classify.comp writes: draws[] and counts[].
     struct DrawBlock {
         std::array<std::array<std::uint32_t, 4>, 5> commands;
         std::array<std::uint32_t, 8> counts;
@@ -101,13 +96,12 @@ private:
     gpu::Buffer classes_, lists_;
     std::array<gpu::Buffer, 2> draws_;
     int current_ = 0, restingFrames_ = 0;
-    std::uint32_t classified_ = 0;  // number of the last classified frame
-    bool sharpenedIsOld_ = true;    // true: sharpened_ was not updated in the last frame
+    std::uint32_t classified_ = 0;
+    bool sharpenedIsOld_ = true;
     gpu::ComputePass<params::ClassifyTiles> classify_;
     TilePass sharpen_, columnsPass_;
     DetailPasses detailPasses_;
     gpu::DrawPass<TileParams> wholeBlend_, blend_, plainBlend_;
-    // These are created for the first frame that needs them.
     std::optional<Linear> linear_;
     std::optional<LearnedEnlarger> learned_;
 };

@@ -12,10 +12,9 @@
 namespace mfar {
 namespace {
 
-/// How the texels of a format are stored in CPU memory and how they are passed to GL.
 struct Layout {
     GLenum channels, type;
-    int bytes;  ///< bytes per texel
+    int bytes;
 };
 
 Layout layoutOf(gpu::TexelFormat format) {

@@ -13,16 +13,14 @@ namespace mfar {
 /// The GPU copy of a field with one row, in a storage buffer.
 class BufferCopy final : public DeviceCopy {
 public:
-    /// Refers to a part of a buffer that a step owns: `count` entries of `entryBytes` bytes,
-    /// starting with entry `first`.
+    /// Refers to `count` entries of `entryBytes` bytes of a step's buffer, from entry `first` on.
     BufferCopy(const gpu::Buffer& buffer, int first, std::size_t count, std::size_t entryBytes)
         : buffer_(&buffer), first_(first), count_(count), entryBytes_(entryBytes) {}
-    /// Allocates its own buffer.
     BufferCopy(std::size_t count, std::size_t entryBytes)
         : own_(count * entryBytes), buffer_(&*own_), count_(count), entryBytes_(entryBytes) {}
 
     [[nodiscard]] const gpu::Buffer& buffer() const { return *buffer_; }
-    [[nodiscard]] int first() const { return first_; }  ///< index of the first entry
+    [[nodiscard]] int first() const { return first_; }
 
     /// May be called only if this object has allocated its own buffer.
     void upload(const void* data, std::ptrdiff_t pitch) override;
@@ -35,21 +33,18 @@ private:
     std::size_t count_, entryBytes_;
 };
 
-/// The GPU copy of a field, as a texture. A texel in CPU memory has one byte for R8, two bytes for
-/// Rg8, four bytes for Rgba8, one float for R32F, and four floats for other formats with four
-/// channels. With `floats`, a texel in CPU memory is four floats in [0, 1], and the texture has
-/// format Rgba8.
+/// The GPU copy of a field, as a texture. In CPU memory, a texel has one byte for R8, two for Rg8,
+/// four for Rgba8, one float for R32F, and four floats for other formats. With `floats`, the
+/// texture is Rgba8 and a texel in CPU memory is four floats in [0, 1].
 class TextureCopy final : public DeviceCopy {
 public:
-    /// Refers to a texture that a step owns. The texture must outlive this object.
+    /// Refers to a step's texture, which must outlive this object.
     explicit TextureCopy(const gpu::Texture& texture, bool floats = false)
         : texture_(&texture), floats_(floats) {}
-    /// Creates its own texture.
     TextureCopy(Size size, gpu::TexelFormat format, gpu::Filter filter, bool floats = false)
         : own_(std::in_place, size, format, filter), texture_(&*own_), floats_(floats) {}
 
     [[nodiscard]] const gpu::Texture& texture() const { return *texture_; }
-    /// Framebuffer that draws into the texture.
     [[nodiscard]] const gpu::Framebuffer& target();
 
     void upload(const void* data, std::ptrdiff_t pitch) override;
@@ -62,8 +57,6 @@ private:
     bool floats_;
 };
 
-/// Returns the field's copy in a storage buffer. Creates the buffer and uploads the field if
-/// necessary.
 template <class T>
 [[nodiscard]] const BufferCopy& bufferOf(const Field<T>& field) {
     DeviceCopy& copy = field.device([&] {
@@ -73,8 +66,6 @@ template <class T>
     return static_cast<const BufferCopy&>(copy);
 }
 
-/// Returns the field's copy in a texture. If necessary, creates the texture with this format and
-/// filter, and uploads the field.
 template <class T>
 [[nodiscard]] TextureCopy& textureOf(const Field<T>& field, gpu::TexelFormat format,
                                      gpu::Filter filter = gpu::Filter::Nearest,

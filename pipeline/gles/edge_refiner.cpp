@@ -9,10 +9,9 @@
 namespace mfar {
 namespace {
 
-constexpr int kEdgeGroup = 8;      // width and height of a workgroup, as in warp_edges.comp
-constexpr int kSharpenGroup = 64;  // workgroup size, as in warp_sharpen.comp
-constexpr int kLeastContrast = 3;  // lowest contrast level that is listed; at lower contrast, blur
-                                   // is not visible
+constexpr int kEdgeGroup = 8;      // width and height of a workgroup in warp_edges.comp
+constexpr int kSharpenGroup = 64;  // size of a workgroup in warp_sharpen.comp
+constexpr int kLeastContrast = 3;  // lowest listed contrast level; below it, blur is invisible
 constexpr std::size_t kListedAt = EdgeRefiner::kLevels + 1;
 
 }  // namespace

@@ -12,28 +12,28 @@
 
 namespace mfar {
 
-/// Replaces pixels that the warp blurs. By far the largest errors of a warped picture are where a
-/// pixel of the traced picture mixes two surfaces or shows detail as fine as a pixel. While the
-/// camera rests, these pixels are listed by their contrast and rendered individually like holes.
-/// The rendered pixels are shown until the camera moves.
+/// Replaces pixels that the warp blurs. The largest errors of a warped picture are where a traced
+/// pixel mixes two surfaces or shows detail as fine as a pixel. While the camera rests, these
+/// pixels are listed by their contrast and rendered individually. They are shown until the camera
+/// moves.
 class EdgeRefiner {
 public:
     static constexpr int kLevels = params::kContrastLevels;
 
-    /// See WarpOptions for the arguments. Lists at most `most` pixels, except that all pixels of
-    /// the highest contrast level are always listed. Uses at most `most` pixels of an answer.
+    /// See WarpOptions for the arguments. Lists at most `most` pixels, or more if all of them have
+    /// the highest contrast level. Uses at most `most` pixels of an answer.
     EdgeRefiner(Size layer, double share, int most, int fadeFrames);
 
-    /// Discards the previous list and answer. Then starts to list pixels in `where`, from the
-    /// results of ViewLookUp: `colour` (RGBA8 premultiplied) and `state`.
+    /// Discards the previous list and answer. Starts to list pixels in `where` from the results of
+    /// ViewLookUp: `colour` (RGBA8 premultiplied) and `state`.
     void list(const gpu::Texture& colour, const gpu::Texture& state, const PixelRect& where);
     /// Returns the row-major indices of the listed pixels, ascending. Empty until the GPU has
     /// finished the list. Never waits.
     std::optional<std::vector<std::uint32_t>> poll();
     /// Sets the rendered colours of pixels that poll() returned. Other pixels are ignored.
     void answer(const HoleAnswer& answer);
-    /// Blends the rendered colours of answer() over the listed pixels in `colour`, which must be
-    /// warped to the pose of the list. Their weight grows with each frame.
+    /// Blends the colours of answer() over the listed pixels in `colour`, which must be warped to
+    /// the pose of the list. Their weight grows with each frame.
     void show(const gpu::Texture& colour);
     /// Must be called when the camera has moved or the scene has changed.
     void drop();
@@ -47,11 +47,10 @@ private:
     double share_, step_;
     int most_;
     gpu::Buffer counts_, list_, entries_;
-    std::optional<gpu::Fence> fence_;                   // has a value while the GPU makes the list
-    std::vector<std::array<std::uint32_t, 2>> listed_;  // index and colour of each listed pixel;
-                                                        // ascending by index
+    std::optional<gpu::Fence> fence_;
+    std::vector<std::array<std::uint32_t, 2>> listed_;
     params::RefineEdges params_{};
-    double shown_ = 0;  // weight of the rendered colours; 0: there is no answer
+    double shown_ = 0;
     gpu::ComputePass<params::RefineEdges> count_, choose_, sharpen_;
 };
 

@@ -8,19 +8,18 @@
 
 namespace mfar {
 
-/// Lowers the weights of cells in which the still does not show the video's finest detail; see
+/// Lowers the weights of cells in which the still does not show the video's finest detail, see
 /// params::kFineRoom.
 class FineCheck {
 public:
-    /// `stillRig` is the rig whose still camera has the resolution of the still's detail.
+    /// The still camera of `stillRig` has the resolution of the still's detail.
     explicit FineCheck(const StereoRig& stillRig);
 
-    /// Textures with the results of CellWeigher.
     struct Weights {
         const gpu::Texture &weighed, &lookUps, &trust;
     };
-    /// Computes weights() from `weights`, the results of CellWeigher for this frame. `still`: luma
-    /// of the still with amplified finest detail, with a linear filter.
+    /// Computes weights() from `weights`, the results of CellWeigher for this frame. `still` is
+    /// luma with amplified finest detail and a linear filter.
     void run(const gpu::Texture& video, const gpu::Texture& still, const Weights& weights,
              const TileBuffer& tiles, const FineMatch& match);
 

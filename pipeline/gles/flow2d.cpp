@@ -8,7 +8,7 @@
 namespace mfar {
 namespace {
 
-constexpr int kGroup = 4;  // cells of a workgroup along each axis, as in the shaders
+constexpr int kGroup = 4;  // width and height of the shaders' workgroups [cells]
 Size cellsOf(const LumaLevel& level) {
     return cellsOf(Size{level.width, level.height});
 }
@@ -45,8 +45,7 @@ Flow2d::Flow2d(Size video, const Flow2dOptions& options)
     forward_ = {take(forwardStages_[0].cells), forwardStages_[0].cells};
     const int finest =
         std::min(params::kBackwardFinest, static_cast<int>(backwardStages_.size()) - 1);
-    // backward_ also stores the two-way errors of refine(), so it needs room for one entry per cell
-    // of the video.
+    // backward_ also stores the two-way errors of refine(), one for each cell of the video.
     backward_ = {take(forward_.cells), backwardStages_[finest].cells, finest};
     seed_ = take(forward_.cells);
     cells_ = gpu::Buffer(static_cast<std::size_t>(next) * 4 * sizeof(float));
@@ -79,10 +78,9 @@ void Flow2d::refine(const LumaOnGpu& luma, const TileBuffer& tiles, Cells forwar
     filter(stage, forward_, tiles);
 }
 
-// Searches the listed groups from coarse to fine. Flow vectors are not propagated between cells,
-// because the neighbours of a listed group need not be listed. The vectors found along epipolar
-// lines are candidates at every pyramid level. At the finest level they are kept unless another
-// candidate fits clearly better.
+// Searches the listed groups from coarse to fine, without propagation, because the neighbours of a
+// listed group need not be listed. The vectors along epipolar lines are candidates at every pyramid
+// level. At the finest level, they are replaced only if another candidate fits clearly better.
 void Flow2d::searchListed(const LumaOnGpu& luma) {
     const Direction way{luma.video, luma.still, forwardStages_, 0, 0, false};
     for (int level = static_cast<int>(way.stages.size()) - 1; level >= 0; --level) {
@@ -104,8 +102,8 @@ void Flow2d::run(const Direction& way, const LumaOnGpu& luma) {
         int rounds = 1;
         if (level == way.finest) rounds = way.finestPropagations;
         if (level == coarsest) rounds = options_.coarsestPropagations;
-        // Each round writes the other area. The search begins with the one for which the last round
-        // writes area 0.
+        // Each round writes the other area. This choice of the first area makes the last round
+        // write area 0.
         search(way, level, rounds % 2, luma);
         for (int round = rounds; round > 0; --round)
             propagate(way, level, (round - 1) % 2, luma);
@@ -120,8 +118,7 @@ void Flow2d::search(const Direction& way, int level, int area, const LumaOnGpu& 
                 way.stages[level].groups);
 }
 
-// `prior`: index of the first cell of a field of the finest pyramid level whose vectors are
-// candidates, or -1.
+// `prior`: index of the first cell of a finest-level field whose vectors are candidates, or -1.
 params::SearchFlow Flow2d::searchParams(const Direction& way, int level, int area, int radius,
                                         int prior) const {
     const Stage& stage = way.stages[level];

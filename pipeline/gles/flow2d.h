@@ -11,70 +11,67 @@
 
 namespace mfar {
 
-/// Computes the dense flow between video and still in both directions, without the pose. The steps
-/// are a coarse-to-fine inverse search, propagation, Gauss-Newton refinement, and removal of
-/// outliers and noise. There is a patch of 8x8 pixels every 4 pixels; its cost does not depend on
-/// gain and offset.
-/// Sources: Kroeger et al., ECCV 2016 (inverse search); Barnes et al., 2009 (propagation).
+/// Computes the dense flow from video to still (forward) and from still to video (backward),
+/// without the pose: by coarse-to-fine inverse search, propagation, Gauss-Newton refinement, and
+/// removal of outliers and noise. Each cell is matched by the 8x8 patch around it. The cost of a
+/// match does not depend on gain and offset. Sources: Kroeger et al., ECCV 2016 (inverse search);
+/// Barnes et al., 2009 (propagation).
 class Flow2d {
 public:
-    /// A field of flow vectors in cells(), with one vector per cell of 4x4 pixels.
+    /// A part of cells() with one flow vector (FlowCell) per cell, starting at index `offset`.
     struct Field {
-        int offset = 0;  ///< index in cells() of the first cell (FlowCell)
-        Size cells;      ///< number of columns and rows
-        int level = 0;   ///< pyramid level
+        int offset = 0;
+        Size cells;
+        int level = 0;
     };
 
     /// Throws std::invalid_argument if an option is out of range.
     explicit Flow2d(Size video, const Flow2dOptions& options = {});
 
-    /// Takes over the options that may change between frames (see changed() in flow_options.h),
-    /// from the next run on. Throws std::invalid_argument if an option is out of range.
+    /// Sets the options that may change between frames (see changed() in flow_options.h) for the
+    /// next run. Throws std::invalid_argument if an option is out of range.
     void setOptions(const Flow2dOptions& options) { options_ = changed(options_, options); }
 
-    /// Computes the forward and the backward field. Does nothing if no tile is matched. `usePrior`:
-    /// the last frame's flow vectors are candidates in all cells. It must be false after a new
-    /// still.
+    /// Computes the forward and the backward field. Does nothing if no tile is matched. With
+    /// `usePrior`, the last frame's flow vectors are candidates in all cells. It must be false
+    /// after a new still.
     void run(const LumaOnGpu& luma, const TileBuffer& tiles, bool usePrior);
 
     /// Computes the forward field by refining `forward`: one flow vector per cell with an error of
-    /// less than a pixel. `errors`: known two-way error of each cell (eq. 2), in the first number
-    /// of each entry [px]. Tiles whose vectors do not fit are searched in two dimensions from
-    /// coarse to fine.
+    /// less than a pixel. The first number of each entry of `errors` is the cell's two-way error
+    /// (eq. 2) [px]. Tiles whose vectors do not fit are searched in two dimensions from coarse to
+    /// fine.
     using Cells = std::span<const std::array<float, 4>>;
     void refine(const LumaOnGpu& luma, const TileBuffer& tiles, Cells forward, Cells errors);
 
-    /// Lists of the tiles that the last refine() searched.
     [[nodiscard]] const TileLists& searched() const { return searched_; }
 
     [[nodiscard]] const gpu::Buffer& cells() const { return cells_; }
-    [[nodiscard]] const Field& forward() const { return forward_; }  ///< from video to still
-    /// Reads the forward field: x, y [px], unused, unused for each cell. Waits for the GPU.
+    [[nodiscard]] const Field& forward() const { return forward_; }
+    /// Returns x, y [px] and two unused numbers for each cell. Waits for the GPU.
     [[nodiscard]] std::vector<std::array<float, 4>> readForward() const {
         return cells_.read<std::array<float, 4>>(static_cast<std::size_t>(forward_.cells.width) *
                                                      forward_.cells.height,
                                                  16UL * forward_.offset);
     }
-    /// True after refine(): backward() then has the two-way errors of the video's cells instead of
-    /// flow.
+    /// True after refine(). Then backward() contains the two-way errors of the video's cells
+    /// instead of flow.
     [[nodiscard]] bool errorsGiven() const { return errorsGiven_; }
-    [[nodiscard]] const Field& backward() const { return backward_; }  ///< from still to video
+    [[nodiscard]] const Field& backward() const { return backward_; }
 
 private:
-    /// The memory in cells_ for one pyramid level of the flow in one direction. There are two
-    /// areas, because propagation cannot work in place.
+    /// The memory in cells_ for the flow in one direction at one pyramid level. It has two areas,
+    /// because propagation cannot work in place.
     struct Stage {
         Size cells;
         int area[2];
         gpu::Groups groups;
     };
-    /// Inputs of a search through the pyramid levels, from coarse to fine.
     struct Direction {
-        const std::vector<LumaLevel>& from;  ///< pyramid of the picture with the patches
-        const std::vector<LumaLevel>& to;    ///< pyramid of the picture in which the patches are
-                                             ///< searched
+        const std::vector<LumaLevel>& from;
+        const std::vector<LumaLevel>& to;
         const std::vector<Stage>& stages;
-        int finest;  // finest pyramid level that is searched
+        int finest;
         int finestPropagations;
         bool usePrior;
     };
@@ -85,7 +82,6 @@ private:
     [[nodiscard]] params::SearchFlow searchParams(const Direction& way, int level, int area,
                                                   int radius, int prior) const;
     void propagate(const Direction& way, int level, int toArea, const LumaOnGpu& luma);
-    /// Refines the flow vectors of the field at index `in` of cells_ by Gauss-Newton steps.
     void align(int in, const LumaOnGpu& luma, const TileBuffer& tiles);
     void filter(const Stage& stage, const Field& out, const TileBuffer& tiles);
 
@@ -93,7 +89,7 @@ private:
     std::vector<Stage> forwardStages_, backwardStages_;
     Field forward_, backward_;
     bool errorsGiven_ = false;
-    int seed_;  // index in cells_ of the first input vector of refine()
+    int seed_;
     gpu::Buffer cells_;
     TileLists searched_;
     gpu::ComputePass<params::SearchFlow> search_, searchListed_;

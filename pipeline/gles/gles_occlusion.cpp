@@ -37,8 +37,7 @@ public:
     }
 
 private:
-    // Uploads the rows of `where`, which have known depths, and the rows of the last upload, whose
-    // values are out of date.
+    // Uploads the rows of `where` with new depths and clears those of the last upload.
     void upload(const InverseDepthField& real, const PixelRect& where) {
         const PixelRect rows = around(uploaded_, where);
         uploaded_ = where;

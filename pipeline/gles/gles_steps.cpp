@@ -15,15 +15,15 @@
 namespace mfar::gles {
 namespace {
 
-/// Returns the still's luma with amplified finest detail. If the SIMD engine made it, the texture
-/// has a second channel with the pixel below.
+/// Returns the still's luma with amplified finest detail. If the SIMD engine made it, the second
+/// channel is the pixel below.
 const gpu::Texture& raisedOf(const StillPictures& still) {
     const auto linear = gpu::Filter::Linear;
     return still.raised.isEmpty() ? textureOf(still.pairs, gpu::TexelFormat::Rg8, linear).texture()
                                   : textureOf(still.raised, gpu::TexelFormat::R8, linear).texture();
 }
 
-/// The copies of a still's luma field: on the GPU the whole picture, in CPU memory the luma.
+/// The GPU has the whole still, CPU memory only its luma.
 class StillLumaCopy final : public DeviceCopy {
 public:
     explicit StillLumaCopy(const gpu::PictureTexture& picture) : picture_(picture) {}
@@ -66,8 +66,8 @@ private:
     StillReference still_;
     StillLumaCopy lumaCopy_;
     TextureCopy raisedCopy_;
-    std::optional<TextureCopy> pictureCopy_;  // replaced with each still, because the still's
-                                              // texture may be another one
+    // Created again for each still, because the still's texture may change.
+    std::optional<TextureCopy> pictureCopy_;
     StillPictures pictures_;
 };
 
@@ -90,8 +90,8 @@ public:
     }
 
 private:
-    // Returns the still's picture. If the SIMD engine prepared the still, this is a texture of its
-    // luma, which the shaders read as a grey picture.
+    // Returns the still, or a texture of its luma if the SIMD engine prepared it. The shaders read
+    // both in the same way.
     static const gpu::Texture& lumaTexture(const StillPictures& still) {
         DeviceCopy& copy = still.luma.device([&] {
             return std::make_unique<TextureCopy>(still.luma.size(), gpu::TexelFormat::R8,

@@ -14,18 +14,16 @@
 
 namespace mfar::gles {
 
-/// The video frame and its TileWork on the GPU. Both are uploaded when the first step of a frame
-/// needs them. All steps of the engine share this object. It needs a current GL context for its
-/// whole lifetime.
+/// The video frame and its TileWork on the GPU, uploaded when the first step of a frame needs them.
+/// All steps of the engine share this object. It needs a current GL context for its whole lifetime.
 class FrameOnGpu {
 public:
     explicit FrameOnGpu(Size video) : tiles_{TileBuffer(video), TileBuffer(video)} {}
 
     [[nodiscard]] const gpu::Texture& video(const VideoFrame& frame);
-    /// Returns the GPU's copy of `work`. A frame is matched with up to two stills, so two copies
-    /// are kept.
+    /// Returns the GPU's copy of `work`. Two copies are stored, because a frame is matched with up
+    /// to two stills.
     [[nodiscard]] const TileBuffer& tiles(const TileWork& work);
-    /// The newest still; see gpu::PictureTexture.
     [[nodiscard]] gpu::PictureTexture& stillPicture() { return still_; }
     void setImporter(PlaneImporter* importer);
     [[nodiscard]] std::optional<std::string> takeImportFault();
@@ -33,16 +31,16 @@ public:
 
 private:
     gpu::PictureTexture video_, still_{gpu::Filter::Linear};
-    std::optional<std::uint64_t> number_;  // number of the frame in video_
+    std::optional<std::uint64_t> number_;
     std::array<TileBuffer, 2> tiles_;
-    std::size_t used_ = 0;  // index in tiles_ of the TileWork that was used last
+    std::size_t used_ = 0;
 };
 
 [[nodiscard]] std::unique_ptr<StillStep> makeStillStep(const StepSetup& setup, FrameOnGpu& frame);
 [[nodiscard]] std::unique_ptr<PyramidStep> makePyramidStep(const StepSetup& setup,
                                                            FrameOnGpu& frame);
 [[nodiscard]] std::unique_ptr<FlowStep> makeFlowStep(const StepSetup& setup, FrameOnGpu& frame);
-/// `stillRig` is the rig whose still camera has the resolution of the still's detail and picture.
+/// The still camera of `stillRig` has the resolution of the still's detail and picture.
 [[nodiscard]] std::unique_ptr<WeighStep>
 makeWeighStep(const StepSetup& setup, const StereoRig& stillRig, FrameOnGpu& frame);
 [[nodiscard]] std::unique_ptr<DetailStep>

@@ -8,7 +8,7 @@
 namespace mfar {
 namespace {
 
-constexpr int kPullGroup = 8;  // width and height of a workgroup, as in warp_pull.comp
+constexpr int kPullGroup = 8;  // width and height of a workgroup in warp_pull.comp
 constexpr std::uint32_t kOpen = 1U << 31, kCrack = 1U << 30;
 
 using Command = HoleFiller::Command;

@@ -14,39 +14,35 @@
 
 namespace mfar {
 
-/// Lists the holes that the look-up of the warp left (pixels whose colour is at least partly
-/// unknown), and fills them from their surroundings. The CPU can read the list one or two frames
-/// later. Cracks (holes most of whose neighbours show the same surface) are always filled. Larger
-/// holes are filled by push-pull if requested.
+/// Lists pixels that the warp left without a known colour, and fills them from their surroundings.
+/// The CPU can read the list one or two frames later. Cracks are always filled: in them, most
+/// neighbours show the same surface. Larger areas are filled by push-pull on request.
 class HoleFiller {
 public:
     static constexpr int kLevels = 6;
 
     explicit HoleFiller(Size layer);
 
-    /// Begins an empty list of holes for the layer's pixels in `where`. `pushPull`: whether larger
-    /// holes are filled.
+    /// Begins an empty list of pixels in `where`. With `pushPull`, larger areas are filled too.
     void begin(const PixelRect& where, bool pushPull);
     /// Dispatch commands and length of the list; see warp_rest.comp.
     [[nodiscard]] const gpu::Buffer& commands() const { return lists_[current_].commands; }
     [[nodiscard]] const gpu::Buffer& entries() const { return lists_[current_].entries; }
     /// Numbers of workgroups for each level of the pyramid. warp_rest.comp copies them to
-    /// commands() when it finds the first hole.
+    /// commands() when it finds the first pixel without a known colour.
     using Command = params::DispatchGroups;
     [[nodiscard]] const std::array<Command, kLevels>& wanted() const { return wanted_; }
     [[nodiscard]] int levels() const { return params_.levelCount; }
 
-    /// Fills holes in `colour` (RGBA8 premultiplied). `colour` and `state` are the results of
-    /// ViewLookUp. If `wantList` is true, the CPU reads back this frame's list, unless it is
-    /// reading back another one.
+    /// Fills pixels of `colour` (RGBA8 premultiplied). `colour` and `state` are the results of
+    /// ViewLookUp. With `wantList`, the CPU reads back this frame's list, unless it is still
+    /// reading back an older list.
     void fill(const gpu::Texture& colour, const gpu::Texture& state, bool wantList);
 
-    /// Returns the holes of the last frame with `wantList`, once the GPU has finished that frame;
-    /// until then empty. Never waits.
+    /// Returns the listed pixels of the last frame with `wantList` after the GPU has finished that
+    /// frame, until then empty. Never waits.
     std::optional<WarpHoles> poll();
-    /// Whether a list is being read back.
     [[nodiscard]] bool isPending() const { return fence_.has_value(); }
-    /// Discards a list that is being read back.
     void drop() { fence_.reset(); }
 
 private:
@@ -58,9 +54,9 @@ private:
     void pull(const gpu::Texture& colour, const gpu::Texture& state);
 
     Size layer_;
-    std::array<Lists, 2> lists_;  // the CPU may be reading back one of them
+    std::array<Lists, 2> lists_;
     std::size_t current_ = 0;
-    std::optional<gpu::Fence> fence_;  // passed when the list can be read back
+    std::optional<gpu::Fence> fence_;
     gpu::Buffer pyramid_;
     params::FillHoles params_{};
     std::array<Command, kLevels> wanted_{};

@@ -8,41 +8,38 @@
 namespace mfar {
 
 /// Draws a virtual layer over the picture of the real scene, except where the real scene is nearer.
-/// The real depth has the video's resolution. It is interpolated to the output's resolution so that
-/// depth edges follow the picture's edges. Only pixels in the layer's bounds are processed.
+/// The real depth has the video's resolution. It is interpolated so that depth edges follow the
+/// picture's edges. Only pixels in the layer's bounds are processed.
 class LayerComposite {
 public:
-    /// `layer`: size of the layers that are given to run(). Throws std::invalid_argument if an
-    /// option is not finite or out of range, and GlError if the GL implementation cannot draw into
-    /// Rg32F.
+    /// `layer` is the size of the layers for run(). Throws std::invalid_argument if an option is
+    /// not finite or out of range, and GlError if the GL implementation cannot draw into Rg32F.
     LayerComposite(Size video, Size output, Size layer, const CompositeOptions& options = {});
-    /// For layers that have the output's size.
     LayerComposite(Size video, Size output, const CompositeOptions& options = {})
         : LayerComposite(video, output, output, options) {}
 
-    /// `realDepth`: Rg32F of video size, with inverse depth and its sigma [1/m]. Unless both values
-    /// are finite and positive, the depth of the pixel is unknown, and the pixel hides nothing.
-    /// `video`: the video frame to which the depth belongs, RGBA8 or R8.
-    /// `picture`: the same frame at output size, RGBA8. `target` draws into the picture (or into a
-    /// copy of it).
-    /// A layer pixel is not drawn unless its depth is finite and positive. If the layer is smaller
-    /// than the output, colours are interpolated linearly, and depth is that of the nearest valid
-    /// pixel of the surrounding four.
+    /// `realDepth` is Rg32F of video size: inverse depth and its sigma [1/m]. If one of them is not
+    /// finite and positive, the pixel's depth is unknown and hides nothing. `video` is the depth's
+    /// video frame, RGBA8 or R8. `picture` is the same frame at output size, RGBA8. `target` draws
+    /// into the picture or into a copy of it.
+    ///
+    /// Layer pixels are drawn if their depth is finite and positive. If the layer is smaller than
+    /// the output, colours are interpolated linearly, and depth is that of the nearest valid pixel
+    /// of the surrounding four.
     void run(const VirtualLayer& layer, const gpu::Texture& realDepth, const gpu::Texture& video,
              const gpu::Texture& picture, const gpu::Framebuffer& target);
 
-    /// How visible the layer was at each output pixel in the last run(), [0, 1]; R8. Valid only
+    /// Visibility of the layer at each output pixel after the last run(), [0, 1]; R8. Valid only
     /// within the bounds of the layer.
     [[nodiscard]] const gpu::Texture& visibility() const { return visibility_; }
 
 private:
     [[nodiscard]] params::Visibility visibilityParams() const;
-    /// The video pixels whose depth range the output pixels in `bounds` read.
     [[nodiscard]] PixelRect videoPixels(const PixelRect& bounds) const;
 
     Size video_, layer_;
     CompositeOptions options_;
-    gpu::Texture range_, visibility_, open_;  // open_: depth buffer of visibility_decide.frag
+    gpu::Texture range_, visibility_, open_;
     gpu::Framebuffer rangeTarget_, visibilityTarget_;
     gpu::DrawPass<params::Visibility> rangePass_, decidePass_, samplePass_, blendPass_;
 };

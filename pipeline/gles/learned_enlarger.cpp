@@ -27,8 +27,6 @@ void setGuidance(params::DrawTiles& params, const FilterBank& filters) {
     params.guidanceVideo = filters.guidance().video;
 }
 
-/// The smallest rectangle around all tiles that are drawn with learned filters, widened by one
-/// tile.
 PixelRect tilesAround(const TileWork& work) {
     PixelRect out{work.tiles.width, work.tiles.height, 0, 0};
     for (int row = 0, i = 0; row < work.tiles.height; ++row)
@@ -62,8 +60,7 @@ LearnedEnlarger::LearnedEnlarger(Size video, Size output)
                             "#define AROUND\n#define LEARNED\n"),
       second_("tile_rect.vert", "composite_detail.frag", "#define SECOND\n") {}
 
-// Uploads the filters as half floats, which shaders unpack in one instruction. A weight near one
-// keeps 11 of its 14 bits.
+// Shaders unpack half floats in one instruction. A weight near one keeps 11 of its 14 bits.
 void LearnedEnlarger::takeFilters(const FilterBank& filters) {
     if (number_ == filters.number()) return;
     std::vector<std::uint32_t> words;
@@ -119,7 +116,6 @@ void LearnedEnlarger::run(const gpu::Texture& video, const Seen* seen, const Til
             seenTarget_, list);
     if (guides)
         guide_.run(whole || guidedIsOld_, params, {gpu::sampler(1, seen_)}, guidedTarget_, list);
-    // columns_ depends on seen_ and guided_.
     const bool allColumns =
         whole || columnsAreOld_ || (seen != nullptr && seenIsOld_) || guides == guidedIsOld_;
     enlargeColumns_.run(

@@ -17,16 +17,15 @@ class LearnedEnlarger {
 public:
     LearnedEnlarger(Size video, Size output);
 
-    /// A still on the GPU and the look-ups into it.
     struct Seen {
         const gpu::Texture &still, &lookUps;
     };
     /// Computes the inputs of composite_*.frag in the tiles of `list`, or in all tiles if the whole
-    /// frame is drawn or the last inputs are out of date. `seen`: null if there is no still.
+    /// frame is drawn or the last inputs are out of date. `seen` is null if there is no still.
     void run(const gpu::Texture& video, const Seen* seen, const TileBuffer& tiles,
              const FilterBank& filters, params::DrawTiles params, const gpu::InstanceList& list);
-    /// Replaces the inputs of composite_*.frag by those for a second still, in and around the tiles
-    /// of `list`. The next run() computes the inputs for the first still again.
+    /// Computes the inputs of composite_*.frag for a second still, in and around the tiles of
+    /// `list`. The next run() computes them for the first still again.
     void seeSecond(const gpu::Texture& video, const Seen& seen, const FilterBank& filters,
                    params::DrawTiles params, const gpu::InstanceList& list);
     /// Must be called for a frame that is drawn without learned filters. The next run() then
@@ -38,8 +37,7 @@ public:
     [[nodiscard]] const gpu::Texture& residuals() const { return residuals_; }
     [[nodiscard]] const gpu::Texture& tiles() const { return learned_; }
     [[nodiscard]] DetailPasses& passes() { return passes_; }
-    /// The program that draws a second still over the first one. Its binding 5 is the look-ups of
-    /// the first still.
+    /// Draws a second still over the first one. Binding 5 needs the look-ups of the first still.
     [[nodiscard]] gpu::DrawPass<params::DrawTiles>& second() { return second_; }
 
 private:
@@ -48,10 +46,10 @@ private:
     void fillGrid(const gpu::Texture& video, const TileBuffer& tiles);
 
     Size video_, tiles_;
-    std::uint64_t number_ = 0;                      // number of the filters on the GPU
-    std::vector<std::uint8_t> mask_;                // pixels of learned_: 255 for matched tiles
-    bool columnsAreOld_ = true, seenIsOld_ = true;  // true: the texture was not computed in the
-                                                    // last frame
+    std::uint64_t number_ = 0;
+    std::vector<std::uint8_t> mask_;
+    // True if the texture was not computed in the last frame.
+    bool columnsAreOld_ = true, seenIsOld_ = true;
     bool guidedIsOld_ = true;
     gpu::Texture filters_, learned_, grid_, seen_, guided_, columns_, residuals_;
     gpu::Framebuffer seenTarget_, guidedTarget_, columnsTarget_;

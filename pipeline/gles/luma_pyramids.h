@@ -12,7 +12,6 @@ namespace mfar {
 
 [[nodiscard]] params::Rig rigParams(const StereoRig& rig);
 
-/// Luma pyramids on the GPU, made by either engine.
 struct LumaOnGpu {
     const std::vector<LumaLevel>&video, &still;
     const gpu::Buffer& words;
@@ -20,19 +19,18 @@ struct LumaOnGpu {
 
 /// Makes the luma pyramids of the video frame and of the still, the inputs of the flow. Both are
 /// smoothed in the same way. The still is resampled to the video's geometry (rotation and both
-/// lenses, but no parallax). The pyramids are in one storage buffer with 8 bits per pixel and four
-/// pixels per word.
+/// lenses, but no parallax). Both pyramids are in one storage buffer with four 8-bit pixels per
+/// word.
 class LumaPyramids {
 public:
     explicit LumaPyramids(Size video);
 
-    /// Makes the video's pyramid from a frame (RGBA8 texture of the video's size).
+    /// `video` is an RGBA8 texture of the video's size.
     void buildVideo(const gpu::Texture& video);
-    /// Makes the still's pyramid from a still (RGBA8 texture with a linear filter). Called once per
-    /// still.
+    /// `still` is an RGBA8 texture with a linear filter. Called once per still.
     void buildStill(const gpu::Texture& still, const StereoRig& rig);
-    /// Makes the still's pyramid from a picture that already has the video's geometry, for the flow
-    /// between two frames.
+    /// Makes the still's pyramid from a picture with the video's geometry, for the flow between two
+    /// frames.
     void buildSecond(const gpu::Texture& picture);
 
     [[nodiscard]] const std::vector<LumaLevel>& video() const { return video_; }

@@ -24,7 +24,6 @@ gpu::Texture alphaOf(const SurfaceTexture& texture) {
     return out;
 }
 
-/// Converts a rectangle of layer pixels to pixels of target_, which has twice the resolution.
 PixelRect doubled(const PixelRect& r) {
     return {2 * r.x0, 2 * r.y0, 2 * r.x1, 2 * r.y1};
 }
@@ -45,7 +44,7 @@ public:
     }
 };
 
-/// Sets GL's depth range while it exists. With different ranges, all objects are drawn in front of
+/// Sets GL's depth range while it exists. With a nearer range, all objects are drawn in front of
 /// the shadow catcher.
 class DepthRange {
 public:

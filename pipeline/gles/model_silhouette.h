@@ -12,34 +12,33 @@
 
 namespace mfar {
 
-/// Draws which surface of the virtual scene is visible where: the objects, and below them the
-/// shadow catcher. The surfaces are rasterised at twice the layer's resolution, so that each layer
-/// pixel has four quarters. The lens distortion is applied to the vertices. Light and colour are
-/// not computed.
+/// Draws the depth and number of the visible virtual surface at each pixel: of the objects, and
+/// elsewhere of the shadow catcher. The surfaces are rasterised at twice the layer's resolution, so
+/// that each layer pixel has four quarters. The lens distortion is applied to the vertices. Colours
+/// are not computed.
 class ModelSilhouette {
 public:
-    /// `layer`: the video camera at the layer's resolution. Throws GlError if the GL implementation
-    /// cannot draw into R32UI.
+    /// `layer` is the video camera at the layer's resolution. Throws GlError if the GL
+    /// implementation cannot draw into R32UI.
     explicit ModelSilhouette(const CameraModel& layer);
 
-    /// Uploads the meshes of the scene. They are simplified if the scene has more than 20000
-    /// triangles. Surfaces with an alpha mask have holes where their alpha is too small.
+    /// Uploads the meshes of the scene, simplified if it has more than 20000 triangles. Surfaces
+    /// with an alpha mask are not drawn where their alpha is too small.
     void setScene(const Scene& scene);
 
-    /// Bounds of all objects [layer px]. If an object crosses the near plane, the bounds are those
-    /// of the whole layer.
+    /// Bounds of all objects [layer px], or of the whole layer if an object crosses the near plane.
     [[nodiscard]] PixelRect bounds(const RigidTransform& T_world_camera) const {
         return models_.bounds(T_world_camera);
     }
 
-    /// Draws the surfaces that a camera at this pose sees in `where` [layer px]. Outside of
-    /// `where`, surface() is empty.
+    /// Draws the surfaces that a camera at this pose sees in `where` [layer px]. The rest of
+    /// surface() is empty.
     void draw(const RigidTransform& T_world_camera, const PixelRect& where);
 
     [[nodiscard]] const SilhouetteModels& models() const { return models_; }
-    /// R32UI, twice the layer's size: z and number of the surface, packed as in warp_surface.glsl;
-    /// 0: no surface. The shadow catcher appears only where there is no object, even if it is
-    /// nearer than the object.
+    /// R32UI with twice the layer's size: z and number of the surface, packed as in
+    /// warp_surface.glsl, or 0 without a surface. The shadow catcher appears only where there is no
+    /// object, even if it is nearer than the object.
     [[nodiscard]] const gpu::Texture& surface() const { return surface_; }
     [[nodiscard]] std::size_t triangles() const { return models_.triangles(); }
 
@@ -48,9 +47,9 @@ private:
     struct Part {
         gpu::Buffer vertices, indices;
         int indexCount;
-        std::optional<gpu::Texture> alpha;  // alpha texture of a masked surface
+        std::optional<gpu::Texture> alpha;
         float cutoff;
-        bool bothSides;  // true: both sides of the surface are visible
+        bool bothSides;
     };
     using ShapePointer = std::shared_ptr<const Models::Shape>;
     using PartsOfShapes = std::map<ShapePointer, std::shared_ptr<std::vector<Part>>>;

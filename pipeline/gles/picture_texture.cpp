@@ -11,8 +11,8 @@
 namespace mfar::gpu {
 namespace {
 
-// Largest number of imported camera buffers that are kept. A camera has fewer buffers, but gets new
-// ones when it is reopened.
+// Largest number of imported camera buffers. A camera has fewer buffers, but new ones when it is
+// reopened.
 constexpr std::size_t kMostImported = 16;
 constexpr GLuint64 kLongestRead = std::chrono::nanoseconds(kLongestGpuWait).count();
 
@@ -21,7 +21,6 @@ int channelsOf(TexelFormat format) {
     return format == TexelFormat::Rg8 ? 2 : 4;
 }
 
-// Sets filter and wrapping of the bound texture.
 void setSampling(GLint filter) {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
@@ -118,8 +117,8 @@ std::optional<std::string> PictureTexture::takeImportFault() {
     return std::exchange(importFault_, std::nullopt);
 }
 
-// Imports the planes of a picture without a copy. After a failure, no more imports are attempted,
-// because a driver that rejects one picture rejects the following ones, too.
+// Imports the planes of a picture without a copy. A driver that rejects one picture also rejects
+// the next ones, so a failure ends all imports.
 std::optional<PictureTexture::Names> PictureTexture::importPlanes(const ImageView& view) {
     if (importer_ == nullptr || view.shared == nullptr) return {};
     const auto known = std::ranges::find(imported_, view.shared->id, &Imported::id);

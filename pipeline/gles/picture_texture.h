@@ -13,43 +13,40 @@
 
 namespace mfar::gpu {
 
-/// A texture into which pictures of any pixel format are uploaded. Grey and RGBA are uploaded
-/// unchanged. For BGRA, the texture's channels are swizzled. Y U V pictures are uploaded as planes,
-/// and a shader converts them to RGBA8. Memory is allocated when size or format change. The object
-/// needs a current GL context for its whole lifetime.
+/// A texture into which pictures of any pixel format are uploaded. A shader converts Y U V pictures
+/// to RGBA8; other formats are uploaded unchanged. Memory is allocated when size or format change.
+/// The object needs a current GL context for its whole lifetime.
 class PictureTexture {
 public:
-    /// `filter` is the filter of texture().
     explicit PictureTexture(Filter filter = Filter::Nearest) : filter_(filter) {}
 
     PictureTexture(const PictureTexture&) = delete;
     PictureTexture& operator=(const PictureTexture&) = delete;
     ~PictureTexture();
 
-    /// Sets the importer, with which the GPU reads Y U V planes without a copy if it can access
-    /// their memory. Null: the planes are always copied. The importer must outlive this object.
+    /// Sets the importer that lets the GPU read Y U V planes without a copy. Null: the planes are
+    /// always copied. The importer must outlive this object.
     void setImporter(PlaneImporter* importer);
 
     /// The view must be valid (requireSound()). Changes the GL framebuffer binding.
     void upload(const ImageView& view);
     /// Waits until the GPU no longer reads the memory of the last uploaded view.
     void finishReading();
-    /// Returns why an import of camera memory without a copy failed. Each failure is returned once;
-    /// empty: there was none.
+    /// Returns the reason of a failed import of camera memory, once for each failure.
     [[nodiscard]] std::optional<std::string> takeImportFault();
 
-    /// The last uploaded picture: R8 for grey, otherwise RGBA8. Sampling it gives R, G and B.
+    /// The last uploaded picture: R8 for grey, otherwise RGBA8. Sampling it gives R, G and B, also
+    /// for BGRA.
     [[nodiscard]] const Texture& texture() const { return picture_; }
 
 private:
-    /// GL objects that convert Y U V pictures.
     struct Planes {
-        std::array<Texture, 3> textures;  // one for each plane of the format
+        std::array<Texture, 3> textures;
         Framebuffer target;
         DrawPass<params::YuvPicture> pass;
     };
 
-    using Names = std::array<GLuint, 3>;  // texture names of the planes
+    using Names = std::array<GLuint, 3>;
     struct Imported {
         std::uint64_t id;
         Names planes;
@@ -67,7 +64,7 @@ private:
     Texture picture_;
     std::optional<Planes> planes_;
     PlaneImporter* importer_ = nullptr;
-    std::vector<Imported> imported_;  // the most recently used is last
+    std::vector<Imported> imported_;
     GLsync reading_ = nullptr;
     std::optional<std::string> importFault_;
 };

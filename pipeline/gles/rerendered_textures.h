@@ -6,14 +6,14 @@
 namespace mfar {
 
 /// The re-rendered pictures on the GPU, one below the other in one texture. Picture i begins at row
-/// i * (height of the layer).
+/// i * (height of the layer). colour() is RGBA8. surface() is Rgba32F; its channels are the members
+/// of WarpSurface.
 class RerenderedTextures {
 public:
     explicit RerenderedTextures(Size layer);
 
     void store(const RerenderedPictures::StoredRows& rows);
-    [[nodiscard]] const gpu::Texture& colour() const { return colour_; }  ///< RGBA8
-    /// Rgba32F; its channels are the members of WarpSurface.
+    [[nodiscard]] const gpu::Texture& colour() const { return colour_; }
     [[nodiscard]] const gpu::Texture& surface() const { return surface_; }
 
 private:

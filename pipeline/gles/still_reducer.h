@@ -8,19 +8,18 @@
 
 namespace mfar {
 
-/// Reduces stills without aliasing. It needs a current GL context for its whole lifetime.
+/// Reduces stills without aliasing. Needs a current GL context for its whole lifetime.
 class StillReducer {
 public:
-    /// Along each axis, `to` must be at least one pixel and at most as large as `from`.
+    /// Along each axis, `to` must be at least one pixel and at most `from`.
     StillReducer(Size from, Size to);
 
-    /// Reduces `picture`, which must have the size `from`.
     void run(const gpu::Texture& picture);
-    /// The reduced picture of the last run; RGBA8, linear filter.
+    /// The reduced picture of the last run: RGBA8, linear filter.
     [[nodiscard]] const gpu::Texture& picture() const { return reduced_; }
 
 private:
-    std::array<float, 2> scale_;  // pixels of the input per pixel of the result
+    std::array<float, 2> scale_;
     gpu::Texture narrow_, reduced_;
     gpu::Framebuffer narrowTarget_, reducedTarget_;
     gpu::DrawPass<params::ReduceStill> across_, down_;

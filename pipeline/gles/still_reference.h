@@ -11,30 +11,26 @@
 
 namespace mfar {
 
-/// The newest still, and what is computed from it once: a reduced picture and its luma. If the
-/// output has a much lower resolution than the still, the picture and the luma are reduced to the
-/// resolution that the output can use.
+/// The newest still, and a picture and luma that are computed from it once. They are reduced if the
+/// output has a much lower resolution than the still.
 class StillReference {
 public:
-    /// `output`: size of the output picture, which shows the whole video picture. `picture`: the
-    /// texture into which stills are uploaded. It must have a linear filter and must outlive this
-    /// object.
+    /// `output` is the size of the output picture, which shows the whole video picture. Stills are
+    /// uploaded into `picture`, which must have a linear filter and outlive this object.
     StillReference(const StereoRig& rig, Size output, gpu::PictureTexture& picture);
 
-    /// Uploads a still and computes the other pictures from it. The still must have the still
-    /// camera's size. Its pixel format may change from one still to the next.
+    /// Uploads a still of the still camera's size. Its pixel format may change from one still to
+    /// the next.
     void set(const ImageView& still);
 
-    /// The rig whose still camera has picture()'s resolution. The lens is the same, but there may
-    /// be fewer pixels.
+    /// The rig with picture()'s resolution as resolution of the still camera.
     [[nodiscard]] const StereoRig& rig() const { return rig_; }
-    /// The still as the camera delivered it.
     [[nodiscard]] const gpu::Texture& whole() const { return picture_.texture(); }
     [[nodiscard]] const gpu::Texture& picture() const {
         return reducer_ ? reducer_->picture() : picture_.texture();
     }
-    /// Luma with the size of rig().still; R8, linear filter. Unless the still was reduced, its
-    /// finest detail is amplified, which compensates the loss of detail in a linear look-up.
+    /// Luma with the size of rig().still; R8, linear filter. If the still was not reduced, its
+    /// finest detail is amplified to compensate for the loss in linear look-ups.
     [[nodiscard]] const gpu::Texture& raised() const { return raised_; }
 
 private:

@@ -7,7 +7,6 @@
 
 namespace mfar {
 
-/// Presents two textures, colour and depth, as a LayerPicture.
 class TextureLayer {
 public:
     explicit TextureLayer(Transfers* transfers = nullptr)

@@ -15,15 +15,14 @@ public:
     /// Until the first set(), every tile counts as changed and matched.
     explicit TileBuffer(Size video);
 
-    /// Uploads `work` if it differs from the last one.
     void set(const TileWork& work);
     [[nodiscard]] bool holds(const TileWork& work) const;
 
     [[nodiscard]] const TileWork& work() const { return work_; }
-    /// Layout: a uvec2 header, then one uvec2 per tile, row-major.
-    /// Header: how the frame is drawn (0: only changed tiles; 1: the whole frame; 2: the whole
-    /// frame is enlarged, and detail is drawn in a list of tiles), and the number of changed tiles.
-    /// Tile: x: 1 if the tile changed; y: 1 if it is matched.
+    /// A uvec2 header and one uvec2 per tile, row-major. Header: how the frame is drawn (0: only
+    /// changed tiles; 1: the whole frame; 2: the whole frame is enlarged, and detail is drawn in a
+    /// list of tiles), and the number of changed tiles. Tile: 1 if it changed, and 1 if it is
+    /// matched.
     [[nodiscard]] const gpu::Buffer& buffer() const { return buffer_; }
 
 private:

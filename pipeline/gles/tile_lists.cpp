@@ -8,7 +8,7 @@
 namespace mfar {
 namespace {
 
-constexpr int kTileGroup = 8;  // tiles of a workgroup along each axis, as in the shaders
+constexpr int kTileGroup = 8;  // width and height of the shaders' workgroups [tiles]
 
 gpu::Groups groupsOf(Size size) {
     return {gpu::groupsFor(size.width, kTileGroup), gpu::groupsFor(size.height, kTileGroup), 1};
@@ -51,8 +51,8 @@ void TileLists::find(const Field& field, const TileBuffer& tiles) {
               {gpu::storage(1, field.cells), gpu::storage(2, flags_)}, groupsOf(tiles_));
     for (int l = 0; l < static_cast<int>(levels_.size()); ++l) {
         const Level& level = levels_[l];
-        // The search in a group reads the adjacent groups of the next coarser pyramid level, and
-        // the search in these reads their adjacent groups in turn.
+        // The search in a group reads the adjacent groups of the next coarser pyramid level, which
+        // in turn read their adjacent groups.
         const int margin = (2 << l) - 2;
         list_.run({.tileColumns = tiles_.width,
                    .tileRows = tiles_.height,

@@ -9,22 +9,20 @@
 
 namespace mfar {
 
-/// Finds, on the GPU, the tiles whose flow along epipolar lines does not fit the pictures. For each
+/// On the GPU, finds the tiles whose flow along epipolar lines does not fit the pictures. For each
 /// pyramid level, lists the groups of 4x4 cells that the 2-D search must process.
 class TileLists {
 public:
-    /// A field of flow vectors and a field of their two-way errors. Each is given by the index of
-    /// its first entry in `cells`.
+    /// Indices in `cells` of the first flow vector and of the first two-way error.
     struct Field {
         const gpu::Buffer& cells;
         int vectors, errors;
     };
 
-    /// `cells`: number of columns and rows of cells at the finest pyramid level.
+    /// `cells` is the number of columns and rows at the finest pyramid level.
     TileLists(Size cells, int levels);
 
     void find(const Field& field, const TileBuffer& tiles);
-    /// Empties the lists.
     void clear();
 
     /// Packed positions of groups of 4x4 cells. The list of a pyramid level begins at first(level).
@@ -33,12 +31,11 @@ public:
     /// Commands of the indirect dispatches: 16 bytes for each pyramid level, finest level first.
     [[nodiscard]] const gpu::Buffer& commands() const { return commands_; }
 
-    /// Number of tiles that were listed before the last find() or clear(). Does not wait for the
+    /// Number of tiles that were listed before the last find() or clear(), without waiting for the
     /// GPU.
     [[nodiscard]] int countBefore() const { return countBefore_; }
-    /// Number of listed tiles. Waits for the GPU.
     [[nodiscard]] int count() const;
-    /// For each tile, row-major, whether it is listed. Waits for the GPU.
+    /// Returns for each tile, row-major, true if it is listed. Waits for the GPU.
     [[nodiscard]] std::vector<bool> read() const;
 
 private:

@@ -8,7 +8,6 @@
 
 namespace mfar {
 
-/// A fragment shader in two programs: one draws the whole target, the other a list of tiles.
 struct TilePass {
     explicit TilePass(const char* fragment, const char* defines = "")
         : whole(fragment, defines), tiles("tile_rect.vert", fragment, defines) {}
@@ -24,9 +23,9 @@ struct TilePass {
     gpu::DrawPass<params::DrawTiles> whole, tiles;
 };
 
-/// The programs that draw the output in mode Detail: `enlarged` only enlarges the video; `whole`,
-/// `tiles` and `plain` (for plain tiles) also add the still's detail. `define`: one line of GLSL
-/// for all of them, or empty.
+/// Programs that draw the output in mode Detail: `enlarged` shows only the enlarged video, the
+/// others also the still's detail. `plain` is for plain tiles. `define` is empty or one line of
+/// GLSL for all of them.
 struct DetailPasses {
     explicit DetailPasses(const std::string& define = "")
         : enlarged("composite_upscale.frag", define.c_str()),

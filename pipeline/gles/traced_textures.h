@@ -11,19 +11,20 @@ namespace mfar {
 /// Rg32F texture with the normalised ray (x/z, y/z) of each pixel.
 [[nodiscard]] gpu::Texture rayTexture(const CameraModel& camera);
 
-/// The traced picture that is warped, as textures. See TracedPicture for their contents.
+/// The traced picture that is warped, as textures. See TracedPicture for their contents. picture()
+/// and depth() are the traced RGBA8 and R32F pictures. colour() is RGBA8, surface() is Rgba32F, and
+/// packed() is R32UI.
 class TracedTextures {
 public:
-    /// Uploads the picture. Allocates textures when the size changes.
     void upload(const TracedPicture& traced);
 
-    /// Valid after the first upload.
+    /// Must be called only after the first upload.
     [[nodiscard]] const LensProjection& lens() const { return *lens_; }
-    [[nodiscard]] const gpu::Texture& picture() const { return picture_; }  ///< RGBA8, as traced
-    [[nodiscard]] const gpu::Texture& depth() const { return depth_; }      ///< R32F, as traced
-    [[nodiscard]] const gpu::Texture& colour() const { return colour_; }    ///< RGBA8
-    [[nodiscard]] const gpu::Texture& surface() const { return surface_; }  ///< Rgba32F
-    [[nodiscard]] const gpu::Texture& packed() const { return packed_; }    ///< R32UI
+    [[nodiscard]] const gpu::Texture& picture() const { return picture_; }
+    [[nodiscard]] const gpu::Texture& depth() const { return depth_; }
+    [[nodiscard]] const gpu::Texture& colour() const { return colour_; }
+    [[nodiscard]] const gpu::Texture& surface() const { return surface_; }
+    [[nodiscard]] const gpu::Texture& packed() const { return packed_; }
 
 private:
     std::optional<LensProjection> lens_;

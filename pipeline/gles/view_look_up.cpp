@@ -10,9 +10,8 @@
 namespace mfar {
 namespace {
 
-constexpr int kListGroup = 8;  // width and height of a workgroup, as in warp_rest_list.comp
+constexpr int kListGroup = 8;  // width and height of a workgroup in warp_rest_list.comp
 
-/// Transforms a plane (n . point = w) from world coordinates to camera coordinates.
 Eigen::Vector4d planeIn(const Eigen::Vector4d& world, const RigidTransform& T_world_camera) {
     const Eigen::Vector3d normal = T_world_camera.rotation.conjugate() * world.head<3>();
     return {normal.x(), normal.y(), normal.z(),

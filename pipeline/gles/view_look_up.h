@@ -16,37 +16,36 @@
 
 namespace mfar {
 
-/// The look-up of the warp (paper, eq. 5). ModelSilhouette has drawn the objects' depth at the
-/// current pose. For each layer pixel that shows a surface, the colour of this surface is looked up
-/// in the traced picture or, if that does not show it, in the re-rendered pictures. A draw call
-/// processes the plain pixels. A compute shader processes a list of the other pixels, for example
-/// edges.
+/// The look-up of the warp (paper, eq. 5). For each surface that ModelSilhouette has drawn at the
+/// current pose, it looks up the colour in the traced picture or, if that does not show the
+/// surface, in the re-rendered pictures. A draw call processes simple pixels. A compute shader
+/// processes a list of all others, for example edges.
 class ViewLookUp {
 public:
     explicit ViewLookUp(const LensProjection& layer);
 
     struct Input {
-        const gpu::Texture& silhouette;  ///< ModelSilhouette::surface() at the current pose
+        const gpu::Texture& silhouette;
         const TracedTextures& traced;
         const RigidTransform& T_world_traced;
         const RerenderedPictures& rerendered;
         const RerenderedTextures& rerenderedTextures;
-        /// Plane of the shadow catcher: n . point = w in the world [m]. Zero: `silhouette` shows
-        /// the shadow catcher as well, because it is not a plane; or there is no shadow catcher.
+        /// Plane of the shadow catcher: n . point = w in the world [m]. Zero if there is no
+        /// catcher, or if it is not a plane and `silhouette` therefore shows it.
         Eigen::Vector4d plane = Eigen::Vector4d::Zero();
     };
-    /// Computes colour(), depth() and state() for the pixels in `where`, and no others. Appends
-    /// holes to the list that `holes` has begun.
+    /// Computes colour(), depth() and state() for the pixels in `where`, and no others. Adds pixels
+    /// without a known colour to the list in `holes`.
     void run(const Input& input, const RigidTransform& T_world_camera, const PixelRect& where,
              const HoleFiller& holes);
-    /// Makes the pixels in `where` empty.
     void clear(const PixelRect& where) const;
 
-    [[nodiscard]] const gpu::Texture& colour() const { return colour_; }  ///< RGBA8 premultiplied
-    [[nodiscard]] const gpu::Texture& depth() const { return depth_; }    ///< R32F
-    /// State of each pixel, RGBA8. R: number of the surface whose colour is missing. G: missing
-    /// share of the pixel. B: 1 if no picture shows this surface. A: number of the surface that
-    /// fills the whole pixel with a known colour.
+    /// RGBA8 premultiplied, and R32F.
+    [[nodiscard]] const gpu::Texture& colour() const { return colour_; }
+    [[nodiscard]] const gpu::Texture& depth() const { return depth_; }
+    /// State of each pixel, RGBA8. R: number of the surface with unknown colour. G: share of the
+    /// pixel with unknown colour. B: 1 if no picture shows this surface. A: number of a surface
+    /// that fills the whole pixel with a known colour.
     [[nodiscard]] const gpu::Texture& state() const { return state_; }
 
 private:
@@ -61,7 +60,7 @@ private:
     LensProjection layer_;
     gpu::Texture rays_, colour_, depth_, state_;
     gpu::Framebuffer target_;
-    gpu::Buffer commands_, list_;  // list_: the pixels that the draw call does not process
+    gpu::Buffer commands_, list_;
     gpu::DrawPass<Params> plain_;
     gpu::ComputePass<Params> restList_, rest_;
 };

@@ -2,14 +2,13 @@
 
 #include "base/lens_params.h"
 
-// Parameters of picture_from_yuv.frag. gles_shaders/params_to_glsl.cmake translates this header for
-// the shader.
+// Parameters of picture_from_yuv.frag. params_to_glsl.cmake translates this header to GLSL.
 namespace mfar::params {
 
 struct alignas(16) YuvPicture {
-    Row4 rows[3];          ///< R, G and B are the products of these rows with (Y, U, V, 1); all
-                           ///< values in [0, 1]
-    float texelX, texelY;  ///< 1 / size of the picture [1/px]
+    /// The rows times (Y, U, V, 1) give R, G and B. All values are in [0, 1].
+    Row4 rows[3];
+    float texelX, texelY;
 };
 
 }  // namespace mfar::params

@@ -31,8 +31,6 @@ void requireLatLong(Size size, int mostWidth) {
                         size.width, size.height));
 }
 
-/// Throws if the decoded picture and the environment made from it together need more than `memory`
-/// bytes.
 void requireMemory(Size size, std::size_t memory) {
     const std::size_t pixels = static_cast<std::size_t>(size.width) * size.height;
     const std::size_t kept =
@@ -44,8 +42,7 @@ void requireMemory(Size size, std::size_t memory) {
             size.width, size.height, needed >> 20U, memory >> 20U));
 }
 
-/// Reduces a picture by averaging its rows as they are read, so that a large picture is never
-/// completely in memory.
+/// Averages rows as they are read, so that a large picture is never completely in memory.
 class RowAverage {
 public:
     explicit RowAverage(Size from) : from_(from) {

@@ -11,16 +11,16 @@
 
 namespace mfar {
 
-/// Largest memory for reading an environment [bytes]. The file may take half of it.
+/// Largest memory for reading an environment [bytes]. The file may use half of it.
 inline constexpr std::size_t kEnvironmentMemory = std::size_t{1} << 30U;
 
 /// Reads an environment from a latitude-longitude picture: Radiance RGBE (.hdr), PNG or JPEG (sRGB;
 /// white has radiance 1). The picture must be twice as wide as high (to within 1 %), and at most
-/// 16384 px wide (PNG and JPEG: 8192 px). A picture larger than 2048x1024 is reduced to this size
+/// 16384 px wide (PNG and JPEG: 8192 px). A larger picture than 2048x1024 is reduced to this size
 /// by averaging. Throws ModelError with the message "file: fault".
 [[nodiscard]] Environment loadEnvironment(const std::filesystem::path& file,
                                           std::size_t memory = kEnvironmentMemory);
-/// Like loadEnvironment(), for the bytes of a file. `name`: file name in error messages.
+/// Reads an environment from the bytes of a file. `name` is its name in error messages.
 [[nodiscard]] Environment parseEnvironment(std::span<const std::uint8_t> bytes,
                                            const std::string& name,
                                            std::size_t memory = kEnvironmentMemory);
@@ -35,11 +35,9 @@ inline constexpr std::size_t kEnvironmentMemory = std::size_t{1} << 30U;
 /// 12.
 [[nodiscard]] Environment skyEnvironment(const Eigen::Vector3f& towardsSun);
 
-/// Returns the direction in the world of a point (u, v) of an environment; u and v are in [0, 1].
-/// See Environment.
+/// Returns the direction in the world of a point (u, v) in [0, 1]^2 of an Environment.
 [[nodiscard]] Eigen::Vector3f environmentDirection(float u, float v);
-/// Makes an environment of this size. `radiance` returns the radiance from a direction in the
-/// world; it is called for the centre of each pixel.
+/// Calls `radiance` with the direction in the world of each pixel's centre.
 [[nodiscard]] Environment
 environmentOf(Size size, const std::function<Eigen::Vector3f(const Eigen::Vector3f&)>& radiance);
 

@@ -13,7 +13,7 @@ namespace {
 
 using Accessor = tinygltf::Accessor;
 
-/// Where the elements of an accessor are in a bufferView, and their type.
+/// Position and type of an accessor's elements in a bufferView.
 struct ElementView {
     std::span<const std::uint8_t> bytes;
     std::size_t stride = 0, count = 0;
@@ -61,7 +61,6 @@ std::uint32_t unsignedAt(const std::uint8_t* p, int componentType) {
     }
 }
 
-/// Reads a number of this type as float. Converts normalised integers (glTF 2.0, 3.6.2.2).
 float floatAt(const std::uint8_t* p, int componentType, bool normalized) {
     const auto scaled = [&](auto value) {
         constexpr auto kMost = static_cast<float>(std::numeric_limits<decltype(value)>::max());
@@ -86,9 +85,8 @@ ElementView elementsIn(const GltfDocument& document, int bufferView, std::uint64
     const std::span<const std::uint8_t> view = document.view(bufferView, place);
     wanted.stride = stride == 0 ? one : stride;
     if (wanted.stride < one)
-        document.refuse(
-            place,
-            fmt::format("the stride of {} bytes is invalid for elements of {} bytes", stride, one));
+        document.refuse(place,
+                        fmt::format("byteStride is {}, but an element has {} bytes", stride, one));
     const std::uint64_t left = offset > view.size() ? 0 : view.size() - offset;
     // Counts are below 2^32 and element sizes below 2^8, so the product cannot overflow.
     const std::uint64_t needed = std::uint64_t{wanted.count - 1} * wanted.stride + one;
@@ -101,14 +99,16 @@ ElementView elementsIn(const GltfDocument& document, int bufferView, std::uint64
     return wanted;
 }
 
-/// Returns accessor `index`. Throws if its elements do not have `components` components, or if it
-/// has no element or more than `most`.
+/// Throws if the elements do not have `components` components, or if there is none or more than
+/// `most`.
 const Accessor& checkedAccessor(const GltfDocument& document, int index, int components,
                                 std::size_t most, std::string_view place) {
     const Accessor& accessor = document.at(document.gltf.accessors, index, place);
     if (bytesOf(accessor.componentType) == 0 || componentsOf(accessor.type) != components)
         document.refuse(
-            place, fmt::format("accessor {} does not have the type that is needed here", index));
+            place,
+            fmt::format("accessor {} must have {} numbers per element and a valid componentType",
+                        index, components));
     if (accessor.count == 0 || accessor.count > most)
         document.refuse(place, fmt::format("accessor {} has {} elements; 1 to {} are supported",
                                            index, accessor.count, most));
@@ -142,7 +142,10 @@ void replaceSparse(const GltfDocument& document, const Accessor& accessor, int c
     const auto& sparse = accessor.sparse;
     if (sparse.count < 1 || static_cast<std::size_t>(sparse.count) > accessor.count ||
         !isIndexType(sparse.indices.componentType))
-        document.refuse(place, "the count or the index type of the sparse elements is invalid");
+        document.refuse(place,
+                        fmt::format("invalid sparse elements: sparse.count must be from 1 to {}, "
+                                    "and sparse.indices must be unsigned integers",
+                                    accessor.count));
     const auto count = static_cast<std::size_t>(sparse.count);
     const ElementView indices = elementsIn(document, sparse.indices.bufferView,
                                            static_cast<std::uint64_t>(sparse.indices.byteOffset), 0,

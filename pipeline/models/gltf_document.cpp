@@ -24,12 +24,11 @@ bool isBinary(std::span<const std::uint8_t> bytes) {
     return bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
 }
 
-/// Returns the JSON text of a file. In a .glb file, this is the first chunk.
 std::string_view jsonOf(std::span<const std::uint8_t> bytes) {
     const auto* text = reinterpret_cast<const char*>(bytes.data());
     if (!isBinary(bytes)) return {text, bytes.size()};
     if (bytes.size() < kGlbHeader + kChunkHeader)
-        throw std::runtime_error("ends within the header of a .glb file");
+        throw std::runtime_error("the file ends within the .glb header");
     const std::uint32_t version = littleEndian(&bytes[4]);
     if (version != 2)
         throw std::runtime_error(
@@ -42,10 +41,9 @@ std::string_view jsonOf(std::span<const std::uint8_t> bytes) {
     return {text + kGlbHeader + kChunkHeader, length};
 }
 
-/// User data of the callbacks with which tinygltf reads buffer files.
 struct FolderAccess {
     const std::filesystem::path& folder;
-    std::size_t left;  ///< bytes that may still be read
+    std::size_t left;
 };
 
 bool readFile(std::vector<unsigned char>* out, std::string* error, const std::string& uri,
@@ -61,9 +59,9 @@ bool readFile(std::vector<unsigned char>* out, std::string* error, const std::st
     }
 }
 
-/// Returns all callbacks for file access, because tinygltf uses its own ones instead of missing
-/// ones. FileExists accepts every path, so that tinygltf uses the first path that it considers,
-/// which is the URI itself.
+/// Returns all callbacks for file access, because tinygltf replaces missing ones by its own.
+/// FileExists accepts every path, so that tinygltf uses the first path that it considers, the URI
+/// itself.
 template <typename Callbacks>
 Callbacks callbacksFor(FolderAccess& access) {
     Callbacks out{};
@@ -72,8 +70,8 @@ Callbacks callbacksFor(FolderAccess& access) {
     out.ReadWholeFile = readFile;
     out.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&,
                             void*) { return false; };
-    // This callback exists only in newer releases of tinygltf. It reports size 0, because
-    // readFile() limits the number of bytes itself.
+    // Only newer releases of tinygltf have this callback. It reports size 0, because readFile()
+    // limits the number of bytes itself.
     if constexpr (requires { out.GetFileSizeInBytes; })
         out.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string&, void*) {
             *size = 0;
@@ -83,8 +81,8 @@ Callbacks callbacksFor(FolderAccess& access) {
     return out;
 }
 
-/// tinygltf's callback for pictures. Copies the bytes of a picture that is in a data URI. Pictures
-/// in a bufferView stay there.
+/// tinygltf's callback for pictures. Copies the bytes of a picture in a data URI. Pictures in a
+/// bufferView stay there.
 bool keepImage(tinygltf::Image* image, int /*index*/, std::string* /*error*/,
                std::string* /*warning*/, int /*width*/, int /*height*/, const unsigned char* bytes,
                int size, void* /*user*/) {
@@ -122,7 +120,10 @@ void requireVersionAndExtensions(const GltfDocument& document) {
                                                      document.gltf.asset.version));
     for (const std::string& name : document.gltf.extensionsRequired)
         if (name != "KHR_texture_transform" && name != "KHR_materials_emissive_strength")
-            document.refuse("extensionsRequired", fmt::format("{} is not supported", name));
+            document.refuse("extensionsRequired",
+                            fmt::format("{} is not supported; only KHR_texture_transform and "
+                                        "KHR_materials_emissive_strength are",
+                                        name));
 }
 
 }  // namespace
@@ -134,7 +135,7 @@ void GltfDocument::refuse(std::string_view place, std::string_view what) const {
 std::span<const std::uint8_t> GltfDocument::view(int bufferView, std::string_view place) const {
     const tinygltf::BufferView& view = at(gltf.bufferViews, bufferView, place);
     const std::span<const std::uint8_t> buffer = at(gltf.buffers, view.buffer, place).data;
-    // The sizes in the JSON are valid, but the buffer that tinygltf has made may be smaller.
+    // The sizes in the JSON are valid, but tinygltf may have made a smaller buffer.
     if (view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset)
         refuse(place, fmt::format("bufferView {} reaches beyond its buffer", bufferView));
     return buffer.subspan(view.byteOffset, view.byteLength);

@@ -11,19 +11,18 @@
 
 namespace mfar {
 
-/// The content of a glTF file. All bufferViews were checked to be inside their buffers. Other
-/// indices and numbers are not validated.
+/// The content of a glTF file. All bufferViews are inside their buffers. Other indices and numbers
+/// are not validated.
 struct GltfDocument {
     tinygltf::Model gltf;
-    std::string name;  ///< file name, for messages
-    /// Folder of the files to which the document refers. If empty, the document must not refer to
-    /// files.
+    std::string name;
+    /// Folder of the files to which the document may refer. If empty, it must not refer to files.
     std::filesystem::path folder;
     ModelLimits limits;
 
     /// Throws ModelError with the message "name: place: what".
     [[noreturn]] void refuse(std::string_view place, std::string_view what) const;
-    /// Returns the element of a list at an index. Refuses an index that is out of range.
+    /// Refuses an index that is out of range.
     template <class T>
     [[nodiscard]] const T& at(const std::vector<T>& list, int index, std::string_view place) const {
         if (index < 0 || static_cast<std::size_t>(index) >= list.size())
@@ -31,19 +30,17 @@ struct GltfDocument {
                               std::to_string(list.size()));
         return list[static_cast<std::size_t>(index)];
     }
-    /// Returns the bytes of a bufferView.
     [[nodiscard]] std::span<const std::uint8_t> view(int bufferView, std::string_view place) const;
 };
 
-/// Reads and validates a glTF file. `name`: file name in error messages. Throws ModelError.
 [[nodiscard]] GltfDocument readDocument(std::span<const std::uint8_t> bytes,
                                         const std::string& name,
                                         const std::filesystem::path& folder,
                                         const ModelLimits& limits);
 
-/// Validates the JSON of a document before tinygltf reads it. This is necessary because tinygltf
-/// trusts the ranges of images, copies the bytes of a buffer for each reference to it, and follows
-/// `extras` to any depth. Throws std::runtime_error with the message "place: fault".
+/// Validates the JSON of a document, because tinygltf trusts the ranges of images, copies the bytes
+/// of a buffer for each reference to it, and follows `extras` to any depth. Throws
+/// std::runtime_error with the message "place: fault".
 void requireSoundJson(std::string_view text, const ModelLimits& limits);
 
 }  // namespace mfar

@@ -35,8 +35,8 @@ json parseBounded(std::string_view text, std::size_t most) {
     }
 }
 
-/// Returns the number of bytes (or the index) at a key of a JSON object, or `missing` if there is
-/// no such key. Refuses floating-point numbers, because they could be too large.
+/// Returns the number of bytes (or the index) at a key, or `missing` without the key. Refuses
+/// floating-point numbers, because they could be too large.
 std::uint64_t bytesAt(const json& object, const char* key, std::uint64_t missing,
                       std::string_view place) {
     const auto it = object.find(key);
@@ -51,7 +51,6 @@ const json& listOf(const json& root, const char* key) {
     return it == root.end() ? kNone : *it;
 }
 
-/// Checks that each list of the document contains only objects and is not too long.
 void checkLists(const json& root, const ModelLimits& limits) {
     constexpr std::array kLists = {"accessors", "animations", "buffers", "bufferViews", "cameras",
                                    "images",    "materials",  "meshes",  "nodes",       "samplers",
@@ -97,8 +96,7 @@ void checkViews(const json& views, const json& buffers) {
     }
 }
 
-/// Checks the offsets of sparse accessors, because tinygltf's releases treat negative offsets
-/// differently.
+/// tinygltf's releases treat negative offsets of sparse accessors differently.
 void checkSparse(const json& accessors) {
     for (std::size_t i = 0; i < accessors.size(); ++i) {
         const auto sparse = accessors[i].find("sparse");

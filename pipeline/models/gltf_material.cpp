@@ -12,8 +12,8 @@
 namespace mfar {
 namespace {
 
-/// Returns `value`, which glTF limits to [least, most], as float. Tolerates rounding errors of the
-/// program that wrote the file.
+/// Returns `value`, which glTF limits to [least, most]. Tolerates rounding errors of the program
+/// that wrote the file.
 float rangedFactor(const GltfDocument& document, double value, float least, float most,
                    const std::string& place) {
     constexpr double kRounding = 1e-3;
@@ -22,7 +22,6 @@ float rangedFactor(const GltfDocument& document, double value, float least, floa
     return std::clamp(static_cast<float>(value), least, most);
 }
 
-/// Returns a number in the JSON object of an extension; empty if there is none.
 std::optional<double> numberIn(const tinygltf::Value& object, const std::string& key) {
     if (!object.IsObject() || !object.Has(key) || !object.Get(key).IsNumber()) return std::nullopt;
     return object.Get(key).GetNumberAsDouble();
@@ -65,7 +64,10 @@ float alphaCutoffOf(const GltfDocument& document, const tinygltf::Material& from
     constexpr float kCutoffOfBlend = 0.5F;
     if (from.alphaMode == "OPAQUE") return 0;
     if (from.alphaMode == "BLEND") return kCutoffOfBlend;
-    if (from.alphaMode != "MASK") document.refuse(place + ".alphaMode", from.alphaMode);
+    if (from.alphaMode != "MASK")
+        document.refuse(
+            place + ".alphaMode",
+            fmt::format("{} is not supported; expected OPAQUE, MASK or BLEND", from.alphaMode));
     return rangedFactor(document, from.alphaCutoff, 0, 1, place + ".alphaCutoff");
 }
 
@@ -82,7 +84,6 @@ Eigen::Vector3f emissionOf(const GltfDocument& document, const tinygltf::Materia
     return emission * rangedFactor(document, strength, 0, kStrongest, place + ".emissiveStrength");
 }
 
-/// Converts tinygltf's structure for normal textures to its general texture structure.
 tinygltf::TextureInfo plainInfo(const tinygltf::NormalTextureInfo& info) {
     tinygltf::TextureInfo out;
     out.index = info.index;
@@ -149,7 +150,7 @@ void GltfMaterials::takeMapping(const TextureMapping& wanted, const std::string&
     if (!mapping_) mapping_ = wanted;
     if (*mapping_ != wanted)
         document_.refuse(place,
-                         "all textures of a material must have the same coordinates: texCoord and "
+                         "all textures of a material must have the same texCoord and the same "
                          "KHR_texture_transform");
 }
 
@@ -177,8 +178,8 @@ SurfaceTexture GltfMaterials::decode(const tinygltf::Image& image, const std::st
                             size.width, size.height, limits.textureSide));
         const std::size_t texels = static_cast<std::size_t>(size.width) * size.height;
         if (texels > limits.texels - texels_)
-            throw std::runtime_error(
-                fmt::format("the textures of the model have more than {} pixels", limits.texels));
+            throw std::runtime_error(fmt::format(
+                "the textures of the model have more than {} pixels in total", limits.texels));
         texels_ += texels;
         out.size = size;
         out.texels.resize(texels);

@@ -10,8 +10,8 @@
 
 namespace mfar {
 
-/// The set of texture coordinates that a material's textures use, and the transform of these
-/// coordinates (KHR_texture_transform): uv' = offset + R(rotation) (scale uv).
+/// The set of texture coordinates that a material's textures use, and their transform
+/// (KHR_texture_transform): uv' = offset + R(rotation) (scale uv).
 struct TextureMapping {
     int set = 0;  ///< the n of the attribute TEXCOORD_n
     Eigen::Vector2f offset{0, 0}, scale{1, 1};
@@ -21,14 +21,14 @@ struct TextureMapping {
     [[nodiscard]] Eigen::Vector2f operator()(const Eigen::Vector2f& uv) const;
 };
 
-/// Materials of a document and their textures. Each is read when it is first needed. Values that
-/// are out of range are refused.
+/// Materials of a document and their textures, read when they are first needed. Values that are out
+/// of range are refused.
 class GltfMaterials {
 public:
     explicit GltfMaterials(const GltfDocument& document) : document_(document) {}
 
-    /// Returns the material that has index `material` in the document (-1: the default material):
-    /// its number in this object, and its texture mapping. Reads it if this was not done before.
+    /// Returns the number in this object and the texture mapping of the document's material
+    /// `material` (-1: the default material).
     std::pair<int, TextureMapping> use(int material);
 
     [[nodiscard]] const Material& operator[](int number) const { return materials_[number]; }
@@ -44,11 +44,11 @@ private:
 
     const GltfDocument& document_;
     std::map<int, std::pair<int, TextureMapping>> used_;
-    std::map<std::pair<int, bool>, int> pictures_;  ///< key: index of the image, and whether it is
-                                                    ///< sRGB; value: index in textures_
+    /// Key: index of the image, and true for sRGB. Value: index in textures_.
+    std::map<std::pair<int, bool>, int> pictures_;
     std::vector<Material> materials_;
     std::vector<SurfaceTexture> textures_;
-    std::optional<TextureMapping> mapping_;  ///< texture mapping of the material that is being read
+    std::optional<TextureMapping> mapping_;
     std::size_t texels_ = 0, bytes_ = 0;
 };
 

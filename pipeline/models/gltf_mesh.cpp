@@ -13,8 +13,7 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// Largest length of a vector that has no usable direction. Such vectors are replaced by a default
-/// direction.
+/// Shorter vectors have no usable direction and get a default direction.
 constexpr float kShortestUnit = 1e-6F;
 
 std::optional<int> attribute(const tinygltf::Primitive& primitive, const std::string& name) {
@@ -36,7 +35,6 @@ vectorsOf(const GltfDocument& document, const PrimitiveSource& source, const std
     return out;
 }
 
-/// Returns the triangles of a list, a strip or a fan (glTF 2.0, 3.7.2.1).
 std::vector<Triangle> trianglesOf(int mode, const std::vector<std::uint32_t>& indices) {
     std::vector<Triangle> out;
     const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
@@ -122,7 +120,7 @@ void readFrames(const GltfDocument& document, const PrimitiveSource& source, Mes
     requireSameCount(document, source, mesh.normals.size(), mesh.positions.size(), "normals");
     normalize(mesh.normals);
     if (!source.bumpy) return;
-    // If there are no normals, tangents must be ignored (glTF 2.0, 3.7.2.1).
+    // Tangents without normals must be ignored (glTF 2.0, 3.7.2.1).
     if (!mesh.normals.empty()) mesh.tangents = vectorsOf<4>(document, source, "TANGENT");
     requireSameCount(document, source, mesh.tangents.size(), mesh.positions.size(), "tangents");
     normalize(mesh.tangents, mesh.normals);
@@ -160,8 +158,8 @@ Mesh transformed(const Mesh& mesh, const Eigen::Affine3d& T_model_mesh) {
     for (int i = 0; i < 3; ++i)
         cofactors.col(i) = linear.col((i + 1) % 3).cross(linear.col((i + 2) % 3));
     if (mirrors) cofactors = -cofactors;
-    // The matrix is normalised, because its entries are products of two scales. With a scale of
-    // micrometres, they would be too small for float.
+    // The entries of the matrix are products of two scales. With a scale of micrometres, they would
+    // be too small for float without normalisation.
     const double scale = cofactors.cwiseAbs().maxCoeff();
     if (scale > 0) cofactors /= scale;
     for (Eigen::Vector3f& n : out.normals)

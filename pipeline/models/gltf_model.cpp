@@ -15,7 +15,6 @@
 namespace mfar {
 namespace {
 
-/// Rotates glTF's coordinates, where y is up, so that z is up.
 Eigen::Affine3d upright() {
     Eigen::Affine3d T = Eigen::Affine3d::Identity();
     T.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;
@@ -63,8 +62,8 @@ public:
     }
 
 private:
-    /// Returns the root nodes of the default scene, or of the first scene if the document names no
-    /// default. If the document has no scene, returns all nodes that have no parent.
+    /// Returns the root nodes of the default scene, else of the first scene, else all nodes without
+    /// a parent.
     std::vector<int> roots() const {
         const tinygltf::Model& gltf = document_.gltf;
         if (!gltf.scenes.empty())
@@ -78,8 +77,7 @@ private:
         return out;
     }
 
-    // Adds the meshes of a node and of its descendants. This function is recursive; the depth is
-    // limited, so that the stack cannot overflow.
+    // The depth of the recursion is limited, so that the stack cannot overflow.
     void addNode(int index, const Eigen::Affine3d& T_model_parent, int depth) {
         const std::string place = fmt::format("nodes[{}]", index);
         const tinygltf::Node& node = document_.at(document_.gltf.nodes, index, place);

@@ -16,30 +16,27 @@ class ModelError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Largest size of a model. If several nodes show a mesh, its vertices and triangles are counted
-/// once for each node.
+/// Largest size of a model, summed over all of its files and textures. A mesh that several nodes
+/// show counts once for each node.
 struct ModelLimits {
-    std::size_t bytes = std::size_t{256} << 20U;  ///< largest size of all files of the model
-                                                  ///< together
+    std::size_t bytes = std::size_t{256} << 20U;
     std::size_t vertices = 4'000'000;
     std::size_t triangles = 4'000'000;
-    std::size_t elements = 100'000;  ///< largest number of entries in each list of the document:
-                                     ///< nodes, accessors, ...
+    /// Number of entries in each list of the document: nodes, accessors, ...
+    std::size_t elements = 100'000;
     int nodeDepth = 64;
     std::size_t textures = 128;
-    int textureSide = 8192;                       ///< largest width and height of a texture [px]
-    std::size_t texels = std::size_t{64} << 20U;  ///< largest number of texels of all textures
-                                                  ///< together
-    std::size_t jsonValues = 2'000'000;           ///< largest number of JSON values in the document
-    /// Largest absolute value of a coordinate after all transforms [m].
+    int textureSide = 8192;  ///< largest width and height of a texture [px]
+    std::size_t texels = std::size_t{64} << 20U;
+    std::size_t jsonValues = 2'000'000;
+    /// Absolute value of a coordinate after all transforms [m].
     float farthest = 10'000;
 };
 
-/// Returns limits with which reading a model takes at most about `bytes` bytes of memory. The
-/// finished model takes less. The limits are never above the default limits.
+/// Returns limits for reading a model with at most about `bytes` bytes of memory. They are never
+/// above the default limits. The finished model needs less memory.
 [[nodiscard]] ModelLimits limitsWithin(std::size_t bytes);
 
-/// Returns the memory that a model takes [bytes].
 [[nodiscard]] std::size_t memoryOf(const Model& model);
 
 /// Reads a glTF 2.0 file, .glb or .gltf. Its buffers and pictures must be inside the file, or be
@@ -53,12 +50,12 @@ struct ModelLimits {
 /// with cutoff 0.5.
 /// Ignored: points and lines, vertex colours, occlusion textures, animations, skins and morph
 /// targets (shown at rest), cameras, lights, and extensions that are not required.
-/// Throws ModelError for everything else, and if the model exceeds `limits`.
-/// Source: Khronos, glTF 2.0 Specification, 2.0.1.
+/// Throws ModelError for everything else, and if the model exceeds `limits`. Source: Khronos, glTF
+/// 2.0 Specification, 2.0.1.
 [[nodiscard]] Model loadGltf(const std::filesystem::path& file, const ModelLimits& limits = {});
 
-/// Like loadGltf(), for the bytes of a file. `name`: file name in error messages. `folder`: folder
-/// of the files to which the model refers; if it is empty, such references are refused.
+/// Reads the bytes of a glTF file. `name` is its name in error messages. The model may refer to
+/// files in `folder`; if it is empty, references to files are refused.
 [[nodiscard]] Model parseGltf(std::span<const std::uint8_t> bytes, const std::string& name,
                               const std::filesystem::path& folder = {},
                               const ModelLimits& limits = {});

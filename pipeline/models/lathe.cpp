@@ -10,11 +10,11 @@ namespace mfar {
 namespace {
 
 constexpr float kFullTurn = 2 * std::numbers::pi_v<float>;
-constexpr float kAxis = 1e-6F;  ///< [m]; points closer than this are on the axis
+constexpr float kAxis = 1e-6F;
 
-/// Returns the point of the spline at the fraction `share` of the segment between the second and
-/// the third knot. Source: Barry, Goldman, A Recursive Evaluation Algorithm for a Class of
-/// Catmull-Rom Splines, SIGGRAPH 1988.
+/// Returns the point of the spline at the fraction `share` between the second and the third knot.
+/// Source: Barry, Goldman, A Recursive Evaluation Algorithm for a Class of Catmull-Rom Splines,
+/// SIGGRAPH 1988.
 Eigen::Vector2f splinePoint(const std::array<Eigen::Vector2f, 4>& knots, float share) {
     std::array<float, 4> at{};
     for (std::size_t i = 1; i < 4; ++i)
@@ -71,7 +71,6 @@ private:
 
 LatheProfile smoothProfile(const LatheProfile& knots, int count) {
     const auto last = static_cast<std::ptrdiff_t>(knots.size()) - 1;
-    // Beyond both ends, the curve is continued by a straight line.
     const auto knot = [&](std::ptrdiff_t i) -> Eigen::Vector2f {
         if (i < 0) return 2 * knots[0] - knots[1];
         if (i > last) return 2 * knots[last] - knots[last - 1];

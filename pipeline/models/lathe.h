@@ -7,27 +7,26 @@
 
 namespace mfar {
 
-/// The outline of a turned object: radius and height [m] of points along it, from bottom to top.
+/// Radius and height [m] of points on the outline of a turned object, from bottom to top.
 using LatheProfile = std::vector<Eigen::Vector2f>;
 
 /// Returns a smooth curve through all knots (centripetal Catmull-Rom spline), sampled at `count`
-/// points. The segments between two knots get equal numbers of points. There must be at least two
-/// knots and two points.
+/// points. All segments between knots get equal numbers of points. There must be at least two knots
+/// and two points.
 [[nodiscard]] LatheProfile smoothProfile(const LatheProfile& knots, int count);
 
-/// How a profile is turned into a surface.
 struct LatheOptions {
-    int around = 96;              ///< number of segments around the axis
-    float vBottom = 1, vTop = 0;  ///< texture coordinate v at the profile's ends; u increases from
-                                  ///< 0 to 1 around the axis
+    int around = 96;
+    /// Texture coordinate v at the profile's ends. u increases from 0 to 1 around the axis.
+    float vBottom = 1, vTop = 0;
     Eigen::Vector2f centre{0, 0};
-    /// Returns the factor by which the radius is multiplied at an angle [rad] and a height [m]. If
-    /// empty, the factor is 1.
+    /// Returns a factor of the radius at an angle [rad] and a height [m]. If empty, the factor is
+    /// 1.
     std::function<float(float angle, float height)> shape{};
 };
 
-/// Adds the surface that results from rotating a profile about the vertical axis through
-/// options.centre. The surface has smooth normals that face outwards.
+/// Adds the surface of a profile that turns about the vertical axis through options.centre. Its
+/// smooth normals point outwards.
 void addTurned(Mesh& mesh, const LatheProfile& profile, const LatheOptions& options);
 
 }  // namespace mfar

@@ -17,22 +17,20 @@ namespace {
 
 constexpr Size kMap{32, 16};
 
-// Constants of the spherical harmonics of degree 0 and 1.
 constexpr float kY0 = 0.282095F, kY1 = 0.488603F;
 
-/// Weights of the prior for the nine coefficients, of degrees 0, 1 and 2. Each weight is the
-/// quotient of two variances. The first is the variance of the seen light about a sum of nine
-/// harmonics (assumed: objects of about 0.25 sr with half or twice the brightness). The second is
-/// the variance of the coefficient from one scene to another (assumed: standard deviations of 3,
-/// 1.5 and 0.7 times the mean light for the three degrees).
+/// Weights of the prior for the nine coefficients, of degrees 0, 1 and 2. Each is the quotient of
+/// two variances: that of the seen light about a sum of nine harmonics (assumed: objects of about
+/// 0.25 sr with half or twice the brightness), and that of the coefficient between scenes (assumed:
+/// standard deviations of 3, 1.5 and 0.7 times the mean light for the three degrees).
 Eigen::Vector<double, 9> priorInformation() {
     Eigen::Vector<double, 9> out;
     out << 0.007, 0.03, 0.03, 0.03, 0.13, 0.13, 0.13, 0.13, 0.13;
     return out;
 }
 
-/// Returns the coefficients of the prior: a surface with the radiance `mean` below, and light from
-/// above that gives a surface of this albedo this radiance.
+/// Returns the coefficients of the prior: a surface with the radiance `mean` below, and the light
+/// from above that gives a surface of this albedo this radiance.
 Eigen::Matrix<double, 9, 3> priorLight(const Eigen::Vector3d& mean, double albedo) {
     constexpr double kPi = std::numbers::pi;
     Eigen::Matrix<double, 9, 3> out = Eigen::Matrix<double, 9, 3>::Zero();
@@ -45,8 +43,6 @@ float luminanceOf(const Eigen::Vector3f& rgb) {
     return rgb.dot(Eigen::Vector3f(0.2126F, 0.7152F, 0.0722F));
 }
 
-/// Returns the index of the texel in the map that contains a direction. The map has the layout of
-/// Environment.
 std::size_t texelOf(const Eigen::Vector3f& direction) {
     constexpr float kTurn = 2 * std::numbers::pi_v<float>;
     const float u = std::atan2(direction.y(), direction.x()) / kTurn + 0.5F,
@@ -90,17 +86,15 @@ LightEstimate estimateOf(const SphericalLight& radiance) {
     return out;
 }
 
-/// Returns a sun that represents a part of the light: all light if it comes from one direction, and
-/// less the less directional it is. Empty if the light is hardly directional, or if its main
-/// direction is near the horizon or below.
+/// Returns a sun that represents a part of the light. The part grows with the directionality of the
+/// light. Empty if the light is hardly directional, or if its main direction is near or below the
+/// horizon.
 std::optional<Sun> sunOf(const LightEstimate& estimate) {
     constexpr float kLeastDirectionality = 0.12F, kLeastElevation = 0.2F, kSoftness = 0.12F;
     if (!(estimate.directionality > kLeastDirectionality) ||
         !(estimate.mainDirection.z() > kLeastElevation))
         return std::nullopt;
     const Eigen::Vector3f& d = estimate.mainDirection;
-    // The coefficient, in each colour channel, of the spherical harmonic of degree 1 whose axis is
-    // the main direction. A sun of irradiance E in this direction adds E * kY1 to the coefficient.
     const Eigen::Vector3f along =
         (estimate.radiance.row(3) * d.x() + estimate.radiance.row(1) * d.y() +
          estimate.radiance.row(2) * d.z())
@@ -131,8 +125,7 @@ void LightEstimator::add(const ImageView& frame, const CameraModel& camera,
         sums[texelOf(seen.direction)] += part;
         all += part;
     }
-    // A black picture is ignored: the lens is probably covered, and the picture contains no
-    // information about the light.
+    // A black picture is ignored. The lens is probably covered.
     constexpr float kBlack = 0.002F;
     if (!(all.head<3>().maxCoeff() > kBlack * all.w())) return;
     for (std::size_t i = 0; i < map_.size(); ++i) {
@@ -173,7 +166,7 @@ Lighting lightingOf(const LightEstimate& estimate) {
     SphericalLight rest = estimate.radiance;
     if (sun) rest -= harmonicsAt(sun->towards) * sun->irradiance.transpose();
     const auto radiance = [&](const Eigen::Vector3f& direction) -> Eigen::Vector3f {
-        // The sum of nine harmonics may be negative in the direction opposite to a lamp.
+        // The sum of nine harmonics may be negative opposite to a lamp.
         return radianceOf(rest, direction).cwiseMax(0.0F);
     };
     return {std::make_shared<const Environment>(environmentOf(kMap, radiance)), sun};

@@ -3,7 +3,7 @@
 namespace mfar {
 namespace {
 
-constexpr double kInterval = 0.5;  // time between two updates [s]
+constexpr double kInterval = 0.5;
 
 }  // namespace
 

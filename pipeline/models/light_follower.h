@@ -6,14 +6,13 @@
 
 namespace mfar {
 
-/// Updates the light of a scene from the camera's pictures, twice a second.
 class LightFollower {
 public:
-    /// If `sun` is set, it is always used instead of an estimated sun.
+    /// If `sun` is set, it replaces the estimated sun.
     explicit LightFollower(const std::optional<Sun>& sun) : sun_(sun) {}
 
-    /// Adds a frame as LightEstimator::add() does, at most twice a second. Returns the new light if
-    /// a frame was added.
+    /// Must be called for each frame. Uses at most two frames a second and returns the new light
+    /// after these.
     std::optional<Lighting> follow(const ImageView& frame, const CameraModel& camera,
                                    const RigidTransform& T_world_camera, Timestamp time);
 

@@ -5,11 +5,10 @@
 namespace mfar {
 namespace {
 
-// Reading a model needs memory for files, JSON, textures and meshes. Each of these may take a
-// quarter of the memory.
+// Reading a model needs memory for files, JSON, textures and meshes. Each may use a quarter.
 constexpr std::size_t kParts = 4;
-constexpr std::size_t kBytesPerJsonValue = 500;  // first in the tree of nlohmann::json, then in
-                                                 // that of tinygltf
+// A JSON value is first in the tree of nlohmann::json, then in that of tinygltf.
+constexpr std::size_t kBytesPerJsonValue = 500;
 constexpr std::size_t kBytesPerTexel = 4;
 constexpr std::size_t kBytesPerVertex =
     2 * (2 * sizeof(Eigen::Vector3f) + sizeof(Eigen::Vector2f) + sizeof(Eigen::Vector4f));
@@ -25,8 +24,7 @@ std::size_t bytesOf(const std::vector<T>& list) {
 ModelLimits limitsWithin(std::size_t bytes) {
     const std::size_t part = bytes / kParts;
     ModelLimits out;
-    out.bytes = std::min(out.bytes, part / 2);  // half of the part, because tinygltf copies the
-                                                // buffers
+    out.bytes = std::min(out.bytes, part / 2);  // half, because tinygltf copies the buffers
     out.jsonValues = std::min(out.jsonValues, part / kBytesPerJsonValue);
     out.texels = std::min(out.texels, part / kBytesPerTexel);
     out.vertices = std::min(out.vertices, part / 2 / kBytesPerVertex);

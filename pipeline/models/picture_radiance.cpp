@@ -11,7 +11,6 @@ namespace {
 
 constexpr int kCellsAcross = 32, kCellsDown = 24, kSamplesASide = 4;
 
-/// Reads single pixels of a picture of any format as linear RGB.
 class PixelReader {
 public:
     explicit PixelReader(const ImageView& picture)
@@ -62,8 +61,6 @@ private:
     YuvToRgb toRgb_;
 };
 
-/// Divides a row of `pixels` pixels into `parts` parts, and returns the coordinate of the pixel in
-/// the centre of part i.
 int middleOf(int i, int parts, int pixels) {
     return static_cast<int>((2 * std::int64_t{i} + 1) * pixels / (2 * std::int64_t{parts}));
 }

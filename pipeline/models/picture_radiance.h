@@ -6,16 +6,15 @@
 
 namespace mfar {
 
-/// Light that the camera received from one direction.
 struct SeenRadiance {
-    Eigen::Vector3f direction;  ///< unit vector in the world
-    Eigen::Vector3f radiance;   ///< linear RGB; a radiance of 1 is the picture's white
-    float solidAngle = 0;       ///< solid angle from which the light came [sr]
+    Eigen::Vector3f direction;  ///< unit vector in world coordinates
+    Eigen::Vector3f radiance;   ///< linear RGB; 1 is the picture's white
+    float solidAngle = 0;
 };
 
-/// Computes the radiance that a picture shows, in a grid of cells. The radiance of a cell is the
-/// mean of a few of its pixels. The picture must be valid (requireSound()); it may have any format
-/// and is treated as sRGB. The result replaces the content of `out`.
+/// Computes the radiance that a picture shows, in a grid of cells, from a few pixels of each. The
+/// picture must be valid (requireSound()); it may have any format and is treated as sRGB. The
+/// result replaces the content of `out`.
 void seenRadiance(const ImageView& picture, const CameraModel& camera,
                   const RigidTransform& T_world_camera, std::vector<SeenRadiance>& out);
 

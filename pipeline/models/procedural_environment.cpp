@@ -36,10 +36,10 @@ float smoothStep(float from, float to, float x) {
     return t * t * (3 - 2 * t);
 }
 
-/// A lamp behind a diffuser with a frame, seen from the origin.
+/// A lamp behind a diffuser with a frame [m]. It faces the origin, and its top edge is horizontal.
 struct Panel {
-    Eigen::Vector3f middle;  ///< [m]; the panel faces the origin; its top is horizontal
-    Eigen::Vector2f half;    ///< half of the width and half of the height [m]
+    Eigen::Vector3f middle;
+    Eigen::Vector2f half;  ///< half of the width and half of the height [m]
     Eigen::Vector3f radiance;
 };
 
@@ -52,7 +52,7 @@ Eigen::Vector3f panelLight(const Panel& panel, const Eigen::Vector3f& direction)
     if (!(along > 0)) return Eigen::Vector3f::Zero();
     const Eigen::Vector3f hit = direction * (distance / along);
     const Eigen::Vector2f at(hit.dot(side) / panel.half.x(), hit.dot(up) / panel.half.y());
-    // The diffuser is darker at its edge than in the centre, which is in front of the lamp.
+    // The diffuser is darker at its edge than in front of the lamp.
     constexpr float kRim = 0.06F, kDarkening = 0.35F;
     const float inside = smoothStep(1 + kRim, 1 - kRim, std::abs(at.x())) *
                          smoothStep(1 + kRim, 1 - kRim, std::abs(at.y()));
@@ -64,7 +64,6 @@ Eigen::Vector3f studioLight(const Eigen::Vector3f& direction) {
         {{{-1.9F, -1.5F, 2.4F}, {0.95F, 0.75F}, {9.5F, 8.9F, 8.0F}},
          {{2.4F, -0.7F, 1.1F}, {0.22F, 1.1F}, {4.4F, 4.7F, 5.2F}},
          {{0.7F, 2.6F, 1.5F}, {1.3F, 0.3F}, {3.4F, 4.0F, 5.0F}}}};
-    // The walls are brighter towards the ceiling, and the floor is warm.
     const Eigen::Vector3f wall(0.20F, 0.205F, 0.215F), ceiling(0.42F, 0.42F, 0.43F),
         floor(0.17F, 0.14F, 0.115F);
     const float up = smoothStep(0, 0.9F, direction.z()),
@@ -76,8 +75,8 @@ Eigen::Vector3f studioLight(const Eigen::Vector3f& direction) {
     return light;
 }
 
-/// Returns the relative luminance of the sky in a direction, given by the cosine of its zenith
-/// angle and by its angle from the sun [rad] (CIE S 011, type 12).
+/// Returns the relative luminance of the sky at a zenith angle, given by its cosine, and an angle
+/// from the sun [rad] (CIE S 011, type 12).
 float clearSky(float cosZenith, float fromSun) {
     constexpr float kB = -0.32F, kC = 10, kD = -3, kE = 0.45F;
     const float gradation = 1 - std::exp(kB / std::max(cosZenith, 0.01F));

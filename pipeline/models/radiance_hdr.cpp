@@ -41,7 +41,7 @@ public:
         left_ = left_.subspan(length + 1);
         return text;
     }
-    /// Returns the next four bytes without reading on.
+    /// Returns the next four bytes without consuming them.
     [[nodiscard]] std::optional<Rgbe> peek() const {
         if (left_.size() < 4) return std::nullopt;
         return Rgbe{left_[0], left_[1], left_[2], left_[3]};
@@ -65,7 +65,8 @@ double readHeader(HdrBytes& in) {
     double exposure = 1;
     for (std::string_view line = in.line(); !line.empty(); line = in.line()) {
         if (line.starts_with("FORMAT=") && !line.starts_with("FORMAT=32-bit_rle_rgbe"))
-            throw std::runtime_error(fmt::format("{} is not supported", line));
+            throw std::runtime_error(
+                fmt::format("{} is not supported; expected FORMAT=32-bit_rle_rgbe", line));
         if (!line.starts_with("EXPOSURE=")) continue;
         exposure *= numberIn(line.substr(9)).value_or(0);
         if (!(exposure >= 1e-9 && exposure <= 1e9))
@@ -83,7 +84,8 @@ Size readResolution(std::string_view line) {
         if (rest.starts_with(" +X ")) std::from_chars(rest.data() + 4, end, size.width);
     }
     if (size.width < 1 || size.height < 1)
-        throw std::runtime_error(fmt::format("the row order \"{}\" is not supported", line));
+        throw std::runtime_error(fmt::format(
+            "the row order \"{}\" is not supported; expected \"-Y HEIGHT +X WIDTH\"", line));
     return size;
 }
 
@@ -105,7 +107,7 @@ void readSplitRow(HdrBytes& in, std::span<Rgbe> row) {
 }
 
 /// Reads a row that is stored pixel by pixel. The code (1, 1, 1, n) repeats the last pixel n times.
-/// If such codes follow one another directly, each gives the next higher byte of n.
+/// Consecutive codes give the bytes of n, the lowest first.
 void readOldRow(HdrBytes& in, std::span<Rgbe> row) {
     unsigned shift = 0;
     for (std::size_t x = 0; x < row.size();) {
@@ -138,7 +140,7 @@ void readRow(HdrBytes& in, std::span<Rgbe> row) {
 }
 
 Eigen::Vector3f valueOf(const Rgbe& pixel, float scale) {
-    constexpr float kBrightest = 1e7F;  // 1000 times the sun, if the unit is the light in a studio
+    constexpr float kBrightest = 1e7F;  // 1000 times the sun if 1 is the light in a studio
     if (pixel[3] == 0) return Eigen::Vector3f::Zero();
     const float unit = std::ldexp(scale, pixel[3] - 136);
     const Eigen::Vector3f mantissa(pixel[0], pixel[1], pixel[2]);

@@ -12,7 +12,7 @@
 namespace mfar {
 namespace {
 
-constexpr int kGlaze = 0, kBrass = 1, kWalnut = 2;  ///< indices of the materials
+constexpr int kGlaze = 0, kBrass = 1, kWalnut = 2;
 
 float lengthOf(const LatheProfile& profile) {
     float length = 0;
@@ -21,8 +21,8 @@ float lengthOf(const LatheProfile& profile) {
     return length;
 }
 
-/// Returns the points of a profile that are at the centres of the `count` rows of a texture. The
-/// rows go from top to bottom.
+/// Returns the profile's points at the centres of the `count` rows of a texture, from top to
+/// bottom.
 LatheProfile rowsOf(const LatheProfile& profile, int count) {
     LatheProfile out;
     const float whole = lengthOf(profile);
@@ -42,7 +42,6 @@ LatheProfile rowsOf(const LatheProfile& profile, int count) {
 
 LatheProfile ring(float radius, float height, float tube, int count) {
     LatheProfile out;
-    // The cross-section of the ring begins at its lowest point and first goes outwards and upwards.
     for (int i = 0; i <= count; ++i) {
         const float turn = 2 * std::numbers::pi_v<float> * static_cast<float>(i) / count;
         out.emplace_back(radius + tube * std::sin(turn), height - tube * std::cos(turn));
@@ -67,7 +66,7 @@ void addJar(Mesh& mesh) {
     addTurned(mesh, body(), {.around = 176, .shape = [](float angle, float height) {
                                  return 1 - kDepth * fluteAt(angle, height);
                              }});
-    // The lid uses the part of the texture at the foot of the body, which has no ornament.
+    // The lid has the texture of the body's foot, which has no ornament.
     const LatheProfile lid = smoothProfile({{0.0212F, 0.1108F},
                                             {0.0226F, 0.1122F},
                                             {0.0205F, 0.1170F},
@@ -105,7 +104,7 @@ void addBrass(Mesh& mesh) {
     }
 }
 
-/// Returns the profile of the stand in pieces. It is divided at the sharp edges.
+/// Returns the profile of the stand, divided at its sharp edges.
 std::vector<LatheProfile> standPieces() {
     return {
         {{0.0F, 0.0F}, {0.0400F, 0.0F}},
@@ -122,7 +121,6 @@ std::vector<LatheProfile> standPieces() {
         {{0.0338F, 0.0200F}, {0.0280F, 0.0204F}, {0.0F, 0.0204F}}};
 }
 
-/// Returns all pieces of the stand as one profile, for texture coordinates.
 LatheProfile standProfile() {
     LatheProfile whole;
     for (const LatheProfile& piece : standPieces())
@@ -136,7 +134,6 @@ void addStand(Mesh& mesh) {
     const Eigen::Vector2f* end = nullptr;
     const std::vector<LatheProfile> pieces = standPieces();
     for (const LatheProfile& piece : pieces) {
-        // The straight connection between two pieces also belongs to the profile.
         if (end != nullptr) {
             const LatheProfile step = {*end, piece.front()};
             if (lengthOf(step) > 0)
@@ -152,7 +149,7 @@ void addStand(Mesh& mesh) {
     }
 }
 
-constexpr float kMeanCircumference = 0.22F;  ///< [m]
+constexpr float kMeanCircumference = 0.22F;
 
 void paintGlaze(Model& model) {
     constexpr Size kTexels{1536, 768};

@@ -10,7 +10,7 @@ namespace mfar {
 namespace {
 
 constexpr float kCircle = 2 * std::numbers::pi_v<float>;
-constexpr float kBandLow = 0.0872F, kBandHigh = 0.1000F;  ///< edges of the gilded shoulder [m]
+constexpr float kBandLow = 0.0872F, kBandHigh = 0.1000F;
 constexpr int kScalesAround = 26, kFlutes = 22;
 
 float step(float from, float to, float x) {
@@ -18,15 +18,14 @@ float step(float from, float to, float x) {
     return t * t * (3 - 2 * t);
 }
 
-/// Returns how much a painted line covers a point at this distance from its middle: 1 at distance
-/// zero, decreasing smoothly to 0 around half of the line's width (`half`).
+/// Returns the coverage of a painted line at this distance from its middle: 1 at distance zero,
+/// decreasing smoothly to 0 around `half`, half of the line's width.
 float line(float distance, float half) {
     return 1 - step(0.6F * half, 1.4F * half, std::abs(distance));
 }
 
 /// A pattern of overlapping scales with arcs inside (seigaiha). Returns 1 on the line of an arc,
-/// and 0 between the lines. A scale is 1 wide, and rows are 1/4 apart. A lower row covers the row
-/// above.
+/// and 0 between the lines. A scale has width 1. Rows are 1/4 apart, and each covers the row above.
 float scales(float x, float y) {
     constexpr float kRadius = 0.5F, kRow = 0.25F;
     const int lowest = static_cast<int>(std::floor((y - kRadius) / kRow)) + 1;
@@ -42,8 +41,7 @@ float scales(float x, float y) {
 }
 
 float gildingAt(float u, float height) {
-    constexpr float kHeightOfScale = 0.0098F;  // with this, scales at the shoulder are as high as
-                                               // wide
+    constexpr float kHeightOfScale = 0.0098F;
     const float edges =
         std::max({line(height - kBandLow, 0.00042F), line(height - kBandHigh, 0.00042F),
                   line(height - 0.0864F, 0.00016F), line(height - 0.1009F, 0.00016F),
@@ -55,10 +53,9 @@ float gildingAt(float u, float height) {
 }  // namespace
 
 float fluteAt(float angle, float height) {
-    constexpr float kTwist = 16;  // [rad/m]
+    constexpr float kTwist = 16;
     const float inside = step(0.029F, 0.045F, height) * (1 - step(0.072F, 0.0845F, height));
     const float wave = std::cos(kFlutes * 0.5F * (angle + kTwist * height));
-    // The lobes are round and the grooves narrow.
     return inside * (1 - std::sqrt(wave * wave + 0.03F));
 }
 
@@ -68,8 +65,8 @@ PaintedPoint glazeAt(float u, float height) {
     const float angle = u * kCircle;
     const Eigen::Vector3f place(std::cos(angle), std::sin(angle), height * 22);
     const float cloud = fractalNoise(place * 2.2F, 4);
-    // Glaze runs down and is thick in some places. It is thick and dark at the foot, at the
-    // shoulder and in the grooves.
+    // Glaze runs down before it sets. It is thick and dark at the foot, at the shoulder and in the
+    // grooves.
     const float belly = step(0.03F, 0.058F, height + 0.006F * cloud) *
                         (1 - step(0.066F, 0.086F, height + 0.004F * cloud));
     const float thin =
@@ -91,11 +88,8 @@ PaintedPoint walnutAt(const Eigen::Vector3f& place) {
         place + 0.0035F * Eigen::Vector3f(0, fractalNoise(place * 38, 3),
                                           fractalNoise(place * 38 + Eigen::Vector3f(7, 3, 1), 3));
     const float ring = std::hypot(bent.y() + 0.021F, bent.z() + 0.034F) / kRing;
-    // The wood of an annual ring is light in spring and gets darker towards autumn. In winter it
-    // does not grow.
     const float season = ring - std::floor(ring);
     const float late = season * season * (1 - step(0.93F, 1, season));
-    // Fibres and pores run along the log's axis.
     const float fibre = fractalNoise(place.cwiseProduct(Eigen::Vector3f(120, 1900, 1900)), 2);
     const float pore =
         step(0.42F, 0.75F, valueNoise(place.cwiseProduct(Eigen::Vector3f(260, 2600, 2600))));

@@ -5,15 +5,15 @@
 
 namespace mfar {
 
-/// Returns the look of the jar's body: blue glaze, which is gilded in the band at the shoulder.
-/// `u`: texture coordinate around the axis; `height`: height of the point [m].
+/// Returns the look of the jar's body at texture coordinate `u` around the axis and `height` [m]:
+/// blue glaze with a gilded band at the shoulder.
 [[nodiscard]] PaintedPoint glazeAt(float u, float height);
 
-/// Returns the look of walnut wood at a point [m] of a log whose axis is x.
+/// `place` is a point [m] of a log of walnut whose axis is x.
 [[nodiscard]] PaintedPoint walnutAt(const Eigen::Vector3f& place);
 
-/// Returns the depth of the twisted flutes at an angle [rad] and a height [m]: 0 outside the
-/// flutes, 1 in a groove.
+/// Returns the depth of the twisted flutes at an angle [rad] and a height [m], from 0 outside the
+/// flutes to 1 in a groove.
 [[nodiscard]] float fluteAt(float angle, float height);
 
 }  // namespace mfar

@@ -17,7 +17,6 @@ std::uint8_t srgbByteOf(float linear) {
     return byteOf(v <= 0.0031308F ? 12.92F * v : 1.055F * std::pow(v, 1 / 2.4F) - 0.055F);
 }
 
-/// Returns the normal map of a relief. +y of the normals points up in the texture.
 SurfaceTexture normalsOfRelief(const std::vector<float>& relief, const PaintedArea& area) {
     SurfaceTexture out{area.texels, false, {}};
     const auto [width, height] = area.texels;

@@ -7,7 +7,7 @@
 namespace mfar {
 namespace {
 
-constexpr float kShortest = 1e-20F;  ///< largest squared length of a vector that counts as zero
+constexpr float kShortest = 1e-20F;  ///< a vector with a smaller squared length counts as zero
 
 std::vector<Eigen::Vector3f> normalsOf(const Mesh& mesh) {
     if (!mesh.normals.empty()) return mesh.normals;
@@ -41,8 +41,8 @@ void addTangents(Mesh& mesh) {
         const Eigen::Vector2f d1 = mesh.uvs[b] - mesh.uvs[a], d2 = mesh.uvs[c] - mesh.uvs[a];
         const float area = d1.x() * d2.y() - d2.x() * d1.y();
         if (!(std::abs(area) > 0)) continue;
-        // The vectors are multiplied by the sign of the area instead of being divided by the area.
-        // Larger triangles then have more weight, and nothing overflows.
+        // The vectors are multiplied by the sign of the area instead of divided by the area. Larger
+        // triangles then have more weight, and nothing overflows.
         const Eigen::Vector3f u = std::copysign(1.0F, area) * (e1 * d2.y() - e2 * d1.y()),
                               v = std::copysign(1.0F, area) * (e2 * d1.x() - e1 * d2.x());
         for (const std::uint32_t i : {a, b, c}) {
@@ -55,7 +55,7 @@ void addTangents(Mesh& mesh) {
     for (std::size_t i = 0; i < count; ++i) {
         const Eigen::Vector3f& n = normals[i];
         Eigen::Vector3f t = alongU[i] - n * n.dot(alongU[i]);
-        // The comparison is negated, so that NaN also counts as no direction.
+        // The negated comparison also handles NaN.
         if (!(t.squaredNorm() > kShortest) || !t.allFinite()) t = anyOrthogonal(n);
         t.normalize();
         const float sign = n.cross(t).dot(alongV[i]) > 0 ? -1.0F : 1.0F;

@@ -4,14 +4,13 @@
 
 namespace mfar {
 
-/// Adds tangents to a mesh with texture coordinates. A tangent is the direction in which u
-/// increases. The tangent of a vertex is the sum of those of its triangles, made orthogonal to the
-/// normal. If the texture coordinates give no direction, any direction is used. As in glTF, the
-/// bitangent w * cross(normal, tangent) points up in the texture, where v decreases. Source:
-/// Lengyel, Foundations of Game Engine Development 2, 2019, sec. 7.5.
+/// Adds tangents, which point in the direction of increasing u, to a mesh with texture coordinates.
+/// The tangent of a vertex is the sum of those of its triangles, made orthogonal to the normal. It
+/// has any direction where texture coordinates give none. As in glTF, the bitangent w *
+/// cross(normal, tangent) points up in the texture, where v decreases. Source: Lengyel, Foundations
+/// of Game Engine Development 2, 2019, sec. 7.5.
 void addTangents(Mesh& mesh);
 
-/// Returns a unit vector that is orthogonal to the unit vector `unit`.
 [[nodiscard]] Eigen::Vector3f anyOrthogonal(const Eigen::Vector3f& unit);
 
 }  // namespace mfar

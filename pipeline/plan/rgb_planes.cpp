@@ -23,8 +23,7 @@ void splitRow(const std::uint8_t* from, int width, bool blueFirst, const Channel
     }
 }
 
-/// The samples of a channel (Y, U or V) in memory. `step` is the distance between neighbouring
-/// samples of a row [bytes].
+/// The samples of Y, U or V. `step` is the distance between neighbouring samples of a row [bytes].
 struct Samples {
     const std::uint8_t* data;
     std::size_t stride;
@@ -43,8 +42,8 @@ std::array<Samples, 3> samplesOf(const ImageView& p) {
     return {luma, {u.data, u.stride, 1}, {v.data, v.stride, 1}};
 }
 
-/// Converts Y U V to R G B. Computes with 16-bit integers, because every supported processor
-/// multiplies eight of them at once.
+/// Converts Y U V to R G B in 16-bit integers, because every supported processor multiplies eight
+/// of them at once.
 class YuvRows {
 public:
     explicit YuvRows(const ImageView& picture)
@@ -76,8 +75,8 @@ public:
 private:
     static constexpr float kOne = 8192;
 
-    /// Reads chroma minus 128, multiplied by 128. A chroma sample lies between the pixels that
-    /// share it. Along each axis, a pixel gets 3/4 of the nearer sample and 1/4 of the farther one.
+    /// Reads chroma minus 128, multiplied by 128. Chroma samples lie between the pixels. Along each
+    /// axis, a pixel gets 3/4 of the nearer sample and 1/4 of the farther one.
     void readChroma(const Samples& plane, int y, std::int16_t* to) {
         const int width = size_.width / 2;
         const int row = sharedRows_ ? y / 2 : y;
@@ -99,7 +98,7 @@ private:
     void combine(const std::array<std::int16_t, 3>& factors, std::int16_t offset,
                  std::uint8_t* to) const {
         const auto times = [](std::int16_t a, std::int16_t b) {
-            return static_cast<std::int16_t>((std::int32_t{a} * b) >> 16);  // in 1/16 grey levels
+            return static_cast<std::int16_t>((std::int32_t{a} * b) >> 16);
         };
         const std::int16_t *luma = luma_.data(), *u = chroma_[0].data(), *v = chroma_[1].data();
         for (int x = 0; x < size_.width; ++x) {

@@ -9,24 +9,21 @@
 
 namespace mfar {
 
-/// Red, green and blue of a picture in main memory, as one plane of bytes per channel. The planes
-/// are padded to whole tiles by repeating the border pixels. The object owns its pixels.
+/// A picture in main memory, owned by this object, with one plane of bytes for each of red, green
+/// and blue. The planes are padded to whole tiles by repeating the border pixels.
 class RgbPlanes {
 public:
-    /// Creates a black picture.
     explicit RgbPlanes(Size size);
 
-    /// Converts a valid picture of this size, in any format, to planes. Colours differ from those
-    /// of picture_from_yuv.frag by at most one grey level.
+    /// Converts a valid picture of this size, in any format. Colours differ from those of
+    /// picture_from_yuv.frag by at most one grey level.
     void take(const ImageView& picture);
-    /// Copies one tile from planes of the same size.
     void takeTile(const RgbPlanes& from, int column, int row);
 
     [[nodiscard]] Size size() const { return size_; }
     [[nodiscard]] Size tiles() const { return tiles_; }
-    /// Bytes of a row, including the padding to whole tiles.
     [[nodiscard]] int pitch() const { return pitch_; }
-    /// `channel`: 0 red, 1 green, 2 blue.
+    /// Channels: 0 red, 1 green, 2 blue.
     [[nodiscard]] const std::uint8_t* row(int channel, int y) const {
         return planes_[channel].data() + static_cast<std::size_t>(y) * pitch_;
     }

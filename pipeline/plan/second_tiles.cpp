@@ -5,12 +5,11 @@
 namespace mfar {
 namespace {
 
-constexpr int kCells = 4;  // cells along the edge of a tile
-// Factor by which the priority of a tile is raised if the second still showed the tile before.
-// Without it, noise would change the choice of tiles in every frame.
+constexpr int kCells = 4;
+// Raises the priority of tiles that the second still showed before. Without it, noise would change
+// the choice of tiles in every frame.
 constexpr float kRather = 1.5F;
 
-/// Calls body(x, y) with the indices of a tile's cells that exist in the field.
 template <class Body>
 void forCells(Size tiles, int tile, Size cells, const Body& body) {
     const int x0 = kCells * (tile % tiles.width), y0 = kCells * (tile / tiles.width);
@@ -19,8 +18,8 @@ void forCells(Size tiles, int tile, Size cells, const Body& body) {
             body(x, y);
 }
 
-/// How much of a tile the newest still does not show, [0, 1]: the mean over the tile's cells of (1
-/// - weight) * TrustCell::signal. NaN counts as 0.
+/// Share of a tile that the newest still does not show, [0, 1]: mean of (1 - weight) *
+/// TrustCell::signal over the tile's cells. NaN counts as 0.
 float lackOf(Size tiles, int tile, const SecondTiles::Match& newest) {
     float sum = 0;
     forCells(tiles, tile, newest.weighed.size, [&](int x, int y) {
@@ -30,9 +29,8 @@ float lackOf(Size tiles, int tile, const SecondTiles::Match& newest) {
     return sum / (kCells * kCells);
 }
 
-/// How much more of a tile the second still shows than the newest, [0, 1]: the mean over the tile's
-/// cells of (weight of the second still - weight of the newest still) * TrustCell::signal. Negative
-/// values count as 0.
+/// Mean over the tile's cells of (weight of the second still - weight of the newest still) *
+/// TrustCell::signal, [0, 1]. Negative values count as 0.
 float gainOf(Size tiles, int tile, const SecondTiles::Match& newest,
              const Rows<const WeighedCell>& second) {
     float sum = 0;

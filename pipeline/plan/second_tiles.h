@@ -19,14 +19,11 @@ public:
     /// below 1 by at least this much. In the synthetic office scene, 0.2, 0.1 and 0.05 gained 0.14,
     /// 0.18 and 0.19 dB; 0.05 matches 1.5 times as many tiles as 0.1.
     static constexpr float kLack = 0.1F;
-    /// Smallest gain in mean weight for which matching a tile with the second still is worth its
-    /// time.
+    /// Smallest gain in mean weight that is worth the time of matching with the second still.
     static constexpr float kGain = 0.05F;
-    /// If the second still does not show a tile either, the tile is not matched with it for this
-    /// number of frames.
+    /// A tile that the second still does not show is not matched with it for this number of frames.
     static constexpr int kRest = 8;
 
-    /// How the newest still matches the frame, for each cell.
     struct Match {
         Rows<const WeighedCell> weighed;
         Rows<const TrustCell> trust;
@@ -35,21 +32,19 @@ public:
     explicit SecondTiles(Size tiles);
 
     /// Chooses at most `most` tiles that the frame draws and matches but the newest still does not
-    /// show. Tiles with the most structure that the newest still does not show are preferred, and
-    /// tiles that the second still showed before. `measured` must belong to the same frame. The
-    /// result is valid until the next call.
+    /// show. Tiles with much structure, and tiles that the second still showed before, are
+    /// preferred. `measured` must belong to the same frame. The result is valid until the next
+    /// call.
     const TileWork& choose(const TileWork& work, std::span<const TileMeasure> measured,
                            const Match& newest, int most);
-    /// Records which of the chosen tiles the second still shows.
     void judge(const Match& newest, Rows<const WeighedCell> second);
     /// Must be called when the second still or the newest still is replaced.
     void forget();
 
-    /// Number of tiles that the frame given to the last choose() matches with the newest still.
+    /// Number of tiles in which the frame of the last choose() is matched with the newest still.
     [[nodiscard]] int matched() const { return matched_; }
-    /// Number of the matched tiles that the newest still shows.
     [[nodiscard]] int shownByNewest() const { return shownByNewest_; }
-    /// Number of chosen tiles that the second still improved, found by the last judge().
+    /// Number of chosen tiles that the second still improved, counted by the last judge().
     [[nodiscard]] int gained() const { return gained_; }
 
 private:
@@ -60,10 +55,9 @@ private:
 
     TileWork work_;
     std::vector<Candidate> candidates_;
-    std::vector<bool> showed_;        // per tile: true if the second still showed it when it was
-                                      // last matched
-    std::vector<std::uint8_t> rest_;  // per tile: number of coming frames in which it is not
-                                      // matched
+    std::vector<bool> showed_;
+    // Per tile: number of coming frames in which it is not matched with the second still.
+    std::vector<std::uint8_t> rest_;
     int matched_ = 0, shownByNewest_ = 0, gained_ = 0;
 };
 

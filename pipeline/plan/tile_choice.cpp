@@ -7,13 +7,13 @@
 namespace mfar {
 namespace {
 
-constexpr int kTileBlock = 8;  // edge of a block [tiles]
-// kSpread: standard deviation of a tile's sum of squares, divided by its mean. kSignificant: a
-// difference is significant if it exceeds this number of standard deviations.
+constexpr int kTileBlock = 8;
+// kSpread: standard deviation of a tile's sum of squares, divided by its mean. A difference is
+// significant if it exceeds kSignificant standard deviations.
 constexpr double kSpread = 0.27;
 constexpr double kSignificant = 5;
-// Drifts below this fraction of the noise are not detected, because the error of rounding to 8 bits
-// is not white noise.
+// Smaller drifts, as a fraction of the noise, are not detected, because the error of rounding to 8
+// bits is not white noise.
 constexpr double kLeast = 0.03;
 
 constexpr int kStructureBins = 84;  // a bin is a quarter of an octave

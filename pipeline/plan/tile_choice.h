@@ -13,22 +13,22 @@ namespace mfar {
 /// Sums over the tiles that are not marked as changed.
 struct TileEnergy {
     int tiles = 0;
-    double pixels = 0, means = 0, bends = 0;  ///< sums of these members of TileMeasure
+    double pixels = 0, means = 0, bends = 0;
 
     void add(const TileMeasure& tile);
-    /// Whether the differences of the 2x2 means are larger than noise explains, that is, larger
-    /// than `grain` times the noise of the pixels. This finds changes that are too weak to be found
-    /// in a single tile, such as a smooth slope of brightness that moves.
+    /// True if the differences of the 2x2 means are larger than `grain` times the noise of the
+    /// pixels. This finds changes that are too weak to be found in one tile, such as a moving
+    /// smooth slope of brightness.
     [[nodiscard]] bool drifted(double grain) const;
 };
 
-/// Marks all tiles of a block of 8x8 tiles as changed if the block has drifted. Marks all tiles if
-/// the whole picture has drifted or `all` is true. `tiles` is row-major with `columns` tiles per
-/// row. Returns the sums over the tiles that were not marked before the call.
+/// Marks all tiles of each block of 8x8 tiles that has drifted. Marks all tiles if the whole
+/// picture has drifted or `all` is true. `tiles` is row-major with `columns` tiles per row. Returns
+/// the sums over the tiles that were not marked before the call.
 TileEnergy markDrifted(std::span<TileMeasure> tiles, int columns, double grain, bool all);
 
 /// Marks a tile as changed if an adjacent tile certainly changed in a cell at the common border,
-/// because enlarging the tile reads two pixels beyond it.
+/// because enlarging a tile reads two pixels beyond it.
 void markBeside(std::span<TileMeasure> tiles, int columns);
 
 /// Chooses the tiles that are matched with the still: tiles whose structure exceeds the noise, and
@@ -37,12 +37,12 @@ void markBeside(std::span<TileMeasure> tiles, int columns);
 /// that noise does not make detail appear and vanish.
 class StructuredTiles {
 public:
-    /// `none`: largest structure that noise alone causes; if it is negative, every tile has
-    /// structure. `most`: largest number of tiles.
+    /// `none` is the largest structure that noise alone causes. If it is negative, every tile has
+    /// structure. `most` is the largest number of tiles.
     void choose(std::span<const TileMeasure> tiles, int columns, double none, int most);
     [[nodiscard]] bool operator[](std::size_t tile) const { return chosen_[tile]; }
     [[nodiscard]] int count() const;
-    /// The smallest rectangle that contains all chosen tiles [tiles].
+    /// The smallest rectangle around all chosen tiles [tiles].
     [[nodiscard]] PixelRect bounds(int columns) const;
 
 private:

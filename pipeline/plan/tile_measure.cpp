@@ -10,8 +10,8 @@
 namespace mfar {
 namespace {
 
-/// Reads a row of tiles from both pictures. Pixels beyond the picture's border are made equal in
-/// both, because differences of repeated border pixels would look like a change.
+/// Reads a row of tiles from both pictures. Pixels outside the picture are made equal in both,
+/// because differences of repeated border pixels would look like a change.
 class TileRow {
 public:
     TileRow(const RgbPlanes& now, const RgbPlanes& drawn, int row)
@@ -31,8 +31,8 @@ public:
         return out;
     }
 
-    /// The last tile of the row, which is only partly inside the picture. The result points into
-    /// this object.
+    /// Returns the last tile of the row, which is partly outside the picture. The result points
+    /// into this object.
     [[nodiscard]] simd::TilePixels cut(int column) {
         simd::TilePixels out = whole(column, 1);
         const auto inside = static_cast<std::size_t>(now_.size().width - kTileSize * column);

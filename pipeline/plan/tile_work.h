@@ -9,32 +9,28 @@
 
 namespace mfar {
 
-/// What must be done in each tile to draw a frame. It is plain data in CPU memory, which WorkPlan
-/// writes and every step reads.
+/// Work that each tile needs to draw a frame. WorkPlan writes it; all steps read it.
 struct TileWork {
     enum class Draw : std::uint8_t {
-        Tiles,         ///< only changed tiles are drawn; the others keep the pixels of earlier
-                       ///< frames
-        Whole,         ///< the whole frame is drawn: detail in the rectangle detailTiles, enlarged
-                       ///< video elsewhere
-        WholeEnlarged  ///< the whole frame is enlarged; detail is drawn only in matched tiles
+        Tiles,  ///< only changed tiles are drawn
+        /// The whole frame is drawn at once, with detail only in the rectangle detailTiles.
+        Whole,
+        /// The whole frame is enlarged at once. Detail is drawn only in matched tiles.
+        WholeEnlarged
     };
-    /// Flags of a tile, 1 or 0. `flags` is row-major.
     struct Tile {
-        std::uint8_t changed = 0;  ///< the video differs from the video from which the tile was
-                                   ///< last drawn
+        std::uint8_t changed = 0;  ///< the video differs from the video of the last drawing
         std::uint8_t matched = 0;  ///< the tile has structure and is matched with the still
     };
 
     Size tiles;
     std::vector<Tile> flags;
-    int changed = 0;  ///< number of changed tiles
-    int matched = 0;  ///< number of changed tiles that are matched
+    int changed = 0;
+    int matched = 0;
     Draw draw = Draw::Whole;
     PixelRect detailTiles;  ///< the smallest rectangle around all matched tiles [tiles]
-    double noise = 0;       ///< standard deviation of the video's noise [grey levels]
+    double noise = 0;
 
-    /// Work in which every tile is changed and matched.
     [[nodiscard]] static TileWork everything(Size tiles) {
         const int count = tiles.width * tiles.height;
         return {tiles,
@@ -48,8 +44,6 @@ struct TileWork {
     [[nodiscard]] const Tile& at(int column, int row) const {
         return flags[static_cast<std::size_t>(row) * tiles.width + column];
     }
-    /// Whether this tile is drawn, either because the tile changed or because the whole frame is
-    /// drawn.
     [[nodiscard]] bool draws(std::size_t tile) const {
         return drawsWhole() || flags[tile].changed != 0;
     }

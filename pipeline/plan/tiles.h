@@ -7,24 +7,23 @@
 
 namespace mfar {
 
-inline constexpr int kTileSize = 16;  ///< edge of a tile [video px]
+inline constexpr int kTileSize = 16;  ///< width and height of a tile [video px]
 
-/// Numbers of tile columns and rows that cover a picture.
 [[nodiscard]] constexpr Size tilesOf(Size pixels) {
     return {(pixels.width + kTileSize - 1) / kTileSize,
             (pixels.height + kTileSize - 1) / kTileSize};
 }
 
-/// What super-resolution does with a tile of 16x16 video pixels, in ascending order of cost.
+/// Work that a tile needs, in ascending order of cost. Unchanged: video and still did not change,
+/// and the pixels stay. Upscaled: only the video is enlarged, because no detail of the still fits.
+/// Trusted: detail is drawn with a smooth flow and one weight. Blended: detail is drawn with flow
+/// and weight that vary within the tile. Hidden: an opaque virtual object covers the tile.
 enum class TileClass : unsigned {
-    Unchanged = params::kTileUnchanged,  ///< video and still did not change: the tile's pixels stay
-    Upscaled = params::kTileUpscaled,    ///< the video is only enlarged: no detail of the still
-                                         ///< fits
-    Trusted = params::kTileTrusted,      ///< detail is drawn with a smooth flow and one weight for
-                                         ///< the whole tile
-    Blended = params::kTileBlended,      ///< detail is drawn with flow and weight that vary within
-                                         ///< the tile
-    Hidden,                              ///< an opaque virtual object covers the tile
+    Unchanged = params::kTileUnchanged,
+    Upscaled = params::kTileUpscaled,
+    Trusted = params::kTileTrusted,
+    Blended = params::kTileBlended,
+    Hidden,
 };
 inline constexpr std::size_t kTileClasses = 5;
 

@@ -10,33 +10,32 @@ namespace mfar {
 namespace {
 
 constexpr double kInitialNoise = 0.29;
-// Largest noise estimate. In a picture without any smooth tile, the estimate would be too high.
+// Limits the noise estimate, which is too high for a picture without any smooth tile.
 constexpr double kMaxNoise = 4.0;
-// If at least this share of the tiles changed, the whole frame is drawn at once, because drawing
+// The whole frame is drawn at once if at least this share of the tiles changed, because drawing
 // tile by tile costs 2.2 times as much per area (measured with llvmpipe).
 constexpr double kWholeShare = 0.45;
-// Applies if the whole frame is drawn. If at most this share of the tiles in the rectangle
-// detailTiles has structure, the whole frame is enlarged at once and detail is drawn tile by tile.
-// Enlarging costs 0.4 times as much as drawing detail.
+// Applies if the whole frame is drawn at once. Detail is drawn tile by tile if at most this share
+// of the tiles in detailTiles has structure. Enlarging costs 0.4 times as much as drawing detail.
 constexpr double kListedShare = 0.27;
-// Smallest structure of a tile that is matched, as a multiple of the noise variance of a 2x2 mean.
-// Noise alone gives 13 (16 means minus three degrees of freedom of the plane). The second term is
-// the signal for which superres_weigh.comp gives detail a tenth of its weight. The variance of this
-// signal is 0.44 times the noise variance of a pixel, that is, 4 * 0.44 times that of a 2x2 mean;
-// it is summed over 16 means.
+// Smallest structure of a matched tile, as a multiple of the noise variance of a 2x2 mean. Noise
+// alone gives 13 (16 means minus three degrees of freedom of the plane). The second term is the
+// signal for which superres_weigh.comp gives detail a tenth of its weight. The variance of this
+// signal is 0.44 times the noise variance of a pixel, that is, 4 * 0.44 times that of a 2x2 mean.
+// It is summed over 16 means.
 constexpr double kStructure = 13 + 16 * 4 * 0.44;
 constexpr double kRoundingVariance = 1.0 / 12;  // variance of 8-bit rounding [grey levels^2]
-// How fast the estimate of the grain follows the measured value (fraction of the difference per
-// frame): if the measured value is lower, if it is higher and the picture is at rest, and if it is
-// higher and the picture moves.
+// Fractions of the difference to a measured value by which the grain estimate changes per frame.
+// kGrainFalls applies to lower values; the others to higher values, while the picture is at rest or
+// moves.
 constexpr double kGrainFalls = 0.2, kGrainAtRest = 0.05, kGrainMoving = 1.0 / 256;
-// If more than this share of the tiles is unchanged, the picture counts as at rest. (Some unchanged
-// tiles may be found to have changed.)
+// The picture counts as at rest if more than this share of the tiles is unchanged. Noise may mark
+// some tiles as changed.
 constexpr double kRestingShare = 0.75;
 constexpr double kMaxGrain = 8;
 // Largest grain that is accepted from one frame. Without noise, the divisor is almost 0.
 constexpr double kMostRatio = 64;
-constexpr int kNoiseBins = 64;  // bins of 1/16 grey level
+constexpr int kNoiseBins = 64;  // number of bins of 1/16 grey level
 
 }  // namespace
 
@@ -59,8 +58,8 @@ void WorkPlan::drawnOver(const PixelRect& tiles, Redraw redraw) {
 void WorkPlan::update(const RgbPlanes& now, const RgbPlanes& drawn, bool force) {
     // Thresholds for noise of standard deviation s. The mean of 16 differences in a cell has a
     // standard deviation of 0.35 s. Their mean absolute value is 1.13 s with a standard deviation
-    // of 0.21 s. Both thresholds are higher than that, because noise is stronger in bright regions,
-    // and because the noise of a single colour channel is up to 1.5 times that of luma.
+    // of 0.21 s. Both thresholds are higher, because noise is stronger in bright regions and up to
+    // 1.5 times as strong in one colour channel as in luma.
     const double noise = noise_ * std::sqrt(grain_);
     measureTiles(now, drawn,
                  {static_cast<float>(1.0 + 2.0 * noise), static_cast<float>(1.5 + 4.0 * noise),
@@ -136,7 +135,7 @@ void WorkPlan::followNoise(const TileEnergy& unchanged) {
     noise_ = std::min(0.8 * noise_ + 0.2 * quietestDecile(), kMaxNoise);
     if (unchanged.tiles == 0) return;
     const double now = std::min(unchanged.bends / std::max(unchanged.pixels, 1e-3), kMostRatio);
-    // Moving structure looks like noise. So the estimate rises only slowly unless the picture is at
+    // Moving structure looks like noise. So the estimate rises quickly only if the picture is at
     // rest.
     const bool atRest = unchanged.tiles > kRestingShare * static_cast<double>(measured_.size());
     const double risen = atRest ? kGrainAtRest : kGrainMoving;

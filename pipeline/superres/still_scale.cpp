@@ -7,11 +7,11 @@ namespace mfar {
 namespace {
 
 // Number of pixels of a reduced still per output pixel along each axis. Detail is interpolated
-// between the still's pixels, so that the finest detail would be lost with a value of 1. (Measured
-// on photographs: 1.4 gains 0.2 to 0.9 dB over 1, and 1.8 is no better.)
+// between the still's pixels, so a value of 1 would lose the finest detail. (Measured on
+// photographs: 1.4 gains 0.2 to 0.9 dB over 1, and 1.8 is no better.)
 constexpr double kFiner = 1.4;
-// A still is reduced only if the reduction factor is below this limit. At larger factors there
-// would be hardly any aliasing without reduction, and resampling blurs.
+// A still is reduced only by factors below this. At larger factors, resampling would blur more than
+// it reduces aliasing.
 constexpr double kWorthReducing = 0.9;
 
 }  // namespace

@@ -111,9 +111,9 @@ TEST(GltfFaults, InvalidAccessorRangesAreRefused) {
                 saysAt(place, "elements"));
     EXPECT_THAT(accessor("count", 0), StartsWith("test.glb: "));
     EXPECT_THAT(accessor("componentType", 5130), StartsWith("test.glb: "));
-    EXPECT_THAT(accessor("type", "VEC2"), saysAt(place, "does not have the type"));
+    EXPECT_THAT(accessor("type", "VEC2"), saysAt(place, "must have 3 numbers per element"));
     EXPECT_THAT(faultAfter([](json& r) { r["bufferViews"][0]["byteStride"] = 4; }),
-                saysAt(place, "stride of 4 bytes"));
+                saysAt(place, "byteStride is 4"));
     EXPECT_THAT(
         faultAfter([](json& r) { r["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 12; }),
         saysAt(place, "index 12"));

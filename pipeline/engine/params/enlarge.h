@@ -2,9 +2,9 @@
 
 #include <cstdint>
 
-// Parameters of the learned enlarger (see pipeline/enlarge/filter_layout.h), used by
-// superres_enlarge.comp, superres_vertical.frag, learned.glsl and the SIMD code of the same steps.
-// gles_shaders/params_to_glsl.cmake translates this header for the shaders.
+// Parameters of the learned enlarger (see filter_layout.h) in the shaders superres_enlarge.comp,
+// superres_vertical.frag and learned.glsl and in the SIMD code. params_to_glsl.cmake translates
+// this header to GLSL.
 namespace mfar::params {
 
 inline constexpr int kGrid = 4;  ///< number of sub-pixels of a pixel along each axis
@@ -12,23 +12,25 @@ inline constexpr int kGridShift = 2;
 static_assert(kGrid == 1 << kGridShift);
 inline constexpr int kPairs = 12;  ///< number of pairs of taps in a filter
 
-inline constexpr int kLumaScale = 8;       ///< luma is stored in steps of 1/8 grey level
-inline constexpr int kResidualScale = 32;  ///< residuals are stored in steps of 1/32 grey level
-/// Shaders store colours and luma between passes in steps of 1/64 grey level.
+/// Luma is stored in steps of 1/8 grey level, and residuals in steps of 1/32.
+inline constexpr int kLumaScale = 8;
+inline constexpr int kResidualScale = 32;
+/// Between passes, shaders store colours and luma in steps of 1/64 grey level.
 inline constexpr int kPassScale = 64;
 
-/// Thresholds of GradientClasses: three of the strength [grey levels per px], two of the coherence.
+/// Thresholds of GradientClasses: three for the strength [grey levels per px], two for the
+/// coherence.
 inline constexpr float kWeakFrom = 2.0F;
 inline constexpr float kMediumFrom = 6.0F;
 inline constexpr float kStrongFrom = 16.0F;
 inline constexpr float kPartlyCoherentFrom = 0.25F;
 inline constexpr float kCoherentFrom = 0.5F;
-/// GradientClasses: number of classes per bin of the angle, and number of bins of the angle.
+/// Number of GradientClasses for each angle, and number of angles.
 inline constexpr int kGradientKinds = 12;
 inline constexpr int kGradientAngles = 16;
 
-/// Thresholds of CurvatureClasses [grey levels per px^2]: three of the absolute Laplacian, three of
-/// the difference of the eigenvalues.
+/// Thresholds of CurvatureClasses [grey levels per px^2]: three for the absolute Laplacian, three
+/// for the difference of the eigenvalues.
 inline constexpr float kLowLaplacian = 2.5F;
 inline constexpr float kMediumLaplacian = 8.0F;
 inline constexpr float kHighLaplacian = 24.0F;
@@ -38,18 +40,19 @@ inline constexpr float kHighDifference = 25.0F;
 inline constexpr int kCurvatureKinds = 28;
 inline constexpr int kCurvatureAngles = 8;
 
-/// Tangents of 22.5 and 67.5 degrees. At these values of twice the gradient's angle, two bins meet.
+/// Tangents of 22.5 and 67.5 degrees, the borders between angle bins for twice the gradient's
+/// angle.
 inline constexpr float kLowTangent = 0.414213562F;
 inline constexpr float kHighTangent = kLowTangent + 2.0F;
 
-/// The residual is limited so that its sum with Keys' cubic stays within the range of the
-/// surrounding 5x5 pixels, extended at both ends by this fraction of the range's width.
+/// The sum of Keys' cubic and the residual stays within the range of the surrounding 5x5 pixels,
+/// extended at both ends by this fraction of its width.
 inline constexpr float kOvershoot = 0.25F;
 
 struct alignas(16) EnlargeTiles {
-    std::int32_t videoWidth, videoHeight;  ///< [px]
-    std::int32_t columns, rows;            ///< number of tiles along each axis
-    std::int32_t firstColumn, firstRow;    ///< tile where the dispatch starts
+    std::int32_t videoWidth, videoHeight;
+    std::int32_t columns, rows;
+    std::int32_t firstColumn, firstRow;  ///< tile with which the dispatch begins
 };
 
 }  // namespace mfar::params

@@ -1,7 +1,7 @@
 #pragma once
 
-// Parameters of the comparison of 8x8 patches, used by patch.glsl and by the SIMD code of the same
-// step. gles_shaders/params_to_glsl.cmake translates this header for the shaders.
+// Parameters for comparing 8x8 patches in patch.glsl and in the SIMD code. params_to_glsl.cmake
+// translates this header to GLSL.
 namespace mfar::params {
 
 inline constexpr float kPatchPixels = 64.0F;
@@ -11,8 +11,8 @@ inline constexpr float kPatchNoise = 128.0F;
 /// Added to the diagonal of the Hessian. It limits the Gauss-Newton steps where there is no
 /// gradient.
 inline constexpr float kPatchDamping = 64.0F;
-/// Squared length [px^2] of a Gauss-Newton step below which the refinement ends, and squared
-/// distance [px^2] below which two candidate vectors count as equal.
+/// The refinement ends after a Gauss-Newton step with a smaller squared length than kShortestStep
+/// [px^2]. Two candidates within the squared distance kSameCandidate [px^2] count as equal.
 inline constexpr float kShortestStep = 2.5e-5F;
 inline constexpr float kSameCandidate = 0.25F;
 
