@@ -14,8 +14,8 @@ namespace mfar::simd {
 using CellVector = std::array<float, 4>;
 
 /// Maps points of a frame to the still. A point is first moved by s * motion.move (see
-/// EpipolarLens), then rotated. The result is (nowhere, nowhere) if the point is behind the still
-/// camera, or if the magnitude of its x or y is not below `nowhere`.
+/// EpipolarLens), then rotated. The result is (nowhere, nowhere) for a point behind the still
+/// camera, and for a point whose x or y is beyond +-nowhere.
 struct FlowEnds {
     Lens lens;
     Motion motion;

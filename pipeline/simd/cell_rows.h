@@ -20,7 +20,6 @@ public:
     CellRows(int cells, int width)
         : planar_({cells, Count}), wide_({width, kKept * static_cast<int>(Count)}) {}
 
-    /// Starts with a new field; only pixels [begin, end) are computed.
     void begin(Rows<const Cell> field, const RowTaps& taps, int begin, int end) {
         field_ = field;
         taps_ = &taps;

@@ -7,7 +7,6 @@ namespace mfar::simd {
 
 inline constexpr int kCensusRadius = 2;
 inline constexpr int kCensusBits = 24;
-/// Census of a pixel that the still does not show.
 inline constexpr std::uint32_t kNoCensus = 1U << 31;
 
 /// Computes the 5x5 census of a row: a bit is set if its neighbour is darker than the centre.

@@ -33,7 +33,8 @@ struct SampleRow {
 void prepareSamples(const SampleSource& from, const SampleBounds& bounds, int first, int last,
                     const SampleRow& to);
 
-/// Replaces nearest[i] by the largest of entries i to i + 3, and farthest[i] by the smallest.
+/// Replaces nearest[i] by the largest of nearest[i] to nearest[i + 3], and farthest[i] by the
+/// smallest of farthest[i] to farthest[i + 3].
 void spreadSamples(float* nearest, float* farthest, int count);
 
 /// Four rows that spreadSamples() has processed. rangeOfSamples() writes the largest `nearest` of

@@ -16,8 +16,8 @@ namespace mfar::simd {
 /// two rows of LookUpCells that are already enlarged to the output's width. All numbers are finite.
 struct LookUpRows {
     std::array<const float*, 2> x, y;   ///< LookUpCell::x and y, offset of a position [still px]
-    std::array<const float*, 2> share;  ///< weight of the still's detail, or confidence of its
-                                        ///< match
+    std::array<const float*, 2> share;  ///< weight of the still's detail; in mode Blend, confidence
+                                        ///< of its match
     float t;                            ///< interpolation weight of the second row, [0, 1]
     /// Position of output pixel i before the offset is added: (stepX * i + startX, startY) [still
     /// px].
@@ -62,14 +62,14 @@ struct WarpedRow {
 
 /// Writes the still's detail, which the video cannot show, times its weight LookUpRows::share. Adds
 /// `learned`, the residual of the learned filters, times 1 - weight (0 for weights above 1); null:
-/// no residual. All values are in 1/32 grey level. Adding the whole residual everywhere, and
-/// subtracting the residual of the still, lost 0.3 to 0.7 dB on synthetic scenes, because the
+/// no residual. All values are in 1/32 grey level. Another method lost 0.3 to 0.7 dB on synthetic
+/// scenes: it added the whole residual everywhere and subtracted the residual of the still. The
 /// residual also sharpens the sensors' differences in blur and noise.
 void detailRow(const WarpedRow& warped, const LookUpRows& lookUp, const std::int16_t* learned,
                int begin, int end, std::int16_t* to);
 
-/// Fades from the first still's detail (`inOut`) to the second still's detail. The second still
-/// counts the more, the more its weight exceeds the first still's; see params::kSecondFrom.
+/// Fades from the first still's detail (`inOut`) to the second still's detail. The share of the
+/// second still grows with the difference of both weights; see params::kSecondFrom.
 void fadeRow(const std::int16_t* second, const LookUpRows& secondLookUp, const LookUpRows& lookUp,
              int begin, int end, std::int16_t* inOut);
 

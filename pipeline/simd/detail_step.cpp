@@ -7,7 +7,7 @@
 namespace mfar::simd {
 namespace {
 
-constexpr int kGrain = 32;  // output rows that a thread draws at a time
+constexpr int kGrain = 32;
 // Whole frames are drawn in strips of about this width [px], so that intermediate rows stay in the
 // first-level cache. Widths are multiples of kStripStep.
 constexpr int kStripWidth = 576;

@@ -24,7 +24,7 @@ namespace mfar::simd {
 struct DetailOptions {
     SuperResMode mode;
     bool cubic;
-    bool upscaledTiles, plainTiles;  ///< true: skip work in these tiles, see SkipOptions
+    bool upscaledTiles, plainTiles;
     /// Learned filters that enlarge the matched tiles in mode Detail. Where the still's detail has
     /// a weight, their contribution is multiplied by one minus this weight. Null: no learned
     /// filters, and tiles are sharpened instead.
@@ -79,7 +79,7 @@ private:
     struct Scratch {
         Scratch(const DetailStep& step);
         VideoRows video;
-        LookUpRowCache lookUps;  // for mode Blend
+        LookUpRowCache lookUps;
         WarpedStill warped, second;
         LearnedRows learned;
         WarpedRow detail{}, secondDetail{};

@@ -21,7 +21,6 @@ namespace mfar::simd {
 /// superres_fine.comp and superres_confirm.comp. Allocates memory only in the constructor.
 class FineCheck {
 public:
-    /// `stillRig`: see StillPreparation::rig().
     FineCheck(const StereoRig& stillRig, std::shared_ptr<Workers> workers);
 
     /// Returns the share of its weight that each cell keeps, [0, 1], valid until the next run.
@@ -53,7 +52,7 @@ private:
     Size video_, cells_, sampled_;  // sampled_: like cells_, but only every kFineStep-th row
     std::shared_ptr<Workers> workers_;
     LookUpTaps taps_;
-    CellPlane ofVideo_, ofBoth_, ofStill_;  // FineSums of every kFineStep-th cell row
+    CellPlane ofVideo_, ofBoth_, ofStill_;
     AlignedRows<float> shares_;
     ScratchSlots<Scratch> scratch_;
 };

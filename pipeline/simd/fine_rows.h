@@ -8,7 +8,7 @@
 
 namespace mfar::simd {
 
-// Rows of cells are processed in vectors of up to 16 cells of 4x4 video pixels.
+// These functions process rows of cells (4x4 video pixels) in vectors of up to 16 cells.
 
 /// Variances and covariance of the finest detail of video and still, for each cell [grey levels^2].
 /// The finest detail is the difference of a pixel from the mean of its 2x2 block.

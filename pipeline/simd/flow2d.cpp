@@ -37,7 +37,6 @@ void shareRows(Workers& workers, int rows, const Row& row) {
     });
 }
 
-/// Calls run(first, end, key) for the longest runs of columns whose tiles have the same key.
 template <class Key, class Run>
 void forTileRuns(int columns, int cellsPerTile, const Key& keyOf, const Run& run) {
     for (int first = 0; first < columns;) {
@@ -95,9 +94,9 @@ void Flow2d::chooseTiles(const TileWork& work, bool keepsUnchanged, int margin) 
     widen(fine_, 1, between_, next_);
 }
 
-// Marks the tiles in which the backward field is needed. Confirmation interpolates between the
-// backward cells around the end of a forward vector. Clean-up and propagation read three more cells
-// on each side.
+// Marks the tiles in which the backward field is needed. The two-way error is interpolated between
+// the backward cells around the end of a forward vector. Clean-up and propagation read three more
+// cells on each side.
 void Flow2d::chooseBackward() {
     std::ranges::fill(ends_.flags, std::uint8_t{0});
     for (int y = 0; y < videoCells_.height; ++y)

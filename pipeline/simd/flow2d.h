@@ -19,8 +19,8 @@ namespace mfar::simd {
 /// engine's Flow2d, with the same pyramids.
 ///
 /// Work whose result is not read is skipped. At the two finest pyramid levels, unmatched tiles are
-/// searched only where neighbouring tiles use their vectors. So are unchanged tiles, if only
-/// changed tiles are drawn. Cells of the still are searched only where forward vectors end.
+/// searched only where neighbouring tiles use their vectors. The same applies to unchanged tiles,
+/// if only changed tiles are drawn. Cells of the still are searched only where forward vectors end.
 class Flow2d {
 public:
     /// Throws std::invalid_argument if an option is out of range.
@@ -112,7 +112,8 @@ private:
     bool wantsAll_ = false;
     TileMask wanted_;             // tiles whose results are read
     TileMask fine_, next_;        // tiles searched at the finest pyramid level, and at the next one
-    TileMask ends_, endsAround_;  // tiles where wanted forward vectors end; the same with a margin
+    TileMask ends_, endsAround_;  // tiles where forward vectors of wanted_ end; these tiles with a
+                                  // margin
     TileMask between_;
     TileSearch searched_;
 };

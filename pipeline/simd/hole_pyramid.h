@@ -23,7 +23,6 @@ public:
 
     HolePyramid(Size layer, std::shared_ptr<Workers> workers);
 
-    /// A layer as written by ViewLookUp.
     struct Layer {
         Rows<std::uint32_t> colour;  ///< fill() overwrites the holes
         Rows<const std::uint32_t> state;

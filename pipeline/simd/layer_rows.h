@@ -7,7 +7,6 @@ namespace mfar::simd {
 /// Number of entries that vectors may read after a part of a layer's row.
 inline constexpr int kLayerSpare = 64;
 
-/// Columns of a layer's row between which output pixels lie.
 struct LayerColumns {
     const std::int32_t *left, *right;  ///< the layer's columns on either side of each output pixel,
                                        ///< ascending

@@ -9,7 +9,7 @@ namespace {
 
 using enlarge::kGrid;
 
-constexpr int kReach = 3;  // neighbours on each side that a pixel's class and residual depend on
+constexpr int kReach = 3;
 
 }  // namespace
 

@@ -51,13 +51,13 @@ private:
                                       // columns they need
     PixelSpans covered_;
     PixelSpans made_;
-    std::array<int, 2> kept_{};  // rows of the picture whose residual is stored
+    std::array<int, 2> kept_{};
     std::array<int, kKept> loaded_{};
     AlignedRows<std::int16_t> luma_;
     AlignedRows<float> sums_, mixed_;
     AlignedRows<std::uint16_t> classes_;
     AlignedRows<std::int16_t> range_;
-    AlignedRows<std::int16_t> grid_;  // residual of two rows of pixels: eight rows of the grid
+    AlignedRows<std::int16_t> grid_;
     AlignedRows<std::int16_t> wide_;
 };
 

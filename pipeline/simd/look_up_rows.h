@@ -18,8 +18,8 @@ struct LookUpTaps {
     float stepX, stepY;  ///< still pixels per output pixel
 };
 
-/// Positions at which output rows read the still, and weights of the still. Each thread has its own
-/// object.
+/// Enlarges look-up positions in the still, and weights of the still, to rows of the output. Each
+/// thread has its own object.
 class LookUpRowCache {
 public:
     LookUpRowCache(Size cells, int outputWidth) : cells_(cells.width, outputWidth) {}

@@ -47,7 +47,7 @@ private:
     std::shared_ptr<Workers> workers_;
     std::vector<LumaLevel> video_, still_;
     std::vector<std::uint32_t> words_;
-    std::optional<StillLens> lens_;  // lens for which stillX_ and stillY_ were computed
+    std::optional<StillLens> lens_;
     AlignedRows<float> stillX_, stillY_;
 };
 

@@ -48,7 +48,7 @@ private:
     std::vector<std::int32_t> tables_, tableOf_;
     std::vector<float> shareOf_, alphaOf_;
     bool moves_ = false;
-    Eigen::Vector3d eye_;  // eye for which light_ was computed
+    Eigen::Vector3d eye_;
     std::vector<std::uint32_t> packed_;
     std::vector<GlossWords> gloss_;
     std::vector<MirrorParts> parts_;

@@ -27,7 +27,6 @@ Values linearOf(const SurfaceTexture& texture, std::size_t texel) {
     return out;
 }
 
-/// Looks up a texture as texture_lookup.h does.
 Values lookedUp(const SurfaceTexture& texture, float u, float v) {
     const auto pair = [](float share, int side, int& first, int& second) {
         const float at = share * static_cast<float>(side) - 0.5F, low = std::floor(at);

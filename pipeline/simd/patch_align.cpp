@@ -18,8 +18,9 @@ constexpr float kSteepest = params::kSteepestFlow;
 // four pixels at the steepest flow.
 constexpr int kHalf = 4;
 constexpr float kGentle = 1.0F / 10;
-// A patch does not bend if the flow changes by less than this per pixel. Bending would move its
-// corners by a hundredth of a pixel, less than the uncertainty of the flow's slope.
+// All pixels of a patch share one flow vector if the flow changes by less than this per pixel. A
+// changing vector would move the patch's corners by a hundredth of a pixel, less than the
+// uncertainty of the flow's slope.
 constexpr float kFlat = 1.0F / 256;
 // Number of bits of interpolation weights. They are stored in 16 bits, which leaves room for the
 // weights' change along the row.
@@ -68,7 +69,7 @@ HWY_INLINE Bend bendAt(const AlignStep& step, int column, int row, Vector2 here)
 template <int kParts>
 struct BentPlaces {
     static constexpr int kCount = kPatch * kParts;
-    std::int32_t upper[kCount], lower[kCount];  // byte offsets of a part's first pixel
+    std::int32_t upper[kCount], lower[kCount];
     // Weights of the next column and of the lower row, each stored twice in 32 bits.
     std::int32_t shareX[kCount], shareY[kCount];
 };
@@ -156,7 +157,7 @@ HWY_INLINE Vec16 loadShares(const std::int32_t* shares, int c) {
     const hn::FixedTag<std::int32_t, 2> dTwo;
     const hn::FixedTag<std::int32_t, 4> dFour;
     const auto two = hn::LoadU(dTwo, shares);
-    const auto four = hn::Combine(dFour, two, two);  // order: left, right, left, right
+    const auto four = hn::Combine(dFour, two, two);
     return hn::BitCast(d16, hn::InterleaveLower(dFour, four, four));
 #endif
 }

@@ -37,20 +37,19 @@ HWY_INLINE Vec squaredLength(const Lanes2& v) {
     return hn::MulAdd(v.x, v.x, hn::Mul(v.y, v.y));
 }
 
-/// Cells, their patches, and the best vector found so far for each cell.
 struct Batch {
     int count = 0;
     int column[kBatch], row[kBatch];
     Patch patch[kBatch];
     Each mean, variance;  // of the patch's pixels; variance: sum of (pixel - mean)^2
     Each2 sumG, sumAG;    // sums of the gradients, and of (pixel - mean) times gradient
-    Each inverseXx, inverseXy, inverseYy;  // inverse of the Hessian
+    Each inverseXx, inverseXy, inverseYy;
 
     Each2 best;
     Each cost;
     Each2 descent;  // right-hand side of the Gauss-Newton step
 
-    Each2 trial;  // vector to compare next
+    Each2 trial;
     Each active;  // 1: `trial` is to be compared; after the comparison, 1: it was better than
                   // `best`
 

@@ -11,7 +11,7 @@ namespace mfar::simd {
 /// One pyramid level as the flow kernels read it. Bytes of a row's border are repeated 8 times to
 /// the left and at least 8 times to the right.
 struct PatchPicture {
-    const std::uint8_t* pixels = nullptr;  ///< address of pixel (0, 0)
+    const std::uint8_t* pixels = nullptr;
     std::ptrdiff_t pitch = 0;
     int width = 0, height = 0;
 };
@@ -21,7 +21,7 @@ struct PatchPicture {
 struct FlowPlanes {
     /// Addresses of cell (0, 0) in each plane.
     float *x = nullptr, *y = nullptr, *cost = nullptr, *texture = nullptr;
-    std::ptrdiff_t pitch = 0;  ///< elements per row
+    std::ptrdiff_t pitch = 0;
     int columns = 0, rows = 0;
 };
 inline constexpr int kFieldMargin = 16;
@@ -40,9 +40,9 @@ struct SearchStep {
     PatchPicture from, to;  ///< patches of `from` are searched in `to`
     FlowPlanes out;
     FlowPlanes
-        coarser;       ///< next coarser level, whose vectors are candidates; 0 rows: there is none
-    PriorField prior;  ///< if x is null, there is no prior field
-    int radius = 0;    ///< radius of whole-pixel candidates at the coarsest level, <= 40
+        coarser;  ///< next coarser level, whose vectors are candidates; 0 rows: there is none
+    PriorField prior;
+    int radius = 0;  ///< radius of whole-pixel candidates at the coarsest level, <= 40
     int candidates = 0;
     int steps = 0;
 };
@@ -55,7 +55,7 @@ void searchCells(const SearchStep& step, int row, int first, int end);
 struct ListedStep {
     SearchStep search;
     float* errors = nullptr;
-    std::ptrdiff_t errorPitch = 0;  ///< floats from one row to the next
+    std::ptrdiff_t errorPitch = 0;
 };
 /// Searches a group of 4x4 cells, or the part of it that lies in the field.
 void searchListedGroup(const ListedStep& step, int groupX, int groupY);
@@ -68,8 +68,8 @@ struct PropagateStep {
 };
 void propagateCells(const PropagateStep& step, int row, int first, int end);
 
-/// Parameters of flow_align.comp: Gauss-Newton steps from the flow vectors `seed`. Patches are bent
-/// as the flow changes over them.
+/// Parameters of flow_align.comp: Gauss-Newton steps from the flow vectors `seed`. Within a patch,
+/// the vector changes as the flow does around the cell.
 struct AlignStep {
     PatchPicture from, to;
     FlowPlanes out;

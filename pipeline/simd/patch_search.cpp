@@ -60,7 +60,6 @@ HWY_INLINE Vector2 vectorOf(const FlowPlanes& field, int column, int row) {
     return {field.x[at], field.y[at]};
 }
 
-/// The sums of CompareSums, and the costs, for a row of displacements by whole pixels.
 struct WholeSums {
     alignas(64) float b[kSideRoom], bb[kSideRoom], ab[kSideRoom], cost[kSideRoom];
 };
@@ -210,7 +209,7 @@ void SearchCells(const SearchStep& step, int row, int first, int end) {
 
 void SearchListedGroup(const ListedStep& step, int groupX, int groupY) {
     using params::kClearlyLess, params::kErrorPerCost, params::kGoodCost, params::kOnLine;
-    constexpr int kSide = 4;  // side of a group [cells]
+    constexpr int kSide = 4;
     static_assert(kSide * kSide == kBatch);
     const FlowPlanes& out = step.search.out;
     SearchRoom room;

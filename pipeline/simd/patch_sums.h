@@ -6,9 +6,10 @@
 namespace mfar::simd {
 
 /// A level of a luma pyramid, from which patches are read. Each row is extended by 8 copies of its
-/// border pixel on the left and on the right. 8 more bytes must be readable, with any values.
+/// border pixel on the left and on the right. After the copies on the right, 8 more bytes must be
+/// readable, with any values.
 struct PatchLevel {
-    const std::uint8_t* origin;  ///< address of pixel (0, 0)
+    const std::uint8_t* origin;
     std::ptrdiff_t pitch;
     int width, height;
 };

@@ -56,7 +56,6 @@ HWY_INLINE void storeApart(VBlocks<Blocks> v, std::uint8_t* to, std::ptrdiff_t a
     }
 }
 
-/// Advances path costs from pixel to pixel; keeps the constants for this in registers.
 template <int Blocks>
 class Stepper {
 public:

@@ -8,7 +8,7 @@
 
 namespace mfar::simd {
 
-inline constexpr int kLabels = 16;  ///< number of labels in a vector
+inline constexpr int kLabels = 16;
 
 /// The cheapest label of a pixel, and the additional costs of the neighbouring labels.
 struct Valley {
@@ -24,7 +24,7 @@ struct Valley {
 /// Each pixel has a window of `vectors` vectors of labels; rows have no gaps. Costs and penalties
 /// must be so small that path costs stay below 85.
 struct PathVolume {
-    const std::uint8_t* guide;  ///< picture whose edges make jumps cheaper
+    const std::uint8_t* guide;  ///< picture whose edges make large label differences cheaper
     const std::int16_t* base;   ///< first label of each pixel
     Size size;
     int vectors;

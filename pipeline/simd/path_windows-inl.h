@@ -64,7 +64,6 @@ HWY_INLINE void addLabels(const std::uint8_t* path, int labels, std::uint8_t* su
         hn::StoreU(hn::Add(hn::LoadU(d, sums + k), hn::LoadU(d, path + k)), d, sums + k);
 }
 
-/// Advances path costs from pixel `from` to pixel `to`, which are adjacent or the same.
 HWY_INLINE void windowMove(const PathVolume& v, std::ptrdiff_t from, std::ptrdiff_t to,
                            const std::uint8_t* last, std::uint8_t* now) {
     const int labels = kLabels * v.vectors;

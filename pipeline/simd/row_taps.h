@@ -55,7 +55,7 @@ private:
 
     AlignedRows<std::int32_t> first_;
     AlignedRows<float> weights_;
-    std::vector<ColumnTaps> columns_;  // empty if there are more than four taps
+    std::vector<ColumnTaps> columns_;
 };
 
 }  // namespace mfar::simd

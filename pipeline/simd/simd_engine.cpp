@@ -147,8 +147,6 @@ private:
         std::uint64_t number = 0;
         AlignedRows<std::uint16_t> pairs{};
     };
-    /// Returns the pairs that belong to `still`. A pipeline has two still steps, each with one
-    /// StillPictures.
     Made& madeOf(const StillPictures& still) {
         const auto at = std::ranges::find(made_, &still, &Made::still);
         return at != made_.end() ? *at : made_.emplace_back(Made{&still});

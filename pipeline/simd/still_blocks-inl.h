@@ -19,7 +19,6 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Loads blocks of 2x2 pixels of a still's luma, one per lane.
 class StillBlocks {
     using I = hn::ScalableTag<std::int32_t>;
     using U = hn::ScalableTag<std::uint32_t>;

@@ -29,7 +29,6 @@ void raisedRow(const std::array<const std::uint8_t*, 3>& luma, std::int16_t neig
 void pairRows(const std::uint8_t* upper, const std::uint8_t* lower, std::size_t pixels,
               std::uint16_t* pairs);
 
-/// Packs three rows of channels into one row of opaque RGBA8.
 void packRow(const std::array<const std::uint8_t*, 3>& rgb, std::size_t pixels,
              std::uint32_t* rgba);
 

@@ -12,7 +12,7 @@ namespace mfar::simd {
 struct LensParams : params::Lens {
     explicit LensParams(const CameraModel& camera);
     float width, height;
-    bool distorts;  ///< true if any distortion coefficient is not zero
+    bool distorts;
 };
 
 struct LookUpParams {
@@ -27,7 +27,7 @@ struct LookUpParams {
 struct BackwardCells {
     const ErrorCell* errors = nullptr;
     const FlowCell* field = nullptr;
-    std::ptrdiff_t pitch = 0;  ///< cells from one row of `field` to the next
+    std::ptrdiff_t pitch = 0;
     int columns = 0, rows = 0;
     float scale = 1;  ///< video pixels per pixel of the pyramid level that `field` belongs to
 };

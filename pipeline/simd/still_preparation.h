@@ -33,7 +33,6 @@ public:
     /// The rig whose still camera has the size of pairs(): the same lens with the same or fewer
     /// pixels.
     [[nodiscard]] const StereoRig& rig() const { return rig_; }
-    /// Rec. 601 luma of the whole still.
     [[nodiscard]] Rows<const std::uint8_t> luma() const { return luma_.rows(); }
     /// Luma at the size of rig().still. If it was not reduced, its finest detail is raised to
     /// compensate for the loss in a linear look-up.
@@ -43,7 +42,6 @@ public:
     [[nodiscard]] Rows<const std::uint32_t> picture();
 
 private:
-    /// Rows of luma whose border pixels are repeated on both sides.
     class Luma {
     public:
         explicit Luma(Size size) : rows_({size.width + 2 * kMargin, size.height}), size_(size) {}

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kBatch = 1024;
 constexpr int kCornersAtATime = 2048;
-constexpr int kLeastBand = 16;  // smallest height of a band [rows]
+constexpr int kLeastBand = 16;
 constexpr int kBandsPerThread = 4;
 // Triangles with corners farther outside the grid than this [px] are clipped. For the others,
 // single precision is exact to a hundredth of a pixel.
@@ -200,7 +200,6 @@ void SurfaceRaster::addSeen(Batch& batch, std::size_t triangle) {
     if (addTriangle(batch, c, index)) setPaint(*batch.placed, c, index);
 }
 
-/// Returns false if the triangle is outside the grid or faces away.
 bool SurfaceRaster::addTriangle(Batch& batch, const RasterCorner (&c)[3],
                                 std::uint32_t index) const {
     const auto [left, right] = std::minmax({c[0].x, c[1].x, c[2].x});

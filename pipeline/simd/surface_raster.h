@@ -87,7 +87,7 @@ private:
     PixelRect grid_;
     AlignedRows<std::uint32_t> words_, indices_;
     PaintTextures paint_;
-    std::vector<PaintTriangle> paintTriangles_;  // one entry for each triangle of all objects
+    std::vector<PaintTriangle> paintTriangles_;
 };
 
 [[nodiscard]] PointLens pointLensOf(const LensProjection& lens);

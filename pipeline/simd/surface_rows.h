@@ -32,7 +32,6 @@ struct CornerRows {
 void projectCorners(const MeshRows& mesh, int count, const PointTransform& view,
                     const PointLens& lens, const CornerRows& out);
 
-/// A corner in front of the camera, on the grid.
 struct RasterCorner {
     float x, y;
     float perZ;
@@ -61,7 +60,7 @@ struct RasterTriangle {
 
 /// Texture of a surface that has transparent parts.
 struct RasterMask {
-    const std::uint8_t* rgba;  ///< four bytes per texel
+    const std::uint8_t* rgba;
     Size size;
     float cutoff;  ///< texels with smaller alpha are transparent, [0, 1]
 };

@@ -12,9 +12,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr float kMeanToDeviation = 1.2533F;  // standard deviation / mean absolute value of a
                                              // Gaussian
-// Threshold above which a tile has certainly changed; a share of 1e-8 of unchanged tiles exceeds
-// it. It holds for the sum of three squares, each divided by its variance: of the mean and of both
-// slopes of the tile's difference.
+// A tile has certainly changed if the sum of three squares exceeds this threshold. They are the
+// squares of the mean and of both slopes of the tile's difference, each divided by its variance. A
+// share of 1e-8 of unchanged tiles exceeds it.
 constexpr float kSurelyChanged = 40;
 // Threshold for the squared mean of a cell's difference, divided by its variance.
 constexpr float kCellSurelyChanged = 30;
@@ -44,7 +44,6 @@ HWY_INLINE void Columns(const float* row, V* out) {
 #endif
 }
 
-/// The 8x8 values of each tile, one for each block of 2x2 pixels.
 using Grid = V[kSide][kSide];
 
 /// Fits a plane to 4x4 values of each tile. Returns the sum of the squared remainders.

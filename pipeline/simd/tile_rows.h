@@ -15,7 +15,7 @@ inline constexpr int kTileGroup = 16;  ///< number of tiles measured at a time
 struct TilePixels {
     using Channels = std::array<std::array<const std::uint8_t*, kTileSize>, 3>;
     Channels now, drawn;
-    int tiles;  ///< up to kTileGroup
+    int tiles;
 };
 
 /// Measures each tile. The result is bit-identical on every CPU.

@@ -12,7 +12,7 @@ struct VideoTaps {
     VideoTaps(Size video, Size output);
 
     RowTaps cubicRows, cubicColumns, linearRows, linearColumns;
-    RowTaps trustRows, trustColumns;  ///< resample cells to the video's size
+    RowTaps trustRows, trustColumns;
 };
 
 /// Rows of the video, sharpened, at the output's width. They are computed on request; the last four

@@ -68,11 +68,9 @@ public:
     void run(const Input& input, const RigidTransform& T_world_camera, const PixelRect& where);
     void clear(const PixelRect& where);
 
-    /// The holes of the last run, ascending.
     [[nodiscard]] std::vector<Hole>& holes() { return holes_; }
     [[nodiscard]] Rows<std::uint32_t> colour() { return colour_.rows(); }  ///< RGBA8 premultiplied
     [[nodiscard]] Rows<const float> depth() const { return depth_.rows(); }
-    /// See WarpStep::state().
     [[nodiscard]] Rows<const std::uint32_t> state() const { return state_.rows(); }
 
 private:

@@ -23,7 +23,6 @@ using VU = hn::Vec<DU>;
 using VI = hn::Vec<DI>;
 using M = hn::Mask<D>;
 
-/// Four adjacent words: two of an upper row, two of a lower row.
 struct Four {
     VU a, b, c, d;
 };
@@ -116,7 +115,6 @@ struct PaintOf {
     VU diffuse, facing;
 };
 
-/// Returns one channel of the surface's colour (paint times light) as a display byte.
 template <int kShift>
 HWY_INLINE VU LitChannel(const PaintOf& paint, V diffuse, V specular, V veil) {
     const D d;

@@ -39,7 +39,7 @@ bool decideRow(const DecideRow& row, const VisibilityParams& params);
 inline constexpr int kSampleMargin = 2;
 struct SampleWindow {
     std::array<SampleRow, 4> rows;
-    std::array<float, 4> weights;  ///< weights of the rows, by their distance from the output row
+    std::array<float, 4> weights;
 };
 
 struct OpenRow {

@@ -68,8 +68,8 @@ private:
     // Columns that are computed for covered_: of the still at the video's resolution (means_), and
     // of the warped still (warped_).
     PixelSpans means_, warped_;
-    PixelSpans compared_;          // means_; with guidance, also kGuideReach columns on each side
-    std::vector<int> warpedRows_;  // output row stored in each row of luma_
+    PixelSpans compared_;  // means_; with guidance, also kGuideReach columns on each side
+    std::vector<int> warpedRows_;
     std::array<int, 4> lowRows_{};
     std::vector<const std::int16_t*> weighed_;
     std::vector<float> weights_;
@@ -83,9 +83,9 @@ private:
     const RgbPlanes* guide_ = nullptr;
     Guidance guidance_;
     Rows<const LookUpCell> field_{};
-    int slots_ = 0;  // number of rows of luma_ in use
+    int slots_ = 0;
     std::array<int, GuideRows::kRows> comparedRows_;
-    AlignedRows<std::int16_t> videoLuma_;  // a row of the video [1/8 grey level]
+    AlignedRows<std::int16_t> videoLuma_;
     // Rows of the video in comparedRows_, with a margin. seen_: the warped still at the video's
     // resolution [1/32 grey level]. For the others, see GuideRows.
     AlignedRows<float> seen_, differences_, trusted_;
