@@ -3,7 +3,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/cell_flow_rows.cpp"
 #include <hwy/foreach_target.h>
-// The next header is included once per instruction set, as this file is.
+// Must come after foreach_target.h: compiled once per instruction set.
 #include "pipeline/simd/depth_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -22,7 +22,6 @@ void CellDepths(const float* upper, const float* lower, std::size_t count, float
     });
 }
 
-/// Returns where the still shows the points with inverse depth s on the rays (rx, ry).
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Points<V> endOf(D d, const FlowEnds& ends, V rx, V ry, V s) {
     const auto& move = ends.motion.move;
@@ -40,8 +39,8 @@ HWY_INLINE Points<V> endOf(D d, const FlowEnds& ends, V rx, V ry, V s) {
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Points<V> loadVectors(D d, const CellVector* from) {
-    // Separate variables instead of a Points, because the default constructor of Points would not
-    // be compiled for this instruction set.
+    // Points is not used here, because its default constructor would not be compiled for this
+    // instruction set.
     V x, y, c, e;
     hn::LoadInterleaved4(d, from->data(), x, y, c, e);
     return {x, y};
@@ -61,8 +60,6 @@ void CellFlow(const FlowEnds& ends, const CellRow& row, const float* s, CellVect
     });
 }
 
-/// Stores the index of the cell nearest to each point; -1 if the point's bit in `valid` is not set
-/// or the point is outside the field.
 template <class D>
 HWY_INLINE void storeCells(D d, const Points<hn::Vec<D>>& p, hn::Mask<D> valid, Size cells,
                            std::int32_t* to) {
@@ -116,7 +113,7 @@ void AlignCells(const FlowEnds& ends, const CellRow& row, const CellVector* flow
         const auto moved = hn::MulAdd(ahead, hn::Div(along, square), at);
         hn::StoreU(hn::IfThenElse(tells, moved, at), d, to);
     };
-    // `s` is changed in place, so the last vector must not overlap the one before.
+    // `s` is changed in place, so the last vector must not overlap the previous one.
     const hn::ScalableTag<float> d;
     std::size_t i = 0;
     for (; i + hn::Lanes(d) <= row.count; i += hn::Lanes(d))

@@ -8,13 +8,13 @@
 
 namespace mfar::simd {
 
-/// Returns the size with its width rounded up to whole vectors of the kernels.
+/// Rounds the width up to a multiple of the kernels' longest vector (16 cells).
 [[nodiscard]] inline Size wholeVectors(Size cells) {
-    constexpr int kLongest = 16;  // cells in the longest vector
+    constexpr int kLongest = 16;
     return {(cells.width + kLongest - 1) / kLongest * kLongest, cells.height};
 }
 
-/// One value per cell. Margins on both sides of a row repeat its border.
+/// One value per cell. Each row has margins for copies of its border, see repeatBorder().
 class CellPlane {
 public:
     explicit CellPlane(Size cells)
@@ -26,20 +26,19 @@ public:
         row[-1] = row[0];
         row[cells_.width] = row[cells_.width - 1];
     }
-    /// Returns row y and its neighbours; beyond the plane's border, row y is repeated.
     [[nodiscard]] RowsAround around(int y) {
         return {(*this)[std::max(y - 1, 0)], (*this)[y],
                 (*this)[std::min(y + 1, cells_.height - 1)]};
     }
 
 private:
-    static constexpr int kMargin = 16;  // [cells]; as long as a cache line
+    static constexpr int kMargin = 16;
     Size cells_;
     AlignedRows<float> rows_;
 };
 
-/// Calls body(matched, first, last) for the longest runs of cells whose tiles are all matched, or
-/// all unmatched.
+/// Splits a row of cells into the longest runs whose tiles are all matched or all unmatched. Calls
+/// body(matched, first, last) for each run.
 template <class Body>
 void forRuns(const TileWork& work, int tileRow, int cellsPerTile, int cells, const Body& body) {
     for (int tile = 0; tile < work.tiles.width;) {

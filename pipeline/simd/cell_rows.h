@@ -8,9 +8,9 @@
 
 namespace mfar::simd {
 
-/// Rows of a field of cells, enlarged to the width of a picture. Values are interpolated linearly
-/// between the centres of cells, and constant beyond the outermost centres. Keeps four adjacent
-/// rows. Count: number of channels of a cell, chosen by the caller.
+/// Enlarges rows of a field of cells to the width of a picture. Values are interpolated linearly
+/// between the cells' centres, and are constant beyond the outermost centres. The last four rows
+/// are kept. Count: number of channels per cell.
 template <class Cell, std::size_t Count>
 class CellRows {
 public:
@@ -20,7 +20,6 @@ public:
     CellRows(int cells, int width)
         : planar_({cells, Count}), wide_({width, kKept * static_cast<int>(Count)}) {}
 
-    /// Starts with a new field; only pixels [begin, end) are computed.
     void begin(Rows<const Cell> field, const RowTaps& taps, int begin, int end) {
         field_ = field;
         taps_ = &taps;
@@ -28,7 +27,7 @@ public:
         end_ = end;
         rows_.fill(-1);
     }
-    /// Returns a row of the field, enlarged. `channelsOf` converts a cell to finite numbers.
+    /// Returns row y of the field, enlarged. `channelsOf` converts a cell to finite numbers.
     template <class ChannelsOf>
     [[nodiscard]] Wide row(int y, const ChannelsOf& channelsOf) {
         const int slot = y % kKept, first = slot * static_cast<int>(Count);
@@ -63,7 +62,6 @@ private:
     AlignedRows<float> planar_, wide_;
 };
 
-/// Two rows and the position between them, read from a linear resampling table.
 struct BetweenRows {
     BetweenRows(const RowTaps& taps, int y)
         : rows{taps.first(y), taps.first(y) + (taps.taps() > 1 ? 1 : 0)},
@@ -73,7 +71,6 @@ struct BetweenRows {
     float t;
 };
 
-/// Returns the value, or 0 if it is NaN or out of bounds.
 [[nodiscard]] inline float boundedOr0(float value, float least, float most) {
     return value >= least && value <= most ? value : 0;
 }

@@ -2,7 +2,6 @@
 
 #include "pipeline/engine/params/weigh.h"
 
-// Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/cell_weights.cpp"
 #include <hwy/foreach_target.h>
@@ -37,14 +36,13 @@ HWY_INLINE V Vertical(const RowsAround& rows, int x) {
     return hn::MulAdd(Const(2), hn::LoadU(d, rows.here + x), sides);
 }
 
-/// Mean of 3x3 cells with weights 1 2 1 in each direction.
 HWY_INLINE V Smoothed(const RowsAround& rows, int x) {
     const V sides = hn::Add(Vertical(rows, x - 1), Vertical(rows, x + 1));
     return hn::Mul(hn::MulAdd(Const(2), Vertical(rows, x), sides), Const(1.0F / 16));
 }
 
-/// Squared change of one component of the flow across the cell: sum of the squared horizontal and
-/// vertical differences between the cell's two neighbours, which are 8 px apart.
+/// Returns the squared change of one component of the flow across the cell. The change is measured
+/// horizontally and vertically, between neighbours that are 8 px apart.
 HWY_INLINE V Bend(const RowsAround& flow, int x) {
     const D d;
     const V dx = hn::Sub(hn::LoadU(d, flow.here + x + 1), hn::LoadU(d, flow.here + x - 1));
@@ -52,7 +50,7 @@ HWY_INLINE V Bend(const RowsAround& flow, int x) {
     return hn::MulAdd(dx, dx, hn::Mul(dy, dy));
 }
 
-/// Squared second difference of one component of the flow at the cell.
+/// Returns the squared second difference of one component of the flow at the cell.
 HWY_INLINE V Tear(const RowsAround& flow, int x) {
     const D d;
     const V here = hn::Add(hn::LoadU(d, flow.here + x), hn::LoadU(d, flow.here + x));
@@ -64,7 +62,6 @@ HWY_INLINE V Tear(const RowsAround& flow, int x) {
     return hn::MulAdd(dx, dx, hn::Mul(dy, dy));
 }
 
-/// Means over the 2x2 half-resolution cells nearest to each of the chunk's cells.
 HWY_INLINE void HalfAround(const WeighRow::Half& rows, int chunk, LowRow& out) {
     const hn::CappedTag<float, kChunk / 2> d;
     for (int i = 0; i < kChunk / 2; i += static_cast<int>(hn::Lanes(d))) {

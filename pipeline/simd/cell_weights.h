@@ -7,19 +7,20 @@
 namespace mfar::simd {
 
 /// A row of cells and the rows above and below. Each row repeats its border by one cell on both
-/// sides, and its memory extends to a multiple of 16 cells.
+/// sides. Its memory extends to a multiple of 16 cells.
 struct RowsAround {
     const float *above, *here, *below;
 };
 
-/// Input for the weights of a row of cells. Covariance and variances are those of PatchSums.
+/// Input and results of weighCells() for a row. Flow is in video px. Covariance and variances are
+/// those of PatchSums.
 struct WeighRow {
     int count;
-    RowsAround flowX, flowY;  ///< [video px]
+    RowsAround flowX, flowY;
     RowsAround covariance, varianceVideo, varianceStill;
     const float *confidence, *lookX, *lookY;
-    /// Two rows of the field at half resolution: `near` contains the cells, `other` is the one of
-    /// its neighbours that is closer to the cells.
+    /// Two rows of the field at half resolution. `near` contains the cells; `other` is the
+    /// neighbouring row that is closer to them.
     struct Half {
         const float *near, *other;
     };
@@ -30,8 +31,8 @@ struct WeighRow {
     TrustCell* trust;
 };
 
-/// Computes how far the still is trusted at each cell (superres_weigh.comp). `noise`: standard
-/// deviation of the video's noise [grey levels].
+/// Computes the weight of the still's detail at each cell, as superres_weigh.comp does. `noise`:
+/// standard deviation of the video's noise [grey levels].
 void weighCells(const WeighRow& row, float noise);
 
 }  // namespace mfar::simd

@@ -3,7 +3,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/census_rows.cpp"
 #include <hwy/foreach_target.h>
-// The next header is included once per instruction set, as this file is.
+// Must come after foreach_target.h: compiled once per instruction set.
 #include "pipeline/simd/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -11,8 +11,6 @@ namespace mfar::simd::HWY_NAMESPACE {
 
 constexpr int kSide = 2 * kCensusRadius + 1;
 
-/// Returns the census bits of eight neighbours; neighbour `first` gets the highest bit. Neighbours
-/// are numbered row by row, without the centre.
 template <class D>
 HWY_INLINE hn::Vec<D> bitsFrom(D d, int first, const std::uint8_t* const (&rows)[kSide],
                                std::size_t x, hn::Vec<D> centre) {

@@ -1,4 +1,4 @@
-// Shared by kernels for fields of inverse depth. Included once per instruction set.
+// Functions for vectors of inverse depth. This header is included once per instruction set.
 #include "base/image_view.h"
 #include "pipeline/simd/lanes-inl.h"
 
@@ -27,7 +27,6 @@ struct RangeOf {
     V low, high;
 };
 
-/// Returns the smallest of `low` and the largest of `high` over several rows.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE RangeOf<V> rangeOver(D d, const float* low, const float* high, std::ptrdiff_t pitch,
                                 int rows) {
@@ -39,11 +38,9 @@ HWY_INLINE RangeOf<V> rangeOver(D d, const float* low, const float* high, std::p
     return out;
 }
 
-/// The rows of a rotation matrix, for vectors of points.
 template <class D>
 struct Turn {
     HWY_INLINE Turn(D tag, const float* rowMajor) : d(tag), r(rowMajor) {}
-    /// Component `k` of the rotated (x, y, z).
     template <class V>
     HWY_INLINE V component(int k, V x, V y, V z) const {
         const float* row = r + 3L * k;
@@ -54,8 +51,7 @@ struct Turn {
     const float* r;
 };
 
-/// The pixel that contains a point, as in EpipolarLens::pixelAt(): column, row, and whether it is
-/// in the picture.
+/// The pixels that contain points, computed as in EpipolarLens::pixelAt().
 template <class D, class V = hn::Vec<D>>
 struct PixelOf {
     hn::Vec<hn::RebindToSigned<D>> column, row;

@@ -6,16 +6,15 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/depth_rows.cpp"
 #include <hwy/foreach_target.h>
-// The next header is included once per instruction set, as this file is.
+// Must come after foreach_target.h: compiled once per instruction set.
 #include "pipeline/simd/depth_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 
-constexpr float kLeastLanding = 0.05F;  // smallest z of a ray (x, y, 1) after the rotation
+constexpr float kLeastLanding = 0.05F;  // smallest valid z of a ray (x, y, 1) after the rotation
 constexpr float kUnknown = std::numeric_limits<float>::infinity();
 
-/// Stores row-major indices of pixels; -1 where the bit of `valid` is not set.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE void storePixels(D /*d*/, const PixelOf<D>& at, hn::Mask<D> valid, int width,
                             std::int32_t* to) {
@@ -43,7 +42,6 @@ void LandRow(const Lens& lens, Size size, const Motion& motion, const float* ray
     });
 }
 
-/// The smallest rectangle around all added pixels. Pixels are added one vector at a time.
 class LaneBounds {
 public:
     static constexpr std::size_t kLanes = hn::MaxLanes(hn::ScalableTag<std::int32_t>());

@@ -2,7 +2,6 @@
 
 #include "pipeline/engine/params/occlusion.h"
 
-// Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/depth_samples.cpp"
 #include <hwy/foreach_target.h>
@@ -52,7 +51,6 @@ private:
     }
 };
 
-/// Calls body(tag, x) for whole vectors of entries [first, last), then for single entries.
 template <class Body>
 HWY_INLINE void Along(int first, int last, const Body& body) {
     const hn::ScalableTag<float> d;

@@ -5,23 +5,24 @@
 
 namespace mfar::simd {
 
-/// Thresholds for samples of real depth, from CompositeOptions.
+/// Thresholds for samples of real depth, from CompositeOptions [standard deviations of the sample].
 struct SampleBounds {
-    float bias;    ///< CompositeOptions::bias [standard deviations of the sample]
-    float hidden;  ///< bias + softness [standard deviations of the sample]
+    float bias;
+    float hidden;  ///< bias + softness
 };
 
-/// A row of real depth, and of the picture that it belongs to, at the video's resolution.
+/// A row of real depth and of the video's colours, at the video's resolution.
 struct SampleSource {
-    const float *inverse, *sigma;  ///< inverse depth and its standard deviation [1/m]
-    bool squared;                  ///< true: `sigma` holds variances instead
+    /// Inverse depth and its standard deviation [1/m]; with `squared`, its variance.
+    const float *inverse, *sigma;
+    bool squared;
     const std::uint8_t *red, *green, *blue;
 };
 
-/// A row of SampleSource in single precision, prepared for weighing. `inverse` of an unknown pixel
-/// is so small that the pixel occludes nothing. A virtual pixel with more inverse depth than
-/// `nearest` is certainly in front of the sample; one with less than `farthest` is certainly behind
-/// it. `nearest` and `farthest` are 0 for an unknown pixel.
+/// A row of SampleSource in single precision, prepared for weighing. A virtual pixel is certainly
+/// in front of the sample if its inverse depth exceeds `nearest`. It is certainly behind the sample
+/// if its inverse depth is less than `farthest`. Both are 0 for an unknown pixel, whose `inverse`
+/// is so small that the pixel occludes nothing.
 struct SampleRow {
     float *inverse, *variance, *red, *green, *blue;
     float *nearest, *farthest;
@@ -32,13 +33,12 @@ struct SampleRow {
 void prepareSamples(const SampleSource& from, const SampleBounds& bounds, int first, int last,
                     const SampleRow& to);
 
-/// Replaces entry i of `nearest` by the largest of entries i to i + 3, and entry i of `farthest` by
-/// the smallest of entries i to i + 3.
+/// Replaces nearest[i] by the largest of nearest[i] to nearest[i + 3], and farthest[i] by the
+/// smallest of farthest[i] to farthest[i + 3].
 void spreadSamples(float* nearest, float* farthest, int count);
 
-/// Four rows that spreadSamples() has processed. rangeOfSamples() writes the largest value of each
-/// column of `nearest` to `greatest`, and the smallest value of each column of `farthest` to
-/// `least`.
+/// Four rows that spreadSamples() has processed. rangeOfSamples() writes the largest `nearest` of
+/// each column to `greatest`, and the smallest `farthest` to `least`.
 struct FourRows {
     const float* row[4];
 };

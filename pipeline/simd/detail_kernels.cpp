@@ -2,12 +2,11 @@
 
 #include <cstring>
 
-// Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/detail_kernels.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// The next header is included once per instruction set, as this file is.
+// Must come after foreach_target.h: compiled once per instruction set.
 #include "pipeline/simd/still_blocks-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -19,8 +18,6 @@ using F = hn::ScalableTag<float>;
 using I = hn::RebindToSigned<F>;
 using U = hn::RebindToUnsigned<F>;
 
-/// Interpolates linearly between two rows, at the columns from `x` on. `t` = 0 gives the first row,
-/// `t` = 1 the second.
 HWY_INLINE hn::Vec<F> Between(const std::array<const float*, 2>& rows, float t, int x) {
     const F df;
     const auto a = hn::LoadU(df, rows[0] + x);
@@ -28,11 +25,11 @@ HWY_INLINE hn::Vec<F> Between(const std::array<const float*, 2>& rows, float t, 
 }
 
 struct Positions {
-    hn::Vec<I> x, y;    // whole pixels
-    hn::Vec<F> fx, fy;  // fraction of the way to the next pixel
+    hn::Vec<I> x, y;
+    hn::Vec<F> fx, fy;
 };
 
-/// Computes for consecutive vectors of output pixels the positions at which they read the still.
+/// Computes the positions at which consecutive vectors of output pixels read the still.
 class LookUp {
 public:
     LookUp(const LookUpRows& rows, Size size, int begin)
@@ -67,8 +64,7 @@ HWY_INLINE hn::Vec<F> MeanOfFour(hn::Vec<U> texels, const Positions& at) {
     const F df;
     const I di;
     const U du;
-    // A lane computes both columns at once, each in 16 of its 32 bits, because 255 * 256 fits into
-    // 16 bits.
+    // A lane computes both columns at once, in 16 bits each, because 255 * 256 fits into 16 bits.
     const auto scaled = hn::NearestInt(hn::Mul(at.fy, hn::Set(df, 256.0F)));
     const auto lower = hn::BitCast(du, scaled);
     const auto upper = hn::Sub(hn::Set(du, 256), lower);
@@ -161,8 +157,6 @@ void FadeRow(const std::int16_t* second, const LookUpRows& secondRows, const Loo
 using I16 = hn::ScalableTag<std::int16_t>;
 using U16 = hn::RebindToUnsigned<I16>;
 
-/// Computes one colour channel of a vector of output pixels, in [0, 255]: the weighted sum of four
-/// rows, plus the added detail.
 class Channel {
 public:
     explicit Channel(const std::array<std::int16_t, 4>& weights) {
@@ -224,7 +218,6 @@ HWY_INLINE hn::Vec<F> ChannelOf(hn::Vec<U> pixels) {
     return hn::ConvertTo(F(), hn::BitCast(I(), byte));
 }
 
-/// The four pixels around a position in the blended picture.
 struct Four {
     hn::Vec<U> here, right, below, belowRight;
 };

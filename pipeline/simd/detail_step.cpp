@@ -7,14 +7,14 @@
 namespace mfar::simd {
 namespace {
 
-constexpr int kGrain = 32;  // rows of the output that a thread takes at a time
-// Whole frames are drawn in strips of about this width, so that intermediate rows stay in the
-// first-level cache [px].
+constexpr int kGrain = 32;
+// Whole frames are drawn in strips of about this width [px], so that intermediate rows stay in the
+// first-level cache. Widths are multiples of kStripStep.
 constexpr int kStripWidth = 576;
-constexpr int kStripStep = 64;  // widths of strips are multiples of this [px]
+constexpr int kStripStep = 64;
 
-/// Returns for each tile along one axis the first output pixel whose centre lies in the tile. The
-/// last entry is the output's size.
+/// Returns the first output pixel whose centre lies in each tile, along one axis. The last entry is
+/// the output's size.
 std::vector<int> tileStarts(int tiles, int video, int output) {
     std::vector<int> out;
     for (int i = 0; i < tiles; ++i) {
@@ -36,10 +36,10 @@ struct DetailStep::Frame {
     const DetailInput& in;
     DetailOptions options;
     Rows<std::uint32_t> out;
-    // warps: the still's detail is added; blends: the still's picture is blended in (never both);
-    // linear: the video is enlarged linearly.
+    // `warps`: the still's detail is added; `blends`: the still's picture is blended in (never
+    // both). `linear`: the video is enlarged linearly.
     bool warps, blends, linear;
-    const FilterBank* bank;  // null: no learned filters
+    const FilterBank* bank;
     BlendPicture picture;
     const DetailStep& step;
 };
@@ -74,8 +74,8 @@ DetailStep::Show DetailStep::showOf(const Frame& frame, int column, int row) con
     if (work.draw != TileWork::Draw::Whole) return upscaled ? Show::Video : Show::Detail;
     const PixelRect& in = work.detailTiles;
     if (!(column >= in.x0 && column < in.x1 && row >= in.y0 && row < in.y1)) return Show::Video;
-    // Tiles that were not matched are also classified as upscaled. But the weights are interpolated
-    // between cells, so the still of a matched neighbour may be visible in such a tile.
+    // Unmatched tiles are also classified as upscaled. But weights are interpolated between cells,
+    // so the still of a matched neighbouring tile may be visible in them.
     const bool weightless =
         upscaled && tile.matched != 0 && frame.options.mode == SuperResMode::Detail;
     return weightless ? Show::Video : Show::Detail;
@@ -146,7 +146,6 @@ void DetailStep::drawTileRow(const Frame& frame, Scratch& scratch, int row, int 
     }
 }
 
-// Cuts the drawn pixels of a row of tiles into segments that are drawn in the same way.
 void DetailStep::cut(const Frame& frame, int row, int begin, int end, Scratch& scratch) const {
     std::vector<Segment>& segments = scratch.segments;
     segments.clear();

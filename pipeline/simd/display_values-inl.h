@@ -14,7 +14,6 @@ namespace mfar::simd::HWY_NAMESPACE {
 
 namespace hw = hwy::HWY_NAMESPACE;
 
-/// Returns the linear value of bytes in [0, 255], by a cubic approximation.
 template <class D>
 HWY_INLINE hw::Vec<D> LinearOf(D d, hw::Vec<D> byte) {
     const auto x = hw::Mul(byte, hw::Set(d, 1.0F / 255));

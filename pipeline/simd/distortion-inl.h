@@ -1,4 +1,4 @@
-// A lens's distortion for vectors of rays. Included once per instruction set.
+// Lens distortion for vectors of rays. This header is included once per instruction set.
 #include <hwy/highway.h>
 
 #if defined(MFAR_SIMD_DISTORTION_INL_H) == defined(HWY_TARGET_TOGGLE)

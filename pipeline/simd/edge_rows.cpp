@@ -5,7 +5,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/edge_rows.cpp"
 #include <hwy/foreach_target.h>
-// The next header is included once per instruction set, as this file is.
+// Must come after foreach_target.h: compiled once per instruction set.
 #include "pipeline/simd/depth_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -34,8 +34,6 @@ void OpenRow(const float* low, const float* high, std::ptrdiff_t pitch, int rows
 using DVoters = hn::CappedTag<float, 16>;
 using VVoters = hn::Vec<DVoters>;
 
-/// Calls body(mask, inverseDepth, j, i) for vectors of the voters in columns [x0, x1) and rows [y0,
-/// y1).
 template <class Body>
 HWY_INLINE void forVoters(const Voters& voters, const PixelRect& window, const Body& body) {
     const DVoters d;
@@ -48,7 +46,6 @@ HWY_INLINE void forVoters(const Voters& voters, const PixelRect& window, const B
     }
 }
 
-/// Sums of the votes for one of two surfaces.
 struct Side {
     VVoters weight, inverseDepth, variance;
 
@@ -108,8 +105,7 @@ void VotePixels(const Voters& voters, const VoteRule& rule, const PixelRect& whe
     const auto first = [](int from) { return (from + kVoterStep - 1) / kVoterStep; };
     for (OpenPixel& pixel : pixels) {
         const int x = pixel.x;
-        // The window's bounds, converted from pixels to indices of voters: from the first voter at
-        // or after the window's begin to the first voter at or after its end.
+        // The window, converted from pixels to indices of voters.
         const PixelRect window{first(std::max(x - rule.radius, where.x0)),
                                first(std::max(y - rule.radius, where.y0)),
                                first(std::min(x + rule.radius + 1, where.x1)),

@@ -9,10 +9,10 @@
 
 namespace mfar::simd {
 
-/// Writes 1 at pixels that are invalid or near an edge of inverse depth, else 0. A pixel is near an
-/// edge if the largest minus the smallest inverse depth around it exceeds `jump` times the largest
-/// plus `sigmas` standard deviations. `low`, `high`: smallest and largest values within some
-/// columns (from rangeAlongRow()). openRow() combines `rows` rows of them, which are `pitch` apart.
+/// openRow() writes 1 at pixels that are invalid or near an edge of inverse depth, else 0. A pixel
+/// is near an edge if the largest minus the smallest inverse depth around it exceeds `jump` times
+/// the largest plus `sigmas` standard deviations. `low`, `high`: smallest and largest values within
+/// some columns (from rangeAlongRow()). `rows` rows of them, which are `pitch` apart, are combined.
 struct EdgeRule {
     float jump, sigmas;
 };
@@ -20,16 +20,15 @@ void openRow(const float* low, const float* high, std::ptrdiff_t pitch, int rows
              const float* inverseDepth, const float* variance, std::size_t width,
              const EdgeRule& rule, std::uint8_t* out);
 
-/// Voters are the pixels in every kVoterStep-th column and row. Each has its inverse depth
-/// (negative: it does not vote), its variance, and the pixel's colour. 64 readable bytes follow
-/// each row.
+/// Voters are the pixels in every kVoterStep-th column and row. A pixel with negative inverse depth
+/// does not vote. 64 readable bytes follow each row.
 inline constexpr int kVoterStep = 2;
 struct Voters {
     Rows<const float> inverseDepth, variance, red, green, blue;
 };
 
-/// A pixel whose depth votePixels() decides: it belongs to the surface whose voters have a colour
-/// similar to its own.
+/// A pixel whose depth votePixels() decides. It belongs to the surface whose voters have a similar
+/// colour.
 struct OpenPixel {
     int x = 0;
     float red = 0, green = 0, blue = 0;
@@ -43,9 +42,9 @@ struct VoteRule {
     float leastWeight;  ///< smallest sum of weights that decides; a voter's weight is at most 1
 };
 
-/// Decides the depth of pixels of row y by the voters around them that lie within `where`. The
-/// voters are split into a nearer and a farther group, at the middle of their range of inverse
-/// depth. The pixel takes the mean inverse depth of the group with the larger sum of weights.
+/// Decides the depth of pixels of row y from the voters around them within `where`. The voters form
+/// a near and a far group, split at the middle of their range of inverse depth. The pixel takes the
+/// mean inverse depth of the group with the larger sum of weights.
 void votePixels(const Voters& voters, const VoteRule& rule, const PixelRect& where, int y,
                 std::span<OpenPixel> pixels);
 

@@ -13,9 +13,9 @@ std::uint8_t channel(std::uint32_t colour, unsigned c) {
     return static_cast<std::uint8_t>(colour >> 8 * c);
 }
 
-/// Contrast level of the pixels of a row: the largest difference of a colour channel within 3x3
-/// pixels. Beyond an object's outline, the layer's colour is 0, so the contrast at the outline is
-/// the object's brightness, whatever lies behind it. The outline itself is sharp already.
+/// Computes the contrast level of a row's pixels: the largest difference of a colour channel within
+/// 3x3 pixels. Beyond an object's outline, the layer's colour is 0. So the contrast at the outline
+/// is the object's brightness, whatever lies behind. The outline itself is already sharp.
 class Contrasts {
 public:
     explicit Contrasts(const PixelRect& where)

@@ -10,23 +10,23 @@
 
 namespace mfar::simd {
 
-/// While the camera rests, replaces pixels that ViewLookUp blurs by rendered ones. CPU version of
-/// the GLES engine's EdgeRefiner.
+/// While the camera rests, replaces blurred pixels of ViewLookUp's picture by rendered ones. CPU
+/// version of the GLES engine's EdgeRefiner.
 class EdgeSharpener {
 public:
-    static constexpr int kLevels = 64;  ///< number of contrast levels
+    static constexpr int kLevels = 64;
 
-    /// `share`, `fadeFrames`: see WarpOptions. `most`: largest number of listed pixels. It is
-    /// exceeded only if more pixels than that have the highest contrast level.
+    /// `share`, `fadeFrames`: see WarpOptions. `most`: largest number of listed pixels; exceeded
+    /// only if more pixels have the highest contrast level.
     EdgeSharpener(Size layer, double share, int most, int fadeFrames);
 
     /// Lists the pixels with the highest contrast within `where`, given the `colour` and `state` of
     /// ViewLookUp. Discards the previous list and its rendered colours.
     void list(Rows<const std::uint32_t> colour, Rows<const std::uint32_t> state,
               const PixelRect& where);
-    /// Returns the row-major indices of the listed pixels, ascending. Each list is returned once.
+    /// Returns the row-major indices of the listed pixels, ascending, but each list only once.
     std::optional<std::vector<std::uint32_t>> take();
-    /// Stores the rendered colours of pixels that take() has returned; ignores other pixels.
+    /// Stores the rendered colours of pixels that take() returned; ignores other pixels.
     void answer(const HoleAnswer& answer);
     /// Blends the rendered colours into `colour`, a picture with the pose of the list. Their weight
     /// rises from frame to frame.

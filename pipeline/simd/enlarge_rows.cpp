@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstring>
 
-// Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/enlarge_rows.cpp"
 #include <hwy/foreach_target.h>
@@ -60,12 +59,11 @@ HWY_INLINE hn::Vec<F> Steps(const std::int16_t* plus, const std::int16_t* minus)
     return Widened(hn::Sub(hn::LoadU(d, plus), hn::LoadU(d, minus)));
 }
 
-/// Returns `weight` where `value` is at least `from`, else 0.
 HWY_INLINE hn::Vec<F> Step(hn::Vec<F> value, float from, float weight = 1) {
     return hn::IfThenElseZero(hn::Ge(value, hn::Set(F(), from)), hn::Set(F(), weight));
 }
 
-/// Returns the bin of an angle, see Symmetry. Cosine and sine of twice the angle are given,
+/// Returns the bin of an angle, see Symmetry. `cosine`, `sine`: those of twice the angle,
 /// multiplied by a common factor.
 template <int kBins>
 HWY_INLINE hn::Vec<F> AngleBin(hn::Vec<F> cosine, hn::Vec<F> sine) {
@@ -88,7 +86,6 @@ HWY_INLINE void StoreClass(hn::Vec<F> number, std::uint16_t* to) {
     hn::StoreU(hn::DemoteTo(U16Half(), hn::ConvertTo(I(), number)), U16Half(), to);
 }
 
-/// For each column, sums the products of the gradient's components (xx, xy, yy) over five rows.
 void SumColumns(const std::array<const std::int16_t*, 7>& luma, int begin, int end,
                 const std::array<float*, 3>& sums) {
     const F d;
@@ -128,8 +125,8 @@ HWY_INLINE hn::Vec<F> GradientClass(hn::Vec<F> xx, hn::Vec<F> xy, hn::Vec<F> yy)
     for (const float from : C::kStrengthFrom)
         kind = hn::Add(kind, Step(twiceLargest, from * from * kScale, 3));
     for (const float from : C::kCoherenceFrom) {
-        // The condition (s1 - s2) / (s1 + s2) >= from, where s1 and s2 are the square roots of the
-        // eigenvalues, is expressed by the sum and difference of the eigenvalues.
+        // Tests (s1 - s2) / (s1 + s2) >= from, where s1 and s2 are the square roots of the
+        // eigenvalues. The test needs only the sum and the difference of the eigenvalues.
         const float share = 2 * from / (1 + from * from);
         kind = hn::Add(kind, Step(hn::Sub(spread, hn::Mul(sum, hn::Set(d, share))), 0));
     }
@@ -197,7 +194,6 @@ void RangeRow(const std::array<const std::int16_t*, 5>& luma, int begin, int end
 constexpr int kSumShift = 12;
 static_assert(kWeightScale * kLumaScale == kResidualScale << kSumShift);
 
-/// Returns two adjacent numbers as one word.
 HWY_INLINE std::int32_t PairAt(const std::int16_t* at) {
     std::int32_t out = 0;
     std::memcpy(&out, at, sizeof(out));

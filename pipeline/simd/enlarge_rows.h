@@ -10,29 +10,27 @@ namespace mfar::simd {
 // in 1/8 grey level and is read up to three pixels before `begin` and after `end`. All rows except
 // the colours may be read and written up to 64 bytes beyond these pixels.
 
-/// Rec. 601 luma of red, green and blue.
 void lumaEighthsRow(const std::array<const std::uint8_t*, 3>& rgb, int begin, int end,
                     std::int16_t* to);
 
-/// Writes the class by gradient and the class by curvature of each pixel of a row, numbered as in
-/// GradientClasses and CurvatureClasses. `luma`: seven rows with this row in the middle. `sums`:
-/// three temporary rows, used from two pixels before `begin` on.
+/// Writes the gradient class and the curvature class of each pixel, numbered as in GradientClasses
+/// and CurvatureClasses. `luma`: seven rows with this row in the middle. `sums`: three temporary
+/// rows, used from two pixels before `begin` on.
 void classRow(const std::array<const std::int16_t*, 7>& luma, int begin, int end,
               const std::array<float*, 3>& sums, std::uint16_t* gradient, std::uint16_t* curvature);
 
-/// Lowest and highest luma that the enlarged picture may have in a pixel, relative to the pixel's
-/// luma [1/8 grey level]. They are the range of the 5x5 pixels around it, extended by the allowed
-/// overshoot.
+/// Writes the lowest and highest luma that the enlarged picture may have in a pixel, relative to
+/// the pixel's luma [1/8 grey level]. They are the range of the 5x5 pixels around it, extended by
+/// the allowed overshoot.
 void rangeRow(const std::array<const std::int16_t*, 5>& luma, int begin, int end,
               std::int16_t* lowest, std::int16_t* highest);
 
-/// The filters of a FilterBank. In `gradient`, the filters of successive classes are gradientPitch
-/// coefficients apart; in `curvature`, curvaturePitch.
+/// The filters of a FilterBank. The filters of successive classes are gradientPitch coefficients
+/// apart in `gradient`, and curvaturePitch coefficients apart in `curvature`.
 struct FilterRows {
     const std::int16_t *gradient, *curvature, *cubic;
     std::ptrdiff_t gradientPitch, curvaturePitch;
 };
-/// Input for residualRows(): five rows of luma, and results of classRow() and rangeRow().
 struct ResidualInput {
     std::array<const std::int16_t*, 5> luma;
     const std::uint16_t *gradient, *curvature;
@@ -43,7 +41,6 @@ struct ResidualInput {
 void residualRows(const ResidualInput& in, const FilterRows& filters, int begin, int end,
                   const std::array<std::int16_t*, 4>& to);
 
-/// Interpolates between two rows: a + t (b - a).
 void mixedRow(const std::int16_t* a, const std::int16_t* b, float t, int begin, int end, float* to);
 
 }  // namespace mfar::simd

@@ -5,7 +5,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/field_rows.cpp"
 #include <hwy/foreach_target.h>
-// The next header is included once per instruction set, as this file is.
+// Must come after foreach_target.h: compiled once per instruction set.
 #include "pipeline/simd/depth_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -20,8 +20,9 @@ HWY_INLINE void order(V& a, V& b) {
     a = low;
 }
 
-/// Median of nine values. Sorts each of three columns; the result is the median of the largest of
-/// their low values, the median of their middle values, and the smallest of their high values.
+/// Returns the median of nine values. First, three columns are sorted. The result is the median of
+/// three values: the largest low value, the median of the middle values, and the smallest high
+/// value.
 template <class V>
 HWY_INLINE V middleOfNine(V (&v)[9]) {
     for (int c = 0; c < 3; ++c) {
@@ -61,8 +62,8 @@ void MedianRow(const float* above, const float* here, const float* below, std::s
 
 void RangeAlongRow(const float* values, const float* variance, std::size_t width, int radius,
                    float* low, float* high) {
-    // A run of values with its neighbours. Positions beyond the row hold values that can be neither
-    // the smallest nor the largest.
+    // A run of values with its neighbours. Entries beyond the row hold values that are never the
+    // smallest or the largest.
     constexpr std::size_t kRun = 256, kAll = kRun + 2 * kMostRange;
     HWY_ALIGN float lows[kAll], highs[kAll];
     const auto beside = static_cast<std::size_t>(radius);

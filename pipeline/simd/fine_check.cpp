@@ -13,9 +13,9 @@ namespace {
 
 using params::kFineStep;
 static_assert(kCellsPerTile % kFineStep == 0);
-constexpr int kBlock = 2;                // rows of a block of 2x2 pixels
-constexpr int kFirst = (kCell - 2) / 2;  // first row of a cell that is compared
-constexpr int kRoom = 64;                // pixels after a row that vectors may access
+constexpr int kBlock = 2;
+constexpr int kFirst = (kCell - 2) / 2;  // first compared row of a cell
+constexpr int kRoom = 64;                // pixels that vectors may access after a row
 
 }  // namespace
 
@@ -96,7 +96,7 @@ void FineCheck::sum(const Frame& frame, Scratch& scratch, int row) {
         }
     }
     for (CellPlane* plane : {&ofVideo_, &ofBoth_, &ofStill_}) {
-        // Clear the gaps between spans, because vectors write beyond the cells of each span.
+        // The gaps between spans are cleared, because vectors write beyond the cells of each span.
         int done = 0;
         for (const auto& [begin, end] : scratch.cells) {
             if (!isWhole) break;

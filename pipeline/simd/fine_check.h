@@ -21,18 +21,17 @@ namespace mfar::simd {
 /// superres_fine.comp and superres_confirm.comp. Allocates memory only in the constructor.
 class FineCheck {
 public:
-    /// `stillRig`: see StillPreparation::rig().
     FineCheck(const StereoRig& stillRig, std::shared_ptr<Workers> workers);
 
-    /// Returns the share of its weight that each cell keeps, [0, 1]. It is valid until the next
-    /// run. Cells of unmatched tiles and incomplete cells are not measured; their neighbours
-    /// determine their share.
+    /// Returns the share of its weight that each cell keeps, [0, 1], valid until the next run.
+    /// Cells of unmatched tiles and incomplete cells are not measured; their neighbours determine
+    /// their share.
     Rows<const float> run(const RgbPlanes& video, const StillPairs& still,
                           Rows<const LookUpCell> lookUps, const TileWork& work,
                           const FineMatch& match);
 
 private:
-    static constexpr int kSamples = 2;  // samples of the still along each axis of a video pixel
+    static constexpr int kSamples = 2;  // samples of the still per video pixel, along each axis
     struct Scratch {
         Scratch(const FineCheck& check);
         LookUpRowCache lookUps;
@@ -50,10 +49,10 @@ private:
     void sum(const Frame& frame, Scratch& scratch, int row);
     [[nodiscard]] FineSumsNear::Pair near(CellPlane& sums, int row) const;
 
-    Size video_, cells_, sampled_;  // sampled_: size of the field of every kFineStep-th cell row
+    Size video_, cells_, sampled_;  // sampled_: like cells_, but only every kFineStep-th row
     std::shared_ptr<Workers> workers_;
     LookUpTaps taps_;
-    CellPlane ofVideo_, ofBoth_, ofStill_;  // FineSums of every kFineStep-th cell row
+    CellPlane ofVideo_, ofBoth_, ofStill_;
     AlignedRows<float> shares_;
     ScratchSlots<Scratch> scratch_;
 };

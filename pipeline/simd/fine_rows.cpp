@@ -2,7 +2,6 @@
 
 #include "pipeline/engine/params/weigh.h"
 
-// Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/fine_rows.cpp"
 #include <hwy/foreach_target.h>
@@ -19,7 +18,6 @@ HWY_INLINE hn::Vec<F> Wide(hn::Vec<I16> values) {
     return hn::ConvertTo(F(), hn::PromoteTo(hn::Rebind<std::int32_t, F>(), values));
 }
 
-/// One pixel row of a vector of cells: at[i] holds the pixel in column i of each cell.
 struct Quads {
     hn::Vec<I16> at[4];
 };
@@ -30,8 +28,8 @@ HWY_INLINE Quads QuadsOf(const std::int16_t* row, int cell) {
     return out;
 }
 
-/// Writes the sum of the four samples of each pixel to the upper row; it is their mean in 1/128
-/// grey level, and fits into 16 bits.
+/// Writes the sum of each pixel's four samples to the upper row. The sum is the samples' mean in
+/// 1/128 grey level, and fits into 16 bits.
 HWY_INLINE void SumSamples(std::int16_t* upper, const std::int16_t* lower, int begin, int end) {
     const I16 d;
     const int lanes = static_cast<int>(hn::Lanes(d));
@@ -48,8 +46,8 @@ void FineSumsRow(const std::array<const std::int16_t*, 2>& video,
                  const FineSums& to) {
     const F d;
     const int lanes = static_cast<int>(hn::Lanes(d));
-    // A row of sums is half as long as the row of samples that it replaces. So it overwrites only
-    // samples that have already been added.
+    // A row of sums is half as long as the row of samples that it replaces, so it overwrites only
+    // samples that are already added.
     SumSamples(still[0], still[1], 4 * begin, 4 * end);
     SumSamples(still[2], still[3], 4 * begin, 4 * end);
     constexpr float kVideo = 1.0F / 8, kStill = 1.0F / 128;
@@ -82,7 +80,6 @@ void FineSumsRow(const std::array<const std::int16_t*, 2>& video,
     }
 }
 
-/// Mean of three columns with weights 1 2 1.
 HWY_INLINE hn::Vec<F> Smoothed(const FineSumsNear::Pair& rows, int x) {
     const F d;
     const auto column = [&](int at) HWY_ATTR {

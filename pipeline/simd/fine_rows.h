@@ -8,7 +8,7 @@
 
 namespace mfar::simd {
 
-// These functions process rows of cells of 4x4 video pixels, in vectors of up to 16 cells.
+// These functions process rows of cells (4x4 video pixels) in vectors of up to 16 cells.
 
 /// Variances and covariance of the finest detail of video and still, for each cell [grey levels^2].
 /// The finest detail is the difference of a pixel from the mean of its 2x2 block.
@@ -16,14 +16,14 @@ struct FineSums {
     float *video, *both, *still;
 };
 
-/// Computes FineSums from the two middle pixel rows of a row of cells. `video` is in 1/8 grey
-/// level. `still` is in 1/32 grey level and has 2x2 samples per pixel, so two rows of samples for
-/// each row of the video; it is overwritten.
+/// Computes FineSums from the two middle pixel rows of a row of cells. `video`: two rows [1/8 grey
+/// level]. `still`: four rows with 2x2 samples per video pixel [1/32 grey level]; they are
+/// overwritten.
 void fineSumsRow(const std::array<const std::int16_t*, 2>& video,
                  const std::array<std::int16_t*, 4>& still, int begin, int end, const FineSums& to);
 
-/// Sums of the sampled rows above and below a row of cells. If the row itself is sampled, both are
-/// that row. Each row repeats its border by one cell on both sides.
+/// FineSums of the sampled rows above and below a row of cells. If the row itself is sampled, both
+/// are that row. Each row repeats its border by one cell on both sides.
 struct FineSumsNear {
     struct Pair {
         const float *above, *below;
@@ -31,7 +31,7 @@ struct FineSumsNear {
     Pair video, both, still;
 };
 
-/// Computes the share of its weight that each cell keeps, from the sums averaged over three columns
+/// Computes the share of its weight that each cell keeps, from FineSums averaged over three columns
 /// of cells; see params::kFineRoom.
 void fineShareRow(const FineSumsNear& sums, const FineMatch& match, int count, float* to);
 

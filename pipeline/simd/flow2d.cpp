@@ -10,8 +10,8 @@
 namespace mfar::simd {
 namespace {
 
-// Number of finest pyramid levels at which cells that no tile needs are skipped. Coarser levels
-// have few cells, so all of them are searched.
+// Number of finest pyramid levels at which only the needed tiles are searched. Coarser levels have
+// few cells, so all of them are searched.
 constexpr int kMaskedLevels = 2;
 
 std::vector<Size> cellsOfLevels(Size video, int levels) {
@@ -37,7 +37,6 @@ void shareRows(Workers& workers, int rows, const Row& row) {
     });
 }
 
-/// Calls run(first, end, key) for the longest parts of [0, columns) whose tiles have the same key.
 template <class Key, class Run>
 void forTileRuns(int columns, int cellsPerTile, const Key& keyOf, const Run& run) {
     for (int first = 0; first < columns;) {
@@ -50,7 +49,7 @@ void forTileRuns(int columns, int cellsPerTile, const Key& keyOf, const Run& run
     }
 }
 
-/// Copies the flow vectors of the coarser pyramid level to cells that are not searched.
+/// Cells that are not searched take the flow vectors of the coarser pyramid level.
 void enlargeCells(const FlowPlanes& coarse, const FlowPlanes& fine, int row, int first, int end) {
     for (int column = first; column < end; ++column) {
         const std::ptrdiff_t from = row / 2 * coarse.pitch + column / 2;
@@ -90,14 +89,14 @@ void Flow2d::chooseTiles(const TileWork& work, bool keepsUnchanged, int margin) 
     }
     wantsAll_ = std::ranges::find(wanted_.flags, 0) == wanted_.flags.end();
     widen(wanted_, margin, between_, fine_);
-    // The search at the finest pyramid level uses vectors of neighbouring cells of the next coarser
-    // level. The search there used vectors of their neighbours in turn.
+    // The search of a cell reads neighbouring cells of the next coarser pyramid level. So one more
+    // tile on each side is needed there.
     widen(fine_, 1, between_, next_);
 }
 
-// Marks the tiles in which the backward field is needed. Confirmation interpolates between the
-// backward cells around the end of a forward vector. Clean-up and propagation use the vectors of
-// three more cells on each side of those.
+// Marks the tiles in which the backward field is needed. The two-way error is interpolated between
+// the backward cells around the end of a forward vector. Clean-up and propagation read three more
+// cells on each side.
 void Flow2d::chooseBackward() {
     std::ranges::fill(ends_.flags, std::uint8_t{0});
     for (int y = 0; y < videoCells_.height; ++y)
@@ -110,7 +109,7 @@ void Flow2d::chooseBackward() {
             };
             ends_.at(tileAt(x, cell.x, ends_.size.width), tileAt(y, cell.y, ends_.size.height)) = 1;
         }
-    constexpr int kMargin = 3;  // [tiles]; a tile has 2x2 cells of the backward field
+    constexpr int kMargin = 3;  // [tiles] of 2x2 cells of the backward field
     widen(ends_, kMargin, between_, endsAround_);
 }
 
@@ -186,8 +185,8 @@ void Flow2d::propagateRow(const Way& way, int level, int toArea, int row) {
         });
 }
 
-// Each round of propagation reads one of a Stage's two areas and writes the other. The first area
-// is chosen so that the last round writes area 0.
+// The rounds of propagation alternate between a Stage's two areas. The first area is chosen so that
+// the last round writes area 0.
 void Flow2d::searchLevel(Ways ways, int level) {
     const int rows =
         ways[0]->direction.stages[static_cast<std::size_t>(level)].areas[0].cells().height;
@@ -250,8 +249,8 @@ void Flow2d::refine(const Luma& luma, const TileWork& work, Cells forward, Cells
     errorsGiven_ = true;
     searched_.clear();
     if (work.matched == 0) return;
-    // Margin [tiles]: whether a tile is searched depends on its neighbours, and the clean-up of a
-    // tile reads vectors that a search may have changed in neighbouring tiles.
+    // [tiles] The choice of the searched tiles depends on their neighbours. The clean-up reads
+    // vectors of neighbouring tiles that a search may have changed.
     constexpr int kMargin = 2;
     chooseTiles(work, !work.drawsWhole(), kMargin);
     const FlowPlanes field = forwards_.stages[0].areas[0].planes();
@@ -269,9 +268,9 @@ void Flow2d::refine(const Luma& luma, const TileWork& work, Cells forward, Cells
     cleanUpForward(work, false);
 }
 
-// Searches without propagation, because not all neighbours of a listed group are listed. The
-// vectors found on epipolar lines are candidates at every pyramid level. At the finest level, they
-// are kept unless another vector fits better.
+// There is no propagation, because not all neighbours of a listed group are listed. The vectors
+// found on epipolar lines are candidates at every pyramid level. At the finest level, they are kept
+// unless another vector fits better.
 void Flow2d::searchListed(const Way& way) {
     const FlowPlanes lines = forwards_.stages[0].areas[0].planes();
     for (int level = static_cast<int>(forwards_.stages.size()) - 1; level >= 0; --level) {

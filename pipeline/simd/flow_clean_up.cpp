@@ -1,6 +1,5 @@
 #include "pipeline/simd/patch_flow.h"
 
-// Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/flow_clean_up.cpp"
 #include <algorithm>
@@ -12,7 +11,7 @@ namespace mfar::simd::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// SIMD vectors are at most as long as the fields' margins.
+// SIMD vectors are at most as long as the margins of the flow fields.
 using Cells = hn::CappedTag<float, kFieldMargin>;
 using Vec = hn::Vec<Cells>;
 
@@ -27,8 +26,8 @@ HWY_INLINE void order(Vec& a, Vec& b) {
     a = low;
 }
 
-/// 3x3 median. Sorts each column; the result is the median of the largest of the columns' low
-/// values, the median of their middle values, and the smallest of their high values.
+/// Returns the 3x3 median. First, each column is sorted. The result is the median of three values:
+/// the largest low value, the median of the middle values, and the smallest high value.
 HWY_INLINE Vec medianAt(const float* plane, std::ptrdiff_t pitch) {
     const Cells d;
     Vec low[3], middle[3], high[3];
@@ -51,8 +50,9 @@ HWY_INLINE Vec medianAt(const float* plane, std::ptrdiff_t pitch) {
     return centre;
 }
 
-/// Sums over the neighbours in one row, with weight w and column offset i: w, w i, w i i; with the
-/// differences x and y of the flow's components from their planes: w x, w x i, w y, w y i.
+/// Weighted sums over the neighbours in one row. A neighbour has weight w and column offset i; x
+/// and y are the differences of its flow from the planes. `wii` is the sum of w i i, `xi` the sum
+/// of w x i.
 struct RowSums {
     Vec w, wi, wii, x, xi, y, yi;
 };
@@ -84,8 +84,7 @@ HWY_INLINE RowSums sumRow(const CleanUpStep& step, std::ptrdiff_t at, const Plan
     return s;
 }
 
-/// Sums over all neighbours at offset (i, j) with weight w: w, w i, w j, w i i, w i j, w j j; for
-/// the differences d = x and d = y of the flow's components from their planes: w d, w d i, w d j.
+/// The sums of RowSums over all rows of neighbours, also with the row offset j.
 struct PlaneSums {
     Vec w, wi, wj, wii, wij, wjj, x, xi, xj, y, yi, yj;
 };
@@ -116,18 +115,18 @@ HWY_INLINE PlaneSums sumNeighbours(const CleanUpStep& step, std::ptrdiff_t at, c
     return s;
 }
 
-/// a b - c d
 HWY_INLINE Vec crossed(Vec a, Vec b, Vec c, Vec d) {
     return hn::Sub(hn::Mul(a, b), hn::Mul(c, d));
 }
 
-/// Fits planes through the neighbours. A neighbour's weight depends on its reliability, and on its
-/// distance from the previous planes. So neighbours beyond a depth edge have no influence.
+/// Fits planes through the neighbours. A neighbour's weight depends on its reliability and on its
+/// distance from the previous planes, so neighbours beyond a depth edge have no influence.
 HWY_INLINE void fitPlanes(const CleanUpStep& step, std::ptrdiff_t at, float reach, Plane& x,
                           Plane& y) {
     const Cells d;
     const PlaneSums s = sumNeighbours(step, at, x, y, reach);
-    // Normal equations with damped slopes, because a single neighbour does not define a plane.
+    // The slopes are damped in the normal equations, because a single neighbour does not define a
+    // plane.
     const Vec damp = hn::MulAdd(hn::Set(d, params::kSlopeDampingPerWeight), s.w,
                                 hn::Set(d, params::kSlopeDamping));
     const Vec ww = hn::Add(s.w, hn::Set(d, 1e-6F));
@@ -142,8 +141,8 @@ HWY_INLINE void fitPlanes(const CleanUpStep& step, std::ptrdiff_t at, float reac
         const auto by = [&](Vec a, Vec b, Vec c) HWY_ATTR {
             return hn::MulAdd(a, u0, hn::MulAdd(b, ui, hn::Mul(c, uj)));
         };
-        // Selects instead of multiplying by 0, because NaN sums of unsolvable cells would remain
-        // NaN.
+        // Multiplying by 0 instead would not remove NaN, which the sums of unsolvable cells may
+        // contain.
         const auto moved = [&](Vec v, Vec change) HWY_ATTR {
             return hn::IfThenElse(solvable, hn::MulAdd(scale, change, v), v);
         };

@@ -4,7 +4,7 @@
 
 namespace mfar::simd {
 
-/// Owns the flow vectors of one pyramid level's cells, with margins for the clean-up. Initially all
+/// The flow vectors of one pyramid level's cells, with margins for the clean-up. Initially, all
 /// vectors are zero.
 class FlowField {
 public:
@@ -17,7 +17,6 @@ public:
         return {first(x_),  first(y_),    first(cost_), first(texture_),
                 x_.pitch(), cells_.width, cells_.height};
     }
-    /// Returns the address of cell (0, 0) in a plane of size withMargins().
     [[nodiscard]] static float* first(AlignedRows<float>& plane) {
         return plane[kCleanUpRadius] + kFieldMargin;
     }

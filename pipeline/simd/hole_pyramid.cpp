@@ -7,16 +7,14 @@
 namespace mfar::simd {
 namespace {
 
-/// Rounds values >= 0; faster than lround().
 std::uint32_t rounded(float value) {
     const float above = value + 0.5F;
     return static_cast<std::uint32_t>(above);
 }
 
-constexpr int kCrackLevels = 2;  // number of pyramid levels that filling a crack needs
+constexpr int kCrackLevels = 2;  // number of pyramid levels that are used to fill a crack
 constexpr std::uint32_t kAnyObject = 254;
-constexpr int kBlockShift =
-    HolePyramid::kLevels;  // a block is a texel of the coarsest pyramid level
+constexpr int kBlockShift = HolePyramid::kLevels;
 constexpr std::size_t kHolesAtATime = 32;
 
 int halved(int pixels) {
@@ -34,7 +32,6 @@ std::uint32_t mean(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint3
     return sum(0) | sum(8) << 8;
 }
 
-/// A weighted sum of RGBA8 colours.
 struct Mixture {
     std::array<float, 4> rgba{};
     float weight = 0;
@@ -85,8 +82,8 @@ void HolePyramid::fill(const Layer& layer, std::span<Hole> holes, bool pushPull)
         body(0, count);
 }
 
-/// Marks the blocks that holes need. A hole looks up the texels around it at each pyramid level;
-/// these lie in the hole's block and the neighbouring blocks.
+/// Marks the blocks that holes need. At each pyramid level, a hole reads texels of its own block
+/// and of the neighbouring blocks.
 void HolePyramid::markBlocks(const PixelRect& where, std::span<const Hole> holes) {
     blocks_ = {where.x0 >> kBlockShift, where.y0 >> kBlockShift,
                ((where.x1 - 1) >> kBlockShift) + 1, ((where.y1 - 1) >> kBlockShift) + 1};
@@ -102,7 +99,7 @@ void HolePyramid::markBlocks(const PixelRect& where, std::span<const Hole> holes
     }
 }
 
-/// Merges four parts of an area. If at least half of the area is known, it has the full weight.
+/// Merges four parts of an area. The result has full weight if at least half of the area is known.
 HolePyramid::Area HolePyramid::merged(const std::array<Area, 4>& parts) {
     Area out;
     Mixture best, catcher;
@@ -167,7 +164,7 @@ void HolePyramid::pull(const Layer& layer, int level) {
             for (int x = r.x0; x < r.x1; ++x, ++out) {
                 const int u = std::min(x >> shift, blocks_.x1 - 1) - blocks_.x0;
                 if (wanted[u] == 0) {
-                    *out = {};  // weight 0: the area counts as unknown
+                    *out = {};
                     continue;
                 }
                 if (level == 0) {
@@ -187,8 +184,8 @@ void HolePyramid::pull(const Layer& layer, int level) {
         rows(0, r.y1 - r.y0);
 }
 
-/// Adds the bilinear value of one pyramid level at a pixel. Its weight is what the finer levels
-/// left uncovered there.
+/// Adds the bilinear value of one pyramid level at a pixel. Its weight is the part of the pixel
+/// that finer levels left uncovered.
 void HolePyramid::addLevel(int level, int x, int y, std::uint32_t id, Sum& sum) const {
     const float scale = 1.0F / static_cast<float>(2 << level);
     const float u = (static_cast<float>(x) + 0.5F) * scale - 0.5F;
@@ -221,7 +218,6 @@ HolePyramid::Sum HolePyramid::gathered(int x, int y, std::uint32_t id, int last)
 
 namespace {
 
-/// True if most of the surrounding pixels show the surface with this number.
 bool isCrack(const HolePyramid::Layer& layer, int x, int y, std::uint32_t id) {
     const PixelRect& where = layer.where;
     int same = 0;
@@ -233,9 +229,8 @@ bool isCrack(const HolePyramid::Layer& layer, int x, int y, std::uint32_t id) {
 
 }  // namespace
 
-/// Fills a hole with colours of its own object. If none is known, it takes the colours of all
-/// surrounding objects, because an object that has just appeared from behind others would otherwise
-/// look transparent.
+/// Fills a hole with colours of its own object or, if none is known, of all surrounding objects.
+/// Otherwise, an object that has just appeared from behind others would look transparent.
 void HolePyramid::fillHole(const Layer& layer, Hole& hole, bool pushPull) const {
     const int x = static_cast<int>(hole.pixel) % width_, y = static_cast<int>(hole.pixel) / width_;
     const std::uint32_t state = layer.state[y][x], id = state & 255U;

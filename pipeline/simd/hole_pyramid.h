@@ -13,35 +13,35 @@
 
 namespace mfar::simd {
 
-/// Fills holes from their surroundings by push-pull (Gortler et al. 1996, section 3.5). Objects and
-/// the shadow below them are filled separately, so that neither leaks into the other. CPU version
-/// of the GLES engine's HoleFiller; the pyramid is computed only where it is read.
+/// Fills holes, which are pixels without a rendered sample, from their surroundings by push-pull
+/// (Gortler et al. 1996, section 3.5). Objects and the shadow below them are filled separately, so
+/// that neither leaks into the other. CPU version of the GLES engine's HoleFiller; the pyramid is
+/// computed only where it is read.
 class HolePyramid {
 public:
     static constexpr int kLevels = 6;
 
     HolePyramid(Size layer, std::shared_ptr<Workers> workers);
 
-    /// A layer as written by ViewLookUp.
     struct Layer {
-        Rows<std::uint32_t> colour;  ///< fill() changes the pixels of holes
+        Rows<std::uint32_t> colour;  ///< fill() overwrites the holes
         Rows<const std::uint32_t> state;
         PixelRect where;
     };
-    /// `holes`: the layer's holes, ascending. Cracks (holes most of whose neighbours show the same
-    /// surface) are always filled, and get Hole::isEdge. Other holes are filled only if `pushPull`
-    /// is set.
+    /// `holes`: the layer's holes, ascending. Cracks are holes most of whose neighbours show the
+    /// same surface. They are always filled and get Hole::isEdge. Other holes are filled only with
+    /// `pushPull`.
     void fill(const Layer& layer, std::span<Hole> holes, bool pushPull);
 
 private:
-    /// An area of the layer: the number and colour of its largest object, and the colour of the
-    /// shadow catcher. Colours are RGBA8, premultiplied; weights are in 1/255.
+    /// A texel of a pyramid level: number and colour of its largest object, and colour of the
+    /// shadow catcher. Colours are premultiplied RGBA8; weights are in 1/255.
     struct Area {
         std::uint32_t object = 0, catcher = 0;
         std::uint8_t id = 0, objectWeight = 0, catcherWeight = 0;
     };
     struct Level {
-        PixelRect texels;  // bounds of `areas` [texels of this pyramid level]
+        PixelRect texels;
         std::vector<Area> areas;
     };
     struct Sum {
@@ -62,9 +62,9 @@ private:
     std::shared_ptr<Workers> workers_;
     std::array<Level, kLevels> levels_;
     int levelCount_ = kLevels;
-    PixelRect blocks_;                       // bounds of the drawn part of the layer, in blocks of
-                                             // 64x64 pixels
-    std::vector<std::uint8_t> blockWanted_;  // one entry per block, row-major
+    PixelRect blocks_;  // bounds of the layer's drawn part [blocks of 64x64
+                        // pixels]
+    std::vector<std::uint8_t> blockWanted_;
 };
 
 }  // namespace mfar::simd

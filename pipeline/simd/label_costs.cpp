@@ -6,7 +6,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/label_costs.cpp"
 #include <hwy/foreach_target.h>
-// The next header is included once per instruction set, as this file is.
+// Must come after foreach_target.h: compiled once per instruction set.
 #include "pipeline/simd/label_lines-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -15,7 +15,6 @@ namespace mfar::simd::HWY_NAMESPACE {
 constexpr int kSteps = kLabels - 1;
 constexpr int kUnseenCost = kCensusBits / 2;
 constexpr float kFixed = 65536.0F;
-// Number of pixels whose segments of epipolar lines are computed at a time.
 constexpr std::size_t kRun = 64;
 
 using DLabels = hn::CappedTag<std::int32_t, kLabels>;
@@ -25,7 +24,7 @@ using DLabels = hn::CappedTag<std::int32_t, kLabels>;
 struct Segments {
     HWY_ALIGN float fromX[kRun], fromY[kRun], wayX[kRun], wayY[kRun];
     /// Start and step in fixed point [1/kFixed px], measured from the pixels' edges. Used only if
-    /// both ends of the segment are in the picture (`isInside`).
+    /// `isInside`: both ends of the segment are in the picture.
     HWY_ALIGN std::int32_t x[kRun], y[kRun], dx[kRun], dy[kRun], isInside[kRun];
 };
 
@@ -58,7 +57,7 @@ HWY_INLINE void keepSegments(D d, std::size_t i, const Points<hn::Vec<D>>& from,
     hn::StoreU(hn::BitCast(dInt, hn::VecFromMask(d, isInside)), dInt, out.isInside + i);
 }
 
-/// Stores segments that are shifted sideways by one pixel. The sign of `side` selects the side.
+/// Stores segments, shifted sideways by one pixel. The sign of `side` selects the side.
 template <class D>
 HWY_INLINE void keepBeside(D d, std::size_t i, const Segments& of, float side, Size size,
                            Segments& out) {
@@ -132,7 +131,6 @@ HWY_INLINE void costsOf(const Segments& segments, std::size_t i, std::uint32_t o
         costsAcrossBorder(segments, i, own, still, out);
 }
 
-/// Replaces the costs in `out` by those along `segments` where the latter are smaller.
 HWY_INLINE void takeLesser(const Segments& segments, std::size_t i, std::uint32_t own,
                            const CensusPicture& still, std::uint8_t* out) {
     const hn::CappedTag<std::uint8_t, kLabels> d;

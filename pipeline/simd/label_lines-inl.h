@@ -1,4 +1,4 @@
-// Included once per instruction set.
+// This header is included once per instruction set.
 #include "pipeline/simd/label_lines.h"
 #include "pipeline/simd/lanes-inl.h"
 
@@ -12,7 +12,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 
-/// Returns where the canvas shows pixels with given labels.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Points<V> placed(D d, const LabelLines& lines, V rayX, V rayY, V label) {
     const V s = hn::Mul(hn::Set(d, lines.perLabel), label), tz = hn::Set(d, lines.tz);

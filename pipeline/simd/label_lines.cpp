@@ -3,7 +3,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/label_lines.cpp"
 #include <hwy/foreach_target.h>
-// The next header is included once per instruction set, as this file is.
+// Must come after foreach_target.h: compiled once per instruction set.
 #include "pipeline/simd/label_lines-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -28,7 +28,6 @@ HWY_INLINE Valleys<D> loadValleys(D d, const Valley* from) {
     return {hn::ConvertTo(d, hn::BitCast(dInt, label)), rises};
 }
 
-/// Returns byte `kIndex` of Valley::rise.
 template <int kIndex, class D>
 HWY_INLINE hn::Vec<D> riseOf(D d, const Valleys<D>& valleys) {
     const hn::RebindToUnsigned<D> dBits;
@@ -47,8 +46,7 @@ HWY_INLINE V vertices(D d, const Valleys<D>& valleys) {
     return hn::IfThenElse(isPlain, valleys.label, hn::Add(valleys.label, part));
 }
 
-/// Finds the still's pixels nearest to the points of labels. Labels are counted from the best
-/// label.
+/// Finds the still's pixels nearest to the points of labels. Labels are counted from the best one.
 template <class D>
 struct NearestPixels {
     using V = hn::Vec<D>;
@@ -62,7 +60,7 @@ struct NearestPixels {
 
     D d;
     Points<V> best, way;
-    V perSquare;  ///< 1 / squared length of one label's step [1/px^2]
+    V perSquare;
 
     HWY_INLINE Pixel at(float k) const {
         const V from = hn::Set(d, k), half = hn::Set(d, 0.5F);
@@ -71,8 +69,8 @@ struct NearestPixels {
         const V along = hn::Mul(hn::Sub(x, best.x), way.x);
         return {x, y, hn::Mul(hn::MulAdd(hn::Sub(y, best.y), way.y, along), perSquare)};
     }
-    /// Returns the next pixel on one side that differs from `own`. `near`, `far`: extra costs of
-    /// the next label and of the one after it.
+    /// Returns the next pixel on one side that differs from `own`. `near`, `far`: additional costs
+    /// of the next label and of the one after it.
     HWY_INLINE Side beside(const Pixel& own, float side, V near, V far) const {
         const Pixel one = at(side), two = at(2 * side);
         const auto isNext = [&](const Pixel& p)
@@ -83,9 +81,8 @@ struct NearestPixels {
     }
 };
 
-/// Returns the cost minima of the valleys, counted in labels from the best label. If two labels are
-/// nearest to the same pixel, they count as one, at the point of the epipolar line that is nearest
-/// to the pixel.
+/// Returns the cost minima of the valleys, counted in labels from the best label. Labels with the
+/// same nearest pixel count as one, at the point of the epipolar line that is nearest to the pixel.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V bottoms(D d, const Valleys<D>& valleys, const NearestPixels<D>& pixels) {
     const auto own = pixels.at(0);

@@ -1,4 +1,4 @@
-// Shared by several kernels. Included once per instruction set.
+// Functions that several kernels use. This header is included once per instruction set.
 #include "pipeline/simd/lens.h"
 
 #include <cstddef>
@@ -17,9 +17,9 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Calls body(tag, i) for vectors that cover `count` values. The last vector may overlap the one
-/// before, so the body must not change its input. If `count` is less than a vector, the body is
-/// called for single lanes.
+/// Calls body(tag, i) for vectors that cover `count` values. The last vector may overlap the
+/// previous one, so the body must not change its input. Fewer values than a vector has are
+/// processed one by one.
 template <class D, class Body>
 HWY_INLINE void forLanes(D d, std::size_t count, const Body& body) {
     const std::size_t lanes = hn::Lanes(d);
@@ -41,7 +41,7 @@ HWY_INLINE Points<V> projected(D d, const Lens& lens, V x, V y) {
     const auto set = [d](float v) HWY_ATTR { return hn::Set(d, v); };
     V q = hn::MulAdd(x, x, hn::Mul(y, y));
     const V rim = set(lens.rim2);
-    // q <= rim is false for NaN, so NaN rays are processed here, too, and stay NaN.
+    // q <= rim is false for NaN, so NaN rays also take this branch and stay NaN.
     if (!hn::AllTrue(d, hn::Le(q, rim))) {
         const V c = hn::Sqrt(hn::Div(rim, hn::Max(q, rim)));
         x = hn::Mul(x, c);

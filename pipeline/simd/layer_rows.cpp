@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-// Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/layer_rows.cpp"
 #include <hwy/foreach_target.h>
@@ -14,7 +13,6 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Calls body(tag, x) for whole vectors of `count` entries, then for single entries.
 template <class Body>
 HWY_INLINE void Along(int count, const Body& body) {
     const hn::ScalableTag<float> d;
@@ -70,7 +68,7 @@ struct Depths {
             best = hn::IfThenElse(better, weight, best);
             depth = hn::IfThenElse(better, z, depth);
         };
-        // Of equal weights, the first wins; the order is that of textureGather.
+        // If weights are equal, the first one wins. The order is that of textureGather.
         consider(below, columns.left, hn::Mul(toLeft, down));
         consider(below, columns.right, hn::Mul(toRight, down));
         consider(above, columns.right, hn::Mul(toRight, up));
@@ -126,7 +124,6 @@ using D16 = hn::Repartition<std::uint16_t, D32>;
 using V16 = hn::Vec<D16>;
 using V32 = hn::Vec<D32>;
 
-/// Interpolates both 16-bit channels of each word.
 HWY_INLINE V16 Between(V16 a, V16 b, V16 share) {
     const hn::RebindToSigned<D16> di;
     const auto from = hn::BitCast(di, a);
@@ -141,7 +138,7 @@ void BlendLayerRows(const std::uint32_t* above, const std::uint32_t* below, std:
     const D16 d16;
     const auto even = hn::BitCast(d16, hn::Set(d, 0x00FF00FFU));
     const auto shares = hn::BitCast(d16, hn::Set(d, share));
-    // The last vector may reach beyond the last entry; rows have kLayerSpare entries for this.
+    // The last vector may reach beyond the last entry; rows have kLayerSpare more entries.
     for (int x = 0; x < count; x += static_cast<int>(hn::Lanes(d))) {
         const auto a = hn::BitCast(d16, hn::LoadU(d, above + x));
         const auto b = hn::BitCast(d16, hn::LoadU(d, below + x));
@@ -159,7 +156,6 @@ void EnlargeColours(const BlendedColours& part, const LayerColumns& columns, int
     const D32 d;
     const D16 d16;
     const int lanes = static_cast<int>(hn::Lanes(d));
-    // Columns beyond the last one repeat it.
     for (int x = 0; x < count; x += lanes) {
         const V16 share = hn::BitCast(d16, hn::LoadU(d, columns.share + x));
         const auto at = [&](const std::uint32_t* row) HWY_ATTR {
@@ -197,7 +193,6 @@ HWY_INLINE V16 DividedBy255(V16 product) {
     return hn::ShiftRight<8>(hn::SaturatedAdd(rounded, hn::ShiftRight<8>(rounded)));
 }
 
-/// Composites two channels of a pixel, with 16 bits each.
 HWY_INLINE V16 BlendChannels(V16 colour, V16 visible, V16 under, V16 through) {
     return DividedBy255(hn::SaturatedAdd(hn::Mul(colour, visible), hn::Mul(under, through)));
 }

@@ -9,7 +9,7 @@ namespace {
 
 using enlarge::kGrid;
 
-constexpr int kReach = 3;  // neighbours on each side that a pixel's class and residual depend on
+constexpr int kReach = 3;
 
 }  // namespace
 
@@ -77,7 +77,6 @@ void LearnedRows::load(int row, std::int16_t* to) {
     if (end == size_.width) std::fill_n(to + end, kReach, to[end - 1]);
 }
 
-// Returns the luma of a row of the picture. Rows beyond the border repeat it.
 const std::int16_t* LearnedRows::luma(int row) {
     const int at = std::clamp(row, 0, size_.height - 1), slot = at % kKept;
     std::int16_t* out = luma_[slot] + kMargin;

@@ -4,9 +4,11 @@ namespace mfar::simd {
 
 /// Maps rays (x / z, y / z) to pixels: a pinhole camera with radial and tangential distortion.
 struct Lens {
-    float fx = 1, fy = 1, cx = 0, cy = 0;          ///< [px]
-    float k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;  ///< as CameraModel::distortion
-    float rim2 = 1;  ///< squared radius of the outermost valid rays; others are moved inwards to it
+    /// fx to cy are in pixels; k1 to k3 are CameraModel::distortion.
+    float fx = 1, fy = 1, cx = 0, cy = 0;
+    float k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;
+    float rim2 = 1;  ///< squared radius of the outermost valid rays; rays outside are moved inwards
+                     ///< to it
 };
 
 }  // namespace mfar::simd

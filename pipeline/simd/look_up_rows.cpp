@@ -5,10 +5,9 @@
 namespace mfar::simd {
 namespace {
 
-// Largest coordinate [still px] and weight of a valid look-up. No still has a pixel farther away.
+// Largest valid coordinate [still px] and weight of a look-up. No still has a pixel farther away.
 constexpr float kFarthest = 1e5F, kMostWeight = 4;
 
-/// Table for linear interpolation between cells, at the output's size.
 RowTaps cellTaps(int cells, int video, int output) {
     return RowTaps::linear(cells, output, static_cast<double>(video) / output / kCell);
 }

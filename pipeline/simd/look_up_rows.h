@@ -9,8 +9,8 @@ namespace mfar::simd {
 
 /// Tables that enlarge a field of look-ups to the output's size. All threads share them.
 struct LookUpTaps {
-    /// `stillRig`: its still camera has the resolution in which the still is looked up. `output`:
-    /// size of the whole enlarged video.
+    /// `stillRig`: its still camera has the resolution of the still that is read. `output`: size of
+    /// the whole enlarged video.
     LookUpTaps(const StereoRig& stillRig, Size output);
 
     RowTaps rows, columns;
@@ -18,8 +18,8 @@ struct LookUpTaps {
     float stepX, stepY;  ///< still pixels per output pixel
 };
 
-/// Look-up positions in the still and weights of the still for rows of the output. Each thread has
-/// its own object.
+/// Enlarges look-up positions in the still, and weights of the still, to rows of the output. Each
+/// thread has its own object.
 class LookUpRowCache {
 public:
     LookUpRowCache(Size cells, int outputWidth) : cells_(cells.width, outputWidth) {}
@@ -28,8 +28,8 @@ public:
     /// LookUpRows::share is the confidence instead of the weight.
     void begin(Rows<const LookUpCell> field, const LookUpTaps& taps, bool confident, int begin,
                int end);
-    /// Returns a row. It is valid until a row of the output is requested that needs a row of cells
-    /// at least four rows of cells away from this one's.
+    /// Returns a row of the output. It is valid until row() needs a row of cells that is at least
+    /// four rows away from this one's.
     [[nodiscard]] LookUpRows row(int y);
 
 private:

@@ -5,7 +5,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/luma_filters.cpp"
 #include <hwy/foreach_target.h>
-// The next header is included once per instruction set, as this file is.
+// Must come after foreach_target.h: compiled once per instruction set.
 #include "pipeline/simd/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -13,7 +13,6 @@ namespace mfar::simd::HWY_NAMESPACE {
 
 using DWords = hn::ScalableTag<std::uint16_t>;
 
-/// Stores words below 256 as bytes.
 template <class D>
 HWY_INLINE void storeBytes(D /*d*/, hn::Vec<D> words, std::uint8_t* to) {
     const hn::RebindToSigned<D> dSigned;
@@ -21,7 +20,6 @@ HWY_INLINE void storeBytes(D /*d*/, hn::Vec<D> words, std::uint8_t* to) {
     hn::StoreU(hn::DemoteTo(dByte, hn::BitCast(dSigned, words)), dByte, to);
 }
 
-/// Loads pairs of bytes as words.
 template <class D>
 HWY_INLINE hn::Vec<D> loadPairs(D d, const std::uint8_t* from) {
     return hn::LoadU(d, reinterpret_cast<const std::uint16_t*>(from));
@@ -88,7 +86,6 @@ void NoiseColumns(const Rows<const std::uint8_t>& picture, int first, int rows, 
     forLanes(hn::ScalableTag<std::int16_t>(), width, [&](auto d, std::size_t i) HWY_ATTR {
         const hn::Rebind<std::uint8_t, decltype(d)> dByte;
         const hn::RebindToUnsigned<decltype(d)> dWord;
-        // Applies the mask (1 -2 1) along a row.
         const auto bend = [&](int y) HWY_ATTR {
             const std::uint8_t* row = picture[y] + i;
             const auto at = [&](int k)

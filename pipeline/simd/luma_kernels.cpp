@@ -2,7 +2,6 @@
 
 #include "pipeline/engine/params/luma.h"
 
-// Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/luma_kernels.cpp"
 #include <algorithm>
@@ -26,7 +25,6 @@ HWY_INLINE Vec loadFloats(const std::uint8_t* from) {
     return hn::ConvertTo(d, hn::PromoteTo(hn::RebindToSigned<Floats>(), hn::LoadU(Bytes(), from)));
 }
 
-/// Rounds grey levels and clamps them to a byte.
 HWY_INLINE hn::Vec<Bytes> roundedBytes(Vec v) {
     const Floats d;
     const auto held =
@@ -34,7 +32,6 @@ HWY_INLINE hn::Vec<Bytes> roundedBytes(Vec v) {
     return hn::DemoteTo(Bytes(), hn::ConvertTo(hn::RebindToSigned<Floats>(), held));
 }
 
-// Rec. 601 luma.
 HWY_INLINE Vec lumaAt(const SmoothRows::Planes& p, int x) {
     const Floats d;
     if (p.green == nullptr) return loadFloats(p.red + x);
@@ -49,7 +46,6 @@ HWY_INLINE float oneLumaAt(const SmoothRows::Planes& p, int x) {
            params::kLumaBlue * p.blue[x];
 }
 
-/// Smooths columns [first, end) vertically.
 HWY_INLINE void smoothColumns(const SmoothRows& rows, int first, int end, float side, float* to) {
     const Floats d;
     const auto lanes = static_cast<int>(hn::Lanes(d));
@@ -71,7 +67,7 @@ void SmoothLumaRow(const SmoothRows& rows, int width, float side, std::uint8_t* 
     const Floats d;
     const auto lanes = static_cast<int>(hn::Lanes(d));
     const auto sides = hn::Set(d, side), centre = hn::Set(d, 1 - 2 * side);
-    HWY_ALIGN float columns[kStrip + 2 + kMostLanes];  // starts one pixel left of the strip
+    HWY_ALIGN float columns[kStrip + 2 + kMostLanes];
     std::uint8_t rest[kMostLanes];
     for (int first = 0; first < width; first += kStrip) {
         const int count = std::min(kStrip, width - first);

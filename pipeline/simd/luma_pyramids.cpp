@@ -7,7 +7,7 @@
 namespace mfar::simd {
 namespace {
 
-constexpr int kMargin = 4 * kLumaMarginWords;  // bytes on each side of a row
+constexpr int kMargin = 4 * kLumaMarginWords;
 // Pyramid levels with fewer rows are processed in one thread, because waking others takes longer.
 constexpr int kSharedRows = 200;
 

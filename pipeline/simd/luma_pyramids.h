@@ -15,21 +15,18 @@
 
 namespace mfar::simd {
 
-/// Luma pyramids for the flow: of the video frame, and of the still as the video camera would see
-/// it (rotation and both lenses applied, without parallax). Both are smoothed in the same way. They
-/// are in host memory, in the shaders' layout (luma_layout.h), so that words() can be uploaded
-/// unchanged.
+/// Luma pyramids of the video frame and of the still, for the flow search. The still is shown as
+/// the video camera would see it (rotation and both lenses applied, without parallax). Both are
+/// smoothed in the same way. The pixels are stored in the shaders' layout (luma_layout.h), so
+/// words() can be uploaded unchanged.
 class LumaPyramids {
 public:
     LumaPyramids(Size video, std::shared_ptr<Workers> workers);
 
-    /// Builds the video's pyramid from a frame.
     void buildVideo(const RgbPlanes& video);
-    /// Builds the still's pyramid from the luma of a still of size rig.still.size, seen through the
-    /// rig. Needed once per still.
+    /// Builds the still's pyramid from its luma, of size rig.still.size. Needed once per still.
     void buildStill(Rows<const std::uint8_t> luma, const StereoRig& rig);
-    /// Builds the still's pyramid from luma that already has the video's geometry, for flow between
-    /// two frames.
+    /// Builds the still's pyramid from luma with the video's geometry, for flow between two frames.
     void buildSecond(Rows<const std::uint8_t> luma);
     /// Builds the video's pyramid from the luma of a frame.
     void buildFirst(Rows<const std::uint8_t> luma);
@@ -43,17 +40,15 @@ private:
     void smooth(Rows<const std::uint8_t> luma, const std::vector<LumaLevel>& levels);
     void buildCoarse(const std::vector<LumaLevel>& levels);
     void halve(const LumaLevel& fine, const LumaLevel& coarse, int first, int last);
-    /// Returns the first pixel of a row.
     [[nodiscard]] std::uint8_t* rowOf(const LumaLevel& level, int y);
-    /// Repeats a row's border in its margins.
     void fillMargins(const LumaLevel& level, int y);
     void findStillPixels(const StillLens& lens);
 
     std::shared_ptr<Workers> workers_;
     std::vector<LumaLevel> video_, still_;
     std::vector<std::uint32_t> words_;
-    std::optional<StillLens> lens_;       // the lens for which stillX_ and stillY_ were computed
-    AlignedRows<float> stillX_, stillY_;  // position in the still of each video pixel
+    std::optional<StillLens> lens_;
+    AlignedRows<float> stillX_, stillY_;
 };
 
 }  // namespace mfar::simd

@@ -1,6 +1,5 @@
 #include "pipeline/simd/luma_rows.h"
 
-// Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/luma_rows.cpp"
 #include <hwy/foreach_target.h>

@@ -6,7 +6,7 @@
 #define HWY_TARGET_INCLUDE "pipeline/simd/mirror_rows.cpp"
 
 #include <hwy/foreach_target.h>
-// The next header is included once per instruction set, as this file is.
+// Must come after foreach_target.h: compiled once per instruction set.
 #include "pipeline/simd/point_lens-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -22,8 +22,8 @@ using VU = hn::Vec<DU>;
 using VI = hn::Vec<DI>;
 using V3 = Triples<V>;
 
-// The visible share of the sun is computed only for pixels that mirror more light of the sun than
-// this factor times the light of the sky.
+// The visible share of the sun is computed only if a pixel mirrors more light of the sun than this
+// factor times the light of the sky.
 constexpr float kLeastSun = 0.1F;
 // Largest value of the free bits of two light words, which hold the sun's share.
 constexpr float kMostSunShare = 63;
@@ -44,7 +44,6 @@ HWY_INLINE V ByteOf(VU word) {
     return hn::ConvertTo(D(), hn::BitCast(DI(), byte));
 }
 
-/// Returns red, green and blue of light words.
 HWY_INLINE V3 Unpacked(VU words) {
     const DU du;
     constexpr std::uint32_t kOffset = 127 - kLightBias - kLightBits;
@@ -54,7 +53,7 @@ HWY_INLINE V3 Unpacked(VU words) {
             hn::Mul(scale, ByteOf<2 * kLightBits>(words))};
 }
 
-/// Returns light words whose free bits are 0. `light` is not negative.
+/// Returns light words with free bits 0. `light` must not be negative.
 HWY_INLINE VU Packed(const V3& light) {
     const DU du;
     const DI di;
@@ -79,7 +78,6 @@ HWY_INLINE V SignOf(V x) {
     return hn::IfThenElse(hn::Lt(x, hn::Zero(D())), F(-1), F(1));
 }
 
-/// Folds directions with negative z as the octahedral map does.
 HWY_INLINE void Fold(V z, V& x, V& y) {
     const auto lower = hn::Lt(z, hn::Zero(D()));
     const V u = hn::Mul(hn::Sub(F(1), hn::Abs(y)), SignOf(x));
@@ -105,7 +103,6 @@ HWY_INLINE void AddShare(V3& sum, V share, const V3& light) {
     sum.z = hn::MulAdd(share, light.z, sum.z);
 }
 
-/// Looks up light in each lane's table, bilinearly, and adds it to `sum` with a weight.
 HWY_INLINE void AddTable(const MirrorInput& in, VI table, V x, V y, V weight, V3& sum) {
     const DI di;
     const VI at = hn::Add(table, table);
@@ -156,10 +153,11 @@ HWY_INLINE V SunShare(const MirrorInput& in, const V3& normal, const V3& wo, V c
     return hn::Mul(hn::Mul(density, seen), hn::Mul(held, paint));
 }
 
-/// The distant light that pixels mirror to an eye if nothing is in its way.
+/// The distant light that pixels mirror to an eye if no object hides it. `sun` is a multiple of the
+/// sun's irradiance.
 struct FarParts {
     V3 sky;
-    V sun;  ///< as a multiple of the sun's irradiance
+    V sun;
 };
 HWY_INLINE FarParts Mirrored(const MirrorInput& in, const V3& normal, const V3& wo, VU look) {
     const D d;
@@ -184,7 +182,6 @@ HWY_INLINE FarParts Mirrored(const MirrorInput& in, const V3& normal, const V3& 
             hn::Mul(F(in.exposure), SunShare(in, normal, wo, cosO, facing, alpha))};
 }
 
-/// Calls body(x, mirrored, mask) for all vectors that have a pixel with gloss.
 template <class Body>
 HWY_INLINE void ForGloss(const MirrorRow& row, const MirrorInput& in, const Body& body) {
     const D d;
@@ -211,8 +208,8 @@ HWY_INLINE void ForGloss(const MirrorRow& row, const MirrorInput& in, const Body
     }
 }
 
-/// The two words of each lane's entry. LoadPairs() and StorePairs() do not access entries behind
-/// the row, because these belong to the next row, which another thread may change.
+/// The two words of each lane's entry. LoadPairs() and StorePairs() access no entries after the
+/// row: these belong to the next row, which another thread may change.
 struct Pair {
     VU first, second;
 };
@@ -259,7 +256,7 @@ void SplitMirrored(const MirrorRow& row, const MirrorInput& in, const LightWords
         const V3 share{ShareOf(all.x, far.sky.x), ShareOf(all.y, far.sky.y),
                        ShareOf(all.z, far.sky.z)};
         const V ofSky = Luminance(far.sky), ofSun = Luminance(sun), ofAll = Luminance(all);
-        // If a pixel mirrors little sunlight, the visible share of the sky is used for the sun too.
+        // If a pixel mirrors little sunlight, the sun's visible share is set to that of the sky.
         const auto bright = hn::Gt(ofSun, hn::Mul(F(kLeastSun), ofSky));
         const V sunShare =
             hn::IfThenElse(bright, ShareOf(hn::Sub(ofAll, ofSky), ofSun), Luminance(share));

@@ -9,25 +9,23 @@
 
 namespace mfar::simd {
 
-/// MirrorLight in the form that vector code reads.
 struct MirrorInput {
     const std::uint32_t* texels;
-    /// Two words per table: index of the table's first texel, and texels per side.
+    /// Two words per light table: index of its first texel, and texels per side.
     const std::int32_t* tables;
-    /// For each roughness, as a byte, light is interpolated between two tables. tableOf: index of
-    /// the sharper table. shareOf: weight of the less sharp table.
+    /// For each roughness (a byte), light is interpolated between two tables. tableOf: index of the
+    /// sharper table. shareOf: weight of the less sharp one.
     const std::int32_t* tableOf;
     const float* shareOf;
-    /// For each roughness, as a byte: width of the reflection lobe, at least the sun's width.
+    /// Width of the reflection lobe for each roughness (a byte), at least the sun's width.
     const float* alphaOf;
     float sun[3], irradiance[3];
     float least, exposure;
-    float axes[3][3];  ///< columns: camera axes in the world
-    /// Vector in the world from the traced picture's camera to the eye that sees the light [m].
+    float axes[3][3];  ///< columns: the camera's axes in the world
+    /// Vector from the traced picture's camera to the eye that sees the light, in the world [m].
     float eye[3];
 };
 
-/// A row of pixels of a traced picture.
 struct MirrorRow {
     int count;
     const std::uint32_t* packed;  ///< surfaces, see TracedPicture::packed
@@ -35,20 +33,20 @@ struct MirrorRow {
     const float *rayX, *rayY;  ///< normalised rays of the pixels
 };
 
-/// The specular light of a pixel in two light words. `share` is the share of the mirrored sky that
-/// no object hides; `rest` is the remaining specular light. The free bits of the two words have the
+/// The specular light of a pixel as two light words. `share`: share of the mirrored sky that no
+/// object hides. `rest`: the remaining specular light. The free bits of the two words have the
 /// share of the sun that no object hides.
 struct MirrorParts {
     std::uint32_t share = 0, rest = 0;
 };
 
 // splitMirrored() and joinMirrored() skip pixels without gloss. The arrays of surfaces, gloss, rays
-// and parts must have 7 entries more than the row has pixels; these are read but not written.
+// and parts must have 7 more entries than the row has pixels. These are read but not written.
 /// Splits the specular light that the traced picture's camera sees into its parts.
 void splitMirrored(const MirrorRow& row, const MirrorInput& input, const LightWords* light,
                    MirrorParts* out);
-/// Computes from the parts the specular light that another eye sees. Does not change the veil of
-/// `light`.
+/// Computes from `parts` the specular light that another eye sees. The veil of `light` stays
+/// unchanged.
 void joinMirrored(const MirrorRow& row, const MirrorInput& input, const MirrorParts* parts,
                   LightWords* light);
 

@@ -8,7 +8,7 @@ namespace mfar::simd {
 namespace {
 
 constexpr int kMirrorRows = 8;
-constexpr std::size_t kSpare = 8;  // number of entries that vectors may read behind the last row
+constexpr std::size_t kSpare = 8;  // entries that vectors may read after the last row
 constexpr int kRoughnesses = 256;
 constexpr float kLeastAlpha = 1e-3F;
 

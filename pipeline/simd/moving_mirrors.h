@@ -12,9 +12,9 @@
 
 namespace mfar::simd {
 
-/// Computes the light of a traced picture's objects as it is seen from another position. Mirrored
-/// distant light is computed again from each pixel's normal and roughness. So mirror images and
-/// highlights move as they do in the scene, and do not stick to the surface.
+/// Computes the light of a traced picture's objects as seen from another position. Mirrored distant
+/// light is computed again from each pixel's normal and roughness. So mirror images and highlights
+/// move as in the scene, instead of sticking to the surface.
 class MovingMirrors {
 public:
     /// `rayX`, `rayY`: normalised rays of the layer's camera. If `workers` is null, all work runs
@@ -24,9 +24,9 @@ public:
 
     /// The traced picture must live until the next call.
     void setTracedPicture(const TracedPicture& traced);
-    /// Returns TracedPicture::light as it is seen from the position `eye` in the world. Returns
-    /// TracedPicture::light unchanged if the gloss of its pixels is unknown, or if its camera is
-    /// not the layer's. Valid until the next call.
+    /// Returns TracedPicture::light as seen from the position `eye` in the world. It is unchanged
+    /// if the gloss of the pixels is unknown, or if the traced picture's camera is not the layer's.
+    /// Valid until the next call.
     [[nodiscard]] std::span<const LightWords> lightFor(const Eigen::Vector3d& eye);
 
 private:
@@ -44,11 +44,11 @@ private:
     Rows<const float> rayX_, rayY_;
     std::shared_ptr<Workers> workers_;
     const TracedPicture* traced_ = nullptr;
-    std::shared_ptr<const MirrorLight> mirrors_;  // the light from which the tables are made
-    std::vector<std::int32_t> tables_, tableOf_;  // see MirrorInput
+    std::shared_ptr<const MirrorLight> mirrors_;
+    std::vector<std::int32_t> tables_, tableOf_;
     std::vector<float> shareOf_, alphaOf_;
     bool moves_ = false;
-    Eigen::Vector3d eye_;  // the eye for which light_ was computed
+    Eigen::Vector3d eye_;
     std::vector<std::uint32_t> packed_;
     std::vector<GlossWords> gloss_;
     std::vector<MirrorParts> parts_;

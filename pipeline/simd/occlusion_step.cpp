@@ -15,8 +15,8 @@ Size withMargin(Size video) {
     return {video.width + 2 * kSampleMargin, video.height};
 }
 
-/// Returns the weights of the four samples around a pixel. `share`: distance from the second sample
-/// to the pixel, as a share of the samples' distance.
+/// Returns the weights of the four samples around a pixel. `share`: distance of the pixel from the
+/// second sample, in distances between samples.
 std::array<float, 4> distanceWeights(float share) {
     std::array<float, 4> out{};
     for (int i = 0; i < 4; ++i) {
@@ -26,7 +26,6 @@ std::array<float, 4> distanceWeights(float share) {
     return out;
 }
 
-/// Copies the entries at the border into the margins next to them.
 void repeatBorder(float* row, int width) {
     std::fill_n(row, kSampleMargin, row[kSampleMargin]);
     std::fill_n(row + kSampleMargin + width, kSampleMargin, row[kSampleMargin + width - 1]);
@@ -34,23 +33,22 @@ void repeatBorder(float* row, int width) {
 
 }  // namespace
 
-/// The arguments of run(), and what follows from them.
 struct OcclusionStep::Task {
     const LayerRowsView& layer;
     const RealDepth& real;
     const RgbPlanes& video;
     Rows<std::uint32_t> picture;
-    PixelRect bounds;  // output pixels that the layer covers
-    int first, last;   // columns [first, last) of samples that these pixels need
+    PixelRect bounds;
+    int first, last;  // columns [first, last) of the samples that these pixels need
 };
 
-/// A part of those output rows that lie between the same two rows of samples.
+/// A part of the output rows that lie between the same two rows of samples.
 struct OcclusionStep::Strip {
     int x = 0, count = 0;
     std::array<float, kVisibilityChunk + kSpare> greatest{}, least{}, z{}, inverse{};
     std::array<std::uint32_t, kVisibilityChunk + kSpare> colours{};
-    // Used if the layer is enlarged: the layer's columns around the strip in the layer's rows above
-    // and below, and the colours interpolated between these rows.
+    // For an enlarged layer: parts of the layer's rows above and below the strip, and the colours
+    // interpolated between these rows.
     std::array<float, kVisibilityChunk + kSpare> depthAbove{}, depthBelow{};
     std::array<std::uint32_t, kVisibilityChunk + kSpare> above{}, below{}, redBlue{}, greenAlpha{};
     std::array<std::uint8_t, kVisibilityChunk + kSpare> visibility{};
@@ -75,7 +73,7 @@ OcclusionStep::OcclusionStep(Size video, Size output, Size layer, const Composit
       greatest_({withMargin(video).width, video.height + 1}),
       least_({withMargin(video).width, video.height + 1}), visibility_(output) {
     validate(options);
-    // A strip is so short that the layer's columns around it fit into Strip's arrays, too.
+    // The layer's columns around a strip must also fit into Strip's arrays.
     const double columnsPerPixel = static_cast<double>(layer.width) / output.width;
     longestStrip_ =
         std::clamp(static_cast<int>((kVisibilityChunk - 2) / columnsPerPixel), 1, kVisibilityChunk);
@@ -103,8 +101,8 @@ void OcclusionStep::run(const LayerRowsView& layer, const RealDepth& real, const
     assert(layer.colour.size == layer_ && layer.depth.size == layer_);
     const PixelRect bounds = layerInOutput(layer.bounds, layer_, output_);
     if (bounds.empty()) return;
-    // Range of the samples that the bounds need along one axis: two before and two after each
-    // pixel. Pixels beyond the border use those around the outermost sample.
+    // The samples that the bounds need along one axis: two before and two after each pixel. Pixels
+    // beyond the border use the samples around the outermost one.
     const auto samples = [](int firstBase, int lastBase, int count) {
         return std::pair(std::max(std::min(firstBase, count - 1) - 1, 0),
                          std::min(std::max(lastBase, 0) + 2, count - 1) + 1);
@@ -165,7 +163,7 @@ void OcclusionStep::drawRows(const Task& task, int base) {
     const auto rowAt = [&](auto place) { return static_cast<int>(place - rows_.first.begin()); };
     const int top = std::max(rowAt(found.begin()), task.bounds.y0);
     const int bottom = std::min(rowAt(found.end()), task.bounds.y1);
-    if (top >= bottom) return;  // no output row lies here, as the output is smaller than the video
+    if (top >= bottom) return;  // no output row: the output has fewer rows than the video
     FourRows nearest{}, farthest{};
     const int middle = std::clamp(base, 0, video_.height - 1);
     for (int j = 0; j < 4; ++j) {
@@ -220,7 +218,6 @@ LayerColumns OcclusionStep::layerColumns(const Strip& strip) const {
             layerRight_[first + static_cast<std::size_t>(strip.count) - 1]};
 }
 
-/// Returns the layer's rows above and below an output row, and the weight of the lower one.
 OcclusionStep::TwoRows OcclusionStep::layerRowsAt(int y) const {
     const int base = layerRows_.first[static_cast<std::size_t>(y)];
     return {std::clamp(base, 0, layer_.height - 1), std::clamp(base + 1, 0, layer_.height - 1),

@@ -16,8 +16,8 @@
 
 namespace mfar::simd {
 
-/// A picture of the virtual objects alone, seen by the video camera. Corresponds to VirtualLayer,
-/// but is in host memory, which it does not own.
+/// A picture of the virtual objects alone, as the video camera sees them. It is like VirtualLayer,
+/// but in host memory, which it does not own.
 struct LayerRowsView {
     Rows<const std::uint32_t> colour;  ///< RGBA8, premultiplied by coverage
     Rows<const float>
@@ -25,11 +25,12 @@ struct LayerRowsView {
     PixelRect bounds;  ///< bounds of the covered pixels; empty: nothing is drawn
 };
 
-/// The real depth at every video pixel. Does not own its memory.
+/// Real depth at every video pixel. Does not own its memory.
 struct RealDepth {
-    Rows<const float> inverse;  ///< inverse depth [1/m]
-    Rows<const float> sigma;    ///< standard deviation of `inverse` [1/m]
-    bool squared = false;       ///< true: `sigma` holds variances instead
+    /// Inverse depth and its standard deviation [1/m]; with `squared`, its variance.
+    Rows<const float> inverse;
+    Rows<const float> sigma;
+    bool squared = false;
 
     [[nodiscard]] static RealDepth of(const InverseDepthField& field) {
         return {{field.inverseDepth.data(), field.size.width, field.size},
@@ -38,45 +39,42 @@ struct RealDepth {
     }
 };
 
-/// Composites a virtual layer over the picture of the real scene; hides what the real scene
-/// occludes. CPU version of the GLES engine's LayerComposite. Processes only pixels within the
+/// Composites a virtual layer over the picture of the real scene, and hides what real things
+/// occlude. CPU version of the GLES engine's LayerComposite. Processes only pixels within the
 /// layer's bounds.
 class OcclusionStep {
 public:
-    /// `layer`: size of the layers. Throws std::invalid_argument if an option is not finite or out
-    /// of range. Without workers, it runs in the caller's thread.
+    /// `layer`: size of the layers. Null workers: all work runs in the caller's thread. Throws
+    /// std::invalid_argument if an option is not finite or out of range.
     OcclusionStep(Size video, Size output, Size layer, const CompositeOptions& options,
                   std::shared_ptr<Workers> workers);
 
-    /// `real`: a pixel is unknown and occludes nothing unless inverse depth and sigma are finite
-    /// and positive. `video`: the frame that the depth belongs to. `picture`: that frame at output
-    /// size, RGBA8; it is modified. Layer pixels are drawn only if their depth is finite and
-    /// positive. If the layer is smaller than the output, colours are interpolated linearly between
-    /// its pixels; depth is that of the nearest of the four surrounding pixels that has one.
+    /// Draws `layer` into `picture`, which is `video` at output size in RGBA8. `real`: depth of the
+    /// same frame; pixels whose inverse depth or sigma is not finite and positive occlude nothing.
+    /// Layer pixels are drawn only if their depth is finite and positive. If the layer is smaller
+    /// than the output, colours are interpolated linearly. Depth is then that of the nearest of the
+    /// four surrounding layer pixels that has one.
     void run(const LayerRowsView& layer, const RealDepth& real, const RgbPlanes& video,
              Rows<std::uint32_t> picture);
 
-    /// See CompositeOptions::hides().
     [[nodiscard]] bool hides(double inverseDepth, double sigma, double inverse) const {
         return options_.hides(inverseDepth, sigma, inverse);
     }
-    /// How much of the layer is visible at each output pixel [1/255]; valid within the output
-    /// pixels that the last layer's bounds cover.
+    /// Visible part of the layer at each output pixel [1/255]; valid within the output pixels that
+    /// the last layer's bounds cover.
     [[nodiscard]] Rows<const std::uint8_t> visibility() const { return visibility_.rows(); }
 
 private:
-    /// Positions of output pixels along one axis, relative to the pixels of another picture: first
-    /// + share.
+    /// Positions of output pixels along one axis, as pixels of another picture: first + share.
     struct Between {
         Between(int pixels, int others);
         std::vector<std::int32_t> first;  ///< pixel before the position; -1 at the border
-        std::vector<float> share;         ///< distance of the position from `first`, [0, 1)
+        std::vector<float> share;
     };
-    /// One of the frame's planes, including margins.
     using Plane = AlignedRows<float>;
     struct TwoRows {
         int above, below;
-        float share;  ///< weight of the lower row
+        float share;
     };
     struct Task;
     struct Strip;

@@ -6,7 +6,7 @@
 #define HWY_TARGET_INCLUDE "pipeline/simd/paint_rows.cpp"
 
 #include <hwy/foreach_target.h>
-// The next header is included once per instruction set, as this file is.
+// Must come after foreach_target.h: compiled once per instruction set.
 #include "pipeline/simd/display_values-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -28,7 +28,6 @@ struct Four {
     T a, b, c, d;
 };
 
-/// Linear red, green and blue.
 struct Colour {
     V r, g, b;
 };
@@ -50,7 +49,6 @@ HWY_INLINE V HighHalf(VU word) {
     return hn::ConvertTo(D(), hn::BitCast(DI(), hn::ShiftRight<16>(word)));
 }
 
-/// Loads word number `word` of each lane's PaintTriangle.
 template <class DT>
 HWY_INLINE hn::Vec<DT> WordOf(DT d, const PaintTriangle* triangles, VU triangle, int word) {
     const auto* base = reinterpret_cast<const hn::TFromD<DT>*>(triangles) + word;
@@ -81,10 +79,9 @@ HWY_INLINE V Log2(V x) {
                    hn::MulAdd(hn::Mul(F(0.34F), low), hn::Sub(F(2), m), low));
 }
 
-/// One pyramid level of each lane's texture.
 struct Level {
-    VI first, width, height;  // first texel; size in texels
-    V across, down;           // width and height as floats
+    VI first, width, height;
+    V across, down;
 };
 HWY_INLINE Level LevelAt(const PaintInput& in, VI level) {
     const DU du;
@@ -97,7 +94,6 @@ HWY_INLINE Level LevelAt(const PaintInput& in, VI level) {
             hn::BitCast(di, hn::ShiftRight<16>(size)), LowHalf(size), HighHalf(size)};
 }
 
-/// Adds the squares of a word's bytes to `sum`, with the weight `share`.
 HWY_INLINE void AddSquares(VU word, V share, Colour& sum) {
     const VU bits = hn::Set(DU(), 0xFFU);
     const auto byte = [&](VU shifted) HWY_ATTR {
@@ -109,7 +105,6 @@ HWY_INLINE void AddSquares(VU word, V share, Colour& sum) {
     sum.b = hn::MulAdd(hn::Mul(b, b), share, sum.b);
 }
 
-/// Adds a texel to `sum`, with the weight `share`.
 HWY_INLINE void AddTexel(const PaintInput& in, VI texel, V share, Paint& sum) {
     const DU du;
     const auto* words = reinterpret_cast<const std::uint32_t*>(in.texels);
@@ -118,14 +113,13 @@ HWY_INLINE void AddTexel(const PaintInput& in, VI texel, V share, Paint& sum) {
     AddSquares(hn::GatherIndex(du, words + 1, at), share, sum.facing);
 }
 
-/// The two texels around a coordinate of a repeating texture, and the distance from the first one.
 struct Around {
     VI first, second;
     V beyond;
 };
 HWY_INLINE Around TexelsAround(V coordinate, VI side, V count) {
     const DI di;
-    // An invalid coordinate is replaced by 0.
+    // NaN and huge coordinates become 0.
     coordinate = hn::IfThenElseZero(hn::Lt(hn::Abs(coordinate), F(1e6F)), coordinate);
     const V share = hn::Sub(coordinate, hn::Floor(coordinate));
     const V place = hn::MulSub(share, count, F(0.5F)), low = hn::Floor(place);
@@ -134,7 +128,6 @@ HWY_INLINE Around TexelsAround(V coordinate, VI side, V count) {
             hn::IfThenElse(hn::Lt(next, side), next, hn::Zero(di)), hn::Sub(place, low)};
 }
 
-/// Adds the paint at (u, v), interpolated bilinearly, to `sum` with a weight.
 HWY_INLINE void AddProbe(const PaintInput& in, const Level& level, V u, V v, float weight,
                          Paint& sum) {
     const Around x = TexelsAround(u, level.width, level.across);
@@ -149,10 +142,11 @@ HWY_INLINE void AddProbe(const PaintInput& in, const Level& level, V u, V v, flo
     AddTexel(in, hn::Add(lower, x.second), belowRight, sum);
 }
 
-/// The parallelogram that a pixel covers in a texture.
+/// The parallelogram that a pixel covers in a texture: its middle, and the steps along its two
+/// sides.
 struct Footprint {
-    V u, v;            // middle
-    V ux, vx, uy, vy;  // steps along its two sides
+    V u, v;
+    V ux, vx, uy, vy;
 };
 HWY_INLINE Footprint FootprintAt(const PaintTriangle* triangles, VU triangle, V x, V y,
                                  float spread) {
@@ -172,10 +166,10 @@ HWY_INLINE Footprint FootprintAt(const PaintTriangle* triangles, VU triangle, V 
 }
 
 /// Returns the paint at a position on the grid, averaged over `spread` grid pixels along each axis.
-/// It is the mean of four bilinear look-ups (probes) in a pyramid level whose texels are at least
-/// half as wide as the distance of the probes. Compared with the true mean over a pixel on the
-/// shipped showpiece, one probe, interpolated between two pyramid levels, is 4 dB worse. Four
-/// probes along the longer side of the footprint are no better.
+/// It is the mean of four bilinear look-ups (probes). The texels of the pyramid level are at least
+/// half as wide as the distance of the probes. On the shipped showpiece, a single probe between two
+/// pyramid levels is 4 dB worse, compared with the true mean over a pixel. Four probes along the
+/// longer side of the footprint are no better.
 HWY_INLINE Paint Sample(const PaintInput& in, VU triangle, V x, V y, float spread) {
     const D d;
     const DI di;
@@ -208,21 +202,20 @@ HWY_INLINE VU Byte(V level) {
     return hn::BitCast(DU(), hn::ConvertTo(DI(), hn::Add(held, F(0.5F))));
 }
 
-/// Converts linear light, with 1 stored as 255^2, to an sRGB byte.
+/// Converts linear light to an sRGB byte. Linear 1 is stored as 255^2.
 HWY_INLINE VU SrgbByte(V linear) {
     return Byte(SrgbLevel(D(), hn::Mul(linear, F(1.0F / 65025))));
 }
 
-/// What each pixel shows: one object, in some of its quarters.
+/// The object that each pixel shows, in some of its quarters.
 struct Shown {
-    M any;         ///< true if the pixel shows an object
-    VU triangle;   ///< triangle in one of the object's quarters
-    V dx, dy;      ///< from the pixel's centre to the centre of the object's quarters [grid px]
-    Four<V> part;  ///< weight of each quarter
+    M any;
+    VU triangle;
+    V dx, dy;  ///< from the pixel's centre to the centre of the object's quarters [grid px]
+    Four<V> part;
     Four<VU> triangles;
 };
 
-/// Returns the numbers of the objects in the quarters of pixels; 0: no object.
 HWY_INLINE Four<VU> ObjectsOf(const PaintRow& row, int x) {
     const DU du;
     Four<VU> s;
@@ -236,8 +229,6 @@ HWY_INLINE Four<VU> ObjectsOf(const PaintRow& row, int x) {
     return {object(s.a), object(s.b), object(s.c), object(s.d)};
 }
 
-/// Gives equal weights to those quarters of pixels that show the object `number`. `count`: number
-/// of these quarters.
 HWY_INLINE void Divide(const Four<VU>& s, const Four<VU>& t, VU number, VU count, Shown& out) {
     const D d;
     const DU du;
@@ -292,7 +283,6 @@ HWY_INLINE Shown Choose(const PaintRow& row, int x) {
     return out;
 }
 
-/// True for pixels in which the object's quarters have different materials.
 HWY_INLINE M Differ(const PaintInput& in, const Shown& s) {
     const D d;
     const DU du;

@@ -7,21 +7,21 @@
 
 namespace mfar::simd {
 
-// Paint is the colour of the surface at each pixel, without light: the surface's texture over the
-// pixel's footprint, averaged in linear light.
+// Paint is the colour of a pixel's surface without light: the surface's texture, averaged in linear
+// light over the pixel's footprint.
 
 /// One level of a texture's pyramid. The bytes of texels are 255 times the square root of linear
 /// values, so that sums of squared bytes are sums of linear values.
 struct PaintLevel {
     std::uint32_t first;  ///< index of the level's first texel in PaintInput::texels
-    std::uint32_t size;   ///< width [texels] in the low, height in the high 16 bits
+    std::uint32_t size;   ///< width [texels] in the low 16 bits, height in the high 16 bits
 };
 
 /// Data for painting a triangle. It fills one cache line, from which vector lanes gather words.
 struct PaintTriangle {
-    RasterPlane perZ, u, v;      ///< 1 / z, u / z and v / z on the grid; set only for triangles
-                                 ///< that are drawn
-    std::uint32_t size = 0;      ///< size of the texture's largest level, as in PaintLevel
+    RasterPlane perZ, u, v;  ///< 1 / z, u / z and v / z on the grid; set only for triangles
+                             ///< that are drawn
+    std::uint32_t size = 0;
     std::uint32_t levels = 0;    ///< index of the largest level; top byte: number of other levels
     std::uint32_t material = 0;  ///< triangles with equal numbers are painted in the same way
     std::uint32_t unused[4] = {};
@@ -34,17 +34,18 @@ struct PaintInput {
     const PaintTriangle* triangles;
 };
 
-/// Pixels of a row of the layer, which has half of the grid's resolution. Rows of the grid must
-/// have AlignedRows::kPadding bytes of padding.
+/// Pixels of a row of the layer. The grid has twice the layer's resolution, so a pixel has four
+/// quarters. Rows of the grid must have AlignedRows::kPadding bytes of padding.
 struct PaintRow {
-    int x, y, count;                                   ///< first pixel, number of pixels
-    const std::uint32_t *upper, *lower;                ///< surfaces of the quarters, from `x` on
-    const std::uint32_t *upperIndices, *lowerIndices;  ///< triangles of the quarters
+    int x, y, count;
+    /// Surfaces and triangles of the pixels' quarters, from `x` on.
+    const std::uint32_t *upper, *lower;
+    const std::uint32_t *upperIndices, *lowerIndices;
     PaintWords* out;
 };
-/// Writes the paint of `count` pixels, and up to 7 entries beyond them: sRGB bytes, 0 where no
-/// object is. If a pixel shows several objects, the paint is that of the object with the most
-/// quarters (as in RestPixels), at the centre of these quarters.
+/// Writes the paint of `count` pixels as sRGB bytes, 0 where no object is. Up to 7 entries after
+/// them are overwritten. If a pixel shows several objects, the object with the most quarters is
+/// painted (as in RestPixels), at the centre of these quarters.
 void paintRow(const PaintRow& row, const PaintInput& in);
 
 }  // namespace mfar::simd

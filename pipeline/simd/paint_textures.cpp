@@ -15,7 +15,7 @@ namespace {
 constexpr int kLargestSide = 0x8000;  // [texels]; PaintLevel stores a side in 16 bits
 constexpr float kMost = 255;
 
-using Values = std::array<float, 4>;  // linear values of a texel's channels, [0, 1]
+using Values = std::array<float, 4>;
 
 Values linearOf(const SurfaceTexture& texture, std::size_t texel) {
     Values out{};
@@ -27,7 +27,6 @@ Values linearOf(const SurfaceTexture& texture, std::size_t texel) {
     return out;
 }
 
-/// Looks up a texture as texture_lookup.h does.
 Values lookedUp(const SurfaceTexture& texture, float u, float v) {
     const auto pair = [](float share, int side, int& first, int& second) {
         const float at = share * static_cast<float>(side) - 0.5F, low = std::floor(at);
@@ -63,7 +62,7 @@ std::uint32_t rootsOf(const std::array<float, 3>& linear) {
     return rootByte(linear[0]) | rootByte(linear[1]) << 8 | rootByte(linear[2]) << 16;
 }
 
-/// Converts base colour and, as the fourth value, metallic to paint. As in TracedScene, a surface
+/// Converts base colour and metallic (the fourth value) to paint. As in TracedScene, a surface
 /// reflects at most all light.
 PaintWords wordsOf(const Values& base) {
     std::array<float, 3> diffuse{}, facing{};
@@ -89,7 +88,6 @@ void halve(const PaintWords* from, Size size, PaintWords* out, Size half) {
         int first, count;
         std::array<float, 3> weights;
     };
-    // A texel of the smaller level covers side / halfSide texels of the larger level.
     const auto taps = [](int i, int side, int halfSide) {
         const float step = static_cast<float>(side) / static_cast<float>(halfSide);
         const float begin = static_cast<float>(i) * step, end = begin + step;

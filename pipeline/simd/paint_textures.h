@@ -13,20 +13,18 @@
 
 namespace mfar::simd {
 
-/// The textures of a scene's surfaces for paintRow(), all in one array. A material's textures of
-/// base colour and of metallic are combined into one picture, with the larger of both sizes and all
-/// pyramid levels down to one texel. Equal materials share one picture.
+/// The textures of a scene's surfaces for paintRow(), in one array. A material's textures of base
+/// colour and of metallic are combined into one picture of the larger size, with all pyramid levels
+/// down to one texel. Equal materials share one picture.
 class PaintTextures {
 public:
-    /// The words of PaintTriangle that depend only on the material.
     struct Material {
         std::uint32_t size, levels, material;
     };
 
-    /// Prepares the pictures of materials that the previous objects did not have, and keeps the
-    /// others. Copies all input. Takes 4 ns per texel.
+    /// Prepares the pictures of new materials, and keeps those of materials that the previous
+    /// objects had. Copies all input. Takes 4 ns per texel.
     void set(std::span<const SilhouetteModels::Object> objects);
-    /// Returns the material of a part of these objects.
     [[nodiscard]] const Material& of(const SilhouetteModels::Part& part) const {
         return materials_.at(&part);
     }
@@ -34,8 +32,6 @@ public:
     [[nodiscard]] PaintInput input() const { return {texels_.data(), levels_.data(), nullptr}; }
 
 private:
-    /// Textures of base colour and of metallic-roughness, and the factors of colour and of
-    /// metallic.
     struct Source {
         const SurfaceTexture *colour = nullptr, *metallic = nullptr;
         std::array<float, 4> factor{};

@@ -1,6 +1,5 @@
 #include "pipeline/simd/patch_flow.h"
 
-// Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/patch_align.cpp"
 // clang-format off: the order of these two includes matters
@@ -14,13 +13,14 @@ namespace mfar::simd::HWY_NAMESPACE {
 namespace {
 
 constexpr float kSteepest = params::kSteepestFlow;
-// Number of pixels of a patch's row that share one flow vector: four, or all eight if the flow
-// changes by less than kGentle per pixel along the row. The error of eight is then no larger than
-// that of four at the steepest flow.
+// Number of pixels of a patch's row that share one flow vector. All eight share one if the flow
+// changes by less than kGentle per pixel along the row. Their error is then no larger than that of
+// four pixels at the steepest flow.
 constexpr int kHalf = 4;
 constexpr float kGentle = 1.0F / 10;
-// If the flow changes by less per pixel, the patch does not bend. Bending would move its corners by
-// a hundredth of a pixel, which is less than the uncertainty of the flow's slope.
+// All pixels of a patch share one flow vector if the flow changes by less than this per pixel. A
+// changing vector would move the patch's corners by a hundredth of a pixel, less than the
+// uncertainty of the flow's slope.
 constexpr float kFlat = 1.0F / 256;
 // Number of bits of interpolation weights. They are stored in 16 bits, which leaves room for the
 // weights' change along the row.
@@ -30,13 +30,12 @@ constexpr float kShare = 1 << kShareBits;
 // fit into 32 bits. Larger values occur only where the flow is steep and the contrast high.
 constexpr std::int16_t kMostValue = 5792;
 
-/// Change of the flow per pixel, along x and along y.
 struct Bend {
     Vector2 dx, dy;
 };
 
-/// Returns the smaller of both one-sided differences, or zero if their signs differ. Differences
-/// are taken over two cells, because between adjacent cells the noise is larger than the change.
+/// Returns the smaller one-sided difference per pixel, or zero if the two signs differ. The
+/// differences span two cells, because between adjacent cells the noise exceeds the change.
 HWY_INLINE float slopeOf(float before, float here, float after) {
     const float a = here - before, b = after - here;
     if (!(a * b > 0)) return 0;
@@ -44,7 +43,7 @@ HWY_INLINE float slopeOf(float before, float here, float after) {
     return bounded(least / 8, -kSteepest, kSteepest);
 }
 
-/// Replaces a NaN component of a flow vector, and one longer than any picture, by zero.
+/// Returns 0 if a component of a flow vector is NaN or longer than any picture.
 HWY_INLINE float soundOf(float v) {
     constexpr float kMost = 2e4F;
     return std::abs(v) < kMost ? v : 0;
@@ -65,17 +64,16 @@ HWY_INLINE Bend bendAt(const AlignStep& step, int column, int row, Vector2 here)
             slope(seedAt(step, column, row - 2), seedAt(step, column, row + 2))};
 }
 
-/// Where the rows of a patch lie in the other picture. If kParts is 2, each half of a row has its
-/// own position.
+/// Positions of a patch's rows in the other picture. If kParts is 2, each half of a row has its own
+/// position.
 template <int kParts>
 struct BentPlaces {
     static constexpr int kCount = kPatch * kParts;
-    std::int32_t upper[kCount], lower[kCount];  // byte offsets of the first pixel in the two rows
+    std::int32_t upper[kCount], lower[kCount];
     // Weights of the next column and of the lower row, each stored twice in 32 bits.
     std::int32_t shareX[kCount], shareY[kCount];
 };
 
-/// First columns of a patch's parts, row by row.
 template <int kParts>
 HWY_INLINE const float* firstColumns() {
     alignas(64) static constexpr float kColumns[2][2 * kPatch] = {
@@ -133,8 +131,8 @@ HWY_INLINE void placeParts(const PatchPicture& p, int column, int row, Vector2 u
     }
 }
 
-/// Loads a patch's row from its parts; each starts `next` pixels after its address in `parts`. On
-/// the scalar target, loads only the pixel in column c.
+/// Loads a patch's row from its parts. Each part starts `next` pixels after its address in `parts`.
+/// On the scalar target, only the pixel in column c is loaded.
 template <int kParts>
 HWY_INLINE Vec16 loadParts(const std::uint8_t* const* parts, int next, int c) {
     if constexpr (kParts == 1) return loadPixels(parts[0] + next + c);
@@ -148,7 +146,6 @@ HWY_INLINE Vec16 loadParts(const std::uint8_t* const* parts, int next, int c) {
 #endif
 }
 
-/// Loads the weights of a row's parts, repeated for all pixels of each part.
 template <int kParts>
 HWY_INLINE Vec16 loadShares(const std::int32_t* shares, int c) {
     const Row16 d16;
@@ -160,7 +157,7 @@ HWY_INLINE Vec16 loadShares(const std::int32_t* shares, int c) {
     const hn::FixedTag<std::int32_t, 2> dTwo;
     const hn::FixedTag<std::int32_t, 4> dFour;
     const auto two = hn::LoadU(dTwo, shares);
-    const auto four = hn::Combine(dFour, two, two);  // in the order left, right, left, right
+    const auto four = hn::Combine(dFour, two, two);
     return hn::BitCast(d16, hn::InterleaveLower(dFour, four, four));
 #endif
 }
@@ -173,12 +170,10 @@ HWY_INLINE const std::int16_t* alongPart() {
     return kAlong[kParts - 1];
 }
 
-/// Interpolates the pixels of a bent patch from two rows and their right neighbours.
 template <class D16>
 struct BentPixels {
     hn::Vec<D16> shareX, shareY;
 
-    /// Interpolates within a row.
     HWY_INLINE hn::Vec<D16> across(hn::Vec<D16> here, hn::Vec<D16> next) const {
         const auto step = hn::ShiftLeft<kValueBits + 1>(hn::Sub(next, here));
         return hn::Add(hn::ShiftLeft<kValueBits>(here), hn::MulFixedPoint15(step, shareX));
@@ -193,8 +188,8 @@ struct BentPixels {
     }
 };
 
-/// Sums the products of a patch's pixels with the other picture's pixels at the given positions.
-/// `slopeX`, `slopeY`: change of the weights per half pixel along the row.
+/// Sums the products of a patch's pixels with the other picture's pixels at `places`. `slopeX`,
+/// `slopeY`: change of the weights per half pixel along the row.
 template <int kParts>
 HWY_INLINE void addUpParts(const Patch& patch, const std::uint8_t* pixels,
                            const BentPlaces<kParts>& places, std::int16_t slopeX,
@@ -227,8 +222,7 @@ HWY_INLINE void addUpParts(const Patch& patch, const std::uint8_t* pixels,
 }
 
 #if HWY_MAX_BYTES >= 32
-/// Does the work of addUpParts() for rows with a single position (kParts = 1); processes two rows
-/// at once.
+/// addUpParts() for rows with a single position (kParts = 1), two rows at a time.
 HWY_INLINE void addUpTwoRows(const Patch& patch, const std::uint8_t* pixels,
                              const BentPlaces<1>& places, std::int16_t slopeX, std::int16_t slopeY,
                              int cell, CompareSums& out) {
@@ -259,7 +253,7 @@ HWY_INLINE void addUpTwoRows(const Patch& patch, const std::uint8_t* pixels,
 }
 #endif
 
-/// As comparePatch(), but for a flow that changes over the patch.
+/// Like comparePatch(), but for a flow that changes over the patch.
 template <int kParts>
 HWY_INLINE void compareBent(const Patch& patch, const PatchPicture& p, int column, int row,
                             Vector2 u, const Bend& bend, int cell, CompareSums& out) {
@@ -275,7 +269,6 @@ HWY_INLINE void compareBent(const Patch& patch, const PatchPicture& p, int colum
         addUpParts<kParts>(patch, p.pixels, places, slopeX, slopeY, cell, out);
 }
 
-/// A batch of cells, the sums over their patches, and the change of the flow at each cell.
 struct AlignRoom {
     Batch batch;
     PatchSums patchSums;
@@ -283,8 +276,7 @@ struct AlignRoom {
     Bend bend[kBatch];
 };
 
-/// Finds for each cell the best of its seed vector and of the vectors that Gauss-Newton steps reach
-/// from it.
+/// Finds the best vector of each cell: its seed, or a vector that Gauss-Newton steps reach from it.
 HWY_INLINE void alignBatch(const AlignStep& step, AlignRoom& room) {
     Batch& batch = room.batch;
     loadPatches(step.from, room.patchSums, batch);

@@ -1,5 +1,6 @@
-// Comparison of patches between two luma pictures (levels of two pyramids) for a batch of cells. It
-// does not depend on offset and gain of either picture. Included once per instruction set.
+// Compares patches of two luma pictures (levels of two pyramids) for a batch of cells. The result
+// does not depend on offset and gain of either picture. This header is included once per
+// instruction set.
 #if defined(MFAR_PATCH_BATCH_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef MFAR_PATCH_BATCH_INL_H
 #undef MFAR_PATCH_BATCH_INL_H
@@ -13,7 +14,6 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace {
 
-/// One value for each cell of a batch.
 struct alignas(64) Each {
     float of[kBatch] = {};
 
@@ -37,21 +37,21 @@ HWY_INLINE Vec squaredLength(const Lanes2& v) {
     return hn::MulAdd(v.x, v.x, hn::Mul(v.y, v.y));
 }
 
-/// Cells, their patches, and the best vector found so far for each cell.
 struct Batch {
     int count = 0;
     int column[kBatch], row[kBatch];
     Patch patch[kBatch];
     Each mean, variance;  // of the patch's pixels; variance: sum of (pixel - mean)^2
     Each2 sumG, sumAG;    // sums of the gradients, and of (pixel - mean) times gradient
-    Each inverseXx, inverseXy, inverseYy;  // inverse of the Hessian
+    Each inverseXx, inverseXy, inverseYy;
 
     Each2 best;
     Each cost;
     Each2 descent;  // right-hand side of the Gauss-Newton step
 
-    Each2 trial;  // the vector that is tried next
-    Each active;  // 1: `trial` is to be compared; after a comparison, 1: it was better than `best`
+    Each2 trial;
+    Each active;  // 1: `trial` is to be compared; after the comparison, 1: it was better than
+                  // `best`
 
     HWY_INLINE void add(int c, int r) {
         column[count] = c;
@@ -120,7 +120,7 @@ HWY_INLINE void takeBetter(const CompareSums& sums, Batch& batch) {
     }
 }
 
-/// Indices of a batch's active cells. They are found without a branch per cell.
+/// Indices of a batch's active cells, found without a branch per cell.
 struct ActiveCells {
     int count = 0;
     int cell[kBatch];
@@ -133,7 +133,6 @@ struct ActiveCells {
     }
 };
 
-/// Compares the trials of the active cells by compare(cell), and accepts those that are better.
 template <class Compare>
 HWY_INLINE void tryActive(const Compare& compare, const CompareSums& sums, Batch& batch) {
     const ActiveCells active(batch);

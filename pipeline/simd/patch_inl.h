@@ -1,6 +1,6 @@
-// Sums over an 8x8 patch of one luma picture and over pixels of the other picture: patch.glsl in
-// integers. Included once per instruction set. 128 is subtracted from pixels, so that sums of
-// squares fit into 32 bits; this offset cancels in every result.
+// Sums over an 8x8 patch of one luma picture and over pixels of another one; an integer version of
+// patch.glsl. 128 is subtracted from pixels, so that sums of squares fit into 32 bits. This offset
+// cancels in every result. This header is included once per instruction set.
 #if defined(MFAR_PATCH_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef MFAR_PATCH_INL_H
 #undef MFAR_PATCH_INL_H
@@ -21,14 +21,14 @@ namespace mfar::simd::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr int kPatch = 8;     // side of a patch [px]
+constexpr int kPatch = 8;
 constexpr int kCellSize = 4;  // side of a cell [px]; its patch begins 2 px to the left and above
 constexpr float kPixels = params::kPatchPixels;
 // Interpolated pixels of the other picture are stored in 1/32 grey level.
 constexpr int kValueBits = 5;
 constexpr float kValue = 1 << kValueBits;
 
-// A row of a patch, or one pixel on the scalar target.
+// One row of a patch, or one pixel on the scalar target.
 using Row16 = hn::CappedTag<std::int16_t, kPatch>;
 using Sum32 = hn::CappedTag<std::int32_t, kPatch / 2>;
 using Row8 = hn::Rebind<std::uint8_t, Row16>;
@@ -61,7 +61,6 @@ struct alignas(64) Patch {
 struct alignas(64) Parts {
     std::int32_t of[kBatch][4] = {};
 
-    /// Returns the sums of a vector of cells, times `unit`.
     [[nodiscard]] HWY_INLINE Vec sum(std::size_t i, float unit) const {
         const CellsInt d;
         hn::Vec<CellsInt> a, b, c, e;
@@ -71,7 +70,7 @@ struct alignas(64) Parts {
     }
 };
 
-/// Sum of products of 16-bit lanes, for one row or two rows.
+/// A sum of products of 16-bit lanes, for one or two rows.
 template <class D16>
 struct ProductSum {
     using D32 = hn::CappedTag<std::int32_t, HWY_MAX(hn::MaxLanes(D16()) / 2, 1)>;
@@ -99,11 +98,11 @@ HWY_INLINE Vec16 loadPixels(const std::uint8_t* from) {
     return hn::PromoteTo(Row16(), hn::LoadU(Row8(), from));
 }
 
-/// Rows of pixels that may be read without bounds checks. Rows outside the picture repeat its
-/// border.
+/// Rows of pixels that may be read without bounds checks. Outside the picture, its border is
+/// repeated.
 class PatchRows {
 public:
-    /// Holds `rows` rows from `y` on, `bytes` bytes from `x` on, at most kWidth.
+    /// `rows` rows from `y` on, with `bytes` bytes from `x` on (at most kWidth).
     HWY_INLINE PatchRows(const PatchPicture& p, int x, int y, int rows, int bytes) {
         if (y >= 0 && y + rows <= p.height) {
             first_ = p.pixels + y * p.pitch + x;
@@ -131,13 +130,11 @@ private:
     std::uint8_t copy_[10 * kWidth];
 };
 
-/// The sums over a patch that loadPatch() computes: of its pixels (a), of twice their gradient
-/// (x, y), and of the products of these.
+/// Sums over a patch: of its pixels (a), of twice their gradient (x, y), and of their products.
 struct PatchSums {
     Parts a, x, y, aa, ax, ay, xx, xy, yy;
 };
 
-/// Products of pixels and gradients, summed over a patch.
 struct PatchProducts {
     ProductSum<Row16> aa, ax, ay, xx, xy, yy;
 
@@ -203,7 +200,6 @@ struct CompareSums {
     Parts b, bb, ab, xb, yb;
 };
 
-/// Adds up all sums of CompareSums except b, row by row.
 template <class D16>
 struct RowProducts {
     ProductSum<D16> bb, ab, xb, yb;
@@ -234,7 +230,6 @@ HWY_INLINE hn::Vec<D16> betweenColumns(hn::Vec<D16> here, hn::Vec<D16> next, hn:
 }
 
 #if HWY_MAX_BYTES >= 32
-// Two rows of a patch in one vector.
 using Rows16 = hn::CappedTag<std::int16_t, 2 * kPatch>;
 
 HWY_INLINE hn::Vec<Rows16> loadTwoRows(const std::uint8_t* upper, const std::uint8_t* lower) {
@@ -243,8 +238,8 @@ HWY_INLINE hn::Vec<Rows16> loadTwoRows(const std::uint8_t* upper, const std::uin
                          hn::Combine(d8, hn::LoadU(Row8(), lower), hn::LoadU(Row8(), upper)));
 }
 
-/// Sums the products of a patch's pixels with pixels that are interpolated between rows of the
-/// other picture.
+/// Sums the products of a patch's pixels with the other picture's pixels. These are interpolated
+/// between columns and rows with the weights `across` and `along` [2^-15].
 HWY_INLINE void addUpRows(const Patch& patch, const PatchRows& rows, std::int16_t across,
                           std::int16_t along, int cell, CompareSums& out) {
     const Rows16 d;

@@ -1,6 +1,5 @@
 #include "pipeline/simd/patch_flow.h"
 
-// Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/patch_search.cpp"
 // clang-format off: the order of these two includes matters
@@ -16,13 +15,11 @@ namespace {
 constexpr int kMostRadius = 40;
 constexpr std::size_t kMostSide = 2 * kMostRadius + 1, kSideRoom = kMostSide + 15;
 
-/// A batch of cells, and the sums over their patches.
 struct SearchRoom {
     Batch batch;
     PatchSums patchSums;
     CompareSums sums;
 
-    /// Loads the patches of the cells that were added to the batch; no vector is found yet.
     HWY_INLINE void load(const PatchPicture& from) {
         loadPatches(from, patchSums, batch);
         for (int i = 0; i < batch.count; ++i) {
@@ -40,7 +37,6 @@ struct SearchRoom {
     }
 };
 
-/// Activates the cells whose trial differs from their best vector.
 HWY_INLINE void activateNew(Batch& batch) {
     const Cells d;
     for (std::size_t i = 0; i < kBatch; i += hn::Lanes(d)) {
@@ -51,7 +47,6 @@ HWY_INLINE void activateNew(Batch& batch) {
     }
 }
 
-/// Makes Gauss-Newton steps for the active cells, as long as each step improves the fit.
 HWY_INLINE void refine(const PatchPicture& to, int steps, SearchRoom& room) {
     for (int k = 0; k < steps; ++k) {
         stepActive(room.batch);
@@ -65,7 +60,6 @@ HWY_INLINE Vector2 vectorOf(const FlowPlanes& field, int column, int row) {
     return {field.x[at], field.y[at]};
 }
 
-/// Sums as in CompareSums, and the costs, for a row of displacements by whole pixels.
 struct WholeSums {
     alignas(64) float b[kSideRoom], bb[kSideRoom], ab[kSideRoom], cost[kSideRoom];
 };
@@ -113,12 +107,11 @@ HWY_INLINE void costsOf(float patchMean, float patchVariance, std::size_t count,
     }
 }
 
-/// The best vector found so far for one cell.
 struct WholeBest {
     float x, y, cost;
 };
 
-/// Compares the patch at all displacements of a row. Of equal costs, the first wins.
+/// Compares the patch at all displacements of a row. If costs are equal, the first one wins.
 HWY_INLINE void searchWholeRow(const Batch& batch, int cell, const PatchPicture& to, int firstDx,
                                int endDx, int dy, WholeSums& sums, WholeBest& best) {
     const int y = std::clamp(kCellSize * batch.row[cell] - 2 + dy, -7, to.height - 2);
@@ -138,8 +131,8 @@ HWY_INLINE void searchWholeRow(const Batch& batch, int cell, const PatchPicture&
     }
 }
 
-/// Compares the patch at a square of displacements. Zero comes first, so it wins if the patch has
-/// no texture. The best displacement becomes the cell's trial.
+/// Compares the patch at a square of displacements; the best one becomes the cell's trial. Zero
+/// comes first, so it wins if the patch has no texture.
 void searchWhole(Batch& batch, int cell, const PatchPicture& to, int radius) {
     WholeSums sums{};
     WholeBest best{batch.best.x.of[cell], batch.best.y.of[cell], batch.cost.of[cell]};
@@ -168,8 +161,8 @@ HWY_INLINE void tryPrior(const SearchStep& step, SearchRoom& room) {
     room.compare(step.to);
 }
 
-/// Compares the patch of each cell at one vector of the coarser pyramid level: the k-th of the four
-/// vectors around the cell, of which the nearest is k = 0.
+/// Compares each cell's patch at the k-th of the four vectors around it at the coarser pyramid
+/// level. The nearest vector is k = 0.
 HWY_INLINE void tryCoarser(const SearchStep& step, int k, SearchRoom& room) {
     Batch& batch = room.batch;
     for (int i = 0; i < batch.count; ++i) {
@@ -183,7 +176,6 @@ HWY_INLINE void tryCoarser(const SearchStep& step, int k, SearchRoom& room) {
     room.compare(step.to);
 }
 
-/// Finds the vectors of the batch's cells.
 void searchBatch(const SearchStep& step, SearchRoom& room) {
     room.load(step.from);
     if (step.prior.x != nullptr) tryPrior(step, room);
@@ -217,7 +209,7 @@ void SearchCells(const SearchStep& step, int row, int first, int end) {
 
 void SearchListedGroup(const ListedStep& step, int groupX, int groupY) {
     using params::kClearlyLess, params::kErrorPerCost, params::kGoodCost, params::kOnLine;
-    constexpr int kSide = 4;  // side of a group [cells]
+    constexpr int kSide = 4;
     static_assert(kSide * kSide == kBatch);
     const FlowPlanes& out = step.search.out;
     SearchRoom room;
@@ -247,7 +239,6 @@ struct Offset {
 };
 constexpr Offset kBeside[] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
 
-/// True if one of the cell's neighbours has a different vector.
 HWY_INLINE bool differsFromNeighbours(const FlowPlanes& field, int column, int row) {
     const Vector2 own = vectorOf(field, column, row);
     bool differs = false;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 
-// Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/patch_sums.cpp"
 #include <hwy/foreach_target.h>
@@ -15,23 +14,22 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// (Grey level - 128) is stored in 1/64, so that a patch's sum of squares fits into four 32-bit
-// lanes.
+// Values (grey level - 128) are stored in 1/64, so that a patch's sum of squares fits into four
+// 32-bit lanes.
 constexpr float kOne = 64;
 constexpr float kPixels = params::kPatchPixels;
 constexpr int kRows = 8;
-// Number of cells that are processed together. Each first gets four partial sums; then, these are
-// added for several cells at once.
+// Number of cells that are processed together. First, each cell gets four partial sums. Then these
+// are added for several cells at once.
 constexpr int kChunk = 16;
 
-/// First pixel of the still's patch for each cell.
+/// First pixel of each cell's patch in the still.
 struct Origins {
     HWY_ALIGN std::array<std::int32_t, 2 * kChunk> x, y;
     // Interpolation weights [2^-15] of the next column and row, stored twice in 32 bits.
     HWY_ALIGN std::array<std::int32_t, 2 * kChunk> fx, fy;
 };
 
-/// Four partial sums per cell.
 struct Partial {
     using Sums = std::array<std::int32_t, 4 * kChunk>;
     HWY_ALIGN Sums a, b, aa, ab, bb;
@@ -102,7 +100,7 @@ void SumPatches(const std::uint8_t* const* video, const PatchLevel& still, int f
 
 #else
 
-// A block of 16 bytes holds a row of one cell's patch.
+// A block of 16 bytes contains one row of a cell's patch.
 #if HWY_ARCH_X86
 constexpr int kBlocks = HWY_MAX_BYTES / 16;
 #else
@@ -136,7 +134,7 @@ HWY_INLINE V16 Between(V16 a, V16 b, V16 f) {
     return hn::Add(a, hn::MulFixedPoint15(hn::Sub(b, a), f));
 }
 
-/// Sums products. Depending on the CPU, it adds adjacent pairs of products, or halves of vectors.
+/// Sums products. It adds adjacent pairs of products or halves of vectors, depending on the CPU.
 struct Accumulator {
     V32 first, second;
 
@@ -155,7 +153,6 @@ HWY_INLINE V16 PerBlock(const std::int32_t* values) {
                        hn::TableLookupLanes(hn::LoadU(d, values), hn::SetTableIndices(d, cell)));
 }
 
-/// Adds the products of one row of a patch, for the cell of each block of the vector.
 template <class VideoRow, class StillRow>
 HWY_INLINE void SumRows(const VideoRow& videoRow, const StillRow& stillRow, int first, V16 fx,
                         V16 fy, Partial& out) {
@@ -227,7 +224,6 @@ HWY_INLINE void SumPatches(const std::uint8_t* const* video, const PatchLevel& s
 
 #endif
 
-/// Adds the four partial sums of each cell.
 template <class D>
 HWY_INLINE hn::Vec<D> Total(D d, const Partial::Sums& partial, std::size_t cell, float scale) {
     const hn::RebindToSigned<D> di;

@@ -5,27 +5,28 @@
 
 namespace mfar::simd {
 
-/// A level of a luma pyramid, from which patches are read. Rows repeat their border pixel 8 bytes
-/// to the left and to the right; after that, 8 more bytes must be readable, with any values.
+/// A level of a luma pyramid, from which patches are read. Each row is extended by 8 copies of its
+/// border pixel on the left and on the right. After the copies on the right, 8 more bytes must be
+/// readable, with any values.
 struct PatchLevel {
-    const std::uint8_t* origin;  ///< address of pixel (0, 0)
-    std::ptrdiff_t pitch;        ///< bytes from one row to the next
-    int width, height;           ///< [px]
+    const std::uint8_t* origin;
+    std::ptrdiff_t pitch;
+    int width, height;
 };
 
-/// Covariance and variances of the patches of one row of cells. They are sums that are not divided
-/// by the number of pixels [grey levels^2].
+/// Covariance and variances of the patches of one row of cells. These sums are not divided by the
+/// number of pixels [grey levels^2].
 struct PatchSums {
     float* covariance;
     float* varianceVideo;  ///< null: not stored
     float* varianceStill;
 };
 
-/// Compares cells [first, last) of row `cellRow` of the video with the still, which is displaced by
-/// the flow (patch.glsl). Patches of 8x8 pixels lie around cells of 4x4 pixels. The still is
+/// Compares cells [first, last) of the video's row `cellRow` with the still, which is displaced by
+/// the flow (patch.glsl). A patch has 8x8 pixels around a cell of 4x4 pixels. The still is
 /// interpolated in steps of 2^-15 px and 1/64 grey level. Positions outside are clamped to the
-/// border; NaN flow points far to the left or above. Writes only these cells, but reads the flow of
-/// up to 15 cells after them.
+/// border; NaN flow points far to the left or above. The flow of up to 15 cells after `last` is
+/// read.
 void comparePatches(const PatchLevel& video, const PatchLevel& still, int cellRow, int first,
                     int last, const float* flowX, const float* flowY, const PatchSums& out);
 

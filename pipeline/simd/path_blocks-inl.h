@@ -1,7 +1,7 @@
-// Aggregation of costs along paths (see path_costs.h) in registers, for windows of one vector of
-// labels. A block of 16 bytes holds the path costs of one pixel's labels; a vector holds several
-// blocks. Path costs are stored as their complement, so that the zeros that shifts and look-ups
-// insert outside a window never win. Included once per instruction set.
+// Aggregates costs along paths (see path_costs.h) in registers, for windows of one vector of
+// labels. A block of 16 bytes contains the path costs of one pixel's labels; a vector contains
+// several blocks. Path costs are stored as their complement, so that the zeros that shifts and
+// look-ups insert outside a window never win. This header is included once per instruction set.
 #include "pipeline/simd/path_costs.h"
 
 #include <algorithm>
@@ -30,13 +30,11 @@ using DBlocks = hn::FixedTag<std::uint8_t, 16 * Blocks>;
 template <int Blocks>
 using VBlocks = hn::Vec<DBlocks<Blocks>>;
 
-/// Returns the same sixteen bytes in every block.
 template <int Blocks>
 HWY_INLINE VBlocks<Blocks> everywhere(const std::array<std::uint8_t, 16>& bytes) {
     return hn::LoadDup128(DBlocks<Blocks>(), bytes.data());
 }
 
-/// Loads `Blocks` blocks that are `apart` bytes from each other.
 template <int Blocks>
 HWY_INLINE VBlocks<Blocks> loadApart(const std::uint8_t* from, std::ptrdiff_t apart) {
     if constexpr (Blocks == 1)
@@ -58,7 +56,6 @@ HWY_INLINE void storeApart(VBlocks<Blocks> v, std::uint8_t* to, std::ptrdiff_t a
     }
 }
 
-/// Advances path costs from pixel to pixel; keeps the constants for this in registers.
 template <int Blocks>
 class Stepper {
 public:
@@ -77,7 +74,6 @@ public:
         block_ = hn::Load(d_, blocks.data());
     }
 
-    /// Spreads one byte per block to all lanes of that block.
     HWY_INLINE V spread(const std::uint8_t* bytes) const {
         if constexpr (Blocks == 1) {
             return hn::Set(d_, bytes[0]);
@@ -89,8 +85,8 @@ public:
         }
     }
 
-    /// Advances the complement of path costs by one pixel. `shifts` (difference of the two windows'
-    /// first labels) and `jumps` (penalties of jumps) have one byte per block.
+    /// Advances the complement of path costs by one pixel. `shifts`: differences of the two
+    /// windows' first labels. `jumps`: penalties of jumps. Both have one byte per block.
     HWY_INLINE V advance(V path, const std::uint8_t* shifts, const std::uint8_t* jumps,
                          V cost) const {
         std::uint32_t moved = 0;
@@ -109,7 +105,7 @@ public:
         return hn::Add(sum, hn::Not(greatest(sum)));
     }
 
-    /// Returns the bytes of a block at the given indices; 0 for indices outside of the block.
+    /// Returns the bytes of a block at the given indices, or 0 where an index is outside the block.
     HWY_INLINE V taken(V block, V place) const {
         const hn::RebindToSigned<D> dSigned;
         const auto at = hn::BitCast(dSigned, place);
@@ -118,7 +114,6 @@ public:
     }
 
 private:
-    /// Returns the largest byte of each block, in all lanes of the block.
     HWY_INLINE V greatest(V v) const {
         const hn::Repartition<std::uint32_t, D> words;
         v = hn::Max(v, hn::BitCast(d_, hn::Shuffle1032(hn::BitCast(words, v))));
@@ -133,14 +128,14 @@ private:
     V one_, places_, byTwo_, byOne_, block_;
 };
 
-/// Computes what a step between two neighbouring pixels depends on: the penalty of a jump, and the
+/// Computes two values for a step between neighbouring pixels: the penalty of a jump, and the
 /// difference of the two windows' first labels.
 class Neighbours {
 public:
     explicit Neighbours(const PathVolume& volume)
         : jumps_(volume.jumps), chunks_((volume.jumpDifferences + 15) / 16) {}
 
-    /// Computes the penalties of jumps between `count` pixels, at most kMost, and their neighbours.
+    /// Computes the penalties of jumps between `count` pixels (at most kMost) and their neighbours.
     /// Writes whole vectors.
     static constexpr int kMost = 64, kRoom = 2 * kMost;
     HWY_INLINE void penalties(const std::uint8_t* to, const std::uint8_t* from, int count,
@@ -194,8 +189,8 @@ template <int Blocks>
 struct RunOfRows {
     HWY_ALIGN std::uint8_t jumps[Neighbours::kMost * 4], shifts[Neighbours::kMost * 4];
 
-    /// Fills in pixels [x, x + count) of the rows from y on, each with its neighbour at offset
-    /// `toFrom`. A pixel without a neighbour uses itself.
+    /// Fills in pixels [x, x + count) of the rows from y on. `toFrom`: offset of a pixel's
+    /// neighbour. A pixel without a neighbour uses itself.
     HWY_INLINE void fill(const Neighbours& between, const PathVolume& v, int x, int count, int y,
                          int toFrom) {
         HWY_ALIGN std::uint8_t jump[4][Neighbours::kRoom] = {}, shift[4][Neighbours::kRoom] = {};
@@ -230,7 +225,7 @@ private:
 };
 
 /// Computes the path costs along rows in both directions at once. A step needs the result of the
-/// one before, so two independent chains of steps keep the CPU busy.
+/// previous one, so two independent chains of steps keep the CPU busy.
 template <int Blocks>
 HWY_INLINE void blocksAlongRows(const PathVolume& v, int y) {
     static_assert(Blocks == 1 || Blocks == 2 || Blocks == 4);
@@ -266,8 +261,8 @@ HWY_INLINE void blocksAlongRows(const PathVolume& v, int y) {
     }
 }
 
-/// Finds the cheapest label of each pixel. `sums`: path costs of all directions but one. `path`:
-/// complement of that direction's path costs.
+/// Finds the cheapest label of each pixel. `sums`: path costs of all directions but the last.
+/// `path`: complement of the path costs of the last direction.
 template <int Blocks>
 HWY_INLINE void valleysOf(const Stepper<Blocks>& stepper, VBlocks<Blocks> sums,
                           VBlocks<Blocks> path, const std::int16_t* base, Valley* out) {
@@ -278,7 +273,7 @@ HWY_INLINE void valleysOf(const Stepper<Blocks>& stepper, VBlocks<Blocks> sums,
     const auto a = hn::BitCast(d16, sums), b = hn::BitCast(d16, hn::Not(path));
     const auto odds = [&](auto v) HWY_ATTR { return hn::And(hn::ShiftRight<8>(v), byte); };
     const auto even = hn::Add(hn::And(a, byte), hn::And(b, byte)), odd = hn::Add(odds(a), odds(b));
-    // The smallest sum wins; of equal sums, that of the smallest label.
+    // The smallest sum wins. If sums are equal, the smaller label wins.
     const auto places =
         hn::BitCast(d16, everywhere<Blocks>({0, 0, 2, 0, 4, 0, 6, 0, 8, 0, 10, 0, 12, 0, 14, 0}));
     const auto evenKey = hn::Or(hn::ShiftLeft<4>(even), places);
@@ -306,7 +301,7 @@ HWY_INLINE void valleysOf(const Stepper<Blocks>& stepper, VBlocks<Blocks> sums,
     }
 }
 
-/// The path costs of a strip of columns, which advance together, either down or up.
+/// Path costs of a strip of columns, which advance together, either down or up.
 class BlockColumns {
 public:
     BlockColumns(const PathVolume& volume, int first, int last)

@@ -7,7 +7,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/path_costs.cpp"
 #include <hwy/foreach_target.h>
-// The next two headers are included once per instruction set, as this file is.
+// Must come after foreach_target.h: compiled once per instruction set.
 #include "pipeline/simd/path_blocks-inl.h"
 #include "pipeline/simd/path_windows-inl.h"
 

@@ -8,23 +8,24 @@
 
 namespace mfar::simd {
 
-inline constexpr int kLabels = 16;  ///< number of labels in a vector
+inline constexpr int kLabels = 16;
 
-/// The cheapest of a pixel's labels, and by how much the neighbouring labels cost more.
+/// The cheapest label of a pixel, and the additional costs of the neighbouring labels.
 struct Valley {
-    static constexpr std::uint8_t kUnknown = 255;  ///< extra cost of a label outside the window
+    static constexpr std::uint8_t kUnknown = 255;  ///< additional cost of a label outside the
+                                                   ///< window
 
     std::int32_t label = 0;
-    /// Extra costs of label - 2, label - 1, label + 1 and label + 2; each at most 254, or kUnknown.
+    /// Additional costs of label - 2, label - 1, label + 1 and label + 2: at most 254, or kUnknown.
     std::array<std::uint8_t, 4> rise{};
 };
 
-/// Input of semi-global matching, which aggregates costs along straight paths from four directions:
-/// a picture whose pixels have a window of `vectors` vectors of labels each; rows have no gaps.
-/// Costs and penalties must be so small that path costs stay below 85.
+/// Input of semi-global matching, which aggregates costs along straight paths from four directions.
+/// Each pixel has a window of `vectors` vectors of labels; rows have no gaps. Costs and penalties
+/// must be so small that path costs stay below 85.
 struct PathVolume {
-    const std::uint8_t* guide;  ///< the picture whose edges make jumps cheaper
-    const std::int16_t* base;   ///< first label of every pixel
+    const std::uint8_t* guide;  ///< picture whose edges make large label differences cheaper
+    const std::int16_t* base;   ///< first label of each pixel
     Size size;
     int vectors;
     std::uint8_t step;          ///< penalty for a difference of one label
@@ -35,12 +36,12 @@ struct PathVolume {
     std::uint8_t* sums;         ///< sums of path costs over the directions, one for each cost
 };
 
-/// Numbers of rows and of columns that are processed together. Threads should split the work at
+/// Numbers of rows and columns that are processed together. Threads should split the work at
 /// multiples of these numbers.
 inline constexpr int kRowsTogether = 4, kColumnsTogether = 32;
 
-/// Returns the number of bytes of `scratch` that pathsAlongColumns() needs for `columns` columns,
-/// and that suffice for pathsAlongRows(); 0 if path costs stay in registers.
+/// Returns the size of `scratch` [bytes] for pathsAlongColumns() with `columns` columns, which also
+/// suffices for pathsAlongRows(). It is 0 if path costs stay in registers.
 [[nodiscard]] std::size_t pathScratch(int vectors, int columns);
 
 /// Writes to `sums` the path costs from the left plus those from the right, for rows [first, last).

@@ -1,6 +1,6 @@
-// Aggregation of costs along paths (see path_costs.h) in memory, for windows of several vectors of
-// labels, as at the coarsest pyramid level. A pixel's path costs have margins on both sides.
-// Included once per instruction set.
+// Aggregates costs along paths (see path_costs.h) in memory, for windows of several vectors of
+// labels, as at the coarsest pyramid level. A pixel's path costs have margins on both sides. This
+// header is included once per instruction set.
 #include "pipeline/simd/path_costs.h"
 
 #include <algorithm>
@@ -22,8 +22,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// window are ignored.
 constexpr std::uint8_t kNever = 200;
 
-/// Returns the size of the margin on either side. It suffices for a window that shares no label
-/// with the previous pixel's window.
+/// Returns the size of one margin. It suffices for a window that shares no label with the previous
+/// pixel's window.
 HWY_INLINE std::size_t marginOf(int vectors) {
     return static_cast<std::size_t>(kLabels) * (vectors + 1);
 }
@@ -64,7 +64,6 @@ HWY_INLINE void addLabels(const std::uint8_t* path, int labels, std::uint8_t* su
         hn::StoreU(hn::Add(hn::LoadU(d, sums + k), hn::LoadU(d, path + k)), d, sums + k);
 }
 
-/// Advances path costs from pixel `from` to pixel `to`, which are adjacent or the same.
 HWY_INLINE void windowMove(const PathVolume& v, std::ptrdiff_t from, std::ptrdiff_t to,
                            const std::uint8_t* last, std::uint8_t* now) {
     const int labels = kLabels * v.vectors;

@@ -5,7 +5,6 @@
 
 namespace mfar::simd {
 
-/// Pixels [begin, end) of a row.
 struct PixelSpan {
     int begin, end;
     bool operator==(const PixelSpan&) const = default;
@@ -14,8 +13,8 @@ struct PixelSpan {
 /// Spans of a row, ascending; they neither touch nor overlap.
 using PixelSpans = std::vector<PixelSpan>;
 
-/// Adds a span that begins at or after the begin of the last one, and merges it with that one if
-/// they touch or overlap.
+/// Adds a span that begins at or after the last span's begin. Merges the two if they touch or
+/// overlap.
 inline void append(PixelSpans& spans, const PixelSpan& added) {
     if (!spans.empty() && added.begin <= spans.back().end)
         spans.back().end = std::max(spans.back().end, added.end);
@@ -23,7 +22,6 @@ inline void append(PixelSpans& spans, const PixelSpan& added) {
         spans.push_back(added);
 }
 
-/// True if each of the spans `pixels` lies in one of the `spans`.
 [[nodiscard]] inline bool contains(const PixelSpans& spans, const PixelSpans& pixels) {
     return std::ranges::all_of(pixels, [&](const PixelSpan& some) {
         return std::ranges::any_of(spans, [&](const PixelSpan& span) {

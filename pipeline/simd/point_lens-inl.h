@@ -1,4 +1,4 @@
-// Projection of vectors of points. Included once per instruction set.
+// Projects vectors of points to pixels. This header is included once per instruction set.
 #include "pipeline/simd/point_lens.h"
 
 #include <hwy/highway.h>

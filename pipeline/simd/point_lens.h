@@ -7,14 +7,15 @@ namespace mfar::simd {
 
 /// LensProjection in single precision: projects points [m] in front of the camera to pixels.
 struct PointLens {
-    float fx = 1, fy = 1, cx = 0, cy = 0;          ///< [px]
-    float k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;  ///< as CameraModel::distortion
-    float rim = 1;                                 ///< radius of the outermost valid ray
-    float rimRadial = 1;                           ///< radial factor of the distortion at the rim
-    float nearest = 0.01F;                         ///< smallest z of a visible point [m]
+    /// fx to cy are in pixels; k1 to k3 are CameraModel::distortion.
+    float fx = 1, fy = 1, cx = 0, cy = 0;
+    float k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;
+    float rim = 1;          ///< radius of the outermost valid ray
+    float rimRadial = 1;    ///< radial distortion factor at the rim
+    float nearest = 0.01F;  ///< smallest z of a visible point [m]
 };
 
-/// The rows of [R | t], which transforms points [m].
+/// [R | t], a transformation of points [m].
 struct PointTransform {
     float rows[3][4];
 };
@@ -30,8 +31,8 @@ struct Point3 {
     return {row(T.rows[0]), row(T.rows[1]), row(T.rows[2])};
 }
 
-/// Returns (w u, w v, w) as lens_projection.glsl does, where (u, v) is the pixel and w = z, which
-/// may have any sign.
+/// Returns (w u, w v, w), as lens_projection.glsl does. (u, v) is the pixel; w = z may have any
+/// sign.
 [[nodiscard]] inline Point3 projected(const PointLens& lens, const Point3& p) {
     const float r = std::sqrt(p.x * p.x + p.y * p.y);
     const bool within = p.z * lens.rim > r;

@@ -1,6 +1,5 @@
 #include "pipeline/simd/resample_kernels.h"
 
-// Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/resample_kernels.cpp"
 #include <hwy/foreach_target.h>
@@ -14,8 +13,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 using F = hn::ScalableTag<float>;
 using I = hn::RebindToSigned<F>;
 
-/// Loads source[index[i]] for ascending indices. Indices ascend slowly, so all of them lie in a few
-/// vectors from the first one on. Permuting these vectors is faster than a gather.
+/// Loads source[index[i]] for ascending indices, which lie in a few adjacent vectors. Permuting
+/// these vectors is faster than a gather.
 class Window {
 public:
     explicit Window(const std::int32_t* first)

@@ -9,7 +9,7 @@ namespace mfar::simd {
 struct TapTable {
     const std::int32_t* first;  ///< see RowTaps::first(); 64 bytes of padding repeat the last entry
     const float* weights;       ///< see RowTaps::weight(); one row per tap
-    std::ptrdiff_t pitch;       ///< floats from one row of weights to the next
+    std::ptrdiff_t pitch;
     int taps;
 };
 

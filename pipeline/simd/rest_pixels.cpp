@@ -22,8 +22,8 @@ float depthOf(std::uint32_t surface) {
     return std::bit_cast<float>(surface & 0xFFFFFF00U);
 }
 
-/// Returns the number of the object that has the most quarters; 0: no object. Of objects with
-/// equally many quarters, it is the first one, beginning with the lower quarters.
+/// Returns the number of the object with the most quarters, or 0 if there is no object. If several
+/// objects have the most, the first one wins, beginning with the lower quarters.
 std::uint32_t mostOf(const Quarters& s) {
     std::uint32_t out = 0;
     int most = 0;
@@ -40,8 +40,8 @@ std::uint32_t mostOf(const Quarters& s) {
     return out;
 }
 
-/// Returns the mean position of the quarters that show the surface with this number: offset from
-/// the pixel's centre [px] and z [m]. z is 0 if no quarter shows the surface.
+/// Returns the mean position of the quarters that show the surface `number`: offset from the
+/// pixel's centre [px], and z [m]. z is 0 if no quarter shows the surface.
 Point3 middleOf(const Quarters& s, std::uint32_t number) {
     constexpr std::array<float, 4> kX{-0.25F, 0.25F, -0.25F, 0.25F};
     constexpr std::array<float, 4> kY{-0.25F, -0.25F, 0.25F, 0.25F};
@@ -61,8 +61,8 @@ Point3 scaled(float by, const Point3& p) {
     return {by * p.x, by * p.y, by * p.z};
 }
 
-/// Returns a channel [0, 255] of a painted surface. `light` is a sum whose weights add up to
-/// `weights`. The last channel is coverage.
+/// Returns a channel [0, 255] of a painted surface; channel 3 is coverage. `light`: weighted sum of
+/// light, whose weights add up to `weights`.
 float lit(const PaintWords& paint, std::size_t channel, const UnpackedLight& light, float weights) {
     if (channel == 3) return 255;
     const auto linear = [channel](std::uint32_t word) {
@@ -79,7 +79,6 @@ std::uint32_t byteOf(float value) {
     return static_cast<std::uint32_t>(above);
 }
 
-/// Returns the share of the pixel that objects cover.
 float coveredOf(const Quarters& quarters) {
     float out = 0;
     for (const std::uint32_t quarter : quarters)
@@ -95,8 +94,8 @@ RestPixels::RestPixels(const ViewLookUp::Input& input, const TracedPicture& trac
     : plain_(plain), layerLens_(pointLensOf(layer)),
       traced_{traced.surface, traced.colour, lights, traced.camera.size,
               plain.toTraced, &plain_.lens,  1} {
-    // The order of the re-rendered pictures is that of their slots. known() shows the first one of
-    // those with equal shares.
+    // The re-rendered pictures are ordered by slot, because known() shows the first one of those
+    // with equal shares.
     std::array<const RerenderedPictures::Picture*, RerenderedPictures::kPictures> bySlot{};
     for (const RerenderedPictures::Picture& rerendered : input.rerendered.pictures())
         bySlot[static_cast<std::size_t>(rerendered.slot)] = &rerendered;
@@ -126,9 +125,9 @@ bool RestPixels::inView(const View& view, const Point3& point, Point3& at) {
            at.y < static_cast<float>(view.size.height);
 }
 
-/// Interpolates a surface's colour bilinearly between those of the four surrounding texels that
-/// show the surface. Returns false if the sum of their weights is too low. If the surface is the
-/// shadow catcher, texels without any surface count as shadow catcher without shadow.
+/// Interpolates a surface's colour bilinearly between the surrounding texels that show the surface.
+/// Returns false if the sum of their weights is too low. For the shadow catcher, texels without any
+/// surface count as shadow catcher without shadow.
 bool RestPixels::lookUp(const View& view, const Point3& at, const Wanted& wanted, Colour& found) {
     const float lowX = std::floor(at.x), lowY = std::floor(at.y);
     const float fx = at.x - lowX, fy = at.y - lowY;
@@ -166,7 +165,7 @@ float RestPixels::known(const Wanted& wanted, Colour& found) const {
     Point3 at;
     const bool inTraced = inView(traced_, wanted.point, at);
     if (inTraced && lookUp(traced_, at, wanted, found)) return 1;
-    float share = 0;  // largest share of the re-rendered pictures that show the surface
+    float share = 0;
     for (int i = 0; i < rerenderedCount_; ++i) {
         const View& rerendered = rerendered_[static_cast<std::size_t>(i)];
         Colour own;
@@ -177,7 +176,7 @@ float RestPixels::known(const Wanted& wanted, Colour& found) const {
         found = own;
     }
     if (share > 0) return share;
-    // Outside the traced picture, the shadow catcher's colour is not needed. So it counts as known,
+    // Outside the traced picture, the shadow catcher's colour is not needed. It counts as known,
     // without shadow.
     found = {};
     return wanted.id == kCatcherId && !inView(traced_, wanted.point, at) ? 1.0F : 0.0F;

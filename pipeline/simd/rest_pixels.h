@@ -9,7 +9,7 @@
 
 namespace mfar::simd {
 
-/// What the traced picture and the re-rendered pictures show at one pixel of the virtual layer.
+/// One pixel of the virtual layer, as looked up in the traced and the re-rendered pictures.
 struct RestPixel {
     std::uint32_t colour;  ///< RGBA8 premultiplied
     float depth;
@@ -17,9 +17,9 @@ struct RestPixel {
     std::optional<Hole> hole;  ///< set if the pixel is a hole; Hole::pixel is not set
 };
 
-/// Looks up the pixels that lookUpRow() does not: edges, which are divided into quarters, and
-/// pixels that the traced picture does not show but re-rendered pictures may. Objects and the
-/// shadow on the real surface are two layers; the shadow is the lower one (warp_rest.comp).
+/// Looks up the pixels that lookUpRow() leaves out. These are edges, which are divided into
+/// quarters, and pixels that only re-rendered pictures may show. Objects and the shadow on the real
+/// surface are two layers; the shadow is the lower one (warp_rest.comp).
 class RestPixels {
 public:
     /// `lights`: light of the traced picture's pixels as seen from T_world_camera.
@@ -27,21 +27,18 @@ public:
                std::span<const LightWords> lights, const ViewLookUpInput& plain,
                const LensProjection& layer, const RigidTransform& T_world_camera);
 
-    /// A pixel of the layer to be looked up.
     struct Asked {
         const std::uint32_t *upper, *lower;  ///< surfaces of the two upper and two lower quarters
         float rayX, rayY;
         PaintWords paint;
     };
     [[nodiscard]] RestPixel at(const Asked& asked) const;
-    /// True if any picture stores light separately from paint.
     [[nodiscard]] bool needsPaint() const;
 
 private:
     struct Colour {
-        std::array<float, 4> rgba{};  // [0, 255]
+        std::array<float, 4> rgba{};
     };
-    /// A picture in which surfaces are looked up.
     struct View {
         std::span<const WarpSurface> surfaces;
         std::span<const std::array<std::uint8_t, 4>> colours;
@@ -53,7 +50,6 @@ private:
     };
 
     static bool inView(const View& view, const Point3& point, Point3& at);
-    /// The surface that is looked up.
     struct Wanted {
         Point3 point;
         float id;

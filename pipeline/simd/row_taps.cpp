@@ -11,7 +11,6 @@
 namespace mfar::simd {
 namespace {
 
-/// Position in the source that belongs to an entry of the result: whole part and fraction.
 struct At {
     At(int x, double step) : At((x + 0.5) * step - 0.5) {}
     explicit At(double position)
@@ -68,7 +67,7 @@ ColumnTaps RowTaps::columnOf(int y) const {
         sum += out.weights[k];
         if (out.weights[k] > out.weights[most]) most = k;
     }
-    // Make the sum exactly one, so that uniform areas keep their brightness.
+    // The sum must be exactly one, so that uniform areas keep their brightness.
     out.weights[most] = static_cast<std::int16_t>(out.weights[most] + 16384 - sum);
     return out;
 }

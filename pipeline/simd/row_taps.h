@@ -10,8 +10,8 @@
 
 namespace mfar::simd {
 
-/// Four rows of the source and their weights [1/16384] in one row of the result; the sum of the
-/// weights is 1.
+/// Four rows of the source and their weights [1/16384] for one row of the result. The weights add
+/// up to one.
 struct ColumnTaps {
     std::array<int, 4> rows;
     std::array<std::int16_t, 4> weights;
@@ -38,8 +38,7 @@ public:
     [[nodiscard]] int taps() const { return weights_.size().height; }
     [[nodiscard]] int first(int x) const { return first_[0][x]; }
     [[nodiscard]] float weight(int tap, int x) const { return weights_[tap][x]; }
-    /// Returns the taps for row y if the table is used for columns. The table must have at most
-    /// four taps.
+    /// Returns the taps of row y, for a table that is used for columns and has at most four taps.
     [[nodiscard]] const ColumnTaps& column(int y) const { return columns_[y]; }
     /// The table for resampleRow(). Sources must have at least taps() entries; missing entries must
     /// be zero.
@@ -48,7 +47,7 @@ public:
     }
 
 private:
-    /// Function that takes an index of the source, which may be beyond its ends, and a weight.
+    /// Adds a sample, given the index in the source, which may be beyond its ends, and the weight.
     using Add = std::function<void(int, double)>;
     RowTaps(int from, int to, const std::function<void(int, const Add&)>& sample);
 
@@ -56,7 +55,7 @@ private:
 
     AlignedRows<std::int32_t> first_;
     AlignedRows<float> weights_;
-    std::vector<ColumnTaps> columns_;  // empty if there are more than four taps
+    std::vector<ColumnTaps> columns_;
 };
 
 }  // namespace mfar::simd

@@ -7,7 +7,7 @@
 namespace mfar::simd {
 
 /// Temporary memory for the parts of a threaded loop. There is one slot for each part that may run
-/// at the same time; all are allocated once.
+/// at the same time. All slots are allocated once.
 template <class T>
 class ScratchSlots {
 public:

@@ -2,7 +2,6 @@
 
 #include "pipeline/engine/params/detail.h"
 
-// Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/sharpen_kernels.cpp"
 #include <hwy/foreach_target.h>

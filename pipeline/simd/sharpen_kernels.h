@@ -5,15 +5,15 @@
 
 namespace mfar::simd {
 
-// Functions that sharpen entries [begin, end) of a row of one colour channel, see
-// superres_sharpen.frag. Rows may be read and written up to 64 bytes beyond `end`.
+// Functions that sharpen entries [begin, end) of a row of one colour channel
+// (superres_sharpen.frag). Rows may be read and written up to 64 bytes beyond `end`.
 
-/// Input for the strength of the sharpening: half of the weight of the still's detail, and the
-/// share of the video's contrast that is not noise (`signal`); both in [0, 1] and at the video's
-/// width. Each is given as two rows and the position between them. The strength is scaled by 32767.
+/// Input for the strength of the sharpening, in [0, 1] and at the video's width: half of the weight
+/// of the still's detail, and the share of the video's contrast that is not noise (`signal`). Each
+/// is interpolated between two rows. strengthRow() writes the strength times 32767.
 struct TrustRows {
     std::array<const float*, 2> halfWeight, signal;
-    float t;  ///< 0: the first row, 1: the second row
+    float t;
 };
 void strengthRow(const TrustRows& trust, int begin, int end, std::int16_t* strength);
 
@@ -21,7 +21,6 @@ void strengthRow(const TrustRows& trust, int begin, int end, std::int16_t* stren
 /// `end`. The result is in grey levels, clamped to [0, 255].
 void sharpenRow(const std::array<const std::uint8_t*, 5>& rows, const std::int16_t* strength,
                 int begin, int end, float* to);
-/// Copies the row without sharpening.
 void plainRow(const std::uint8_t* row, int begin, int end, float* to);
 
 }  // namespace mfar::simd

@@ -122,8 +122,8 @@ private:
     AlignedRows<FlowCell> row_;
 };
 
-/// Stills in the SIMD engine's format (StillPairs), shared by all of its steps. Stills that the
-/// GLES engine has prepared have no pairs; for them, pairs are created here, once per still.
+/// Stills in the SIMD engine's format (StillPairs), shared by all of its steps. Stills from the
+/// GLES engine have no pairs, so pairs are created here, once per still.
 class PairedStills {
 public:
     explicit PairedStills(std::shared_ptr<Workers> workers) : workers_(std::move(workers)) {}
@@ -147,8 +147,6 @@ private:
         std::uint64_t number = 0;
         AlignedRows<std::uint16_t> pairs{};
     };
-    /// Returns the pairs that belong to `still`. Each still step has one StillPictures, and a
-    /// pipeline has two still steps.
     Made& madeOf(const StillPictures& still) {
         const auto at = std::ranges::find(made_, &still, &Made::still);
         return at != made_.end() ? *at : made_.emplace_back(Made{&still});

@@ -129,7 +129,7 @@ private:
     AlignedRows<std::uint32_t> picture_;
     AlignedRows<float> depth_;
     std::optional<WarpHoles> listed_;
-    PixelRect drawn_;  // pixels outside of it are empty in lookUp_'s pictures
+    PixelRect drawn_;  // lookUp_'s pictures are empty outside
     Field<std::uint32_t> state_;
     LayerPicture warped_, rendered_;
 };

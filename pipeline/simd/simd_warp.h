@@ -9,7 +9,7 @@
 
 namespace mfar::simd {
 
-/// Creates the warp step on the CPU. Without workers, it runs in the caller's thread.
+/// Creates the warp step on the CPU. Null workers: all work runs in the caller's thread.
 [[nodiscard]] std::unique_ptr<WarpStep> makeWarpStep(const CameraModel& layer,
                                                      const WarpOptions& options,
                                                      std::shared_ptr<Workers> workers,

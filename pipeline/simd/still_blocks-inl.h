@@ -1,5 +1,5 @@
-// Loads the still's pixels at the positions where the pixels of an output row read it. Included
-// once per instruction set.
+// Loads the still's pixels that the pixels of an output row read. This header is included once per
+// instruction set.
 #include "pipeline/simd/detail_kernels.h"
 
 #include <algorithm>
@@ -19,7 +19,6 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Loads blocks of 2x2 pixels of a still's luma, one per lane.
 class StillBlocks {
     using I = hn::ScalableTag<std::int32_t>;
     using U = hn::ScalableTag<std::uint32_t>;
@@ -32,9 +31,9 @@ public:
         const std::int32_t left = hn::GetLane(x), top = hn::GetLane(y);
         hwy::Prefetch(still_.data + (top + kRowsAhead) * still_.pitch + left);
 #if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
-        // Consecutive output pixels usually read blocks that are close together, in at most two
-        // rows of the still. Loading a part of both rows and permuting its pixels is then faster
-        // than loading the block of each lane.
+        // Neighbouring output pixels usually read blocks that are close together, in at most two
+        // rows of the still. Then, loading a part of both rows and permuting it is faster than
+        // loading the block of each lane.
         const I di;
         const U du;
         const std::int32_t begin = std::max(left - kBefore, 0);
@@ -51,12 +50,12 @@ public:
     }
 
 private:
-    /// While a row of the still is read, the row this number of rows below it is prefetched. The
-    /// CPU does not predict these reads itself, because the output is drawn in strips.
+    /// Rows of the still are prefetched this number of rows ahead. The CPU does not predict these
+    /// reads, because the output is drawn in strips.
     static constexpr std::ptrdiff_t kRowsAhead = 2;
 
-    /// Loads the block of each lane on its own. On most targets, Highway's gathers need addresses
-    /// that are multiples of four bytes; on the others, they are hardly faster.
+    /// Loads the block of each lane on its own. On most targets, Highway's gathers would need
+    /// addresses that are multiples of four bytes. On the others, gathers are hardly faster.
     HWY_INLINE hn::Vec<U> loaded(hn::Vec<I> x, hn::Vec<I> y) const {
         HWY_ALIGN std::int32_t at[hn::MaxLanes(I())];
         HWY_ALIGN std::uint32_t out[hn::MaxLanes(U())];
@@ -67,11 +66,10 @@ private:
     }
 
 #if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
-    static constexpr std::int32_t kBefore = 4;   // the loaded part of a row begins this number of
-                                                 // columns before the first lane's block
-    static constexpr std::uint32_t kReach = 31;  // number of blocks in the loaded part
+    static constexpr std::int32_t kBefore = 4;  // columns loaded before the first lane's block
+    static constexpr std::uint32_t kReach = 31;
 
-    /// Loads a part of a row of the still. Returns the blocks at columns `begin` + `place`.
+    /// Loads a part of a row of the still. Returns its blocks at columns `begin` + `place`.
     HWY_INLINE hn::Vec<U> permuted(std::int32_t row, std::int32_t begin, hn::Vec<U> place) const {
         const U du;
         const hn::Repartition<std::uint16_t, U> d16;

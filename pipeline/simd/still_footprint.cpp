@@ -1,7 +1,6 @@
 #include "pipeline/engine/params/luma.h"
 #include "pipeline/simd/luma_kernels.h"
 
-// Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/still_footprint.cpp"
 #include <algorithm>
@@ -23,7 +22,6 @@ struct Ray {
     Vec x, y;
 };
 
-/// Applies the lens model of base/geometry.h.
 HWY_INLINE Ray distorted(const float* distortion, const Ray& p) {
     const Floats d;
     const auto k = [&](int i) HWY_ATTR { return hn::Set(d, distortion[i]); };
@@ -50,13 +48,13 @@ HWY_INLINE Ray undistorted(const float* distortion, const Ray& target) {
 }
 
 constexpr int kTaps = params::kFootprintTaps;
-// Weights have this number of bits. The product of a pixel and two weights fits into 32 bits, with
-// room for sums.
+// Number of bits of a weight. The product of a pixel and two weights fits into 32 bits, with room
+// for sums.
 constexpr int kShareBits = 14;
 constexpr float kShare = 1 << kShareBits;
 
-/// The taps of a footprint along one axis. A tap interpolates between pixel `first` and the next
-/// one, which has the weight `share`.
+/// The taps of a footprint along one axis. A tap interpolates between the pixels `first` and
+/// `first` + 1; `share` is the weight of the second.
 struct Taps {
     int first[kTaps], share[kTaps];
 };
@@ -65,7 +63,7 @@ HWY_INLINE void placeTaps(float centre, float footprint, int size, Taps& out) {
     for (int i = 0; i < kTaps; ++i) {
         const float off = (static_cast<float>(i) + 0.5F) / kTaps - 0.5F;
         const float at = centre + off * footprint;
-        // Clamp positions far outside, and NaN, to the border.
+        // Positions far outside, and NaN, are clamped to the border.
         const float held = at > -1 ? std::min(at, static_cast<float>(size)) : -1.0F;
         const float whole = std::floor(held);
         out.first[i] = static_cast<int>(whole);
@@ -96,7 +94,7 @@ std::uint8_t footprintMean(const StillPicture& p, const Taps& x, const Taps& y) 
 }
 
 #if HWY_TARGET != HWY_SCALAR
-// Upper limit of the number of pixels of a row that the taps of a footprint span.
+// Largest number of a row's pixels that the taps of a footprint span.
 constexpr int kWindow = 16;
 constexpr float kMostFootprint = 16;
 // Values between two rows are stored in 1/16 grey level.
@@ -105,7 +103,6 @@ using Four = hn::FixedTag<float, kTaps>;
 using FourInt = hn::FixedTag<std::int32_t, kTaps>;
 using Taps16 = hn::FixedTag<std::int16_t, 2 * kTaps>;
 
-/// The taps of a footprint along one axis (see Taps), one per lane.
 struct TapLanes {
     hn::Vec<FourInt> first, share;
 
@@ -118,15 +115,13 @@ struct TapLanes {
     }
 };
 
-/// Returns for each tap the two pixels of a row that it lies between. `at`: indices of these pixels
-/// in `window`.
+/// Returns the two pixels of a row between which each tap lies. `at`: their indices in `window`.
 HWY_INLINE hn::Vec<Taps16> tapsOf(const std::uint8_t* window,
                                   hn::VFromD<hn::FixedTag<std::uint8_t, 2 * kTaps>> at) {
     const hn::FixedTag<std::uint8_t, kWindow> dWindow;
     return hn::PromoteTo(Taps16(), hn::TableLookupBytes(hn::LoadU(dWindow, window), at));
 }
 
-/// Computes four partial sums over a footprint whose window lies within the still.
 HWY_INLINE void sumWindow(const StillPicture& p, const TapLanes& x, const TapLanes& y, int left,
                           std::int32_t* parts) {
     const Taps16 d16;
@@ -153,7 +148,6 @@ HWY_INLINE void sumWindow(const StillPicture& p, const TapLanes& x, const TapLan
     hn::StoreU(hn::Add(sum, sum1), dInt, parts);
 }
 
-/// Stores the rounded means of `count` pixels, computed from their partial sums.
 HWY_INLINE void storeMeans(const std::int32_t (*parts)[4], int count, std::uint8_t* to) {
     const Floats d;
     const hn::RebindToSigned<Floats> dInt;
@@ -214,7 +208,7 @@ void FootprintRow(const StillPicture& still, float footprint, const float* still
     const auto offsets = hn::Mul(hn::Sub(hn::Iota(d, 0.5F), hn::Set(d, kTaps / 2.0F)),
                                  hn::Set(d, footprint / kTaps));
     const float reach = footprint * (kTaps - 1) / (2 * kTaps);
-    // Returns false if q is NaN.
+    // All comparisons are false if q is NaN.
     const auto within = [&](float q, int room, int size) {
         return q - reach >= 0 && q - reach + static_cast<float>(room) <= static_cast<float>(size) &&
                q + reach + 2 <= static_cast<float>(size);

@@ -2,7 +2,6 @@
 
 #include <cstring>
 
-// Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/still_kernels.cpp"
 #include <hwy/foreach_target.h>
@@ -21,7 +20,6 @@ HWY_INLINE hn::Vec<I16> LoadWide(const std::uint8_t* from) {
     return hn::PromoteTo(I16(), hn::LoadU(U8(), from));
 }
 
-/// Converts 1/32 grey level to bytes, rounded and clamped.
 HWY_INLINE hn::Vec<U8> Bytes(hn::Vec<I16> fixed) {
     return hn::DemoteTo(U8(), hn::ShiftRight<5>(hn::Add(fixed, hn::Set(I16(), 16))));
 }
@@ -33,7 +31,7 @@ HWY_INLINE hn::Vec<U8> LumaOf(hn::Vec<I16> y, const std::int16_t* chroma, const 
     return Bytes(chroma == nullptr ? sum : hn::Add(sum, hn::LoadU(d, chroma)));
 }
 
-/// Computes luma in whole vectors from rows with `kStep` bytes per pixel. The last vector is read
+/// Computes luma in whole vectors, from rows with `kStep` bytes per pixel. The last vector is read
 /// from a copy, because cameras' rows have no padding.
 template <int kStep, class Load>
 HWY_INLINE void LumaRows(const std::uint8_t* from, const std::int16_t* chroma, const LumaGain& by,
@@ -65,7 +63,6 @@ void LumaOfPairs(const std::uint8_t* yAndChroma, const std::int16_t* chroma, con
     });
 }
 
-/// Returns luma with raised detail [1/32 grey level], see raisedRow().
 HWY_INLINE hn::Vec<I16> Raised(const std::array<const std::uint8_t*, 3>& luma, hn::Vec<I16> share,
                                std::size_t x) {
     const std::uint8_t* at = luma[1] + x;
@@ -97,7 +94,7 @@ void PairRows(const std::uint8_t* upper, const std::uint8_t* lower, std::size_t 
 
 void PackRow(const std::array<const std::uint8_t*, 3>& rgb, std::size_t pixels,
              std::uint32_t* rgba) {
-    // Processes only as many pixels at a time as fit into one vector of the result, so that at most
+    // Only as many pixels are processed at a time as fit into one vector of the result. So at most
     // one vector is written beyond the end.
     const hn::Rebind<std::uint16_t, hn::ScalableTag<std::uint32_t>> d;
     const hn::Rebind<std::uint8_t, decltype(d)> d8;

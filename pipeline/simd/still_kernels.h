@@ -6,12 +6,11 @@
 
 namespace mfar::simd {
 
-// Functions for rows of a still. Rows that are written, and 16-bit and luma rows that are read, may
-// be accessed up to 64 bytes beyond their end.
+// Functions for rows of a still. Written rows, and 16-bit and luma rows that are read, may be
+// accessed up to 64 bytes beyond their end.
 
-/// Computes luma from Y, which is stored as a plane, or as byte pairs with Y first. Luma is gain
-/// [1/16384] times Y, plus offset [1/32 grey level], plus `chroma` [1/32 grey level] (null: 0),
-/// clamped to [0, 255].
+/// Computes luma from Y, which is a plane, or byte pairs with Y first. Luma is gain [1/16384] times
+/// Y plus `offset` plus `chroma` [both 1/32 grey level], clamped to [0, 255]. Null `chroma`: 0.
 struct LumaGain {
     std::int16_t gain, offset;
 };
@@ -20,9 +19,9 @@ void lumaOfPlane(const std::uint8_t* y, const std::int16_t* chroma, const LumaGa
 void lumaOfPairs(const std::uint8_t* yAndChroma, const std::int16_t* chroma, const LumaGain& by,
                  std::size_t pixels, std::uint8_t* luma);
 
-/// Computes luma whose finest detail is raised to compensate for the loss in a linear look-up, see
-/// still_raise.frag. The result is clamped. `luma`: the rows above, here and below; they are also
-/// read one pixel to each side. `neighboursShare` is in 1/32768.
+/// Computes luma with raised finest detail, to compensate for the loss in a linear look-up
+/// (still_raise.frag). The result is clamped. `luma`: the rows above, here and below, which are
+/// also read one pixel to each side. `neighboursShare` is in 1/32768.
 void raisedRow(const std::array<const std::uint8_t*, 3>& luma, std::int16_t neighboursShare,
                std::size_t pixels, std::uint8_t* to);
 
@@ -30,7 +29,6 @@ void raisedRow(const std::array<const std::uint8_t*, 3>& luma, std::int16_t neig
 void pairRows(const std::uint8_t* upper, const std::uint8_t* lower, std::size_t pixels,
               std::uint16_t* pairs);
 
-/// Packs three rows of channels into one row of opaque RGBA8.
 void packRow(const std::array<const std::uint8_t*, 3>& rgb, std::size_t pixels,
              std::uint32_t* rgba);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-// Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/still_look_up.cpp"
 #include <hwy/foreach_target.h>
@@ -57,8 +56,8 @@ HWY_INLINE Point Unproject(const LensParams& lens, V x, V y) {
     return ray;
 }
 
-// Returns where a video pixel's ray, turned into the still camera's orientation, meets the still.
-// The position is far outside the still if the ray points away from the still's view.
+// Returns the still's pixel on a video pixel's ray, after rotation into the still camera. The
+// position is far outside the still if the ray points away from the still's view.
 HWY_INLINE Point StillPixel(const LookUpParams& lookUp, V x, V y) {
     const Point ray = Unproject(lookUp.video, x, y);
     const auto turned = [&](int row) HWY_ATTR {
@@ -77,7 +76,7 @@ HWY_INLINE Point StillPixel(const LookUpParams& lookUp, V x, V y) {
                            far)};
 }
 
-// Returns whether a point is inside the picture. A point with NaN is outside.
+// A point with NaN is outside the picture.
 HWY_INLINE hn::Mask<D> Inside(const LensParams& lens, Point p) {
     const V zero = hn::Zero(D());
     const auto x = hn::And(hn::Ge(p.x, zero), hn::Le(p.x, Const(lens.width - 1)));
@@ -106,8 +105,8 @@ HWY_INLINE V Mix(V a, V b, V share) {
     return hn::MulAdd(hn::Sub(b, a), share, a);
 }
 
-/// Returns the two-way error [video px]. The flow leads from a cell to `q`, and the backward field
-/// at `q` should lead back to the cell; the error is the length of the sum of these two vectors.
+/// Returns the two-way error [video px]. The flow leads from a cell to `q`; the backward field at
+/// `q` should lead back. The error is the length of the sum of these two vectors.
 HWY_INLINE V TwoWayError(const BackwardCells& backward, Point q, V flowX, V flowY) {
     const D d;
     const hn::RebindToSigned<D> di;

@@ -9,14 +9,12 @@
 
 namespace mfar::simd {
 
-/// A lens and the size of its picture.
 struct LensParams : params::Lens {
     explicit LensParams(const CameraModel& camera);
-    float width, height;  ///< [px]
-    bool distorts;        ///< true if any coefficient of the distortion is not zero
+    float width, height;
+    bool distorts;
 };
 
-/// The lenses of video and still, and the rows of the rotation matrix R_still_video.
 struct LookUpParams {
     explicit LookUpParams(const StereoRig& rig);
     LensParams video, still;
@@ -24,17 +22,16 @@ struct LookUpParams {
     float scaleX, scaleY;  ///< still pixels per video pixel
 };
 
-/// The two-way errors of a row of cells (`errors`) or, if they are not known yet, the backward
-/// field from which they are computed.
+/// Two-way errors of a row of cells, from its first cell on. If `errors` is null, they are computed
+/// from the backward field.
 struct BackwardCells {
-    const ErrorCell* errors = nullptr;  ///< error of the row's first cell; null: not known yet
+    const ErrorCell* errors = nullptr;
     const FlowCell* field = nullptr;
-    std::ptrdiff_t pitch = 0;  ///< cells from one row of `field` to the next
+    std::ptrdiff_t pitch = 0;
     int columns = 0, rows = 0;
     float scale = 1;  ///< video pixels per pixel of the pyramid level that `field` belongs to
 };
 
-/// Splits a row of the flow into its two components.
 void splitFlow(const FlowCell* cells, int count, float* x, float* y);
 
 /// Computes the mean flow of blocks of 2x2 cells, in pixels of the next coarser pyramid level.
@@ -51,8 +48,8 @@ struct LookUpRow {
                                  ///< ends outside the still or the video
 };
 
-/// Computes for each cell of a row where its flow ends in the still, and its confidence: how well
-/// the flow and the backward field agree. CPU version of superres_assess.comp.
+/// Computes where each cell's flow ends in the still, and its confidence, which tells how well the
+/// flow and the backward field agree. CPU version of superres_assess.comp.
 void lookUpCells(const LookUpParams& lookUp, const BackwardCells& backward, const LookUpRow& row);
 
 }  // namespace mfar::simd

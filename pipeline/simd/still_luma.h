@@ -11,7 +11,6 @@ namespace mfar::simd {
 /// Computes the Rec. 601 luma of a valid picture's R G B, row by row, for any format.
 class StillLuma {
 public:
-    /// Temporary memory of one thread for pictures of this width.
     struct Scratch {
         explicit Scratch(int width) : half({width / 2 + 2, 1}), chroma({width, 1}) {}
         AlignedRows<float> half;

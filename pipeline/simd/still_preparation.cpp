@@ -11,7 +11,7 @@
 namespace mfar::simd {
 namespace {
 
-constexpr int kStillGrain = 16;  // rows that a thread takes at a time
+constexpr int kStillGrain = 16;
 
 }  // namespace
 
@@ -77,7 +77,7 @@ void StillPreparation::keep(const ImageView& still) {
     unmade_ = to;
 }
 
-// Resamples the columns of a picture for row y of the result, into scratch.wide.
+// Resamples the columns of a picture for row y of the result, which is written to scratch.wide.
 template <class RowAt>
 void StillPreparation::weighColumn(const RowTaps& taps, int y, Size from, const RowAt& rowAt,
                                    Scratch& scratch) {

@@ -17,21 +17,22 @@
 
 namespace mfar::simd {
 
-/// Prepares the newest still once: its luma at full resolution, and reduced to what the output
-/// needs. CPU version of the GLES engine's StillReference. Allocates memory in the constructor;
-/// set() allocates only to copy a picture of another pixel format, and picture() only once.
+/// Prepares the newest still once: its luma at full resolution, and at the resolution that the
+/// output needs. CPU version of the GLES engine's StillReference. Memory is allocated in the
+/// constructor. set() allocates only to copy a picture of another pixel format, and picture() only
+/// once.
 class StillPreparation {
 public:
     /// `output`: size of the whole enlarged video.
     StillPreparation(const StereoRig& rig, Size output, std::shared_ptr<Workers> workers);
 
-    /// Sets a valid picture of the still camera's size, in any pixel format. `keepsPicture`: copies
-    /// the still's colours for picture(); otherwise, picture() returns a grey picture.
+    /// Sets a valid picture of the still camera's size, in any pixel format. `keepsPicture`: the
+    /// still's colours are copied for picture(); otherwise, picture() returns a grey picture.
     void set(const ImageView& still, bool keepsPicture = true);
 
-    /// The rig whose still camera has the size of pairs(): the same lens, possibly fewer pixels.
+    /// The rig whose still camera has the size of pairs(): the same lens with the same or fewer
+    /// pixels.
     [[nodiscard]] const StereoRig& rig() const { return rig_; }
-    /// Rec. 601 luma of the whole still.
     [[nodiscard]] Rows<const std::uint8_t> luma() const { return luma_.rows(); }
     /// Luma at the size of rig().still. If it was not reduced, its finest detail is raised to
     /// compensate for the loss in a linear look-up.
@@ -41,7 +42,6 @@ public:
     [[nodiscard]] Rows<const std::uint32_t> picture();
 
 private:
-    /// Rows of luma whose border pixels are repeated on both sides.
     class Luma {
     public:
         explicit Luma(Size size) : rows_({size.width + 2 * kMargin, size.height}), size_(size) {}
@@ -63,9 +63,9 @@ private:
     struct Scratch {
         explicit Scratch(Size still);
         StillLuma::Scratch luma;
-        AlignedRows<float> wide;                // a row of the still
-        AlignedRows<std::uint8_t> raised, rgb;  // raised: two rows; rgb: three rows
-        std::vector<const std::uint8_t*> rows;  // the rows of which a weighted sum is computed
+        AlignedRows<float> wide;
+        AlignedRows<std::uint8_t> raised, rgb;
+        std::vector<const std::uint8_t*> rows;
         std::vector<float> weights;
     };
     /// Reduction to fewer pixels without aliasing, see still_reduce.frag.
@@ -90,7 +90,7 @@ private:
     StereoRig rig_;
     Luma luma_;
     std::optional<Reduction> reduction_;
-    std::int16_t neighboursShare_;  // see raisedRow()
+    std::int16_t neighboursShare_;
     AlignedRows<std::uint16_t> pairs_;
     ScratchSlots<Scratch> scratch_;
     std::vector<std::uint8_t> kept_;

@@ -12,11 +12,11 @@
 namespace mfar::simd {
 namespace {
 
-constexpr std::size_t kBatch = 1024;  // number of triangles in a batch
+constexpr std::size_t kBatch = 1024;
 constexpr int kCornersAtATime = 2048;
-constexpr int kLeastBand = 16;  // smallest height of a band [rows]
+constexpr int kLeastBand = 16;
 constexpr int kBandsPerThread = 4;
-// Triangles with corners farther outside the grid than this [px] are clipped. For all others,
+// Triangles with corners farther outside the grid than this [px] are clipped. For the others,
 // single precision is exact to a hundredth of a pixel.
 constexpr float kGuard = 65536;
 
@@ -200,7 +200,6 @@ void SurfaceRaster::addSeen(Batch& batch, std::size_t triangle) {
     if (addTriangle(batch, c, index)) setPaint(*batch.placed, c, index);
 }
 
-/// Returns false if the triangle is outside the grid or faces away.
 bool SurfaceRaster::addTriangle(Batch& batch, const RasterCorner (&c)[3],
                                 std::uint32_t index) const {
     const auto [left, right] = std::minmax({c[0].x, c[1].x, c[2].x});
@@ -228,7 +227,7 @@ bool SurfaceRaster::addTriangle(Batch& batch, const RasterCorner (&c)[3],
     return true;
 }
 
-/// `c` are the corners of the triangle or of a piece of it. Both give the same planes.
+/// `c`: corners of the triangle or of a piece of it; both give the same planes.
 void SurfaceRaster::setPaint(const Placed& placed, const RasterCorner (&c)[3],
                              std::uint32_t index) {
     if (placed.part->source->material == nullptr) return;  // the shadow catcher has no paint
@@ -261,8 +260,8 @@ std::vector<ClipCorner> clipped(const std::vector<ClipCorner>& polygon, const In
         const float from = inside(a), to = inside(b);
         if (from >= 0) out.push_back(a);
         if ((from >= 0) == (to >= 0)) continue;
-        // The ends of an edge are always used in the same order, from outside to inside. So both
-        // triangles at an edge get the same point.
+        // The ends of an edge are always used in the same order, from outside to inside, so that
+        // both triangles at an edge get the same point.
         out.push_back(from >= 0 ? between(b, a, to / (to - from))
                                 : between(a, b, from / (from - to)));
     }

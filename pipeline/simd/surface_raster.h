@@ -17,9 +17,9 @@
 namespace mfar::simd {
 
 /// Rasterises the visible surfaces of the virtual scene: the models and, below them, the shadow
-/// catcher. They are drawn on a grid with twice the layer's resolution, so a pixel of the layer has
-/// four quarters. The lens's distortion is applied to corners of triangles. Light is not computed;
-/// paint is looked up on request. CPU version of the GLES engine's ModelSilhouette.
+/// catcher. The grid has twice the layer's resolution, so a pixel of the layer has four quarters.
+/// Lens distortion is applied to corners of triangles. Light is not computed; paint is looked up on
+/// request. CPU version of the GLES engine's ModelSilhouette.
 class SurfaceRaster {
 public:
     /// `layer`: the camera at the layer's resolution. If `workers` is null, all work runs in the
@@ -32,19 +32,15 @@ public:
     /// Draws within `where` [layer px]. Pixels elsewhere become invalid.
     void draw(const RigidTransform& T_world_camera, const PixelRect& where);
     /// The surfaces, at twice the layer's size: z and number, packed as in warp_surface.glsl; 0: no
-    /// surface. The shadow catcher's number appears only where no object is, even if the shadow
-    /// catcher is nearer.
+    /// surface. Objects hide the shadow catcher, even if the catcher is nearer.
     [[nodiscard]] Rows<const std::uint32_t> surface() const { return words_.rows(); }
-    /// Writes the paint of layer pixels `x0` to `x1` of row `y`, which must be in the drawn part.
-    /// Paint is the material's colour factor times its texture, averaged in linear light over the
-    /// part of the texture that the pixel shows, as sRGB bytes. It is 0 where no object is. If a
-    /// pixel shows several objects, it is the paint of the object with the most quarters, as in
-    /// RestPixels. Writes up to 7 entries of `out` beyond the last pixel. May be called from any
-    /// thread.
+    /// Writes the paint (see paint_rows.h) of layer pixels `x0` to `x1` of row `y`, which must be
+    /// in the drawn part. Up to 7 entries of `out` after the last pixel are overwritten. May be
+    /// called from any thread.
     void paintRow(int y, int x0, int x1, PaintWords* out) const;
 
 private:
-    /// A part of a model, with its corners in three rows: x, y, z [m].
+    /// A part of a model. `corners`: rows of x, y and z [m].
     struct Part {
         explicit Part(const SilhouetteModels::Part& from);
         const SilhouetteModels::Part* source;
@@ -52,7 +48,6 @@ private:
     };
     using Shape = SilhouetteModels::Shape;
     using Parts = std::vector<std::shared_ptr<const Part>>;
-    /// A part of one object in the scene.
     struct Placed {
         const SilhouetteModels::Object* object;
         std::uint32_t word;
@@ -60,13 +55,12 @@ private:
         AlignedRows<float> seen;  // projected corners: x and y [grid px], z [m]
         PointTransform view{};
         bool isInView = false;
-        std::uint32_t firstTriangle = 0;  // index of the part's first triangle in paintTriangles_
+        std::uint32_t firstTriangle = 0;
     };
     struct Chunk {
         Placed* placed;
-        int first, count;  // index of the first corner, number of corners
+        int first, count;
     };
-    /// Triangles that are prepared together.
     struct Batch {
         const Placed* placed;
         std::size_t first, last;
@@ -90,10 +84,10 @@ private:
     std::deque<Placed> placed_;
     std::vector<Chunk> chunks_;
     std::vector<Batch> batches_;
-    PixelRect grid_;  // the part of the grid that is drawn
+    PixelRect grid_;
     AlignedRows<std::uint32_t> words_, indices_;
     PaintTextures paint_;
-    std::vector<PaintTriangle> paintTriangles_;  // one entry for each triangle of all objects
+    std::vector<PaintTriangle> paintTriangles_;
 };
 
 [[nodiscard]] PointLens pointLensOf(const LensProjection& lens);

@@ -10,16 +10,15 @@
 
 namespace mfar::simd {
 
-// These functions rasterise surfaces. Each pixel gets a word with the upper 24 bits of z [m] and
-// then the surface's number, packed as in warp_surface.glsl. A smaller word is nearer, so the order
-// of drawing does not matter. The index of the triangle is stored in a second word. Of surfaces
-// with equal words, the one drawn first remains.
+// These functions rasterise surfaces. A pixel's word has the upper 24 bits of z [m] and the
+// surface's number, packed as in warp_surface.glsl. A second word has the index of the triangle.
+// The smallest word remains, so the nearest surface wins in any order of drawing. If words are
+// equal, the first one drawn remains.
 
 inline constexpr std::uint32_t kNoSurface = 0xFFFFFFFF;
 /// This bit sorts a surface behind all others. It is free because z has no sign.
 inline constexpr std::uint32_t kBehindObjects = 0x80000000;
 
-/// Corners of a mesh [m].
 struct MeshRows {
     const float *x, *y, *z;
 };
@@ -33,10 +32,9 @@ struct CornerRows {
 void projectCorners(const MeshRows& mesh, int count, const PointTransform& view,
                     const PointLens& lens, const CornerRows& out);
 
-/// A corner in front of the camera, on the grid.
 struct RasterCorner {
     float x, y;
-    float perZ;          ///< 1 / z
+    float perZ;
     float u = 0, v = 0;  ///< texture coordinates of a mask, divided by z
 };
 
@@ -49,22 +47,22 @@ struct RasterPlane {
 /// A prepared triangle. Its edges run from the upper to the lower corner. So two triangles with a
 /// common edge cross a row at the same x, and no pixel between them is omitted or drawn twice.
 struct RasterTriangle {
-    float top, middle, bottom;    ///< y of the corners
+    float top, middle, bottom;
     float longX, upperX, lowerX;  ///< x at the upper end of each edge
     float longSlope, upperSlope, lowerSlope;
     int firstRow, lastRow;  ///< first row whose centre is covered; last such row + 1
     RasterPlane perZ;
     float leastPerZ, mostPerZ;
-    std::uint32_t word;   ///< surface number; the shadow catcher's also has kBehindObjects
-    std::uint32_t index;  ///< index of the triangle
+    std::uint32_t word;  ///< surface number; the shadow catcher's also has kBehindObjects
+    std::uint32_t index;
     bool longIsLeft;
 };
 
-/// A mask: the texture of a surface with holes.
+/// Texture of a surface that has transparent parts.
 struct RasterMask {
-    const std::uint8_t* rgba;  ///< four bytes per texel
+    const std::uint8_t* rgba;
     Size size;
-    float cutoff;  ///< texels with smaller alpha are holes, [0, 1]
+    float cutoff;  ///< texels with smaller alpha are transparent, [0, 1]
 };
 struct MaskedTriangle {
     RasterTriangle triangle;
@@ -72,29 +70,26 @@ struct MaskedTriangle {
     RasterMask mask;
 };
 
-/// What is stored where a triangle is visible.
 struct RasterName {
-    std::uint32_t word, index;  ///< see RasterTriangle
+    std::uint32_t word, index;
 };
 
 /// Prepares a triangle for drawing. Returns false if it covers no row's centre or has no area.
 [[nodiscard]] bool makeTriangle(const RasterCorner (&corners)[3], const RasterName& name,
                                 RasterTriangle& out);
-/// Prepares a triangle with a mask; see makeTriangle().
 [[nodiscard]] bool makeMasked(const RasterCorner (&corners)[3], const RasterName& name,
                               const RasterMask& mask, MaskedTriangle& out);
 
-/// Returns twice the signed area of the triangle on the grid. It is positive if the triangle faces
-/// away: then its corners are clockwise in the picture (row 0 is on top).
+/// Returns twice the signed area of the triangle on the grid. It is positive if the corners are
+/// clockwise in the picture (row 0 is on top); then the triangle faces away.
 [[nodiscard]] float doubleArea(const RasterCorner (&corners)[3]);
-/// Returns the plane through the values at three corners.
 [[nodiscard]] RasterPlane planeThrough(const RasterCorner (&corners)[3], const float (&value)[3],
                                        float doubleArea);
 
-/// A band of rows, `where`, of the part of the grid that is drawn.
+/// A band of rows of the drawn part of the grid.
 struct RasterBand {
-    Rows<std::uint32_t> words;    ///< rows of the whole grid
-    Rows<std::uint32_t> indices;  ///< rows of the whole grid; valid where there is a word
+    Rows<std::uint32_t> words;
+    Rows<std::uint32_t> indices;  ///< valid where there is a word
     PixelRect where;
 };
 void drawTriangles(std::span<const RasterTriangle> triangles, const RasterBand& band);

@@ -1,5 +1,5 @@
-// Computes sums over blocks of 2x2 pixels for a group of tiles, in the new frame and in the frame
-// from which the tiles were last drawn. Included once per instruction set.
+// Computes sums over blocks of 2x2 pixels for a group of tiles, from the new frame and from the
+// frame from which the tiles were last drawn. This header is included once per instruction set.
 #include "pipeline/engine/params/luma.h"
 #include "pipeline/simd/tile_rows.h"
 
@@ -38,11 +38,11 @@ struct Blocks {
     HWY_ALIGN Values rough;               // half the absolute twist of the new frame's luma
     HWY_ALIGN Values lumaSum, lumaTwist;  // sum and twist of the luma's difference in each block
     HWY_ALIGN CellSums redSum, blueSum;   // sum of the difference of red or blue over each cell
-    // For each cell, of the colour channel with the largest value: the absolute value of the sum of
-    // the difference (farthest), and the sum of the absolute difference (absolute).
+    // For each cell, the largest value among the colour channels: of the absolute summed difference
+    // (farthest), and of the summed absolute difference (absolute).
     HWY_ALIGN CellSums farthest, absolute;
-    // Sums of the squared twists of the difference of red or blue, four for each tile: one for each
-    // column of cells.
+    // Sums of squared twists of the red or blue difference. A tile has four, one for each column of
+    // its cells.
     HWY_ALIGN std::array<std::int32_t, kRowCells> redTwist, blueTwist;
 };
 
@@ -119,13 +119,12 @@ template <class D>
 struct Block {
     using V = hn::Vec<D>;
     // Not defaulted, because a constructor that the compiler generates is not compiled for this
-    // instruction set, which is an error for NEON's vectors.
+    // instruction set. NEON's vectors make this an error.
     HWY_INLINE Block() {}  // NOLINT(modernize-use-equals-default)
     HWY_INLINE Block(V s, V t, V a) : sum(s), twist(t), absolute(a) {}
     V sum, twist, absolute;
 };
 
-/// One colour channel of blocks of 2x2 pixels: a b above c d.
 template <class D>
 struct Quad {
     hn::Vec<D> a, b, c, d;
@@ -158,8 +157,8 @@ HWY_INLINE Block<D> BlockOf(const Quad<D>& q) {
             hn::Add(hn::Add(hn::Abs(q.a), hn::Abs(q.b)), hn::Add(hn::Abs(q.c), hn::Abs(q.d)))};
 }
 
-/// Stores the luma of three colour channels (or its absolute value, if `absolute`), times `scale`,
-/// which must be a power of 2.
+/// Stores the luma of three colour channels times `scale`, a power of 2; with `absolute`, its
+/// absolute value.
 template <class D>
 HWY_INLINE void StoreLuma(D, float scale, hn::Vec<D> red, hn::Vec<D> green, hn::Vec<D> blue,
                           bool absolute, float* to) {
@@ -180,7 +179,6 @@ HWY_INLINE void StoreLuma(D, float scale, hn::Vec<D> red, hn::Vec<D> green, hn::
           to + hn::Lanes(df));
 }
 
-/// Adds each pair of neighbouring 16-bit lanes. The sums are 32-bit lanes.
 template <class D>
 HWY_INLINE auto PairSums(D d, hn::Vec<D> v) {
     const hn::Repartition<std::int32_t, D> di;
@@ -189,7 +187,6 @@ HWY_INLINE auto PairSums(D d, hn::Vec<D> v) {
     return hn::Add(hn::ShiftRight<16>(hn::ShiftLeft<16>(pairs)), hn::ShiftRight<16>(pairs));
 }
 
-/// Measures a vector of neighbouring blocks in every row of the tiles.
 template <class D>
 HWY_INLINE void ReadColumn(D d, const TilePixels& pixels, int x, Blocks& out) {
     const hn::Repartition<std::int32_t, D> di;
@@ -236,7 +233,7 @@ HWY_INLINE void ReadColumn(D d, const TilePixels& pixels, int x, Blocks& out) {
 }
 
 void ReadBlocks(const TilePixels& pixels, Blocks& out) {
-    // Processes vectors of several whole tiles first, then vectors of one tile.
+    // First, vectors of several whole tiles are processed, then vectors of one tile.
     const hn::CappedTag<std::int16_t, 4 * kSide> d;
     const hn::FixedTag<std::int16_t, kSide> tile;
     const int blocks = kSide * pixels.tiles, lanes = static_cast<int>(hn::Lanes(d));

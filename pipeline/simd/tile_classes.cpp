@@ -9,9 +9,9 @@
 namespace mfar::simd {
 namespace {
 
-constexpr int kCells = 4;         // cells of a tile along each axis
-constexpr int kWithBorder = 6;    // kCells and a border of one cell on each side
-constexpr int kTileRowGrain = 4;  // rows of tiles that a thread takes at a time
+constexpr int kCells = 4;
+constexpr int kWithBorder = 6;  // kCells and a border of one cell on each side
+constexpr int kTileRowGrain = 4;
 
 }  // namespace
 
@@ -29,8 +29,8 @@ struct TileClasses::Fields {
     }
     [[nodiscard]] TileClass classOf(int column, int row) const;
     [[nodiscard]] int unexplainedCells(int column, int row) const;
-    /// The cells next to the tile count, too, because the weights of the tile's pixels are
-    /// interpolated between the tile's own cells and those.
+    /// The cells next to the tile count, too, because weights of pixels are interpolated between
+    /// cells.
     [[nodiscard]] bool showsSecond(int column, int row) const;
     [[nodiscard]] bool showsStillAlone(int column, int row) const;
     [[nodiscard]] bool secondExplains(int x, int y) const {
@@ -90,7 +90,7 @@ bool TileClasses::Fields::showsSecond(int column, int row) const {
     return false;
 }
 
-// A weight that is NaN counts as zero.
+// A NaN weight counts as zero.
 bool TileClasses::Fields::showsStillAlone(int column, int row) const {
     const int x0 = kCells * column - 1, y0 = kCells * row - 1;
     for (int i = 0; i < kWithBorder * kWithBorder; ++i)

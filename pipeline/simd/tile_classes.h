@@ -14,22 +14,21 @@ namespace mfar::simd {
 
 /// Numbers of tiles in a frame, computed as in superres_classify.comp.
 struct TileSummary {
-    std::array<int, kTileClasses> tiles{};  ///< number of tiles of each TileClass
-    int unexplained = 0;                    ///< number of tiles that no still explains
-    int second = 0;                         ///< number of tiles that show the second still
-    /// Sum of the confidence (eq. 2 of the paper) over the cells of all tiles, in units of 1/16;
-    /// the sum of each tile is rounded down to a whole number. A tile has 16 cells, so a tile with
-    /// full confidence adds 256. Zero if there is no still.
+    std::array<int, kTileClasses> tiles{};
+    int unexplained = 0;  ///< number of tiles with many cells that match no still
+    int second = 0;
+    /// Sum of the confidence (eq. 2 of the paper) over the cells of all tiles, in 1/16. It is
+    /// rounded down to a whole number for each tile. A tile has 16 cells, so a tile with full
+    /// confidence adds 256. Zero if there is no still.
     double confidence = 0;
 };
 
-/// Determines the TileClass of every tile of a frame. Remembers for each tile how many of its cells
-/// had no trusted match in the still when it was drawn last.
+/// Determines the TileClass of every tile of a frame. Remembers for each tile the number of cells
+/// that had no trusted match in the still when the tile was last drawn.
 class TileClasses {
 public:
     explicit TileClasses(Size video);
 
-    /// The tiles in which work is skipped, see SkipOptions.
     struct Skips {
         bool upscaledTiles, plainTiles;
     };
@@ -47,12 +46,12 @@ public:
     }
 
     /// True if the still's detail has a weight of at least one in every cell in and next to the
-    /// tile. Then it replaces the video's detail completely, and learned filters would add nothing.
+    /// tile. It then replaces the video's detail completely, and learned filters would add nothing.
     [[nodiscard]] bool showsStillAlone(int column, int row) const {
         return alone_[static_cast<std::size_t>(row) * tiles_.width + column] != 0;
     }
-    /// True if in a cell in or next to the tile, the weight of the second still exceeds the weight
-    /// of the first by more than params::kSecondFrom.
+    /// True if the second still's weight exceeds the first still's by more than params::kSecondFrom
+    /// in any cell in or next to the tile.
     [[nodiscard]] bool showsSecond(int column, int row) const {
         return second_[static_cast<std::size_t>(row) * tiles_.width + column] != 0;
     }
@@ -63,9 +62,9 @@ private:
 
     Size tiles_;
     std::vector<TileClass> classes_;
-    std::vector<int> unexplained_;              // number of unexplained cells of each tile
-    std::vector<std::uint8_t> second_, alone_;  // one flag per tile
-    std::vector<TileSummary> rowSums_;          // one entry per row of tiles
+    std::vector<int> unexplained_;  // number of a tile's cells that match no still
+    std::vector<std::uint8_t> second_, alone_;
+    std::vector<TileSummary> rowSums_;
 };
 
 }  // namespace mfar::simd

@@ -1,10 +1,9 @@
 #include "pipeline/simd/tile_rows.h"
 
-// Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/tile_rows.cpp"
 #include <hwy/foreach_target.h>
-// The next header is included once per instruction set, as this file is.
+// Must come after foreach_target.h: compiled once per instruction set.
 #include "pipeline/simd/tile_blocks-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -13,9 +12,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr float kMeanToDeviation = 1.2533F;  // standard deviation / mean absolute value of a
                                              // Gaussian
-// Threshold above which a tile has certainly changed. It holds for the sum of three squares, each
-// divided by its variance: of the mean and of both slopes of the tile's difference. Of unchanged
-// tiles, a share of 1e-8 exceeds it.
+// A tile has certainly changed if the sum of three squares exceeds this threshold. They are the
+// squares of the mean and of both slopes of the tile's difference, each divided by its variance. A
+// share of 1e-8 of unchanged tiles exceeds it.
 constexpr float kSurelyChanged = 40;
 // Threshold for the squared mean of a cell's difference, divided by its variance.
 constexpr float kCellSurelyChanged = 30;
@@ -31,13 +30,12 @@ HWY_INLINE V Const(float value) {
     return hn::Set(D(), value);
 }
 
-/// Loads a row of blocks of several tiles into eight vectors, one for each column of a tile.
 HWY_INLINE void Columns(const float* row, V* out) {
     const D d;
     hn::LoadInterleaved4(d, row, out[0], out[1], out[2], out[3]);
     hn::LoadInterleaved4(d, row + 4 * hn::Lanes(d), out[4], out[5], out[6], out[7]);
 #if HWY_TARGET != HWY_SCALAR
-    // Now the lanes alternate between left and right halves of tiles. Separate the halves.
+    // The lanes alternate between left and right halves of tiles, so the halves are separated.
     for (int i = 0; i < 4; ++i) {
         const V first = out[i], second = out[i + 4];
         out[i] = hn::ConcatEven(d, second, first);
@@ -46,10 +44,9 @@ HWY_INLINE void Columns(const float* row, V* out) {
 #endif
 }
 
-/// The 8x8 values of each tile, one for each block of 2x2 pixels.
 using Grid = V[kSide][kSide];
 
-/// Fits a plane to 4x4 of the values and returns the sum of the squared remainders.
+/// Fits a plane to 4x4 values of each tile. Returns the sum of the squared remainders.
 HWY_INLINE V BesidePlane(const Grid& values, int top, int left) {
     const V zero = hn::Zero(D());
     V sum = zero, squares = zero, slopeX = zero, slopeY = zero;
@@ -109,8 +106,7 @@ HWY_INLINE Moments MomentsOf(const Blocks::CellSums& sums, int tile) {
     return out;
 }
 
-/// Measurements of the difference between the lumas of both frames; see TileMeasure for means and
-/// bends.
+/// Measurements of the luma's difference between both frames; see TileMeasure for means and bends.
 struct LumaDifference {
     V means, bends, noise;  // noise: sum of squared twists of blocks
     Moments moments;
@@ -193,7 +189,6 @@ HWY_INLINE auto ChangedCells(const Blocks& blocks, int tile, V noisiest,
     return out;
 }
 
-/// Measurements of a group of tiles, before they are copied to TileMeasure.
 struct Measures {
     using Values = std::array<float, kTileGroup>;
     HWY_ALIGN std::array<std::int32_t, kTileGroup> cells;

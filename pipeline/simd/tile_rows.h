@@ -13,10 +13,9 @@ inline constexpr int kTileGroup = 16;  ///< number of tiles measured at a time
 /// The pixels of adjacent tiles in the new frame (`now`) and in the frame that was drawn last
 /// (`drawn`). Each row has 16 bytes for each tile.
 struct TilePixels {
-    /// The rows of pixels of the colour channels red, green and blue.
     using Channels = std::array<std::array<const std::uint8_t*, kTileSize>, 3>;
     Channels now, drawn;
-    int tiles;  ///< up to kTileGroup
+    int tiles;
 };
 
 /// Measures each tile. The result is bit-identical on every CPU.

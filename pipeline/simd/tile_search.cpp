@@ -15,7 +15,6 @@ Size tilesOfCells(Size cells) {
     return {divideUp(cells.width, kCellsPerTile), divideUp(cells.height, kCellsPerTile)};
 }
 
-/// Returns whether any flag is set in the rectangle of tiles [first, end).
 bool anyWithin(const TileMask& mask, TileSearch::Group first, TileSearch::Group end) {
     for (int y = std::max(first.y, 0); y < std::min(end.y, mask.size.height); ++y)
         for (int x = std::max(first.x, 0); x < std::min(end.x, mask.size.width); ++x)
@@ -84,7 +83,7 @@ void TileSearch::find(const FlowPlanes& field, std::span<const ErrorCell> errors
         const bool within = x >= 0 && y >= 0 && x < size.width && y < size.height;
         return within ? int{unexplained_.at(x, y)} : 0;
     };
-    // A tile with two flagged neighbours is flagged, too, because moving objects have parts without
+    // A tile with two flagged neighbours is also flagged, because moving objects have parts without
     // texture.
     for (int y = 0; y < size.height; ++y)
         for (int x = 0; x < size.width; ++x) {
@@ -94,8 +93,8 @@ void TileSearch::find(const FlowPlanes& field, std::span<const ErrorCell> errors
         }
     for (std::size_t level = 0; level < groups_.size(); ++level) {
         const int side = 1 << level;
-        // Margin [tiles]: the search of a group reads the neighbouring groups of the coarser
-        // pyramid level, whose search reads their own neighbours in turn.
+        // [tiles] The search of a group reads neighbouring groups of the coarser pyramid level.
+        // Their search reads their own neighbours in turn.
         const int margin = 2 * side - 2;
         for (int y = 0; y < divideUp(size.height, side); ++y)
             for (int x = 0; x < divideUp(size.width, side); ++x)

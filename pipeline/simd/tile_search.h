@@ -28,13 +28,13 @@ struct TileMask {
 /// along each axis, else to 0. All masks have the same size. `between`: temporary memory.
 void widen(const TileMask& in, int margin, TileMask& between, TileMask& out);
 
-/// Finds the tiles whose motion the flow along epipolar lines does not explain, so that they must
-/// be searched in two dimensions. Lists for each pyramid level the groups of 4x4 cells of that
-/// level that this search needs. CPU version of flow_flag.comp and flow_list.comp.
+/// Finds the tiles whose pixels do not match along epipolar lines, so that they must be searched in
+/// two dimensions. Lists the groups of 4x4 cells that this search needs at each pyramid level. CPU
+/// version of flow_flag.comp and flow_list.comp.
 class TileSearch {
 public:
     struct Group {
-        int x, y;  ///< column and row of the group, counted in groups
+        int x, y;
     };
 
     TileSearch(Size cells, int levels);
@@ -47,7 +47,7 @@ public:
     [[nodiscard]] std::span<const Group> groups(int level) const {
         return groups_[static_cast<std::size_t>(level)];
     }
-    /// One flag per tile: true if groups(0) contains the tile.
+    /// True for each tile that groups(0) contains.
     [[nodiscard]] const std::vector<bool>& tiles() const { return listed_; }
     [[nodiscard]] int count() const { return static_cast<int>(groups_[0].size()); }
 

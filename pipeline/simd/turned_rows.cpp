@@ -5,14 +5,14 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/turned_rows.cpp"
 #include <hwy/foreach_target.h>
-// The next header is included once per instruction set, as this file is.
+// Must come after foreach_target.h: compiled once per instruction set.
 #include "pipeline/simd/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 
 constexpr float kOutside = -1e6F;
-constexpr float kLeastDepth = 0.05F;  // least depth of a rotated ray whose depth was 1
+constexpr float kLeastDepth = 0.05F;  // smallest z of a visible ray (x, y, 1) after the rotation
 
 void TurnedPoints(const TurnedLens& lens, const float* raysX, const float* raysY, std::size_t count,
                   float* x, float* y) {
@@ -40,7 +40,6 @@ void TurnedPoints(const TurnedLens& lens, const float* raysX, const float* raysY
 using DPixels = hn::CappedTag<float, kTurnedCell>;
 using VPixels = hn::Vec<DPixels>;
 
-/// Samples a picture, with bilinear interpolation.
 class Sampler {
 public:
     explicit Sampler(const Rows<const std::uint8_t>& source)
@@ -62,8 +61,8 @@ private:
     using DInt = hn::RebindToSigned<DPixels>;
     using DBits = hn::RebindToUnsigned<DPixels>;
 
-    /// Interpolates between the pixel at `offset` and the next one. Loads four bytes that begin at
-    /// the pixel, or before it if they would reach past the picture's end.
+    /// Interpolates between the pixel at `offset` and the next one. Four bytes are loaded from the
+    /// pixel on, or from before it if they would reach past the picture's end.
     HWY_INLINE VPixels between(hn::Vec<DInt> offset, VPixels share) const {
         const auto from = hn::Min(offset, hn::Set(dInt_, last_));
         const auto words =

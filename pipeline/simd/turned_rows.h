@@ -11,27 +11,27 @@ namespace mfar::simd {
 
 inline constexpr int kTurnedCell = 8;  ///< distance between the grid points of TurnedCells [px]
 
-/// A camera into which rays of another camera with the same centre are projected.
+/// A camera that is rotated relative to another camera with the same centre.
 struct TurnedLens {
     Lens lens;                  ///< the camera's lens; its rim2 is ignored
-    std::array<float, 9> turn;  ///< rotation of rays, row-major
+    std::array<float, 9> turn;  ///< rotation of the other camera's rays, row-major
     float rim;                  ///< radius of the outermost visible ray
 };
 
-/// Returns the pixels of rays (x, y, 1); far outside if the ray is not visible or NaN.
+/// Writes the pixels of rays (x, y, 1); far outside if a ray is not visible or NaN.
 void turnedPoints(const TurnedLens& lens, const float* raysX, const float* raysY, std::size_t count,
                   float* x, float* y);
 
-/// Two adjacent rows of a grid of points in the source picture. There is one point for every
-/// kTurnedCell pixels of the drawn picture.
+/// Two adjacent rows of a grid of points in the source picture, one point for every kTurnedCell
+/// pixels of the drawn picture.
 struct TurnedCells {
     const float *x, *y, *nextX, *nextY;
 };
 
 /// Draws a row of a picture that lies `v` grid cells below the first row of the grid, [0, 1). The
-/// point of each pixel is interpolated bilinearly in the grid, and the source is sampled bilinearly
-/// there. `seen` is 1 where the source has a pixel, else 0. The source must have at least two
-/// columns and two rows.
+/// source is sampled at each pixel's point, which is interpolated in the grid (both bilinear).
+/// `seen` is 1 where the source has a pixel, else 0. The source must have at least two columns and
+/// two rows.
 void turnedRow(const Rows<const std::uint8_t>& source, const TurnedCells& cells, float v,
                std::size_t width, std::uint8_t* out, std::uint8_t* seen);
 

@@ -53,7 +53,6 @@ EnlargedRows VideoRows::rows(const std::array<int, 4>& videoRows) {
     return out;
 }
 
-// Loads a row's bytes with two more pixels on each side, which repeat the picture's border.
 void VideoRows::load(int row) {
     const int slot = row % kKept;
     if (loaded_[slot] == row) return;

@@ -12,7 +12,7 @@ struct VideoTaps {
     VideoTaps(Size video, Size output);
 
     RowTaps cubicRows, cubicColumns, linearRows, linearColumns;
-    RowTaps trustRows, trustColumns;  ///< resample cells to the video's size
+    RowTaps trustRows, trustColumns;
 };
 
 /// Rows of the video, sharpened, at the output's width. They are computed on request; the last four
@@ -25,7 +25,7 @@ public:
     /// `trust` has no data, rows are not sharpened.
     void begin(const RgbPlanes& video, Rows<const TrustCell> trust, const VideoTaps& taps,
                bool linear, int begin, int end);
-    /// Returns four rows, which must be at most three apart.
+    /// Returns four rows of the video, enlarged. They must be at most three rows apart.
     [[nodiscard]] EnlargedRows rows(const std::array<int, 4>& videoRows);
 
 private:
@@ -42,14 +42,14 @@ private:
     const VideoTaps* taps_ = nullptr;
     bool sharpens_ = false;
     TapTable table_{};
-    int begin_ = 0, end_ = 0;    // columns of the output that are computed
-    int first_ = 0, last_ = 0;   // columns of the video that these need
-    std::array<int, 4> made_{};  // video row stored in each slot
+    int begin_ = 0, end_ = 0;
+    int first_ = 0, last_ = 0;  // columns of the video that [begin_, end_) needs
+    std::array<int, 4> made_{};
     std::array<int, kKept> loaded_{};
-    AlignedRows<std::uint8_t> bytes_;     // kKept rows of three channels, with a margin
-    AlignedRows<float> grey_;             // a sharpened row of one channel, at the video's width
-    AlignedRows<std::int16_t> strength_;  // strength of the sharpening in a row of the video
-    AlignedRows<std::int16_t> wide_;      // four rows of three channels, at the output's width
+    AlignedRows<std::uint8_t> bytes_;
+    AlignedRows<float> grey_;
+    AlignedRows<std::int16_t> strength_;
+    AlignedRows<std::int16_t> wide_;
     CellRows<TrustCell, 2> trust_;
 };
 

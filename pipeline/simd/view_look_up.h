@@ -23,12 +23,11 @@ class SurfaceRaster;
 
 /// A pixel of the layer whose colour is not completely known.
 struct Hole {
-    std::uint32_t pixel;   ///< row-major index of the pixel
+    std::uint32_t pixel;
     std::uint32_t colour;  ///< known part of the colour, RGBA8 premultiplied
     bool isEdge, isOpen;   ///< isOpen: no part of the colour is known
 };
 
-/// The pixels of all re-rendered pictures.
 class RerenderedStore {
 public:
     using Rgba = std::array<std::uint8_t, 4>;
@@ -48,10 +47,10 @@ private:
     std::array<Picture, RerenderedPictures::kPictures> pictures_;
 };
 
-/// Looks up the colour of every pixel of the layer that shows a surface. The colour is taken from
-/// the traced picture or, if that does not show the surface, from the re-rendered pictures. CPU
-/// version of the GLES engine's ViewLookUp. Threads share the rows. Plain pixels (see lookUpRow())
-/// are processed in vectors, edges and other complicated pixels one by one.
+/// Looks up the colour of every layer pixel that shows a surface. The colour comes from the traced
+/// picture or, if that does not show the surface, from the re-rendered pictures. CPU version of the
+/// GLES engine's ViewLookUp. Plain pixels (see lookUpRow()) are processed in vectors, all others
+/// one by one. Threads share the rows.
 class ViewLookUp {
 public:
     ViewLookUp(const LensProjection& layer, std::shared_ptr<Workers> workers);
@@ -60,21 +59,18 @@ public:
     void setTracedPicture(const TracedPicture& traced);
 
     struct Input {
-        const SurfaceRaster& raster;  ///< the surfaces, drawn at the current pose
+        const SurfaceRaster& raster;
         const RerenderedPictures& rerendered;
         const RerenderedStore& store;
-        Eigen::Vector4d plane;  ///< SilhouetteModels::plane()
+        Eigen::Vector4d plane;
     };
-    /// Writes every pixel of `where`, and no others.
+    /// Writes every pixel of `where`, and no other pixels.
     void run(const Input& input, const RigidTransform& T_world_camera, const PixelRect& where);
-    /// Makes the pixels of `where` empty.
     void clear(const PixelRect& where);
 
-    /// The holes of the last run, ascending.
     [[nodiscard]] std::vector<Hole>& holes() { return holes_; }
     [[nodiscard]] Rows<std::uint32_t> colour() { return colour_.rows(); }  ///< RGBA8 premultiplied
     [[nodiscard]] Rows<const float> depth() const { return depth_.rows(); }
-    /// See WarpStep::state().
     [[nodiscard]] Rows<const std::uint32_t> state() const { return state_.rows(); }
 
 private:

@@ -6,7 +6,7 @@
 #define HWY_TARGET_INCLUDE "pipeline/simd/view_rows.cpp"
 
 #include <hwy/foreach_target.h>
-// The next two headers are included once per instruction set, as this file is.
+// Must come after foreach_target.h: compiled once per instruction set.
 #include "pipeline/simd/display_values-inl.h"
 #include "pipeline/simd/point_lens-inl.h"
 
@@ -14,7 +14,7 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// At most 8 lanes, because the padding of rows of quarters has only that many words.
+// Vectors have at most 8 lanes, because rows of quarters are padded with only that many words.
 using D = hn::CappedTag<float, 8>;
 using DU = hn::RebindToUnsigned<D>;
 using DI = hn::RebindToSigned<D>;
@@ -23,7 +23,6 @@ using VU = hn::Vec<DU>;
 using VI = hn::Vec<DI>;
 using M = hn::Mask<D>;
 
-/// Four adjacent words: two of an upper row, two of a lower row.
 struct Four {
     VU a, b, c, d;
 };
@@ -35,7 +34,7 @@ HWY_INLINE M AsFloats(hn::Mask<DU> mask) {
     return hn::RebindMask(D(), mask);
 }
 
-/// True where the lowest byte of all four words, the number of a surface, equals `number`.
+/// True where all four words have the surface number `number` in their lowest byte.
 HWY_INLINE M AllShow(const Four& s, VU number) {
     const VU differ = hn::Or(hn::Or(hn::Xor(s.a, number), hn::Xor(s.b, number)),
                              hn::Or(hn::Xor(s.c, number), hn::Xor(s.d, number)));
@@ -47,7 +46,7 @@ HWY_INLINE M IsClose(VU word, V z, V tolerance) {
     return hn::Lt(hn::Abs(hn::Sub(DepthOf(word), z)), tolerance);
 }
 
-/// Bilinear interpolation with weights in 1/256, for two channels per word.
+/// Interpolates RGBA8 texels bilinearly, with weights in 1/256.
 HWY_INLINE VU Blend(const Four& texels, const Four& weights) {
     const DU du;
     const VU even = hn::Set(du, 0x00FF00FFU), half = hn::Set(du, 0x00800080U);
@@ -63,10 +62,9 @@ HWY_INLINE VU Blend(const Four& texels, const Four& weights) {
     return hn::Or(hn::And(hn::ShiftRight<8>(redBlue), even), hn::AndNot(even, greenAlpha));
 }
 
-/// Linear red, green and blue.
 using Light = Triples<V>;
 
-/// Returns the common factor 2^exponent of the channels of LightWords, times the weights `share`.
+/// Returns the common factor 2^exponent of LightWords' channels, times the weight `share`.
 HWY_INLINE V LightScale(VU words, VU share) {
     const DU du;
     const D d;
@@ -84,7 +82,6 @@ HWY_INLINE V LightChannel(VU words) {
     return hn::ConvertTo(D(), hn::BitCast(DI(), bits));
 }
 
-/// Decodes four LightWords and interpolates them bilinearly.
 HWY_INLINE Light BlendLight(const Four& words, const Four& weights) {
     Light out{hn::Zero(D()), hn::Zero(D()), hn::Zero(D())};
     const auto add = [&](VU word, VU share) HWY_ATTR {
@@ -100,7 +97,8 @@ HWY_INLINE Light BlendLight(const Four& words, const Four& weights) {
     return out;
 }
 
-/// Interpolates the share of specular light that the paint does not change, bilinearly.
+/// Interpolates the veil bilinearly. The veil is the share of specular light that paint does not
+/// change.
 HWY_INLINE V BlendVeil(const Four& diffuse, const Four& specular, const Four& weights) {
     const auto veil = [&](VU d, VU s, VU weight) HWY_ATTR {
         const VU bits = hn::Or(hn::ShiftLeft<3>(hn::ShiftRight<kLightFreeBit>(d)),
@@ -113,12 +111,10 @@ HWY_INLINE V BlendVeil(const Four& diffuse, const Four& specular, const Four& we
     return hn::Mul(hn::ConvertTo(D(), hn::BitCast(DI(), sum)), hn::Set(D(), 1 / (256 * kMostVeil)));
 }
 
-/// Paint of a vector of pixels, from two vectors of PaintWords.
 struct PaintOf {
     VU diffuse, facing;
 };
 
-/// Returns one channel of the surface's colour (paint times light) as a display byte.
 template <int kShift>
 HWY_INLINE VU LitChannel(const PaintOf& paint, V diffuse, V specular, V veil) {
     const D d;
@@ -140,7 +136,7 @@ HWY_INLINE VU Lit(const PaintOf& paint, const Light& diffuse, const Light& specu
                   hn::Set(DU(), 0xFF000000U));
 }
 
-/// Returns the weights of the four surrounding texels for a position within a pixel.
+/// Returns the weights [1/256] of the four texels around a position within a pixel.
 HWY_INLINE Four WeightsOf(V x, V y) {
     const DU du;
     const D d;
@@ -168,7 +164,6 @@ HWY_INLINE V PlaneDepth(const CatcherPlane& plane, V rayX, V rayY, float nearest
     return hn::IfThenElseZero(seen, z);
 }
 
-/// Loads the surfaces of each pixel's four quarters, which are alternate words of two rows.
 HWY_INLINE Four QuartersOf(const ViewRow& row, int x) {
     Four s;
     hn::LoadInterleaved2(DU(), row.upper + 2L * x, s.a, s.b);
@@ -176,7 +171,6 @@ HWY_INLINE Four QuartersOf(const ViewRow& row, int x) {
     return s;
 }
 
-/// The result for a vector of pixels.
 struct Found {
     VU colour;
     V depth;
@@ -184,13 +178,12 @@ struct Found {
     M left;
 };
 
-/// Request of a vector of pixels: the surface that each pixel shows, and its position in the
-/// traced picture.
+/// The surface that each pixel of a vector shows, and its position in the traced picture.
 struct Asked {
-    V z;                           ///< z of the surface in the layer's camera [m]
-    VU id;                         ///< number of the surface
-    M ofCatcher;                   ///< true if the surface is the shadow catcher
-    M empty;                       ///< true if the pixel shows nothing
+    V z;  ///< z of the surface in the layer's camera [m]
+    VU id;
+    M ofCatcher;
+    M empty;
     M asked;                       ///< true if the traced picture is read
     V thereZ;                      ///< z of the surface in the traced picture's camera [m]
     V pixelX, pixelY, lowX, lowY;  ///< position in the traced picture, exact and rounded down [px]
@@ -227,7 +220,6 @@ HWY_INLINE Asked AskFor(const ViewLookUpInput& in, const Four& s, V rayX, V rayY
     return {z, id, ofCatcher, empty, asked, there.z, pixel.x, pixel.y, lowX, lowY};
 }
 
-/// Loads one of the two LightWords of each of the four texels around a position.
 HWY_INLINE Four GatherLights(const std::uint32_t* from, VI at, int width) {
     const DU du;
     const VI word = hn::Add(at, at);
@@ -236,7 +228,6 @@ HWY_INLINE Four GatherLights(const std::uint32_t* from, VI at, int width) {
             hn::GatherIndex(du, from + 2L * width + 2, word)};
 }
 
-/// Reads the traced picture where `a` asks for it.
 HWY_INLINE void ReadReference(const ViewLookUpInput& in, const Asked& a, const PaintOf& paint,
                               Found& out) {
     const D d;
@@ -310,7 +301,6 @@ int LookUpRow(const ViewRow& row, const ViewLookUpInput& in) {
                                  paint.diffuse, paint.facing);
         Found f = LookUp(in, s, hn::LoadU(d, row.rayX + x), hn::LoadU(d, row.rayY + x), paint);
         const M within = hn::FirstN(d, static_cast<std::size_t>(row.count - x));
-        // Pixels beyond the row become empty.
         f.colour = hn::BitCast(du, hn::IfThenElseZero(within, hn::BitCast(d, f.colour)));
         f.state = hn::BitCast(du, hn::IfThenElseZero(within, hn::BitCast(d, f.state)));
         f.depth = hn::IfThenElseZero(within, f.depth);

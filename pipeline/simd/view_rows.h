@@ -8,9 +8,10 @@
 
 namespace mfar::simd {
 
-/// Number of the shadow catcher in words that are packed as in warp_surface.glsl.
-inline constexpr std::uint32_t kCatcherNumber = 255;  ///< = kCatcherId
-/// Largest difference of z, as a share of z, at which two pixels show the same surface.
+/// Number of the shadow catcher in words that are packed as in warp_surface.glsl; equals
+/// kCatcherId.
+inline constexpr std::uint32_t kCatcherNumber = 255;
+/// Two pixels show the same surface if their z differs by less than this share of z.
 inline constexpr float kSameDepth = 0.003F;
 
 /// The shadow catcher, if it is a plane: (x, y, z) . point = w in the layer's camera [m]. All zero
@@ -28,9 +29,9 @@ struct CatcherPlane {
 
 /// The traced picture, in which the pixels of a row of the layer are looked up.
 struct ViewLookUpInput {
-    PointTransform toTraced;       ///< transforms from the layer's to the traced picture's camera
-    PointLens lens;                ///< lens of the traced picture's camera
-    Size tracedSize;               ///< size of the traced picture [px]
+    PointTransform toTraced;  ///< transforms from the layer's to the traced picture's camera
+    PointLens lens;
+    Size tracedSize;
     const std::uint32_t* packed;   ///< traced picture's surfaces, row-major; number 254: unknown
     const std::uint32_t* colours;  ///< traced picture's colours, RGBA8, row-major
     const std::uint32_t* lights;   ///< LightWords, two words each; null if only colours are known
@@ -38,7 +39,6 @@ struct ViewLookUpInput {
     float shownDepth;  ///< factor of the shadow catcher's z in the result: 1 - kShadowLift
 };
 
-/// A row of pixels of the layer, and its results.
 struct ViewRow {
     int count;
     const std::uint32_t *upper, *lower;  ///< surfaces at twice the layer's resolution
@@ -48,13 +48,13 @@ struct ViewRow {
     std::uint32_t* colour;               ///< RGBA8 premultiplied
     float* depth;                        ///< z [m]; 0: empty
     std::uint32_t* state;                ///< see WarpStep::state()
-    std::uint32_t* left;                 ///< indices of the pixels that were not looked up; with
+    std::uint32_t* left;                 ///< indices of the pixels that were not looked up; has
                                          ///< room for all pixels and 16 more
 };
 
-/// Looks up plain pixels: a single surface fills the pixel, and the traced picture shows it in
-/// four texels at the same depth (warp_look_up.frag). Returns how many other pixels there are.
-/// Writes into the padding of rows, which must have kPadding.
+/// Looks up plain pixels. A single surface fills a plain pixel, and the traced picture shows it in
+/// four texels at the same depth (warp_look_up.frag). Returns the number of other pixels. Writes
+/// into the padding of rows, which must have kPadding.
 [[nodiscard]] int lookUpRow(const ViewRow& row, const ViewLookUpInput& input);
 
 }  // namespace mfar::simd

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstring>
 
-// Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/visibility_rows.cpp"
 #include <hwy/foreach_target.h>
@@ -16,7 +15,6 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// The 4x4 samples around a pixel, one per lane.
 constexpr int kTaps = 16;
 using D = hn::CappedTag<float, kTaps>;
 using V = hn::Vec<D>;
@@ -48,8 +46,8 @@ bool Decide(const DecideRow& row, const VisibilityParams& params) {
     return anyOpen;
 }
 
-/// Returns e^x for x <= 0, with an error below 1e-5. Computes it as a power of 2; a polynomial
-/// handles the fraction of the exponent.
+/// Returns e^x for x <= 0 as a power of 2, with an error below 1e-5. A polynomial approximates the
+/// power of the exponent's fraction.
 HWY_INLINE V Exp(V x) {
     const hn::RebindToSigned<D> di;
     const V power = hn::Max(hn::Mul(x, Const(1.44269504F)), Const(-100));
@@ -86,7 +84,6 @@ void ReadTaps(const SampleWindow& samples, int column, Taps& out) {
     }
 }
 
-/// Returns four weights, repeated for each row of samples.
 HWY_INLINE V ColumnWeights(const float* weights, std::size_t tap) {
 #if HWY_TARGET == HWY_SCALAR
     return hn::LoadU(D(), weights + tap % 4);

@@ -12,13 +12,12 @@ namespace mfar::simd {
 namespace {
 
 constexpr int kReach = params::kGuideReach;
-constexpr int kMargin = 16;       // additional columns on each side of a row; one cache line
-constexpr float kMeanScale = 32;  // a grey level of the mean is stored as this number
+constexpr int kMargin = 16;       // [columns] on each side of a row; one cache line
+constexpr float kMeanScale = 32;  // units of the mean per grey level
 
 /// Returns the weights for the mean of the warped still over a video pixel, along one axis. The
-/// mean is taken over four samples. The warped still is interpolated linearly, which widens the
-/// footprint of the samples. To keep the variance of the whole footprint, the samples are closer
-/// together.
+/// mean is taken over four samples. Linear interpolation of the warped still widens their
+/// footprint. To keep the variance of the whole footprint, the samples are closer together.
 RowTaps meanOf(int output, int video) {
     // Variance of the tent of linear interpolation / variance of the four samples' positions.
     constexpr double kWidened = 2.0 + 2.0 / 15;
@@ -27,7 +26,7 @@ RowTaps meanOf(int output, int video) {
                          std::sqrt(std::max(seen * seen - kWidened * pitch * pitch, 0.0)));
 }
 
-/// Returns how many rows of the warped still must be kept: the largest number of rows from an
+/// Returns the number of rows of the warped still that must be kept: the largest number from an
 /// output row to the last row that its detail reads. `reach`: number of additional rows of the
 /// video that guidance reads.
 int rowsLookedAt(const RowTaps& mean, const RowTaps& cubic, Size video, Size output, int reach) {
@@ -79,7 +78,6 @@ void WarpedStill::begin(const StillPairs& still, Rows<const LookUpCell> lookUps,
         spans->clear();
 }
 
-// Adds the columns that a span of an output row needs to means_, compared_ and warped_.
 void WarpedStill::spread(const PixelSpan& span) {
     const RowTaps &cubic = taps_->cubicRows, &mean = taps_->meanRows;
     const int first = cubic.first(span.begin),
@@ -115,7 +113,6 @@ void WarpedStill::warp(int y) {
     warpedRows_[slot] = y;
 }
 
-// Computes a row of the still at the video's resolution.
 void WarpedStill::makeMean(int row, float* to) {
     const RowTaps& columns = taps_->meanColumns;
     weighed_.clear();
@@ -135,7 +132,6 @@ void WarpedStill::makeMean(int row, float* to) {
         resampleRow(column_[0], taps_->meanRows.table(), span.begin, span.end, to);
 }
 
-// Computes `differences` and `trusted` of GuideRows for one row of the video.
 void WarpedStill::compare(int row) {
     const int slot = row % GuideRows::kRows;
     if (comparedRows_[slot] == row) return;
@@ -174,8 +170,8 @@ void WarpedStill::makeGuided(int row, float* to) {
         guideRow(rows, begin, end, seen_[row % GuideRows::kRows] + kMargin, to);
 }
 
-// Computes a row of the still at the video's resolution, corrects it by guidance (if there is any),
-// and enlarges it to the output's width.
+// Computes a row of the still at the video's resolution, corrects it if there is guidance, and
+// enlarges it to the output's width.
 void WarpedStill::makeLow(int row) {
     if (guide_ != nullptr)
         makeGuided(row, mean_[0]);

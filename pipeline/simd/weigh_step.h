@@ -17,10 +17,10 @@
 
 namespace mfar::simd {
 
-/// Input for the weights of a frame. Must remain valid during the call.
+/// Input for the weights of a frame. The data must remain valid during the call.
 struct WeighInput {
-    /// Pyramid levels in `words`, at least two of each picture. The photometric gain between the
-    /// sensors is measured at the second level.
+    /// At least two pyramid levels of each picture; their pixels are in `words`. The photometric
+    /// gain between the sensors is measured at the second level.
     const std::vector<LumaLevel>& videoLuma;
     const std::vector<LumaLevel>& stillLuma;
     std::span<const std::uint32_t> words;  ///< must end with kLumaSpareWords
@@ -29,7 +29,7 @@ struct WeighInput {
     /// errors.data is null.
     Rows<const FlowCell> backward;
     int backwardLevel = 0;
-    Rows<const ErrorCell> errors;  ///< two-way errors of the cells of `forward`; data may be null
+    Rows<const ErrorCell> errors;  ///< two-way errors of the cells of `forward`, or without data
     const TileWork& work;
 };
 
@@ -39,12 +39,12 @@ struct WeighInput {
 class WeighStep {
 public:
     /// `stillRig`: its still may have fewer pixels than the sensor, see StillPreparation::rig().
-    /// Without workers, it runs in the caller's thread.
+    /// Null workers: all work runs in the caller's thread.
     WeighStep(const StereoRig& stillRig, std::shared_ptr<Workers> workers);
 
-    /// Weighs every cell; does nothing if no tile has changed. If no changed tile is matched, the
-    /// gain of the last frame is kept. Cells of unmatched tiles get no weight of their own. The
-    /// results have one entry per cell and are valid until the next run.
+    /// Weighs every cell, unless no tile has changed. If no changed tile is matched, the gain of
+    /// the last frame is kept. Cells of unmatched tiles get no weight of their own. The results
+    /// have one entry per cell and are valid until the next run.
     void run(const WeighInput& in);
 
     /// Multiplies the weight of each cell by its share. `shares` has one entry per cell.
