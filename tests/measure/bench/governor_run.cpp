@@ -14,10 +14,9 @@
 namespace mfar::bench {
 namespace {
 
-constexpr int kStillEvery = 30;  // frames between two stills, at levels that use stills
+constexpr int kStillEvery = 30;  // frames between two stills
 constexpr std::chrono::milliseconds kInterval{33};
 
-/// The frames of a scene, played forwards and backwards.
 struct Shots {
     std::string name;
     std::vector<SceneFrame> frames;

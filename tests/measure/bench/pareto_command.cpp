@@ -17,13 +17,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Smallest ratio of the run times of two neighbouring quality levels. If a level takes less than
-// this factor longer than the less accurate level before it, that level is left out: choosing it
-// would hardly save time.
+// Least ratio of the run times of two neighbouring quality levels. If two levels are closer, the
+// faster one is left out, because it hardly saves time.
 constexpr double kLeastStep = 1.05;
 
-/// Makes a quality level of each of our points that no other of our points dominates. Sorted from
-/// fast to accurate.
+/// Quality levels from fast to accurate: our points that no other of our points dominates.
 std::vector<QualityLevel> levelsOf(const ParetoStage& superres) {
     std::vector<ParetoPoint> ours;
     for (const ParetoPoint& p : superres.points)

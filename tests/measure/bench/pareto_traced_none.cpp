@@ -1,7 +1,7 @@
 #include "tests/measure/bench/pareto_stages.h"
 #include "tests/measure/eval/report.h"
 
-// Built instead of pareto_traced.cpp if Embree, and thus the path tracer, is missing.
+// Used instead of pareto_traced.cpp if Embree, and thus the path tracer, is missing.
 namespace mfar::bench {
 
 ParetoStage warpStage(bool /*quick*/) {
