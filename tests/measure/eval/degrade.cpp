@@ -64,7 +64,7 @@ cv::Mat degrade(const cv::Mat& picture, const Degradation& how, std::uint64_t se
     if (how.noise > 0) {
         cv::Mat noise(values.size(), values.type());
         cv::RNG(seed + 1).fill(noise, cv::RNG::NORMAL, 0, how.noise / 255);
-        // As in a real sensor, values saturate before read-out noise is added.
+        // In a real sensor, too, values saturate before read-out noise is added.
         values = cv::min(values, 1.0) + noise;
     }
     values.convertTo(out, picture.depth(), 255);

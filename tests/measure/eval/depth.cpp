@@ -14,12 +14,10 @@
 namespace mfar::eval {
 namespace {
 
-constexpr double kEdgeReach =
-    4;  // largest distance of a pixel that counts as near a depth edge [px]
+constexpr double kEdgeReach = 4;  // largest distance from a depth edge of a pixel near it [px]
 
-/// The truth that the depths of a sample are compared with.
 struct DepthTruth {
-    cv::Mat visible;  ///< CV_32F [1/m], NaN where unknown or occluded in the still
+    cv::Mat visible;  ///< CV_32F [1/m]; NaN where unknown or occluded in the still
     cv::Mat all, edges, inner;
     double disparity;  ///< disparity of a point at a depth of 1 m [px]
 };

@@ -16,7 +16,7 @@ namespace {
 
 using test::TempFolder;
 
-/// Encodes fields of a protocol buffer: TensorFlow's network files have this format.
+/// TensorFlow's network files are protocol buffers. These functions encode their fields.
 std::string varint(unsigned long value) {
     std::string out;
     for (; value >= 128; value >>= 7)
@@ -72,7 +72,6 @@ std::filesystem::path write(const std::filesystem::path& file, const std::string
     return file;
 }
 
-/// The error message for a file; empty if the file is accepted.
 std::string refusal(const std::filesystem::path& file) {
     try {
         (void)dnnEnlarger(file, {72, 54});
@@ -95,8 +94,7 @@ TEST(DnnPeer, TheFileNameGivesTheModelAndItsFactor) {
         EXPECT_THROW((void)dnnModelNamed(name), EvalError) << name;
 }
 
-// The network repeats each pixel. So the result shows whether rows, channels and pixels keep their
-// order.
+// The network repeats each pixel. The result shows if rows, channels and pixels keep their order.
 TEST(DnnPeer, AModelEnlargesTheVideo) {
     if (builtWithout()) GTEST_SKIP() << "built without OpenCV's dnn_superres";
     const TempFolder folder;

@@ -10,7 +10,7 @@
 
 namespace mfar::eval {
 
-/// Adds an option whose value is a list of names. The names must be in `named`.
+/// Adds an option whose value is a list of names that `named` must know.
 template <class T>
 void addNames(CLI::App& sub, const char* option, std::vector<T>& values, const char* what,
               std::optional<T> (*named)(std::string_view)) {

@@ -18,8 +18,7 @@ namespace {
 
 using synthetic::Path;
 
-/// Number of first frames that are not scored: until the first still has arrived and depth has
-/// settled.
+/// The first frames are not scored: the first still has not arrived and depth has not settled.
 constexpr int kSettling = 8;
 
 std::optional<double> measured(double value) {
@@ -42,7 +41,6 @@ std::string_view nameOf(VirtualShape shape) {
     return "";
 }
 
-/// One virtual object in one scene on one camera path.
 struct Placement {
     std::string label;
     synthetic::Scene scene;

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-/// Runs `mfar-eval occlusion` as a user does.
 namespace mfar::eval {
 namespace {
 

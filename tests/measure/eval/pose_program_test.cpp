@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-/// Runs `mfar-eval pose` as a user does, on a tiny recording and on a single picture.
 namespace mfar::eval {
 namespace {
 
@@ -56,7 +55,6 @@ RigidTransform view(int i) {
     return cameraAt(0.5, 0.4 + 0.004 * i, -0.3, 0.1);
 }
 
-/// Four frames and a still that show one tag.
 void writeRecording(const fs::path& root) {
     const StereoRig rig{testCamera().scaledTo({320, 240}), testCamera(), {}};
     Recorder recorder(root, rig, 30);

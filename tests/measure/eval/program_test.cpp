@@ -4,8 +4,7 @@
 #include <array>
 #include <cmath>
 
-/// Runs the programs as a user does, on tiny pictures, so that they keep working. Accuracy and
-/// speed are not checked here.
+/// Runs the programs on tiny pictures. Accuracy and speed are not checked here.
 namespace mfar::eval {
 namespace {
 
@@ -14,7 +13,6 @@ using test::Outcome;
 using test::TempFolder;
 namespace fs = std::filesystem;
 
-/// Writes a texture, the same texture moved by (3, -2) pixels, and that flow.
 void writePair(const fs::path& folder) {
     const cv::Mat world = bench::syntheticWorkload({160, 120}, {320, 240}, 1).stills[0];
     const cv::Size size(160, 120);
@@ -138,7 +136,7 @@ TEST(MfarEval, StereoFlowReportsItsPoseAndError) {
     for (const double share : clean)
         EXPECT_LT(share, 0.05);
     EXPECT_GT(worse[1], clean[1] + 0.05);
-    EXPECT_EQ(off[1], clean[1]);  // this method uses no pose
+    EXPECT_EQ(off[1], clean[1]);  // dis-medium uses no pose
     EXPECT_GT(off[2], 0.5);
     EXPECT_GT(other[2], 0.5);
     EXPECT_NE(off[2], other[2]);
@@ -165,7 +163,7 @@ TEST(MfarEval, StereoDepthMatchesTheWall) {
         EXPECT_TRUE(rows[i + 1][7].empty());  // a wall has no edges
         EXPECT_GT(std::stod(rows[i + 1][11]), 0.8);
         EXPECT_GE(std::stod(rows[i + 1][13]), std::stod(rows[i + 1][11]));
-        EXPECT_EQ(rows[i + 1].at(15).empty(), i != 0);  // only some methods report a variance
+        EXPECT_EQ(rows[i + 1].at(15).empty(), i != 0);  // only `depth` reports a variance
     }
     const Outcome blind = execute(
         folder, fmt::format("{0} depth {1}/wall --methods flow --poses none --csv {1}/out.csv",
@@ -174,7 +172,7 @@ TEST(MfarEval, StereoDepthMatchesTheWall) {
     EXPECT_EQ(std::stod(readCsv(folder / "out.csv").at(1).at(6)), 0);  // no pose, no depth
 }
 
-// Without poses the epipolar method must give the result of the 2-D method.
+// Without poses, the epipolar method must give the result of the 2-D method.
 TEST(MfarEval, PosesCanBeWithheldFromTheMethods) {
     const TempFolder folder;
     writeStereo(folder / "wall");

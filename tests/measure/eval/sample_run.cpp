@@ -11,8 +11,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Sets the poses of the samples. For recordings they may come from another source than the
-/// recording.
 void setPoses(std::vector<FlowSample>& samples, const fs::path& folder, PoseSource source) {
     if (source == PoseSource::Recorded) return;
     if (!fs::exists(folder / "cam0")) {

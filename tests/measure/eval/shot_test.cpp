@@ -44,7 +44,7 @@ TEST(Turned, RotatesTheRelativePoseByExactlyTheGivenAngle) {
         EXPECT_NEAR((off.translation - exact.translation).norm(), 0, 1e-12);
         sum += (exact.rotation.conjugate() * off.rotation).vec().normalized();
     }
-    EXPECT_LT(sum.norm() / 200, 0.2);  // all directions are equally probable, so the sum is small
+    EXPECT_LT(sum.norm() / 200, 0.2);  // directions are uniformly distributed, so the mean is small
 }
 
 TEST(Turned, EveryRecordingFrameAndSeedHasItsOwnRotationAxis) {

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-/// Runs `mfar-eval superres` as a user does, on tiny pictures.
 namespace mfar::eval {
 namespace {
 

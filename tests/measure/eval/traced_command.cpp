@@ -67,7 +67,7 @@ CLI::App* addTracedCommand(CLI::App& app, TracedRequest& request) {
 }
 
 Report runTracedCommand(const TracedRequest& request) {
-    // Uses the engine that the environment variable MFAR_ENGINE names.
+    // The environment variable MFAR_ENGINE names the engine.
     const bool gles = EngineChoice::fromEnvironment().occlusion == EngineKind::Gles;
     const auto context = gles ? createGlContext() : nullptr;
     return evaluateTraced(request);

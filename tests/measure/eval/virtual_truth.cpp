@@ -7,9 +7,10 @@
 namespace mfar::eval {
 namespace {
 
-constexpr double kClearlyBefore = 1.1;  // smallest ratio of inverse depths for "in front"
+// Smallest ratio of inverse depths that counts as clearly in front.
+constexpr double kClearlyBefore = 1.1;
 
-/// A ray origin + t * direction, in units of the object's extent.
+/// Ray origin + t * direction, in units of the object's extent.
 struct LocalRay {
     Eigen::Vector3d origin, direction;
 };
@@ -51,7 +52,7 @@ double throughQuad(const LocalRay& r) {
 
 }  // namespace
 
-// The ray's direction has z = 1 in the camera's frame; so t is the depth.
+// The ray has z = 1 in the camera's frame, so t is the depth.
 double surfaceDepth(const VirtualObject& object, const RigidTransform& T_world_camera,
                     const Eigen::Vector2d& ray) {
     const LocalRay local = localRay(object, T_world_camera, ray);

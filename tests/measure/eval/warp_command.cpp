@@ -66,7 +66,7 @@ CLI::App* addWarpCommand(CLI::App& app, WarpRequest& request, WarpFiles& files) 
 }
 
 Report runWarpCommand(const WarpRequest& request, const WarpFiles& files) {
-    // Uses the engine that the environment variable MFAR_ENGINE names.
+    // The environment variable MFAR_ENGINE names the engine.
     const bool gles = EngineChoice::fromEnvironment().occlusion == EngineKind::Gles;
     const auto context = gles ? createGlContext() : nullptr;
     Report report = evaluateWarp(request);

@@ -7,7 +7,6 @@
 #include <sstream>
 #include <string>
 
-/// Runs `mfar-eval warp` as a user does.
 namespace mfar::eval {
 namespace {
 
