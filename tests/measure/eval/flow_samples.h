@@ -28,7 +28,7 @@ struct FlowSet {
 /// Finds the samples of a recording, or of a folder with flowNN.flo, frameNN.png and frameMM.png of
 /// the next higher number. A still with the frame's own view is never used. Both pictures of a pair
 /// get the same pinhole camera. Throws EvalError and RecordingError.
-/// ///
+///
 /// A recording may have truth of three kinds, of which the first existing one is used. 1.
 /// truth/flow/<ns>_<ns>.flo from a video frame to a still. 2. truth/inverse_depth of a video frame
 /// in a scene at rest, if the pose relative to the still of referenceStill() is known. 3.

@@ -12,7 +12,7 @@ namespace mfar::eval {
 /// point. Resampling uses the rig's rotation R_s and both lenses, but no parallax: p + flow =
 /// project_video(R_s^T (R ray + rho t)). [R|t] = T_still_frame maps video camera coordinates at the
 /// frame's time to still camera coordinates at the still's time; rho is the inverse depth [1/m].
-/// ///
+///
 /// The flow is NaN where the inverse depth is unknown, and where the point is outside or occluded
 /// in the still. A point is occluded if another surface of the frame lies in front of it by more
 /// than one pixel of parallax. `inverseDepth` has the video's size.

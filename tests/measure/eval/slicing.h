@@ -23,7 +23,7 @@ struct SlicingRequest {
 /// whole. Rows are named after the samples per pixel. Columns: ms of processor time; RMS error of
 /// the picture without and with smoothed noise [grey levels of premultiplied RGBA inside the
 /// objects' bounds].
-/// ///
+///
 /// Row `frames`: times of frames with equally many samples, as coefficient of variation, 95th
 /// percentile over the mean, and maximum over the mean. Row `budget`: used share of the budget, and
 /// 95th percentile of its deviation. Throws EvalError if the plot cannot be written.

@@ -33,7 +33,7 @@ struct TracedRequest {
 /// the layer that was made within the budget is compared with a picture traced for the same view,
 /// both over grey paper. Rows are SCENE/PATH, frame and method. Means leave out the first half
 /// second.
-/// ///
+///
 /// Columns: psnr of pixels where the truth shows an object [dB]; shadow_psnr where it shows a
 /// change of the real surface [dB]; flicker of the objects' luma [grey levels], see
 /// metrics/flicker.h; pictures, the number shown so far; warp_ms; with `hdrVdp`, hdrvdp_q of the

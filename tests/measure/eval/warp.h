@@ -25,7 +25,7 @@ struct WarpRequest {
 /// Warps a path-traced picture of each scene to views that are turned by `degrees`, and compares it
 /// with a picture that was traced there with truthSamples. Rows are SCENE/DEGREES. Needs a current
 /// GL context. Throws EvalError.
-/// ///
+///
 /// Columns: psnr_db inside the objects' silhouette; hole_share: pixels without a rendered sample,
 /// as a share of the silhouette's; reray_share: rays for individually rendered pixels over rays of
 /// a full picture (referenceSamples for all pixels in the tracer's bounds); reray_of_objects: the

@@ -6,7 +6,7 @@
 namespace mfar::eval {
 namespace {
 
-/// One tap of the filter: for each output sample, the index and weight of an input sample.
+/// Indices and weights of the input samples that make one output sample.
 struct ResizeTap {
     std::vector<int> index;
     std::vector<double> weight;

@@ -19,8 +19,8 @@ TEST(DepthError, CountsWrongAndKnownPixels) {
     const cv::Mat rho = (cv::Mat_<float>(1, 6) << 0.5F, 0.4F, 0.48F, 0, 1, 1);
     const DepthError error = depthError(rho, truth, 20, everywhere(truth));
     EXPECT_EQ(error.pixels, 4U);
-    EXPECT_NEAR(error.absrel, 0.5 / 0.48 - 1, 1e-6);  // median of the errors 0, 1/4 and 1/24
-    EXPECT_DOUBLE_EQ(error.bad1, 0.5);                // one pixel is wrong by 2 px, one is unknown
+    EXPECT_NEAR(error.absrel, 0.5 / 0.48 - 1, 1e-6);  // median of the errors 0, 1/24 and 1/4
+    EXPECT_DOUBLE_EQ(error.bad1, 0.5);  // one pixel is wrong by 2 px, one has no depth
     EXPECT_DOUBLE_EQ(error.completeness, 0.75);
 }
 
@@ -63,7 +63,7 @@ TEST(DepthError, ValuesNotAboveZeroAreUnknown) {
 TEST(DepthError, EdgesAreWhereDepthJumps) {
     cv::Mat truth(9, 40, CV_32F);
     for (int y = 0; y < truth.rows; ++y)
-        for (int x = 0; x < truth.cols; ++x)  // the surface has a slope, a step and a hole
+        for (int x = 0; x < truth.cols; ++x)  // slope, step and unknown depth
             truth.at<float>(y, x) = x < 20 ? 1 + 0.02F * x : (x < 32 ? 3 : kNan);
     const cv::Mat edge = nearDepthEdge(truth, 4);
     for (int x = 0; x < truth.cols; ++x)

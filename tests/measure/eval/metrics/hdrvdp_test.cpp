@@ -67,8 +67,6 @@ TEST(HdrVdp, ScoreFallsAsNoiseRises) {
     }
 }
 
-// A difference below a thousandth of the light does not count. A larger difference counts only at
-// its own pixels.
 TEST(HdrVdp, DifferencesBelowAThousandthAreInvisible) {
     const cv::Mat light(40, 40, CV_64F, cv::Scalar(50));
     EXPECT_EQ(hdrVdp(light * 1.0009, light, 30).q, 100);

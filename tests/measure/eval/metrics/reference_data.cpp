@@ -42,7 +42,6 @@ int lattice(int x, int y, int c, int k) {
            (c * c);
 }
 
-/// Grey level of the scene's objects at a pixel; `v`, that of the ground, where no object is.
 int objectAt(int x, int y, int s, int v) {
     const auto within = [&](int x0, int x1, int y0, int y1) {
         return x >= x0 * s && x < x1 * s && y >= y0 * s && y < y1 * s;
@@ -58,7 +57,7 @@ int objectAt(int x, int y, int s, int v) {
     return v;
 }
 
-/// Weights [1/5] of the source pixels along one axis, for a picture that is 3.6 times smaller.
+/// Weights [1/5] of the source pixels along one axis if a picture is reduced by a factor of 3.6.
 std::vector<std::vector<std::pair<int, int>>> areaShares(int out) {
     std::vector<std::vector<std::pair<int, int>>> shares(static_cast<std::size_t>(out));
     for (int i = 0; i < out; ++i)

@@ -12,12 +12,11 @@ namespace {
 
 using namespace test;
 
-/// Largest difference from a picture of the reference set [grey levels].
 double differenceFrom(const std::string& name, const cv::Mat& picture) {
     return cv::norm(referencePicture(name), cv::Mat_<double>(picture), cv::NORM_INF);
 }
 
-// The tests at full size rely on this agreement.
+// The tests at full size rely on this.
 TEST(ReferenceScene, SceneMatchesTheReferencePictures) {
     if (referenceTable("lpc_si.csv").empty())
         GTEST_SKIP() << referenceFolder().string() << " is not there";
