@@ -4,7 +4,6 @@
 #include <limits>
 #include <random>
 
-/// For any input, triangulation must return usable values or an unknown depth.
 namespace mfar {
 namespace {
 
@@ -98,7 +97,8 @@ TEST(TriangulationOdd, AnyFlowUnderAnyPoseGivesUsableNumbers) {
     EXPECT_GT(known, 10000);
 }
 
-// The camera moves forward. The epipole is then a pixel of the picture, at which e is zero.
+// The camera moves forward, so the epipole is a pixel of the picture, at which the epipolar line
+// vanishes.
 TEST(TriangulationOdd, DepthAtTheEpipoleIsUnknown) {
     twin::TwoViews views = plainViews(moved(0, Vector3d::UnitX(), {0, 0, -0.1}));
     views.a.cx = views.b.cx = 30;

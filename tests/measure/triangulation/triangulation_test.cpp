@@ -6,7 +6,7 @@
 namespace mfar {
 namespace {
 
-constexpr int kComparedEvery = 37;  // every 37th pixel is compared
+constexpr int kComparedEvery = 37;
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -28,9 +28,8 @@ struct Errors {
     int compared = 0;
 };
 
-/// Compares triangulated() with `oracle`, which computes in double precision. Both functions get
-/// the same cameras, pose and flow, rounded to single precision. Every kComparedEvery-th pixel is
-/// compared if its flow ends in view b.
+/// Compares triangulated() with `oracle`, which computes in double precision from the same input.
+/// Compares every kComparedEvery-th pixel whose flow ends in view b.
 template <class Oracle>
 Errors compare(const twin::TwoViews& views, const std::vector<float>& flow,
                TriangulationMethod method, Oracle oracle) {
@@ -113,7 +112,7 @@ TEST(Triangulation, FindsTheDepthFromWhichTheFlowWasComputed) {
     }
 }
 
-/// A wall at 2 m. Its flow has an error of a few pixels, in any direction.
+/// Flow of a wall at 2 m, with an error of a few pixels in any direction.
 struct OffLine {
     twin::TwoViews views = bentViews(moved(2, {1, -1, 2}, {0.1, 0.08, -0.05}));
     std::vector<float> flow = fieldOf(views.a.size, [this](const Vector2d& p) {
@@ -157,7 +156,7 @@ TEST(Triangulation, PointsBehindACameraAreUnknown) {
     const auto fast = triangulated(wall.views, wall.flow, {});
     const auto middle =
         triangulated(wall.views, wall.flow, {.method = TriangulationMethod::Midpoint});
-    // With the parallax reversed, the rays meet behind the cameras.
+    // With reversed parallax, the rays meet behind the cameras.
     const auto turned =
         fieldOf(wall.views.a.size, [&](const Vector2d& p) { return wall.views.flow(p, -0.5); });
     for (const TriangulationMethod method : kMethods)
@@ -226,7 +225,7 @@ TEST(Triangulation, SigmaGrowsWithoutBoundAsTheBaselineVanishes) {
 
 TEST(Triangulation, ResidualIsTheSignedFlowNormalToTheEpipolarLine) {
     const twin::TwoViews views = plainViews(moved(0, Vector3d::UnitX(), {-0.2, 0, 0}));
-    // Nearer points move to the left; a quarter turn clockwise from left is up.
+    // Nearer points move to the left. A quarter turn clockwise from left is up.
     for (const double off : {-3.0, 0.5}) {
         const auto points = triangulated(
             views, fieldOf({64, 48}, [&](const Vector2d&) { return Vector2d(-4, off); }));
