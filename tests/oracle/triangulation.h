@@ -12,7 +12,6 @@ inline double cross2(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
     return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Two cameras that look at a scene at rest.
 struct TwoViews {
     CameraModel a, b;
     RigidTransform T_b_a;

@@ -31,8 +31,6 @@ inline double visibleOver(const RealSample& real, double inverse, const Composit
     return 1 - t * t * (3 - 2 * t);
 }
 
-/// Computes the visibility of a virtual surface at output pixel (x, y) from the video, the output
-/// picture and the real depth.
 struct Scene {
     TestPicture video, picture;
     std::vector<RealSample> real;

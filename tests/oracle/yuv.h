@@ -10,7 +10,6 @@
 /// print.
 namespace mfar::twin {
 
-/// Samples of one channel in one plane, `step` bytes apart.
 struct Samples {
     const std::uint8_t* data;
     std::size_t stride;
@@ -41,7 +40,6 @@ inline std::array<Samples, 3> yuvSamples(const ImageView& v) {
             Samples{second.data, second.stride, step, w / 2, h / 2}};
 }
 
-/// Converts Y, U, V to R, G, B. The result is neither rounded nor clamped.
 inline std::array<double, 3> rgbOfYuv(double y, double u, double v, const ImageView& of) {
     const bool full = of.range == YuvRange::Full, hd = of.matrix == YuvMatrix::Bt709;
     // Factors of Y in all channels, V in R, U in G, V in G, U in B.

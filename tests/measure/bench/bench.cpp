@@ -133,7 +133,6 @@ void measureStages(Ours& ours, std::size_t frames, CaseResult& result) {
         result.stages.push_back({"all stages, by the GPU's clock", summarise(gpuMs)});
 }
 
-/// The paper's method with one of OpenCV's flow algorithms.
 class Peer {
 public:
     Peer(std::string name, eval::DisPreset flow, const Workload& work, Size output)

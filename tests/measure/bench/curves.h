@@ -19,8 +19,8 @@ struct CurvePoint {
 };
 
 struct Curve {
-    std::string method;  ///< flow2d or epipolar
-    std::string knob;    ///< member of Flow2dOptions or EpipolarOptions
+    std::string method;
+    std::string knob;
     std::vector<CurvePoint> points;
 };
 

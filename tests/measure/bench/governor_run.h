@@ -11,7 +11,6 @@
 
 namespace mfar::bench {
 
-/// Frame times and quality levels in one scene of a sequence.
 struct GovernedScene {
     std::string name;
     std::vector<double> ms;

@@ -26,7 +26,7 @@ public:
 
 private:
     GLuint query_ = 0;
-    bool disjointKnown_ = false;  // true if OpenGL ES reports changes of the GPU's clock
+    bool disjointKnown_ = false;
 };
 
 }  // namespace mfar::gpu

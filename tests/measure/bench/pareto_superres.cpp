@@ -41,7 +41,7 @@ double errorOf(const cv::Mat& bgr, const cv::Mat& truth) {
 /// A method that makes the pictures of a sequence from one still and its frames.
 struct SequenceWay {
     std::function<void()> begin;
-    std::function<void(std::size_t)> run;  ///< processes frame i; is timed
+    std::function<void(std::size_t)> run;
     /// Returns the picture of frame i, which ran last, CV_8UC3.
     std::function<cv::Mat(std::size_t)> picture;
 };

@@ -22,7 +22,6 @@ public:
         sum_ += value;
         ++count_;
     }
-    /// Ends a sample and keeps the median of its times.
     void endSample() { medians_.push_back(summarise(std::exchange(ms_, {})).median); }
     [[nodiscard]] double ms() const {
         double sum = 0;

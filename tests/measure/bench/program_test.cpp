@@ -108,7 +108,6 @@ TEST(MfarBench, CurvesHaveAPointForEveryValueOfEveryKnob) {
     }
 }
 
-/// Number of points in the CSV file by stage and kind.
 std::map<std::string, std::map<std::string, int>> paretoKinds(const std::filesystem::path& csv) {
     std::istringstream lines(mfar::test::readFile(csv));
     std::string line;

@@ -24,7 +24,7 @@ namespace {
 
 using synthetic::Path;
 
-/// The first frames are not scored: the first still has not arrived and depth has not settled.
+/// The first frames are not scored, because the first still must arrive and depth must settle.
 constexpr std::size_t kSettled = 8;
 constexpr std::size_t kScoredFrames = 4;  // every fourth frame is scored
 // bad-1 of depth counts errors above 1 px of disparity between cameras at this distance [m].
@@ -66,7 +66,6 @@ struct Case {
     std::vector<VirtualObject> objects;
 };
 
-/// The virtual object of the office scene, translated by `by` [m].
 std::vector<VirtualObject> officeObject(const Eigen::Vector3d& by) {
     auto out = eval::sceneObjects(synthetic::Scene::Office);
     for (VirtualObject& object : out)
@@ -96,7 +95,6 @@ auto chosen(const All& all, const std::vector<std::string>& names) {
     return out;
 }
 
-/// Errors of one pipeline, summed over the scored frames.
 struct Errors {
     double square = 0, overlap = 0, bad1 = 0;
     int frames = 0, seen = 0, depths = 0;

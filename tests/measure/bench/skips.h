@@ -25,10 +25,10 @@ struct SkipResult {
 /// Counters of a case with all skips enabled.
 struct SkipCase {
     std::string scene;
-    double ms = 0;          ///< median frame time
-    long depthTiles = 0;    ///< sum over the frames of the tiles in which depth was searched
-    long framesInView = 0;  ///< number of frames with an object in view
-    double changed = 0;     ///< mean share of changed tiles
+    double ms = 0;
+    long depthTiles = 0;  ///< sum over the frames of the tiles in which depth was searched
+    long framesInView = 0;
+    double changed = 0;  ///< mean share of changed tiles
 };
 
 struct SkipReport {

@@ -16,8 +16,8 @@ PassRecorder* recorder = nullptr;
 struct ShaderText {
     std::string name, defines;
 };
-std::map<GLuint, ShaderText> shaderTexts;                  // key: shader
-std::map<GLuint, std::vector<ShaderText>> programShaders;  // key: program
+std::map<GLuint, ShaderText> shaderTexts;
+std::map<GLuint, std::vector<ShaderText>> programShaders;
 
 /// Finds name and defines of a shader in its text, which gpu::shaderPreamble() begins.
 ShaderText textOf(const std::string& whole) {
@@ -248,7 +248,7 @@ std::int64_t pixelsOfTile(const PassWork& work) {
     glGetIntegerv(GL_VIEWPORT, viewport.data());
     const auto columns = work.params.find("videoWidth"), rows = work.params.find("videoHeight");
     if (columns == work.params.end() || rows == work.params.end()) return 0;
-    constexpr double kTile = 16;  // side of a tile [video px]
+    constexpr double kTile = 16;
     return static_cast<std::int64_t>(kTile * viewport[2] / columns->second * kTile * viewport[3] /
                                      rows->second);
 }

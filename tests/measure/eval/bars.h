@@ -16,7 +16,7 @@ struct Bar {
 };
 
 struct BarPanel {
-    std::string title;  ///< name and unit of the value
+    std::string title;
     std::vector<Bar> bars;
     int decimals = 2;
 };

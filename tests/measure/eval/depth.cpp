@@ -14,7 +14,7 @@
 namespace mfar::eval {
 namespace {
 
-constexpr double kEdgeReach = 4;  // largest distance from a depth edge of a pixel near it [px]
+constexpr double kEdgeReach = 4;  // pixels up to this distance count as near a depth edge [px]
 
 struct DepthTruth {
     cv::Mat visible;  ///< CV_32F [1/m]; NaN where unknown or occluded in the still

@@ -12,12 +12,12 @@ namespace mfar::eval {
 struct Figure7Request {
     std::vector<synthetic::Scene> scenes{synthetic::Scene::Office, synthetic::Scene::Shelf,
                                          synthetic::Scene::Outdoor};
-    std::vector<std::filesystem::path> recordings;  ///< recordings with truth/highres
-    int frames = 3;                                 ///< largest number per recording or scene
+    std::vector<std::filesystem::path> recordings;
+    int frames = 3;  ///< largest number of frames per recording or scene
     /// Number of stills per scene from which filters are learned; 0: shipped filters.
     int learn = 0;
     PictureMetrics metrics{{"psnr", "lpc_si", "lpc_si_tiles", "hdrvdp"}, {}};
-    std::filesystem::path svg, save;  ///< files to write; empty: not written
+    std::filesystem::path svg, save;
     ProgressPart progress{};
 };
 

@@ -12,7 +12,7 @@ namespace mfar::eval {
 /// A video frame, its still and the true flow between them. The still is resampled to the video's
 /// geometry; then pixel p of the frame looks like pixel p + truth(p) of the still.
 struct FlowSample {
-    std::string frame;                          ///< NN for a pair, <ns>_<ns> for a recording
+    std::string frame;  ///< number NN of a pair, or times <ns>_<ns> of a recording
     std::filesystem::path video, still, truth;  ///< `truth`: .flo, or .pfm with inverse depth
     Timestamp videoTime, stillTime;
     PosePair poses{};

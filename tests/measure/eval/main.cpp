@@ -227,7 +227,7 @@ Report runPose(const Options& o) {
 
 std::vector<EvalCommand> addCommands(CLI::App& app, Options& o) {
     std::vector<EvalCommand> out = addTracedCommands(app, o.csv);
-    // `evaluate` shows its progress with request.progress, so this is set first.
+    // Sets request.progress first, because `evaluate` shows its progress there.
     const auto add = [&](CLI::App* command, auto& request, auto evaluate) {
         out.push_back({command, [&request, evaluate](const ProgressPart& progress) {
                            request.progress = progress;

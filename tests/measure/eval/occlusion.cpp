@@ -18,7 +18,7 @@ namespace {
 
 using synthetic::Path;
 
-/// The first frames are not scored: the first still has not arrived and depth has not settled.
+/// The first frames are not scored, because the first still must arrive and depth must settle.
 constexpr int kSettling = 8;
 
 std::optional<double> measured(double value) {

@@ -16,7 +16,7 @@ struct OcclusionRequest {
     std::vector<synthetic::Path> paths{synthetic::Path::Handheld, synthetic::Path::Rest};
     std::filesystem::path objects;  ///< configuration file of mfard; empty: sceneObjects()
     PoseSource poses = PoseSource::Recorded;
-    int frames = 24;   ///< scored frames per path
+    int frames = 24;
     double noise = 1;  ///< factor of both sensors' noise, see SyntheticOptions
     ProgressPart progress{};
 };

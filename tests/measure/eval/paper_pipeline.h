@@ -33,7 +33,8 @@ public:
 private:
     StereoRig rig_;
     PaperOptions options_;
-    cv::Mat videoMap_, outputMap_;  ///< still pixel of every video and output pixel
+    /// Still pixels that show the video pixels and the output pixels.
+    cv::Mat videoMap_, outputMap_;
     cv::Ptr<cv::DISOpticalFlow> dis_;
     cv::Mat still_, stillGrey_, grey_, forward_, backward_, confidence_;
     cv::Mat shift_, weight_, warped_, upscaled_;

@@ -15,7 +15,7 @@ namespace mfar::eval {
 [[nodiscard]] const std::vector<std::string>& pictureMetricNames();
 
 struct PictureMetrics {
-    std::vector<std::string> names;  ///< names from pictureMetricNames()
+    std::vector<std::string> names;
     HdrVdpDisplay display;
     double lpcRatio = kLpcRelease;
 

@@ -8,8 +8,6 @@ namespace mfar::eval {
 
 extern const char* const kPictureMetricsHelp;
 
-/// Adds the option --metrics, whose default is the content of `metrics`, and the metrics'
-/// parameters.
 void addPictureMetrics(CLI::App& sub, PictureMetrics& metrics);
 /// Adds only the parameters: --ppd, --peak, --black, --gamma, --lpc-ratio.
 void addMetricParameters(CLI::App& sub, PictureMetrics& metrics);

@@ -7,7 +7,6 @@
 
 namespace mfar::eval {
 
-/// Source of the poses that evaluated methods get.
 enum class PoseSource {
     Recorded,  ///< from the recording, see posesOf()
     Tags,      ///< found by the product's tracker in frames and stills
@@ -30,7 +29,7 @@ private:
 
     const Recording& recording_;
     PoseSource source_;
-    std::map<std::int64_t, Pose> video_, still_;  // keys: times [ns]
+    std::map<std::int64_t, Pose> video_, still_;
 };
 
 }  // namespace mfar::eval

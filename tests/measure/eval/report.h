@@ -40,7 +40,6 @@ public:
     /// Columns without any measurement are left out.
     [[nodiscard]] std::string table() const;
     [[nodiscard]] std::string csv() const;
-    /// Throws EvalError if the file cannot be written.
     void writeCsv(const std::filesystem::path& file) const;
 
     struct Row {

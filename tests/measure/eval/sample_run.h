@@ -13,12 +13,12 @@
 namespace mfar::eval {
 
 struct SampleRequest {
-    std::vector<std::filesystem::path> folders;  ///< recordings, or folders with pairs of frames
+    std::vector<std::filesystem::path> folders;
     std::vector<std::string> methods;
     Degradation degradation;  ///< applied to every still, or to the second picture of a pair
     PoseSource poses = PoseSource::Recorded;
-    PoseNoise poseNoise;  ///< applied to the pose of every frame
-    int frames = 0;       ///< number of frames per folder; 0: all with truth
+    PoseNoise poseNoise;
+    int frames = 0;  ///< number of frames per folder; 0: all with truth
     ProgressPart progress{};
 };
 

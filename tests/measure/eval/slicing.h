@@ -10,9 +10,9 @@ namespace mfar::eval {
 
 struct SlicingRequest {
     Size size{320, 240};
-    int samples = 64;           ///< samples per pixel of a finished picture
-    int truthSamples = 512;     ///< samples per pixel of the truth, with another seed
-    double budgetMs = 4;        ///< processor time per frame
+    int samples = 64;
+    int truthSamples = 512;  ///< samples per pixel of the truth, with another seed
+    double budgetMs = 4;
     int frames = 300;           ///< number of frames under the budget
     int threads = 2;            ///< for `frames` and for the truth; otherwise one thread
     std::filesystem::path svg;  ///< plot of error against time; empty: not written

@@ -56,7 +56,7 @@ public:
 
 private:
     std::shared_ptr<const FilterBank> filters_;
-    double alpha_;  ///< alpha of the paper's confidence [video px]
+    double alpha_;
     std::unique_ptr<GlContext> context_;
 };
 

@@ -11,9 +11,9 @@
 namespace mfar::eval {
 
 struct WarpRequest {
-    std::vector<double> degrees{0.5, 1, 2, 5, 10, 20};  ///< angles by which the view is turned
-    std::vector<std::string> scenes;   ///< names from warpSceneNames(), or glTF files
-    std::vector<std::string> methods;  ///< names from warpMethodNames()
+    std::vector<double> degrees{0.5, 1, 2, 5, 10, 20};
+    std::vector<std::string> scenes;  ///< names from warpSceneNames(), or glTF files
+    std::vector<std::string> methods;
     Size size{640, 480};
     int referenceSamples = 64, truthSamples = 256, holeSamples = 16;
     std::filesystem::path save;  ///< folder for the pictures; empty: not saved

@@ -18,7 +18,8 @@
 namespace mfar::eval {
 namespace {
 
-constexpr double kElevation = 35, kFocal = 1.2;  // of the camera [degrees, picture widths]
+// Camera's elevation [degrees], focal length [picture widths]
+constexpr double kElevation = 35, kFocal = 1.2;
 constexpr double kFill = 0.6;  // diameter of the objects' bounding sphere / picture's height
 
 Scene sceneOf(Model model) {

@@ -9,7 +9,7 @@ namespace mfar {
 namespace {
 
 constexpr int kWarmUp = 3;
-constexpr double kSeconds = 1;  // duration of a measurement
+constexpr double kSeconds = 1;  // duration of a measurement [s]
 constexpr std::size_t kFewest = 10;
 
 void measure(const BenchCase& which, int threads) {

@@ -31,7 +31,7 @@ private:
     static void accumulate(std::vector<enlarge::ClassSums>& to, const enlarge::UniqueClass& of,
                            const enlarge::Taps& steps, const enlarge::Phases& target);
 
-    std::vector<enlarge::ClassSums> learned_, checked_;  // indexed by unique class
+    std::vector<enlarge::ClassSums> learned_, checked_;
 };
 
 }  // namespace mfar::train

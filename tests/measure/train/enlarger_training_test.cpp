@@ -7,7 +7,6 @@
 namespace mfar::train {
 namespace {
 
-/// Random discs have edges in all directions.
 twin::Grey discs(unsigned seed) {
     std::mt19937 random(seed);
     twin::Grey out = twin::greyOf({320, 256}, [](int, int) { return 120.0; });

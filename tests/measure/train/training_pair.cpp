@@ -12,7 +12,6 @@ namespace {
 
 using twin::Grey;
 
-/// Mean of `valueAt` over interval number `at` of `scale` entries.
 template <class ValueAt>
 double meanOver(int at, double scale, const ValueAt& valueAt) {
     const double lo = at * scale, hi = lo + scale;

@@ -11,7 +11,7 @@ namespace mfar::eval {
 struct HdrVdpDisplay {
     double peak = 100, black = 1;  ///< luminance of white and of black [cd/m^2]
     double gamma = 2.2;            ///< for grey pictures; colours are always sRGB
-    double pixelsPerDegree = 30;   ///< per degree of the visual field
+    double pixelsPerDegree = 30;
 };
 
 /// Pixels per degree at the centre of a screen. `diagonal` in inches, `distance` in m.
@@ -31,7 +31,7 @@ struct HdrVdpBand {
     double weight = 0;     ///< weight in the quality score of release 2.2.2
     double error = 0;      ///< root of the summed squares of D where the pictures differ, per pixel
     double sumAbsolute = 0;                  ///< sum of |D|
-    double meanReference = 0, meanTest = 0;  ///< means of the absolute band values of each picture
+    double meanReference = 0, meanTest = 0;  ///< mean absolute band value of each picture
     double meanSensitivity = 0, meanSelfMask = 0, meanMasking = 0;
 };
 

@@ -15,8 +15,6 @@ constexpr double kLeastLog = -5, kMostLog = 5;
 // Scales the model's sensitivities to measured ones.
 constexpr double kPeakSensitivity = 0.006894596;
 
-/// Interpolates linearly between ascending or descending positions `at`. Values are constant
-/// outside them.
 template <std::size_t N>
 double interpolated(const std::array<double, N>& at, const std::array<double, N>& values,
                     double x) {
@@ -29,7 +27,6 @@ double interpolated(const std::array<double, N>& at, const std::array<double, N>
     return values[i - 1] + t * (values[i] - values[i - 1]);
 }
 
-/// Looks up a table with entries at evenly spaced logarithms of the luminance.
 double fromLogTable(const std::vector<double>& table, double log) {
     const auto last = static_cast<double>(table.size() - 1);
     const double at =

@@ -35,7 +35,7 @@ std::string keyOf(const ReferenceRow& row) {
            row.text("ppd");
 }
 
-/// For example 0.1 for "L=0.1".
+/// Returns the number in a text like "L=0.1".
 double numberAfter(const std::string& text) {
     return std::stod(text.substr(text.find('=') + 1));
 }
@@ -45,8 +45,8 @@ hdrvdp::Emission emissionNamed(const std::string& quantity) {
     return quantity.ends_with("led-lcd") ? hdrvdp::Emission::LedLcd : hdrvdp::Emission::Crt;
 }
 
-/// The program's value for a row of the table of constants; NaN for rows that the program does not
-/// use.
+/// Returns the program's value of a constant in the reference table, or NaN if the program does not
+/// use the constant.
 double constantOf(const ReferenceRow& row, const hdrvdp::ReceptorResponse& response) {
     const std::string &quantity = row.text("quantity"), &a = row.text("arg1"),
                       &b = row.text("arg2");

@@ -66,7 +66,7 @@ FilterParts filterParts(cv::Size size, double sigmaRatio) {
     return out;
 }
 
-/// The order of the sum does not depend on the number of threads.
+/// Adds the sums of the rows in order, so that the result does not depend on the number of threads.
 double sumOf(cv::Size size, const std::function<double(int y, int x)>& value) {
     std::vector<double> sums(static_cast<std::size_t>(size.height), 0);
     cv::parallel_for_({0, size.height}, [&](const cv::Range& rows) {

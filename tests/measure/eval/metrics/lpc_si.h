@@ -22,7 +22,7 @@ struct LpcOrientation {
 
 struct LpcSharpness {
     double index = 0;                ///< LPC-SI, [0, 1); larger is sharper
-    double mapMax = 0, mapMean = 0;  ///< of the pixels' values, without border
+    double mapMax = 0, mapMean = 0;  ///< maximum and mean of the pixels' values, without border
     std::array<LpcOrientation, 8> orientations{};
 };
 

@@ -22,7 +22,7 @@ public:
 
 private:
     cv::Size size_;
-    cv::Mat gain_;  // at non-negative frequencies, times the scale of the transform
+    cv::Mat gain_;  // gain at non-negative frequencies, times the scale of the transform
     FftwPlan forward_, backward_;
 };
 

@@ -57,7 +57,8 @@ int objectAt(int x, int y, int s, int v) {
     return v;
 }
 
-/// Weights [1/5] of the source pixels along one axis if a picture is reduced by a factor of 3.6.
+/// Reduces an axis by a factor of 3.6. Returns for each output pixel its source pixels, with their
+/// weights in units of 1/5.
 std::vector<std::vector<std::pair<int, int>>> areaShares(int out) {
     std::vector<std::vector<std::pair<int, int>>> shares(static_cast<std::size_t>(out));
     for (int i = 0; i < out; ++i)

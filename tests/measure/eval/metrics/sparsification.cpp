@@ -32,8 +32,8 @@ std::vector<double> sumsInOrder(std::span<const float> error, std::span<const fl
     return out;
 }
 
-/// For every share of removed pixels, the mean error of the remaining pixels divided by that of
-/// all. Pixels at the end of the order are removed first.
+/// Removes pixels from the end of the order in steps. Returns for each step the mean error of the
+/// remaining pixels divided by the mean error of all pixels.
 std::vector<double> curveOf(const std::vector<double>& sums) {
     const std::size_t all = sums.size() - 1;
     const double mean = sums.back() / static_cast<double>(all);
