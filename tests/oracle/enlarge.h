@@ -12,7 +12,6 @@
 /// residual is what learned filters add to Keys' cubic.
 namespace mfar::twin {
 
-/// Class of a pixel, and the distance of its measures from the nearest threshold between classes.
 struct Classified {
     int number;
     double margin;
@@ -83,8 +82,6 @@ inline std::array<double, 2> rangeAround(const Grey& g, int x, int y) {
     return out;
 }
 
-/// Learned residual at sub-pixel `phase` of pixel (x, y), whose classes are `gradient` and
-/// `curvature`.
 inline double residualAt(const Grey& g, int x, int y, int phase, int gradient, int curvature,
                          const FilterBank& bank) {
     const auto scale = double(enlarge::kWeightScale);

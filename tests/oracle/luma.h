@@ -68,7 +68,6 @@ inline Grey luma(const ImageView& v) {
     });
 }
 
-/// Finest pyramid level of a video frame, not rounded.
 inline Grey smoothed(const Grey& g) {
     const double weight[3] = {kSmoothing, 1 - 2 * kSmoothing, kSmoothing};
     return greyOf(g.size, [&](int x, int y) {

@@ -16,8 +16,8 @@ struct TileChange {
     /// Absolute mean difference and mean absolute difference of each cell, row by row. Each is the
     /// largest value over the channels.
     std::array<double, 16> mean{}, absolute{};
-    double cellNoise = 0;  ///< variance of a cell's mean in the noisiest channel
-    double noise = 0;      ///< standard deviation of the luma's noise [grey levels]
+    double cellNoise = 0;
+    double noise = 0;  ///< standard deviation of the luma's noise [grey levels]
     /// Sum of the squared mean and the squared slopes of the difference, divided by their variance.
     /// Maximum over the channels.
     double moments = 0;

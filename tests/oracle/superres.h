@@ -10,7 +10,6 @@
 
 namespace mfar::twin {
 
-/// Grid of cells with four channels. Positions outside it repeat the border cells.
 struct Cells {
     Size size;
     std::vector<float> values;

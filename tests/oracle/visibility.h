@@ -14,7 +14,7 @@
 namespace mfar::twin {
 
 struct RealSample {
-    double inverseDepth, sigma;  ///< inverse depth and its standard deviation [1/m]
+    double inverseDepth, sigma;
 };
 
 /// Visibility (0 to 1) of a virtual surface at inverse depth `inverse`. An unknown real depth hides

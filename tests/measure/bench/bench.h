@@ -21,10 +21,9 @@ struct StageSummary {
     Summary ms;
 };
 
-/// Times of the product's pipeline on one workload.
 struct CaseResult {
     std::string name;
-    Summary frame;                     ///< whole frame from upload to finished picture
+    Summary frame;
     std::vector<StageSummary> stages;  ///< from a separate run that waits after each stage
     std::array<double, kTileClasses> tileShare{};  ///< mean share of the tiles of each TileClass
 };

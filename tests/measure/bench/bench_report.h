@@ -8,7 +8,6 @@
 
 namespace mfar::bench {
 
-/// Times are in ms, sizes are [width, height].
 [[nodiscard]] nlohmann::json toJson(const BenchResult& result);
 [[nodiscard]] std::string toTable(const BenchResult& result);
 [[nodiscard]] std::string benchSvg(const BenchResult& result);

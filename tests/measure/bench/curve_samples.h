@@ -8,7 +8,6 @@
 
 namespace mfar::bench {
 
-/// A video frame, its still and the true flow between them.
 struct CurveSample {
     std::string name;
     StereoRig rig;

@@ -60,7 +60,6 @@ CurvePoint measure(const CurveSample& sample, PipelineOptions options, bool alon
     return pointOf(sample, flow, summarise({run(), run(), run()}).median);
 }
 
-/// Mean over the samples. The epipolar search can use only samples with poses.
 CurvePoint mean(const std::vector<CurveSample>& samples, const PipelineOptions& options,
                 bool alongLines) {
     const auto fits = [&](const CurveSample& s) { return !alongLines || s.hasPoses(); };

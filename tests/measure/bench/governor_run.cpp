@@ -41,7 +41,6 @@ Shots shotsOf(synthetic::Scene which, synthetic::Path path, const char* name, in
     return out;
 }
 
-/// A pipeline whose quality levels are chosen by a governor, as in the daemon.
 class Governed {
 public:
     Governed(const StereoRig& rig, const std::vector<QualityLevel>& levels, double deadlineMs,

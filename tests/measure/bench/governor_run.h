@@ -14,7 +14,7 @@ namespace mfar::bench {
 struct GovernedScene {
     std::string name;
     std::vector<double> ms;
-    std::map<std::string, int> levels;  ///< number of frames at each quality level
+    std::map<std::string, int> levels;
 };
 
 struct GovernedRun {
@@ -24,7 +24,7 @@ struct GovernedRun {
 
 struct GovernorRequest {
     std::vector<double> deadlinesMs{33, 66, 133};
-    int frames = 120;  ///< frames per scene
+    int frames = 120;
     Clock clock = Clock::Wall;
     ProgressPart progress{};
 };

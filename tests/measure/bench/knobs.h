@@ -10,8 +10,8 @@ namespace mfar::bench {
 
 /// A flow option that trades time for accuracy, with the values to measure in ascending order.
 struct Knob {
-    std::string method;  ///< flow2d or epipolar
-    std::string name;    ///< member of Flow2dOptions or EpipolarOptions
+    std::string method;
+    std::string name;  ///< member of Flow2dOptions or EpipolarOptions
     std::vector<double> values;
     std::function<double(const PipelineOptions&)> get;
     std::function<void(PipelineOptions&, double)> set;

@@ -6,7 +6,6 @@
 
 namespace mfar::bench {
 
-/// Time and error of one method for a stage.
 struct ParetoPoint {
     enum class Kind { Ours, Default, Peer };
 
@@ -19,7 +18,7 @@ struct ParetoPoint {
 /// All methods for one stage, measured in turn in one run.
 struct ParetoStage {
     std::string name;
-    std::string measure;  ///< name of the error measure, with its unit
+    std::string measure;
     std::string samples;
     std::vector<ParetoPoint> points;
 };
@@ -35,7 +34,6 @@ struct ParetoStage {
 [[nodiscard]] std::vector<std::string> dominatingPeers(const ParetoStage& stage,
                                                        const ParetoPoint& point);
 
-/// Columns: stage,name,kind,ms,error,measure,front,dominated_by.
 [[nodiscard]] std::string paretoCsv(const std::vector<ParetoStage>& stages);
 
 /// Text with our points that no peer dominates, then our other points with the peers that dominate

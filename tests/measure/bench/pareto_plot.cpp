@@ -65,7 +65,6 @@ private:
         for (const std::size_t i : paretoFront(stage_.points)) {
             const ParetoPoint& p = stage_.points[i];
             if (!canBeDrawn(p)) continue;
-            // Draws a staircase. Points above it and to its right are dominated.
             path += path.empty() ? fmt::format("M{:.1f} {:.1f}", x(p.ms), y(p.error))
                                  : fmt::format(" H{:.1f} V{:.1f}", x(p.ms), y(p.error));
             if (p.kind != ParetoPoint::Kind::Peer)

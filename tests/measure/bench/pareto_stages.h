@@ -40,7 +40,7 @@ struct ParetoRun {
 
 /// A frame, its still and the true depth. Frame and still have poses.
 struct DepthSample {
-    CurveSample shots;     ///< without the true flow
+    CurveSample shots;
     cv::Mat inverseDepth;  ///< CV_32F [1/m]; NaN: unknown, or occluded in the still
 };
 /// Loads the first `most` samples that mfar-eval depth accepts from each folder. Throws EvalError,
@@ -79,7 +79,6 @@ struct SequenceSample {
 /// Needs no GL context.
 [[nodiscard]] ParetoStage slicingStage(bool quick);
 
-/// A setting that superResStage() measures. Levels of a quality table are made from such settings.
 struct QualitySetting {
     std::string name;
     Quality quality;

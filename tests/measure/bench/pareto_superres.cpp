@@ -38,7 +38,6 @@ double errorOf(const cv::Mat& bgr, const cv::Mat& truth) {
     return std::sqrt(eval::meanSquaredError(eval::luma(bgr)(inner), truth(inner)));
 }
 
-/// A method that makes the pictures of a sequence from one still and its frames.
 struct SequenceWay {
     std::function<void()> begin;
     std::function<void(std::size_t)> run;

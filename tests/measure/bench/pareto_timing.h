@@ -66,7 +66,6 @@ private:
     return all > 0 ? some / all : 0;
 }
 
-/// Runs a peer and measures its time by `clock`. `method` is a FlowMethod or a DepthMethod.
 template <class Method>
 [[nodiscard]] auto timed(Method& method, const eval::Shot& frame, Clock clock) {
     constexpr double kRuns = 4;  // run() makes one untimed call and three timed calls

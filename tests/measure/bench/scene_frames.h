@@ -11,7 +11,7 @@ namespace mfar::bench {
 /// A frame and the still that came before it, R G B A. They are rendered before a measurement
 /// starts, because the board renders in threads of this process.
 struct SceneFrame {
-    cv::Mat picture, still;  ///< `still` is empty if none came
+    cv::Mat picture, still;
     Timestamp time;
     std::optional<Pose> pose, stillPose;
 };

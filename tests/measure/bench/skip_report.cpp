@@ -8,8 +8,7 @@
 namespace mfar::bench {
 namespace {
 
-constexpr double kMostLost = 0.1;  // larger losses are marked [dB or percentage points]
-// Smallest saving that counts, as a share of the frame time.
+constexpr double kMostLost = 0.1;
 constexpr double kLeastSaved = 0.02;
 
 std::string value(const std::optional<double>& v) {

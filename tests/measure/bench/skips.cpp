@@ -162,7 +162,6 @@ std::vector<CaseFrame> framesOf(const Case& one, eval::SceneRun& scene, int coun
     return out;
 }
 
-/// Pipeline of one case with all skips, or with one skip switched off.
 class SkipWay {
 public:
     SkipWay(const Case& one, const StereoRig& rig, const Skip* off, Clock clock)

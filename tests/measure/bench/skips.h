@@ -9,7 +9,6 @@
 
 namespace mfar::bench {
 
-/// The time that one skip saves in one case, and the accuracy that it costs.
 struct SkipResult {
     std::string skip, scene;  ///< kind of skipped work, name of the case
     /// Median frame time with and without the skip.
@@ -28,7 +27,7 @@ struct SkipCase {
     double ms = 0;
     long depthTiles = 0;  ///< sum over the frames of the tiles in which depth was searched
     long framesInView = 0;
-    double changed = 0;  ///< mean share of changed tiles
+    double changed = 0;
 };
 
 struct SkipReport {
@@ -53,7 +52,6 @@ struct SkipRequest {
 /// Table of the cases and of the skips. Skips that lose more than 0.1 dB or 0.1 percentage points
 /// are marked. A list tells in which cases each skip saves time.
 [[nodiscard]] std::string skipTable(const SkipReport& report);
-/// Columns: case,skip,ms,ms_without,saved_ms,psnr_lost_db,bad1_added,overlap_lost.
 [[nodiscard]] std::string skipCsv(const SkipReport& report);
 [[nodiscard]] std::string skipSvg(const SkipReport& report);
 

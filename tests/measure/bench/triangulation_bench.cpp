@@ -85,7 +85,7 @@ TriangulationTimes measureTriangulation(Size video) {
     for (int i = 0; i <= kRuns; ++i) {
         const double a = ours(TriangulationMethod::Flow), b = ours(TriangulationMethod::Midpoint);
         const double c = eval::wallMs([&] { opencv.run(); });
-        if (i == 0) continue;  // the first run warms up
+        if (i == 0) continue;
         fast.push_back(a);
         midpoint.push_back(b);
         peer.push_back(c);

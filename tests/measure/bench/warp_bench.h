@@ -9,8 +9,8 @@ namespace mfar::bench {
 /// Times per frame [ms] until all work is finished. If a member does not say otherwise, a picture
 /// of two balls on a plane is warped to a camera that has turned by 2 degrees.
 struct WarpTimes {
-    Summary objects;     ///< balls with shadows that cover a ninth of the picture
-    Summary whole;       ///< one ball that is larger than the picture
+    Summary objects;  ///< balls with shadows that cover a ninth of the picture
+    Summary whole;
     Summary still;       ///< like `objects`, but the camera has not turned
     Summary newPicture;  ///< like `objects`: CPU work and upload of a new traced picture
     Summary remap;       ///< peer: cv::remap of the whole picture, bilinear

@@ -23,7 +23,6 @@ namespace {
 constexpr double kVideoNoise = 1.5;  // standard deviation for a good sensor indoors [grey levels]
 constexpr int kLessonEvery = 10;     // every tenth frame becomes a lesson
 
-/// Random blobs at four scales and hard-edged bars, with much finer detail than video pixels.
 cv::Mat texture(cv::Size size) {
     cv::RNG random(20);
     cv::Mat sum(size, CV_32FC3, cv::Scalar::all(20));
@@ -43,7 +42,6 @@ cv::Mat texture(cv::Size size) {
     return out;
 }
 
-/// View of a shaking camera at step k, at the still's resolution.
 cv::Mat viewAt(const cv::Mat& world, cv::Size size, double k) {
     const double dx = 0.015 * size.width * std::sin(0.45 * k);
     const double dy = 0.010 * size.width * std::sin(0.31 * k + 1);
@@ -157,7 +155,6 @@ Workload handheldWorkload(SyntheticBoard& board, Size video, Size still, int fra
 Workload recordedWorkload(const std::filesystem::path& folder, int frames) {
     const Recording recording = loadRecording(folder);
     Workload out{folder.string(), recording.rig, {}, {}, {}, {}, {}};
-    // Maps the index of a still in the recording to its index in out.stills.
     std::map<std::size_t, std::size_t> loaded;
     const auto distinct =
         std::min<std::size_t>(static_cast<std::size_t>(frames), recording.video.size());

@@ -30,7 +30,7 @@ struct Workload {
     StereoRig rig;
     std::vector<cv::Mat> stills;
     std::vector<cv::Mat> frames;
-    std::vector<std::size_t> stillOf;  ///< index into `stills` for each frame
+    std::vector<std::size_t> stillOf;
     /// Poses of the video camera at each frame and at each still. An unknown pose is an empty
     /// entry. If all are unknown, the vector is empty.
     std::vector<std::optional<Pose>> framePoses{}, stillPoses{};

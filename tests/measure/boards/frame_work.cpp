@@ -93,7 +93,6 @@ Json recorded(const PassRecorder& recorder) {
     return out;
 }
 
-/// Records the GL work of setting a still, and of the last frame.
 Json passesOf(Frames& frames) {
     Json out;
     {

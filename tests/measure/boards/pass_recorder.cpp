@@ -227,7 +227,6 @@ std::int64_t bytesOfTargetPixel() {
     return bytes;
 }
 
-/// `pixels`: number of filled pixels of the render target.
 void recordDraw(std::int64_t vertices, std::int64_t pixels) {
     if (vertices == 0) return;
     PassWork work = usedNow();

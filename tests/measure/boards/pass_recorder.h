@@ -11,8 +11,8 @@ namespace mfar::boards {
 
 /// One draw or dispatch. Each byte is counted once.
 struct PassWork {
-    std::string shader;   ///< name of the compute or fragment shader, as in gles_shaders/
-    std::string defines;  ///< for example "#define LEARNED", or empty
+    std::string shader;  ///< name of the compute or fragment shader, as in gles_shaders/
+    std::string defines;
     std::int64_t invocations = 0;
     std::int64_t vertices = 0;
     std::int64_t bytesRead = 0;

@@ -12,7 +12,7 @@ namespace mfar::eval {
 namespace {
 
 constexpr double kBarsWidth = 460, kBarsTop = 34, kBarsRow = 22, kBarsBelow = 26, kBarsRight = 400;
-constexpr double kLetter = 6.2;  // mean width of a letter [px]
+constexpr double kLetter = 6.2;
 constexpr std::size_t kBarsColumns = 3;
 
 class DrawnBars {

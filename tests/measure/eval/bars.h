@@ -12,7 +12,7 @@ struct Bar {
     std::string label;
     double value = 0;
     std::vector<double> dots{};  ///< single values behind the mean, for example of frames
-    std::size_t colour = 0;      ///< index into svg::kColours
+    std::size_t colour = 0;
 };
 
 struct BarPanel {
@@ -36,7 +36,6 @@ struct SizedSvg {
     double width = 0, height = 0;
 };
 
-/// Puts SVG documents side by side in rows, each at its own size.
 [[nodiscard]] std::string gridSvg(const std::string& title, const std::vector<SizedSvg>& parts,
                                   std::size_t columns, const std::string& footnote);
 

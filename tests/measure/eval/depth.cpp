@@ -23,7 +23,7 @@ struct DepthTruth {
 };
 
 DepthTruth loadDepthTruth(const FlowSet& set, const FlowSample& sample) {
-    const cv::Mat flow = loadTruth(set, sample);  // checks the size, marks occluded pixels
+    const cv::Mat flow = loadTruth(set, sample);
     FloatImage image = loadPfm(sample.truth);
     const cv::Mat rho(flow.size(), CV_32F, image.values.data());
     DepthTruth out;

@@ -12,8 +12,8 @@ namespace mfar::eval {
 
 /// Algorithm and factor in the file name of a dnn_superres model, for example EDSR_x4.pb.
 struct DnnModelName {
-    std::string algorithm;  ///< edsr, espcn, fsrcnn or lapsrn
-    int scale;              ///< 2, 3, 4 or 8
+    std::string algorithm;
+    int scale;
 };
 
 /// Throws EvalError for other names.

@@ -40,8 +40,6 @@ std::string node(const std::string& name, const std::string& op,
     return field(1, out + attributes);
 }
 
-/// A network that copies its one channel `copies` times and rearranges the copies to a larger
-/// picture.
 std::string copiesToPixels(int copies) {
     constexpr unsigned long kFloat = 1;
     const std::string type = field(6, kFloat);

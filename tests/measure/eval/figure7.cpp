@@ -19,7 +19,7 @@
 namespace mfar::eval {
 namespace {
 
-constexpr int kStillEvery = 10;  // frames between two requests for a still
+constexpr int kStillEvery = 10;
 constexpr int kScoredFrame = 5;  // the measured frame, counted from the request
 
 class Figure7Run {

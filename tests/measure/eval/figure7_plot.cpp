@@ -22,7 +22,7 @@ struct Figure7Panel {
     std::function<double(const PictureScores&)> value;
     double least, most, step;
     int decimals;
-    bool tiles;  ///< also draw quantiles of the values of 8x8 tiles
+    bool tiles;
 };
 
 double groupWidth() {
@@ -95,7 +95,6 @@ private:
     double top_;
 };
 
-/// Start of the axis: the smaller of 0 and the lowest value, rounded down to a whole step.
 double leastOf(const std::vector<Figure7Scene>& scenes, const Figure7Panel& panel) {
     double out = 0;
     for (const Figure7Scene& scene : scenes)

@@ -10,7 +10,7 @@ namespace mfar::eval {
 
 /// A method, in the order of the figure. The first is the truth, the second the product.
 struct Figure7Method {
-    const char* name;  ///< one of superResMethodNames(), or "truth"
+    const char* name;
     const char* title;
 };
 [[nodiscard]] const std::vector<Figure7Method>& figure7Methods();

@@ -28,7 +28,7 @@ cv::Mat grey(const cv::Mat& picture) {
 
 /// Flow between two grey pictures of the same size, computed without knowledge of the cameras.
 struct PlainFlows {
-    cv::Mat flow, back;  ///< `back` is empty if only one direction is computed
+    cv::Mat flow, back;
 };
 using PlainFlow = std::function<PlainFlows(const cv::Mat& a, const cv::Mat& b)>;
 

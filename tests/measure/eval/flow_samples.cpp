@@ -45,8 +45,6 @@ std::map<std::int64_t, fs::path> numbered(const fs::path& folder, std::string_vi
     return out;
 }
 
-/// Rig assumed for a pair of pictures from unknown cameras: one pinhole camera whose focal length
-/// is the picture's width.
 StereoRig pairRig(const fs::path& picture) {
     const Size size = loadImage(picture).size;
     StereoRig rig;

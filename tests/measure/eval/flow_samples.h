@@ -19,7 +19,6 @@ struct FlowSample {
     std::optional<PosePair> given{};  ///< poses from another source, which replace `poses`
 };
 
-/// Samples of a folder, ordered by time.
 struct FlowSet {
     StereoRig rig;
     std::vector<FlowSample> samples;

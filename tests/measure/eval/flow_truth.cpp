@@ -26,7 +26,6 @@ public:
           rotation_((turn_ * T_still_frame.rotation).toRotationMatrix()),
           translation_(turn_ * T_still_frame.translation) {}
 
-    /// Returns nothing if the point is behind the still camera or outside its picture.
     [[nodiscard]] std::optional<Seen> see(const Eigen::Vector2d& pixel, double rho) const {
         const Eigen::Vector2d ray = rig_.video.unproject(pixel);
         const Eigen::Vector3d point =
@@ -63,7 +62,6 @@ class NearestSurface {
 public:
     explicit NearestSurface(cv::Size size) : rho_(size, CV_64F, -1.0) {}
 
-    /// Covers those of the four neighbouring pixels whose bilinear weight exceeds kSplatWeight.
     void add(const Seen& seen) {
         const double left = std::floor(seen.pixel.x()), top = std::floor(seen.pixel.y());
         for (const double y : {top, top + 1})

@@ -120,7 +120,6 @@ TEST(FlowTruth, AgreesWithRaysThroughTheWorld) {
         const RigidTransform T_world_frame = cameraPose(world, path, 1, 1.5);
         const RigidTransform T_world_still =
             cameraPose(world, path, 1, 0) * rig.T_still_video.inverse();
-        // Orientation of the still after resampling, see FlowField.
         RigidTransform T_world_turned = T_world_still;
         T_world_turned.rotation = T_world_still.rotation * rig.T_still_video.rotation;
         const synthetic::Viewpoint frame{rig.video, T_world_frame, 0};

@@ -11,7 +11,6 @@
 
 namespace mfar::eval {
 
-/// The product's match of a frame with the still, at the video's size.
 struct StillMatch {
     cv::Mat flow;        ///< CV_32FC2 [video px], see Pipeline::readFlow()
     cv::Mat confidence;  ///< CV_32F, the paper's eq. 2, see Pipeline::readConfidence()
@@ -23,9 +22,8 @@ inline constexpr float kWellMatched = 0.5F;
 /// Smallest share of the picture's pixels for which a class's gain is measured.
 inline constexpr double kSmallestClass = 0.001;
 
-/// Class of a pixel by its match with the still.
 enum class MatchClass : unsigned char {
-    Outside,    ///< the flow leads outside the still
+    Outside,
     Unmatched,  ///< inside the still, but occluded there or matched with low confidence
     Matched,
 };

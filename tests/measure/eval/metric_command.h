@@ -14,7 +14,7 @@ namespace mfar::eval {
 struct MetricRequest {
     std::filesystem::path test, reference;
     PictureMetrics metrics{pictureMetricNames(), {}};
-    bool colour = false;  ///< compute HDR-VDP-2 from colours instead of luma
+    bool colour = false;
     ProgressPart progress{};
 };
 

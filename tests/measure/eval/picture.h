@@ -17,7 +17,6 @@ void savePicture(const std::filesystem::path& file, const cv::Mat& picture);
 
 /// Converts CV_8UC3 B G R to the pipeline's format, CV_8UC4 R G B A.
 [[nodiscard]] cv::Mat toRgba(const cv::Mat& bgr);
-/// Views a CV_8UC4 (Rgba8) or CV_8UC1 (Gray8) picture, which must outlive the view.
 [[nodiscard]] ImageView viewOf(const cv::Mat& picture);
 /// Converts the result of Pipeline::readImage() to CV_8UC3 B G R.
 [[nodiscard]] cv::Mat fromRgba(const std::vector<std::uint8_t>& rgba, Size size);

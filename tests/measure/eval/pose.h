@@ -16,7 +16,7 @@ struct PoseRequest {
     std::vector<std::filesystem::path> folders;
     std::vector<std::string> methods;  ///< names from poseMethodNames(); only for recordings
     int frames = 0;                    ///< number of frames per folder; 0: all
-    TrackerOptions tracker;            ///< a recording replaces the tag map by its own
+    TrackerOptions tracker;
     ProgressPart progress{};
 };
 

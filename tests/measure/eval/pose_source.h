@@ -9,7 +9,7 @@ namespace mfar::eval {
 
 enum class PoseSource {
     Recorded,  ///< from the recording, see posesOf()
-    Tags,      ///< found by the product's tracker in frames and stills
+    Tags,
     None,
 };
 

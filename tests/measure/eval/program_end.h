@@ -5,7 +5,6 @@
 
 namespace mfar::eval {
 
-/// Exit code if the command line or the input is wrong.
 inline constexpr int kWrongInput = 2;
 
 /// Prints the error that ended a program to standard error. Returns the exit code: kWrongInput if

@@ -136,7 +136,7 @@ TEST(MfarEval, StereoFlowReportsItsPoseAndError) {
     for (const double share : clean)
         EXPECT_LT(share, 0.05);
     EXPECT_GT(worse[1], clean[1] + 0.05);
-    EXPECT_EQ(off[1], clean[1]);  // dis-medium uses no pose
+    EXPECT_EQ(off[1], clean[1]);
     EXPECT_GT(off[2], 0.5);
     EXPECT_GT(other[2], 0.5);
     EXPECT_NE(off[2], other[2]);

@@ -39,8 +39,8 @@ private:
     [[nodiscard]] cv::Mat mapOf(const Eigen::Matrix3d& R_rect_view) const;
 
     CameraModel camera_;
-    Eigen::Matrix3d firstTurn_, secondTurn_;  ///< R_rect_first, R_rect_second
-    Eigen::Vector2d centre_;                  ///< principal point of the rectified pictures [px]
+    Eigen::Matrix3d firstTurn_, secondTurn_;
+    Eigen::Vector2d centre_;
     cv::Size size_;
 };
 

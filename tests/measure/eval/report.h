@@ -19,7 +19,7 @@ void writeText(const std::filesystem::path& file, const std::string& text);
 
 struct Column {
     std::string name;
-    int decimals;  ///< number of decimals in the table; the CSV always has six
+    int decimals;
 };
 
 /// Results of an evaluation, with one row per recording, frame and method.
@@ -37,7 +37,6 @@ public:
     void addMedians();
 
     void setHead(std::string head) { head_ = std::move(head); }
-    /// Columns without any measurement are left out.
     [[nodiscard]] std::string table() const;
     [[nodiscard]] std::string csv() const;
     void writeCsv(const std::filesystem::path& file) const;
@@ -45,7 +44,7 @@ public:
     struct Row {
         std::string recording, frame, method;
         std::vector<std::optional<double>> values;
-        bool ofFrames = false;  ///< a mean or median over frames
+        bool ofFrames = false;
     };
     [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
     [[nodiscard]] const std::vector<Column>& columns() const { return columns_; }

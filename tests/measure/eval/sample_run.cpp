@@ -17,7 +17,7 @@ void setPoses(std::vector<FlowSample>& samples, const fs::path& folder, PoseSour
         if (source == PoseSource::Tags)
             throw EvalError(fmt::format("{}: --poses tags needs a recording; this folder is none",
                                         folder.string()));
-        return;  // a pair has no poses
+        return;
     }
     const Recording recording = loadRecording(folder);
     const KnownPoses poses(recording, source);

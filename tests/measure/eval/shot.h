@@ -35,7 +35,7 @@ struct PosePair {
 
 /// Pose errors that test robustness: each frame's pose is rotated about an axis of its own.
 struct PoseNoise {
-    double degrees = 0;  ///< exact angle of every rotation
+    double degrees = 0;
     std::uint64_t seed = 0;
 };
 

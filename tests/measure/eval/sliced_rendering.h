@@ -17,7 +17,6 @@ struct SlicedScene {
     PixelRect bounds;
     RenderedPicture truth;
 
-    /// Makes the test scene of balls and boxes. `threads`: number of threads that trace the truth.
     SlicedScene(Size size, int truthSamples, int threads);
     /// RMS error of `film` inside the objects' bounds [grey levels]. `filter`: smooths the noise
     /// first.
@@ -25,7 +24,7 @@ struct SlicedScene {
 };
 
 struct ErrorAt {
-    double samples = 0;  ///< mean number of samples per pixel
+    double samples = 0;
     double ms = 0, rmse = 0;
     double filtered = 0;  ///< RMS error after the noise was smoothed
 };

@@ -56,8 +56,6 @@ void addErrors(Report& report, const char* method, const std::vector<ErrorAt>& e
     panel.lines.push_back(std::move(line));
 }
 
-/// Adds the mean frame time and, divided by it, the standard deviation, the 95th percentile and the
-/// maximum.
 void addFrames(Report& report, const char* method, std::vector<double> ms) {
     const auto count = static_cast<double>(ms.size());
     const double mean = std::accumulate(ms.begin(), ms.end(), 0.0) / count;

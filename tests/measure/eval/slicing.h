@@ -11,9 +11,9 @@ namespace mfar::eval {
 struct SlicingRequest {
     Size size{320, 240};
     int samples = 64;
-    int truthSamples = 512;  ///< samples per pixel of the truth, with another seed
+    int truthSamples = 512;
     double budgetMs = 4;
-    int frames = 300;           ///< number of frames under the budget
+    int frames = 300;
     int threads = 2;            ///< for `frames` and for the truth; otherwise one thread
     std::filesystem::path svg;  ///< plot of error against time; empty: not written
     ProgressPart progress{};

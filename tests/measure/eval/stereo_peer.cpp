@@ -32,7 +32,6 @@ void fillGap(float* row, int begin, int end, int width) {
     std::fill(row + begin, row + end, value < kNone ? value : kNan);
 }
 
-/// Converts disparities from 1/16 px to pixels and fills invalid (negative) ones.
 cv::Mat filled(const cv::Mat& disparity) {
     cv::Mat out;
     disparity.convertTo(out, CV_32F, 1.0 / static_cast<int>(cv::StereoMatcher::DISP_SCALE));

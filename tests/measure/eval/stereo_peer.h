@@ -31,7 +31,7 @@ private:
     StereoRig rig_;
     int disparities_;
     cv::Ptr<cv::StereoMatcher> matcher_;
-    cv::Mat still_;  ///< grey, resampled to the video's geometry
+    cv::Mat still_;
 };
 
 }  // namespace mfar::eval

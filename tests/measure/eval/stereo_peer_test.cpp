@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kDistance = 2;  // distance of the wall [m]
+constexpr double kDistance = 2;
 
 StereoRig crookedPairRig() {
     StereoRig rig;
@@ -30,7 +30,7 @@ RigidTransform moved(double degrees, const Vector3d& axis, const Vector3d& trans
 
 cv::Mat pictureOfWall(const CameraModel& camera, const RigidTransform& T_camera_frame) {
     constexpr int kEdge = 700;
-    constexpr double kPixel = 1.0 / 160;  // size of a texture pixel [m]
+    constexpr double kPixel = 1.0 / 160;
     cv::Mat texture(kEdge, kEdge, CV_8UC3), map(camera.size.height, camera.size.width, CV_32FC2);
     cv::RNG(5).fill(texture, cv::RNG::UNIFORM, 0, 256);
     cv::GaussianBlur(texture, texture, {}, 1);

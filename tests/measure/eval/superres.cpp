@@ -93,7 +93,6 @@ private:
     };
     using Times = std::pair<Timestamp, Timestamp>;
 
-    /// True flow from the last frame to this one; empty if unknown.
     [[nodiscard]] cv::Mat flowTo(Timestamp time) {
         const auto last = std::exchange(frameTime_, time);
         const auto file = last ? recording_.truthFlow(*last, time) : std::nullopt;

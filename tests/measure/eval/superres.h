@@ -16,8 +16,8 @@ namespace mfar::eval {
 struct SuperResRequest {
     std::vector<std::filesystem::path> recordings;
     std::vector<std::string> methods;
-    std::vector<std::filesystem::path> dnnModels;  ///< model files of further peers
-    bool classes = false;  ///< also measure each method's gain per MatchClass
+    std::vector<std::filesystem::path> dnnModels;
+    bool classes = false;
     bool noStill = false;
     int stills = 1;           ///< 2: also use the second-nearest still in time
     Degradation degradation;  ///< applied to every still

@@ -45,7 +45,6 @@ public:
     explicit SuperResFactory(double alpha) : alpha_(alpha) {}
     /// Sets the filters of the product's methods; null: shipped filters.
     void setFilters(std::shared_ptr<const FilterBank> filters) { filters_ = std::move(filters); }
-    /// Creates the GL context, which other pipelines need as well.
     void requireContext();
     [[nodiscard]] std::unique_ptr<SuperResMethod> create(const std::string& name,
                                                          const StereoRig& rig);

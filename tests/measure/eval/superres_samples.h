@@ -14,7 +14,7 @@ namespace mfar::eval {
 struct SuperResSample {
     RecordedImage video;
     RecordedImage still;
-    std::optional<RecordedImage> second;  ///< secondStill() of the frame
+    std::optional<RecordedImage> second;
     std::filesystem::path truth;
 };
 

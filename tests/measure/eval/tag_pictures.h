@@ -30,10 +30,10 @@ struct TagPictureFile {
 
 struct TagScore {
     double ms = 0;
-    double cornerPx = 0;  ///< RMS error of the corners of found tags
-    int found = 0;        ///< found tags: same id, centre closer than half an edge
+    double cornerPx = 0;
+    int found = 0;  ///< found tags: same id, centre closer than half an edge
     int missed = 0;
-    int wrong = 0;  ///< detections that match no known tag
+    int wrong = 0;
 };
 
 /// Scores of the tags that are found in the whole picture. `detector`: with the detector's corners;

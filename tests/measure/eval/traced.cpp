@@ -29,7 +29,7 @@ namespace {
 using Rgb = std::array<float, 3>;
 using Picture = std::vector<Rgb>;
 
-constexpr double kRate = 30;      // frames per second
+constexpr double kRate = 30;
 constexpr int kFirstFrames = 15;  // not scored, because the first picture is still being traced
 constexpr float kPaper = 200;     // grey level of the background under the layer
 constexpr double kFill = 0.5;     // largest side of the objects' bounding box / picture's height

@@ -15,12 +15,12 @@ struct TracedRequest {
     std::vector<std::string> scenes;  ///< names from warpSceneNames(), or glTF files
     std::vector<synthetic::Path> paths;
     std::vector<std::string> methods;
-    Size size{640, 480};  ///< size of the layer
+    Size size{640, 480};
     double budgetMs = 8;  ///< processor time of the path tracer per frame
     int frames = 90;      ///< frames per path, at 30 per second
     int every = 10;       ///< of this many frames, two consecutive ones are compared
     int truthSamples = 256;
-    bool hdrVdp = false;          ///< also compute HDR-VDP-2 of the compared frames
+    bool hdrVdp = false;
     std::filesystem::path truth;  ///< folder that keeps the truth; empty: traced again
     std::filesystem::path save;   ///< folder for compared frames and truth; empty: not saved
     std::filesystem::path video;  ///< folder for a Y4M file of each path; empty: not written

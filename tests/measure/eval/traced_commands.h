@@ -14,7 +14,7 @@ namespace mfar::eval {
 struct EvalCommand {
     CLI::App* command;
     std::function<Report(const ProgressPart&)> evaluate;
-    bool hasOwnPlot = false;  ///< the command has its own option --svg
+    bool hasOwnPlot = false;
 };
 
 /// Adds the subcommands that need the path tracer. Empty if it is not built.

@@ -32,7 +32,6 @@ private:
     std::map<int, RenderedPicture> pictures_;
 };
 
-/// Puts pictures of `size` side by side. Values are in [0, 255].
 [[nodiscard]] StoredImage
 rgbaOf(const std::vector<const std::vector<std::array<float, 3>>*>& pictures, Size size);
 

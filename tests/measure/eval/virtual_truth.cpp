@@ -10,7 +10,6 @@ namespace {
 // Smallest ratio of inverse depths that counts as clearly in front.
 constexpr double kClearlyBefore = 1.1;
 
-/// Ray origin + t * direction, in units of the object's extent.
 struct LocalRay {
     Eigen::Vector3d origin, direction;
 };
@@ -74,7 +73,7 @@ VirtualTruth virtualTruth(std::span<const VirtualObject> objects, const CameraMo
     for (int y = 0; y < video.size.height; ++y) {
         for (int x = 0; x < video.size.width; ++x) {
             const Eigen::Vector2d ray = video.unproject({x, y});
-            double nearest = 0;  // greatest inverse depth so far [1/m]
+            double nearest = 0;
             for (const VirtualObject& object : objects)
                 if (const double z = surfaceDepth(object, T_world_video, ray); z > 0)
                     nearest = std::max(nearest, 1 / z);

@@ -9,7 +9,6 @@
 
 namespace mfar {
 
-/// A case to measure. `make` prepares it for a number of threads and returns the timed function.
 struct BenchCase {
     std::string name;
     std::function<std::function<void()>(std::shared_ptr<Workers>)> make;

@@ -10,7 +10,7 @@ namespace {
 
 using namespace enlarge;
 
-constexpr int kBorder = 12;  // width of the skipped border [px]
+constexpr int kBorder = 12;
 // Smallest number of pixels for learning a class, and for checking it.
 constexpr double kLeastPixels = 400;
 

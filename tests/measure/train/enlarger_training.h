@@ -18,7 +18,7 @@ public:
 
     struct Outcome {
         std::vector<FilterBank::Filter> filters;  ///< kUnique filters, see FilterBank
-        int used = 0;                             ///< number of classes whose filter is not zero
+        int used = 0;
         /// Sums of squared errors on held-out pairs: [0] of classes by gradient, [1] of classes by
         /// curvature.
         double cubicError[2] = {}, error[2] = {};

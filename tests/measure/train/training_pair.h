@@ -16,7 +16,7 @@ struct Sensor {
 /// A picture as a video camera sees it, and the error of Keys' cubic when it enlarges this video.
 class TrainingPair {
 public:
-    static constexpr int kMargin = 64;  ///< columns added on each side of the picture
+    static constexpr int kMargin = 64;
 
     /// `sharp`: luma in grey levels, at least 64x64. The video is its mean over each pixel's area,
     /// at kScale times the size, rounded to whole grey levels.

@@ -18,7 +18,6 @@ inline RigidTransform moved(double degrees, const Eigen::Vector3d& axis,
             translation};
 }
 
-/// Two different distorting lenses at the product's video size.
 inline twin::TwoViews bentViews(const RigidTransform& T_b_a) {
     return {{{640, 480}, 600, 602, 318, 241, {-0.12, 0.03, 0.001, -0.002, 0.01}},
             {{640, 480}, 580, 578, 322, 238, {0.08, -0.02, -0.001, 0.001, 0}},

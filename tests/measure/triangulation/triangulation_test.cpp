@@ -24,7 +24,7 @@ double inverseDepthAt(const twin::TwoViews& views, const Vector2d& pixel, double
 }
 
 struct Errors {
-    double worst = 0;  ///< largest relative error of the inverse depth
+    double worst = 0;
     int compared = 0;
 };
 

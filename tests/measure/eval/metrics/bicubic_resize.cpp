@@ -6,7 +6,6 @@
 namespace mfar::eval {
 namespace {
 
-/// Indices and weights of the input samples that make one output sample.
 struct ResizeTap {
     std::vector<int> index;
     std::vector<double> weight;

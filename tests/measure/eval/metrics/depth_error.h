@@ -13,7 +13,7 @@ namespace mfar::eval {
 struct DepthError {
     double absrel = 0;  ///< median of |z - true z| / true z over pixels with known depth
     double bad1 = 0;    ///< share of pixels off by more than 1 px of disparity or without depth
-    double completeness = 0;  ///< share of the pixels with known depth
+    double completeness = 0;
     std::size_t pixels = 0;
     /// Shares of pixels whose depth differs from the truth by less than a factor of 1.25, 1.25^2
     /// and 1.25^3. Pixels without depth count as different.

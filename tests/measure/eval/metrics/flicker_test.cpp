@@ -16,7 +16,6 @@ cv::Mat noise(double sigma, int seed, cv::Size size = {240, 176}) {
     return out;
 }
 
-/// Flow for pictures of 256x192 pixels, border included.
 cv::Mat flowOf(float x, float y) {
     return {48, 64, CV_32FC2, cv::Scalar(x, y)};
 }

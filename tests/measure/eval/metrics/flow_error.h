@@ -11,11 +11,11 @@ namespace mfar::eval {
 /// Errors of a flow over the pixels with known truth; NaN without such pixels. Covered pixels have
 /// a finite result.
 struct FlowError {
-    double epe = 0;       ///< mean end-point error of covered pixels [px]
-    double bad1 = 0;      ///< share of pixels with an error above 1 px or without a result
-    double bad2 = 0;      ///< share of pixels with an error above 2 px or without a result
-    double coverage = 0;  ///< share of covered pixels
-    double angular = 0;   ///< mean angle of (u, v, 1) to the truth, covered pixels [degrees]
+    double epe = 0;   ///< mean end-point error of covered pixels [px]
+    double bad1 = 0;  ///< share of pixels with an error above 1 px or without a result
+    double bad2 = 0;  ///< share of pixels with an error above 2 px or without a result
+    double coverage = 0;
+    double angular = 0;  ///< mean angle of (u, v, 1) to the truth, covered pixels [degrees]
     std::size_t known = 0;
 };
 

@@ -25,12 +25,12 @@ struct HdrVdpDisplay {
 /// Contribution of one orientation of one band of the steerable pyramid. D: masked difference of
 /// the pictures.
 struct HdrVdpBand {
-    int band = 1, orientation = 1;  ///< counted from 1
+    int band = 1, orientation = 1;
     cv::Size size;
     double frequency = 0;  ///< spatial frequency of the band [cycles/degree]
     double weight = 0;     ///< weight in the quality score of release 2.2.2
     double error = 0;      ///< root of the summed squares of D where the pictures differ, per pixel
-    double sumAbsolute = 0;                  ///< sum of |D|
+    double sumAbsolute = 0;
     double meanReference = 0, meanTest = 0;  ///< mean absolute band value of each picture
     double meanSensitivity = 0, meanSelfMask = 0, meanMasking = 0;
 };

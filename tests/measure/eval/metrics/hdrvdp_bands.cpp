@@ -41,8 +41,6 @@ struct BandRow {
     const double *difference, *self, *others, *beside, *sensitivity, *weight;
 };
 
-/// Returns three sums over a row: squared visible difference times squared weight, visible
-/// difference, and masking.
 cv::Vec3d comparedRow(const BandRow& row, int cols, double norm) {
     const Masking& by = masking();
     cv::Vec3d sum;

@@ -9,7 +9,6 @@ namespace mfar::eval::hdrvdp {
 
 [[nodiscard]] double opticsGain(double frequency);
 
-/// Sensitivity of cones and rods together, and of rods alone.
 [[nodiscard]] double jointSensitivity(double luminance);
 [[nodiscard]] double rodSensitivity(double luminance);
 
@@ -35,7 +34,6 @@ struct Masking {
 };
 [[nodiscard]] const Masking& masking();
 
-/// Response of the receptors in just noticeable differences.
 class ReceptorResponse {
 public:
     ReceptorResponse();

@@ -8,7 +8,7 @@
 namespace mfar::eval::hdrvdp {
 namespace {
 
-constexpr double kSurround = 1e-5;  // luminance around the picture [cd/m^2]
+constexpr double kSurround = 1e-5;
 constexpr double kLeastLight = 1e-5, kMostLight = 1e10;
 
 struct Reception {

@@ -35,7 +35,6 @@ std::string keyOf(const ReferenceRow& row) {
            row.text("ppd");
 }
 
-/// Returns the number in a text like "L=0.1".
 double numberAfter(const std::string& text) {
     return std::stod(text.substr(text.find('=') + 1));
 }

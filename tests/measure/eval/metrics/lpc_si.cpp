@@ -15,9 +15,9 @@ namespace {
 
 constexpr std::size_t kScales = 3;
 constexpr int kDirections = 8;
-constexpr double kAngleSpread = std::numbers::pi / kDirections / 1.5;  // [rad]
-constexpr double kRegularity = 2;                                      // C of eq. 33
-constexpr double kRankDecay = 1e-4;                                    // beta of eq. 34
+constexpr double kAngleSpread = std::numbers::pi / kDirections / 1.5;
+constexpr double kRegularity = 2;    // C of eq. 33
+constexpr double kRankDecay = 1e-4;  // beta of eq. 34
 
 using Complex = std::complex<double>;
 
@@ -203,7 +203,6 @@ double pooled(const cv::Mat& map) {
     return sum / weights;
 }
 
-/// Interpolates between sorted values: share 0 is the first value, share 1 the last.
 double quantile(const std::vector<double>& sorted, double share) {
     const double at = share * static_cast<double>(sorted.size() - 1);
     const auto i = static_cast<std::size_t>(at);

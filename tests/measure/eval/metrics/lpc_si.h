@@ -11,7 +11,6 @@ namespace mfar::eval {
 /// the release's.
 inline constexpr double kLpcRelease = 0.75, kLpcVariant = 0.33;
 
-/// Contribution of one of the eight orientations.
 struct LpcOrientation {
     std::array<double, 3> filterSum{};    ///< sum of the filter's gains at each scale, finest first
     double mean = 0, deviation = 0;       ///< of the amplitude at the finest scale, without border
@@ -38,7 +37,7 @@ struct LpcSharpness {
 struct LpcTiles {
     double p10 = 0, median = 0, p90 = 0;
 };
-inline constexpr int kLpcTiles = 8;          ///< number of tiles along each axis
+inline constexpr int kLpcTiles = 8;
 inline constexpr int kLpcSmallestSide = 32;  ///< smallest side of a picture or tile [px]
 [[nodiscard]] LpcTiles lpcTiles(const cv::Mat& picture, double sigmaRatio = kLpcRelease);
 

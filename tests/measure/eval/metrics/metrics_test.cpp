@@ -78,7 +78,7 @@ TEST(TilesBelow, CountsCompleteTilesMoreThanAQuarterGreyLevelWorseThanBicubic) {
     cv::Mat picture = truth - 3.2;  // 0.2 worse than bicubic: within the tolerance
     EXPECT_EQ(tilesBelow(picture, bicubic, truth), 0);
     picture(cv::Rect(64, 64, 64, 64)) = 96;
-    picture(cv::Rect(5 * 64, 0, 63, 129)) = 0;  // in an incomplete tile
+    picture(cv::Rect(5 * 64, 0, 63, 129)) = 0;
     picture(cv::Rect(0, 2 * 64, 64, 1)) = 0;
     EXPECT_DOUBLE_EQ(tilesBelow(picture, bicubic, truth), 0.1);
     EXPECT_EQ(tilesBelow(picture, bicubic, truth, 2), 0);

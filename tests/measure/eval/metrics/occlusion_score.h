@@ -4,7 +4,6 @@
 
 namespace mfar::eval {
 
-/// Agreement of the shown and the truly visible part of a virtual object.
 struct OcclusionScore {
     double overlap = 0;  ///< intersection over union, [0, 1]; NaN: both are empty
     /// Mean distance of the shown boundary from the true one [px]; NaN if one is empty.

@@ -84,8 +84,6 @@ cv::Mat areaAveraged(const cv::Mat& scene) {
     return out;
 }
 
-/// Bilinear interpolation along one axis, from `from` to `to` samples. Returns the index of the
-/// first of two samples, and the weight of the second in units of 1 / (2 `to`).
 std::pair<int, int> bilinearAt(int x, int from, int to) {
     const int at = std::clamp((2 * x + 1) * from - to, 0, 2 * to * (from - 1));
     return {std::min(at / (2 * to), from - 2), at - std::min(at / (2 * to), from - 2) * 2 * to};

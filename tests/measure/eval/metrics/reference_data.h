@@ -12,7 +12,6 @@ namespace mfar::eval::test {
 /// Folder of the metrics' reference data. It may be missing.
 [[nodiscard]] std::filesystem::path referenceFolder();
 
-/// A row of a table. Values are found by the name of their column.
 class ReferenceRow {
 public:
     explicit ReferenceRow(std::map<std::string, std::string> fields) : fields_(std::move(fields)) {}

@@ -8,7 +8,7 @@ namespace mfar::eval {
 /// Tells if a method knows where it is wrong (Ilg et al. 2018): the mean error of the remaining
 /// pixels while the most uncertain pixels are removed first.
 struct Sparsification {
-    static constexpr int kSteps = 100;  ///< number of steps in which all pixels are removed
+    static constexpr int kSteps = 100;
 
     std::vector<double> byConfidence;  ///< mean error of remaining pixels / of all pixels
     std::vector<double> byError;       ///< the same if the largest errors are removed first

@@ -4,8 +4,8 @@
 
 namespace mfar::eval {
 
-inline constexpr int kTileSide = 64;            ///< side of a tile [px]
-inline constexpr double kTileTolerance = 0.25;  ///< default of `tolerance` [grey levels]
+inline constexpr int kTileSide = 64;
+inline constexpr double kTileTolerance = 0.25;
 
 /// Share of the tiles that the method made visibly worse: their RMS error exceeds that of bicubic
 /// enlargement by more than `tolerance` grey levels. Incomplete tiles at the right and bottom are
