@@ -22,7 +22,7 @@ void writeFlow(const std::filesystem::path& file, cv::Size size = {24, 16}) {
     ASSERT_TRUE(cv::writeOpticalFlow(file.string(), cv::Mat(size, CV_32FC2, cv::Scalar(1, -2))));
 }
 
-TEST(FlowSamples, AFlowFileBelongsToTheFrameOfItsNumberAndTheNextFrame) {
+TEST(FlowSamples, AFlowFileLeadsFromTheFrameOfItsNumberToTheNextFrame) {
     const TempFolder folder;
     for (const char* name : {"frame07.png", "frame10.png", "frame12.png"})
         writePicture(folder / name);

@@ -25,7 +25,7 @@ FloatImage depthOf(Size size, float rho) {
     return {size, std::vector<float>(static_cast<std::size_t>(size.width) * size.height, rho)};
 }
 
-TEST(FlowTruth, LeadsToTheStillPixelThatShowsThePoint) {
+TEST(FlowTruth, FlowLeadsToTheStillPixelOfTheSamePoint) {
     const StereoRig rig = crookedRig();
     const RigidTransform motion{
         Eigen::Quaterniond(Eigen::AngleAxisd(0.02, Eigen::Vector3d(1, 1, 2).normalized())),
@@ -54,7 +54,7 @@ TEST(FlowTruth, LeadsToTheStillPixelThatShowsThePoint) {
     EXPECT_GT(known, 2000);
 }
 
-TEST(FlowTruth, IsZeroAtInfinityAndUnknownWithoutDepth) {
+TEST(FlowTruth, FlowIsZeroAtInfinityAndUnknownWithoutDepth) {
     StereoRig rig = crookedRig();
     FloatImage depth = depthOf(rig.video.size, 0);
     depth.at(40, 30) = kUnknown;
@@ -67,7 +67,7 @@ TEST(FlowTruth, IsZeroAtInfinityAndUnknownWithoutDepth) {
 
 /// A panel at 1 m covers columns 30 to 49 of a wall at 2 m. The still camera is 0.1 m to the right
 /// of the video camera.
-TEST(FlowTruth, PixelsOccludedOrOutsideInTheStillAreUnknown) {
+TEST(FlowTruth, FlowIsUnknownAtPixelsOccludedOrOutsideInTheStill) {
     StereoRig rig;
     rig.video = {{80, 60}, 100, 100, 39.5, 29.5, {}};
     rig.still = rig.video.scaledTo({240, 180});
@@ -110,7 +110,7 @@ TEST(FlowTruth, ASlantedSurfaceDoesNotOccludeItself) {
 
 /// flowOfInverseDepth() finds occluded pixels by projecting depth. Rays through the exact world
 /// must agree.
-TEST(FlowTruth, AgreesWithRaysThroughTheWorld) {
+TEST(FlowTruth, AgreesWithRaysThroughTheSyntheticScene) {
     using synthetic::Path;
     StereoRig rig = synthetic::boardRig();
     rig.video = rig.video.scaledTo({160, 120});

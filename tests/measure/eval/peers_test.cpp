@@ -29,7 +29,7 @@ cv::Mat texture(cv::Size size) {
     return out;
 }
 
-TEST(RigResample, OutputHasTheStillsWidthAndTheVideosShape) {
+TEST(RigResample, OutputHasTheStillsWidthAndTheVideosAspectRatio) {
     StereoRig rig = plainRig();
     rig.video.size = {640, 480};
     rig.still.size = {2304, 1536};
@@ -71,7 +71,7 @@ TEST(TwoWayConfidence, FallsLinearlyAndIsZeroWhereTheFlowLeavesThePicture) {
     EXPECT_EQ(twoWayConfidence(forward, backward, 0.25).at<float>(4, 3), 0);
 }
 
-TEST(PaperPipeline, AnIdenticalStillGivesItsDetail) {
+TEST(PaperPipeline, AStillOfTheSameViewAddsDetail) {
     const StereoRig rig = plainRig();
     const cv::Mat still = texture({480, 360});
     cv::Mat video, bicubic;
@@ -84,7 +84,7 @@ TEST(PaperPipeline, AnIdenticalStillGivesItsDetail) {
     EXPECT_GT(cv::mean(paper.confidence())[0], 0.9);
 }
 
-TEST(PaperPipeline, MatchesAShiftedStill) {
+TEST(PaperPipeline, AShiftedStillAddsDetail) {
     const StereoRig rig = plainRig();
     const cv::Mat scene = texture({540, 420});
     const cv::Mat truth = scene(cv::Rect(30, 30, 480, 360)).clone();

@@ -72,7 +72,7 @@ void writeRecording(const fs::path& root) {
     writeFile(root / "tags.toml", kTags);
 }
 
-TEST(MfarEvalPose, MeasuresARecording) {
+TEST(MfarEvalPose, MeasuresPosesOfARecording) {
     const TempFolder folder;
     writeRecording(folder / "tiny");
     const Outcome outcome =
@@ -122,7 +122,7 @@ TEST(MfarEvalPose, CountsTagsInPictures) {
         << broken.text;
 }
 
-TEST(MfarEvalPose, WrongRequestsEndWithOneLineAndStatus2) {
+TEST(MfarEvalPose, InvalidRequestsEndWithAMessageAndStatus2) {
     const TempFolder folder;
     writeRecording(folder / "bare");
     fs::remove(folder / "bare" / "tags.toml");

@@ -111,7 +111,7 @@ void writeStereo(const fs::path& root) {
             {{160, 120}, std::vector<float>(160 * 120, 0.5F)});
 }
 
-TEST(MfarEval, StereoFlowReportsItsPoseAndError) {
+TEST(MfarEval, FlowErrorGrowsWithDegradationAndPoseNoise) {
     const TempFolder folder;
     writeStereo(folder / "wall");
     const auto bad1 = [&](const std::string& options) {
@@ -142,7 +142,7 @@ TEST(MfarEval, StereoFlowReportsItsPoseAndError) {
     EXPECT_NE(off[2], other[2]);
 }
 
-TEST(MfarEval, StereoDepthMatchesTheWall) {
+TEST(MfarEval, EveryDepthMethodMeasuresAFlatWall) {
     const TempFolder folder;
     writeStereo(folder / "wall");
     const Outcome outcome = execute(folder, fmt::format("{0} depth {1}/wall --csv {1}/out.csv",
@@ -172,8 +172,7 @@ TEST(MfarEval, StereoDepthMatchesTheWall) {
     EXPECT_EQ(std::stod(readCsv(folder / "out.csv").at(1).at(6)), 0);  // no pose, no depth
 }
 
-// Without poses, the epipolar method must give the result of the 2-D method.
-TEST(MfarEval, PosesCanBeWithheldFromTheMethods) {
+TEST(MfarEval, WithoutPosesEpipolarFlowEqualsFlow2d) {
     const TempFolder folder;
     writeStereo(folder / "wall");
     const auto epe = [&](const std::string& source) {
@@ -191,7 +190,7 @@ TEST(MfarEval, PosesCanBeWithheldFromTheMethods) {
     EXPECT_EQ(none.second, recorded.second);
 }
 
-TEST(MfarEval, WrongRequestsEndWithOneLineAndStatus2) {
+TEST(MfarEval, InvalidRequestsEndWithAMessageAndStatus2) {
     const TempFolder folder;
     const std::string dir = folder.path().string();
     writeRecording(folder / "tiny", false);
@@ -236,7 +235,7 @@ TEST(MfarEval, WrongRequestsEndWithOneLineAndStatus2) {
     }
 }
 
-TEST(MfarEval, TruthOfAnotherSizeIsRefused) {
+TEST(MfarEval, ATruePictureOfAnotherSizeIsRefused) {
     const TempFolder folder;
     writeRecording(folder / "tiny", true);
     savePicture(folder / "tiny/truth/highres/1000.png", cv::Mat(400, 576, CV_8UC3, {1, 2, 3}));

@@ -12,7 +12,7 @@ Pose somePose(std::int64_t ns) {
     return {{ns}, {Eigen::Quaterniond(turn), {1, -2, 3}}};
 }
 
-TEST(PosesOf, PosesAreTheRecordedOnesWithinTheirTimeRange) {
+TEST(PosesOf, RecordedPosesAreUsedWithinTheirTimeRange) {
     Recording recording;
     recording.poses = {somePose(100), somePose(200)};
     const PosePair inside = posesOf(recording, {100}, {150});

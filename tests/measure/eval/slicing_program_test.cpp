@@ -63,7 +63,7 @@ TEST(MfarEvalSlicing, MeasuresAndPlotsEachSlicingMethod) {
     EXPECT_NE(svg.find("spatial-adaptive"), std::string::npos);
 }
 
-TEST(MfarEvalSlicing, WrongRequestsEndWithOneLineAndStatus2) {
+TEST(MfarEvalSlicing, InvalidRequestsEndWithAMessageAndStatus2) {
     const TempFolder folder;
     for (const char* arguments :
          {"--samples 0", "--budget nan", "--threads 0", "--width 0", "--frames 301"}) {

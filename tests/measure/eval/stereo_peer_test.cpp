@@ -106,7 +106,7 @@ TEST(Rectification, PutsEveryPointOnTheSameRowAndNearerPointsFartherLeft) {
             }
 }
 
-TEST(Rectification, LeavesPicturesThatAreRectifiedUnchanged) {
+TEST(Rectification, RectifiedPicturesStayUnchanged) {
     CameraModel camera = crookedPairRig().video;
     camera.distortion = {};
     camera.fy = camera.fx;

@@ -63,7 +63,7 @@ TEST(TriangulationOdd, WithoutABaselineAllFlowIsResidual) {
     EXPECT_NEAR(points[64 * 20 + 30].residual, 3, 1e-4);
 }
 
-TEST(TriangulationOdd, InvalidPosesGiveNoPoint) {
+TEST(TriangulationOdd, InvalidPosesGiveUnknownDepth) {
     const std::vector<float> flow(2UL * 64 * 48, -1.0F);
     for (const TriangulationMethod method : kBothMethods)
         for (const double value : {double(kNan), double(kInf), 1e300}) {
@@ -112,7 +112,7 @@ TEST(TriangulationOdd, DepthAtTheEpipoleIsUnknown) {
     }
 }
 
-TEST(TriangulationOdd, AFieldOfAnotherSizeIsRefused) {
+TEST(TriangulationOdd, AFlowOfAnotherSizeIsRefused) {
     const twin::TwoViews views = plainViews({});
     Triangulation stage(views.a, views.b);
     EXPECT_THROW(stage.run(std::vector<float>(64UL * 48), {}, {}), std::invalid_argument);

@@ -53,7 +53,7 @@ double inverseDepthOfMidpoint(const twin::TwoViews& v, const Vector2d& p, const 
     return twin::midpoint(v, p, f).inverseDepth;
 }
 
-TEST(Triangulation, AgreesWithinAMillionthDownToAHundredthOfADegreeOfParallax) {
+TEST(Triangulation, ErrorIsBelowAMillionthAtAHundredthOfADegreeOfParallax) {
     const RigidTransform motions[] = {moved(0, Vector3d::UnitX(), {-0.1, 0, 0}),
                                       moved(1, {1, 2, 3}, {0.02, 0.1, 0.03}),
                                       moved(10, {-1, 2, -2}, {-0.3, -0.05, 0.05})};
@@ -75,7 +75,7 @@ TEST(Triangulation, AgreesWithinAMillionthDownToAHundredthOfADegreeOfParallax) {
 }
 
 // The camera moves forward into the scene. Depth is unknown at the epipole itself.
-TEST(Triangulation, AgreesWithinATenThousandthAroundTheEpipole) {
+TEST(Triangulation, ErrorIsBelowATenThousandthAroundTheEpipole) {
     const twin::TwoViews views = bentViews(moved(3, {1, 1, 2}, {0.002, 0.003, -0.1}));
     const auto flow = fieldOf(views.a.size, [&](const Vector2d& p) { return views.flow(p, 0.5); });
     const Vector3d direction = views.T_b_a.inverse().translation;

@@ -24,7 +24,7 @@ TEST(DepthError, CountsWrongAndKnownPixels) {
     EXPECT_DOUBLE_EQ(error.completeness, 0.75);
 }
 
-TEST(DepthError, DeltaCountsRatiosInBothDirections) {
+TEST(DepthError, DeltaCountsTooLargeAndTooSmallDepths) {
     const cv::Mat truth(1, 5, CV_32F, cv::Scalar(1));
     const cv::Mat rho = (cv::Mat_<float>(1, 5) << 1.2F, 1 / 1.3F, 1.9F, 2, 0);
     const DepthError error = depthError(rho, truth, 10, everywhere(truth));
@@ -33,7 +33,7 @@ TEST(DepthError, DeltaCountsRatiosInBothDirections) {
     EXPECT_DOUBLE_EQ(error.delta[2], 0.6);  // 1.25^3 = 1.95
 }
 
-TEST(DepthSparsification, OrdersPixelsByVarianceWhereBothDepthsAreKnown) {
+TEST(DepthSparsification, OrdersPixelsWithKnownDepthByVariance) {
     const cv::Mat truth = (cv::Mat_<float>(1, 5) << 1, 1, 1, 1, kNan);
     const cv::Mat rho = (cv::Mat_<float>(1, 5) << 1.1F, 1.2F, 1.4F, 0, 9);
     const cv::Mat variance = (cv::Mat_<float>(1, 5) << 0.1F, 0.2F, 0.3F, kNan, kNan);

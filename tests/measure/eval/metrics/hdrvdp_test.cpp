@@ -73,7 +73,7 @@ TEST(HdrVdp, DifferencesBelowAThousandthAreInvisible) {
     EXPECT_LT(hdrVdp(light * 1.1, light, 30).q, 99);
 }
 
-TEST(HdrVdp, ResultIsIndependentOfThreads) {
+TEST(HdrVdp, ResultDoesNotDependOnTheNumberOfThreads) {
     const cv::Mat a = smoothNoise({64, 48}), b = cv::Mat(255 - a);
     const double together = q(a, b);
     const int threads = cv::getNumThreads();

@@ -53,7 +53,7 @@ TEST(Ssim, EqualPicturesScoreOne) {
     EXPECT_NEAR(ssim(noise(), noise()), 1, 1e-12);
 }
 
-TEST(Ssim, OfConstantPicturesOnlyTheLuminanceTermCounts) {
+TEST(Ssim, ForConstantPicturesOnlyTheLuminanceTermCounts) {
     const double c1 = 6.5025, x = 100, y = 150;
     EXPECT_NEAR(ssim(constant(x), constant(y)), (2 * x * y + c1) / (x * x + y * y + c1), 1e-9);
 }
@@ -111,7 +111,7 @@ TEST(FlowError, MeasuresEndPointErrorAndSharesOfWrongPixels) {
     EXPECT_DOUBLE_EQ(error.coverage, 1);
 }
 
-TEST(FlowError, AngleIsBetweenDirectionsInSpaceAndTime) {
+TEST(FlowError, AngularErrorIsMeasuredInSpaceAndTime) {
     const cv::Mat truth(1, 2, CV_32FC2, cv::Scalar(0, 0));
     cv::Mat flow = truth.clone();
     EXPECT_EQ(flowError(flow, truth).angular, 0);
