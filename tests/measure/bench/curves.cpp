@@ -104,7 +104,7 @@ Curve measure(const Knob& knob, const std::vector<CurveSample>& samples,
 }  // namespace
 
 Curves measureCurves(const std::vector<CurveSample>& samples, const ProgressPart& progress) {
-    if (samples.empty()) throw std::invalid_argument("there is no sample to measure the curves on");
+    if (samples.empty()) throw std::invalid_argument("the curves need at least one sample");
     Curves out;
     for (const CurveSample& sample : samples)
         out.samples.push_back(sample.name);

@@ -46,7 +46,9 @@ ParetoCommand::ParetoCommand(CLI::App& app)
                                   "run time against error: measures every setting of flow, "
                                   "super-resolution, depth, slicing and warp, and every peer, in "
                                   "turn in one run; each gives a point (median time, error)")) {
-    command_->add_option("--stages", stages_, fmt::format("of {}", fmt::join(stages_, ", ")))
+    command_
+        ->add_option("--stages", stages_,
+                     fmt::format("stages to measure, of: {}", fmt::join(stages_, ", ")))
         ->delimiter(',')
         ->check(CLI::IsMember(stages_));
     command_->add_option("--data", data_,
@@ -130,7 +132,7 @@ std::vector<ParetoStage> ParetoCommand::measure(const ProgressPart& progress) {
 
 void ParetoCommand::run(Progress& progress) {
     if (!table_.empty() && !wants("superres"))
-        throw eval::EvalError("--table FILE needs superres among the stages that --stages lists");
+        throw eval::EvalError("--table needs the stage superres; add it to --stages");
     const auto context = createGlContext();
     const std::vector<ParetoStage> stages = measure(ProgressPart(progress));
     progress.clear();

@@ -5,11 +5,13 @@
 namespace mfar::bench {
 
 ParetoStage warpStage(bool /*quick*/) {
-    throw eval::EvalError("this program was built without a path tracer");
+    throw eval::EvalError("--stages: warp needs the path tracer, but this program was built "
+                          "without it (Debian: libembree-dev)");
 }
 
 ParetoStage slicingStage(bool /*quick*/) {
-    throw eval::EvalError("this program was built without a path tracer");
+    throw eval::EvalError("--stages: slicing needs the path tracer, but this program was built "
+                          "without it (Debian: libembree-dev)");
 }
 
 }  // namespace mfar::bench

@@ -159,13 +159,15 @@ int run(int argc, char** argv) {
     CLI::App app("mfar-frame-work: measures the work of a frame, from which ./run board-report "
                  "predicts the speed on a board");
     Options o;
-    app.add_option("--engine", o.engine)->check(CLI::IsMember({"gles", "simd"}));
-    app.add_option("--case", o.shown)->check(CLI::IsMember({"moving", "rest"}));
+    app.add_option("--engine", o.engine, "engine of all steps")
+        ->check(CLI::IsMember({"gles", "simd"}));
+    app.add_option("--case", o.shown, "moving: every frame differs; rest: all frames are equal")
+        ->check(CLI::IsMember({"moving", "rest"}));
     app.add_option("--recording", o.recording,
                    "use the pictures and poses of this recording instead of synthetic ones");
-    app.add_option("--frames", o.frames)->check(CLI::Range(1, 1000));
-    app.add_option("--threads", o.threads)->check(CLI::Range(1, 64));
-    app.add_option("--width", o.width, "width of the output")->check(CLI::Range(64, 8192));
+    app.add_option("--frames", o.frames, "number of frames")->check(CLI::Range(1, 1000));
+    app.add_option("--threads", o.threads, "number of threads")->check(CLI::Range(1, 64));
+    app.add_option("--width", o.width, "width of the output [px]")->check(CLI::Range(64, 8192));
     app.add_flag("--time", o.time, "time each stage instead of counting its work");
     app.add_flag("--avx2", o.avx2,
                  "use no instruction set newer than AVX2, the newest of the emulator");

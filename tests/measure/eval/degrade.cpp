@@ -19,7 +19,8 @@ double parseNumber(const std::string& option, const std::string& part, const std
         used = 0;
     }
     if (used == 0 || used != text.size() || !std::isfinite(value))
-        throw std::invalid_argument(fmt::format("{}: '{}' has no valid number", option, part));
+        throw std::invalid_argument(fmt::format(
+            "{}: '{}' has no valid number; expected for example gain=0.7", option, part));
     return value;
 }
 
@@ -41,7 +42,9 @@ void assign(Degradation& out, const std::string& option, const std::string& part
         throw std::invalid_argument(
             fmt::format("{}: '{}' is unknown; expected gain, gamma, blur or noise", option, key));
     if (factor ? !(value > 0) : !(value >= 0))
-        throw std::invalid_argument(fmt::format("{}: '{}' is out of range", option, part));
+        throw std::invalid_argument(fmt::format(
+            "{}: '{}' is out of range; gain and gamma must be above 0, blur and noise at least 0",
+            option, part));
 }
 
 }  // namespace

@@ -113,7 +113,7 @@ TEST(DnnPeer, FilesThatAreNotModelsAreRefused) {
     const TempFolder folder;
     const std::string good = copiesToPixels(4);
     const std::pair<std::filesystem::path, std::string> cases[] = {
-        {folder / "absent_x2.pb", "a model's name is"},
+        {folder / "absent_x2.pb", "a model's file name must be"},
         {folder / "ESPCN_x2.pb", "no such file"},
         {write(folder / "EDSR_x2.pb", "these are words"), "cannot use this file"},
         {write(folder / "EDSR_x3.pb", ""), "cannot use this file"},

@@ -107,8 +107,9 @@ struct RecordedFlows {
         const RecordedImage* still = pictureAt(recording.stills, *to);
         const RecordedImage* video = pictureAt(recording.video, *to);
         if (!frame || (!still && !video))
-            throw EvalError(fmt::format(
-                "{}: the recording has no pictures of the two times in this name", truth.string()));
+            throw EvalError(
+                fmt::format("{}: the recording has no pictures at the two times in this file name",
+                            truth.string()));
         if (!still)
             toVideo.push_back(sampleOf(recording, *frame, *video, truth));
         else if (!showsOwnView(recording, still->time, frame->time))

@@ -92,7 +92,8 @@ std::string joined(const std::vector<std::string>& names) {
 void checkMethods(const std::vector<std::string>& asked, const std::vector<std::string>& valid) {
     for (const std::string& name : asked)
         if (std::find(valid.begin(), valid.end(), name) == valid.end())
-            throw EvalError(fmt::format("unknown method '{}' (valid: {})", name, joined(valid)));
+            throw EvalError(
+                fmt::format("--methods: unknown method '{}' (valid: {})", name, joined(valid)));
 }
 
 struct Options {

@@ -205,7 +205,7 @@ TEST(MfarEval, InvalidRequestsEndWithAMessageAndStatus2) {
         {"superres " + dir + "/tiny --degrade gain=0", "gain=0"},
         {"superres " + dir + "/tiny --classes --no-still", "--classes"},
         {"superres " + dir + "/truth --methods bicubic --dnn-model x4.pb",
-         "x4.pb: a model's name is"},
+         "x4.pb: a model's file name must be"},
         {"superres " + dir + "/tiny --degrade-video blur=-1", "--degrade-video: 'blur=-1'"},
         {"flow " + dir + "/absent", "no such folder"},
         {"flow " + dir + "/tiny", "no truth"},

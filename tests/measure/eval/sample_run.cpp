@@ -15,8 +15,9 @@ void setPoses(std::vector<FlowSample>& samples, const fs::path& folder, PoseSour
     if (source == PoseSource::Recorded) return;
     if (!fs::exists(folder / "cam0")) {
         if (source == PoseSource::Tags)
-            throw EvalError(fmt::format("{}: --poses tags needs a recording; this folder is none",
-                                        folder.string()));
+            throw EvalError(
+                fmt::format("{}: --poses tags needs a recording, but this folder has no cam0",
+                            folder.string()));
         return;
     }
     const Recording recording = loadRecording(folder);

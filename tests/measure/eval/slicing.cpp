@@ -93,7 +93,7 @@ Report evaluateSlicing(const SlicingRequest& request) {
     const auto next = [&](const char* what, const char* method) {
         request.progress.show(step++, kSteps, fmt::format("{} {}", what, method));
     };
-    next("true picture, with which all", "are compared");
+    next("tracing", "the true picture");
     const SlicedScene scene(request.size, request.truthSamples, request.threads);
     PlotPanel panel;
     panel.title = "balls and boxes with sun and environment";

@@ -209,7 +209,7 @@ private:
         const auto end = std::chrono::steady_clock::now() + kPatience;
         while (!layer_.rests()) {
             if (std::chrono::steady_clock::now() > end)
-                throw EvalError("the path tracer does not finish its picture");
+                throw EvalError("the path tracer did not finish its work within 20 s");
             std::this_thread::sleep_for(std::chrono::microseconds(200));
         }
         if (const auto error = layer_.takeError()) throw EvalError(*error);
@@ -365,7 +365,7 @@ Report evaluateTraced(const TracedRequest& request) {
     constexpr int kLeastSide = 17;  // smallest side of pictures for HDR-VDP-2 [px]
     if (request.hdrVdp && std::min(request.size.width, request.size.height) < kLeastSide)
         throw EvalError(
-            fmt::format("--hdrvdp needs layers of at least {0}x{0} pixels", kLeastSide));
+            fmt::format("--hdrvdp needs --width and --height of at least {} px", kLeastSide));
     Report report(tracedColumns(request.hdrVdp));
     const std::size_t scenes = request.scenes.size(), paths = request.paths.size();
     for (std::size_t s = 0; s < scenes; ++s)

@@ -59,7 +59,8 @@ std::shared_ptr<const Scene> warpScene(const std::string& name) {
     if (name == "still-life") return render_scenes::stillLife();
     if (name == "showpiece") return std::make_shared<const Scene>(sceneOf(showpiece()));
     if (!std::filesystem::exists(name))
-        throw EvalError(fmt::format("there is no scene or file '{}'", name));
+        throw EvalError(
+            fmt::format("'{}' is neither a scene (still-life, showpiece) nor a glTF file", name));
     try {
         return std::make_shared<const Scene>(sceneOf(loadGltf(name)));
     } catch (const ModelError& e) {

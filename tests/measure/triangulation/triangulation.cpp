@@ -184,7 +184,7 @@ const std::vector<TriangulatedPoint>& Triangulation::run(std::span<const float> 
                                                          const RigidTransform& T_b_a,
                                                          const TriangulationOptions& options) {
     if (flow.size() != 2 * points_.size())
-        throw std::invalid_argument("flow does not have the size of the view");
+        throw std::invalid_argument("the flow must have two numbers for each pixel of view a");
     const Motion motion(T_b_a);
     const PixelDepth depth(b_, motion, options);
     const Vector2f focal(static_cast<float>(b_.fx), static_cast<float>(b_.fy));
