@@ -17,7 +17,7 @@ struct CurveSample {
     [[nodiscard]] bool hasPoses() const { return frame.pose && still.pose; }
 };
 
-/// Loads the first `most` samples that mfar-eval flow accepts from each folder. Throws EvalError,
+/// Loads at most `most` samples from each folder, as mfar-eval flow does. Throws EvalError,
 /// RecordingError and ImageFileError.
 [[nodiscard]] std::vector<CurveSample>
 curveSamplesOf(const std::vector<std::filesystem::path>& folders, std::size_t most);

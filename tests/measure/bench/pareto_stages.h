@@ -43,7 +43,7 @@ struct DepthSample {
     CurveSample shots;
     cv::Mat inverseDepth;  ///< CV_32F [1/m]; NaN: unknown, or occluded in the still
 };
-/// Loads the first `most` samples that mfar-eval depth accepts from each folder. Throws EvalError,
+/// Loads at most `most` samples from each folder, as mfar-eval depth does. Throws EvalError,
 /// RecordingError and ImageFileError.
 [[nodiscard]] std::vector<DepthSample>
 depthSamplesOf(const std::vector<std::filesystem::path>& folders, std::size_t most);

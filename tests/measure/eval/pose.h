@@ -20,8 +20,8 @@ struct PoseRequest {
     ProgressPart progress{};
 };
 
-/// Names of the product's poses. filtered: of a frame, from the filter; raw: of a frame, from its
-/// own tags only; still: of a still, from its own tags.
+/// Names of the product's poses. filtered: pose of a frame from the filter; raw: pose of a frame
+/// from its own tags only; still: pose of a still from its own tags.
 [[nodiscard]] const std::vector<std::string>& poseMethodNames();
 
 /// Columns without a meaning for a folder stay empty. The last rows are the means, and the medians

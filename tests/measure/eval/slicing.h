@@ -14,7 +14,7 @@ struct SlicingRequest {
     int truthSamples = 512;
     double budgetMs = 4;
     int frames = 300;
-    int threads = 2;            ///< for `frames` and for the truth; otherwise one thread
+    int threads = 2;            ///< threads for the frames under the budget and for the truth
     std::filesystem::path svg;  ///< plot of error against time; empty: not written
     ProgressPart progress{};
 };

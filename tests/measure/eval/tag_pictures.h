@@ -31,7 +31,7 @@ struct TagPictureFile {
 struct TagScore {
     double ms = 0;
     double cornerPx = 0;
-    int found = 0;  ///< found tags: same id, centre closer than half an edge
+    int found = 0;  ///< tags found with the same id and a centre closer than half an edge
     int missed = 0;
     int wrong = 0;
 };

@@ -20,8 +20,8 @@
 namespace mfar::eval {
 namespace {
 
-// Number of frames per view. In their course, pixels without a rendered sample and pixels at edges
-// are traced.
+// Number of frames per view. Meanwhile, pixels without a rendered sample and pixels at edges are
+// traced.
 constexpr int kFrames = 12;
 constexpr double kInpaintRadius = 3;
 

@@ -132,9 +132,9 @@ private:
         return d > 0 ? along / d : 0;
     }
 
-    /// Inverse depth of the midpoint of the shortest line between both rays, as in the paper: P =
-    /// A[R|t] = [Q|q~], c = -Q^-1 q~, w = c + lambda Q^-1 m. The common normal of the rays gives
-    /// the ends of the line; u gives the normal without cancellation.
+    /// Inverse depth of the midpoint of the shortest line between both rays, as in the paper. The
+    /// ends of the line follow from the common normal of the rays, which `u` gives without
+    /// cancellation.
     [[nodiscard]] static float fromMidpoint(const Parallax& s) {
         const Vector3f n(-s.u.y(), s.u.x(), crossOf(s.ray, s.u));
         const Vector3f first = s.ray.homogeneous();
