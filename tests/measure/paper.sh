@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Measures what the paper claims and writes one page with numbers and figures: paper.md.
-# Usage: paper.sh BUILD-FOLDER OUTPUT-FOLDER [--quick]. --quick: tiny pictures, to check that it runs.
+# Measures what the paper claims, and writes a page with numbers and figures: paper.md.
+# Usage: paper.sh BUILD-FOLDER OUTPUT-FOLDER [--quick]. --quick measures tiny pictures only.
 set -euo pipefail
 build=$1
 out=$2
@@ -20,8 +20,7 @@ fi
 rm -rf "$out"
 mkdir -p "$out"
 
-# measured FILE COMMAND...: runs COMMAND. Its table is written to FILE, its messages to the
-# terminal.
+# measured FILE COMMAND...: runs COMMAND and writes its table to FILE.
 measured() {
     local file=$out/$1
     shift

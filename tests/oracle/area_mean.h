@@ -9,8 +9,8 @@
 
 namespace mfar::twin {
 
-/// Mean colour of a picture over the area [lo, hi) in x and y. `colour(x, y)` gives the three
-/// channels of a pixel; positions outside the picture repeat its edge.
+/// Mean colour of a picture over the area [lo, hi) in x and y. `colour(x, y)` returns the three
+/// channels of a pixel. Positions outside the picture repeat its edge.
 template <class Colour>
 std::array<double, 3> areaMean(Size size, Colour colour, std::array<double, 2> lo,
                                std::array<double, 2> hi) {
@@ -29,8 +29,8 @@ std::array<double, 3> areaMean(Size size, Colour colour, std::array<double, 2> l
     return sum;
 }
 
-/// Oracle of display_scale.frag: colour of the screen's pixel (x, y), counted from the corner of
-/// the rectangle `to`, which a picture of this size fills.
+/// Oracle of display_scale.frag: a picture of this size is scaled to the rectangle `to` of the
+/// screen. Returns the colour of pixel (x, y) of the rectangle.
 template <class Colour>
 std::array<double, 3> scaledPixel(Size size, Colour colour, const ScreenRect& to, int x, int y) {
     const double sx = double(size.width) / to.size.width;

@@ -8,12 +8,10 @@
 #include <cmath>
 #include <numbers>
 
-/// Oracle of the learned enlarger in double precision: the classes of pixels, and the residual
-/// (what learned filters add to Keys' cubic) on the grid of sub-pixels and at another size.
-/// Pictures are luma in grey levels.
+/// Oracle of the learned enlarger in double precision. Pictures are luma in grey levels. The
+/// residual is what learned filters add to Keys' cubic.
 namespace mfar::twin {
 
-/// A class, and the distance of the classified values from the nearest threshold between classes.
 struct Classified {
     int number;
     double margin;
@@ -21,7 +19,6 @@ struct Classified {
 
 class Thresholds {
 public:
-    /// Number of thresholds that are at most `value`.
     template <class Range>
     int count(double value, const Range& from) {
         int out = 0;
@@ -77,7 +74,6 @@ inline Classified curvatureClass(const Grey& g, int x, int y) {
     return {(bin * 7 + laplacian) * 4 + difference, t.margin()};
 }
 
-/// Smallest and largest of the 5x5 pixels around a pixel.
 inline std::array<double, 2> rangeAround(const Grey& g, int x, int y) {
     std::array<double, 2> out{1e9, -1e9};
     for (int j = -2; j <= 2; ++j)
@@ -86,8 +82,6 @@ inline std::array<double, 2> rangeAround(const Grey& g, int x, int y) {
     return out;
 }
 
-/// The learned residual at one sub-pixel (`phase`) of pixel (x, y), whose classes are `gradient`
-/// and `curvature`.
 inline double residualAt(const Grey& g, int x, int y, int phase, int gradient, int curvature,
                          const FilterBank& bank) {
     const auto scale = double(enlarge::kWeightScale);
@@ -104,7 +98,6 @@ inline double residualAt(const Grey& g, int x, int y, int phase, int gradient, i
     return std::clamp(sum + up, low - more - here, high + more - here) - up;
 }
 
-/// The residual on a grid of 4x4 sub-pixels per pixel.
 inline Grey residualGrid(const Grey& g, const FilterBank& bank) {
     constexpr int kGrid = enlarge::kGrid;
     Grey out{{kGrid * g.size.width, kGrid * g.size.height}, {}};
@@ -120,7 +113,6 @@ inline Grey residualGrid(const Grey& g, const FilterBank& bank) {
     return out;
 }
 
-/// The learned residual of `g` at the size `to`, interpolated linearly between sub-pixels.
 inline Grey learnedResidual(const Grey& g, Size to, const FilterBank& bank) {
     return enlarged(residualGrid(g, bank), to, true);
 }

@@ -10,18 +10,18 @@
 #include <functional>
 #include <vector>
 
-/// Oracle of the comparison of the video's finest detail with that of a still.
+/// Oracle of the comparison of the video's finest detail with the finest detail of a still.
 namespace mfar::twin {
 
 struct FineCase {
     Grey video;
-    /// Value of the still at the position to which the flow leads from (x, y) [video px].
+    /// Value of the still at the position to which the flow leads from video pixel (x, y).
     std::function<double(double x, double y)> still;
-    std::function<bool(int x, int y)> isMatched;  ///< whether the cell (x, y) is matched
+    std::function<bool(int x, int y)> isMatched;  ///< true if cell (x, y) is matched
 };
 
-/// Variance of the video, covariance of video and still, and variance of the still. Computed from
-/// the two blocks of 2x2 pixels in the middle two rows of a cell.
+/// Returns variance of the video, covariance of video and still, and variance of the still. They
+/// are computed from the two blocks of 2x2 pixels in the middle two rows of a cell.
 inline Eigen::Vector3d fineSums(const FineCase& in, int cellX, int cellY) {
     Eigen::Vector3d out = Eigen::Vector3d::Zero();
     const Size size = in.video.size;
@@ -43,7 +43,7 @@ inline Eigen::Vector3d fineSums(const FineCase& in, int cellX, int cellY) {
     return out;
 }
 
-/// For each cell, row by row, the share of its weight that remains after the comparison.
+/// Returns for each cell, row by row, the share of its weight that remains after the comparison.
 inline std::vector<double> fineShares(const FineCase& in, Size cells, const FineMatch& match) {
     std::vector<Eigen::Vector3d> sums;
     for (int y = 0; y < cells.height; ++y)
@@ -53,8 +53,7 @@ inline std::vector<double> fineShares(const FineCase& in, Size cells, const Fine
     for (int y = 0; y < cells.height; ++y)
         for (int x = 0; x < cells.width; ++x) {
             Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-            // Only even rows of cells are sampled. An odd row uses the even rows above and below
-            // it.
+            // Only even rows of cells are sampled. Odd rows use the even rows above and below them.
             const int above = y - y % 2, below = std::min(y + y % 2, (cells.height - 1) / 2 * 2);
             for (int i = x - 1; i <= x + 1; ++i)
                 for (const int j : {above, below})

@@ -8,12 +8,11 @@
 #include <cmath>
 #include <vector>
 
-/// Oracles of the luma passes, in double precision.
 namespace mfar::twin {
 
-// Parameters of the finest pyramid level. kSmoothing: weight of each of both neighbours on an axis.
-// kBoxWidening: factor by which a pixel's box is widened, so that its variance is that of the box
-// and this smoothing together.
+// kSmoothing: filter weight of each of the two neighbours along an axis, at the finest pyramid
+// level. kBoxWidening widens a box filter so that it has the variance of box and smoothing
+// together.
 inline constexpr double kSmoothing = params::kLumaSmoothing;
 inline const double kBoxWidening = std::sqrt(1 + 12 * 2 * kSmoothing);
 using params::kFootprintTaps;
@@ -49,8 +48,7 @@ inline double centre(int x, int from, int to) {
     return (x + 0.5) * from / to - 0.5;
 }
 
-/// Largest difference between a picture and rows of bytes. The picture's values are clamped to [0,
-/// 255] first.
+/// Largest absolute difference between `wanted`, clamped to [0, 255], and rows of bytes.
 template <class Row>
 double worst(const Grey& wanted, const Row& rows) {
     double out = 0;
@@ -70,7 +68,6 @@ inline Grey luma(const ImageView& v) {
     });
 }
 
-/// Finest level of the pyramid of a video frame, not rounded.
 inline Grey smoothed(const Grey& g) {
     const double weight[3] = {kSmoothing, 1 - 2 * kSmoothing, kSmoothing};
     return greyOf(g.size, [&](int x, int y) {
@@ -90,15 +87,15 @@ inline Grey halved(const Grey& g) {
     });
 }
 
-/// Position in the still that shows what a video pixel shows, for a point at infinity.
+/// Position in the still of the infinitely distant point that a video pixel shows.
 inline Eigen::Vector2d stillPixel(const StereoRig& rig, const Eigen::Vector2d& videoPixel) {
     const Eigen::Vector3d ray =
         rig.T_still_video.rotation * rig.video.unproject(videoPixel).homogeneous();
     return rig.still.project(ray.hnormalized());
 }
 
-/// The still in the video's geometry: the mean over the footprint of a video pixel, widened by
-/// kBoxWidening.
+/// Resamples the still to the video's pixels. Each is the mean over its footprint in the still,
+/// widened by kBoxWidening.
 inline Grey lumaFromStill(const Grey& still, const StereoRig& rig) {
     const double footprint = kBoxWidening * rig.still.fx / rig.video.fx;
     return greyOf(rig.video.size, [&](int x, int y) {

@@ -5,7 +5,8 @@
 
 #include <Eigen/Dense>
 
-/// Oracle of the comparison of 8x8 patches in patch.glsl and in the kernels, in double precision.
+/// Oracle, in double precision, of the comparison of 8x8 patches in patch.glsl and in the SIMD
+/// kernels.
 namespace mfar::twin {
 
 struct PatchMatch {
@@ -15,7 +16,7 @@ struct PatchMatch {
 
 using Patch = Eigen::Matrix<double, 64, 1>;
 
-/// Compares the 8x8 patch around cell (cx, cy) of `a` with the pixels `vb` of the other picture.
+/// Compares the 8x8 patch of `a` around cell (cx, cy) with 8x8 pixels `vb` of another picture.
 inline PatchMatch matchPatch(const Grey& a, int cx, int cy, Patch vb) {
     const int x0 = 4 * cx - 2, y0 = 4 * cy - 2;
     Patch va;
@@ -43,7 +44,7 @@ inline PatchMatch matchPatch(const Grey& a, int cx, int cy, Patch vb) {
     return m;
 }
 
-/// Like matchPatch(), but with the patch of `b` that is displaced by u.
+/// Compares the patch of `a` around cell (cx, cy) with the patch of `b` that is displaced by `u`.
 inline PatchMatch comparePatch(const Grey& a, const Grey& b, int cx, int cy, Eigen::Vector2d u) {
     const double bx = std::clamp(4 * cx - 2 + u.x(), -7.0, b.size.width - 2.0);
     const double by = std::clamp(4 * cy - 2 + u.y(), -7.0, b.size.height - 2.0);
@@ -55,8 +56,8 @@ inline PatchMatch comparePatch(const Grey& a, const Grey& b, int cx, int cy, Eig
     return matchPatch(a, cx, cy, vb);
 }
 
-/// Like comparePatch(), but the flow changes by dx and dy per pixel. `span` neighbouring pixels of
-/// a row share one sub-pixel position.
+/// Like comparePatch(), but the flow changes by `dx` and `dy` per pixel. Groups of `span`
+/// neighbouring pixels in a row share one sub-pixel position.
 inline PatchMatch compareBentPatch(const Grey& a, const Grey& b, int cx, int cy,
                                    const Eigen::Vector2d& u, const Eigen::Vector2d& dx,
                                    const Eigen::Vector2d& dy, int span = 4) {

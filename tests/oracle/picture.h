@@ -8,7 +8,6 @@
 
 namespace mfar {
 
-/// A picture that owns its pixels.
 struct TestPicture {
     TestPicture() = default;
     explicit TestPicture(Size s, PixelFormat f = PixelFormat::Rgba8, std::uint8_t fill = 0)

@@ -13,48 +13,45 @@
 namespace mfar::twin {
 
 struct TileChange {
-    /// For each cell of the tile, row by row: mean difference and mean absolute difference, each of
-    /// the channel in which it is largest.
+    /// Absolute mean difference and mean absolute difference of each cell, row by row. Each is the
+    /// largest value over the channels.
     std::array<double, 16> mean{}, absolute{};
-    double cellNoise = 0;  ///< variance of a cell's mean, in the noisiest channel
-    double noise = 0;      ///< standard deviation of the luma's noise [grey levels]
-    /// Squared mean and slopes of the difference over their variance, of the channel in which this
-    /// is largest.
+    double cellNoise = 0;
+    double noise = 0;  ///< standard deviation of the luma's noise [grey levels]
+    /// Sum of the squared mean and the squared slopes of the difference, divided by their variance.
+    /// Maximum over the channels.
     double moments = 0;
-    /// Mean squares of three measures of the luma's difference: the twist of pixels, 2x2 means, and
-    /// the twist of 2x2 means. They are scaled so that each equals a pixel's variance for white
-    /// noise.
+    /// Mean squares of three measures of the luma's difference: twist of pixels, 2x2 means, twist
+    /// of 2x2 means. For white noise, each equals the variance of a pixel.
     std::array<double, 3> energy{};
-    /// Mean square of the luma's 2x2 means, after a plane is fitted to each 8x8 pixels and
-    /// subtracted.
+    /// Squared residuals of a plane that is fitted to the luma's 2x2 means in 8x8 pixels. Their
+    /// sum, averaged over nine such windows.
     double structure = 0;
 };
 
-/// Picture `now` minus picture `drawn`; 0 outside them.
 struct Difference {
     const TestPicture &now, &drawn;
 
-    /// Difference of one colour: red, green or blue.
+    /// `colour`: 0 red, 1 green, 2 blue.
     [[nodiscard]] double of(int x, int y, int colour) const {
         if (x >= now.size.width || y >= now.size.height) return 0;
         const std::size_t i = 4 * (static_cast<std::size_t>(y) * now.size.width + x) + colour;
         return double(now.bytes[i]) - drawn.bytes[i];
     }
-    /// Difference of one channel: red, luma or blue.
+    /// `channel`: 0 red, 1 luma, 2 blue.
     [[nodiscard]] double at(int x, int y, int channel) const {
         if (channel != 1) return of(x, y, channel);
         return double{params::kLumaRed} * of(x, y, 0) + double{params::kLumaGreen} * of(x, y, 1) +
                double{params::kLumaBlue} * of(x, y, 2);
     }
-    /// Mean over size x size pixels.
     [[nodiscard]] double mean(int x, int y, int size, int channel) const {
         double sum = 0;
         for (int i = 0; i < size * size; ++i)
             sum += at(x + i % size, y + i / size, channel);
         return sum / (size * size);
     }
-    /// Twist of a block of 2x2 values, each of which is the mean of size x size pixels. The twist
-    /// is the sum of one diagonal minus that of the other.
+    /// Twist of 2x2 values, each of which is the mean of size x size pixels: half the difference
+    /// between the sums of the two diagonals.
     [[nodiscard]] double twist(int x, int y, int size, int channel) const {
         return (mean(x, y, size, channel) - mean(x + size, y, size, channel) -
                 mean(x, y + size, size, channel) + mean(x + size, y + size, size, channel)) /
@@ -87,8 +84,7 @@ inline void driftOf(const Difference& d, int x0, int y0, double grain, TileChang
         out.energy[2] += 4 * std::pow(d.twist(x0 + 4 * (i % 4), y0 + 4 * (i / 4), 2, 1), 2) / 16;
 }
 
-/// Sum of the squared differences of 4x4 means from a plane that is fitted to them by least
-/// squares.
+/// Fits a plane to 4x4 values by least squares. Returns the sum of the squared residuals.
 inline double besidePlane(const std::array<double, 16>& v) {
     double mean = 0, dx = 0, dy = 0, out = 0;
     for (int i = 0; i < 16; ++i) {
@@ -118,7 +114,7 @@ inline double structureOf(const Grey& grey, int x0, int y0) {
     return out;
 }
 
-/// Change of the tile (tileX, tileY) from picture `drawn` to `now`, whose luma is `grey`.
+/// Change of the tile (tileX, tileY) from picture `drawn` to picture `now`. `grey`: luma of `now`.
 inline TileChange tileChange(const TestPicture& now, const TestPicture& drawn, const Grey& grey,
                              int tileX, int tileY, double grain = 1) {
     TileChange out;
@@ -147,8 +143,8 @@ inline TileChange tileChange(const TestPicture& now, const TestPicture& drawn, c
     return out;
 }
 
-/// Thresholds above which a tile counts as changed: for a cell's mean difference, and for its mean
-/// absolute difference.
+/// A tile counts as changed if a cell's absolute mean difference or its mean absolute difference
+/// exceeds these bounds.
 struct ChangeBounds {
     double mean, absolute;
     static constexpr double kMoments = 40, kCell = 30;
@@ -173,8 +169,8 @@ struct ChangeBounds {
     }
 };
 
-/// Sums the energies of tiles without a sure change and subtracts those of noise. If the result is
-/// above 0, the tiles changed.
+/// Sums the differences of tiles without a sure change. The tiles changed if beyondNoise() is above
+/// 0.
 class Drift {
 public:
     void add(const TileChange& t) {
@@ -203,7 +199,7 @@ inline bool reaches(const TileChange& t, const ChangeBounds& bounds, int x, int 
     return false;
 }
 
-/// Whether each tile changed, row by row; empty where rounding decides.
+/// For each tile, row by row: true if it changed, empty if only rounding decides.
 inline std::vector<std::optional<bool>> changedTiles(const std::vector<TileChange>& tiles,
                                                      int columns, const ChangeBounds& bounds) {
     constexpr int kBlock = 8;

@@ -10,7 +10,7 @@
 
 namespace mfar::twin {
 
-/// A field of cells with flow (x, y), cost and texture. Cells outside it repeat the border.
+/// Grid of cells with flow (x, y), cost and texture. Positions outside it repeat the border cells.
 struct FlowCells {
     const std::vector<std::array<float, 4>>& values;
     int width, height;
@@ -21,7 +21,6 @@ struct FlowCells {
     }
 };
 
-/// Median of each component of the flow over 3x3 cells.
 inline Eigen::Vector2d medianAround(const FlowCells& cells, int x, int y) {
     Eigen::Vector2d out;
     for (int component = 0; component < 2; ++component) {
@@ -34,7 +33,7 @@ inline Eigen::Vector2d medianAround(const FlowCells& cells, int x, int y) {
     return out;
 }
 
-/// A plane through the flow. Its columns are: flow at the cell, change per column of cells, change
+/// Plane through the flow. Columns: flow at the cell, its change per column of cells, its change
 /// per row of cells.
 using Plane = Eigen::Matrix<double, 2, 3>;
 

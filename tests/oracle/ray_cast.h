@@ -7,11 +7,11 @@
 #include <optional>
 #include <vector>
 
-/// Virtual objects as exact surfaces. The ray of each pixel is computed with the lens.
+/// Oracle of the depth of virtual objects. Intersects exact surfaces with the ray of each pixel
+/// through the lens.
 namespace mfar::twin {
 
-/// Distance along the ray to its first intersection with the object beyond `least`, in units of the
-/// ray's direction.
+/// Smallest t above `least` at which origin + t * direction meets the object.
 inline std::optional<double> hit(const VirtualObject& o, const Eigen::Vector3d& origin,
                                  const Eigen::Vector3d& direction, double least) {
     const RigidTransform T_object_world = o.T_world_object.inverse();
@@ -39,7 +39,7 @@ inline std::optional<double> hit(const VirtualObject& o, const Eigen::Vector3d& 
     return {};
 }
 
-/// z of each pixel [m]; 0: no surface.
+/// Depth z of each pixel [m]; 0 if the pixel shows no surface.
 struct DepthPicture {
     Size size;
     std::vector<double> z;
@@ -49,7 +49,6 @@ struct DepthPicture {
         y = std::clamp(y, 0, size.height - 1);
         return z[static_cast<std::size_t>(y) * size.width + x];
     }
-    /// Minimum and maximum over the pixel and its eight neighbours.
     [[nodiscard]] std::array<double, 2> around(int x, int y) const {
         std::array<double, 2> range{at(x, y), at(x, y)};
         for (int i = 0; i < 9; ++i) {

@@ -2,12 +2,13 @@
 
 #include "tests/oracle/upscale.h"
 
-/// Oracle of the preparation of a still and of its contribution to a frame, in double precision and
-/// grey levels.
+/// Oracle, in double precision, of how a still is prepared and what it contributes to a frame.
+/// Values are grey levels.
 namespace mfar::twin {
 
-/// Samples at(x, y) with a grid of pixels: a pixel is the mean of 4x4 samples that are a quarter of
-/// footprintX and footprintY pixels apart. The centre of the first pixel is (0.5, 0.5).
+/// Samples the function at(x, y), whose unit is a pixel of `grid`. A pixel is the mean of 4x4
+/// samples in an area of footprintX x footprintY pixels. The centre of the first pixel is (0.5,
+/// 0.5).
 template <class At>
 Grey seen(Size grid, const At& at, double footprintX = params::kSeen,
           double footprintY = params::kSeen) {
@@ -22,8 +23,8 @@ Grey seen(Size grid, const At& at, double footprintX = params::kSeen,
     });
 }
 
-/// Like seen(), for a warped still of the output's size. Its linear look-ups widen the footprint;
-/// so a smaller footprint is used, which gives the same variance.
+/// Like seen(), for a warped still of the output's size. Bilinear look-ups widen the footprint, so
+/// a smaller one is used that gives the same variance.
 inline Grey seenOf(const Grey& warped, Size video) {
     const double stepX = static_cast<double>(warped.size.width) / video.width,
                  stepY = static_cast<double>(warped.size.height) / video.height;
@@ -38,8 +39,7 @@ inline Grey seenOf(const Grey& warped, Size video) {
         footprint(stepX), footprint(stepY));
 }
 
-/// Luma whose finest detail is amplified. `neighbours`: weight of each of a pixel's four
-/// neighbours.
+/// Amplifies the finest detail of luma. `neighbours`: weight of each of a pixel's four neighbours.
 inline Grey raised(const Grey& luma, double neighbours) {
     return greyOf(luma.size, [&](int x, int y) {
         const double beside =
@@ -48,7 +48,7 @@ inline Grey raised(const Grey& luma, double neighbours) {
     });
 }
 
-/// Reduces with a tent filter along both axes. The tent is two result pixels wide.
+/// Reduces a picture along both axes with a tent filter that is two result pixels wide.
 inline Grey reduced(const Grey& g, Size to) {
     const auto along = [](int from, int wanted, int i, const auto& valueAt) {
         const double scale = static_cast<double>(from) / wanted, at = centre(i, from, wanted);

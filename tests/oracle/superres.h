@@ -8,10 +8,8 @@
 
 #include <array>
 
-/// Oracles of the passes that weigh the still and classify tiles.
 namespace mfar::twin {
 
-/// A field of cells with four channels. Cells outside it repeat the border.
 struct Cells {
     Size size;
     std::vector<float> values;
@@ -59,8 +57,8 @@ inline double smoothstep(double low, double high, double v) {
     return t * t * (3 - 2 * t);
 }
 
-/// The weight of a cell. `statistics`: covariance of video and still, variance of the video,
-/// variance of the still, confidence. `half`: the same at half the resolution.
+/// Weight of a cell. Channels of `statistics`: covariance of video and still, variance of the
+/// video, variance of the still, confidence. `half` holds the statistics at half the resolution.
 inline Weight weigh(const Cells& flow, const Cells& statistics, const Cells& half, int x, int y,
                     double sigma) {
     Eigen::Vector4d s = Eigen::Vector4d::Zero(), h = Eigen::Vector4d::Zero();

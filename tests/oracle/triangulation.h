@@ -6,14 +6,12 @@
 
 #include <optional>
 
-/// Oracles of the triangulation, in double precision.
 namespace mfar::twin {
 
 inline double cross2(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
     return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Two views of a scene at rest.
 struct TwoViews {
     CameraModel a, b;
     RigidTransform T_b_a;
@@ -21,20 +19,19 @@ struct TwoViews {
     [[nodiscard]] Eigen::Vector2d rayA(const Eigen::Vector2d& pixel) const {
         return a.unproject(pixel);
     }
-    /// Ray Q^-1 m of a pixel of b, in the frame of a, scaled to z = 1.
+    /// Ray of a pixel of camera b, in the frame of camera a, scaled to z = 1.
     [[nodiscard]] Eigen::Vector3d rayB(const Eigen::Vector2d& pixel) const {
         const Eigen::Vector3d ray =
             T_b_a.rotation.conjugate() * b.unproject(pixel).homogeneous().eval();
         return ray / ray.z();
     }
-    /// Flow of the point that a shows at `pixel`, at inverse depth `rho`: its position in b minus
-    /// `pixel`.
+    /// Flow from `pixel` of a to b, for a point at inverse depth `rho`.
     [[nodiscard]] Eigen::Vector2d flow(const Eigen::Vector2d& pixel, double rho) const {
         const Eigen::Vector3d point =
             T_b_a.rotation * rayA(pixel).homogeneous().eval() + rho * T_b_a.translation;
         return b.project(point.hnormalized()) - pixel;
     }
-    /// The translation between the views after the rotation is removed.
+    /// Translation of T_b_a, rotated into the frame of a.
     [[nodiscard]] Eigen::Vector3d baseline() const {
         return T_b_a.rotation.conjugate() * T_b_a.translation;
     }
@@ -51,7 +48,7 @@ struct FlowDepth {
 };
 
 /// Inverse depth rho = (u . e) / (|e|^2 - b_z (u . e)), its standard deviation, and the component
-/// of the flow that is normal to e.
+/// of the flow normal to e. u: flow in normalised coordinates; e: line(); b: baseline().
 inline FlowDepth depthFromFlow(const TwoViews& views, const Eigen::Vector2d& pixel,
                                const Eigen::Vector2d& flow, double flowSigma) {
     const double focal = std::sqrt(views.b.fx * views.b.fy);
@@ -64,11 +61,10 @@ inline FlowDepth depthFromFlow(const TwoViews& views, const Eigen::Vector2d& pix
 
 struct Midpoint {
     double inverseDepth, rayDistance;
-    bool ahead;  ///< the point is in front of both cameras
+    bool ahead;
 };
 
-/// The paper's method: the midpoint of the shortest line between the rays lambda Q_a^-1 m_a and c +
-/// lambda Q_b^-1 m_b.
+/// The paper's method: the midpoint of the shortest line between the rays of both pixels.
 inline Midpoint midpoint(const TwoViews& views, const Eigen::Vector2d& pixel,
                          const Eigen::Vector2d& flow) {
     const Eigen::Vector3d c = views.T_b_a.inverse().translation;

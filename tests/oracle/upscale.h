@@ -6,11 +6,12 @@
 
 #include <array>
 
-/// Oracle of enlarging the video, in double precision: one channel in grey levels, neither rounded
+/// Oracle of enlarging the video, in double precision. One channel in grey levels, neither rounded
 /// nor clamped.
 namespace mfar::twin {
 
-/// Keys' cubic with a = -0.75: weights of the four samples around a position whose fraction is t.
+/// Keys' cubic with a = -0.75: weights of the four samples around a position with fractional part
+/// t.
 inline std::array<double, 4> cubic(double t) {
     const auto w = [](double d) {
         const double a = params::kCubicSlope;
@@ -21,14 +22,13 @@ inline std::array<double, 4> cubic(double t) {
     return {w(1 + t), w(t), w(1 - t), w(2 - t)};
 }
 
-/// Weights of Keys' cubic, or of linear interpolation, where the outer two weights are zero.
 inline std::array<double, 4> enlargingWeights(double t, bool linear) {
     if (linear) return {0, 1 - t, t, 0};
     return cubic(t);
 }
 
-/// Upper limit of the sum of a cubic's absolute weights: the factor by which an error of each
-/// sample grows along one axis.
+/// Upper limit of the sum of a cubic's absolute weights. Along one axis, errors of the samples grow
+/// at most by this factor.
 inline constexpr double kCubicGain = 1.375;
 
 inline Grey enlargedColumns(const Grey& g, int height, bool linear = false) {
@@ -57,8 +57,8 @@ inline Grey enlarged(const Grey& g, Size to, bool linear = false) {
 
 inline constexpr double kNearTap = params::kSharpenNear, kFarTap = params::kSharpenFar;
 
-/// Applies the prefilter along both axes; the diagonal neighbours get the product of the nearest
-/// taps. `strengthAt(x, y)`: its strength at a pixel.
+/// Sharpens along both axes. `strengthAt(x, y)`: strength at a pixel. Diagonal neighbours get the
+/// product of the two nearest taps.
 template <class F>
 Grey sharpened(const Grey& g, F strengthAt) {
     return greyOf(g.size, [&](int x, int y) {
@@ -67,7 +67,7 @@ Grey sharpened(const Grey& g, F strengthAt) {
         for (int s : {-1, 1}) {
             high += kNearTap * (g.at(x + s, y) + g.at(x, y + s) - 2 * c);
             high += kFarTap * (g.at(x + 2 * s, y) + g.at(x, y + 2 * s) - 2 * c);
-            for (int t : {-1, 1})  // adds the differences f(x + s) - f(x) along x, then along y
+            for (int t : {-1, 1})
                 high += kNearTap * kNearTap *
                         (g.at(x + s, y + t) - g.at(x + s, y) - g.at(x, y + t) + c);
         }

@@ -10,15 +10,15 @@
 #include <cmath>
 #include <vector>
 
-/// Oracle of the occlusion of virtual objects in the composite.
+/// Oracle of how real surfaces hide virtual objects in the composite.
 namespace mfar::twin {
 
 struct RealSample {
-    double inverseDepth, sigma;  ///< inverse depth and its standard deviation [1/m]
+    double inverseDepth, sigma;
 };
 
-/// Visibility of a virtual surface at inverse depth `inverse`, given a real sample. An unknown
-/// sample occludes nothing.
+/// Visibility (0 to 1) of a virtual surface at inverse depth `inverse`. An unknown real depth hides
+/// nothing.
 inline double visibleOver(const RealSample& real, double inverse, const CompositeOptions& o) {
     const bool known = real.inverseDepth > params::kLeastInverseDepth &&
                        real.inverseDepth < params::kMostInverseDepth &&
@@ -31,8 +31,6 @@ inline double visibleOver(const RealSample& real, double inverse, const Composit
     return 1 - t * t * (3 - 2 * t);
 }
 
-/// The video, the output picture, and the real depth. Gives the visibility of a virtual surface at
-/// output pixel (x, y).
 struct Scene {
     TestPicture video, picture;
     std::vector<RealSample> real;

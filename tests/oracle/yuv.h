@@ -10,7 +10,6 @@
 /// print.
 namespace mfar::twin {
 
-/// The samples of one channel in one plane. They are `step` bytes apart.
 struct Samples {
     const std::uint8_t* data;
     std::size_t stride;
@@ -41,10 +40,9 @@ inline std::array<Samples, 3> yuvSamples(const ImageView& v) {
             Samples{second.data, second.stride, step, w / 2, h / 2}};
 }
 
-/// R, G, B from Y, U, V; neither rounded nor clamped.
 inline std::array<double, 3> rgbOfYuv(double y, double u, double v, const ImageView& of) {
     const bool full = of.range == YuvRange::Full, hd = of.matrix == YuvMatrix::Bt709;
-    // Coefficients of Y in all channels, V in R, U in G, V in G, U in B.
+    // Factors of Y in all channels, V in R, U in G, V in G, U in B.
     constexpr double kTable[2][2][5] = {
         {{1.164384, 1.596027, -0.391762, -0.812968, 2.017232},
          {1.164384, 1.792741, -0.213249, -0.532909, 2.112402}},
@@ -56,8 +54,8 @@ inline std::array<double, 3> rgbOfYuv(double y, double u, double v, const ImageV
     return {y + k[1] * v, y + k[2] * u + k[3] * v, y + k[4] * u};
 }
 
-/// Colour of a pixel of any format, in [0, 255], not rounded. A chroma sample lies in the centre of
-/// the pixels that share it; values between samples are interpolated.
+/// Colour of a pixel of any format, 0 to 255, not rounded. Chroma is interpolated: a chroma sample
+/// lies in the centre of the pixels that share it.
 inline std::array<double, 3> rgbAt(const ImageView& picture, int x, int y) {
     const std::uint8_t* p =
         picture.data + y * picture.stride + 1UL * x * bytesPerPixel(picture.format);

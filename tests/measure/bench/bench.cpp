@@ -19,7 +19,8 @@
 namespace mfar::bench {
 namespace {
 
-constexpr double kRestNoise = 2;  // sigma of the noise of "rest-noise" [grey levels]
+// Standard deviation of the noise in the case "rest-noise" [grey levels]
+constexpr double kRestNoise = 2;
 constexpr std::size_t kWarmUp = 3;
 constexpr std::size_t kSetStillRuns = 5;
 
@@ -33,8 +34,8 @@ Workload withoutPoses(Workload work) {
     return work;
 }
 
-/// The product's pipeline on the frames of a workload. Setting a still is not part of a frame's
-/// time.
+/// Runs the product's pipeline on the frames of a workload. Setting a still is not part of a
+/// frame's time.
 class Ours {
 public:
     Ours(const Workload& work, SuperResMode mode, EngineKind engine, int threads = 0,
@@ -48,7 +49,7 @@ public:
             frames_.push_back(eval::toRgba(frame));
     }
 
-    /// Returns the time of frame i from upload to finished picture [ms].
+    /// Returns the time from upload to finished picture [ms].
     double run(std::size_t i) {
         if (still_ != work_.stillOf[i]) setStill(work_.stillOf[i]);
         return eval::wallMs([&] {
@@ -107,7 +108,6 @@ void addTiles(CaseResult& result, const FrameStats& stats) {
         result.tileShare[c] += stats.tiles[c] / all / static_cast<double>(result.frame.runs);
 }
 
-/// Runs the first `frames` frames again and times each stage separately.
 void measureStages(Ours& ours, std::size_t frames, CaseResult& result) {
     std::vector<std::pair<std::string, std::vector<double>>> stages;
     gpu::Timer timer;
@@ -133,7 +133,6 @@ void measureStages(Ours& ours, std::size_t frames, CaseResult& result) {
         result.stages.push_back({"all stages, by the GPU's clock", summarise(gpuMs)});
 }
 
-/// The paper's method with one of OpenCV's flow algorithms.
 class Peer {
 public:
     Peer(std::string name, eval::DisPreset flow, const Workload& work, Size output)
@@ -147,7 +146,7 @@ public:
         return eval::wallMs([&] { paper_.run(work_.frames[i]); });
     }
     void measure(std::size_t i) { ms_.push_back(run(i)); }
-    /// `ours`: times of the product's frames. They were run in turn with the frames of this peer.
+    /// `ours`: times of the product's frames, which took turns with the frames of this peer [ms].
     [[nodiscard]] PeerResult result(const CaseResult& of, const std::vector<double>& ours) const {
         const Summary own = summarise(ms_);
         std::vector<double> ratios;

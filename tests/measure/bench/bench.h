@@ -21,26 +21,24 @@ struct StageSummary {
     Summary ms;
 };
 
-/// Times of the product's pipeline on one workload.
 struct CaseResult {
     std::string name;
-    Summary frame;                     ///< whole frame from upload to finished picture
+    Summary frame;
     std::vector<StageSummary> stages;  ///< from a separate run that waits after each stage
     std::array<double, kTileClasses> tileShare{};  ///< mean share of the tiles of each TileClass
 };
 
-/// Times of the paper's method, built on OpenCV, with a moving camera. Its frames were run in turn
-/// with the product's.
+/// Times of the paper's method, built on OpenCV. Its frames and the product's took turns.
 struct PeerResult {
     std::string name;
     std::string of;  ///< name of the CaseResult with which the peer is compared
     Summary frame;
-    double ratio = 0;          ///< the product's median time over the peer's; below 1: faster
-    double low = 0, high = 0;  ///< 10th and 90th percentile of the frames' ratios
+    /// Product's median time divided by the peer's; below 1: the product is faster.
+    double ratio = 0;
+    double low = 0, high = 0;  ///< 10th and 90th percentile of the ratios of single frames
 };
 
-/// Frame times with this number of threads and this output size, for the cases "moving" and
-/// "handheld".
+/// Frame times of the cases "moving" and "handheld" with a number of threads and an output size.
 struct ScalingResult {
     int threads = 0;
     Size output;
@@ -48,32 +46,31 @@ struct ScalingResult {
 };
 
 struct BenchResult {
-    std::string workload;  ///< name of the workload of "moving" and both "rest" cases
-    std::string posed;     ///< name of the workload of "handheld"; may be empty
+    std::string workload;  ///< workload of the cases "moving", "rest" and "rest-noise"
+    std::string posed;     ///< workload of the case "handheld"; may be empty
     std::string renderer;
     Size video, still, output;
-    Summary setStill;  ///< time of the pipeline's work for each new still
+    Summary setStill;
     std::vector<CaseResult> cases;
     std::vector<PeerResult> peers;
-    DepthTimes depth;  ///< time of finding depth in the frames of "handheld"
-    WarpTimes warp;    ///< time of the warp of virtual objects at the video's size
+    DepthTimes depth;
+    WarpTimes warp;
     TriangulationTimes triangulation;
     std::vector<ScalingResult> scaling;
     RenderFigures render;
 };
 
-/// Learns filters from the still and frame of each Lesson of a workload, as the daemon does. Prints
-/// one line on what was learned to stderr. Returns null if there is no lesson.
+/// Learns filters from the lessons of a workload, as the daemon does. Prints a line about them to
+/// stderr. Returns null if there is no lesson.
 [[nodiscard]] std::shared_ptr<const FilterBank> learnedFrom(const Workload& work);
 
-/// Measures all cases. The first frames of each warm up and do not count. The cases "moving" and
-/// "rest" use the frames of `moving` without poses. "handheld" uses the frames and poses of
-/// `posed`; without frames, this case is left out. Needs a current GL context, which `renderer`
-/// describes.
+/// Measures all cases. The first frames of each case warm up and are not counted. "moving" and
+/// "rest" use the frames of `moving` without poses. "handheld" uses frames and poses of `posed` and
+/// is left out if there are none. Needs a current GL context, which `renderer` describes.
 [[nodiscard]] BenchResult runBench(const Workload& moving, const Workload& posed, SuperResMode mode,
                                    EngineKind engine, const std::string& renderer,
                                    const ProgressPart& progress = {});
-/// Measures frame times with one and with two threads, each at three output sizes.
+/// Measures frame times with one and with two threads, at three output sizes each.
 [[nodiscard]] std::vector<ScalingResult> runScaling(const Workload& moving, const Workload& posed,
                                                     SuperResMode mode, EngineKind engine,
                                                     const ProgressPart& progress = {});

@@ -9,15 +9,13 @@
 
 namespace mfar::bench {
 
-/// How the run time is measured.
 enum class Clock {
     Wall,
-    /// Processor time of all threads, divided by the number of cores. On a shared machine this is
-    /// the time that the run would take alone if its work were spread evenly over the cores.
+    /// Processor time of all threads, divided by the number of cores. An otherwise idle machine
+    /// would need this time if the work were spread evenly over its cores.
     Processor,
 };
 
-/// Time of one call [ms].
 template <class F>
 [[nodiscard]] double msOf(Clock clock, F&& call) {
     if (clock == Clock::Wall) return eval::wallMs(std::forward<F>(call));

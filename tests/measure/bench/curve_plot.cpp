@@ -14,7 +14,6 @@ namespace mfar::bench {
 namespace {
 
 eval::PlotPoint plotted(const CurvePoint& p) {
-    // A flow with a run time of 0 was not measured.
     const double percent = p.ms > 0 ? 100 * p.bad1 : std::numeric_limits<double>::quiet_NaN();
     return {p.ms, percent, {}, {}};
 }

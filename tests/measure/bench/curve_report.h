@@ -7,16 +7,14 @@
 
 namespace mfar::bench {
 
-/// One line per value of a knob: method,knob,value,default,ms,epe_px,bad1. For peers, knob and
-/// value are empty.
+/// Columns: method,knob,value,default,ms,epe_px,bad1. In rows of peers, knob and value are empty.
 [[nodiscard]] std::string curvesCsv(const Curves& curves);
 
-/// The same values as a chart with logarithmic axes: time on x, bad-1 on y. Each method has a
-/// panel, each knob a line whose ends are labelled. The default setting is ringed. Both panels show
-/// the peers.
+/// Chart with logarithmic axes: time on x, bad-1 on y. Each method has a panel, each knob a line,
+/// and the default has a ring.
 [[nodiscard]] std::string curvesSvg(const Curves& curves);
 
-/// Writes curves.csv and curves.svg. Throws EvalError if they cannot be written.
+/// Writes curves.csv and curves.svg into `folder`. Throws EvalError if this fails.
 void writeCurves(const Curves& curves, const std::filesystem::path& folder);
 
 }  // namespace mfar::bench

@@ -12,7 +12,6 @@
 namespace mfar::bench {
 namespace {
 
-/// Reduces a flow field: each pixel takes the vector nearest to its centre.
 cv::Mat reduced(const FlowImage& flow, Size size) {
     const double scale = static_cast<double>(size.width) / flow.size.width;
     cv::Mat out(size.height, size.width, CV_32FC2);

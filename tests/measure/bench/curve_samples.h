@@ -8,23 +8,22 @@
 
 namespace mfar::bench {
 
-/// A video frame, its still and the true flow between them: the input for measuring a setting.
 struct CurveSample {
     std::string name;
     StereoRig rig;
     eval::Shot frame, still;
-    cv::Mat truth;  ///< CV_32FC2 [video px], NaN or above 1e9 = unknown
+    cv::Mat truth;  ///< CV_32FC2 [video px]; NaN or above 1e9: unknown
 
     [[nodiscard]] bool hasPoses() const { return frame.pose && still.pose; }
 };
 
-/// The first `most` samples of each folder that mfar-eval flow accepts. Throws EvalError,
+/// Loads at most `most` samples from each folder, as mfar-eval flow does. Throws EvalError,
 /// RecordingError and ImageFileError.
 [[nodiscard]] std::vector<CurveSample>
 curveSamplesOf(const std::vector<std::filesystem::path>& folders, std::size_t most);
 
-/// One hand-held frame of each of the first `most` synthetic scenes (office, shelf). `video` is the
-/// size of the video, at most 640x480. Repeated calls give equal samples.
+/// One frame of a hand-held camera in each of the first `most` synthetic scenes (office, shelf).
+/// `video`: size of the video, at most 640x480. Repeated calls give equal samples.
 [[nodiscard]] std::vector<CurveSample> syntheticCurveSamples(Size video, std::size_t most = 2);
 
 }  // namespace mfar::bench

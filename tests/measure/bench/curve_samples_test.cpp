@@ -15,7 +15,6 @@ cv::Mat grey(const cv::Mat& picture) {
     return out;
 }
 
-// OpenCV's flow between the two pictures must agree with the truth.
 TEST(SyntheticCurveSamples, TrueFlowAgreesWithOpenCvsFlow) {
     const auto samples = syntheticCurveSamples({320, 240});
     ASSERT_EQ(samples.size(), 2U);

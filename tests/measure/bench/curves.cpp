@@ -47,7 +47,7 @@ CurvePoint measure(const CurveSample& sample, PipelineOptions options, bool alon
     const cv::Mat frame = eval::toRgba(sample.frame.picture);
     const cv::Mat still = eval::toRgba(sample.still.picture);
     const auto run = [&] {
-        // Sets the still again, so that no run starts from the result of the previous one.
+        // Setting the still again keeps a run from starting with the previous result.
         pipeline.setStill(eval::viewOf(still), sample.still.time,
                           alongLines ? sample.still.pose : std::nullopt);
         pipeline.run(eval::viewOf(frame), sample.frame.time,
@@ -60,7 +60,6 @@ CurvePoint measure(const CurveSample& sample, PipelineOptions options, bool alon
     return pointOf(sample, flow, summarise({run(), run(), run()}).median);
 }
 
-/// Mean over the samples; for the search along epipolar lines, over the samples with poses.
 CurvePoint mean(const std::vector<CurveSample>& samples, const PipelineOptions& options,
                 bool alongLines) {
     const auto fits = [&](const CurveSample& s) { return !alongLines || s.hasPoses(); };
@@ -105,7 +104,7 @@ Curve measure(const Knob& knob, const std::vector<CurveSample>& samples,
 }  // namespace
 
 Curves measureCurves(const std::vector<CurveSample>& samples, const ProgressPart& progress) {
-    if (samples.empty()) throw std::invalid_argument("there is no sample to measure the curves on");
+    if (samples.empty()) throw std::invalid_argument("the curves need at least one sample");
     Curves out;
     for (const CurveSample& sample : samples)
         out.samples.push_back(sample.name);

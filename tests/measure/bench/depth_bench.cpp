@@ -13,7 +13,7 @@
 namespace mfar::bench {
 namespace {
 
-constexpr std::size_t kFirstFrames = 6;  // frames until there is a keyframe
+constexpr std::size_t kFirstFrames = 6;  // frames before a keyframe exists
 constexpr double kNeverEnough = 0.001;
 
 Summary measureIn(const Workload& posed, const PixelRect& where) {

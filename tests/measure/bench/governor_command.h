@@ -9,13 +9,12 @@
 
 namespace mfar::bench {
 
-/// `mfar-bench governor`: measures how well the product meets deadlines.
 class GovernorCommand {
 public:
     explicit GovernorCommand(CLI::App& app);
 
     [[nodiscard]] bool asked() const { return command_->parsed(); }
-    /// Throws ConfigError for a faulty table, Failure for an unreadable one.
+    /// Throws ConfigError for an invalid table, Failure for an unreadable one.
     void run(Progress& progress);
 
 private:

@@ -14,10 +14,9 @@
 namespace mfar::bench {
 namespace {
 
-constexpr int kStillEvery = 30;  // frames between two stills, at levels that use stills
+constexpr int kStillEvery = 30;  // frames between two stills
 constexpr std::chrono::milliseconds kInterval{33};
 
-/// The frames of a scene, played forwards and backwards.
 struct Shots {
     std::string name;
     std::vector<SceneFrame> frames;
@@ -42,7 +41,6 @@ Shots shotsOf(synthetic::Scene which, synthetic::Path path, const char* name, in
     return out;
 }
 
-/// A pipeline whose quality levels are chosen by a governor, as in the daemon.
 class Governed {
 public:
     Governed(const StereoRig& rig, const std::vector<QualityLevel>& levels, double deadlineMs,

@@ -11,11 +11,10 @@
 
 namespace mfar::bench {
 
-/// What the governor did during one scene of a sequence.
 struct GovernedScene {
     std::string name;
-    std::vector<double> ms;             ///< frame times, from the first frame of this scene on
-    std::map<std::string, int> levels;  ///< number of frames at each quality level
+    std::vector<double> ms;
+    std::map<std::string, int> levels;
 };
 
 struct GovernedRun {
@@ -25,26 +24,24 @@ struct GovernedRun {
 
 struct GovernorRequest {
     std::vector<double> deadlinesMs{33, 66, 133};
-    int frames = 120;  ///< frames per scene
+    int frames = 120;
     Clock clock = Clock::Wall;
-    ProgressPart progress{};  ///< shows the progress while the command runs
+    ProgressPart progress{};
 };
 
-/// Runs the frames at one deadline after the other. Each deadline has its own governor, which
+/// Runs all scenes at one deadline after the other. Each deadline has its own governor, which
 /// starts with the table `levels`. Needs a current GL context.
 [[nodiscard]] std::vector<GovernedRun> measureGovernor(const GovernorRequest& request,
                                                        const std::vector<QualityLevel>& levels);
 
-/// Number of frames that the governor needs to settle after a change of scene: from then on, at
-/// most one frame in twenty is late. Equals the number of all frames if it never settles.
+/// Number of frames before the governor has settled. From then on, at most one frame in twenty is
+/// late. If it never settles, this is the number of all frames.
 [[nodiscard]] int settledAfter(std::span<const double> ms, double deadlineMs);
 
-/// 95th percentile of the frame times [ms]. The first `from` frames of each scene are not counted.
+/// 95th percentile of the frame times [ms], without the first `from` frames of each scene.
 [[nodiscard]] double p95(const GovernedRun& run, std::size_t from);
 
-/// A text for people: one line for each scene at each deadline.
 [[nodiscard]] std::string governorTable(std::span<const GovernedRun> runs);
-/// Draws the time of each frame as lines, in a chart for each deadline.
 [[nodiscard]] std::string governorSvg(std::span<const GovernedRun> runs);
 
 }  // namespace mfar::bench

@@ -5,8 +5,8 @@
 namespace mfar::gpu {
 namespace {
 
-// These constants have the same values in EXT_disjoint_timer_query and ARB_timer_query. The core
-// header does not define them.
+// EXT_disjoint_timer_query and ARB_timer_query give these constants the same values. The core
+// header lacks them.
 constexpr GLenum kTimeElapsed = 0x88BF;
 constexpr GLenum kGpuDisjoint = 0x8FBB;
 

@@ -6,10 +6,9 @@
 
 namespace mfar::gpu {
 
-/// Measures the time that the GPU spends on the commands between start() and stop(). The result is
-/// read later, so that the CPU does not wait for the GPU. Needs EXT_disjoint_timer_query (OpenGL
-/// ES) or ARB_timer_query (OpenGL). Without them every call does nothing and read() returns no
-/// value.
+/// Measures the GPU's time for the commands between start() and stop(). The result is read later,
+/// so the CPU does not wait. Needs EXT_disjoint_timer_query (OpenGL ES) or ARB_timer_query
+/// (OpenGL). Without them, calls do nothing and read() returns no value.
 class Timer {
 public:
     Timer();
@@ -21,14 +20,13 @@ public:
     /// Only one Timer of a context may measure at a time.
     void start();
     void stop();
-    /// Time of the last measurement [ms]. Empty while the GPU is still working, and if the GPU
-    /// changed its clock meanwhile.
+    /// Time of the last measurement [ms]. Empty while the GPU is working, and if the GPU changed
+    /// its clock meanwhile.
     [[nodiscard]] std::optional<double> read() const;
 
 private:
     GLuint query_ = 0;
-    bool disjointKnown_ =
-        false;  // the context can report changes of the GPU's clock (OpenGL ES only)
+    bool disjointKnown_ = false;
 };
 
 }  // namespace mfar::gpu

@@ -8,11 +8,10 @@
 
 namespace mfar::bench {
 
-/// A setting of the flow that trades time for accuracy, and the values to measure, in ascending
-/// order.
+/// A flow option that trades time for accuracy, with the values to measure in ascending order.
 struct Knob {
-    std::string method;  ///< flow2d or epipolar
-    std::string name;    ///< member of Flow2dOptions or EpipolarOptions
+    std::string method;
+    std::string name;  ///< member of Flow2dOptions or EpipolarOptions
     std::vector<double> values;
     std::function<double(const PipelineOptions&)> get;
     std::function<void(PipelineOptions&, double)> set;

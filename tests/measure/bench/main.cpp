@@ -43,7 +43,7 @@ struct Options {
     std::vector<std::filesystem::path> data;
 };
 
-/// Workloads of a moving camera, without and with poses. An unavailable workload has no frames.
+/// Workloads of a moving camera, without and with poses. A workload without frames is not measured.
 struct Workloads {
     Workload moving, posed;
 };

@@ -17,13 +17,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Smallest ratio of the run times of two neighbouring quality levels. If a level takes less than
-// this factor longer than the less accurate level before it, that level is left out: choosing it
-// would hardly save time.
+// Least ratio of the run times of two neighbouring quality levels. If two levels are closer, the
+// faster one is left out, because it hardly saves time.
 constexpr double kLeastStep = 1.05;
 
-/// Makes a quality level of each of our points that no other of our points dominates. Sorted from
-/// fast to accurate.
+/// Quality levels from fast to accurate: our points that no other of our points dominates.
 std::vector<QualityLevel> levelsOf(const ParetoStage& superres) {
     std::vector<ParetoPoint> ours;
     for (const ParetoPoint& p : superres.points)
@@ -48,7 +46,9 @@ ParetoCommand::ParetoCommand(CLI::App& app)
                                   "run time against error: measures every setting of flow, "
                                   "super-resolution, depth, slicing and warp, and every peer, in "
                                   "turn in one run; each gives a point (median time, error)")) {
-    command_->add_option("--stages", stages_, fmt::format("of {}", fmt::join(stages_, ", ")))
+    command_
+        ->add_option("--stages", stages_,
+                     fmt::format("stages to measure, of: {}", fmt::join(stages_, ", ")))
         ->delimiter(',')
         ->check(CLI::IsMember(stages_));
     command_->add_option("--data", data_,
@@ -132,7 +132,7 @@ std::vector<ParetoStage> ParetoCommand::measure(const ProgressPart& progress) {
 
 void ParetoCommand::run(Progress& progress) {
     if (!table_.empty() && !wants("superres"))
-        throw eval::EvalError("--table FILE needs superres among the stages that --stages lists");
+        throw eval::EvalError("--table needs the stage superres; add it to --stages");
     const auto context = createGlContext();
     const std::vector<ParetoStage> stages = measure(ProgressPart(progress));
     progress.clear();

@@ -10,7 +10,6 @@
 
 namespace mfar::bench {
 
-/// `mfar-bench pareto`: measures run time and error of every setting and every peer.
 class ParetoCommand {
 public:
     explicit ParetoCommand(CLI::App& app);

@@ -20,7 +20,7 @@ namespace {
 
 struct DepthSetting {
     const char* name;
-    EpipolarOptions search;  ///< settings of the search against the still
+    EpipolarOptions search;
 };
 
 std::vector<DepthSetting> depthSettings() {
@@ -56,7 +56,7 @@ double scoreOf(const DepthSample& sample, const cv::Mat& rho) {
            eval::depthError(rho, sample.inverseDepth, shots.rig.video.fx * baseline, all).bad1;
 }
 
-/// Measures one setting on one sample. Only the first result is scored, because the filter combines
+/// Measures one setting on one sample. Only the first result is scored, because the filter mixes
 /// later results with earlier ones.
 class DepthWay {
 public:
@@ -69,7 +69,7 @@ public:
 
     void measure(const ParetoRun& run, bool scored, WayTimes& out) {
         const CurveSample& shots = sample_.shots;
-        // Sets the still again, so that no depth of the previous run predicts that of this run.
+        // Setting the still again discards the depth of the previous run.
         pipeline_.setStill(eval::viewOf(still_), shots.still.time, shots.still.pose);
         const double ms = msOf(run.clock, [&] {
             pipeline_.run(eval::viewOf(frame_), shots.frame.time, shots.frame.pose);
@@ -129,8 +129,8 @@ std::vector<DepthSample> depthSamplesOf(const std::vector<std::filesystem::path>
     for (std::size_t i = 0; i < folders.size(); ++i) {
         const eval::FlowSet set = eval::depthSamplesOf(folders[i]);
         for (std::size_t k = 0; k < std::min(most, set.samples.size()); ++k) {
-            const cv::Mat flow = eval::loadTruth(
-                set, set.samples[k]);  // marks pixels that are occluded in the still
+            // The flow is NaN at pixels that are occluded in the still.
+            const cv::Mat flow = eval::loadTruth(set, set.samples[k]);
             FloatImage image = loadPfm(set.samples[k].truth);
             cv::Mat rho = cv::Mat(flow.size(), CV_32F, image.values.data()).clone();
             for (int y = 0; y < flow.rows; ++y)

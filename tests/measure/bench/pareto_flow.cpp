@@ -55,7 +55,6 @@ constexpr const char* kBlindPeers[] = {"dis-fast", "dis-medium", "dis-medium-bot
                                        "dis-medium-full", "farneback"};
 constexpr const char* kStereoPeers[] = {"sgbm", "stereobm"};
 
-/// Runs all methods on one sample.
 class FlowSampleRun {
 public:
     FlowSampleRun(const CurveSample& sample, bool withPoses, const ParetoRun& run)
@@ -65,7 +64,7 @@ public:
     void ours(PipelineOptions options, bool scored, WayTimes& out) {
         options.output = sample_.rig.video.size;
         Pipeline& pipeline = pool_.with(options);
-        // Sets the still again, so that no run starts from the result of the previous one.
+        // Setting the still again keeps a run from starting with the previous result.
         pipeline.setStill(eval::viewOf(still_), sample_.still.time,
                           withPoses_ ? sample_.still.pose : std::nullopt);
         pipeline.setMeasure(true);
@@ -89,8 +88,6 @@ public:
     }
 
 private:
-    // Names of the stages that compute the field: all stages of the 2-D flow, or only the search
-    // along the epipolar lines.
     [[nodiscard]] std::vector<std::string_view> stages() const {
         if (withPoses_) return {"epipolar"};
         return {"pyramid", "flow"};
@@ -103,8 +100,8 @@ private:
     cv::Mat frame_, still_;
 };
 
-/// Runs all samples in turn. The first round warms up: its results are scored, its times do not
-/// count.
+/// Runs all methods on all samples. The first round warms up: its results are scored, but its times
+/// are not counted.
 class FlowStageRun {
 public:
     FlowStageRun(bool withPoses, const ParetoRun& run)

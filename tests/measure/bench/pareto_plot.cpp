@@ -14,13 +14,13 @@ namespace draw = svg;
 
 constexpr double kWide = 520, kHigh = 400, kMarginLeft = 80, kMarginTop = 60, kBetween = 90,
                  kMarginBelow = 60;
-constexpr double kLeastError = 1e-3;  // smaller errors are drawn as this: 0 has no logarithm
+// Smaller errors are drawn at this value, because 0 has no logarithm.
+constexpr double kLeastError = 1e-3;
 
 bool canBeDrawn(const ParetoPoint& p) {
     return std::isfinite(p.ms) && std::isfinite(p.error) && p.ms > 0 && p.error >= 0;
 }
 
-/// Draws the panel of one stage. Its left edge is at x = `left`.
 class StagePanel {
 public:
     StagePanel(const ParetoStage& stage, double left) : stage_(stage), left_(left) {
@@ -65,8 +65,6 @@ private:
         for (const std::size_t i : paretoFront(stage_.points)) {
             const ParetoPoint& p = stage_.points[i];
             if (!canBeDrawn(p)) continue;
-            // A staircase through the points of the front. Points above it and to its right are
-            // dominated.
             path += path.empty() ? fmt::format("M{:.1f} {:.1f}", x(p.ms), y(p.error))
                                  : fmt::format(" H{:.1f} V{:.1f}", x(p.ms), y(p.error));
             if (p.kind != ParetoPoint::Kind::Peer)

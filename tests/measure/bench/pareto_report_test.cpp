@@ -32,7 +32,7 @@ TEST(Pareto, APointDominatesSlowerOrLessAccurateOnes) {
     EXPECT_FALSE(dominates({"b", Kind::Ours, 0, kNan}, a));
 }
 
-TEST(Pareto, FrontHoldsPointsThatNothingDominatesFromFastToAccurate) {
+TEST(Pareto, FrontHoldsUndominatedPointsFromFastToAccurate) {
     const ParetoStage stage = fivePoints();
     EXPECT_EQ(paretoFront(stage.points), (std::vector<std::size_t>{2, 3, 1}));
     auto broken = stage.points;

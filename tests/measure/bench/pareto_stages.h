@@ -16,14 +16,13 @@
 
 namespace mfar::bench {
 
-/// How a stage is measured: in `rounds` rounds, each of which runs every method once. All functions
-/// below that take it need a current GL context.
+/// Options of a measurement. Each round runs every method once. Functions that take a ParetoRun
+/// need a current GL context.
 struct ParetoRun {
     Clock clock = Clock::Wall;
     int rounds = 3;
-    ProgressPart progress{};  ///< shows the progress while the command runs
+    ProgressPart progress{};
 
-    /// Returns a copy of this run that shows the progress of sample `index` of `count`.
     [[nodiscard]] ParetoRun part(std::size_t index, std::size_t count,
                                  std::string_view name) const {
         return {clock, rounds, progress.part(index, count, name)};
@@ -35,57 +34,51 @@ struct ParetoRun {
 
 /// Run time and bad-1 of the flow of single frames after a new still. Methods: every setting of
 /// flowKnobs(), combinations of settings, and OpenCV's flow algorithms. With poses, samples without
-/// poses are skipped. The stage is empty if no sample remains.
+/// poses are skipped. If none remains, the stage is empty.
 [[nodiscard]] ParetoStage flowStage(const std::vector<CurveSample>& samples, bool withPoses,
                                     const ParetoRun& run);
 
 /// A frame, its still and the true depth. Frame and still have poses.
 struct DepthSample {
-    CurveSample shots;     ///< its true flow is not set
-    cv::Mat inverseDepth;  ///< CV_32F [1/m], NaN = unknown or occluded in the still
+    CurveSample shots;
+    cv::Mat inverseDepth;  ///< CV_32F [1/m]; NaN: unknown, or occluded in the still
 };
-/// The first `most` samples of each folder that mfar-eval depth accepts. Throws EvalError,
+/// Loads at most `most` samples from each folder, as mfar-eval depth does. Throws EvalError,
 /// RecordingError and ImageFileError.
 [[nodiscard]] std::vector<DepthSample>
 depthSamplesOf(const std::vector<std::filesystem::path>& folders, std::size_t most);
-/// One frame of each synthetic scene (office, shelf), see syntheticCurveSamples().
+/// One frame of each synthetic scene, as in syntheticCurveSamples().
 [[nodiscard]] std::vector<DepthSample> syntheticDepthSamples(Size video, std::size_t most = 2);
 
 /// Run time and bad-1 of the depth of single frames. Peers: OpenCV's stereo matchers, and
 /// triangulation of the flow of OpenCV's flow algorithms.
 [[nodiscard]] ParetoStage depthStage(const std::vector<DepthSample>& samples, const ParetoRun& run);
 
-/// The frames after a still. The truth of some of them is known.
 struct SequenceSample {
     Workload work;
-    std::vector<cv::Mat>
-        truth;  ///< of each frame: luma of the output's size, CV_64F; empty: unknown
+    std::vector<cv::Mat> truth;  ///< luma at the output's size, CV_64F; empty: unknown
 };
-/// Hand-held sequences of the first `most` synthetic scenes (office, shelf). The truth of every
-/// third frame is known.
+/// Sequences of a hand-held camera in the first `most` synthetic scenes (office, shelf). The true
+/// picture of every third frame is known.
 [[nodiscard]] std::vector<SequenceSample> syntheticSequences(Size video, Size still, int frames,
                                                              std::size_t most = 2);
 
-/// Run time of whole frames and the root mean square error of their luma. Methods: the
-/// super-resolution modes, settings of their flow, and combinations of both. Peers: bicubic
-/// enlargement, and the paper's method with OpenCV's flow. The first frame after a still does not
-/// count.
+/// Run time of whole frames and RMS error of their luma. Methods: super-resolution modes, settings
+/// of their flow, and combinations. Peers: bicubic enlargement, and the paper's method with
+/// OpenCV's flow. The first frame after a still is not counted.
 [[nodiscard]] ParetoStage superResStage(const std::vector<SequenceSample>& samples,
                                         const ParetoRun& run);
 
-/// Run time of warping a path-traced picture to another view, and the error inside the silhouette
-/// of the objects. Methods: the ways to fill the holes. Peers: OpenCV's inpainting, and tracing the
-/// picture again.
-/// Throws EvalError if the path tracer is not built.
+/// Run time of warping a path-traced picture to another view, and the error inside the objects'
+/// silhouette. Methods: the ways to fill pixels without a rendered sample. Peers: OpenCV's
+/// inpainting, and tracing the picture again. Throws EvalError if the path tracer is not built.
 [[nodiscard]] ParetoStage warpStage(bool quick);
 
-/// Run time and error of a path-traced picture after some samples per pixel. The picture is traced
-/// in time slices, in spatial slices, and as a whole. Throws EvalError if the path tracer is not
-/// built. Needs no GL context.
+/// Run time and error of a path-traced picture after some samples per pixel. It is traced in time
+/// slices, in spatial slices, or as a whole. Throws EvalError if the path tracer is not built.
+/// Needs no GL context.
 [[nodiscard]] ParetoStage slicingStage(bool quick);
 
-/// A setting that superResStage() measures, with its name. Levels of a quality table are made from
-/// such settings.
 struct QualitySetting {
     std::string name;
     Quality quality;

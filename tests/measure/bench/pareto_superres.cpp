@@ -20,7 +20,7 @@
 namespace mfar::bench {
 namespace {
 
-constexpr std::size_t kScoredEvery = 3;  // every third frame is scored
+constexpr std::size_t kScoredEvery = 3;
 
 cv::Mat lumaOf(const StoredImage& picture, Size size) {
     const cv::Mat rgba(picture.size.height, picture.size.width, CV_8UC4,
@@ -38,12 +38,11 @@ double errorOf(const cv::Mat& bgr, const cv::Mat& truth) {
     return std::sqrt(eval::meanSquaredError(eval::luma(bgr)(inner), truth(inner)));
 }
 
-/// A method that makes the pictures of a sequence. It gets the still first, then the frames one
-/// after the other.
 struct SequenceWay {
-    std::function<void()> begin;                  ///< sets the still
-    std::function<void(std::size_t)> run;         ///< processes frame i; timed by msOf()
-    std::function<cv::Mat(std::size_t)> picture;  ///< returns the last frame's picture, CV_8UC3
+    std::function<void()> begin;
+    std::function<void(std::size_t)> run;
+    /// Returns the picture of frame i, which ran last, CV_8UC3.
+    std::function<cv::Mat(std::size_t)> picture;
 };
 
 void measureWay(const SequenceSample& sample, const SequenceWay& way, const ParetoRun& run,
@@ -56,7 +55,6 @@ void measureWay(const SequenceSample& sample, const SequenceWay& way, const Pare
     }
 }
 
-/// The product's pipeline on one sequence. All settings share it.
 class SequencePipeline {
 public:
     explicit SequencePipeline(const Workload& work)

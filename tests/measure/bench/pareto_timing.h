@@ -15,7 +15,6 @@
 
 namespace mfar::bench {
 
-/// Collects the times and errors of one method, one sample after the other.
 class WayTimes {
 public:
     void time(double ms) { ms_.push_back(ms); }
@@ -23,9 +22,7 @@ public:
         sum_ += value;
         ++count_;
     }
-    /// Ends a sample and keeps the median of its times.
     void endSample() { medians_.push_back(summarise(std::exchange(ms_, {})).median); }
-    /// Mean of the samples' medians [ms].
     [[nodiscard]] double ms() const {
         double sum = 0;
         for (const double ms : medians_)
@@ -40,8 +37,8 @@ private:
     int count_ = 0;
 };
 
-/// The points of a stage. `times` holds first our settings, of which the first is the default, then
-/// the peers.
+/// Points of a stage. `times` holds our settings, of which the first is the default, and then the
+/// peers.
 [[nodiscard]] inline std::vector<ParetoPoint> pointsOf(const std::vector<std::string>& ours,
                                                        const std::vector<std::string>& peers,
                                                        const std::vector<WayTimes>& times) {
@@ -56,8 +53,8 @@ private:
     return out;
 }
 
-/// Share of the last run's time that the named stages took, 0 to 1. The pipeline must have measured
-/// its stages in that run.
+/// Share (0 to 1) of the last run's time that the named stages took. Needs
+/// Pipeline::setMeasure(true).
 [[nodiscard]] inline double shareOfStages(const Pipeline& pipeline,
                                           const std::vector<std::string_view>& names) {
     double some = 0, all = 0;
@@ -69,24 +66,22 @@ private:
     return all > 0 ? some / all : 0;
 }
 
-/// Runs a peer and measures its time by `clock`. `method`: a FlowMethod or a DepthMethod.
 template <class Method>
 [[nodiscard]] auto timed(Method& method, const eval::Shot& frame, Clock clock) {
-    constexpr double kRuns =
-        4;  // run() calls the peer once for the result and three times for its time
+    constexpr double kRuns = 4;  // run() makes one untimed call and three timed calls
     typename Method::Result out;
     const double ms = msOf(clock, [&] { out = method.run(frame); });
     if (clock == Clock::Processor) out.ms = ms / kRuns;
     return out;
 }
 
-/// Pipelines for one rig. Settings that may change between frames share one pipeline.
+/// Pipelines for one rig. Settings that can change between frames share a pipeline.
 class PipelinePool {
 public:
     explicit PipelinePool(const StereoRig& rig) : rig_(rig) {}
 
-    /// Returns a pipeline that uses these options from its next run on. Options that neither
-    /// Quality contains nor this function compares must be equal in all calls.
+    /// Returns a pipeline that uses `options` from its next run on. Options that are neither in
+    /// Quality nor compared here must be equal in all calls.
     Pipeline& with(const PipelineOptions& options) {
         for (auto& [made, pipeline] : made_) {
             const bool fits = made.flow2d.levels == options.flow2d.levels &&

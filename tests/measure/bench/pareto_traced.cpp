@@ -1,5 +1,3 @@
-// The two stages of virtual objects: pictures that the path tracer makes in slices, and the warp of
-// such a picture.
 #include "tests/measure/bench/pareto_stages.h"
 #include "tests/measure/eval/slicing.h"
 #include "tests/measure/eval/warp.h"
@@ -21,7 +19,6 @@ constexpr const char* kDefaultSlicing = "time-adaptive";
 constexpr const char* kWholePicture = "full";
 constexpr const char* kInpainting = "inpaint";
 
-/// The value of a row of a report in one column.
 double valueOf(const eval::Report::Row& row, std::size_t column) {
     return row.values.at(column).value();
 }
@@ -74,7 +71,7 @@ ParetoStage warpStage(bool quick) {
 
 ParetoStage slicingStage(bool quick) {
     eval::SlicingRequest request;
-    request.frames = 8;  // few: the report's other columns are not used
+    request.frames = 8;  // few, because only the first two columns of the report are used
     if (quick) {
         request.size = {48, 36};
         request.samples = 8;

@@ -108,7 +108,6 @@ TEST(MfarBench, CurvesHaveAPointForEveryValueOfEveryKnob) {
     }
 }
 
-/// Counts the points of a table by stage and by kind.
 std::map<std::string, std::map<std::string, int>> paretoKinds(const std::filesystem::path& csv) {
     std::istringstream lines(mfar::test::readFile(csv));
     std::string line;
@@ -125,7 +124,7 @@ std::map<std::string, std::map<std::string, int>> paretoKinds(const std::filesys
     return kinds;
 }
 
-TEST(MfarBench, ParetoOfTheVirtualLayerHasPointsOfMfarAndOfPeers) {
+TEST(MfarBench, ParetoOfSlicingAndWarpHasPointsOfMfarAndPeers) {
     if (!MFAR_PATH_TRACING) GTEST_SKIP() << "built without a path tracer";
     const mfar::test::TempFolder folder;
     const auto csv = folder / "pareto.csv";
@@ -142,7 +141,7 @@ TEST(MfarBench, ParetoOfTheVirtualLayerHasPointsOfMfarAndOfPeers) {
     }
 }
 
-TEST(MfarBench, ParetoHasPointsOfMfarAndOfPeersAndWritesATableThatMfardReads) {
+TEST(MfarBench, ParetoWritesAQualityTableThatMfardReads) {
     const mfar::test::TempFolder folder;
     const auto csv = folder / "pareto.csv", svg = folder / "pareto.svg",
                table = folder / "levels.toml";
@@ -197,7 +196,7 @@ TEST(MfarBench, GovernorIsMeasuredWithTheRequestedDeadline) {
     EXPECT_NE(said.find("detail"), std::string::npos) << said;
 }
 
-TEST(MfarBench, WrongRequestsEndWithStatus2) {
+TEST(MfarBench, InvalidArgumentsEndWithStatus2) {
     const std::string program = MFAR_BENCH;
     EXPECT_EQ(WEXITSTATUS(std::system((program + " --recording /absent 2>/dev/null").c_str())), 2);
     EXPECT_EQ(WEXITSTATUS(std::system((program + " --mode magic 2>/dev/null").c_str())), 2);

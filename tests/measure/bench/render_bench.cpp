@@ -24,7 +24,6 @@ using namespace render_scenes;
 
 constexpr std::uint32_t kErrorSamples = 16;
 
-/// The peer: plain calls of Embree, without ray packets and without the product's classes.
 class BareEmbree {
 public:
     explicit BareEmbree(const Mesh& mesh)

@@ -5,18 +5,17 @@
 
 namespace mfar::bench {
 
-/// Rates at which one thread finds the first hits of a 640x480 camera's rays on a sphere. Measured
-/// with the same rays for Embree's rtcIntersect1 in a plain loop, and for the product's camera
-/// rays, which include the lens and are traced in packets. Also the rate of whole samples (paths)
-/// of a matt surface in sunlight.
+/// Rates of one thread with the rays of a 640x480 camera that looks at a sphere. `bare`: Embree's
+/// rtcIntersect1 in a plain loop. `ours`: the product's camera rays, which include the lens and are
+/// traced in packets. `samples`: whole paths of a matt surface in sunlight.
 struct RayRates {
     int triangles = 0;
-    double bare = 0, ours = 0;  ///< rays of plain Embree and of the product [Mray/s]
-    double samples = 0;         ///< samples of the whole picture [Msample/s]
+    double bare = 0, ours = 0;  ///< [million rays/s]
+    double samples = 0;         ///< [million samples/s]
 };
 
-/// Root mean square error of the picture's radiance at 16 samples per pixel: of the product, and
-/// with independent random samples.
+/// RMS error of a picture's radiance at 16 samples per pixel, of the product and of independent
+/// random samples.
 struct SamplingError {
     std::string scene;
     double ours = 0, independent = 0;
@@ -27,8 +26,7 @@ struct RenderFigures {
     std::vector<SamplingError> errors;
 };
 
-/// `quick`: small pictures, only to check that the program runs. Empty if the path tracer is not
-/// built.
+/// `quick`: small pictures, only to check that the program runs. Empty without path tracer.
 [[nodiscard]] RenderFigures measureRender(bool quick);
 
 }  // namespace mfar::bench

@@ -8,15 +8,14 @@
 
 namespace mfar::bench {
 
-/// A frame and the still that came before it, R G B A. Rendered before any measurement starts,
-/// because the board renders in threads of this process.
+/// A frame and the still that came before it, R G B A. They are rendered before a measurement
+/// starts, because the board renders in threads of this process.
 struct SceneFrame {
-    cv::Mat picture, still;  ///< `still` is empty if none came before the frame
+    cv::Mat picture, still;
     Timestamp time;
     std::optional<Pose> pose, stillPose;
 };
 
-/// Renders the next frame of a scene.
 [[nodiscard]] SceneFrame nextFrame(eval::SceneRun& scene);
 
 }  // namespace mfar::bench

@@ -14,10 +14,10 @@ SkipCommand::SkipCommand(CLI::App& app)
           "skip", "shows how much time each kind of skipped work saves and how much error it adds: "
                   "runs every case with all skips, and with each skip switched off; these variants "
                   "take turns at each frame")) {
-    command_->add_option("--cases", request_.cases, "only these cases")
+    command_->add_option("--cases", request_.cases, "cases to measure (default: all)")
         ->delimiter(',')
         ->check(CLI::IsMember(skipCaseNames()));
-    command_->add_option("--skips", request_.skips, "only these skips")
+    command_->add_option("--skips", request_.skips, "skips to measure (default: all)")
         ->delimiter(',')
         ->check(CLI::IsMember(skipNames()));
     command_->add_option("--frames", request_.frames, "number of measured frames of each case")

@@ -9,7 +9,6 @@
 
 namespace mfar::bench {
 
-/// `mfar-bench skip`: measures the time saved and the accuracy lost by skipping work.
 class SkipCommand {
 public:
     explicit SkipCommand(CLI::App& app);

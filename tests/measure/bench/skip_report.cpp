@@ -8,8 +8,8 @@
 namespace mfar::bench {
 namespace {
 
-constexpr double kMostLost = 0.1;     // largest loss that is not marked [dB or percentage points]
-constexpr double kLeastSaved = 0.02;  // smallest saving that counts, as a share of the frame time
+constexpr double kMostLost = 0.1;
+constexpr double kLeastSaved = 0.02;
 
 std::string value(const std::optional<double>& v) {
     return v ? fmt::format("{:+.3f}", *v) : "-";

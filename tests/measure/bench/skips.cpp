@@ -24,11 +24,10 @@ namespace {
 
 using synthetic::Path;
 
-/// Number of first frames that are not scored: until the first still has arrived and depth has
-/// settled.
+/// The first frames are not scored, because the first still must arrive and depth must settle.
 constexpr std::size_t kSettled = 8;
 constexpr std::size_t kScoredFrames = 4;  // every fourth frame is scored
-// bad-1 of depth counts errors above 1 px of disparity, of two cameras at this distance [m].
+// bad-1 of depth counts errors above 1 px of disparity between cameras at this distance [m].
 constexpr double kBaseline = 0.05;
 
 struct Skip {
@@ -67,7 +66,6 @@ struct Case {
     std::vector<VirtualObject> objects;
 };
 
-/// The object that belongs to the office scene, translated by `by` [m].
 std::vector<VirtualObject> officeObject(const Eigen::Vector3d& by) {
     auto out = eval::sceneObjects(synthetic::Scene::Office);
     for (VirtualObject& object : out)
@@ -97,7 +95,6 @@ auto chosen(const All& all, const std::vector<std::string>& names) {
     return out;
 }
 
-/// Errors of one pipeline, collected over the scored frames.
 struct Errors {
     double square = 0, overlap = 0, bad1 = 0;
     int frames = 0, seen = 0, depths = 0;
@@ -118,10 +115,9 @@ std::optional<double> difference(std::optional<double> a, std::optional<double> 
     return a && b ? std::optional(*a - *b) : std::nullopt;
 }
 
-/// The true picture of a frame and its true visible objects.
 struct FrameTruth {
-    cv::Mat luma;     ///< luma of the output's size, CV_64F
-    cv::Mat without;  ///< pixels at which no object can be shown; CV_8U at the output's size
+    cv::Mat luma;     ///< at the output's size, CV_64F
+    cv::Mat without;  ///< pixels where no object can be shown; CV_8U at the output's size
     cv::Mat visible;  ///< pixels that show an object; CV_8U at the video's size
     cv::Mat silhouette, undecided, inverseDepth;
 };
@@ -151,7 +147,7 @@ FrameTruth truthOf(SyntheticBoard& board, const Case& one, Timestamp time) {
 
 struct CaseFrame {
     SceneFrame shots;
-    std::optional<FrameTruth> truth;  ///< only of scored frames
+    std::optional<FrameTruth> truth;
 };
 
 std::vector<CaseFrame> framesOf(const Case& one, eval::SceneRun& scene, int count) {
@@ -166,7 +162,6 @@ std::vector<CaseFrame> framesOf(const Case& one, eval::SceneRun& scene, int coun
     return out;
 }
 
-/// The pipeline of one case, with one skip switched off or with all skips.
 class SkipWay {
 public:
     SkipWay(const Case& one, const StereoRig& rig, const Skip* off, Clock clock)

@@ -5,10 +5,9 @@
 
 namespace mfar::bench {
 
-/// Summary of repeated timings [ms].
 struct Summary {
     double median = 0;
-    double p99 = 0;  ///< smallest time that at least 99 % of the runs do not exceed
+    double p99 = 0;  ///< at least 99 % of the runs take at most this time
     double min = 0;
     std::size_t runs = 0;
 };

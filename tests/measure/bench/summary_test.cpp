@@ -13,7 +13,7 @@ TEST(Summary, MediansOfOddAndEvenCountsAreRight) {
     EXPECT_DOUBLE_EQ(summarise({4, 1, 2, 3}).min, 1);
 }
 
-TEST(Summary, P99IsNotExceededBy99Percent) {
+TEST(Summary, NinetyNinePercentOfTheTimesDoNotExceedP99) {
     std::vector<double> values(200);
     std::iota(values.begin(), values.end(), 1);
     EXPECT_DOUBLE_EQ(summarise(values).p99, 198);

@@ -13,8 +13,7 @@ namespace mfar::bench {
 namespace {
 
 constexpr int kRuns = 9;
-constexpr int kPeerPoints =
-    5000;  // few points: OpenCV's function is slow; its time per point is constant
+constexpr int kPeerPoints = 5000;  // few, because OpenCV's function is slow
 
 struct Views {
     explicit Views(Size size)
@@ -23,7 +22,7 @@ struct Views {
           T_b_a{Eigen::Quaterniond(Eigen::AngleAxisd(0.03, Eigen::Vector3d(1, 2, 3).normalized())),
                 {-0.1, 0.02, 0.01}} {}
 
-    /// Rays of the two views to the scene point that a pixel shows, in normalised coordinates.
+    /// Normalised coordinates, in both views, of the scene point that a pixel shows.
     [[nodiscard]] std::pair<Eigen::Vector2d, Eigen::Vector2d> rays(int x, int y) const {
         const double rho = 0.3 + 0.2 * x / camera.size.width;
         const Eigen::Vector2d a = camera.unproject({x, y});
@@ -86,7 +85,7 @@ TriangulationTimes measureTriangulation(Size video) {
     for (int i = 0; i <= kRuns; ++i) {
         const double a = ours(TriangulationMethod::Flow), b = ours(TriangulationMethod::Midpoint);
         const double c = eval::wallMs([&] { opencv.run(); });
-        if (i == 0) continue;  // the first run warms up
+        if (i == 0) continue;
         fast.push_back(a);
         midpoint.push_back(b);
         peer.push_back(c);

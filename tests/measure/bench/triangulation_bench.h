@@ -4,13 +4,13 @@
 
 namespace mfar::bench {
 
-/// Time to triangulate one point, the median of several runs [ns].
+/// Median time to triangulate one point [ns].
 struct TriangulationTimes {
-    double flow = 0, midpoint = 0;  ///< the product's two methods on every video pixel, one thread
+    double flow = 0, midpoint = 0;  ///< the product's methods, on every video pixel in one thread
     double opencv = 0;              ///< cv::triangulatePoints, on undistorted points
 };
 
-/// Triangulates the flow of a hand-held camera with distorting lenses. The methods run in turn.
+/// Triangulates the flow of a hand-held camera with distorting lenses. The methods take turns.
 [[nodiscard]] TriangulationTimes measureTriangulation(Size video);
 
 }  // namespace mfar::bench

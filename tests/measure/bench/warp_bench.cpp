@@ -15,7 +15,7 @@
 namespace mfar::bench {
 namespace {
 
-constexpr double kTurn = 2;  // angle on the orbit between the traced and the shown view [degrees]
+constexpr double kTurn = 2;  // angle between traced and shown view on the camera's orbit [degrees]
 
 Summary timed(int runs, const std::function<void()>& call) {
     std::vector<double> ms;
@@ -25,7 +25,6 @@ Summary timed(int runs, const std::function<void()>& call) {
     return summarise(std::move(ms));
 }
 
-/// A scene, and its traced picture from a camera that has not turned.
 class WarpCase {
 public:
     WarpCase(EngineKind engine, const test::CastScene& scene, Size size)
@@ -56,8 +55,8 @@ private:
     RenderedPicture picture_;
 };
 
-/// Times cv::remap for a rotation about the optical axis. It accesses memory as the warp does:
-/// neighbouring pixels stay neighbours.
+/// Times cv::remap for a rotation about the optical axis. As in the warp, neighbouring pixels stay
+/// neighbours.
 Summary timeRemap(Size size, int runs) {
     const cv::Mat4b from(size.height, size.width, cv::Vec4b(90, 120, 60, 255));
     cv::Mat2f map(from.size());

@@ -6,17 +6,17 @@
 
 namespace mfar::bench {
 
-/// Times per frame [ms], measured until all work is finished. If a member does not say otherwise, a
-/// picture of two balls on a plane is warped to a camera that has turned by 2 degrees.
+/// Times per frame [ms] until all work is finished. If a member does not say otherwise, a picture
+/// of two balls on a plane is warped to a camera that has turned by 2 degrees.
 struct WarpTimes {
-    Summary objects;     ///< balls that cover a ninth of the picture, with their shadows
-    Summary whole;       ///< one ball that is larger than the picture
-    Summary still;       ///< scene of `objects`, but the camera has not turned
-    Summary newPicture;  ///< scene of `objects`: CPU work and upload of a new traced picture
-    Summary remap;       ///< time of the peer: cv::remap, bilinear, of the whole picture
+    Summary objects;  ///< balls with shadows that cover a ninth of the picture
+    Summary whole;
+    Summary still;       ///< like `objects`, but the camera has not turned
+    Summary newPicture;  ///< like `objects`: CPU work and upload of a new traced picture
+    Summary remap;       ///< peer: cv::remap of the whole picture, bilinear
 };
 
-/// The first run does not count; `runs` runs follow. GLES needs a current context.
+/// Makes `runs` runs after one that warms up. GLES needs a current context.
 [[nodiscard]] WarpTimes measureWarp(Size size, int runs, EngineKind engine);
 
 }  // namespace mfar::bench

@@ -20,10 +20,9 @@
 namespace mfar::bench {
 namespace {
 
-constexpr double kVideoNoise = 1.5;  // sigma [grey levels], that of a good sensor indoors
-constexpr int kLessonEvery = 10;     // a lesson is made of every tenth frame
+constexpr double kVideoNoise = 1.5;  // standard deviation for a good sensor indoors [grey levels]
+constexpr int kLessonEvery = 10;     // every tenth frame becomes a lesson
 
-/// Random blobs at four scales and hard-edged bars: much finer detail than the video's pixels.
 cv::Mat texture(cv::Size size) {
     cv::RNG random(20);
     cv::Mat sum(size, CV_32FC3, cv::Scalar::all(20));
@@ -43,8 +42,6 @@ cv::Mat texture(cv::Size size) {
     return out;
 }
 
-/// The camera's view at step k, at the still's resolution. The camera shakes; the amplitudes are
-/// shares of the picture's width.
 cv::Mat viewAt(const cv::Mat& world, cv::Size size, double k) {
     const double dx = 0.015 * size.width * std::sin(0.45 * k);
     const double dy = 0.010 * size.width * std::sin(0.31 * k + 1);
@@ -158,13 +155,13 @@ Workload handheldWorkload(SyntheticBoard& board, Size video, Size still, int fra
 Workload recordedWorkload(const std::filesystem::path& folder, int frames) {
     const Recording recording = loadRecording(folder);
     Workload out{folder.string(), recording.rig, {}, {}, {}, {}, {}};
-    std::map<std::size_t, std::size_t> loaded;  // index in the recording -> index in the workload
+    std::map<std::size_t, std::size_t> loaded;
     const auto distinct =
         std::min<std::size_t>(static_cast<std::size_t>(frames), recording.video.size());
     for (std::size_t i = 0; i < distinct; ++i) {
         const auto still = eval::referenceStill(recording, recording.video[i].time);
         if (!still)
-            throw eval::EvalError(fmt::format("{}: frame {} has no still as its reference",
+            throw eval::EvalError(fmt::format("{}: no still shows another view than frame {}",
                                               folder.string(), recording.video[i].time.ns));
         const RecordedImage& reference = recording.stills[*still];
         const auto poses = eval::posesOf(recording, recording.video[i].time, reference.time);

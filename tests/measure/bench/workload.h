@@ -30,36 +30,37 @@ struct Workload {
     StereoRig rig;
     std::vector<cv::Mat> stills;
     std::vector<cv::Mat> frames;
-    std::vector<std::size_t> stillOf;  ///< index of the still of each frame
+    std::vector<std::size_t> stillOf;
     /// Poses of the video camera at each frame and at each still. An unknown pose is an empty
-    /// entry; if all are unknown, the vector is empty.
+    /// entry. If all are unknown, the vector is empty.
     std::vector<std::optional<Pose>> framePoses{}, stillPoses{};
-    std::vector<Lesson> lessons{};  ///< pairs from which filters are learned before the frames
+    std::vector<Lesson> lessons{};  ///< pairs from which filters are learned before the first frame
     std::shared_ptr<const FilterBank> filters{};  ///< learned from `lessons`; null: shipped filters
 };
 
-/// Number of lessons. It is large enough that guidance can be learned as in the running product,
-/// which needs two stills.
+/// Number of lessons. Learning guidance needs at least two stills.
 inline constexpr int kLessons = 4;
 
-/// A synthetic textured plane seen by a hand-held camera: consecutive frames differ by about 4
-/// video pixels, a small rotation and sensor noise. One still, taken before the frames. Repeatable.
+/// Synthetic textured plane seen by a hand-held camera, with one still before the frames.
+/// Consecutive frames differ by about 4 video pixels, a small rotation and sensor noise. Repeated
+/// calls give equal pictures.
 [[nodiscard]] Workload syntheticWorkload(Size video, Size still, int frames, int lessons = 0);
 
-/// The synthetic board's office through a hand-held camera, with exact poses: one still, then
-/// frames, resized to the requested sizes. Needs no current GL context. Repeatable.
+/// The synthetic board's office seen by a hand-held camera, with exact poses: one still, then
+/// frames, resized to the given sizes. Needs no current GL context. Repeated calls give equal
+/// pictures.
 [[nodiscard]] Workload handheldWorkload(Size video, Size still, int frames, int lessons = 0);
-/// Makes such a workload from any `board` of Pace::Consumer that has not been started.
+/// Uses any `board` of Pace::Consumer that has not been started.
 [[nodiscard]] Workload handheldWorkload(SyntheticBoard& board, Size video, Size still, int frames,
                                         int lessons = 0);
 
-/// Frames of a recording with their poses and with the stills that mfar-eval would use. Starts
-/// again from the first frame if the recording is too short. A lesson is a still with its first
-/// frame. Throws EvalError and RecordingError.
+/// Frames of a recording with poses and with the stills that mfar-eval would use. A short recording
+/// starts again from its first frame. A lesson is a still with its first frame. Throws EvalError
+/// and RecordingError.
 [[nodiscard]] Workload recordedWorkload(const std::filesystem::path& folder, int frames);
 
-/// Repeats the first frame, as a camera at rest would see it. `noise`: sigma of the sensor noise,
-/// which differs in every frame [grey levels].
+/// Repeats the first frame, as a camera at rest would see it. `noise`: standard deviation of sensor
+/// noise, which differs in every frame [grey levels].
 [[nodiscard]] Workload atRest(const Workload& moving, double noise);
 
 }  // namespace mfar::bench

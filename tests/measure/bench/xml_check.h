@@ -5,8 +5,8 @@
 
 namespace mfar::bench::test {
 
-/// Checks that a document is well-formed XML; declarations are not checked. Elements must be closed
-/// in the reverse order of opening, attributes be quoted, and & and < be escaped.
+/// True if a document is well-formed XML: elements closed in reverse order, attributes quoted, &
+/// and < escaped. Declarations are not checked.
 inline bool isWellFormed(const std::string& xml) {
     std::vector<std::string> open;
     bool any = false;

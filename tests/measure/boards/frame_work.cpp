@@ -1,6 +1,6 @@
-// Measures the work per frame on a board, for `./run board-report`. Runs the product's frame path
-// on synthetic pictures. On GLES it lists every draw and dispatch with its invocations and bytes.
-// On SIMD it runs the frames under an emulator that counts instructions, or times them.
+// Measures the work per frame on a board for `./run board-report`, on synthetic pictures. On GLES,
+// lists every draw and dispatch with its invocations and bytes. On SIMD, runs the frames under an
+// emulator that counts instructions, or times them.
 
 #include "hal/gl_context.h"
 #include "pipeline/enlarge/prior_filters.h"
@@ -33,8 +33,8 @@ struct Options {
     bool time = false, avx2 = false;
 };
 
-/// Filters such as the product learns from stills. With them the frame contains the work of
-/// applying learned filters.
+/// Filters with guidance and fine match, so that a frame does the same work as with learned
+/// filters.
 std::shared_ptr<const FilterBank> learnedFilters() {
     return std::make_shared<FilterBank>(readFilters(enlarge::priorFilters(), "prior"),
                                         Guidance{0.5F, 0.5F}, FineMatch{4.0F, 0.1F});
@@ -93,7 +93,6 @@ Json recorded(const PassRecorder& recorder) {
     return out;
 }
 
-/// Records the GL work of setting a still and of the last frame.
 Json passesOf(Frames& frames) {
     Json out;
     {
@@ -109,8 +108,8 @@ Json passesOf(Frames& frames) {
     return out;
 }
 
-/// Current clock of this processor [GHz], from a chain of dependent additions: each takes one
-/// cycle.
+/// Current clock of this processor [GHz], measured with a chain of additions. Each addition depends
+/// on the previous one and takes one cycle.
 double clockGhz() {
     constexpr int kAdditions = 50'000'000;
     using Clock = std::chrono::steady_clock;
@@ -129,7 +128,8 @@ double clockGhz() {
     return most;
 }
 
-/// Median time of each stage and of the whole frame [ms]. The first three frames do not count.
+/// Median, least and largest time of each stage and of the whole frame [ms]. The first three frames
+/// are not counted.
 Json timesOf(Frames& frames) {
     constexpr std::size_t kWarmUp = 3;
     std::map<std::string, std::vector<double>> ms;
@@ -159,13 +159,15 @@ int run(int argc, char** argv) {
     CLI::App app("mfar-frame-work: measures the work of a frame, from which ./run board-report "
                  "predicts the speed on a board");
     Options o;
-    app.add_option("--engine", o.engine)->check(CLI::IsMember({"gles", "simd"}));
-    app.add_option("--case", o.shown)->check(CLI::IsMember({"moving", "rest"}));
+    app.add_option("--engine", o.engine, "engine of all steps")
+        ->check(CLI::IsMember({"gles", "simd"}));
+    app.add_option("--case", o.shown, "moving: every frame differs; rest: all frames are equal")
+        ->check(CLI::IsMember({"moving", "rest"}));
     app.add_option("--recording", o.recording,
                    "use the pictures and poses of this recording instead of synthetic ones");
-    app.add_option("--frames", o.frames)->check(CLI::Range(1, 1000));
-    app.add_option("--threads", o.threads)->check(CLI::Range(1, 64));
-    app.add_option("--width", o.width, "width of the output")->check(CLI::Range(64, 8192));
+    app.add_option("--frames", o.frames, "number of frames")->check(CLI::Range(1, 1000));
+    app.add_option("--threads", o.threads, "number of threads")->check(CLI::Range(1, 64));
+    app.add_option("--width", o.width, "width of the output [px]")->check(CLI::Range(64, 8192));
     app.add_flag("--time", o.time, "time each stage instead of counting its work");
     app.add_flag("--avx2", o.avx2,
                  "use no instruction set newer than AVX2, the newest of the emulator");

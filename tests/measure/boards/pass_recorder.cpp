@@ -16,11 +16,10 @@ PassRecorder* recorder = nullptr;
 struct ShaderText {
     std::string name, defines;
 };
-std::map<GLuint, ShaderText> shaderTexts;                  // keyed by shader
-std::map<GLuint, std::vector<ShaderText>> programShaders;  // keyed by program
+std::map<GLuint, ShaderText> shaderTexts;
+std::map<GLuint, std::vector<ShaderText>> programShaders;
 
-/// Splits a shader text of the product into version, defines, precisions and body; see
-/// gpu::shaderPreamble().
+/// Finds name and defines of a shader in its text, which gpu::shaderPreamble() begins.
 ShaderText textOf(const std::string& whole) {
     ShaderText out;
     const std::size_t head = whole.find('\n') + 1, end = whole.find("precision highp float;");
@@ -67,7 +66,6 @@ std::int64_t bytesOfTexel(GLint format) {
     }
 }
 
-/// Bytes of the texture that is bound to the active unit.
 std::int64_t bytesOfBoundTexture() {
     GLint width = 0, height = 0, format = 0;
     glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_WIDTH, &width);
@@ -147,7 +145,7 @@ std::int64_t bytesSampledFrom(GLint unit) {
     return bytes;
 }
 
-/// Bytes of the program's storage blocks. They count as read, because searches and filters write
+/// Bytes of the program's storage blocks. All count as read, because searches and filters write
 /// little to them.
 std::int64_t bytesOfStorage(GLuint program) {
     GLint count = 0;
@@ -165,7 +163,7 @@ std::int64_t bytesOfStorage(GLuint program) {
     return bytes;
 }
 
-/// Parameters of the current program, and the bytes that it accesses if it reads and writes all its
+/// Parameters of the current program, and the bytes that it accesses if it reads and writes its
 /// textures and buffers once.
 PassWork usedNow() {
     PassWork out;
@@ -229,7 +227,6 @@ std::int64_t bytesOfTargetPixel() {
     return bytes;
 }
 
-/// `pixels`: number of pixels of the render target that the draw fills.
 void recordDraw(std::int64_t vertices, std::int64_t pixels) {
     if (vertices == 0) return;
     PassWork work = usedNow();
@@ -244,13 +241,13 @@ void recordDraw(std::int64_t vertices, std::int64_t pixels) {
     recorder->add(std::move(work));
 }
 
-/// Number of target pixels per video tile: the target may have another resolution than the video.
+/// Number of target pixels per video tile. The target may have another resolution than the video.
 std::int64_t pixelsOfTile(const PassWork& work) {
     std::array<GLint, 4> viewport{};
     glGetIntegerv(GL_VIEWPORT, viewport.data());
     const auto columns = work.params.find("videoWidth"), rows = work.params.find("videoHeight");
     if (columns == work.params.end() || rows == work.params.end()) return 0;
-    constexpr double kTile = 16;  // side of a tile [video px]
+    constexpr double kTile = 16;
     return static_cast<std::int64_t>(kTile * viewport[2] / columns->second * kTile * viewport[3] /
                                      rows->second);
 }

@@ -9,21 +9,20 @@
 
 namespace mfar::boards {
 
-/// One draw or dispatch.
+/// One draw or dispatch. Each byte is counted once.
 struct PassWork {
-    std::string shader;            ///< name of the compute or fragment shader, as in gles_shaders/
-    std::string defines;           ///< e.g. "#define LEARNED", or empty
-    std::int64_t invocations = 0;  ///< invocations of the compute or fragment shader
+    std::string shader;  ///< name of the compute or fragment shader, as in gles_shaders/
+    std::string defines;
+    std::int64_t invocations = 0;
     std::int64_t vertices = 0;
-    std::int64_t bytesRead = 0;         ///< each byte counted once
-    std::int64_t bytesWritten = 0;      ///< each byte counted once
+    std::int64_t bytesRead = 0;
+    std::int64_t bytesWritten = 0;
     std::map<std::string, int> params;  ///< integers of the uniform block Params
 };
 
 /// Records all work that this thread's GL context receives while the object exists. The linker's
-/// option --wrap redirects the GL functions that start work to it, so that the product's calls need
-/// no change. Only one object may exist at a time. Waits for the GPU where a list on the GPU
-/// determines the amount of work.
+/// option --wrap redirects the GL functions that start work. Only one object may exist at a time.
+/// Waits for the GPU where a list on the GPU determines the amount of work.
 class PassRecorder {
 public:
     PassRecorder();

@@ -12,7 +12,7 @@ namespace mfar::eval {
 namespace {
 
 constexpr double kBarsWidth = 460, kBarsTop = 34, kBarsRow = 22, kBarsBelow = 26, kBarsRight = 400;
-constexpr double kLetter = 6.2;  // mean width of a letter of a label [px]
+constexpr double kLetter = 6.2;
 constexpr std::size_t kBarsColumns = 3;
 
 class DrawnBars {
@@ -99,7 +99,6 @@ void addUnique(std::vector<std::string>& list, const std::string& value) {
     if (std::ranges::find(list, value) == list.end()) list.push_back(value);
 }
 
-/// Finds the rows of a report that are drawn as bars and as dots.
 class ReportRows {
 public:
     explicit ReportRows(const Report& report) : report_(report) {

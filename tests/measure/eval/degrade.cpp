@@ -19,7 +19,8 @@ double parseNumber(const std::string& option, const std::string& part, const std
         used = 0;
     }
     if (used == 0 || used != text.size() || !std::isfinite(value))
-        throw std::invalid_argument(fmt::format("{}: '{}' has no valid number", option, part));
+        throw std::invalid_argument(fmt::format(
+            "{}: '{}' has no valid number; expected for example gain=0.7", option, part));
     return value;
 }
 
@@ -41,7 +42,9 @@ void assign(Degradation& out, const std::string& option, const std::string& part
         throw std::invalid_argument(
             fmt::format("{}: '{}' is unknown; expected gain, gamma, blur or noise", option, key));
     if (factor ? !(value > 0) : !(value >= 0))
-        throw std::invalid_argument(fmt::format("{}: '{}' is out of range", option, part));
+        throw std::invalid_argument(fmt::format(
+            "{}: '{}' is out of range; gain and gamma must be above 0, blur and noise at least 0",
+            option, part));
 }
 
 }  // namespace
@@ -64,7 +67,7 @@ cv::Mat degrade(const cv::Mat& picture, const Degradation& how, std::uint64_t se
     if (how.noise > 0) {
         cv::Mat noise(values.size(), values.type());
         cv::RNG(seed + 1).fill(noise, cv::RNG::NORMAL, 0, how.noise / 255);
-        // As in a real sensor, values saturate before read-out noise is added.
+        // In a real sensor, too, values saturate before read-out noise is added.
         values = cv::min(values, 1.0) + noise;
     }
     values.convertTo(out, picture.depth(), 255);

@@ -14,18 +14,16 @@
 namespace mfar::eval {
 namespace {
 
-constexpr double kEdgeReach =
-    4;  // largest distance of a pixel that counts as near a depth edge [px]
+constexpr double kEdgeReach = 4;  // pixels up to this distance count as near a depth edge [px]
 
-/// The truth that the depths of a sample are compared with.
 struct DepthTruth {
-    cv::Mat visible;  ///< CV_32F [1/m], NaN where unknown or occluded in the still
+    cv::Mat visible;  ///< CV_32F [1/m]; NaN where unknown or occluded in the still
     cv::Mat all, edges, inner;
     double disparity;  ///< disparity of a point at a depth of 1 m [px]
 };
 
 DepthTruth loadDepthTruth(const FlowSet& set, const FlowSample& sample) {
-    const cv::Mat flow = loadTruth(set, sample);  // checks the size, marks occluded pixels
+    const cv::Mat flow = loadTruth(set, sample);
     FloatImage image = loadPfm(sample.truth);
     const cv::Mat rho(flow.size(), CV_32F, image.values.data());
     DepthTruth out;

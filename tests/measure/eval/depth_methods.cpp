@@ -16,8 +16,8 @@
 namespace mfar::eval {
 namespace {
 
-/// Depth from a dense flow, triangulated pixel by pixel. For flow methods the still is resampled to
-/// the video's lens and orientation; so both views have the lens of the video camera.
+/// Depth from flow, triangulated pixel by pixel. The still is resampled to the video's lens and
+/// orientation, so both views have the lens of the video camera.
 class TriangulatedFlow final : public DepthMethod {
 public:
     TriangulatedFlow(const StereoRig& rig, std::unique_ptr<FlowMethod> flow,
@@ -52,7 +52,7 @@ private:
     std::optional<Pose> stillPose_;
 };
 
-/// The product's depth: search along epipolar lines, filtered over the frames. Its time includes
+/// The product's depth: search along epipolar lines, filtered over the frames. The time includes
 /// all stages that depth needs.
 class FilteredDepth final : public DepthMethod {
 public:

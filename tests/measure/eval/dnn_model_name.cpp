@@ -23,9 +23,10 @@ DnnModelName dnnModelNamed(const std::filesystem::path& file) {
         for (const int scale : {2, 3, 4, 8})
             if (name.starts_with(algorithm) && name.ends_with(fmt::format("_x{}", scale)))
                 return {algorithm, scale};
-    throw EvalError(fmt::format("{}: a model's name is EDSR, ESPCN, FSRCNN or LapSRN and its "
-                                "factor, as in EDSR_x4.pb",
-                                file.string()));
+    throw EvalError(
+        fmt::format("{}: a model's file name must be EDSR, ESPCN, FSRCNN or LapSRN and its "
+                    "factor, as in EDSR_x4.pb",
+                    file.string()));
 }
 
 }  // namespace mfar::eval

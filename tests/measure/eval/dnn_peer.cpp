@@ -13,9 +13,8 @@
 namespace mfar::eval {
 namespace {
 
-constexpr int kTrial = 32;  // side of the picture with which a model file is tested [px]
+constexpr int kTrial = 32;
 
-/// An error that says in one line why OpenCV refused the file.
 EvalError unusable(const std::filesystem::path& file, std::string why) {
     why.erase(std::min(why.find('\n'), why.size()));
     return EvalError(
@@ -28,7 +27,7 @@ public:
         : file_(std::move(file)), output_(output.width, output.height) {
         const DnnModelName name = dnnModelNamed(file_);
         if (!std::ifstream(file_)) throw EvalError(fmt::format("{}: no such file", file_.string()));
-        // Keeps OpenCV's importer from printing the errors that it also throws.
+        // Keeps OpenCV from printing errors that it also throws.
         cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
         try {
             model_.readModel(file_.string());

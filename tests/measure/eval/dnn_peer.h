@@ -10,19 +10,18 @@
 
 namespace mfar::eval {
 
-/// What the file name of an OpenCV dnn_superres model says, for example EDSR_x4.pb.
+/// Algorithm and factor in the file name of a dnn_superres model, for example EDSR_x4.pb.
 struct DnnModelName {
-    std::string algorithm;  ///< edsr, espcn, fsrcnn or lapsrn
-    int scale;              ///< 2, 3, 4 or 8
+    std::string algorithm;
+    int scale;
 };
 
 /// Throws EvalError for other names.
 [[nodiscard]] DnnModelName dnnModelNamed(const std::filesystem::path& file);
 
-/// Makes a peer that enlarges video without a still. The model enlarges by its own factor; then
-/// OpenCV resizes to the output's size (bicubic; area means for shrinking). Pictures are B G R,
-/// CV_8UC3. Throws EvalError if the file cannot be used or if this program was built without
-/// dnn_superres.
+/// Makes a peer that enlarges video without a still. The model enlarges by its own factor; OpenCV
+/// then resizes to the output's size (bicubic, or area means for shrinking). Pictures are B G R,
+/// CV_8UC3. Throws EvalError if the file cannot be used or if dnn_superres is not built in.
 [[nodiscard]] std::function<cv::Mat(const cv::Mat&)> dnnEnlarger(const std::filesystem::path& file,
                                                                  Size output);
 

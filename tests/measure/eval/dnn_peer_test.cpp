@@ -16,7 +16,7 @@ namespace {
 
 using test::TempFolder;
 
-/// Encodes fields of a protocol buffer: TensorFlow's network files have this format.
+/// TensorFlow's network files are protocol buffers. These functions encode their fields.
 std::string varint(unsigned long value) {
     std::string out;
     for (; value >= 128; value >>= 7)
@@ -40,8 +40,6 @@ std::string node(const std::string& name, const std::string& op,
     return field(1, out + attributes);
 }
 
-/// A network that copies its one channel `copies` times and rearranges the copies to a larger
-/// picture.
 std::string copiesToPixels(int copies) {
     constexpr unsigned long kFloat = 1;
     const std::string type = field(6, kFloat);
@@ -72,7 +70,6 @@ std::filesystem::path write(const std::filesystem::path& file, const std::string
     return file;
 }
 
-/// The error message for a file; empty if the file is accepted.
 std::string refusal(const std::filesystem::path& file) {
     try {
         (void)dnnEnlarger(file, {72, 54});
@@ -95,8 +92,7 @@ TEST(DnnPeer, TheFileNameGivesTheModelAndItsFactor) {
         EXPECT_THROW((void)dnnModelNamed(name), EvalError) << name;
 }
 
-// The network repeats each pixel. So the result shows whether rows, channels and pixels keep their
-// order.
+// The network repeats each pixel. The result shows if rows, channels and pixels keep their order.
 TEST(DnnPeer, AModelEnlargesTheVideo) {
     if (builtWithout()) GTEST_SKIP() << "built without OpenCV's dnn_superres";
     const TempFolder folder;
@@ -117,7 +113,7 @@ TEST(DnnPeer, FilesThatAreNotModelsAreRefused) {
     const TempFolder folder;
     const std::string good = copiesToPixels(4);
     const std::pair<std::filesystem::path, std::string> cases[] = {
-        {folder / "absent_x2.pb", "a model's name is"},
+        {folder / "absent_x2.pb", "a model's file name must be"},
         {folder / "ESPCN_x2.pb", "no such file"},
         {write(folder / "EDSR_x2.pb", "these are words"), "cannot use this file"},
         {write(folder / "EDSR_x3.pb", ""), "cannot use this file"},

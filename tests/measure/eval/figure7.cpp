@@ -19,10 +19,9 @@
 namespace mfar::eval {
 namespace {
 
-constexpr int kStillEvery = 10;  // frames of a synthetic scene between two requests for a still
-constexpr int kScoredFrame = 5;  // the measured frame, counted from the request for a still
+constexpr int kStillEvery = 10;
+constexpr int kScoredFrame = 5;  // the measured frame, counted from the request
 
-/// Runs all methods on the frames of one scene.
 class Figure7Run {
 public:
     Figure7Run(const Figure7Request& request, std::string name, const StereoRig& rig,
@@ -74,8 +73,7 @@ private:
     std::optional<Timestamp> stillTime_;
 };
 
-/// Filters that the product learns from the next stills of a scene. Other scenes and recordings do
-/// not count.
+/// Learns filters from the next stills of one scene only.
 std::shared_ptr<const FilterBank> learnedFrom(SceneRun& board, int stills) {
     StillLearning learning;
     learning.begin(board.rig());
@@ -132,7 +130,7 @@ Figure7Scene ofRecording(const Figure7Request& request, const std::filesystem::p
 }  // namespace
 
 std::vector<Figure7Scene> evaluateFigure7(const Figure7Request& request) {
-    SuperResFactory factory(2);  // the paper's alpha, as in its experiments [video px]
+    SuperResFactory factory(2);  // alpha of the paper's experiments [video px]
     if (request.learn > 0) factory.requireContext();
     std::vector<Figure7Scene> out;
     const auto labels = labelsOf(request.recordings);

@@ -15,23 +15,20 @@ constexpr double kFigureLeft = 64, kFigureTop = 72, kFigureHeight = 230, kFigure
 constexpr double kBar = 25, kBarGap = 3, kGroupGap = 34;
 constexpr std::array<const char*, 6> kBarColours{"#444444", "#0072b2", "#56b4e9",
                                                  "#d55e00", "#009e73", "#cc79a7"};
-// For each method, the colour of the number inside its bar.
 constexpr std::array<const char*, 6> kBarInk{"#fff", "#fff", "#111", "#fff", "#fff", "#111"};
 
-/// One metric for all scenes and methods.
 struct Figure7Panel {
     std::string title;
     std::function<double(const PictureScores&)> value;
     double least, most, step;
     int decimals;
-    bool tiles;  ///< also draw quantiles of the values of 8x8 tiles
+    bool tiles;
 };
 
 double groupWidth() {
     return static_cast<double>(figure7Methods().size()) * (kBar + kBarGap) + kGroupGap;
 }
 
-/// Draws the bars of one panel. Its upper edge is at y = `top`.
 class Figure7Bars {
 public:
     Figure7Bars(const Figure7Panel& panel, double top) : panel_(panel), top_(top) {}
@@ -75,8 +72,8 @@ private:
             out += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2\" fill=\"#fff\" "
                                "stroke=\"#222\" stroke-width=\"0.8\"/>\n",
                                x + kBar / 2, y(panel_.value(frame)));
-        const bool inside =
-            zero - end > 18;  // a high bar has its number at its foot, below all dots
+        // High bars have their number at the foot, below all dots.
+        const bool inside = zero - end > 18;
         out += svg::text(x + kBar / 2, inside ? zero - 6 : std::min(zero, end) - 6, "middle",
                          fmt::format("{:.{}f}", mean, mean > 99.9 ? 0 : panel_.decimals), 10,
                          inside ? kBarInk[m] : "#222");
@@ -98,8 +95,6 @@ private:
     double top_;
 };
 
-/// Start of the axis: the lowest value of any frame, or 0 if that is lower, rounded down to a whole
-/// step.
 double leastOf(const std::vector<Figure7Scene>& scenes, const Figure7Panel& panel) {
     double out = 0;
     for (const Figure7Scene& scene : scenes)

@@ -24,7 +24,8 @@ Report figure7Report(const std::vector<Figure7Scene>& scenes, const PictureMetri
         for (std::size_t f = 0; f < scene.frames.size(); ++f)
             for (std::size_t m = 0; m < scene.scores.size(); ++m) {
                 const PictureScores& s = scene.scores[m][f];
-                const auto decibels = m == 0 ? std::nullopt : s.psnr;  // infinite for the truth
+                // The truth's PSNR is infinite.
+                const auto decibels = m == 0 ? std::nullopt : s.psnr;
                 report.add(scene.name, scene.frames[f], figure7Methods()[m].name,
                            followedBy({decibels, s.hdrVdpQ, s.lpcSi}, furtherValues(s, metrics)));
             }

@@ -13,7 +13,7 @@ std::size_t count(const std::string& text, const std::string& what) {
     return n;
 }
 
-/// Scores that fall from method to method, by ten (Q) and by a tenth (LPC-SI).
+/// Q falls by 10 and LPC-SI by 0.1 from each method to the next.
 Figure7Scene steps(const std::string& name, std::size_t frames) {
     Figure7Scene out{name, std::vector<std::string>(frames, "0"), {}};
     for (std::size_t m = 0; m < figure7Methods().size(); ++m) {
@@ -39,7 +39,7 @@ TEST(Figure7, SummaryComparesTheProductWithTheOtherMethods) {
 TEST(Figure7, ReportHasEveryFrameAndTheMeans) {
     const Report report = figure7Report({steps("desk", 2)}, kAsked);
     ASSERT_EQ(report.rows().size(), 6U * 2 + 6);
-    EXPECT_FALSE(report.rows()[0].values[0]);  // the truth has no PSNR
+    EXPECT_FALSE(report.rows()[0].values[0]);
     EXPECT_EQ(report.rows()[13].method, "detail");
     EXPECT_EQ(report.rows()[13].values[1], 90);
     EXPECT_NE(report.csv().find("hdrvdp_ppd"), std::string::npos);

@@ -18,7 +18,7 @@ void addRow(Report& report, const SampleRow& row, const FlowMethod::Result& resu
     if (error.known == 0)
         throw EvalError(fmt::format("{}: the ground truth has no pixel with a known flow vector",
                                     row.sample.truth.string()));
-    // For a method without any result, no time is reported either.
+    // A method without any result has no time either.
     const bool answered = error.coverage > 0;
     const auto ofAnswers = [&](double value) {
         return answered && std::isfinite(value) ? std::optional(value) : std::nullopt;

@@ -26,10 +26,9 @@ cv::Mat grey(const cv::Mat& picture) {
     return out;
 }
 
-/// A peer that knows nothing about cameras: it computes the flow between two grey pictures of the
-/// same size.
+/// Flow between two grey pictures of the same size, computed without knowledge of the cameras.
 struct PlainFlows {
-    cv::Mat flow, back;  ///< `back` is empty if a method computes one direction only
+    cv::Mat flow, back;
 };
 using PlainFlow = std::function<PlainFlows(const cv::Mat& a, const cv::Mat& b)>;
 
@@ -69,7 +68,6 @@ PlainFlow dis(DisPreset preset, bool fullResolution, bool bothWays) {
 
 PlainFlows farneback(const cv::Mat& a, const cv::Mat& b) {
     PlainFlows out;
-    // Parameters from OpenCV's own samples.
     cv::calcOpticalFlowFarneback(a, b, out.flow, 0.5, 3, 15, 3, 5, 1.2, 0);
     return out;
 }
@@ -108,9 +106,8 @@ private:
     std::optional<Pose> stillPose_;
 };
 
-/// The product's flow: along epipolar lines if both poses are known, otherwise in 2-D. Its time
-/// includes the stages that the field needs: the whole 2-D flow, which computes both directions, or
-/// only the search along the lines.
+/// The product's flow: along epipolar lines if both poses are known, otherwise in two dimensions.
+/// The time is that of the search along the lines, or of the 2-D flow in both directions.
 class ProductMethod final : public FlowMethod {
 public:
     ProductMethod(const StereoRig& rig, bool usePoses)

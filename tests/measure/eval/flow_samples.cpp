@@ -22,8 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Parses the whole text as a number of digits only. Empty if it is not such a number or if it is
-/// too large.
 std::optional<std::int64_t> parseDigits(const std::string& text) {
     std::int64_t value = 0;
     const char* end = text.data() + text.size();
@@ -32,7 +30,6 @@ std::optional<std::int64_t> parseDigits(const std::string& text) {
     return value;
 }
 
-/// Files whose names consist of prefix, number and suffix, keyed by the number.
 std::map<std::int64_t, fs::path> numbered(const fs::path& folder, std::string_view prefix,
                                           std::string_view suffix) {
     std::map<std::int64_t, fs::path> out;
@@ -48,8 +45,6 @@ std::map<std::int64_t, fs::path> numbered(const fs::path& folder, std::string_vi
     return out;
 }
 
-/// The rig that is assumed for a pair of pictures, whose real cameras are unknown: one pinhole
-/// camera for both, with a focal length equal to the picture's width, looking straight ahead.
 StereoRig pairRig(const fs::path& picture) {
     const Size size = loadImage(picture).size;
     StereoRig rig;
@@ -96,8 +91,6 @@ FlowSample sampleOf(const Recording& recording, const RecordedImage& video,
             posesOf(recording, video.time, still.time)};
 }
 
-/// The samples of truth/flow: those whose flow leads to a still, and those whose flow leads to
-/// another video frame.
 struct RecordedFlows {
     std::vector<FlowSample> toStill, toVideo;
 
@@ -114,8 +107,9 @@ struct RecordedFlows {
         const RecordedImage* still = pictureAt(recording.stills, *to);
         const RecordedImage* video = pictureAt(recording.video, *to);
         if (!frame || (!still && !video))
-            throw EvalError(fmt::format(
-                "{}: the recording has no pictures of the two times in this name", truth.string()));
+            throw EvalError(
+                fmt::format("{}: the recording has no pictures at the two times in this file name",
+                            truth.string()));
         if (!still)
             toVideo.push_back(sampleOf(recording, *frame, *video, truth));
         else if (!showsOwnView(recording, still->time, frame->time))

@@ -22,7 +22,7 @@ void writeFlow(const std::filesystem::path& file, cv::Size size = {24, 16}) {
     ASSERT_TRUE(cv::writeOpticalFlow(file.string(), cv::Mat(size, CV_32FC2, cv::Scalar(1, -2))));
 }
 
-TEST(FlowSamples, AFlowFileBelongsToTheFrameOfItsNumberAndTheNextFrame) {
+TEST(FlowSamples, AFlowFileLeadsFromTheFrameOfItsNumberToTheNextFrame) {
     const TempFolder folder;
     for (const char* name : {"frame07.png", "frame10.png", "frame12.png"})
         writePicture(folder / name);
@@ -72,7 +72,7 @@ StereoRig smallRig() {
     return rig;
 }
 
-/// Frames at 100 and 200 ns, a still at 150 ns; with poses at 100 and 200 ns if `poses`.
+/// Writes frames at 100 and 200 ns, with poses if `poses`, and a still at 150 ns.
 void writeRecording(const std::filesystem::path& root, bool poses = false) {
     Recorder recorder(root, smallRig(), 30);
     const cv::Mat frame(16, 24, CV_8UC4, cv::Scalar::all(50));
@@ -98,7 +98,7 @@ TEST(FlowSamples, ARecordingWithoutTruthIsRefused) {
     const TempFolder folder;
     writeRecording(folder / "r");
     EXPECT_THROW((void)flowSamplesOf(folder / "r"), EvalError);
-    // Without poses, depth does not determine the flow to a still that was taken at another time.
+    // Depth gives the flow to a still of another time only if poses are known.
     writeDepth(folder / "r/truth/inverse_depth/100.pfm", 1);
     EXPECT_THROW((void)flowSamplesOf(folder / "r"), EvalError);
 }
@@ -141,8 +141,8 @@ TEST(FlowSamples, FlowFromDepthContainsTheParallaxOfRigAndMotion) {
     writeRecording(folder / "r", true);
     writeDepth(folder / "r/truth/inverse_depth/200.pfm", 2);
     const FlowSet set = flowSamplesOf(folder / "r");
-    // At 150 ns the rig was 0.05 m further left, and its still camera sits 0.1 m to the right of
-    // the video camera.
+    // At 150 ns the rig was 0.05 m further left. Its still camera is 0.1 m to the right of the
+    // video camera.
     const auto v = loadTruth(set, set.samples.at(0)).at<cv::Vec2f>(8, 12);
     EXPECT_NEAR(v[0], 20 * 2 * (0.05 - 0.1), 1e-5);
     EXPECT_NEAR(v[1], 0, 1e-6);

@@ -12,12 +12,11 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 // A point is rejected if its depth in the still's camera is at most this share of its depth in the
 // frame's camera.
 constexpr double kNearPlane = 1e-3;
-constexpr double kSplatWeight = 0.25;  // a pixel with a larger bilinear weight counts as covered
+constexpr double kSplatWeight = 0.25;  // pixels with a larger bilinear weight count as covered
 
-/// A point of the frame as the still's camera sees it.
 struct Seen {
     Eigen::Vector2d pixel;  ///< position in the still, resampled to the video's geometry
-    double inverseDepth;    ///< [1/m], along the still's axis, turned to the video's orientation
+    double inverseDepth;    ///< [1/m], along the optical axis of the resampled still
 };
 
 class Projection {
@@ -27,7 +26,6 @@ public:
           rotation_((turn_ * T_still_frame.rotation).toRotationMatrix()),
           translation_(turn_ * T_still_frame.translation) {}
 
-    /// Empty if the point is behind the still camera or outside its picture.
     [[nodiscard]] std::optional<Seen> see(const Eigen::Vector2d& pixel, double rho) const {
         const Eigen::Vector2d ray = rig_.video.unproject(pixel);
         const Eigen::Vector3d point =
@@ -36,8 +34,7 @@ public:
         return Seen{rig_.video.project(point.head<2>() / point.z()), rho / point.z()};
     }
 
-    /// The difference of inverse depth that moves a point's position in the still by one pixel
-    /// [1/m].
+    /// Difference of inverse depth that moves a point by one pixel in the still [1/m].
     [[nodiscard]] double onePixel() const {
         const double length = translation_.norm() * std::max(rig_.video.fx, rig_.video.fy);
         return length > 0 ? 1 / length : std::numeric_limits<double>::infinity();
@@ -59,14 +56,12 @@ private:
     Eigen::Vector3d translation_;
 };
 
-/// Inverse depth of the nearest surface at each pixel of the still, after the still is resampled to
-/// the video's geometry.
+/// Inverse depth of the nearest surface at each pixel of the still, resampled to the video's
+/// geometry.
 class NearestSurface {
 public:
     explicit NearestSurface(cv::Size size) : rho_(size, CV_64F, -1.0) {}
 
-    /// Of the four pixels around the point's position, covers those whose bilinear weight is above
-    /// kSplatWeight.
     void add(const Seen& seen) {
         const double left = std::floor(seen.pixel.x()), top = std::floor(seen.pixel.y());
         for (const double y : {top, top + 1})

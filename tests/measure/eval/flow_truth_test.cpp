@@ -12,7 +12,6 @@ namespace {
 
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
-/// Distorting lenses, and a still camera with another orientation.
 StereoRig crookedRig() {
     StereoRig rig;
     rig.video = {{80, 60}, 70, 72, 39, 30, {-0.12, 0.03, 0.001, -0.002, 0}};
@@ -26,7 +25,7 @@ FloatImage depthOf(Size size, float rho) {
     return {size, std::vector<float>(static_cast<std::size_t>(size.width) * size.height, rho)};
 }
 
-TEST(FlowTruth, LeadsToTheStillPixelThatShowsThePoint) {
+TEST(FlowTruth, FlowLeadsToTheStillPixelOfTheSamePoint) {
     const StereoRig rig = crookedRig();
     const RigidTransform motion{
         Eigen::Quaterniond(Eigen::AngleAxisd(0.02, Eigen::Vector3d(1, 1, 2).normalized())),
@@ -55,7 +54,7 @@ TEST(FlowTruth, LeadsToTheStillPixelThatShowsThePoint) {
     EXPECT_GT(known, 2000);
 }
 
-TEST(FlowTruth, IsZeroAtInfinityAndUnknownWithoutDepth) {
+TEST(FlowTruth, FlowIsZeroAtInfinityAndUnknownWithoutDepth) {
     StereoRig rig = crookedRig();
     FloatImage depth = depthOf(rig.video.size, 0);
     depth.at(40, 30) = kUnknown;
@@ -66,9 +65,9 @@ TEST(FlowTruth, IsZeroAtInfinityAndUnknownWithoutDepth) {
     EXPECT_TRUE(std::isnan(flow.at<cv::Vec2f>(30, 41)[0]));
 }
 
-/// The scene is a wall at 2 m with a panel in front of it, at 1 m, in columns 30 to 49. The still
-/// camera is 0.1 m to the right of the video camera.
-TEST(FlowTruth, PixelsOccludedOrOutsideInTheStillAreUnknown) {
+/// A panel at 1 m covers columns 30 to 49 of a wall at 2 m. The still camera is 0.1 m to the right
+/// of the video camera.
+TEST(FlowTruth, FlowIsUnknownAtPixelsOccludedOrOutsideInTheStill) {
     StereoRig rig;
     rig.video = {{80, 60}, 100, 100, 39.5, 29.5, {}};
     rig.still = rig.video.scaledTo({240, 180});
@@ -78,8 +77,8 @@ TEST(FlowTruth, PixelsOccludedOrOutsideInTheStillAreUnknown) {
         for (int x = 30; x < 50; ++x)
             depth.at(x, y) = 1;
     const cv::Mat flow = flowOfInverseDepth(depth, rig, rig.T_still_video);
-    // In the still the wall moves 5 px to the left and partly leaves the picture. The panel moves
-    // 10 px; so it occludes 5 columns of the wall.
+    // In the still, the wall moves 5 px to the left and partly out of the picture. The panel moves
+    // 10 px, so it occludes 5 columns of the wall.
     for (int x = 0; x < 80; ++x) {
         const auto& v = flow.at<cv::Vec2f>(30, x);
         if (x < 5 || (x >= 25 && x < 30))
@@ -109,9 +108,9 @@ TEST(FlowTruth, ASlantedSurfaceDoesNotOccludeItself) {
     }
 }
 
-/// flowOfInverseDepth() finds occluded pixels by projecting depth. Here it is compared with rays
-/// through the exact world.
-TEST(FlowTruth, AgreesWithRaysThroughTheWorld) {
+/// flowOfInverseDepth() finds occluded pixels by projecting depth. Rays through the exact world
+/// must agree.
+TEST(FlowTruth, AgreesWithRaysThroughTheSyntheticScene) {
     using synthetic::Path;
     StereoRig rig = synthetic::boardRig();
     rig.video = rig.video.scaledTo({160, 120});
@@ -121,8 +120,7 @@ TEST(FlowTruth, AgreesWithRaysThroughTheWorld) {
         const RigidTransform T_world_frame = cameraPose(world, path, 1, 1.5);
         const RigidTransform T_world_still =
             cameraPose(world, path, 1, 0) * rig.T_still_video.inverse();
-        RigidTransform T_world_turned =
-            T_world_still;  // orientation after resampling, see FlowField
+        RigidTransform T_world_turned = T_world_still;
         T_world_turned.rotation = T_world_still.rotation * rig.T_still_video.rotation;
         const synthetic::Viewpoint frame{rig.video, T_world_frame, 0};
         const FlowImage exact = flowBetween(world, frame, {rig.video, T_world_turned, 0});
@@ -140,7 +138,7 @@ TEST(FlowTruth, AgreesWithRaysThroughTheWorld) {
             }
         EXPECT_EQ(far, 0);
         EXPECT_GT(both, 8000);
-        EXPECT_GT(both, 0.95 * either);  // silhouettes may differ by a pixel, borders by lens
+        EXPECT_GT(both, 0.95 * either);  // silhouettes may differ by a pixel, borders by the lens
     }
 }
 

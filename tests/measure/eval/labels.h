@@ -6,8 +6,7 @@
 
 namespace mfar::eval {
 
-/// Short names for recordings: the name of the folder, or its whole path if two folders have the
-/// same name.
+/// Short names for recordings: the folder's name, or the whole path if the name is not unique.
 [[nodiscard]] std::vector<std::string> labelsOf(const std::vector<std::filesystem::path>& paths);
 
 }  // namespace mfar::eval

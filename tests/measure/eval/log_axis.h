@@ -6,20 +6,18 @@
 
 namespace mfar::eval {
 
-/// A logarithmic axis that spans all included values. All must be greater than zero.
+/// A logarithmic axis that spans all included values, which must be above 0.
 class LogAxis {
 public:
     void include(double value) {
         least_ = std::min(least_, value);
         most_ = std::max(most_, value);
     }
-    /// Position of a value on the axis. [0, 1] spans the included values with a margin on both
-    /// sides.
+    /// Position of a value: [0, 1] spans the included values and a margin on both sides.
     [[nodiscard]] double at(double value) const {
         if (!(least_ <= most_)) return 0;
         return (std::log(value / least_) + kMargin) / (std::log(most_ / least_) + 2 * kMargin);
     }
-    /// Round values for the labels of the axis.
     [[nodiscard]] std::vector<double> ticks() const {
         const bool isShort = most_ < 10 * least_, isLong = most_ > 1000 * least_;
         std::vector<double> out;

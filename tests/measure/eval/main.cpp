@@ -92,7 +92,8 @@ std::string joined(const std::vector<std::string>& names) {
 void checkMethods(const std::vector<std::string>& asked, const std::vector<std::string>& valid) {
     for (const std::string& name : asked)
         if (std::find(valid.begin(), valid.end(), name) == valid.end())
-            throw EvalError(fmt::format("unknown method '{}' (valid: {})", name, joined(valid)));
+            throw EvalError(
+                fmt::format("--methods: unknown method '{}' (valid: {})", name, joined(valid)));
 }
 
 struct Options {
@@ -115,7 +116,6 @@ std::string isAngle(const std::string& text) {
     return number && degrees >= 0 && degrees <= 180 ? "" : text + " is not an angle from 0 to 180";
 }
 
-/// Adds the options for disturbances, which all tasks share.
 void addDisturbances(CLI::App& sub, Options& o) {
     sub.add_option("--degrade", o.degrade,
                    "degrade the still, for example gain=0.7,gamma=1.3,blur=0.7,noise=4; applied in "
@@ -203,7 +203,6 @@ CLI::App* addSamples(CLI::App& app, const char* name, const char* what, const ch
     return sub;
 }
 
-/// Completes the request with the options that all tasks share.
 const SampleRequest& completed(SampleRequest& request, const std::vector<std::string>& methods,
                                const Options& o) {
     checkMethods(request.methods, methods);
@@ -227,11 +226,9 @@ Report runPose(const Options& o) {
     return evaluatePose(o.pose);
 }
 
-/// Adds all subcommands. They store their options in `o`.
 std::vector<EvalCommand> addCommands(CLI::App& app, Options& o) {
     std::vector<EvalCommand> out = addTracedCommands(app, o.csv);
-    // The progress display is stored in `request` first, because `evaluate` shows its progress
-    // there.
+    // Sets request.progress first, because `evaluate` shows its progress there.
     const auto add = [&](CLI::App* command, auto& request, auto evaluate) {
         out.push_back({command, [&request, evaluate](const ProgressPart& progress) {
                            request.progress = progress;

@@ -9,7 +9,6 @@
 namespace mfar::eval {
 namespace {
 
-/// Mean squared error of the pixels where `mask` is set.
 double errorWithin(const cv::Mat& mask, const cv::Mat& picture, const cv::Mat& truth) {
     const cv::Mat off = picture - truth;
     return cv::mean(off.mul(off), mask)[0];
@@ -32,8 +31,6 @@ MatchClass classOf(const cv::Vec2f& lookUp, float confidence, Size still) {
     return confidence >= kWellMatched ? MatchClass::Matched : MatchClass::Unmatched;
 }
 
-/// The still pixel to which the flow of each video pixel leads, CV_32FC2. Points behind the camera
-/// get a position far outside.
 cv::Mat lookUpsOf(const StereoRig& rig, const cv::Mat& flow) {
     const Eigen::Matrix3d rotation = rig.T_still_video.rotation.toRotationMatrix();
     cv::Mat out(flow.size(), CV_32FC2, cv::Scalar::all(-1e6));

@@ -11,7 +11,6 @@ constexpr auto kOutside = static_cast<int>(MatchClass::Outside);
 constexpr auto kUnmatched = static_cast<int>(MatchClass::Unmatched);
 constexpr auto kMatched = static_cast<int>(MatchClass::Matched);
 
-/// Both sensors have the same field of view; the still has three times the resolution.
 StereoRig finerStillRig() {
     StereoRig rig;
     rig.video = {{16, 12}, 15, 15, 7.5, 5.5, {}};

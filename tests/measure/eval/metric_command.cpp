@@ -11,8 +11,7 @@
 namespace mfar::eval {
 namespace {
 
-/// Replaces the HDR-VDP-2 score, which was computed from luma, by the score of the colours as an
-/// sRGB display shows them.
+/// Replaces the HDR-VDP-2 score of the luma by that of the colours on an sRGB display.
 void scoreColours(const cv::Mat& test, const cv::Mat& reference, const HdrVdpDisplay& display,
                   PictureScores& out) {
     const auto light = [&](const cv::Mat& picture) {

@@ -14,14 +14,14 @@ namespace mfar::eval {
 struct MetricRequest {
     std::filesystem::path test, reference;
     PictureMetrics metrics{pictureMetricNames(), {}};
-    bool colour = false;      ///< compute HDR-VDP-2 from colours instead of luma
-    ProgressPart progress{};  ///< shows the progress while the command runs
+    bool colour = false;
+    ProgressPart progress{};
 };
 
-/// `mfar-eval metric`: compares one picture with another.
 CLI::App* addMetricCommand(CLI::App& app, MetricRequest& request, std::string& csv);
 
-/// The report has one row. Throws ImageFileError, and EvalError if the pictures differ in size.
+/// Compares two pictures in a report with one row. Throws ImageFileError, and EvalError if the
+/// pictures differ in size.
 [[nodiscard]] Report evaluateMetric(const MetricRequest& request);
 
 }  // namespace mfar::eval

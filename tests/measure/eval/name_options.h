@@ -10,7 +10,8 @@
 
 namespace mfar::eval {
 
-/// Adds an option whose value is a list of names. The names must be in `named`.
+/// Adds an option whose value is a list of names. `named` returns the value of a name, or nothing
+/// if the name is unknown.
 template <class T>
 void addNames(CLI::App& sub, const char* option, std::vector<T>& values, const char* what,
               std::optional<T> (*named)(std::string_view)) {

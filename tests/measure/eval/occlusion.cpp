@@ -18,8 +18,7 @@ namespace {
 
 using synthetic::Path;
 
-/// Number of first frames that are not scored: until the first still has arrived and depth has
-/// settled.
+/// The first frames are not scored, because the first still must arrive and depth must settle.
 constexpr int kSettling = 8;
 
 std::optional<double> measured(double value) {
@@ -42,7 +41,6 @@ std::string_view nameOf(VirtualShape shape) {
     return "";
 }
 
-/// One virtual object in one scene on one camera path.
 struct Placement {
     std::string label;
     synthetic::Scene scene;

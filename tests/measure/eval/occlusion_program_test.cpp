@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-/// Runs `mfar-eval occlusion` as a user does.
 namespace mfar::eval {
 namespace {
 
@@ -46,7 +45,7 @@ TEST(MfarEvalOcclusion, WritesARowForEachFrameWithMeanAndMedian) {
     EXPECT_GE(std::stod(fields[7]), 0);
 }
 
-TEST(MfarEvalOcclusion, WrongRequestsEndWithOneLineAndStatus2) {
+TEST(MfarEvalOcclusion, InvalidRequestsEndWithAMessageAndStatus2) {
     const TempFolder folder;
     test::writeFile(folder / "none.toml", "seed = 2\n");
     test::writeFile(folder / "wrong.toml", "[[objects]]\nshape = \"cone\"\n");

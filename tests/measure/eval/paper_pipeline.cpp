@@ -9,8 +9,8 @@
 namespace mfar::eval {
 namespace {
 
-/// Computes a + (b - a) weight / 255 per channel, with rows in parallel. a and b are CV_8UC3,
-/// `weight` is CV_8U.
+/// Replaces `a` by a + (b - a) weight / 255 in each channel. a and b are CV_8UC3, `weight` is
+/// CV_8U.
 void blendInto(cv::Mat& a, const cv::Mat& b, const cv::Mat& weight) {
     cv::parallel_for_({0, a.rows}, [&](const cv::Range& rows) {
         for (int y = rows.start; y < rows.end; ++y) {
@@ -64,7 +64,7 @@ void PaperPipeline::setStill(const cv::Mat& still) {
 
 const cv::Mat& PaperPipeline::run(const cv::Mat& video) {
     cv::cvtColor(video, grey_, cv::COLOR_BGR2GRAY);
-    // DIS would take an existing flow as its first guess; this makes every frame start without one.
+    // DIS would use an existing flow as its first guess. Every frame must start without one.
     forward_.release();
     backward_.release();
     dis_->calc(grey_, stillGrey_, forward_);

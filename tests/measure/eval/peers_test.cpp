@@ -16,7 +16,7 @@ StereoRig plainRig() {
     return rig;
 }
 
-/// Blobs of many sizes: every region looks different, and no detail is finer than two pixels.
+/// Blobs of many sizes. Every region looks different, and no detail is finer than two pixels.
 cv::Mat texture(cv::Size size) {
     cv::Mat out(size, CV_32FC3, cv::Scalar::all(0));
     for (const int cell : {3, 9, 27}) {
@@ -29,7 +29,7 @@ cv::Mat texture(cv::Size size) {
     return out;
 }
 
-TEST(RigResample, OutputHasTheStillsWidthAndTheVideosShape) {
+TEST(RigResample, OutputHasTheStillsWidthAndTheVideosAspectRatio) {
     StereoRig rig = plainRig();
     rig.video.size = {640, 480};
     rig.still.size = {2304, 1536};
@@ -45,8 +45,8 @@ TEST(RigResample, WithEqualLensesTheMapOnlyScales) {
 
 TEST(RigResample, ARotatedStillCameraShiftsTheMap) {
     StereoRig rig = plainRig();
-    // The still camera looks 2 degrees to the right of the video camera: the centre of the video's
-    // view lies to the left of the still's centre.
+    // The still camera looks 2 degrees to the right of the video camera. So the centre of the
+    // video's view lies to the left of the still's centre.
     rig.T_still_video.rotation = Eigen::AngleAxisd(-2 * CV_PI / 180, Eigen::Vector3d::UnitY());
     const cv::Mat map = stillMap(rig, {160, 120});
     const double expected = rig.still.cx - rig.still.fx * std::tan(2 * CV_PI / 180);
@@ -67,11 +67,11 @@ TEST(TwoWayConfidence, FallsLinearlyAndIsZeroWhereTheFlowLeavesThePicture) {
     const cv::Mat backward(8, 8, CV_32FC2, cv::Scalar(-0.5, 0));
     const cv::Mat conf = twoWayConfidence(forward, backward, 2);
     EXPECT_NEAR(conf.at<float>(4, 3), 0.75, 1e-6);
-    EXPECT_EQ(conf.at<float>(4, 7), 0);  // its flow leads to x = 8, outside the picture
+    EXPECT_EQ(conf.at<float>(4, 7), 0);  // the flow leads to x = 8, outside the picture
     EXPECT_EQ(twoWayConfidence(forward, backward, 0.25).at<float>(4, 3), 0);
 }
 
-TEST(PaperPipeline, AnIdenticalStillGivesItsDetail) {
+TEST(PaperPipeline, AStillOfTheSameViewAddsDetail) {
     const StereoRig rig = plainRig();
     const cv::Mat still = texture({480, 360});
     cv::Mat video, bicubic;
@@ -84,7 +84,7 @@ TEST(PaperPipeline, AnIdenticalStillGivesItsDetail) {
     EXPECT_GT(cv::mean(paper.confidence())[0], 0.9);
 }
 
-TEST(PaperPipeline, MatchesAShiftedStill) {
+TEST(PaperPipeline, AShiftedStillAddsDetail) {
     const StereoRig rig = plainRig();
     const cv::Mat scene = texture({540, 420});
     const cv::Mat truth = scene(cv::Rect(30, 30, 480, 360)).clone();

@@ -10,17 +10,15 @@
 
 namespace mfar::eval {
 
-/// An 8-bit colour picture from a file, CV_8UC3 in OpenCV's order B G R.
-/// Throws ImageFileError.
+/// Loads an 8-bit colour picture as CV_8UC3 in OpenCV's order B G R. Throws ImageFileError.
 [[nodiscard]] cv::Mat loadPicture(const std::filesystem::path& file);
 /// Writes a PNG. Throws ImageFileError.
 void savePicture(const std::filesystem::path& file, const cv::Mat& picture);
 
-/// CV_8UC3 B G R -> CV_8UC4 R G B A, the pipeline's format.
+/// Converts CV_8UC3 B G R to the pipeline's format, CV_8UC4 R G B A.
 [[nodiscard]] cv::Mat toRgba(const cv::Mat& bgr);
-/// A view of a CV_8UC4 (Rgba8) or CV_8UC1 (Gray8) picture.
 [[nodiscard]] ImageView viewOf(const cv::Mat& picture);
-/// Converts the result of Pipeline::readImage() to CV_8UC3, B G R.
+/// Converts the result of Pipeline::readImage() to CV_8UC3 B G R.
 [[nodiscard]] cv::Mat fromRgba(const std::vector<std::uint8_t>& rgba, Size size);
 
 }  // namespace mfar::eval

@@ -7,7 +7,7 @@
 namespace mfar::eval {
 namespace {
 
-/// Checks a number's range. CLI::Range would accept NaN.
+/// Checks the range of a number. CLI::Range would accept NaN.
 CLI::Validator within(double least, double most) {
     return CLI::Validator(
         [least, most](const std::string& text) {

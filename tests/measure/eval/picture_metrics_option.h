@@ -6,13 +6,10 @@
 
 namespace mfar::eval {
 
-/// Text on the metrics and their parameters, for the help of all subcommands that have them.
 extern const char* const kPictureMetricsHelp;
 
-/// Adds the option --metrics, whose default is the content of `metrics`, and the metrics'
-/// parameters.
 void addPictureMetrics(CLI::App& sub, PictureMetrics& metrics);
-/// Adds only the parameters of the metrics: --ppd, --peak, --black, --gamma, --lpc-ratio.
+/// Adds only the parameters: --ppd, --peak, --black, --gamma, --lpc-ratio.
 void addMetricParameters(CLI::App& sub, PictureMetrics& metrics);
 
 }  // namespace mfar::eval

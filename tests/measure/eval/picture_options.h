@@ -16,7 +16,6 @@ inline std::string isBudget(const std::string& text) {
     return number && ms >= 0.1 && ms <= 1000 ? "" : text + " is not in [0.1, 1000]";
 }
 
-/// Adds the options --width and --height, for the size of `what`.
 inline void addSize(CLI::App& sub, Size& size, const char* what) {
     const std::string help = fmt::format("size of the {} [px]", what);
     for (const auto& [name, side] : {std::pair("--width", &size.width), {"--height", &size.height}})

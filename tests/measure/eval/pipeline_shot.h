@@ -5,11 +5,11 @@
 
 namespace mfar::eval {
 
-/// A shot in the pipeline's format, converted once, so that a timed run does not include the
+/// A shot in the pipeline's format. It is converted beforehand, so a timed run does not include the
 /// conversion.
 class PipelineShot {
 public:
-    /// `usePose`: false hides a known pose from the pipeline.
+    /// `usePose` = false hides a known pose from the pipeline.
     explicit PipelineShot(const Shot& shot, bool usePose = true);
 
     void giveAsStill(Pipeline& pipeline) const;

@@ -18,7 +18,6 @@ bool isPlottable(const PlotPoint& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && p.x > 0 && p.y >= 0;
 }
 
-/// Draws a panel with its legend. The panel's left edge is at x = `left`.
 class DrawnPanel {
 public:
     DrawnPanel(const PlotPanel& panel, double left) : panel_(panel), left_(left) {

@@ -24,7 +24,6 @@ PlotPanel twoLines() {
     return out;
 }
 
-/// The points of the drawn lines.
 std::vector<std::pair<double, double>> polyline(const std::string& svg, int which) {
     const std::string begin = "polyline points=\"";
     std::size_t at = 0;

@@ -47,7 +47,7 @@ Values none() {
     return Values(kColumns.size());
 }
 
-/// The error of a measured pose: the motion from the true pose to it, in the frame of the camera.
+/// Motion from the true pose to the measured pose, in the frame of the camera.
 RigidTransform errorOf(const Pose& measured, const Pose& truth) {
     return truth.T_world_video.inverse() * measured.T_world_video;
 }
@@ -67,7 +67,6 @@ double distanceTo(const std::vector<TagDetection>& seen, const TagMap& map, cons
     return count > 0 ? sum / count : 0;
 }
 
-/// Adds the rows of one recording and one method to the report.
 class Series {
 public:
     Series(Report& report, std::string recording, std::string method)
@@ -97,8 +96,8 @@ public:
         report_.add(recording_, std::to_string(time.ns), method_, std::move(row));
     }
 
-    /// Adds the row with the medians. Call this after the means are added, because these would
-    /// include it.
+    /// Adds the row with the medians. Call it after Report::addMeans(), which would include this
+    /// row.
     void addMedian() const {
         if (rows_.empty()) return;
         Values out = none();

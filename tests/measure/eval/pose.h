@@ -11,21 +11,21 @@
 namespace mfar::eval {
 
 struct PoseRequest {
-    /// Folders are recordings with poses and tags.toml, or hold pictures NAME.jpg or NAME.png with
-    /// their tags' corners in NAME.txt.
+    /// Recordings with poses and tags.toml, or folders with pictures NAME.jpg or NAME.png whose tag
+    /// corners are in NAME.txt.
     std::vector<std::filesystem::path> folders;
-    std::vector<std::string> methods;  ///< names out of poseMethodNames(); only for recordings
-    int frames = 0;                    ///< number of frames per folder, 0: all
-    TrackerOptions tracker;            ///< a recording replaces the tag map by its own
-    ProgressPart progress{};           ///< shows the progress while the command runs
+    std::vector<std::string> methods;  ///< names from poseMethodNames(); only for recordings
+    int frames = 0;                    ///< number of frames per folder; 0: all
+    TrackerOptions tracker;
+    ProgressPart progress{};
 };
 
-/// The product's poses. For a video frame: the pose of the filter, and the pose from the tags of
-/// that frame alone. For a still: the pose from the still itself.
+/// Names of the product's poses. filtered: pose of a frame from the filter; raw: pose of a frame
+/// from its own tags only; still: pose of a still from its own tags.
 [[nodiscard]] const std::vector<std::string>& poseMethodNames();
 
-/// A column that has no meaning for a folder stays empty. The last rows are the means and, for each
-/// recording and method, the medians with the number of flips. Throws EvalError, RecordingError,
+/// Columns without a meaning for a folder stay empty. The last rows are the means, and the medians
+/// of each recording and method with the number of flips. Throws EvalError, RecordingError,
 /// TagMapError and ImageFileError.
 [[nodiscard]] Report evaluatePose(const PoseRequest& request);
 

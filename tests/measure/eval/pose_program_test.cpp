@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-/// Runs `mfar-eval pose` as a user does, on a tiny recording and on a single picture.
 namespace mfar::eval {
 namespace {
 
@@ -56,7 +55,6 @@ RigidTransform view(int i) {
     return cameraAt(0.5, 0.4 + 0.004 * i, -0.3, 0.1);
 }
 
-/// Four frames and a still that show one tag.
 void writeRecording(const fs::path& root) {
     const StereoRig rig{testCamera().scaledTo({320, 240}), testCamera(), {}};
     Recorder recorder(root, rig, 30);
@@ -74,7 +72,7 @@ void writeRecording(const fs::path& root) {
     writeFile(root / "tags.toml", kTags);
 }
 
-TEST(MfarEvalPose, MeasuresARecording) {
+TEST(MfarEvalPose, MeasuresPosesOfARecording) {
     const TempFolder folder;
     writeRecording(folder / "tiny");
     const Outcome outcome =
@@ -124,7 +122,7 @@ TEST(MfarEvalPose, CountsTagsInPictures) {
         << broken.text;
 }
 
-TEST(MfarEvalPose, WrongRequestsEndWithOneLineAndStatus2) {
+TEST(MfarEvalPose, InvalidRequestsEndWithAMessageAndStatus2) {
     const TempFolder folder;
     writeRecording(folder / "bare");
     fs::remove(folder / "bare" / "tags.toml");

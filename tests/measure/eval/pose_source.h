@@ -7,22 +7,21 @@
 
 namespace mfar::eval {
 
-/// Source of the poses that are given to the evaluated methods.
 enum class PoseSource {
-    Recorded,  ///< poses of the recording, see posesOf()
-    Tags,      ///< poses that the product's tracker finds from the tags in frames and stills
-    None,      ///< methods get no poses
+    Recorded,  ///< from the recording, see posesOf()
+    Tags,
+    None,
 };
 
-/// The poses of one recording, for the evaluated methods. The truth always uses the recorded poses.
+/// Poses of one recording for the evaluated methods. The truth always uses recorded poses.
 class KnownPoses {
 public:
-    /// `recording` must outlive this object. With Tags, all pictures are processed in the order of
-    /// their times, with the recording's tags.toml. The pose of a still is computed from the still
+    /// `recording` must outlive this object. With PoseSource::Tags, all pictures are tracked in the
+    /// order of their times, with the recording's tags.toml. A still's pose comes from the still
     /// itself. Throws TagMapError and ImageFileError.
     KnownPoses(const Recording& recording, PoseSource source);
 
-    /// Poses at these two times. `still` may also be the time of a video frame.
+    /// Poses at two times. `still` may also be the time of a video frame.
     [[nodiscard]] PosePair of(Timestamp frame, Timestamp still) const;
 
 private:
@@ -30,7 +29,7 @@ private:
 
     const Recording& recording_;
     PoseSource source_;
-    std::map<std::int64_t, Pose> video_, still_;  // keyed by time [ns]
+    std::map<std::int64_t, Pose> video_, still_;
 };
 
 }  // namespace mfar::eval

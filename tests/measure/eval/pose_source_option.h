@@ -6,7 +6,6 @@
 
 namespace mfar::eval {
 
-/// Adds the option --poses, which sets `source`.
 void addPoseSource(CLI::App& sub, PoseSource& source);
 
 }  // namespace mfar::eval

@@ -5,10 +5,9 @@
 
 namespace mfar::eval {
 
-/// Exit code after a wrong command line or input.
 inline constexpr int kWrongInput = 2;
 
-/// Prints the error that ended a program to standard error. Returns its exit code: kWrongInput if
+/// Prints the error that ended a program to standard error. Returns the exit code: kWrongInput if
 /// the input is the cause, otherwise 1.
 [[nodiscard]] int endedBy(const std::exception& error, std::string_view program);
 

@@ -4,8 +4,7 @@
 #include <array>
 #include <cmath>
 
-/// Runs the programs as a user does, on tiny pictures, so that they keep working. Accuracy and
-/// speed are not checked here.
+/// Runs the programs on tiny pictures. Accuracy and speed are not checked here.
 namespace mfar::eval {
 namespace {
 
@@ -14,7 +13,6 @@ using test::Outcome;
 using test::TempFolder;
 namespace fs = std::filesystem;
 
-/// Writes a texture, the same texture moved by (3, -2) pixels, and that flow.
 void writePair(const fs::path& folder) {
     const cv::Mat world = bench::syntheticWorkload({160, 120}, {320, 240}, 1).stills[0];
     const cv::Size size(160, 120);
@@ -113,7 +111,7 @@ void writeStereo(const fs::path& root) {
             {{160, 120}, std::vector<float>(160 * 120, 0.5F)});
 }
 
-TEST(MfarEval, StereoFlowReportsItsPoseAndError) {
+TEST(MfarEval, FlowErrorGrowsWithDegradationAndPoseNoise) {
     const TempFolder folder;
     writeStereo(folder / "wall");
     const auto bad1 = [&](const std::string& options) {
@@ -138,13 +136,13 @@ TEST(MfarEval, StereoFlowReportsItsPoseAndError) {
     for (const double share : clean)
         EXPECT_LT(share, 0.05);
     EXPECT_GT(worse[1], clean[1] + 0.05);
-    EXPECT_EQ(off[1], clean[1]);  // this method uses no pose
+    EXPECT_EQ(off[1], clean[1]);
     EXPECT_GT(off[2], 0.5);
     EXPECT_GT(other[2], 0.5);
     EXPECT_NE(off[2], other[2]);
 }
 
-TEST(MfarEval, StereoDepthMatchesTheWall) {
+TEST(MfarEval, EveryDepthMethodMeasuresAFlatWall) {
     const TempFolder folder;
     writeStereo(folder / "wall");
     const Outcome outcome = execute(folder, fmt::format("{0} depth {1}/wall --csv {1}/out.csv",
@@ -165,7 +163,7 @@ TEST(MfarEval, StereoDepthMatchesTheWall) {
         EXPECT_TRUE(rows[i + 1][7].empty());  // a wall has no edges
         EXPECT_GT(std::stod(rows[i + 1][11]), 0.8);
         EXPECT_GE(std::stod(rows[i + 1][13]), std::stod(rows[i + 1][11]));
-        EXPECT_EQ(rows[i + 1].at(15).empty(), i != 0);  // only some methods report a variance
+        EXPECT_EQ(rows[i + 1].at(15).empty(), i != 0);  // only `depth` reports a variance
     }
     const Outcome blind = execute(
         folder, fmt::format("{0} depth {1}/wall --methods flow --poses none --csv {1}/out.csv",
@@ -174,8 +172,7 @@ TEST(MfarEval, StereoDepthMatchesTheWall) {
     EXPECT_EQ(std::stod(readCsv(folder / "out.csv").at(1).at(6)), 0);  // no pose, no depth
 }
 
-// Without poses the epipolar method must give the result of the 2-D method.
-TEST(MfarEval, PosesCanBeWithheldFromTheMethods) {
+TEST(MfarEval, WithoutPosesEpipolarFlowEqualsFlow2d) {
     const TempFolder folder;
     writeStereo(folder / "wall");
     const auto epe = [&](const std::string& source) {
@@ -193,7 +190,7 @@ TEST(MfarEval, PosesCanBeWithheldFromTheMethods) {
     EXPECT_EQ(none.second, recorded.second);
 }
 
-TEST(MfarEval, WrongRequestsEndWithOneLineAndStatus2) {
+TEST(MfarEval, InvalidRequestsEndWithAMessageAndStatus2) {
     const TempFolder folder;
     const std::string dir = folder.path().string();
     writeRecording(folder / "tiny", false);
@@ -208,7 +205,7 @@ TEST(MfarEval, WrongRequestsEndWithOneLineAndStatus2) {
         {"superres " + dir + "/tiny --degrade gain=0", "gain=0"},
         {"superres " + dir + "/tiny --classes --no-still", "--classes"},
         {"superres " + dir + "/truth --methods bicubic --dnn-model x4.pb",
-         "x4.pb: a model's name is"},
+         "x4.pb: a model's file name must be"},
         {"superres " + dir + "/tiny --degrade-video blur=-1", "--degrade-video: 'blur=-1'"},
         {"flow " + dir + "/absent", "no such folder"},
         {"flow " + dir + "/tiny", "no truth"},
@@ -238,7 +235,7 @@ TEST(MfarEval, WrongRequestsEndWithOneLineAndStatus2) {
     }
 }
 
-TEST(MfarEval, TruthOfAnotherSizeIsRefused) {
+TEST(MfarEval, ATruePictureOfAnotherSizeIsRefused) {
     const TempFolder folder;
     writeRecording(folder / "tiny", true);
     savePicture(folder / "tiny/truth/highres/1000.png", cv::Mat(400, 576, CV_8UC3, {1, 2, 3}));

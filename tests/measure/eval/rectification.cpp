@@ -7,7 +7,7 @@
 namespace mfar::eval {
 namespace {
 
-constexpr double kShortest = 1e-9;  // length of a baseline up to which it counts as zero [m]
+constexpr double kShortest = 1e-9;  // shorter baselines count as zero [m]
 constexpr double kFlattest = 0.2;   // smallest cosine between a ray and the rectified optical axis
 constexpr double kLargest = 3;      // largest ratio of a rectified side to the view's width
 
@@ -15,7 +15,6 @@ Eigen::Vector3d rayOf(const CameraModel& camera, const Eigen::Vector2d& pixel) {
     return camera.unproject(pixel).homogeneous();
 }
 
-/// Visits every pixel of a picture's border.
 template <class Visit>
 void eachBorderPixel(Size size, const Visit& visit) {
     for (int x = 0; x < size.width; ++x)
@@ -64,8 +63,8 @@ bool Rectification::fit(int disparities) {
     if (flat || !((high.x() - low.x()) < kLargest * camera_.size.width) ||
         !((high.y() - low.y()) < kLargest * camera_.size.width))
         return false;
-    // Shifts by whole pixels, so that views that are already rectified are not interpolated. A
-    // fraction below 1e-6 adds no row.
+    // Shifts are whole pixels, so views that are already rectified are not interpolated. A fraction
+    // below 1e-6 adds no row.
     const double left = std::floor(low.x() + 1e-6) - disparities, top = std::floor(low.y() + 1e-6);
     size_ = {static_cast<int>(std::ceil(high.x() - 1e-6) - left) + 1,
              static_cast<int>(std::ceil(high.y() - 1e-6) - top) + 1};

@@ -10,23 +10,22 @@ namespace mfar::eval {
 
 /// Two views, rotated so that both have the same pinhole camera. A point at (u, v) in the first
 /// view lies at (u - d, v) in the second, with d = fx |baseline| / depth >= 0. u follows the
-/// baseline; so the picture may lie on its side.
+/// baseline, so a picture may lie on its side.
 class Rectification {
 public:
     /// Both views have the lens and size of `camera`. `T_second_first` maps camera coordinates of
     /// the first view to the second. `disparities`: width of a margin on the left, in which the
     /// second view shows what the border of the first shows [px]. Empty if the views cannot be
-    /// rectified: the baseline is zero, or its direction lies in or near one of the pictures.
+    /// rectified, because the baseline is zero or points into or near a picture.
     [[nodiscard]] static std::optional<Rectification>
     of(const CameraModel& camera, const RigidTransform& T_second_first, int disparities);
 
     [[nodiscard]] cv::Size size() const { return size_; }
-    /// Maps for cv::remap, CV_32FC2 of size(): the view's pixel for each rectified pixel.
+    /// Maps for cv::remap, CV_32FC2 of size(): pixel of the view for each rectified pixel.
     [[nodiscard]] cv::Mat firstMap() const { return mapOf(firstTurn_); }
     [[nodiscard]] cv::Mat secondMap() const { return mapOf(secondTurn_); }
-    /// ofFirst() returns the rectified pixel of a pixel of the first view. toSecond() returns the
-    /// pixel of the second view for a rectified pixel, far outside if the point is behind that
-    /// camera.
+    /// ofFirst() rectifies a pixel of the first view. toSecond() returns the second view's pixel
+    /// for a rectified pixel; it is far outside if the point is behind that camera.
     [[nodiscard]] Eigen::Vector2d ofFirst(const Eigen::Vector2d& pixel) const;
     [[nodiscard]] Eigen::Vector2d toSecond(const Eigen::Vector2d& rectified) const {
         return toView(rectified, secondTurn_);
@@ -40,8 +39,8 @@ private:
     [[nodiscard]] cv::Mat mapOf(const Eigen::Matrix3d& R_rect_view) const;
 
     CameraModel camera_;
-    Eigen::Matrix3d firstTurn_, secondTurn_;  ///< R_rect_first, R_rect_second
-    Eigen::Vector2d centre_;                  ///< principal point of the rectified pictures [px]
+    Eigen::Matrix3d firstTurn_, secondTurn_;
+    Eigen::Vector2d centre_;
     cv::Size size_;
 };
 

@@ -25,8 +25,6 @@ void addUnique(std::vector<std::string>& list, const std::string& value) {
     if (std::find(list.begin(), list.end(), value) == list.end()) list.push_back(value);
 }
 
-/// Pads the cells of each column to equal width. The first three columns are left-aligned, numbers
-/// right-aligned.
 std::string layOut(const std::vector<std::vector<std::string>>& lines) {
     std::vector<std::size_t> widths(lines.front().size(), 0);
     for (const auto& line : lines)

@@ -9,47 +9,42 @@
 
 namespace mfar::eval {
 
-/// A wrong request or an unusable input. The program prints it as one line and exits with status 2.
+/// An invalid request or input. The program prints it as one line and exits with status 2.
 class EvalError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Writes a text, like a table or a plot. Throws EvalError if the file cannot be written.
+/// Throws EvalError if the file cannot be written.
 void writeText(const std::filesystem::path& file, const std::string& text);
 
 struct Column {
-    std::string name;  ///< its name in the CSV
-    int decimals;      ///< number of decimals in the table; the CSV always has six
+    std::string name;
+    int decimals;
 };
 
-/// The results of an evaluation, with one row per recording, frame and method. It is printed as one
-/// table, and written as one CSV that begins with the columns recording,frame,method.
+/// Results of an evaluation, with one row per recording, frame and method.
 class Report {
 public:
     explicit Report(std::vector<Column> columns) : columns_(std::move(columns)) {}
 
-    /// `values` has one entry per column; an entry is empty if it was not measured.
+    /// `values` has one entry per column. An entry is empty if it was not measured.
     void add(const std::string& recording, const std::string& frame, const std::string& method,
              std::vector<std::optional<double>> values);
     /// Appends the means of each recording and method, with `frame` = "mean". With several
-    /// recordings, appends the means over all their frames too, with `recording` = "all".
+    /// recordings, also appends the means over all frames, with `recording` = "all".
     void addMeans();
-    /// Appends the medians over the frames of each recording and method, and with several
-    /// recordings those over all their frames, with `frame` = "median".
+    /// Appends medians over frames in the same way, with `frame` = "median".
     void addMedians();
 
-    /// Lines above the table that explain how to read it.
     void setHead(std::string head) { head_ = std::move(head); }
-    /// A column in which nothing was measured is omitted.
     [[nodiscard]] std::string table() const;
     [[nodiscard]] std::string csv() const;
-    /// Throws EvalError if the file cannot be written.
     void writeCsv(const std::filesystem::path& file) const;
 
     struct Row {
         std::string recording, frame, method;
         std::vector<std::optional<double>> values;
-        bool ofFrames = false;  ///< a mean or median over frames
+        bool ofFrames = false;
     };
     [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
     [[nodiscard]] const std::vector<Column>& columns() const { return columns_; }

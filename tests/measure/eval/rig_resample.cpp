@@ -34,8 +34,8 @@ cv::Mat stillMap(const StereoRig& rig, Size size) {
 }
 
 cv::Mat resampleStill(const cv::Mat& still, const StereoRig& rig) {
-    // Each still pixel takes one bilinear sample; each video pixel takes the mean of its still
-    // pixels.
+    // `dense` has several bilinear samples of the still per video pixel. A video pixel is their
+    // mean.
     const double ratio = std::max(rig.still.fx / rig.video.fx, rig.still.fy / rig.video.fy);
     const int samples = std::max(1, static_cast<int>(std::ceil(ratio - 1e-6)));
     const Size fine{rig.video.size.width * samples, rig.video.size.height * samples};

@@ -11,15 +11,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Sets the poses of the samples. For recordings they may come from another source than the
-/// recording.
 void setPoses(std::vector<FlowSample>& samples, const fs::path& folder, PoseSource source) {
     if (source == PoseSource::Recorded) return;
     if (!fs::exists(folder / "cam0")) {
         if (source == PoseSource::Tags)
-            throw EvalError(fmt::format("{}: --poses tags needs a recording; this folder is none",
-                                        folder.string()));
-        return;  // a pair has no poses
+            throw EvalError(
+                fmt::format("{}: --poses tags needs a recording, but this folder has no cam0",
+                            folder.string()));
+        return;
     }
     const Recording recording = loadRecording(folder);
     const KnownPoses poses(recording, source);

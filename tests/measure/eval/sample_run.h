@@ -12,29 +12,27 @@
 
 namespace mfar::eval {
 
-/// Parameters that all evaluations of frames against stills share.
 struct SampleRequest {
-    std::vector<std::filesystem::path> folders;  ///< recordings, or folders with pairs of frames
+    std::vector<std::filesystem::path> folders;
     std::vector<std::string> methods;
     Degradation degradation;  ///< applied to every still, or to the second picture of a pair
     PoseSource poses = PoseSource::Recorded;
-    PoseNoise poseNoise;      ///< applied to the pose of every frame
-    int frames = 0;           ///< number of frames per folder, 0: all that have truth
-    ProgressPart progress{};  ///< shows the progress while the command runs
+    PoseNoise poseNoise;
+    int frames = 0;  ///< number of frames per folder; 0: all with truth
+    ProgressPart progress{};
 };
 
-/// The samples of one folder, with the poses and degradations of the request.
 class SampleRun {
 public:
-    /// `set`: the samples of the folder. `request` must outlive this object. Throws EvalError.
+    /// `set`: samples of the folder. `request` must outlive this object. Throws EvalError.
     SampleRun(const SampleRequest& request, const std::filesystem::path& folder, std::string label,
               FlowSet set);
 
     [[nodiscard]] const FlowSet& set() const { return set_; }
     [[nodiscard]] const std::string& label() const { return label_; }
 
-    /// Calls `frame` for every sample in the order of their times. Before a sample with another
-    /// still, calls `still`. Throws EvalError and ImageFileError.
+    /// Calls `frame` for every sample in the order of their times. Calls `still` before each sample
+    /// with another still. Throws EvalError and ImageFileError.
     void each(const std::function<void(const Shot&)>& still,
               const std::function<void(const FlowSample&, const Shot&)>& frame) const;
 

@@ -10,17 +10,16 @@
 
 namespace mfar::eval {
 
-/// The names in a row of the table, without its values.
 struct SampleRow {
     const std::string& label;
     const FlowSample& sample;
     const std::string& method;
 };
 
-/// Runs every requested method on every sample of the folders, and adds the means.
+/// Runs the requested methods on every sample of the folders and adds the means.
 /// `factory.create(name, rig)` makes a new method for each folder. `samplesOf(folder)` finds the
-/// samples. `truthOf(set, sample)` loads the truth. `addRow(row, result, truth)` compares the
-/// result with the truth and adds a row.
+/// samples, `truthOf(set, sample)` loads the truth. `addRow(row, result, truth)` compares them and
+/// adds a row.
 template <class Factory, class SamplesOf, class TruthOf, class AddRow>
 void measureSamples(const SampleRequest& request, const SamplesOf& samplesOf,
                     const TruthOf& truthOf, const AddRow& addRow, Report& report) {

@@ -7,8 +7,8 @@
 
 namespace mfar::eval {
 
-/// Virtual objects that real objects of the scene occlude by half. Empty if no suitable place in
-/// the scene is known.
+/// Virtual objects of which half is hidden behind real objects of the scene. Empty for scenes
+/// without such objects.
 [[nodiscard]] std::vector<VirtualObject> sceneObjects(synthetic::Scene scene);
 
 }  // namespace mfar::eval

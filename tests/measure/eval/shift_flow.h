@@ -4,7 +4,7 @@
 
 namespace mfar::eval {
 
-/// A baseline that any flow method should beat: one shift for the whole picture, found by phase
+/// A baseline that any flow method should beat: one shift of the whole picture, found by phase
 /// correlation.
 [[nodiscard]] std::unique_ptr<FlowMethod> shiftFlow(const StereoRig& rig);
 

@@ -6,7 +6,7 @@
 namespace mfar::eval {
 namespace {
 
-/// FNV-1a hash. Unlike std::hash, it is the same on every platform.
+/// FNV-1a hash. Unlike std::hash, it is equal on all platforms.
 std::uint64_t hashOf(std::string_view text) {
     std::uint64_t hash = 0xcbf29ce484222325;
     for (const char c : text)

@@ -12,7 +12,7 @@ Pose somePose(std::int64_t ns) {
     return {{ns}, {Eigen::Quaterniond(turn), {1, -2, 3}}};
 }
 
-TEST(PosesOf, PosesAreTheRecordedOnesWithinTheirTimeRange) {
+TEST(PosesOf, RecordedPosesAreUsedWithinTheirTimeRange) {
     Recording recording;
     recording.poses = {somePose(100), somePose(200)};
     const PosePair inside = posesOf(recording, {100}, {150});
@@ -44,7 +44,7 @@ TEST(Turned, RotatesTheRelativePoseByExactlyTheGivenAngle) {
         EXPECT_NEAR((off.translation - exact.translation).norm(), 0, 1e-12);
         sum += (exact.rotation.conjugate() * off.rotation).vec().normalized();
     }
-    EXPECT_LT(sum.norm() / 200, 0.2);  // all directions are equally probable, so the sum is small
+    EXPECT_LT(sum.norm() / 200, 0.2);  // directions are uniformly distributed, so the mean is small
 }
 
 TEST(Turned, EveryRecordingFrameAndSeedHasItsOwnRotationAxis) {

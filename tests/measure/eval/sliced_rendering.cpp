@@ -19,7 +19,6 @@ constexpr std::uint32_t kTruthSeed = 1;
 constexpr int kParts = 16;
 constexpr std::int64_t kPortion = 256;
 
-/// One picture that the calling thread traces in portions. Measures its processor time.
 class SlicedPicture {
 public:
     SlicedPicture(const SlicedScene& scene, const SliceOptions& options)
@@ -27,8 +26,8 @@ public:
         slices.begin(scene.bounds, scene.view.camera.size);
     }
 
-    /// Traces at most `most` samples, counted over all pixels. Returns the number traced. A ray
-    /// through a pixel's centre counts as one sample.
+    /// Traces at most `most` samples of all pixels together and returns their number. A ray through
+    /// a pixel's centre counts as one sample.
     std::int64_t trace(std::int64_t most) {
         const double begin = threadCpuMs();
         const Slice slice = slices.next(most);
@@ -151,8 +150,8 @@ BudgetRun budgetRun(const SliceOptions& slices, Size size, double budgetMs, int 
     const auto period = std::chrono::nanoseconds(1'000'000'000 / 30);
     steady_clock::time_point next = steady_clock::now();
     RenderCounters counters;
-    // Gives up after four times as many frames. The tracer then has no work or gets no processor
-    // time.
+    // Gives up after four times as many frames, because the tracer then has no work or gets no
+    // processor time.
     for (int frame = 0; counters.budget.frames < frames && frame < 4 * frames + 60; ++frame) {
         const double azimuth = kAzimuth + frame * degreesPerSecond / 30;
         renderer.update(render_scenes::viewFrom(size, azimuth), Timestamp{} + frame * period);

@@ -15,10 +15,10 @@ namespace mfar::eval {
 namespace {
 
 constexpr const char* kSceneName = "still-life";
-// Number of frames over which the paper traces one picture.
+// The paper traces one picture over this many frames.
 constexpr int kFramesOfPicture = 64;
-// This rotation requires a new picture every few seconds, so that starts and ends of pictures are
-// measured too.
+// Turns fast enough that a new picture is needed every few seconds, so starts and ends of pictures
+// are measured too.
 constexpr double kTurnPerSecond = 3;
 
 struct SlicingMethod {
@@ -56,8 +56,6 @@ void addErrors(Report& report, const char* method, const std::vector<ErrorAt>& e
     panel.lines.push_back(std::move(line));
 }
 
-/// Statistics of the frame times: the mean and, divided by it, the standard deviation, the 95th
-/// percentile and the maximum.
 void addFrames(Report& report, const char* method, std::vector<double> ms) {
     const auto count = static_cast<double>(ms.size());
     const double mean = std::accumulate(ms.begin(), ms.end(), 0.0) / count;
@@ -88,14 +86,14 @@ void writePlot(const SlicingRequest& request, const PlotPanel& panel) {
 
 Report evaluateSlicing(const SlicingRequest& request) {
     Report report(columns());
-    // The progress display has ten steps: the truth; error against time of four methods and of a
-    // full rendering; frame times of two methods; use of the budget by two methods.
+    // Ten progress steps: the truth; error against time of four methods and of a full rendering;
+    // frame times of two methods; use of the budget by two methods.
     constexpr std::size_t kSteps = 10;
     std::size_t step = 0;
     const auto next = [&](const char* what, const char* method) {
         request.progress.show(step++, kSteps, fmt::format("{} {}", what, method));
     };
-    next("true picture, with which all", "are compared");
+    next("tracing", "the true picture");
     const SlicedScene scene(request.size, request.truthSamples, request.threads);
     PlotPanel panel;
     panel.title = "balls and boxes with sun and environment";

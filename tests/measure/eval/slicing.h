@@ -10,23 +10,23 @@ namespace mfar::eval {
 
 struct SlicingRequest {
     Size size{320, 240};
-    int samples = 64;           ///< samples per pixel of a finished picture
-    int truthSamples = 512;     ///< samples per pixel of the truth, with another seed
-    double budgetMs = 4;        ///< processor time per frame [ms]
-    int frames = 300;           ///< number of frames under the budget
-    int threads = 2;            ///< threads for `frames` and for the truth; else one
-    std::filesystem::path svg;  ///< SVG of error against time; empty: not written
-    ProgressPart progress{};    ///< shows the progress while the command runs
+    int samples = 64;
+    int truthSamples = 512;
+    double budgetMs = 4;
+    int frames = 300;
+    int threads = 2;            ///< threads for the frames under the budget and for the truth
+    std::filesystem::path svg;  ///< plot of error against time; empty: not written
+    ProgressPart progress{};
 };
 
-/// Traces a picture of a few balls and boxes on a plane in time slices, in spatial slices, and as a
-/// whole. Rows are named after the samples per pixel. Columns: ms of processor time; rmse of the
-/// picture, without and with smoothed noise [grey levels, premultiplied RGBA inside the objects'
-/// bounds].
+/// Traces a picture of balls and boxes on a plane in time slices, in spatial slices, and as a
+/// whole. Rows are named after the samples per pixel. Columns: ms of processor time; RMS error of
+/// the picture without and with smoothed noise [grey levels of premultiplied RGBA inside the
+/// objects' bounds].
 ///
-/// Row `frames`: times of frames with equal shares of the samples, as coefficient of variation, and
-/// as 95th percentile and maximum over the mean. Row `budget`: use of the budget by the frames, as
-/// mean, and as 95th percentile of the deviation. Throws EvalError if the plot cannot be written.
+/// Row `frames`: times of frames with equally many samples, as coefficient of variation, 95th
+/// percentile over the mean, and maximum over the mean. Row `budget`: used share of the budget, and
+/// 95th percentile of its deviation. Throws EvalError if the plot cannot be written.
 [[nodiscard]] Report evaluateSlicing(const SlicingRequest& request);
 
 }  // namespace mfar::eval

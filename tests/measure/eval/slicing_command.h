@@ -6,7 +6,6 @@
 
 namespace mfar::eval {
 
-/// Adds the subcommand `slicing` with its options, which set `request`.
 CLI::App* addSlicingCommand(CLI::App& app, SlicingRequest& request);
 
 }  // namespace mfar::eval

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-/// Runs `mfar-eval slicing` as a user does.
 namespace mfar::eval {
 namespace {
 
@@ -17,7 +16,6 @@ using test::execute;
 using test::Outcome;
 using test::TempFolder;
 
-/// Fields of the CSV's lines without the header, keyed by method and frame.
 std::map<std::string, std::vector<std::string>> rowsOf(const std::string& csv) {
     std::map<std::string, std::vector<std::string>> out;
     std::istringstream in(csv);
@@ -65,7 +63,7 @@ TEST(MfarEvalSlicing, MeasuresAndPlotsEachSlicingMethod) {
     EXPECT_NE(svg.find("spatial-adaptive"), std::string::npos);
 }
 
-TEST(MfarEvalSlicing, WrongRequestsEndWithOneLineAndStatus2) {
+TEST(MfarEvalSlicing, InvalidRequestsEndWithAMessageAndStatus2) {
     const TempFolder folder;
     for (const char* arguments :
          {"--samples 0", "--budget nan", "--threads 0", "--width 0", "--frames 301"}) {

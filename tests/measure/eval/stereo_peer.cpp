@@ -15,7 +15,7 @@ namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-/// Usual settings for grey pictures. The penalties are those of OpenCV's documentation.
+/// The penalties are those of OpenCV's documentation.
 cv::Ptr<cv::StereoMatcher> createMatcher(int disparities, StereoPeer::Matcher matcher) {
     if (matcher == StereoPeer::Matcher::Block) return cv::StereoBM::create(disparities, 21);
     constexpr int kBlock = 5, kArea = kBlock * kBlock;
@@ -23,7 +23,7 @@ cv::Ptr<cv::StereoMatcher> createMatcher(int disparities, StereoPeer::Matcher ma
                                   cv::StereoSGBM::MODE_SGBM_3WAY);
 }
 
-/// Fills the gap [begin, end) of a row with the smaller of the disparities at its two ends, because
+/// Fills pixels [begin, end) of a row with the smaller disparity of their two neighbours, because
 /// that is the background's.
 void fillGap(float* row, int begin, int end, int width) {
     constexpr float kNone = std::numeric_limits<float>::infinity();
@@ -32,7 +32,6 @@ void fillGap(float* row, int begin, int end, int width) {
     std::fill(row + begin, row + end, value < kNone ? value : kNan);
 }
 
-/// Converts disparities from 1/16 px (negative: invalid) to pixels, and fills the gaps.
 cv::Mat filled(const cv::Mat& disparity) {
     cv::Mat out;
     disparity.convertTo(out, CV_32F, 1.0 / static_cast<int>(cv::StereoMatcher::DISP_SCALE));
@@ -50,7 +49,6 @@ cv::Mat filled(const cv::Mat& disparity) {
     return out;
 }
 
-/// Flow of each pixel of the video frame, computed from the disparities of the rectified pictures.
 cv::Mat flowOf(const cv::Mat& disparity, const Rectification& views, const Size& size) {
     cv::Mat flow(size.height, size.width, CV_32FC2, cv::Scalar(kNan, kNan));
     for (int y = 0; y < size.height; ++y)
@@ -80,7 +78,7 @@ void StereoPeer::setStill(const cv::Mat& still) {
 }
 
 StereoPeer::Result StereoPeer::run(const cv::Mat& video, const RigidTransform& T_still_frame) {
-    // The still was already resampled to the video's lens and orientation.
+    // The still is already resampled to the video's lens and orientation.
     const RigidTransform turn{rig_.T_still_video.rotation.conjugate(), {0, 0, 0}};
     const auto views = Rectification::of(rig_.video, turn * T_still_frame, disparities_);
     if (!views) return {cv::Mat(video.size(), CV_32FC2, cv::Scalar(kNan, kNan)), 0};

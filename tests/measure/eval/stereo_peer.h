@@ -7,24 +7,22 @@
 
 namespace mfar::eval {
 
-/// Peer for flow with a known pose: OpenCV's StereoSGBM (3-way) or StereoBM on the rectified
-/// pictures. Its disparities are in [0, width / 6). Pixels without a disparity (occluded in the
-/// still by OpenCV's check, or ambiguous) take that of the farther of their two neighbours in the
-/// row.
+/// Peer for flow with known poses: OpenCV's StereoSGBM (3-way) or StereoBM on rectified pictures.
+/// Disparities are in [0, width / 6). Pixels that OpenCV finds occluded or ambiguous get the
+/// disparity of the farther of their two neighbours in the row.
 class StereoPeer {
 public:
     enum class Matcher { SemiGlobal, Block };
     explicit StereoPeer(const StereoRig& rig, Matcher matcher = Matcher::SemiGlobal);
 
-    /// Sets the still for the following frames: CV_8UC3 of the rig's still size. Does the work per
-    /// still.
+    /// Sets the still for the following frames: CV_8UC3 of the rig's still size.
     void setStill(const cv::Mat& still);
 
     struct Result {
-        cv::Mat flow;   ///< CV_32FC2 [video px], see FlowField in pipeline/results.h; NaN: none
-        double ms = 0;  ///< rectification of both pictures and matching; the maps are made before
+        cv::Mat flow;  ///< CV_32FC2 [video px], see FlowField in pipeline/results.h; NaN: no result
+        double ms = 0;  ///< time of rectifying both pictures and matching, without making the maps
     };
-    /// No pixel has a result if the views cannot be rectified. `video`: CV_8UC3. `T_still_frame`:
+    /// No pixel has a result if the views cannot be rectified. `video`: CV_8UC3. `T_still_frame`
     /// maps video camera coordinates at the frame's time to still camera coordinates at the still's
     /// time.
     [[nodiscard]] Result run(const cv::Mat& video, const RigidTransform& T_still_frame);
@@ -33,7 +31,7 @@ private:
     StereoRig rig_;
     int disparities_;
     cv::Ptr<cv::StereoMatcher> matcher_;
-    cv::Mat still_;  ///< grey, resampled to the video's geometry
+    cv::Mat still_;
 };
 
 }  // namespace mfar::eval

@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kDistance = 2;  // distance of the wall [m]
+constexpr double kDistance = 2;
 
 StereoRig crookedPairRig() {
     StereoRig rig;
@@ -28,10 +28,9 @@ RigidTransform moved(double degrees, const Vector3d& axis, const Vector3d& trans
             translation};
 }
 
-/// What a camera sees of a textured wall that is perpendicular to the axis of the video camera.
 cv::Mat pictureOfWall(const CameraModel& camera, const RigidTransform& T_camera_frame) {
     constexpr int kEdge = 700;
-    constexpr double kPixel = 1.0 / 160;  // size of a texture pixel [m]
+    constexpr double kPixel = 1.0 / 160;
     cv::Mat texture(kEdge, kEdge, CV_8UC3), map(camera.size.height, camera.size.width, CV_32FC2);
     cv::RNG(5).fill(texture, cv::RNG::UNIFORM, 0, 256);
     cv::GaussianBlur(texture, texture, {}, 1);
@@ -50,7 +49,6 @@ cv::Mat pictureOfWall(const CameraModel& camera, const RigidTransform& T_camera_
     return out;
 }
 
-/// Error of the peer's flow if the still is taken after `motion`.
 FlowError errorAfter(const RigidTransform& motion,
                      StereoPeer::Matcher matcher = StereoPeer::Matcher::SemiGlobal) {
     const StereoRig rig = crookedPairRig();
@@ -75,7 +73,7 @@ TEST(StereoPeer, FindsTheFlowOfMotionsAcrossTheOpticalAxis) {
 TEST(StereoPeer, StereoBmFindsTheFlowToo) {
     const FlowError error =
         errorAfter(moved(3, {1, 2, 1}, {-0.1, 0, 0}), StereoPeer::Matcher::Block);
-    EXPECT_GT(error.coverage, 0.9);  // no result for half a block at the top and at the bottom
+    EXPECT_GT(error.coverage, 0.9);  // no result for half a block at the top and bottom
     EXPECT_LT(error.epe, 0.3);
 }
 
@@ -98,8 +96,8 @@ TEST(Rectification, PutsEveryPointOnTheSameRowAndNearerPointsFartherLeft) {
                 EXPECT_LT(place.y(), views->size().height);
                 const Vector3d point = motion * (depth * camera.unproject({x, y}).homogeneous());
                 const Eigen::Vector2d seen = camera.project(point.head<2>() / point.z());
-                // There must be one disparity with which the rectified point falls on the point in
-                // the second view.
+                // With one of the disparities, the rectified point must fall on the point in the
+                // second view.
                 double best = 1e9;
                 for (double d = 0; d < 40; d += 0.01)
                     best = std::min(best,
@@ -108,7 +106,7 @@ TEST(Rectification, PutsEveryPointOnTheSameRowAndNearerPointsFartherLeft) {
             }
 }
 
-TEST(Rectification, LeavesPicturesThatAreRectifiedUnchanged) {
+TEST(Rectification, RectifiedPicturesStayUnchanged) {
     CameraModel camera = crookedPairRig().video;
     camera.distortion = {};
     camera.fy = camera.fx;

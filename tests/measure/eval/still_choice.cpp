@@ -12,7 +12,6 @@ bool isIdentity(const RigidTransform& t) {
            t.rotation.angularDistance(Eigen::Quaterniond::Identity()) < kSameView;
 }
 
-/// Index of the usable still that is nearest in time, except still `but`.
 std::optional<std::size_t> nearestStill(const Recording& recording, Timestamp frame,
                                         std::optional<std::size_t> but) {
     std::optional<std::size_t> best;

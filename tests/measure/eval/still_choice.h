@@ -7,19 +7,18 @@
 
 namespace mfar::eval {
 
-/// Index in `recording.stills` of the still for the video frame at time `frame`: the nearest in
-/// time among those that do not show the frame's own view; of two equally near ones, the earlier.
-/// Empty if no such still exists.
+/// Index in `recording.stills` of the reference of the video frame at time `frame`: the nearest
+/// still in time that does not show the frame's own view, or the earlier of two equally near ones.
+/// Empty if there is none.
 [[nodiscard]] std::optional<std::size_t> referenceStill(const Recording& recording,
                                                         Timestamp frame);
 
 /// Index of the still that referenceStill() would choose if its result were excluded.
 [[nodiscard]] std::optional<std::size_t> secondStill(const Recording& recording, Timestamp frame);
 
-/// True if the still taken at time `still` shows the same view as the video frame at time `frame`:
-/// their relative pose [R|t] = T_still_world T_world_video is below 1e-6 (radians, metres). At
-/// equal times the rig alone gives the relative pose, otherwise the recorded poses. Without
-/// recorded poses, different times count as different views.
+/// True if the still at time `still` shows the same view as the video frame at time `frame`: their
+/// relative pose is below 1e-6 (radians, metres). At equal times the rig gives this pose, otherwise
+/// recorded poses do. Without recorded poses, views of different times differ.
 [[nodiscard]] bool showsOwnView(const Recording& recording, Timestamp still, Timestamp frame);
 
 }  // namespace mfar::eval

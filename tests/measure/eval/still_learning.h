@@ -11,16 +11,16 @@
 namespace mfar::eval {
 
 /// Learns from every still that a pipeline matches, as the daemon does. It learns in the pipeline's
-/// thread, so that equal pictures give equal filters.
+/// thread, so equal pictures give equal filters.
 class StillLearning final : public MatchListener {
 public:
     /// Call this before the first still of a pipeline with this rig.
     void begin(const StereoRig& rig);
-    /// Sets whether the next still may serve as the truth of the last frame (default: yes). A still
-    /// that shows the frame's own view must not.
+    /// Sets if the next still may serve as the truth of the last frame (default: yes). A still that
+    /// shows the frame's own view must not.
     void setMayUseOlder(bool may) { mayUseOlder_ = may; }
     [[nodiscard]] std::shared_ptr<const FilterBank> filters() const { return learner_.filters(); }
-    /// Prints one line on what was learned to stderr. The line begins with the name of the program.
+    /// Prints one line on what was learned to stderr.
     void report(const char* program = "mfar-eval") const;
 
     void matched(const RgbPlanes& video, Rows<const std::uint8_t> still,

@@ -7,7 +7,6 @@
 
 namespace mfar::eval {
 
-/// Wall time of one call [ms].
 template <class F>
 [[nodiscard]] double wallMs(F&& call) {
     const auto begin = std::chrono::steady_clock::now();
@@ -16,7 +15,6 @@ template <class F>
     return span.count();
 }
 
-/// The median of three calls' results.
 template <class F>
 [[nodiscard]] double medianOfThree(F&& call) {
     std::array<double, 3> values{};

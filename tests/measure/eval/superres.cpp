@@ -25,17 +25,16 @@
 namespace mfar::eval {
 namespace {
 
-/// PSNR over all three 8-bit channels [dB].
+/// PSNR over the three 8-bit channels [dB].
 double colourPsnr(const cv::Mat& picture, const cv::Mat& truth) {
     return cv::PSNR(picture, withoutBorder(truth), 255);
 }
 
-/// Empty if the value is NaN, which means that nothing could be measured.
+/// NaN means that nothing could be measured; the result is then empty.
 std::optional<double> measured(double value) {
     return std::isnan(value) ? std::nullopt : std::optional(value);
 }
 
-/// Measures all methods on one recording.
 class SuperResRun {
 public:
     SuperResRun(const SuperResRequest& request, const Recording& recording, std::string label,
@@ -90,11 +89,10 @@ private:
     struct Named {
         std::string name;
         std::unique_ptr<SuperResMethod> method;
-        cv::Mat error{};  ///< error of the last frame
+        cv::Mat error{};
     };
     using Times = std::pair<Timestamp, Timestamp>;
 
-    /// The true flow from the last frame to this one; empty if unknown.
     [[nodiscard]] cv::Mat flowTo(Timestamp time) {
         const auto last = std::exchange(frameTime_, time);
         const auto file = last ? recording_.truthFlow(*last, time) : std::nullopt;
@@ -146,7 +144,7 @@ private:
     KnownPoses poses_;
     std::string label_;
     std::vector<Named> methods_;
-    std::unique_ptr<StillMatcher> matcher_;  // only if classes are requested
+    std::unique_ptr<StillMatcher> matcher_;
     std::optional<Times> stillTimes_;
     std::optional<Timestamp> frameTime_;
 };

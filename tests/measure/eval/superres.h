@@ -15,26 +15,26 @@ namespace mfar::eval {
 
 struct SuperResRequest {
     std::vector<std::filesystem::path> recordings;
-    std::vector<std::string> methods;              ///< names out of superResMethodNames()
-    std::vector<std::filesystem::path> dnnModels;  ///< model files of further peers
-    bool classes = false;          ///< also measure each method's gain per MatchClass
-    bool noStill = false;          ///< enlarge the video without a still
-    int stills = 1;                ///< 2: also use the second-nearest still in time
-    Degradation degradation;       ///< applied to every still
-    Degradation videoDegradation;  ///< applied to every frame of the video
-    int learn = 0;  ///< number of matched stills to learn from first; 0: shipped filters
+    std::vector<std::string> methods;
+    std::vector<std::filesystem::path> dnnModels;
+    bool classes = false;
+    bool noStill = false;
+    int stills = 1;           ///< 2: also use the second-nearest still in time
+    Degradation degradation;  ///< applied to every still
+    Degradation videoDegradation;
+    int learn = 0;  ///< number of matched stills to learn from; 0: shipped filters
     /// Recordings to learn from. Empty: each recording learns from its own stills.
     std::vector<std::filesystem::path> learnFrom;
     PoseSource poses = PoseSource::Recorded;
-    PoseNoise poseNoise;         ///< applied to the pose of every frame
+    PoseNoise poseNoise;
     double alpha = 2;            ///< alpha of the paper's confidence [video px]
-    int frames = 0;              ///< number of frames per recording, 0: all that have truth
+    int frames = 0;              ///< number of frames per recording; 0: all with truth
     std::filesystem::path save;  ///< folder for the pictures; empty: not saved
     PictureMetrics metrics{{"psnr", "ssim"}, {}};
-    ProgressPart progress{};  ///< shows the progress while the command runs
+    ProgressPart progress{};
 };
 
-/// Measures every method on every frame with truth/highres. Prints one line per skipped frame to
+/// Measures every method on every frame with truth/highres. Prints a line per skipped frame to
 /// stderr. Throws EvalError and RecordingError.
 [[nodiscard]] Report evaluateSuperRes(const SuperResRequest& request);
 

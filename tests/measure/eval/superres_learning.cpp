@@ -16,7 +16,7 @@ struct Match {
     std::size_t frame, still;
 };
 
-/// For each still, the frame that is number `rank` in the order of distance in time.
+/// Matches each still with a frame: the nearest in time for rank 0, the second-nearest for rank 1.
 std::vector<Match> matchesOf(const Recording& recording, std::size_t rank) {
     std::vector<Match> out;
     for (std::size_t still = 0; still < recording.stills.size(); ++still) {
@@ -38,7 +38,7 @@ void learnFrom(const Recording& recording, const SuperResRequest& request, int& 
     Pipeline pipeline(recording.rig, {.output = {}, .skipUnchanged = false});
     pipeline.setMatchListener(&learning);
     learning.begin(recording.rig);
-    std::optional<Timestamp> last;  // time of the last frame
+    std::optional<Timestamp> last;
     for (std::size_t rank = 0; left != 0; ++rank) {
         const std::vector<Match> matches = matchesOf(recording, rank);
         if (matches.empty()) return;
@@ -51,12 +51,13 @@ void learnFrom(const Recording& recording, const SuperResRequest& request, int& 
                                          request.degradation,
                                          static_cast<std::uint64_t>(stillAt.ns)),
                                  stillAt, pose.still};
-            // The added noise must differ from that in the measurement of the same frame.
+            // The noise must differ from the noise of the same frame in the measurement.
             const Shot video{degrade(loadPicture(recording.video[frame].file),
                                      request.videoDegradation,
                                      ~static_cast<std::uint64_t>(at.ns) - 1),
                              at, pose.frame};
-            // A still that shows the same view as a frame is the truth of that frame.
+            // Learning must not use a still that shows the last frame's own view, because this is
+            // the frame's true picture.
             learning.setMayUseOlder(last && !showsOwnView(recording, stillAt, *last));
             last = at;
             PipelineShot(reference).giveAsStill(pipeline);

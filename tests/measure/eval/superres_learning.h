@@ -9,13 +9,12 @@
 
 namespace mfar::eval {
 
-/// Value of SuperResRequest::learn: learn from each still of the recordings once.
+/// Value of SuperResRequest::learn: learn from each still once.
 inline constexpr int kEachOnce = -1;
 
-/// Learns filters from these recordings, as the daemon does. First each still is matched with its
-/// nearest frame that does not show the same view, then with the next-nearest, and so on, until
-/// request.learn matches are made. Prints one line on what was learned to stderr. Needs a current
-/// GL context.
+/// Learns filters from recordings, as the daemon does. Each still is matched with the nearest frame
+/// that shows another view, then with the next-nearest, until request.learn matches are made.
+/// Prints a line on what was learned to stderr. Needs a current GL context.
 [[nodiscard]] std::shared_ptr<const FilterBank>
 learnedFilters(const SuperResRequest& request,
                const std::vector<std::filesystem::path>& recordings);

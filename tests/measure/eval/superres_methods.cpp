@@ -35,7 +35,7 @@ public:
     Result run(const Shot& frame) override {
         const PipelineShot shot(frame, usePoses_);
         shot.run(pipeline_);
-        // Keeps the picture of the first run, because a second run could start from its result.
+        // Reads the picture of the first run, because a second run could start from its result.
         Result out{fromRgba(pipeline_.readImage(), pipeline_.outputSize()), 0};
         glFinish();
         out.ms = wallMs([&] {
@@ -50,7 +50,6 @@ private:
     Pipeline pipeline_;
 };
 
-/// Methods that need no still.
 class Enlarging final : public SuperResMethod {
 public:
     using Enlarge = std::function<cv::Mat(const cv::Mat& video)>;
@@ -68,7 +67,6 @@ private:
     Enlarge enlarge_;
 };
 
-/// `filter`: one of cv::InterpolationFlags.
 std::unique_ptr<SuperResMethod> upscaling(Size output, int filter) {
     const cv::Size size(output.width, output.height);
     return std::make_unique<Enlarging>(

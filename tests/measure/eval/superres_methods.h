@@ -17,16 +17,15 @@ class SuperResMethod {
 public:
     virtual ~SuperResMethod() = default;
 
-    /// `second`: a second still, for methods that use two; null if there is none.
+    /// `second`: second still, for methods that use two; null if there is none.
     virtual void setStills(const Shot& newest, const Shot* second) = 0;
     struct Result {
         cv::Mat picture;
-        double ms = 0;  ///< wall time of a second run on the same frame, until all work is finished
+        double ms = 0;  ///< wall time of a second run on the same frame
     };
     [[nodiscard]] virtual Result run(const Shot& frame) = 0;
 };
 
-/// Finds the parts of a frame that the still shows, as the product does.
 class StillMatcher {
 public:
     virtual ~StillMatcher() = default;
@@ -35,30 +34,28 @@ public:
     [[nodiscard]] virtual StillMatch run(const Shot& frame) = 0;
 };
 
-/// Names that --methods accepts for superres.
 [[nodiscard]] const std::vector<std::string>& superResMethodNames();
 /// True if this method, without a still, gives no result or only a plain enlargement.
 [[nodiscard]] bool needsStill(const std::string& method);
 
-/// Makes methods. The product's methods need a GL context, which is created for the first of them
-/// and stays current. create() throws std::invalid_argument for an unknown name.
+/// Makes methods. The product's methods need a GL context. It is created for the first of them and
+/// stays current. create() throws std::invalid_argument for an unknown name.
 class SuperResFactory {
 public:
     explicit SuperResFactory(double alpha) : alpha_(alpha) {}
     /// Sets the filters of the product's methods; null: shipped filters.
     void setFilters(std::shared_ptr<const FilterBank> filters) { filters_ = std::move(filters); }
-    /// Creates the GL context now, because other pipelines need it.
     void requireContext();
     [[nodiscard]] std::unique_ptr<SuperResMethod> create(const std::string& name,
                                                          const StereoRig& rig);
-    /// Makes a method of a model of OpenCV's dnn_superres. Throws EvalError as dnnEnlarger() does.
+    /// Makes a peer from a model of OpenCV's dnn_superres. Throws EvalError as dnnEnlarger() does.
     [[nodiscard]] static std::unique_ptr<SuperResMethod>
     createModel(const std::filesystem::path& file, const StereoRig& rig);
     [[nodiscard]] std::unique_ptr<StillMatcher> createMatcher(const StereoRig& rig);
 
 private:
     std::shared_ptr<const FilterBank> filters_;
-    double alpha_;  ///< alpha of the paper's confidence [video px]
+    double alpha_;
     std::unique_ptr<GlContext> context_;
 };
 

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-/// Runs `mfar-eval superres` as a user does, on tiny pictures.
 namespace mfar::eval {
 namespace {
 
@@ -135,7 +134,7 @@ TEST(MfarEval, SuperResComputesSlowMetricsOnRequest) {
                                 "hdrvdp_ppd,hdrvdp_peak,hdrvdp_black,hdrvdp_gamma,"
                                 "psnr_rgb_db,tiles_below,flicker"));
     ASSERT_EQ(rows.at(1).size(), rows[0].size());
-    EXPECT_TRUE(rows[1][5].empty());  // ssim was not requested
+    EXPECT_TRUE(rows[1][5].empty());
     EXPECT_GT(std::stod(rows[1][6]), 0);
     EXPECT_LT(std::stod(rows[1][7]), 100);
     EXPECT_EQ(std::stod(rows[1][15]), 40);

@@ -21,9 +21,10 @@ std::vector<SuperResSample> superResSamplesOf(const Recording& recording, int li
         anyTruth = true;
         const auto still = referenceStill(recording, video.time);
         if (!still) {
-            fmt::print(stderr,
-                       "mfar-eval: {}: frame {} is skipped: no still shows another view than it\n",
-                       recording.root.string(), video.time.ns);
+            fmt::print(
+                stderr,
+                "mfar-eval: {}: frame {} is skipped: no still shows another view than this frame\n",
+                recording.root.string(), video.time.ns);
             continue;
         }
         out.push_back({video, recording.stills[*still], {}, *truth});
@@ -34,7 +35,7 @@ std::vector<SuperResSample> superResSamplesOf(const Recording& recording, int li
         throw EvalError(fmt::format("{}: no truth: truth/highres has no picture of a video frame",
                                     recording.root.string()));
     if (out.empty())
-        throw EvalError(fmt::format("{}: no frame has a still that may be its reference",
+        throw EvalError(fmt::format("{}: there is no frame for which a still shows another view",
                                     recording.root.string()));
     return out;
 }
@@ -52,8 +53,9 @@ cv::Mat loadHighRes(const SuperResSample& sample, const StereoRig& rig) {
             "{}: the true picture has {}x{} pixels, but the output has {}x{}",
             sample.truth.string(), truth.cols, truth.rows, wanted.width, wanted.height));
     if (truth.cols < 2 * kSuperResBorder + 11 || truth.rows < 2 * kSuperResBorder + 11)
-        throw EvalError(fmt::format("{}: the picture is too small to leave out borders of {} px",
-                                    sample.truth.string(), kSuperResBorder));
+        throw EvalError(
+            fmt::format("{}: the picture is too small, because a border of {} px is left out",
+                        sample.truth.string(), kSuperResBorder));
     return truth;
 }
 

@@ -10,25 +10,24 @@
 
 namespace mfar::eval {
 
-/// A frame to measure: its truth, and the stills that methods may use.
+/// A frame to measure, its truth, and the stills that methods may use.
 struct SuperResSample {
     RecordedImage video;
     RecordedImage still;
-    std::optional<RecordedImage> second;  ///< secondStill() of the frame, if there is one
+    std::optional<RecordedImage> second;
     std::filesystem::path truth;
 };
 
-/// The frames that have truth/highres, at most `limit` (0: all). Prints one line to stderr for each
+/// Finds the frames with truth/highres, at most `limit` (0: all). Prints a line to stderr for each
 /// skipped frame. Throws EvalError if no frame remains.
 [[nodiscard]] std::vector<SuperResSample> superResSamplesOf(const Recording& recording, int limit);
 
-/// The true picture, CV_8UC3 of the output's size. Throws ImageFileError, and EvalError if the size
-/// differs or is too small for the border.
+/// Loads the true picture, CV_8UC3 of the output's size. Throws ImageFileError, and EvalError if
+/// the size differs or is too small for the border.
 [[nodiscard]] cv::Mat loadHighRes(const SuperResSample& sample, const StereoRig& rig);
 
 /// Width of the border that no metric counts [output px].
 inline constexpr int kSuperResBorder = 32;
-/// The picture without its border. It shares the picture's memory.
 [[nodiscard]] cv::Mat withoutBorder(const cv::Mat& picture);
 
 }  // namespace mfar::eval

@@ -15,7 +15,6 @@
 #include <string>
 #include <vector>
 
-// Shared by the tests that run mfar-eval.
 namespace mfar::eval {
 
 inline std::vector<std::string> split(const std::string& line) {
@@ -34,8 +33,8 @@ inline std::vector<std::vector<std::string>> readCsv(const std::filesystem::path
     return out;
 }
 
-/// Writes two video frames and a still of a synthetic scene, with the true high-resolution pictures
-/// of both frames.
+/// Writes two video frames and a still of a synthetic scene. If `withTruth`, adds true
+/// high-resolution pictures of both frames.
 inline void writeRecording(const std::filesystem::path& root, bool withTruth) {
     const bench::Workload work = bench::syntheticWorkload({160, 120}, {576, 432}, 2);
     Recorder recorder(root, work.rig, 30);

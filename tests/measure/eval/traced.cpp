@@ -29,17 +29,15 @@ namespace {
 using Rgb = std::array<float, 3>;
 using Picture = std::vector<Rgb>;
 
-constexpr double kRate = 30;  // frames per second
-constexpr int kFirstFrames =
-    15;                        // first frames, not scored: the first picture is still being traced
-constexpr float kPaper = 200;  // grey level of the background under the layer
-constexpr double kFill = 0.5;  // diameter of the objects' bounding sphere / picture's height
+constexpr double kRate = 30;
+constexpr int kFirstFrames = 15;  // not scored, because the first picture is still being traced
+constexpr float kPaper = 200;     // grey level of the background under the layer
+constexpr double kFill = 0.5;     // largest side of the objects' bounding box / picture's height
 constexpr auto kPatience = std::chrono::seconds(20);
 constexpr std::uint64_t kWorldSeed = 1;
 
-/// The scene with the objects, and the board's camera path around it. The point at which the board
-/// looks becomes the centre of the objects. Distances are scaled so that the objects fill the
-/// picture.
+/// A scene and a camera path of the synthetic board around it. The board's target becomes the
+/// centre of the objects. Distances are scaled so that the objects fill half the picture's height.
 class Course {
 public:
     Course(const std::string& scene, synthetic::Path path, Size size)
@@ -95,7 +93,6 @@ Picture differenceOf(const Picture& a, const Picture& b) {
     return out;
 }
 
-/// Mean square over the three channels of pixels.
 struct MeanSquare {
     double sum = 0;
     double values = 0;
@@ -111,7 +108,6 @@ struct MeanSquare {
     }
 };
 
-/// Luma of an error picture, CV_64F.
 cv::Mat lumaOf(const Picture& error, Size size) {
     cv::Mat out(size.height, size.width, CV_64F);
     double* to = out.ptr<double>();
@@ -120,7 +116,6 @@ cv::Mat lumaOf(const Picture& error, Size size) {
     return out;
 }
 
-/// HDR-VDP-2's quality of a frame, as colours on a display.
 double hdrVdpOf(const Picture& shown, const Picture& exact, Size size) {
     const HdrVdpDisplay display;
     const auto lightOf = [&](const Picture& picture) {
@@ -133,8 +128,8 @@ double hdrVdpOf(const Picture& shown, const Picture& exact, Size size) {
     return hdrVdp(lightOf(shown), lightOf(exact), display.pixelsPerDegree).q;
 }
 
-/// Flow of the objects' pixels from a frame to the frame before it, CV_32FC2. NaN if that frame
-/// does not show the object there.
+/// Flow of the objects' pixels to the frame before, CV_32FC2. NaN if that frame does not show the
+/// object there.
 cv::Mat motionTo(const RenderedPicture& before, const RenderedPicture& now) {
     const Size size = now.camera.size;
     const LensProjection lens(now.camera);
@@ -177,7 +172,6 @@ TracedLayerOptions optionsOf(const TracedRequest& request, const std::string& me
     return out;
 }
 
-/// Renders the product's layer along a path, frame by frame.
 class ShownFrames {
 public:
     ShownFrames(const Course& course, const TracedLayerOptions& options)
@@ -185,8 +179,8 @@ public:
         layer_.setScene(course.scene());
     }
 
-    /// Returns the next frame. First waits until the tracer's threads have used up the budget of
-    /// the frame, as they would on a board with free processors.
+    /// Returns the next frame. Waits until the tracer's threads have used the budget of the frame,
+    /// as on a board with free processors.
     Picture next() {
         const RenderView view = course_.at(frame_);
         const Timestamp time =
@@ -215,7 +209,7 @@ private:
         const auto end = std::chrono::steady_clock::now() + kPatience;
         while (!layer_.rests()) {
             if (std::chrono::steady_clock::now() > end)
-                throw EvalError("the path tracer does not finish its picture");
+                throw EvalError("the path tracer did not finish its work within 20 s");
             std::this_thread::sleep_for(std::chrono::microseconds(200));
         }
         if (const auto error = layer_.takeError()) throw EvalError(*error);
@@ -246,7 +240,7 @@ public:
           truth_(course_.scene(), request.truthSamples, request.truth, label_) {}
 
     void run() {
-        std::vector<std::vector<Picture>> shown;  // frames for the video, indexed by method
+        std::vector<std::vector<Picture>> shown;
         for (std::size_t i = 0; i < request_.methods.size(); ++i)
             shown.push_back(run(request_.methods[i],
                                 progress_.part(i, request_.methods.size(), request_.methods[i])));
@@ -292,7 +286,6 @@ private:
         return all;
     }
 
-    /// Values of one row of the report, see tracedColumns().
     struct Values {
         std::optional<double> psnr{}, shadowPsnr{}, flicker{}, pictures{}, warpMs{}, hdrVdpQ{};
     };
@@ -303,7 +296,6 @@ private:
         return out;
     }
 
-    /// A frame, the exact picture, and the difference of the two.
     struct Compared {
         const Picture &shown, &exact, &error;
     };
@@ -370,10 +362,10 @@ std::vector<std::string> tracedMethodNames() {
 }
 
 Report evaluateTraced(const TracedRequest& request) {
-    constexpr int kLeastSide = 17;  // of pictures for HDR-VDP-2 [px]
+    constexpr int kLeastSide = 17;  // smallest side of pictures for HDR-VDP-2 [px]
     if (request.hdrVdp && std::min(request.size.width, request.size.height) < kLeastSide)
         throw EvalError(
-            fmt::format("--hdrvdp needs layers of at least {0}x{0} pixels", kLeastSide));
+            fmt::format("--hdrvdp needs --width and --height of at least {} px", kLeastSide));
     Report report(tracedColumns(request.hdrVdp));
     const std::size_t scenes = request.scenes.size(), paths = request.paths.size();
     for (std::size_t s = 0; s < scenes; ++s)

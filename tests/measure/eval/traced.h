@@ -12,33 +12,33 @@
 namespace mfar::eval {
 
 struct TracedRequest {
-    std::vector<std::string> scenes;     ///< names out of warpSceneNames(), or glTF files
-    std::vector<synthetic::Path> paths;  ///< camera paths of the synthetic board
-    std::vector<std::string> methods;    ///< names out of tracedMethodNames()
-    Size size{640, 480};                 ///< size of the layer
-    double budgetMs = 8;                 ///< processor time of the path tracer per frame [ms]
-    int frames = 90;                     ///< frames per path, at 30 per second
-    int every = 10;                      ///< of this many frames, two consecutive ones are compared
-    int truthSamples = 256;              ///< samples per pixel of the truth
-    bool hdrVdp = false;                 ///< also compute HDR-VDP-2 of the compared frames
-    std::filesystem::path truth;         ///< folder that keeps the truth; empty: traced again
-    std::filesystem::path save;          ///< folder for compared frames and truth; empty: not saved
-    std::filesystem::path video;         ///< folder for a y4m file of each path; empty: not written
-    ProgressPart progress{};             ///< shows the progress while the command runs
+    std::vector<std::string> scenes;  ///< names from warpSceneNames(), or glTF files
+    std::vector<synthetic::Path> paths;
+    std::vector<std::string> methods;
+    Size size{640, 480};
+    double budgetMs = 8;  ///< processor time of the path tracer per frame
+    int frames = 90;      ///< frames per path, at 30 per second
+    int every = 10;       ///< a frame and the next are compared every this many frames
+    int truthSamples = 256;
+    bool hdrVdp = false;
+    std::filesystem::path truth;  ///< folder that keeps the truth; empty: traced again
+    std::filesystem::path save;   ///< folder for compared frames and truth; empty: not saved
+    std::filesystem::path video;  ///< folder for a Y4M file of each path; empty: not written
+    ProgressPart progress{};
 };
 
 [[nodiscard]] std::vector<std::string> tracedMethodNames();
 
-/// Measures how the product shows path-traced objects while the camera moves. In every compared
-/// frame, the layer that was made within the budget is compared with a picture path traced for the
-/// same view; both lie over grey paper. Rows are SCENE/PATH, frame and method; means are over the
-/// frames after the first half second.
+/// Measures how the product shows path-traced objects while the camera moves. In compared frames,
+/// the layer that was made within the budget is compared with a picture traced for the same view,
+/// both over grey paper. Rows are SCENE/PATH, frame and method. Means leave out the first half
+/// second.
 ///
-/// Columns: psnr of the pixels where the truth shows an object [dB]; shadow_psnr of those where it
-/// shows a change of the real surface [dB]; flicker of the objects' luma [grey levels], see
-/// metrics/flicker.h; pictures, the number shown so far; warp_ms; with `hdrVdp` hdrvdp_q, the
-/// quality of the whole frame on the display HdrVdpDisplay{}. The GLES engine needs a current
-/// context. Throws EvalError.
+/// Columns: psnr of pixels where the truth shows an object [dB]; shadow_psnr where it shows a
+/// change of the real surface [dB]; flicker of the objects' luma [grey levels], see
+/// metrics/flicker.h; pictures, the number shown so far; warp_ms; with `hdrVdp`, hdrvdp_q of the
+/// whole frame on the display HdrVdpDisplay{}. The GLES engine needs a current context. Throws
+/// EvalError.
 [[nodiscard]] Report evaluateTraced(const TracedRequest& request);
 
 }  // namespace mfar::eval

@@ -33,12 +33,12 @@ CLI::App* addTracedCommand(CLI::App& app, TracedRequest& request) {
     request.methods = tracedMethodNames();
     sub->add_option(
            "--scenes", request.scenes,
-           fmt::format("scenes, any of {}, or glTF files", fmt::join(warpSceneNames(), ", ")))
+           fmt::format("scenes: any of {}, or glTF files", fmt::join(warpSceneNames(), ", ")))
         ->delimiter(',');
     addNames(*sub, "--paths", request.paths,
              "paths of the camera (default: handheld,orbit,forward)", synthetic::pathNamed);
     sub->add_option("--methods", request.methods,
-                    fmt::format("of {}", fmt::join(tracedMethodNames(), ", ")))
+                    fmt::format("methods to measure, of: {}", fmt::join(tracedMethodNames(), ", ")))
         ->delimiter(',')
         ->check(CLI::IsMember(tracedMethodNames()));
     addSize(*sub, request.size, "layer");
@@ -51,7 +51,7 @@ CLI::App* addTracedCommand(CLI::App& app, TracedRequest& request) {
         ->check(CLI::Range(1, 100000))
         ->capture_default_str();
     sub->add_option("--every", request.every,
-                    "every this many frames, a frame and the next one are compared")
+                    "compare a frame and the next one every this many frames")
         ->check(CLI::Range(1, 100000))
         ->capture_default_str();
     sub->add_flag("--hdrvdp", request.hdrVdp, "compute HDR-VDP-2 as well, which takes longer");
@@ -67,7 +67,7 @@ CLI::App* addTracedCommand(CLI::App& app, TracedRequest& request) {
 }
 
 Report runTracedCommand(const TracedRequest& request) {
-    // Uses the engine that the environment variable MFAR_ENGINE names.
+    // The environment variable MFAR_ENGINE names the engine.
     const bool gles = EngineChoice::fromEnvironment().occlusion == EngineKind::Gles;
     const auto context = gles ? createGlContext() : nullptr;
     return evaluateTraced(request);

@@ -11,15 +11,13 @@
 
 namespace mfar::eval {
 
-/// A subcommand and the function that runs it.
 struct EvalCommand {
     CLI::App* command;
     std::function<Report(const ProgressPart&)> evaluate;
-    bool hasOwnPlot = false;  ///< the command has its own option --svg
+    bool hasOwnPlot = false;
 };
 
-/// Adds the subcommands that need the path tracer. Empty if the path tracer is not built. They set
-/// `csv` as other subcommands do.
+/// Adds the subcommands that need the path tracer. Empty if it is not built.
 [[nodiscard]] std::vector<EvalCommand> addTracedCommands(CLI::App& app, std::string& csv);
 
 }  // namespace mfar::eval

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-/// Runs `mfar-eval traced` as a user does.
 namespace mfar::eval {
 namespace {
 
@@ -45,23 +44,23 @@ TEST(MfarEvalTraced, ComparesFramesOfEachMethodAndKeepsTheTruth) {
         if (row[0] != "still-life/orbit" || row[1] != "20") continue;
         ++compared;
         // Grey paper alone would give 11 dB. The truth has only 4 samples per pixel, which limits
-        // the value to 35 dB.
+        // PSNR to 35 dB.
         EXPECT_GT(std::stod(row[3]), 15) << line;
         EXPECT_LT(std::stod(row[3]), 60) << line;
         EXPECT_GT(std::stod(row[8]), 20) << line;
         EXPECT_LT(std::stod(row[8]), 100) << line;
     }
     EXPECT_EQ(compared, 2) << "product and independent";
-    // The files are the truth of frames 0, 1, 10, 11, 20 and 21.
+    // Frames 0, 1, 10, 11, 20 and 21 are compared.
     const auto files = std::filesystem::directory_iterator(folder / "truth");
     EXPECT_EQ(std::distance(begin(files), end(files)), 6);
     EXPECT_TRUE(std::filesystem::exists(folder / "saved/still-life-orbit-020-product.png"));
-    // Bytes of a frame that shows both methods side by side, in 4:2:0.
+    // A frame shows both methods side by side, in 4:2:0.
     constexpr std::uintmax_t kFrameBytes = 2 * 64 * 48 * 3 / 2;
     EXPECT_GT(std::filesystem::file_size(folder / "video/still-life-orbit.y4m"), 22 * kFrameBytes);
 }
 
-TEST(MfarEvalTraced, WrongRequestsEndWithOneLineAndStatus2) {
+TEST(MfarEvalTraced, InvalidRequestsEndWithAMessageAndStatus2) {
     const TempFolder folder;
     for (const char* arguments :
          {"--scenes absent", "--methods magic", "--paths away", "--budget nan", "--frames 0",

@@ -13,12 +13,12 @@
 namespace mfar::eval {
 namespace {
 
-constexpr std::uint32_t kTruthSeed = 7;  // the truth must use other random numbers than the product
+constexpr std::uint32_t kTruthSeed = 7;  // other random numbers than the product's
 
 PathTracerOptions truthOptions() {
     PathTracerOptions out;
     out.shadowReach = kShadowReach;
-    out.fireflyClamp = 1;  // as in the product, so that the error of the clamp does not count
+    out.fireflyClamp = 1;  // as in the product, so that clamping causes no error
     out.seed = kTruthSeed;
     return out;
 }

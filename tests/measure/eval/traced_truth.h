@@ -11,15 +11,14 @@
 
 namespace mfar::eval {
 
-/// Path-traced pictures for the views of frames. If a folder is given, they are kept there between
-/// runs.
+/// Path-traced pictures for the views of frames. A folder keeps them between runs.
 class TracedTruth {
 public:
-    /// `name`: name of the path, used in file names.
+    /// `name`: name of the path, for file names. Without a folder, nothing is kept.
     TracedTruth(const std::shared_ptr<const Scene>& scene, int samples,
                 std::filesystem::path folder, const std::string& name);
 
-    /// The picture stays valid as long as this object exists. An incomplete file is traced again.
+    /// The picture stays valid as long as this object exists. Incomplete files are traced again.
     /// Throws EvalError if a file cannot be written.
     const RenderedPicture& at(int frame, const RenderView& view);
 
@@ -33,7 +32,6 @@ private:
     std::map<int, RenderedPicture> pictures_;
 };
 
-/// Puts pictures of `size` side by side. Their values are in [0, 255].
 [[nodiscard]] StoredImage
 rgbaOf(const std::vector<const std::vector<std::array<float, 3>>*>& pictures, Size size);
 

@@ -7,9 +7,9 @@
 namespace mfar::eval {
 namespace {
 
-constexpr double kClearlyBefore = 1.1;  // smallest ratio of inverse depths for "in front"
+// Smallest ratio of inverse depths that counts as clearly in front.
+constexpr double kClearlyBefore = 1.1;
 
-/// A ray origin + t * direction, in units of the object's extent.
 struct LocalRay {
     Eigen::Vector3d origin, direction;
 };
@@ -51,7 +51,7 @@ double throughQuad(const LocalRay& r) {
 
 }  // namespace
 
-// The ray's direction has z = 1 in the camera's frame; so t is the depth.
+// The ray has z = 1 in the camera's frame, so t is the depth.
 double surfaceDepth(const VirtualObject& object, const RigidTransform& T_world_camera,
                     const Eigen::Vector2d& ray) {
     const LocalRay local = localRay(object, T_world_camera, ray);
@@ -73,7 +73,7 @@ VirtualTruth virtualTruth(std::span<const VirtualObject> objects, const CameraMo
     for (int y = 0; y < video.size.height; ++y) {
         for (int x = 0; x < video.size.width; ++x) {
             const Eigen::Vector2d ray = video.unproject({x, y});
-            double nearest = 0;  // greatest inverse depth so far [1/m]
+            double nearest = 0;
             for (const VirtualObject& object : objects)
                 if (const double z = surfaceDepth(object, T_world_video, ray); z > 0)
                     nearest = std::max(nearest, 1 / z);

@@ -19,7 +19,7 @@ VirtualObject objectAt(VirtualShape shape, const Eigen::Vector3d& position) {
 TEST(VirtualTruth, SizeOfAnEllipsoidGivesItsAxes) {
     const VirtualObject sphere = objectAt(VirtualShape::Sphere, {0, 0, 2});
     EXPECT_NEAR(surfaceDepth(sphere, {}, {0, 0}), 1.95, 1e-12);
-    // This ray just touches the side: it is the tangent from the origin to the ellipse.
+    // This ray is the tangent from the origin to the ellipse.
     const double reach = 0.2 / std::sqrt(4 - 0.05 * 0.05);
     EXPECT_GT(surfaceDepth(sphere, {}, {reach - 1e-6, 0}), 1.9);
     EXPECT_EQ(surfaceDepth(sphere, {}, {reach + 1e-6, 0}), 0);
@@ -31,14 +31,14 @@ TEST(VirtualTruth, ARotatedBoxIsFirstHitAtItsEdge) {
     box.T_world_object.rotation = Eigen::AngleAxisd(std::numbers::pi / 4, Eigen::Vector3d::UnitY());
     EXPECT_NEAR(surfaceDepth(box, {}, {0, 0}), 2 - 0.1 * std::numbers::sqrt2, 1e-12);
     EXPECT_EQ(surfaceDepth(box, {}, {0, 0.1}), 0);
-    // The ray is parallel to the upper and lower sides, and outside.
+    // The ray is parallel to the upper and lower sides, and outside them.
     box.T_world_object.translation.y() = 0.2;
     EXPECT_EQ(surfaceDepth(box, {}, {0, 0}), 0);
 }
 
 TEST(VirtualTruth, AQuadIsFlatAndSeenFromBothSides) {
     VirtualObject quad = objectAt(VirtualShape::Quad, {0, 0, 2});
-    quad.size.z() = 0;  // a quad has no depth: its size.z is ignored
+    quad.size.z() = 0;  // ignored, because a quad is flat
     EXPECT_NEAR(surfaceDepth(quad, {}, {0.09, 0.04}), 2, 1e-12);
     EXPECT_EQ(surfaceDepth(quad, {}, {0.09, 0.06}), 0);
     quad.T_world_object.rotation = Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX());

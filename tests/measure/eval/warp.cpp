@@ -20,7 +20,9 @@
 namespace mfar::eval {
 namespace {
 
-constexpr int kFrames = 12;  // frames per view; meanwhile, pixels of holes and edges are traced
+// Number of frames per view. Meanwhile, pixels without a rendered sample and pixels at edges are
+// traced.
+constexpr int kFrames = 12;
 constexpr double kInpaintRadius = 3;
 
 std::size_t objectPixels(const RenderedPicture& picture) {
@@ -64,14 +66,12 @@ struct Shot {
     RenderedPicture truth;
 };
 
-/// Picture and cost of one method for one view.
 struct Warped {
     Rgba rgba;
     double ms = 0;
     std::optional<double> holeShare, rerayShare, rerayOfObjects;
 };
 
-/// Measures all methods on one scene and its traced picture.
 class WarpRun {
 public:
     WarpRun(const WarpRequest& request, const std::string& scene)
@@ -148,8 +148,7 @@ private:
         return out;
     }
 
-    /// Telea's method, for the holes that the method `none` leaves. Its time does not include the
-    /// warp.
+    /// Telea's method for the pixels without a rendered sample. Its time does not include the warp.
     [[nodiscard]] Warped inpaint(const Shot& shot) const {
         Warp warp(view_.camera, request_.size, *engine_,
                   {.filling = HoleFilling::None, .leastMotion = 0});

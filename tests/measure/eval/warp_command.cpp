@@ -14,9 +14,9 @@ constexpr const char* kWarpHelp =
     "Path-traces a picture of each scene, turns the camera about it, warps the picture to the\n"
     "new view, and compares it with a picture that is path-traced in that view.\n"
     "Methods differ in how they fill holes, the pixels that the warped picture does not show.\n"
-    "none: not; push-pull: from pixels around them; re-render: these pixels are traced; both:\n"
-    "re-render, and push-pull until the traced pixels arrive; inpaint: by Telea's method in\n"
-    "OpenCV; full: no warp, the whole picture is traced anew.\n"
+    "none: left empty; push-pull: from pixels around them; re-render: these pixels are traced;\n"
+    "both: re-render, and push-pull until the traced pixels arrive; inpaint: by Telea's method\n"
+    "in OpenCV; full: no warp, the whole picture is traced anew.\n"
     "psnr_db: of red, green and blue where the truth shows an object; hole_share: holes in\n"
     "objects and shadow, divided by the pixels of the objects; reray_share: rays that fill\n"
     "holes, divided by the rays of full; reray_of_objects: the same rays, divided by those of\n"
@@ -66,7 +66,7 @@ CLI::App* addWarpCommand(CLI::App& app, WarpRequest& request, WarpFiles& files) 
 }
 
 Report runWarpCommand(const WarpRequest& request, const WarpFiles& files) {
-    // Uses the engine that the environment variable MFAR_ENGINE names.
+    // The environment variable MFAR_ENGINE names the engine.
     const bool gles = EngineChoice::fromEnvironment().occlusion == EngineKind::Gles;
     const auto context = gles ? createGlContext() : nullptr;
     Report report = evaluateWarp(request);

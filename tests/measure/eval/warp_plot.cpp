@@ -12,7 +12,6 @@ namespace {
 
 constexpr double kPanel = 420, kHeight = 320, kLeftOf = 70, kTopOf = 60, kBetween = 70;
 
-/// Draws the PSNR of one scene over the logarithm of the angle.
 class WarpPanel {
 public:
     WarpPanel(const WarpRequest& request, const Report& report, std::string scene, double left)

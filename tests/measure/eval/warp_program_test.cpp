@@ -7,7 +7,6 @@
 #include <sstream>
 #include <string>
 
-/// Runs `mfar-eval warp` as a user does.
 namespace mfar::eval {
 namespace {
 
@@ -35,7 +34,7 @@ TEST(MfarEvalWarp, WritesARowForEachAngleAndMethodAndAPlot) {
     EXPECT_TRUE(bench::test::isWellFormed(test::readFile(folder / "out.svg")));
 }
 
-TEST(MfarEvalWarp, WrongRequestsEndWithOneLineAndStatus2) {
+TEST(MfarEvalWarp, InvalidRequestsEndWithAMessageAndStatus2) {
     const TempFolder folder;
     for (const char* arguments : {"--scenes absent", "--methods magic", "--degrees nan",
                                   "--degrees 0", "--samples 0", "--width 100000"}) {

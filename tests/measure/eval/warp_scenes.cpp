@@ -18,8 +18,9 @@
 namespace mfar::eval {
 namespace {
 
-constexpr double kElevation = 35, kFocal = 1.2;  // of the camera [degrees], [picture widths]
-constexpr double kFill = 0.6;                    // objects' bounding sphere / picture's height
+// Camera's elevation [degrees], focal length [picture widths]
+constexpr double kElevation = 35, kFocal = 1.2;
+constexpr double kFill = 0.6;  // diameter of the objects' bounding sphere / picture's height
 
 Scene sceneOf(Model model) {
     Scene scene;
@@ -58,7 +59,8 @@ std::shared_ptr<const Scene> warpScene(const std::string& name) {
     if (name == "still-life") return render_scenes::stillLife();
     if (name == "showpiece") return std::make_shared<const Scene>(sceneOf(showpiece()));
     if (!std::filesystem::exists(name))
-        throw EvalError(fmt::format("there is no scene or file '{}'", name));
+        throw EvalError(
+            fmt::format("'{}' is neither a scene (still-life, showpiece) nor a glTF file", name));
     try {
         return std::make_shared<const Scene>(sceneOf(loadGltf(name)));
     } catch (const ModelError& e) {

@@ -11,26 +11,25 @@
 
 namespace mfar::eval {
 
-/// Names of the scenes. `still-life`: balls and boxes next to and behind each other. `showpiece`:
-/// the daemon's own object on a plane that catches its shadow.
+/// `still-life`: balls and boxes next to and behind each other. `showpiece`: the daemon's own
+/// object on a plane that catches its shadow.
 [[nodiscard]] std::vector<std::string> warpSceneNames();
-/// Loads a scene of warpSceneNames(), or a glTF file, whose model stands on the plane in its own
-/// size. Throws EvalError.
+/// Loads a scene of warpSceneNames(), or a glTF file, whose model keeps its size and stands on the
+/// plane. Throws EvalError.
 [[nodiscard]] std::shared_ptr<const Scene> warpScene(const std::string& name);
 
-/// A camera with a slightly distorting lens. It looks at the centre of the scene's objects from a
-/// distance at which all of them are in view, from `degrees` around them and 35 degrees above.
+/// A camera with a slightly distorting lens that looks at the centre of the objects from 35 degrees
+/// above. It is turned by `degrees` around them and sees all of them.
 [[nodiscard]] RenderView warpView(const Scene& scene, Size size, double degrees);
 
 [[nodiscard]] inline bool showsObject(const RenderedPicture& picture, std::size_t pixel) {
     return picture.id[pixel] != 0 && picture.id[pixel] != kCatcherId;
 }
 
-/// Traces the listed pixels with `samples` samples each, on all processors. All other pixels stay
+/// Traces the listed pixels with `samples` samples each, on all processors. Other pixels stay
 /// empty.
 [[nodiscard]] RenderedPicture tracePixels(const PathTracer& tracer, const RenderView& view,
                                           std::span<const std::uint32_t> pixels, int samples);
-/// Traces all pixels that the scene may cover.
 [[nodiscard]] RenderedPicture tracePicture(const PathTracer& tracer, const RenderView& view,
                                            int samples);
 

@@ -9,8 +9,6 @@
 
 namespace mfar {
 
-/// A case to measure. `make` prepares it for a number of threads and returns the function to be
-/// timed.
 struct BenchCase {
     std::string name;
     std::function<std::function<void()>(std::shared_ptr<Workers>)> make;
@@ -18,7 +16,6 @@ struct BenchCase {
 
 [[nodiscard]] std::vector<BenchCase> detailBenchCases();
 
-/// All cases, in the order in which they are reported.
 [[nodiscard]] std::vector<BenchCase> benchCases();
 
 }  // namespace mfar

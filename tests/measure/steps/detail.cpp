@@ -13,7 +13,6 @@ const DetailCase& frame(double changedShare) {
     return changedShare < 1 ? part : whole;
 }
 
-/// Draws frames repeatedly. Owns all input of the step.
 struct Drawn {
     Drawn(Size output, const std::shared_ptr<Workers>& workers)
         : still(frame(1).rig, output, workers), step(still.rig(), output, workers), out(output) {

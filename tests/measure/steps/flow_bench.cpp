@@ -1,4 +1,4 @@
-// Times the CPU's pyramids and 2-D flow. A time is the minimum of many runs.
+// Times the CPU's pyramids and 2-D flow. Each time is the minimum of many runs.
 
 #include "pipeline/flow/cell_field.h"
 #include "pipeline/simd/flow2d.h"

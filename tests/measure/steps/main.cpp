@@ -9,7 +9,7 @@ namespace mfar {
 namespace {
 
 constexpr int kWarmUp = 3;
-constexpr double kSeconds = 1;  // duration of a measurement per case and number of threads
+constexpr double kSeconds = 1;  // duration of a measurement [s]
 constexpr std::size_t kFewest = 10;
 
 void measure(const BenchCase& which, int threads) {
@@ -34,7 +34,7 @@ void measure(const BenchCase& which, int threads) {
 }  // namespace
 }  // namespace mfar
 
-// Times the SIMD steps. Usage: mfar-simd-bench [PART-OF-A-NAME].
+// Times the SIMD steps whose names contain the argument. Usage: mfar-simd-bench [PART-OF-A-NAME].
 int main(int argc, char** argv) {
     const std::string_view wanted = argc > 1 ? argv[1] : "";
     for (const mfar::BenchCase& which : mfar::benchCases()) {

@@ -10,8 +10,9 @@ namespace {
 
 using namespace enlarge;
 
-constexpr int kBorder = 12;           // width of the border that is skipped [px]
-constexpr double kLeastPixels = 400;  // smallest number of pixels for learning, and for checking
+constexpr int kBorder = 12;
+// Smallest number of pixels for learning a class, and for checking it.
+constexpr double kLeastPixels = 400;
 
 }  // namespace
 

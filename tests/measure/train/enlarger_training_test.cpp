@@ -7,7 +7,6 @@
 namespace mfar::train {
 namespace {
 
-/// Random discs: edges in all directions.
 twin::Grey discs(unsigned seed) {
     std::mt19937 random(seed);
     twin::Grey out = twin::greyOf({320, 256}, [](int, int) { return 120.0; });
@@ -62,8 +61,8 @@ TEST(EnlargerTraining, ClassesWithoutHeldOutPixelsGetNoFilter) {
 }
 
 TEST(EnlargerTraining, FiltersThatMakeHeldOutPicturesWorseAreDropped) {
-    // The filters are learned without noise but checked on pure noise, where sharpening only
-    // amplifies the noise.
+    // The filters are learned without noise and checked on pure noise, which sharpening only
+    // amplifies.
     EnlargerTraining training;
     training.add({discs(1), {}}, false);
     training.add({twin::greyOf({320, 256}, [](int, int) { return 128.0; }), {12, 0, 5}}, true);

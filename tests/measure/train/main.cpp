@@ -22,7 +22,7 @@ constexpr const char* kHelp =
     "filter is not better than the bicubic one there. The same recordings give the same file.\n";
 
 constexpr double kRidge = 20;
-constexpr int kHeldOutOf = 4;  // one picture in four is held out
+constexpr int kHeldOutOf = 4;
 constexpr Sensor kSensors[] = {{0, 0, 1}, {0.7, 0, 2}, {1.5, 0, 3}, {0.7, 0.04, 4}};
 
 struct Options {

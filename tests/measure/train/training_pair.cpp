@@ -12,7 +12,6 @@ namespace {
 
 using twin::Grey;
 
-/// Mean of `valueAt` over interval number `at`. An interval has `scale` entries.
 template <class ValueAt>
 double meanOver(int at, double scale, const ValueAt& valueAt) {
     const double lo = at * scale, hi = lo + scale;
@@ -41,8 +40,7 @@ Grey blurred(const Grey& g, double share) {
     });
 }
 
-/// Normal noise by the Box-Muller transform, which gives the same numbers with every standard
-/// library.
+/// Normal noise by the Box-Muller transform, with the same numbers in every standard library.
 class Noise {
 public:
     explicit Noise(unsigned seed) : random_(seed) {}

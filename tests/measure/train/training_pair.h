@@ -7,27 +7,25 @@
 
 namespace mfar::train {
 
-/// A model of the video camera that takes a sharp picture.
 struct Sensor {
-    double noise = 0;  ///< standard deviation of the noise [grey levels]
+    double noise = 0;  ///< standard deviation [grey levels]
     double blur = 0;   ///< weight of each of the two neighbours along both axes, [0, 1/3]
     unsigned seed = 1;
 };
 
-/// A picture as a video camera sees it, and the error of Keys' cubic when that video is enlarged
-/// again.
+/// A picture as a video camera sees it, and the error of Keys' cubic when it enlarges this video.
 class TrainingPair {
 public:
-    static constexpr int kMargin = 64;  ///< columns added on each side of the picture
+    static constexpr int kMargin = 64;
 
     /// `sharp`: luma in grey levels, at least 64x64. The video is its mean over each pixel's area,
-    /// kScale times smaller, rounded to whole grey levels.
+    /// at kScale times the size, rounded to whole grey levels.
     TrainingPair(const twin::Grey& sharp, const Sensor& sensor);
 
     [[nodiscard]] Size size() const { return size_; }
     /// Pixels of a row [1/8 grey level]. Rows and columns outside the picture repeat its border.
     [[nodiscard]] const std::int16_t* row(int y) const;
-    /// The error of Keys' cubic that the filter should correct [grey levels].
+    /// Error of Keys' cubic, which the filter should correct [grey levels].
     [[nodiscard]] double target(int x, int y) const { return target_.at(x, y); }
 
     static constexpr double kScale = 9.0 / 32;

@@ -13,11 +13,11 @@ namespace {
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 
-constexpr double kShortest = 1e-9;     // length of a baseline up to which it counts as zero [m]
-constexpr double kLongestLine = 1e30;  // clamp [m] that keeps single precision finite
-constexpr float kLargestRho = 1e6F;    // largest inverse depth that is not rejected [1/m]
-constexpr float kNearPlane = 0.05F;    // smallest z, in a's orientation, of b's ray (x, y, 1)
-constexpr float kNoAngle = 1e-9F;  // angle up to which rays count as parallel [normalised units]
+constexpr double kShortest = 1e-9;     // shorter baselines count as zero [m]
+constexpr double kLongestLine = 1e30;  // clamp that keeps single precision finite [m]
+constexpr float kLargestRho = 1e6F;    // larger inverse depths are rejected [1/m]
+constexpr float kNearPlane = 0.05F;    // smallest z of b's ray (x, y, 1) in a's orientation
+constexpr float kNoAngle = 1e-9F;  // rays at a smaller angle count as parallel [normalised units]
 
 std::size_t pixelsOf(Size size) {
     return static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
@@ -40,14 +40,14 @@ std::vector<SplitVector> raysOf(const CameraModel& camera) {
     return rays;
 }
 
-/// The motion from view a to view b, in the frame of a.
+/// Motion from view a to view b, in the frame of a.
 struct Motion {
     Eigen::Matrix3f turnHead = Eigen::Matrix3f::Zero(), turnTail = turnHead;  // R_a_b - I
-    Vector3f baselineHead{0, 0, 0}, baselineTail{0, 0, 0};                    // unit baseline
-    float length = 1;                                                         // of the baseline [m]
+    Vector3f baselineHead{0, 0, 0}, baselineTail{0, 0, 0};  // baseline of length 1
+    float length = 1;                                       // of the baseline [m]
 
     Motion() = default;
-    /// A zero baseline gives zero parallax everywhere; so all depths are unknown.
+    /// A zero baseline gives zero parallax everywhere, so all depths are unknown.
     explicit Motion(const RigidTransform& T_b_a) {
         const Eigen::Matrix3d R_a_b = T_b_a.rotation.normalized().toRotationMatrix().transpose();
         const Eigen::Vector3d baseline = R_a_b * T_b_a.translation;
@@ -71,23 +71,22 @@ struct Motion {
 /// baseline of length 1, u = rho e / (1 + rho b.z).
 struct Parallax {
     Vector2f ray;  // of the pixel in view a
-    Vector2f u;    // flow that the rotation does not explain
-    Vector2f e;    // = b.xy - ray b.z, direction of the epipolar line
-    Vector3f b;    // unit baseline; zero if there is no baseline
+    Vector2f u;    // flow that remains after the rotation is removed
+    Vector2f e;    // direction of the epipolar line: b.xy - ray b.z
+    Vector3f b;    // unit baseline, or zero
 };
 
 float crossOf(const Vector2f& a, const Vector2f& b) {
     return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Returns |(ray, 1) x (v, 0)|^2.
 float squaredNormal(const Vector2f& ray, const Vector2f& v) {
     const float z = crossOf(ray, v);
     return v.squaredNorm() + z * z;
 }
 
-/// The flow between a ray of a and a ray of b that the rotation does not explain. Empty if b's ray
-/// points behind a.
+/// Flow between a ray of a and a ray of b after the rotation is removed. Empty if b's ray points
+/// behind a.
 std::optional<Vector2f> residualFlow(const Motion& motion, const SplitVector& a,
                                      const SplitVector& b) {
     const Vector3f head3 = b.head.homogeneous();
@@ -104,7 +103,6 @@ std::optional<Vector2f> residualFlow(const Motion& motion, const SplitVector& a,
     return (exact + rounded) / z;
 }
 
-/// Computes depth and its errors from the flow of one pixel.
 class PixelDepth {
 public:
     PixelDepth(const CameraModel& b, const Motion& motion, const TriangulationOptions& options)
@@ -134,9 +132,9 @@ private:
         return d > 0 ? along / d : 0;
     }
 
-    /// Inverse depth of the midpoint of the shortest line between both rays, as in the paper: P =
-    /// A[R|t] = [Q|q~], c = -Q^-1 q~, w = c + lambda Q^-1 m. The ends of the line are found with
-    /// the common normal of the rays, which the residual flow gives without cancellation.
+    /// Inverse depth of the midpoint of the shortest line between both rays, as in the paper. The
+    /// ends of the line follow from the common normal of the rays, which `u` gives without
+    /// cancellation.
     [[nodiscard]] static float fromMidpoint(const Parallax& s) {
         const Vector3f n(-s.u.y(), s.u.x(), crossOf(s.ray, s.u));
         const Vector3f first = s.ray.homogeneous();
@@ -154,8 +152,8 @@ private:
         return focal_ * (along > kNoAngle ? crossOf(s.e, s.u) / along : s.u.norm());
     }
 
-    /// Distance of both rays: |b . n| / |n|, where n = r x (u, 0) is the normal of both. For
-    /// parallel rays: |b x r| / |r|.
+    /// Distance of both rays: |b . n| / |n| with their normal n = r x (u, 0). For parallel rays: |b
+    /// x r| / |r|.
     [[nodiscard]] float rayDistance(const Parallax& s) const {
         const float n2 = squaredNormal(s.ray, s.u), apart = crossOf(s.u, s.e);
         const float square = n2 > kNoAngle * kNoAngle
@@ -164,7 +162,7 @@ private:
         return motion_.length * std::sqrt(square);
     }
 
-    /// Standard deviation of fromFlow(), to first order. No other method for the same depth has a
+    /// Standard deviation of fromFlow() to first order. No other method for this depth has a
     /// smaller one.
     [[nodiscard]] float sigmaOf(const Parallax& s) const {
         const float ee = s.e.squaredNorm(), d = ee - s.b.z() * s.u.dot(s.e);
@@ -186,7 +184,7 @@ const std::vector<TriangulatedPoint>& Triangulation::run(std::span<const float> 
                                                          const RigidTransform& T_b_a,
                                                          const TriangulationOptions& options) {
     if (flow.size() != 2 * points_.size())
-        throw std::invalid_argument("flow does not have the size of the view");
+        throw std::invalid_argument("the flow must have two numbers for each pixel of view a");
     const Motion motion(T_b_a);
     const PixelDepth depth(b_, motion, options);
     const Vector2f focal(static_cast<float>(b_.fx), static_cast<float>(b_.fy));
@@ -198,7 +196,7 @@ const std::vector<TriangulatedPoint>& Triangulation::run(std::span<const float> 
         const Vector2f f(flow[2 * i], flow[2 * i + 1]), q = p + f;
         points_[i] = {0, kUnknownSigma, 0, 0};
         if (!(q.x() >= -0.5F && q.y() >= -0.5F && q.x() <= end.x() && q.y() <= end.y())) continue;
-        // Takes the ray of the nearest pixel and adds the remaining fraction of a pixel.
+        // Adds the remaining fraction of a pixel to the ray of the nearest pixel.
         const Vector2f whole = (f.array() + 0.5F).floor();
         const Vector2f last = end.array() - 0.5F;
         const Vector2f pixel = (p + whole).cwiseMax(Vector2f::Zero()).cwiseMin(last);

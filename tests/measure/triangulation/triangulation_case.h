@@ -18,14 +18,13 @@ inline RigidTransform moved(double degrees, const Eigen::Vector3d& axis,
             translation};
 }
 
-/// Two different distorting lenses, of the product's video size.
 inline twin::TwoViews bentViews(const RigidTransform& T_b_a) {
     return {{{640, 480}, 600, 602, 318, 241, {-0.12, 0.03, 0.001, -0.002, 0.01}},
             {{640, 480}, 580, 578, 322, 238, {0.08, -0.02, -0.001, 0.001, 0}},
             T_b_a};
 }
 
-/// Two lenses without distortion, 100 px per unit of parallax.
+/// Two lenses without distortion. One unit of parallax is 100 px.
 inline twin::TwoViews plainViews(const RigidTransform& T_b_a) {
     const CameraModel camera{{64, 48}, 100, 100, 31.5, 23.5, {}};
     return {camera, camera, T_b_a};
@@ -43,7 +42,6 @@ std::vector<float> fieldOf(Size size, F vectorAt) {
     return out;
 }
 
-/// The vector of pixel i of a flow field.
 inline Eigen::Vector2d vectorAt(const std::vector<float>& field, std::size_t i) {
     return {field[2 * i], field[2 * i + 1]};
 }

@@ -4,7 +4,6 @@
 #include <limits>
 #include <random>
 
-/// For any input, triangulation must return usable values or an unknown depth.
 namespace mfar {
 namespace {
 
@@ -64,7 +63,7 @@ TEST(TriangulationOdd, WithoutABaselineAllFlowIsResidual) {
     EXPECT_NEAR(points[64 * 20 + 30].residual, 3, 1e-4);
 }
 
-TEST(TriangulationOdd, InvalidPosesGiveNoPoint) {
+TEST(TriangulationOdd, InvalidPosesGiveUnknownDepth) {
     const std::vector<float> flow(2UL * 64 * 48, -1.0F);
     for (const TriangulationMethod method : kBothMethods)
         for (const double value : {double(kNan), double(kInf), 1e300}) {
@@ -98,7 +97,8 @@ TEST(TriangulationOdd, AnyFlowUnderAnyPoseGivesUsableNumbers) {
     EXPECT_GT(known, 10000);
 }
 
-// The camera moves forward. The epipole is then a pixel of the picture, at which e is zero.
+// The camera moves forward, so the epipole is a pixel of the picture, at which the epipolar line
+// vanishes.
 TEST(TriangulationOdd, DepthAtTheEpipoleIsUnknown) {
     twin::TwoViews views = plainViews(moved(0, Vector3d::UnitX(), {0, 0, -0.1}));
     views.a.cx = views.b.cx = 30;
@@ -112,7 +112,7 @@ TEST(TriangulationOdd, DepthAtTheEpipoleIsUnknown) {
     }
 }
 
-TEST(TriangulationOdd, AFieldOfAnotherSizeIsRefused) {
+TEST(TriangulationOdd, AFlowOfAnotherSizeIsRefused) {
     const twin::TwoViews views = plainViews({});
     Triangulation stage(views.a, views.b);
     EXPECT_THROW(stage.run(std::vector<float>(64UL * 48), {}, {}), std::invalid_argument);

@@ -6,7 +6,7 @@
 namespace mfar {
 namespace {
 
-constexpr int kComparedEvery = 37;  // every 37th pixel is compared
+constexpr int kComparedEvery = 37;
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -24,13 +24,12 @@ double inverseDepthAt(const twin::TwoViews& views, const Vector2d& pixel, double
 }
 
 struct Errors {
-    double worst = 0;  ///< largest relative error of the inverse depth
+    double worst = 0;
     int compared = 0;
 };
 
-/// Compares triangulated() with `oracle`, which computes in double precision. Both functions get
-/// the same cameras, pose and flow, rounded to single precision. Every kComparedEvery-th pixel is
-/// compared if its flow ends in view b.
+/// Compares triangulated() with `oracle`, which computes in double precision from the same input.
+/// Compares every kComparedEvery-th pixel whose flow ends in view b.
 template <class Oracle>
 Errors compare(const twin::TwoViews& views, const std::vector<float>& flow,
                TriangulationMethod method, Oracle oracle) {
@@ -54,7 +53,7 @@ double inverseDepthOfMidpoint(const twin::TwoViews& v, const Vector2d& p, const 
     return twin::midpoint(v, p, f).inverseDepth;
 }
 
-TEST(Triangulation, AgreesWithinAMillionthDownToAHundredthOfADegreeOfParallax) {
+TEST(Triangulation, ErrorIsBelowAMillionthAtAHundredthOfADegreeOfParallax) {
     const RigidTransform motions[] = {moved(0, Vector3d::UnitX(), {-0.1, 0, 0}),
                                       moved(1, {1, 2, 3}, {0.02, 0.1, 0.03}),
                                       moved(10, {-1, 2, -2}, {-0.3, -0.05, 0.05})};
@@ -76,7 +75,7 @@ TEST(Triangulation, AgreesWithinAMillionthDownToAHundredthOfADegreeOfParallax) {
 }
 
 // The camera moves forward into the scene. Depth is unknown at the epipole itself.
-TEST(Triangulation, AgreesWithinATenThousandthAroundTheEpipole) {
+TEST(Triangulation, ErrorIsBelowATenThousandthAroundTheEpipole) {
     const twin::TwoViews views = bentViews(moved(3, {1, 1, 2}, {0.002, 0.003, -0.1}));
     const auto flow = fieldOf(views.a.size, [&](const Vector2d& p) { return views.flow(p, 0.5); });
     const Vector3d direction = views.T_b_a.inverse().translation;
@@ -113,7 +112,7 @@ TEST(Triangulation, FindsTheDepthFromWhichTheFlowWasComputed) {
     }
 }
 
-/// A wall at 2 m. Its flow has an error of a few pixels, in any direction.
+/// Flow of a wall at 2 m, with an error of a few pixels in any direction.
 struct OffLine {
     twin::TwoViews views = bentViews(moved(2, {1, -1, 2}, {0.1, 0.08, -0.05}));
     std::vector<float> flow = fieldOf(views.a.size, [this](const Vector2d& p) {
@@ -157,7 +156,7 @@ TEST(Triangulation, PointsBehindACameraAreUnknown) {
     const auto fast = triangulated(wall.views, wall.flow, {});
     const auto middle =
         triangulated(wall.views, wall.flow, {.method = TriangulationMethod::Midpoint});
-    // With the parallax reversed, the rays meet behind the cameras.
+    // With reversed parallax, the rays meet behind the cameras.
     const auto turned =
         fieldOf(wall.views.a.size, [&](const Vector2d& p) { return wall.views.flow(p, -0.5); });
     for (const TriangulationMethod method : kMethods)
@@ -226,7 +225,7 @@ TEST(Triangulation, SigmaGrowsWithoutBoundAsTheBaselineVanishes) {
 
 TEST(Triangulation, ResidualIsTheSignedFlowNormalToTheEpipolarLine) {
     const twin::TwoViews views = plainViews(moved(0, Vector3d::UnitX(), {-0.2, 0, 0}));
-    // Nearer points move to the left; a quarter turn clockwise from left is up.
+    // Nearer points move to the left. A quarter turn clockwise from left is up.
     for (const double off : {-3.0, 0.5}) {
         const auto points = triangulated(
             views, fieldOf({64, 48}, [&](const Vector2d&) { return Vector2d(-4, off); }));

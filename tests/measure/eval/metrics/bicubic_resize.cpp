@@ -6,7 +6,6 @@
 namespace mfar::eval {
 namespace {
 
-/// One tap of the filter: for each output sample, the index and weight of an input sample.
 struct ResizeTap {
     std::vector<int> index;
     std::vector<double> weight;

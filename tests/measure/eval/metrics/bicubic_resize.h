@@ -4,9 +4,9 @@
 
 namespace mfar::eval {
 
-/// Resizes with Keys' cubic (a = -1/2). For shrinking, the kernel is widened to avoid aliasing. The
-/// border is reflected, with its edge repeated. hdrVdp() was calibrated with this filter. CV_64F,
-/// both sides at least 1.
+/// Resizes a CV_64F picture with Keys' cubic (a = -1/2), the filter with which hdrVdp() was
+/// calibrated. Shrinking widens the kernel to avoid aliasing. The border is reflected, with its
+/// edge repeated.
 [[nodiscard]] cv::Mat bicubicResize(const cv::Mat& picture, cv::Size size);
 
 }  // namespace mfar::eval

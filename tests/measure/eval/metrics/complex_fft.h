@@ -6,7 +6,7 @@
 
 namespace mfar::eval {
 
-/// Complex two-dimensional Fourier transform of pictures of one size, CV_64FC2, in place, not
+/// Complex two-dimensional Fourier transform of CV_64FC2 pictures of one size, in place, not
 /// scaled. Only one thread may construct an object at a time; run() is thread-safe.
 class ComplexFft {
 public:

@@ -10,8 +10,8 @@
 namespace mfar::eval {
 namespace {
 
-constexpr float kStep = 1.1F;    // largest ratio of neighbouring depths without an edge
-constexpr double kDelta = 1.25;  // base of the thresholds (Eigen et al. 2014)
+constexpr float kStep = 1.1F;    // larger ratios of neighbouring depths are edges
+constexpr double kDelta = 1.25;  // base of the thresholds of delta (Eigen et al. 2014)
 
 bool isKnown(float rho) {
     return rho > 0 && std::isfinite(rho);

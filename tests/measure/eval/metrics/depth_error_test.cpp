@@ -19,12 +19,12 @@ TEST(DepthError, CountsWrongAndKnownPixels) {
     const cv::Mat rho = (cv::Mat_<float>(1, 6) << 0.5F, 0.4F, 0.48F, 0, 1, 1);
     const DepthError error = depthError(rho, truth, 20, everywhere(truth));
     EXPECT_EQ(error.pixels, 4U);
-    EXPECT_NEAR(error.absrel, 0.5 / 0.48 - 1, 1e-6);  // median of the errors 0, 1/4 and 1/24
-    EXPECT_DOUBLE_EQ(error.bad1, 0.5);                // one pixel is wrong by 2 px, one is unknown
+    EXPECT_NEAR(error.absrel, 0.5 / 0.48 - 1, 1e-6);  // median of the errors 0, 1/24 and 1/4
+    EXPECT_DOUBLE_EQ(error.bad1, 0.5);  // one pixel is wrong by 2 px, one has no depth
     EXPECT_DOUBLE_EQ(error.completeness, 0.75);
 }
 
-TEST(DepthError, DeltaCountsRatiosInBothDirections) {
+TEST(DepthError, DeltaCountsTooLargeAndTooSmallDepths) {
     const cv::Mat truth(1, 5, CV_32F, cv::Scalar(1));
     const cv::Mat rho = (cv::Mat_<float>(1, 5) << 1.2F, 1 / 1.3F, 1.9F, 2, 0);
     const DepthError error = depthError(rho, truth, 10, everywhere(truth));
@@ -33,7 +33,7 @@ TEST(DepthError, DeltaCountsRatiosInBothDirections) {
     EXPECT_DOUBLE_EQ(error.delta[2], 0.6);  // 1.25^3 = 1.95
 }
 
-TEST(DepthSparsification, OrdersPixelsByVarianceWhereBothDepthsAreKnown) {
+TEST(DepthSparsification, OrdersPixelsWithKnownDepthByVariance) {
     const cv::Mat truth = (cv::Mat_<float>(1, 5) << 1, 1, 1, 1, kNan);
     const cv::Mat rho = (cv::Mat_<float>(1, 5) << 1.1F, 1.2F, 1.4F, 0, 9);
     const cv::Mat variance = (cv::Mat_<float>(1, 5) << 0.1F, 0.2F, 0.3F, kNan, kNan);
@@ -63,7 +63,7 @@ TEST(DepthError, ValuesNotAboveZeroAreUnknown) {
 TEST(DepthError, EdgesAreWhereDepthJumps) {
     cv::Mat truth(9, 40, CV_32F);
     for (int y = 0; y < truth.rows; ++y)
-        for (int x = 0; x < truth.cols; ++x)  // the surface has a slope, a step and a hole
+        for (int x = 0; x < truth.cols; ++x)  // slope, step and unknown depth
             truth.at<float>(y, x) = x < 20 ? 1 + 0.02F * x : (x < 32 ? 3 : kNan);
     const cv::Mat edge = nearDepthEdge(truth, 4);
     for (int x = 0; x < truth.cols; ++x)

@@ -9,8 +9,7 @@ namespace mfar::eval {
 struct FftwPlanDelete {
     void operator()(fftw_plan_s* plan) const;
 };
-/// A plan of FFTW for a transform. Only one thread at a time may make plans; any thread may execute
-/// them.
+/// A plan of FFTW. Only one thread at a time may make plans. Any thread may execute them.
 using FftwPlan = std::unique_ptr<fftw_plan_s, FftwPlanDelete>;
 
 }  // namespace mfar::eval

@@ -8,7 +8,6 @@ namespace {
 
 constexpr float kUnknown = 1e9F;
 
-/// Bilinear interpolation; the position must be inside.
 double bilinear(const cv::Mat& of, double x, double y) {
     const int left = static_cast<int>(x), top = static_cast<int>(y);
     const double fx = x - left, fy = y - top;

@@ -4,13 +4,12 @@
 
 namespace mfar::eval {
 
-/// Flicker of scene points from one picture to the next. It is the root mean square change of a
-/// point's error along the true motion, divided by the square root of two. For independent errors
-/// this is their standard deviation. An error that stays with its point does not count. The unit is
-/// grey levels.
+/// Flicker of scene points from one picture to the next [grey levels]: the RMS change of a point's
+/// error along the true motion, divided by the square root of two. For independent errors this is
+/// their standard deviation. An error that stays with its point does not count.
 ///
-/// `before`, `after`: errors of two consecutive pictures, CV_64F, same size; `border` pixels are
-/// cut off at each side. `flow`: CV_32FC2 of the video's size, from the first picture to the second
+/// `before`, `after`: errors of two consecutive pictures, CV_64F, same size, without a border of
+/// `border` pixels. `flow`: CV_32FC2 of the video's size, from the first picture to the second
 /// [video px]; unknown if not finite or above 1e9. Returns NaN if no point is in both pictures.
 [[nodiscard]] double flicker(const cv::Mat& before, const cv::Mat& after, const cv::Mat& flow,
                              int border);

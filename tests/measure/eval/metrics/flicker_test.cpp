@@ -16,12 +16,11 @@ cv::Mat noise(double sigma, int seed, cv::Size size = {240, 176}) {
     return out;
 }
 
-/// Flow for pictures of 256x192 pixels, including the border.
 cv::Mat flowOf(float x, float y) {
     return {48, 64, CV_32FC2, cv::Scalar(x, y)};
 }
 
-TEST(Flicker, ErrorsThatStayWithTheirPointDoNotCount) {
+TEST(Flicker, ErrorsThatMoveWithTheirScenePointDoNotFlicker) {
     const cv::Mat all = noise(5, 1, {248, 180});
     const cv::Mat before = all(cv::Rect(8, 4, 240, 176)), after = all(cv::Rect(0, 0, 240, 176));
     EXPECT_NEAR(flicker(before, after, flowOf(2, 1), kBorder), 0, 1e-9) << "moved by (8, 4)";

@@ -10,7 +10,7 @@ bool isKnown(const cv::Vec2f& v) {
     return std::abs(v[0]) < 1e9F && std::abs(v[1]) < 1e9F;
 }
 
-/// Angle between two flows, taken as directions in space and time (Barron et al. 1994) [degrees].
+/// Angle between two flows as directions in space and time (Barron et al. 1994) [degrees].
 double angleBetween(const cv::Vec2d& a, const cv::Vec2d& b) {
     const cv::Vec3d x(a[0], a[1], 1), y(b[0], b[1], 1);
     return std::atan2(cv::norm(x.cross(y)), x.dot(y)) * 180 / CV_PI;

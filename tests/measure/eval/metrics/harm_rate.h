@@ -4,9 +4,8 @@
 
 namespace mfar::eval {
 
-/// Share of the pixels whose error exceeds that of plain bicubic enlargement by more than
-/// `tolerance` grey levels. At these pixels the method did harm. All pictures CV_64F in grey
-/// levels, same size.
+/// Share of the pixels that the method made worse: their error exceeds that of bicubic enlargement
+/// by more than `tolerance` grey levels. All pictures are CV_64F in grey levels, of the same size.
 [[nodiscard]] double harmRate(const cv::Mat& picture, const cv::Mat& bicubic, const cv::Mat& truth,
                               double tolerance = 2);
 

@@ -8,46 +8,46 @@
 
 namespace mfar::eval {
 
-/// The display on which a picture is viewed.
 struct HdrVdpDisplay {
     double peak = 100, black = 1;  ///< luminance of white and of black [cd/m^2]
     double gamma = 2.2;            ///< for grey pictures; colours are always sRGB
-    double pixelsPerDegree = 30;   ///< pixels per degree of the visual field
+    double pixelsPerDegree = 30;
 };
 
-/// Pixels per degree at the centre of a screen: diagonal [inches], distance [m].
+/// Pixels per degree at the centre of a screen. `diagonal` in inches, `distance` in m.
 [[nodiscard]] double pixelsPerDegree(double diagonal, cv::Size resolution, double distance);
 
-/// Light that a display emits for a picture [cd/m^2]: CV_64F or CV_64FC3 (B G R, sRGB) in grey
-/// levels, [0, 255] -> the same type. Throws std::invalid_argument for values outside and for an
+/// Light that a display emits for a picture [cd/m^2]. The picture is CV_64F or CV_64FC3 (B G R,
+/// sRGB) in [0, 255]; the type stays. Throws std::invalid_argument for other values and for an
 /// impossible display.
 [[nodiscard]] cv::Mat displayedLight(const cv::Mat& picture, const HdrVdpDisplay& display);
 
-/// What one orientation of one band of the steerable pyramid contributes to the score.
+/// Contribution of one orientation of one band of the steerable pyramid. D: masked difference of
+/// the pictures.
 struct HdrVdpBand {
-    int band = 1, orientation = 1;  ///< counted from 1
+    int band = 1, orientation = 1;
     cv::Size size;
     double frequency = 0;  ///< spatial frequency of the band [cycles/degree]
     double weight = 0;     ///< weight in the quality score of release 2.2.2
     double error = 0;      ///< root of the summed squares of D where the pictures differ, per pixel
-    double sumAbsolute = 0;                  ///< sum of |D|; D is the masked difference
-    double meanReference = 0, meanTest = 0;  ///< means of the absolute band values of each picture
+    double sumAbsolute = 0;
+    double meanReference = 0, meanTest = 0;  ///< mean absolute band value of each picture
     double meanSensitivity = 0, meanSelfMask = 0, meanMasking = 0;
 };
 
 struct HdrVdpResult {
     double q = 0;     ///< score of releases 2.2.1 and 2.2.2; 100: equal; no lower bound
-    double q220 = 0;  ///< the sum from which release 2.2.0 computes its Q_MOS
+    double q220 = 0;  ///< sum from which release 2.2.0 computes Q_MOS
     double qMos = 0;  ///< Q_MOS of release 2.2.0, [0, 100]
     std::vector<HdrVdpBand> bands;
 };
 
 /// Quality of a picture against a reference, predicted by HDR-VDP-2 (Mantiuk et al. 2011; weights
-/// of Narwaria et al. 2015), with the constants and the dark surround (1e-5 cd/m^2) of releases
-/// 2.2.x. Q falls with the pixels per degree and rises with the size; so compare only values of
-/// equal size and equal pixels per degree.
+/// of Narwaria et al. 2015), with the constants of releases 2.2.x and a dark surround (1e-5
+/// cd/m^2). Q falls with the pixels per degree and rises with the size. So compare only values with
+/// equal sizes and equal pixels per degree.
 ///
-/// Both pictures hold light [cd/m^2] as returned by displayedLight(): CV_64F, or CV_64FC3 (B G R of
+/// Both pictures hold light [cd/m^2] as from displayedLight(): CV_64F, or CV_64FC3 (B G R of
 /// `emission`), same size, at least 17x17. Throws std::invalid_argument for other pictures, and for
 /// light or pixels per degree that are not finite and positive. Only one thread may call it at a
 /// time.

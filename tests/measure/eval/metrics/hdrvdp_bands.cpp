@@ -15,7 +15,7 @@
 namespace mfar::eval::hdrvdp {
 namespace {
 
-constexpr int kLeastSide = 17;  // smallest side of a picture that is divided into bands
+constexpr int kLeastSide = 17;  // smaller pictures are not divided into bands
 int levelsOf(cv::Size size) {
     int out = 0;
     for (; size.width >= kLeastSide && size.height >= kLeastSide; ++out)
@@ -36,13 +36,11 @@ cv::Mat logOfMean(const cv::Mat& a, const cv::Mat& b) {
 }
 
 /// Input for comparing one row of a band. `sensitivity` is null for the base (the coarsest picture
-/// of the pyramid), because addBase() applies sensitivity beforehand.
+/// of the pyramid), because addBase() has already applied it.
 struct BandRow {
     const double *difference, *self, *others, *beside, *sensitivity, *weight;
 };
 
-/// Three sums over a row: squared visible difference times squared weight, visible difference, and
-/// masking.
 cv::Vec3d comparedRow(const BandRow& row, int cols, double norm) {
     const Masking& by = masking();
     cv::Vec3d sum;
@@ -105,8 +103,8 @@ void BandComparison::decompose(Pathways pathways) {
     addBase(test, reference, testLuminance, referenceLuminance);
 }
 
-// The base is filtered by frequency, because one sensitivity for all its frequencies would be too
-// coarse.
+// The base has so many frequencies that one sensitivity would be too coarse. So it is filtered by
+// frequency.
 void BandComparison::addBase(const cv::Mat& test, const cv::Mat& reference, double testLuminance,
                              double referenceLuminance) {
     Band& base = bands_.back();
@@ -159,7 +157,7 @@ HdrVdpBand BandComparison::compare(std::size_t b, std::size_t o, const cv::Mat& 
                  weight.ptr<double>(y)},
                 self.cols, band.norm);
     });
-    // Sums in the order of the rows, so that the result does not depend on the number of threads.
+    // Sums the rows in order, so that the result does not depend on the number of threads.
     const cv::Vec3d total = std::accumulate(sums.begin(), sums.end(), cv::Vec3d(0, 0, 0));
     const auto pixels = static_cast<double>(self.total());
     return {static_cast<int>(b) + 1,

@@ -7,19 +7,17 @@
 
 namespace mfar::eval::hdrvdp {
 
-/// Both pictures in the eye's spatial channels, and the visibility of their differences.
 class BandComparison {
 public:
     BandComparison(Pathways pathways, double pixelsPerDegree);
 
-    /// `weight`: weight of each pixel, CV_64F, of the pictures' size.
     [[nodiscard]] std::vector<HdrVdpBand> compare(const cv::Mat& weight) const;
 
 private:
-    /// A band of the pyramid; band 1 and the base have one orientation, the others four.
+    /// A band of the pyramid. Band 1 and the base have one orientation, other bands have four.
     struct Band {
-        std::vector<cv::Mat> difference;  ///< test minus reference
-        std::vector<cv::Mat> mutualMask;  ///< signal in both pictures, smoothed
+        std::vector<cv::Mat> difference;
+        std::vector<cv::Mat> mutualMask;  ///< smoothed minimum of both pictures' signals
         std::vector<double> meanTest, meanReference;
         double frequency = 0, norm = 1;
     };

@@ -9,13 +9,12 @@
 namespace mfar::eval::hdrvdp {
 namespace {
 
-constexpr int kLuminances = 2048;  // entries of the receptors' tables
+constexpr int kLuminances = 2048;
 constexpr int kCurveSamples = 256;
 constexpr double kLeastLog = -5, kMostLog = 5;
-// Factor that scales the model's sensitivities to measured ones.
+// Scales the model's sensitivities to measured ones.
 constexpr double kPeakSensitivity = 0.006894596;
 
-/// Interpolates linearly between nodes in ascending or descending order; constant outside them.
 template <std::size_t N>
 double interpolated(const std::array<double, N>& at, const std::array<double, N>& values,
                     double x) {
@@ -28,7 +27,6 @@ double interpolated(const std::array<double, N>& at, const std::array<double, N>
     return values[i - 1] + t * (values[i] - values[i - 1]);
 }
 
-/// Looks up a table whose entries are evenly spaced in the logarithm of the luminance.
 double fromLogTable(const std::vector<double>& table, double log) {
     const auto last = static_cast<double>(table.size() - 1);
     const double at =
@@ -41,8 +39,8 @@ double luminanceAt(int i) {
     return std::pow(10, kLeastLog + (kMostLog - kLeastLog) * i / (kLuminances - 1));
 }
 
-/// Sensitivity of the L cones, or of the M cones, at every luminance of the table. Both are taken
-/// as equal: each has half of their joint sensitivity.
+/// Sensitivity of the L cones, and equally of the M cones, at every luminance of the table. Each is
+/// half of their joint sensitivity.
 std::vector<double> coneSensitivities() {
     std::vector<double> both(kLuminances), out(kLuminances);
     for (int i = 0; i < kLuminances; ++i)

@@ -8,10 +8,9 @@
 namespace mfar::eval::hdrvdp {
 namespace {
 
-constexpr double kSurround = 1e-5;  // luminance around the picture [cd/m^2]
+constexpr double kSurround = 1e-5;
 constexpr double kLeastLight = 1e-5, kMostLight = 1e10;
 
-/// The light that each kind of receptor receives, CV_64F.
 struct Reception {
     cv::Mat l, m, rod;
 };

@@ -21,7 +21,6 @@ void expectRelative(double value, double wanted, double relative, const std::str
     EXPECT_NEAR(value, wanted, relative * std::abs(wanted) + 1e-15) << what;
 }
 
-/// Computes the light that a display emits for a picture of the reference set.
 cv::Mat lightOf(const std::string& name, const std::string& encoding) {
     HdrVdpDisplay display;
     if (encoding == "luminance") {
@@ -36,7 +35,6 @@ std::string keyOf(const ReferenceRow& row) {
            row.text("ppd");
 }
 
-/// The number after the equals sign, as in L=0.1.
 double numberAfter(const std::string& text) {
     return std::stod(text.substr(text.find('=') + 1));
 }
@@ -46,8 +44,8 @@ hdrvdp::Emission emissionNamed(const std::string& quantity) {
     return quantity.ends_with("led-lcd") ? hdrvdp::Emission::LedLcd : hdrvdp::Emission::Crt;
 }
 
-/// The program's value for a row of the table of constants; NaN if the program does not use the
-/// row.
+/// Returns the program's value of a constant in the reference table, or NaN if the program does not
+/// use the constant.
 double constantOf(const ReferenceRow& row, const hdrvdp::ReceptorResponse& response) {
     const std::string &quantity = row.text("quantity"), &a = row.text("arg1"),
                       &b = row.text("arg2");
@@ -86,7 +84,8 @@ TEST(HdrVdpReference, ConstantsOfTheEyeMatchTheReferenceTable) {
         expectRelative(got, row.number("value"), 1e-9, what);
         ++checked;
     }
-    // Not checked: the S cones, which are not used, and factors that other rows contain.
+    // The S cones are not used, and some rows are factors of other rows. These rows are not
+    // checked.
     EXPECT_EQ(checked, 3 + 27 + 36 + 12 + 90 + 24 + 5 + 2);
 }
 

@@ -67,15 +67,13 @@ TEST(HdrVdp, ScoreFallsAsNoiseRises) {
     }
 }
 
-// A difference below a thousandth of the light does not count. A larger difference counts only at
-// its own pixels.
 TEST(HdrVdp, DifferencesBelowAThousandthAreInvisible) {
     const cv::Mat light(40, 40, CV_64F, cv::Scalar(50));
     EXPECT_EQ(hdrVdp(light * 1.0009, light, 30).q, 100);
     EXPECT_LT(hdrVdp(light * 1.1, light, 30).q, 99);
 }
 
-TEST(HdrVdp, ResultIsIndependentOfThreads) {
+TEST(HdrVdp, ResultDoesNotDependOnTheNumberOfThreads) {
     const cv::Mat a = smoothNoise({64, 48}), b = cv::Mat(255 - a);
     const double together = q(a, b);
     const int threads = cv::getNumThreads();

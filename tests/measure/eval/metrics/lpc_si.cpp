@@ -15,9 +15,9 @@ namespace {
 
 constexpr std::size_t kScales = 3;
 constexpr int kDirections = 8;
-constexpr double kAngleSpread = std::numbers::pi / kDirections / 1.5;  // [rad]
-constexpr double kRegularity = 2;                                      // C of eq. 33
-constexpr double kRankDecay = 1e-4;                                    // beta of eq. 34
+constexpr double kAngleSpread = std::numbers::pi / kDirections / 1.5;
+constexpr double kRegularity = 2;    // C of eq. 33
+constexpr double kRankDecay = 1e-4;  // beta of eq. 34
 
 using Complex = std::complex<double>;
 
@@ -35,7 +35,6 @@ std::vector<double> binFrequencies(int n) {
     return out;
 }
 
-/// What all filters of one picture size share.
 struct FilterParts {
     std::array<cv::Mat, kScales> radial;
     cv::Mat angle;
@@ -67,7 +66,7 @@ FilterParts filterParts(cv::Size size, double sigmaRatio) {
     return out;
 }
 
-/// Sums a function over all pixels, in an order that does not depend on the number of threads.
+/// Adds the sums of the rows in order, so that the result does not depend on the number of threads.
 double sumOf(cv::Size size, const std::function<double(int y, int x)>& value) {
     std::vector<double> sums(static_cast<std::size_t>(size.height), 0);
     cv::parallel_for_({0, size.height}, [&](const cv::Range& rows) {
@@ -109,11 +108,10 @@ public:
         return out;
     }
 
-    /// Evaluates eq. 33 for every pixel.
     [[nodiscard]] cv::Mat map() const { return coherent_ / (weight_ + kRegularity); }
 
 private:
-    /// Computes the responses at every scale. Returns the sum of the filter's gains at each scale.
+    /// Filters the picture at every scale. Returns the sum of each filter's gains.
     std::array<double, kScales> respond(double direction) {
         cv::Mat lobe(spectrum_.size(), CV_64F);
         cv::parallel_for_({0, lobe.rows}, [&](const cv::Range& rows) {
@@ -156,7 +154,7 @@ private:
         return out;
     }
 
-    /// Evaluates eq. 32 for one pixel from its responses; negative results become 0.
+    /// Eq. 32 for one pixel; negative results become 0.
     static double coherence(const Complex& c1, const Complex& c2, const Complex& c3) {
         const auto phase = [](const Complex& c) {
             const double amplitude = std::sqrt(std::norm(c));
@@ -185,13 +183,13 @@ private:
     std::array<cv::Mat, kScales> responses_;
 };
 
-/// Eqs. 34 and 35: mean of the values, sorted, with weights that decrease with the rank.
+/// Eqs. 34 and 35: mean of the sorted values, with weights that decrease with the rank.
 double pooled(const cv::Mat& map) {
     std::vector<double> values;
     for (int y = 0; y < map.rows; ++y)
         values.insert(values.end(), map.ptr<double>(y), map.ptr<double>(y) + map.cols);
     const auto last = static_cast<double>(values.size() - 1);
-    // Values whose weight is below 1e-17 change nothing and are skipped.
+    // Values with a weight below 1e-17 change nothing and are skipped.
     const auto count =
         std::min(values.size(), static_cast<std::size_t>(40 * kRankDecay * last) + 2);
     const auto end = values.begin() + static_cast<std::ptrdiff_t>(count);
@@ -205,7 +203,6 @@ double pooled(const cv::Mat& map) {
     return sum / weights;
 }
 
-/// Interpolates between sorted values. Share 0 gives the first value, share 1 the last.
 double quantile(const std::vector<double>& sorted, double share) {
     const double at = share * static_cast<double>(sorted.size() - 1);
     const auto i = static_cast<std::size_t>(at);

@@ -6,39 +6,38 @@
 
 namespace mfar::eval {
 
-/// Ratio of a filter's spread to its centre frequency. kLpcRelease is that of the authors' release
-/// 1.0, kLpcVariant that of another version that is in circulation. Sharpness values of the other
-/// version are higher and cannot be compared with those of the release.
+/// Ratio of a filter's spread to its centre frequency, in the authors' release 1.0 and in another
+/// version in circulation. The other version gives higher values, which must not be compared with
+/// the release's.
 inline constexpr double kLpcRelease = 0.75, kLpcVariant = 0.33;
 
-/// What one of the eight orientations contributes.
 struct LpcOrientation {
     std::array<double, 3> filterSum{};    ///< sum of the filter's gains at each scale, finest first
     double mean = 0, deviation = 0;       ///< of the amplitude at the finest scale, without border
     double threshold = 0;                 ///< smaller amplitudes do not count
     double energy = 0;                    ///< sum of amplitudes above the threshold, whole picture
-    std::array<double, 2> coarserMean{};  ///< mean amplitude at the other scales, whole picture
+    std::array<double, 2> coarserMean{};  ///< mean amplitude at the coarser scales, whole picture
 };
 
 struct LpcSharpness {
-    double index = 0;                ///< LPC-SI, [0, 1): larger is sharper
-    double mapMax = 0, mapMean = 0;  ///< maximum, mean of the pixels' values, without border
+    double index = 0;                ///< LPC-SI, [0, 1); larger is sharper
+    double mapMax = 0, mapMean = 0;  ///< maximum and mean of the pixels' values, without border
     std::array<LpcOrientation, 8> orientations{};
 };
 
-/// Local phase coherence sharpness index (Hassen, Wang, Salama 2013, eqs. 21 to 35), as computed by
-/// the authors' release 1.0. The sharpest ten-thousandth of the pixels determines it; so a single
-/// sharp patch makes a whole picture count as sharp. lpcTiles() avoids this. `picture`: CV_64F in
-/// grey levels [0, 255], at least 32x32. Throws std::invalid_argument for other pictures and for
-/// values that are not finite. Only one thread may call it at a time.
+/// Local phase coherence sharpness index (Hassen, Wang, Salama 2013, eqs. 21 to 35), as in the
+/// authors' release 1.0. The sharpest ten-thousandth of the pixels determines it, so one sharp
+/// patch makes a whole picture count as sharp; lpcTiles() avoids this. `picture`: CV_64F in grey
+/// levels [0, 255], at least 32x32. Throws std::invalid_argument for other pictures and for values
+/// that are not finite. Only one thread may call it at a time.
 [[nodiscard]] LpcSharpness lpcSharpness(const cv::Mat& picture, double sigmaRatio = kLpcRelease);
 [[nodiscard]] double lpcSi(const cv::Mat& picture, double sigmaRatio = kLpcRelease);
 
-/// Distribution of lpcSi() over 8x8 tiles of equal size; each tile is computed separately.
+/// Quantiles of lpcSi() over 8x8 tiles of equal size, each computed separately.
 struct LpcTiles {
     double p10 = 0, median = 0, p90 = 0;
 };
-inline constexpr int kLpcTiles = 8;          ///< tiles in each direction
+inline constexpr int kLpcTiles = 8;
 inline constexpr int kLpcSmallestSide = 32;  ///< smallest side of a picture or tile [px]
 [[nodiscard]] LpcTiles lpcTiles(const cv::Mat& picture, double sigmaRatio = kLpcRelease);
 

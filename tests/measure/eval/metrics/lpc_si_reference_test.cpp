@@ -11,7 +11,7 @@ namespace {
 using test::referencePicture;
 using test::referenceTable;
 
-/// Tolerance: the tables have eight decimals or ten digits.
+/// The tables have eight decimals or ten digits, which limits the tolerance.
 void expectNear(double value, double wanted, double relative, const std::string& what) {
     EXPECT_NEAR(value, wanted, std::max(relative * std::abs(wanted), 1e-8)) << what;
 }

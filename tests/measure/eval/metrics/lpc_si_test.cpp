@@ -9,7 +9,6 @@
 namespace mfar::eval {
 namespace {
 
-/// Edges at many places, in many directions, without repetition.
 cv::Mat shapes(cv::Size size) {
     cv::Mat out(size, CV_64F, cv::Scalar(120));
     cv::RNG random(3);
@@ -41,7 +40,6 @@ TEST(LpcSi, ConstantPicturesAreNotSharp) {
     EXPECT_NEAR(lpcSi(cv::Mat(40, 50, CV_64F, cv::Scalar(128))), 0, 1e-9);
 }
 
-// lpcSi() of a picture with one sharp patch is high. lpcTiles() shows that the rest is not sharp.
 TEST(LpcTiles, DistinguishOneSharpPatchFromASharpPicture) {
     const cv::Mat sharp = shapes({320, 256});
     cv::Mat patched = softened(sharp, 3);

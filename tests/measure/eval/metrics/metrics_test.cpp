@@ -53,7 +53,7 @@ TEST(Ssim, EqualPicturesScoreOne) {
     EXPECT_NEAR(ssim(noise(), noise()), 1, 1e-12);
 }
 
-TEST(Ssim, OfConstantPicturesOnlyTheLuminanceTermCounts) {
+TEST(Ssim, ForConstantPicturesOnlyTheLuminanceTermCounts) {
     const double c1 = 6.5025, x = 100, y = 150;
     EXPECT_NEAR(ssim(constant(x), constant(y)), (2 * x * y + c1) / (x * x + y * y + c1), 1e-9);
 }
@@ -78,7 +78,7 @@ TEST(TilesBelow, CountsCompleteTilesMoreThanAQuarterGreyLevelWorseThanBicubic) {
     cv::Mat picture = truth - 3.2;  // 0.2 worse than bicubic: within the tolerance
     EXPECT_EQ(tilesBelow(picture, bicubic, truth), 0);
     picture(cv::Rect(64, 64, 64, 64)) = 96;
-    picture(cv::Rect(5 * 64, 0, 63, 129)) = 0;  // the rest of an incomplete tile
+    picture(cv::Rect(5 * 64, 0, 63, 129)) = 0;
     picture(cv::Rect(0, 2 * 64, 64, 1)) = 0;
     EXPECT_DOUBLE_EQ(tilesBelow(picture, bicubic, truth), 0.1);
     EXPECT_EQ(tilesBelow(picture, bicubic, truth, 2), 0);
@@ -111,7 +111,7 @@ TEST(FlowError, MeasuresEndPointErrorAndSharesOfWrongPixels) {
     EXPECT_DOUBLE_EQ(error.coverage, 1);
 }
 
-TEST(FlowError, AngleIsBetweenDirectionsInSpaceAndTime) {
+TEST(FlowError, AngularErrorIsMeasuredInSpaceAndTime) {
     const cv::Mat truth(1, 2, CV_32FC2, cv::Scalar(0, 0));
     cv::Mat flow = truth.clone();
     EXPECT_EQ(flowError(flow, truth).angular, 0);

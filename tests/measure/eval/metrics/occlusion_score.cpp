@@ -8,7 +8,7 @@ namespace mfar::eval {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kShown = 0.5;  // a pixel with at least this visible share counts as shown
+constexpr double kShown = 0.5;  // pixels with at least this visible share count as shown
 
 cv::Mat boundaryOf(const cv::Mat& mask) {
     cv::Mat inner;

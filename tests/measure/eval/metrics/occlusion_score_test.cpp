@@ -25,7 +25,7 @@ TEST(OcclusionScore, EqualMasksHaveFullOverlapAndNoBoundaryError) {
 TEST(OcclusionScore, AnObjectShiftedByTwoPixelsHasLessOverlapAndABoundaryError) {
     const OcclusionScore score = occlusionScore(rectangle({7, 6, 10, 8}), rectangle({5, 6, 10, 8}));
     EXPECT_DOUBLE_EQ(score.overlap, 8.0 / 12);
-    // Mean over boundary pixels. Right side: 8 pixels with an error of 2 px and 2 with 1 px. Left
+    // Mean over boundary pixels. Right side: 8 pixels are off by 2 px, and 2 pixels by 1 px. Left
     // side: distances to the nearest side of the true boundary.
     const double right = 8 * 2 + 2 * 1, left = 0 + 1 + 2 + 2 + 2 + 2 + 1 + 0;
     EXPECT_NEAR(score.boundary, (right + left) / 32, 1e-6);

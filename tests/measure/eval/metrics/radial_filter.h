@@ -8,21 +8,21 @@
 
 namespace mfar::eval {
 
-/// A filter whose gain depends only on the spatial frequency, for pictures of one size. Pictures
+/// A filter for pictures of one size, whose gain depends only on the spatial frequency. Pictures
 /// are padded to twice their size, so that opposite borders do not affect each other.
 class RadialFilter {
 public:
-    /// Calls `gain` for frequencies [cycles/degree] from several threads. The constructor is not
-    /// thread-safe, because FFTW's planner is not.
+    /// Calls `gain` with frequencies [cycles/degree] from several threads. Not thread-safe, because
+    /// FFTW's planner is not.
     RadialFilter(cv::Size size, double pixelsPerDegree, const std::function<double(double)>& gain);
 
-    /// Filters a CV_64F picture of the given size. Right and below, it is padded with the value
-    /// `padding`. Thread-safe.
+    /// Filters a CV_64F picture, padded at the right and below with the value `padding`.
+    /// Thread-safe.
     [[nodiscard]] cv::Mat apply(const cv::Mat& picture, double padding) const;
 
 private:
     cv::Size size_;
-    cv::Mat gain_;  // gain at the non-negative frequencies, times the scale of the transform
+    cv::Mat gain_;  // gain at non-negative frequencies, times the scale of the transform
     FftwPlan forward_, backward_;
 };
 

@@ -42,7 +42,6 @@ int lattice(int x, int y, int c, int k) {
            (c * c);
 }
 
-/// Grey level of the scene's objects at a pixel; `v`, that of the ground, where no object is.
 int objectAt(int x, int y, int s, int v) {
     const auto within = [&](int x0, int x1, int y0, int y1) {
         return x >= x0 * s && x < x1 * s && y >= y0 * s && y < y1 * s;
@@ -58,7 +57,8 @@ int objectAt(int x, int y, int s, int v) {
     return v;
 }
 
-/// Weights [1/5] of the source pixels along one axis, for a picture that is 3.6 times smaller.
+/// Reduces an axis by a factor of 3.6. Returns for each output pixel its source pixels, with their
+/// weights in units of 1/5.
 std::vector<std::vector<std::pair<int, int>>> areaShares(int out) {
     std::vector<std::vector<std::pair<int, int>>> shares(static_cast<std::size_t>(out));
     for (int i = 0; i < out; ++i)
@@ -84,8 +84,6 @@ cv::Mat areaAveraged(const cv::Mat& scene) {
     return out;
 }
 
-/// Bilinear interpolation along one axis, from `from` to `to` samples. Returns the index of the
-/// first of two samples, and the weight of the second in units of 1 / (2 `to`).
 std::pair<int, int> bilinearAt(int x, int from, int to) {
     const int at = std::clamp((2 * x + 1) * from - to, 0, 2 * to * (from - 1));
     return {std::min(at / (2 * to), from - 2), at - std::min(at / (2 * to), from - 2) * 2 * to};

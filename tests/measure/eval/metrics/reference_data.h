@@ -9,10 +9,9 @@
 
 namespace mfar::eval::test {
 
-/// Folder of the metrics' reference vectors. It may be missing.
+/// Folder of the metrics' reference data. It may be missing.
 [[nodiscard]] std::filesystem::path referenceFolder();
 
-/// A row of a table. Its values are found by the name of their column.
 class ReferenceRow {
 public:
     explicit ReferenceRow(std::map<std::string, std::string> fields) : fields_(std::move(fields)) {}
@@ -27,14 +26,14 @@ private:
     std::map<std::string, std::string> fields_;
 };
 
-/// The rows of a table in the reference folder; empty if the folder is missing.
+/// Rows of a table in the reference folder; empty if the folder is missing.
 [[nodiscard]] std::vector<ReferenceRow> referenceTable(const std::string& file);
 
-/// A picture in the reference folder, in grey levels: CV_64F or CV_64FC3 (B G R).
+/// Picture from the reference folder in grey levels: CV_64F or CV_64FC3 (B G R).
 [[nodiscard]] cv::Mat referencePicture(const std::string& name);
 
-/// The scene of the reference pictures, drawn at `scale` times their size, CV_8U. The other
-/// functions give the same scene with 3.6 times larger pixels, interpolated bilinearly, or blurred.
+/// The scene of the reference pictures, CV_8U. referenceScene() draws it at `scale` times their
+/// size. bilinearFromLow() reduces it by a factor of 3.6 and enlarges it bilinearly.
 [[nodiscard]] cv::Mat referenceScene(int scale);
 [[nodiscard]] cv::Mat bilinearFromLow(const cv::Mat& scene);
 [[nodiscard]] cv::Mat blurred(const cv::Mat& scene, double sigma);

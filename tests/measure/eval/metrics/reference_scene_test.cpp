@@ -12,12 +12,11 @@ namespace {
 
 using namespace test;
 
-/// Largest difference from a picture of the reference set [grey levels].
 double differenceFrom(const std::string& name, const cv::Mat& picture) {
     return cv::norm(referencePicture(name), cv::Mat_<double>(picture), cv::NORM_INF);
 }
 
-// The tests at full size rely on this agreement.
+// The FullSize tests draw this scene, so it must equal the reference pictures.
 TEST(ReferenceScene, SceneMatchesTheReferencePictures) {
     if (referenceTable("lpc_si.csv").empty())
         GTEST_SKIP() << referenceFolder().string() << " is not there";
@@ -27,7 +26,6 @@ TEST(ReferenceScene, SceneMatchesTheReferencePictures) {
     EXPECT_EQ(differenceFrom("blur2", blurred(scene, 2)), 0);
 }
 
-// The picture has the size of a still, 2304x1728.
 TEST(FullSize, QualityAndSharpnessMatchTheTable) {
     const auto table = referenceTable("fullsize_2304x1728.csv");
     if (table.empty()) GTEST_SKIP() << referenceFolder().string() << " is not there";

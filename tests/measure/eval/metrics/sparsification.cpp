@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kNoArea = std::numeric_limits<double>::quiet_NaN();
 
-/// For every k, the sum of the first k errors in an order. Errors with equal keys are replaced by
-/// their mean.
+/// Sorts errors by `key` and returns, for every k, the sum of the first k. Errors with equal keys
+/// are replaced by their mean.
 std::vector<double> sumsInOrder(std::span<const float> error, std::span<const float> key,
                                 bool falling) {
     std::vector<std::size_t> order(error.size());
@@ -32,8 +32,8 @@ std::vector<double> sumsInOrder(std::span<const float> error, std::span<const fl
     return out;
 }
 
-/// For every share of removed pixels, the mean error of the remaining pixels divided by the mean
-/// error of all. Pixels are removed from the end of the order.
+/// Removes pixels from the end of the order in steps. Returns for each step the mean error of the
+/// remaining pixels divided by the mean error of all pixels.
 std::vector<double> curveOf(const std::vector<double>& sums) {
     const std::size_t all = sums.size() - 1;
     const double mean = sums.back() / static_cast<double>(all);
@@ -66,7 +66,7 @@ Sparsification sparsification(std::span<const float> error, std::span<const floa
     out.byError = curveOf(sumsInOrder(error, error, false));
     const double best = areaUnder(out.byError);
     out.ause = areaUnder(out.byConfidence) - best;
-    out.ausePerRandom = out.ause / (1 - best);  // removal in random order leaves the mean unchanged
+    out.ausePerRandom = out.ause / (1 - best);  // a random order leaves the mean unchanged
     return out;
 }
 

@@ -5,20 +5,20 @@
 
 namespace mfar::eval {
 
-/// Tells whether a method knows where it is wrong (Ilg et al. 2018). Pixels are removed by their
-/// uncertainty, the most uncertain first; the mean error of the remaining ones is recorded.
+/// Tells if a method knows where it is wrong (Ilg et al. 2018): the mean error of the remaining
+/// pixels while the most uncertain pixels are removed first.
 struct Sparsification {
-    static constexpr int kSteps = 100;  ///< number of steps in which all pixels are removed
+    static constexpr int kSteps = 100;
 
-    std::vector<double> byConfidence;  ///< mean error of the remaining pixels / of all pixels
+    std::vector<double> byConfidence;  ///< mean error of remaining pixels / of all pixels
     std::vector<double> byError;       ///< the same if the largest errors are removed first
-    double ause = 0;                   ///< area between both curves; 0: no order is better
-    double ausePerRandom = 0;          ///< `ause` divided by that of a random order
+    double ause = 0;                   ///< area between both curves; 0: the best order
+    double ausePerRandom = 0;          ///< `ause` divided by the `ause` of a random order
 };
 
-/// `error`, `confidence`: values of each pixel, finite; errors are not negative. Only the order of
+/// `error`, `confidence`: a finite value of each pixel; errors are not negative. Only the order of
 /// the confidences matters; pixels with equal confidence are removed evenly. Without any error, the
-/// areas are NaN and the curves empty. Throws std::invalid_argument for spans of different length
+/// areas are NaN and the curves empty. Throws std::invalid_argument for spans of different lengths
 /// and for invalid values.
 [[nodiscard]] Sparsification sparsification(std::span<const float> error,
                                             std::span<const float> confidence);

@@ -24,7 +24,7 @@ TEST(Sparsification, PerfectConfidenceGivesZeroArea) {
     const Sparsification got = sparsification(error, confidence);
     EXPECT_NEAR(got.ause, 0, 1e-12);
     EXPECT_DOUBLE_EQ(got.byConfidence.front(), 1);
-    // Without the worse half of the errors 1 to n, their mean halves.
+    // Without the larger half of the errors 1 to n, their mean halves.
     EXPECT_NEAR(got.byConfidence[50], 501.0 / 1001, 1e-9);
 }
 
@@ -34,7 +34,7 @@ TEST(Sparsification, EqualConfidencesGiveTheAreaOfARandomOrder) {
     for (const double left : got.byConfidence)
         EXPECT_NEAR(left, 1, 1e-12);
     EXPECT_NEAR(got.ausePerRandom, 1, 1e-12);
-    EXPECT_NEAR(got.ause, 0.5, 0.01);  // the area between 1 and a straight line from 1 to 0
+    EXPECT_NEAR(got.ause, 0.5, 0.01);  // area between 1 and a straight line from 1 to 0
 }
 
 TEST(Sparsification, ReversedConfidenceIsWorseThanRandomConfidence) {

@@ -48,7 +48,6 @@ SsimMeans ssimMeans(const cv::Mat& picture, const cv::Mat& truth) {
     return {sum.similarity / windows, sum.structure / windows};
 }
 
-/// Means of 2x2 pixels.
 cv::Mat halved(const cv::Mat& values) {
     const cv::Rect even(0, 0, values.cols / 2 * 2, values.rows / 2 * 2);
     cv::Mat out;

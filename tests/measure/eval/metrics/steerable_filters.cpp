@@ -14,7 +14,8 @@ namespace {
 // Coefficients of sp3Filters in matlabPyrTools, (c) 2015 LabForComputationalVision, MIT licence.
 // Coefficients that follow by symmetry are omitted.
 
-// One octant; each row runs from the axis to the diagonal, and rows go downwards from the centre.
+// Coefficients of one octant of a symmetric filter. Each row runs from the axis to the diagonal;
+// rows go downwards from the centre.
 constexpr std::array<double, 36> kHighPass{
     0.7303866148,      -0.1554141641,    -0.079501636326,   -0.0093812197447,  0.0078046298586,
     0.013962360099,    0.0073032598011,  0.0053632198833,   -0.0027556000277,  -0.0063222697936,
@@ -38,14 +39,14 @@ constexpr std::array<double, 45> kLowPass{
     0.0028898599558,   0.0023255399428,   -0.00013688000035, 0.00056215998484,  -0.00058146001538,
     0.00044606000301,  0.001261999947,    -0.00042019999819, -0.00025168000138, -0.0015970399836,
     -0.00080063997302, -0.00012434000382, -0.00067714002216, 0.00012078000145,  -4.3500000174e-05};
-// The half right of the centre, from the centre row downwards. The filter is odd horizontally and
-// even vertically.
+// Coefficients to the right of the centre, from the centre row downwards. The filter is odd
+// horizontally and even vertically.
 constexpr std::array<double, 20> kVertical{
     0.1768419296,     -0.053605638444,   -0.0085267601535, -0.01417945046,   0.1105690673,
     -0.039442278445,  0.0028760801069,   -0.013955879956,  0.022522680461,   -0.0082581602037,
     0.0058724298142,  -0.012316980399,   0.00036522001028, 0.0037740699481,  -0.004456540104,
     -0.0044451598078, -0.00074700999539, -0.0013462699717, -0.0039103501476, 0.00081125000725};
-// The part above both diagonals, from the top. The filter is odd about the falling diagonal and
+// Coefficients above both diagonals, from the top. The filter is odd about the falling diagonal and
 // even about the rising one.
 constexpr std::array<double, 20> kDiagonal{
     0.00082846998703, 5.7109999034e-05, -4.0110000555e-05, -0.0046670897864, -0.0080871898681,
@@ -88,7 +89,7 @@ cv::Mat diagonalEdges() {
     return out;
 }
 
-// Number of samples that are computed together, so that their sums stay in registers for all taps.
+// This number of samples is computed together, so that their sums stay in registers for all taps.
 constexpr int kBlock = 8;
 using Samples = Eigen::Array<double, kBlock, 1>;
 
@@ -120,7 +121,7 @@ cv::Mat correlate(const cv::Mat& picture, const cv::Mat& taps, int step) {
     CV_Assert(picture.type() == CV_64F && taps.type() == CV_64F && (step == 1 || step == 2));
     cv::Mat padded;
     const int high = taps.rows / 2, wide = taps.cols / 2;
-    // The last block of a row reads beyond the requested samples; so the padding is wider there.
+    // The last block of a row reads beyond the requested samples, so the padding is wider there.
     cv::copyMakeBorder(picture, padded, high, high, wide, wide + kBlock, cv::BORDER_REFLECT_101);
     cv::Mat out((picture.rows + step - 1) / step, (picture.cols + step - 1) / step, CV_64F);
     cv::parallel_for_({0, out.rows}, [&](const cv::Range& rows) {

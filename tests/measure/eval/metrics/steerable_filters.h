@@ -6,20 +6,20 @@
 
 namespace mfar::eval {
 
-/// The filters of a steerable pyramid with four orientations (Simoncelli and Freeman 1995, "sp3" of
-/// matlabPyrTools). They are applied by correlation. CV_64F, rows downwards.
+/// Filters of a steerable pyramid with four orientations (Simoncelli and Freeman 1995, "sp3" of
+/// matlabPyrTools), applied by correlation. CV_64F, rows downwards.
 struct SteerableFilters {
-    cv::Mat highPass;                    ///< 15x15, applied to the whole picture, sums to 0
-    cv::Mat firstLowPass;                ///< 9x9, applied before the first pyramid level, sums to 1
+    cv::Mat highPass;                    ///< 15x15, applied to the whole picture; sums to 0
+    cv::Mat firstLowPass;                ///< 9x9, applied before the first pyramid level; sums to 1
     cv::Mat lowPass;                     ///< 17x17, applied before each halving; sums to 2
     std::array<cv::Mat, 4> orientation;  ///< 9x9 each, sum to 0
 };
 
 [[nodiscard]] SteerableFilters steerableFilters();
 
-/// Correlates at every `step`-th sample of both axes, starting with the first; gives ceil(n / step)
-/// samples per axis. The border is mirrored without repeating the edge. `picture`: CV_64F; `taps`:
-/// odd size; `step`: 1 or 2.
+/// Correlates at every `step`-th sample of both axes, starting with the first, which gives ceil(n /
+/// step) samples per axis. The border is mirrored without repeating the edge. `picture`: CV_64F;
+/// `taps`: odd size; `step`: 1 or 2.
 [[nodiscard]] cv::Mat correlate(const cv::Mat& picture, const cv::Mat& taps, int step = 1);
 
 }  // namespace mfar::eval

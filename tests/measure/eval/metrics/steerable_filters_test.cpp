@@ -14,7 +14,6 @@ TEST(SteerableFilters, FiltersHaveTheSumsThatAPyramidNeeds) {
         EXPECT_NEAR(cv::sum(taps)[0], 0, 1e-12);
 }
 
-/// Correlation by its definition, for one sample.
 double correlatedAt(const cv::Mat& picture, const cv::Mat& taps, int y, int x) {
     double sum = 0;
     for (int j = 0; j < taps.rows; ++j)

@@ -4,13 +4,12 @@
 
 namespace mfar::eval {
 
-inline constexpr int kTileSide = 64;            ///< side of a tile [px]
-inline constexpr double kTileTolerance = 0.25;  ///< default of `tolerance` [grey levels]
+inline constexpr int kTileSide = 64;
+inline constexpr double kTileTolerance = 0.25;
 
-/// Share of the tiles whose root mean square error exceeds that of plain bicubic enlargement by
-/// more than `tolerance` grey levels. There a method did visible harm. Incomplete tiles at the
-/// right and bottom edges are skipped; NaN if no tile is complete. All pictures CV_64F in grey
-/// levels, same size.
+/// Share of the tiles that the method made visibly worse: their RMS error exceeds that of bicubic
+/// enlargement by more than `tolerance` grey levels. Incomplete tiles at the right and bottom are
+/// skipped; NaN if no tile is complete. All pictures are CV_64F in grey levels, of the same size.
 [[nodiscard]] double tilesBelow(const cv::Mat& picture, const cv::Mat& bicubic,
                                 const cv::Mat& truth, double tolerance = kTileTolerance);
 
