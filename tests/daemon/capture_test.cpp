@@ -30,10 +30,9 @@ struct Capture {
 
     FakeCamera& video() { return source->videoCamera; }
     FakeCamera& still() { return source->stillCamera; }
-    /// The next frame; empty after 20 s or at the end of the capture.
     std::optional<CapturedFrame> take() { return mailbox.takeWithin(20s); }
 
-    FakeSource* source;  ///< the rig owns it
+    FakeSource* source;  ///< owned by the rig
     Rig rig;
     Stats stats;
     PoseFinder poses;
@@ -48,7 +47,7 @@ bool becomesTrue(const std::function<bool()>& condition) {
     return false;
 }
 
-/// The fault that ends the capture.
+/// Returns the message of the error that ends the capture.
 std::string endOf(Capture& capture) {
     const auto isOver = [&] {
         (void)capture.mailbox.tryTake();  // a frame may have arrived before the fault was noticed
@@ -104,7 +103,7 @@ TEST(CaptureThread, AStillIsDeliveredWithTheFirstFrameThatIsNotOlder) {
     EXPECT_FALSE(capture.take()->still);
     std::optional<CapturedFrame> with;
     double time = 2;
-    ASSERT_TRUE(becomesTrue([&] {  // frames until the still thread has handed the still over
+    ASSERT_TRUE(becomesTrue([&] {  // sends frames until the still thread has delivered the still
         capture.video().send(time++);
         with = capture.take();
         return with && with->still;

@@ -22,7 +22,6 @@ using testing::IsEmpty;
 struct FilterLearningTest : testing::Test {
     ~FilterLearningTest() override { std::filesystem::remove(options.file); }
 
-    /// Shows different stills, one after the other, and waits until they are processed.
     static void show(FilterLearning& learning, int first, int last) {
         for (int i = first; i <= last; ++i) {
             const twin::Grey sharp = sharpDiscs(i);
@@ -49,7 +48,6 @@ TEST_F(FilterLearningTest, LearnedFiltersAreReturnedOnce) {
     EXPECT_THAT(learning.takeWarnings(), IsEmpty());
 }
 
-/// Returns the highest nice value of this process's threads.
 int highestNice() {
     int highest = -20;
     for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
@@ -81,8 +79,8 @@ StereoRig discsRig() {
     return rig;
 }
 
-/// Shows a still, then another one of the same view with a noisy video, so that the first is
-/// replaced.
+/// Shows a still, then a second still of the same view with a noisy video. The second still
+/// replaces the first.
 void replace(FilterLearning& learning, unsigned seed) {
     const twin::Grey sharp = sharpDiscs(seed);
     const SensorPair noisy{.videoNoise = 4, .seed = seed};

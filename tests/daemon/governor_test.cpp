@@ -27,7 +27,7 @@ public:
         : governor_(fourLevels(), deadlineMs), cost_(std::move(cost)) {}
 
     void setCost(Cost cost) { cost_ = std::move(cost); }
-    /// Runs frames. Returns the share of late ones. Frame times vary by 4 % (standard deviation).
+    /// Runs frames whose times vary by 4 % (standard deviation). Returns the share of late frames.
     double run(int frames, double changed = 1) {
         int late = 0;
         for (int i = 0; i < frames; ++i) {
@@ -51,7 +51,6 @@ private:
     std::normal_distribution<double> noise_;
 };
 
-/// The frame times of fourLevels(), all multiplied by `factor`.
 Machine::Cost scaled(double factor) {
     return [factor](std::size_t level) { return factor * fourLevels()[level].ms; };
 }

@@ -10,7 +10,6 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-/// A daemon whose threads, pictures and devices are simulated.
 struct HealthTest : testing::Test {
     [[nodiscard]] Health look() {
         Observed seen{now};
@@ -57,8 +56,7 @@ TEST_F(HealthTest, AFrozenPictureIsDegraded) {
     EXPECT_TRUE(health.isAlive());
 }
 
-// The worst fault seen in use: the driver's dequeue call hangs while the banner is drawn again and
-// again.
+// The driver's dequeue call hangs, and the daemon draws the banner again and again.
 TEST_F(HealthTest, BannerOfAHangingDriverDoesNotCountAsAlive) {
     const Heartbeat capture(hearts, "capture", budget::kCapture);
     picture = now;

@@ -110,7 +110,6 @@ TEST(Limits, AModelThatNeedsTooMuchMemoryIsReportedWithItsPlace) {
                       HasSubstr("the textures of the model have more than")));
 }
 
-// Eight objects share one model and take the memory of one model.
 TEST(Limits, AModelWithSeveralNamesIsReadOnce) {
     const test::TempFolder folder;
     const std::vector<std::uint8_t> glb = test::oneTriangle().glb();

@@ -153,7 +153,6 @@ TEST(ObjectsConfig, ObjectsAreAnchoredToTheirTag) {
     EXPECT_TRUE(placedShapes({object}, map).empty());
 }
 
-// The default file shows an object in comments. The object must be valid as it stands there.
 TEST(ObjectsConfig, OmittedObjectsAreReported) {
     const TagMap map({{{TagFamily::Tag36h11, 5}, 0.1, {}}});
     PlacedObject shape, onTag, model;

@@ -15,7 +15,6 @@ Timestamp timeOf(double frame) {
     return Timestamp::fromSeconds(100 + frame * kInterval);
 }
 
-/// Pose of a camera that moves with the velocity kTwist.
 Pose steady(double frame) {
     Pose pose;
     pose.time = timeOf(frame);

@@ -15,7 +15,7 @@
 namespace mfar {
 namespace {
 
-/// The end of the notification socket that belongs to the service manager.
+/// The service manager's end of the notification socket.
 class Manager {
 public:
     Manager() : fd_(socket(AF_UNIX, SOCK_DGRAM, 0)) {

@@ -14,7 +14,7 @@ using testing::Not;
 
 const std::vector<StageTime> kStages = {{"flow", 30}, {"superres", 10}};
 
-/// Shows pictures 50 ms apart, each 20 ms after its frame was taken. The 21st is shown at 11.02 s.
+/// Shows pictures every 50 ms, each 20 ms after its exposure. The 21st is shown at 11.02 s.
 void showPictures(Stats& stats, int count) {
     for (int i = 0; i < count; ++i) {
         FrameStats frame;

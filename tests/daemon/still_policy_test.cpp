@@ -25,7 +25,7 @@ class Simulation {
 public:
     explicit Simulation(const TriggerConfig& config) : policy(config) {}
 
-    /// Runs frames for `seconds`. Returns how often the policy fired.
+    /// Runs frames for `seconds`. Returns the number of times that the policy fired the trigger.
     int run(double seconds, FrameStats stats) {
         int fired = 0;
         for (const double end = now + seconds; now < end; now += kFrame) {
@@ -77,8 +77,7 @@ TEST(StillPolicy, WithACameraAtRestTheTriggerFiresOnceEvenIfTheStillExplainsNoth
     EXPECT_EQ(board.run(600, frame(0, 0.01)), 1);
 }
 
-// Everything is new in the first frame, which fires the trigger. The statistics of this frame
-// arrive only after that trigger.
+// The first frame is all new and fires the trigger. Its statistics arrive only after the trigger.
 TEST(StillPolicy, StatsOlderThanTheTriggerAreNotMotion) {
     Simulation board({});
     board.delay = kFrame;
@@ -130,7 +129,7 @@ TEST(StillPolicy, AfterMotionThatTheStillExplainsANewStillWaitsForTheAgeLimit) {
     EXPECT_EQ(board.run(0.5, kMovingExplained), 1);
 }
 
-// The sensor's noise must be learned first; so the first frames appear to change.
+// The first frames appear to change, because the sensor's noise is not yet known.
 TEST(StillPolicy, ChangesBeforeAStillsFirstUseDoNotMakeItTooOld) {
     TriggerConfig config;
     config.maxAgeS = 5;
@@ -140,7 +139,7 @@ TEST(StillPolicy, ChangesBeforeAStillsFirstUseDoNotMakeItTooOld) {
     EXPECT_EQ(board.run(60, kRest), 0);
 }
 
-// The camera turns and stops while the still is pending; so the still shows the wrong view.
+// The camera turns and stops while the still is pending. So the still shows the wrong view.
 TEST(StillPolicy, AStillTakenDuringMotionIsReplaced) {
     Simulation board({});
     board.latency = 0.4;

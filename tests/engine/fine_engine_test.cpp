@@ -16,7 +16,6 @@ using Shares = std::vector<float>;
 
 constexpr FineMatch kMatch{5, 0.02F};
 
-/// A frame and a prepared still of the same size.
 struct FineInput {
     explicit FineInput(Size video, Size stillSize)
         : frame(video, stillSize), still(frame.rig, stillSize, std::make_shared<Workers>(2)) {

@@ -21,7 +21,6 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 INSTANTIATE_TEST_SUITE_P(Engines, OcclusionTest,
                          testing::Values(EngineKind::Gles, EngineKind::Simd), engineOfTest);
 
-/// A layer whose pixels all have the same depth.
 LaidLayer layerAt(double z) {
     LaidLayer layer;
     layer.z = [z](int, int) { return z; };
@@ -63,7 +62,6 @@ INSTANTIATE_TEST_SUITE_P(
                                      Sides{{17, 31}, {601, 40}}, Sides{{64, 48}, {33, 21}},
                                      Sides{{40, 30}, {160, 120}})));
 
-// Real depth has a step: most pixels need no weights, and all kinds of results occur.
 TEST_P(OcclusionTest, PixelsThatAreDecidedEarlyEqualWeighedOnes) {
     twin::Scene scene = plainScene({0.4, 0.01});
     for (std::size_t i = 0; i < scene.real.size(); ++i)
@@ -198,7 +196,7 @@ TEST_P(OcclusionTest, OptionsOutOfRangeAreRefused) {
 /// A near object to the left of a straight edge. The edge runs through (26.3, 18) at an angle.
 struct EdgeScene {
     double degrees;
-    double contrast = 90;  ///< between both sides of the edge [grey levels]
+    double contrast = 90;  ///< difference across the edge [grey levels]
     Size coarse, fine;
 
     /// Signed distance from the edge [video px]; positive to its right. u, v: position [video px].
@@ -232,7 +230,7 @@ struct EdgeScene {
         return s;
     }
     /// Mean distance between the true edge and the line of half visibility [video px]: the area
-    /// between both, divided by the length of the edge.
+    /// between the two lines, divided by the length of the edge.
     [[nodiscard]] double errorOf(const LaidOver& got) const {
         const double step = static_cast<double>(coarse.width) / fine.width;
         double wrong = 0;
@@ -254,7 +252,7 @@ TEST_P(OcclusionTest, PartlyOccludedObjectEndsAtTheImageEdge) {
         }
 }
 
-/// A layer with another size than the output, over black, without real objects in front.
+/// A layer whose size differs from the output's, over black, without real objects in front.
 class ScaledLayer : public OcclusionTest {
 protected:
     static constexpr Size kVideo{40, 30}, kOutput{160, 120};

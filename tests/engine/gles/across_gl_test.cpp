@@ -11,8 +11,8 @@ namespace {
 
 using AcrossGl = GlTest;
 
-// Share of the bytes that may differ by more than one grey level, and the largest difference
-// allowed. The renderers round alike, but may add in another order.
+// Limits of the share of bytes that differ by more than one grey level, and of the largest
+// difference. The renderers round in the same way but may add in another order.
 constexpr double kDifferentShare = 1e-4;
 constexpr int kLargest = 4;
 

@@ -19,7 +19,7 @@ constexpr double kAlpha = params::kTwoWayAlpha;
 constexpr double kRelative = 1e-3, kAbsolute = 2;
 constexpr double kPixel = 0.01;  // tolerance of unprojection in single precision [still px]
 
-/// Flow vectors in both directions, row by row. The pixels of the backward flow are `scale` video
+/// Flow vectors in both directions, row by row. A pixel of the backward flow is `scale` video
 /// pixels wide.
 struct Fields {
     std::vector<std::array<float, 4>> forward, backward;

@@ -8,7 +8,6 @@ namespace {
 
 using CompositeTest = GlTest;
 
-/// True if the GPU draws when a layer with these bounds is composited.
 bool drawsWithin(const PixelRect& bounds) {
     constexpr Size kCoarse{53, 37}, kFine{191, 133};
     const gpu::Texture colour = uploaded(TestPicture(kFine, PixelFormat::Rgba8, 255));

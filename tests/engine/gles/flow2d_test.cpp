@@ -18,7 +18,7 @@ struct Errors {
     Vector2d bias{0, 0};
 };
 
-/// Errors against a constant flow. Only pixels count that are, like their targets, at least
+/// Errors relative to a constant flow. Counts pixels that are, like their targets, at least
 /// `border` px inside the picture.
 Errors errorsOf(const std::vector<float>& flow, Size size, const Vector2d& truth, int border) {
     Errors e;

@@ -152,7 +152,6 @@ std::vector<Cell> align(const LevelPair& pair, const std::vector<Cell>& in, int 
 TEST_F(FlowPasses, BentPatchesMatchTheOracle) {
     const LevelPair pair(Waves(1, 5, 40, 40).shoot(kSize, {}), randomPicture(kSize, 3));
     const auto a = pair.first(), b = pair.second();
-    // A plane, and a fold at which the slopes change their sign.
     const Vector2d dx(0.1137, -0.0613), dy(0.0419, 0.1931);
     std::vector<Cell> in(kArea);
     for (int i = 0; i < kArea; ++i) {
@@ -163,8 +162,8 @@ TEST_F(FlowPasses, BentPatchesMatchTheOracle) {
     const auto out = align(pair, in, 0);
     for (int i = 0; i < kArea; ++i) {
         const int x = i % 16, y = i / 16;
-        // Beyond the border the field is repeated; so one of the two slopes there is zero, and zero
-        // is used.
+        // Beyond the border the field is repeated. So one of the two slopes there is zero, and the
+        // step must use zero.
         const Vector2d alongX =
             x < 1 || x > 14 ? Vector2d(0, 0) : dx * (x == 1 || x == 14 ? 0.5 : 1);
         Vector2d alongY = y < 6 ? dy : Vector2d(-dy);
@@ -259,7 +258,7 @@ TEST_F(FlowPasses, CleanUpKeepsPlanesAndTheStepBetweenThem) {
     const auto out = filtered(in);
     for (int i = 0; i < kArea; ++i) {
         const int x = i % 16, y = i / 16;
-        if (x < 2 || x > 13 || y < 2 || y > 9) continue;  // outside, the border is repeated
+        if (x < 2 || x > 13 || y < 2 || y > 9) continue;  // the repeated border has an effect here
         EXPECT_NEAR(out[i][0], in[i][0], 5e-3) << "cell " << i;
         EXPECT_NEAR(out[i][1], in[i][1], 5e-3) << "cell " << i;
     }

@@ -9,7 +9,7 @@ namespace {
 
 using PipelineTest = GlTest;
 
-const Eigen::Vector2d kShift{2.3, -1.4};  // shift between video and still [video px]
+const Eigen::Vector2d kShift{2.3, -1.4};
 
 int unchangedTiles(const Pipeline& p) {
     return p.readStats().tiles[static_cast<std::size_t>(TileClass::Unchanged)];

@@ -11,13 +11,13 @@ namespace {
 using Plan = GlTest;
 
 constexpr Size kSize{100, 60};  // 7x4 tiles, the last ones cut off
-// Thresholds of a frame whose noise was not measured; 0.29 grey levels are assumed.
+// Thresholds of a frame whose noise was not measured, for the assumed 0.29 grey levels.
 constexpr double kMeanThreshold = 1.58, kAbsoluteThreshold = 2.37;
 
 struct TileState {
     std::uint32_t changed, matched;
     double noise, structure;
-    std::array<double, 3> energy;  // see twin::TileChange::energy
+    std::array<double, 3> energy;
 };
 
 std::vector<TileState> tilesOf(const WorkPlan& plan) {
@@ -40,7 +40,7 @@ TestPicture changedIn(TestPicture base, int tiles, int by) {
     TestPicture out = base;
     for (int t = 0; t < tiles; ++t)
         for (int i = 0; i < 64; ++i) {
-            // Positions away from borders to other tiles, but also at the border of the picture.
+            // Positions away from the neighbouring tiles, but also at the border of the picture.
             const int x = t % 7 == 6 ? 96 + i % 4 : 16 * (t % 7) + 4 + i % 8;
             std::uint8_t* pixel = out.at(x, 16 * (t / 7) + 4 + i / 8);
             pixel[1] = static_cast<std::uint8_t>(base.at(x, 16 * (t / 7) + 4 + i / 8)[1] ^ by);
@@ -52,7 +52,7 @@ TEST_F(Plan, TileFlagsAndNoiseMatchTheOracle) {
     const TestPicture drawn = Waves(1, 6, 60, 30).shoot(kSize, {});
     TestPicture now = drawn;
     std::mt19937 random(7);
-    for (int tile = 0; tile < 28; ++tile)  // changes in one channel, from hardly any to large ones
+    for (int tile = 0; tile < 28; ++tile)
         for (int i = 0; i < 256; ++i) {
             const int x = 16 * (tile % 7) + i % 16, y = 16 * (tile / 7) + i / 16;
             if (x < kSize.width && y < kSize.height)
@@ -114,7 +114,7 @@ TEST_F(Plan, TilesUnderVirtualObjectsAreRedrawnOnceAnyOtherTileChanges) {
 
 TEST_F(Plan, TilesUnderVirtualObjectsAreRedrawnTogetherOnceOneChanges) {
     const TestPicture base = Waves(1, 6, 60, 30).shoot(kSize, {});
-    const TestPicture oneTile = changedIn(base, 1, 64);  // only the first tile changes
+    const TestPicture oneTile = changedIn(base, 1, 64);
     WorkPlan plan(kSize);
     plan.drawnOver({2, 0, 4, 2}, WorkPlan::Redraw::WithThem);
     plan.update(planesOf(oneTile), planesOf(base), false);
@@ -201,7 +201,7 @@ TEST_F(Plan, TheBufferHoldsEveryTilesFlags) {
 
 TEST_F(Plan, ManyChangedTilesAreDrawnAsAWholeFrame) {
     const TestPicture base = Waves(2, 20, 100, 20).shoot(kSize, {});
-    const int last = 12;  // 0.45 of the 28 tiles are 12.6
+    const int last = 12;  // 0.45 of the 28 tiles is 12.6
     for (const int tiles : {1, last, last + 1, 28}) {
         WorkPlan plan(kSize);
         plan.update(planesOf(changedIn(base, tiles, 64)), planesOf(base), false);
@@ -215,7 +215,7 @@ TEST_F(Plan, ManyChangedTilesAreDrawnAsAWholeFrame) {
     }
 }
 
-/// A slope with noise, and columns of dots two tiles apart. Each given contrast has one column.
+/// A noisy slope and columns of dots two tiles apart. Each contrast in `contrasts` has one column.
 TestPicture dotted(Size size, const std::vector<int>& contrasts) {
     TestPicture out(size);
     for (int y = 0; y < size.height; ++y)
@@ -234,7 +234,7 @@ TestPicture dotted(Size size, const std::vector<int>& contrasts) {
     return out;
 }
 
-/// Columns of tiles in which all tiles are matched. Returns {-1} if a column has matched and
+/// Returns the columns of tiles in which all tiles are matched; {-1} if a column has matched and
 /// unmatched tiles.
 std::vector<int> matchedColumns(const WorkPlan& plan) {
     const auto tiles = tilesOf(plan);
@@ -253,7 +253,7 @@ std::vector<int> matchedColumns(const WorkPlan& plan) {
 }
 
 TEST_F(Plan, TilesWithStructureAndTheirNeighboursAreMatched) {
-    const Size size{256, 96};  // 16 columns
+    const Size size{256, 96};  // 16 columns of tiles
     const TestPicture picture = dotted(size, {20, 60, 0, 40});
     WorkPlan plan(size);
     const auto update = [&] {
@@ -313,7 +313,7 @@ TEST_F(Plan, ChangedTilesWithoutStructureAreNotMatched) {
         for (int i = 0; i < 20; ++i)
             plan.update(planesOf(drawn), planesOf(drawn), false);
         TestPicture now = drawn;
-        for (int i = 0; i < 256; ++i)  // changes one tile uniformly
+        for (int i = 0; i < 256; ++i)
             now.at((inStructure ? 16 : 192) + i % 16, 32 + i / 16)[1] += 9;
         plan.update(planesOf(now), planesOf(drawn), false);
         EXPECT_EQ(plan.work().changed, 9)
@@ -322,13 +322,12 @@ TEST_F(Plan, ChangedTilesWithoutStructureAreNotMatched) {
     }
 }
 
-/// Plans a picture that changed completely. The noise is already known.
 void planWhole(WorkPlan& plan, const TestPicture& picture) {
     for (int i = 0; i < 20; ++i)
         plan.update(planesOf(picture), planesOf(picture), true);
 }
 
-// The structured tiles are far apart; so a rectangle around them would contain mostly tiles without
+// The structured tiles are far apart. A rectangle around them would mostly contain tiles without
 // structure.
 TEST_F(Plan, AWholeFrameWithLittleStructureIsEnlarged) {
     const Size size{512, 96};

@@ -64,8 +64,8 @@ twin::DepthPicture depthOf(const VirtualLayer& layer) {
     return out;
 }
 
-/// Silhouettes must agree within a pixel. Depth must be as exact as the triangles; next to a
-/// silhouette the tolerance is wider, because a pixel may show what its neighbour should show.
+/// Silhouettes must agree within a pixel. Depth must be as exact as the triangles. The tolerance is
+/// wider beside a silhouette, where a pixel may show what its neighbour should show.
 void expectAlike(const twin::DepthPicture& drawn, const twin::DepthPicture& truth,
                  double exactness = 1e-3) {
     ASSERT_EQ(drawn.size, truth.size);
@@ -101,7 +101,7 @@ TEST_F(Preview, NearerObjectHidesFartherInAnyOrder) {
 }
 
 TEST_F(Preview, SurfacesAroundAndBehindTheCameraDoNotSmear) {
-    // The model of this lens folds over outside the picture's corners.
+    // The model of this lens folds over beyond the picture's corners.
     CameraModel folding = plainRig(kVideo, kVideo).video;
     folding.fx = folding.fy = 130;
     folding.distortion = {-0.17, 0, 0, 0, 0};
@@ -162,7 +162,7 @@ TEST_F(Preview, BoundsEncloseCoveredPixelsTightly) {
     PreviewRenderer renderer(lens(), kOutput);
     struct Case {
         Eigen::Vector2d shift;
-        int most;  // largest slack: the size of cells that the picture's border cuts off [px]
+        int most;  // size of cells that the picture's border cuts off [px]
     };
     for (const Case& c :
          {Case{{0, 0}, 3}, Case{{-0.7, 0.1}, 16}, Case{{0.7, -0.5}, 16}, Case{{0.1, 0.6}, 16}}) {
@@ -191,7 +191,7 @@ TEST_F(Preview, EarlierFramesLeaveNothingBehind) {
     EXPECT_EQ(std::count(empty.begin(), empty.end(), 0), static_cast<long>(empty.size()));
 }
 
-/// Colour of a plain quad in front of the camera. `angle`: between its normal and the light.
+/// Colour of a plain quad in front of the camera. `angle`: between the quad's normal and the light.
 int litQuad(double angle, double ambient) {
     PreviewRenderer renderer(
         lens(), kOutput,

@@ -12,7 +12,6 @@ namespace {
 
 using StillReducerTest = GlTest;
 
-// Reduces one row or one column, in double precision.
 std::vector<double> reduced(const std::vector<double>& line, int to) {
     const int from = static_cast<int>(line.size());
     const double scale = static_cast<double>(from) / to;

@@ -15,8 +15,8 @@ constexpr Size kWhole{25, 15};
 constexpr Size kHalf{13, 8};
 constexpr double kSigma = 1.5;
 
-/// Covariance, variances and confidence, from flat to strong contrast and from equal to unrelated
-/// pictures.
+/// Covariance, variances and confidence. They range from flat to strong contrast and from equal to
+/// unrelated pictures.
 twin::Cells randomStatistics(Size size, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> unit(0, 1);
@@ -58,8 +58,8 @@ Weighed weigh(const twin::Cells& displacement, const twin::Cells& statistics,
 }
 
 TEST_F(Weigh, WeightsMatchTheOracle) {
-    // The flow is uniform on the left and changes along x on the right. At the bottom it is
-    // slightly discontinuous.
+    // The flow is uniform on the left and changes along x on the right. It is slightly
+    // discontinuous at the bottom.
     twin::Cells displacement{kWhole, {}};
     for (int y = 0; y < kWhole.height; ++y)
         for (int x = 0; x < kWhole.width; ++x)
@@ -101,8 +101,8 @@ twin::Cells constantCells(Size size, std::array<float, 4> value) {
     return out;
 }
 
-// The squared correlation of video and still is a half. Where the flow is uniform, that is enough
-// for the full weight; where the flow changes, it leaves a quarter of the weight.
+// The squared correlation of video and still is a half. Uniform flow then has the full weight;
+// changing flow has a quarter of the weight.
 TEST_F(Weigh, ABentFlowLowersTheWeightOfAnImperfectMatch) {
     const twin::Cells half = constantCells(kHalf, {0, 0, 0, 0});
     const twin::Cells matched = constantCells(kWhole, {7.07e4F, 1e5F, 1e5F, 1});
@@ -114,8 +114,8 @@ TEST_F(Weigh, ABentFlowLowersTheWeightOfAnImperfectMatch) {
     EXPECT_LT(weigh(bent, matched, half, 0.3).field.at(5, 5)[2], 0.4 * even);
 }
 
-// Between two cells that look up different places, look-ups are wrong. Rotations and zooms change
-// the flow smoothly and keep their weight.
+// Look-ups are wrong between two cells whose flow differs abruptly. Rotations and zooms change the
+// flow smoothly and keep their weight.
 TEST_F(Weigh, ADiscontinuousFlowHasNoWeight) {
     const twin::Cells half = constantCells(kHalf, {1e5F, 1e5F, 1e5F, 0});
     const twin::Cells alike = constantCells(kWhole, {1e5F, 1e5F, 1e5F, 1});
@@ -186,7 +186,6 @@ Classified classify(const twin::Cells& field, const std::vector<std::uint32_t>& 
             lists.read<std::uint32_t>(4UL * kTileCount)};
 }
 
-/// A field with affine tiles, discontinuous tiles and tiles without weight, side by side.
 twin::Cells mixedField() {
     twin::Cells out{kWhole, {}};
     std::mt19937 random(5);
@@ -203,7 +202,7 @@ twin::Cells mixedField() {
 }
 
 /// A header (whole frame, changed tiles), then `changed` and `matched` of each tile. Every third
-/// tile is unchanged, every fifth is not matched.
+/// tile is unchanged; every fifth is not matched.
 std::vector<std::uint32_t> changes(std::uint32_t whole) {
     std::vector<std::uint32_t> out{whole, 0};
     for (unsigned i = 0; i < kTileCount; ++i)
@@ -211,13 +210,11 @@ std::vector<std::uint32_t> changes(std::uint32_t whole) {
     return out;
 }
 
-/// Wanted class of a changed tile of mixedField().
 unsigned classIn(const twin::Cells& field, int tile) {
     if (tile % 5 == 0) return 1;
     return twin::tileClass(field, tile % kClassified.width, tile / kClassified.width);
 }
 
-/// Returns `tiles` and all their neighbours.
 std::set<std::uint32_t> withNeighbours(const std::set<std::uint32_t>& tiles) {
     std::set<std::uint32_t> out;
     for (const std::uint32_t tile : tiles)

@@ -63,7 +63,7 @@ TEST(CellFlow, EndsWhereTheStillShowsThePoint) {
 
 TEST(CellFlow, PointsBehindTheCameraAndNanHaveNoFlow) {
     Cells cells(20);
-    cells.ends.motion.turn = {1, 0, 0, 0, 1, 0, 0, 0, -1};  // all points are behind the camera
+    cells.ends.motion.turn = {1, 0, 0, 0, 1, 0, 0, 0, -1};
     for (const auto& v : cells.flow(cells.s))
         EXPECT_GT(v[0], 9000);
     cells = Cells(20);

@@ -9,10 +9,10 @@ namespace mfar::simd {
 namespace {
 
 constexpr Size kVideo{160, 120}, kStill{400, 300}, kOutput{576, 432};
-constexpr int kFrom = 20, kTo = 32;  // a range of columns of cells
+constexpr int kFrom = 20, kTo = 32;  // range of cell columns
 
-/// A frame with two stills. The second still is inverted and has look-ups of its own. In some
-/// columns of cells its weight exceeds that of the first still by `more`; elsewhere it is 0.
+/// A frame with two stills. The second still is inverted and has its own look-ups. Its weight
+/// exceeds that of the first still by `more` in some columns of cells; it is 0 elsewhere.
 struct TwoStills {
     explicit TwoStills(float more, double changedShare = 1)
         : frame(kVideo, kStill, changedShare), other(kVideo, kStill, changedShare) {

@@ -30,7 +30,7 @@ TEST(OpenRow, PixelsAreOpenAtEdgesAndWhereDepthIsUnknown) {
 }
 
 struct Scene {
-    Size size{61, 47};  // number of voters in each direction
+    Size size{61, 47};  // number of votes in each direction
     AlignedRows<float> inverseDepth{size}, variance{size}, red{size}, green{size}, blue{size};
 
     explicit Scene(double invalidShare) {
@@ -49,7 +49,7 @@ struct Scene {
     }
 };
 
-/// Oracle of votePixels(), in double precision. `margin`: how far the input is from another
+/// Oracle of votePixels(), in double precision. `margin`: distance of the input from another
 /// decision.
 OpenPixel decide(const Scene& scene, const VoteRule& rule, const PixelRect& where, int y,
                  OpenPixel pixel, double& margin) {

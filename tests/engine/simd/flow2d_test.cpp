@@ -15,7 +15,6 @@ using Eigen::Vector2d;
 using Cell = std::array<float, 4>;
 constexpr Size kSmall{160, 120};
 
-/// Computes the flow between two pictures.
 class Pair {
 public:
     Pair(const FlowPicture& a, const FlowPicture& b, const Flow2dOptions& options = {})
@@ -44,8 +43,8 @@ struct Errors {
     Vector2d bias{0, 0};
 };
 
-/// Errors against a constant flow [px of the field's level]. Only cells count that are at least
-/// `border` cells inside the picture.
+/// Errors relative to a constant flow [px of the field's level]. Counts cells at least `border`
+/// cells inside the picture.
 Errors errorsOf(Rows<const FlowCell> field, const Vector2d& truth, int border) {
     Errors e;
     int n = 0;
@@ -164,7 +163,6 @@ TEST(Flow2d, WithoutMatchedTilesTheFlowStays) {
         EXPECT_EQ(pair.flow.forward()[7][x].x, 0);
 }
 
-/// Two thirds of the tiles of a picture, in groups and alone.
 TileWork someWork(Size video) {
     TileWork work = wholeWork(video);
     work.draw = TileWork::Draw::Tiles;
@@ -193,7 +191,7 @@ TEST(Flow2d, SkippedTilesDoNotAffectOthers) {
                 ASSERT_EQ(wanted.x, got.x) << x << ", " << y;
                 ASSERT_EQ(wanted.y, got.y) << x << ", " << y;
                 ASSERT_EQ(wanted.cost, got.cost) << x << ", " << y;
-                // At the end of the vector, both fields have the same backward flow.
+                // Both fields have the same backward flow where the vector ends.
                 const auto at = [&](int cell, float by, int cells) {
                     const auto end = static_cast<int>(std::floor((4.0F * cell + 2 + by) / 8));
                     return std::clamp(end, 0, cells - 1);
@@ -235,7 +233,6 @@ TEST(Flow2d, TilesThatDidNotChangeKeepTheirVectors) {
     EXPECT_LT(errorsOf(pair.flow.forward(), {3, 1}, 3).worst, 0.3);
 }
 
-/// Seeds scattered around a constant flow.
 std::vector<Cell> seedsAround(const Vector2d& flow, double noise) {
     std::mt19937 random(3);
     std::normal_distribution<double> off(0, noise);

@@ -10,7 +10,7 @@
 
 namespace mfar::test {
 
-/// Lengths that fill vectors exactly, and lengths that do not.
+/// Lengths that are multiples of the vector length, and others.
 inline constexpr std::array<std::size_t, 8> kLengths{1, 2, 3, 7, 16, 33, 64, 131};
 
 template <class T>

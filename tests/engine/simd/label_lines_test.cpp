@@ -31,7 +31,6 @@ struct Problem {
             still[i] = kNoCensus;
     }
     [[nodiscard]] LabelRow row() const { return {raysX.data(), raysY.data(), raysX.size()}; }
-    /// Position of a label in the canvas.
     [[nodiscard]] Ray pointOf(std::size_t x, double label) const {
         const double s = lines.perLabel * label;
         const Ray p = test::project(lines.lens, raysX[x] + s * (lines.tx - raysX[x] * lines.tz),
@@ -53,8 +52,8 @@ struct Problem {
     }
 };
 
-// A cost is the difference to the nearest pixel on the straight line from the first label of a
-// vector to its last.
+// The cost is the difference to the pixel that is nearest to the straight line from the first to
+// the last label of a vector.
 TEST(LabelCosts, CostsAreThoseOfTheNearestPixels) {
     for (const std::size_t width : {1UL, 5UL, 64UL, 150UL}) {
         for (const int vectors : {1, 3}) {
@@ -90,7 +89,7 @@ TEST(LabelCosts, CostsAreThoseOfTheNearestPixels) {
     }
 }
 
-/// Label with its fraction, computed by its definition in double precision.
+/// Oracle of a label's fraction, by its definition, in double precision.
 double placeOf(const Problem& p, std::size_t x, const Valley& valley) {
     const Ray here = p.pointOf(x, valley.label), next = p.pointOf(x, valley.label + 1);
     const double wayX = next.x - here.x, wayY = next.y - here.y, square = wayX * wayX + wayY * wayY;
@@ -114,7 +113,7 @@ double placeOf(const Problem& p, std::size_t x, const Valley& valley) {
             rise[side] = valley.rise[k < 0 ? k + 2 : k + 1];
         }
     if (rise[0] == Valley::kUnknown || rise[1] == Valley::kUnknown) return own.label;
-    // Vertex of two lines that fall and rise with the same slope, that of the steeper side.
+    // Vertex of two lines, one falling and one rising, with the slope of the steeper side.
     const double left = rise[0] / (own.label - foot[0]), right = rise[1] / (foot[1] - own.label);
     if (!(std::max(left, right) > 0)) return own.label;
     return right > left ? 0.5 * (foot[0] + own.label + rise[0] / right)

@@ -61,7 +61,7 @@ TEST(LumaFilters, NoiseColumnsAreResponsesToTheNoiseMask) {
     constexpr Size kSize{140, 18};
     for (const bool extreme : {false, true}) {
         Bytes picture = bytes(140UL * 18, 7);
-        if (extreme)  // the largest possible sums
+        if (extreme)
             for (std::size_t i = 0; i < picture.size(); ++i)
                 picture[i] = (i % 140 + i / 140) % 2 == 0 ? 0 : 255;
         std::vector<std::uint16_t> sums(138);

@@ -21,7 +21,6 @@ public:
     [[nodiscard]] int held(int x, int y) const {
         return at(std::clamp(x, 0, level_.width - 1), std::clamp(y, 0, level_.height - 1));
     }
-    /// Checks that the margins repeat the border.
     void checkMargins() const {
         for (int y = 0; y < level_.height; ++y)
             for (int x = -8; x < 4 * level_.pitch - 8; ++x)

@@ -15,7 +15,6 @@ constexpr double kTolerance = 2e-3;
 constexpr Size kSize{61, 45};  // the picture cuts off the last cells
 constexpr Size kCells{16, 12};
 
-/// A picture in the memory layout that the kernels read.
 class Level {
 public:
     explicit Level(const FlowPicture& p)
@@ -165,7 +164,7 @@ TEST(PatchFlow, PropagationTakesTheBestOfTheNeighbours) {
 }
 
 /// Checks the costs of seed vectors that change by dx and dy per pixel. `span`: see
-/// compareBentPatch(). Cells at the border do not count.
+/// compareBentPatch(). Cells at the border are left out.
 void expectBentCosts(const Vector2d& dx, const Vector2d& dy, int span) {
     const FlowPicture first = wavesMoved(kSize, {0, 0}), second = noiseOf(kSize, 3);
     const Level a(first), b(second);
@@ -211,7 +210,7 @@ TEST(PatchFlow, CleanUpKeepsPlanesAndTheStepBetweenThem) {
         prepareCleanUpRow(field, FlowField::first(known), y);
     std::vector<float> out(4UL * kCells.width * kCells.height);
     const CleanUpStep step{field, FlowField::first(known), out.data(), 2};
-    for (int y = 2; y < kCells.height - 2; ++y)  // outside, the border is repeated
+    for (int y = 2; y < kCells.height - 2; ++y)  // the repeated border has an effect here
         cleanUpCells(step, y, 2, kCells.width - 2);
     for (int y = 2; y < kCells.height - 2; ++y)
         for (int x = 2; x < kCells.width - 2; ++x) {

@@ -37,7 +37,6 @@ struct Still {
     StillPreparation preparation;
 };
 
-/// An RGBA picture with random texture.
 struct TestPicture {
     explicit TestPicture(Size size, int smooth = 2)
         : bytes(mixedBytes(4UL * size.width * size.height, 7, smooth)),
@@ -108,8 +107,8 @@ TEST(StillPreparation, ConstantStillStaysConstant) {
     }
 }
 
-/// Luma of a Y U V picture, computed through R G B, not clamped. Chroma is interpolated between the
-/// pixels that share it.
+/// Luma of a Y U V picture, computed from R G B without clamping. Chroma is interpolated between
+/// the pixels that share it.
 Grey lumaOfYuv(const ImageView& p) {
     const YuvToRgb rows = yuvToRgb(p.matrix, p.range);
     const bool packed = p.format == PixelFormat::Yuyv, pairs = p.format == PixelFormat::Nv12;

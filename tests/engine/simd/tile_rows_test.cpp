@@ -13,7 +13,6 @@
 namespace mfar {
 namespace {
 
-/// The scene of both tests: waves, edges and noise.
 TestPicture tilePicture(Size size, unsigned seed, double sigma) {
     TestPicture out(size, PixelFormat::Rgba8, 255);
     std::mt19937 random(seed);

@@ -32,7 +32,6 @@ TEST(TurnedPoints, PointsAreProjectionsOfRotatedRays) {
     }
 }
 
-// Tries the smallest picture, odd sizes, and a map that leaves the picture on every side.
 TEST(TurnedRow, RowIsBilinearInsideAndUnseenOutside) {
     for (const Size size : {Size{2, 2}, Size{3, 2}, Size{40, 31}}) {
         for (const int width : {1, 8, 23, 80}) {
