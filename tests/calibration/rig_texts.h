@@ -7,7 +7,6 @@
 
 #include <string>
 
-/// Texts of calibration files: the same calibration in every format.
 namespace mfar::test {
 
 inline RigCalibration sampleRig() {
@@ -84,7 +83,7 @@ T: !!opencv-matrix
 )";
 
 inline std::string openCvText() {
-    // A single document must not have a second header.
+    // A single document must not have a second header, so that substr() removes it.
     return kOpenCvIntrinsics + std::string(kOpenCvExtrinsics).substr(14) +
            "image_size1: [ 640, 480 ]\nimage_size2: [ 2304, 1728 ]\n";
 }

@@ -143,7 +143,7 @@ TEST(CameraV4l2, WithoutANameTheExcludedCameraIsNotChosen) {
     options.device.largest = true;
     EXPECT_EQ(errorOf([&] { CameraV4l2(options, fake); }),
               "no second camera was found; available:\n  /dev/video0: 'Fake Camera' at fake:1");
-    fake.secondPath = "/dev/video2";  // equal picture sizes: ordered by path
+    fake.secondPath = "/dev/video2";  // cameras with equal picture sizes are ordered by path
     EXPECT_EQ(CameraV4l2(options, fake).info().name, "Fake Camera (/dev/video2)");
     options.device.except = "/dev/video2";
     EXPECT_EQ(CameraV4l2(options, fake).info().name, "Fake Camera (/dev/video0)");

@@ -12,7 +12,6 @@ namespace {
 using Presence = Screen::Presence;
 using testing::HasSubstr;
 
-// State of a simulated display device, with counters of calls.
 struct Device {
     Presence presence = Presence::Absent;
     bool refuses = false;        // true: show() throws
@@ -64,7 +63,8 @@ protected:
             nullptr, std::move(screens), [this] { return now_; },
             [this] { return std::exchange(changed_, false); });
     }
-    // Shows pictures at 20 Hz for this time. Returns how many either screen showed.
+    // Shows pictures at 20 Hz for this time. Returns the number of pictures that the two screens
+    // showed.
     int run(std::chrono::milliseconds duration) {
         const int before = kms_.shown + fbdev_.shown;
         for (const Timestamp end = now_ + duration; now_ < end;
@@ -87,7 +87,7 @@ TEST_F(AutoDisplay, RunsWithoutAScreenAndReportsIt) {
     EXPECT_THAT(display_->name(), HasSubstr("kms missing; fbdev missing"));
     EXPECT_EQ(display_->fault(), display_->name());
     EXPECT_FALSE(display_->lastShown());
-    EXPECT_LE(kms_.looks, 5);  // a lost screen is looked for twice a second
+    EXPECT_LE(kms_.looks, 5);  // the display looks for a lost screen twice a second
     EXPECT_NO_THROW(display_->finish());
 }
 
@@ -169,8 +169,7 @@ TEST_F(AutoDisplay, ReturnsToAScreenThatWasLostForAMoment) {
     EXPECT_EQ(display_->name(), "no screen yet (kms missing; fbdev missing)");
 }
 
-// A screen that is lost repeatedly: its flips do not complete, which is noticed at every third
-// picture.
+// The flips of this screen do not complete. This is noticed at every third picture.
 TEST_F(AutoDisplay, ARepeatedlyLostScreenStaysReported) {
     kms_.presence = Presence::Ready;
     run(kSecond);
@@ -205,7 +204,7 @@ TEST_F(AutoDisplay, TriesTheNextDeviceWhenTheFirstPictureIsRefused) {
 
 TEST_F(AutoDisplay, TriesTheNextDeviceWhenTheSecondFlipNeverCompletes) {
     kms_.presence = fbdev_.presence = Presence::Ready;
-    kms_.refusesAfter = 2;  // a missing flip is noticed at the third picture
+    kms_.refusesAfter = 2;  // the missing flip is noticed at the third picture
     EXPECT_GE(run(kSecond), 8);
     EXPECT_EQ(display_->name(), "fbdev held");
     EXPECT_EQ(kms_.shown, 2);

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint32_t kPreferred = DRM_MODE_TYPE_PREFERRED;
 
-// A mode with 10 % blanking in each direction. Its clock is rounded to kHz.
+// A mode with 10 % blanking in each direction. Its pixel clock is rounded to kHz.
 drmModeModeInfo mode(int width, int height, double hz, std::uint32_t type = 0,
                      std::uint32_t flags = 0) {
     drmModeModeInfo m{};
@@ -80,12 +80,12 @@ TEST(ChooseMode, ImpossibleModesAreIgnored) {
     EXPECT_EQ(chosen({}, {}), "none");
     drmModeModeInfo stopped = mode(1280, 720, 60);
     stopped.clock = 0;
-    EXPECT_DOUBLE_EQ(refreshHz(stopped), 60);  // a mode without timing gives its rounded rate
+    EXPECT_DOUBLE_EQ(refreshHz(stopped), 60);
     stopped.vrefresh = 0;
     EXPECT_EQ(chosen({stopped}, {}), "none");
 }
 
-/// A pipe that replaces a graphics card. The test writes the card's events into it.
+/// A pipe that acts as a graphics card. The test writes the card's events into it.
 struct TalkingCard {
     TalkingCard() {
         std::array<int, 2> ends{};

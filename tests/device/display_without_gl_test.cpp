@@ -1,5 +1,5 @@
-// Displays to which the CPU writes, with pictures on the host, call no GL function, whether or not
-// a GL library is loaded.
+// Displays to which the CPU writes must call no GL function for pictures on the host, even if a GL
+// library is loaded.
 #include "hal/device/display_auto.h"
 #include "hal/device/gl_libraries.h"
 #include "hal/virtual/display_files.h"
@@ -24,8 +24,8 @@ protected:
     }
     [[nodiscard]] Picture picture() const { return rows_.rows(); }
 
-    /// Number of GL calls that the action makes while a GL library is loaded. The action must also
-    /// work before the library is loaded.
+    /// Returns the number of GL calls that the action makes while a GL library is loaded. The
+    /// action must also work before the library is loaded.
     static int callsOf(const std::function<void()>& action) {
         action();
         loadGlLibraries({MFAR_FAKE_GL, MFAR_FAKE_GL});

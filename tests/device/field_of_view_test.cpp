@@ -17,7 +17,7 @@ TEST(FieldOfView, CroppingInOneDirectionIsAllowed) {
 }
 
 TEST(FieldOfView, CroppedModesAreDetected) {
-    // An imx477 at 1332x990 bins the central 2664x1980 pixels; so it does not show the whole field.
+    // An imx477 at 1332x990 uses only the central 2664x1980 pixels, not its whole field.
     EXPECT_FALSE(showsWholeField({2664, 1980}, {4056, 3040}, {640, 480}));
     EXPECT_FALSE(showsWholeField({1280, 720}, {1920, 1080}, {640, 480}));
     EXPECT_FALSE(showsWholeField({1440, 900}, {1920, 1080}, {640, 480}));

@@ -57,7 +57,7 @@ TEST(MappedPicture, OutlivesTheBufferAndSynchronisesItsReads) {
         picture =
             std::make_unique<MappedPicture>(buffer, PictureLayout{{32, 16}, PixelFormat::Yuyv, 64});
     }
-    picture->beginRead();  // this memory is not a dma-buf, so the call has no effect
+    picture->beginRead();  // has no effect, because this memory is not a dma-buf
     EXPECT_EQ(picture->view().data[64], 7 + 64);
     picture->endRead();
 }

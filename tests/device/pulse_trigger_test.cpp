@@ -24,7 +24,7 @@ struct Level {
     Timestamp time;
 };
 
-/// A wire to the loopback input, which sees the driven level a little later.
+/// A wire from the trigger line to the loopback input, which sees the level a little later.
 struct Wire {
     std::mutex mutex;
     std::vector<Level> history;
@@ -176,7 +176,7 @@ TEST(PulseTrigger, LoopbackMeasuresStartAndLength) {
         const auto wire = std::make_shared<Wire>();
         const auto trigger = triggerOn(wire, pulse, true);
         EXPECT_FALSE(trigger->measured());
-        wire->edges.push_back(Timestamp::now());  // an edge before the pulse, from a disturbance
+        wire->edges.push_back(Timestamp::now());  // an edge from a disturbance, before the pulse
         const Timestamp edge = trigger->fire();
         while (!trigger->measured())
             std::this_thread::sleep_for(100us);
@@ -210,7 +210,8 @@ TEST(PulseTrigger, MissedEdgesOfTheLoopbackAreCounted) {
 
 TEST(PulseTrigger, LoopbackTimesOfAnotherClockAreIgnored) {
     const auto wire = std::make_shared<Wire>();
-    wire->clockOffset = std::chrono::hours(24 * 365 * 50);  // the offset of CLOCK_REALTIME
+    wire->clockOffset = std::chrono::hours(24 * 365 * 50);  // as large as the offset of
+                                                            // CLOCK_REALTIME
     const auto trigger = triggerOn(wire, 50us, true);
     const Timestamp edge = trigger->fire();
     EXPECT_LE(edge, Timestamp::now());
