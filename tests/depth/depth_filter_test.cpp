@@ -70,8 +70,8 @@ TEST(DepthFilter, TheNearerSurfaceOccludesTheOther) {
         for (int x = 40; x < 60; ++x)
             measured.inverseDepth[static_cast<std::size_t>(y) * 120 + x] = 2;
     filter.fuse(measured, kWhole);
-    // The camera moves 0.1 m to the right: the near square moves 22 px to the left, the background
-    // 5.5 px.
+    // The camera moves 0.1 m to the right. So the near square moves 22 px to the left and the
+    // background 5.5 px.
     filter.predict(motion({0, 0, 0}, {0.1, 0, 0}), 0);
     const auto at = [&](int x) { return filter.field().inverseDepth[45UL * 120 + x]; };
     EXPECT_NEAR(at(28), 2, 1e-4);

@@ -26,7 +26,7 @@ std::vector<std::uint32_t> censusOf(const LumaImage& picture) {
     return out;
 }
 
-/// Oracle: compares the neighbours row by row from the top left. The first neighbour gives the
+/// Oracle: compares the neighbours row by row from the top left. The first neighbour sets the
 /// highest bit.
 std::uint32_t twin(const LumaImage& picture, int x, int y) {
     const auto at = [&](int i, int j) {
@@ -82,7 +82,8 @@ LumaImage toned(LumaImage picture, const std::function<double(double)>& curve) {
     return picture;
 }
 
-// The picture has only fifty levels; so each of these curves keeps neighbouring levels distinct.
+// The picture has fifty grey levels, so that each of these curves keeps neighbouring levels
+// distinct.
 TEST(Census, IsInvariantToRisingToneCurves) {
     const LumaImage picture = randomPicture({31, 23}, 100, 149, 9);
     const auto bits = censusOf(picture);
@@ -98,7 +99,7 @@ TEST(Census, IsInvariantToRisingToneCurves) {
     EXPECT_NE(censusOf(toned(picture, [](double v) { return 255 - v; })), bits);
 }
 
-// Where a curve makes neighbours equal, bits may be cleared, but no bit may be set.
+// Where a curve makes neighbours equal, it may clear bits but must set none.
 TEST(Census, FlatterToneCurvesClearBitsButSetNone) {
     const LumaImage picture = randomPicture({31, 23}, 0, 255, 9);
     const auto bits = censusOf(picture);

@@ -110,7 +110,7 @@ TEST(EpipolarLens, RaysProjectBackToTheirPixels) {
     }
 }
 
-// Along a ray away from the axis, projected points may move outwards or stay, but never move back.
+// Along a ray away from the axis, projected points must never move back towards it.
 TEST(EpipolarLens, ProjectionNeverFoldsBack) {
     for (const CameraModel& camera :
          {test::oddPlain(), test::oddBarrel(), pincushion(), fisheye()}) {

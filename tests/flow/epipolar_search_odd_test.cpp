@@ -1,4 +1,3 @@
-// Tests EpipolarSearch with extreme pictures and poses, and that earlier frames have no influence.
 #include "pipeline/epipolar/epipolar_search.h"
 #include "tests/flow/flow_scene.h"
 
@@ -40,7 +39,6 @@ LumaImage wholePictureOf(Size size, const std::function<int(int, int)>& grey) {
     return out;
 }
 
-/// Expects a finite field whose displacements are within the search range.
 void expectSane(const EpipolarSearch& search, Size size) {
     ASSERT_TRUE(test::isFinite(search));
     ASSERT_EQ(search.inverseDepth().size(), static_cast<std::size_t>(size.width) * size.height);
@@ -80,7 +78,7 @@ TEST(EpipolarSearchOdd, UniformAndExtremePicturesGiveFiniteFields) {
     }
 }
 
-// Without texture the field must not jump.
+// A search without texture must not give jumps.
 TEST(EpipolarSearchOdd, UniformPicturesGiveAUniformField) {
     const Size size{97, 71};
     EpipolarSearch search = test::searchWith(cameraOf(size), 2);
@@ -186,7 +184,7 @@ TEST(EpipolarSearchOdd, IsTheSameWithAnyNumberOfThreads) {
     }
 }
 
-// Every frame has its own canvas; nothing of an earlier frame may remain.
+// Each frame must be searched without values from an earlier frame.
 TEST(EpipolarSearchOdd, DoesNotDependOnEarlierFrames) {
     const CameraModel camera = barrelOf({180, 130});
     const LumaImage video = scene().render(camera, {}),

@@ -35,7 +35,7 @@ float medianAt(const std::vector<float>& field, Size size, int x, int y) {
     return around[4];
 }
 
-// A small number of different values gives many ties.
+// A small number of different values causes many ties.
 TEST(Median3x3, IsTheFifthOfTheNineSortedValues) {
     for (int threads = 1; threads <= 3; ++threads) {
         Workers workers(threads);
@@ -54,7 +54,7 @@ TEST(Median3x3, IsTheFifthOfTheNineSortedValues) {
     }
 }
 
-// Tries random orders of nine distinct values, because a wrong sorting network fails only for some
+// Random orders of nine distinct values, because a wrong sorting network fails only for some
 // orders.
 TEST(Median3x3, IsTheSameForEveryOrderOfNineValues) {
     Workers workers(1);
@@ -93,7 +93,7 @@ TEST(LocalRange, IsTheSmallestAndLargestValueOfTheSquare) {
     }
 }
 
-// Scratch memory must not keep values of the larger picture.
+// Scratch memory must keep no values of the larger picture.
 TEST(LocalRange, CanBeReusedForAnotherSize) {
     LocalRange range;
     localRange(randomField({40, 30}, 100), {40, 30}, 2, range);

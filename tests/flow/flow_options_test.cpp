@@ -47,7 +47,6 @@ TEST(FlowOptions, ValuesOutOfRangeAreRefused) {
         EXPECT_THROW(validate(EpipolarOptions{.longestParallax = share}), std::invalid_argument);
 }
 
-/// Errors on a wall with a parallax of 38 px, a fifth of the picture's width.
 test::FlowErrors errorsWith(const EpipolarOptions& options) {
     const CameraModel camera{{200, 150}, 190, 190, 99.5, 74.5, {}};
     const test::View view{

@@ -33,7 +33,6 @@ int clampedAt(const LumaImage& picture, int x, int y) {
         std::clamp(y, 0, picture.size.height - 1))[std::clamp(x, 0, picture.size.width - 1)];
 }
 
-/// A picture with slopes, steps along both axes, a slanted edge, and a textured part.
 double greyScene(int x, int y) {
     double grey = 40 + 0.2 * x + 0.1 * y;
     if (x > 90) grey += 60;

@@ -17,8 +17,6 @@ LumaImage drawn(Size size, const std::function<double(double, double)>& grey) {
     return out;
 }
 
-// Waves with periods of 7 to 13 pixels in three directions: smooth, and not repeated within a
-// window.
 double waves(double x, double y) {
     return 120 + 30 * std::sin(0.71 * x + 0.2 * y) + 30 * std::sin(-0.3 * x + 0.63 * y) +
            30 * std::sin(0.35 * x + 0.41 * y + 1);

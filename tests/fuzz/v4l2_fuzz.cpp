@@ -1,4 +1,4 @@
-// Fuzzes a driver with arbitrary answers. The input is the script of its answers.
+// Fuzzes a driver with arbitrary answers. The input is the script of the answers.
 #include "base/image_layout.h"
 #include "hal/device/camera_v4l2.h"
 #include "tests/fuzz/scripted_v4l2.h"
