@@ -44,7 +44,7 @@ TEST(GltfModel, MaterialIsRead) {
     EXPECT_EQ(m.normalScale, 0.5F);
     EXPECT_EQ(m.alphaCutoff, 0.25F);
     EXPECT_TRUE(m.doubleSided);
-    // One image is used as colour and as data; so it gives two textures.
+    // The same image is used as colour and as data. So it gives two textures.
     ASSERT_EQ(model.textures.size(), 2U);
     EXPECT_EQ(m.baseColourTexture, m.emissionTexture);
     EXPECT_EQ(m.normalTexture, m.metallicRoughnessTexture);
@@ -143,7 +143,7 @@ TEST(GltfModel, SparseElementsAreReplaced) {
 
 TEST(GltfModel, InterleavedAndNormalizedElementsAreRead) {
     GltfMaker maker = richModel();
-    // Four elements of two shorts. Four unrelated bytes follow each element.
+    // Four elements of two shorts, with four unrelated bytes after each element.
     const std::array<std::uint16_t, 16> uvs = {0,     65535, 9, 9, 65535, 65535, 9, 9,
                                                65535, 0,     9, 9, 0,     0,     9, 9};
     const int view = maker.view(uvs.data(), sizeof uvs - 4);
@@ -160,7 +160,7 @@ TEST(GltfModel, InterleavedAndNormalizedElementsAreRead) {
     EXPECT_EQ(mesh.uvs[3], Eigen::Vector2f(0, 0));
 }
 
-// Example of the specification: the lower left quarter of the picture, rotated.
+// Example from the specification: the lower left quarter of the picture, rotated.
 TEST(GltfModel, TextureTransformIsApplied) {
     GltfMaker maker = richModel();
     nlohmann::json& m = maker.root["materials"][0];

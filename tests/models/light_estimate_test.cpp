@@ -22,7 +22,7 @@ std::uint8_t encoded(float linear) {
     return static_cast<std::uint8_t>(std::lround(255 * s));
 }
 
-/// The picture that a camera at this pose takes of `light`, which comes from all directions.
+/// The picture that a camera at this pose takes if `light` comes from all directions.
 std::vector<std::uint8_t> seenFrom(const RigidTransform& T_world_camera, const Radiance& light) {
     std::vector<std::uint8_t> out;
     for (int y = 0; y < kSmall.height; ++y) {
@@ -38,7 +38,6 @@ std::vector<std::uint8_t> seenFrom(const RigidTransform& T_world_camera, const R
     return out;
 }
 
-/// Gives an estimator frames that are 33 ms apart.
 class Watcher {
 public:
     explicit Watcher(const LightEstimatorOptions& options = {}) : estimator(options) {}
@@ -65,7 +64,7 @@ RigidTransform lookingDown() {
     return lookingAlong({0.2, 0.5, -1});
 }
 
-/// Directions in all of space, evenly spaced.
+/// Evenly spaced directions in all of space.
 std::vector<RigidTransform> allAround() {
     std::vector<RigidTransform> out;
     constexpr int kViews = 80;
@@ -113,7 +112,7 @@ TEST(LightEstimate, LightIsFoundOnceAllDirectionsWereSeen) {
         const Eigen::Vector3f truth = smoothLight(d);
         EXPECT_LT((radianceOf(estimate.radiance, d) - truth).norm(), 0.1F * 0.35F * 1.73F);
     }
-    // Light from a single direction would have a directionality of 1; this light has 0.8 / 3.
+    // Light from a single direction has a directionality of 1; this light has 0.8 / 3.
     EXPECT_NEAR(estimate.directionality, 0.8 / 3, 0.03);
 }
 
@@ -235,7 +234,6 @@ TEST(LightEstimate, EveryFormatGivesTheSameLight) {
 
 TEST(Lighting, EnvironmentIsNeverNegativeAndSunHasTheLightOfASingleLamp) {
     LightEstimate estimate;
-    // A single lamp straight above.
     estimate.radiance = harmonicsAt({0, 0, 1}) * Eigen::RowVector3f(3, 3, 3);
     estimate.mainDirection = {0, 0, 1};
     estimate.directionality = 1;

@@ -1,6 +1,6 @@
 #!/bin/bash
-# SIGHUP makes mfard read its configuration again. An invalid configuration must be refused; mfard
-# then keeps the old one.
+# On SIGHUP, mfard must read its configuration again. It must refuse an invalid configuration and
+# keep the old one.
 . "$(dirname "$0")/lib.sh"
 
 lines() { [ "$(grep -Ec "$1" err)" -ge "$2" ]; }

@@ -1,6 +1,6 @@
 #!/bin/bash
-# The tags of the scene must give every frame and still a pose, and flow must be searched along
-# epipolar lines.
+# The tags of the scene must give every frame and still a pose. Flow must be searched along epipolar
+# lines.
 . "$(dirname "$0")/lib.sh"
 
 run 0 --source synthetic:office --pace consumer --frames 8 --summary summary.json

@@ -1,6 +1,6 @@
 #!/bin/bash
-# Recorded poses must replace the tags. A recording without poses must be refused if poses are
-# required.
+# mfard must use recorded poses instead of tags. It must refuse a recording without poses if poses
+# are required.
 . "$(dirname "$0")/lib.sh"
 
 "$sim" --scene office --path pan --seconds 0.2 --stills 5 --no-truth \

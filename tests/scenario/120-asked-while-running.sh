@@ -3,8 +3,8 @@
 . "$(dirname "$0")/lib.sh"
 
 ctl="$(dirname "$sim")/mfarctl"
-# refused EXIT-CODE ARGUMENT...: mfarctl must end with this code. Its output goes to `answer` and
-# err.ctl.
+# refused EXIT-CODE ARGUMENT...: runs mfarctl, which must end with this code. Its output goes to
+# `answer` and err.ctl.
 refused() {
     local code=$1 got=0
     shift

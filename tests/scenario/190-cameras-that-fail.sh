@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Two V4L2 cameras, which a library simulates, fail in many ways. The video must continue as long as
-# its own camera works; picture, status and summary must report the fault.
+# Two simulated V4L2 cameras fail in many ways. The video must continue while the video camera
+# works. Picture, status and summary must report the fault.
 . "$(dirname "$0")/lib.sh"
 
 ctl="$(dirname "$sim")/mfarctl"
 pretended=$3
 pretended_cameras
 
-# says_of CAMERA FAULT...: sets the faults that the pretended camera has from now on.
+# says_of CAMERA FAULT...: sets the faults that the simulated camera has from now on.
 says_of() {
     local camera=$1
     shift
@@ -29,14 +29,13 @@ stop_now() {
 }
 status() { timeout -s KILL 30 "$ctl" --socket control status >answer 2>err.ctl; }
 stats() { timeout -s KILL 30 "$ctl" --socket control stats >stats.json 2>err.ctl; }
-# shows_pictures COUNT: true after at least this many pictures since the start.
+# shows_pictures COUNT: true if mfard has shown at least this number of pictures.
 shows_pictures() { status && [ "$(awk '$1 == "frames" {print $2}' answer)" -ge "$1" ] 2>/dev/null; }
 goes_on() {
     status || fail "mfard does not answer mfarctl status"
     until_true shows_pictures $(($(awk '$1 == "frames" {print $2}' answer) + 20))
 }
 fault_is() { status && grep -Eq "^fault +$1" answer; }
-# counts CAMERA KEY: prints a value of the camera in stats.json.
 counts() {
     awk -v camera="\"$1\": {" -v key="\"$2\":" \
         '/"cameras": {/ {in_cameras = 1} in_cameras && index($0, camera) {here = 1}

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The reader of the display's pipe stalls. With a live source the pictures must continue, and status
-# must report the reader. A recording must wait for the reader and report that. When the reader
-# closes the pipe, mfard must end.
+# The reader of the display's pipe stalls. With a live source the pictures must continue and the
+# status must report the reader. With a recording, mfard must wait for the reader and report it.
+# mfard must end when the reader closes the pipe.
 . "$(dirname "$0")/lib.sh"
 
 ctl="$(dirname "$sim")/mfarctl"

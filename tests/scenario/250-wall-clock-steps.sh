@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The wall clock steps by an hour and by ten years, as on a board that gets the time late. No frame
-# may be lost, nothing may become stale, and recordings must stay complete and separate. Usage:
+# may be lost or become stale. Recordings must stay complete and separate. Usage:
 # 250-wall-clock-steps.sh MFARD MFAR-SIM PRETENDED.so CLOCK.so
 . "$(dirname "$0")/lib.sh"
 

@@ -23,7 +23,7 @@ double medianOf(std::vector<double>& values) {
 
 }  // namespace
 
-// True 1/z of the pixels that are measured; 0 elsewhere.
+// True 1/z of the measured pixels; 0 elsewhere.
 cv::Mat DepthWatch::trueDepth(Timestamp time) const {
     const CameraModel& video = board_.rig().video;
     const RigidTransform pose = board_.pose(time).T_world_video;
@@ -42,8 +42,8 @@ cv::Mat DepthWatch::trueDepth(Timestamp time) const {
     return out;
 }
 
-// Returns rho / true rho in the previous frame, of the measured pixel that is nearest to the
-// point's position there.
+// Returns rho / true rho in the previous frame, for the measured pixel nearest to the point's
+// position in that frame.
 double DepthWatch::ratioBefore(int x, int y, double rho, const RigidTransform& pose) const {
     const CameraModel& video = board_.rig().video;
     const Eigen::Vector3d p =

@@ -34,8 +34,8 @@ T weighed(const std::array<T, 4>& w, const std::array<double, 4>& v) {
     return w[0] * T(v[0]) + w[1] * T(v[1]) + w[2] * T(v[2]) + w[3] * T(v[3]);
 }
 
-/// Position between two video pixels, 0 to 1, for column x of the output: the fraction of
-/// x scale - 0.5.
+/// Position between two video pixels, from 0 to 1, for column x of the output: the fraction of x
+/// scale - 0.5.
 template <class T>
 T fractionAt(double x, double scale) {
     const T p = T(x) * T(scale) - T(0.5);
@@ -55,7 +55,7 @@ T meanOf16(const std::array<double, 16>& v) {
     return sum / T(16);
 }
 
-/// Projects a ray through a lens, as in camera.glsl; computes one coordinate.
+/// Projects a ray through a lens, as in camera.glsl. Returns one coordinate.
 template <class T>
 T projected(const CameraModel& c, double x, double y) {
     const T u(x), v(y), r2 = u * u + v * v;

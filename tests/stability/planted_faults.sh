@@ -13,8 +13,8 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 missed=0 found=0
 
-# expectFound PROGRAM DESCRIPTION CASES [ARGUMENT...]: runs the cases with a planted fault, which
-# they must find.
+# expectFound PROGRAM DESCRIPTION CASES [ARGUMENT...]: runs the cases with a planted fault. Reports
+# the fault as missed if none of them fails.
 expectFound() {
     local run=$1 what=$2 cases=$3 said status=0
     shift 3
@@ -36,10 +36,10 @@ inShaders() {
     done < <("$program" --list-planted)
 }
 
-# compile SOURCE OBJECT: compiles the source with the changed copies (of itself or of a header)
-# instead of the originals. The copies lie in $scratch under the same relative paths, because a
-# kernel includes itself once per instruction set. Uses the compiler command of the source's unity
-# file, or the source's own command if there is no such file.
+# compile SOURCE OBJECT: compiles the source with the changed copies of itself or of a header. The
+# copies are in $scratch under the same relative paths, because a kernel includes itself once per
+# instruction set. Uses the compiler command of the source's unity file, or, without a unity file,
+# the source's own command.
 compile() {
     local source=$1 object=$2 unit command
     unit=$(grep -lsF "/$source\"" "$build"/pipeline/CMakeFiles/*/Unity/*.cxx \
@@ -53,7 +53,7 @@ compile() {
 }
 
 # inHost SOURCE FROM TO DESCRIPTION CASES [INCLUDER]: plants a fault by replacing FROM by TO in a
-# host source. If SOURCE is a header, INCLUDER is the source that includes it.
+# host source. If SOURCE is a header, INCLUDER is a source that includes it.
 inHost() {
     local source=$1 from=$2 to=$3 what=$4 cases=$5 unit=${6:-$1} link
     if [[ $(grep -cF -- "$from" "$source") != 1 ]]; then
@@ -106,7 +106,6 @@ hostFaults() {
         'distance <= mostDistance_;' 'removed guard' triangulation
 }
 
-# Faults in kernels of the SIMD engine.
 kernelFaults() {
     local simd=pipeline/simd
     inHost $simd/luma_kernels.cpp 'hn::Set(d, params::kLumaGreen)' 'hn::Set(d, 0.614F)' 'wrong weight of green' engines
@@ -137,7 +136,6 @@ kernelFaults() {
     rowFaults
 }
 
-# Faults in SIMD kernels of the epipolar search, of depth, of tiles and of rotated pictures.
 rowFaults() {
     local simd=pipeline/simd
     inHost $simd/label_costs.cpp 'hn::IfNegativeThenElse(seen, hn::Set(d, kUnseenCost), count)' 'count' \

@@ -58,7 +58,7 @@ twin::TwoViews productViews() {
             {Eigen::Quaterniond(turn), {-0.12, 0.03, 0.02}}};
 }
 
-// Expresses the error of a depth as the error of the flow that would cause it.
+// Expresses an error of depth as the error of flow that would cause it.
 void triangulation(TriangulationMethod method, const char* what) {
     const twin::TwoViews views = productViews();
     std::vector<float> flow;

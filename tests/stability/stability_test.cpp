@@ -1,4 +1,4 @@
-// Runs a few seeds of every case, and tests that do not depend on a seed.
+// A few seeds of every case, and tests without seeds.
 #include "pipeline/depth/depth_filter.h"
 #include "tests/stability/cases.h"
 
@@ -68,7 +68,7 @@ TEST(HostileInput, InputDependsOnTheSeedAlone) {
     EXPECT_NE(one.integer(0, 1 << 30), other.integer(0, 1 << 30));
 }
 
-// The recursion of the depth filter in double precision.
+// The depth filter in double precision.
 struct DoubleFilter {
     double inverseDepth, variance;
     void fuse(double measured, double error, double leastShare) {

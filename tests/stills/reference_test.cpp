@@ -5,8 +5,8 @@
 namespace mfar {
 namespace {
 
-/// A reference still. `shows`: share of the tiles that it showed; `moved`: displacement of all
-/// cells since the first frame [px]; `weight`: weight of all cells in the last frame.
+/// A reference still. `shows`: share of tiles that it showed. `moved`: displacement of all cells
+/// since the first frame [px]. `weight`: weight of all cells in the last frame.
 struct Known {
     explicit Known(double shows, float moved = 0, float weight = 1) {
         cells.assign(12, {3 + moved, 2, weight, 1});

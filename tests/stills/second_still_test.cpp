@@ -14,7 +14,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr Size kVideo{256, 192}, kStill{1024, 768};
 const PixelRect kHidden{0, 0, 400, 768};  // left part of the still [px]
-constexpr int kRoom = 24;                 // width of a zone around borders that is not scored [px]
+constexpr int kRoom = 24;  // width of the zone around borders that is not scored [px]
 
 StereoRig simpleRig() {
     StereoRig rig;
@@ -23,7 +23,6 @@ StereoRig simpleRig() {
     return rig;
 }
 
-/// Replaces the left part of a picture by another scene.
 Grey hidden(const Grey& scene) {
     const Grey front = sharpDiscs(77);
     return twin::greyOf(
@@ -34,7 +33,7 @@ Bytes bytesOf(const Grey& picture) {
     return {picture.values.begin(), picture.values.end()};
 }
 
-/// A scene, a still that shows all of it, and a still that lacks its left part.
+/// Base of tests with a scene, a still that shows all of it, and a still that lacks its left part.
 class SecondStillTest : public GlTest {
 protected:
     static Pipeline made(double share, const EngineChoice& engines) {
@@ -51,7 +50,8 @@ protected:
         pipeline.run({video_.data(), kVideo, std::size_t(kVideo.width), PixelFormat::Gray8}, {});
         return pipeline.readStats();
     }
-    /// Mean squared error inside or outside the part in which the newest still shows another scene.
+    /// Mean squared error, inside or outside the part in which the newest still shows another
+    /// scene.
     double error(const Pipeline& pipeline, bool inHidden) const {
         const Bytes picture = pipeline.readImage();
         double sum = 0, count = 0;
@@ -71,7 +71,7 @@ protected:
                 video_ = bytesOf(videoOf(scene_, {}));
 };
 
-/// Engines to test: each engine alone, and each drawing with the match of the other.
+/// Engines to test: each alone, and each drawing with the other's match.
 struct Engines {
     const char* name;
     EngineChoice choice;
@@ -95,7 +95,6 @@ INSTANTIATE_TEST_SUITE_P(Engines, SecondStillOfEngines,
                                          Engines{"drawn_by_simd", drawnBy(EngineKind::Simd)}),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
-/// Tests that do not depend on the engine.
 class SecondStill : public SecondStillTest {
 protected:
     static Pipeline made(double share) {
@@ -172,7 +171,8 @@ TEST_P(SecondStillOfEngines, IsDroppedTogetherWithTheNewestStill) {
     run(pipeline);
     pipeline.dropStill();
     EXPECT_FALSE(run(pipeline).usedStill);
-    for (int frame = 0; frame < 3; ++frame)  // until both pipelines have measured the same noise
+    for (int frame = 0; frame < 3; ++frame)  // after these frames both pipelines have measured the
+                                             // same noise
         run(fresh);
     setStill(pipeline, part_);
     setStill(fresh, part_);
