@@ -17,7 +17,7 @@ Timestamp momentOf(int i) {
     return Timestamp::fromSeconds(1 + i / 30.);
 }
 
-/// A hand-held camera in front of a tag. Each coordinate is a sum of slow and fast sines.
+/// Pose i of a hand-held camera in front of a tag. Each coordinate is a sum of slow and fast sines.
 RigidTransform hand(int i, double tiltDeg, double offsetDeg) {
     const double t = i / 30.;
     const auto sway = [&](double phase) {
@@ -46,8 +46,8 @@ private:
     double unit_;
 };
 
-/// Counts of a run. `turns`: how often the error of the pose changes by more than a limit from one
-/// frame to the next.
+/// Counts of a run. `turns`: number of frames at which the error of the pose changes by more than a
+/// limit.
 struct Followed {
     int turns = 0, flips = 0, lost = 0;
     double worst = 0;  ///< largest rotation error [rad]

@@ -65,7 +65,7 @@ TEST(TagDetector, FindsEveryFamilyWithItsCornersInOrder) {
 }
 
 // The picture has linear sensor values, so that gamma does not move edges. Only a wrong convention
-// of pixel centres could shift the corners on average.
+// of pixel centres can then shift the corners on average.
 TEST(TagDetector, PixelCentresAreAtIntegers) {
     const CameraModel camera = testCamera();
     for (const double decimation : {1., 1.5, 2., 3.}) {
@@ -118,7 +118,7 @@ TEST(CornerRefiner, KeepsCornersInUniformPictures) {
         EXPECT_EQ(detection.corners, made.corners);
     }
     for (Eigen::Vector2d& corner : made.corners)
-        corner.array() -= 139.5;  // beyond the picture's edge
+        corner.array() -= 139.5;  // a corner beyond the picture's edge
     TagDetection detection = made;
     CornerRefiner().refine(GrayPicture(camera.size, 90).view(), camera, detection);
     EXPECT_EQ(detection.corners, made.corners);

@@ -18,7 +18,6 @@ TagObservation observe(const CameraModel& camera, const RigidTransform& T_world_
     return {tag.size, tag.T_world_tag, cornersOf(camera, T_world_camera, tag)};
 }
 
-/// Adds normally distributed noise to corners [px].
 class Noise {
 public:
     explicit Noise(double sigma) : noise_(0, sigma) {}
@@ -108,8 +107,8 @@ TEST(TagPose, CovarianceMatchesTheErrors) {
         mean += error / kRuns;
         distance += error.dot(poses->best.covariance.ldlt().solve(error)) / kRuns;
     }
-    // The expected value is six, for six degrees of freedom; its standard error is 0.08. The
-    // variance must not be underestimated.
+    // The expected value is six, for six degrees of freedom. Its standard error is 0.08. The
+    // variance must not be too small.
     EXPECT_GT(distance, 4.5);
     EXPECT_LT(distance, 6.4);
     EXPECT_LT(mean.head<3>().norm(), 0.05 * kDegree);
@@ -227,7 +226,7 @@ TEST(TagPose, UnusableTagsGiveNoPose) {
     EXPECT_FALSE(solveTagPose({}, camera).has_value());
 }
 
-// No four points may give NaN, even if they do not look like a tag.
+// Four points must not give NaN, even if they do not look like a tag.
 TEST(TagPose, AnyFourCornersGiveAFinitePoseOrNone) {
     std::mt19937 random(9);
     std::uniform_real_distribution<double> x(-20, 660), y(-20, 500);

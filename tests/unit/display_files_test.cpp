@@ -35,7 +35,6 @@ std::string refusal(const std::string& spec, double rateHz = 30) {
 
 class FileDisplays : public testing::Test {
 protected:
-    /// Shows a picture as the pipeline does: as a texture.
     void show(Display& display, const StoredImage& picture, Timestamp time) {
         gpu::Texture texture(picture.size, gpu::TexelFormat::Rgba8);
         texture.upload(PlaneView{picture.view().data, picture.view().stride});
@@ -48,8 +47,8 @@ protected:
 
 TEST_F(FileDisplays, PngHoldsTheShownPixelsWithTheTopRowFirst) {
     StoredImage picture = plain({6, 4}, 50);
-    picture.pixels[0] = 201;                    // red, top left
-    picture.pixels[(3 * 6 + 5) * 4 + 2] = 202;  // blue, bottom right
+    picture.pixels[0] = 201;
+    picture.pixels[(3 * 6 + 5) * 4 + 2] = 202;
     for (std::size_t i = 3; i < picture.pixels.size(); i += 4)
         picture.pixels[i] = 255;
     const auto display = openFileDisplay("png:" + (folder_ / "out/frames").string(), 30);
@@ -129,8 +128,8 @@ TEST_F(FileDisplays, Y4mHasTheRightHeaderSizeAndLuma) {
     const std::string second = bytes.substr(header.size() + 6 + picture);
     EXPECT_EQ(first.substr(0, 6), "FRAME\n");
     EXPECT_EQ(second.substr(0, 6), "FRAME\n");
-    EXPECT_EQ(first.substr(6, 35), std::string(35, '\xeb'));   // white is 235
-    EXPECT_EQ(second.substr(6, 35), std::string(35, '\x10'));  // black is 16
+    EXPECT_EQ(first.substr(6, 35), std::string(35, '\xeb'));
+    EXPECT_EQ(second.substr(6, 35), std::string(35, '\x10'));
     EXPECT_EQ(first.substr(41), std::string(24, '\x80'));
 }
 
@@ -199,7 +198,7 @@ TEST_F(FileDisplays, CancelEndsTheWaitForAStalledReader) {
     close(reader);
 }
 
-/// Tests of a pipe. The test is its reader and reads only some pictures.
+/// Tests with a pipe. The test reads only some pictures from it.
 struct PipeDisplays : FileDisplays {
     PipeDisplays() {
         mkfifo(pipe.c_str(), 0600);
@@ -208,8 +207,7 @@ struct PipeDisplays : FileDisplays {
     ~PipeDisplays() override {
         if (reader >= 0) close(reader);
     }
-    /// Reads until `count` pictures have arrived. Returns the luma of the first pixel of the last
-    /// picture.
+    /// Reads `count` pictures. Returns the luma of the first pixel of the last one.
     int readPictures(std::size_t count) const {
         const std::size_t header = y4mHeader(kSize, 30).size();
         const std::size_t picture = 6 + 640 * 480 * 3 / 2;
@@ -248,7 +246,7 @@ TEST_F(PipeDisplays, LivePicturesDoNotWaitForAStalledReader) {
               "y4m:" + pipe.string() + ": the reader of the pipe accepts no data");
     for (int i = 1; i <= 50; ++i)
         show(*display, plain(kSize, static_cast<std::uint8_t>(5 * i)), {i});
-    // One picture is being written, and one waits in each buffer.
+    // One picture is being written. Each buffer contains a waiting one.
     EXPECT_EQ(display->leftOut(), 47U);
     const int last = readPictures(4);
     EXPECT_NEAR(last, 16 + 219 * 250 / 255., 1) << "the newest picture is written";

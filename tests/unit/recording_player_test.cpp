@@ -15,8 +15,8 @@ using test::writeSmallRecording;
 
 constexpr std::int64_t kMs = 1'000'000;
 
-/// The pictures that one thread gets if it asks both cameras in turn, as text: "V" (video) or "S"
-/// (still), the time [ms], "=", the grey level.
+/// Fetches pictures from both cameras in turn in one thread. Returns them as text: "V" (video) or
+/// "S" (still), the time [ms], "=", the grey level.
 std::string played(RecordingPlayer& player, std::size_t limit = 1000) {
     std::string seen;
     for (std::size_t n = 0; n < limit && !(player.video().ended() && player.stills().ended());) {
@@ -166,7 +166,7 @@ TEST(RecordingPlayer, LoopContinuesWithRisingTimesThatMapBackToTheFiles) {
     writeSmallRecording(folder.path(), {1000 * kMs, 1500 * kMs}, {1200 * kMs});
     RecordingPlayer player(loadRecording(folder.path()), {.pace = Pace::Consumer, .loop = true});
     startBoth(player);
-    // One loop lasts 500 ms plus 1/30 s.
+    // A loop lasts 500 ms plus 1/30 s.
     EXPECT_EQ(played(player, 7), "V1000=0 S1200=0 V1500=10 V1533=0 S1733=0 V2033=10 V2066=0 ");
     EXPECT_FALSE(player.video().ended());
     EXPECT_EQ(player.recordedTime({1'200 * kMs}).ns, 1200 * kMs);

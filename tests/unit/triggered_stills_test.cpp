@@ -17,20 +17,19 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 using namespace std::chrono_literals;
 
-/// A sensor and its trigger line. The test decides which pulses expose a still.
 struct Sensor {
     std::mutex mutex;
     std::condition_variable changed;
     std::deque<Frame> ready;
     std::vector<Timestamp> pulses;
     int loans = 0;
-    int busy = 0;   ///< number of coming pulses that the trigger will refuse
-    int blind = 0;  ///< number of coming pulses that will not expose a still
+    int busy = 0;   ///< number of next pulses that the trigger refuses
+    int blind = 0;  ///< number of next pulses that expose no still
     bool stopped = false;
-    int rests = 0;      ///< number of requests to set the line inactive
+    int rests = 0;      ///< number of requests to make the line inactive
     bool high = false;  ///< level of the line after a pulse
     nanoseconds exposure{0};
-    nanoseconds delay{300us};  ///< time from the pulse's edge to the start of the exposure
+    nanoseconds delay{300us};  ///< time from the pulse to the start of the exposure
 
     void expose(Timestamp start) {
         ++loans;

@@ -18,7 +18,7 @@ CameraModel seeing() {
     return {kSeen, 50, 50, 29.5, 19.5, {}};
 }
 
-/// A square of 0.4 m about (x, 0, 1). It faces a camera at the origin.
+/// A square of 0.4 m about (x, 0, 1) that faces a camera at the origin.
 SceneObject squareAt(double x, const Material& material) {
     auto model = std::make_shared<Model>();
     Mesh mesh;

@@ -40,8 +40,8 @@ TEST(SurfaceMesh, LongEdgesAreDividedAtTheSamePointsInBothTriangles) {
             if (to < from) std::swap(from, to);
             ++edges[{from, to}];
         }
-    // Length of the outline, that is, of all edges of one triangle only. Inner edges belong to two
-    // triangles; so a longer outline shows that an edge is torn.
+    // Length of the outline: of all edges that belong to one triangle only. A torn inner edge makes
+    // the outline longer.
     double outline = 0;
     for (const auto& [edge, triangles] : edges) {
         EXPECT_LE(triangles, 2);
@@ -91,7 +91,7 @@ TEST(SurfaceMesh, SimplifiedMeshStaysCloseToASmoothSurface) {
     EXPECT_EQ(simplified(whole, 80000).triangles.size(), whole.triangles.size());
 }
 
-// The mesh is a pipe, around which the texture coordinate u runs from 0 to 1.
+// The mesh is a pipe. The texture coordinate u runs from 0 to 1 around it.
 TEST(SurfaceMesh, SimplifiedMeshKeepsBothSidesOfASeamApart) {
     std::vector<Vector3f> corners;
     std::vector<Eigen::Vector2f> uvs;

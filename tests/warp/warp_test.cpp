@@ -106,7 +106,7 @@ TEST_F(WarpGl, DepthMatchesTheCurrentPose) {
                 truth.id[i - kLayer.width] != id || truth.id[i + kLayer.width] != id)
                 continue;
             if (id == kCatcherId && truth.colour[i][3] < 8) continue;
-            // At the limb of a ball, its facets are slightly nearer to the centre than the ball's
+            // At the edge of a ball, its facets are slightly nearer to the centre than the true
             // surface.
             const float lift = id == kCatcherId ? kShadowLift * truth.depth[i] : 0;
             ASSERT_NEAR(z[i], truth.depth[i] - lift, 0.01) << x << " " << y;
@@ -122,10 +122,10 @@ TEST_F(WarpGl, HugeMotionAndOddPosesAreHarmless) {
     broken.translation.y() = kNan;
     EXPECT_TRUE(s.warp.run(broken).bounds.empty());
     RigidTransform away = test::orbit(0);
-    away.rotation = away.rotation * Eigen::Quaterniond(0, 0, 1, 0);  // looks the other way
+    away.rotation = away.rotation * Eigen::Quaterniond(0, 0, 1, 0);  // the camera looks away
     EXPECT_TRUE(s.warp.run(away).bounds.empty());
-    // Tries distances inside a ball, on its surface, in the plane and far away, and cameras upside
-    // down and turned by 90 degrees.
+    // Distances inside a ball, on its surface, in the plane and far away. Cameras upside down and
+    // turned by 90 degrees.
     for (const double distance : {0.001, 0.05, 0.09, 0.1001, 0.14, 50.0, 1e5})
         for (const double degrees : {0.0, 90.0, 180.0}) {
             const LayerPicture& layer = s.warp.run(test::orbit(degrees, distance, 1));
