@@ -95,7 +95,7 @@ TEST(SyntheticBoard, APulseBeforeTheStillSensorStartsIsLost) {
     EXPECT_TRUE(runBoard(board, {}).stillTimes.empty());
 }
 
-TEST(SyntheticBoard, AStillOfTheLastFrameComesAfterTheEnd) {
+TEST(SyntheticBoard, AStillTriggeredAtTheLastFrameArrivesAfterTheEndOfTheVideo) {
     SyntheticBoard board(flat(Pace::Consumer, 3));
     EXPECT_EQ(runBoard(board, {3}).stillTimes.size(), 1U);
 }
@@ -111,7 +111,7 @@ TEST(SyntheticBoard, FramesOutliveTheBoard) {
     EXPECT_FALSE(bytes(*frame).empty());
 }
 
-TEST(SyntheticBoard, NextTimesOutWhileAllVideoBuffersAreHeld) {
+TEST(SyntheticBoard, NextTimesOutWhileTheUserHoldsAllVideoBuffers) {
     SyntheticOptions options = flat(Pace::Consumer);
     options.videoBuffers = 2;
     SyntheticBoard board(options);
@@ -163,7 +163,7 @@ TEST(SyntheticBoard, StopWakesWaitingThreads) {
     EXPECT_FALSE(board.video().next(0ms));
 }
 
-TEST(SyntheticBoard, CamerasTriggerAndTruthWorkFromDifferentThreads) {
+TEST(SyntheticBoard, DifferentThreadsMayUseCamerasTriggerAndGroundTruth) {
     SyntheticBoard board(flat(Pace::Consumer, 12));
     board.video().start();
     board.stills().start();

@@ -68,7 +68,7 @@ TEST(SyntheticPath, HandHeldShakeIsSmallAndSmooth) {
     EXPECT_GT(widest, 0.8 * kDegree);
 }
 
-TEST(SyntheticPath, RestPathStaysAndRotationPathOnlyRotates) {
+TEST(SyntheticPath, TheRestPathDoesNotMoveAndTheRotationPathOnlyRotates) {
     const World world = makeWorld(Scene::Office, 1);
     const RigidTransform rest = cameraPose(world, Path::Rest, 1, 0);
     for (const double t : {0.5, 3.0, 7.7}) {

@@ -80,7 +80,7 @@ TEST(SceneBoxes, AFewTightBoxesCoverAModel) {
     EXPECT_LE(coveredTiles(silhouette.run(boxes, kEye)), 16);
 }
 
-TEST(SceneBoxes, ShadowCatcherHasBoxesOfItsOwn) {
+TEST(SceneBoxes, TheShadowCatcherHasItsOwnBoxes) {
     Scene scene;
     EXPECT_TRUE(SceneBoxes(scene.catcher).world().empty());
     scene.catcher.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};

@@ -83,7 +83,7 @@ TEST(SceneFollower, ShadowCatcherIsRebuiltLaterWhenTheViewChanges) {
     EXPECT_NE(follow(0, 105), nullptr);
 }
 
-TEST(SceneFollower, WithoutObjectsInThePictureTheCatcherIsNotRebuilt) {
+TEST(SceneFollower, WithoutObjectsInThePictureTheShadowCatcherIsNotRebuilt) {
     SceneFollower follower({.settling = 0});
     EXPECT_EQ(follower.follow(table(0), kFollowing, downAt(0), kPicture, atSecond(1)), nullptr);
     EXPECT_TRUE(follower.set({})->catcher.positions.empty());

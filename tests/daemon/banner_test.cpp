@@ -61,7 +61,7 @@ TEST_F(BannerText, DifferentTextsLookDifferentAndLongTextsTakeMoreLines) {
     EXPECT_GT(rowsOf(pixelsOf(banner.over(source, endless + " " + endless)), 90), 120);
 }
 
-TEST_F(BannerText, HostPicturesGetTheSameBanner) {
+TEST_F(BannerText, PicturesInHostAndGpuMemoryGetTheSameBanner) {
     Banner banner(kPictureSize);
     const gpu::Texture texture = plainPicture(90);
     AlignedRows<std::uint32_t> rows(kPictureSize);
@@ -77,7 +77,7 @@ TEST_F(BannerText, HostPicturesGetTheSameBanner) {
 }
 
 // mfard draws this banner even if it has no GL context.
-TEST_F(BannerText, WithoutAPictureTheHostBannerIsOnBlack) {
+TEST_F(BannerText, WithoutAPictureTheBannerIsOnBlack) {
     Banner banner(kPictureSize);
     ASSERT_TRUE(banner.over({}, "no picture yet").isOnHost());
     const auto shown = pixelsOf(banner.over({}, "no picture yet"));

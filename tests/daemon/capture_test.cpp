@@ -126,7 +126,7 @@ TEST(CaptureThread, StillsReplacedBeforeAFrameUsedThemAreCounted) {
     EXPECT_EQ(frame->stillsSuperseded, StillBox::kCapacity - 1);
 }
 
-TEST(CaptureThread, ADroppedFramePassesItsStillAndCountOfReplacedStillsOn) {
+TEST(CaptureThread, TheNextFrameInheritsStillAndReplacedStillsCountOfADroppedFrame) {
     CapturedFrame older{{ImageView{}, Timestamp{1}, nullptr},
                         CapturedStill{{ImageView{}, Timestamp{1}, nullptr}},
                         {}};
@@ -212,7 +212,7 @@ TEST(CaptureThread, RepeatedPicturesAreDetectedOnlyForRealSensors) {
     }
 }
 
-TEST(CaptureThread, ALosslessSourceIsReadByOneThreadInOrder) {
+TEST(CaptureThread, OneThreadReadsALosslessSourceInOrder) {
     Capture capture(HandOver::Lossless);
     // All waiting stills must be delivered with the frame, because no other thread fetches them.
     for (int i = 1; i <= 4; ++i)

@@ -54,7 +54,7 @@ TEST(FramePairer, AStillIsPairedWithTheFirstFrameThatIsNotOlder) {
         << "each still is paired with only one frame";
 }
 
-TEST(FramePairer, TheNewestOfSeveralStillsWins) {
+TEST(FramePairer, AFrameIsPairedWithTheNewestOfSeveralStills) {
     Stills stills({1, 2, 3, 9});
     FramePairer pairer(stills.source());
     EXPECT_EQ(stillTime(pairer.pair(frame(4), {})), 3);

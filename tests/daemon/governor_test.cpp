@@ -61,7 +61,7 @@ TEST(Governor, StartsWithTheBestLevelPredictedByTheTable) {
         EXPECT_EQ(Governor(fourLevels(), deadline).level().name, level) << deadline;
 }
 
-TEST(Governor, KeepsEveryDeadlineThatSomeLevelCanKeep) {
+TEST(Governor, MeetsEveryDeadlineThatAnyLevelCanMeet) {
     for (const double deadline : {33.0, 66.0, 133.0}) {
         for (const double factor : {0.2, 0.5, 1.0, 1.2, 1.9}) {
             if (factor * fourLevels()[0].ms > 0.85 * deadline) continue;
@@ -77,7 +77,7 @@ TEST(Governor, KeepsEveryDeadlineThatSomeLevelCanKeep) {
     }
 }
 
-TEST(Governor, SettlesWithin30FramesAfterAChangeOfScene) {
+TEST(Governor, FindsTheLevelWithin30FramesAfterAChangeOfScene) {
     Machine machine(100, scaled(0.6));
     machine.run(60);
     EXPECT_EQ(machine.level(), "c");
@@ -91,7 +91,7 @@ TEST(Governor, SettlesWithin30FramesAfterAChangeOfScene) {
     EXPECT_EQ(machine.run(300), 0);
 }
 
-TEST(Governor, AfterManyChangesOfSceneTheGovernorStillSettlesFast) {
+TEST(Governor, FindsTheLevelFastAlsoAfterManyChangesOfScene) {
     Machine machine(100, scaled(0.6));
     for (int i = 0; i < 10; ++i) {
         machine.setCost(scaled(1.4));
@@ -110,14 +110,14 @@ TEST(Governor, AtMostFourFramesAreLateWhenEverythingBecomesSlower) {
     EXPECT_LE(machine.run(30) * 30, 4);
 }
 
-TEST(Governor, HoldsTheDeadlineThoughTheTableIsWrong) {
+TEST(Governor, MeetsTheDeadlineAlthoughTheTableIsWrong) {
     Machine machine(100, [](std::size_t level) { return level == 2 ? 110.0 : 20.0 + 25 * level; });
     machine.run(60);
     EXPECT_LE(machine.run(2000), 0.05) << "level b takes longer than c, contrary to the table";
     EXPECT_LE(machine.governor().changes(), 60U);
 }
 
-TEST(Governor, DoesNotSwingBetweenTwoLevels) {
+TEST(Governor, DoesNotAlternateBetweenTwoLevels) {
     for (double factor = 0.6; factor < 1.2; factor += 0.05) {
         Machine machine(100, scaled(factor));
         machine.run(1000);
@@ -172,7 +172,7 @@ TEST(Governor, StillsThatMakeFramesLateAreAllowedOnceInFortyFrames) {
         << "a still whose frame was in time does not forbid the next one";
 }
 
-TEST(Governor, TimeOfAStillIsNotChargedToTheLevel) {
+TEST(Governor, TheTimeForAStillDoesNotCountAsTimeOfTheLevel) {
     Governor governor(fourLevels(), 100);
     for (int i = 0; i < 10; ++i) {
         governor.add({.ms = 300, .newStill = true});
@@ -208,7 +208,7 @@ TEST(Governor, IgnoresInvalidTimes) {
     EXPECT_EQ(governor.changes(), 0U);
 }
 
-TEST(Governor, ASingleLevelIsKept) {
+TEST(Governor, TheOnlyLevelIsKept) {
     Governor governor({{"only", 100, 20, {}}}, 10);
     for (int i = 0; i < 100; ++i) {
         governor.add({200});

@@ -57,7 +57,7 @@ TEST_F(HealthTest, AFrozenPictureIsDegraded) {
 }
 
 // The driver's dequeue call hangs, and the daemon draws the banner again and again.
-TEST_F(HealthTest, BannerOfAHangingDriverDoesNotCountAsAlive) {
+TEST_F(HealthTest, ABannerForAHangingDriverDoesNotCountAsAlive) {
     const Heartbeat capture(hearts, "capture", budget::kCapture);
     picture = now;
     pass(seconds(5));
@@ -84,7 +84,7 @@ TEST_F(HealthTest, BannerWhileADeviceIsReopenedCountsAsAlive) {
     EXPECT_EQ(sentence(look()), "video camera: is not there (degraded for 3599.0 s)");
 }
 
-TEST_F(HealthTest, BannerWithoutAFaultOrNoLongerDrawnDoesNotCountAsAlive) {
+TEST_F(HealthTest, OnlyABannerThatIsStillDrawnForAFaultCountsAsAlive) {
     banner = now;
     pass(kStalePicture / 2);
     EXPECT_TRUE(look().isAlive());
@@ -122,7 +122,7 @@ TEST_F(HealthTest, HelperThreadThatHangsIsReportedAndPicturesAreStillShown) {
     EXPECT_EQ(look().cause, "the reload thread hangs");
 }
 
-TEST_F(HealthTest, WaitingForAReaderIsReported) {
+TEST_F(HealthTest, WaitingForTheReaderOfAPipeIsReported) {
     Heartbeat drawing(hearts, "picture", budget::kPicture);
     drawing.restFor("the reader of the pipe");
     picture = now;
@@ -147,7 +147,7 @@ TEST_F(HealthTest, DisplayThatSkipsPicturesIsDegraded) {
     EXPECT_NEAR(look().sinceS, 0, 1e-6) << "the time in the new state must start at 0";
 }
 
-TEST_F(HealthTest, AllCausesAreReported) {
+TEST_F(HealthTest, EveryCauseOfADegradedStateIsReported) {
     const Heartbeat recorder(hearts, "recorder", budget::kWriter, ThreadRole::Helper);
     pass(2 * budget::kWriter);
     picture = banner = now;

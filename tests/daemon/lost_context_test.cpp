@@ -171,11 +171,11 @@ protected:
     Config config_;
 };
 
-TEST_F(LostContext, RecoversInEveryShader) {
+TEST_F(LostContext, RecoversFromAContextLostInAnyShader) {
     loseAtAll([](std::string_view moment) { return moment.starts_with("glUseProgram"); });
 }
 
-TEST_F(LostContext, AContextLostInAnyDataTransferIsRecovered) {
+TEST_F(LostContext, RecoversFromAContextLostInAnyDataTransfer) {
     loseAtAll([](std::string_view moment) {
         return std::ranges::none_of(
             std::array{"glUseProgram", "glBufferSubData", "glDispatchCompute", "glDrawArrays"},
@@ -184,7 +184,7 @@ TEST_F(LostContext, AContextLostInAnyDataTransferIsRecovered) {
 }
 
 // Warping starts once the path tracer has a picture of the objects.
-TEST_F(LostContext, AContextLostDuringTheWarpIsRecovered) {
+TEST_F(LostContext, RecoversFromAContextLostDuringTheWarp) {
     constexpr int kSeconds = 12;
     play(30 * kSeconds,
          "rendering = \"path-traced\"\nresolution = 0.3\nsamples = 1\nbudget_ms = 30");

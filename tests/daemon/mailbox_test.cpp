@@ -11,7 +11,7 @@
 namespace mfar {
 namespace {
 
-TEST(Mailbox, TheNewestItemWinsAndReplacedItemsAreCounted) {
+TEST(Mailbox, TheReceiverGetsTheNewestItemAndReplacedItemsAreCounted) {
     Mailbox<int> box(HandOver::NewestWins);
     EXPECT_EQ(box.put(1), Mailbox<int>::Put::Stored);
     EXPECT_EQ(box.put(2), Mailbox<int>::Put::Replaced);
@@ -81,7 +81,7 @@ TEST(Mailbox, UnderLoadEveryReplacedItemIsCounted) {
     EXPECT_EQ(received + static_cast<int>(box.dropped()), kItems);
 }
 
-TEST(Mailbox, InLosslessModeSenderAndReceiverWorkInTurn) {
+TEST(Mailbox, InLosslessModeTheSenderWaitsForTheReceiver) {
     Mailbox<int> box(HandOver::Lossless);
     std::atomic<int> working{0};
     std::jthread receiver([&] {

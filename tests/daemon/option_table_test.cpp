@@ -116,7 +116,7 @@ void theParserTakesTheDefault(const Key& key) {
     EXPECT_THAT(faults(key, key.option->byDefault), IsEmpty());
 }
 
-TEST(OptionTable, TheParserUsesTheTablesDefault) {
+TEST(OptionTable, TheParserUsesTheDefaultsOfTheTable) {
     for (const Key& key : allKeys()) {
         SCOPED_TRACE(key.name());
         theParserTakesTheDefault(key);
@@ -139,7 +139,7 @@ void theParserHasTheRange(const Key& key) {
                 HasSubstr(fmt::format("Range: {} to {}", range.least, range.most)));
 }
 
-TEST(OptionTable, TheParserEnforcesTheTablesRange) {
+TEST(OptionTable, TheParserEnforcesTheRangesOfTheTable) {
     for (const Key& key : allKeys()) {
         SCOPED_TRACE(key.name());
         theParserHasTheRange(key);
@@ -163,7 +163,7 @@ void theParserHasTheWords(const Key& key) {
         EXPECT_THAT(list, HasSubstr('"' + word + '"'));
 }
 
-TEST(OptionTable, TheParserAcceptsTheTablesWords) {
+TEST(OptionTable, TheParserAcceptsTheWordsOfTheTable) {
     for (const Key& key : allKeys()) {
         SCOPED_TRACE(key.name());
         theParserHasTheWords(key);

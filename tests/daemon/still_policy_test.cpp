@@ -72,13 +72,13 @@ TEST(StillPolicy, WithACameraAtRestTheTriggerFiresOnce) {
     EXPECT_EQ(board.run(3600, kRest), 1);
 }
 
-TEST(StillPolicy, WithACameraAtRestTheTriggerFiresOnceEvenIfTheStillExplainsNothing) {
+TEST(StillPolicy, WithACameraAtRestTheTriggerFiresOnceEvenIfNoPixelMatchesTheStill) {
     Simulation board({});
     EXPECT_EQ(board.run(600, frame(0, 0.01)), 1);
 }
 
 // The first frame is all new and fires the trigger. Its statistics arrive only after the trigger.
-TEST(StillPolicy, StatsOlderThanTheTriggerAreNotMotion) {
+TEST(StillPolicy, StatsOlderThanTheTriggerDoNotCountAsMotion) {
     Simulation board({});
     board.delay = kFrame;
     EXPECT_EQ(board.run(kFrame * 1.5, frame(0, 1)), 1);
@@ -114,13 +114,13 @@ TEST(StillPolicy, StatsOlderThanTheStillAreIgnored) {
     EXPECT_EQ(board.run(2, kMovingExplained), 0);
 }
 
-TEST(StillPolicy, NewViewThatTheStillDoesNotExplainFiresTheTrigger) {
+TEST(StillPolicy, AViewThatTheStillDoesNotShowFiresTheTrigger) {
     Simulation board({});
     board.run(2, kRest);
     EXPECT_EQ(board.run(kFrame / 2, kMovingUnexplained), 1);
 }
 
-TEST(StillPolicy, AfterMotionThatTheStillExplainsANewStillWaitsForTheAgeLimit) {
+TEST(StillPolicy, AfterMotionWithinTheViewOfTheStillANewStillWaitsForTheAgeLimit) {
     TriggerConfig config;
     config.maxAgeS = 5;
     Simulation board(config);
@@ -140,7 +140,7 @@ TEST(StillPolicy, ChangesBeforeAStillsFirstUseDoNotMakeItTooOld) {
 }
 
 // The camera turns and stops while the still is pending. So the still shows the wrong view.
-TEST(StillPolicy, AStillTakenDuringMotionIsReplaced) {
+TEST(StillPolicy, AStillExposedDuringMotionIsReplaced) {
     Simulation board({});
     board.latency = 0.4;
     board.run(0.3, kMovingUnexplained);
@@ -178,7 +178,7 @@ TEST(StillPolicy, KeepsTheMinimumIntervalBetweenStills) {
     EXPECT_GE(board.firedAt.size(), 18U);
 }
 
-TEST(StillPolicy, LostStillIsCountedAndRequestedOnceMore) {
+TEST(StillPolicy, ALostStillIsCountedAndRequestedAgain) {
     TriggerConfig config;
     config.timeoutS = 1;
     config.maxAgeS = 30;
@@ -203,7 +203,7 @@ TEST(StillPolicy, AfterTwoLostStillsTheNextIsRequestedAtTheAgeLimit) {
     EXPECT_EQ(board.policy.lost(), 2);
 }
 
-TEST(StillPolicy, ALateStillIsNotTakenForTheRepeatedOne) {
+TEST(StillPolicy, ALateStillIsNotMistakenForTheRepeatedStill) {
     TriggerConfig config;
     config.timeoutS = 1;
     Simulation board(config);
@@ -232,7 +232,7 @@ TEST(StillPolicy, InModeOffThePolicyNeverFires) {
     EXPECT_EQ(board.run(30, kMovingUnexplained), 0);
 }
 
-TEST(StillPolicy, InModeOffThePulseOfALostRequestedStillIsRepeated) {
+TEST(StillPolicy, InModeOffTheTriggerFiresAgainForALostRequestedStill) {
     TriggerConfig config;
     config.mode = TriggerMode::Off;
     Simulation board(config);

@@ -29,7 +29,7 @@ std::size_t middle() {
     return 45UL * 120 + 60;
 }
 
-TEST(DepthFilter, MeasurementNoiseAveragesOutOverTheFrames) {
+TEST(DepthFilter, MeasurementNoiseIsAveragedOverTheFrames) {
     DepthFilter filter = filterOf();
     std::mt19937 random(1);
     std::normal_distribution<float> noise(0, 0.05F);
@@ -62,7 +62,7 @@ TEST(DepthFilter, OneOutlierIsIgnoredAndAChangeIsFollowed) {
     EXPECT_NEAR(filter.field().inverseDepth[middle()], 3, 1e-5);
 }
 
-TEST(DepthFilter, TheNearerSurfaceOccludesTheOther) {
+TEST(DepthFilter, ANearerSurfaceOccludesAFartherSurface) {
     DepthFilter filter = filterOf();
     filter.predict({}, 0);
     InverseDepthField measured = evenField(0.5F, 0.01F);

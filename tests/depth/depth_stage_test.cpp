@@ -105,7 +105,7 @@ TEST(DepthStage, MeasuresAgainstKeyframesWhileTheCameraMoves) {
     expectGood(walk.errors());
 }
 
-TEST(DepthStage, AStopAndATurnKeepTheDepth) {
+TEST(DepthStage, DepthIsKeptWhileTheCameraStopsAndRotates) {
     Walk walk;
     walk.goSideways(8, 0.012);
     const Walk::Errors before = walk.errors();

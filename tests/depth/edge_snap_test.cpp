@@ -107,7 +107,7 @@ TEST(EdgeSnap, ColourOfEveryFormatDistinguishesSurfaces) {
 
 // Values are rounded and each pair of pixels has equal chroma. So both pictures have the same
 // colours.
-TEST(EdgeSnap, YuvAndItsRgbGiveTheSameField) {
+TEST(EdgeSnap, AYuvPictureAndTheEqualRgbPictureGiveTheSameDepth) {
     for (const PixelFormat format : {PixelFormat::Yuyv, PixelFormat::Nv12, PixelFormat::Yuv420}) {
         test::PaddedPicture painted(format, kPicture, 6);
         for (int plane = 0; plane < planeCount(format); ++plane)
@@ -138,7 +138,7 @@ TEST(EdgeSnap, YuvAndItsRgbGiveTheSameField) {
     }
 }
 
-TEST(EdgeSnap, ASlopeStaysUnchanged) {
+TEST(EdgeSnap, DepthOfASlopeStaysUnchanged) {
     InverseDepthField in(kPicture);
     for (std::size_t i = 0; i < in.inverseDepth.size(); ++i) {
         in.inverseDepth[i] = 1 + 0.004F * static_cast<float>(i % 64);

@@ -39,7 +39,7 @@ TEST(Keyframes, FixedRuleChoosesTheKeyframeAFixedNumberOfFramesBack) {
     EXPECT_NEAR(choice->frame->pose.T_world_video.translation.x(), 0.06, 1e-12);
 }
 
-TEST(Keyframes, AngleRuleTakesTheNewestKeyframeFarEnoughAway) {
+TEST(Keyframes, AngleRuleChoosesTheNewestKeyframeWithEnoughParallax) {
     const Keyframes frames = walked({.rule = KeyframeRule::Angle, .angle = 0.035});
     const auto choice = frames.choose(poseAt(0.1), 100, kAll, 1);
     ASSERT_TRUE(choice);
@@ -47,7 +47,7 @@ TEST(Keyframes, AngleRuleTakesTheNewestKeyframeFarEnoughAway) {
     EXPECT_GT(choice->angle, 0.035);
 }
 
-TEST(Keyframes, ScoreRuleTakesTheMostParallaxWithOverlap) {
+TEST(Keyframes, ScoreRuleChoosesTheMostParallaxAmongKeyframesOfTheSameView) {
     const Keyframes frames = walked({});
     EXPECT_EQ(frames.choose(poseAt(0.1), 100, kAll, 1)->frame->pose.T_world_video.translation.x(),
               0);

@@ -51,7 +51,7 @@ TEST(CameraSelection, TheOnlyCameraIsNotChosenAsTheLargest) {
     EXPECT_EQ(chooseCamera(one, {.except = "not there", .largest = true}), 0U);
 }
 
-TEST(CameraSelection, AmbiguousAndUnknownNamesListTheCameras) {
+TEST(CameraSelection, AmbiguousAndUnknownNamesAreReportedWithTheCameras) {
     for (const char* wanted : {"external", "Webcam C270", "imx219", "usb-1.2"})
         EXPECT_THAT([&] { (void)chooseCamera(kBoard, {wanted}); },
                     ThrowsMessage<std::runtime_error>(AllOf(

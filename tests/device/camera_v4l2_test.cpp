@@ -49,7 +49,7 @@ TEST(CameraV4l2, LendsThePicturesOfTheDriver) {
     EXPECT_EQ(camera.cameraCounters().delivered, 1U);
 }
 
-TEST(CameraV4l2, FormatsAreTakenInTheOrderOfPreference) {
+TEST(CameraV4l2, FormatsAreChosenInTheOrderOfPreference) {
     FakeV4l2 fake;
     const auto chosen = [&](const std::string& format = {}, double rateHz = 0) {
         return CameraV4l2(wanted(format, rateHz), fake).info().format;
@@ -71,7 +71,7 @@ TEST(CameraV4l2, FormatsAreTakenInTheOrderOfPreference) {
     EXPECT_EQ(chosen("GREY"), PixelFormat::Gray8);
 }
 
-TEST(CameraV4l2, RefusedSizesListTheOfferedOnes) {
+TEST(CameraV4l2, ARefusedSizeIsReportedWithTheOfferedSizes) {
     FakeV4l2 fake;
     fake.formats = {{V4L2_PIX_FMT_YUYV, {{64, 48}, {160, 120}}}, {V4L2_PIX_FMT_SBGGR8, {kSize}}};
     EXPECT_EQ(errorOf([&] { CameraV4l2(wanted(), fake); }),

@@ -100,7 +100,7 @@ TEST_F(KmsScreenTest, OtherEventsDoNotCompleteAFlip) {
     EXPECT_EQ(driver_.otherEvents, 0);
 }
 
-TEST_F(KmsScreenTest, ARefusedFlipNamesTheScreenAndTheReason) {
+TEST_F(KmsScreenTest, ARefusedFlipIsReportedWithScreenAndReason) {
     ASSERT_EQ(screen_.look(true), Presence::Ready);
     show();
     driver_.refusesFlips = true;

@@ -49,14 +49,14 @@ std::string chosen(const std::vector<drmModeModeInfo>& modes, std::optional<Mode
            std::to_string(std::lround(refreshHz(*m) * 100)) + (interlaced ? "i" : "");
 }
 
-TEST(ChooseMode, TakesThePreferredModeUnlessAnotherIsWanted) {
+TEST(ChooseMode, ChoosesTheModeThatTheMonitorPrefersUnlessAnotherIsConfigured) {
     EXPECT_EQ(chosen(kMonitor, {}), "1920x1080@6000");
     EXPECT_EQ(chosen(kMonitor, ModeWish{{1280, 720}, 50.0}), "1280x720@5000");
     EXPECT_EQ(chosen(kMonitor, ModeWish{{1280, 720}, {}}), "1280x720@6000");
     EXPECT_EQ(chosen(kMonitor, ModeWish{{3840, 2160}, 30.0}), "3840x2160@3000");
 }
 
-TEST(ChooseMode, TakesTheNearestRateAndPrefersProgressive) {
+TEST(ChooseMode, ChoosesTheModeOfTheNearestRateAndPrefersProgressiveModes) {
     EXPECT_EQ(chosen(kMonitor, ModeWish{{1920, 1080}, 60.0}), "1920x1080@6000");
     EXPECT_EQ(chosen(kMonitor, ModeWish{{1920, 1080}, 59.94}), "1920x1080@5994");
     const std::vector interlacedOnly{mode(1280, 720, 60, kPreferred),

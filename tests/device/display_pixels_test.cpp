@@ -67,7 +67,7 @@ TEST(PixelLayout, HostRowsPackLikeGpuPictures) {
     }
 }
 
-TEST(PixelLayout, ChannelsOutsideOfTheWordAreRefused) {
+TEST(PixelLayout, ChannelsOutsideTheBitsOfAPixelAreRefused) {
     for (const PixelLayout& good : {kXrgb, kRgbx, kRgb888, kBgr888, kRgb565, kArgb1555})
         EXPECT_TRUE(good.valid());
     const auto broken = [](auto change) {

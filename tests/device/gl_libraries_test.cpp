@@ -73,7 +73,7 @@ TEST(GlLibraries, ArgumentsAndResultsPassThrough) {
     EXPECT_EQ(fake().pixels, &pixels);
 }
 
-TEST(GlLibraries, EglIsAskedForFunctionsThatAreNotExported) {
+TEST(GlLibraries, EglProvidesFunctionsThatTheLibraryDoesNotExport) {
     loadGlLibraries({MFAR_FAKE_GL, MFAR_FAKE_GL});
     const int before = fake().others;
     glFlush();

@@ -41,7 +41,7 @@ TEST(MappedPicture, PlanesMayShareAFileWithOffsets) {
     EXPECT_EQ(picture.view().chroma[0].data[0], 1000 % 256);
 }
 
-TEST(MappedPicture, PlanesMayBeFilesOfTheirOwn) {
+TEST(MappedPicture, EachPlaneMayHaveItsOwnFile) {
     const FrameBuffer buffer(Planes{plane(memory(1), 0, 32 * 16), plane(memory(2), 0, 16 * 8),
                                     plane(memory(3), 0, 16 * 8)});
     const MappedPicture picture(buffer, {{32, 16}, PixelFormat::Yuv420, 32});
@@ -50,7 +50,7 @@ TEST(MappedPicture, PlanesMayBeFilesOfTheirOwn) {
     EXPECT_EQ(picture.view().chroma[1].data[0], 3);
 }
 
-TEST(MappedPicture, OutlivesTheBufferAndSynchronisesItsReads) {
+TEST(MappedPicture, APictureOutlivesItsBufferAndSynchronisesReads) {
     std::unique_ptr<MappedPicture> picture;
     {
         const FrameBuffer buffer(Planes{plane(memory(7), 0, 4096)});

@@ -332,7 +332,7 @@ private:
     std::uint64_t served_ = 0;
 };
 
-TEST(RequestCourses, RandomCoursesLoseNoRequestAndDisturbNoOtherCamera) {
+TEST(RequestCourses, RandomSequencesLoseNoRequestAndDisturbNoOtherCamera) {
     Seen seen;
     for (std::uint32_t seed = 1; seed <= kSeeds && !HasFailure(); ++seed) {
         SCOPED_TRACE(testing::Message() << "seed " << seed);

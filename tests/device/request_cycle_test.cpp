@@ -107,7 +107,7 @@ TEST(RequestCycle, CompletedRequestsAreQueuedAgain) {
     EXPECT_FALSE(camera.cycle.next(kPatience));
 }
 
-TEST(RequestCycle, FullCancellationRestartsAndIsCounted) {
+TEST(RequestCycle, CancellationOfAllRequestsRestartsTheCameraAndIsCounted) {
     FakeDriver camera(kPatient);
     camera.cycle.start();
     for (int i = 1; i <= 20; ++i) {
@@ -131,7 +131,7 @@ TEST(RequestCycle, ReadyPicturesAreDeliveredBeforeTheRestart) {
     camera.cycle.giveBack(done->request);
 }
 
-TEST(RequestCycle, PartialCancellationDoesNotRestart) {
+TEST(RequestCycle, CancellationOfSomeRequestsDoesNotRestartTheCamera) {
     FakeDriver camera(kPatient);
     camera.cycle.start();
     camera.cycle.cancelled(0);

@@ -154,7 +154,7 @@ void expectPicture(Rows<const std::uint32_t> drawn, F&& of, double most) {
 // of a difference of two such values.
 constexpr double kLearnedError = 1.3;
 
-TEST_P(DetailEngineTest, LearnedFramesMatchTheOracleWithAndWithoutAStill) {
+TEST_P(DetailEngineTest, FramesEnlargedByFiltersMatchTheOracleWithAndWithoutAStill) {
     const bool shaders = GetParam().detail == EngineKind::Gles;
     const simd::DetailOptions options{SuperResMode::Detail, true, false, false, &simd::evenBank()};
     for (const auto& [video, stillSize, output] : simd::kSizes) {
@@ -175,7 +175,7 @@ TEST_P(DetailEngineTest, LearnedFramesMatchTheOracleWithAndWithoutAStill) {
     }
 }
 
-TEST_P(DetailEngineTest, GuidedFramesMatchTheOracle) {
+TEST_P(DetailEngineTest, FramesWithGuidanceMatchTheOracle) {
     const bool shaders = GetParam().detail == EngineKind::Gles;
     const simd::DetailOptions options{SuperResMode::Detail, true, false, false,
                                       &simd::guidedBank()};
@@ -273,7 +273,7 @@ TEST_P(DetailEngineTest, OnlyChangedTilesAreEnlargedByFilters) {
         expectOnlyChangedTiles(GetParam(), sizes, &FilterBank::prior());
 }
 
-TEST_P(DetailEngineTest, OnlyChangedTilesAreGuided) {
+TEST_P(DetailEngineTest, OnlyChangedTilesGetGuidance) {
     for (const simd::Sizes& sizes : simd::kSizes)
         expectOnlyChangedTiles(GetParam(), sizes, &simd::guidedBank());
 }
@@ -365,7 +365,7 @@ TEST_F(DetailEngines, BothEnginesApplyTheSameGuidance) {
     expectTheSamePicture(&simd::guidedBank(), 4, 0.6);
 }
 
-TEST_F(DetailEngines, BothEnginesShowASecondStillEqually) {
+TEST_F(DetailEngines, BothEnginesShowASecondStillAlike) {
     const Size output{576, 432};
     const DetailCase whole = withRoom(DetailCase({160, 120}, {400, 300}));
     for (const double share : {1.0, 0.4}) {

@@ -146,11 +146,11 @@ protected:
     }
 };
 
-TEST_F(FineEngines, WeightSharesOfTheFineCheckOnTheHostMatchTheOracle) {
+TEST_F(FineEngines, HostWeightsOfTheFineCheckMatchTheOracle) {
     expectTheOracles(onHost);
 }
 
-TEST_F(FineEngines, WeightSharesOfTheFineCheckOnTheGpuMatchTheOracle) {
+TEST_F(FineEngines, GpuWeightsOfTheFineCheckMatchTheOracle) {
     expectTheOracles(onGpu);
 }
 

@@ -89,7 +89,7 @@ Shown onHost(const EngineScene& s) {
 
 class OcclusionEngines : public GlTest, public testing::WithParamInterface<Size> {};
 
-TEST_P(OcclusionEngines, BothEnginesShowALayerEqually) {
+TEST_P(OcclusionEngines, BothEnginesShowALayerAlike) {
     const EngineScene scene(GetParam());
     const Shown gpu = onGpu(scene), host = onHost(scene);
     double both = 0, either = 0, open = 0;

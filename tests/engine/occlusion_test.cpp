@@ -33,7 +33,7 @@ struct Sides {
 class OcclusionSizes : public OcclusionCase,
                        public testing::WithParamInterface<std::tuple<EngineKind, Sides>> {};
 
-TEST_P(OcclusionSizes, VisibilityMatchesTheOracle) {
+TEST_P(OcclusionSizes, VisibilityMatchesTheOracleAtEverySize) {
     const auto& [engine, sides] = GetParam();
     const auto& [video, output] = sides;
     std::mt19937 random(5);
@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(
                                      Sides{{17, 31}, {601, 40}}, Sides{{64, 48}, {33, 21}},
                                      Sides{{40, 30}, {160, 120}})));
 
-TEST_P(OcclusionTest, PixelsThatAreDecidedEarlyEqualWeighedOnes) {
+TEST_P(OcclusionTest, PixelsWhoseVisibilityNeedsNoWeightsEqualWeighedPixels) {
     twin::Scene scene = plainScene({0.4, 0.01});
     for (std::size_t i = 0; i < scene.real.size(); ++i)
         if (i % kCoarse.width > 20) scene.real[i].inverseDepth = 0.8;
@@ -82,7 +82,7 @@ TEST_P(OcclusionTest, UnknownDepthNeverOccludes) {
         EXPECT_EQ(run(plainScene({100, bad}), {}).visibleEverywhere(), 1) << "sigma " << bad;
 }
 
-TEST_P(OcclusionTest, UnknownNeighboursNeverReduceVisibility) {
+TEST_P(OcclusionTest, NeighboursOfUnknownDepthNeverReduceVisibility) {
     twin::Scene scene = plainScene({1, 0.01});
     for (std::size_t i = 0; i < scene.real.size(); i += 3)
         scene.real[i].inverseDepth = kNan;
@@ -102,7 +102,7 @@ TEST_P(OcclusionTest, ExtremeValidDepthsAreComparedCorrectly) {
                 << c.real.inverseDepth << " " << c.real.sigma;
 }
 
-TEST_P(OcclusionTest, LayerWithoutDepthIsNotDrawn) {
+TEST_P(OcclusionTest, ALayerWithoutDepthIsNotDrawn) {
     const twin::Scene scene = plainScene({0.1, 0.01});
     for (const double bad : {0.0, -0.0, -2.0, 1e-42, kNan, kInfinite, -kInfinite})
         EXPECT_EQ(run(scene, layerAt(bad)).shown, scene.picture.bytes) << bad;
@@ -154,7 +154,7 @@ TEST_P(OcclusionTest, OpaqueLayersReplaceThePicture) {
     }
 }
 
-TEST_P(OcclusionTest, BoundsAreClippedAtThePicturesBorders) {
+TEST_P(OcclusionTest, BoundsOfTheLayerAreClippedAtTheBordersOfThePicture) {
     const twin::Scene scene = plainScene({0.1, 0.01});
     for (const PixelRect& b : {PixelRect{-50, -9, 1000, 999}, PixelRect{180, 120, 500, 140}}) {
         LaidLayer layer;
@@ -166,7 +166,7 @@ TEST_P(OcclusionTest, BoundsAreClippedAtThePicturesBorders) {
     }
 }
 
-TEST_P(OcclusionTest, EmptyBoundsDrawNothing) {
+TEST_P(OcclusionTest, LayersWithEmptyBoundsAreNotDrawn) {
     const twin::Scene scene = plainScene({0.1, 0.01});
     for (const PixelRect& b : {PixelRect{}, PixelRect{9, 9, 9, 20}, PixelRect{-20, 0, -1, 30},
                                PixelRect{191, 0, 300, 30}, PixelRect{50, 50, 20, 60}}) {
@@ -282,7 +282,7 @@ TEST_P(ScaledLayer, ColoursAreLinearBetweenItsPixels) {
         ASSERT_NEAR(got.at(50, y, 1), 4 * ((y + 0.5) / 2 - 0.5), most) << y;
 }
 
-TEST_P(ScaledLayer, EdgesTakeTheDepthOfTheCoveredPixel) {
+TEST_P(ScaledLayer, AtEdgesOfTheLayerTheDepthOfTheCoveredPixelDecides) {
     constexpr Size kQuarter{40, 30};
     for (const double nothing : {0.0, kNan, -1.0}) {
         LaidLayer layer{kQuarter};

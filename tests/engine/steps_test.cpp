@@ -76,7 +76,7 @@ TEST_P(StepsTest, VideoPyramidIsSmoothedAndHalved) {
         }
 }
 
-TEST_P(StepsTest, StillPyramidIsResampledToTheVideosGeometry) {
+TEST_P(StepsTest, StillPyramidIsResampledToPixelsOfTheVideo) {
     for (const StereoRig& rig : {plainRig({96, 72}, {345, 259}), plainRig({96, 72}, {96, 72}),
                                  bentRig({97, 71}, {350, 256})}) {
         const TestPicture still = Waves(3, 12, 200, 40).shoot(rig.still.size, {});

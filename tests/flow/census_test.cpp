@@ -61,7 +61,7 @@ TEST(Census, OneDarkNeighbourSetsItsOwnBit) {
     EXPECT_EQ(censusOf(picture)[9 * 4 + 4], 1U << 23 | 1U << 11 | 1U);
 }
 
-TEST(Census, CensusUsesAllItsBitsAndNeverTheNoCensusMark) {
+TEST(Census, UsesAllItsBitsButNeverTheValueForNoCensus) {
     const LumaImage picture = randomPicture({40, 30}, 0, 255, 5);
     std::uint32_t all = 0;
     for (const std::uint32_t bits : censusOf(picture))

@@ -133,7 +133,7 @@ TEST(EpipolarSearchOdd, PosesWithoutOverlapAreRefused) {
     }
 }
 
-TEST(EpipolarSearchOdd, EveryRotationGivesAFiniteFieldOrNone) {
+TEST(EpipolarSearchOdd, EveryRotationGivesAFiniteResultOrNone) {
     const CameraModel camera = barrelOf({120, 90});
     const LumaImage picture = scene().render(camera, {});
     EpipolarSearch search = test::searchWith(camera, 2);

@@ -112,7 +112,7 @@ TEST(LumaOf, GreyPicturesLoseTheirPadding) {
         EXPECT_TRUE(std::equal(luma.row(y), luma.row(y) + 17, padded.row(y)));
 }
 
-TEST(Halve, IsTheMeanOfFourWithTheBorderRepeated) {
+TEST(Halve, APixelIsTheMeanOfFourPixelsWithTheBorderRepeated) {
     for (const Size size : {Size{1, 1}, Size{2, 2}, Size{1, 6}, Size{7, 1}, Size{3, 3}, Size{8, 5},
                             Size{5, 8}, Size{61, 45}}) {
         const LumaImage fine = randomPicture(size, 8);
@@ -140,7 +140,7 @@ TEST(Halve, KeepsBlackAndWhite) {
     }
 }
 
-TEST(Smooth, IsTheSeparableMaskWithTheBorderRepeated) {
+TEST(Smooth, AppliesTheSeparableMaskWithTheBorderRepeated) {
     for (const float side : {0.0F, 0.1F, 0.25F, 1.0F / 3}) {
         for (const Size size : {Size{1, 1}, Size{1, 5}, Size{6, 1}, Size{13, 9}}) {
             const LumaImage in = randomPicture(size, 12);

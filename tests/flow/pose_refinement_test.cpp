@@ -129,7 +129,7 @@ TEST(PoseRefinement, KeepsAGoodPose) {
     }
 }
 
-TEST(PoseRefinement, AnUncertainPoseIsSearchedFartherAway) {
+TEST(PoseRefinement, AnUncertainPoseIsSearchedInALargerRange) {
     const View view{pagePlain(), panelScene(), motion({3, -4, 5}, {0, 0, 0})};
     const RigidTransform error = motion({1.5, -1, 0.3}, {0, 0, 0});
     EXPECT_LT(missOf(searched(view, error, covarianceOf(1, 0)).pose(), view), 0.1);
@@ -174,7 +174,7 @@ TEST(PoseRefinement, MovingObjectsDoNotDisturbThePose) {
     }
 }
 
-TEST(PoseRefinement, PicturesThatShowNothingKeepThePrior) {
+TEST(PoseRefinement, UniformPicturesLeaveThePriorPoseUnchanged) {
     const CameraModel camera = pagePlain();
     const LumaImage scene = panelScene().render(camera, {});
     std::vector<LumaImage> pictures;
@@ -246,7 +246,7 @@ TEST(PoseRefinement, IsTheSameWithAnyNumberOfThreads) {
 }
 
 // The search also looks beside its lines if there are too few patches to refine the pose.
-TEST(PoseRefinement, WithoutPatchesTheSearchIsWidenedAcrossTheLines) {
+TEST(PoseRefinement, WithTooFewPatchesTheSearchAlsoLooksBesideEpipolarLines) {
     // A small panel without background.
     const Shots shots({pagePlain(),
                        {{{{0.3, 0, 1}, 2, {-0.1, -0.1}, {0.15, 0.1}}}, 60, 100},

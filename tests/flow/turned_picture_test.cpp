@@ -142,7 +142,7 @@ TEST(TurnedPicture, MatchesDirectProjection) {
     }
 }
 
-TEST(TurnedPicture, CanvasLiesWhereTheCameraTurnedTo) {
+TEST(TurnedPicture, TheCanvasIsOnTheSideToWhichTheCameraRotated) {
     const CameraModel camera = test::oddPlain();
     const Canvas left = turned(camera, turn(0, 38, 0));
     EXPECT_LT(left.placed.origin().x, -camera.size.width / 4);

@@ -24,7 +24,7 @@ std::ostream& operator<<(std::ostream& out, const Group& group) {
 
 class HostileInput : public testing::TestWithParam<Group> {};
 
-TEST_P(HostileInput, HostileInputBreaksNoInvariant) {
+TEST_P(HostileInput, RandomHostileInputBreaksNoInvariant) {
     if (GetParam().cases().empty()) GTEST_SKIP() << "not built";
     GlWatch gl;
     Checks checks;

@@ -155,7 +155,7 @@ TEST(TagMap, AnEndlessTextIsRefusedBeforeItIsParsed) {
               "t.yaml:1: the file is nested more than 16 levels deep");
 }
 
-TEST(TagMap, TooLargeIntegersAreReportedWithTheirPlace) {
+TEST(TagMap, TooLargeIntegersAreReportedWithFileAndLine) {
     for (const char* key : {"size", "position", "orientation"}) {
         std::string text = "[[tags]]\nfamily = \"tag36h11\"\nid = 1\nsize = 1\n"
                            "position = [0, 0, 0]\norientation = [1, 0, 0, 0]\n";
@@ -166,7 +166,7 @@ TEST(TagMap, TooLargeIntegersAreReportedWithTheirPlace) {
     }
 }
 
-TEST(TagMap, FilesAreReadByTheirEnding) {
+TEST(TagMap, TheEndingOfAFileNameSelectsItsFormat) {
     const test::TempFolder folder;
     test::writeFile(folder / "tags.toml", kGood);
     test::writeFile(folder / "tags.yaml", kBundle);

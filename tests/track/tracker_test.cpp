@@ -51,7 +51,7 @@ Tracker trackerFor(const TagMap& map, int fullSearchInterval = 5) {
     return {kRig, options};
 }
 
-TEST(Tracker, FollowsTheCameraMostlyInRegions) {
+TEST(Tracker, FollowsTheCameraAndSearchesMostFramesInRegionsOnly) {
     Tracker tracker = trackerFor(mapOf(world()));
     for (int i = 0; i < 11; ++i) {
         const auto pose = tracker.track(picture(i).view(), frameTime(i));

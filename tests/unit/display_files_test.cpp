@@ -45,7 +45,7 @@ protected:
     TempFolder folder_;
 };
 
-TEST_F(FileDisplays, PngHoldsTheShownPixelsWithTheTopRowFirst) {
+TEST_F(FileDisplays, PngContainsTheShownPixelsWithTheTopRowFirst) {
     StoredImage picture = plain({6, 4}, 50);
     picture.pixels[0] = 201;
     picture.pixels[(3 * 6 + 5) * 4 + 2] = 202;
@@ -133,7 +133,7 @@ TEST_F(FileDisplays, Y4mHasTheRightHeaderSizeAndLuma) {
     EXPECT_EQ(first.substr(41), std::string(24, '\x80'));
 }
 
-TEST_F(FileDisplays, Y4mRefusesAnotherSizeInTheMiddle) {
+TEST_F(FileDisplays, Y4mRefusesAPictureOfAnotherSize) {
     const auto display = openFileDisplay("y4m:" + (folder_ / "a.y4m").string(), 30);
     show(*display, plain({8, 8}, 1), {1});
     EXPECT_THROW(show(*display, plain({8, 10}, 1), {2}), std::runtime_error);
@@ -344,7 +344,7 @@ TEST(OpenFileDisplay, ErrorsAreReported) {
               "y4m: the frame rate of 0 Hz is not in 0.001 to 1000000 Hz");
 }
 
-TEST(Y4mHeader, GivesCommonRatesAsTheirFractions) {
+TEST(Y4mHeader, CommonRatesAreWrittenAsFractions) {
     const auto rate = [](double hz) {
         const std::string header = y4mHeader({2, 2}, hz);
         const std::size_t at = header.find('F');

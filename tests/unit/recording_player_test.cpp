@@ -37,7 +37,7 @@ void startBoth(RecordingPlayer& player) {
     player.stills().start();
 }
 
-TEST(RecordingPlayer, ConsumerPaceGivesAllPicturesInTheOrderOfTimeInEveryRun) {
+TEST(RecordingPlayer, AtConsumerPaceAllPicturesComeInTheOrderOfTimeInEveryRun) {
     const TempFolder folder;
     writeSmallRecording(folder.path(), {0, 33 * kMs, 66 * kMs, 100 * kMs},
                         {33 * kMs, 50 * kMs, 51 * kMs, 52 * kMs, 200 * kMs});
@@ -48,7 +48,7 @@ TEST(RecordingPlayer, ConsumerPaceGivesAllPicturesInTheOrderOfTimeInEveryRun) {
     }
 }
 
-TEST(RecordingPlayer, ConsumerPaceHoldsAStillBackUntilTheVideoHasCome) {
+TEST(RecordingPlayer, AtConsumerPaceAStillWaitsForTheVideoFramesBeforeIt) {
     const TempFolder folder;
     writeSmallRecording(folder.path(), {0, 33 * kMs}, {20 * kMs});
     RecordingPlayer player(loadRecording(folder.path()), {.pace = Pace::Consumer});
@@ -60,7 +60,7 @@ TEST(RecordingPlayer, ConsumerPaceHoldsAStillBackUntilTheVideoHasCome) {
     EXPECT_FALSE(player.video().ended());
 }
 
-TEST(RecordingPlayer, ConsumerPaceGivesAllStillsUpToTheLastDeliveredVideoFrame) {
+TEST(RecordingPlayer, AtConsumerPaceAllStillsUpToTheLastDeliveredVideoFrameAreAvailable) {
     const TempFolder folder;
     writeSmallRecording(folder.path(), {0, 33 * kMs, 66 * kMs},
                         {5 * kMs, 33 * kMs, 40 * kMs, 90 * kMs});
@@ -86,7 +86,7 @@ TEST(RecordingPlayer, ConsumerPaceGivesAllStillsUpToTheLastDeliveredVideoFrame) 
     }
 }
 
-TEST(RecordingPlayer, ConsumerPaceWaitsOnlyForBuffersThatTheConsumerHolds) {
+TEST(RecordingPlayer, AtConsumerPaceThePlayerWaitsOnlyForBuffersThatTheConsumerHolds) {
     const TempFolder folder;
     writeSmallRecording(folder.path(), {0, 33 * kMs, 66 * kMs}, {});
     RecordingPlayer player(loadRecording(folder.path()),
@@ -100,7 +100,7 @@ TEST(RecordingPlayer, ConsumerPaceWaitsOnlyForBuffersThatTheConsumerHolds) {
     EXPECT_EQ(player.video().next(seconds(10))->time().ns, 66 * kMs);
 }
 
-TEST(RecordingPlayer, RealtimeNeverGivesAPictureBeforeItsTime) {
+TEST(RecordingPlayer, InRealTimeNoPictureIsDeliveredBeforeItsTime) {
     const TempFolder folder;
     writeSmallRecording(folder.path(), {5000 * kMs, 5040 * kMs, 5080 * kMs}, {5060 * kMs});
     RecordingPlayer player(loadRecording(folder.path()), {.pace = Pace::Realtime});
@@ -115,7 +115,7 @@ TEST(RecordingPlayer, RealtimeNeverGivesAPictureBeforeItsTime) {
     EXPECT_EQ(player.stills().next(seconds(10))->time().ns, 5060 * kMs);
 }
 
-TEST(RecordingPlayer, RealtimeTimesOutBeforeThePictureIsDue) {
+TEST(RecordingPlayer, InRealTimeNextTimesOutBeforeThePictureIsDue) {
     const TempFolder folder;
     writeSmallRecording(folder.path(), {0, 600'000 * kMs}, {});
     RecordingPlayer player(loadRecording(folder.path()), {.pace = Pace::Realtime});
@@ -125,7 +125,7 @@ TEST(RecordingPlayer, RealtimeTimesOutBeforeThePictureIsDue) {
     EXPECT_FALSE(player.video().ended());
 }
 
-TEST(RecordingPlayer, RealtimeSkipsLatePicturesAndCountsThem) {
+TEST(RecordingPlayer, InRealTimeLatePicturesAreSkippedAndCounted) {
     const TempFolder folder;
     std::vector<std::int64_t> times;
     for (int i = 0; i < 20; ++i)
@@ -161,7 +161,7 @@ TEST(RecordingPlayer, StopWakesAWaitingThread) {
     EXPECT_THROW(player.video().start(), std::runtime_error);
 }
 
-TEST(RecordingPlayer, LoopContinuesWithRisingTimesThatMapBackToTheFiles) {
+TEST(RecordingPlayer, ALoopHasIncreasingTimesThatStillIdentifyTheFiles) {
     const TempFolder folder;
     writeSmallRecording(folder.path(), {1000 * kMs, 1500 * kMs}, {1200 * kMs});
     RecordingPlayer player(loadRecording(folder.path()), {.pace = Pace::Consumer, .loop = true});

@@ -121,7 +121,7 @@ void expectNear(const Eigen::Vector3f& a, const Eigen::Vector3f& b, std::size_t 
         << "pixel " << i << ": " << a.transpose() << ", not " << b.transpose();
 }
 
-TEST(MovingMirrors, AfterACameraMotionTheyReflectTheSkyAsSeenFromTheNewPosition) {
+TEST(MovingMirrors, AfterACameraMotionMirrorsReflectTheSkyAsSeenFromTheNewPosition) {
     Surfaces s(smoothLight());
     const Eigen::Vector3d eye = s.traced.T_world_camera.translation;
     // Every third pixel sees the whole sky, the next half of it, the next a sky with other light.
@@ -143,7 +143,7 @@ TEST(MovingMirrors, AfterACameraMotionTheyReflectTheSkyAsSeenFromTheNewPosition)
     }
 }
 
-TEST(MovingMirrors, FromTheTracedPicturesPositionMirrorsShowItsLight) {
+TEST(MovingMirrors, AtThePositionOfTheTracedPictureMirrorsShowItsLight) {
     Surfaces s(smoothLight());
     const Eigen::Vector3d eye = s.traced.T_world_camera.translation;
     for (std::size_t i = 0; i < s.points.size(); ++i)

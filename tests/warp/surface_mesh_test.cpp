@@ -27,7 +27,7 @@ float areaOf(const SurfaceMesh& mesh) {
     return sum;
 }
 
-TEST(SurfaceMesh, LongEdgesAreDividedAtTheSamePointsInBothTriangles) {
+TEST(SurfaceMesh, LongEdgesAreDividedAtTheSamePointsInBothAdjacentTriangles) {
     const std::vector<Vector3f> corners{{0, 0, 0}, {3, 0, 0}, {3, 1, 0.5F}, {0.3F, 1, 0}};
     const std::vector<std::array<std::uint32_t, 3>> two{{0, 1, 2}, {0, 2, 3}};
     const SurfaceMesh mesh = surfaceMesh(corners, {}, two, 0.4F);

@@ -288,7 +288,7 @@ TEST(SurfacePaint, TheObjectThatCoversMostQuartersOfAPixelIsPainted) {
     }
 }
 
-TEST(SurfacePaint, SurfaceBehindAlphaHolesIsPainted) {
+TEST(SurfacePaint, ASurfaceBehindTransparentTexelsIsPainted) {
     Material masked = textured(), red;
     masked.alphaCutoff = 0.5F;
     masked.metallic = 0;

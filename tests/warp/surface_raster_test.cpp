@@ -128,7 +128,7 @@ TEST(SurfaceRaster, TrianglesBehindTheCameraAreClipped) {
         }
 }
 
-TEST(SurfaceRaster, AlphaMasksHaveHoles) {
+TEST(SurfaceRaster, TransparentTexelsOfAMaskAreNotDrawn) {
     auto model = std::make_shared<Model>();
     model->meshes.push_back(shards(5, 3));
     Material masked;

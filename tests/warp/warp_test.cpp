@@ -33,7 +33,7 @@ struct Shown {
     Warp warp;
 };
 
-TEST_F(WarpGl, AtItsOwnPoseTheTracedPictureIsShownUnchanged) {
+TEST_F(WarpGl, AtThePoseOfTheTracedPictureItIsShownUnchanged) {
     Shown s;
     RigidTransform pose = test::orbit(0);
     pose.translation.x() += 2e-5;  // moves pixels by 0.01 px

@@ -87,7 +87,7 @@ gpu::Texture columnsOf(const TestPicture& p, const TileParams& params) {
                  {kSmallVideo.width, kOutput.height});
 }
 
-TEST_F(Draw, UpscalingMatchesTheOracle) {
+TEST_F(Draw, EnlargementMatchesTheOracle) {
     const TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);
     for (const TestPicture& p : {randomPicture(kSmallVideo, 2), checkerboard(kSmallVideo),
                                  Waves(1, 5, 40, 40).shoot(kSmallVideo, {})}) {
@@ -106,7 +106,7 @@ TEST_F(Draw, UpscalingMatchesTheOracle) {
     }
 }
 
-TEST_F(Draw, UpscalingIsOpenCvsBicubic) {
+TEST_F(Draw, EnlargementEqualsOpenCvsBicubic) {
     const TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);
     TestPicture p = Waves(1, 6, 40, 30).shoot(kSmallVideo, {});
     const gpu::Texture out =
@@ -154,7 +154,7 @@ twin::Grey seen(const twin::Grey& still, const LookUp& l) {
 const std::vector<LookUp> kLookUps{
     {0, 0, 0, 1}, {0, 0, 1, 1}, {3.25, -5.5, 0.5, 1}, {-7.75, 2, 2.25, 0}, {-400, 900, 1, 0}};
 
-TEST_F(Draw, VideoAlphaIsTheStillAveragedOverThePixel) {
+TEST_F(Draw, AlphaOfAVideoPixelIsTheMeanOfTheStillOverThePixel) {
     const TestPicture video = Waves(2, 6, 40, 20).shoot(kSmallVideo, {});
     const TestPicture still =
         Waves(3, 8, 60, 20).shoot(kSmallStill, {.format = PixelFormat::Gray8});
@@ -166,7 +166,7 @@ TEST_F(Draw, VideoAlphaIsTheStillAveragedOverThePixel) {
     }
 }
 
-TEST_F(Draw, DetailIsAddedByItsWeight) {
+TEST_F(Draw, DetailIsAddedInProportionToItsWeight) {
     const TestPicture video = Waves(2, 6, 40, 20).shoot(kSmallVideo, {});
     const TestPicture still =
         Waves(3, 8, 40, 20).shoot(kSmallStill, {.format = PixelFormat::Gray8});
@@ -238,7 +238,7 @@ TEST_F(Draw, TilesCoverThePictureWithoutSeams) {
         drawn("composite_upscale.frag", params, {gpu::sampler(0, columns)}, kOutput).readRgba8());
 }
 
-TEST_F(Draw, TilesOfConstantWeightMatchThoseOfAWeightField) {
+TEST_F(Draw, TilesOfConstantWeightEqualTilesWithAnImageOfWeights) {
     const TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);
     const gpu::Texture columns = columnsOf(Waves(2, 6, 40, 20).shoot(kSmallVideo, {}), params);
     const gpu::Texture still =

@@ -110,7 +110,7 @@ TEST_F(Enlarge, ResidualMatchesTheOracleForEqualClasses) {
     }
 }
 
-TEST_F(Enlarge, WavesOfEveryAngleAndStrengthMatchTheOracle) {
+TEST_F(Enlarge, ResidualOfWavesOfEveryAngleAndContrastMatchesTheOracle) {
     const FilterBank bank = randomBank(2000, 13);
     const Size size{40, 40};
     std::vector<bool> met(enlarge::GradientClasses::kCount);

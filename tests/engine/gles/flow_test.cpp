@@ -72,7 +72,7 @@ std::vector<Cell> search(const LevelPair& pair, const std::vector<Cell>& prior, 
     return cells.read<Cell>(kArea);
 }
 
-TEST_F(FlowPasses, CostAndTextureMatchTheOracle) {
+TEST_F(FlowPasses, MatchingCostAndTextureMatchTheOracle) {
     const LevelPair pair(Waves(1, 5, 40, 40).shoot(kSize, {}), randomPicture(kSize, 3));
     const auto a = pair.first(), b = pair.second();
     const auto prior = randomField(4, 9);
@@ -106,7 +106,7 @@ TEST_F(FlowPasses, OneGaussNewtonStepMatchesTheOracle) {
     EXPECT_GT(taken, kArea / 2);
 }
 
-TEST_F(FlowPasses, PropagationTakesTheBestOfTheNeighbours) {
+TEST_F(FlowPasses, ACellTakesTheBestVectorOfItsNeighbours) {
     const Waves waves(3, 6, 60, 40);
     const LevelPair pair(waves.shoot(kSize, {}), waves.shoot(kSize, {.shift = {4, 2}}));
     const auto a = pair.first(), b = pair.second();
@@ -149,7 +149,7 @@ std::vector<Cell> align(const LevelPair& pair, const std::vector<Cell>& in, int 
     return cells.read<Cell>(kArea);
 }
 
-TEST_F(FlowPasses, BentPatchesMatchTheOracle) {
+TEST_F(FlowPasses, CostsOfBentPatchesMatchTheOracle) {
     const LevelPair pair(Waves(1, 5, 40, 40).shoot(kSize, {}), randomPicture(kSize, 3));
     const auto a = pair.first(), b = pair.second();
     const Vector2d dx(0.1137, -0.0613), dy(0.0419, 0.1931);
@@ -177,7 +177,7 @@ TEST_F(FlowPasses, BentPatchesMatchTheOracle) {
 }
 
 // A surface seen from a different angle: stretched by 15 % along x.
-TEST_F(FlowPasses, BentPatchesAlignWhereShiftedOnesCannot) {
+TEST_F(FlowPasses, BentPatchesMatchASlantedSurfaceWhereShiftedPatchesCannot) {
     const Waves waves(4, 5, 40, 40);
     constexpr double kStretch = 1 / 1.15;
     const LevelPair pair(waves.shoot(kSize, {}),
@@ -224,7 +224,7 @@ std::vector<Cell> filtered(const std::vector<Cell>& in, int planeFits = 2) {
     return cells.read<Cell>(kArea);
 }
 
-TEST_F(FlowPasses, CleanUpMatchesTheOracle) {
+TEST_F(FlowPasses, FilteredFlowMatchesTheOracle) {
     // Flow fields of different noise: from nearly a plane to unrelated vectors.
     for (const float reach : {0.2F, 0.7F, 5.0F}) {
         auto in = randomField(8, reach);
@@ -247,7 +247,7 @@ TEST_F(FlowPasses, CleanUpMatchesTheOracle) {
     }
 }
 
-TEST_F(FlowPasses, CleanUpKeepsPlanesAndTheStepBetweenThem) {
+TEST_F(FlowPasses, FilteringOfFlowKeepsPlanesAndTheStepBetweenThem) {
     std::vector<Cell> in(kArea);
     for (int i = 0; i < kArea; ++i) {
         const int column = i % 16, row = i / 16;

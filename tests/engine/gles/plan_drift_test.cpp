@@ -154,7 +154,7 @@ TEST_F(PlanDrift, NoiseOfAStaticSceneRedrawsNothing) {
 }
 
 // Noise that the camera smoothed redraws tiles until the plan has learned the noise.
-TEST_F(PlanDrift, SmoothedNoiseRedrawsNothingOnceItIsLearned) {
+TEST_F(PlanDrift, NoiseThatTheCameraSmoothedRedrawsNothingOnceItIsLearned) {
     EXPECT_LT(watch(slopes(60, 0), {1.5, 0.25}, 80, 16).changed, 0.0005);
 }
 

@@ -48,7 +48,7 @@ TestPicture changedIn(TestPicture base, int tiles, int by) {
     return out;
 }
 
-TEST_F(Plan, TileFlagsAndNoiseMatchTheOracle) {
+TEST_F(Plan, ChangedTilesAndMeasuredNoiseMatchTheOracle) {
     const TestPicture drawn = Waves(1, 6, 60, 30).shoot(kSize, {});
     TestPicture now = drawn;
     std::mt19937 random(7);
@@ -85,7 +85,7 @@ TEST_F(Plan, TileFlagsAndNoiseMatchTheOracle) {
     EXPECT_LE(changed, 26);
 }
 
-TEST_F(Plan, TilesUnderVirtualObjectsAreRedrawnOnceAnyOtherTileChanges) {
+TEST_F(Plan, IfAnyOtherTileChangesTilesUnderVirtualObjectsAreRedrawn) {
     const TestPicture base = Waves(1, 6, 60, 30).shoot(kSize, {});
     const TestPicture oneTile = changedIn(base, 1, 64);
     WorkPlan plan(kSize);
@@ -112,7 +112,7 @@ TEST_F(Plan, TilesUnderVirtualObjectsAreRedrawnOnceAnyOtherTileChanges) {
     EXPECT_EQ(plan.work().changed, 28) << "a tile must not be counted twice";
 }
 
-TEST_F(Plan, TilesUnderVirtualObjectsAreRedrawnTogetherOnceOneChanges) {
+TEST_F(Plan, IfOneTileUnderVirtualObjectsChangesAllOfThemAreRedrawn) {
     const TestPicture base = Waves(1, 6, 60, 30).shoot(kSize, {});
     const TestPicture oneTile = changedIn(base, 1, 64);
     WorkPlan plan(kSize);
@@ -129,7 +129,7 @@ TEST_F(Plan, TilesUnderVirtualObjectsAreRedrawnTogetherOnceOneChanges) {
     EXPECT_TRUE(plan.redraws());
 }
 
-TEST_F(Plan, NoiseOfAKnownGaussianIsFound) {
+TEST_F(Plan, GaussianNoiseIsMeasured) {
     for (const double sigma : {1.0, 2.0, 3.0}) {
         WorkPlan plan({320, 240});
         for (unsigned i = 0; i < 24; ++i) {
@@ -142,7 +142,7 @@ TEST_F(Plan, NoiseOfAKnownGaussianIsFound) {
 }
 
 // Enlarging a tile reads two pixels beyond it.
-TEST_F(Plan, AChangeAtATileBorderMarksTheNeighbour) {
+TEST_F(Plan, AChangeAtTheBorderOfATileMarksTheNeighbouringTile) {
     const TestPicture base = Waves(1, 6, 60, 30).shoot(kSize, {});
     struct Case {
         int x, y;
@@ -186,7 +186,7 @@ TEST_F(Plan, AForcedFrameMarksEveryTileChanged) {
     EXPECT_EQ(plan.work().matched, 28);
 }
 
-TEST_F(Plan, TheBufferHoldsEveryTilesFlags) {
+TEST_F(Plan, TheGpuBufferContainsTheFlagsOfEveryTile) {
     TileWork work = TileWork::everything({3, 2});
     work.flags[4] = {1, 0};
     work.flags[5] = {0, 1};

@@ -84,14 +84,14 @@ void expectAlike(const twin::DepthPicture& drawn, const twin::DepthPicture& trut
     EXPECT_GT(covered, 2000);
 }
 
-TEST_F(Preview, ShapesAreDrawnWhereTheLensShowsThem) {
+TEST_F(Preview, ShapesAreDrawnThroughTheLensAtTheRightPixels) {
     PreviewRenderer renderer(lens(), kOutput);
     for (const VirtualObject& o : inWorld(objects()))
         expectAlike(depthOf(renderer.render(std::array{o}, kPose)),
                     twin::rayCast({o}, kPose, lens().scaledTo(kOutput), LensProjection::kNear));
 }
 
-TEST_F(Preview, NearerObjectHidesFartherInAnyOrder) {
+TEST_F(Preview, ANearerObjectHidesAFartherInAnyOrderOfDrawing) {
     PreviewRenderer renderer(lens(), kOutput);
     std::vector<VirtualObject> all = inWorld(objects());
     const auto truth = twin::rayCast(all, kPose, lens().scaledTo(kOutput), LensProjection::kNear);
@@ -158,7 +158,7 @@ std::array<int, 2> slackOf(const VirtualLayer& layer) {
     return {least, most};
 }
 
-TEST_F(Preview, BoundsEncloseCoveredPixelsTightly) {
+TEST_F(Preview, TheLayersBoundsEncloseCoveredPixelsTightly) {
     PreviewRenderer renderer(lens(), kOutput);
     struct Case {
         Eigen::Vector2d shift;
@@ -178,7 +178,7 @@ TEST_F(Preview, BoundsEncloseCoveredPixelsTightly) {
     }
 }
 
-TEST_F(Preview, EarlierFramesLeaveNothingBehind) {
+TEST_F(Preview, NothingOfEarlierFramesIsVisible) {
     PreviewRenderer renderer(lens(), kOutput), fresh(lens(), kOutput);
     const std::vector<VirtualObject> all = inWorld(objects());
     renderer.render(all, kPose);

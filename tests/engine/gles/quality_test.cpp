@@ -86,7 +86,7 @@ TEST_F(QualityTest, NeighboursAffectedByAChangeAreRedrawn) {
 }
 
 // All pipelines have processed the same frames before, so that they know the same noise.
-TEST_F(QualityTest, SettingsChangedBetweenFramesActAsIfSetAtTheStart) {
+TEST_F(QualityTest, SettingsChangedBetweenFramesGiveThePictureOfInitialSettings) {
     const PipelineCase c;
     for (const bool withPoses : {false, true}) {
         Pipeline made(c.rig, madeWith(quick())), usual(c.rig, {}), changed(c.rig, {});
@@ -167,7 +167,7 @@ int mostDifference(const Image& a, const Image& b) {
     return out;
 }
 
-TEST_F(QualityTest, WithoutSkippedWorkThePictureIsTheSame) {
+TEST_F(QualityTest, ThePictureIsTheSameIfNoWorkIsSkipped) {
     const PipelineCase c;
     Pipeline usual(c.rig, {});
     const Image wanted = pictureOf(usual, c, false);

@@ -95,7 +95,7 @@ std::set<std::uint32_t> listed(const TileLists& lists, int level) {
     return out;
 }
 
-TEST_F(TileListsGl, FlagsAndListsMatchTheOracles) {
+TEST_F(TileListsGl, TileFlagsAndListsMatchTheOracles) {
     TileBuffer tiles(kVideoSize);
     TileLists lists(kCells, kLevels);
     const auto fields = randomFields(1);

@@ -103,7 +103,7 @@ twin::Cells constantCells(Size size, std::array<float, 4> value) {
 
 // The squared correlation of video and still is a half. Uniform flow then has the full weight;
 // changing flow has a quarter of the weight.
-TEST_F(Weigh, ABentFlowLowersTheWeightOfAnImperfectMatch) {
+TEST_F(Weigh, ChangingFlowLowersTheWeightOfAnImperfectMatch) {
     const twin::Cells half = constantCells(kHalf, {0, 0, 0, 0});
     const twin::Cells matched = constantCells(kWhole, {7.07e4F, 1e5F, 1e5F, 1});
     twin::Cells bent{kWhole, {}};
@@ -116,7 +116,7 @@ TEST_F(Weigh, ABentFlowLowersTheWeightOfAnImperfectMatch) {
 
 // Look-ups are wrong between two cells whose flow differs abruptly. Rotations and zooms change the
 // flow smoothly and keep their weight.
-TEST_F(Weigh, ADiscontinuousFlowHasNoWeight) {
+TEST_F(Weigh, DiscontinuousFlowHasNoWeight) {
     const twin::Cells half = constantCells(kHalf, {1e5F, 1e5F, 1e5F, 0});
     const twin::Cells alike = constantCells(kWhole, {1e5F, 1e5F, 1e5F, 1});
     const auto weightsWithJump = [&](float jump) {
@@ -137,7 +137,7 @@ TEST_F(Weigh, ADiscontinuousFlowHasNoWeight) {
     EXPECT_GT(even.at(5, 5)[2], 0.9);
 }
 
-TEST_F(Weigh, EqualTextureHasFullWeightAndUnrelatedNone) {
+TEST_F(Weigh, EqualTextureHasFullWeightAndUnrelatedTextureNone) {
     const twin::Cells half = constantCells(kHalf, {1e5F, 1e5F, 1e5F, 0});
     const twin::Cells alike = constantCells(kWhole, {1e5F, 1e5F, 1e5F, 1});
     for (const float v : {weigh(alike, alike, half, 0.3).field.at(5, 5)[2]})
@@ -297,7 +297,7 @@ TEST_F(Classify, TilesWithDetailAreListedIfTheWholeFrameIsEnlarged) {
     }
 }
 
-TEST_F(Classify, WithoutAStillChangedTilesAreUpscaledAndUnexplained) {
+TEST_F(Classify, WithoutAStillChangedTilesAreEnlargedAndCountAsTilesWithoutAMatch) {
     const Classified got = classify(mixedField(), changes(0), false);
     EXPECT_EQ(got.draws.counts[0], 10U);
     EXPECT_EQ(got.draws.counts[1], 18U);

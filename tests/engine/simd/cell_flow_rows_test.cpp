@@ -43,7 +43,7 @@ struct Cells {
     }
 };
 
-TEST(CellFlow, EndsWhereTheStillShowsThePoint) {
+TEST(CellFlow, FlowOfACellEndsWhereTheStillShowsItsPoint) {
     for (const std::size_t count : test::kLengths) {
         const Cells cells(count);
         const auto flow = cells.flow(cells.s);
@@ -88,7 +88,7 @@ TEST(AlignCells, FollowsTheFlowAlongTheLine) {
     }
 }
 
-TEST(CellLandings, FlowLandsInTheNearestCell) {
+TEST(CellLandings, FlowEndsInTheNearestCell) {
     const Size cells{37, 20};
     const Row x = test::randomValues<float>(37, -60, 60, 1),
               y = test::randomValues<float>(37, -60, 60, 2);

@@ -9,7 +9,7 @@ namespace {
 // of a difference of two such values.
 constexpr double kLearnedError = 1.3;
 
-TEST(DetailStepLearned, LearnedFramesMatchTheOracleWithAndWithoutAStill) {
+TEST(DetailStepLearned, FramesEnlargedByFiltersMatchTheOracleWithAndWithoutAStill) {
     for (const auto& [video, stillSize, output] : kSizes)
         for (const bool usesStill : {true, false}) {
             if (output.width > 1000) continue;  // large outputs take too long
@@ -33,7 +33,7 @@ TEST(DetailStepLearned, LearnedFramesMatchTheOracleWithAndWithoutAStill) {
         }
 }
 
-TEST(DetailStepLearned, GuidedFramesMatchTheOracle) {
+TEST(DetailStepLearned, FramesWithGuidanceMatchTheOracle) {
     for (const auto& [video, stillSize, output] : kSizes) {
         if (output.width > 1000) continue;  // large outputs take too long
         const DetailCase frame(video, stillSize);
@@ -93,7 +93,7 @@ TEST(DetailStepLearned, TilesWhoseWeightsAreAllOneMatchTheOracle) {
                 << x << " " << y;
 }
 
-TEST(DetailStepLearned, OtherModesDoNotUseTheFilters) {
+TEST(DetailStepLearned, OnlyModeDetailUsesTheFilters) {
     const Size output{191, 133};
     const DetailCase frame({53, 37}, {200, 140});
     for (const SuperResMode mode : {SuperResMode::Off, SuperResMode::Blend}) {

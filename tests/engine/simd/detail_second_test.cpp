@@ -123,7 +123,7 @@ TEST(DetailStepSecond, ChangedTilesMatchAWholeFrame) {
         }
 }
 
-TEST(DetailStepSecond, ATileExplainedByTheSecondStillCountsAsExplained) {
+TEST(DetailStepSecond, ATileThatMatchesTheSecondStillCountsAsMatched) {
     TwoStills stills(0.6F);
     for (TrustCell& cell : stills.frame.trust)
         cell.unexplained = 1;
@@ -135,7 +135,7 @@ TEST(DetailStepSecond, ATileExplainedByTheSecondStillCountsAsExplained) {
     EXPECT_EQ(DrawnWithBoth(stills).summary.unexplained, 10 * 8);
 }
 
-TEST(DetailStepSecond, OtherModesDoNotShowTheSecondStill) {
+TEST(DetailStepSecond, OnlyModeDetailShowsTheSecondStill) {
     const TwoStills stills(0.6F);
     for (const SuperResMode mode : {SuperResMode::Off, SuperResMode::Blend}) {
         const DrawnWithBoth both(stills, mode);

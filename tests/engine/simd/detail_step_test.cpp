@@ -41,7 +41,7 @@ TEST(DetailStep, WithoutAStillTheVideoIsEnlargedCubiclyOrLinearly) {
         }
 }
 
-TEST(DetailStep, BlendMixesTheStillByItsConfidence) {
+TEST(DetailStep, ModeBlendMixesVideoAndStillByConfidence) {
     for (const auto& [video, stillSize, output] : kSizes) {
         const DetailCase frame(video, stillSize);
         const DetailOptions options{SuperResMode::Blend, true, true, true};
@@ -203,7 +203,7 @@ TEST(DetailStep, TilesWithoutWeightAreOnlyEnlarged) {
     EXPECT_LE(worst, 2);
 }
 
-TEST(DetailStep, UnexplainedTilesAreRememberedUntilTheyAreDrawn) {
+TEST(DetailStep, TilesWithoutAMatchStayCountedUntilTheyAreDrawn) {
     DetailCase frame({64, 48}, {200, 150});
     const auto workers = std::make_shared<Workers>(2);
     StillPreparation still(frame.rig, {200, 150}, workers);

@@ -9,7 +9,7 @@
 namespace mfar::simd {
 namespace {
 
-TEST(OpenRow, PixelsAreOpenAtEdgesAndWhereDepthIsUnknown) {
+TEST(OpenRow, DepthIsDecidedAgainAtEdgesAndWhereItIsUnknown) {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     for (const std::size_t width : test::kLengths) {
         std::vector<float> low(3 * width, 1), high(3 * width, 1), rho(width, 1), variance(width);
@@ -88,7 +88,7 @@ OpenPixel decide(const Scene& scene, const VoteRule& rule, const PixelRect& wher
     return pixel;
 }
 
-TEST(VotePixels, PixelsGetTheSurfaceOfSimilarColour) {
+TEST(VotePixels, PixelsGetTheDepthOfTheSurfaceOfSimilarColour) {
     const VoteRule rule{10, 12, 0.75F};
     for (const double invalid : {0.0, 0.5, 0.98, 1.0}) {
         const Scene scene(invalid);

@@ -72,7 +72,7 @@ struct Classes {
 
 const std::vector<Size> kSizes{{1, 1}, {3, 5}, {16, 9}, {33, 12}, {97, 41}};
 
-TEST(EnlargeRows, LumaMatchesTheColours) {
+TEST(EnlargeRows, LumaMatchesTheOracle) {
     std::mt19937 random(3);
     onEveryTarget([&] {
         for (const int width : {1, 7, 16, 33, 100}) {
@@ -209,7 +209,7 @@ TEST(EnlargeRows, ResidualOfFlatPicturesIsExactlyZero) {
     });
 }
 
-TEST(EnlargeRows, HostilePicturesStayInTheRangeOfTheirNeighbours) {
+TEST(EnlargeRows, PixelsOfExtremePicturesStayInTheRangeOfTheirNeighbours) {
     std::mt19937 random(1);
     const FilterBank bank(randomFilters(10000, 9));
     onEveryTarget([&] {

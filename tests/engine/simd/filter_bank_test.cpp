@@ -26,7 +26,7 @@ std::string faultOf(std::span<const std::uint8_t> bytes) {
     return "";
 }
 
-TEST(FilterBank, TapsCoverEachNeighbourOnce) {
+TEST(FilterBank, EachFilterHasOneWeightPerNeighbour) {
     std::set<std::pair<int, int>> seen;
     for (int i = 0; i < kTaps; ++i) {
         const Offset at = kTapAt[i];
@@ -81,7 +81,7 @@ TEST(FilterBank, DamagedFiltersAreRefusedAndTheMessageSaysWhy) {
     }
 }
 
-TEST(FilterBank, WeightsThatSumsCouldNotHoldAreRefused) {
+TEST(FilterBank, WeightsWhoseSumsWouldOverflowAreRefused) {
     auto filters = numberedFilters();
     filters[3].fill(32767);
     EXPECT_THROW(FilterBank{filters}, FilterBankError);

@@ -155,7 +155,7 @@ TEST(Flow2d, EveryNumberOfPyramidLevelsAndPropagationRoundsWorks) {
     EXPECT_THROW(Flow2d(kSmall, options, twoWorkers()), std::invalid_argument);
 }
 
-TEST(Flow2d, WithoutMatchedTilesTheFlowStays) {
+TEST(Flow2d, WithoutMatchedTilesTheFlowIsUnchanged) {
     Pair pair(wavesMoved(kSmall, {0, 0}), wavesMoved(kSmall, {3, 1}));
     pair.work.matched = 0;
     pair.run();
@@ -243,7 +243,7 @@ std::vector<Cell> seedsAround(const Vector2d& flow, double noise) {
     return out;
 }
 
-TEST(Flow2d, RefinementAlignsTheSeeds) {
+TEST(Flow2d, RefinementImprovesTheGivenVectors) {
     Pair pair(wavesMoved(kSmall, {0, 0}), wavesMoved(kSmall, {4.3, -2.2}));
     pair.refine(seedsAround({4.3, -2.2}, 0.3), std::vector<Cell>(1200));
     EXPECT_TRUE(pair.flow.errorsGiven());
@@ -256,7 +256,7 @@ TEST(Flow2d, RefinementAlignsTheSeeds) {
     EXPECT_FALSE(pair.flow.errorsGiven());
 }
 
-TEST(Flow2d, WithoutMatchedTilesNoTwoWayErrorsAreGiven) {
+TEST(Flow2d, WithoutMatchedTilesThereAreNoTwoWayErrors) {
     Pair pair(wavesMoved(kSmall, {0, 0}), wavesMoved(kSmall, {1, 0}));
     pair.refine(seedsAround({1, 0}, 0.1), std::vector<Cell>(1200));
     pair.work.matched = 0;
@@ -267,7 +267,7 @@ TEST(Flow2d, WithoutMatchedTilesNoTwoWayErrorsAreGiven) {
     EXPECT_TRUE(pair.flow.errorsGiven());
 }
 
-TEST(Flow2d, InvalidSeedsAreIgnored) {
+TEST(Flow2d, InvalidGivenVectorsAreIgnored) {
     Pair pair(wavesMoved(kSmall, {0, 0}), wavesMoved(kSmall, {1, 1}));
     std::vector<Cell> seeds = seedsAround({1, 1}, 0.1);
     constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -280,7 +280,7 @@ TEST(Flow2d, InvalidSeedsAreIgnored) {
     expectBounded(pair.flow.forward(), 200);
 }
 
-TEST(Flow2d, MovingObjectsAreSearched) {
+TEST(Flow2d, FlowOfMovingObjectsIsSearched) {
     constexpr Size kVideo{320, 240};
     constexpr int kFirst = 96, kEnd = 176, kBy = 12;
     const FlowPicture now = wavesMoved(kVideo, {0, 0});

@@ -54,7 +54,7 @@ struct Problem {
 
 // The cost is the difference to the pixel that is nearest to the straight line from the first to
 // the last label of a vector.
-TEST(LabelCosts, CostsAreThoseOfTheNearestPixels) {
+TEST(LabelCosts, CostsOfLabelsAreThoseOfTheNearestPixels) {
     for (const std::size_t width : {1UL, 5UL, 64UL, 150UL}) {
         for (const int vectors : {1, 3}) {
             for (const bool slack : {false, true}) {
@@ -129,7 +129,7 @@ bool isNearBorder(const Problem& p, std::size_t x, int label) {
     return false;
 }
 
-TEST(LabelPlaces, FractionsAreMeasuredBetweenLinePointsNearestToThePixels) {
+TEST(LabelPlaces, FractionsOfLabelsAreMeasuredBetweenTheLinePointsNearestToPixels) {
     for (const std::size_t width : {1UL, 16UL, 37UL, 200UL}) {
         const Problem p(width, 20);
         const auto rises = test::randomValues<std::uint8_t>(4 * width, 0, 60, 9);

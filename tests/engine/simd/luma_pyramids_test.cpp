@@ -108,7 +108,7 @@ StereoRig bentRigOf(Size video, Size still) {
     return rig;
 }
 
-TEST(LumaPyramids, StillsAreResampledToTheVideosGeometry) {
+TEST(LumaPyramids, StillsAreResampledToPixelsOfTheVideo) {
     // With the largest still, a video pixel's footprint does not fit into the kernel's window.
     for (const Size size : {Size{345, 259}, Size{96, 72}, Size{1000, 750}}) {
         const FlowPicture still = wavesMoved(size, {0, 0});
@@ -127,7 +127,7 @@ TEST(LumaPyramids, StillsAreResampledToTheVideosGeometry) {
     }
 }
 
-TEST(LumaPyramids, RaysThatPointAwayGiveTheBorder) {
+TEST(LumaPyramids, RaysBehindTheStillCameraGetTheValueOfTheBorder) {
     const Size video{64, 48};
     StereoRig rig = rigOf(video, video);
     rig.T_still_video.rotation = Eigen::AngleAxisd(3, Eigen::Vector3d::UnitY());

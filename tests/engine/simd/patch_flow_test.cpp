@@ -77,7 +77,7 @@ void expectCostsOf(const FlowPicture& first, const FlowPicture& second) {
         }
 }
 
-TEST(PatchFlow, CostAndTextureMatchTheOracle) {
+TEST(PatchFlow, MatchingCostAndTextureMatchTheOracle) {
     expectCostsOf(wavesMoved(kSize, {0, 0}), noiseOf(kSize, 3));
     expectCostsOf(noiseOf(kSize, 5), wavesMoved(kSize, {0, 0}));
     FlowPicture chess(kSize);  // gives the largest possible sums
@@ -111,7 +111,7 @@ TEST(PatchFlow, OneGaussNewtonStepMatchesTheOracle) {
     EXPECT_GT(taken, kCells.width * kCells.height / 2);
 }
 
-TEST(PatchFlow, TheCoarsestLevelFindsWholePixels) {
+TEST(PatchFlow, AtTheCoarsestLevelTheSearchFindsWholePixels) {
     const FlowPicture first = wavesMoved(kSize, {0, 0}), second = wavesMoved(kSize, {-7, 5});
     const Level a(first), b(second);
     FlowField out(kCells);
@@ -130,7 +130,7 @@ TEST(PatchFlow, TheCoarsestLevelFindsWholePixels) {
         }
 }
 
-TEST(PatchFlow, PropagationTakesTheBestOfTheNeighbours) {
+TEST(PatchFlow, ACellTakesTheBestVectorOfItsNeighbours) {
     const FlowPicture first = wavesMoved(kSize, {0, 0}), second = wavesMoved(kSize, {4, 2});
     const Level a(first), b(second);
     const twin::Grey greyA = greyOf(first), greyB = greyOf(second);
@@ -189,12 +189,12 @@ void expectBentCosts(const Vector2d& dx, const Vector2d& dy, int span) {
         }
 }
 
-TEST(PatchFlow, BentPatchesMatchTheOracle) {
+TEST(PatchFlow, CostsOfBentPatchesMatchTheOracle) {
     expectBentCosts({0.0637, -0.0613}, {0.0419, 0.1931}, 8);
     expectBentCosts({0.1837, -0.0613}, {0.0419, 0.1931}, 4);
 }
 
-TEST(PatchFlow, CleanUpKeepsPlanesAndTheStepBetweenThem) {
+TEST(PatchFlow, FilteringOfFlowKeepsPlanesAndTheStepBetweenThem) {
     FlowField in(kCells);
     AlignedRows<float> known(FlowField::withMargins(kCells));
     const FlowPlanes field = in.planes();
@@ -220,7 +220,7 @@ TEST(PatchFlow, CleanUpKeepsPlanesAndTheStepBetweenThem) {
         }
 }
 
-TEST(PatchFlow, CleanUpRemovesALoneOutlier) {
+TEST(PatchFlow, FilteringOfFlowRemovesALoneOutlier) {
     FlowField in(kCells);
     AlignedRows<float> known(FlowField::withMargins(kCells));
     const FlowPlanes field = in.planes();

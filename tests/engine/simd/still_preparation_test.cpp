@@ -70,7 +70,7 @@ TEST(StillPreparation, StillFinerThanTheOutputIsReducedFirst) {
     EXPECT_EQ(s.preparation.luma().size, still);
 }
 
-TEST(StillPreparation, PairsHoldEachPixelAndTheOneBelow) {
+TEST(StillPreparation, PairsContainAPixelAndThePixelBelow) {
     for (const auto& [output, neighbours] : {std::pair{Size{131, 97}, 0.08}, {Size{50, 37}, 0.0}}) {
         Still s({40, 30}, {131, 97}, output);
         const TestPicture picture({131, 97});

@@ -55,7 +55,7 @@ bool same(const std::vector<TileMeasure>& a, const std::vector<TileMeasure>& b) 
 
 class TileRows : public testing::TestWithParam<Size> {};
 
-TEST_P(TileRows, EveryTileMatchesTheOracle) {
+TEST_P(TileRows, MeasuresOfEveryTileMatchTheOracle) {
     const Size size = GetParam();
     for (const double sigma : {0.0, 1.0, 3.0}) {
         const TestPicture now = tilePicture(size, 1, sigma), drawn = tilePicture(size, 2, sigma);

@@ -188,7 +188,7 @@ struct Shape {
 
 class WeighShapes : public testing::TestWithParam<Shape> {};
 
-TEST_P(WeighShapes, EveryCellMatchesTheOracle) {
+TEST_P(WeighShapes, WeightsOfEveryCellMatchTheOracle) {
     const Shape& s = GetParam();
     WeighCase c(s.video, s.still, s.distort, s.backwardLevel);
     for (const bool givenErrors : {false, true}) {
@@ -309,7 +309,7 @@ TEST(WeighStep, FlowThatIsNotFiniteHasNoWeightAndHurtsOnlyItsNeighbours) {
     }
 }
 
-TEST(WeighStep, ErrorsThatAreNotNumbersGiveNoConfidence) {
+TEST(WeighStep, TwoWayErrorsThatAreNanGiveNoConfidence) {
     WeighCase c = plainCase();
     c.errors[4][4] = {kNoFlow};
     c.errors[4][5] = {kEndless};
