@@ -95,7 +95,6 @@ TEST(SyntheticWorld, FirstViewShowsEveryTagUnoccluded) {
             const int x = static_cast<int>(std::lround(q.x()));
             const int y = static_cast<int>(std::lround(q.y()));
             ASSERT_TRUE(x >= 0 && y >= 0 && x < 640 && y < 480) << name(scene) << tag.id;
-            // Intersects the ray of this pixel with the tag's plane n.(X - p) = 0.
             const Eigen::Vector3d n =
                 (T_camera_world.rotation * tag.T_world_tag.rotation) * Eigen::Vector3d::UnitZ();
             const double expected = n.dot(ray(view.camera, x, y)) / n.dot(p);
@@ -187,7 +186,6 @@ TEST(SyntheticTruth, FlowFollowsAMovingObject) {
     Viewpoint b = a;
     b.t = 0.5;
     const FlowImage flow = flowBetween(world, a, b);
-    // The camera is at rest, so that only the moving object has flow. Its pose gives that flow.
     const RigidTransform T_camera_world = a.T_world_camera.inverse();
     const Eigen::Vector3d before = T_camera_world * world.moverPivot;
     const Eigen::Vector3d after =

@@ -17,7 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Picture sizes for sample calibrations in formats that contain no sizes.
 const WantedSizes kSizes{Size{640, 480}, Size{2304, 1728}};
 
 std::string faultOf(const fs::path& path) {

@@ -31,7 +31,6 @@ RigidTransform poseAt(const Target& target, const Motion& m, double t) {
         AngleAxisd(swing(m.tilt, 5.3, 0), Vector3d::UnitY()) *
         AngleAxisd(std::numbers::pi + swing(m.tilt, 3.7, 0.2), Vector3d::UnitX()) *
         AngleAxisd(swing(m.tilt, 6.1, 0.3), Vector3d::UnitZ());
-    // the target's upper right corner
     const Vector3d middle = 0.5 * target.points[target.points.size() - 2];
     const Vector3d place{swing(m.aside, 2.9, 0.1), swing(m.aside, 2.3, 0.4),
                          0.65 * (1 + swing(m.distance, 7.1, 0.6))};

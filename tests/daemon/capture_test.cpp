@@ -21,7 +21,6 @@ PoseConfig noPoses() {
     return config;
 }
 
-/// A capture thread with two simulated cameras and without poses.
 struct Capture {
     explicit Capture(HandOver handOver, bool sensors = false)
         : source(new FakeSource(handOver, sensors)), rig(std::unique_ptr<RigSource>(source)),
@@ -74,7 +73,6 @@ TEST(CaptureThread, VideoFramesArriveWhileTheStillCameraHangs) {
         EXPECT_EQ(frame->video.time(), Timestamp::fromSeconds(i));
         EXPECT_FALSE(frame->still);
     }
-    // The capture must end although the still camera's next() still hangs.
     auto ended = std::async(std::launch::async, [&] {
         capture.thread->stop();
         capture.thread->join();
@@ -103,7 +101,7 @@ TEST(CaptureThread, AStillIsDeliveredWithTheFirstFrameThatIsNotOlder) {
     EXPECT_FALSE(capture.take()->still);
     std::optional<CapturedFrame> with;
     double time = 2;
-    ASSERT_TRUE(becomesTrue([&] {  // sends frames until the still thread has delivered the still
+    ASSERT_TRUE(becomesTrue([&] {
         capture.video().send(time++);
         with = capture.take();
         return with && with->still;

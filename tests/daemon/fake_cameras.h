@@ -91,7 +91,6 @@ public:
         broken_ = why;
         changed_.notify_all();
     }
-    /// While `wanted` is true, next() blocks.
     void hang(bool wanted) {
         const std::lock_guard lock(mutex_);
         hangs_ = wanted;
@@ -106,7 +105,6 @@ public:
         const std::lock_guard lock(mutex_);
         return waiting_.empty();
     }
-    /// The threads that have called next().
     [[nodiscard]] std::set<std::thread::id> askers() const {
         const std::lock_guard lock(mutex_);
         return askers_;

@@ -11,7 +11,6 @@ Frame frame(double s) {
     return {ImageView{}, Timestamp::fromSeconds(s), nullptr};
 }
 
-/// The stills that have arrived, oldest first.
 class Stills {
 public:
     explicit Stills(std::initializer_list<double> times) : times_(times) {}

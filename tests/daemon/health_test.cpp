@@ -44,7 +44,6 @@ TEST_F(HealthTest, FreshPicturesAreHealthy) {
     EXPECT_TRUE(health.isAlive());
 }
 
-// Pictures keep arriving, but all of them are equal.
 TEST_F(HealthTest, AFrozenPictureIsDegraded) {
     repeats = now;
     pass(seconds(4));

@@ -100,7 +100,7 @@ protected:
     struct Ran {
         ScreenPicture last;
         Counted counted;
-        std::vector<std::string> moments;  ///< names of all different GL calls after the start
+        std::vector<std::string> moments;
     };
 
     void SetUp() override {

@@ -51,7 +51,7 @@ std::string with(const Key& key, std::string_view value) {
         key.section->name.empty()
             ? ""
             : fmt::format("{}{}{}\n", isList ? "[[" : "[", key.section->name, isList ? "]]" : "]");
-    std::string needed;  // keys that every quality level must have
+    std::string needed;
     if (isLevel(key) && key.option->name != "name") needed += "name = \"a\"\n";
     if (isLevel(key) && key.option->name != "ms") needed += "ms = 1.0\n";
     return head + needed + fmt::format("{} = {}\n", key.option->name, value);

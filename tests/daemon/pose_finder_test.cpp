@@ -27,7 +27,6 @@ Timestamp frameTime(double frame) {
     return Timestamp::fromSeconds(2 + frame / 30);
 }
 
-/// A frame with or without the tag, `at` frame intervals after the start.
 struct Shot {
     Shot(const CameraModel& camera, double at, bool withTag)
         : picture(withTag ? renderTags(camera, view(at), {kPlacedTag})

@@ -52,7 +52,6 @@ bool isWellFormed(const std::string& html) {
     return bench::test::isWellFormed(html.substr(doctype.size()));
 }
 
-/// Returns the text of the table cell beside a heading.
 std::string cellOf(const std::string& html, const std::string& heading) {
     const std::string head = "<tr><th>" + heading + "</th><td>";
     const std::size_t at = html.find(head);

@@ -15,7 +15,6 @@
 namespace mfar {
 namespace {
 
-/// The service manager's end of the notification socket.
 class Manager {
 public:
     Manager() : fd_(socket(AF_UNIX, SOCK_DGRAM, 0)) {

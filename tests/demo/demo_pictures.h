@@ -16,7 +16,6 @@ namespace mfar::demo {
 
 [[nodiscard]] cv::Mat confidencePicture(const Shown& shown);
 
-/// The result with the class of every tile as a colour, and a legend of the classes.
 [[nodiscard]] cv::Mat tileClassPicture(const Shown& shown);
 
 }  // namespace mfar::demo

@@ -31,7 +31,7 @@ struct Shown {
     cv::Mat upscaled;
     cv::Mat result;
     cv::Mat truth;
-    std::vector<float> confidence;  ///< confidence of each video pixel
+    std::vector<float> confidence;
     std::vector<TileClass> classes;
     Size video;
 };

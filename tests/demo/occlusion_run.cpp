@@ -17,7 +17,7 @@
 namespace mfar::demo {
 namespace {
 
-constexpr int kSettling = 8;  // number of first frames that are not scored
+constexpr int kSettling = 8;
 
 cv::Mat depthOf(const InverseDepthField& field) {
     cv::Mat out(field.size.height, field.size.width, CV_32F, cv::Scalar(0));

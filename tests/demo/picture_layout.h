@@ -7,8 +7,8 @@
 
 namespace mfar::demo {
 
-inline constexpr int kMargin = 24;   ///< width of the empty space around and between panels [px]
-inline constexpr int kCaption = 44;  ///< height of a line of text above a panel [px]
+inline constexpr int kMargin = 24;
+inline constexpr int kCaption = 44;
 inline constexpr int kPanelWidth = 640;
 inline constexpr int kMagnification = 3;
 
@@ -23,7 +23,6 @@ struct Column {
     cv::Mat picture;
 };
 
-/// Size of the picture's part that is magnified in a panel.
 [[nodiscard]] cv::Size detailSize(cv::Size picture);
 [[nodiscard]] cv::Mat columnsWithDetail(std::span<const Column> columns, const cv::Rect& detail);
 

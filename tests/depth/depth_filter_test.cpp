@@ -86,12 +86,10 @@ TEST(DepthFilter, DepthMovesAndScalesWithTheCamera) {
     filter.predict({}, 0);
     filter.fuse(evenField(1, 0.02F), kWhole);
     const float variance = filter.field().variance[middle()];
-    // The camera moves half a metre towards a wall at one metre.
     filter.predict(motion({0, 0, 0}, {0, 0, 0.5}), 0);
     ASSERT_TRUE(filter.field().isKnown(middle()));
     EXPECT_NEAR(filter.field().inverseDepth[middle()], 2, 1e-4);
     EXPECT_GT(filter.field().variance[middle()], 10 * variance);
-    // The camera moves through the wall.
     filter.predict(motion({0, 0, 0}, {0, 0, 1.2}), 0);
     EXPECT_FALSE(filter.field().isKnown(middle()));
 }

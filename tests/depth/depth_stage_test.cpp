@@ -32,7 +32,6 @@ public:
     explicit Walk(const DepthOptions& options = {}, const PixelRect& where = kAll)
         : stage_(barrelCamera(), std::make_shared<Workers>(2), options), where_(where) {}
 
-    /// Processes the frame of a camera at this pose.
     void go(const RigidTransform& T_world_video) {
         pose_ = T_world_video;
         Pose pose{Timestamp::fromSeconds(1 + kFrame * frames_++), T_world_video};
@@ -45,9 +44,9 @@ public:
     static RigidTransform at(double x) { return motion({0, 0, 0}, {x, 0.3 * x, 0}); }
 
     struct Errors {
-        double median = 0;    ///< median of |z - truth| / truth over pixels with known depth
-        double bad = 0;       ///< share of pixels with known depth whose error is above a tenth
-        double complete = 0;  ///< share of pixels with known depth
+        double median = 0;  ///< median of |z - truth| / truth over pixels with known depth
+        double bad = 0;     ///< share of pixels with known depth whose error is above a tenth
+        double complete = 0;
     };
     [[nodiscard]] Errors errors() const {
         std::vector<double> all;

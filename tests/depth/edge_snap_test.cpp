@@ -112,7 +112,7 @@ TEST(EdgeSnap, AYuvPictureAndTheEqualRgbPictureGiveTheSameDepth) {
         test::PaddedPicture painted(format, kPicture, 6);
         for (int plane = 0; plane < planeCount(format); ++plane)
             for (auto& b : painted.plane(plane))
-                b = static_cast<std::uint8_t>(110 + b / 8);  // makes some values equal
+                b = static_cast<std::uint8_t>(110 + b / 8);
         const ImageView view = painted.view(YuvMatrix::Bt709, YuvRange::Limited);
         const auto samples = twin::yuvSamples(view);
         const int down = format == PixelFormat::Yuyv ? 1 : 2;

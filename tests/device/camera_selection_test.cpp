@@ -34,7 +34,7 @@ TEST(CameraSelection, WithoutANameTheSmallestOrLargestCameraIsChosen) {
     board[3].pixels = 4000;
     board[1].pixels = 4000;
     EXPECT_EQ(chooseCamera(board, {}), 0U);
-    EXPECT_EQ(chooseCamera(board, {.largest = true}), 3U);  // the largest camera with the last id
+    EXPECT_EQ(chooseCamera(board, {.largest = true}), 3U);
     EXPECT_EQ(chooseCamera(board, {.except = "imx296"}), 2U);
     EXPECT_EQ(chooseCamera(board, {.except = board[3].id, .largest = true}), 1U);
     EXPECT_EQ(chooseCamera(board, {.except = "external", .largest = true}), 1U);

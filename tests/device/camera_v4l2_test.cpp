@@ -206,9 +206,9 @@ TEST(CameraV4l2, MissedPicturesAreCounted) {
 TEST(CameraV4l2, TimeIsTheMiddleOfAManualExposure) {
     const auto ageWith = [](std::uint32_t flags, std::int64_t automatic) {
         FakeV4l2 fake;
-        fake.controls = {{0x9a0901, "Auto Exposure", V4L2_CTRL_TYPE_INTEGER, 0, 3, 1, automatic},
-                         {0x9a0902, "Exposure Time, Absolute", V4L2_CTRL_TYPE_INTEGER, 1, 5000, 1,
-                          2000}};  // exposure of 200 ms
+        fake.controls = {
+            {0x9a0901, "Auto Exposure", V4L2_CTRL_TYPE_INTEGER, 0, 3, 1, automatic},
+            {0x9a0902, "Exposure Time, Absolute", V4L2_CTRL_TYPE_INTEGER, 1, 5000, 1, 2000}};
         CameraV4l2 camera(wanted(), fake);
         camera.start();
         fake.deliver({.flags = flags, .ageMs = 1000});

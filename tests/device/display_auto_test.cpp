@@ -14,7 +14,7 @@ using testing::HasSubstr;
 
 struct Device {
     Presence presence = Presence::Absent;
-    bool refuses = false;        // true: show() throws
+    bool refuses = false;
     int refusesAfter = 1000000;  // number of pictures after which show() throws
     int shown = 0, looks = 0, thoroughLooks = 0, released = 0;
     bool held = false;
@@ -204,7 +204,7 @@ TEST_F(AutoDisplay, TriesTheNextDeviceWhenTheFirstPictureIsRefused) {
 
 TEST_F(AutoDisplay, TriesTheNextDeviceWhenTheSecondFlipNeverCompletes) {
     kms_.presence = fbdev_.presence = Presence::Ready;
-    kms_.refusesAfter = 2;  // the missing flip is noticed at the third picture
+    kms_.refusesAfter = 2;
     EXPECT_GE(run(kSecond), 8);
     EXPECT_EQ(display_->name(), "fbdev held");
     EXPECT_EQ(kms_.shown, 2);

@@ -69,7 +69,7 @@ TEST(FbGeometry, GeometryBeyondTheMemoryIsRefused) {
         [](Info& i) { i.var.xres = 0; },
         [](Info& i) { i.var.yres = 0; },
         [](Info& i) { i.var.xres = 20000; },
-        [](Info& i) { i.var.xres = i.var.xres_virtual = 833; },  // a row would need 1666 bytes
+        [](Info& i) { i.var.xres = i.var.xres_virtual = 833; },
         [](Info& i) { i.var.xoffset = 1; },
         [](Info& i) { i.var.xoffset = 0xffffffff; },
         [](Info& i) { i.var.yoffset = 481; },

@@ -45,7 +45,7 @@ protected:
 
     test::TempFolder folder_;
     test::PretendedDrm& driver_ = test::pretendedDrm(card());
-    AlignedRows<std::uint32_t> rows_{{64, 48}};  // RGBA8
+    AlignedRows<std::uint32_t> rows_{{64, 48}};
     ScreenScaler scaler_;
     KmsScreen screen_{{ScreenSpec::Kind::Kms, card(), "", {}}, scaler_};
 };

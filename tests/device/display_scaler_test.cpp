@@ -28,7 +28,6 @@ protected:
         texture.upload({pixels.data(), static_cast<std::size_t>(size.width) * 4});
         return texture;
     }
-    // Pixels that ScreenReader reads from the screen, as R G B.
     static std::vector<Colour> shown(const gpu::Texture& picture, Size screen) {
         ScreenScaler scaler;
         return shown(scaler, picture, screen);

@@ -31,17 +31,16 @@ struct FakeControl {
     std::int64_t minimum, maximum, step, value;
     std::vector<std::string> menu{};
     std::uint32_t flags = 0;
-    int refusals = 0;   ///< number of attempts to set the control that fail first
-    int error = EBUSY;  ///< error code of the attempts that fail
+    int refusals = 0;  ///< number of attempts to set the control that fail first
+    int error = EBUSY;
 };
 
-/// The driver's report about the next picture.
 struct FakePicture {
     std::uint32_t flags = 0;
     std::size_t missingBytes = 0;
     std::int64_t ageMs = 1;
-    int skipped = 0;           ///< pictures lost before this one
-    std::uint8_t level = 100;  ///< value of all bytes of the picture
+    int skipped = 0;
+    std::uint8_t level = 100;
     std::span<const std::uint8_t> jpeg{};
 };
 
@@ -77,7 +76,7 @@ public:
     // Properties of the device; to be set before the device is opened.
     std::string card = "Fake Camera", secondPath;  ///< secondPath: another capture node
     bool multiPlanar = false;
-    bool busy = false;    ///< another program uses the buffers
+    bool busy = false;
     bool rounds = false;  ///< S_FMT answers with another size than requested
     std::uint32_t clock = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
     std::size_t padding = 0;  ///< padding of rows [bytes]
@@ -117,7 +116,7 @@ private:
     int memory_ = -1;
     std::uint8_t* bytes_ = nullptr;
     int pictureEnd_ = -1, readEnd_ = -1;
-    std::set<int> plain_;  // descriptors of the node that cannot capture
+    std::set<int> plain_;
     bool gone_ = false, running_ = false, released_ = false;
     std::uint32_t fourcc_ = 0;
     Size size_;

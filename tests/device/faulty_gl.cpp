@@ -56,7 +56,6 @@ F real(const char* name) {
     return reinterpret_cast<F>(find(name));
 }
 
-// Replaces a function with any arguments, in all common calling conventions.
 std::uintptr_t nothing() {
     return 0;
 }

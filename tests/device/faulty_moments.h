@@ -17,7 +17,6 @@ namespace mfar::faulty {
 /// Records a moment. Returns true if the context must be lost at it.
 bool isLostAt(const char* function);
 
-// Records that a program contains this shader.
 void attached(unsigned program, unsigned shader);
 void sourceOf(unsigned shader, const char* text);
 void used(unsigned program);

@@ -16,7 +16,6 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr Size kJpegSize{64, 48};
 
-/// Colours that change slowly across the picture.
 Bytes rgbRamp() {
     Bytes out;
     for (int y = 0; y < kJpegSize.height; ++y)

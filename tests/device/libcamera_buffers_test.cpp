@@ -15,7 +15,6 @@ namespace {
 using libcamera::FrameBuffer;
 using Planes = std::vector<FrameBuffer::Plane>;
 
-/// A memory file with 4 KiB of increasing bytes.
 libcamera::SharedFD memory(std::uint8_t first) {
     libcamera::SharedFD fd(memfd_create("picture", 0));
     for (unsigned i = 0; i < 4096; ++i) {

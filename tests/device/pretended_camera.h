@@ -160,7 +160,6 @@ private:
         request.count = std::min(request.count, static_cast<std::uint32_t>(most));
         room_ = (bytes_ + 4095) / 4096 * 4096;
         buffers_.assign(request.count, {});
-        // Like a driver, keeps mapped memory until the program unmaps it.
         const auto bytes = static_cast<off_t>(room_ * buffers_.size());
         if (bytes <= mapped_) return 0;
         mapped_ = bytes;
@@ -317,7 +316,7 @@ private:
     std::int64_t pulse_ = 0;  ///< time of the last pulse that the camera noticed [us]
     off_t mapped_ = 0;        ///< length of the mapped memory [bytes]
     int width_ = 0;
-    int refused_ = 0;  ///< number of times that setting the control was refused
+    int refused_ = 0;
     std::atomic<bool> running_{false}, isLost_{false};
     std::atomic<int> lostError_{0};
     std::thread maker_;

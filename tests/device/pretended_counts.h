@@ -16,7 +16,7 @@ struct KnownOfCamera {
     // The program must refuse the first two kinds of pictures, but took this number of them.
     std::uint64_t broken = 0;    ///< pictures marked as broken, or too short
     std::uint64_t badTimes = 0;  ///< times in the future, too old, or not after the previous one
-    std::int64_t gain = 0;       ///< last value set since the camera was opened
+    std::int64_t gain = 0;
     std::uint64_t ungained = 0;  ///< pictures that the program took before it set the gain
 };
 

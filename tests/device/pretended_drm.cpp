@@ -38,7 +38,7 @@ struct Driver {
     std::map<std::uint32_t, DumbBuffer> buffers;
     std::map<std::uint32_t, std::uint32_t> framebuffers;
     std::uint32_t next = 1;
-    std::uint32_t asked = 0;  // framebuffer of the current request
+    std::uint32_t asked = 0;
     void* flipping = nullptr;
     std::uint64_t end = 0;
 };

@@ -11,13 +11,13 @@ namespace mfar::test {
 /// A program has one driver, used by one thread.
 struct PretendedDrm {
     bool connected = true;
-    std::uint16_t width = 64, height = 48;  ///< size of the only mode
-    bool flips = true;                      ///< if false, flips never complete
+    std::uint16_t width = 64, height = 48;
+    bool flips = true;
     int otherEvents = 0;  ///< number of other events before the event of the flip, 10 ms apart
-    bool refusesFlips = false;  ///< flips fail with EBUSY
+    bool refusesFlips = false;
     int modeSets = 0, flipped = 0, buffers = 0, framebuffers = 0;
-    std::uint32_t shown = 0;  ///< framebuffer on the screen
-    bool console = false;     ///< true while the console's picture is on the screen
+    std::uint32_t shown = 0;
+    bool console = false;  ///< true while the console's picture is on the screen
 };
 
 PretendedDrm& pretendedDrm(const std::filesystem::path& card);

@@ -22,7 +22,6 @@ inline std::uint32_t stampBits(std::int64_t ms) {
     return time << 8U | check;
 }
 
-/// Fills a YUYV picture with a grey level plus noise. The picture's number determines both.
 inline void paint(std::span<std::uint8_t> yuyv, std::uint64_t number) {
     std::uint64_t random = number * 0x9e3779b97f4a7c15ULL;
     const auto gray = static_cast<std::uint8_t>(64 + number % 64);

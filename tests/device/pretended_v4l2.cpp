@@ -123,7 +123,6 @@ int open64(const char* path, int flags, ...) {
     return openFile(path, flags | O_LARGEFILE, mode);
 }
 
-// Programs that search /dev for chips must find the simulated chip.
 int openat(int folder, const char* path, int flags, ...) {
     va_list rest;
     va_start(rest, flags);

@@ -29,7 +29,7 @@ struct Wire {
     std::mutex mutex;
     std::vector<Level> history;
     std::deque<Timestamp> edges;
-    std::chrono::nanoseconds clockOffset{0};  ///< offset of the loopback's clock
+    std::chrono::nanoseconds clockOffset{0};
     int edgesToLose = 0;
     int setsToFail = 0;
 

@@ -125,7 +125,6 @@ public:
         if (!request) return;
         cycle.giveBack(*request);
     }
-    /// True if next() has to restart the camera.
     [[nodiscard]] bool restartIsDue() const {
         return running_ && !isLost && ready_.empty() && restartAt && chance_.now >= *restartAt;
     }
@@ -194,11 +193,11 @@ public:
 
     static constexpr std::size_t kRequests = 4;
     RequestCycle cycle;
-    std::function<void()> meanwhile = [] {};  ///< called while the driver starts or stops
+    std::function<void()> meanwhile = [] {};
     bool startFails = false;
     bool isLost = false;
     std::optional<Timestamp> restartAt;
-    std::array<int, kPauses.size()> pauses{};  ///< number of times that each pause was chosen
+    std::array<int, kPauses.size()> pauses{};
     int threadedStops = 0;
 
 private:
@@ -235,7 +234,7 @@ private:
     std::deque<std::size_t> ready_;
     bool running_ = false;
     Timestamp begun_;
-    std::size_t ends_ = 0;  ///< number of consecutive early ends
+    std::size_t ends_ = 0;
     int starts_ = 0;
     std::uint64_t delivered_ = 0, restarts_ = 0;
 };

@@ -21,7 +21,7 @@ using namespace mfar;
 namespace {
 
 constexpr std::chrono::milliseconds kLook{20};
-constexpr std::chrono::seconds kAfter{3};  // longest wait for the last still
+constexpr std::chrono::seconds kAfter{3};
 
 unsigned numberOf(const ImageView& view) {
     unsigned number = 0;

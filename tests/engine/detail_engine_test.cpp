@@ -8,7 +8,6 @@ namespace {
 
 using simd::DetailCase;
 
-/// The engine of the detail step and the engine that prepares the still.
 struct StepEngines {
     EngineKind detail, still;
 };
@@ -33,7 +32,6 @@ DetailCase withRoom(DetailCase frame) {
     return frame;
 }
 
-/// Draws consecutive frames. The detail step and the still may be of different engines.
 class Drawing {
 public:
     Drawing(const StepEngines& engines, const DetailCase& first, Size output)
@@ -61,7 +59,6 @@ public:
     Rows<const std::uint32_t> drawWithoutStill(const DetailCase& frame, const FilterBank* filters) {
         return draw(frame, nullptr, filters);
     }
-    /// Luma of the still with amplified detail.
     [[nodiscard]] twin::Grey luma() const {
         if (!pictures_.raised.isEmpty()) {
             const Rows<const std::uint8_t> raised = pictures_.raised.host();
@@ -180,7 +177,7 @@ TEST_P(DetailEngineTest, FramesWithGuidanceMatchTheOracle) {
     const simd::DetailOptions options{SuperResMode::Detail, true, false, false,
                                       &simd::guidedBank()};
     for (const auto& [video, stillSize, output] : simd::kSizes) {
-        if (output.width > 1000) continue;  // large outputs take too long
+        if (output.width > 1000) continue;
         const DetailCase frame = withRoom(DetailCase(video, stillSize));
         Drawing drawing(GetParam(), frame, output);
         simd::Wanted wanted(frame, output, options, true);

@@ -64,7 +64,7 @@ struct FineInput {
 Shares onHost(const FineInput& in) {
     simd::FineCheck check(in.still.rig(), std::make_shared<Workers>(2));
     Shares out;
-    for (int run = 0; run < 2; ++run) {  // the second run must not depend on the first
+    for (int run = 0; run < 2; ++run) {
         const Rows<const float> rows =
             check.run(in.frame.video, in.still.pairs(), in.lookUps(), in.frame.work, kMatch);
         out.clear();

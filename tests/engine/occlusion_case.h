@@ -21,7 +21,6 @@ struct LaidLayer {
     PixelRect bounds{0, 0, 5000, 5000};
 };
 
-/// Result of an engine for a frame with a layer.
 struct LaidOver {
     Size output;
     std::vector<std::uint8_t> shown;       ///< RGBA8
@@ -30,7 +29,6 @@ struct LaidOver {
     [[nodiscard]] double visibleAt(int x, int y) const {
         return visibility[static_cast<std::size_t>(y) * output.width + x] / 255.0;
     }
-    /// Returns the visibility if all pixels have the same, otherwise -1.
     [[nodiscard]] double visibleEverywhere() const {
         for (const std::uint8_t share : visibility)
             if (share != visibility[0]) return -1;
@@ -46,7 +44,6 @@ protected:
     static constexpr Size kCoarse{53, 37};
     static constexpr Size kFine{191, 133};
 
-    /// Pictures of noise, with one real depth everywhere.
     static twin::Scene plainScene(const twin::RealSample& real);
     static LaidOver laidOver(EngineKind engine, const twin::Scene& scene, const LaidLayer& layer,
                              const CompositeOptions& options = {});
@@ -60,7 +57,6 @@ protected:
     }
 };
 
-/// Expects the oracle's visibility in every pixel, apart from rounding.
 void expectOracles(const LaidOver& got, twin::Scene scene, const LaidLayer& layer,
                    const CompositeOptions& options = {});
 

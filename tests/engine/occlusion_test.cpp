@@ -252,7 +252,6 @@ TEST_P(OcclusionTest, PartlyOccludedObjectEndsAtTheImageEdge) {
         }
 }
 
-/// A layer whose size differs from the output's, over black, without real objects in front.
 class ScaledLayer : public OcclusionTest {
 protected:
     static constexpr Size kVideo{40, 30}, kOutput{160, 120};

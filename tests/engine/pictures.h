@@ -19,7 +19,7 @@ struct Shot {
     double step = 1;
     Eigen::Vector2d shift{0, 0};
     double footprint = 1;
-    double gain = 1, offset = 0;  ///< applied to the grey levels
+    double gain = 1, offset = 0;
     PixelFormat format = PixelFormat::Rgba8;
 };
 

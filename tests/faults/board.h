@@ -30,10 +30,10 @@ public:
 
     static constexpr const char* kPipe = "screen.y4m";
     static constexpr const char* kSocket = "control";
-    static constexpr const char* kGpu = "gpu";          ///< file that selects the GPU's faults, see
-                                                        ///< faulty_gl.cpp
-    static constexpr int kGain = 100;                   ///< configured gain of both cameras
-    static constexpr const char* kRecording = "disk-";  ///< prefix of recordings' names
+    static constexpr const char* kGpu = "gpu";  ///< file that selects the GPU's faults, see
+                                                ///< faulty_gl.cpp
+    static constexpr int kGain = 100;
+    static constexpr const char* kRecording = "disk-";
 
 private:
     void writeDevice(Where which) const;

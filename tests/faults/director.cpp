@@ -65,7 +65,6 @@ struct Step {
 std::vector<Step> stepsOf(const Episode& episode) {
     std::vector<Step> steps;
     for (const Fault& fault : episode) {
-        // A loose plug is unplugged several times.
         const int times = fault.kind->name.ends_with("loose plug") ? 5 : 1;
         for (int i = 0; i < times; ++i) {
             const Ns part = fault.length / (2 * times - 1);

@@ -29,7 +29,7 @@ constexpr Ns kStale = 3 * kSecond, kMarked = 250 * kMs, kBack = 3 * kSecond;
 constexpr Ns kVideoBudget = 1500 * kMs, kWriter = 2500 * kMs;
 constexpr Ns kPicture = 2000 * kMs;
 constexpr Ns kRepeats = 200 * kMs;  ///< time in which mfard recognises a repeated picture
-constexpr Ns kLookTime = kSecond;   ///< interval at which mfard checks its threads
+constexpr Ns kLookTime = kSecond;
 constexpr Ns kSameLine = 10 * kSecond;
 constexpr std::uint64_t kProvenFrames = 10;
 /// Tolerance, because pictures come periodically and answers take time.
@@ -138,7 +138,6 @@ void Judge::shows(Ns taken) {
     shown_ = taken;
 }
 
-// Returns 0 before the first picture, because there is no stale picture yet.
 Ns Judge::age(Ns at) const {
     return shown_ ? at - *shown_ : 0;
 }
@@ -199,7 +198,6 @@ void Judge::judgeState(const ordered_json& said, Ns asked) {
              ", but the screen's picture is " + seconds(age(asked)) + " old");
 }
 
-// Checks that the report does not attribute a fault of one camera to the other.
 void Judge::judgeBlame(const std::string& fault, Ns asked) {
     if (!calm_[Slow].lasts(kBack, asked)) return;
     const bool video = calm_[Video].lasts(kBack + kSlack, asked);

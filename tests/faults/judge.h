@@ -22,7 +22,6 @@ public:
     /// The only judge of the process. It writes to the file MFAR_FAULTS_REPORT.
     static Judge& get();
 
-    // Facts from Board and screen.
     void begins(const Fault& fault);
     void ends(const Fault& fault);
     /// The screen shows a picture that was exposed at `taken`.
@@ -32,7 +31,7 @@ public:
     void logSays(std::string_view text);
     void status(const nlohmann::ordered_json& said, Ns asked);
     void answersNot(const std::string& why, Ns asked);
-    void terminated();  ///< mfard has received the request to end
+    void terminated();
     void ended(int code, bool inTime);
     /// To be called without faults. Compares the counts of invalid pictures in `said` with those
     /// that the cameras sent.

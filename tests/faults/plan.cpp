@@ -15,7 +15,6 @@ namespace {
 using enum Where;
 using enum Effect;
 
-// Camera faults are listed for the video camera and for the still camera.
 constexpr std::array kKinds = {
     Kind{"video silent", Video, StopsDevice, "silent"},
     Kind{"video hangs", Video, HangsDriver, "hang"},
@@ -128,7 +127,6 @@ Plan Plan::drawn(std::uint64_t seed, int episodes, std::string_view only, bool h
     out.beginsBroken = random() % 4 == 0;
     out.hasTrigger = random() % 2 == 0 && MFAR_FAULTS_HAS_LINE;
     out.mode = kModes[random() % kModes.size()];
-    // SIGTERM may come during the start.
     const bool endsEarly = random() % 8 == 0;
     out.endsBeforeReady = endsEarly && random() % 2 == 0;
     if (endsEarly) episodes = 1;

@@ -29,19 +29,19 @@ enum class Effect {
     StopsDevice,  ///< the camera sends no new picture, which mfard must report
     HangsDriver,  ///< like StopsDevice; a thread of mfard also hangs
     Repeats,      ///< a camera sends the same picture again and again
-    StopsReader,  ///< the screen reads nothing
-    StopsGpu,     ///< no picture is finished; mfard must report this, but not as a camera's fault
-    HangsGpu,     ///< like StopsGpu; the drawing thread also hangs
-    Slows,        ///< everything is slow, so that times cannot be judged
+    StopsReader,
+    StopsGpu,  ///< no picture is finished; mfard must report this, but not as a camera's fault
+    HangsGpu,  ///< like StopsGpu; the drawing thread also hangs
+    Slows,     ///< everything is slow, so that times cannot be judged
 };
 
 struct Kind {
     std::string_view name;
     Where where;
     Effect effect;
-    std::string_view words;   ///< words for the file that selects faults of the camera or GPU; a
-                              ///< number replaces *
-    int least = 0, most = 0;  ///< range of the number that replaces *
+    std::string_view words;  ///< words for the file that selects faults of the camera or GPU; a
+                             ///< number replaces *
+    int least = 0, most = 0;
 };
 
 struct Fault {
@@ -55,12 +55,12 @@ struct Fault {
 using Episode = std::vector<Fault>;
 
 struct Plan {
-    bool beginsBroken = false;                  ///< the first episode begins before mfard starts
-    std::string_view mode;                      ///< super-resolution mode
+    bool beginsBroken = false;  ///< the first episode begins before mfard starts
+    std::string_view mode;
     [[nodiscard]] bool recordsAtStart() const;  ///< True if the disk is faulty from the start.
     std::vector<Episode> episodes;
     Ns endAfter = 0;
-    bool hasTrigger = false;       ///< the still camera waits for pulses of the trigger
+    bool hasTrigger = false;
     bool endsBeforeReady = false;  ///< mfard must end before READY or soon after it
     bool isKilled = false;         ///< mfard is killed with SIGKILL instead of SIGTERM and is
                                    ///< started again

@@ -25,7 +25,7 @@ struct Scheduler::Task {
     nfds_t fileCount = 0;
     int filesReady = 0;
     Ns deadline = kNever;
-    std::uint64_t order = 0;  ///< order in which tasks began to wait
+    std::uint64_t order = 0;
     bool woken = false;
     void* (*start)(void*) = nullptr;
     void* argument = nullptr;

@@ -28,7 +28,6 @@ public:
     [[nodiscard]] bool hasTurn() const;
 
     [[nodiscard]] Ns now() const { return now_; }
-    /// Advances the clock by the cost of a reading. Returns the new time.
     [[nodiscard]] Ns look() { return now_ += cost_; }
     void setCost(Ns cost) { cost_ = cost; }
     [[nodiscard]] Ns wallOffset() const { return wallOffset_; }
@@ -40,7 +39,6 @@ public:
     int wake(const void* key, int count = std::numeric_limits<int>::max());
     /// Like poll(), including -1 with errno.
     int waitForFiles(pollfd* fds, nfds_t count, Ns deadline);
-    /// Gives other tasks a turn.
     void yield();
     /// Gives other tasks a turn at random, in a fixed share of the calls.
     void maybeYield();
@@ -50,7 +48,6 @@ public:
     void setTimer(int fd, Ns first, Ns period);
     void addTimer(int fd) { timers_.push_back({fd, 0, 0}); }
 
-    // Functions for the start and end of threads.
     int create(pthread_t* thread, const pthread_attr_t* attributes, void* (*start)(void*),
                void* argument);
     /// Returns when the thread no longer runs code of this process.

@@ -65,7 +65,6 @@ MFAR_TAKES_OVER ssize_t write(int fd, const void* bytes, size_t count) {
     return real().syscall(SYS_write, fd, bytes, count);
 }
 
-// Waits for the socket on the scheduler's clock.
 MFAR_TAKES_OVER ssize_t recv(int fd, void* to, size_t size, int flags) {
     constexpr int kPatienceMs = 15'000;
     const bool waits = (flags & MSG_DONTWAIT) == 0 && (fcntl(fd, F_GETFL) & O_NONBLOCK) == 0;

@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 
 /// Limits in real time. A schedule takes about a second, a run without faults some minutes.
 constexpr std::chrono::minutes kTrialTime{2}, kSoakTime{60};
-constexpr std::size_t kContext = 40;  // number of lines printed before the first failure
+constexpr std::size_t kContext = 40;
 
 class Folder {
 public:

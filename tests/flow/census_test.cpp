@@ -55,9 +55,9 @@ TEST(Census, MatchesTheOracleAtEverySize) {
 TEST(Census, OneDarkNeighbourSetsItsOwnBit) {
     LumaImage picture({9, 9});
     std::fill(picture.pixels.begin(), picture.pixels.end(), std::uint8_t{100});
-    picture.row(2)[2] = 50;  // top left of the pixel (4, 4)
-    picture.row(6)[6] = 50;  // bottom right of the pixel (4, 4)
-    picture.row(4)[5] = 50;  // just right of the pixel (4, 4)
+    picture.row(2)[2] = 50;
+    picture.row(6)[6] = 50;
+    picture.row(4)[5] = 50;
     EXPECT_EQ(censusOf(picture)[9 * 4 + 4], 1U << 23 | 1U << 11 | 1U);
 }
 

@@ -78,7 +78,6 @@ TEST(EpipolarSearchOdd, UniformAndExtremePicturesGiveFiniteFields) {
     }
 }
 
-// A search without texture must not give jumps.
 TEST(EpipolarSearchOdd, UniformPicturesGiveAUniformField) {
     const Size size{97, 71};
     EpipolarSearch search = test::searchWith(cameraOf(size), 2);
@@ -184,7 +183,6 @@ TEST(EpipolarSearchOdd, IsTheSameWithAnyNumberOfThreads) {
     }
 }
 
-// Each frame must be searched without values from an earlier frame.
 TEST(EpipolarSearchOdd, DoesNotDependOnEarlierFrames) {
     const CameraModel camera = barrelOf({180, 130});
     const LumaImage video = scene().render(camera, {}),

@@ -184,7 +184,6 @@ LumaImage developed(LumaImage picture, const std::function<double(double)>& curv
     return picture;
 }
 
-// A search around a predicted s must be as good as a search through the coarser levels.
 TEST(EpipolarSearch, SearchFromAPredictionIsAsGoodAsCoarseToFine) {
     const View view{plain(), stepScene(), motion({0, 2, 0}, {-0.2, 0.03, 0})};
     const EpipolarSearch whole = searched(view);

@@ -93,7 +93,6 @@ TEST(LocalRange, IsTheSmallestAndLargestValueOfTheSquare) {
     }
 }
 
-// Scratch memory must keep no values of the larger picture.
 TEST(LocalRange, CanBeReusedForAnotherSize) {
     LocalRange range;
     localRange(randomField({40, 30}, 100), {40, 30}, 2, range);

@@ -31,7 +31,6 @@ struct Scene {
                                    const RigidTransform& T_camera_video) const;
 };
 
-/// A frame and a still of a scene, and the pose between them.
 struct View {
     CameraModel camera;
     Scene scene;
@@ -46,7 +45,6 @@ using mfar::viewOf;
 [[nodiscard]] CameraModel oddPlain();
 [[nodiscard]] CameraModel oddBarrel();
 
-/// A search for two cameras with equal lenses.
 [[nodiscard]] EpipolarSearch searchWith(const CameraModel& camera, int threads);
 
 /// The position in the still at which a search finds a pixel of the frame.
@@ -56,7 +54,7 @@ using mfar::viewOf;
 struct FlowErrors {
     std::size_t pixels = 0;
     double median = 0;
-    double bad = 0;  ///< share of pixels with an error above one pixel
+    double bad = 0;
 };
 [[nodiscard]] FlowErrors errorsOf(const EpipolarSearch& search, const View& view);
 

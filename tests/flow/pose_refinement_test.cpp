@@ -63,7 +63,6 @@ struct Shots {
     Shots(const View& v) : view(v), video(v.video()), still(v.still()) {}
 };
 
-/// A search with a pose that has the error `error`.
 EpipolarSearch searched(const Shots& shots, const RigidTransform& error,
                         const Matrix6& covariance) {
     EpipolarSearch search = test::searchWith(shots.view.camera, 2);
@@ -245,9 +244,7 @@ TEST(PoseRefinement, IsTheSameWithAnyNumberOfThreads) {
     }
 }
 
-// The search also looks beside its lines if there are too few patches to refine the pose.
 TEST(PoseRefinement, WithTooFewPatchesTheSearchAlsoLooksBesideEpipolarLines) {
-    // A small panel without background.
     const Shots shots({pagePlain(),
                        {{{{0.3, 0, 1}, 2, {-0.1, -0.1}, {0.15, 0.1}}}, 60, 100},
                        motion({0, 0, 0}, {0.2, 0, 0})});

@@ -178,7 +178,6 @@ TEST(SemiGlobal, FollowsASlopeThroughMovingWindows) {
             const std::size_t i = p.pixel(x, y);
             const int truth = x / 2;
             p.base[i] = static_cast<std::int16_t>(truth - 3 - (x / 7 + y / 5) % 8);
-            // In every third pixel, all labels have equal costs.
             for (int k = 0; k < 16; ++k)
                 p.costs[i * 16 + k] = (x + y) % 3 == 0 || p.base[i] + k == truth ? 4 : 20;
         }
@@ -209,7 +208,6 @@ TEST(SemiGlobal, IsTheSameWithAnyNumberOfThreads) {
         EXPECT_EQ(solve(p, threads), one);
 }
 
-// Scratch memory must keep no values of the larger problem.
 TEST(SemiGlobal, CanBeReusedForSmallerProblems) {
     Workers workers(2);
     SemiGlobal matcher(40UL * 30 * 3);

@@ -104,7 +104,6 @@ TEST(Workers, OtherThreadsShareTheWork) {
     std::mutex mutex;
     std::set<std::thread::id> seen;
     std::atomic<bool> both = false;
-    // The part of the first thread ends only after the second thread has begun a part.
     workers.forRange(2, 1, [&](int, int) {
         {
             const std::scoped_lock lock(mutex);

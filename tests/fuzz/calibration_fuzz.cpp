@@ -10,7 +10,6 @@ namespace {
 
 using namespace mfar;
 
-/// Checks properties that every accepted camera must have.
 void requireSound(const CameraModel& camera) {
     test::requireThat(camera.size.width > 0 && camera.size.height > 0,
                       "an accepted camera has no picture size");

@@ -91,6 +91,5 @@ if [[ ! -d $built ]]; then
     rmdir "$built.part"
 fi
 touch "$built"
-# Removes the results of earlier versions.
 find "$cache" -maxdepth 1 -name 'instrumented-*' ! -name "${built##*/}" -mtime +14 -exec rm -rf {} +
 echo "$built"

@@ -58,7 +58,6 @@ TEST(EnvironmentMap, NewAndOldRunLengthEncodingsAreRead) {
     }
     const Environment split = parseEnvironment(hdr(kHeader + "-Y 4 +X 8\n", rows), "a");
     expectClose(split.radiance[3 * 8 + 5], {30.5F, 6.5F, 9.5F});
-    // One pixel, followed by a run that repeats it seven times.
     rows.clear();
     for (int y = 0; y < 4; ++y)
         rows.insert(rows.end(), {5, 6, 7, 136, 1, 1, 1, 7});

@@ -40,7 +40,6 @@ private:
 /// A textured quad with normals and all material fields, in a small hierarchy.
 [[nodiscard]] GltfMaker richModel();
 
-/// A PNG of RGBA texels.
 [[nodiscard]] std::vector<std::uint8_t>
 rgbaPng(Size size, const std::vector<std::array<std::uint8_t, 4>>& texels);
 

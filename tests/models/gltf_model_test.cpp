@@ -105,7 +105,7 @@ TEST(GltfModel, NormalsFollowUnequalScales) {
 TEST(GltfModel, RotationsTurnInTheRightDirection) {
     GltfMaker maker = oneTriangle();
     const double half = std::sqrt(0.5);
-    maker.root["nodes"][0]["rotation"] = {0, 0, half, half};  // 90 degrees about glTF's z
+    maker.root["nodes"][0]["rotation"] = {0, 0, half, half};
     const Mesh mesh = modelOf(maker).meshes.at(0);
     expectNear(mesh.positions[1], {0, 0, 1});
     expectNear(mesh.positions[2], {-1, 0, 0});

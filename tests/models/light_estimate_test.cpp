@@ -64,7 +64,6 @@ RigidTransform lookingDown() {
     return lookingAlong({0.2, 0.5, -1});
 }
 
-/// Evenly spaced directions in all of space.
 std::vector<RigidTransform> allAround() {
     std::vector<RigidTransform> out;
     constexpr int kViews = 80;

@@ -35,7 +35,6 @@ apt() {
     holds "apt-get $1 prints no warning or error" isNot grep -iE 'warning|error|fail' "$work/apt"
 }
 
-# Makes the same package with a higher version and another default configuration.
 makeSuccessor() {
     dpkg-deb -R "$deb" "$work/next"
     sed -i 's/^Version: .*/&+next/' "$work/next/DEBIAN/control"

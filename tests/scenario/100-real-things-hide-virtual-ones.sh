@@ -16,7 +16,6 @@ last() {
 differing() { { cmp -l plain.raw "$1.raw" || true; } | wc -l; }
 
 last plain
-# One object in front of everything on the desk, and one far behind the wall.
 cat >near.toml <<'END'
 [virtual]
 rendering = "preview"

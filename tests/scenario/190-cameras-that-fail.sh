@@ -15,7 +15,6 @@ says_of() {
     mv cameras/.new "cameras/$camera"
 }
 
-# begin: starts mfard with the two cameras and waits for pictures.
 begin() {
     rm -f summary.json
     export LD_PRELOAD=$pretended MFAR_PRETENDED_V4L2=$work/cameras
@@ -29,7 +28,6 @@ stop_now() {
 }
 status() { timeout -s KILL 30 "$ctl" --socket control status >answer 2>err.ctl; }
 stats() { timeout -s KILL 30 "$ctl" --socket control stats >stats.json 2>err.ctl; }
-# shows_pictures COUNT: true if mfard has shown at least this number of pictures.
 shows_pictures() { status && [ "$(awk '$1 == "frames" {print $2}' answer)" -ge "$1" ] 2>/dev/null; }
 goes_on() {
     status || fail "mfard does not answer mfarctl status"

@@ -55,7 +55,6 @@ start() {
     pids+=("$pid")
 }
 
-# until_true COMMAND...: waits until the command succeeds.
 until_true() {
     local end=$(($(milliseconds) + 30000 * patience))
     until "$@"; do
@@ -129,7 +128,6 @@ says() { grep -Eq -- "$2" "$1" || fail "$1 has no line that matches: $2"; }
 # summary_has KEY VALUE: checks a number or word in summary.json, in which each key occurs once.
 summary_has() { says summary.json "\"$1\": $2,?\$"; }
 
-# record FOLDER FRAMES [ARGUMENT...]: makes a small recording of the synthetic board.
 record() {
     local dir=$1 frames=$2
     shift 2

@@ -11,7 +11,6 @@
 
 namespace {
 
-/// Replaces the address of the journal. Leaves other addresses unchanged.
 class Address {
 public:
     Address(const void* wanted, socklen_t bytes) : to_(wanted), bytes_(bytes) {

@@ -60,7 +60,6 @@ class DepthScenario : public testing::Test {
 protected:
     void SetUp() override { context_->makeCurrent(); }
 
-    /// Runs along the path, with one still at the start of the path.
     static void follow(Watched& w, int frames) {
         for (int frame = 0; frame < frames; ++frame) {
             const SceneRun::Shots shots = w.run.next();

@@ -44,7 +44,7 @@ protected:
         return out;
     }
 
-    static constexpr double kDesk = 0.8;  // distance to the desk [m]
+    static constexpr double kDesk = 0.8;
 
 private:
     std::unique_ptr<GlContext> context_ = createGlContext();

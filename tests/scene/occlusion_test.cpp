@@ -17,7 +17,7 @@ namespace {
 using namespace eval;
 using synthetic::Path;
 
-constexpr int kUnscored = 8;  // number of first frames that are not scored
+constexpr int kUnscored = 8;
 
 /// Limits for each scene. On the shelf, matching windows widen thin objects by more than the
 /// snapping to edges corrects.

@@ -12,7 +12,6 @@ namespace {
 
 using synthetic::Path;
 
-/// Peak signal-to-noise ratio of the pipeline's output in the tiles with `in` = true [dB].
 double psnr(const Pipeline& pipeline, const StoredImage& truth, const std::vector<bool>& in) {
     const auto out = pipeline.readImage();
     const Size size = pipeline.outputSize();
@@ -36,7 +35,6 @@ class SceneTest : public testing::Test {
 protected:
     void SetUp() override { context_->makeCurrent(); }
 
-    /// A pipeline that has processed the frame with exact poses.
     static Pipeline ran(const SceneShots& s, SuperResMode mode) {
         Pipeline pipeline(s.board->rig(), {.mode = mode, .output = {}});
         pipeline.setStill(s.still.view(), s.still.time(), s.board->pose(s.still.time()));

@@ -31,8 +31,7 @@ private:
     struct Known {
         Case one;
         double seconds = 0;
-        std::map<std::string, long>
-            pixels;                    // pixels that each pass processed in all runs of the case
+        std::map<std::string, long> pixels;
         std::set<std::string> passes;  // passes that the case reached with pictures of any size
     };
     [[nodiscard]] const Known* quickest(const std::string& pass) const;

@@ -42,7 +42,6 @@ struct Case {
 
 [[nodiscard]] std::vector<Case> allCases();
 
-// Each file of cases defines one of these functions.
 [[nodiscard]] std::vector<Case> flowCases();
 [[nodiscard]] std::vector<Case> triangulationCases();
 [[nodiscard]] std::vector<Case> pipelineCases();

@@ -25,7 +25,6 @@ public:
     void tried(const std::string& part, long inputs) { inputs_[part] += inputs; }
 
     [[nodiscard]] const std::map<std::string, long>& pixels() const { return pixels_; }
-    /// Number of inputs of each part that does not process pictures.
     [[nodiscard]] const std::map<std::string, long>& inputs() const { return inputs_; }
     [[nodiscard]] std::vector<std::string> take();
 

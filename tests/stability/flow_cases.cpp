@@ -12,7 +12,6 @@ struct FlowSummary {
     double median = 0, most = 0;
 };
 
-/// Deviation of a flow from a constant shift, without the picture's border.
 FlowSummary errorOf(const std::vector<float>& flow, Size size, const Eigen::Vector2d& shift) {
     constexpr int kBorder = 24;
     std::vector<double> errors;

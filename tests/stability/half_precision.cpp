@@ -28,7 +28,6 @@ std::array<T, 4> cubicWeights(T t) {
     return {w0, w1, one - w0 - w1 - w3, w3};
 }
 
-/// Colours are in [0, 1].
 template <class T>
 T weighed(const std::array<T, 4>& w, const std::array<double, 4>& v) {
     return w[0] * T(v[0]) + w[1] * T(v[1]) + w[2] * T(v[2]) + w[3] * T(v[3]);
@@ -55,7 +54,6 @@ T meanOf16(const std::array<double, 16>& v) {
     return sum / T(16);
 }
 
-/// Projects a ray through a lens, as in camera.glsl. Returns one coordinate.
 template <class T>
 T projected(const CameraModel& c, double x, double y) {
     const T u(x), v(y), r2 = u * u + v * v;

@@ -49,7 +49,6 @@ public:
     /// units and leads sideways, forwards or backwards. The epipole may be in the picture, at its
     /// border or near it.
     [[nodiscard]] RigidTransform motion(double unit = 1);
-    /// A small motion, as of a hand-held camera.
     [[nodiscard]] RigidTransform gentle(double unit = 1);
     /// Returns `T` with one invalid number or with an invalid rotation.
     [[nodiscard]] RigidTransform spoilt(RigidTransform T);

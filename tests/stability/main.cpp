@@ -74,7 +74,6 @@ void print(const Tally& tally) {
 
 class Run {
 public:
-    /// `job`: index of this process.
     Run(const Options& options, int job)
         : options_(options), isFirst_(job == 0), cases_(chosen(options)), balance_(cases_) {}
 

@@ -26,7 +26,7 @@ EngineChoice enginesFor(Context& c) {
     return {kind(), kind(), kind(), kind(), kind(), kind()};
 }
 
-constexpr int kMostOutput = 4096;  // largest side of the output picture [px]
+constexpr int kMostOutput = 4096;
 
 /// An object in front of, around or behind the camera, or across the camera's plane. It may be tiny
 /// or huge.
@@ -104,7 +104,6 @@ void frames(Context& c) {
     }
 }
 
-/// Median deviation of a flow from a constant shift [px].
 double shiftError(const std::vector<float>& flow, const Eigen::Vector2d& shift) {
     std::vector<double> errors;
     for (std::size_t i = 0; i < flow.size(); i += 2)

@@ -116,7 +116,6 @@ std::vector<float> assessedStillPixels(const StereoRig& rig) {
     return displacement.readRgba32F();
 }
 
-// The look-up applies both lenses and the rotation between them.
 void stillPixels() {
     const StereoRig rig = bentRig({640, 480}, {2304, 1728});
     const Size cells = cellsOf(rig.video.size);

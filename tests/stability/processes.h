@@ -7,7 +7,7 @@
 namespace mfar::stress {
 
 struct Tally {
-    std::map<std::string, long> pixels;  ///< pixels of each pass
+    std::map<std::string, long> pixels;
     std::map<std::string, long> inputs;  ///< inputs of each part that does not process pictures
     long cases = 0, seeds = 0, failures = 0;
 };

@@ -14,7 +14,6 @@ namespace {
 // pixels and truncates in both directions. Rounding adds half a grey level.
 constexpr double kSampling = 2.5;  // [grey levels]
 
-/// A size of 0.2 to 4 times the screen's, in each direction separately.
 Size sizeFor(Context& c, Size screen) {
     const auto side = [&](int pixels) {
         const double times = c.hostile.pick({1.0, c.hostile.real(0.2, 1), c.hostile.real(1, 4)});

@@ -70,7 +70,6 @@ void hostileSearch(Context& c) {
     }
 }
 
-/// Median distance between the result and the true scene [px].
 double medianErrorOf(const test::View& view) {
     EpipolarSearch search({view.camera, view.camera, {}}, workers());
     search.setStill(test::viewOf(view.still()));

@@ -10,12 +10,11 @@
 
 namespace mfar::stress {
 
-/// Options of a program that draws seeds.
 struct SeededRun {
     double minutes = 1;
-    std::optional<std::uint64_t> seed;  ///< run only this seed
-    std::uint64_t first = 0;            ///< first seed; 0: depends on the clock
-    int rounds = 0;                     ///< number of seeds; 0: no limit but the time
+    std::optional<std::uint64_t> seed;
+    std::uint64_t first = 0;  ///< first seed; 0: depends on the clock
+    int rounds = 0;           ///< number of seeds; 0: no limit but the time
     int jobs = 1;
     bool keepGoing = false;
 
@@ -24,7 +23,6 @@ struct SeededRun {
     /// True if a process must run another seed after `seeds` seeds and `spentMinutes` minutes.
     [[nodiscard]] bool goesOn(long seeds, double spentMinutes, long failures) const;
 
-    /// Runs seeds from `first` on, in process number `job`.
     using Draw = std::function<Tally(std::uint64_t first, int job)>;
     /// Runs a single seed in this process, or different seeds in several processes, see
     /// inProcesses().

@@ -68,7 +68,6 @@ TEST(HostileInput, InputDependsOnTheSeedAlone) {
     EXPECT_NE(one.integer(0, 1 << 30), other.integer(0, 1 << 30));
 }
 
-// The depth filter in double precision.
 struct DoubleFilter {
     double inverseDepth, variance;
     void fuse(double measured, double error, double leastShare) {

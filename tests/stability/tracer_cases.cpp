@@ -87,7 +87,6 @@ std::shared_ptr<Scene> sceneOf(Context& c) {
     return out;
 }
 
-/// Adds an object with one number that is not finite.
 void spoilScene(Context& c, Scene& scene) {
     auto mesh = std::make_shared<Model>(render_scenes::modelOf(meshOf(c, 1), materialOf(c)));
     mesh->meshes[0].positions[0][c.hostile.integer(0, 2)] = std::nanf("");

@@ -93,8 +93,6 @@ double bound(const twin::TwoViews& views, const twin::FlowDepth& truth, double f
     return truth.sigma * 2e-6 * focal / flowSigma + 2e-6 * std::abs(truth.inverseDepth);
 }
 
-/// True if depth can be determined at this pixel: the point is in front of both cameras, both see
-/// it, and it has parallax.
 bool isTold(const twin::TwoViews& views, const Vector2d& pixel, const Vector2d& flow,
             const twin::FlowDepth& truth) {
     const Vector2d q = pixel + flow, end(views.b.size.width - 1, views.b.size.height - 1);

@@ -11,7 +11,7 @@
 namespace mfar::stress {
 namespace {
 
-constexpr double kDistance = 0.6;  // distance of the camera from the scene [m]
+constexpr double kDistance = 0.6;
 
 test::CastScene ballsOf(Context& c) {
     test::CastScene out;
@@ -72,7 +72,6 @@ void checkLayer(Context& c, const LayerPicture& layer) {
         }
 }
 
-/// Renders one frame and answers its request for pixels.
 void showFrame(Context& c, Warp& warp, const test::CastScene& balls, const RigidTransform& pose,
                double spoilt) {
     checkLayer(c, warp.run(pose));
@@ -199,7 +198,6 @@ PixelRect partOf(Context& c, Size size) {
     return {x, y, c.hostile.integer(x + 1, size.width), c.hostile.integer(y + 1, size.height)};
 }
 
-/// Colours for most of the listed pixels, and for some other pixels.
 HoleAnswer answerOf(Context& c, const std::vector<std::uint32_t>& listed, Size size) {
     HoleAnswer out;
     for (const std::uint32_t pixel : listed)

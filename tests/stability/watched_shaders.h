@@ -10,9 +10,9 @@
 /// counted and clamped. A fault may be planted in one of the shaders.
 namespace mfar::stress {
 
-inline constexpr unsigned kWatchBinding = 15;     ///< binding of the buffer that counts invalid
-                                                  ///< indices
-inline constexpr std::size_t kMostWatched = 128;  ///< largest number of shaders
+inline constexpr unsigned kWatchBinding = 15;  ///< binding of the buffer that counts invalid
+                                               ///< indices
+inline constexpr std::size_t kMostWatched = 128;
 
 /// Name of the shader whose invalid indices are counted in element `index` of that buffer.
 [[nodiscard]] std::string watchedName(std::size_t index);

@@ -13,7 +13,7 @@ using twin::Grey;
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr Size kVideo{256, 192}, kStill{1024, 768};
-const PixelRect kHidden{0, 0, 400, 768};  // left part of the still [px]
+const PixelRect kHidden{0, 0, 400, 768};
 constexpr int kRoom = 24;  // width of the zone around borders that is not scored [px]
 
 StereoRig simpleRig() {
@@ -50,8 +50,6 @@ protected:
         pipeline.run({video_.data(), kVideo, std::size_t(kVideo.width), PixelFormat::Gray8}, {});
         return pipeline.readStats();
     }
-    /// Mean squared error, inside or outside the part in which the newest still shows another
-    /// scene.
     double error(const Pipeline& pipeline, bool inHidden) const {
         const Bytes picture = pipeline.readImage();
         double sum = 0, count = 0;

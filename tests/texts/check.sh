@@ -26,7 +26,6 @@ diff -u <(sed -n '/^```cpp$/,/^```$/{//!p}' "$sources/docs/flow-method.md") \
     "$sources/tests/measure/eval/shift_flow.cpp" ||
         fault "the example in docs/flow-method.md differs from tests/measure/eval/shift_flow.cpp"
 
-# Links on the pages must lead to existing files.
 while IFS=: read -r page link; do
     target=${link#*](}
     target=${target%)}
@@ -59,7 +58,6 @@ completes() {
 [[ $(completes --config "$work/tree/do") == "$work/tree/docs " ]] ||
     fault "bash does not complete a file name after --config"
 
-# Each installed program must have a manual page, which the package installs.
 while IFS= read -r program; do
     [[ -s $work/tree/docs/man/$program.1 ]] || fault "$program has no manual page"
     grep -q "[( ]$program[ )]" "$sources/systemd/CMakeLists.txt" ||

@@ -10,7 +10,6 @@ namespace mfar::test {
 
 [[nodiscard]] std::string configurationPage();
 
-/// Manual pages for groff's -man.
 [[nodiscard]] std::string programManPage();
 [[nodiscard]] std::string configManPage();
 /// The manual pages of mfarctl, mfar-sim and mfar-calibrate, from their parsers.

@@ -5,7 +5,6 @@
 #include <string>
 #include <string_view>
 
-/// Parts of manual pages for groff's -man.
 namespace mfar::test {
 
 [[nodiscard]] std::string troff(std::string_view text);

@@ -17,7 +17,6 @@ Timestamp momentOf(int i) {
     return Timestamp::fromSeconds(1 + i / 30.);
 }
 
-/// Pose i of a hand-held camera in front of a tag. Each coordinate is a sum of slow and fast sines.
 RigidTransform hand(int i, double tiltDeg, double offsetDeg) {
     const double t = i / 30.;
     const auto sway = [&](double phase) {
@@ -50,7 +49,7 @@ private:
 /// limit.
 struct Followed {
     int turns = 0, flips = 0, lost = 0;
-    double worst = 0;  ///< largest rotation error [rad]
+    double worst = 0;
 };
 
 Followed follow(double tiltDeg, double offsetDeg, double sigma, int frames) {

@@ -41,7 +41,6 @@ RigidTransform randomView(std::mt19937& random) {
 
 const PlacedTag kTag{{TagFamily::Tag36h11, 0}, 0.08, {}};
 
-/// 2 x 2 tags in one plane, as on a printed page.
 std::vector<PlacedTag> page() {
     std::vector<PlacedTag> out;
     for (int i = 0; i < 4; ++i) {

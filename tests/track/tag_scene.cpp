@@ -7,7 +7,7 @@
 namespace mfar::test {
 namespace {
 
-constexpr int kRays = 4;  // rays in each direction per pixel
+constexpr int kRays = 4;
 
 struct Drawn {
     RigidTransform T_tag_camera;

@@ -37,8 +37,8 @@ struct SensorLook {
     double gamma = 2.2;  ///< grey = 255 light^(1 / gamma)
     double noise = 0;    ///< standard deviation [grey levels]
     unsigned seed = 1;
-    double dark = 0.03;   ///< brightness of black paper
-    double bright = 0.8;  ///< brightness of white paper
+    double dark = 0.03;
+    double bright = 0.8;
 };
 
 /// Renders tags with their white borders on a grey ground, through the lens, with 4x4 rays per

@@ -31,7 +31,6 @@ TagMap mapOf(const std::vector<PlacedTag>& tags) {
     return TagMap(out);
 }
 
-/// View i of a camera that moves slowly past the tags.
 RigidTransform view(int i) {
     return cameraAt(0.6, 0.3 + 0.004 * i, 0.2 - 0.006 * i, 0.01 * i);
 }

@@ -58,7 +58,7 @@ TEST_F(FileDisplays, PngContainsTheShownPixelsWithTheTopRowFirst) {
 }
 
 TEST_F(FileDisplays, HostRowsAreWrittenLikeATexture) {
-    AlignedRows<std::uint32_t> rows({7, 5});  // rows with padding
+    AlignedRows<std::uint32_t> rows({7, 5});
     StoredImage picture = plain({7, 5}, 0);
     for (int y = 0; y < 5; ++y)
         for (int x = 0; x < 7; ++x) {
@@ -198,7 +198,6 @@ TEST_F(FileDisplays, CancelEndsTheWaitForAStalledReader) {
     close(reader);
 }
 
-/// Tests with a pipe. The test reads only some pictures from it.
 struct PipeDisplays : FileDisplays {
     PipeDisplays() {
         mkfifo(pipe.c_str(), 0600);
@@ -232,7 +231,7 @@ struct PipeDisplays : FileDisplays {
         return condition();
     }
 
-    static constexpr Size kSize{640, 480};  // more than a pipe can hold
+    static constexpr Size kSize{640, 480};
     fs::path pipe = folder_ / "pipe";
     int reader = -1;
 };

@@ -39,7 +39,6 @@ struct SyncedFile {
 };
 using Operation = std::variant<Written, Renamed, Synced, SyncedFile>;
 
-/// Log of operations on files below a folder, in their order.
 class Journal {
 public:
     void begin(const fs::path& folder) {
@@ -165,7 +164,6 @@ std::vector<Operation> record(const fs::path& folder) {
         }
         EXPECT_TRUE(recorder.pose({{1000 * i}, smallRig().T_still_video}));
         if (i == 6) recorder.addFile("tags.toml", "family = \"tag36h11\"\n");
-        // Causes some synchronisations even on a slow machine.
         if (i % 4 == 1) recorder.finish();
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }

@@ -26,7 +26,7 @@ struct Sensor {
     int busy = 0;   ///< number of next pulses that the trigger refuses
     int blind = 0;  ///< number of next pulses that expose no still
     bool stopped = false;
-    int rests = 0;      ///< number of requests to make the line inactive
+    int rests = 0;
     bool high = false;  ///< level of the line after a pulse
     nanoseconds exposure{0};
     nanoseconds delay{300us};  ///< time from the pulse to the start of the exposure

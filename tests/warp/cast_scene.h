@@ -19,7 +19,7 @@ struct CastScene {
     };
     std::vector<Ball> balls;
     bool shadows = true;
-    double contrast = 1;  ///< contrast of the pattern on the spheres
+    double contrast = 1;
 
     /// The scene as triangles, with `segments` segments around each sphere.
     [[nodiscard]] mfar::Scene scene(int segments = 192) const;
@@ -30,9 +30,7 @@ struct CastScene {
                                              std::span<const std::uint32_t> pixels) const;
 };
 
-/// A large ball with a small ball in front of it, and their shadows.
 [[nodiscard]] CastScene twoBalls();
-/// An off-centre lens with some distortion.
 [[nodiscard]] CameraModel bentCamera(Size size);
 /// Pose of a camera at the azimuth `degrees` around the scene's centre. It looks at the centre from
 /// `distance` [m] and `upDegrees` above the plane.

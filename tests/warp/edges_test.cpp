@@ -10,7 +10,7 @@ using test::CastScene;
 using WarpEdgesGl = GlTest;
 
 constexpr Size kEdgeLayer{200, 150};
-constexpr int kLongEnough = 12;  // number of frames after which all pixels are requested and shown
+constexpr int kLongEnough = 12;
 
 struct Resting {
     explicit Resting(const WarpOptions& options)

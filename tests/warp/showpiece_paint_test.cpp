@@ -14,10 +14,9 @@ namespace mfar::simd {
 namespace {
 
 constexpr Size kView{320, 240};
-constexpr int kAcross = 8;  // rays in each direction per pixel
+constexpr int kAcross = 8;
 
 struct Truth {
-    // linear colours
     Eigen::Vector3d diffuse = Eigen::Vector3d::Zero(), facing = Eigen::Vector3d::Zero();
     int hits = 0;
 };

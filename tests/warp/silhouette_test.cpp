@@ -35,7 +35,6 @@ SceneObject turnedRound(SceneObject object) {
     return object;
 }
 
-/// For each object, the number of pixels of the texture `surface` that show it.
 std::array<int, 256> pixelsOfEach(const gpu::Texture& surface) {
     const Size size = surface.size();
     std::vector<std::array<std::uint32_t, 4>> texels(static_cast<std::size_t>(size.width) *

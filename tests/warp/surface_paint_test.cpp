@@ -19,7 +19,7 @@ namespace mfar::simd {
 namespace {
 
 constexpr Size kPainted{60, 40};
-constexpr int kRays = 8;  // rays in each direction per pixel
+constexpr int kRays = 8;
 
 CameraModel paintCamera() {
     return {kPainted, 50, 50, 29.5, 19.5, {}};

@@ -24,7 +24,6 @@ std::uint64_t hashed(std::uint64_t hash, const std::vector<T>& values) {
     return hash;
 }
 
-/// Hash of the pictures at several poses, with filled and rendered holes.
 std::uint64_t hashOfWarps(int threads) {
     std::uint64_t hash = 14695981039346656037U;
     const Size size{320, 240};

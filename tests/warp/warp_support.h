@@ -26,7 +26,6 @@ inline double psnrInside(const std::vector<std::uint8_t>& rgba, const RenderedPi
     return 10 * std::log10(255.0 * 255 * static_cast<double>(values) / sum);
 }
 
-/// Answers a request for pixels by casting rays.
 inline HoleAnswer answered(const CastScene& scene, const HoleRequest& request, int grid = 2) {
     const RenderedPicture picture = scene.castPixels(request.view, grid, request.pixels);
     HoleAnswer out;

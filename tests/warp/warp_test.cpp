@@ -67,7 +67,6 @@ TEST_F(WarpGl, AfterSmallRotationsTheLayerIsAsSharpAsInterpolationAllows) {
 TEST_F(WarpGl, PsnrRisesFromOpenHolesToFilledHolesToRenderedHoles) {
     std::array<double, 4> psnr{};
     for (int i = 0; i < 4; ++i) {
-        // One ball is far in front of the other.
         Shown s({.filling = static_cast<HoleFilling>(i)},
                 {{{{0, 0, 0.1}, 0.09}, {{0.04, -0.25, 0.14}, 0.045}}, true, 1.5});
         psnr[i] = s.psnrAt(15);
@@ -196,7 +195,7 @@ TEST_F(WarpGl, MeshesOfManyTrianglesAreSimplifiedAndLookTheSame) {
     const CastScene scene{{{{0, 0, 0.1}, 0.09}}, true, 1};
     const auto engine = test::warpEngine();
     Warp warp(test::bentCamera(kLayer), kLayer, *engine, {.filling = HoleFilling::PushPull});
-    warp.setScene(scene.scene(720));  // a scene of half a million triangles
+    warp.setScene(scene.scene(720));
     const RenderView from{warp.camera(), test::orbit(0)}, to{warp.camera(), test::orbit(2)};
     warp.setTracedPicture(tracedPicture(scene.cast(from, 3)));
     EXPECT_GT(psnrInside(test::bytesOf(warp.run(to.T_world_camera).colour), scene.cast(to, 3)), 34);

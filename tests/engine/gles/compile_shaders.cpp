@@ -53,7 +53,6 @@ public:
     ~LinkedProgram() { glDeleteProgram(id_); }
 
     [[nodiscard]] GLuint id() const { return id_; }
-    /// Message of the compiler or the linker; empty on success.
     [[nodiscard]] const std::string& log() const { return log_; }
 
 private:

@@ -38,7 +38,6 @@ FilterBank randomBank(int most, unsigned seed) {
     return FilterBank(unique);
 }
 
-/// An empty list of tiles, which the pass does not use.
 struct NoTiles {
     gpu::Buffer commands{16}, tiles{4};
     [[nodiscard]] gpu::InstanceList list() const { return {commands, 0, tiles}; }
@@ -94,7 +93,6 @@ void expectResidual(const Grey& residual, const Grey& luma, int x, int y, const 
 }
 
 TEST_F(Enlarge, ResidualMatchesTheOracleForEqualClasses) {
-    // Tries small filter weights, and weights so large that the residual reaches its limits.
     for (const int most : {500, 8000}) {
         const FilterBank bank = randomBank(most, 11);
         Compared compared;

@@ -41,7 +41,6 @@ Errors errorsOf(const std::vector<float>& flow, Size size, const Vector2d& truth
     return e;
 }
 
-/// Errors of the flow between a pattern and the same pattern moved by `truth`.
 Errors shiftErrors(const Waves& waves, Size size, const Vector2d& truth, int border,
                    double gain = 1, double offset = 0) {
     const TestPicture a = waves.shoot(size, {});

@@ -21,7 +21,6 @@ constexpr int kArea = 16 * 12;
 
 using Cell = std::array<float, 4>;  // flow (x, y), cost, texture
 
-/// Parameters for refining the flow from the second picture to the first.
 params::RefineFlow refineParams(const LevelPair& pair, int steps) {
     return {.from = pair.pyramids.video()[0],
             .to = pair.pyramids.still()[0],
@@ -137,7 +136,6 @@ TEST_F(FlowPasses, ACellTakesTheBestVectorOfItsNeighbours) {
     EXPECT_GT(moved, kArea / 4);
 }
 
-/// Runs flow_align.comp with `steps` Gauss-Newton steps from the vectors `in`.
 std::vector<Cell> align(const LevelPair& pair, const std::vector<Cell>& in, int steps) {
     gpu::Buffer cells(2 * kArea * sizeof(Cell));
     cells.write(std::span(in), kArea * sizeof(Cell));

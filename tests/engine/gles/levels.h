@@ -39,7 +39,7 @@ struct LevelPair {
         return readLevel(pyramids, pyramids.still()[level]);
     }
 
-    TileBuffer tiles;  // all tiles are changed and matched
+    TileBuffer tiles;
     LumaPyramids pyramids;
 };
 

@@ -11,7 +11,6 @@ struct PipelineCase {
     explicit PipelineCase(Size video = {160, 120})
         : rig(plainRig(video, {video.width * 18 / 5, video.height * 18 / 5})) {}
 
-    /// The video frame after a motion by `shift`. Each pixel is the mean of its area.
     [[nodiscard]] TestPicture video(const Eigen::Vector2d& shift = {0, 0}) const {
         return waves.shoot(rig.video.size, {.shift = shift});
     }

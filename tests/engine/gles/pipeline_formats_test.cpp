@@ -10,7 +10,6 @@ namespace {
 using PipelineFormats = GlTest;
 using test::PaddedPicture;
 
-/// Writes the grey picture in another format. Its grey levels become luma; chroma is neutral.
 void paint(const TestPicture& grey, YuvRange range, PaddedPicture& out) {
     const ImageView view = out.view();
     const int step = bytesPerPixel(view.format);

@@ -136,7 +136,6 @@ TEST_F(PipelineInputs, FlatPicturesStayFlat) {
     }
 }
 
-/// Counts the driver's messages of high severity while the object exists.
 class HighMessages {
 public:
     explicit HighMessages(const GlContext& gl)

@@ -11,7 +11,7 @@ namespace {
 
 using PlanDrift = GlTest;
 
-constexpr Size kDriftVideo{317, 235};  // the last tiles are cut off
+constexpr Size kDriftVideo{317, 235};
 constexpr std::size_t kDriftPixels = std::size_t{317} * 235;
 
 using Rgb = std::array<float, 3>;  // a colour [grey levels]
@@ -69,8 +69,8 @@ struct NoisySensor {
 };
 
 struct DriftOutcome {
-    double stale = 0;    ///< mean square error of tiles that were not drawn, minus the noise
-    double changed = 0;  ///< share of the tiles that were drawn
+    double stale = 0;  ///< mean square error of tiles that were not drawn, minus the noise
+    double changed = 0;
 };
 
 /// Runs frames and draws the tiles that the plan marks. Counts only the frames after `settled`.

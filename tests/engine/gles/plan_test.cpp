@@ -35,7 +35,6 @@ std::vector<TileState> tilesOf(const WorkPlan& plan) {
     return out;
 }
 
-/// Returns `base` with some grey levels changed in the first `tiles` tiles.
 TestPicture changedIn(TestPicture base, int tiles, int by) {
     TestPicture out = base;
     for (int t = 0; t < tiles; ++t)
@@ -201,7 +200,7 @@ TEST_F(Plan, TheGpuBufferContainsTheFlagsOfEveryTile) {
 
 TEST_F(Plan, ManyChangedTilesAreDrawnAsAWholeFrame) {
     const TestPicture base = Waves(2, 20, 100, 20).shoot(kSize, {});
-    const int last = 12;  // 0.45 of the 28 tiles is 12.6
+    const int last = 12;
     for (const int tiles : {1, last, last + 1, 28}) {
         WorkPlan plan(kSize);
         plan.update(planesOf(changedIn(base, tiles, 64)), planesOf(base), false);
@@ -253,7 +252,7 @@ std::vector<int> matchedColumns(const WorkPlan& plan) {
 }
 
 TEST_F(Plan, TilesWithStructureAndTheirNeighboursAreMatched) {
-    const Size size{256, 96};  // 16 columns of tiles
+    const Size size{256, 96};
     const TestPicture picture = dotted(size, {20, 60, 0, 40});
     WorkPlan plan(size);
     const auto update = [&] {
@@ -276,7 +275,7 @@ TEST_F(Plan, TilesWithStructureAndTheirNeighboursAreMatched) {
 }
 
 TEST_F(Plan, NoiseDoesNotSwitchTheDetailOfTilesOnAndOff) {
-    const Size size{512, 256};  // 32x16 tiles
+    const Size size{512, 256};
     TestPicture quiet(size, PixelFormat::Rgba8, 90);
     std::mt19937 random(5);
     for (int tile = 0; tile < 512; ++tile) {

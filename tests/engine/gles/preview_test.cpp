@@ -15,7 +15,6 @@ using Preview = GlTest;
 constexpr Size kVideo{160, 120};
 constexpr Size kOutput{576, 432};
 
-/// A lens with strong, off-centre barrel distortion, at the video's resolution.
 CameraModel lens() {
     CameraModel c = plainRig(kVideo, kVideo).video;
     c.cx += 3.4;

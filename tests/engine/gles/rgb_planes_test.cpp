@@ -11,7 +11,7 @@
 namespace mfar {
 namespace {
 
-constexpr Size kCutSize{54, 38};  // 4x3 tiles, the last ones cut off
+constexpr Size kCutSize{54, 38};
 
 double worstAgainstTwin(const ImageView& view) {
     RgbPlanes planes(view.size);

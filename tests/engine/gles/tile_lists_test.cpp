@@ -149,7 +149,6 @@ TEST_F(TileListsGl, WithoutMatchedTilesNothingIsListed) {
     EXPECT_EQ(lists.count(), 0);
 }
 
-/// A scene at rest with a square that moves in the second picture.
 struct MovedSquare {
     static constexpr int kFirst = 96, kEnd = 192;  // first and last pixel, six tiles apart
     static constexpr int kBy = 14;

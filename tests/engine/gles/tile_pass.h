@@ -9,7 +9,6 @@ namespace mfar {
 
 using TileParams = params::DrawTiles;
 
-/// Parameters for cameras without distortion and without sharpening.
 inline TileParams tileParams(Size video, Size still, Size output) {
     TileParams p{};
     p.videoWidth = video.width;

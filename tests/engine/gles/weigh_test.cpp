@@ -15,8 +15,6 @@ constexpr Size kWhole{25, 15};
 constexpr Size kHalf{13, 8};
 constexpr double kSigma = 1.5;
 
-/// Covariance, variances and confidence. They range from flat to strong contrast and from equal to
-/// unrelated pictures.
 twin::Cells randomStatistics(Size size, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> unit(0, 1);

@@ -35,7 +35,7 @@ TEST(DetailStepLearned, FramesEnlargedByFiltersMatchTheOracleWithAndWithoutAStil
 
 TEST(DetailStepLearned, FramesWithGuidanceMatchTheOracle) {
     for (const auto& [video, stillSize, output] : kSizes) {
-        if (output.width > 1000) continue;  // large outputs take too long
+        if (output.width > 1000) continue;
         const DetailCase frame(video, stillSize);
         const DetailOptions options{SuperResMode::Detail, true, false, true, &guidedBank()};
         const Drawn drawn(frame, output, options),

@@ -13,10 +13,9 @@ namespace mfar::simd {
 
 using twin::Grey;
 
-inline constexpr std::uint32_t kBefore = 0x12345678;  // content of the output before the frame
+inline constexpr std::uint32_t kBefore = 0x12345678;
 inline constexpr DetailOptions kDetail{SuperResMode::Detail, true, true, true};
 
-/// A frame that is drawn over pixels of the value kBefore.
 struct Drawn {
     Drawn(const DetailCase& frame, Size output, const DetailOptions& options, bool usesStill = true,
           int threads = 2)
@@ -67,7 +66,6 @@ public:
     [[nodiscard]] double enlarged(int x, int y, int c) const {
         return std::clamp(video_[c].at(x, y), 0.0, 255.0);
     }
-    /// Blends the video with one channel of the still, by confidence.
     [[nodiscard]] double blended(int x, int y, int c, const Grey& still) const {
         return std::lerp(enlarged(x, y, c), there(x, y, still), lookUpAt(x, y, 3));
     }

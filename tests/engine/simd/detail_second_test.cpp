@@ -9,7 +9,7 @@ namespace mfar::simd {
 namespace {
 
 constexpr Size kVideo{160, 120}, kStill{400, 300}, kOutput{576, 432};
-constexpr int kFrom = 20, kTo = 32;  // range of cell columns
+constexpr int kFrom = 20, kTo = 32;
 
 /// A frame with two stills. The second still is inverted and has its own look-ups. Its weight
 /// exceeds that of the first still by `more` in some columns of cells; it is 0 elsewhere.

@@ -93,8 +93,6 @@ TEST(DetailStep, UnchangedFramesDrawNothing) {
     EXPECT_EQ(drawn.summary.tiles[0], 12);
 }
 
-/// Expects detail in the tiles for which `inTile` is true, and the sharpened, enlarged video in all
-/// others.
 void expectDetailIn(const DetailCase& frame, const Drawn& drawn, Size output,
                     const std::function<bool(int, int)>& inTile) {
     Wanted wanted(frame, output, kDetail, true);

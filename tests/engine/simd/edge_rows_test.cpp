@@ -30,7 +30,7 @@ TEST(OpenRow, DepthIsDecidedAgainAtEdgesAndWhereItIsUnknown) {
 }
 
 struct Scene {
-    Size size{61, 47};  // number of votes in each direction
+    Size size{61, 47};
     AlignedRows<float> inverseDepth{size}, variance{size}, red{size}, green{size}, blue{size};
 
     explicit Scene(double invalidShare) {

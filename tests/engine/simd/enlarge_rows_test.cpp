@@ -15,7 +15,6 @@ using twin::Grey;
 
 constexpr int kMargin = 64;
 
-/// Rows of luma with repeated borders, and the same picture for the oracle.
 struct LumaPicture {
     LumaPicture(Size size, const std::function<int(int, int)>& eighthsAt)
         : grey(twin::greyOf(size,
@@ -172,7 +171,6 @@ struct Residual {
 };
 
 TEST(EnlargeRows, ResidualMatchesTheOracleForEqualClasses) {
-    // Tries small filter weights, and weights so large that the residual reaches its limits.
     for (const int most : {500, 8000}) {
         const FilterBank bank(randomFilters(most, 11));
         onEveryTarget([&] {

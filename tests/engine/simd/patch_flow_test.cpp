@@ -12,7 +12,7 @@ using Eigen::Vector2d;
 
 // Tolerance of costs: pixels are compared in units of 1/32 grey level.
 constexpr double kTolerance = 2e-3;
-constexpr Size kSize{61, 45};  // the picture cuts off the last cells
+constexpr Size kSize{61, 45};
 constexpr Size kCells{16, 12};
 
 class Level {
@@ -46,7 +46,6 @@ std::vector<float> randomVectors(unsigned seed, float reach) {
     return out;
 }
 
-/// Searches with `steps` Gauss-Newton steps. `vectors` are the only candidates.
 FlowField searched(const Level& a, const Level& b, const std::vector<float>& vectors, int steps) {
     FlowField out(kCells), coarser({8, 6});
     SearchStep step;
