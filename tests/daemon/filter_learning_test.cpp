@@ -38,7 +38,7 @@ struct FilterLearningTest : testing::Test {
 
 TEST_F(FilterLearningTest, LearnedFiltersAreReturnedOnce) {
     FilterLearning learning(options);
-    EXPECT_NE(learning.takeFilters(), nullptr) << "the shipped filters must be handed out";
+    EXPECT_NE(learning.takeFilters(), nullptr) << "the shipped filters must be returned";
     EXPECT_EQ(learning.takeFilters(), nullptr);
     show(learning, 1, 2);
     EXPECT_EQ(learning.counts().learner.stills, 2U);

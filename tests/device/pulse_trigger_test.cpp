@@ -203,7 +203,7 @@ TEST(PulseTrigger, MissedEdgesOfTheLoopbackAreCounted) {
             const std::vector<Level> levels = wire->all();
             EXPECT_GE(edge, before);
             EXPECT_LT(edge, levels[2].time)
-                << "the end of the pulse must not be taken for its start";
+                << "the end of the pulse must not be mistaken for its start";
         }
     }
 }

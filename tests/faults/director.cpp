@@ -133,7 +133,7 @@ void checkGrowth(std::uint64_t moreBytes = grows()) {
         if (Judge::get().holdsNoMore(moreBytes)) return;
         sleepFor(70 * kMs);
     }
-    Judge::get().fail("the number of descriptors or threads, or the memory, has grown");
+    Judge::get().fail("mfard uses more descriptors, threads or memory than at the start");
 }
 
 void checkLine() {

@@ -203,9 +203,9 @@ void Judge::judgeBlame(const std::string& fault, Ns asked) {
     const bool video = calm_[Video].lasts(kBack + kSlack, asked);
     const bool still = calm_[Still].lasts(kBack + kSlack, asked);
     if (video && fault.find("video camera") != fault.npos)
-        fail("status blames the video camera, which has no fault: " + fault);
+        fail("status reports a fault of the video camera, which has none: " + fault);
     if (still && fault.find("still camera") != fault.npos)
-        fail("status blames the still camera, which has no fault: " + fault);
+        fail("status reports a fault of the still camera, which has none: " + fault);
     if (video && calm_[Screen].lasts(kBack, asked) && calm_[Gpu].lasts(kBack, asked) && shown_ &&
         age(asked) > kOnScreen)
         fail("the video camera has no fault, but the screen's picture is " + seconds(age(asked)) +
@@ -234,17 +234,18 @@ void Judge::fed() {
     fed_ = now();
     if (frames_ < kProvenFrames || !calm_[Slow].lasts(kBack, now())) return;
     if (now() - before > kLookTime + kSlack && calm_[All].lasts(kBack + kSlack + kLookTime, now()))
-        fail("no fault is active, but the watchdog was not fed for " + seconds(now() - before));
+        fail("no fault is active, but mfard has not notified the watchdog for " +
+             seconds(now() - before));
     if (hangs_ && missing(now()) > kVideoBudget + kSlack)
-        fail("the watchdog is fed although the video driver has hung for " +
+        fail("mfard notifies the watchdog although the video driver has hung for " +
              seconds(missing(now())));
     if (unfinished(Drawing, now()) > kPicture + kSlack)
-        fail("the watchdog is fed although drawing has hung for " +
+        fail("mfard notifies the watchdog although drawing has hung for " +
              seconds(unfinished(Drawing, now())));
     const bool isNamed = !calm_[Video].lasts(kBack, now()) || !calm_[Screen].lasts(kBack, now()) ||
                          !calm_[Gpu].lasts(kBack, now());
     if (age(now()) > kStale + kSlack && !isNamed)
-        fail("the watchdog is fed although the picture is " + seconds(age(now())) + " old");
+        fail("mfard notifies the watchdog although the picture is " + seconds(age(now())) + " old");
 }
 
 void Judge::logSays(std::string_view text) {
@@ -275,7 +276,7 @@ void Judge::ended(int code, bool inTime) {
               static_cast<std::uint64_t>((now() - *terminated_) / kMs));
     count("frames", frames_);
     count("answers", asked_);
-    count("meals", meals_);
+    count("watchdog notifications", meals_);
     count("turns", Scheduler::get().turns());
     count("log bytes", logBytes_);
     count("simulated ms", static_cast<std::uint64_t>(now() / kMs - 1'000'000));

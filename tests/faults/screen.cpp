@@ -59,7 +59,7 @@ private:
             Judge::get().shows((now - ((now - *ms) & kMask)) * kMs);
         } else {
             ++unread_;
-            if (unread_ == 1) Judge::get().note("a picture carries no time");
+            if (unread_ == 1) Judge::get().note("a picture on the screen has no valid time stamp");
         }
         return true;
     }

@@ -20,7 +20,7 @@ summary_has asked 0
 summary_has epipolar_frames 0
 summary_has used 1
 
-echo "an invalid or missing tag map is refused with its place, also by --check-config"
+echo "an invalid or missing tag map is refused with its file, also by --check-config"
 printf '[pose]\ntags = "map.toml"\n' >mfard.toml
 for check in "" --check-config; do
     run 66 --config mfard.toml $check

@@ -21,7 +21,7 @@ run 0 --recording run --summary summary.json
 says err 'poses from a map of [0-9]+ tags; '
 summary_has measured "$frames"
 
-echo "an invalid tags.toml is refused with its place"
+echo "an invalid tags.toml is refused with its file"
 sed -i 's/^size = .*/size = 0/' run/tags.toml
 run 65 --recording run
 says err 'run/tags.toml:[0-9]+: size must be a positive length'

@@ -64,7 +64,7 @@ kill -TERM "$pid"
 ends_with 0 1500
 says summary.json '"depth_tiles": [1-9]'
 
-echo "an invalid object is refused with its place"
+echo "an invalid object is refused with its line and column"
 echo 'size = [0, 1, 1]' >>near.toml
 sed -i '/^size = \[0.1/d' near.toml
 run 78 --recording run --config near.toml

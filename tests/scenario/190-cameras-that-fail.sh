@@ -42,7 +42,7 @@ counts() {
 at_least() { stats && [ "$(counts "$1" "$2")" -ge "$3" ] 2>/dev/null; }
 warned() { grep -q -- "$1" err; }
 
-echo "the still driver hangs: the video goes on, and the still camera is named"
+echo "the still driver hangs: the video continues, and status names the still camera"
 begin
 until_true fault_is null
 says_of video91 hang
@@ -91,7 +91,7 @@ until_true at_least video bad_times 10
 goes_on
 says_of video90
 
-echo "missing frame numbers are counted exactly; frame numbers that begin anew are no gap"
+echo "missing frame numbers are counted exactly; numbers that restart at 0 do not count as missing"
 stats
 before=$(counts video missed)
 says_of video90 skip 12
@@ -100,7 +100,7 @@ says_of video90 restart
 goes_on
 stats
 [ "$(counts video missed)" = $((before + 12)) ] ||
-    fail "mfard counts $(counts video missed) missed frames; expected: 12 more than the $before before"
+    fail "mfard counts $(counts video missed) missed frames; expected: 12 more than the earlier $before"
 stop_now 1500
 
 echo "a camera with half its configured rate is reported, but its frames do not count as missed"
@@ -112,7 +112,7 @@ stats
     fail "$(counts video missed) missed frames of a camera with half its rate; limit: 3"
 stop_now 1500
 
-echo "a driver with few buffers is used"
+echo "a driver that grants few buffers can be used"
 for buffers in 1 3; do
     says_of video90 buffers $buffers
     says_of video91 buffers $buffers
@@ -123,7 +123,7 @@ for buffers in 1 3; do
     stop_now 1500
 done
 
-echo "a camera is absent at boot: the other camera runs and is not blamed"
+echo "a camera is absent at boot: the other camera runs, and status reports no fault of it"
 for absent in video still; do
     device=video90
     [ $absent = video ] || device=video91

@@ -11,7 +11,7 @@ frames() { status | sed -n 's/^frames  *//p'; }
 mkfifo pipe
 record run 3 --source synthetic:flat,rest
 
-echo "live"
+echo "with live cameras, pictures continue although the reader accepts no data"
 printf '[superres]\nmode = "off"\n[trigger]\nmode = "off"\n' >mfard.toml
 exec 3<>pipe
 start --config mfard.toml --source synthetic:flat,rest --display y4m:pipe --control control \

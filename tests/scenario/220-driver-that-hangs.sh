@@ -40,7 +40,7 @@ start_hangable() {
     until_true frames
 }
 
-echo "the video driver hangs: status and messages name the thread; the watchdog starves"
+echo "the video driver hangs: status and messages name the thread; mfard stops notifying the watchdog"
 start_hangable
 is_fed
 echo hang >cameras/video90

@@ -71,9 +71,11 @@ TEST_F(WarpGl, PsnrRisesFromOpenHolesToFilledHolesToRenderedHoles) {
                 {{{{0, 0, 0.1}, 0.09}, {{0.04, -0.25, 0.14}, 0.045}}, true, 1.5});
         psnr[i] = s.psnrAt(15);
     }
-    EXPECT_GT(psnr[1], psnr[0] + 1) << "push-pull over none";
-    EXPECT_GT(psnr[2], psnr[1] + 1) << "re-rendered over push-pull";
-    EXPECT_NEAR(psnr[3], psnr[2], 0.3) << "both, once the rendered pixels have arrived";
+    EXPECT_GT(psnr[1], psnr[0] + 1) << "filled holes must be nearer to the truth than open holes";
+    EXPECT_GT(psnr[2], psnr[1] + 1)
+        << "rendered holes must be nearer to the truth than filled holes";
+    EXPECT_NEAR(psnr[3], psnr[2], 0.3)
+        << "with filling and rendering, rendered pixels must replace the filled ones";
 }
 
 TEST_F(WarpGl, NothingIsShownOutsideSilhouetteAndShadow) {

@@ -129,7 +129,7 @@ TEST(DetailStepSecond, ATileThatMatchesTheSecondStillCountsAsMatched) {
         cell.unexplained = 1;
     const DrawnWithBoth both(stills);
     EXPECT_EQ(both.summary.unexplained, 10 * 8 - 3 * 8)
-        << "the second still must explain three columns of tiles";
+        << "three columns of tiles must match the second still";
     for (TrustCell& cell : stills.other.trust)
         cell.unexplained = 1;
     EXPECT_EQ(DrawnWithBoth(stills).summary.unexplained, 10 * 8);
