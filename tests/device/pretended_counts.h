@@ -13,7 +13,7 @@ namespace mfar::pretended {
 
 /// A camera's observations of the program that uses it.
 struct KnownOfCamera {
-    // The program must refuse the first two kinds of pictures, but took this number of them.
+    // Numbers of invalid pictures that the program accepted.
     std::uint64_t broken = 0;    ///< pictures marked as broken, or too short
     std::uint64_t badTimes = 0;  ///< times in the future, too old, or not after the previous one
     std::int64_t gain = 0;

@@ -249,4 +249,4 @@ int drmHandleEvent(int fd, drmEventContextPtr context) {
     }
     return 0;
 }
-}
+}  // extern "C"

@@ -189,4 +189,4 @@ int close(int fd) {
     closed.reset();
     return static_cast<int>(syscall(SYS_close, fd));
 }
-}
+}  // extern "C"

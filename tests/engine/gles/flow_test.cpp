@@ -256,7 +256,7 @@ TEST_F(FlowPasses, FilteringOfFlowKeepsPlanesAndTheStepBetweenThem) {
     const auto out = filtered(in);
     for (int i = 0; i < kArea; ++i) {
         const int x = i % 16, y = i / 16;
-        if (x < 2 || x > 13 || y < 2 || y > 9) continue;  // the repeated border has an effect here
+        if (x < 2 || x > 13 || y < 2 || y > 9) continue;  // affected by the border
         EXPECT_NEAR(out[i][0], in[i][0], 5e-3) << "cell " << i;
         EXPECT_NEAR(out[i][1], in[i][1], 5e-3) << "cell " << i;
     }

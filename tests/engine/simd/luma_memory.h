@@ -11,7 +11,7 @@
 
 namespace mfar::test {
 
-/// The luma pyramids of video and still, with margins as the passes fill them.
+/// The luma pyramids of video and still, with the same margins as those of the passes.
 class LumaMemory {
 public:
     /// `video(x, y)`, `still(x, y)`: grey levels of the finest pyramid levels; the constructor

@@ -209,7 +209,7 @@ TEST(PatchFlow, FilteringOfFlowKeepsPlanesAndTheStepBetweenThem) {
         prepareCleanUpRow(field, FlowField::first(known), y);
     std::vector<float> out(4UL * kCells.width * kCells.height);
     const CleanUpStep step{field, FlowField::first(known), out.data(), 2};
-    for (int y = 2; y < kCells.height - 2; ++y)  // the repeated border has an effect here
+    for (int y = 2; y < kCells.height - 2; ++y)  // without cells that the border affects
         cleanUpCells(step, y, 2, kCells.width - 2);
     for (int y = 2; y < kCells.height - 2; ++y)
         for (int x = 2; x < kCells.width - 2; ++x) {

@@ -254,8 +254,8 @@ TEST(WeighStep, WithoutChangedTilesNothingIsComputed) {
     EXPECT_TRUE(same(c.step.weighed(), before));
 }
 
-// The gain at half resolution weighs low contrast. It must stay unchanged where no changed tile is
-// matched, even if the flow changes.
+// Patches of low contrast are weighed with the gain at half resolution. This gain must not change
+// where no changed tile is matched, even if the flow changes.
 TEST(WeighStep, TheGainStaysWhereNoChangedTileIsMatched) {
     WeighCase kept = plainCase(), renewed = plainCase(), first = plainCase();
     kept.run();
