@@ -151,7 +151,6 @@ TEST(Report, HoldsThePicturesAsJpeg) {
     EXPECT_NEAR(pixels[1000], 100, 2);
     const std::string html = page(stats);
     EXPECT_TRUE(isWellFormed(html));
-    // A JPEG file begins with ff d8 ff.
     const std::string image = "src=\"data:image/jpeg;base64,/9j/";
     EXPECT_NE(html.find(image), html.rfind(image));
     EXPECT_LT(html.size(), 100'000U);

@@ -11,7 +11,6 @@ namespace {
 using std::chrono::seconds;
 
 struct RestartPauseTest : testing::Test {
-    /// Simulates a process that fails after `ran`. Returns the pause before its restart.
     RestartPause::Next fail(seconds ran = seconds(1)) {
         const Timestamp started = now;
         now = now + ran;

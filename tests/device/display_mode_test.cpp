@@ -85,7 +85,6 @@ TEST(ChooseMode, ImpossibleModesAreIgnored) {
     EXPECT_EQ(chosen({stopped}, {}), "none");
 }
 
-/// A pipe that acts as a graphics card. The test writes the card's events into it.
 struct TalkingCard {
     TalkingCard() {
         std::array<int, 2> ends{};

@@ -56,7 +56,6 @@ public:
         draw(0);
     }
 
-    // Shows pictures. Counts from the first picture that is on a screen.
     void move(int pictures) {
         while (!display_->lastShown())
             show();

@@ -95,7 +95,6 @@ bool loseNow(const char* function) {
     return mark != 0;
 }
 
-// Loses the context if this call has the chosen name. Otherwise calls the function.
 template <class F, class... Arguments>
 auto moment(const char* function, Arguments... arguments) {
     using Result = decltype(std::declval<F*>()(arguments...));

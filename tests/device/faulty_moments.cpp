@@ -14,8 +14,7 @@ namespace {
 bool isAsked = false;
 std::string loseAt;  // name of the moment at which the context is lost; empty: none
 std::vector<std::string> moments;
-std::map<unsigned, std::string> shaders, programs;  // names of shaders and programs, by their GL
-                                                    // ids
+std::map<unsigned, std::string> shaders, programs;
 std::string current;
 
 }  // namespace

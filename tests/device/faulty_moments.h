@@ -14,7 +14,6 @@ __attribute__((visibility("default"))) const char* mfarFaultyGlMoment(int i);
 
 namespace mfar::faulty {
 
-/// Records a moment. Returns true if the context must be lost at it.
 bool isLostAt(const char* function);
 
 void attached(unsigned program, unsigned shader);

@@ -314,7 +314,7 @@ private:
     std::atomic<double> rateHz_{30};
     std::size_t bytes_ = 0, room_ = 0;
     std::int64_t pulse_ = 0;  ///< time of the last pulse that the camera noticed [us]
-    off_t mapped_ = 0;        ///< length of the mapped memory [bytes]
+    off_t mapped_ = 0;
     int width_ = 0;
     int refused_ = 0;
     std::atomic<bool> running_{false}, isLost_{false};

@@ -77,7 +77,6 @@ public:
         files_.erase(fd);
     }
 
-    /// Returns 0 or an error of errno.h.
     int call(int fd, unsigned long request, void* argument) {
         const Words wrong = words_.now();
         if (wrong.contains("gone")) return ENODEV;

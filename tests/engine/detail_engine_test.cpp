@@ -45,7 +45,6 @@ public:
         const DetailStep::Matched matched{pictures_, weights};
         return draw(frame, &matched, filters);
     }
-    /// Draws with a second still. `second` gives its look-ups and weights.
     Rows<const std::uint32_t> drawBoth(const DetailCase& frame, const DetailCase& second,
                                        const FilterBank* filters) {
         if (!secondStill_) secondStill_ = stillEngine_->still();

@@ -24,7 +24,7 @@ public:
 
     [[nodiscard]] bool readerStalls() const { return readerStalls_ > 0; }
     [[nodiscard]] bool diskIsFull() const { return diskFull_ > 0; }
-    /// True if there is no trigger line or if its level is that without a pulse.
+    /// True if the trigger line is inactive or absent.
     [[nodiscard]] bool lineRests() const;
     [[nodiscard]] bool diskHangs() const { return diskHangs_ > 0; }
 

@@ -36,7 +36,6 @@ struct Scheduler::Task {
 
 namespace {
 
-// Number of turns after which files are checked while tasks are ready.
 constexpr std::uint64_t kFileTurns = 16;
 constexpr std::uint64_t kLocksPerYield = 16;
 constexpr int kIdleMs = 100, kMostIdle = 100;

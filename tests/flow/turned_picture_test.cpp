@@ -70,7 +70,7 @@ struct Agreement {
     double worst = 0;  // largest difference [grey levels]
 };
 
-// Pixels within two pixels of the picture's border may be seen or unseen.
+// Pixels within two pixels of the picture's border may count as seen or as unseen.
 Agreement compare(const CameraModel& camera, const Eigen::Matrix3d& rotation,
                   const Canvas& canvas) {
     Agreement out;

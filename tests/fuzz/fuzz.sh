@@ -36,7 +36,6 @@ fuzzRoom() {
     esac
 }
 
-# Prints the folder of the inputs that earlier runs of a target found.
 fuzzFolder() {
     local folder
     folder=$(cacheFolder)/fuzz/$1
@@ -70,7 +69,6 @@ fuzzOne() {
     ' "$build/$target.log"
 }
 
-# Prints the share of lines in a target's sources that its inputs reach.
 fuzzCoverage() {
     local target=$1 program=.build/fuzz-coverage/tests/fuzz/mfar-fuzz-$1 data=.build/fuzz-coverage/$1
     LLVM_PROFILE_FILE=$data.profraw "$program" "tests/fuzz/corpus/$target" "$(fuzzFolder "$target")" >/dev/null

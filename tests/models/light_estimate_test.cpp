@@ -22,7 +22,6 @@ std::uint8_t encoded(float linear) {
     return static_cast<std::uint8_t>(std::lround(255 * s));
 }
 
-/// The picture that a camera at this pose takes if `light` comes from all directions.
 std::vector<std::uint8_t> seenFrom(const RigidTransform& T_world_camera, const Radiance& light) {
     std::vector<std::uint8_t> out;
     for (int y = 0; y < kSmall.height; ++y) {

@@ -3,7 +3,6 @@
 # ends.
 . "$(dirname "$0")/lib.sh"
 
-# has_report PATTERN...: checks that the page is complete and matches each pattern.
 has_report() {
     local pattern
     for pattern in '^<!DOCTYPE html>' '^</html>$' "$@"; do says run.html "$pattern"; done

@@ -125,7 +125,6 @@ pretended_cameras() {
 
 says() { grep -Eq -- "$2" "$1" || fail "$1 has no line that matches: $2"; }
 
-# summary_has KEY VALUE: checks a number or word in summary.json, in which each key occurs once.
 summary_has() { says summary.json "\"$1\": $2,?\$"; }
 
 record() {

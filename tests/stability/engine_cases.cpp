@@ -68,7 +68,6 @@ int channelDifference(std::uint32_t a, std::uint32_t b) {
     return most;
 }
 
-/// Number of pixels of a pyramid level that differ by more than rounding.
 long differingPixels(const LumaPyramid& a, const LumaPyramid& b, const LumaLevel& level) {
     const std::uint32_t* words[] = {a.words.host()[0], b.words.host()[0]};
     const auto pixel = [&](int which, int x, int y) {

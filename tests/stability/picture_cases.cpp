@@ -70,7 +70,6 @@ void lumaPyramids(Context& c) {
     c.gl.frame(c.checks, pixelsOf(size));
 }
 
-/// Another picture, or `before` with changes in one pixel, in a few pixels, or nowhere.
 TestPicture changed(Context& c, const TestPicture& before) {
     const Size size = before.size;
     if (c.hostile.chance(0.3)) return c.hostile.picture(size);

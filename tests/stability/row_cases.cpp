@@ -66,7 +66,6 @@ void turnedPoints(Context& c) {
     c.checks.through("turnedPoints", static_cast<long>(count));
 }
 
-// Tests rows of a rotated picture that cross the source picture and end beyond it on all sides.
 void turnedRow(Context& c) {
     Size size = c.size(2, 60);
     size = {std::max(size.width, 2), std::max(size.height, 2)};

@@ -20,7 +20,6 @@ struct SeededRun {
 
     void addOptions(CLI::App& app);
     [[nodiscard]] bool stops(long failures) const { return failures > 0 && !keepGoing; }
-    /// True if a process must run another seed after `seeds` seeds and `spentMinutes` minutes.
     [[nodiscard]] bool goesOn(long seeds, double spentMinutes, long failures) const;
 
     using Draw = std::function<Tally(std::uint64_t first, int job)>;

@@ -214,7 +214,7 @@ HoleAnswer answerOf(Context& c, const std::vector<std::uint32_t>& listed, Size s
     return out;
 }
 
-// Edges must be found in arbitrary pictures, also in pictures that no surface gives.
+// Edges must be found in random pictures, not only in pictures of surfaces.
 void edges(Context& c) {
     const Size size = c.size(1, 90);
     const double share = c.hostile.pick({0.01, 0.15, 1.0});

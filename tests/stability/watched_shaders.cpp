@@ -52,7 +52,7 @@ struct StorageArray {
 };
 
 std::string guardOf(std::string_view type) {
-    constexpr int kGuardBytes = 256;  // as in gpu::Validation
+    constexpr int kGuardBytes = 256;  // same number as in gpu::Validation
     int components = type.back() - '0';
     if (!(components >= 2 && components <= 4)) components = 1;
     return std::to_string(kGuardBytes / (4 * components));

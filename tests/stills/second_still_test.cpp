@@ -69,7 +69,6 @@ protected:
                 video_ = bytesOf(videoOf(scene_, {}));
 };
 
-/// Engines to test: each alone, and each drawing with the other's match.
 struct Engines {
     const char* name;
     EngineChoice choice;

@@ -45,7 +45,6 @@ while IFS= read -r message; do
 done < <(sed -n '/^## Troubleshooting/,/^## /p' "$sources/README.md" | sed -n 's/^| \(`.*`\) | .*/\1/p' |
     grep -Eo '`[^`]+`' | tr -d '`')
 
-# completes PREVIOUS BEGINNING: prints the completions that bash offers.
 completes() {
     # shellcheck source=/dev/null
     (. "$work/tree/systemd/mfard.bash-completion" && COMP_WORDS=(mfard "$1" "$2") COMP_CWORD=2 &&

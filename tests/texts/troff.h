@@ -14,7 +14,6 @@ namespace mfar::test {
                                std::string_view source);
 
 [[nodiscard]] std::string entry(std::string_view key, std::string_view text);
-/// An entry for an argument. The heading is its names and value.
 [[nodiscard]] std::string entry(const ArgumentText& argument);
 
 }  // namespace mfar::test

@@ -149,7 +149,7 @@ TEST(TagPose, SeveralTagsDetermineTheEdgeShift) {
         }
         const auto many = solveTagPose(seen, camera), one = solveTagPose({seen.data(), 1}, camera);
         ASSERT_TRUE(many && one);
-        // The prior makes the estimate slightly smaller.
+        // The prior of the edge shift makes the estimate slightly smaller.
         EXPECT_NEAR(many->best.edgeShift, shift, 0.1 * std::abs(shift) + 1e-6);
         const auto error = [&](const CameraPoses& poses) {
             return (poses.best.T_world_camera.translation - truth.translation).norm();

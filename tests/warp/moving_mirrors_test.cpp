@@ -97,7 +97,6 @@ Eigen::Vector3f specularOf(const LightWords& words) {
     return {rgb[0], rgb[1], rgb[2]};
 }
 
-/// Input of the mirrors step for a picture, with the rays of the picture's camera.
 struct Mirrors {
     AlignedRows<float> rayX{kPicture}, rayY{kPicture};
     MovingMirrors mirrors;

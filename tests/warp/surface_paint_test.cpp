@@ -118,7 +118,6 @@ Six bytesOf(const PaintWords& words) {
     return out;
 }
 
-/// Linear paint of the first surface on a ray from the origin.
 std::optional<Six> met(const Scene& scene, const Eigen::Vector3d& along) {
     double nearest = 1e9;
     std::optional<Six> out;

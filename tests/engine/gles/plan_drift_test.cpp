@@ -113,7 +113,6 @@ DriftScene slopes(double contrast, double pixelsPerFrame) {
     };
 }
 
-/// The light becomes brighter. With `redAlone`, only the red channel does.
 DriftScene brightening(double perFrame, bool redAlone) {
     return [=](int x, int y, int frame) {
         const auto gain = static_cast<float>(1 + perFrame * frame / 100);

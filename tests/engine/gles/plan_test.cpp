@@ -140,7 +140,7 @@ TEST_F(Plan, GaussianNoiseIsMeasured) {
     }
 }
 
-// Enlarging a tile reads two pixels beyond it.
+// Enlarging a tile reads two pixels beyond its border.
 TEST_F(Plan, AChangeAtTheBorderOfATileMarksTheNeighbouringTile) {
     const TestPicture base = Waves(1, 6, 60, 30).shoot(kSize, {});
     struct Case {

@@ -67,7 +67,7 @@ TEST_F(QualityTest, WithoutTheStillAFrameMayBeEnlargedLinearly) {
         << "the option must have no effect on a frame with a still";
 }
 
-// Only the two lowest rows of a tile change.
+// Only the two lowest rows of a tile change, which the tile below reads.
 TEST_F(QualityTest, NeighboursAffectedByAChangeAreRedrawn) {
     const PipelineCase c;
     Pipeline p(c.rig, {}), whole(c.rig, {});

@@ -15,7 +15,7 @@ TEST(OpenRow, DepthIsDecidedAgainAtEdgesAndWhereItIsUnknown) {
         std::vector<float> low(3 * width, 1), high(3 * width, 1), rho(width, 1), variance(width);
         for (std::size_t x = 0; x < width; ++x) {
             variance[x] = x % 5 == 4 ? kInfinity : 0.0001F;  // sigma = 0.01
-            if (x % 5 == 1) low[2 * width + x] = 0.5F;       // an edge in the last row
+            if (x % 5 == 1) low[2 * width + x] = 0.5F;
             // below the limits of 8 % and three sigmas
             if (x % 5 == 2) high[x] = 1.1F;
             if (x % 5 == 3) high[x] = 1.13F;  // above the limits

@@ -14,7 +14,6 @@ using test::Ray;
 
 constexpr Size kCanvas{90, 70};
 
-/// A row of pixels whose segments lie inside the canvas, across its border, or outside.
 struct Problem {
     LabelLines lines{test::barrel(), 0.8F, 0.3F, -0.2F, 8, 8, 0.012F};
     std::vector<float> raysX, raysY;
@@ -89,7 +88,6 @@ TEST(LabelCosts, CostsOfLabelsAreThoseOfTheNearestPixels) {
     }
 }
 
-/// Oracle of a label's fraction, by its definition, in double precision.
 double placeOf(const Problem& p, std::size_t x, const Valley& valley) {
     const Ray here = p.pointOf(x, valley.label), next = p.pointOf(x, valley.label + 1);
     const double wayX = next.x - here.x, wayY = next.y - here.y, square = wayX * wayX + wayY * wayY;
