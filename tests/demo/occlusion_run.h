@@ -17,8 +17,7 @@ struct OcclusionQuality {
     double absrel = 0;        ///< median over the picture of |z - true z| / true z
     double completeness = 0;  ///< share of the picture whose depth is known
     double overlap = 0;       ///< intersection over union of the shown and the truly visible object
-    double boundary = 0;      ///< mean distance of the shown object's outline from the true one
-                              ///< [video px]
+    double boundary = 0;      ///< mean distance between shown and true outline [video px]
 };
 
 struct OcclusionShown {

@@ -210,8 +210,7 @@ TEST(PulseTrigger, MissedEdgesOfTheLoopbackAreCounted) {
 
 TEST(PulseTrigger, LoopbackTimesOfAnotherClockAreIgnored) {
     const auto wire = std::make_shared<Wire>();
-    wire->clockOffset = std::chrono::hours(24 * 365 * 50);  // as large as the offset of
-                                                            // CLOCK_REALTIME
+    wire->clockOffset = std::chrono::hours(24 * 365 * 50);  // like CLOCK_REALTIME
     const auto trigger = triggerOn(wire, 50us, true);
     const Timestamp edge = trigger->fire();
     EXPECT_LE(edge, Timestamp::now());

@@ -77,8 +77,7 @@ private:
     int report_ = 2;
     std::array<Calm, WatchedCount> calm_{};
     std::optional<Ns> ready_, terminated_, shown_, fed_;
-    std::optional<Ns> hangs_;  ///< time since which the video driver hangs, if the camera worked
-                               ///< before
+    std::optional<Ns> hangs_;  ///< start of a hang of the video driver
     std::uint64_t frames_ = 0, asked_ = 0, meals_ = 0, failures_ = 0;
     std::map<std::string, Ns> logged_;
     std::uint64_t logBytes_ = 0;

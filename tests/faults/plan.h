@@ -39,8 +39,7 @@ struct Kind {
     std::string_view name;
     Where where;
     Effect effect;
-    std::string_view words;  ///< words for the file that selects faults of the camera or GPU; a
-                             ///< number replaces *
+    std::string_view words;  ///< text for the fault's file; a number replaces *
     int least = 0, most = 0;
 };
 
@@ -62,8 +61,7 @@ struct Plan {
     Ns endAfter = 0;
     bool hasTrigger = false;
     bool endsBeforeReady = false;  ///< mfard must end before READY or soon after it
-    bool isKilled = false;         ///< mfard is killed with SIGKILL instead of SIGTERM and is
-                                   ///< started again
+    bool isKilled = false;         ///< ended with SIGKILL and started again
 
     /// Chooses random faults of the kinds whose names contain `only`. Throws std::runtime_error if
     /// there is no such kind.

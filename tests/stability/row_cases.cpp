@@ -114,9 +114,8 @@ struct WholeLabels {
     simd::LabelLines lines{};
     Row raysX, raysY;
     std::vector<std::array<int, 2>> pixels;  ///< for each pixel, the pixel nearest to its label 0
-    std::vector<double> feet;  ///< distance from label 0 to the nearest point (foot) to `pixels` on
-                               ///< the line [labels]
-    std::array<int, 2> way{};  ///< step per label [px]
+    std::vector<double> feet;                ///< position of each pixel's foot [labels]
+    std::array<int, 2> way{};                ///< step per label [px]
 
     WholeLabels(Context& c, std::size_t count, Size canvas) {
         const double focal = c.hostile.integer(60, 120);

@@ -10,8 +10,7 @@
 /// counted and clamped. A fault may be planted in one of the shaders.
 namespace mfar::stress {
 
-inline constexpr unsigned kWatchBinding = 15;  ///< binding of the buffer that counts invalid
-                                               ///< indices
+inline constexpr unsigned kWatchBinding = 15;  ///< binding of the counters
 inline constexpr std::size_t kMostWatched = 128;
 
 /// Name of the shader whose invalid indices are counted in element `index` of that buffer.
