@@ -33,8 +33,8 @@ T weighed(const std::array<T, 4>& w, const std::array<double, 4>& v) {
     return w[0] * T(v[0]) + w[1] * T(v[1]) + w[2] * T(v[2]) + w[3] * T(v[3]);
 }
 
-/// Position between two video pixels, from 0 to 1, for column x of the output: the fraction of x
-/// scale - 0.5.
+/// Position of output column x between two video pixels, from 0 to 1: the fraction of
+/// x * scale - 0.5.
 template <class T>
 T fractionAt(double x, double scale) {
     const T p = T(x) * T(scale) - T(0.5);

@@ -108,8 +108,8 @@ void turnedRow(Context& c) {
 }
 
 /// Epipolar lines of a lens without distortion. The candidates (labels) of a pixel are whole pixels
-/// apart along a row or a column, in either direction. So costs and foot of a pixel are known
-/// without following the line.
+/// apart along a row or a column, in either direction. So the costs of a pixel are known without
+/// following the line. Its foot, the nearest point of the line, is also known.
 struct WholeLabels {
     simd::LabelLines lines{};
     Row raysX, raysY;

@@ -11,7 +11,7 @@ namespace {
 using Plan = GlTest;
 
 constexpr Size kSize{100, 60};  // 7x4 tiles, the last ones cut off
-// Thresholds of a frame whose noise was not measured, for the assumed 0.29 grey levels.
+// Thresholds of a frame with unknown noise, for which 0.29 grey levels are assumed.
 constexpr double kMeanThreshold = 1.58, kAbsoluteThreshold = 2.37;
 
 struct TileState {
