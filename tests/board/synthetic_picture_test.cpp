@@ -48,7 +48,7 @@ void expectTags(const SyntheticBoard& board, const ImageView& picture, const Cam
     }
 }
 
-TEST_P(EveryScene, BothSensorsShowTheTagsAtTheirTruePositions) {
+TEST_P(EveryScene, TheTagsAreAtTheirTruePositionsInThePicturesOfBothSensors) {
     SyntheticBoard& board = sharedBoard(GetParam());
     const Pair pair = takePair(board);
     ASSERT_TRUE(pair.video && pair.still);

@@ -145,7 +145,7 @@ TEST(Calibrate, AllViewsFromOneDistanceAreRefused) {
     }
 }
 
-TEST(Calibrate, AnUncoveredPartOfThePictureIsRefusedAndNamed) {
+TEST(Calibrate, ViewsThatLeavePartOfThePictureUncoveredAreRefused) {
     BothViews views = makeViews(kGrid, {});
     for (TargetView& view : views.video.views)
         std::erase_if(view.corners, [](const Corner& c) { return c.pixel.x() > 330; });

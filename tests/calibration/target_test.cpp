@@ -219,7 +219,7 @@ TEST(TargetFinder, EmptyPicturesGiveNoCorners) {
     }
 }
 
-TEST(Coverage, CountsCoveredCellsAndNamesTheEmptyPartOfThePicture) {
+TEST(Coverage, CountsCoveredCellsAndReportsTheEmptyPartOfThePicture) {
     Coverage coverage(kPicture);
     EXPECT_EQ(coverage.share(), 0);
     std::vector<Corner> corners;

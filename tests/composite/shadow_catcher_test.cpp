@@ -67,7 +67,7 @@ TEST(ShadowCatcher, PlaneReachesAroundTheObjectsOnIt) {
     EXPECT_TRUE(planeCatcher(below).triangles.empty());
 }
 
-TEST(ShadowCatcher, NoisyDepthOfThePlaneGivesAPlane) {
+TEST(ShadowCatcher, NoisyDepthOfAPlaneGivesAFlatShadowCatcher) {
     std::mt19937 random(2);
     std::normal_distribution<double> noise(0, 0.01);
     const InverseDepthField field = fieldOf(

@@ -160,7 +160,7 @@ TEST(CaptureThread, AFailingStillCameraEndsTheRunOnAnyThread) {
     }
 }
 
-TEST(CaptureThread, MissedFramesAreCountedByTheCamera) {
+TEST(CaptureThread, TheMissedFramesOfTheCameraAreReported) {
     Capture capture(HandOver::NewestWins);
     CameraCounters counters;
     counters.missed = 7;

@@ -32,11 +32,11 @@ void expectSame(const Config& a, const Config& b) {
     EXPECT_EQ(a.light.sun.has_value(), b.light.sun.has_value());
 }
 
-TEST(Config, EmptyTextGivesTheDefaults) {
+TEST(Config, AnEmptyConfigurationGivesTheDefaults) {
     expectSame(parseConfig("", "test.toml"), Config{});
 }
 
-TEST(Config, TheDefaultFileShowsTheDefaults) {
+TEST(Config, TheDefaultConfigurationFileContainsTheDefaults) {
     expectSame(loadConfig(MFAR_DEFAULT_CONFIG), Config{});
 }
 
@@ -102,7 +102,7 @@ TEST(Config, AnUnknownKeyIsRefusedWithTheNearestKnownKey) {
               "trigger.min_interval_s");
 }
 
-TEST(Config, AKeyInTheWrongSectionPointsToTheRightOne) {
+TEST(Config, AKeyInTheWrongSectionIsReportedWithTheRightSection) {
     EXPECT_THAT(configFaults("explained_below = 3\n"), HasSubstr("trigger.explained_below"));
     EXPECT_THAT(configFaults("[status]\nskip_unchanged = true\n"),
                 HasSubstr("superres.skip_unchanged"));
@@ -269,7 +269,7 @@ TEST(Config, EveryPoseKeyIsChecked) {
             << line;
 }
 
-TEST(Config, NeedRestartNamesTheKeysThatCannotChangeWhileRunning) {
+TEST(Config, ChangedKeysThatNeedARestartAreListed) {
     Config wanted;
     wanted.superres.mode = SuperResMode::Off;
     wanted.trigger.maxAgeS = 1;

@@ -56,7 +56,7 @@ struct ControlSocketTest : testing::Test {
     std::filesystem::path folder, path;
 };
 
-TEST_F(ControlSocketTest, AnswersWithALineAndItsData) {
+TEST_F(ControlSocketTest, AnAnswerConsistsOfALineAndItsData) {
     std::vector<std::uint8_t> data(3'000'000);
     for (std::size_t i = 0; i < data.size(); ++i)
         data[i] = static_cast<std::uint8_t>(i * 7);
@@ -234,7 +234,7 @@ TEST_F(ControlSocketTest, OnlyTheSocketOfADeadProcessIsReplaced) {
     EXPECT_FALSE(std::filesystem::exists(path));
 }
 
-TEST_F(ControlSocketTest, PathsThatCannotBeUsedAreNamed) {
+TEST_F(ControlSocketTest, UnusablePathsAreReported) {
     std::ofstream(folder / "file") << "important";
     EXPECT_THAT([&] { ControlSocket(folder / "file", echo); },
                 ThrowsMessage<Failure>(HasSubstr("not a socket")));

@@ -57,7 +57,7 @@ int highestNice() {
     return highest;
 }
 
-TEST_F(FilterLearningTest, PriorityIsLowUnlessFramesWait) {
+TEST_F(FilterLearningTest, LearningHasALowPriorityUnlessFramesWait) {
     const int before = highestNice();
     {
         FilterLearning learning(options);
@@ -112,7 +112,7 @@ TEST_F(FilterLearningTest, GuidanceIsLearnedFromTheOlderStillAndKept) {
     EXPECT_THAT(learning.takeWarnings(), IsEmpty());
 }
 
-TEST_F(FilterLearningTest, WithoutARigNoGuidanceIsLearned) {
+TEST_F(FilterLearningTest, WithoutACalibrationNoGuidanceIsLearned) {
     FilterLearning learning(options);
     replace(learning, 2);
     EXPECT_EQ(learning.counts().learner.pairs, 0U);

@@ -133,7 +133,7 @@ TEST(Governor, OneLateFrameInFiftyDoesNotChangeTheLevel) {
     EXPECT_EQ(governor.changes(), 0U);
 }
 
-TEST(Governor, AtRestThePictureIsDrawnOnceMoreAtTheBestLevel) {
+TEST(Governor, AStaticPictureIsDrawnOnceMoreAtTheBestLevel) {
     Machine machine(66, scaled(1));
     machine.run(40);
     ASSERT_EQ(machine.level(), "a");

@@ -21,7 +21,7 @@ TEST(Mailbox, TheReceiverGetsTheNewestItemAndReplacedItemsAreCounted) {
     EXPECT_EQ(box.tryTake(), std::nullopt);
 }
 
-TEST(Mailbox, MoveOnlyItemsWork) {
+TEST(Mailbox, ItemsMayBeMoveOnly) {
     Mailbox<std::unique_ptr<int>> box(HandOver::NewestWins);
     box.put(std::make_unique<int>(7));
     EXPECT_EQ(**box.take(), 7);
@@ -33,7 +33,7 @@ struct Parcel {
     void supersede(Parcel&& older) { kept = older.kept + older.letter; }
 };
 
-TEST(Mailbox, TheNewerItemInheritsFromTheReplacedOne) {
+TEST(Mailbox, ANewerItemInheritsDataFromTheReplacedItem) {
     Mailbox<Parcel> box(HandOver::NewestWins);
     box.put({"a", ""});
     box.put({"b", ""});

@@ -55,7 +55,7 @@ TEST(PoseConfig, RecordedPosesNeedARecording) {
     EXPECT_THAT(fault(folder).what(), HasSubstr("needs a recording"));
 }
 
-TEST(PoseConfig, TheTrackerUsesTheConfiguration) {
+TEST(PoseConfig, TheTrackerGetsTheOptionsOfTheConfiguration) {
     PoseConfig pose;
     pose.families = {TagFamily::Tag25h9};
     pose.tagSize = 0.25;

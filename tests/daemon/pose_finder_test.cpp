@@ -145,7 +145,7 @@ TEST(PoseFinder, RecordedPosesAreUsedUnchanged) {
     EXPECT_EQ(counts.ms.count() + counts.stillMs.count(), 0U);
 }
 
-TEST(PoseFinder, AnErrorNamesTheSourceWithoutPoses) {
+TEST(PoseFinder, ASourceWithoutPosesIsReported) {
     Stats stats;
     PoseConfig config;
     config.source = PoseOrigin::Recorded;

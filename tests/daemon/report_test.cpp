@@ -71,7 +71,7 @@ TEST(Report, IsWellFormedAndNeedsNoOtherFile) {
         EXPECT_THAT(html, Not(HasSubstr(outside)));
 }
 
-TEST(Report, ThePageHoldsTheNumbersOfTheSummary) {
+TEST(Report, ThePageContainsTheNumbersOfTheSummary) {
     Stats stats;
     stats.keepHistory();
     show(stats, 300);
@@ -134,7 +134,7 @@ TEST(Report, ALongRunGivesAPageOfBoundedSize) {
     EXPECT_EQ(cellOf(html, "frames"), "100000");
 }
 
-TEST(Report, HoldsThePicturesAsJpeg) {
+TEST(Report, ThePageContainsThePicturesAsJpeg) {
     Stats stats;
     const std::vector<std::uint8_t> grey(std::size_t{2304} * 1728, 100);
     const std::vector<std::uint8_t> colour(std::size_t{8} * 6 * 4, 200);

@@ -30,7 +30,7 @@ void showPictures(Stats& stats, int count) {
     }
 }
 
-TEST(Stats, RatesLatencyAndSharesMatchThePictures) {
+TEST(Stats, RatesLatencyAndSharesAreThoseOfTheShownPictures) {
     Stats stats;
     showPictures(stats, 21);
     const Counted counted = stats.count(Timestamp::fromSeconds(11.05));
@@ -84,7 +84,7 @@ TEST(Stats, RecentRateCoversTheLastSecond) {
     EXPECT_NEAR(stats.count(Timestamp::fromSeconds(15)).recentFps, 10, 1e-3);
 }
 
-TEST(Status, SummaryHoldsTheRunsMeasurements) {
+TEST(Status, TheSummaryContainsTheMeasurementsOfTheRun) {
     Stats stats;
     showPictures(stats, 21);
     stats.stillReceived();
@@ -359,7 +359,7 @@ TEST(Summary, ReportsTheVirtualLayerOnlyIfItExists) {
     EXPECT_NEAR(json["path_tracer"]["reference_age_s"].get<double>(), 0.5, 1e-9);
 }
 
-TEST(StatusLine, PathTracingReportsItsProgress) {
+TEST(StatusLine, TheStatusLineReportsTheProgressOfPathTracing) {
     Stats stats;
     FrameStats frame;
     frame.objectsInView = true;

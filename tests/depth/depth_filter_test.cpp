@@ -49,7 +49,7 @@ TEST(DepthFilter, MeasurementNoiseIsAveragedOverTheFrames) {
     EXPECT_LT(filter.field().variance[middle()], 0.05F * 0.05F);
 }
 
-TEST(DepthFilter, OneOutlierIsIgnoredAndAChangeIsFollowed) {
+TEST(DepthFilter, OneOutlierIsIgnoredAndALastingChangeIsFollowed) {
     DepthFilter filter = filterOf();
     filter.predict({}, 0);
     filter.fuse(evenField(1, 0.02F), kWhole);

@@ -88,7 +88,7 @@ TEST(EdgeSnap, DepthEdgesMoveToPictureEdges) {
 }
 
 // The surfaces differ only in colour. So chroma must be read correctly from every format.
-TEST(EdgeSnap, ColourOfEveryFormatDistinguishesSurfaces) {
+TEST(EdgeSnap, SurfacesAreDistinguishedByColourInEveryFormat) {
     for (const PixelFormat format : test::kEveryFormat) {
         if (format == PixelFormat::Gray8) continue;
         test::PaddedPicture painted(format, kPicture, 1);

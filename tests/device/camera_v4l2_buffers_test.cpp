@@ -162,7 +162,7 @@ TEST(CameraV4l2Buffers, AFrameOfAClosedCameraKeepsOnlyItsMemory) {
     EXPECT_EQ(eventDescriptors(), before);
 }
 
-TEST(CameraV4l2Buffers, FramesOutliveTheCameraAndDoNotBlockTheNextOne) {
+TEST(CameraV4l2Buffers, FramesOutliveTheCameraAndDoNotBlockTheNextCamera) {
     FakeV4l2 fake;
     std::optional<Frame> held;
     {

@@ -27,7 +27,7 @@ CameraV4l2Options wanted(const std::string& format = {}, double rateHz = 0) {
     return out;
 }
 
-TEST(CameraV4l2, LendsThePicturesOfTheDriver) {
+TEST(CameraV4l2, PicturesOfTheDriverAreLentToTheUser) {
     FakeV4l2 fake;
     fake.padding = 12;
     fake.quantization = V4L2_QUANTIZATION_FULL_RANGE;
@@ -83,7 +83,7 @@ TEST(CameraV4l2, ARefusedSizeIsReportedWithTheOfferedSizes) {
               "/dev/video0: camera 'Fake Camera' does not offer 32x24 in NV12; i");
 }
 
-TEST(CameraV4l2, ADriverThatRoundsTheSizeIsRefused) {
+TEST(CameraV4l2, ADriverThatChangesThePictureSizeIsRefused) {
     FakeV4l2 fake;
     fake.formats = {{V4L2_PIX_FMT_YUYV, {}}};
     fake.rounds = true;
@@ -203,7 +203,7 @@ TEST(CameraV4l2, MissedPicturesAreCounted) {
     EXPECT_EQ(camera.cameraCounters().missed, 3U);
 }
 
-TEST(CameraV4l2, TimeIsTheMiddleOfAManualExposure) {
+TEST(CameraV4l2, TheTimeOfAPictureIsTheMiddleOfItsManualExposure) {
     const auto ageWith = [](std::uint32_t flags, std::int64_t automatic) {
         FakeV4l2 fake;
         fake.controls = {
@@ -221,7 +221,7 @@ TEST(CameraV4l2, TimeIsTheMiddleOfAManualExposure) {
     EXPECT_NEAR(ageWith(V4L2_BUF_FLAG_TSTAMP_SRC_SOE, V4L2_EXPOSURE_AUTO), 1.0, 0.04);
 }
 
-TEST(CameraV4l2, StopWakesNext) {
+TEST(CameraV4l2, StopWakesAThreadThatWaitsInNext) {
     FakeV4l2 fake;
     CameraV4l2 camera(wanted(), fake);
     camera.start();
@@ -234,7 +234,7 @@ TEST(CameraV4l2, StopWakesNext) {
     camera.stop();
 }
 
-TEST(CameraV4l2, RunsAgainAfterStop) {
+TEST(CameraV4l2, ACameraCanBeStartedAgainAfterStop) {
     FakeV4l2 fake;
     CameraV4l2 camera(wanted(), fake);
     camera.start();

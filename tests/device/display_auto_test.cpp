@@ -133,7 +133,7 @@ TEST_F(AutoDisplay, PrefersTheFirstDeviceAndReleasesTheSecond) {
     EXPECT_FALSE(fbdev_.held);
 }
 
-TEST_F(AutoDisplay, OpensNoOtherDeviceWhileOneShows) {
+TEST_F(AutoDisplay, OpensNoOtherDeviceWhileAScreenShowsPictures) {
     fbdev_.presence = Presence::Ready;
     run(kSecond);
     const int looks = kms_.looks;
@@ -142,7 +142,7 @@ TEST_F(AutoDisplay, OpensNoOtherDeviceWhileOneShows) {
     EXPECT_EQ(fbdev_.thoroughLooks, 1);
 }
 
-TEST_F(AutoDisplay, WaitsForTheMonitorOfADeviceItHolds) {
+TEST_F(AutoDisplay, WaitsForTheMonitorOfAnOpenDevice) {
     kms_.presence = Presence::Waiting;
     fbdev_.presence = Presence::Ready;
     EXPECT_EQ(run(kSecond), 0);
@@ -186,7 +186,7 @@ TEST_F(AutoDisplay, ARepeatedlyLostScreenStaysReported) {
     EXPECT_EQ(display_->fault(), std::nullopt);
 }
 
-TEST_F(AutoDisplay, ReleasesADeviceThatWentAway) {
+TEST_F(AutoDisplay, ReleasesARemovedDevice) {
     kms_.presence = Presence::Ready;
     run(kSecond);
     kms_.presence = Presence::Absent;
@@ -242,7 +242,7 @@ TEST_F(AutoDisplay, OpensNothingWhenTheDevicesDoNotExist) {
     }
 }
 
-TEST_F(AutoDisplay, OnlyMalformedScreenNamesAreErrors) {
+TEST_F(AutoDisplay, MissingScreensAreNoErrorsButInvalidScreenNamesAre) {
     EXPECT_THROW((void)openScreen("kms:card0,17"), std::runtime_error);
     EXPECT_THAT(screenFault("kms:card0,17").value_or(""), HasSubstr("\"17\""));
 }

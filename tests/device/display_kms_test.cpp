@@ -50,7 +50,7 @@ protected:
     KmsScreen screen_{{ScreenSpec::Kind::Kms, card(), "", {}}, scaler_};
 };
 
-TEST_F(KmsScreenTest, ShowsPicturesAndGivesTheScreenBack) {
+TEST_F(KmsScreenTest, ShowsPicturesAndRestoresTheConsole) {
     ASSERT_EQ(screen_.look(true), Presence::Ready);
     EXPECT_EQ(screen_.size(), (Size{64, 48}));
     show();

@@ -132,7 +132,7 @@ TEST_F(DisplayScaler, DetailBeyondTheScreensResolutionBecomesGrey) {
     EXPECT_LE(contrast(960, 1120), 64);  // 1 to 1.2 cycles per screen pixel: at most a quarter
 }
 
-TEST_F(DisplayScaler, WarmUpChangesNothingThatIsShown) {
+TEST_F(DisplayScaler, WarmUpDoesNotChangeTheShownPicture) {
     const gpu::Texture texture = picture({96, 54}, noise);
     for (const Size screen : {Size{192, 108}, Size{96, 54}, Size{40, 30}, Size{20, 12}}) {
         ScreenScaler warm;
@@ -159,7 +159,7 @@ TEST_F(DisplayScaler, DrawsOnAnotherContextOnceTheFirstIsReleased) {
     context().makeCurrent();
 }
 
-TEST_F(DisplayScaler, TheCallersTargetIsRestored) {
+TEST_F(DisplayScaler, TheRenderTargetOfTheCallerIsRestored) {
     const gpu::Texture target({31, 17}, gpu::TexelFormat::Rgba8);
     const gpu::Framebuffer framebuffer(target);
     framebuffer.bind();

@@ -42,7 +42,7 @@ protected:
     test::TempFolder folder_;
 };
 
-TEST_F(WithoutGl, FilesAreWritten) {
+TEST_F(WithoutGl, FileDisplaysMakeNoGlCall) {
     EXPECT_EQ(callsOf([&] {
                   for (const std::string& spec :
                        {"png:" + folder_.path().string(), "y4m:" + (folder_ / "a.y4m").string(),
@@ -57,7 +57,7 @@ TEST_F(WithoutGl, FilesAreWritten) {
     EXPECT_EQ(loadImage(folder_ / "17.png").pixels[2], 0x30);
 }
 
-TEST_F(WithoutGl, PicturesAreScaledForScreensThatTheCpuWrites) {
+TEST_F(WithoutGl, ScalingAPictureOnTheHostMakesNoGlCall) {
     EXPECT_EQ(callsOf([&] {
                   ScreenScaler scaler;
                   for (const Size screen : {Size{64, 48}, {32, 24}, {200, 100}}) {
@@ -89,7 +89,7 @@ private:
     int& shown_;
 };
 
-TEST_F(WithoutGl, ScreensGetThePicture) {
+TEST_F(WithoutGl, ScreensThatTheCpuWritesMakeNoGlCall) {
     int shown = 0;
     EXPECT_EQ(callsOf([&] {
                   std::vector<std::unique_ptr<Screen>> screens;

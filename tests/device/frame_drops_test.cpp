@@ -37,7 +37,7 @@ TEST(FrameDrops, NothingIsCountedBeforeThePeriodIsKnown) {
     EXPECT_FALSE(drops.period());
 }
 
-TEST(FrameDrops, AChangedRateIsLearned) {
+TEST(FrameDrops, AChangedFrameRateIsLearned) {
     FrameDrops drops;
     Timestamp time{0};
     for (int i = 0; i < 40; ++i)
@@ -65,7 +65,7 @@ TEST(FrameDrops, FrameNumbersGiveExactDropsAtAnyRate) {
     }
 }
 
-TEST(FrameDrops, AfterACounterResetTimesAreUsed) {
+TEST(FrameDrops, AtACounterResetGapsInTimeAreCounted) {
     FrameDrops drops;
     Timestamp time{0};
     std::uint32_t number = 50000;

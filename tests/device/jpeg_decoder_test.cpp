@@ -97,7 +97,7 @@ TEST(JpegDecoder, MissingHuffmanTablesDefaultToTheStandardOnes) {
     expectRamp(frame->view());
 }
 
-TEST(JpegDecoder, GreyHasNoChroma) {
+TEST(JpegDecoder, GreyPicturesStayGrey) {
     JpegDecoder decoder(kJpegSize, 1);
     const auto frame = decoder.decode(encoded(TJSAMP_GRAY), {});
     ASSERT_TRUE(frame.has_value());

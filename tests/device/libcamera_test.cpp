@@ -47,7 +47,7 @@ TEST(Libcamera, ImpossibleOptionsAreRefusedBeforeADeviceIsLookedFor) {
     refused([](auto& o) { o.buffers = 1; }, "buffers");
 }
 
-TEST(Libcamera, OneManagerExistsWhileHeldAndCanBeCreatedAgain) {
+TEST(Libcamera, OneManagerIsSharedAndCanBeCreatedAgain) {
     auto first = libcameraManager();
     EXPECT_EQ(first, libcameraManager());
     first.reset();

@@ -119,7 +119,7 @@ TEST(PulseTrigger, PulseIsNeverShorterThanRequestedAndItsStartIsTimed) {
     }
 }
 
-TEST(PulseTrigger, LongPulsesDoNotBlockFireAndEndWithTheObject) {
+TEST(PulseTrigger, LongPulsesDoNotBlockTheCallerAndEndWithTheObject) {
     const auto wire = std::make_shared<Wire>();
     auto trigger = triggerOn(wire, 10s);
     const Timestamp edge = trigger->fire();

@@ -265,7 +265,7 @@ protected:
 INSTANTIATE_TEST_SUITE_P(Engines, ScaledLayer, testing::Values(EngineKind::Gles, EngineKind::Simd),
                          engineOfTest);
 
-TEST_P(ScaledLayer, ColoursAreLinearBetweenItsPixels) {
+TEST_P(ScaledLayer, ColoursAreInterpolatedLinearlyBetweenPixelsOfTheLayer) {
     constexpr Size kHalf{80, 60};
     // Tolerance: the texture units of software renderers have weights of 8 bits.
     const double most = GetParam() == EngineKind::Gles ? 1.01 : 0.53;

@@ -28,7 +28,7 @@ double rimOf(const CameraModel& camera) {
     return rim;
 }
 
-TEST(EpipolarLens, RaysMatchThePixelsOfEveryLevel) {
+TEST(EpipolarLens, RaysMatchThePixelsOfEveryPyramidLevel) {
     for (const CameraModel& camera :
          {test::oddPlain(), test::oddBarrel(), pincushion(), fisheye()}) {
         Size size = camera.size;
@@ -149,7 +149,7 @@ TEST(EpipolarLens, RaysFarBesideThePictureStayOutsideIt) {
     }
 }
 
-TEST(EpipolarLens, SIsTheInverseDepthInTheSecondView) {
+TEST(EpipolarLens, InverseDepthInTheSecondViewDeterminesThePixel) {
     std::mt19937 random(9);
     std::uniform_real_distribution<double> unit(-1, 1);
     for (const CameraModel& camera : {test::oddPlain(), test::oddBarrel()}) {

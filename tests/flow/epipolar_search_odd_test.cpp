@@ -168,7 +168,7 @@ TEST(EpipolarSearchOdd, NonFinitePosesGiveNoParallax) {
     expectSane(search, camera.size);
 }
 
-TEST(EpipolarSearchOdd, IsTheSameWithAnyNumberOfThreads) {
+TEST(EpipolarSearchOdd, TheResultDoesNotDependOnTheNumberOfThreads) {
     const View view{barrelOf({180, 130}), scene(), motion({2, -4, 9}, {-0.2, 0.1, 0.1})};
     const LumaImage video = view.video(), still = view.still();
     std::vector<float> one;
@@ -183,7 +183,7 @@ TEST(EpipolarSearchOdd, IsTheSameWithAnyNumberOfThreads) {
     }
 }
 
-TEST(EpipolarSearchOdd, DoesNotDependOnEarlierFrames) {
+TEST(EpipolarSearchOdd, TheResultDoesNotDependOnEarlierFrames) {
     const CameraModel camera = barrelOf({180, 130});
     const LumaImage video = scene().render(camera, {}),
                     other = scene().render(camera, motion({9, 9, 9}, {0, 0, 1}));

@@ -88,7 +88,7 @@ TEST(EpipolarSearch, FindsADepthStep) {
     expectErrors({plain(), stepScene(), motion({0, 0, 0}, {0.1, 0.15, 0})}, kAcross, 0.04);
 }
 
-TEST(EpipolarSearch, FindsDepthAsWellAsFlow) {
+TEST(EpipolarSearch, FindsInverseDepth) {
     const View view{plain(), stepScene(), motion({0, 0, 0}, {-0.3, 0, 0})};
     const EpipolarSearch search = searched(view);
     const auto depthAt = [&](int x, int y) {
@@ -114,7 +114,7 @@ TEST(EpipolarSearch, FindsScenesAfterARotationThroughALens) {
 }
 
 // The displacement needs three levels and is longer than the window of the coarsest level.
-TEST(EpipolarSearch, FindsLongDisparitiesThroughThreeLevels) {
+TEST(EpipolarSearch, FindsLongDisplacementsThroughThreePyramidLevels) {
     const CameraModel camera{{320, 240}, 300, 300, 159.5, 119.5, {}};
     const Scene scene{{{{0, 0, 1}, 3}, {{0, 0, 1}, 1.5, {-0.3, -0.3}, {0.3, 0.3}}}, 35, 100};
     expectErrors({camera, scene, motion({0, 0, 0}, {-0.5, 0, 0})}, 0.15, 0.05);

@@ -163,7 +163,7 @@ TEST(Smooth, AppliesTheSeparableMaskWithTheBorderRepeated) {
     }
 }
 
-TEST(Smooth, ZeroSideWeightsCopyAndUniformPicturesStayUniform) {
+TEST(Smooth, WithoutSideWeightsThePictureIsCopiedAndUniformPicturesStayUniform) {
     const LumaImage in = randomPicture({21, 17}, 14);
     LumaImage out;
     smooth(in, 0, out);
@@ -196,7 +196,7 @@ TEST(NoiseOf, IsNearZeroWithoutNoise) {
     EXPECT_EQ(noiseOf(pictureOf({64, 64}, [](int, int y) { return y == 29 ? 20 : 220; })), 0);
 }
 
-TEST(NoiseOf, PicturesSmallerThanABlockHaveNoNoise) {
+TEST(NoiseOf, TheNoiseOfPicturesSmallerThanABlockIsZero) {
     EXPECT_EQ(noiseOf(randomPicture({1, 1}, 1)), 0);
     EXPECT_EQ(noiseOf(randomPicture({9, 200}, 1)), 0);
     EXPECT_GT(noiseOf(randomPicture({10, 10}, 1)), 0);

@@ -228,7 +228,7 @@ TEST(PoseRefinement, IsInvariantToTheUnitOfLength) {
     EXPECT_LT((search.pose().translation / 1000 - metres.pose().translation).norm(), 1e-4);
 }
 
-TEST(PoseRefinement, IsTheSameWithAnyNumberOfThreads) {
+TEST(PoseRefinement, TheResultDoesNotDependOnTheNumberOfThreads) {
     const View view = views()[2];
     const RigidTransform prior = view.T_still_video * motion({0.3, 0.1, -0.3}, {0, 0, 0});
     const LumaImage video = view.video(), still = view.still();

@@ -201,7 +201,7 @@ TEST(SemiGlobal, SubLabelPartIsTheVertexOfTwoLines) {
     }
 }
 
-TEST(SemiGlobal, IsTheSameWithAnyNumberOfThreads) {
+TEST(SemiGlobal, TheResultDoesNotDependOnTheNumberOfThreads) {
     const Problem p = randomProblem({150, 70}, 2, 20, 77);
     const auto one = solve(p, 1);
     for (int threads = 2; threads <= 4; ++threads)

@@ -124,7 +124,7 @@ TEST(TurnedPicture, WithoutRotationThePictureIsUnchanged) {
     }
 }
 
-TEST(TurnedPicture, MatchesDirectProjection) {
+TEST(TurnedPicture, TheRotatedPictureMatchesDirectProjection) {
     for (const CameraModel& camera : {test::oddPlain(), test::oddBarrel(), folding()}) {
         for (const Eigen::Matrix3d& rotation :
              {turn(0, 0, 0), turn(3, -4, 2), turn(-12, 8, 20), turn(0, 0, 90), turn(0, 0, 180),

@@ -71,7 +71,7 @@ TEST(Workers, AnEmptyLoopCallsNothing) {
 
 // A part that is left over from an earlier loop, or run twice, would change the sum of the next
 // loop.
-TEST(Workers, ConsecutiveLoopsDoNotMix) {
+TEST(Workers, ConsecutiveLoopsDoNotAffectEachOther) {
     for (int threads = 1; threads <= 4; ++threads) {
         Workers workers(threads);
         for (int loop = 1; loop <= 3000; ++loop) {

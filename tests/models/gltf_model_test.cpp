@@ -89,7 +89,7 @@ TEST(GltfModel, MirroredNodesKeepTheirFrontFaces) {
     expectNear(mesh.normals[a].cross(t) * mesh.tangents[a].w(), {0, 0, 1});
 }
 
-TEST(GltfModel, NormalsFollowUnequalScales) {
+TEST(GltfModel, NormalsAreCorrectAfterUnequalScaling) {
     GltfMaker maker = richModel();
     maker.root["nodes"][1].erase("scale");
     // The columns of a matrix with shear: x stays, y leans towards z, z is stretched.
@@ -193,7 +193,7 @@ TEST(GltfModel, AlphaBlendingBecomesAMask) {
     EXPECT_EQ(modelOf(maker).materials.at(0).alphaCutoff, 0);
 }
 
-TEST(GltfModel, AMeshCanBeInstancedTwice) {
+TEST(GltfModel, TwoNodesMayUseTheSameMesh) {
     GltfMaker maker = oneTriangle();
     maker.root["nodes"].push_back({{"mesh", 0}, {"translation", {5, 0, 0}}});
     maker.root["scenes"][0]["nodes"].push_back(1);

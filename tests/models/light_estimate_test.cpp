@@ -230,7 +230,7 @@ TEST(LightEstimate, EveryFormatGivesTheSameLight) {
     EXPECT_LT((estimateOfFrame(view) - wanted).norm(), 1e-5F);
 }
 
-TEST(Lighting, EnvironmentIsNeverNegativeAndSunHasTheLightOfASingleLamp) {
+TEST(Lighting, TheEnvironmentIsNeverNegativeAndASingleLampBecomesTheSun) {
     LightEstimate estimate;
     estimate.radiance = harmonicsAt({0, 0, 1}) * Eigen::RowVector3f(3, 3, 3);
     estimate.mainDirection = {0, 0, 1};

@@ -82,7 +82,7 @@ double overlapOf(const Pipeline& pipeline, const VirtualTruth& truth) {
         .overlap;
 }
 
-TEST_P(Rest, OneStillSufficesForOcclusion) {
+TEST_P(Rest, OneStillIsEnoughForOcclusion) {
     SceneRun scene = sceneOn(Path::Rest);
     Pipeline pipeline(scene.rig(), {});
     pipeline.setObjects({object_});

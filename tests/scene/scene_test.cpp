@@ -46,7 +46,7 @@ private:
     std::unique_ptr<GlContext> context_ = createGlContext();
 };
 
-TEST_F(SceneTest, MovingObjectsAreSearchedInBothDimensionsAndNotSmeared) {
+TEST_F(SceneTest, MovingObjectsAreMatchedInBothDimensions) {
     const SceneShots s(synthetic::Scene::Moving, Path::Handheld, 8);
     const auto moving = s.movingTiles();
     const Pipeline detail = ran(s, SuperResMode::Detail), off = ran(s, SuperResMode::Off);
@@ -71,7 +71,7 @@ TEST_F(SceneTest, MovingObjectsAreSearchedInBothDimensionsAndNotSmeared) {
 /// distance between the sensors causes parallax.
 class Motion : public SceneTest, public testing::WithParamInterface<Path> {};
 
-TEST_P(Motion, MovingCamerasGetDetail) {
+TEST_P(Motion, DetailIsAddedWhileTheCameraMoves) {
     const SceneShots s(synthetic::Scene::Outdoor, GetParam(), 8);
     const std::vector<bool> all(s.movingTiles().size(), true);
     const Pipeline detail = ran(s, SuperResMode::Detail), off = ran(s, SuperResMode::Off);

@@ -50,7 +50,7 @@ TEST(Mended, InvalidMeasurementsAreIgnored) {
     }
 }
 
-TEST(Mended, AnInvalidPoseForgetsTheDepth) {
+TEST(Mended, AfterAnInvalidPoseDepthIsForgotten) {
     for (const double bad : {double(kNan), double(kInf), 0.0}) {
         DepthFilter filter(smallCamera(), oneWorker());
         filter.predict({}, 0.03);
@@ -65,7 +65,7 @@ TEST(Mended, AnInvalidPoseForgetsTheDepth) {
     }
 }
 
-TEST(Mended, AnInvalidTimeAddsNoVariance) {
+TEST(Mended, AnInvalidTimeDoesNotIncreaseTheVariance) {
     DepthFilter filter(smallCamera(), oneWorker());
     filter.predict({}, 0.03);
     filter.fuse(fieldOf({8, 6}, 0.5F, 0.01F), {0, 0, 8, 6});
@@ -127,7 +127,7 @@ TEST(Mended, ANonFinitePredictionIsSearchedFromInfinity) {
     EXPECT_EQ(searched(kInf), searched(1e30F));
 }
 
-TEST(Mended, SearchSurvivesAnInvalidCovariance) {
+TEST(Mended, TheSearchAcceptsAnInvalidCovariance) {
     const CameraModel camera = smallCamera({64, 48});
     const TestPicture picture = randomPicture({64, 48}, 1);
     LumaImage luma;

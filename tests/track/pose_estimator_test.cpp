@@ -86,7 +86,7 @@ TEST(PoseEstimator, ThePoseDoesNotFlipInAThousandFramesThatNearlyFaceTheTag) {
         }
 }
 
-TEST(PoseEstimator, FollowsATagThatIsSeenObliquely) {
+TEST(PoseEstimator, ThePoseIsStableWhileATagIsSeenObliquely) {
     const Followed run = follow(5, 35, 0.1, 300);
     EXPECT_EQ(run.turns, 0);
     EXPECT_EQ(run.flips, 0);
@@ -164,7 +164,7 @@ TEST(PoseEstimator, PosesArePredictedInShortGapsButNotInLongOnes) {
     EXPECT_FALSE(estimator.update({}, camera, momentOf(60)));
 }
 
-TEST(PoseEstimator, AStillGivesTheVideoCamerasPose) {
+TEST(PoseEstimator, TagsInAStillGiveThePoseOfTheVideoCamera) {
     const CameraModel still = testCamera().scaledTo({2304, 1728});
     const RigidTransform T_still_video{
         Eigen::Quaterniond(Eigen::AngleAxisd(0.02, Eigen::Vector3d::UnitY())), {-0.014, 0, 0}};

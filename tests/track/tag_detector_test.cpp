@@ -32,7 +32,7 @@ TagDetector detectorFor(std::vector<TagFamily> families, double decimation) {
     return TagDetector(options);
 }
 
-TEST(TagFamilies, AgreeWithTheLibrary) {
+TEST(TagFamilies, TagFamiliesAgreeWithLibapriltag) {
     for (const TagFamilyInfo& family : kTagFamilies) {
         const TagPicture last = drawTag({family.family, family.count - 1});
         EXPECT_EQ(last.size - 2 * last.corner, family.cells) << family.name;
@@ -107,7 +107,7 @@ TEST(CornerRefiner, MeasuresCornersToAFewHundredthsOfAPixel) {
     }
 }
 
-TEST(CornerRefiner, KeepsCornersInUniformPictures) {
+TEST(CornerRefiner, CornersInUniformPicturesStayUnchanged) {
     const CameraModel camera = testCamera();
     TagDetection made;
     made.corners = {{{100, 140}, {140, 140}, {140, 100}, {100, 100}}};
@@ -161,7 +161,7 @@ TEST(TagDetector, RegionsAreClippedToThePictureAndCanBeEmpty) {
         EXPECT_TRUE(detector.detect(picture.view(), region).empty());
 }
 
-TEST(TagDetector, BlackWhiteAndTinyPicturesHoldNoTag) {
+TEST(TagDetector, NoTagIsFoundInBlackWhiteAndTinyPictures) {
     for (const double blur : {0., 0.8})
         for (const double decimation : {1., 2.}) {
             DetectorOptions options;

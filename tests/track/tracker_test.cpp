@@ -204,7 +204,7 @@ TEST(Tracker, WrongSizesAndOptionsAreRefused) {
     EXPECT_THROW(Tracker(kRig, options), std::invalid_argument);
 }
 
-TEST(SearchRegions, RegionsContainOnlyTheVisibleTags) {
+TEST(SearchRegions, RegionsToSearchContainOnlyTheVisibleTags) {
     std::vector<PlacedTag> tags = world();
     const Eigen::Quaterniond back(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitY()));
     tags.push_back({{TagFamily::Tag36h11, 20}, 0.07, {back, {0, 0, 0}}});

@@ -91,7 +91,7 @@ TEST_F(FileDisplays, EveryPictureIsWrittenEvenIfThereAreFewBuffers) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 25);
 }
 
-TEST_F(FileDisplays, ShowingKeepsTheGlBindings) {
+TEST_F(FileDisplays, ShowingAPictureDoesNotChangeGlBindings) {
     const gpu::Texture target({8, 8}, gpu::TexelFormat::Rgba8);
     const gpu::Framebuffer framebuffer(target);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer.id());

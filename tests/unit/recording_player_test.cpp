@@ -173,7 +173,7 @@ TEST(RecordingPlayer, ALoopHasIncreasingTimesThatStillIdentifyTheFiles) {
     EXPECT_EQ(player.recordedTime({1'733'333'333}).ns, 1200 * kMs);
 }
 
-TEST(RecordingPlayer, AnUndecodablePictureThrowsOnceAndPlayingGoesOn) {
+TEST(RecordingPlayer, ADamagedPictureIsReportedOnceAndPlayingContinues) {
     const TempFolder folder;
     writeSmallRecording(folder.path(), {0, 33 * kMs, 66 * kMs}, {});
     const auto file = folder / "cam0/data/33000000.png";
@@ -206,7 +206,7 @@ TEST(RecordingPlayer, FramesOutliveThePlayer) {
     EXPECT_EQ(frame->view().data[0], 10);
 }
 
-TEST(RecordingPlayer, TriggerOnlyCountsPulses) {
+TEST(RecordingPlayer, TheTriggerOfARecordingOnlyCountsPulses) {
     const TempFolder folder;
     writeSmallRecording(folder.path(), {0, 33 * kMs}, {});
     RecordingPlayer player(loadRecording(folder.path()), {.pace = Pace::Consumer});

@@ -220,7 +220,7 @@ TEST(Recording, RecordingHasTheContentOfItsFiles) {
     EXPECT_EQ(r.rig.video.distortion, (std::array<double, 5>{0.1, -0.02, 0.001, 0.002, 0}));
 }
 
-TEST(Recording, StillSensorToTheRightSeesThePointFurtherLeft) {
+TEST(Recording, AStillSensorToTheRightShowsAPointFurtherLeft) {
     const TempFolder folder;
     test::writeSmallRecording(folder.path());
     const Recording r = loadRecording(folder.path());

@@ -55,7 +55,7 @@ TEST(StillMatcher, StillWithoutAPulseIsNeverUsed) {
     EXPECT_EQ(matcher.counters().matched, 1U);
 }
 
-TEST(StillMatcher, LatencyIsTheMedianOfTheFirstTwentyStills) {
+TEST(StillMatcher, TheLearnedLatencyIsTheMedianOfTheFirstTwentyStills) {
     StillMatcherOptions options;
     options.guess = 20ms;
     StillMatcher matcher(options);
@@ -346,7 +346,7 @@ private:
     std::uint64_t arrived_ = 0;
 };
 
-TEST(StillMatcher, NoFaultSwapsStillsOrMakesTheCountOfPulsesWrong) {
+TEST(StillMatcher, UnderRandomFaultsStillsKeepTheirPulsesAndCountsStayRight) {
     for (unsigned seed = 0; seed < 200; ++seed) {
         SCOPED_TRACE(seed);
         Chaos(seed).run();

@@ -111,7 +111,7 @@ struct TriggeredStills : testing::Test {
     Sensor sensor;
 };
 
-TEST_F(TriggeredStills, ReportsTheCamerasInfoWithoutARate) {
+TEST_F(TriggeredStills, ReportsThePropertiesOfTheCameraWithoutARate) {
     const auto camera = open();
     EXPECT_EQ(camera->info().name, "fake");
     EXPECT_EQ(camera->info().size, (Size{2304, 1728}));
@@ -134,7 +134,7 @@ TEST_F(TriggeredStills, StillHasTheTimeOfItsPulse) {
     EXPECT_EQ(camera->counters().matched, 30U);
 }
 
-TEST_F(TriggeredStills, PulseGivesTheExposureIfTheCameraDoesNotReportIt) {
+TEST_F(TriggeredStills, IfTheCameraReportsNoExposureTheConfiguredExposureIsUsed) {
     TriggeredStillOptions options;
     options.exposure = 6ms;
     const auto camera = open(options);

@@ -117,7 +117,7 @@ TEST_F(WarpHolesGl, ModesThatDoNotRenderHolesRequestNone) {
     }
 }
 
-TEST_F(WarpHolesGl, AppearingObjectsAreFilledAtOnce) {
+TEST_F(WarpHolesGl, PixelsOfAppearingObjectsAreFilledAtOnce) {
     const CastScene scene = test::twoBalls();
     const auto engine = test::warpEngine();
     Warp warp(test::bentCamera(kHoleLayer), kHoleLayer, *engine,

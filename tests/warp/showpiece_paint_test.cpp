@@ -42,7 +42,7 @@ Truth truthAt(const TracedScene& scene, const CameraModel& camera, const RigidTr
     return out;
 }
 
-TEST(ShowpiecePaint, MatchesTracedRays) {
+TEST(ShowpiecePaint, PaintOfTheShowpieceMatchesTracedRays) {
     const CameraModel camera = test::bentCamera(kView);
     const RigidTransform pose = test::orbit(20, 0.25, 25);
     auto scene = std::make_shared<Scene>();

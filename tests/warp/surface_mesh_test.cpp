@@ -92,7 +92,7 @@ TEST(SurfaceMesh, SimplifiedMeshStaysCloseToASmoothSurface) {
 }
 
 // The mesh is a pipe. The texture coordinate u runs from 0 to 1 around it.
-TEST(SurfaceMesh, SimplifiedMeshKeepsBothSidesOfASeamApart) {
+TEST(SurfaceMesh, ASimplifiedMeshKeepsBothTextureCoordinatesAtASeam) {
     std::vector<Vector3f> corners;
     std::vector<Eigen::Vector2f> uvs;
     std::vector<std::array<std::uint32_t, 3>> triangles;

@@ -152,7 +152,7 @@ TEST(SurfaceRaster, TransparentTexelsOfAMaskAreNotDrawn) {
         EXPECT_EQ(words[static_cast<std::size_t>(y) * 120 + x] != 0, shown) << x << " " << y;
 }
 
-TEST(SurfaceRaster, ObjectsCoverTheShadowCatcherWithAnyNumberOfThreads) {
+TEST(SurfaceRaster, ObjectsCoverANearerShadowCatcherWithAnyNumberOfThreads) {
     Scene scene = sceneOf(shards(40, 5), {}, {Eigen::Quaterniond::Identity(), {0, 0, 1}});
     // The shadow catcher is bent, so that it is drawn. It is nearer than the square.
     scene.catcher.positions = {{-1, -1, 0.5F}, {1, -1, 0.5F}, {1, 1, 0.6F}, {-1, 1, 0.5F}};

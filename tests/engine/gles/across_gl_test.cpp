@@ -32,7 +32,7 @@ std::vector<std::uint8_t> pipelinePictures() {
 
 /// CTest runs this test twice. With the first GL it writes the file MFAR_PICTURES_OUT, with the
 /// second it reads the file MFAR_PICTURES_IN.
-TEST_F(AcrossGl, BothRenderersDrawTheSamePictures) {
+TEST_F(AcrossGl, TwoGlRenderersDrawTheSamePictures) {
     const char* out = std::getenv("MFAR_PICTURES_OUT");
     const char* in = std::getenv("MFAR_PICTURES_IN");
     if (out == nullptr && in == nullptr)

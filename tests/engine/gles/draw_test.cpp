@@ -67,7 +67,7 @@ TEST_F(Draw, SharpeningMatchesTheOracle) {
     }
 }
 
-TEST_F(Draw, SharpeningKeepsAConstantPicture) {
+TEST_F(Draw, SharpeningLeavesAConstantPictureUnchanged) {
     TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);
     params.sharpening = 1;
     for (const std::uint8_t level : {0, 1, 100, 254, 255}) {

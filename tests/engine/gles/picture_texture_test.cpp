@@ -94,7 +94,7 @@ TEST_F(PictureTexture, FormatAndSizeMayChangeFromPictureToPicture) {
         }
 }
 
-TEST_F(PictureTexture, EachUploadReplacesThePicture) {
+TEST_F(PictureTexture, AnUploadReplacesTheWholePicture) {
     gpu::PictureTexture picture;
     GLuint id = 0;
     for (unsigned seed = 1; seed < 4; ++seed) {

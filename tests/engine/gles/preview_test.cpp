@@ -99,7 +99,7 @@ TEST_F(Preview, ANearerObjectHidesAFartherInAnyOrderOfDrawing) {
     expectAlike(depthOf(renderer.render(all, kPose)), truth);
 }
 
-TEST_F(Preview, SurfacesAroundAndBehindTheCameraDoNotSmear) {
+TEST_F(Preview, SurfacesAroundAndBehindTheCameraAreDrawnCorrectly) {
     // The model of this lens folds over beyond the picture's corners.
     CameraModel folding = plainRig(kVideo, kVideo).video;
     folding.fx = folding.fy = 130;
@@ -213,7 +213,7 @@ TEST_F(Preview, LightFollowsLambertsLawPlusAmbient) {
         }
 }
 
-TEST_F(Preview, CheckerboardSquaresAlternateOverASide) {
+TEST_F(Preview, ColoursAlternateBetweenTheSquaresOfACheckerboard) {
     const CameraModel flat = plainRig(kVideo, kVideo).video;
     PreviewRenderer renderer(flat, kOutput, {.ambient = 1});
     VirtualObject o = object(VirtualShape::Quad, {0.6, 0.6, 0}, {});

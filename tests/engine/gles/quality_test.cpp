@@ -41,7 +41,7 @@ Image pictureOf(Pipeline& p, const PipelineCase& c, bool withPoses) {
     return p.readImage();
 }
 
-TEST_F(QualityTest, WithoutTheStillAFrameMayBeEnlargedLinearly) {
+TEST_F(QualityTest, IfTheStillIsNotUsedAFrameMayBeEnlargedLinearly) {
     const PipelineCase c;
     Pipeline p(c.rig, {}), cubic(c.rig, {}), detail(c.rig, {});
     p.setQuality({.mode = SuperResMode::Off, .cubic = false});
@@ -190,7 +190,7 @@ TestPicture evenButForAPatch(TestPicture picture, int grey) {
     return picture;
 }
 
-TEST_F(QualityTest, APatchWithDetailIsDrawnAsWellAsAWholePicture) {
+TEST_F(QualityTest, APartWithDetailEqualsThatOfAWholePicture) {
     const PipelineCase c;
     const auto frame = [&](double shift) {
         return evenButForAPatch(c.video({shift, 0}), 90 + static_cast<int>(4 * shift));

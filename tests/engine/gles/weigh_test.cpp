@@ -271,7 +271,7 @@ TEST_F(Classify, TileClassesCountsAndListsMatchTheOracle) {
     expectLists(classify(field, changes(0), true, 0), wanted);
 }
 
-TEST_F(Classify, ForAWholeFrameNoTilesAreListed) {
+TEST_F(Classify, IfTheWholeFrameIsDrawnNoTilesAreListed) {
     const Classified got = classify(mixedField(), changes(1), true);
     EXPECT_EQ(got.draws.counts[0], 0U);
     for (const auto& command : got.draws.commands)

@@ -72,7 +72,7 @@ TEST(CellFlow, PointsBehindTheCameraAndNanHaveNoFlow) {
 }
 
 // The flow of other depths must lead back to these depths.
-TEST(AlignCells, FollowsTheFlowAlongTheLine) {
+TEST(AlignCells, InverseDepthOfCellsFollowsTheirFlowAlongTheEpipolarLine) {
     for (const std::size_t count : test::kLengths) {
         const Cells cells(count);
         Row wanted = cells.s, found = cells.s;
@@ -104,7 +104,7 @@ TEST(CellLandings, FlowEndsInTheNearestCell) {
     }
 }
 
-TEST(CellsHidden, OccludedCellsLieBehindOthersAtTheSamePixel) {
+TEST(CellsHidden, CellsBehindANearerCellAtTheSamePixelAreOccluded) {
     for (const std::size_t count : test::kLengths) {
         const auto landing = test::randomValues<std::int32_t>(count, -1, 4.9, 1);
         const Row nearest = test::randomValues<float>(5, 0, 1, 2),

@@ -96,7 +96,7 @@ TEST(MoveRow, MovesPointsAndTheirVariance) {
     }
 }
 
-TEST(MeasureRow, OnlyVisiblePointsThatMoveWithTheirDepthAreMeasured) {
+TEST(MeasureRow, OnlyVisiblePointsGetDepthAndVariance) {
     const MeasureRule rule{{0.3F, 0.1F, 0.5F}, 0.05F, 0.05F, 0.003F, 2};
     for (const std::size_t count : test::kLengths) {
         const Row raysX = test::randomValues<float>(count, -0.6, 0.6, 1);

@@ -121,7 +121,7 @@ TEST(DetailStep, DetailOfAWholeFrameStaysInTheGivenRectangle) {
     });
 }
 
-TEST(DetailStep, WholeEnlargedFramesHaveDetailOnlyInMatchedTiles) {
+TEST(DetailStep, IfTheWholeFrameIsEnlargedOnlyMatchedTilesHaveDetail) {
     const Size output{576, 432};
     DetailCase frame({160, 120}, {400, 300});
     frame.work.draw = TileWork::Draw::WholeEnlarged;

@@ -61,7 +61,7 @@ Errors errorsOf(Rows<const FlowCell> field, const Vector2d& truth, int border) {
     return e;
 }
 
-TEST(Flow2d, ShiftsAreRecoveredBothWays) {
+TEST(Flow2d, ShiftsAreFoundInBothDirections) {
     for (const Vector2d& shift :
          std::vector<Vector2d>{Vector2d(0, 0), Vector2d(1, 0), Vector2d(-3, 2), Vector2d(7, -5),
                                Vector2d(0.5, 0.25), Vector2d(-1.3, 0.7), Vector2d(4.6, 3.1)}) {
@@ -76,7 +76,7 @@ TEST(Flow2d, ShiftsAreRecoveredBothWays) {
     }
 }
 
-TEST(Flow2d, LargeMotionIsRecovered) {
+TEST(Flow2d, LargeMotionIsFound) {
     Pair pair(wavesMoved({640, 480}, {0, 0}), wavesMoved({640, 480}, {60, -12}));
     pair.run();
     EXPECT_LT(errorsOf(pair.flow.forward(), {60, -12}, 18).mean, 0.1);
@@ -88,7 +88,7 @@ TEST(Flow2d, TinyMotionHasNoBias) {
     EXPECT_LT(errorsOf(pair.flow.forward(), {0.1, -0.1}, 3).bias.norm(), 0.02);
 }
 
-TEST(Flow2d, GainAndOffsetMakeNoDifference) {
+TEST(Flow2d, FlowDoesNotDependOnGainAndOffset) {
     Pair pair(wavesMoved(kSmall, {0, 0}), wavesMoved(kSmall, {2.4, -1.7}, 0.7, 40));
     pair.run();
     const Errors e = errorsOf(pair.flow.forward(), {2.4, -1.7}, 4);
@@ -138,7 +138,7 @@ TEST(Flow2d, NoiseGivesBoundedFlowAtAnySize) {
     }
 }
 
-TEST(Flow2d, EveryNumberOfPyramidLevelsAndPropagationRoundsWorks) {
+TEST(Flow2d, FlowIsFoundWithAnyNumberOfPyramidLevelsAndPropagationRounds) {
     for (const int levels : {1, 2, 3, 6})
         for (const int rounds : {0, 1, 3}) {
             Flow2dOptions options;

@@ -66,7 +66,7 @@ TEST(LumaPyramids, LumaOfColoursFollowsRec601) {
             ASSERT_EQ(level.at(x, y), std::lround(0.299 * 200 + 0.587 * 100 + 0.114 * 30));
 }
 
-TEST(LumaPyramids, PyramidOfAVideoFrameIsThatOfItsLuma) {
+TEST(LumaPyramids, ThePyramidOfAVideoFrameEqualsThatOfItsLuma) {
     const FlowPicture picture = noiseOf({101, 59}, 3);
     LumaPyramids fromPlanes(picture.size, twoWorkers()), fromLuma(picture.size, twoWorkers());
     fromPlanes.buildVideo(planesOf(picture));

@@ -180,7 +180,7 @@ TEST(StillPreparation, PictureKeepsColoursAndOutlivesItsSource) {
                 ASSERT_EQ(got[y][x] >> (8 * c) & 255, c < 3 ? bytes[4 * (y * 91 + x) + c] : 255);
 }
 
-TEST(StillPreparation, PictureThatIsNotKeptIsGrey) {
+TEST(StillPreparation, IfColoursAreNotKeptThePictureIsGrey) {
     Still s({40, 25}, {90, 60}, {90, 60});
     s.preparation.set(TestPicture({90, 60}).view, false);
     const Rows<const std::uint32_t> got = s.preparation.picture();

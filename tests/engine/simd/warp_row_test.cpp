@@ -64,7 +64,7 @@ void expectPixelsOf(const std::string& name, const PlaceOf& placeOf) {
         ASSERT_NEAR(out[0][i], 32 * luma(still, placeOf(i)), 1) << name << ": pixel " << i;
 }
 
-TEST(WarpRow, InterpolatesTheStillAtRegularAndIrregularPositions) {
+TEST(WarpRow, TheStillIsInterpolatedAtRegularAndIrregularPositions) {
     expectPixelsOf("all positions in one row of the still",
                    [](int i) { return Place{i + 0.25, 7.5}; });
     expectPixelsOf("y changes slowly", [](int i) { return Place{i + 0.75, 3.25 + i / 16.0}; });
