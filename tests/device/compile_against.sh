@@ -35,7 +35,7 @@ cd "$1"
 version() { pkg-config --modversion "$1"; }
 warnings="-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Werror"
 objects() { # objects PACKAGES SOURCES...: compiles each source into the folder
-    # -isystem makes the compiler ignore warnings in the library's headers.
+    # -isystem makes the compiler ignore warnings in headers of the library.
     flags=$(pkg-config --cflags "$1" | sed "s/-I/-isystem /g")
     shift
     for source; do
