@@ -44,7 +44,7 @@ public:
 
     StillPolicy policy;
     double now = 100;
-    double delay = 0;  ///< how far the statistics lag behind their frame [s]
+    double delay = 0;  ///< delay of the statistics behind their frame [s]
     double latency = 0.2;
     bool answers = true;
     std::optional<double> answerAt;

@@ -113,7 +113,7 @@ TEST(EpipolarSearch, FindsScenesAfterARotationThroughALens) {
     expectErrors({barrel(), flatScene(), motion({2, -28, 5}, {0.15, 0, 0.1})}, 0.2, 0.04);
 }
 
-// The displacement needs three levels and is longer than the window of the coarsest level.
+// The displacement needs three pyramid levels and is longer than the window of the coarsest level.
 TEST(EpipolarSearch, FindsLongDisplacementsThroughThreePyramidLevels) {
     const CameraModel camera{{320, 240}, 300, 300, 159.5, 119.5, {}};
     const Scene scene{{{{0, 0, 1}, 3}, {{0, 0, 1}, 1.5, {-0.3, -0.3}, {0.3, 0.3}}}, 35, 100};
