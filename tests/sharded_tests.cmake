@@ -18,7 +18,7 @@ function(mfar_add_sharded_tests target name)
         set(properties)
         foreach(property LABELS ENVIRONMENT)
             if(arg_${property})
-                # The value of a property must be one argument, even if it sets several variables.
+                # A property's value must be one argument, even if it sets several variables.
                 string(REPLACE ";" "\\;" value "${arg_${property}}")
                 list(APPEND properties ${property} "${value}")
             endif()

@@ -10,20 +10,18 @@
 
 namespace mfar::test {
 
-/// Returns the simulated board of a scene. It delivers pictures as fast as they are fetched, and
+/// Returns the simulated board of a scene. It delivers pictures as fast as they are fetched. It
 /// lives until the program ends.
 SyntheticBoard& sharedBoard(synthetic::Scene scene);
 
-/// Grey copy of a picture.
 cv::Mat1b grey(const ImageView& image);
 /// Colour copy of a picture, in the picture's order of channels, [0, 1].
 cv::Mat3f colour(const StoredImage& image);
 
-/// Corners [px] of the 36h11 tags that libapriltag finds, by id. They are in the library's order:
-/// bottom left, bottom right, and so on.
+/// Corners [px] of the 36h11 tags that libapriltag finds, by tag id. Order of the corners: bottom
+/// left, bottom right, top right, top left.
 std::map<int, std::array<Eigen::Vector2d, 4>> detectTags(const cv::Mat1b& picture);
-/// True positions [px] of a tag's corners, in the order of detectTags(), computed from the poses of
-/// tag and camera.
+/// True positions [px] of a tag's corners, in the order of detectTags().
 std::array<Eigen::Vector2d, 4> projectedCorners(const synthetic::Tag& tag,
                                                 const CameraModel& camera,
                                                 const RigidTransform& T_world_camera);

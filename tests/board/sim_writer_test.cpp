@@ -43,7 +43,6 @@ TEST(SimWriter, ARecordingIsReadBackWithItsGroundTruth) {
         EXPECT_TRUE(i == 0 || r.truthFlow(r.video[i - 1].time, t));
     }
     EXPECT_EQ(loadImage(*r.truthHighRes(r.video[0].time)).size, board.rig().still.size);
-    // When the fourth frame is shown, the second still is the newest one that has arrived.
     const auto toStill = r.truthFlow(r.video[3].time, r.stills[1].time);
     ASSERT_TRUE(toStill);
     EXPECT_TRUE(std::isfinite(loadFlo(*toStill).at(320, 240)[0]));

@@ -32,8 +32,8 @@ struct Delivery {
     std::vector<std::size_t> stillsAfterFrame;  ///< number of video frames before each still
 };
 
-/// Fires pulses at the given frames, in one thread, until the board ends. Polls for stills between
-/// frames. After the last frame, waits for the remaining stills.
+/// Fires pulses at the given frames, in one thread, until the board ends. Fetches stills between
+/// frames, and the remaining stills after the last frame.
 Delivery runBoard(SyntheticBoard& board, const std::vector<std::size_t>& pulses) {
     Delivery out;
     board.video().start();
@@ -71,8 +71,8 @@ TEST(SyntheticBoard, AStillArrivesOneLatencyAfterItsTriggerPulse) {
     const Delivery run = runBoard(board, {2});
     ASSERT_EQ(run.videoTimes.size(), 8U);
     ASSERT_EQ(run.stillTimes.size(), 1U);
-    // The exposure lasts 8 ms and begins 1 ms after the pulse. The still arrives 60 ms after the
-    // pulse: two frames later.
+    // The exposure begins 1 ms after the pulse and lasts 8 ms. The still arrives two frames after
+    // the pulse, which is 60 ms later.
     EXPECT_EQ(run.stillTimes[0], run.videoTimes[1] + 5ms);
     EXPECT_EQ(run.stillsAfterFrame[0], 4U);
     for (std::size_t i = 1; i < run.videoTimes.size(); ++i)
@@ -95,7 +95,7 @@ TEST(SyntheticBoard, APulseBeforeTheStillSensorStartsIsLost) {
     EXPECT_TRUE(runBoard(board, {}).stillTimes.empty());
 }
 
-TEST(SyntheticBoard, AStillOfTheLastFrameComesAfterTheEnd) {
+TEST(SyntheticBoard, AStillTriggeredAtTheLastFrameArrivesAfterTheEndOfTheVideo) {
     SyntheticBoard board(flat(Pace::Consumer, 3));
     EXPECT_EQ(runBoard(board, {3}).stillTimes.size(), 1U);
 }
@@ -111,7 +111,7 @@ TEST(SyntheticBoard, FramesOutliveTheBoard) {
     EXPECT_FALSE(bytes(*frame).empty());
 }
 
-TEST(SyntheticBoard, NextTimesOutWhileAllVideoBuffersAreHeld) {
+TEST(SyntheticBoard, NextTimesOutWhileTheUserHoldsAllVideoBuffers) {
     SyntheticOptions options = flat(Pace::Consumer);
     options.videoBuffers = 2;
     SyntheticBoard board(options);
@@ -163,7 +163,7 @@ TEST(SyntheticBoard, StopWakesWaitingThreads) {
     EXPECT_FALSE(board.video().next(0ms));
 }
 
-TEST(SyntheticBoard, CamerasTriggerAndTruthWorkFromDifferentThreads) {
+TEST(SyntheticBoard, DifferentThreadsMayUseCamerasTriggerAndGroundTruth) {
     SyntheticBoard board(flat(Pace::Consumer, 12));
     board.video().start();
     board.stills().start();

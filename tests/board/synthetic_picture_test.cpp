@@ -10,7 +10,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr double kGamma = 2.2;  // gamma of the video sensor
+constexpr double kGamma = 2.2;
 
 cv::Mat3f linear(const cv::Mat3f& picture) {
     cv::Mat3f out;
@@ -20,7 +20,6 @@ cv::Mat3f linear(const cv::Mat3f& picture) {
 
 class EveryScene : public testing::TestWithParam<synthetic::Scene> {};
 
-/// A video frame, and the still that a trigger pulse during this frame produces.
 struct Pair {
     std::optional<Frame> video, still;
 };
@@ -49,7 +48,7 @@ void expectTags(const SyntheticBoard& board, const ImageView& picture, const Cam
     }
 }
 
-TEST_P(EveryScene, BothSensorsShowTheTagsAtTheirTruePositions) {
+TEST_P(EveryScene, TheTagsAreAtTheirTruePositionsInThePicturesOfBothSensors) {
     SyntheticBoard& board = sharedBoard(GetParam());
     const Pair pair = takePair(board);
     ASSERT_TRUE(pair.video && pair.still);
@@ -61,13 +60,13 @@ TEST_P(EveryScene, BothSensorsShowTheTagsAtTheirTruePositions) {
     expectTags(board, pair.still->view(), rig.still, T_world_still, 0.8);
 }
 
-TEST_P(EveryScene, TrueHighResolutionPictureAveragesToTheVideo) {
+TEST_P(EveryScene, TheTrueHighResolutionPictureReducedToVideoSizeEqualsTheVideo) {
     SyntheticBoard& board = sharedBoard(GetParam());
     const Timestamp t = board.epoch() + 700ms;
     const cv::Mat3f video = linear(colour(board.cleanVideo(t)));
     cv::Mat3f high = linear(colour(board.highRes(t))), small;
     cv::resize(high, small, video.size(), 0, 0, cv::INTER_AREA);
-    cv::GaussianBlur(small, small, {3, 3}, 0.36);  // blur of the video sensor
+    cv::GaussianBlur(small, small, {3, 3}, 0.36);
     EXPECT_GT(psnr(small, video), 36);
 }
 

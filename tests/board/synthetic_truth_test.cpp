@@ -12,8 +12,7 @@ constexpr std::array kAllScenes{Scene::Office, Scene::Shelf,  Scene::Outdoor,
                                 Scene::Flat,   Scene::Moving, Scene::Still};
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// A viewpoint with a quarter of the video's resolution, which is enough for a test and takes a
-/// sixteenth of the time.
+/// A viewpoint with a quarter of the video's resolution, which makes a test sixteen times faster.
 Viewpoint small(const World& world, Path path, double t) {
     return {boardRig().video.scaledTo({160, 120}), cameraPose(world, path, 1, t), t};
 }
@@ -43,8 +42,8 @@ TEST(SyntheticRig, LensesCanBeInvertedOverTheWholePicture) {
                 const Eigen::Vector2d p{u * camera.size.width, v * camera.size.height};
                 const Eigen::Vector2d ray = camera.unproject(p);
                 EXPECT_LT((camera.project(ray) - p).norm(), 1e-6);
-                // unproject() must find the ray from any initial value, even from one on the other
-                // side of the picture.
+                // unproject() must find the ray from any initial value, even from one across the
+                // picture.
                 for (const double off : {0.0, 1e-3, 0.2, 2.0})
                     EXPECT_LT((camera.unproject(p, ray - Eigen::Vector2d(off, off)) - ray).norm(),
                               1e-9);
@@ -69,7 +68,7 @@ TEST(SyntheticPath, HandHeldShakeIsSmallAndSmooth) {
     EXPECT_GT(widest, 0.8 * kDegree);
 }
 
-TEST(SyntheticPath, RestPathStaysAndRotationPathOnlyRotates) {
+TEST(SyntheticPath, TheRestPathDoesNotMoveAndTheRotationPathOnlyRotates) {
     const World world = makeWorld(Scene::Office, 1);
     const RigidTransform rest = cameraPose(world, Path::Rest, 1, 0);
     for (const double t : {0.5, 3.0, 7.7}) {
@@ -96,7 +95,6 @@ TEST(SyntheticWorld, FirstViewShowsEveryTagUnoccluded) {
             const int x = static_cast<int>(std::lround(q.x()));
             const int y = static_cast<int>(std::lround(q.y()));
             ASSERT_TRUE(x >= 0 && y >= 0 && x < 640 && y < 480) << name(scene) << tag.id;
-            // Intersects the ray of exactly this pixel with the tag's plane n.(X - p) = 0.
             const Eigen::Vector3d n =
                 (T_camera_world.rotation * tag.T_world_tag.rotation) * Eigen::Vector3d::UnitZ();
             const double expected = n.dot(ray(view.camera, x, y)) / n.dot(p);
@@ -165,8 +163,8 @@ TEST(SyntheticTruth, FlowOfOccludedAndOutsidePixelsIsUnknown) {
                 EXPECT_FALSE(known(flow.at(x, y)));
                 continue;
             }
-            // Only points are tested that lie behind everything visible around them, so that edges
-            // do not matter.
+            // Only points behind everything visible around them are tested. So the result does not
+            // depend on edges.
             bool behind = true;
             for (int i = 0; i < 9; ++i) {
                 const int nx = std::clamp(px + i % 3 - 1, 0, 159);
@@ -188,7 +186,6 @@ TEST(SyntheticTruth, FlowFollowsAMovingObject) {
     Viewpoint b = a;
     b.t = 0.5;
     const FlowImage flow = flowBetween(world, a, b);
-    // The camera is at rest; so only the moving object has flow. Its pose gives that flow.
     const RigidTransform T_camera_world = a.T_world_camera.inverse();
     const Eigen::Vector3d before = T_camera_world * world.moverPivot;
     const Eigen::Vector3d after =

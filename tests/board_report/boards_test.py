@@ -30,8 +30,8 @@ def shader(**values):
     return shader_stats.Shader('flow_filter.comp', '', **values)
 
 
-class Predictions(unittest.TestCase):
-    def test_every_board_with_a_gpu_has_its_row_of_predictions(self):
+class PredictedFrames(unittest.TestCase):
+    def test_the_file_has_a_row_for_every_board_with_a_gpu(self):
         path = os.path.join(HERE, '..', '..', 'pipeline', 'predicted_frames.inc')
         with open(path, encoding='utf-8') as file:
             rows = [line.strip('{},\n').split(', ') for line in file if line.startswith('{')]
@@ -76,14 +76,14 @@ class RecordedStatistics(unittest.TestCase):
 
 
 class Weights(unittest.TestCase):
-    def test_instructions_count_once_for_each_trip_of_their_loops(self):
+    def test_instructions_count_once_per_iteration_of_their_loops(self):
         loop = shader_stats.Loop
         one = shader(loops=[loop(0, -1, 10, 1, 0), loop(1, 0, 5, 0, 1), loop(2, 1, 2, 3, 0)])
         self.assertEqual(one.executed('arithmetic', [4, 3]), 10 + 4 * 5 + 12 * 2)
         self.assertEqual(one.executed('memory', [4, 3]), 1 + 12 * 3)
         self.assertEqual(one.weights([4, 3])[2], 4)
 
-    def test_an_else_ends_no_loop(self):
+    def test_an_else_branch_does_not_end_a_loop(self):
         reader = shader_stats.NirReader()
         for line in ('loop {', 'if ssa_1 {', 'vec1 32 ssa_2 = fadd ssa_0, ssa_1', '} else {',
                      'vec1 32 ssa_3 = fmul ssa_0, ssa_1', '}', '}', 'vec1 32 ssa_4 = fadd ssa_0, ssa_1'):
@@ -99,8 +99,8 @@ class GpuModel(unittest.TestCase):
         values.setdefault('loops', [shader_stats.Loop(0, -1, 100)])
         return gpu_model.pass_time(work, shader(**values), MODEL['gpus']['v3d-4'], self.BOARD, MODEL)
 
-    def test_a_wave_takes_four_cycles_an_instruction(self):
-        # 1000 waves on each of 8 cores, 100 instructions of 4 cycles, at 500 MHz
+    def test_a_wave_takes_four_cycles_per_instruction(self):
+        # 1000 waves on each of 8 cores execute 100 instructions of 4 cycles at 500 MHz
         ms, limit, _ = self.time(self.WORK, instructions=100, threads=4)
         self.assertAlmostEqual(ms, 0.8 + 0.1)
         self.assertEqual(limit, 'arithmetic')
@@ -117,7 +117,7 @@ class GpuModel(unittest.TestCase):
         self.assertEqual(limit, 'waiting')
         self.assertAlmostEqual(ms, (100 * 4 + 10 * MODEL['gpu_model']['memory_latency']) / 500e3 + 0.1)
 
-    def test_numbers_of_loop_trips_come_from_parameters(self):
+    def test_numbers_of_loop_iterations_come_from_parameters(self):
         loop = shader_stats.Loop
         one = shader(loops=[loop(0), loop(1, 0), loop(2, 1)])
         self.assertEqual(gpu_model.trips_of(one, {'planeFits': 2}, MODEL['loops']), [2, 5])
@@ -136,8 +136,8 @@ class CpuModel(unittest.TestCase):
     def test_blocks_do_not_depend_on_where_the_emulator_cuts_them(self):
         texts = {0x10: ('mov x0, x1', 0), 0x14: ('add x0, x0, #1', 0), 0x18: ('add x1, x1, #1', 0),
                  0x1c: ('b.ne target', 0x14), 0x20: ('ret', 0)}
-        # The emulator counts the first iteration of the loop together with the code before it. It
-        # counts later iterations as two blocks, as it does where a page of memory ends.
+        # The emulator counts the first iteration of a loop together with the code before it. It
+        # counts later iterations as two blocks, as where a page of memory ends.
         counts = cpu_model.Counts('0 16 4 1\n4 8 2 9\nc 4 1 9\n10 4 1 1\n')
         blocks = cpu_model.basic_blocks(counts, 0x10, texts)
         self.assertEqual(blocks, [([0x10], 1), ([0x14, 0x18, 0x1c], 10), ([0x20], 1)])
@@ -175,7 +175,7 @@ class Predictions(unittest.TestCase):
         ms = predict.cpu_steps(self.BOARD, {'detail': 0.001}, (2304, 1728), MODEL, 4)['detail']
         self.assertGreater(ms, 2304 * 1728 * 4 / 10e6)
 
-    def test_the_better_placement_wins(self):
+    def test_the_fastest_assignment_of_steps_to_engines_wins(self):
         cpu = {'plan': 1, 'pyramid': 1, 'flow': 5, 'weigh': 1, 'detail': 50}
         gpu = {'pyramid': 2, 'flow': 20, 'weigh': 2, 'detail': 10}
         sums = predict.placements(cpu, gpu)
@@ -212,7 +212,7 @@ class Budget(unittest.TestCase):
         self.assertEqual(self.faults(spills=1), ['a.comp on v3d-4: 1 spills, the budget is 0'])
         self.assertEqual(self.faults(scratch=3), ['a.comp on v3d-4: 3 scratch, the budget is 2'])
 
-    def test_a_new_shader_is_named(self):
+    def test_a_new_shader_is_reported_by_its_name(self):
         self.assertEqual(self.faults(shader='b.comp'), ['b.comp on v3d-4: has no budget in budget.csv'])
 
     def test_the_checked_in_budget_has_every_gpu_of_the_model(self):

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Checks that every shader keeps to its budget on every board whose drivers are in the cache. Exit
-# status 77: there are none. With "planted": checks that a shader with a large local array is
+# Checks that every shader keeps its budget on every board whose drivers are in the cache. Exit
+# status 77: there are no drivers. With "planted": checks that a shader with a large local array is
 # reported on each board. Usage: budget.sh COMPILE-SHADERS [planted]
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")

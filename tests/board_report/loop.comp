@@ -1,4 +1,4 @@
-// samples/ has the drivers' statistics of this shader. It reads a texture and adds to storage
+// samples/ contains the drivers' statistics of this shader. It reads a texture and adds to storage
 // inside a loop, and once more after the loop.
 layout(local_size_x = 4, local_size_y = 4) in;
 layout(std430, binding = 0) buffer Sums {

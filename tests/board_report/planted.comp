@@ -1,4 +1,4 @@
-// This shader has more live values than any board has registers; the budget must report it.
+// This shader has more live values than any board has registers. The budget check must report it.
 layout(local_size_x = 4, local_size_y = 4) in;
 layout(std430, binding = 0) buffer Values {
     float values[];

@@ -9,13 +9,11 @@
 #include <sstream>
 #include <string>
 
-/// Runs mfar-calibrate as a user does, on pictures of a target that mfar-sim made.
 namespace mfar::test {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Moves the clock of the still sensor ahead by `ns`.
 void shiftStills(const fs::path& recording, long long ns) {
     std::istringstream in(readFile(recording / "cam1/data.csv"));
     std::string out;

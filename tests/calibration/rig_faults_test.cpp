@@ -17,7 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Picture sizes of the sample calibrations, for formats whose files contain no sizes.
 const WantedSizes kSizes{Size{640, 480}, Size{2304, 1728}};
 
 std::string faultOf(const fs::path& path) {
@@ -35,8 +34,8 @@ void writeAll(const fs::path& root) {
     writeFile(root / "cv.yml", openCvText());
 }
 
-/// load: folder or file to load; file: which of its files to edit; from, to: text to replace and
-/// its replacement; where: required start of the message; what: required part of the message.
+/// load: folder or file to load. file: the edited file in it. from, to: text and its replacement.
+/// where: required start of the message. what: required part of the message.
 struct Fault {
     const char *load, *file, *from, *to, *where, *what;
 };
@@ -155,7 +154,6 @@ TEST(RigFiles, DevicesAndPipesAreRefused) {
                   file.string() + ": is not a regular file, so this camera has no calibration");
 }
 
-// The table in docs/calibration.md must equal the one in the code.
 TEST(RigFiles, TheDocumentationListsTheAcceptedRanges) {
     const std::string page = readFile(MFAR_CALIBRATION_PAGE);
     for (const plausible::Range& range : plausible::kRanges)

@@ -81,7 +81,7 @@ TEST(RigFiles, OpenCvsLongNamesAndOldHeaderAreRead) {
     expectSameRig(loadRig(folder / "all.yml"), sampleRig(), 0);
 }
 
-TEST(RigFiles, EurocFilesAreReadAsPairOrFromTheirRecording) {
+TEST(RigFiles, EurocFilesAreReadAsAPairOrFromTheirRecording) {
     const TempFolder folder;
     const RigCalibration rig = sampleRig();
     const fs::path video = folder / "cam0/sensor.yaml", still = folder / "cam1/sensor.yaml";

@@ -7,14 +7,12 @@
 
 #include <string>
 
-/// Texts of calibration files: the same calibration in every format.
 namespace mfar::test {
 
 inline RigCalibration sampleRig() {
     RigCalibration out;
     out.rig.video = {{640, 480}, 560.4, 560.9, 321.7, 237.6, {-0.115, 0.062, 0.0006, -0.0005, 0}};
     out.rig.still = {{2304, 1728}, 1962.0, 1963.5, 1158.2, 857.4, {-0.072, 0.031, -0.0004, 0.0007}};
-    // A rotation matrix that is exact in few digits: sine 0.6, cosine 0.8, about the optical axis.
     Eigen::Matrix3d r;
     r << 0.8, -0.6, 0, 0.6, 0.8, 0, 0, 0, 1;
     out.rig.T_still_video = {Eigen::Quaterniond(r), {-0.014, 0.001, 0.0005}};
@@ -84,7 +82,7 @@ T: !!opencv-matrix
 )";
 
 inline std::string openCvText() {
-    // A single document must not have a second header.
+    // substr() removes the header, because a document must have only one.
     return kOpenCvIntrinsics + std::string(kOpenCvExtrinsics).substr(14) +
            "image_size1: [ 640, 480 ]\nimage_size2: [ 2304, 1728 ]\n";
 }

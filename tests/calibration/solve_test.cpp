@@ -22,7 +22,6 @@ void expectCamera(const SensorResult& found, const CameraModel& truth) {
     EXPECT_NEAR(c.fy, truth.fy, 1e-3 * truth.fy);
     EXPECT_NEAR(c.cx, truth.cx, 0.5);
     EXPECT_NEAR(c.cy, truth.cy, 0.5);
-    // The reported standard deviations must be realistic: errors are less than four of them.
     EXPECT_LT(std::abs(c.fx - truth.fx), 4 * found.deviations[0]);
     EXPECT_LT(std::abs(c.cx - truth.cx), 4 * found.deviations[2]);
     EXPECT_LT(std::abs(c.distortion[0] - truth.distortion[0]), 4 * found.deviations[4]);
@@ -69,8 +68,7 @@ TEST(Calibrate, WrongCornersAndWrongViewsAreExcluded) {
     for (const std::size_t bad : {2U, 9U})
         for (Corner& c : views.still.views[bad].corners)
             c.pixel.y() *= 1.004;
-    // The corners of a still with a wrong time fit well, but they contradict the motion of the
-    // video.
+    // The corners of a still with a wrong time fit well but contradict the motion of the video.
     views.still.views[5].time = views.still.views[5].time + std::chrono::milliseconds(60);
     const Calibration found = calibrate(kGrid, views.video, views.still, {});
     expectRig(found);
@@ -132,8 +130,8 @@ TEST(Calibrate, AllViewsFromOneDirectionAreRefused) {
 }
 
 TEST(Calibrate, AllViewsFromOneDistanceAreRefused) {
-    // The target is small and only tilted about its own centre; so the depths of its points hardly
-    // differ.
+    // The target is small and is only tilted about its own centre. So its points hardly differ in
+    // depth.
     const Target small = aprilGrid(6, 6, 0.008, 0.25);
     Motion motion;
     motion.distance = 0.02;
@@ -147,7 +145,7 @@ TEST(Calibrate, AllViewsFromOneDistanceAreRefused) {
     }
 }
 
-TEST(Calibrate, AnUncoveredPartOfThePictureIsRefusedAndNamed) {
+TEST(Calibrate, ViewsThatLeavePartOfThePictureUncoveredAreRefused) {
     BothViews views = makeViews(kGrid, {});
     for (TargetView& view : views.video.views)
         std::erase_if(view.corners, [](const Corner& c) { return c.pixel.x() > 330; });
@@ -181,7 +179,7 @@ TEST(Calibrate, TheReportListsEveryViewAndItsPictureIsWritten) {
     std::size_t coloured = 0;
     for (std::size_t i = 0; i < picture.pixels.size(); i += 4)
         coloured += std::abs(picture.pixels[i] - picture.pixels[i + 2]) > 30 ? 1 : 0;
-    EXPECT_GT(coloured, 5000U);  // coloured pixels are those of arrows and dots
+    EXPECT_GT(coloured, 5000U);  // only arrows and dots are coloured
 }
 
 }  // namespace

@@ -16,8 +16,8 @@ using calibration::Target;
 
 constexpr double kRateHz = 30;
 
-/// T_video_target. The target is tilted to all sides, at near and far distances, and appears in
-/// every part of the picture.
+/// T_video_target. The target is tilted to all sides, near and far, and appears in every part of
+/// the picture.
 RigidTransform poseAt(const Target& target, const Motion& m, double t) {
     if (m.rests) {
         const double second = std::floor(t), s = std::max(0., (t - second - 0.8) / 0.2);
@@ -31,7 +31,7 @@ RigidTransform poseAt(const Target& target, const Motion& m, double t) {
         AngleAxisd(swing(m.tilt, 5.3, 0), Vector3d::UnitY()) *
         AngleAxisd(std::numbers::pi + swing(m.tilt, 3.7, 0.2), Vector3d::UnitX()) *
         AngleAxisd(swing(m.tilt, 6.1, 0.3), Vector3d::UnitZ());
-    const Vector3d middle = 0.5 * target.points[target.points.size() - 2];  // upper right
+    const Vector3d middle = 0.5 * target.points[target.points.size() - 2];
     const Vector3d place{swing(m.aside, 2.9, 0.1), swing(m.aside, 2.3, 0.4),
                          0.65 * (1 + swing(m.distance, 7.1, 0.6))};
     return {turn, place - turn * middle};

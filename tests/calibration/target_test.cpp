@@ -23,8 +23,7 @@ TEST(Target, KalibrsDescriptionIsRead) {
     writeFile(folder / "grid.yaml", kGridText);
     const Target grid = readAprilGrid(folder / "grid.yaml");
     ASSERT_EQ(grid.points.size(), 120U);
-    // Tag 7 is the second tag of the second row from below; its third corner is the upper right
-    // one.
+    // Tag 7 is the second tag of the second row from below. Its third corner is the upper right.
     const double expected = 0.088 * 1.3 + 0.088;
     EXPECT_TRUE(grid.points[30].isApprox(Eigen::Vector3d(expected, expected, 0), 1e-12));
 }
@@ -66,20 +65,20 @@ TEST(Target, CheckerboardsThatLookTheSameUpsideDownAreRefused) {
 }
 
 /// A simulated photograph of a print. `pixelOfTarget`: homography from metres on the target to
-/// pixels. The print is drawn four times too large and then reduced, so that edges have the grey
-/// levels that a sensor would see.
+/// pixels. The print is drawn four times too large and then reduced, so that edges have grey levels
+/// as in a sensor.
 struct Scene {
     cv::Mat1b picture;
     cv::Matx33d pixelOfTarget;
 };
 
-/// Photographs a paper that has `texels` per metre. The origin of the target is at texel `origin`;
-/// y points upwards if `upwards`.
+/// Photographs a paper with `texels` per metre. The target's origin is at texel `origin`; y points
+/// upwards if `upwards`.
 Scene photograph(const cv::Mat1b& paper, double texels, cv::Point2d origin, bool upwards,
                  double turn) {
     const cv::Matx33d texelOfTarget{texels,   0, origin.x, 0, upwards ? -texels : texels,
                                     origin.y, 0, 0,        1};
-    // The print's edges are at texel edges, not at texel centres: half a texel less.
+    // The print's edges are at texel edges, half a texel before texel centres.
     const cv::Matx33d middle{1, 0, -0.5, 0, 1, -0.5, 0, 0, 1};
     const double c = std::cos(turn), s = std::sin(turn), w = paper.cols / 2., h = paper.rows / 2.;
     const double scale = 430. / paper.rows;
@@ -89,7 +88,7 @@ Scene photograph(const cv::Mat1b& paper, double texels, cv::Point2d origin, bool
     const cv::Matx33d place{1, 0, 318.3, 0, 1, 241.7, 0, 0, 1};
     const cv::Matx33d pixelOfTexel = place * tilt * centred;
     constexpr double kFine = 4;
-    // Pixel p of the picture covers the fine pixels 4 p to 4 p + 3.
+    // Pixel p of the picture covers the pixels 4 p to 4 p + 3 of the large drawing.
     const cv::Matx33d fine{kFine, 0, kFine / 2 - 0.5, 0, kFine, kFine / 2 - 0.5, 0, 0, 1};
     cv::Mat1b large;
     cv::warpPerspective(paper, large, fine * pixelOfTexel,
@@ -119,8 +118,8 @@ void expectCorners(const Target& target, const Scene& scene, const std::vector<C
     EXPECT_LT(bias.norm(), 0.03);  // an error of half a pixel would fail here
 }
 
-/// A grid as Kalibr prints it. Each tag is rotated by `turn` quarter turns and has a border of 1 or
-/// 2 cells.
+/// A grid as Kalibr prints it. Each tag is rotated by `turn` quarter turns. Its border is 1 or 2
+/// cells.
 cv::Mat1b printedGrid(const Target& grid, int cell, int turn, int border) {
     const int tagCells = 6 + 2 * border;
     const int gap = static_cast<int>(std::lround(tagCells * grid.spacing));
@@ -153,8 +152,8 @@ Scene photographOfGrid(const Target& grid, int printTurn, int border, double tur
     constexpr int kCell = 20;
     const int tagCells = 6 + 2 * border;
     const cv::Mat1b paper = printedGrid(grid, kCell, printTurn, border);
-    // Distance of the first corner from the lower left: one cell of white rim, plus the lowest row
-    // of squares.
+    // The first corner is a cell of white rim and a row of squares away from the paper's lower
+    // left.
     const double first = (1 + tagCells * grid.spacing) * kCell;
     return photograph(paper, kCell * tagCells / 0.08, {first, paper.rows - first}, true, turn);
 }
@@ -220,7 +219,7 @@ TEST(TargetFinder, EmptyPicturesGiveNoCorners) {
     }
 }
 
-TEST(Coverage, CountsCoveredCellsAndNamesTheEmptyPartOfThePicture) {
+TEST(Coverage, CountsCoveredCellsAndReportsTheEmptyPartOfThePicture) {
     Coverage coverage(kPicture);
     EXPECT_EQ(coverage.share(), 0);
     std::vector<Corner> corners;

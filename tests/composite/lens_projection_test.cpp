@@ -16,7 +16,7 @@ CameraModel folding() {
     return {{160, 120}, 110, 110, 80, 59, {-0.17, 0, 0, 0, 0}};
 }
 
-TEST(LensProjection, MatchesTheCameraModelWithinTheRim) {
+TEST(LensProjection, MatchesTheCameraModelWithinItsValidRange) {
     for (const CameraModel& camera : {barrel(), folding()}) {
         const LensProjection lens(camera);
         for (int y = 0; y < camera.size.height; y += 7)
@@ -30,7 +30,7 @@ TEST(LensProjection, MatchesTheCameraModelWithinTheRim) {
     }
 }
 
-TEST(LensProjection, RaysBeyondTheRimStayOutsideThePicture) {
+TEST(LensProjection, RaysBeyondTheValidRangeOfTheLensStayOutsideThePicture) {
     for (const CameraModel& camera : {barrel(), folding()}) {
         const LensProjection lens(camera);
         for (int i = 0; i < 360; ++i) {

@@ -14,7 +14,6 @@ namespace {
 const CameraModel kWide{{157, 123}, 150, 152, 82.5, 57.1, {-0.28, 0.07, 0.002, -0.001, 0.004}};
 const RigidTransform kEye{Eigen::Quaterniond(0.7, 0.3, -0.5, 0.4).normalized(), {1, 2, -0.5}};
 
-/// Points on a sphere, joined to many small triangles in two meshes.
 std::shared_ptr<Model> crumpledBall(float radius) {
     std::mt19937 random(7);
     std::normal_distribution<float> normal;
@@ -81,7 +80,7 @@ TEST(SceneBoxes, AFewTightBoxesCoverAModel) {
     EXPECT_LE(coveredTiles(silhouette.run(boxes, kEye)), 16);
 }
 
-TEST(SceneBoxes, ShadowCatcherHasBoxesOfItsOwn) {
+TEST(SceneBoxes, TheShadowCatcherHasItsOwnBoxes) {
     Scene scene;
     EXPECT_TRUE(SceneBoxes(scene.catcher).world().empty());
     scene.catcher.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};

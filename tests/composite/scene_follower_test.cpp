@@ -10,7 +10,7 @@ namespace {
 const CameraModel kFollowing{{160, 120}, 150, 150, 79.5, 59.5, {}};
 constexpr PixelRect kPicture{0, 0, 160, 120};
 
-/// A camera above the world's origin that looks down at it, rotated about x by `angle`.
+/// A camera above the world's origin that looks down and is rotated about x by `angle` [rad].
 RigidTransform downAt(double angle) {
     const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitX()));
     const Eigen::Quaterniond down(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()));
@@ -29,8 +29,8 @@ Scene cube() {
     return scene;
 }
 
-/// Depth of a table at this height, as a camera above it measures it. `known`: share of the pixels
-/// with known depth.
+/// Depth of a table at this height, for a camera above it. `known`: share of pixels with known
+/// depth.
 InverseDepthField table(double height, double known = 1) {
     InverseDepthField field(kFollowing.size);
     for (std::size_t i = 0; i < field.inverseDepth.size(); ++i) {
@@ -83,7 +83,7 @@ TEST(SceneFollower, ShadowCatcherIsRebuiltLaterWhenTheViewChanges) {
     EXPECT_NE(follow(0, 105), nullptr);
 }
 
-TEST(SceneFollower, WithoutObjectsInThePictureTheCatcherIsNotRebuilt) {
+TEST(SceneFollower, WithoutObjectsInThePictureTheShadowCatcherIsNotRebuilt) {
     SceneFollower follower({.settling = 0});
     EXPECT_EQ(follower.follow(table(0), kFollowing, downAt(0), kPicture, atSecond(1)), nullptr);
     EXPECT_TRUE(follower.set({})->catcher.positions.empty());

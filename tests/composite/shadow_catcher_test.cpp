@@ -12,7 +12,6 @@ const CameraModel kLens{{160, 120}, 150, 150, 79.5, 59.5, {-0.1, 0.02, 0, 0, 0}}
 const Eigen::AlignedBox3d kThing(Eigen::Vector3d(-0.05, -0.05, 0),
                                  Eigen::Vector3d(0.05, 0.05, 0.1));
 
-/// A camera half a metre from the world's origin. It looks down at the origin at an angle.
 RigidTransform eyeAbove() {
     const Eigen::Vector3d eye(0, -0.4, 0.35);
     const Eigen::Vector3d z = -eye.normalized(), x(1, 0, 0), y = z.cross(x);
@@ -21,7 +20,7 @@ RigidTransform eyeAbove() {
     return {Eigen::Quaterniond(axes), eye};
 }
 
-/// z along the camera's axis at which a pixel's ray meets the plane at this height.
+/// z of the point at which a pixel's ray meets the plane at this height.
 double depthOfPlane(int x, int y, double height) {
     const RigidTransform T = eyeAbove();
     const Eigen::Vector3d ray = T.rotation * kLens.unproject({x, y}).homogeneous();
@@ -68,7 +67,7 @@ TEST(ShadowCatcher, PlaneReachesAroundTheObjectsOnIt) {
     EXPECT_TRUE(planeCatcher(below).triangles.empty());
 }
 
-TEST(ShadowCatcher, NoisyDepthOfThePlaneGivesAPlane) {
+TEST(ShadowCatcher, NoisyDepthOfAPlaneGivesAFlatShadowCatcher) {
     std::mt19937 random(2);
     std::normal_distribution<double> noise(0, 0.01);
     const InverseDepthField field = fieldOf(

@@ -28,7 +28,6 @@ int covered(const std::vector<SurfaceRange>& tiles) {
         std::count_if(tiles.begin(), tiles.end(), [](const auto& t) { return t.farthest > 0; }));
 }
 
-/// Maps any three numbers in [-1, 1] to a point of the shape's surface.
 Eigen::Vector3d surfacePoint(VirtualShape shape, Eigen::Vector3d p) {
     if (shape == VirtualShape::Sphere) return 0.5 * p.normalized();
     if (shape == VirtualShape::Quad) return 0.5 * Eigen::Vector3d(p.x(), p.y(), 0);

@@ -26,8 +26,8 @@ gpu::Texture plainPicture(std::uint8_t level) {
     return out;
 }
 
-/// Index of the first row whose red, green and blue values are not all `level`; the picture's
-/// height if every row has only this value.
+/// Returns the index of the first row with a value other than `level`; the picture's height if
+/// there is none.
 int rowsOf(const std::vector<std::uint8_t>& pixels, std::uint8_t level) {
     const std::size_t row = std::size_t{4} * kPictureSize.width;
     for (std::size_t y = 0; y < pixels.size() / row; ++y)
@@ -61,7 +61,7 @@ TEST_F(BannerText, DifferentTextsLookDifferentAndLongTextsTakeMoreLines) {
     EXPECT_GT(rowsOf(pixelsOf(banner.over(source, endless + " " + endless)), 90), 120);
 }
 
-TEST_F(BannerText, HostPicturesGetTheSameBanner) {
+TEST_F(BannerText, PicturesInHostAndGpuMemoryGetTheSameBanner) {
     Banner banner(kPictureSize);
     const gpu::Texture texture = plainPicture(90);
     AlignedRows<std::uint32_t> rows(kPictureSize);
@@ -77,7 +77,7 @@ TEST_F(BannerText, HostPicturesGetTheSameBanner) {
 }
 
 // mfard draws this banner even if it has no GL context.
-TEST_F(BannerText, WithoutAPictureTheHostBannerIsOnBlack) {
+TEST_F(BannerText, WithoutAPictureTheBannerIsOnBlack) {
     Banner banner(kPictureSize);
     ASSERT_TRUE(banner.over({}, "no picture yet").isOnHost());
     const auto shown = pixelsOf(banner.over({}, "no picture yet"));

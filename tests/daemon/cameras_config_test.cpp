@@ -74,13 +74,13 @@ TEST(CamerasConfig, FaultsAreReportedWithLineAndColumn) {
               HasSubstr(":8:8: cameras.trigger.line must be a text in quotes")));
 }
 
-TEST(CamerasConfig, LibcameraChoosesItsFormat) {
+TEST(CamerasConfig, AFormatForALibcameraCameraIsRefused) {
     EXPECT_EQ(configFaults("[cameras.still]\nformat = \"auto\"\n"), "");
     EXPECT_THAT(configFaults("[cameras.still]\nformat = \"NV12\"\n"), HasSubstr("libcamera"));
     EXPECT_EQ(configFaults("[cameras.still]\ndriver = \"v4l2\"\nformat = \"NV12\"\n"), "");
 }
 
-TEST(CamerasConfig, OtherCamerasNeedARestart) {
+TEST(CamerasConfig, ChangedCameraSettingsNeedARestart) {
     const Config running = parseConfig("source = \"cameras\"", "a.toml");
     const Config wanted =
         parseConfig("source = \"cameras\"\n[cameras.still]\nwidth = 1280\nheight = 960", "a.toml");

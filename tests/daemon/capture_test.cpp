@@ -21,7 +21,6 @@ PoseConfig noPoses() {
     return config;
 }
 
-/// A capture thread with two simulated cameras and without poses.
 struct Capture {
     explicit Capture(HandOver handOver, bool sensors = false)
         : source(new FakeSource(handOver, sensors)), rig(std::unique_ptr<RigSource>(source)),
@@ -30,10 +29,9 @@ struct Capture {
 
     FakeCamera& video() { return source->videoCamera; }
     FakeCamera& still() { return source->stillCamera; }
-    /// The next frame; empty after 20 s or at the end of the capture.
     std::optional<CapturedFrame> take() { return mailbox.takeWithin(20s); }
 
-    FakeSource* source;  ///< the rig owns it
+    FakeSource* source;  ///< owned by the rig
     Rig rig;
     Stats stats;
     PoseFinder poses;
@@ -48,7 +46,7 @@ bool becomesTrue(const std::function<bool()>& condition) {
     return false;
 }
 
-/// The fault that ends the capture.
+/// Returns the message of the error that ends the capture.
 std::string endOf(Capture& capture) {
     const auto isOver = [&] {
         (void)capture.mailbox.tryTake();  // a frame may have arrived before the fault was noticed
@@ -75,7 +73,6 @@ TEST(CaptureThread, VideoFramesArriveWhileTheStillCameraHangs) {
         EXPECT_EQ(frame->video.time(), Timestamp::fromSeconds(i));
         EXPECT_FALSE(frame->still);
     }
-    // The capture must end although the still camera's next() still hangs.
     auto ended = std::async(std::launch::async, [&] {
         capture.thread->stop();
         capture.thread->join();
@@ -104,7 +101,7 @@ TEST(CaptureThread, AStillIsDeliveredWithTheFirstFrameThatIsNotOlder) {
     EXPECT_FALSE(capture.take()->still);
     std::optional<CapturedFrame> with;
     double time = 2;
-    ASSERT_TRUE(becomesTrue([&] {  // frames until the still thread has handed the still over
+    ASSERT_TRUE(becomesTrue([&] {
         capture.video().send(time++);
         with = capture.take();
         return with && with->still;
@@ -127,7 +124,7 @@ TEST(CaptureThread, StillsReplacedBeforeAFrameUsedThemAreCounted) {
     EXPECT_EQ(frame->stillsSuperseded, StillBox::kCapacity - 1);
 }
 
-TEST(CaptureThread, ADroppedFramePassesItsStillAndCountOfReplacedStillsOn) {
+TEST(CaptureThread, TheNextFrameInheritsStillAndReplacedStillsCountOfADroppedFrame) {
     CapturedFrame older{{ImageView{}, Timestamp{1}, nullptr},
                         CapturedStill{{ImageView{}, Timestamp{1}, nullptr}},
                         {}};
@@ -163,7 +160,7 @@ TEST(CaptureThread, AFailingStillCameraEndsTheRunOnAnyThread) {
     }
 }
 
-TEST(CaptureThread, MissedFramesAreCountedByTheCamera) {
+TEST(CaptureThread, TheMissedFramesOfTheCameraAreReported) {
     Capture capture(HandOver::NewestWins);
     CameraCounters counters;
     counters.missed = 7;
@@ -213,7 +210,7 @@ TEST(CaptureThread, RepeatedPicturesAreDetectedOnlyForRealSensors) {
     }
 }
 
-TEST(CaptureThread, ALosslessSourceIsReadByOneThreadInOrder) {
+TEST(CaptureThread, OneThreadReadsALosslessSourceInOrder) {
     Capture capture(HandOver::Lossless);
     // All waiting stills must be delivered with the frame, because no other thread fetches them.
     for (int i = 1; i <= 4; ++i)

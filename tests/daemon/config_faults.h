@@ -7,7 +7,6 @@
 
 namespace mfar::test {
 
-/// All faults of a configuration "test.toml", one line each; empty if it is valid.
 [[nodiscard]] inline std::string configFaults(std::string_view toml) {
     try {
         (void)parseConfig(toml, "test.toml");

@@ -32,11 +32,11 @@ void expectSame(const Config& a, const Config& b) {
     EXPECT_EQ(a.light.sun.has_value(), b.light.sun.has_value());
 }
 
-TEST(Config, EmptyTextGivesTheDefaults) {
+TEST(Config, AnEmptyConfigurationGivesTheDefaults) {
     expectSame(parseConfig("", "test.toml"), Config{});
 }
 
-TEST(Config, TheDefaultFileShowsTheDefaults) {
+TEST(Config, TheDefaultConfigurationFileContainsTheDefaults) {
     expectSame(loadConfig(MFAR_DEFAULT_CONFIG), Config{});
 }
 
@@ -92,17 +92,17 @@ measure = true
     EXPECT_EQ(config.status, (StatusConfig{0.5, true}));
 }
 
-TEST(Config, SyntaxErrorsAreReportedWithTheirPlace) {
+TEST(Config, SyntaxErrorsAreReportedWithLineAndColumn) {
     EXPECT_THAT(configFaults("seed = 1\nseed = = 2\n"), StartsWith("test.toml:2:"));
 }
 
-TEST(Config, UnknownKeysAreRefusedWithTheNearestKnownOne) {
+TEST(Config, AnUnknownKeyIsRefusedWithTheNearestKnownKey) {
     EXPECT_EQ(configFaults("[trigger]\nmin_intervall_s = 1\n"),
               "test.toml:2:1: unknown key trigger.min_intervall_s; the nearest known one is "
               "trigger.min_interval_s");
 }
 
-TEST(Config, AKeyInTheWrongSectionPointsToTheRightOne) {
+TEST(Config, AKeyInTheWrongSectionIsReportedWithTheRightSection) {
     EXPECT_THAT(configFaults("explained_below = 3\n"), HasSubstr("trigger.explained_below"));
     EXPECT_THAT(configFaults("[status]\nskip_unchanged = true\n"),
                 HasSubstr("superres.skip_unchanged"));
@@ -133,7 +133,7 @@ TEST(Config, ValuesOutOfRangeAreRefused) {
     EXPECT_THAT(configFaults("[status]\ninterval_s = 0\n"), HasSubstr("from 0.1 to 3600"));
 }
 
-TEST(Config, UnknownWordsAreReportedWithTheValidOnes) {
+TEST(Config, AnUnknownWordIsReportedWithTheValidWords) {
     EXPECT_THAT(configFaults("[superres]\nmode = \"best\"\n"),
                 AllOf(StartsWith("test.toml:2:8: "), HasSubstr("detail"), HasSubstr("blend")));
     EXPECT_THAT(configFaults("source = \"libcamera\"\n"),
@@ -208,7 +208,7 @@ TEST(Config, TheNumberOfReportedFaultsIsLimited) {
                 HasSubstr("unknown key of 100000 characters"));
 }
 
-TEST(Config, TooLargeIntegersAreReportedWithTheirPlace) {
+TEST(Config, TooLargeIntegersAreReportedWithLineAndColumn) {
     EXPECT_THAT(configFaults("[trigger]\nrate_hz = 9007199254740993\n"),
                 StartsWith("test.toml:2:11: trigger.rate_hz must be from 0.01 to 60, not "));
     EXPECT_THAT(configFaults("[[objects]]\norientation = [9223372036854775807, 0, 0, 0]\n"),
@@ -269,7 +269,7 @@ TEST(Config, EveryPoseKeyIsChecked) {
             << line;
 }
 
-TEST(Config, NeedRestartNamesTheKeysThatCannotChangeWhileRunning) {
+TEST(Config, ChangedKeysThatNeedARestartAreListed) {
     Config wanted;
     wanted.superres.mode = SuperResMode::Off;
     wanted.trigger.maxAgeS = 1;

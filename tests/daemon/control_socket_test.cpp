@@ -56,7 +56,7 @@ struct ControlSocketTest : testing::Test {
     std::filesystem::path folder, path;
 };
 
-TEST_F(ControlSocketTest, AnswersWithALineAndItsData) {
+TEST_F(ControlSocketTest, AnAnswerConsistsOfALineAndItsData) {
     std::vector<std::uint8_t> data(3'000'000);
     for (std::size_t i = 0; i < data.size(); ++i)
         data[i] = static_cast<std::uint8_t>(i * 7);
@@ -81,7 +81,6 @@ TEST_F(ControlSocketTest, EndlessRequestIsCutOff) {
     const ControlSocket socket(path, echo);
     const int client = connected();
     const std::string flood(1'000'000, 'x');
-    // The client closes its end before it has read everything.
     std::ignore = send(client, flood.data(), flood.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
     std::string answer(200, '\0');
     const ssize_t got = recv(client, answer.data(), answer.size(), 0);
@@ -112,7 +111,6 @@ TEST_F(ControlSocketTest, SilentClientsDelayNobody) {
         close(fd);
 }
 
-// An answer is slow, for example, if a recording ends and waits for the disk.
 TEST_F(ControlSocketTest, SlowAnswersDelayNobody) {
     std::promise<void> goOn;
     const std::shared_future<void> gone = goOn.get_future().share();
@@ -158,8 +156,7 @@ TEST_F(ControlSocketTest, TheUserOfThisProcessIsAnOperator) {
     EXPECT_EQ(seen, ControlRole::Operator);
 }
 
-// Another user who belongs to the group is an observer. A process that drops its privileges plays
-// this user.
+// A process that drops its privileges acts as another user who belongs to the group: an observer.
 TEST_F(ControlSocketTest, AnotherUserIsAnObserver) {
     if (geteuid() != 0) GTEST_SKIP() << "only root can become another user";
     const ControlSocket socket(path, [&](std::string_view, ControlRole role) -> ControlAnswer {
@@ -193,7 +190,7 @@ TEST(ControlRole, MembersOfTheGroupAreOperators) {
     EXPECT_EQ(roleOf(4321, groups, std::nullopt), ControlRole::Observer);
 }
 
-// A thread that tried again without a pause would occupy a whole processor.
+// The server must pause between its attempts to accept a client, or it would occupy a processor.
 TEST_F(ControlSocketTest, WithoutAFreeDescriptorClientsWait) {
     const ControlSocket socket(path, echo);
     std::vector<int> all{connected()};
@@ -237,7 +234,7 @@ TEST_F(ControlSocketTest, OnlyTheSocketOfADeadProcessIsReplaced) {
     EXPECT_FALSE(std::filesystem::exists(path));
 }
 
-TEST_F(ControlSocketTest, PathsThatCannotBeUsedAreNamed) {
+TEST_F(ControlSocketTest, UnusablePathsAreReported) {
     std::ofstream(folder / "file") << "important";
     EXPECT_THAT([&] { ControlSocket(folder / "file", echo); },
                 ThrowsMessage<Failure>(HasSubstr("not a socket")));

@@ -59,7 +59,7 @@ TEST_F(Control, ExecutesEveryCommand) {
     EXPECT_EQ(ask(R"({"command": "record", "stop": true})"), (json{{"ok", true}, {"video", 3}}));
 }
 
-TEST_F(Control, SnapshotIsRedGreenBlueAlphaAfterTheLine) {
+TEST_F(Control, TheAnswerToSnapshotIsALineAndRgbaPixels) {
     json head = ask(R"({"command": "snapshot"})");
     EXPECT_EQ(head, (json{{"ok", true}, {"width", 1}, {"height", 1}, {"bytes", 4}}));
     EXPECT_EQ(answer.data, (std::vector<std::uint8_t>{9, 8, 7, 6}));

@@ -16,7 +16,7 @@ EngineChoice matchingOnSimd() {
     return choice;
 }
 
-TEST(EngineConfig, WithoutConfiguredEnginesTheGivenChoiceIsKept) {
+TEST(EngineConfig, WithoutConfiguredEnginesTheGivenEnginesAreKept) {
     EXPECT_EQ(withWishes({}, matchingOnSimd()), matchingOnSimd());
     EXPECT_FALSE(EngineConfig{}.needsGles());
     EXPECT_FALSE(EngineConfig{}.isSimdAlone());
@@ -31,7 +31,7 @@ TEST(EngineConfig, TheEngineOfAStepOverridesTheEngineOfAllSteps) {
     EXPECT_FALSE(config.engine.isSimdAlone());
 }
 
-TEST(EngineConfig, AnUnknownEngineIsRefusedWithItsPlace) {
+TEST(EngineConfig, AnUnknownEngineIsRefusedWithLineAndColumn) {
     try {
         (void)parseConfig("[engine]\nflow = \"cuda\"\n", "test");
         FAIL() << "the unknown engine was accepted";
@@ -41,14 +41,14 @@ TEST(EngineConfig, AnUnknownEngineIsRefusedWithItsPlace) {
     }
 }
 
-TEST(EngineConfig, EveryChoiceIsReadBackFromItsDescription) {
+TEST(EngineConfig, EnginesWrittenAsTextAreReadBackUnchanged) {
     EXPECT_EQ(describe(EngineChoice::all(EngineKind::Simd)), "simd");
     EXPECT_EQ(parseEngineChoice(describe(matchingOnSimd())), matchingOnSimd());
     EXPECT_EQ(parseEngineChoice("gles"), EngineChoice::all(EngineKind::Gles));
     EXPECT_EQ(parseEngineChoice("still gles"), std::nullopt);
 }
 
-TEST(EngineMemory, KeepsOneChoicePerKeyAndIgnoresADamagedFile) {
+TEST(EngineMemory, KeepsTheEnginesOfEachKeyAndIgnoresADamagedFile) {
     const std::filesystem::path file =
         std::filesystem::path(testing::TempDir()) / "mfar-engines.json";
     std::filesystem::remove(file);

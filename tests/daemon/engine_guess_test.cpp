@@ -15,17 +15,17 @@ using testing::SizeIs;
 const EngineChoice kSimd = EngineChoice::all(EngineKind::Simd),
                    kGles = EngineChoice::all(EngineKind::Gles);
 
-TEST(EngineGuess, OnAnUnknownGpuEveryPlacementOfStepsIsMeasured) {
+TEST(EngineGuess, OnAnUnknownGpuEveryAssignmentOfStepsToEnginesIsMeasured) {
     EXPECT_THAT(promisingEngines("EGL device, some GPU, OpenGL ES 3.2"), SizeIs(4));
     EXPECT_THAT(promisingEngines(""), SizeIs(4));
 }
 
-TEST(EngineGuess, IfShadersAreFarTooSlowOnlyTheSimdEngineIsLeft) {
+TEST(EngineGuess, IfShadersAreFarTooSlowOnlyTheSimdEngineIsMeasured) {
     EXPECT_THAT(promisingEngines("EGL device, hardware: V3D 4.2.14.0, OpenGL ES 3.1"),
                 ElementsAre(kSimd));
 }
 
-TEST(EngineGuess, TheMostPromisingPlacementComesFirst) {
+TEST(EngineGuess, TheMostPromisingAssignmentOfStepsToEnginesComesFirst) {
     EngineChoice drawing = kGles;
     drawing.pyramid = drawing.flow = drawing.weigh = EngineKind::Simd;
     const auto guess = promisingEngines("Mali-G610 (Panfrost)");

@@ -21,7 +21,7 @@
 
 namespace mfar::test {
 
-/// A camera that delivers what the test requests. Thread-safe.
+/// A camera that delivers the pictures that the test sends. Thread-safe.
 class FakeCamera final : public Camera {
 public:
     FakeCamera(std::string name, Size size, double rateHz)
@@ -62,7 +62,6 @@ public:
         return std::exchange(warnings_, {});
     }
 
-    /// Sets the counters that the camera reports.
     void count(const CameraCounters& counters) {
         const std::lock_guard lock(mutex_);
         counters_ = counters;
@@ -82,25 +81,22 @@ public:
         waiting_.emplace_back(view, Timestamp::fromSeconds(seconds), [pixels] {});
         changed_.notify_all();
     }
-    /// Reports the end: no further picture follows.
     void end() {
         const std::lock_guard lock(mutex_);
         ends_ = true;
         changed_.notify_all();
     }
-    /// Makes next() throw an error with this text.
     void fail(const std::string& why) {
         const std::lock_guard lock(mutex_);
         broken_ = why;
         changed_.notify_all();
     }
-    /// While `wanted` is true, next() does not return.
     void hang(bool wanted) {
         const std::lock_guard lock(mutex_);
         hangs_ = wanted;
         changed_.notify_all();
     }
-    /// Waits until a thread hangs in next(). Returns false after 20 s.
+    /// Waits until a thread blocks in next(). Returns false after 20 s.
     [[nodiscard]] bool isHung() {
         std::unique_lock lock(mutex_);
         return changed_.wait_for(lock, std::chrono::seconds(20), [&] { return hung_; });
@@ -109,7 +105,6 @@ public:
         const std::lock_guard lock(mutex_);
         return waiting_.empty();
     }
-    /// The threads that have called next().
     [[nodiscard]] std::set<std::thread::id> askers() const {
         const std::lock_guard lock(mutex_);
         return askers_;
@@ -129,7 +124,6 @@ private:
 
 inline constexpr Size kFakeVideo{8, 6}, kFakeStill{16, 12};
 
-/// A source with a simulated video camera and a simulated still camera.
 class FakeSource final : public RigSource {
 public:
     explicit FakeSource(HandOver mode, bool sensors = false) {

@@ -22,7 +22,6 @@ using testing::IsEmpty;
 struct FilterLearningTest : testing::Test {
     ~FilterLearningTest() override { std::filesystem::remove(options.file); }
 
-    /// Shows different stills, one after the other, and waits until they are processed.
     static void show(FilterLearning& learning, int first, int last) {
         for (int i = first; i <= last; ++i) {
             const twin::Grey sharp = sharpDiscs(i);
@@ -39,7 +38,7 @@ struct FilterLearningTest : testing::Test {
 
 TEST_F(FilterLearningTest, LearnedFiltersAreReturnedOnce) {
     FilterLearning learning(options);
-    EXPECT_NE(learning.takeFilters(), nullptr) << "the shipped filters must be handed out";
+    EXPECT_NE(learning.takeFilters(), nullptr) << "the shipped filters must be returned";
     EXPECT_EQ(learning.takeFilters(), nullptr);
     show(learning, 1, 2);
     EXPECT_EQ(learning.counts().learner.stills, 2U);
@@ -49,7 +48,6 @@ TEST_F(FilterLearningTest, LearnedFiltersAreReturnedOnce) {
     EXPECT_THAT(learning.takeWarnings(), IsEmpty());
 }
 
-/// Returns the highest nice value of this process's threads.
 int highestNice() {
     int highest = -20;
     for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
@@ -59,7 +57,7 @@ int highestNice() {
     return highest;
 }
 
-TEST_F(FilterLearningTest, PriorityIsLowUnlessFramesWait) {
+TEST_F(FilterLearningTest, LearningHasALowPriorityUnlessFramesWait) {
     const int before = highestNice();
     {
         FilterLearning learning(options);
@@ -81,8 +79,8 @@ StereoRig discsRig() {
     return rig;
 }
 
-/// Shows a still, then another one of the same view with a noisy video, so that the first is
-/// replaced.
+/// Shows a still, then a second still of the same view with a noisy video. The second still
+/// replaces the first.
 void replace(FilterLearning& learning, unsigned seed) {
     const twin::Grey sharp = sharpDiscs(seed);
     const SensorPair noisy{.videoNoise = 4, .seed = seed};
@@ -114,7 +112,7 @@ TEST_F(FilterLearningTest, GuidanceIsLearnedFromTheOlderStillAndKept) {
     EXPECT_THAT(learning.takeWarnings(), IsEmpty());
 }
 
-TEST_F(FilterLearningTest, WithoutARigNoGuidanceIsLearned) {
+TEST_F(FilterLearningTest, WithoutACalibrationNoGuidanceIsLearned) {
     FilterLearning learning(options);
     replace(learning, 2);
     EXPECT_EQ(learning.counts().learner.pairs, 0U);

@@ -11,7 +11,6 @@ Frame frame(double s) {
     return {ImageView{}, Timestamp::fromSeconds(s), nullptr};
 }
 
-/// The stills that have already arrived, oldest first.
 class Stills {
 public:
     explicit Stills(std::initializer_list<double> times) : times_(times) {}
@@ -54,7 +53,7 @@ TEST(FramePairer, AStillIsPairedWithTheFirstFrameThatIsNotOlder) {
         << "each still is paired with only one frame";
 }
 
-TEST(FramePairer, TheNewestOfSeveralStillsWins) {
+TEST(FramePairer, AFrameIsPairedWithTheNewestOfSeveralStills) {
     Stills stills({1, 2, 3, 9});
     FramePairer pairer(stills.source());
     EXPECT_EQ(stillTime(pairer.pair(frame(4), {})), 3);

@@ -27,7 +27,7 @@ public:
         : governor_(fourLevels(), deadlineMs), cost_(std::move(cost)) {}
 
     void setCost(Cost cost) { cost_ = std::move(cost); }
-    /// Runs frames. Returns the share of late ones. Frame times vary by 4 % (standard deviation).
+    /// Runs frames whose times vary by 4 % (standard deviation). Returns the share of late frames.
     double run(int frames, double changed = 1) {
         int late = 0;
         for (int i = 0; i < frames; ++i) {
@@ -51,7 +51,6 @@ private:
     std::normal_distribution<double> noise_;
 };
 
-/// The frame times of fourLevels(), all multiplied by `factor`.
 Machine::Cost scaled(double factor) {
     return [factor](std::size_t level) { return factor * fourLevels()[level].ms; };
 }
@@ -62,7 +61,7 @@ TEST(Governor, StartsWithTheBestLevelPredictedByTheTable) {
         EXPECT_EQ(Governor(fourLevels(), deadline).level().name, level) << deadline;
 }
 
-TEST(Governor, KeepsEveryDeadlineThatSomeLevelCanKeep) {
+TEST(Governor, MeetsEveryDeadlineThatAnyLevelCanMeet) {
     for (const double deadline : {33.0, 66.0, 133.0}) {
         for (const double factor : {0.2, 0.5, 1.0, 1.2, 1.9}) {
             if (factor * fourLevels()[0].ms > 0.85 * deadline) continue;
@@ -78,7 +77,7 @@ TEST(Governor, KeepsEveryDeadlineThatSomeLevelCanKeep) {
     }
 }
 
-TEST(Governor, SettlesWithin30FramesAfterAChangeOfScene) {
+TEST(Governor, FindsTheLevelWithin30FramesAfterAChangeOfScene) {
     Machine machine(100, scaled(0.6));
     machine.run(60);
     EXPECT_EQ(machine.level(), "c");
@@ -92,7 +91,7 @@ TEST(Governor, SettlesWithin30FramesAfterAChangeOfScene) {
     EXPECT_EQ(machine.run(300), 0);
 }
 
-TEST(Governor, AfterManyChangesOfSceneTheGovernorStillSettlesFast) {
+TEST(Governor, FindsTheLevelFastAlsoAfterManyChangesOfScene) {
     Machine machine(100, scaled(0.6));
     for (int i = 0; i < 10; ++i) {
         machine.setCost(scaled(1.4));
@@ -111,14 +110,14 @@ TEST(Governor, AtMostFourFramesAreLateWhenEverythingBecomesSlower) {
     EXPECT_LE(machine.run(30) * 30, 4);
 }
 
-TEST(Governor, HoldsTheDeadlineThoughTheTableIsWrong) {
+TEST(Governor, MeetsTheDeadlineAlthoughTheTableIsWrong) {
     Machine machine(100, [](std::size_t level) { return level == 2 ? 110.0 : 20.0 + 25 * level; });
     machine.run(60);
     EXPECT_LE(machine.run(2000), 0.05) << "level b takes longer than c, contrary to the table";
     EXPECT_LE(machine.governor().changes(), 60U);
 }
 
-TEST(Governor, DoesNotSwingBetweenTwoLevels) {
+TEST(Governor, DoesNotAlternateBetweenTwoLevels) {
     for (double factor = 0.6; factor < 1.2; factor += 0.05) {
         Machine machine(100, scaled(factor));
         machine.run(1000);
@@ -134,7 +133,7 @@ TEST(Governor, OneLateFrameInFiftyDoesNotChangeTheLevel) {
     EXPECT_EQ(governor.changes(), 0U);
 }
 
-TEST(Governor, AtRestThePictureIsDrawnOnceMoreAtTheBestLevel) {
+TEST(Governor, AStaticPictureIsDrawnOnceMoreAtTheBestLevel) {
     Machine machine(66, scaled(1));
     machine.run(40);
     ASSERT_EQ(machine.level(), "a");
@@ -173,7 +172,7 @@ TEST(Governor, StillsThatMakeFramesLateAreAllowedOnceInFortyFrames) {
         << "a still whose frame was in time does not forbid the next one";
 }
 
-TEST(Governor, TimeOfAStillIsNotChargedToTheLevel) {
+TEST(Governor, TheTimeForAStillDoesNotCountAsTimeOfTheLevel) {
     Governor governor(fourLevels(), 100);
     for (int i = 0; i < 10; ++i) {
         governor.add({.ms = 300, .newStill = true});
@@ -209,7 +208,7 @@ TEST(Governor, IgnoresInvalidTimes) {
     EXPECT_EQ(governor.changes(), 0U);
 }
 
-TEST(Governor, ASingleLevelIsKept) {
+TEST(Governor, TheOnlyLevelIsKept) {
     Governor governor({{"only", 100, 20, {}}}, 10);
     for (int i = 0; i < 100; ++i) {
         governor.add({200});

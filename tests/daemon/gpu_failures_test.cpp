@@ -9,7 +9,7 @@ using std::chrono::seconds;
 
 const Timestamp kStart{1'000'000'000'000};
 
-TEST(GpuFailures, NoFailureIsReportedBeforeTheFirst) {
+TEST(GpuFailures, WithoutAFailureNothingIsReported) {
     GpuFailures failures;
     EXPECT_EQ(failures.fault(kStart), std::nullopt);
     EXPECT_EQ(failures.banner(kStart), std::nullopt);

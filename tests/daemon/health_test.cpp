@@ -10,7 +10,6 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-/// A daemon whose threads, pictures and devices are simulated.
 struct HealthTest : testing::Test {
     [[nodiscard]] Health look() {
         Observed seen{now};
@@ -45,7 +44,6 @@ TEST_F(HealthTest, FreshPicturesAreHealthy) {
     EXPECT_TRUE(health.isAlive());
 }
 
-// Pictures keep arriving, but all of them are equal.
 TEST_F(HealthTest, AFrozenPictureIsDegraded) {
     repeats = now;
     pass(seconds(4));
@@ -57,9 +55,8 @@ TEST_F(HealthTest, AFrozenPictureIsDegraded) {
     EXPECT_TRUE(health.isAlive());
 }
 
-// The worst fault seen in use: the driver's dequeue call hangs while the banner is drawn again and
-// again.
-TEST_F(HealthTest, BannerOfAHangingDriverDoesNotCountAsAlive) {
+// The driver's dequeue call hangs, and the daemon draws the banner again and again.
+TEST_F(HealthTest, ABannerForAHangingDriverDoesNotCountAsAlive) {
     const Heartbeat capture(hearts, "capture", budget::kCapture);
     picture = now;
     pass(seconds(5));
@@ -86,7 +83,7 @@ TEST_F(HealthTest, BannerWhileADeviceIsReopenedCountsAsAlive) {
     EXPECT_EQ(sentence(look()), "video camera: is not there (degraded for 3599.0 s)");
 }
 
-TEST_F(HealthTest, BannerWithoutAFaultOrNoLongerDrawnDoesNotCountAsAlive) {
+TEST_F(HealthTest, OnlyABannerThatIsStillDrawnForAFaultCountsAsAlive) {
     banner = now;
     pass(kStalePicture / 2);
     EXPECT_TRUE(look().isAlive());
@@ -124,7 +121,7 @@ TEST_F(HealthTest, HelperThreadThatHangsIsReportedAndPicturesAreStillShown) {
     EXPECT_EQ(look().cause, "the reload thread hangs");
 }
 
-TEST_F(HealthTest, WaitingForAReaderIsReported) {
+TEST_F(HealthTest, WaitingForTheReaderOfAPipeIsReported) {
     Heartbeat drawing(hearts, "picture", budget::kPicture);
     drawing.restFor("the reader of the pipe");
     picture = now;
@@ -149,7 +146,7 @@ TEST_F(HealthTest, DisplayThatSkipsPicturesIsDegraded) {
     EXPECT_NEAR(look().sinceS, 0, 1e-6) << "the time in the new state must start at 0";
 }
 
-TEST_F(HealthTest, AllCausesAreReported) {
+TEST_F(HealthTest, EveryCauseOfADegradedStateIsReported) {
     const Heartbeat recorder(hearts, "recorder", budget::kWriter, ThreadRole::Helper);
     pass(2 * budget::kWriter);
     picture = banner = now;

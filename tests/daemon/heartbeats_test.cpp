@@ -60,7 +60,7 @@ TEST_F(HeartbeatsTest, ThreadThatWaitsForWorkIsNotLate) {
     EXPECT_THAT(late(), ElementsAre("control"));
 }
 
-TEST_F(HeartbeatsTest, NamedWaitIsReportedButIsNotAFault) {
+TEST_F(HeartbeatsTest, AWaitWithANameIsReportedButIsNoFault) {
     Heartbeat picture(all, "picture", seconds(1));
     picture.restFor("the reader of the pipe");
     now = now + seconds(5);

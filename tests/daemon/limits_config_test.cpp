@@ -49,7 +49,7 @@ TEST(Limits, TheMemoryLimitComesFromTheMachineOrTheConfiguration) {
                 StartsWith("test.toml:2:13: limits.memory_mb = 3: must be 0 or at least 64"));
 }
 
-TEST(Limits, ARecordingOfLargePicturesIsRefusedBeforeMemoryIsTaken) {
+TEST(Limits, ARecordingOfLargePicturesIsRefusedBeforeMemoryIsAllocated) {
     const test::TempFolder folder;
     test::writeSmallRecording(folder.path());
     Config config;
@@ -68,7 +68,7 @@ TEST(Limits, ARecordingOfLargePicturesIsRefusedBeforeMemoryIsTaken) {
                       HasSubstr("4096 MB of [limits] memory_mb")));
 }
 
-TEST(Limits, ARecordingWithLongListsIsRefusedBeforeMemoryIsTaken) {
+TEST(Limits, ARecordingWithLongListsIsRefusedBeforeMemoryIsAllocated) {
     const test::TempFolder folder;
     test::writeSmallRecording(folder.path());
     std::string poses;
@@ -93,7 +93,7 @@ TEST(Limits, CamerasWithLargePicturesAreRefused) {
     EXPECT_THAT(refusalOf(config), StartsWith("cameras: video of 640x480 and stills of 8192x8192"));
 }
 
-TEST(Limits, AModelThatNeedsTooMuchMemoryIsReportedWithItsPlace) {
+TEST(Limits, AModelThatNeedsTooMuchMemoryIsReportedWithLineAndColumn) {
     const test::TempFolder folder;
     test::GltfMaker textured = test::richModel();
     textured.texture(test::rgbaPng({1024, 1024}, std::vector<std::array<std::uint8_t, 4>>(1 << 20)),
@@ -110,7 +110,6 @@ TEST(Limits, AModelThatNeedsTooMuchMemoryIsReportedWithItsPlace) {
                       HasSubstr("the textures of the model have more than")));
 }
 
-// Eight objects share one model and take the memory of one model.
 TEST(Limits, AModelWithSeveralNamesIsReadOnce) {
     const test::TempFolder folder;
     const std::vector<std::uint8_t> glb = test::oneTriangle().glb();
@@ -123,7 +122,7 @@ TEST(Limits, AModelWithSeveralNamesIsReadOnce) {
     EXPECT_EQ(config.objects[0].model, config.objects[1].model);
 }
 
-TEST(Limits, AnEnvironmentPictureThatNeedsTooMuchMemoryIsReportedWithItsPlace) {
+TEST(Limits, AnEnvironmentPictureThatNeedsTooMuchMemoryIsReportedWithLineAndColumn) {
     const test::TempFolder folder;
     test::writeFile(folder / "sky.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4096 +X 8192\n");
     EXPECT_THAT(configFaults("[limits]\nmemory_mb = 64\n[light]\nenvironment = \"" +

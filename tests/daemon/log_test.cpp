@@ -20,7 +20,6 @@ namespace {
 using testing::IsSupersetOf;
 using testing::UnorderedElementsAre;
 
-/// The text that a log writes into a pipe.
 std::string written(Log::Style style, const std::function<void(Log&)>& talk) {
     std::array<int, 2> ends{};
     if (pipe(ends.data()) != 0) return "no pipe";
@@ -72,7 +71,6 @@ TEST(Log, StatusLineNeverWraps) {
     EXPECT_EQ(out, "\r\x1b[K" + std::string(79, 'x'));
 }
 
-// A pipe replaces standard error and the test sets the clock.
 TEST(Log, RepeatedEventsAreLoggedWithTheirCount) {
     std::array<int, 2> ends{};
     ASSERT_EQ(pipe(ends.data()), 0);
@@ -156,7 +154,7 @@ TEST(Log, MessagesThatNobodyReadsDoNotBlockAThread) {
     const std::string part(4096, 'x');
     while (write(ends[1], part.data(), part.size()) > 0) {
     }
-    fcntl(ends[1], F_SETFL, 0);  // the socket blocks from now on
+    fcntl(ends[1], F_SETFL, 0);  // writes to the socket block from now on
     Log log(ends[1], Log::Style::Plain);
     for (int i = 0; i < 20; ++i)
         log.notice("lost");

@@ -1,6 +1,6 @@
-// A session that loses its GL context must create a new one, at whatever GL call of a frame the
-// context is lost. Later pictures must equal those of a run without a loss. Uses a libGLESv2 that
-// loses contexts, see tests/device/faulty_moments.h.
+// A session must create a new GL context after a loss at any GL call of a frame. Later pictures
+// must equal those of a run without a loss. Uses a libGLESv2 that loses contexts, see
+// tests/device/faulty_moments.h.
 
 #include "daemon/session.h"
 #include "hal/virtual/recorder.h"
@@ -28,10 +28,10 @@ namespace mfar {
 namespace {
 
 constexpr int kFrames = 6;
-/// A still that is taken at the same time as a frame, by a camera that is moved sideways.
+/// A still that is taken with frame `frame` by a camera moved sideways by `aside` [m].
 struct StillAt {
     int frame;
-    double aside;  ///< sideways offset of the camera [m]
+    double aside;
 };
 // Each still shows a border of the picture that the other still does not show.
 constexpr std::array kStills{StillAt{1, 0.08}, StillAt{3, -0.08}};
@@ -51,7 +51,7 @@ StereoRig rigOf() {
     return rig;
 }
 
-/// What a camera at `x` sees of a wall one metre away.
+/// Picture that a camera at `x` [m] takes of a wall one metre away.
 std::vector<std::uint8_t> wall(const CameraModel& camera, double x) {
     std::vector<std::uint8_t> out;
     for (int v = 0; v < camera.size.height; ++v)
@@ -100,7 +100,7 @@ protected:
     struct Ran {
         ScreenPicture last;
         Counted counted;
-        std::vector<std::string> moments;  ///< GL calls after the start, each named once
+        std::vector<std::string> moments;
     };
 
     void SetUp() override {
@@ -108,7 +108,7 @@ protected:
             GTEST_SKIP() << "LD_LIBRARY_PATH lacks the folder of the faulty libGLESv2";
     }
 
-    /// `virtualLayer`: keys of the configuration's section [virtual].
+    /// Configures a session that plays a recording. `virtualLayer`: keys of the section [virtual].
     void play(int frames, const std::string& virtualLayer) {
         record(folder_ / "recording", frames);
         config_ = parseConfig("[pose]\nsource = \"recorded\"\n[engine]\nuse = \"gles\"\n"
@@ -121,8 +121,9 @@ protected:
         config_.display = "none";
     }
 
-    /// Runs a session that loses its GL context at the GL call that `moment` names; null: never.
-    /// The session ends with the recording or, with `early`, a few pictures after the loss.
+    /// Runs a session that loses its GL context at the GL call `moment`, or never if `moment` is
+    /// null. The session ends with the recording. With `early`, it ends a few pictures after the
+    /// loss.
     Ran run(const char* moment, bool early = false) {
         Stats stats;
         Mailbox<Tunables> changes(HandOver::NewestWins);
@@ -170,12 +171,11 @@ protected:
     Config config_;
 };
 
-// Loses the context once at the use of every shader of every step.
-TEST_F(LostContext, RecoversInEveryShader) {
+TEST_F(LostContext, RecoversFromAContextLostInAnyShader) {
     loseAtAll([](std::string_view moment) { return moment.starts_with("glUseProgram"); });
 }
 
-TEST_F(LostContext, AContextLostInAnyDataTransferIsRecovered) {
+TEST_F(LostContext, RecoversFromAContextLostInAnyDataTransfer) {
     loseAtAll([](std::string_view moment) {
         return std::ranges::none_of(
             std::array{"glUseProgram", "glBufferSubData", "glDispatchCompute", "glDrawArrays"},
@@ -184,7 +184,7 @@ TEST_F(LostContext, AContextLostInAnyDataTransferIsRecovered) {
 }
 
 // Warping starts once the path tracer has a picture of the objects.
-TEST_F(LostContext, AContextLostDuringTheWarpIsRecovered) {
+TEST_F(LostContext, RecoversFromAContextLostDuringTheWarp) {
     constexpr int kSeconds = 12;
     play(30 * kSeconds,
          "rendering = \"path-traced\"\nresolution = 0.3\nsamples = 1\nbudget_ms = 30");

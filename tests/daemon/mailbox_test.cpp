@@ -11,7 +11,7 @@
 namespace mfar {
 namespace {
 
-TEST(Mailbox, TheNewestItemWinsAndReplacedItemsAreCounted) {
+TEST(Mailbox, TheReceiverGetsTheNewestItemAndReplacedItemsAreCounted) {
     Mailbox<int> box(HandOver::NewestWins);
     EXPECT_EQ(box.put(1), Mailbox<int>::Put::Stored);
     EXPECT_EQ(box.put(2), Mailbox<int>::Put::Replaced);
@@ -21,7 +21,7 @@ TEST(Mailbox, TheNewestItemWinsAndReplacedItemsAreCounted) {
     EXPECT_EQ(box.tryTake(), std::nullopt);
 }
 
-TEST(Mailbox, MoveOnlyItemsWork) {
+TEST(Mailbox, ItemsMayBeMoveOnly) {
     Mailbox<std::unique_ptr<int>> box(HandOver::NewestWins);
     box.put(std::make_unique<int>(7));
     EXPECT_EQ(**box.take(), 7);
@@ -33,7 +33,7 @@ struct Parcel {
     void supersede(Parcel&& older) { kept = older.kept + older.letter; }
 };
 
-TEST(Mailbox, TheNewerItemInheritsFromTheReplacedOne) {
+TEST(Mailbox, ANewerItemInheritsDataFromTheReplacedItem) {
     Mailbox<Parcel> box(HandOver::NewestWins);
     box.put({"a", ""});
     box.put({"b", ""});
@@ -81,7 +81,7 @@ TEST(Mailbox, UnderLoadEveryReplacedItemIsCounted) {
     EXPECT_EQ(received + static_cast<int>(box.dropped()), kItems);
 }
 
-TEST(Mailbox, InLosslessModeSenderAndReceiverWorkInTurn) {
+TEST(Mailbox, InLosslessModeTheSenderWaitsForTheReceiver) {
     Mailbox<int> box(HandOver::Lossless);
     std::atomic<int> working{0};
     std::jthread receiver([&] {

@@ -119,7 +119,7 @@ TEST(ObjectsConfig, AFileWithSeveralNamesIsReadOnce) {
         EXPECT_EQ(one.model, config.objects[0].model) << one.modelName;
 }
 
-TEST(ObjectsConfig, UnreadableModelsAreReportedWithTheirPlace) {
+TEST(ObjectsConfig, UnreadableModelsAreReportedWithLineAndColumn) {
     EXPECT_THAT(configFaults("[[objects]]\nmodel = \"none.glb\"\n"),
                 StartsWith("test.toml:2:9: objects[0].model = \"none.glb\": none.glb: is missing"));
     EXPECT_THAT(configFaults("[[objects]]\nscale = 0\n"), HasSubstr("objects[0].scale must be"));
@@ -153,7 +153,6 @@ TEST(ObjectsConfig, ObjectsAreAnchoredToTheirTag) {
     EXPECT_TRUE(placedShapes({object}, map).empty());
 }
 
-// The default file shows an object in comments. The object must be valid as it stands there.
 TEST(ObjectsConfig, OmittedObjectsAreReported) {
     const TagMap map({{{TagFamily::Tag36h11, 5}, 0.1, {}}});
     PlacedObject shape, onTag, model;

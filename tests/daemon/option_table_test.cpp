@@ -23,7 +23,6 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-/// A key and the section that contains it.
 struct Key {
     const OptionSection* section;
     const Option* option;
@@ -52,7 +51,7 @@ std::string with(const Key& key, std::string_view value) {
         key.section->name.empty()
             ? ""
             : fmt::format("{}{}{}\n", isList ? "[[" : "[", key.section->name, isList ? "]]" : "]");
-    std::string needed;  // other keys that every quality level must have
+    std::string needed;
     if (isLevel(key) && key.option->name != "name") needed += "name = \"a\"\n";
     if (isLevel(key) && key.option->name != "ms") needed += "ms = 1.0\n";
     return head + needed + fmt::format("{} = {}\n", key.option->name, value);
@@ -85,7 +84,6 @@ std::vector<std::string> wordsOf(const Option& option) {
     return {std::istream_iterator<std::string>(in), {}};
 }
 
-/// A value that differs from the default.
 std::string another(const Key& key) {
     static const std::map<std::string_view, std::string> texts = {
         {"source", "\"synthetic\""}, {"display", "\"none\""}, {"size", "\"still\""},
@@ -118,7 +116,7 @@ void theParserTakesTheDefault(const Key& key) {
     EXPECT_THAT(faults(key, key.option->byDefault), IsEmpty());
 }
 
-TEST(OptionTable, TheParserUsesTheTablesDefault) {
+TEST(OptionTable, TheParserUsesTheDefaultsOfTheTable) {
     for (const Key& key : allKeys()) {
         SCOPED_TRACE(key.name());
         theParserTakesTheDefault(key);
@@ -129,7 +127,7 @@ void theParserHasTheRange(const Key& key) {
     const OptionRange& range = key.option->range;
     if (range.least == range.most) return;
     EXPECT_THAT(faults(key, numberText(key, range.least)), IsEmpty());
-    const bool isTag = key.option->name == "tag";  // its maximum depends on the family
+    const bool isTag = key.option->name == "tag";  // the maximum depends on the tag family
     const std::string family = isTag ? "\nfamily = \"tagStandard41h12\"" : "";
     EXPECT_THAT(faults(key, numberText(key, range.most) + family), IsEmpty());
     const double step = key.option->type == OptionType::Whole ? 1 : 1e-6;
@@ -141,7 +139,7 @@ void theParserHasTheRange(const Key& key) {
                 HasSubstr(fmt::format("Range: {} to {}", range.least, range.most)));
 }
 
-TEST(OptionTable, TheParserEnforcesTheTablesRange) {
+TEST(OptionTable, TheParserEnforcesTheRangesOfTheTable) {
     for (const Key& key : allKeys()) {
         SCOPED_TRACE(key.name());
         theParserHasTheRange(key);
@@ -157,7 +155,7 @@ void theParserHasTheWords(const Key& key) {
     const std::vector<std::string> words = wordsOf(*key.option);
     for (const std::string& word : words)
         EXPECT_THAT(faults(key, value(word)), IsEmpty());
-    // The message about a wrong word must list exactly the table's words, in any order.
+    // The message about a wrong word must list exactly the words of the table, in any order.
     const std::string refused = faults(key, value("no-such-word"));
     const std::string list = refused.substr(refused.find("one of "));
     EXPECT_EQ(std::ranges::count(list, '"'), 2 * static_cast<std::ptrdiff_t>(words.size()));
@@ -165,7 +163,7 @@ void theParserHasTheWords(const Key& key) {
         EXPECT_THAT(list, HasSubstr('"' + word + '"'));
 }
 
-TEST(OptionTable, TheParserAcceptsTheTablesWords) {
+TEST(OptionTable, TheParserAcceptsTheWordsOfTheTable) {
     for (const Key& key : allKeys()) {
         SCOPED_TRACE(key.name());
         theParserHasTheWords(key);
@@ -223,8 +221,7 @@ TEST(OptionDefaults, ObjectDefaultsMatchTheParser) {
     EXPECT_FALSE(given.tag);
     const PlacedObject onTag = read("[[objects]]\ntag = 0\n");
     EXPECT_EQ(read(section("objects", configOptions()) + "tag = 0\n").tag, onTag.tag);
-    // An option without a default has an example in the table. Here these are the checkerboard's
-    // colours.
+    // The checkerboard's colours have no default; the table shows these examples.
     const PlacedObject coloured =
         read("[[objects]]\ncolour = [0.9, 0.9, 0.9]\nsecond_colour = [0.8, 0.2, 0.1]\n");
     EXPECT_EQ(coloured.shape.colours, without.shape.colours);

@@ -18,7 +18,6 @@ CommandLine parse(std::vector<const char*> arguments) {
     return parseCommandLine(static_cast<int>(arguments.size()), arguments.data());
 }
 
-/// The error message of the program for these arguments.
 std::string usageFault(std::vector<const char*> arguments) {
     try {
         (void)parse(std::move(arguments));

@@ -17,7 +17,7 @@ StereoRig product() {
     return rig;
 }
 
-TEST(PictureSize, TextsAreParsedOrRefused) {
+TEST(PictureSize, ValidSizesAreParsedAndOthersRefused) {
     EXPECT_EQ(pictureSize("screen"), PictureSize{});
     EXPECT_EQ(pictureSize("still"), (PictureSize{Fits::Still, {}}));
     EXPECT_EQ(pictureSize("1280x720"), (PictureSize{Fits::Given, {1280, 720}}));

@@ -16,7 +16,6 @@ using testing::StartsWith;
 constexpr const char* kTag = "family = \"tag36h11\"\n[[tags]]\nid = 3\nsize = 0.1\n"
                              "position = [0, 0, 1]\norientation = [1, 0, 0, 0]\n";
 
-/// The failure of the program for a configuration file in this folder.
 Failure fault(const test::TempFolder& folder) {
     Options options;
     options.config = folder.path() / "mfard.toml";
@@ -56,7 +55,7 @@ TEST(PoseConfig, RecordedPosesNeedARecording) {
     EXPECT_THAT(fault(folder).what(), HasSubstr("needs a recording"));
 }
 
-TEST(PoseConfig, TheTrackerUsesTheConfiguration) {
+TEST(PoseConfig, TheTrackerGetsTheOptionsOfTheConfiguration) {
     PoseConfig pose;
     pose.families = {TagFamily::Tag25h9};
     pose.tagSize = 0.25;

@@ -27,7 +27,6 @@ Timestamp frameTime(double frame) {
     return Timestamp::fromSeconds(2 + frame / 30);
 }
 
-/// A frame with or without the tag, taken `at` frame intervals after the start.
 struct Shot {
     Shot(const CameraModel& camera, double at, bool withTag)
         : picture(withTag ? renderTags(camera, view(at), {kPlacedTag})
@@ -146,7 +145,7 @@ TEST(PoseFinder, RecordedPosesAreUsedUnchanged) {
     EXPECT_EQ(counts.ms.count() + counts.stillMs.count(), 0U);
 }
 
-TEST(PoseFinder, AnErrorNamesTheSourceWithoutPoses) {
+TEST(PoseFinder, ASourceWithoutPosesIsReported) {
     Stats stats;
     PoseConfig config;
     config.source = PoseOrigin::Recorded;

@@ -15,7 +15,6 @@ Timestamp timeOf(double frame) {
     return Timestamp::fromSeconds(100 + frame * kInterval);
 }
 
-/// Pose of a camera that moves with the velocity kTwist.
 Pose steady(double frame) {
     Pose pose;
     pose.time = timeOf(frame);
@@ -44,7 +43,7 @@ TEST(PoseHistory, ASteadyMotionIsInterpolatedExactly) {
     }
 }
 
-TEST(PoseHistory, AFramesOwnTimeGivesItsPose) {
+TEST(PoseHistory, AtTheTimeOfAFrameThePoseIsThatOfTheFrame) {
     PoseHistory history;
     for (int i = 0; i < 5; ++i)
         history.add(steady(i));

@@ -20,7 +20,7 @@ TEST(ProcessUse, ProcessorTimeIncreases) {
     EXPECT_GE(after.cpuMs, before.cpuMs);
 }
 
-TEST(ProcessUse, MemoryCountsOnceItIsWritten) {
+TEST(ProcessUse, MemoryCountsAsUsedOnceItIsWritten) {
     const ProcessUse before = processUse();
     EXPECT_GT(before.residentMb, 0);
     const std::vector<char> memory(64'000'000, 'a');

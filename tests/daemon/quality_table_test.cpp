@@ -54,7 +54,7 @@ std::string faultOf(const std::string& toml) {
     return "";
 }
 
-TEST(QualityTable, FaultsAreReportedWithTheirPlace) {
+TEST(QualityTable, FaultsAreReportedWithLineAndColumn) {
     const std::string level = "[[level]]\nname = \"a\"\nms = 1\n";
     EXPECT_EQ(faultOf(level), "");
     EXPECT_EQ(faultOf(""), "file:1:1: the table of levels has no section [[level]]");

@@ -13,7 +13,6 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 
 struct RepeatLimitTest : testing::Test {
-    /// Reports an event. Records the message if it may be logged at once.
     void happen(const std::string& event, const std::string& text) {
         if (limit.mayPass(event, {4, text}, now)) said.push_back(text);
     }

@@ -52,7 +52,6 @@ bool isWellFormed(const std::string& html) {
     return bench::test::isWellFormed(html.substr(doctype.size()));
 }
 
-/// Returns the cell beside a heading in the tables.
 std::string cellOf(const std::string& html, const std::string& heading) {
     const std::string head = "<tr><th>" + heading + "</th><td>";
     const std::size_t at = html.find(head);
@@ -72,7 +71,7 @@ TEST(Report, IsWellFormedAndNeedsNoOtherFile) {
         EXPECT_THAT(html, Not(HasSubstr(outside)));
 }
 
-TEST(Report, ThePageHoldsTheNumbersOfTheSummary) {
+TEST(Report, ThePageContainsTheNumbersOfTheSummary) {
     Stats stats;
     stats.keepHistory();
     show(stats, 300);
@@ -135,7 +134,7 @@ TEST(Report, ALongRunGivesAPageOfBoundedSize) {
     EXPECT_EQ(cellOf(html, "frames"), "100000");
 }
 
-TEST(Report, HoldsThePicturesAsJpeg) {
+TEST(Report, ThePageContainsThePicturesAsJpeg) {
     Stats stats;
     const std::vector<std::uint8_t> grey(std::size_t{2304} * 1728, 100);
     const std::vector<std::uint8_t> colour(std::size_t{8} * 6 * 4, 200);
@@ -152,7 +151,6 @@ TEST(Report, HoldsThePicturesAsJpeg) {
     EXPECT_NEAR(pixels[1000], 100, 2);
     const std::string html = page(stats);
     EXPECT_TRUE(isWellFormed(html));
-    // A JPEG file begins with ff d8 ff.
     const std::string image = "src=\"data:image/jpeg;base64,/9j/";
     EXPECT_NE(html.find(image), html.rfind(image));
     EXPECT_LT(html.size(), 100'000U);

@@ -11,12 +11,11 @@ namespace {
 using std::chrono::seconds;
 
 struct RestartPauseTest : testing::Test {
-    /// A process runs for `ran` and fails. Returns the pause before its restart.
     RestartPause::Next fail(seconds ran = seconds(1)) {
         const Timestamp started = now;
         now = now + ran;
         const RestartPause::Next next = RestartPause(file).failed(started, now);
-        now = now + next.wait + seconds(1);  // systemd adds RestartSec= of the service, 1 s
+        now = now + next.wait + seconds(1);  // RestartSec= of the service adds 1 s
         return next;
     }
 

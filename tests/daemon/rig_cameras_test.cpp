@@ -1,4 +1,3 @@
-// Tests the cameras of a rig with the simulated V4L2 driver of pretended_v4l2.cpp.
 #include "daemon/budgets.h"
 #include "daemon/rig.h"
 #include "tests/unit/temp_folder.h"
@@ -41,7 +40,7 @@ protected:
         out.rateHz = rateHz;
         return out;
     }
-    /// Sets the faults that a device has from now on.
+    /// Sets the faults that the simulated `device` has from now on.
     void says(const std::string& device, const std::string& words) const {
         const std::filesystem::path next = folder_.path() / "next";
         std::ofstream(next) << words;
@@ -84,7 +83,7 @@ TEST_F(RigOfCameras, RecorderWhoseDiskHangsIsOverItsBudget) {
         << "a recorder that waits for work is not late";
 }
 
-/// Resources that this process uses: open files, threads, allocated bytes.
+/// Open files, threads and allocated bytes of this process.
 struct Used {
     static long entries(const char* folder) {
         return std::distance(std::filesystem::directory_iterator(folder), {});

@@ -69,7 +69,7 @@ TEST(RunHistory, ABinHoldsTheFramesOfItsTimeSpan) {
     EXPECT_NEAR(last.stageMs[1].quantile(0.5), 2, 0.1);
 }
 
-TEST(RunHistory, ALongRunKeepsEveryFrameInABoundedNumberOfBins) {
+TEST(RunHistory, ALongRunCountsEveryFrameInABoundedNumberOfBins) {
     RunHistory history;
     constexpr int kFrames = 200'000;
     for (int i = 0; i < kFrames; ++i) {

@@ -15,7 +15,6 @@
 namespace mfar {
 namespace {
 
-/// The end of the notification socket that belongs to the service manager.
 class Manager {
 public:
     Manager() : fd_(socket(AF_UNIX, SOCK_DGRAM, 0)) {
@@ -70,7 +69,7 @@ TEST(Service, NotifiesTheWatchdogTwiceAsOftenAsRequired) {
     EXPECT_EQ(manager.heard(), "WATCHDOG_USEC=18000000");
     Service().watchdogPatience(1);
     EXPECT_EQ(manager.heard(), "WATCHDOG_USEC=3000000");
-    setenv("WATCHDOG_PID", "1", 1);  // names another process
+    setenv("WATCHDOG_PID", "1", 1);  // the PID of another process
     EXPECT_EQ(Service().watchdogPeriod(), std::nullopt);
     setenv("WATCHDOG_USEC", "soon", 1);
     EXPECT_EQ(Service().watchdogPeriod(), std::nullopt);

@@ -14,7 +14,7 @@ using testing::Not;
 
 const std::vector<StageTime> kStages = {{"flow", 30}, {"superres", 10}};
 
-/// Shows pictures 50 ms apart, each 20 ms after its frame was taken. The 21st is shown at 11.02 s.
+/// Shows pictures every 50 ms, each 20 ms after its exposure. The 21st is shown at 11.02 s.
 void showPictures(Stats& stats, int count) {
     for (int i = 0; i < count; ++i) {
         FrameStats frame;
@@ -30,7 +30,7 @@ void showPictures(Stats& stats, int count) {
     }
 }
 
-TEST(Stats, RatesLatencyAndSharesMatchThePictures) {
+TEST(Stats, RatesLatencyAndSharesAreThoseOfTheShownPictures) {
     Stats stats;
     showPictures(stats, 21);
     const Counted counted = stats.count(Timestamp::fromSeconds(11.05));
@@ -84,7 +84,7 @@ TEST(Stats, RecentRateCoversTheLastSecond) {
     EXPECT_NEAR(stats.count(Timestamp::fromSeconds(15)).recentFps, 10, 1e-3);
 }
 
-TEST(Status, SummaryHoldsTheRunsMeasurements) {
+TEST(Status, TheSummaryContainsTheMeasurementsOfTheRun) {
     Stats stats;
     showPictures(stats, 21);
     stats.stillReceived();
@@ -359,7 +359,7 @@ TEST(Summary, ReportsTheVirtualLayerOnlyIfItExists) {
     EXPECT_NEAR(json["path_tracer"]["reference_age_s"].get<double>(), 0.5, 1e-9);
 }
 
-TEST(StatusLine, PathTracingReportsItsProgress) {
+TEST(StatusLine, TheStatusLineReportsTheProgressOfPathTracing) {
     Stats stats;
     FrameStats frame;
     frame.objectsInView = true;

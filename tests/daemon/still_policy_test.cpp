@@ -25,7 +25,7 @@ class Simulation {
 public:
     explicit Simulation(const TriggerConfig& config) : policy(config) {}
 
-    /// Runs frames for `seconds`. Returns how often the policy fired.
+    /// Runs frames for `seconds`. Returns the number of times that the policy fired the trigger.
     int run(double seconds, FrameStats stats) {
         int fired = 0;
         for (const double end = now + seconds; now < end; now += kFrame) {
@@ -44,7 +44,7 @@ public:
 
     StillPolicy policy;
     double now = 100;
-    double delay = 0;  ///< how far the statistics lag behind their frame [s]
+    double delay = 0;  ///< delay of the statistics behind their frame [s]
     double latency = 0.2;
     bool answers = true;
     std::optional<double> answerAt;
@@ -72,14 +72,13 @@ TEST(StillPolicy, WithACameraAtRestTheTriggerFiresOnce) {
     EXPECT_EQ(board.run(3600, kRest), 1);
 }
 
-TEST(StillPolicy, WithACameraAtRestTheTriggerFiresOnceEvenIfTheStillExplainsNothing) {
+TEST(StillPolicy, WithACameraAtRestTheTriggerFiresOnceEvenIfNoPixelMatchesTheStill) {
     Simulation board({});
     EXPECT_EQ(board.run(600, frame(0, 0.01)), 1);
 }
 
-// Everything is new in the first frame, which fires the trigger. The statistics of this frame
-// arrive only after that trigger.
-TEST(StillPolicy, StatsOlderThanTheTriggerAreNotMotion) {
+// The first frame is all new and fires the trigger. Its statistics arrive only after the trigger.
+TEST(StillPolicy, StatsOlderThanTheTriggerDoNotCountAsMotion) {
     Simulation board({});
     board.delay = kFrame;
     EXPECT_EQ(board.run(kFrame * 1.5, frame(0, 1)), 1);
@@ -115,13 +114,13 @@ TEST(StillPolicy, StatsOlderThanTheStillAreIgnored) {
     EXPECT_EQ(board.run(2, kMovingExplained), 0);
 }
 
-TEST(StillPolicy, NewViewThatTheStillDoesNotExplainFiresTheTrigger) {
+TEST(StillPolicy, AViewThatTheStillDoesNotShowFiresTheTrigger) {
     Simulation board({});
     board.run(2, kRest);
     EXPECT_EQ(board.run(kFrame / 2, kMovingUnexplained), 1);
 }
 
-TEST(StillPolicy, AfterMotionThatTheStillExplainsANewStillWaitsForTheAgeLimit) {
+TEST(StillPolicy, AfterMotionWithinTheViewOfTheStillANewStillWaitsForTheAgeLimit) {
     TriggerConfig config;
     config.maxAgeS = 5;
     Simulation board(config);
@@ -130,7 +129,7 @@ TEST(StillPolicy, AfterMotionThatTheStillExplainsANewStillWaitsForTheAgeLimit) {
     EXPECT_EQ(board.run(0.5, kMovingExplained), 1);
 }
 
-// The sensor's noise must be learned first; so the first frames appear to change.
+// The first frames appear to change, because the sensor's noise is not yet known.
 TEST(StillPolicy, ChangesBeforeAStillsFirstUseDoNotMakeItTooOld) {
     TriggerConfig config;
     config.maxAgeS = 5;
@@ -140,8 +139,8 @@ TEST(StillPolicy, ChangesBeforeAStillsFirstUseDoNotMakeItTooOld) {
     EXPECT_EQ(board.run(60, kRest), 0);
 }
 
-// The camera turns and stops while the still is pending; so the still shows the wrong view.
-TEST(StillPolicy, AStillTakenDuringMotionIsReplaced) {
+// The camera turns and stops while the still is pending. So the still shows the wrong view.
+TEST(StillPolicy, AStillExposedDuringMotionIsReplaced) {
     Simulation board({});
     board.latency = 0.4;
     board.run(0.3, kMovingUnexplained);
@@ -179,7 +178,7 @@ TEST(StillPolicy, KeepsTheMinimumIntervalBetweenStills) {
     EXPECT_GE(board.firedAt.size(), 18U);
 }
 
-TEST(StillPolicy, LostStillIsCountedAndRequestedOnceMore) {
+TEST(StillPolicy, ALostStillIsCountedAndRequestedAgain) {
     TriggerConfig config;
     config.timeoutS = 1;
     config.maxAgeS = 30;
@@ -204,7 +203,7 @@ TEST(StillPolicy, AfterTwoLostStillsTheNextIsRequestedAtTheAgeLimit) {
     EXPECT_EQ(board.policy.lost(), 2);
 }
 
-TEST(StillPolicy, ALateStillIsNotTakenForTheRepeatedOne) {
+TEST(StillPolicy, ALateStillIsNotMistakenForTheRepeatedStill) {
     TriggerConfig config;
     config.timeoutS = 1;
     Simulation board(config);
@@ -233,7 +232,7 @@ TEST(StillPolicy, InModeOffThePolicyNeverFires) {
     EXPECT_EQ(board.run(30, kMovingUnexplained), 0);
 }
 
-TEST(StillPolicy, InModeOffThePulseOfALostRequestedStillIsRepeated) {
+TEST(StillPolicy, InModeOffTheTriggerFiresAgainForALostRequestedStill) {
     TriggerConfig config;
     config.mode = TriggerMode::Off;
     Simulation board(config);

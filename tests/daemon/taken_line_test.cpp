@@ -15,7 +15,7 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-TEST(TakenLine, TheNotedGpioLineIsReadBackAsWritten) {
+TEST(TakenLine, TheStoredGpioLineIsReadBackUnchanged) {
     const test::TempFolder folder;
     const std::filesystem::path file = folder / "trigger";
     EXPECT_FALSE(takenLine(file));

@@ -25,7 +25,7 @@ TEST(TriggerReports, EachEventIsReportedOnce) {
     EXPECT_THAT(reports.newSince({2, 2, false}), IsEmpty());
 }
 
-// Another device is opened. Its counters start at zero.
+// The counters of a newly opened device start at zero.
 TEST(TriggerReports, CounterResetsAreNotEvents) {
     TriggerReports reports;
     (void)reports.newSince({5, 5, false});

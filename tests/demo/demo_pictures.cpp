@@ -12,12 +12,10 @@
 namespace mfar::demo {
 namespace {
 
-/// Colour of each TileClass, B G R.
 const std::array<cv::Scalar, kTileClasses> kClassColours{
     cv::Scalar(170, 170, 170), cv::Scalar(200, 130, 60), cv::Scalar(100, 180, 80),
     cv::Scalar(60, 170, 240), cv::Scalar(60, 60, 60)};
 
-/// The window in which the truth differs most from the enlarged video.
 cv::Rect mostDetailed(const Shown& shown, cv::Size window) {
     cv::Mat lacking, energy;
     cv::subtract(eval::luma(shown.truth), eval::luma(shown.upscaled), lacking);

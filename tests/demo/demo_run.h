@@ -11,7 +11,7 @@
 
 namespace mfar::demo {
 
-/// Means over the frames that have a true picture. Errors are those of luma, without a border of
+/// Means over the frames that have a true picture. Errors are errors of luma, without a border of
 /// 32 px.
 struct Quality {
     int frames = 0;
@@ -19,30 +19,29 @@ struct Quality {
     double resultPsnrDb = 0;
     double upscaledSsim = 0;
     double resultSsim = 0;
-    double harmRate = 0;        ///< share of pixels > 2 grey levels worse than enlarged video
-    double meanConfidence = 0;  ///< mean of eq. 2 of the paper, [0, 1]
-    double frameMs = 0;         ///< time of the whole pipeline until all work is finished
+    double harmRate = 0;        ///< share of pixels > 2 grey levels worse than the enlarged video
+    double meanConfidence = 0;  ///< mean of the confidence, eq. 2 of the paper, [0, 1]
+    double frameMs = 0;         ///< time until all work of the pipeline is finished
     std::array<double, kTileClasses> tileShares{};
 };
 
-/// One frame, with all data that the demonstration's pictures show. Pictures are CV_8UC3, B G R, at
-/// output size.
+/// Data of one frame for the demonstration's pictures. Pictures are CV_8UC3, B G R, at output size.
 struct Shown {
     cv::Mat upscaled;
     cv::Mat result;
     cv::Mat truth;
-    std::vector<float> confidence;   ///< confidence of each video pixel
-    std::vector<TileClass> classes;  ///< class of each tile
+    std::vector<float> confidence;
+    std::vector<TileClass> classes;
     Size video;
 };
 
 struct DemoRun {
     Quality quality;
-    Shown last;  ///< the last frame that has a true picture
+    Shown last;
 };
 
-/// Runs the pipeline over the frames, each with the newest still that was taken before it.
-/// `progress` gets the number of frames done and the total. Needs a current GL context. Throws
+/// Runs the pipeline over the frames, each with the newest earlier still. `progress` gets the
+/// number of processed frames and of all frames. Needs a current GL context. Throws
 /// std::runtime_error if no frame of the recording has a true picture.
 [[nodiscard]] DemoRun runDemo(const Recording& recording,
                               const std::function<void(int, int)>& progress);

@@ -35,7 +35,7 @@ struct Request {
     fs::path video;       ///< Y4M written by the daemon; empty: none
     fs::path objects;     ///< configuration with objects; empty: none
     fs::path pathTraced;  ///< configuration with path-traced objects; empty: none
-    std::string scene;    ///< synthetic scene of the recording; gives true depth
+    std::string scene;    ///< synthetic scene of the recording; source of true depth
 };
 
 void row(const std::string& what, const std::string& upscaled, const std::string& ours) {
@@ -67,7 +67,6 @@ void printTable(const OcclusionQuality& q) {
     row("error of its outline [video px]", "", fmt::format("{:.2f}", q.boundary));
 }
 
-/// Returns a function that shows how many frames of a part of the work are done.
 auto shownBy(const mfar::ProgressPart& part) {
     return [part](int done, int all) {
         part.show(static_cast<std::size_t>(done), static_cast<std::size_t>(all),

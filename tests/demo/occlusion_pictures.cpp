@@ -15,12 +15,11 @@ namespace {
 constexpr double kMostError = 0.05;  // relative depth error at the upper end of the colour scale
 const cv::Scalar kUnknown(120, 120, 120);
 
-/// Inverse depths at both ends of a colour scale [1/m].
 struct Range {
     double far, near;
 };
 
-// Range of the inverse depths `rho` without the farthest and the nearest 1 % of the pixels.
+// Range of the inverse depths `rho` without the farthest and nearest 1 % of the pixels.
 Range rangeOf(const cv::Mat& rho) {
     std::vector<float> values;
     for (const float value : cv::Mat_<float>(rho))
@@ -29,8 +28,8 @@ Range rangeOf(const cv::Mat& rho) {
     return {values[values.size() / 100], values[values.size() - 1 - values.size() / 100]};
 }
 
-/// Maps values from 0 to 1 to OpenCV's colour map Turbo, from blue to red. Pixels at which `known`
-/// is 0 become grey.
+/// Maps values from 0 to 1 to colours from blue to red (OpenCV's Turbo). Pixels with `known` = 0
+/// become grey.
 cv::Mat colours(const cv::Mat& shares, const cv::Mat& known) {
     cv::Mat levels, out;
     shares.convertTo(levels, CV_8U, 255);
@@ -48,7 +47,6 @@ cv::Mat errorColours(const cv::Mat& rho, const cv::Mat& truth) {
     return colours(cv::abs(truth / rho - 1) / kMostError, known);
 }
 
-/// Draws the colour scale as a bar, with the texts `from` and `to` at its ends.
 void addScale(cv::Mat& canvas, cv::Point corner, const std::string& from, const std::string& to) {
     constexpr int kLabel = 90;
     cv::Mat ramp(kMargin, 256, CV_32F);
@@ -59,7 +57,7 @@ void addScale(cv::Mat& canvas, cv::Point corner, const std::string& from, const 
     write(canvas, to, {corner.x + kLabel + ramp.cols + 12, corner.y + 18});
 }
 
-/// The window in which large hidden and large visible parts of the virtual object are close
+/// The window in which large hidden and large visible parts of the virtual object lie close
 /// together.
 cv::Rect mostHidden(const OcclusionShown& shown) {
     const cv::Size window = detailSize(shown.composite.size());

@@ -6,11 +6,10 @@
 
 namespace mfar::demo {
 
-/// Three pictures with colour scales: measured depth, true depth, and the error of depth.
 [[nodiscard]] cv::Mat depthPicture(const OcclusionRun& run);
 
-/// Three pictures: the virtual object drawn over everything, the result, and the truth. Below each,
-/// the region in which most of the object is hidden is magnified.
+/// The virtual object drawn over everything, the result, and the truth. Below each, the region in
+/// which most of the object is hidden is magnified.
 [[nodiscard]] cv::Mat occlusionPicture(const OcclusionRun& run);
 
 }  // namespace mfar::demo

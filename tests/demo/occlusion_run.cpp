@@ -17,7 +17,7 @@
 namespace mfar::demo {
 namespace {
 
-constexpr int kSettling = 8;  // number of first frames that are not scored
+constexpr int kSettling = 8;
 
 cv::Mat depthOf(const InverseDepthField& field) {
     cv::Mat out(field.size.height, field.size.width, CV_32F, cv::Scalar(0));
@@ -26,7 +26,7 @@ cv::Mat depthOf(const InverseDepthField& field) {
     return out;
 }
 
-/// Makes the pictures that a frame should show, and one with the objects drawn over everything.
+/// Computes the pictures that a frame should show, and one with the objects drawn over everything.
 class SceneTruth {
 public:
     SceneTruth(const Recording& recording, synthetic::Scene scene,
@@ -34,7 +34,6 @@ public:
         : recording_(recording), world_(synthetic::makeWorld(scene, 1)), objects_(objects),
           output_(output), renderer_(recording.rig.video, output) {}
 
-    /// Fills in all members of `shown` that do not come from the pipeline.
     void fill(OcclusionShown& shown, Timestamp time, const Pose& pose) {
         const CameraModel camera = recording_.rig.video.scaledTo(output_);
         const eval::VirtualTruth truth =
@@ -44,7 +43,7 @@ public:
         const VirtualLayer& layer = renderer_.render(objects_, pose.T_world_video);
         const std::vector<std::uint8_t> rgba = layer.colour->readRgba8();
         const cv::Mat colours = eval::fromRgba(rgba, output_);
-        cv::Mat drawn;  // alpha; its outline lies within a pixel of the true silhouette
+        cv::Mat drawn;
         cv::extractChannel(
             cv::Mat(output_.height, output_.width, CV_8UC4, const_cast<std::uint8_t*>(rgba.data())),
             drawn, 3);
@@ -64,7 +63,6 @@ private:
     PreviewRenderer renderer_;
 };
 
-/// Adds the errors of a frame to run.quality. Keeps the frame's depth in run.last.
 void score(const Pipeline& pipeline, const Recording& recording,
            const std::vector<VirtualObject>& objects, const Pose& pose, const FloatImage& real,
            OcclusionRun& run) {

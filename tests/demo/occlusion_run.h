@@ -16,28 +16,26 @@ struct OcclusionQuality {
     int frames = 0;
     double absrel = 0;        ///< median over the picture of |z - true z| / true z
     double completeness = 0;  ///< share of the picture whose depth is known
-    double overlap = 0;       ///< intersection over union of the shown and the true visible object
-    double boundary = 0;      ///< mean distance of its outline from the true one [video px]
+    double overlap = 0;       ///< intersection over union of the shown and the truly visible object
+    double boundary = 0;      ///< mean distance between shown and true outline [video px]
 };
 
-/// One frame. Depths: CV_32F, 1/z [1/m] per video pixel, 0 = unknown. Pictures: CV_8UC3, B G R, at
-/// output size.
 struct OcclusionShown {
     cv::Mat depth, trueDepth;
-    cv::Mat overlaid;  ///< the true picture with the object over everything
+    cv::Mat overlaid;  ///< the true picture with the object drawn over everything
     cv::Mat composite, trueComposite;
-    cv::Mat visible;  ///< CV_8U at output size; 255 where the object can truly be seen
-    cv::Mat hidden;   ///< CV_8U at output size; 255 where something truly covers the object
+    cv::Mat visible;  ///< CV_8U at output size; 255 where the object should be visible
+    cv::Mat hidden;   ///< CV_8U at output size; 255 where a real object covers the object
 };
 
 struct OcclusionRun {
     OcclusionQuality quality;
-    OcclusionShown last;  ///< the last frame
+    OcclusionShown last;
 };
 
-/// Shows objects in a recording of a synthetic scene with the poses that its tags give, and
-/// measures depth in the whole picture. `progress` gets the number of frames done and the total.
-/// Needs a current GL context. Throws std::runtime_error if the last frame has no truth.
+/// Shows objects in a recording of a synthetic scene, with poses from its tags. Measures depth in
+/// the whole picture. `progress` gets the number of processed frames and of all frames. Needs a
+/// current GL context. Throws std::runtime_error if the last frame has no truth.
 [[nodiscard]] OcclusionRun runOcclusion(const Recording& recording, synthetic::Scene scene,
                                         const std::vector<VirtualObject>& objects,
                                         const std::function<void(int, int)>& progress);

@@ -7,7 +7,7 @@ namespace {
 
 const cv::Scalar kPaper(250, 250, 250);
 const cv::Scalar kInk(40, 40, 40);
-const cv::Scalar kFrame(60, 160, 255);  ///< colour of the frame around the detail, B G R
+const cv::Scalar kFrame(60, 160, 255);
 
 cv::Size panelOf(cv::Size picture) {
     return {kPanelWidth, kPanelWidth * picture.height / picture.width};

@@ -8,11 +8,10 @@
 
 namespace mfar::demo {
 
-/// Gives the pipeline the newest still that was taken before the frame; each still once.
+/// Gives each still to the pipeline once: the newest still that was taken before the frame.
 class StillFeed {
 public:
-    /// `poses`: poses of the stills; null: the pipeline gets no poses. Both arguments must outlive
-    /// this object.
+    /// `poses`: poses of the stills; null: none. Both arguments must outlive this object.
     explicit StillFeed(const Recording& recording, const eval::KnownPoses* poses = nullptr)
         : recording_(recording), poses_(poses) {}
 
@@ -21,7 +20,7 @@ public:
 private:
     const Recording& recording_;
     const eval::KnownPoses* poses_;
-    std::size_t next_ = 0;  ///< index of the first still that was not taken before the last frame
+    std::size_t next_ = 0;
 };
 
 }  // namespace mfar::demo

@@ -18,8 +18,8 @@ namespace mfar::demo {
 namespace {
 
 constexpr std::chrono::milliseconds kFrameInterval{33};
-// A traced picture of exactly the camera's view is made only after the camera has rested for some
-// frames. Then, that picture needs time: the last frame is repeated at most kMostRestFrames times.
+// The path tracer makes a picture of the exact view only after the camera rested for some frames.
+// To give it time, the last frame is repeated at most kMostRestFrames times.
 constexpr int kLeastLooks = 15, kMostRestFrames = 20000;
 
 bool isSettled(const TracedLayerCounters& counters) {
@@ -36,7 +36,6 @@ cv::Rect outputRect(const PixelRect& video, Size frame, Size output) {
                       at(video.y1, frame.height, output.height))};
 }
 
-/// The window that is magnified: it has the size detailSize() and is centred on `region`.
 cv::Rect detailOf(const cv::Rect& region, cv::Size picture) {
     const cv::Size window = detailSize(picture);
     const cv::Point middle = (region.tl() + region.br()) / 2;
@@ -45,7 +44,6 @@ cv::Rect detailOf(const cv::Rect& region, cv::Size picture) {
             window};
 }
 
-/// Runs one pipeline on one recording.
 class Show {
 public:
     Show(const Recording& recording, const Config& config)
@@ -62,7 +60,6 @@ public:
         stills_.feed(pipeline_, time_);
         show();
     }
-    /// Runs the last frame again, a little later.
     void again() {
         time_ = time_ + kFrameInterval;
         show();
@@ -109,7 +106,7 @@ VirtualRun runVirtual(const Recording& recording, const Config& config,
         throw std::runtime_error(recording.root.string() +
                                  ": no virtual object is in view in the last frame");
     Timestamp seen = show.counters().render.frame;
-    int looks = 0;  // frames that the path tracer's threads have seen; they may skip some
+    int looks = 0;  // frames that the path tracer's threads have used; they may skip some
     for (int i = 0; i < kMostRestFrames && !(looks > kLeastLooks && isSettled(show.counters()));
          ++i) {
         show.again();

@@ -10,7 +10,7 @@
 
 namespace mfar::demo {
 
-/// Results of path-traced objects in a recording. Pictures are CV_8UC3, B G R, at output size.
+/// Pictures of path-traced objects in a recording, CV_8UC3, B G R, at output size.
 struct VirtualRun {
     cv::Mat moving;   ///< the last frame: a traced picture, warped to its view
     cv::Mat atRest;   ///< the same view after the camera rested, with all samples
@@ -18,13 +18,13 @@ struct VirtualRun {
     TracedLayerCounters moved, rested;
 };
 
-/// Shows the objects of a configuration with the poses that the recording's tags give. `progress`
-/// gets the number of frames done and the total. Needs a current GL context. Throws
+/// Shows the objects of a configuration in a recording, with poses from its tags. `progress` gets
+/// the number of processed frames and of all frames. Needs a current GL context. Throws
 /// std::runtime_error if no object is in view at the end.
 [[nodiscard]] VirtualRun runVirtual(const Recording& recording, const Config& config,
                                     const std::function<void(int, int)>& progress);
 
-/// Both pictures. Below each, the objects are magnified.
+/// Both pictures of `run`. Below each, the objects are magnified.
 [[nodiscard]] cv::Mat virtualPicture(const VirtualRun& run);
 
 }  // namespace mfar::demo

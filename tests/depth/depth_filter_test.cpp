@@ -29,7 +29,7 @@ std::size_t middle() {
     return 45UL * 120 + 60;
 }
 
-TEST(DepthFilter, MeasurementNoiseAveragesOutOverTheFrames) {
+TEST(DepthFilter, MeasurementNoiseIsAveragedOverTheFrames) {
     DepthFilter filter = filterOf();
     std::mt19937 random(1);
     std::normal_distribution<float> noise(0, 0.05F);
@@ -49,7 +49,7 @@ TEST(DepthFilter, MeasurementNoiseAveragesOutOverTheFrames) {
     EXPECT_LT(filter.field().variance[middle()], 0.05F * 0.05F);
 }
 
-TEST(DepthFilter, OneOutlierIsIgnoredAndAChangeIsFollowed) {
+TEST(DepthFilter, OneOutlierIsIgnoredAndALastingChangeIsFollowed) {
     DepthFilter filter = filterOf();
     filter.predict({}, 0);
     filter.fuse(evenField(1, 0.02F), kWhole);
@@ -62,7 +62,7 @@ TEST(DepthFilter, OneOutlierIsIgnoredAndAChangeIsFollowed) {
     EXPECT_NEAR(filter.field().inverseDepth[middle()], 3, 1e-5);
 }
 
-TEST(DepthFilter, TheNearerSurfaceOccludesTheOther) {
+TEST(DepthFilter, ANearerSurfaceOccludesAFartherSurface) {
     DepthFilter filter = filterOf();
     filter.predict({}, 0);
     InverseDepthField measured = evenField(0.5F, 0.01F);
@@ -70,8 +70,8 @@ TEST(DepthFilter, TheNearerSurfaceOccludesTheOther) {
         for (int x = 40; x < 60; ++x)
             measured.inverseDepth[static_cast<std::size_t>(y) * 120 + x] = 2;
     filter.fuse(measured, kWhole);
-    // The camera moves 0.1 m to the right: the near square moves 22 px to the left, the background
-    // 5.5 px.
+    // The camera moves 0.1 m to the right. So the near square moves 22 px to the left and the
+    // background 5.5 px.
     filter.predict(motion({0, 0, 0}, {0.1, 0, 0}), 0);
     const auto at = [&](int x) { return filter.field().inverseDepth[45UL * 120 + x]; };
     EXPECT_NEAR(at(28), 2, 1e-4);
@@ -86,12 +86,10 @@ TEST(DepthFilter, DepthMovesAndScalesWithTheCamera) {
     filter.predict({}, 0);
     filter.fuse(evenField(1, 0.02F), kWhole);
     const float variance = filter.field().variance[middle()];
-    // The camera moves half a metre towards a wall at one metre.
     filter.predict(motion({0, 0, 0}, {0, 0, 0.5}), 0);
     ASSERT_TRUE(filter.field().isKnown(middle()));
     EXPECT_NEAR(filter.field().inverseDepth[middle()], 2, 1e-4);
     EXPECT_GT(filter.field().variance[middle()], 10 * variance);
-    // The camera moves through the wall.
     filter.predict(motion({0, 0, 0}, {0, 0, 1.2}), 0);
     EXPECT_FALSE(filter.field().isKnown(middle()));
 }

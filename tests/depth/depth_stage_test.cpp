@@ -19,7 +19,6 @@ CameraModel barrelCamera() {
     return {{240, 180}, 200, 201, 122, 88, {-0.25, 0.06, 0.001, -0.0012, 0.002}};
 }
 
-/// A panel in front of a slanted wall [m].
 Scene panelScene() {
     return {{{Eigen::Vector3d(0.2, 0.1, 1).normalized(), 1.6},
              {{0, 0, 1}, 1, {-0.2, -0.15}, {0.25, 0.2}}},
@@ -27,13 +26,12 @@ Scene panelScene() {
             100};
 }
 
-/// Runs the depth stage while a camera moves in that scene. The world frame is that of the scene.
+/// Runs the depth stage while a camera moves in the scene. World and scene have the same frame.
 class Walk {
 public:
     explicit Walk(const DepthOptions& options = {}, const PixelRect& where = kAll)
         : stage_(barrelCamera(), std::make_shared<Workers>(2), options), where_(where) {}
 
-    /// Passes the frame that a camera at this pose takes.
     void go(const RigidTransform& T_world_video) {
         pose_ = T_world_video;
         Pose pose{Timestamp::fromSeconds(1 + kFrame * frames_++), T_world_video};
@@ -46,9 +44,9 @@ public:
     static RigidTransform at(double x) { return motion({0, 0, 0}, {x, 0.3 * x, 0}); }
 
     struct Errors {
-        double median = 0;    ///< median of |z - truth| / truth over pixels with known depth
-        double bad = 0;       ///< share of pixels with known depth whose error is above a tenth
-        double complete = 0;  ///< share of pixels with known depth
+        double median = 0;  ///< median of |z - truth| / truth over pixels with known depth
+        double bad = 0;     ///< share of pixels with known depth whose error is above a tenth
+        double complete = 0;
     };
     [[nodiscard]] Errors errors() const {
         std::vector<double> all;
@@ -106,7 +104,7 @@ TEST(DepthStage, MeasuresAgainstKeyframesWhileTheCameraMoves) {
     expectGood(walk.errors());
 }
 
-TEST(DepthStage, AStopAndATurnKeepTheDepth) {
+TEST(DepthStage, DepthIsKeptWhileTheCameraStopsAndRotates) {
     Walk walk;
     walk.goSideways(8, 0.012);
     const Walk::Errors before = walk.errors();
@@ -136,7 +134,7 @@ TEST(DepthStage, DepthIsMeasuredOnlyInRequestedTiles) {
     walk.goSideways(10, 0.01);
     expectGood(walk.errors());
     const InverseDepthField& field = walk.stage().field();
-    // Measured values may move by up to four pixels per frame.
+    // In each frame, measured values may move by up to four pixels.
     const PixelRect reached = widened(where, 40, field.size);
     for (int y = 0; y < field.size.height; ++y) {
         for (int x = 0; x < field.size.width; ++x) {

@@ -16,7 +16,6 @@ constexpr Size kPicture{64, 48};
 constexpr PixelRect kAllPixels{0, 0, 64, 48};
 constexpr int kEdge = 30;
 
-/// A dark surface to the left of kEdge and a bright one to the right, with a fine pattern on both.
 std::vector<std::uint8_t> picture(int left = 60, int right = 160) {
     std::vector<std::uint8_t> out;
     for (int y = 0; y < kPicture.height; ++y)
@@ -26,8 +25,8 @@ std::vector<std::uint8_t> picture(int left = 60, int right = 160) {
     return out;
 }
 
-/// Depth of picture(): the near surface extends `too` pixels beyond its true edge; `unknown` pixels
-/// without known depth follow it.
+/// Depth of picture(). The near surface extends `too` pixels beyond its true edge. The depth of the
+/// next `unknown` pixels is unknown.
 InverseDepthField field(int too, int unknown) {
     InverseDepthField out(kPicture);
     for (int y = 0; y < kPicture.height; ++y)
@@ -40,7 +39,6 @@ InverseDepthField field(int too, int unknown) {
     return out;
 }
 
-/// Paints two colours of equal luma, one on each side of kEdge.
 void paintHalves(test::PaddedPicture& out) {
     const ImageView view = out.view();
     const int step = bytesPerPixel(view.format);
@@ -89,8 +87,8 @@ TEST(EdgeSnap, DepthEdgesMoveToPictureEdges) {
         }
 }
 
-// The surfaces differ only in colour; so chroma must be read correctly from every format.
-TEST(EdgeSnap, ColourOfEveryFormatDistinguishesSurfaces) {
+// The surfaces differ only in colour. So chroma must be read correctly from every format.
+TEST(EdgeSnap, SurfacesAreDistinguishedByColourInEveryFormat) {
     for (const PixelFormat format : test::kEveryFormat) {
         if (format == PixelFormat::Gray8) continue;
         test::PaddedPicture painted(format, kPicture, 1);
@@ -107,14 +105,14 @@ TEST(EdgeSnap, ColourOfEveryFormatDistinguishesSurfaces) {
     }
 }
 
-// Values are rounded and chroma is equal in each pair of pixels; so the Y U V picture must give the
-// same result as the R G B picture.
-TEST(EdgeSnap, YuvAndItsRgbGiveTheSameField) {
+// Values are rounded and each pair of pixels has equal chroma. So both pictures have the same
+// colours.
+TEST(EdgeSnap, AYuvPictureAndTheEqualRgbPictureGiveTheSameDepth) {
     for (const PixelFormat format : {PixelFormat::Yuyv, PixelFormat::Nv12, PixelFormat::Yuv420}) {
         test::PaddedPicture painted(format, kPicture, 6);
         for (int plane = 0; plane < planeCount(format); ++plane)
             for (auto& b : painted.plane(plane))
-                b = static_cast<std::uint8_t>(110 + b / 8);  // makes some values equal
+                b = static_cast<std::uint8_t>(110 + b / 8);
         const ImageView view = painted.view(YuvMatrix::Bt709, YuvRange::Limited);
         const auto samples = twin::yuvSamples(view);
         const int down = format == PixelFormat::Yuyv ? 1 : 2;
@@ -140,7 +138,7 @@ TEST(EdgeSnap, YuvAndItsRgbGiveTheSameField) {
     }
 }
 
-TEST(EdgeSnap, ASlopeStaysUnchanged) {
+TEST(EdgeSnap, DepthOfASlopeStaysUnchanged) {
     InverseDepthField in(kPicture);
     for (std::size_t i = 0; i < in.inverseDepth.size(); ++i) {
         in.inverseDepth[i] = 1 + 0.004F * static_cast<float>(i % 64);

@@ -24,7 +24,7 @@ LumaImage grey(int value) {
     return out;
 }
 
-/// Frames 1 cm apart; the last is at 9 cm.
+/// Frames 1 cm apart, the last at 9 cm.
 Keyframes walked(const KeyframeOptions& options, int brightness = 100) {
     Keyframes out(kKeyCamera, options);
     for (int i = 0; i < 10; ++i)
@@ -39,7 +39,7 @@ TEST(Keyframes, FixedRuleChoosesTheKeyframeAFixedNumberOfFramesBack) {
     EXPECT_NEAR(choice->frame->pose.T_world_video.translation.x(), 0.06, 1e-12);
 }
 
-TEST(Keyframes, AngleRuleTakesTheNewestKeyframeFarEnoughAway) {
+TEST(Keyframes, AngleRuleChoosesTheNewestKeyframeWithEnoughParallax) {
     const Keyframes frames = walked({.rule = KeyframeRule::Angle, .angle = 0.035});
     const auto choice = frames.choose(poseAt(0.1), 100, kAll, 1);
     ASSERT_TRUE(choice);
@@ -47,11 +47,11 @@ TEST(Keyframes, AngleRuleTakesTheNewestKeyframeFarEnoughAway) {
     EXPECT_GT(choice->angle, 0.035);
 }
 
-TEST(Keyframes, ScoreRuleTakesTheMostParallaxWithOverlap) {
+TEST(Keyframes, ScoreRuleChoosesTheMostParallaxAmongKeyframesOfTheSameView) {
     const Keyframes frames = walked({});
     EXPECT_EQ(frames.choose(poseAt(0.1), 100, kAll, 1)->frame->pose.T_world_video.translation.x(),
               0);
-    // At this small depth, frames taken from farther away show other parts of the scene.
+    // At this small depth, distant keyframes show other parts of the scene.
     const auto near = frames.choose(poseAt(0.1), 100, kAll, 8);
     ASSERT_TRUE(near);
     EXPECT_NEAR(near->frame->pose.T_world_video.translation.x(), 0.06, 0.011);

@@ -34,7 +34,7 @@ TEST(CameraSelection, WithoutANameTheSmallestOrLargestCameraIsChosen) {
     board[3].pixels = 4000;
     board[1].pixels = 4000;
     EXPECT_EQ(chooseCamera(board, {}), 0U);
-    EXPECT_EQ(chooseCamera(board, {.largest = true}), 3U);  // the last one in the order of the ids
+    EXPECT_EQ(chooseCamera(board, {.largest = true}), 3U);
     EXPECT_EQ(chooseCamera(board, {.except = "imx296"}), 2U);
     EXPECT_EQ(chooseCamera(board, {.except = board[3].id, .largest = true}), 1U);
     EXPECT_EQ(chooseCamera(board, {.except = "external", .largest = true}), 1U);
@@ -51,7 +51,7 @@ TEST(CameraSelection, TheOnlyCameraIsNotChosenAsTheLargest) {
     EXPECT_EQ(chooseCamera(one, {.except = "not there", .largest = true}), 0U);
 }
 
-TEST(CameraSelection, AmbiguousAndUnknownNamesListTheCameras) {
+TEST(CameraSelection, AmbiguousAndUnknownNamesAreReportedWithTheCameras) {
     for (const char* wanted : {"external", "Webcam C270", "imx219", "usb-1.2"})
         EXPECT_THAT([&] { (void)chooseCamera(kBoard, {wanted}); },
                     ThrowsMessage<std::runtime_error>(AllOf(

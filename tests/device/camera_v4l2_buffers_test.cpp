@@ -1,5 +1,3 @@
-// Tests that the driver's buffers are lent to users and returned.
-
 #include "hal/device/camera_v4l2.h"
 #include "tests/device/fake_v4l2.h"
 
@@ -117,7 +115,7 @@ TEST(CameraV4l2Buffers, FewBuffersSufficeForManyPictures) {
                 EXPECT_EQ(held[i].view().size, kPicture);
                 EXPECT_EQ(held[i].view().data[100], i);
             }
-            // The user holds as many pictures as the buffers allow; so the next picture is lost and
+            // The user holds as many pictures as the buffers allow. So the next picture is lost and
             // counted.
             ASSERT_TRUE(fake.deliver());
             EXPECT_FALSE(camera.next(0ms).has_value());
@@ -140,7 +138,6 @@ TEST(CameraV4l2Buffers, WithEnoughBuffersPicturesAreLentWithoutACopy) {
     EXPECT_EQ(fake.queued(), 3);
 }
 
-/// Number of event descriptors that this process has open.
 int eventDescriptors() {
     int out = 0;
     for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
@@ -165,7 +162,7 @@ TEST(CameraV4l2Buffers, AFrameOfAClosedCameraKeepsOnlyItsMemory) {
     EXPECT_EQ(eventDescriptors(), before);
 }
 
-TEST(CameraV4l2Buffers, FramesOutliveTheCameraAndDoNotBlockTheNextOne) {
+TEST(CameraV4l2Buffers, FramesOutliveTheCameraAndDoNotBlockTheNextCamera) {
     FakeV4l2 fake;
     std::optional<Frame> held;
     {

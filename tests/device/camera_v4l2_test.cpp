@@ -27,7 +27,7 @@ CameraV4l2Options wanted(const std::string& format = {}, double rateHz = 0) {
     return out;
 }
 
-TEST(CameraV4l2, LendsThePicturesOfTheDriver) {
+TEST(CameraV4l2, PicturesOfTheDriverAreLentToTheUser) {
     FakeV4l2 fake;
     fake.padding = 12;
     fake.quantization = V4L2_QUANTIZATION_FULL_RANGE;
@@ -49,7 +49,7 @@ TEST(CameraV4l2, LendsThePicturesOfTheDriver) {
     EXPECT_EQ(camera.cameraCounters().delivered, 1U);
 }
 
-TEST(CameraV4l2, FormatsAreTakenInTheOrderOfPreference) {
+TEST(CameraV4l2, FormatsAreChosenInTheOrderOfPreference) {
     FakeV4l2 fake;
     const auto chosen = [&](const std::string& format = {}, double rateHz = 0) {
         return CameraV4l2(wanted(format, rateHz), fake).info().format;
@@ -71,7 +71,7 @@ TEST(CameraV4l2, FormatsAreTakenInTheOrderOfPreference) {
     EXPECT_EQ(chosen("GREY"), PixelFormat::Gray8);
 }
 
-TEST(CameraV4l2, RefusedSizesListTheOfferedOnes) {
+TEST(CameraV4l2, ARefusedSizeIsReportedWithTheOfferedSizes) {
     FakeV4l2 fake;
     fake.formats = {{V4L2_PIX_FMT_YUYV, {{64, 48}, {160, 120}}}, {V4L2_PIX_FMT_SBGGR8, {kSize}}};
     EXPECT_EQ(errorOf([&] { CameraV4l2(wanted(), fake); }),
@@ -83,7 +83,7 @@ TEST(CameraV4l2, RefusedSizesListTheOfferedOnes) {
               "/dev/video0: camera 'Fake Camera' does not offer 32x24 in NV12; i");
 }
 
-TEST(CameraV4l2, ADriverThatRoundsTheSizeIsRefused) {
+TEST(CameraV4l2, ADriverThatChangesThePictureSizeIsRefused) {
     FakeV4l2 fake;
     fake.formats = {{V4L2_PIX_FMT_YUYV, {}}};
     fake.rounds = true;
@@ -143,7 +143,7 @@ TEST(CameraV4l2, WithoutANameTheExcludedCameraIsNotChosen) {
     options.device.largest = true;
     EXPECT_EQ(errorOf([&] { CameraV4l2(options, fake); }),
               "no second camera was found; available:\n  /dev/video0: 'Fake Camera' at fake:1");
-    fake.secondPath = "/dev/video2";  // equal picture sizes: ordered by path
+    fake.secondPath = "/dev/video2";  // cameras with equal picture sizes are ordered by path
     EXPECT_EQ(CameraV4l2(options, fake).info().name, "Fake Camera (/dev/video2)");
     options.device.except = "/dev/video2";
     EXPECT_EQ(CameraV4l2(options, fake).info().name, "Fake Camera (/dev/video0)");
@@ -203,12 +203,12 @@ TEST(CameraV4l2, MissedPicturesAreCounted) {
     EXPECT_EQ(camera.cameraCounters().missed, 3U);
 }
 
-TEST(CameraV4l2, TimeIsTheMiddleOfAManualExposure) {
+TEST(CameraV4l2, TheTimeOfAPictureIsTheMiddleOfItsManualExposure) {
     const auto ageWith = [](std::uint32_t flags, std::int64_t automatic) {
         FakeV4l2 fake;
-        fake.controls = {{0x9a0901, "Auto Exposure", V4L2_CTRL_TYPE_INTEGER, 0, 3, 1, automatic},
-                         {0x9a0902, "Exposure Time, Absolute", V4L2_CTRL_TYPE_INTEGER, 1, 5000, 1,
-                          2000}};  // exposure of 200 ms
+        fake.controls = {
+            {0x9a0901, "Auto Exposure", V4L2_CTRL_TYPE_INTEGER, 0, 3, 1, automatic},
+            {0x9a0902, "Exposure Time, Absolute", V4L2_CTRL_TYPE_INTEGER, 1, 5000, 1, 2000}};
         CameraV4l2 camera(wanted(), fake);
         camera.start();
         fake.deliver({.flags = flags, .ageMs = 1000});
@@ -221,7 +221,7 @@ TEST(CameraV4l2, TimeIsTheMiddleOfAManualExposure) {
     EXPECT_NEAR(ageWith(V4L2_BUF_FLAG_TSTAMP_SRC_SOE, V4L2_EXPOSURE_AUTO), 1.0, 0.04);
 }
 
-TEST(CameraV4l2, StopWakesNext) {
+TEST(CameraV4l2, StopWakesAThreadThatWaitsInNext) {
     FakeV4l2 fake;
     CameraV4l2 camera(wanted(), fake);
     camera.start();
@@ -234,7 +234,7 @@ TEST(CameraV4l2, StopWakesNext) {
     camera.stop();
 }
 
-TEST(CameraV4l2, RunsAgainAfterStop) {
+TEST(CameraV4l2, ACameraCanBeStartedAgainAfterStop) {
     FakeV4l2 fake;
     CameraV4l2 camera(wanted(), fake);
     camera.start();

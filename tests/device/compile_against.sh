@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Compiles the sources that depend on the version of a device library, in a root folder with another
-# Debian release, and runs their tests there. So both versions between which CMake chooses are
-# tested. Usage: compile_against.sh CACHE SUITE, where SUITE is bookworm, trixie or sid. Needs root
-# and mmdebstrap. The root folder takes two minutes to create and is kept in CACHE for a week.
+# Compiles and tests the sources that depend on a device library's version, in a root folder with
+# another Debian release. So both versions that CMake supports are tested. Usage: compile_against.sh
+# CACHE SUITE, where SUITE is bookworm, trixie or sid. Needs root and mmdebstrap. The root folder
+# takes two minutes to create and is kept in CACHE for a week.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.."
 # shellcheck source=toolchains/debian.sh
@@ -35,7 +35,7 @@ cd "$1"
 version() { pkg-config --modversion "$1"; }
 warnings="-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Werror"
 objects() { # objects PACKAGES SOURCES...: compiles each source into the folder
-    # -isystem makes the compiler ignore warnings in the headers of the library.
+    # -isystem makes the compiler ignore warnings in headers of the library.
     flags=$(pkg-config --cflags "$1" | sed "s/-I/-isystem /g")
     shift
     for source; do
@@ -64,7 +64,7 @@ objects libcamera hal/frame.cpp base/image_layout.cpp $(printf "hal/device/%s.cp
 parts="frame image_layout $parts"
 link camera-tests libcamera $parts libcamera_test $(printf "%s_test " $tested)
 link probe libcamera $parts libcamera_probe
-# Silences libcamera, which logs its version at every start and, in a chroot, what it does not find.
+# Without this, libcamera logs its version and everything that it misses in a chroot.
 export LIBCAMERA_LOG_LEVELS="*:FATAL"
 ./camera-tests --gtest_brief=1
 ./probe

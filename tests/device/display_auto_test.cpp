@@ -12,10 +12,9 @@ namespace {
 using Presence = Screen::Presence;
 using testing::HasSubstr;
 
-// State of a simulated display device, with counters of calls.
 struct Device {
     Presence presence = Presence::Absent;
-    bool refuses = false;        // true: show() throws
+    bool refuses = false;
     int refusesAfter = 1000000;  // number of pictures after which show() throws
     int shown = 0, looks = 0, thoroughLooks = 0, released = 0;
     bool held = false;
@@ -64,7 +63,8 @@ protected:
             nullptr, std::move(screens), [this] { return now_; },
             [this] { return std::exchange(changed_, false); });
     }
-    // Shows pictures at 20 Hz for this time. Returns how many either screen showed.
+    // Shows pictures at 20 Hz for this time. Returns the number of pictures that the two screens
+    // showed.
     int run(std::chrono::milliseconds duration) {
         const int before = kms_.shown + fbdev_.shown;
         for (const Timestamp end = now_ + duration; now_ < end;
@@ -87,7 +87,7 @@ TEST_F(AutoDisplay, RunsWithoutAScreenAndReportsIt) {
     EXPECT_THAT(display_->name(), HasSubstr("kms missing; fbdev missing"));
     EXPECT_EQ(display_->fault(), display_->name());
     EXPECT_FALSE(display_->lastShown());
-    EXPECT_LE(kms_.looks, 5);  // a lost screen is looked for twice a second
+    EXPECT_LE(kms_.looks, 5);  // the display looks for a lost screen twice a second
     EXPECT_NO_THROW(display_->finish());
 }
 
@@ -133,7 +133,7 @@ TEST_F(AutoDisplay, PrefersTheFirstDeviceAndReleasesTheSecond) {
     EXPECT_FALSE(fbdev_.held);
 }
 
-TEST_F(AutoDisplay, OpensNoOtherDeviceWhileOneShows) {
+TEST_F(AutoDisplay, OpensNoOtherDeviceWhileAScreenShowsPictures) {
     fbdev_.presence = Presence::Ready;
     run(kSecond);
     const int looks = kms_.looks;
@@ -142,7 +142,7 @@ TEST_F(AutoDisplay, OpensNoOtherDeviceWhileOneShows) {
     EXPECT_EQ(fbdev_.thoroughLooks, 1);
 }
 
-TEST_F(AutoDisplay, WaitsForTheMonitorOfADeviceItHolds) {
+TEST_F(AutoDisplay, WaitsForTheMonitorOfAnOpenDevice) {
     kms_.presence = Presence::Waiting;
     fbdev_.presence = Presence::Ready;
     EXPECT_EQ(run(kSecond), 0);
@@ -169,8 +169,7 @@ TEST_F(AutoDisplay, ReturnsToAScreenThatWasLostForAMoment) {
     EXPECT_EQ(display_->name(), "no screen yet (kms missing; fbdev missing)");
 }
 
-// A screen that is lost repeatedly: its flips do not complete, which is noticed at every third
-// picture.
+// The flips of this screen do not complete. This is noticed at every third picture.
 TEST_F(AutoDisplay, ARepeatedlyLostScreenStaysReported) {
     kms_.presence = Presence::Ready;
     run(kSecond);
@@ -187,7 +186,7 @@ TEST_F(AutoDisplay, ARepeatedlyLostScreenStaysReported) {
     EXPECT_EQ(display_->fault(), std::nullopt);
 }
 
-TEST_F(AutoDisplay, ReleasesADeviceThatWentAway) {
+TEST_F(AutoDisplay, ReleasesARemovedDevice) {
     kms_.presence = Presence::Ready;
     run(kSecond);
     kms_.presence = Presence::Absent;
@@ -205,7 +204,7 @@ TEST_F(AutoDisplay, TriesTheNextDeviceWhenTheFirstPictureIsRefused) {
 
 TEST_F(AutoDisplay, TriesTheNextDeviceWhenTheSecondFlipNeverCompletes) {
     kms_.presence = fbdev_.presence = Presence::Ready;
-    kms_.refusesAfter = 2;  // a missing flip is noticed at the third picture
+    kms_.refusesAfter = 2;
     EXPECT_GE(run(kSecond), 8);
     EXPECT_EQ(display_->name(), "fbdev held");
     EXPECT_EQ(kms_.shown, 2);
@@ -243,7 +242,7 @@ TEST_F(AutoDisplay, OpensNothingWhenTheDevicesDoNotExist) {
     }
 }
 
-TEST_F(AutoDisplay, OnlyMalformedScreenNamesAreErrors) {
+TEST_F(AutoDisplay, MissingScreensAreNoErrorsButInvalidScreenNamesAre) {
     EXPECT_THROW((void)openScreen("kms:card0,17"), std::runtime_error);
     EXPECT_THAT(screenFault("kms:card0,17").value_or(""), HasSubstr("\"17\""));
 }

@@ -69,11 +69,11 @@ TEST(FbGeometry, GeometryBeyondTheMemoryIsRefused) {
         [](Info& i) { i.var.xres = 0; },
         [](Info& i) { i.var.yres = 0; },
         [](Info& i) { i.var.xres = 20000; },
-        [](Info& i) { i.var.xres = i.var.xres_virtual = 833; },  // a row would need 1666 bytes
+        [](Info& i) { i.var.xres = i.var.xres_virtual = 833; },
         [](Info& i) { i.var.xoffset = 1; },
         [](Info& i) { i.var.xoffset = 0xffffffff; },
         [](Info& i) { i.var.yoffset = 481; },
-        [](Info& i) { i.var.yoffset = 0xfffffe20; },  // adding 480 overflows to 0
+        [](Info& i) { i.var.yoffset = 0xfffffe20; },  // 0xfffffe20 + 480 overflows to 0
         [](Info& i) { i.var.yres_virtual = 479; },
         [](Info& i) { i.fix.smem_len = 1664 * 480 - 1; },
         [](Info& i) { i.fix.smem_len = 0; },

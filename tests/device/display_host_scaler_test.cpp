@@ -27,7 +27,6 @@ std::array<int, 3> colourOf(std::uint32_t pixel) {
             static_cast<int>(pixel >> 16 & 255)};
 }
 
-/// Largest error of a pixel inside the rectangle [grey levels]. Pixels outside it must be black.
 double worstError(HostScaler& scaler, const Pixels& picture, Size screen) {
     const Rows<const std::uint32_t> shown = scaler.scaled(picture.rows());
     EXPECT_EQ(shown.size, screen);

@@ -29,7 +29,8 @@ protected:
 
     [[nodiscard]] std::string card() const { return (folder_ / "card").string(); }
     void show() { screen_.show(Picture(rows_.rows())); }
-    /// Returns the message with which show() fails. `took`: gets the duration of the call.
+    /// Returns the message of the error that show() throws. `took`: receives the duration of the
+    /// call.
     std::string faultOfShow(milliseconds& took) {
         const Timestamp begin = Timestamp::now();
         std::string out;
@@ -44,12 +45,12 @@ protected:
 
     test::TempFolder folder_;
     test::PretendedDrm& driver_ = test::pretendedDrm(card());
-    AlignedRows<std::uint32_t> rows_{{64, 48}};  // RGBA8
+    AlignedRows<std::uint32_t> rows_{{64, 48}};
     ScreenScaler scaler_;
     KmsScreen screen_{{ScreenSpec::Kind::Kms, card(), "", {}}, scaler_};
 };
 
-TEST_F(KmsScreenTest, ShowsPicturesAndGivesTheScreenBack) {
+TEST_F(KmsScreenTest, ShowsPicturesAndRestoresTheConsole) {
     ASSERT_EQ(screen_.look(true), Presence::Ready);
     EXPECT_EQ(screen_.size(), (Size{64, 48}));
     show();
@@ -99,7 +100,7 @@ TEST_F(KmsScreenTest, OtherEventsDoNotCompleteAFlip) {
     EXPECT_EQ(driver_.otherEvents, 0);
 }
 
-TEST_F(KmsScreenTest, ARefusedFlipNamesTheScreenAndTheReason) {
+TEST_F(KmsScreenTest, ARefusedFlipIsReportedWithScreenAndReason) {
     ASSERT_EQ(screen_.look(true), Presence::Ready);
     show();
     driver_.refusesFlips = true;
@@ -129,7 +130,7 @@ TEST_F(KmsScreenTest, FollowsConnectionAndModeOfTheMonitor) {
     EXPECT_EQ(driver_.buffers, 0);
 }
 
-// The buffers of the lost context stay on the screen until new ones are shown.
+// The buffers of the lost context stay on the screen until the new context shows some.
 TEST_F(KmsScreenTest, ThePictureStaysWhileTheContextIsRecreated) {
     ASSERT_EQ(screen_.look(true), Presence::Ready);
     show();
@@ -143,7 +144,7 @@ TEST_F(KmsScreenTest, ThePictureStaysWhileTheContextIsRecreated) {
     EXPECT_TRUE(driver_.console);
 }
 
-// One descriptor never becomes readable; the other end of the second descriptor is closed.
+// One descriptor never becomes readable. The other end of the second descriptor is closed.
 TEST(WaitForFlip, EndsAtTheTimeLimitOrWhenTheDeviceIsGone) {
     std::array<int, 2> ends{};
     ASSERT_EQ(pipe(ends.data()), 0);

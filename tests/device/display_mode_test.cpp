@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint32_t kPreferred = DRM_MODE_TYPE_PREFERRED;
 
-// A mode with 10 % blanking in each direction. Its clock is rounded to kHz.
+// A mode with 10 % blanking in each direction. Its pixel clock is rounded to kHz.
 drmModeModeInfo mode(int width, int height, double hz, std::uint32_t type = 0,
                      std::uint32_t flags = 0) {
     drmModeModeInfo m{};
@@ -49,14 +49,14 @@ std::string chosen(const std::vector<drmModeModeInfo>& modes, std::optional<Mode
            std::to_string(std::lround(refreshHz(*m) * 100)) + (interlaced ? "i" : "");
 }
 
-TEST(ChooseMode, TakesThePreferredModeUnlessAnotherIsWanted) {
+TEST(ChooseMode, ChoosesTheModeThatTheMonitorPrefersUnlessAnotherIsConfigured) {
     EXPECT_EQ(chosen(kMonitor, {}), "1920x1080@6000");
     EXPECT_EQ(chosen(kMonitor, ModeWish{{1280, 720}, 50.0}), "1280x720@5000");
     EXPECT_EQ(chosen(kMonitor, ModeWish{{1280, 720}, {}}), "1280x720@6000");
     EXPECT_EQ(chosen(kMonitor, ModeWish{{3840, 2160}, 30.0}), "3840x2160@3000");
 }
 
-TEST(ChooseMode, TakesTheNearestRateAndPrefersProgressive) {
+TEST(ChooseMode, ChoosesTheModeOfTheNearestRateAndPrefersProgressiveModes) {
     EXPECT_EQ(chosen(kMonitor, ModeWish{{1920, 1080}, 60.0}), "1920x1080@6000");
     EXPECT_EQ(chosen(kMonitor, ModeWish{{1920, 1080}, 59.94}), "1920x1080@5994");
     const std::vector interlacedOnly{mode(1280, 720, 60, kPreferred),
@@ -80,12 +80,11 @@ TEST(ChooseMode, ImpossibleModesAreIgnored) {
     EXPECT_EQ(chosen({}, {}), "none");
     drmModeModeInfo stopped = mode(1280, 720, 60);
     stopped.clock = 0;
-    EXPECT_DOUBLE_EQ(refreshHz(stopped), 60);  // a mode without timing gives its rounded rate
+    EXPECT_DOUBLE_EQ(refreshHz(stopped), 60);
     stopped.vrefresh = 0;
     EXPECT_EQ(chosen({stopped}, {}), "none");
 }
 
-/// A pipe that replaces a graphics card. The test writes the card's events into it.
 struct TalkingCard {
     TalkingCard() {
         std::array<int, 2> ends{};

@@ -14,7 +14,6 @@ const PixelLayout kBgr888{24, {0, 8}, {8, 8}, {16, 8}, {0, 0}};
 const PixelLayout kRgb565{16, {11, 5}, {5, 6}, {0, 5}, {0, 0}};
 const PixelLayout kArgb1555{16, {10, 5}, {5, 5}, {0, 5}, {15, 1}};
 
-// Packs two rows of two pixels. A row of the result has `stride` bytes.
 std::vector<std::uint8_t> packed(const PixelLayout& layout, std::size_t stride) {
     const std::vector<std::uint8_t> bgra{0x12, 0x34, 0x56, 0xff, 0xff, 0x00, 0x80, 0xff,  //
                                          0x00, 0xff, 0x00, 0xff, 0x07, 0x03, 0xf8, 0xff};
@@ -47,8 +46,8 @@ TEST(PixelLayout, PacksTheUppermostBitsIntoSixteenBits) {
     EXPECT_EQ(packed(kArgb1555, 4), (Bytes{0xc2, 0xa8, 0x1f, 0xc0, 0xe0, 0x83, 0x00, 0xfc}));
 }
 
-// Host rows and GPU pictures must be packed equally, also at widths that do not fill the vectors.
-// Alpha is ignored.
+// Pictures on the host and on the GPU must be packed equally, also at widths that do not fill
+// vectors. Alpha is ignored.
 TEST(PixelLayout, HostRowsPackLikeGpuPictures) {
     constexpr Size kSize{37, 3};
     Bytes bgra(4UL * kSize.width * kSize.height, 255), rgba(bgra.size());
@@ -68,7 +67,7 @@ TEST(PixelLayout, HostRowsPackLikeGpuPictures) {
     }
 }
 
-TEST(PixelLayout, ChannelsOutsideOfTheWordAreRefused) {
+TEST(PixelLayout, ChannelsOutsideTheBitsOfAPixelAreRefused) {
     for (const PixelLayout& good : {kXrgb, kRgbx, kRgb888, kBgr888, kRgb565, kArgb1555})
         EXPECT_TRUE(good.valid());
     const auto broken = [](auto change) {

@@ -24,7 +24,7 @@ namespace {
 constexpr Size kSize{640, 480};
 constexpr int kBarWidth = 16;
 
-// A picture whose colours distinguish channels, rows and columns. It has fine stripes and a bar.
+// A picture with fine stripes and a bar. Its colours distinguish channels, rows and columns.
 std::vector<std::uint8_t> testPicture(int bar) {
     std::vector<std::uint8_t> rgba;
     for (int y = 0; y < kSize.height; ++y)
@@ -56,7 +56,6 @@ public:
         draw(0);
     }
 
-    // Shows pictures. Counting starts with the first one that is on a screen.
     void move(int pictures) {
         while (!display_->lastShown())
             show();
@@ -90,7 +89,7 @@ private:
             say(name);
             name_ = std::move(name);
         }
-        // Limits the rate if there is no screen, or a screen without a vertical blank.
+        // Limits the rate if there is no screen or no vertical blank.
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     void say(std::string_view what) const {

@@ -16,20 +16,18 @@ using Colour = std::array<int, 3>;
 
 class DisplayScaler : public GlTest {
 protected:
-    // Returns a texture whose pixel (x, y) has the colour colour(x, y).
     static gpu::Texture picture(Size size, const std::function<Colour(int, int)>& colour) {
         std::vector<std::uint8_t> pixels;
         for (int y = 0; y < size.height; ++y)
             for (int x = 0; x < size.width; ++x) {
                 for (const int value : colour(x, y))
                     pixels.push_back(static_cast<std::uint8_t>(value));
-                pixels.push_back(7);  // alpha is ignored
+                pixels.push_back(7);
             }
         gpu::Texture texture(size, gpu::TexelFormat::Rgba8);
         texture.upload({pixels.data(), static_cast<std::size_t>(size.width) * 4});
         return texture;
     }
-    // What ScreenReader reads from the screen, as R G B.
     static std::vector<Colour> shown(const gpu::Texture& picture, Size screen) {
         ScreenScaler scaler;
         return shown(scaler, picture, screen);
@@ -89,7 +87,7 @@ TEST_F(DisplayScaler, EveryPixelIsTheMeanOfItsFootprint) {
                     worst = std::max(worst, std::abs(got[k] - mean[k]));
             }
         // Tolerance: a linear sampler interpolates with at least 8 bits and truncates along x and
-        // along y; rounding adds half a grey level.
+        // y. Rounding adds half a grey level.
         EXPECT_LE(worst, 2.5) << from.width << "x" << from.height;
     }
 }
@@ -111,12 +109,13 @@ TEST_F(DisplayScaler, ScreenBesideThePictureIsBlack) {
         }
 }
 
-// A zone plate contains all frequencies. Detail that is finer than the screen's pixels must become
-// grey. Without a filter, sampling would show false rings of full contrast.
+// A zone plate contains all frequencies. Detail finer than the screen's pixels must become grey.
+// Sampling without a filter would show false rings of full contrast.
 TEST_F(DisplayScaler, DetailBeyondTheScreensResolutionBecomesGrey) {
     const Size from{2304, 1728}, screen{1280, 720};
     const auto stripes = [](int x, int) {
-        const double phase = std::numbers::pi * x * x / 2304.0 / 2;  // x / 2304 / 2 cycles a pixel
+        // x / 2304 / 2 cycles per pixel
+        const double phase = std::numbers::pi * x * x / 2304.0 / 2;
         const int level = static_cast<int>(std::lround(127.5 + 127.5 * std::cos(phase)));
         return Colour{level, level, level};
     };
@@ -129,11 +128,11 @@ TEST_F(DisplayScaler, DetailBeyondTheScreensResolutionBecomesGrey) {
         }
         return high - low;
     };
-    EXPECT_GE(contrast(160, 400), 240);  // up to 0.3 cycles per screen pixel: kept
-    EXPECT_LE(contrast(960, 1120), 64);  // 1 to 1.2 cycles per pixel: at most a quarter
+    EXPECT_GE(contrast(160, 400), 240);  // up to 0.3 cycles per screen pixel: full contrast
+    EXPECT_LE(contrast(960, 1120), 64);  // 1 to 1.2 cycles per screen pixel: at most a quarter
 }
 
-TEST_F(DisplayScaler, WarmUpChangesNothingThatIsShown) {
+TEST_F(DisplayScaler, WarmUpDoesNotChangeTheShownPicture) {
     const gpu::Texture texture = picture({96, 54}, noise);
     for (const Size screen : {Size{192, 108}, Size{96, 54}, Size{40, 30}, Size{20, 12}}) {
         ScreenScaler warm;
@@ -160,7 +159,7 @@ TEST_F(DisplayScaler, DrawsOnAnotherContextOnceTheFirstIsReleased) {
     context().makeCurrent();
 }
 
-TEST_F(DisplayScaler, TheCallersTargetIsRestored) {
+TEST_F(DisplayScaler, TheRenderTargetOfTheCallerIsRestored) {
     const gpu::Texture target({31, 17}, gpu::TexelFormat::Rgba8);
     const gpu::Framebuffer framebuffer(target);
     framebuffer.bind();

@@ -10,7 +10,7 @@ namespace {
 
 using Kind = ScreenSpec::Kind;
 
-TEST(ScreenSpec, AKindOfScreenAloneLeavesDeviceAndModeOpen) {
+TEST(ScreenSpec, ATypeOfScreenAloneSelectsNoDeviceAndNoMode) {
     EXPECT_EQ(parseScreenSpec("auto"), (ScreenSpec{Kind::Auto, "", "", {}}));
     EXPECT_EQ(parseScreenSpec("kms"), (ScreenSpec{Kind::Kms, "", "", {}}));
     EXPECT_EQ(parseScreenSpec("fbdev"), (ScreenSpec{Kind::Fbdev, "", "", {}}));
@@ -65,14 +65,14 @@ TEST(ScreenSpec, UnknownWordsAreRefusedAndNamed) {
     }
 }
 
-TEST(Letterbox, FillsOneSideAndCentresTheOther) {
+TEST(Letterbox, APictureFillsOneSideOfTheScreenAndIsCentredAlongTheOther) {
     EXPECT_EQ(letterbox({2304, 1728}, {1280, 720}), (ScreenRect{160, 0, {960, 720}}));
     EXPECT_EQ(letterbox({640, 480}, {480, 800}), (ScreenRect{0, 220, {480, 360}}));
     EXPECT_EQ(letterbox({1920, 1080}, {1920, 1080}), (ScreenRect{0, 0, {1920, 1080}}));
     EXPECT_EQ(letterbox({640, 480}, {1366, 768}), (ScreenRect{171, 0, {1024, 768}}));
 }
 
-TEST(Letterbox, NeverLeavesTheScreenNorVanishes) {
+TEST(Letterbox, APictureIsNeverBeyondTheScreenOrEmpty) {
     for (const Size picture : {Size{1, 16384}, {16384, 1}, {3, 7}, {2304, 1728}, {1, 1}})
         for (const Size screen : {Size{1, 1}, {16384, 2}, {7, 16384}, {1366, 768}, {1023, 1025}}) {
             const ScreenRect r = letterbox(picture, screen);

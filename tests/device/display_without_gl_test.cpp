@@ -1,5 +1,5 @@
-// Displays to which the CPU writes, with pictures on the host, call no GL function, whether or not
-// a GL library is loaded.
+// Displays to which the CPU writes must call no GL function for pictures on the host, even if a GL
+// library is loaded.
 #include "hal/device/display_auto.h"
 #include "hal/device/gl_libraries.h"
 #include "hal/virtual/display_files.h"
@@ -24,8 +24,8 @@ protected:
     }
     [[nodiscard]] Picture picture() const { return rows_.rows(); }
 
-    /// Number of GL calls that the action makes while a GL library is loaded. The action must also
-    /// work before the library is loaded.
+    /// Returns the number of GL calls that the action makes while a GL library is loaded. The
+    /// action must also work before the library is loaded.
     static int callsOf(const std::function<void()>& action) {
         action();
         loadGlLibraries({MFAR_FAKE_GL, MFAR_FAKE_GL});
@@ -42,7 +42,7 @@ protected:
     test::TempFolder folder_;
 };
 
-TEST_F(WithoutGl, FilesAreWritten) {
+TEST_F(WithoutGl, FileDisplaysMakeNoGlCall) {
     EXPECT_EQ(callsOf([&] {
                   for (const std::string& spec :
                        {"png:" + folder_.path().string(), "y4m:" + (folder_ / "a.y4m").string(),
@@ -57,7 +57,7 @@ TEST_F(WithoutGl, FilesAreWritten) {
     EXPECT_EQ(loadImage(folder_ / "17.png").pixels[2], 0x30);
 }
 
-TEST_F(WithoutGl, PicturesAreScaledForScreensThatTheCpuWrites) {
+TEST_F(WithoutGl, ScalingAPictureOnTheHostMakesNoGlCall) {
     EXPECT_EQ(callsOf([&] {
                   ScreenScaler scaler;
                   for (const Size screen : {Size{64, 48}, {32, 24}, {200, 100}}) {
@@ -89,7 +89,7 @@ private:
     int& shown_;
 };
 
-TEST_F(WithoutGl, ScreensGetThePicture) {
+TEST_F(WithoutGl, ScreensThatTheCpuWritesMakeNoGlCall) {
     int shown = 0;
     EXPECT_EQ(callsOf([&] {
                   std::vector<std::unique_ptr<Screen>> screens;

@@ -6,7 +6,8 @@
 
 namespace mfar::test {
 
-/// Returns the message of the std::runtime_error that the action throws, or "no error".
+/// Returns the message of the std::runtime_error that the action throws; "no error" if it throws
+/// none.
 [[nodiscard]] inline std::string errorOf(const std::function<void()>& action) {
     try {
         action();

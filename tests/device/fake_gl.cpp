@@ -1,5 +1,5 @@
-// Replaces both libEGL and libGLESv2. Like the old libraries of some vendors, it exports few
-// functions; callers find the others through eglGetProcAddress().
+// Replaces libEGL and libGLESv2. It exports few functions, like old libraries of some vendors.
+// Callers find the others through eglGetProcAddress().
 #include "tests/device/fake_gl.h"
 
 #include <EGL/egl.h>

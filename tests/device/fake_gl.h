@@ -5,12 +5,12 @@
 
 namespace mfar {
 
-/// State that the tests share with the library in fake_gl.cpp. The library exports fakeGl().
+/// State that tests share with the library fake_gl.cpp, which exports fakeGl().
 struct FakeGl {
-    std::string unknown{};        ///< eglGetProcAddress() returns null for this name
-    int others = 0;               ///< number of calls of functions that are not exported
-    float depth = 0;              ///< last argument of glClearDepthf()
-    std::vector<int> integers{};  ///< last arguments of glTexSubImage3D(), in order
+    std::string unknown{};  ///< eglGetProcAddress() returns null for this name
+    int others = 0;
+    float depth = 0;
+    std::vector<int> integers{};
     const void* pixels = nullptr;
 };
 

@@ -14,7 +14,7 @@
 namespace mfar::test {
 namespace {
 
-constexpr std::size_t kPiece = std::size_t{1} << 20;  // bytes of the memory file per plane
+constexpr std::size_t kPiece = std::size_t{1} << 20;
 constexpr std::size_t kPieces = 3 * 16;
 
 int bytesAPixel(std::uint32_t fourcc) {
@@ -110,7 +110,6 @@ int FakeV4l2::answer(unsigned long request, void* argument) {
     case VIDIOC_G_PARM:
     case VIDIOC_S_PARM: {
         auto& capture = static_cast<v4l2_streamparm*>(argument)->parm.capture;
-        // The driver grants at most the highest rate of the format.
         const auto& wanted = capture.timeperframe;
         const FakeFormat* format = find(fourcc_);
         if (request == VIDIOC_S_PARM && format != nullptr && wanted.numerator > 0) {

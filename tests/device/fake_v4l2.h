@@ -31,26 +31,25 @@ struct FakeControl {
     std::int64_t minimum, maximum, step, value;
     std::vector<std::string> menu{};
     std::uint32_t flags = 0;
-    int refusals = 0;   ///< number of next attempts to set the control that fail
-    int error = EBUSY;  ///< error code of the attempts that fail
+    int refusals = 0;  ///< number of attempts to set the control that fail first
+    int error = EBUSY;
 };
 
-/// What the driver reports about the next picture.
 struct FakePicture {
     std::uint32_t flags = 0;
     std::size_t missingBytes = 0;
     std::int64_t ageMs = 1;
-    int skipped = 0;           ///< pictures lost before this one
-    std::uint8_t level = 100;  ///< value of all its bytes
+    int skipped = 0;
+    std::uint8_t level = 100;
     std::span<const std::uint8_t> jpeg{};
 };
 
-/// Writes text into a field of fixed size. The field need not end with a zero.
+/// Writes text into a buffer of fixed size. The text need not end with a zero.
 void putText(void* field, std::size_t bytes, const std::string& text);
 
-/// A simulated capture device that behaves as the kernel's documentation describes. It has one node
-/// that captures and one that does not. Its descriptors are pipes, so that poll() and close() are
-/// the real ones; its buffers lie in a memory file.
+/// A simulated capture device that follows the kernel's documentation. It has one node that
+/// captures and one that does not. Its descriptors are pipes, so that poll() and close() are real.
+/// Its buffers are in a memory file.
 class FakeV4l2 final : public V4l2Api {
 public:
     FakeV4l2();
@@ -63,31 +62,29 @@ public:
     int ioctl(int fd, unsigned long request, void* argument) override;
     [[nodiscard]] void* map(int fd, std::size_t length, std::int64_t offset) override;
 
-    /// Fills a buffer and delivers it. Returns false if the camera has queued none.
+    /// Fills a buffer and delivers it. Returns false if the camera has queued no buffer.
     bool deliver(const FakePicture& picture = {});
     void unplug();
-    /// Makes poll() report an error. Other calls still work.
     void hangUp();
-    /// While `wanted` is true, the driver's calls that move buffers do not return.
+    /// While `wanted` is true, driver calls that queue or dequeue buffers block.
     void hang(bool wanted);
-    [[nodiscard]] bool hangs();  ///< true while a call hangs
-    /// Number of buffers that are queued and not yet filled.
+    [[nodiscard]] bool hangs();
     [[nodiscard]] int queued();
-    [[nodiscard]] bool released();  ///< true after the buffers were released
+    [[nodiscard]] bool released();
     [[nodiscard]] std::int64_t control(const std::string& name);
 
-    // Properties of the device. They must be set before the device is opened.
+    // Properties of the device; to be set before the device is opened.
     std::string card = "Fake Camera", secondPath;  ///< secondPath: another capture node
     bool multiPlanar = false;
-    bool busy = false;    ///< another program uses the buffers
+    bool busy = false;
     bool rounds = false;  ///< S_FMT answers with another size than requested
     std::uint32_t clock = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
     std::size_t padding = 0;  ///< padding of rows [bytes]
     std::uint32_t mostBuffers = 16;
-    /// Requests for more than mostBuffers buffers fail with out of memory; otherwise fewer are
-    /// granted.
+    /// If true, requests for more than mostBuffers buffers fail with out of memory. Otherwise fewer
+    /// buffers are granted.
     bool refusesMore = false;
-    int sizeFault = 0;  ///< added to the reported picture size
+    int sizeFault = 0;
     std::uint32_t colorspace = V4L2_COLORSPACE_SRGB, quantization = V4L2_QUANTIZATION_DEFAULT;
     std::vector<FakeFormat> formats{{V4L2_PIX_FMT_YUYV, {{32, 24}, {64, 48}}}};
     std::vector<FakeControl> controls{};
@@ -118,8 +115,8 @@ private:
     int inside_ = 0;
     int memory_ = -1;
     std::uint8_t* bytes_ = nullptr;
-    int pictureEnd_ = -1, readEnd_ = -1;  // ends of the pipe: deliver() writes, the camera polls
-    std::set<int> plain_;                 // descriptors of the node that does not capture
+    int pictureEnd_ = -1, readEnd_ = -1;
+    std::set<int> plain_;
     bool gone_ = false, running_ = false, released_ = false;
     std::uint32_t fourcc_ = 0;
     Size size_;

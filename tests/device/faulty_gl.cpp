@@ -56,7 +56,6 @@ F real(const char* name) {
     return reinterpret_cast<F>(find(name));
 }
 
-// Replaces a function with any arguments, in all calling conventions that are in use.
 std::uintptr_t nothing() {
     return 0;
 }
@@ -64,8 +63,8 @@ std::uintptr_t nothing() {
 Function workingOr(const char* name);
 Function lostOr(const char* name);
 
-/// A buffer by which the lost context is recognised: only that context has it. A new context could
-/// have the same address.
+/// Only the lost context has this buffer. Addresses cannot identify the lost context, because a new
+/// context may get the same address.
 GLuint mark = 0;
 
 void lose() {
@@ -96,7 +95,6 @@ bool loseNow(const char* function) {
     return mark != 0;
 }
 
-// Loses the context if this call is the chosen moment. Otherwise calls the function.
 template <class F, class... Arguments>
 auto moment(const char* function, Arguments... arguments) {
     using Result = decltype(std::declval<F*>()(arguments...));
@@ -168,8 +166,7 @@ GLenum getError() {
     return isLost() ? kContextLost : real<decltype(&glGetError)>("glGetError")();
 }
 
-// Reports a renderer name that is not a software renderer's. This is the first call on every
-// context.
+// Reports a hardware renderer's name. Programs call this first on every context.
 const GLubyte* getString(GLenum name) {
     if (isLost()) return nullptr;
     constexpr const char* kRenderer = "pretended GPU";

@@ -10,11 +10,11 @@
 namespace mfar::faulty {
 namespace {
 
-// Only tests set this: mfard's memory must not grow because of this library.
+// Only tests set this, because recorded moments would make mfard's memory grow.
 bool isAsked = false;
-std::string loseAt;  // name of the moment at which the context is lost; empty: never
+std::string loseAt;  // name of the moment at which the context is lost; empty: none
 std::vector<std::string> moments;
-std::map<unsigned, std::string> shaders, programs;  // names of shaders and programs, by GL name
+std::map<unsigned, std::string> shaders, programs;
 std::string current;
 
 }  // namespace
@@ -32,7 +32,8 @@ void sourceOf(unsigned shader, const char* text) {
         if (one.text == text) shaders[shader] = one.name;
 }
 
-// A program that draws has two shaders. Its fragment shader, which is attached last, names it.
+// A program that draws has two shaders. The fragment shader is attached last and gives the program
+// its name.
 void attached(unsigned program, unsigned shader) {
     programs[program] = shaders[shader];
 }

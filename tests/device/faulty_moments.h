@@ -1,11 +1,11 @@
 #pragma once
 
-// Functions of the library in faulty_gl.cpp. Tests in the same process find them with dlsym(). Call
+// Functions of the library faulty_gl.cpp. Tests in the same process find them with dlsym() and call
 // them on the GL thread.
 extern "C" {
 
-/// Forgets the recorded moments and loses the context at the first moment of this name; null:
-/// never. A moment is a GL call that moves data or computes.
+/// Forgets the recorded moments. From now on, the context is lost at the first moment of this name;
+/// null: at none. A moment is a GL call that moves data or computes.
 __attribute__((visibility("default"))) void mfarFaultyGlLoseAt(const char* name);
 /// Name of moment i, such as "glUseProgram flow_search.comp": the call and the shader used last.
 /// Null if fewer moments were recorded.
@@ -14,10 +14,8 @@ __attribute__((visibility("default"))) const char* mfarFaultyGlMoment(int i);
 
 namespace mfar::faulty {
 
-/// Records a moment. Returns true if the context is lost at it.
 bool isLostAt(const char* function);
 
-// Records that a program contains this shader.
 void attached(unsigned program, unsigned shader);
 void sourceOf(unsigned shader, const char* text);
 void used(unsigned program);

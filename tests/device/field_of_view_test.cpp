@@ -5,7 +5,7 @@
 namespace mfar {
 namespace {
 
-TEST(FieldOfView, UncroppedModeShowsTheWholeField) {
+TEST(FieldOfView, UncroppedModesShowTheWholeFieldOfView) {
     EXPECT_TRUE(showsWholeField({4056, 3040}, {4056, 3040}, {640, 480}));
     EXPECT_TRUE(showsWholeField({4032, 3024}, {4056, 3040}, {640, 480}))
         << "a mode that is cropped only for alignment";
@@ -17,14 +17,14 @@ TEST(FieldOfView, CroppingInOneDirectionIsAllowed) {
 }
 
 TEST(FieldOfView, CroppedModesAreDetected) {
-    // An imx477 at 1332x990 bins the central 2664x1980 pixels; so it does not show the whole field.
+    // An imx477 at 1332x990 uses only the central 2664x1980 pixels, not its whole field.
     EXPECT_FALSE(showsWholeField({2664, 1980}, {4056, 3040}, {640, 480}));
     EXPECT_FALSE(showsWholeField({1280, 720}, {1920, 1080}, {640, 480}));
     EXPECT_FALSE(showsWholeField({1440, 900}, {1920, 1080}, {640, 480}));
     EXPECT_FALSE(showsWholeField({1200, 1080}, {1920, 1080}, {640, 480}));
 }
 
-TEST(FieldOfView, EmptySizesShowNoField) {
+TEST(FieldOfView, EmptySizesShowNoFieldOfView) {
     EXPECT_FALSE(showsWholeField({0, 0}, {4056, 3040}, {640, 480}));
     EXPECT_FALSE(showsWholeField({4056, 3040}, {0, 3040}, {640, 480}));
     EXPECT_FALSE(showsWholeField({4056, 3040}, {4056, 3040}, {640, -1}));

@@ -37,7 +37,7 @@ TEST(FrameDrops, NothingIsCountedBeforeThePeriodIsKnown) {
     EXPECT_FALSE(drops.period());
 }
 
-TEST(FrameDrops, AChangedRateIsLearned) {
+TEST(FrameDrops, AChangedFrameRateIsLearned) {
     FrameDrops drops;
     Timestamp time{0};
     for (int i = 0; i < 40; ++i)
@@ -55,7 +55,7 @@ TEST(FrameDrops, FrameNumbersGiveExactDropsAtAnyRate) {
     for (const auto period : {kPeriod, 2 * kPeriod, 5 * kPeriod}) {
         FrameDrops drops;
         Timestamp time{0};
-        std::uint32_t number = 4294967290;  // the number overflows after six frames
+        std::uint32_t number = 4294967290;  // the frame number overflows after six frames
         for (int i = 0; i < 100; ++i) {
             const int gap = i > 0 && i % 7 == 0 ? i % 5 : 0;
             time = time + period * (1 + gap);
@@ -65,7 +65,7 @@ TEST(FrameDrops, FrameNumbersGiveExactDropsAtAnyRate) {
     }
 }
 
-TEST(FrameDrops, AfterACounterResetTimesAreUsed) {
+TEST(FrameDrops, AtACounterResetGapsInTimeAreCounted) {
     FrameDrops drops;
     Timestamp time{0};
     std::uint32_t number = 50000;

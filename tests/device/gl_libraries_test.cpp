@@ -62,7 +62,7 @@ TEST(GlLibraries, AnOldLibraryIsRefused) {
     EXPECT_EQ(loading(MFAR_FAKE_GL, MFAR_FAKE_GL), "no error");
 }
 
-TEST(GlLibraries, ArgumentsAndResultsPassThrough) {
+TEST(GlLibraries, ArgumentsAndResultsAreForwarded) {
     loadGlLibraries({MFAR_FAKE_GL, MFAR_FAKE_GL});
     glClearDepthf(0.25F);
     EXPECT_EQ(fake().depth, 0.25F);
@@ -73,7 +73,7 @@ TEST(GlLibraries, ArgumentsAndResultsPassThrough) {
     EXPECT_EQ(fake().pixels, &pixels);
 }
 
-TEST(GlLibraries, EglIsAskedForFunctionsThatAreNotExported) {
+TEST(GlLibraries, EglProvidesFunctionsThatTheLibraryDoesNotExport) {
     loadGlLibraries({MFAR_FAKE_GL, MFAR_FAKE_GL});
     const int before = fake().others;
     glFlush();

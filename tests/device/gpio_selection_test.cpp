@@ -54,13 +54,13 @@ TEST(GpioSelection, FindsTheLineByNameWithAndWithoutItsChip) {
     EXPECT_EQ(findGpioLine(board(), "gpiochip0", "RESET").offset, 3U);
 }
 
-TEST(GpioSelection, UnknownChipListsTheChips) {
+TEST(GpioSelection, AnUnknownChipIsReportedWithTheExistingChips) {
     EXPECT_THAT(faultOf(board(), "pinctrl-rp1", "2"),
                 AllOf(HasSubstr("'pinctrl-rp1'"), HasSubstr("gpiochip0 (pinctrl-bcm2711, 5 lines)"),
                       HasSubstr("gpiochip1 (raspberrypi-exp-gpio, 2 lines)")));
 }
 
-TEST(GpioSelection, UnknownLineListsTheNamedLinesOfTheCandidates) {
+TEST(GpioSelection, AnUnknownLineIsReportedWithTheNamedLinesOfThePossibleChips) {
     EXPECT_THAT(faultOf(board(), "", "TRIGER"),
                 AllOf(HasSubstr("'TRIGER'"), HasSubstr("gpiochip0: ID_SDA, TRIGGER, RESET"),
                       HasSubstr("gpiochip1: BT_ON, RESET")));
@@ -87,7 +87,7 @@ TEST(GpioSelection, NumberMustBeAllDigits) {
             << line;
 }
 
-TEST(GpioSelection, DeniedPermissionNamesTheGroup) {
+TEST(GpioSelection, ADeniedPermissionIsReportedWithTheGroupThatHasIt) {
     std::vector<GpioChip> chips = board();
     chips[0] = {"/dev/gpiochip0", "gpiochip0", "", {}, EACCES};
     for (const auto& [chip, line] : {std::pair{"gpiochip0", "2"}, std::pair{"", "TRIGGER"},
@@ -99,7 +99,7 @@ TEST(GpioSelection, DeniedPermissionNamesTheGroup) {
                 HasSubstr("group gpio"));
 }
 
-TEST(GpioSelection, BusyLineNamesItsConsumer) {
+TEST(GpioSelection, ABusyLineIsReportedWithTheProgramThatUsesIt) {
     EXPECT_THAT(gpioRequestFault(findGpioLine(board(), "gpiochip0", "RESET"), EBUSY),
                 HasSubstr("in use by 'reset-gpios'"));
     EXPECT_THAT(gpioRequestFault(findGpioLine(board(), "gpiochip0", "4"), EBUSY),

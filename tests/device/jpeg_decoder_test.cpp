@@ -16,7 +16,6 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr Size kJpegSize{64, 48};
 
-/// Colours that change slowly across the picture.
 Bytes rgbRamp() {
     Bytes out;
     for (int y = 0; y < kJpegSize.height; ++y)
@@ -40,8 +39,7 @@ Bytes encoded(int subsampling) {
     return out;
 }
 
-/// Removes the Huffman tables, as in the pictures of many cameras: they omit the tables that the
-/// standard suggests.
+/// Removes the Huffman tables. Many cameras omit the tables that the standard suggests.
 Bytes withoutHuffmanTables(const Bytes& jpeg) {
     Bytes out(jpeg.begin(), jpeg.begin() + 2);
     std::size_t i = 2;
@@ -56,7 +54,7 @@ Bytes withoutHuffmanTables(const Bytes& jpeg) {
     return out;
 }
 
-/// Expects BT.601 full range. Chroma comes from the centre of each 2x2 pixels.
+/// Expects BT.601 full range, and chroma from the centre of each 2x2 pixels.
 void expectRamp(const ImageView& view) {
     ASSERT_EQ(view.size, kJpegSize);
     ASSERT_EQ(view.format, PixelFormat::Yuv420);
@@ -99,7 +97,7 @@ TEST(JpegDecoder, MissingHuffmanTablesDefaultToTheStandardOnes) {
     expectRamp(frame->view());
 }
 
-TEST(JpegDecoder, GreyHasNoChroma) {
+TEST(JpegDecoder, GreyPicturesStayGrey) {
     JpegDecoder decoder(kJpegSize, 1);
     const auto frame = decoder.decode(encoded(TJSAMP_GRAY), {});
     ASSERT_TRUE(frame.has_value());

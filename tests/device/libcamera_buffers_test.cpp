@@ -15,7 +15,6 @@ namespace {
 using libcamera::FrameBuffer;
 using Planes = std::vector<FrameBuffer::Plane>;
 
-/// A memory file with 4 KiB of increasing bytes.
 libcamera::SharedFD memory(std::uint8_t first) {
     libcamera::SharedFD fd(memfd_create("picture", 0));
     for (unsigned i = 0; i < 4096; ++i) {
@@ -41,7 +40,7 @@ TEST(MappedPicture, PlanesMayShareAFileWithOffsets) {
     EXPECT_EQ(picture.view().chroma[0].data[0], 1000 % 256);
 }
 
-TEST(MappedPicture, PlanesMayBeFilesOfTheirOwn) {
+TEST(MappedPicture, EachPlaneMayHaveItsOwnFile) {
     const FrameBuffer buffer(Planes{plane(memory(1), 0, 32 * 16), plane(memory(2), 0, 16 * 8),
                                     plane(memory(3), 0, 16 * 8)});
     const MappedPicture picture(buffer, {{32, 16}, PixelFormat::Yuv420, 32});
@@ -50,14 +49,14 @@ TEST(MappedPicture, PlanesMayBeFilesOfTheirOwn) {
     EXPECT_EQ(picture.view().chroma[1].data[0], 3);
 }
 
-TEST(MappedPicture, OutlivesTheBufferAndSynchronisesItsReads) {
+TEST(MappedPicture, APictureOutlivesItsBufferAndSynchronisesReads) {
     std::unique_ptr<MappedPicture> picture;
     {
         const FrameBuffer buffer(Planes{plane(memory(7), 0, 4096)});
         picture =
             std::make_unique<MappedPicture>(buffer, PictureLayout{{32, 16}, PixelFormat::Yuyv, 64});
     }
-    picture->beginRead();  // this memory is not a dma-buf, so the call has no effect
+    picture->beginRead();  // has no effect, because this memory is not a dma-buf
     EXPECT_EQ(picture->view().data[64], 7 + 64);
     picture->endRead();
 }

@@ -57,7 +57,7 @@ TEST_F(LibcameraControls, ArraysAreSeparatedByCommas) {
     EXPECT_EQ(one("ColourGains", "1.5,2").get<libcamera::Span<const float>>()[1], 2.0F);
 }
 
-TEST_F(LibcameraControls, AnUnknownNameListsTheControls) {
+TEST_F(LibcameraControls, AnUnknownNameIsReportedWithTheExistingControls) {
     EXPECT_THAT([&] { (void)one("LensPosition", "1"); },
                 ThrowsMessage<std::runtime_error>(
                     AllOf(HasSubstr("no control 'LensPosition'"),

@@ -39,7 +39,6 @@ const char* nameOf(PixelFormat format) {
     return "?";
 }
 
-/// Mean of the first channel: luma in YUV pictures, green in RGB pictures.
 double meanLuma(const ImageView& view) {
     const int step = bytesPerPixel(view.format);
     const int channel = step == 4 ? 1 : 0;

@@ -24,7 +24,7 @@ LibcameraOptions unknown() {
 }
 
 // This test passes on every machine, with or without cameras.
-TEST(Libcamera, AnUnknownCameraListsTheAvailableOnes) {
+TEST(Libcamera, AnUnknownCameraIsReportedWithTheAvailableCameras) {
     const std::vector<ListedCamera> cameras = listLibcameras();
     const std::string expected = cameras.empty() ? "finds no camera" : cameras[0].id;
     EXPECT_THAT([] { LibcameraCamera camera(unknown()); },
@@ -47,7 +47,7 @@ TEST(Libcamera, ImpossibleOptionsAreRefusedBeforeADeviceIsLookedFor) {
     refused([](auto& o) { o.buffers = 1; }, "buffers");
 }
 
-TEST(Libcamera, OneManagerExistsWhileHeldAndCanBeCreatedAgain) {
+TEST(Libcamera, OneManagerIsSharedAndCanBeCreatedAgain) {
     auto first = libcameraManager();
     EXPECT_EQ(first, libcameraManager());
     first.reset();

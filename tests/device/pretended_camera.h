@@ -34,7 +34,7 @@ inline void sleepMs(double ms) {
     std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(ms));
 }
 
-/// A simulated V4L2 camera that can be open once. Words in a file select its faults, see
+/// A simulated V4L2 camera that only one program can open. Words in a file select its faults, see
 /// pretended_v4l2.cpp.
 class Device {
 public:
@@ -110,7 +110,6 @@ private:
         return 0;
     }
 
-    /// Answers a query for the camera's only control.
     static int describe(v4l2_query_ext_ctrl& control) {
         constexpr std::uint32_t kNext = V4L2_CTRL_FLAG_NEXT_CTRL | V4L2_CTRL_FLAG_NEXT_COMPOUND;
         if ((control.id & ~kNext) >= V4L2_CID_GAIN) return EINVAL;
@@ -161,7 +160,6 @@ private:
         request.count = std::min(request.count, static_cast<std::uint32_t>(most));
         room_ = (bytes_ + 4095) / 4096 * 4096;
         buffers_.assign(request.count, {});
-        // As with a driver, mapped memory stays until the program unmaps it.
         const auto bytes = static_cast<off_t>(room_ * buffers_.size());
         if (bytes <= mapped_) return 0;
         mapped_ = bytes;
@@ -221,8 +219,8 @@ private:
                 due - steady_clock::now(), std::chrono::milliseconds(20)));
     }
 
-    /// Waits for a pulse of the trigger line. Returns false after some time, because the faults may
-    /// have changed by then.
+    /// Waits for a pulse of the trigger line. Returns false after some time, so that the caller can
+    /// read new faults.
     bool awaitPulse() {
         constexpr int kLooks = 20;
         for (int i = 0; i < kLooks && running_; ++i) {
@@ -259,7 +257,7 @@ private:
         }
     }
 
-    /// Wakes the programs that wait for pictures. Their calls fail with this error.
+    /// Wakes programs that wait for pictures. Their calls fail with this error.
     void lose(int error) {
         lostError_ = error;
         isLost_ = true;
@@ -267,7 +265,8 @@ private:
         static_cast<void>(!write(fd_, &one, sizeof one));
     }
 
-    /// Fills a buffer. `us`: time of the picture [us]. Returns false if no buffer is free.
+    /// Fills a buffer with picture `i`. `us`: time of the picture [us]. Returns false if no buffer
+    /// is free.
     bool fill(const Words& wrong, std::uint64_t i, std::uint32_t number, std::int64_t us) {
         const std::lock_guard lock(mutex_);
         if (free_.empty() || wrong.contains("hang")) return false;
@@ -309,15 +308,15 @@ private:
 
     const WordFile words_;
     const std::string name_;
-    const double plug_;  ///< N of the word "unplug" when the device was opened
-    const int fd_;       ///< readable while filled buffers exist; the program closes it
+    const double plug_;  ///< number after the word "unplug" when the device was opened
+    const int fd_;       ///< readable while a buffer is filled; the program closes it
     const int memory_;
     std::atomic<double> rateHz_{30};
     std::size_t bytes_ = 0, room_ = 0;
-    std::int64_t pulse_ = 0;  ///< time of the last pulse that the camera has noticed [us]
-    off_t mapped_ = 0;        ///< length of the mapped memory
+    std::int64_t pulse_ = 0;  ///< time of the last pulse that the camera noticed [us]
+    off_t mapped_ = 0;
     int width_ = 0;
-    int refused_ = 0;  ///< number of times that setting the control was refused
+    int refused_ = 0;
     std::atomic<bool> running_{false}, isLost_{false};
     std::atomic<int> lostError_{0};
     std::thread maker_;

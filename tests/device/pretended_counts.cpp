@@ -1,8 +1,8 @@
 #include "tests/device/pretended_counts.h"
 
-/// Tells another library in the same program about the use of `camera`: how many pictures the
-/// program should have refused, the gain that it set, and how many pictures it took before that.
-/// NOLINTNEXTLINE(readability-identifier-naming)
+/// Reports to another library how the program used `camera`: its invalid pictures that were
+/// accepted, the gain that was set, and the number of pictures taken before that.
+// NOLINTNEXTLINE(readability-identifier-naming)
 extern "C" void mfar_pretended_known(const char* camera, std::uint64_t* broken,
                                      std::uint64_t* badTimes, std::int64_t* gain,
                                      std::uint64_t* ungained) {

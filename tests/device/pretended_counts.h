@@ -11,13 +11,13 @@
 
 namespace mfar::pretended {
 
-/// What a camera observed of the program that uses it.
+/// A camera's observations of the program that uses it.
 struct KnownOfCamera {
-    // Numbers of pictures that the program took although it must refuse them.
+    // Numbers of invalid pictures that the program accepted.
     std::uint64_t broken = 0;    ///< pictures marked as broken, or too short
     std::uint64_t badTimes = 0;  ///< times in the future, too old, or not after the previous one
-    std::int64_t gain = 0;       ///< last value set since the camera was opened
-    std::uint64_t ungained = 0;  ///< pictures taken before the gain was set
+    std::int64_t gain = 0;
+    std::uint64_t ungained = 0;  ///< pictures that the program took before it set the gain
 };
 
 inline std::int64_t microsecondsNow() {
@@ -30,7 +30,7 @@ inline std::int64_t microseconds(const timeval& t) {
     return t.tv_sec * 1'000'000LL + t.tv_usec;
 }
 
-/// Observations of each camera, by its name; they stay when the camera is closed. Thread-safe.
+/// Observations of each camera, by its name. They are kept when the camera is closed. Thread-safe.
 class Known {
 public:
     static Known& get() {
@@ -45,8 +45,8 @@ public:
         const std::lock_guard lock(mutex_);
         counts_[camera].gain = value;
     }
-    /// `lastGood`: time of the last acceptable picture [us, CLOCK_MONOTONIC]; empty if there was
-    /// none since the camera was opened. It is updated if this picture is acceptable.
+    /// `lastGood`: time of the last valid picture since the camera was opened [us,
+    /// CLOCK_MONOTONIC]. It is updated if this picture is valid.
     void add(const std::string& camera, const v4l2_buffer& taken, std::size_t whole,
              std::optional<std::int64_t>& lastGood) {
         constexpr std::int64_t kAhead = 50'000, kOldest = 10'000'000;

@@ -36,9 +36,9 @@ struct Driver {
     PretendedDrm seen;
     std::filesystem::path card;
     std::map<std::uint32_t, DumbBuffer> buffers;
-    std::map<std::uint32_t, std::uint32_t> framebuffers;  // the buffer of each framebuffer
+    std::map<std::uint32_t, std::uint32_t> framebuffers;
     std::uint32_t next = 1;
-    std::uint32_t asked = 0;  // framebuffer that the current request asks for
+    std::uint32_t asked = 0;
     void* flipping = nullptr;
     std::uint64_t end = 0;
 };
@@ -249,5 +249,4 @@ int drmHandleEvent(int fd, drmEventContextPtr context) {
     }
     return 0;
 }
-
 }  // extern "C"

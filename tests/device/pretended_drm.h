@@ -6,21 +6,20 @@
 
 namespace mfar::test {
 
-/// A KMS driver without a kernel. A program that links pretended_drm.cpp calls its functions
-/// instead of those of libdrm. The driver has one card with one connector, CRTC and plane; dumb
-/// buffers lie in the card's file. A program has one driver, used by one thread.
+/// A KMS driver without a kernel. A program that links pretended_drm.cpp calls it instead of
+/// libdrm. It has one card with one connector, CRTC and plane. Dumb buffers are in the card's file.
+/// A program has one driver, used by one thread.
 struct PretendedDrm {
     bool connected = true;
-    std::uint16_t width = 64, height = 48;  ///< size of the only mode
-    bool flips = true;                      ///< if false, flips never complete
-    int otherEvents = 0;        ///< number of other events before the flip's event, 10 ms apart
-    bool refusesFlips = false;  ///< flips fail with EBUSY
+    std::uint16_t width = 64, height = 48;
+    bool flips = true;
+    int otherEvents = 0;  ///< number of other events before the event of the flip, 10 ms apart
+    bool refusesFlips = false;
     int modeSets = 0, flipped = 0, buffers = 0, framebuffers = 0;
-    std::uint32_t shown = 0;  ///< framebuffer on the screen
-    bool console = false;     ///< true while the console's picture is on the screen
+    std::uint32_t shown = 0;
+    bool console = false;  ///< true while the console's picture is on the screen
 };
 
-/// Creates a driver. Its card is the empty file `card`.
 PretendedDrm& pretendedDrm(const std::filesystem::path& card);
 /// Pixels (XRGB8888) of the framebuffer that is on the screen, row by row.
 [[nodiscard]] std::vector<std::uint32_t> shownPixels();

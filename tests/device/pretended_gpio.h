@@ -25,16 +25,15 @@
 
 namespace mfar::pretended {
 
-/// Time at which the trigger line was last activated [us], for cameras that wait for a pulse; 0:
-/// never.
+/// Time at which the trigger line was last activated [us]; 0: never.
 inline std::atomic<std::int64_t>& lastPulse() {
     static std::atomic<std::int64_t> us{0};
     return us;
 }
 
-/// A GPIO chip whose line 5 is "TRIGGER". It has the kernel's first interface, which libgpiod 1
-/// uses. The chip exists if the folder MFAR_PRETENDED_V4L2 contains a file "gpiochip0"; words in it
-/// select faults, see pretended_v4l2.cpp. The file "line" in that folder holds the level, 0 or 1.
+/// A GPIO chip whose line 5 is "TRIGGER". It has the kernel's first interface, for libgpiod 1. The
+/// chip exists if the folder MFAR_PRETENDED_V4L2 contains a file "gpiochip0". Words in this file
+/// select faults, see pretended_v4l2.cpp. The file "line" in the folder contains the level, 0 or 1.
 /// As on a real line, the level outlives the program. Thread-safe.
 class GpioChip {
 public:
@@ -52,7 +51,6 @@ public:
     [[nodiscard]] std::string file(const char* name) const { return folder_ + "/" + name; }
     [[nodiscard]] const std::string& folder() const { return folder_; }
 
-    /// Gives the result of stat() for the chip.
     static int describe(struct stat* out) {
         *out = {};
         out->st_mode = S_IFCHR | 0660;
@@ -60,7 +58,8 @@ public:
         return 0;
     }
 
-    /// Opens the chip, or the file with its device numbers. Returns a descriptor, or -1 with errno.
+    /// Opens the chip, or the file with its device numbers. Returns a descriptor; -1 with errno on
+    /// errors.
     int open(std::string_view path) {
         if (path == kNumbers) return numbers();
         if (words_.now().contains("gone")) {
@@ -78,7 +77,6 @@ public:
         files_.erase(fd);
     }
 
-    /// Returns 0 or an error of errno.h.
     int call(int fd, unsigned long request, void* argument) {
         const Words wrong = words_.now();
         if (wrong.contains("gone")) return ENODEV;

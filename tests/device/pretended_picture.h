@@ -8,8 +8,8 @@
 
 namespace mfar::pretended {
 
-// Every picture contains its time in milliseconds, 24 bits, and 8 bits that check them. They are
-// dark and bright fields in two rows of 16 across the upper half, which can be read from the
+// Every picture contains a stamp: its time in milliseconds (24 bits) and 8 check bits. Bits are
+// dark and bright squares in two rows of 16 across the upper half. They can be read from the
 // displayed picture.
 constexpr int kStampColumns = 16, kStampRows = 2;
 constexpr int kStampBits = 24;
@@ -17,12 +17,11 @@ constexpr std::uint8_t kDark = 40, kBright = 210;
 
 inline std::uint32_t stampBits(std::int64_t ms) {
     const auto time = static_cast<std::uint32_t>(ms) & ((1U << kStampBits) - 1);
-    // The constant makes a black picture fail the check.
+    // With the constant, a black picture fails the check.
     const std::uint32_t check = (((time * 0x9e3779b1U) >> 24U) ^ 0xa5U) & 0xffU;
     return time << 8U | check;
 }
 
-/// Fills a YUYV picture with a grey level plus noise. The picture's number determines both.
 inline void paint(std::span<std::uint8_t> yuyv, std::uint64_t number) {
     std::uint64_t random = number * 0x9e3779b97f4a7c15ULL;
     const auto gray = static_cast<std::uint8_t>(64 + number % 64);
@@ -35,7 +34,7 @@ inline void paint(std::span<std::uint8_t> yuyv, std::uint64_t number) {
     }
 }
 
-/// Writes the stamp into a YUYV picture of this width. Does nothing if the picture is too small.
+/// Writes the stamp into a YUYV picture of this width, unless the picture is too small.
 inline void stamp(std::span<std::uint8_t> yuyv, int width, std::int64_t ms) {
     const int height = width > 0 ? static_cast<int>(yuyv.size()) / (2 * width) : 0;
     if (width < kStampColumns || height < 2 * kStampRows) return;
@@ -50,7 +49,7 @@ inline void stamp(std::span<std::uint8_t> yuyv, int width, std::int64_t ms) {
         }
 }
 
-/// Reads the stamp from luma, one byte per pixel. Empty if there is no valid stamp.
+/// Reads the stamp from luma, one byte per pixel. Returns nothing if there is no valid stamp.
 inline std::optional<std::int64_t> stampOf(std::span<const std::uint8_t> luma, int width) {
     const int height = width > 0 ? static_cast<int>(luma.size()) / width : 0;
     std::uint32_t bits = 0;

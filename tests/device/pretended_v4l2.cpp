@@ -68,8 +68,7 @@ std::shared_ptr<Device> deviceOf(int fd) {
     return at == devices().end() ? nullptr : at->second;
 }
 
-/// Opens a simulated device. Returns -1 with errno if it cannot be opened, and nothing for other
-/// files.
+/// Opens a simulated device. Returns -1 with errno if this fails; returns nothing for other files.
 std::optional<int> openDevice(const char* path) {
     const char* folder = std::getenv("MFAR_PRETENDED_V4L2");
     if (folder == nullptr || std::strncmp(path, "/dev/", 5) != 0) return std::nullopt;
@@ -124,7 +123,6 @@ int open64(const char* path, int flags, ...) {
     return openFile(path, flags | O_LARGEFILE, mode);
 }
 
-// A program that searches /dev for chips finds the simulated one.
 int openat(int folder, const char* path, int flags, ...) {
     va_list rest;
     va_start(rest, flags);
@@ -175,7 +173,7 @@ void* mmap64(void* at, std::size_t length, int protection, int flags, int fd,
     return mapFile(at, length, protection, flags, fd, offset);
 }
 
-// The number of the closed descriptor may be reused for another file.
+// The closed descriptor's number may be reused for another file.
 int close(int fd) {
     std::shared_ptr<Device> closed;
     {
@@ -191,5 +189,4 @@ int close(int fd) {
     closed.reset();
     return static_cast<int>(syscall(SYS_close, fd));
 }
-
 }  // extern "C"

@@ -10,10 +10,10 @@
 
 namespace mfar::pretended {
 
-/// The words of a file, each with the number that follows it, or 1 if none follows.
+/// The words of a file. Each has the number that follows it, or 1.
 using Words = std::map<std::string, double>;
 
-/// A file of words. It may be replaced at any time. Thread-safe.
+/// A file of words, which may be replaced at any time. Thread-safe.
 class WordFile {
 public:
     explicit WordFile(std::string file) : file_(std::move(file)) {}
@@ -27,7 +27,7 @@ public:
                           there.st_ctim.tv_nsec == read_.st_ctim.tv_nsec;
         std::ifstream in;
         if (!same) in.open(file_);
-        // If no descriptor is free, the file is read at the next call.
+        // The file stays unread if no descriptor is free. Then the next call reads it.
         if (in.is_open()) {
             words_ = parsed(in);
             read_ = there;

@@ -24,12 +24,12 @@ struct Level {
     Timestamp time;
 };
 
-/// A wire to the loopback input, which sees the driven level a little later.
+/// A wire from the trigger line to the loopback input, which sees the level a little later.
 struct Wire {
     std::mutex mutex;
     std::vector<Level> history;
     std::deque<Timestamp> edges;
-    std::chrono::nanoseconds clockOffset{0};  ///< offset of the loopback's clock
+    std::chrono::nanoseconds clockOffset{0};
     int edgesToLose = 0;
     int setsToFail = 0;
 
@@ -119,7 +119,7 @@ TEST(PulseTrigger, PulseIsNeverShorterThanRequestedAndItsStartIsTimed) {
     }
 }
 
-TEST(PulseTrigger, LongPulsesDoNotBlockFireAndEndWithTheObject) {
+TEST(PulseTrigger, LongPulsesDoNotBlockTheCallerAndEndWithTheObject) {
     const auto wire = std::make_shared<Wire>();
     auto trigger = triggerOn(wire, 10s);
     const Timestamp edge = trigger->fire();
@@ -176,7 +176,7 @@ TEST(PulseTrigger, LoopbackMeasuresStartAndLength) {
         const auto wire = std::make_shared<Wire>();
         const auto trigger = triggerOn(wire, pulse, true);
         EXPECT_FALSE(trigger->measured());
-        wire->edges.push_back(Timestamp::now());  // an edge before the pulse, from a disturbance
+        wire->edges.push_back(Timestamp::now());  // an edge from a disturbance, before the pulse
         const Timestamp edge = trigger->fire();
         while (!trigger->measured())
             std::this_thread::sleep_for(100us);
@@ -203,14 +203,14 @@ TEST(PulseTrigger, MissedEdgesOfTheLoopbackAreCounted) {
             const std::vector<Level> levels = wire->all();
             EXPECT_GE(edge, before);
             EXPECT_LT(edge, levels[2].time)
-                << "the end of the pulse must not be taken for its start";
+                << "the end of the pulse must not be mistaken for its start";
         }
     }
 }
 
 TEST(PulseTrigger, LoopbackTimesOfAnotherClockAreIgnored) {
     const auto wire = std::make_shared<Wire>();
-    wire->clockOffset = std::chrono::hours(24 * 365 * 50);  // the offset of CLOCK_REALTIME
+    wire->clockOffset = std::chrono::hours(24 * 365 * 50);  // like CLOCK_REALTIME
     const auto trigger = triggerOn(wire, 50us, true);
     const Timestamp edge = trigger->fire();
     EXPECT_LE(edge, Timestamp::now());

@@ -1,5 +1,5 @@
-// Random sequences of a camera's requests on a simulated clock. They are compared with a model that
-// knows where each request must be. A second camera beside it must not be disturbed.
+// Plays random sequences of a camera's requests on a simulated clock. Compares them with a model
+// that knows where each request must be. A second camera must not be disturbed.
 #include "hal/device/request_cycle.h"
 
 #include <gtest/gtest.h>
@@ -23,12 +23,11 @@ using std::chrono::milliseconds;
 constexpr std::uint32_t kSeeds = 200;
 constexpr int kSteps = 200;
 constexpr milliseconds kEarly{500};
-/// Pause before the device is requested again. The index is the number of consecutive requests that
-/// ended early; after the last entry the device counts as lost.
+/// Pauses before the device is requested again. Index: number of consecutive requests that ended
+/// early. After the last entry the device counts as lost.
 constexpr std::array<milliseconds, 5> kPauses = {milliseconds(0), milliseconds(0), milliseconds(50),
                                                  milliseconds(100), milliseconds(200)};
 
-/// The random numbers and the clock of one sequence.
 struct Chance {
     explicit Chance(std::uint32_t seed) : random(seed) {}
 
@@ -41,7 +40,8 @@ struct Chance {
     Timestamp now{1'000'000'000};
 };
 
-/// Plays a driver and the user of its pictures. Each call compares the cycle with the model.
+/// Plays a driver and the user of its pictures. Each call compares the request cycle with the
+/// model.
 class ModelledCamera final : public RequestDriver {
 public:
     explicit ModelledCamera(Chance& chance)
@@ -83,7 +83,7 @@ public:
             at_[request] = At::Cycle;
     }
 
-    /// Completes one of the driver's requests.
+    /// Completes one of the driver's requests. `sound`: true if it completes with a picture.
     void fill(bool sound) {
         const auto request = take(At::Driver);
         if (!request) return;
@@ -125,7 +125,6 @@ public:
         if (!request) return;
         cycle.giveBack(*request);
     }
-    /// True if next() has to restart the camera.
     [[nodiscard]] bool restartIsDue() const {
         return running_ && !isLost && ready_.empty() && restartAt && chance_.now >= *restartAt;
     }
@@ -149,8 +148,8 @@ public:
         }
         EXPECT_TRUE(isLost || starts_ - before == (restarts ? 1 : 0));
     }
-    /// Calls stop() from another thread during a restart. That thread must wait until the restart
-    /// ends.
+    /// Calls stop() from another thread during a restart. That thread must wait for the end of the
+    /// restart.
     void stopInThread() {
         if (stopper_.joinable()) return;
         stopper_ = std::thread([this] { cycle.stop(); });
@@ -174,8 +173,8 @@ public:
         EXPECT_FALSE(has(At::Driver));
     }
 
-    /// Compares the cycle with the model. A request that neither the driver nor the user holds, nor
-    /// is ready, must have been cancelled; otherwise it is lost.
+    /// Compares the cycle with the model. A request must be held by the driver or the user, or be
+    /// ready, or be cancelled. Otherwise it is lost.
     void check() const {
         EXPECT_EQ(cycle.restarts(), restarts_);
         EXPECT_EQ(cycle.delivered(), delivered_);
@@ -194,11 +193,11 @@ public:
 
     static constexpr std::size_t kRequests = 4;
     RequestCycle cycle;
-    std::function<void()> meanwhile = [] {};  ///< called while the driver starts or stops
+    std::function<void()> meanwhile = [] {};
     bool startFails = false;
     bool isLost = false;
     std::optional<Timestamp> restartAt;
-    std::array<int, kPauses.size()> pauses{};  ///< number of times that each pause was chosen
+    std::array<int, kPauses.size()> pauses{};
     int threadedStops = 0;
 
 private:
@@ -215,8 +214,8 @@ private:
         return cycle.next(milliseconds(0));
     }
     [[nodiscard]] bool has(At where) const { return std::ranges::find(at_, where) != at_.end(); }
-    /// Chooses a random one of the requests at `where` and hands it to the cycle. Returns its
-    /// index; empty if there is none.
+    /// Hands a random one of the requests at `where` to the cycle. Returns the request's index;
+    /// empty if there is none.
     std::optional<std::size_t> take(At where) {
         std::vector<std::size_t> those;
         for (std::size_t i = 0; i < kRequests; ++i)
@@ -230,16 +229,15 @@ private:
     Chance& chance_;
     std::thread stopper_;
     std::array<At, kRequests> at_{};
-    std::array<bool, kRequests> isCancelled_{};  ///< cancelled, and none was completed since then
+    std::array<bool, kRequests> isCancelled_{};  ///< cancelled and not completed since
     std::deque<std::size_t> ready_;
     bool running_ = false;
     Timestamp begun_;
-    std::size_t ends_ = 0;  ///< early ends in a row
+    std::size_t ends_ = 0;
     int starts_ = 0;
     std::uint64_t delivered_ = 0, restarts_ = 0;
 };
 
-/// Totals of what happened, over all sequences.
 struct Seen {
     std::array<int, kPauses.size()> pauses{};
     int lost = 0, failedStarts = 0, stopsInRestarts = 0;
@@ -309,7 +307,7 @@ private:
         restarts_ = false;
     }
 
-    /// Runs in the thread in which the faulty camera starts or stops, while it does so.
+    /// Runs while the faulty camera starts or stops, in the thread that does this.
     void happenMeanwhile() {
         serveOther();
         if (chance_.oneIn(4)) ill_.giveBack();
@@ -327,12 +325,12 @@ private:
 
     Chance chance_;
     ModelledCamera ill_, sound_;
-    std::uint32_t cancelsAll_ = 0;  ///< one step in this number cancels all requests
+    std::uint32_t cancelsAll_ = 0;  ///< one of this number of steps cancels all requests
     bool restarts_ = false;
     std::uint64_t served_ = 0;
 };
 
-TEST(RequestCourses, RandomCoursesLoseNoRequestAndDisturbNoOtherCamera) {
+TEST(RequestCourses, RandomSequencesLoseNoRequestAndDisturbNoOtherCamera) {
     Seen seen;
     for (std::uint32_t seed = 1; seed <= kSeeds && !HasFailure(); ++seed) {
         SCOPED_TRACE(testing::Message() << "seed " << seed);

@@ -19,8 +19,7 @@ using std::chrono::milliseconds;
 constexpr milliseconds kPatience{10'000};
 constexpr std::size_t kRequests = 4;
 
-/// Fills requests in the test's thread, when the test asks for it. libcamera uses a thread of its
-/// own.
+/// Completes requests in the test's thread when the test calls it. libcamera uses its own thread.
 class FakeDriver final : public RequestDriver {
 public:
     explicit FakeDriver(const RestartLimits& limits = {}) : cycle(*this, limits) {
@@ -87,7 +86,7 @@ private:
     bool hangs_ = false;
 };
 
-/// With this limit no end counts as early.
+/// With this limit no request counts as ended early.
 constexpr RestartLimits kPatient{.early = milliseconds(0)};
 
 bool takes(FakeDriver& camera, std::int64_t number) {
@@ -108,7 +107,7 @@ TEST(RequestCycle, CompletedRequestsAreQueuedAgain) {
     EXPECT_FALSE(camera.cycle.next(kPatience));
 }
 
-TEST(RequestCycle, FullCancellationRestartsAndIsCounted) {
+TEST(RequestCycle, CancellationOfAllRequestsRestartsTheCameraAndIsCounted) {
     FakeDriver camera(kPatient);
     camera.cycle.start();
     for (int i = 1; i <= 20; ++i) {
@@ -132,7 +131,7 @@ TEST(RequestCycle, ReadyPicturesAreDeliveredBeforeTheRestart) {
     camera.cycle.giveBack(done->request);
 }
 
-TEST(RequestCycle, PartialCancellationDoesNotRestart) {
+TEST(RequestCycle, CancellationOfSomeRequestsDoesNotRestartTheCamera) {
     FakeDriver camera(kPatient);
     camera.cycle.start();
     camera.cycle.cancelled(0);
@@ -195,7 +194,7 @@ TEST(RequestCycle, NextDoesNotBlockDuringThePauseBeforeARestart) {
     EXPECT_FALSE(camera.cycle.next(kPatience));
 }
 
-// One driver thread serves all cameras; so a hanging restart must not hold it.
+// One driver thread serves all cameras. So a hanging restart must not block this thread.
 TEST(RequestCycle, AHangingRestartDoesNotDelayTheOtherCamera) {
     FakeDriver ill(kPatient), sound(kPatient);
     ill.cycle.start();

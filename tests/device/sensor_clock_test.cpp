@@ -59,7 +59,7 @@ TEST(SensorClock, ImplausibleTimesAreRefused) {
         EXPECT_FALSE(clock.toMonotonic(stamp, sleptFor(0ns))) << stamp.ns;
 }
 
-TEST(SensorClock, ClocksOfThisMachineAreInOrder) {
+TEST(SensorClock, TheBoottimeClockIsNotBehindTheMonotonicClock) {
     const SensorClock::Now now = SensorClock::Now::read();
     EXPECT_LE(now.monotonic, Timestamp::now());
     EXPECT_GE(now.boottime - now.monotonic, -1s);

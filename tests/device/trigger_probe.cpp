@@ -21,7 +21,7 @@ using namespace mfar;
 namespace {
 
 constexpr std::chrono::milliseconds kLook{20};
-constexpr std::chrono::seconds kAfter{3};  // time that the last still has to arrive
+constexpr std::chrono::seconds kAfter{3};
 
 unsigned numberOf(const ImageView& view) {
     unsigned number = 0;

@@ -8,7 +8,6 @@ namespace {
 
 using simd::DetailCase;
 
-/// Which engine runs the detail step, and which engine prepares the still.
 struct StepEngines {
     EngineKind detail, still;
 };
@@ -24,8 +23,7 @@ INSTANTIATE_TEST_SUITE_P(Engines, DetailEngineTest,
                                     std::string(nameOf(tested.param.still));
                          });
 
-/// Reduces the contrast, because shaders clamp values between passes: the overshoot of the
-/// sharpening must stay in range.
+/// Reduces the contrast: the overshoot of sharpening must stay in the range to which shaders clamp.
 DetailCase withRoom(DetailCase frame) {
     for (std::vector<std::uint8_t>* pixels : {&frame.videoPixels, &frame.stillPixels})
         for (std::uint8_t& byte : *pixels)
@@ -34,7 +32,6 @@ DetailCase withRoom(DetailCase frame) {
     return frame;
 }
 
-/// Draws consecutive frames. The detail step and the still may be of different engines.
 class Drawing {
 public:
     Drawing(const StepEngines& engines, const DetailCase& first, Size output)
@@ -48,7 +45,6 @@ public:
         const DetailStep::Matched matched{pictures_, weights};
         return draw(frame, &matched, filters);
     }
-    /// Draws with a second still, whose look-ups and weights `second` gives.
     Rows<const std::uint32_t> drawBoth(const DetailCase& frame, const DetailCase& second,
                                        const FilterBank* filters) {
         if (!secondStill_) secondStill_ = stillEngine_->still();
@@ -62,7 +58,6 @@ public:
     Rows<const std::uint32_t> drawWithoutStill(const DetailCase& frame, const FilterBank* filters) {
         return draw(frame, nullptr, filters);
     }
-    /// Luma of the still with amplified detail.
     [[nodiscard]] twin::Grey luma() const {
         if (!pictures_.raised.isEmpty()) {
             const Rows<const std::uint8_t> raised = pictures_.raised.host();
@@ -141,8 +136,7 @@ TEST_P(DetailEngineTest, WholeFrameMatchesTheOracleAtAnySize) {
     }
 }
 
-/// Expects that each channel of each pixel has the value of(x, y, channel), with an error of at
-/// most `most`.
+/// Expects that each channel of each pixel differs from of(x, y, channel) by at most `most`.
 template <class F>
 void expectPicture(Rows<const std::uint32_t> drawn, F&& of, double most) {
     for (int y = 0; y < drawn.size.height; ++y)
@@ -152,15 +146,15 @@ void expectPicture(Rows<const std::uint32_t> drawn, F&& of, double most) {
                     << drawn.size.width << ": " << x << " " << y << " " << c;
 }
 
-// Tolerance [grey levels]: luma is rounded to 1/8 grey level, and the limits of the learned
-// residual are a quarter of a difference of such values.
+// Tolerance [grey levels]: luma is rounded to 1/8 grey level. The residual's limits are a quarter
+// of a difference of two such values.
 constexpr double kLearnedError = 1.3;
 
-TEST_P(DetailEngineTest, LearnedFramesMatchTheOracleWithAndWithoutAStill) {
+TEST_P(DetailEngineTest, FramesEnlargedByFiltersMatchTheOracleWithAndWithoutAStill) {
     const bool shaders = GetParam().detail == EngineKind::Gles;
     const simd::DetailOptions options{SuperResMode::Detail, true, false, false, &simd::evenBank()};
     for (const auto& [video, stillSize, output] : simd::kSizes) {
-        if (output.width > 1000) continue;  // skipped: slow for this small video
+        if (output.width > 1000) continue;  // large outputs take too long
         const DetailCase frame = withRoom(DetailCase(video, stillSize));
         Drawing drawing(GetParam(), frame, output);
         simd::Wanted alone(frame, output, options, false), wanted(frame, output, options, true);
@@ -177,12 +171,12 @@ TEST_P(DetailEngineTest, LearnedFramesMatchTheOracleWithAndWithoutAStill) {
     }
 }
 
-TEST_P(DetailEngineTest, GuidedFramesMatchTheOracle) {
+TEST_P(DetailEngineTest, FramesWithGuidanceMatchTheOracle) {
     const bool shaders = GetParam().detail == EngineKind::Gles;
     const simd::DetailOptions options{SuperResMode::Detail, true, false, false,
                                       &simd::guidedBank()};
     for (const auto& [video, stillSize, output] : simd::kSizes) {
-        if (output.width > 1000) continue;  // skipped: slow for this small video
+        if (output.width > 1000) continue;
         const DetailCase frame = withRoom(DetailCase(video, stillSize));
         Drawing drawing(GetParam(), frame, output);
         simd::Wanted wanted(frame, output, options, true);
@@ -230,8 +224,8 @@ TEST_P(DetailEngineTest, ChangedOrRemovedFiltersTakeEffectInTheNextFrame) {
     }
 }
 
-// All look-ups change, but only some tiles are drawn. Their detail also depends on the tiles around
-// them.
+// All look-ups change, but only some tiles are drawn. Their detail also depends on neighbouring
+// tiles.
 void expectOnlyChangedTiles(const StepEngines& engines, const simd::Sizes& sizes,
                             const FilterBank* filters) {
     const auto& [video, stillSize, output] = sizes;
@@ -275,13 +269,13 @@ TEST_P(DetailEngineTest, OnlyChangedTilesAreEnlargedByFilters) {
         expectOnlyChangedTiles(GetParam(), sizes, &FilterBank::prior());
 }
 
-TEST_P(DetailEngineTest, OnlyChangedTilesAreGuided) {
+TEST_P(DetailEngineTest, OnlyChangedTilesGetGuidance) {
     for (const simd::Sizes& sizes : simd::kSizes)
         expectOnlyChangedTiles(GetParam(), sizes, &simd::guidedBank());
 }
 
-/// Another still for the same video. It is darker, has other look-ups, and has weight where the
-/// first still has none.
+/// Another still for the same video: darker, with other look-ups, and with weight where the first
+/// still has none.
 DetailCase secondOf(DetailCase frame) {
     for (std::uint8_t& byte : frame.stillPixels)
         byte = static_cast<std::uint8_t>(byte * 4 / 5);
@@ -323,14 +317,14 @@ TEST_P(DetailEngineTest, OnlyChangedTilesShowASecondStill) {
             << "the second still must change the picture";
         EXPECT_GT(some.summary().second, 0);
         EXPECT_LT(some.summary().second, all.summary().second);
-        // The next frame uses only one still; the second still must leave nothing behind.
+        // A frame with only one still must show nothing of the second still.
         EXPECT_EQ(copyOf(some.draw(whole, filters)), one);
     }
 }
 
 using DetailEngines = GlTest;
 
-/// `most`, `rms`: upper limits of the difference of any channel, and of its root mean square.
+/// `most`: limit of the difference of any channel. `rms`: limit of its root mean square.
 void expectNear(Rows<const std::uint32_t> a, Rows<const std::uint32_t> b, double most, double rms) {
     double squares = 0;
     for (int y = 0; y < a.size.height; ++y)
@@ -343,8 +337,8 @@ void expectNear(Rows<const std::uint32_t> a, Rows<const std::uint32_t> b, double
     EXPECT_LE(std::sqrt(squares / (3.0 * a.size.width * a.size.height)), rms) << a.size.width;
 }
 
-// The kernels average the warped still, the shaders the still itself. Both give the same mean only
-// if the output is finer than the video.
+// The kernels average the warped still, the shaders the still itself. Both means are equal only if
+// the output is finer than the video.
 void expectTheSamePicture(const FilterBank* filters, double most, double rms) {
     for (const auto& [video, stillSize, output] : simd::kSizes) {
         if (2 * output.width < 3 * video.width) continue;
@@ -367,7 +361,7 @@ TEST_F(DetailEngines, BothEnginesApplyTheSameGuidance) {
     expectTheSamePicture(&simd::guidedBank(), 4, 0.6);
 }
 
-TEST_F(DetailEngines, BothEnginesShowASecondStillEqually) {
+TEST_F(DetailEngines, BothEnginesShowASecondStillAlike) {
     const Size output{576, 432};
     const DetailCase whole = withRoom(DetailCase({160, 120}, {400, 300}));
     for (const double share : {1.0, 0.4}) {
@@ -375,7 +369,6 @@ TEST_F(DetailEngines, BothEnginesShowASecondStillEqually) {
         for (const EngineKind still : {EngineKind::Gles, EngineKind::Simd}) {
             Drawing gles({EngineKind::Gles, still}, frame, output),
                 simd({EngineKind::Simd, still}, frame, output);
-            // Unchanged tiles keep the content of the last frame.
             (void)gles.draw(whole, &simd::guidedBank());
             (void)simd.draw(whole, &simd::guidedBank());
             expectNear(gles.drawBoth(frame, secondOf(frame), &simd::guidedBank()),

@@ -8,7 +8,6 @@
 
 namespace mfar {
 
-/// Name of a test instance: the engine.
 inline std::string engineOfTest(const testing::TestParamInfo<EngineKind>& engine) {
     return std::string(nameOf(engine.param));
 }

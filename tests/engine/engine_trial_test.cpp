@@ -10,7 +10,7 @@ namespace {
 
 class EngineTrials : public GlTest {};
 
-TEST_F(EngineTrials, EveryPlacementIsMeasuredOnceAndTheFastestComesFirst) {
+TEST_F(EngineTrials, EveryAssignmentOfStepsToEnginesIsMeasuredOnceAndTheFastestComesFirst) {
     const auto placements = promisingEngines("a GPU that no board has");
     const auto trials =
         tryEngines(placements, plainRig({160, 120}, {320, 240}), {320, 240}, EngineKind::Gles);

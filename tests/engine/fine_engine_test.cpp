@@ -16,7 +16,6 @@ using Shares = std::vector<float>;
 
 constexpr FineMatch kMatch{5, 0.02F};
 
-/// A frame and a prepared still of the same size.
 struct FineInput {
     explicit FineInput(Size video, Size stillSize)
         : frame(video, stillSize), still(frame.rig, stillSize, std::make_shared<Workers>(2)) {
@@ -65,7 +64,7 @@ struct FineInput {
 Shares onHost(const FineInput& in) {
     simd::FineCheck check(in.still.rig(), std::make_shared<Workers>(2));
     Shares out;
-    for (int run = 0; run < 2; ++run) {  // the second run must not depend on the first
+    for (int run = 0; run < 2; ++run) {
         const Rows<const float> rows =
             check.run(in.frame.video, in.still.pairs(), in.lookUps(), in.frame.work, kMatch);
         out.clear();
@@ -147,11 +146,11 @@ protected:
     }
 };
 
-TEST_F(FineEngines, WeightSharesOfTheFineCheckOnTheHostMatchTheOracle) {
+TEST_F(FineEngines, HostWeightsOfTheFineCheckMatchTheOracle) {
     expectTheOracles(onHost);
 }
 
-TEST_F(FineEngines, WeightSharesOfTheFineCheckOnTheGpuMatchTheOracle) {
+TEST_F(FineEngines, GpuWeightsOfTheFineCheckMatchTheOracle) {
     expectTheOracles(onGpu);
 }
 

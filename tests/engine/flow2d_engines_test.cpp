@@ -1,5 +1,3 @@
-// Compares the pyramids and the 2-D flow of the host with those of the shaders.
-
 #include "pipeline/gles/flow2d.h"
 #include "pipeline/gles/luma_pyramids.h"
 #include "pipeline/simd/flow2d.h"
@@ -19,7 +17,6 @@ namespace {
 using Flow2dEngines = GlTest;
 using Cell = std::array<float, 4>;
 
-/// Both engines on the same pictures.
 class Engines {
 public:
     Engines(const TestPicture& now, const TestPicture& then)
@@ -68,9 +65,9 @@ private:
 };
 
 struct Difference {
-    double close = 0;   ///< share of the cells that differ by less than kClose
+    double close = 0;   ///< share of cells that differ by less than kClose
     double median = 0;  ///< median difference [px]
-    double cost = 0;    ///< mean difference of the matching costs
+    double cost = 0;
 };
 constexpr double kClose = 0.02;  // largest difference of two flows that count as close [px]
 
@@ -95,8 +92,8 @@ Difference differenceOf(const std::vector<Cell>& gl, Rows<const FlowCell> host) 
     return d;
 }
 
-// Where a step hardly changes the cost, rounding decides whether the step is taken. So some cells
-// may end at other vectors of the same cost.
+// Where a step hardly changes the cost, rounding decides about the step. So some cells may end at
+// other vectors of the same cost.
 void expectAlike(const Difference& d, double leastClose) {
     EXPECT_GT(d.close, leastClose);
     EXPECT_LT(d.median, 0.003);

@@ -23,15 +23,13 @@ private:
     std::unique_ptr<GlContext> context_;
 };
 
-/// GoogleTest owns the object.
 inline SharedContext* const kSharedContext = [] {
     auto* out = new SharedContext;
     testing::AddGlobalTestEnvironment(out);
     return out;
 }();
 
-/// A test in which the shared context is current. After every test the GL error state is checked,
-/// so that no GL error is missed.
+/// A test in which the shared context is current. Its end checks the GL error state.
 class GlTest : public testing::Test {
 protected:
     static GlContext& context() { return kSharedContext->context(); }

@@ -10,7 +10,6 @@
 namespace mfar {
 namespace {
 
-/// Colour (RGBA8) and z of each pixel.
 struct LayerPixels {
     explicit LayerPixels(const LaidLayer& layer) : colour(layer.size) {
         for (int y = 0; y < layer.size.height; ++y)

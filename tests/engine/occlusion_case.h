@@ -12,7 +12,6 @@
 
 namespace mfar {
 
-/// A layer of virtual objects, with a colour and a depth for each pixel.
 struct LaidLayer {
     Size size;
     std::function<std::array<std::uint8_t, 4>(int, int)> colour = [](int, int) {
@@ -22,7 +21,6 @@ struct LaidLayer {
     PixelRect bounds{0, 0, 5000, 5000};
 };
 
-/// What an engine makes of a frame with a layer.
 struct LaidOver {
     Size output;
     std::vector<std::uint8_t> shown;       ///< RGBA8
@@ -31,7 +29,6 @@ struct LaidOver {
     [[nodiscard]] double visibleAt(int x, int y) const {
         return visibility[static_cast<std::size_t>(y) * output.width + x] / 255.0;
     }
-    /// The visibility if it is equal in all pixels, otherwise -1.
     [[nodiscard]] double visibleEverywhere() const {
         for (const std::uint8_t share : visibility)
             if (share != visibility[0]) return -1;
@@ -42,13 +39,11 @@ struct LaidOver {
     }
 };
 
-/// Base of the tests of the occlusion step, for both engines.
 class OcclusionCase : public GlTest {
 protected:
     static constexpr Size kCoarse{53, 37};
     static constexpr Size kFine{191, 133};
 
-    /// Pictures of noise, with one real depth everywhere.
     static twin::Scene plainScene(const twin::RealSample& real);
     static LaidOver laidOver(EngineKind engine, const twin::Scene& scene, const LaidLayer& layer,
                              const CompositeOptions& options = {});
@@ -62,7 +57,6 @@ protected:
     }
 };
 
-/// Expects the oracle's visibility in every pixel, apart from rounding.
 void expectOracles(const LaidOver& got, twin::Scene scene, const LaidLayer& layer,
                    const CompositeOptions& options = {});
 

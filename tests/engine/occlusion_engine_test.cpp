@@ -13,7 +13,6 @@ using gpu::TexelFormat;
 
 constexpr Size kVideoSize{160, 120}, kOutputSize{576, 432};
 
-/// A virtual disc behind a real object with a ragged edge. The picture is noise.
 struct EngineScene {
     explicit EngineScene(Size layer)
         : layerSize(layer), colour(layer), z(static_cast<std::size_t>(layer.width) * layer.height),
@@ -90,7 +89,7 @@ Shown onHost(const EngineScene& s) {
 
 class OcclusionEngines : public GlTest, public testing::WithParamInterface<Size> {};
 
-TEST_P(OcclusionEngines, BothEnginesShowALayerEqually) {
+TEST_P(OcclusionEngines, BothEnginesShowALayerAlike) {
     const EngineScene scene(GetParam());
     const Shown gpu = onGpu(scene), host = onHost(scene);
     double both = 0, either = 0, open = 0;

@@ -21,7 +21,6 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 INSTANTIATE_TEST_SUITE_P(Engines, OcclusionTest,
                          testing::Values(EngineKind::Gles, EngineKind::Simd), engineOfTest);
 
-/// A layer whose pixels all have the same depth.
 LaidLayer layerAt(double z) {
     LaidLayer layer;
     layer.z = [z](int, int) { return z; };
@@ -34,7 +33,7 @@ struct Sides {
 class OcclusionSizes : public OcclusionCase,
                        public testing::WithParamInterface<std::tuple<EngineKind, Sides>> {};
 
-TEST_P(OcclusionSizes, VisibilityMatchesTheOracle) {
+TEST_P(OcclusionSizes, VisibilityMatchesTheOracleAtEverySize) {
     const auto& [engine, sides] = GetParam();
     const auto& [video, output] = sides;
     std::mt19937 random(5);
@@ -63,8 +62,7 @@ INSTANTIATE_TEST_SUITE_P(
                                      Sides{{17, 31}, {601, 40}}, Sides{{64, 48}, {33, 21}},
                                      Sides{{40, 30}, {160, 120}})));
 
-// Real depth has a step: most pixels need no weights, and all kinds of results occur.
-TEST_P(OcclusionTest, PixelsThatAreDecidedEarlyEqualWeighedOnes) {
+TEST_P(OcclusionTest, PixelsWhoseVisibilityNeedsNoWeightsEqualWeighedPixels) {
     twin::Scene scene = plainScene({0.4, 0.01});
     for (std::size_t i = 0; i < scene.real.size(); ++i)
         if (i % kCoarse.width > 20) scene.real[i].inverseDepth = 0.8;
@@ -84,7 +82,7 @@ TEST_P(OcclusionTest, UnknownDepthNeverOccludes) {
         EXPECT_EQ(run(plainScene({100, bad}), {}).visibleEverywhere(), 1) << "sigma " << bad;
 }
 
-TEST_P(OcclusionTest, UnknownNeighboursNeverReduceVisibility) {
+TEST_P(OcclusionTest, NeighboursOfUnknownDepthNeverReduceVisibility) {
     twin::Scene scene = plainScene({1, 0.01});
     for (std::size_t i = 0; i < scene.real.size(); i += 3)
         scene.real[i].inverseDepth = kNan;
@@ -104,7 +102,7 @@ TEST_P(OcclusionTest, ExtremeValidDepthsAreComparedCorrectly) {
                 << c.real.inverseDepth << " " << c.real.sigma;
 }
 
-TEST_P(OcclusionTest, LayerWithoutDepthIsNotDrawn) {
+TEST_P(OcclusionTest, ALayerWithoutDepthIsNotDrawn) {
     const twin::Scene scene = plainScene({0.1, 0.01});
     for (const double bad : {0.0, -0.0, -2.0, 1e-42, kNan, kInfinite, -kInfinite})
         EXPECT_EQ(run(scene, layerAt(bad)).shown, scene.picture.bytes) << bad;
@@ -156,7 +154,7 @@ TEST_P(OcclusionTest, OpaqueLayersReplaceThePicture) {
     }
 }
 
-TEST_P(OcclusionTest, BoundsAreClippedAtThePicturesBorders) {
+TEST_P(OcclusionTest, BoundsOfTheLayerAreClippedAtTheBordersOfThePicture) {
     const twin::Scene scene = plainScene({0.1, 0.01});
     for (const PixelRect& b : {PixelRect{-50, -9, 1000, 999}, PixelRect{180, 120, 500, 140}}) {
         LaidLayer layer;
@@ -168,7 +166,7 @@ TEST_P(OcclusionTest, BoundsAreClippedAtThePicturesBorders) {
     }
 }
 
-TEST_P(OcclusionTest, EmptyBoundsDrawNothing) {
+TEST_P(OcclusionTest, LayersWithEmptyBoundsAreNotDrawn) {
     const twin::Scene scene = plainScene({0.1, 0.01});
     for (const PixelRect& b : {PixelRect{}, PixelRect{9, 9, 9, 20}, PixelRect{-20, 0, -1, 30},
                                PixelRect{191, 0, 300, 30}, PixelRect{50, 50, 20, 60}}) {
@@ -198,7 +196,7 @@ TEST_P(OcclusionTest, OptionsOutOfRangeAreRefused) {
 /// A near object to the left of a straight edge. The edge runs through (26.3, 18) at an angle.
 struct EdgeScene {
     double degrees;
-    double contrast = 90;  ///< between both sides of the edge [grey levels]
+    double contrast = 90;  ///< difference across the edge [grey levels]
     Size coarse, fine;
 
     /// Signed distance from the edge [video px]; positive to its right. u, v: position [video px].
@@ -232,7 +230,7 @@ struct EdgeScene {
         return s;
     }
     /// Mean distance between the true edge and the line of half visibility [video px]: the area
-    /// between both, divided by the length of the edge.
+    /// between the two lines, divided by the length of the edge.
     [[nodiscard]] double errorOf(const LaidOver& got) const {
         const double step = static_cast<double>(coarse.width) / fine.width;
         double wrong = 0;
@@ -254,7 +252,6 @@ TEST_P(OcclusionTest, PartlyOccludedObjectEndsAtTheImageEdge) {
         }
 }
 
-/// A layer with another size than the output, over black, without real objects in front.
 class ScaledLayer : public OcclusionTest {
 protected:
     static constexpr Size kVideo{40, 30}, kOutput{160, 120};
@@ -268,7 +265,7 @@ protected:
 INSTANTIATE_TEST_SUITE_P(Engines, ScaledLayer, testing::Values(EngineKind::Gles, EngineKind::Simd),
                          engineOfTest);
 
-TEST_P(ScaledLayer, ColoursAreLinearBetweenItsPixels) {
+TEST_P(ScaledLayer, ColoursAreInterpolatedLinearlyBetweenPixelsOfTheLayer) {
     constexpr Size kHalf{80, 60};
     // Tolerance: the texture units of software renderers have weights of 8 bits.
     const double most = GetParam() == EngineKind::Gles ? 1.01 : 0.53;
@@ -284,7 +281,7 @@ TEST_P(ScaledLayer, ColoursAreLinearBetweenItsPixels) {
         ASSERT_NEAR(got.at(50, y, 1), 4 * ((y + 0.5) / 2 - 0.5), most) << y;
 }
 
-TEST_P(ScaledLayer, EdgesTakeTheDepthOfTheCoveredPixel) {
+TEST_P(ScaledLayer, AtEdgesOfTheLayerTheDepthOfTheCoveredPixelDecides) {
     constexpr Size kQuarter{40, 30};
     for (const double nothing : {0.0, kNan, -1.0}) {
         LaidLayer layer{kQuarter};

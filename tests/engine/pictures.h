@@ -13,13 +13,13 @@
 
 namespace mfar {
 
-/// How a pattern is sampled: pixel (x, y) is the mean over a square of `footprint` pattern units
-/// around ((x, y) + 0.5) step - 0.5 + shift.
+/// Defines how a pattern is sampled. Pixel (x, y) is the mean over a square of `footprint` pattern
+/// units around ((x, y) + 0.5) step - 0.5 + shift.
 struct Shot {
     double step = 1;
     Eigen::Vector2d shift{0, 0};
     double footprint = 1;
-    double gain = 1, offset = 0;  ///< applied to the grey levels
+    double gain = 1, offset = 0;
     PixelFormat format = PixelFormat::Rgba8;
 };
 
@@ -41,15 +41,12 @@ private:
 
 [[nodiscard]] TestPicture randomPicture(Size size, unsigned seed,
                                         PixelFormat f = PixelFormat::Rgba8);
-/// Alternating black and white pixels.
 [[nodiscard]] TestPicture checkerboard(Size size);
 /// Adds Gaussian noise. All channels of a pixel get the same noise.
 void addNoise(TestPicture& picture, double sigma, unsigned seed);
 /// Peak signal-to-noise ratio for a peak of 255 [dB].
 [[nodiscard]] double psnr(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b);
 
-/// Two cameras without distortion at the same place. The still shows the video's view at another
-/// resolution.
 [[nodiscard]] StereoRig plainRig(Size video, Size still);
 /// Two cameras with different distorting lenses, rotated against each other by some degrees.
 [[nodiscard]] StereoRig bentRig(Size video, Size still);
@@ -58,7 +55,6 @@ void addNoise(TestPicture& picture, double sigma, unsigned seed);
 [[nodiscard]] RgbPlanes planesOf(const TestPicture& p);
 /// The values that a shader gets when it samples the texture, as RGBA8, with its swizzle.
 [[nodiscard]] std::vector<std::uint8_t> sampled(const gpu::Texture& texture);
-/// A texture of four floats per texel.
 [[nodiscard]] gpu::Texture floatTexture(Size size, gpu::TexelFormat format,
                                         const std::vector<float>& values,
                                         gpu::Filter f = gpu::Filter::Nearest);

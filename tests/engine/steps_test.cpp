@@ -11,7 +11,6 @@ namespace {
 // Tolerance: half an 8-bit step, plus single precision for values between two steps.
 constexpr double kToABit = 0.501;
 
-/// Requirements on the steps of both engines, tested through the engines' common interface.
 class StepsTest : public GlTest, public testing::WithParamInterface<EngineKind> {
 protected:
     static std::unique_ptr<Engine> engineFor(const StereoRig& rig, Size output = {64, 48}) {
@@ -23,7 +22,6 @@ protected:
 INSTANTIATE_TEST_SUITE_P(Engines, StepsTest, testing::Values(EngineKind::Gles, EngineKind::Simd),
                          engineOfTest);
 
-/// Work in which all tiles are changed and matched.
 TileWork everything(Size video) {
     TileWork work;
     work.tiles = tilesOf(video);
@@ -33,7 +31,7 @@ TileWork everything(Size video) {
     return work;
 }
 
-/// Reads a pyramid level from memory. Checks that its margin repeats the border.
+/// Reads a pyramid level from memory. Checks that the level's margin repeats the border.
 twin::Grey levelOf(const LumaPyramid& pyramid, const LumaLevel& level) {
     const std::uint32_t* words = pyramid.words.host().data + level.offset;
     const auto stored = [&](int x, int y) {  // the stored columns begin at x = -8
@@ -78,7 +76,7 @@ TEST_P(StepsTest, VideoPyramidIsSmoothedAndHalved) {
         }
 }
 
-TEST_P(StepsTest, StillPyramidIsResampledToTheVideosGeometry) {
+TEST_P(StepsTest, StillPyramidIsResampledToPixelsOfTheVideo) {
     for (const StereoRig& rig : {plainRig({96, 72}, {345, 259}), plainRig({96, 72}, {96, 72}),
                                  bentRig({97, 71}, {350, 256})}) {
         const TestPicture still = Waves(3, 12, 200, 40).shoot(rig.still.size, {});
@@ -108,7 +106,6 @@ TEST_P(StepsTest, PyramidsKeepBlackAndWhite) {
     }
 }
 
-/// Luma with amplified detail, as the engine that made it reads it.
 twin::Grey raisedOf(const StillPictures& still) {
     EXPECT_NE(still.raised.isEmpty(), still.pairs.isEmpty());
     if (still.pairs.isEmpty()) {
@@ -133,7 +130,6 @@ TEST_P(StepsTest, FinestDetailOfTheStillIsAmplifiedUnlessTheStillIsReduced) {
         }
 }
 
-/// One channel of a picture.
 twin::Grey channelOf(const TestPicture& picture, int channel) {
     return twin::greyOf(picture.size, [&](int x, int y) {
         return double(picture.bytes[4UL * (1UL * y * picture.size.width + x) + channel]);

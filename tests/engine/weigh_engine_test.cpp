@@ -12,7 +12,6 @@ namespace {
 
 using WeighEngines = GlTest;
 
-/// Rows of a field that was read back as four floats per entry.
 Rows<const FlowCell> flowRows(const std::vector<FlowCell>& cells, const Flow2d::Field& field) {
     return {cells.data() + field.offset, field.cells.width, field.cells};
 }

@@ -56,7 +56,6 @@ rate_hz = 2.0
 )";
 constexpr std::string_view kNoTrigger = "rate_hz = 5.0\n";
 
-/// Section [superres]; its key `mode` is appended.
 constexpr std::string_view kSuperRes = R"([superres]
 learn = false
 )";
@@ -73,8 +72,8 @@ constexpr std::array<std::string_view, 6> kBad = {
 constexpr std::array<Ns, 4> kSteps = {3600 * kSecond, -3600 * kSecond, 315'360'000 * kSecond,
                                       -315'360'000 * kSecond};
 
-// Replaces a file by renaming, so that a reader finds either the old or the new file. Faults of
-// disk and descriptors do not affect this.
+// Replaces a file by renaming, so that a reader finds the old or the new file. Faults of disk and
+// descriptors have no effect here.
 void replace(const std::string& file, std::string_view text) {
     rlimit limit{};
     getrlimit(RLIMIT_NOFILE, &limit);
@@ -130,7 +129,6 @@ void Board::setUp(const Plan& plan) {
 }
 
 void Board::writeDevice(Where which) const {
-    // The judge reads the time of the video picture from the screen. Stills need no time stamp.
     std::string text = which == Where::Still ? "plain " : "";
     if (which == Where::Still && hasTrigger_) text += "triggered ";
     for (const Fault* fault : active_)
@@ -179,7 +177,6 @@ void Board::disturb(const Fault& fault, int by) {
         return Scheduler::get().stepWall(by * kSteps[static_cast<std::size_t>(fault.number)]);
     case Where::Disk: (fault.number == 0 ? diskFull_ : diskHangs_) += by; return;
     case Where::Descriptors:
-        // If two faults of this kind overlap, both end as soon as the first one ends.
         if (by > 0) return limitDescriptors(fault.number);
         if (descriptors_) setrlimit(RLIMIT_NOFILE, &*descriptors_);
         return descriptors_.reset();
@@ -187,13 +184,12 @@ void Board::disturb(const Fault& fault, int by) {
     }
 }
 
-/// Allows only `free` descriptors more than are open.
 void Board::limitDescriptors(int free) {
     if (descriptors_) return;
     rlimit limit{};
     getrlimit(RLIMIT_NOFILE, &limit);
     descriptors_ = limit;
-    const int next = dup(STDERR_FILENO);  // the lowest free descriptor
+    const int next = dup(STDERR_FILENO);
     close(next);
     limit.rlim_cur = static_cast<rlim_t>(next + free);
     setrlimit(RLIMIT_NOFILE, &limit);

@@ -12,28 +12,27 @@
 
 namespace mfar::faults {
 
-/// The surroundings of mfard, in the current folder: two simulated cameras, a pipe whose other end
-/// is the screen, a configuration file, and a disk. Faults act on them.
+/// The environment of mfard, in the current folder: two simulated cameras, a pipe to a simulated
+/// screen, a configuration file, and a disk. Faults act on them.
 class Board {
 public:
     static Board& get();
 
-    /// Creates the files.
     void setUp(const Plan& plan);
     void begin(const Fault& fault);
     void end(const Fault& fault);
 
     [[nodiscard]] bool readerStalls() const { return readerStalls_ > 0; }
     [[nodiscard]] bool diskIsFull() const { return diskFull_ > 0; }
-    /// True if the trigger line has the level that it has without a pulse, or if there is no line.
+    /// True if the trigger line is inactive or absent.
     [[nodiscard]] bool lineRests() const;
     [[nodiscard]] bool diskHangs() const { return diskHangs_ > 0; }
 
     static constexpr const char* kPipe = "screen.y4m";
     static constexpr const char* kSocket = "control";
-    static constexpr const char* kGpu = "gpu";  ///< file with the GPU's faults, see faulty_gl.cpp
-    static constexpr int kGain = 100;           ///< configured gain of both cameras
-    static constexpr const char* kRecording = "disk-";  ///< prefix of recordings' names
+    static constexpr const char* kGpu = "gpu";  ///< file for faulty_gl.cpp
+    static constexpr int kGain = 100;
+    static constexpr const char* kRecording = "disk-";
 
 private:
     void writeDevice(Where which) const;
@@ -45,12 +44,10 @@ private:
     bool hasTrigger_ = false;
     std::vector<const Fault*> active_;
     std::vector<int> clients_;
-    std::optional<rlimit> descriptors_;  ///< limit of descriptors before it was lowered
+    std::optional<rlimit> descriptors_;  ///< limit of descriptors before a fault lowered it
     int readerStalls_ = 0, diskFull_ = 0, diskHangs_ = 0;
 };
 
-/// Runs the simulated screen: reads the daemon's pictures from its pipe and reports them to the
-/// Judge, which decides whether the test passes. Never returns.
 void runScreen();
 
 }  // namespace mfar::faults

@@ -1,5 +1,5 @@
-// Calls that wait or read the time. The preloaded library replaces them, see Scheduler. The calling
-// thread has the turn. Locks are those of the C library and are tried until they are free.
+// Replaces functions that wait or read the time, see Scheduler. The calling thread has the turn.
+// Locks are those of the C library; a thread tries them until they are free.
 
 #include "tests/faults/real_calls.h"
 #include "tests/faults/scheduler.h"
@@ -82,8 +82,8 @@ bool isOurs(clockid_t clock) {
            clock == CLOCK_MONOTONIC_COARSE || clock == CLOCK_BOOTTIME;
 }
 
-/// Converts a time to the scheduler's clock. A step of the wall clock does not move the deadlines
-/// of waits that are in progress.
+/// Converts a time to the scheduler's clock. A step of the wall clock does not move deadlines of
+/// current waits.
 Ns deadlineOf(clockid_t clock, const timespec* time) {
     if (time == nullptr) return kNever;
     return nsOf(*time) - (isWall(clock) ? Scheduler::get().wallOffset() : 0);
@@ -93,7 +93,7 @@ Ns deadlineIn(Ns time) {
     return Scheduler::get().look() + std::max<Ns>(time, 0);
 }
 
-/// Repeats `attempt` until it succeeds. The thread that releases a lock wakes the threads that wait
+/// Repeats `attempt` until it succeeds. A thread that releases a lock wakes the threads that wait
 /// with the same key.
 template <class Attempt>
 int lockWith(const void* key, Attempt attempt, Ns deadline = kNever) {
@@ -117,7 +117,6 @@ int unlock(pthread_mutex_t* mutex) {
     return error;
 }
 
-/// Condition variables whose timeouts use the monotonic clock. Never destroyed.
 std::set<const pthread_cond_t*>& monotonicConditions() {
     static auto* all = new std::set<const pthread_cond_t*>;
     return *all;
@@ -169,8 +168,6 @@ void sleepUntil(Ns deadline) {
 
 using namespace mfar::faults;
 
-// Replacements of the C library's functions that read clocks.
-
 MFAR_TAKES_OVER int clock_gettime(clockid_t clock, timespec* out) noexcept {
     if (!isOurs(clock)) return real().clock(clock, out);
     Scheduler& all = Scheduler::get();
@@ -212,8 +209,6 @@ MFAR_TAKES_OVER int sched_yield() noexcept {
     if (Scheduler::get().hasTurn()) Scheduler::get().yield();
     return 0;
 }
-
-// Replacements of the C library's functions for threads.
 
 MFAR_TAKES_OVER int pthread_create(pthread_t* thread, const pthread_attr_t* attributes,
                                    void* (*start)(void*), void* argument) noexcept {
@@ -323,7 +318,7 @@ MFAR_TAKES_OVER int sem_post(sem_t* semaphore) noexcept {
     return error;
 }
 
-// The C++ library uses futexes for futures, atomics and static objects.
+// Replaced because the C++ library uses futexes for futures, atomics and static objects.
 MFAR_TAKES_OVER long syscall(long number, ...) noexcept {
     va_list rest;
     va_start(rest, number);
@@ -336,8 +331,6 @@ MFAR_TAKES_OVER long syscall(long number, ...) noexcept {
                      reinterpret_cast<const timespec*>(a[3]));
     return real().syscall(number, a[0], a[1], a[2], a[3], a[4], a[5]);
 }
-
-// Replacements of the system calls that wait for files, signals and timers.
 
 MFAR_TAKES_OVER int poll(pollfd* fds, nfds_t count, int ms) {
     Scheduler& all = Scheduler::get();
@@ -366,7 +359,7 @@ MFAR_TAKES_OVER int sigtimedwait(const sigset_t* set, siginfo_t* info, const tim
     }
 }
 
-// A timer is an event descriptor to which the scheduler writes.
+// Replaces a timer by an event descriptor to which the scheduler writes.
 MFAR_TAKES_OVER int timerfd_create(int, int flags) noexcept {
     const int fd = eventfd(0, ((flags & TFD_CLOEXEC) != 0 ? EFD_CLOEXEC : 0) | EFD_NONBLOCK);
     if (fd >= 0) Scheduler::get().addTimer(fd);

@@ -1,6 +1,3 @@
-// Applies a schedule of faults inside mfard's process and keeps requesting its status. As part of
-// the preloaded library, it starts before main() and ends with the process.
-
 #include "daemon/tools/control_client.h"
 #include "tests/faults/board.h"
 #include "tests/faults/judge.h"
@@ -30,7 +27,7 @@ constexpr Ns kUs = 1000;
 constexpr Ns kEndTime = 3 * kSecond;  ///< longest time from SIGTERM to the end
 /// Longest time from the start to READY, whatever the devices do.
 constexpr Ns kReadyTime = 5 * kSecond;
-/// Pause between episodes, in which late effects of faults end and mfard is checked without faults.
+/// Pause between episodes. Late effects of faults end in it, and mfard is checked without faults.
 constexpr Ns kQuiet = 4500 * kMs;
 
 long numberOf(const char* variable, long otherwise) {
@@ -68,7 +65,6 @@ struct Step {
 std::vector<Step> stepsOf(const Episode& episode) {
     std::vector<Step> steps;
     for (const Fault& fault : episode) {
-        // A loose plug is unplugged several times.
         const int times = fault.kind->name.ends_with("loose plug") ? 5 : 1;
         for (int i = 0; i < times; ++i) {
             const Ns part = fault.length / (2 * times - 1);
@@ -81,7 +77,6 @@ std::vector<Step> stepsOf(const Episode& episode) {
     return steps;
 }
 
-/// Sends a request that another fault may cause to fail.
 void request(nlohmann::json what) {  // NOLINT(performance-unnecessary-value-param): of a thread
     try {
         static_cast<void>(ask(Board::kSocket, what));
@@ -90,7 +85,7 @@ void request(nlohmann::json what) {  // NOLINT(performance-unnecessary-value-par
     }
 }
 
-// Disk faults begin while a recording runs.
+// Faults of the disk begin while a recording runs.
 void apply(const Step& step) {
     static int recordings = 0;
     const bool ofDisk = step.fault->kind->where == Where::Disk;
@@ -104,7 +99,8 @@ void apply(const Step& step) {
         Board::get().begin(*step.fault);
     } else {
         Board::get().end(*step.fault);
-        // Stopping a recording waits for the disk, which another fault may block.
+        // The request runs in its own thread, because stopping a recording waits for the disk,
+        // which another fault may block.
         if (ofDisk)
             std::thread([] {
                 sleepFor(300 * kMs);  // a recording that the fault delayed starts now
@@ -127,9 +123,6 @@ void checkRecordings() {
 
 const Plan& plan();
 
-/// Largest allowed growth of memory. A reload may turn on the detail mode of super-resolution,
-/// which takes 9 MiB in the software renderer. Losses of the context add nothing, however many
-/// there are.
 std::uint64_t grows() {
     const bool mayTurnOn = std::getenv("MFAR_FAULTY_GL") != nullptr && plan().mode != "detail";
     return (mayTurnOn ? 20U : 8U) << 20U;
@@ -140,13 +133,13 @@ void checkGrowth(std::uint64_t moreBytes = grows()) {
         if (Judge::get().holdsNoMore(moreBytes)) return;
         sleepFor(70 * kMs);
     }
-    Judge::get().fail("the number of descriptors or threads, or the memory, has grown");
+    Judge::get().fail("mfard uses more descriptors, threads or memory than at the start");
 }
 
 void checkLine() {
     for (int i = 0; i < 5; ++i) {
         if (Board::get().lineRests()) return;
-        sleepFor(70 * kMs);  // a pulse may be in progress
+        sleepFor(70 * kMs);  // waits for the end of a trigger pulse
     }
     Judge::get().fail("the trigger line is still active");
 }
@@ -162,10 +155,10 @@ void checkInQuiet() {
     }
 }
 
-/// True once the first thread has its own signal mask again instead of that of begin().
+/// True once the first thread has its own signal mask again. Before, it has that of begin().
 std::atomic<bool> hasItsMask = false;
 
-/// True if the first thread blocks SIGTERM. Before that, SIGTERM ends the process at once.
+/// True if the first thread blocks SIGTERM. If not, SIGTERM ends the process at once.
 bool blocksSigterm() {
     if (!hasItsMask) return false;
     std::ifstream status("/proc/self/status");
@@ -200,7 +193,6 @@ void runEpisode(const Episode& episode, Ns begin) {
     sleepFor(kQuiet);
 }
 
-/// Runs the last episode, in which the process may end.
 void runLast(const Plan& plan) {
     const Ns begin = Scheduler::get().now();
     std::thread([at = begin + plan.endAfter, isKilled = plan.isKilled] {
@@ -221,7 +213,6 @@ void run(const Plan& plan) {
     runLast(plan);
 }
 
-/// Runs this number of frames without faults. Memory may grow only in the first minutes.
 [[noreturn]] void soak(std::uint64_t frames) {
     constexpr std::uint64_t kMoreBytes = 1U << 20U;
     sleepFor(120 * kSecond);
@@ -250,7 +241,6 @@ void awaitReady() {
         Judge::get().fail("mfard became ready later than 5 s after its start");
 }
 
-/// The run in a folder whose previous process was killed.
 [[noreturn]] void runAfterKill() {
     awaitReady();
     sleepFor(kQuiet);
@@ -279,12 +269,12 @@ void direct() {
 __attribute__((constructor)) void begin() {
     Judge::get();
     Board::get().setUp(plan());
-    // Only mfard's own threads may handle signals.
+    // Signals are blocked here, because only mfard's own threads may handle them.
     sigset_t all, before;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
     std::thread(direct).detach();
-    // The director starts first, because its faults may have to precede everything else.
+    // The director starts first, because some faults must begin before everything else.
     Scheduler::get().yield();
     for (void (*work)() : {&runScreen, &askAlways})
         std::thread(work).detach();

@@ -23,18 +23,18 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// Time limits that mfard promises to keep, see daemon/budgets.h and its systemd unit: age of a
-// stale picture, time until a silent camera is reported, time until all is well after a fault.
+// Limits that mfard promises, see daemon/budgets.h and its systemd unit: age of a stale picture
+// (kStale), time to report a silent camera (kMarked), time to recover after a fault (kBack).
 constexpr Ns kStale = 3 * kSecond, kMarked = 250 * kMs, kBack = 3 * kSecond;
 constexpr Ns kVideoBudget = 1500 * kMs, kWriter = 2500 * kMs;
 constexpr Ns kPicture = 2000 * kMs;
-constexpr Ns kRepeats = 200 * kMs;  ///< time in which a repeated picture is recognised
-constexpr Ns kLookTime = kSecond;   ///< how often mfard checks its threads
+constexpr Ns kRepeats = 200 * kMs;  ///< time in which mfard recognises a repeated picture
+constexpr Ns kLookTime = kSecond;
 constexpr Ns kSameLine = 10 * kSecond;
 constexpr std::uint64_t kProvenFrames = 10;
-/// Tolerance: pictures have periods, and answers take time.
+/// Tolerance, because pictures come periodically and answers take time.
 constexpr Ns kSlack = 100 * kMs;
-constexpr Ns kOnScreen = 500 * kMs;  ///< greatest age of a picture without faults
+constexpr Ns kOnScreen = 500 * kMs;  ///< greatest age of a picture if there is no fault
 constexpr Ns kAnswer = kSecond;
 
 std::string seconds(Ns time) {
@@ -50,7 +50,6 @@ std::uint64_t entries(const char* folder) {
         std::distance(std::filesystem::directory_iterator(folder), {}));
 }
 
-/// Names of the files that the open descriptors refer to.
 std::multiset<std::string> openFiles() {
     std::multiset<std::string> out;
     for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
@@ -116,8 +115,8 @@ void Judge::change(const Fault& fault, int by) {
 }
 
 void Judge::begins(const Fault& fault) {
-    // Opening a device may hang far longer than reading from it. So a hanging driver is timed only
-    // if the camera worked before, when mfard has it open.
+    // Opening a device may hang far longer than reading. So a hanging driver is timed only if the
+    // camera worked before. Then mfard has it open.
     const bool wasSound = calm_[VideoDevice].lasts(kBack, now());
     const int before = calm_[VideoDevice].active;
     change(fault, 1);
@@ -139,20 +138,17 @@ void Judge::shows(Ns taken) {
     shown_ = taken;
 }
 
-// Returns 0 before the first picture, because no picture can be stale then.
 Ns Judge::age(Ns at) const {
     return shown_ ? at - *shown_ : 0;
 }
 
-/// How long the video camera has sent nothing because of a fault.
 Ns Judge::missing(Ns at) const {
     const Calm& device = calm_[VideoDevice];
     return device.active > 0 ? std::min(age(at), at - device.since) : 0;
 }
 
-/// How long the GPU has finished no picture because of a fault. 0 in three cases: during the first
-/// pictures, which may take longer; without a camera; after mfard has given up the GPU, which then
-/// draws nothing.
+/// Time for which the GPU has finished no picture because of a fault. It is 0 during the first
+/// pictures, which may take longer, without a camera, and after mfard stopped using the GPU.
 Ns Judge::unfinished(Watched gpu, Ns at) const {
     if (calm_[gpu].active == 0 || calm_[Video].active > 0) return 0;
     if (frames_ < kProvenFrames || isGpuGivenUp_) return 0;
@@ -174,10 +170,10 @@ void Judge::judgeState(const ordered_json& said, Ns asked) {
     isGpuGivenUp_ = isGpuGivenUp_ || cause.find("the CPU draws") != cause.npos;
     const std::string fault = textOf(said, "fault");
     const bool isFine = state == "ok" && fault.empty();
-    // A pipe without a reader still holds some pictures. The next picture may wait as long as the
-    // writing thread's time budget allows.
+    // A pipe without a reader still takes some pictures. The next picture may wait for the time
+    // budget of the writing thread.
     const Ns stalled = asked - std::max(calm_[Screen].since, calm_[Video].since);
-    // A repeated picture is recognised only after several pictures.
+    // mfard recognises a repeated picture only after several pictures.
     const bool repeats = calm_[Video].active > calm_[VideoDevice].active;
     const bool isKnown = (calm_[Screen].active == 0 || stalled > kWriter) &&
                          (!repeats || calm_[VideoDevice].lasts(kRepeats, asked));
@@ -191,7 +187,7 @@ void Judge::judgeState(const ordered_json& said, Ns asked) {
         fail("the GPU has finished no picture for " + seconds(unfinished(Gpu, asked)) +
              ", but status says ok");
     if (!calm_[All].lasts(kBack + kSlack, asked) || frames_ < kProvenFrames) return;
-    // The status reports a failed GPU for a minute, or permanently.
+    // The status reports a failed GPU for a minute or permanently.
     const bool namesGpu = hadGpuFaults_ && cause.find("the GPU failed") != cause.npos;
     if (!isFine && !namesGpu)
         fail(fmt::format("no fault has been active for {}, but status says {}: {} {}",
@@ -202,15 +198,14 @@ void Judge::judgeState(const ordered_json& said, Ns asked) {
              ", but the screen's picture is " + seconds(age(asked)) + " old");
 }
 
-// Checks that a fault of one camera is not attributed to the other.
 void Judge::judgeBlame(const std::string& fault, Ns asked) {
     if (!calm_[Slow].lasts(kBack, asked)) return;
     const bool video = calm_[Video].lasts(kBack + kSlack, asked);
     const bool still = calm_[Still].lasts(kBack + kSlack, asked);
     if (video && fault.find("video camera") != fault.npos)
-        fail("status blames the video camera, which has no fault: " + fault);
+        fail("status reports a fault of the video camera, which has none: " + fault);
     if (still && fault.find("still camera") != fault.npos)
-        fail("status blames the still camera, which has no fault: " + fault);
+        fail("status reports a fault of the still camera, which has none: " + fault);
     if (video && calm_[Screen].lasts(kBack, asked) && calm_[Gpu].lasts(kBack, asked) && shown_ &&
         age(asked) > kOnScreen)
         fail("the video camera has no fault, but the screen's picture is " + seconds(age(asked)) +
@@ -239,27 +234,27 @@ void Judge::fed() {
     fed_ = now();
     if (frames_ < kProvenFrames || !calm_[Slow].lasts(kBack, now())) return;
     if (now() - before > kLookTime + kSlack && calm_[All].lasts(kBack + kSlack + kLookTime, now()))
-        fail("no fault is active, but the watchdog was not fed for " + seconds(now() - before));
+        fail("no fault is active, but mfard has not notified the watchdog for " +
+             seconds(now() - before));
     if (hangs_ && missing(now()) > kVideoBudget + kSlack)
-        fail("the watchdog is fed although the video driver has hung for " +
+        fail("mfard notifies the watchdog although the video driver has hung for " +
              seconds(missing(now())));
     if (unfinished(Drawing, now()) > kPicture + kSlack)
-        fail("the watchdog is fed although drawing has hung for " +
+        fail("mfard notifies the watchdog although drawing has hung for " +
              seconds(unfinished(Drawing, now())));
     const bool isNamed = !calm_[Video].lasts(kBack, now()) || !calm_[Screen].lasts(kBack, now()) ||
                          !calm_[Gpu].lasts(kBack, now());
     if (age(now()) > kStale + kSlack && !isNamed)
-        fail("the watchdog is fed although the picture is " + seconds(age(now())) + " old");
+        fail("mfard notifies the watchdog although the picture is " + seconds(age(now())) + " old");
 }
 
-// Answers to requests are logged every time.
 void Judge::logSays(std::string_view text) {
     logBytes_ += text.size();
     std::string all(text.substr(0, text.find_last_not_of('\n') + 1));
     note("log: " + std::regex_replace(all, std::regex("\n"), "\n             log: "));
-    // At the end, suppressed messages are logged too.
+    // At the end, mfard also logs suppressed messages.
     if (isEnding() || all.find("mfard.toml") != all.npos) return;
-    // The text without its duration and without the number of suppressed messages.
+    // The message without its duration and without the number of suppressed messages.
     const std::string event =
         std::regex_replace(all, std::regex(R"( \((degraded|stalled|once)[^)]*\))"), "");
     const auto before = logged_.find(event);
@@ -281,7 +276,7 @@ void Judge::ended(int code, bool inTime) {
               static_cast<std::uint64_t>((now() - *terminated_) / kMs));
     count("frames", frames_);
     count("answers", asked_);
-    count("meals", meals_);
+    count("watchdog notifications", meals_);
     count("turns", Scheduler::get().turns());
     count("log bytes", logBytes_);
     count("simulated ms", static_cast<std::uint64_t>(now() / kMs - 1'000'000));

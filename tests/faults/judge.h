@@ -15,34 +15,31 @@
 
 namespace mfar::faults {
 
-/// Compares what mfard reports with the facts. The report gets a line for each violated rule. Only
-/// one thread at a time calls this, see Scheduler.
+/// Compares mfard's reports with the facts. Adds a line to its own report for each violated rule.
+/// Only one thread at a time calls it, see Scheduler.
 class Judge {
 public:
-    /// The judge of this process. It writes to the file that MFAR_FAULTS_REPORT names.
+    /// The only judge of the process. It writes to the file MFAR_FAULTS_REPORT.
     static Judge& get();
 
-    // Facts that the surroundings report.
     void begins(const Fault& fault);
     void ends(const Fault& fault);
-    /// The screen shows a picture that was taken at this time.
+    /// The screen shows a picture that was exposed at `taken`.
     void shows(Ns taken);
 
-    // What mfard does and says.
     void serviceHears(std::string_view text);
     void logSays(std::string_view text);
     void status(const nlohmann::ordered_json& said, Ns asked);
     void answersNot(const std::string& why, Ns asked);
-    void terminated();  ///< mfard got the request to end
+    void terminated();
     void ended(int code, bool inTime);
-    /// Called without faults: compares the counts of invalid pictures in `stats` with those that
-    /// the cameras sent.
+    /// To be called without faults. Compares the counts of invalid pictures in `said` with those
+    /// that the cameras sent.
     void stats(const nlohmann::ordered_json& said);
-    /// Checks that a finished recording can be read.
     void recording(const std::string& folder);
     /// Checks memory, descriptors and threads while there are no faults. The first call sets the
-    /// reference. Returns false if the process holds more; the caller may try again, because
-    /// requests in progress may end soon.
+    /// reference. Returns false if the process uses more. The caller may retry, because requests
+    /// may still end.
     [[nodiscard]] bool holdsNoMore(std::uint64_t moreBytes = 8U << 20U);
 
     void note(const std::string& text);
@@ -54,7 +51,7 @@ public:
     [[nodiscard]] std::uint64_t frames() const { return frames_; }
 
 private:
-    /// Time since the last fault of a kind ended.
+    /// Number of active faults of a kind, and time at which it last changed.
     struct Calm {
         int active = 0;
         Ns since = 0;
@@ -80,13 +77,13 @@ private:
     int report_ = 2;
     std::array<Calm, WatchedCount> calm_{};
     std::optional<Ns> ready_, terminated_, shown_, fed_;
-    std::optional<Ns> hangs_;  ///< since when the video driver hangs, if the camera worked before
+    std::optional<Ns> hangs_;  ///< start of a hang of the video driver
     std::uint64_t frames_ = 0, asked_ = 0, meals_ = 0, failures_ = 0;
     std::map<std::string, Ns> logged_;
     std::uint64_t logBytes_ = 0;
     bool hadGpuFaults_ = false, isGpuGivenUp_ = false;
     struct Held {
-        std::multiset<std::string> files;  ///< files that open descriptors refer to
+        std::multiset<std::string> files;  ///< names of the files of open descriptors
         std::uint64_t threads = 0, bytes = 0;
     };
     std::optional<Held> first_;

@@ -1,5 +1,4 @@
-// mfar-faults runs mfard with schedules of faults until the time is over or mfard breaks one of its
-// promises.
+// mfar-faults runs mfard with schedules of faults until the time is over or mfard violates a rule.
 #include "base/progress.h"
 #include "tests/faults/plan.h"
 #include "tests/faults/trial.h"
@@ -51,7 +50,6 @@ Options parse(int argc, char** argv) {
     return o;
 }
 
-/// The first line that differs between two reports.
 std::string difference(const std::string& one, const std::string& other) {
     std::istringstream first(one), second(other);
     std::string a, b;
@@ -69,13 +67,12 @@ void print(const Tally& tally, double seconds) {
                tally.cases, seconds, tally.failures);
 }
 
-/// Runs seeds one after the other.
 Tally drawSeeds(const Options& o, std::uint64_t seed) {
     const auto begin = Clock::now();
     mfar::Progress progress;
     Tally sum;
     for (bool more = true; more; ++seed) {
-        // Only the first process shows its progress: all processes end at the same time.
+        // Only the first process shows its progress, because all processes end at the same time.
         const std::chrono::duration<double, std::ratio<60>> before = Clock::now() - begin;
         if (o.trial.job == 0)
             progress.show(o.run.seed ? std::nan("") : before.count() / o.run.minutes,

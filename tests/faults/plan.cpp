@@ -15,7 +15,6 @@ namespace {
 using enum Where;
 using enum Effect;
 
-// Camera faults are listed twice: once for the video camera, once for the still camera.
 constexpr std::array kKinds = {
     Kind{"video silent", Video, StopsDevice, "silent"},
     Kind{"video hangs", Video, HangsDriver, "hang"},
@@ -63,21 +62,21 @@ constexpr std::array kKinds = {
     Kind{"disk hangs", Disk, None, "", 1, 1},
     Kind{"no free descriptors", Descriptors, Slows, "", 0, 3},
     Kind{"slow machine", Machine, Slows, "", 10, 200},
-    // From here on: faults that need a GPU.
+    // The following faults need a GPU.
     Kind{"GPU late", Gpu, StopsGpu, "never"},
     Kind{"GPU lost", Gpu, None, "lost"},
     Kind{"GPU hangs", Gpu, HangsGpu, "hang"},
 };
 constexpr std::size_t kOfGpu = 3;
 
-/// Two overlapping faults of this length end before the watchdog ends mfard.
+/// Two overlapping faults of this length end before the watchdog stops mfard.
 constexpr Ns kLongestOfGpu = 3300 * kMs;
 
-/// Upper limit of clock readings from the start to READY, if nothing waits. Each reading takes half
-/// a microsecond.
+/// Upper limit of clock readings from the start to READY without waiting. Each takes half a
+/// microsecond.
 constexpr std::uint64_t kStartTime = 40'000;
 
-/// Draws a kind of fault. Kinds that can stop pictures are drawn three times as often.
+/// Draws a kind of fault. Kinds that can stop pictures are three times as likely.
 const Kind& drawnKind(std::mt19937_64& random, std::string_view only, bool hasGpu) {
     const auto isMeant = [&](const Kind& kind) { return kind.name.find(only) != only.npos; };
     const auto kinds = std::span(kKinds).first(kKinds.size() - (hasGpu ? 0 : kOfGpu));
@@ -96,7 +95,7 @@ Fault drawnFault(std::mt19937_64& random, std::string_view only, bool hasGpu) {
     Fault out;
     out.kind = &drawnKind(random, only, hasGpu);
     out.begin = static_cast<Ns>(below(1500)) * kMs;
-    // A duration of 30 ms to 10 s; half of them are above 1.8 s.
+    // A duration between 30 ms and 10 s. Half of the durations are above 1.8 s.
     const double octave = static_cast<double>(std::max(below(1000), below(1000))) / 1000;
     out.length = static_cast<Ns>(30e6 * std::pow(333.0, octave));
     if (out.kind->where == Gpu) out.length = std::min(out.length, kLongestOfGpu);
@@ -128,7 +127,6 @@ Plan Plan::drawn(std::uint64_t seed, int episodes, std::string_view only, bool h
     out.beginsBroken = random() % 4 == 0;
     out.hasTrigger = random() % 2 == 0 && MFAR_FAULTS_HAS_LINE;
     out.mode = kModes[random() % kModes.size()];
-    // SIGTERM may come at once, during the start.
     const bool endsEarly = random() % 8 == 0;
     out.endsBeforeReady = endsEarly && random() % 2 == 0;
     if (endsEarly) episodes = 1;
@@ -140,7 +138,6 @@ Plan Plan::drawn(std::uint64_t seed, int episodes, std::string_view only, bool h
     out.endAfter = static_cast<Ns>(random() % (endsEarly ? 300 : 6000)) * kMs;
     if (out.endsBeforeReady) out.endAfter = static_cast<Ns>(random() % kStartTime);
     out.isKilled = random() % 6 == 0;
-    // Without free descriptors nothing can start.
     for (const Fault& fault : out.episodes.front())
         if (fault.kind->where == Descriptors) out.beginsBroken = false;
     if (out.beginsBroken)

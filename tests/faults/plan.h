@@ -23,48 +23,48 @@ enum class Where {
     Gpu
 };
 
-/// The observable effect of a fault. The judge derives its rules from it.
+/// The observable effect of a fault, from which the judge derives its rules.
 enum class Effect {
-    None,         ///< pictures continue
-    StopsDevice,  ///< the camera sends no new picture; this must be reported
-    HangsDriver,  ///< like StopsDevice; a thread of mfard hangs too
+    None,
+    StopsDevice,  ///< the camera sends no new picture, which mfard must report
+    HangsDriver,  ///< like StopsDevice; a thread of mfard also hangs
     Repeats,      ///< a camera sends the same picture again and again
-    StopsReader,  ///< the screen does not read
-    StopsGpu,     ///< no picture is finished; must be reported, but not as a camera's fault
-    HangsGpu,     ///< like StopsGpu; the drawing thread hangs too
-    Slows,        ///< everything is slow, so times cannot be judged
+    StopsReader,
+    StopsGpu,  ///< no picture is finished; mfard must report this, but not as a camera's fault
+    HangsGpu,  ///< like StopsGpu; the drawing thread also hangs
+    Slows,     ///< everything is slow, so that times cannot be judged
 };
 
 struct Kind {
     std::string_view name;
     Where where;
     Effect effect;
-    std::string_view words;   ///< words for the file of the camera or GPU; a number replaces *
-    int least = 0, most = 0;  ///< range of the number that replaces *
+    std::string_view words;  ///< text for the fault's file; a number replaces *
+    int least = 0, most = 0;
 };
 
 struct Fault {
     const Kind* kind = nullptr;
-    Ns begin = 0, length = 0;  ///< relative to the start of its episode
+    Ns begin = 0, length = 0;  ///< times relative to the start of the episode
     int number = 0;
     [[nodiscard]] std::string text() const;
 };
 
-/// One fault, or two that overlap, followed by time to recover.
+/// One fault, or two that overlap. A pause for recovery follows.
 using Episode = std::vector<Fault>;
 
 struct Plan {
-    bool beginsBroken = false;                  ///< the first episode begins before mfard starts
-    std::string_view mode;                      ///< super-resolution mode
-    [[nodiscard]] bool recordsAtStart() const;  ///< true if the disk is also faulty at the start
+    bool beginsBroken = false;  ///< the first episode begins before mfard starts
+    std::string_view mode;
+    [[nodiscard]] bool recordsAtStart() const;  ///< True if the disk is faulty from the start.
     std::vector<Episode> episodes;
-    Ns endAfter = 0;               ///< time from the start of the last episode to the end signal
-    bool hasTrigger = false;       ///< the still camera waits for trigger pulses
-    bool endsBeforeReady = false;  ///< mfard ends before or soon after READY
-    bool isKilled = false;         ///< ended with SIGKILL instead of SIGTERM, then started again
+    Ns endAfter = 0;
+    bool hasTrigger = false;
+    bool endsBeforeReady = false;  ///< mfard must end before READY or soon after it
+    bool isKilled = false;         ///< ended with SIGKILL and started again
 
     /// Chooses random faults of the kinds whose names contain `only`. Throws std::runtime_error if
-    /// no name does.
+    /// there is no such kind.
     [[nodiscard]] static Plan drawn(std::uint64_t seed, int episodes, std::string_view only,
                                     bool hasGpu);
 };

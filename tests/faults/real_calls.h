@@ -8,7 +8,6 @@
 
 namespace mfar::faults {
 
-/// The functions of the C library that calls.cpp replaces.
 struct RealCalls {
     int (*clock)(clockid_t, timespec*);
     long (*syscall)(long, ...);

@@ -18,14 +18,14 @@ namespace mfar::faults {
 
 struct Scheduler::Task {
     std::atomic<int> turn{0};
-    /// Key that the task waits for; null: the task is ready. If one of `files` gets ready, the task
-    /// wakes up, too.
+    /// Key for which the task waits; null: the task is ready. The task also wakes up if one of
+    /// `files` gets ready.
     const void* key = nullptr;
     pollfd* files = nullptr;
     nfds_t fileCount = 0;
     int filesReady = 0;
     Ns deadline = kNever;
-    std::uint64_t order = 0;  ///< order in which tasks began to wait
+    std::uint64_t order = 0;
     bool woken = false;
     void* (*start)(void*) = nullptr;
     void* argument = nullptr;
@@ -36,7 +36,6 @@ struct Scheduler::Task {
 
 namespace {
 
-// While tasks are ready, files are checked once in this number of turns.
 constexpr std::uint64_t kFileTurns = 16;
 constexpr std::uint64_t kLocksPerYield = 16;
 constexpr int kIdleMs = 100, kMostIdle = 100;
@@ -118,7 +117,7 @@ void Scheduler::checkFiles() {
     }
 }
 
-// Jumps to the next deadline. If there is none, only another process can wake a task.
+// Jumps to the next deadline. Without a deadline, only another process can wake a task.
 void Scheduler::advance() {
     Ns first = kNever;
     for (const Task* task : tasks_)
@@ -222,7 +221,7 @@ void* Scheduler::begin(void* argument) {
     return task->start(task->argument);
 }
 
-// Destructors of thread-local data may lock; so this must run in the last round of destructors.
+// Destructors of thread-local data may lock. So this must run in the last round of destructors.
 void Scheduler::end(void* argument) {
     auto* task = static_cast<Task*>(argument);
     if (++task->cleanUps < PTHREAD_DESTRUCTOR_ITERATIONS) {

@@ -14,49 +14,43 @@ using Ns = std::int64_t;
 constexpr Ns kNever = std::numeric_limits<Ns>::max();
 constexpr Ns kMs = 1'000'000, kSecond = 1'000'000'000;
 
-/// Runs the threads of this process one at a time on a simulated clock. The clock advances a little
-/// with each reading and jumps to the next deadline when every thread waits; so an hour of waiting
-/// costs nothing. The next thread is drawn from a seed; so a run can be repeated.
-///
-/// A thread gives up its turn where it waits (see calls.cpp), and sometimes where it locks. Only
-/// the thread that has the turn calls these functions; so they need no lock.
+/// Runs the threads of this process one at a time on a simulated clock. Each reading advances the
+/// clock a little. If every thread waits, the clock jumps to the next deadline, so that waiting
+/// takes no time. A seed determines the next thread, so that runs can be repeated. A thread gives
+/// up its turn where it waits (see calls.cpp), and sometimes where it locks. Only the thread with
+/// the turn calls these functions, so that they need no lock.
 class Scheduler {
 public:
     /// Created by the first call. Never destroyed, because threads outlive main().
     static Scheduler& get();
 
-    /// False in a thread that has given up its turn for good, during the last clean-up by the C
-    /// library.
+    /// False in a thread that has given up its last turn and is being cleaned up by the C library.
     [[nodiscard]] bool hasTurn() const;
 
     [[nodiscard]] Ns now() const { return now_; }
-    /// Advances the clock by the cost of a reading and returns it.
     [[nodiscard]] Ns look() { return now_ += cost_; }
     void setCost(Ns cost) { cost_ = cost; }
-    /// Offset of CLOCK_REALTIME from the other clocks.
     [[nodiscard]] Ns wallOffset() const { return wallOffset_; }
     void stepWall(Ns by) { wallOffset_ += by; }
 
-    /// Waits until wake() is called with this key. Returns false at the deadline.
+    /// Waits until wake() is called with this key. Returns false if the deadline comes first.
     bool waitFor(const void* key, Ns deadline = kNever);
-    /// Wakes the first `count` tasks that wait with this key. Returns the number of tasks woken.
+    /// Wakes the first `count` tasks that wait with this key. Returns the number of woken tasks.
     int wake(const void* key, int count = std::numeric_limits<int>::max());
     /// Like poll(), including -1 with errno.
     int waitForFiles(pollfd* fds, nfds_t count, Ns deadline);
-    /// Gives other tasks a turn.
     void yield();
-    /// Gives other tasks a turn in a random share of the calls.
+    /// Gives other tasks a turn at random, in a fixed share of the calls.
     void maybeYield();
 
-    /// Makes a timer's descriptor readable at `first` (0: never), and then every `period` (0: only
+    /// Makes a timer's descriptor readable at `first` (0: never), and then every `period` (0:
     /// once).
     void setTimer(int fd, Ns first, Ns period);
     void addTimer(int fd) { timers_.push_back({fd, 0, 0}); }
 
-    // Start and end of threads.
     int create(pthread_t* thread, const pthread_attr_t* attributes, void* (*start)(void*),
                void* argument);
-    /// Returns when the thread no longer executes code of this process.
+    /// Returns when the thread no longer runs code of this process.
     void waitForEnd(pthread_t thread);
 
     [[nodiscard]] std::uint64_t random() { return random_(); }

@@ -17,7 +17,6 @@
 namespace mfar::faults {
 namespace {
 
-/// Reads a Y4M stream.
 class Reader {
 public:
     void add(std::span<const char> bytes) {
@@ -53,13 +52,14 @@ private:
             reinterpret_cast<const std::uint8_t*>(text_.data()) + at_ + kFrame.size();
         at_ += whole;
         if (const auto ms = pretended::stampOf({pixels, luma}, width_)) {
-            // The stamp contains only the lower bits of the time.
+            // The stamp contains only the lower bits of the time. The upper bits are those of the
+            // present time.
             const std::int64_t now = Scheduler::get().now() / kMs;
             constexpr std::int64_t kMask = (1LL << pretended::kStampBits) - 1;
             Judge::get().shows((now - ((now - *ms) & kMask)) * kMs);
         } else {
             ++unread_;
-            if (unread_ == 1) Judge::get().note("a picture carries no time");
+            if (unread_ == 1) Judge::get().note("a picture on the screen has no valid time stamp");
         }
         return true;
     }

@@ -1,5 +1,4 @@
-// Calls to the rest of the machine: the service manager, the log, the disk, and the end of the
-// process. The preloaded library replaces them.
+// Replaces calls to the service manager, the log and the disk, and calls that end the process.
 
 #include "tests/faults/board.h"
 #include "tests/faults/judge.h"
@@ -22,7 +21,7 @@ using namespace mfar::faults;
 
 namespace {
 
-/// True only for files of a recording, because mfard may need other files.
+/// True only for files of a recording. The disk's faults must not affect other files.
 bool isOnDisk(int fd) {
     std::error_code ignored;
     const auto file =
@@ -31,7 +30,7 @@ bool isOnDisk(int fd) {
 }
 
 __attribute__((destructor)) void atExit() {
-    // The exit status is unknown here; the parent process gets it.
+    // The exit status is unknown here. The parent process gets it.
     Judge::get().ended(0, true);
 }
 
@@ -66,7 +65,6 @@ MFAR_TAKES_OVER ssize_t write(int fd, const void* bytes, size_t count) {
     return real().syscall(SYS_write, fd, bytes, count);
 }
 
-// Waits for a socket on the scheduler's clock.
 MFAR_TAKES_OVER ssize_t recv(int fd, void* to, size_t size, int flags) {
     constexpr int kPatienceMs = 15'000;
     const bool waits = (flags & MSG_DONTWAIT) == 0 && (fcntl(fd, F_GETFL) & O_NONBLOCK) == 0;

@@ -27,11 +27,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Limits in real time. A schedule takes a second, a run without faults some minutes.
+/// Limits in real time. A schedule takes about a second, a run without faults some minutes.
 constexpr std::chrono::minutes kTrialTime{2}, kSoakTime{60};
-constexpr std::size_t kContext = 40;  // number of lines that are printed before the first failure
+constexpr std::size_t kContext = 40;
 
-/// A folder for one trial. It is removed with everything in it.
 class Folder {
 public:
     Folder() {
@@ -52,7 +51,7 @@ private:
     fs::path path_;
 };
 
-// Only one thread of mfard runs at a time; so switching is fastest on a single processor.
+// Only one thread of mfard runs at a time. So switching is fastest on a single processor.
 void takeProcessor(int job) {
     cpu_set_t allowed, one;
     if (sched_getaffinity(0, sizeof allowed, &allowed) != 0) return;
@@ -80,7 +79,7 @@ constexpr const char* kAfterKill = "MFAR_FAULTS_AFTER_KILL";
         {"MFAR_FAULTS_SOAK", std::to_string(options.soakFrames)},
         {"MFAR_FAULTS_REPORT", "report"},
         {"MFAR_PRETENDED_V4L2", "cameras"},
-        {"NOTIFY_SOCKET", "/nowhere"},  // messages sent there are intercepted
+        {"NOTIFY_SOCKET", "/nowhere"},  // messages to this address are intercepted
         {"WATCHDOG_USEC", "10000000"},
         {"LD_PRELOAD", MFAR_FAULTS_BOARD ":" MFAR_FAULTS_CAMERAS}};
     if (options.hasGpu) {
@@ -95,7 +94,7 @@ constexpr const char* kAfterKill = "MFAR_FAULTS_AFTER_KILL";
     _exit(127);
 }
 
-/// How the child process ended, in words; empty for exit status 0.
+/// Describes how the child process ended; empty for exit status 0.
 std::string waitFor(pid_t child, std::chrono::minutes most) {
     const auto end = std::chrono::steady_clock::now() + most;
     int status = 0;
@@ -129,7 +128,6 @@ bool tellsFailure(const std::string& line) {
     return line.find("FAILED: ") != line.npos;
 }
 
-// All failures, and the lines before the first of them.
 std::string excerpt(const std::vector<std::string>& lines) {
     const auto first = std::ranges::find_if(lines, tellsFailure);
     const auto before = static_cast<std::size_t>(first - lines.begin());

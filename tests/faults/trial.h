@@ -12,19 +12,19 @@ struct TrialOptions {
     int episodes = 10;
     std::string only;     ///< only kinds of faults whose names contain this text
     bool hasGpu = false;  ///< also use the GLES engine, with a library that can fail
-    long soakFrames = 0;  ///< run this number of frames without faults; 0: run faults
-    int job = 0;          ///< each job runs on its own processor if there are enough
+    long soakFrames = 0;  ///< number of frames in a run without faults; 0: run with faults
+    int job = 0;  ///< index of the process; each runs on its own processor if there are enough
 };
 
 struct TrialResult {
-    /// The judge's report without sizes of memory, which do not depend on the program alone.
+    /// The judge's report without sizes of memory, which do not only depend on the program.
     std::string course;
-    std::string failure;  ///< description for people; empty: mfard kept its promises
+    std::string failure;  ///< description for the user; empty if mfard violated no rule
     std::map<std::string, long> counts;
 };
 
-/// Starts mfard in the surroundings of Board and waits until it ends. Throws std::system_error if
-/// it cannot be started.
+/// Starts mfard with Board as its environment and waits until it ends. Throws std::system_error if
+/// mfard cannot be started.
 [[nodiscard]] TrialResult runTrial(const TrialOptions& options, std::uint64_t seed);
 
 }  // namespace mfar::faults

@@ -26,7 +26,7 @@ std::vector<std::uint32_t> censusOf(const LumaImage& picture) {
     return out;
 }
 
-/// Oracle: compares the neighbours row by row from the top left. The first neighbour gives the
+/// Oracle: compares the neighbours row by row from the top left. The first neighbour sets the
 /// highest bit.
 std::uint32_t twin(const LumaImage& picture, int x, int y) {
     const auto at = [&](int i, int j) {
@@ -55,13 +55,13 @@ TEST(Census, MatchesTheOracleAtEverySize) {
 TEST(Census, OneDarkNeighbourSetsItsOwnBit) {
     LumaImage picture({9, 9});
     std::fill(picture.pixels.begin(), picture.pixels.end(), std::uint8_t{100});
-    picture.row(2)[2] = 50;  // top left of the pixel (4, 4)
-    picture.row(6)[6] = 50;  // bottom right of the pixel (4, 4)
-    picture.row(4)[5] = 50;  // just right of the pixel (4, 4)
+    picture.row(2)[2] = 50;
+    picture.row(6)[6] = 50;
+    picture.row(4)[5] = 50;
     EXPECT_EQ(censusOf(picture)[9 * 4 + 4], 1U << 23 | 1U << 11 | 1U);
 }
 
-TEST(Census, CensusUsesAllItsBitsAndNeverTheNoCensusMark) {
+TEST(Census, UsesAllItsBitsButNeverTheValueForNoCensus) {
     const LumaImage picture = randomPicture({40, 30}, 0, 255, 5);
     std::uint32_t all = 0;
     for (const std::uint32_t bits : censusOf(picture))
@@ -82,7 +82,8 @@ LumaImage toned(LumaImage picture, const std::function<double(double)>& curve) {
     return picture;
 }
 
-// The picture has only fifty levels; so each of these curves keeps neighbouring levels distinct.
+// The picture has fifty grey levels, so that each of these curves keeps neighbouring levels
+// distinct.
 TEST(Census, IsInvariantToRisingToneCurves) {
     const LumaImage picture = randomPicture({31, 23}, 100, 149, 9);
     const auto bits = censusOf(picture);
@@ -98,7 +99,7 @@ TEST(Census, IsInvariantToRisingToneCurves) {
     EXPECT_NE(censusOf(toned(picture, [](double v) { return 255 - v; })), bits);
 }
 
-// Where a curve makes neighbours equal, bits may be cleared, but no bit may be set.
+// Where a curve makes neighbours equal, it may clear bits but must set none.
 TEST(Census, FlatterToneCurvesClearBitsButSetNone) {
     const LumaImage picture = randomPicture({31, 23}, 0, 255, 9);
     const auto bits = censusOf(picture);

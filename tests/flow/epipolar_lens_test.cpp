@@ -28,7 +28,7 @@ double rimOf(const CameraModel& camera) {
     return rim;
 }
 
-TEST(EpipolarLens, RaysMatchThePixelsOfEveryLevel) {
+TEST(EpipolarLens, RaysMatchThePixelsOfEveryPyramidLevel) {
     for (const CameraModel& camera :
          {test::oddPlain(), test::oddBarrel(), pincushion(), fisheye()}) {
         Size size = camera.size;
@@ -110,7 +110,7 @@ TEST(EpipolarLens, RaysProjectBackToTheirPixels) {
     }
 }
 
-// Along a ray away from the axis, projected points may move outwards or stay, but never move back.
+// Along a ray away from the axis, projected points must never move back towards it.
 TEST(EpipolarLens, ProjectionNeverFoldsBack) {
     for (const CameraModel& camera :
          {test::oddPlain(), test::oddBarrel(), pincushion(), fisheye()}) {
@@ -149,7 +149,7 @@ TEST(EpipolarLens, RaysFarBesideThePictureStayOutsideIt) {
     }
 }
 
-TEST(EpipolarLens, SIsTheInverseDepthInTheSecondView) {
+TEST(EpipolarLens, InverseDepthInTheSecondViewDeterminesThePixel) {
     std::mt19937 random(9);
     std::uniform_real_distribution<double> unit(-1, 1);
     for (const CameraModel& camera : {test::oddPlain(), test::oddBarrel()}) {

@@ -1,4 +1,3 @@
-// Tests EpipolarSearch with extreme pictures and poses, and that earlier frames have no influence.
 #include "pipeline/epipolar/epipolar_search.h"
 #include "tests/flow/flow_scene.h"
 
@@ -40,7 +39,6 @@ LumaImage wholePictureOf(Size size, const std::function<int(int, int)>& grey) {
     return out;
 }
 
-/// Expects a finite field whose displacements are within the search range.
 void expectSane(const EpipolarSearch& search, Size size) {
     ASSERT_TRUE(test::isFinite(search));
     ASSERT_EQ(search.inverseDepth().size(), static_cast<std::size_t>(size.width) * size.height);
@@ -80,7 +78,6 @@ TEST(EpipolarSearchOdd, UniformAndExtremePicturesGiveFiniteFields) {
     }
 }
 
-// Without texture the field must not jump.
 TEST(EpipolarSearchOdd, UniformPicturesGiveAUniformField) {
     const Size size{97, 71};
     EpipolarSearch search = test::searchWith(cameraOf(size), 2);
@@ -135,7 +132,7 @@ TEST(EpipolarSearchOdd, PosesWithoutOverlapAreRefused) {
     }
 }
 
-TEST(EpipolarSearchOdd, EveryRotationGivesAFiniteFieldOrNone) {
+TEST(EpipolarSearchOdd, EveryRotationGivesAFiniteResultOrNone) {
     const CameraModel camera = barrelOf({120, 90});
     const LumaImage picture = scene().render(camera, {});
     EpipolarSearch search = test::searchWith(camera, 2);
@@ -171,7 +168,7 @@ TEST(EpipolarSearchOdd, NonFinitePosesGiveNoParallax) {
     expectSane(search, camera.size);
 }
 
-TEST(EpipolarSearchOdd, IsTheSameWithAnyNumberOfThreads) {
+TEST(EpipolarSearchOdd, TheResultDoesNotDependOnTheNumberOfThreads) {
     const View view{barrelOf({180, 130}), scene(), motion({2, -4, 9}, {-0.2, 0.1, 0.1})};
     const LumaImage video = view.video(), still = view.still();
     std::vector<float> one;
@@ -186,8 +183,7 @@ TEST(EpipolarSearchOdd, IsTheSameWithAnyNumberOfThreads) {
     }
 }
 
-// Every frame has its own canvas; nothing of an earlier frame may remain.
-TEST(EpipolarSearchOdd, DoesNotDependOnEarlierFrames) {
+TEST(EpipolarSearchOdd, TheResultDoesNotDependOnEarlierFrames) {
     const CameraModel camera = barrelOf({180, 130});
     const LumaImage video = scene().render(camera, {}),
                     other = scene().render(camera, motion({9, 9, 9}, {0, 0, 1}));

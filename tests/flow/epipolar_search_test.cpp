@@ -30,12 +30,10 @@ Scene flatScene() {
     return {{{{0, 0, 1}, 2}}, 30, 100};
 }
 
-/// A wall that is slanted to the right and downwards.
 Scene slantedScene() {
     return {{{Eigen::Vector3d(0.35, 0.2, 1).normalized(), 2}}, 30, 100};
 }
 
-/// A panel in front of a wall.
 Scene stepScene() {
     return {{{{0, 0, 1}, 3}, {{0, 0, 1}, 2, {-0.35, -0.4}, {0.45, 0.3}}}, 28, 100};
 }
@@ -48,9 +46,9 @@ EpipolarSearch searched(const View& view, int threads = 2) {
     return search;
 }
 
-// Upper limits of the median error [px]. A cost is that of the nearest pixel. The search corrects
-// for the distance of this pixel along the line, but not for its distance from the line. Results
-// are also biased towards pixel centres.
+// Upper limits of the median error [px]. Each cost belongs to the nearest pixel. The search
+// corrects this pixel's distance along the line but not its distance from the line. Results are
+// also biased towards pixel centres.
 constexpr double kAcross = 0.38, kAlongAxis = 0.22;
 
 void expectErrors(const View& view, double median, double bad) {
@@ -68,8 +66,8 @@ TEST(EpipolarSearch, FindsAWallAfterASidewaysMotion) {
     expectErrors({plain(), flatScene(), motion({0, 0, 0}, {0, 0.15, 0})}, kAlongAxis, 0.02);
 }
 
-// Two consecutive labels have the same nearest pixel. The two pixels next to the match differ from
-// it equally; so the true place is between them.
+// Two consecutive labels have the same nearest pixel. The pixels on both sides of the match differ
+// from it equally. So the true position is between these two labels.
 TEST(EpipolarSearch, FindsAWallAtHalfPixelsAlongADiagonal) {
     const CameraModel camera = plain();
     for (const double pixels : {5.4, 5.5, 5.6, -8.5}) {
@@ -90,7 +88,7 @@ TEST(EpipolarSearch, FindsADepthStep) {
     expectErrors({plain(), stepScene(), motion({0, 0, 0}, {0.1, 0.15, 0})}, kAcross, 0.04);
 }
 
-TEST(EpipolarSearch, FindsDepthAsWellAsFlow) {
+TEST(EpipolarSearch, FindsInverseDepth) {
     const View view{plain(), stepScene(), motion({0, 0, 0}, {-0.3, 0, 0})};
     const EpipolarSearch search = searched(view);
     const auto depthAt = [&](int x, int y) {
@@ -100,7 +98,7 @@ TEST(EpipolarSearch, FindsDepthAsWellAsFlow) {
     EXPECT_NEAR(depthAt(170, 20), 3, 0.1);
 }
 
-// The epipole lies inside the picture; so displacements are longest at the border.
+// The epipole is inside the picture, so that displacements are longest at the border.
 TEST(EpipolarSearch, FindsScenesAfterAForwardMotion) {
     for (const double t : {-0.4, 0.4}) {
         expectErrors({plain(), stepScene(), motion({0, 0, 0}, {0, 0, t})}, 0.15, 0.04);
@@ -115,8 +113,8 @@ TEST(EpipolarSearch, FindsScenesAfterARotationThroughALens) {
     expectErrors({barrel(), flatScene(), motion({2, -28, 5}, {0.15, 0, 0.1})}, 0.2, 0.04);
 }
 
-// The displacement needs three levels and is longer than the window of the coarsest level.
-TEST(EpipolarSearch, FindsLongDisparitiesThroughThreeLevels) {
+// The displacement needs three pyramid levels and is longer than the window of the coarsest level.
+TEST(EpipolarSearch, FindsLongDisplacementsThroughThreePyramidLevels) {
     const CameraModel camera{{320, 240}, 300, 300, 159.5, 119.5, {}};
     const Scene scene{{{{0, 0, 1}, 3}, {{0, 0, 1}, 1.5, {-0.3, -0.3}, {0.3, 0.3}}}, 35, 100};
     expectErrors({camera, scene, motion({0, 0, 0}, {-0.5, 0, 0})}, 0.15, 0.05);
@@ -142,7 +140,7 @@ TEST(EpipolarSearch, PureRotationNeedsNoSearch) {
     }
 }
 
-// One unit of s must not move any pixel farther than this, and must move some pixels nearly as far.
+// Per unit of s, no pixel may move farther than this, and some must move nearly as far.
 TEST(EpipolarSearch, PixelsPerUnitIsTheLongestMotionOfAPixel) {
     for (const Eigen::Vector3d& t :
          {Eigen::Vector3d(0.2, 0, 0), Eigen::Vector3d(0.1, -0.1, 0.3), Eigen::Vector3d(0, 0, -1)}) {
@@ -171,7 +169,7 @@ TEST(EpipolarSearch, IsInvariantToTheUnitOfLength) {
         EXPECT_EQ(search.labels(), metres.labels());
         EXPECT_NEAR(search.pixelsPerUnit(), unit * metres.pixelsPerUnit(),
                     1e-3 * unit * metres.pixelsPerUnit());
-        // Steps along the line are in single precision; so rounding may change a few pixels.
+        // Steps along the line are in single precision. So rounding may change a few pixels.
         int apart = 0;
         for (int y = 0; y < 150; ++y)
             for (int x = 0; x < 200; ++x)
@@ -186,8 +184,6 @@ LumaImage developed(LumaImage picture, const std::function<double(double)>& curv
     return picture;
 }
 
-// A search around a predicted s, as from a previous frame, must be as good as a search through the
-// coarser levels.
 TEST(EpipolarSearch, SearchFromAPredictionIsAsGoodAsCoarseToFine) {
     const View view{plain(), stepScene(), motion({0, 2, 0}, {-0.2, 0.03, 0})};
     const EpipolarSearch whole = searched(view);
@@ -206,7 +202,8 @@ TEST(EpipolarSearch, SearchFromAPredictionIsAsGoodAsCoarseToFine) {
     const FlowErrors around = errorsOf(search, view), from = errorsOf(whole, view);
     EXPECT_LT(around.median, 1.05 * from.median);
     EXPECT_LT(around.bad, from.bad + 0.005);
-    // Only values around the prediction are searched; so a wrong prediction gives a wrong result.
+    // Only values around the prediction are searched. So a wrong prediction must give a wrong
+    // result.
     const auto far = static_cast<float>(30 / whole.pixelsPerUnit());
     for (float& s : predicted)
         s += far;
@@ -215,7 +212,7 @@ TEST(EpipolarSearch, SearchFromAPredictionIsAsGoodAsCoarseToFine) {
 }
 
 /// Share of the pixels in which both searches find the same surface. Exact values differ, because
-/// the steps along the line differ.
+/// the steps along the lines differ.
 double alikeIn(const PixelRect& area, const EpipolarSearch& part, const EpipolarSearch& whole) {
     const PixelRect& from = part.area();
     int alike = 0, all = 0;

@@ -35,8 +35,8 @@ float medianAt(const std::vector<float>& field, Size size, int x, int y) {
     return around[4];
 }
 
-// A small number of different values gives many ties.
-TEST(Median3x3, IsTheFifthOfTheNineSortedValues) {
+// A small number of different values causes many ties.
+TEST(Median3x3, TheMedianIsTheFifthOfNineSortedValues) {
     for (int threads = 1; threads <= 3; ++threads) {
         Workers workers(threads);
         for (const Size size : kSizes) {
@@ -54,9 +54,9 @@ TEST(Median3x3, IsTheFifthOfTheNineSortedValues) {
     }
 }
 
-// Tries random orders of nine distinct values, because a wrong sorting network fails only for some
+// Random orders of nine distinct values, because a wrong sorting network fails only for some
 // orders.
-TEST(Median3x3, IsTheSameForEveryOrderOfNineValues) {
+TEST(Median3x3, TheMedianDoesNotDependOnTheOrderOfValues) {
     Workers workers(1);
     std::vector<float> in{1, 2, 3, 4, 5, 6, 7, 8, 9}, out(9);
     std::mt19937 random(5);
@@ -67,7 +67,7 @@ TEST(Median3x3, IsTheSameForEveryOrderOfNineValues) {
     }
 }
 
-TEST(LocalRange, IsTheSmallestAndLargestValueOfTheSquare) {
+TEST(LocalRange, TheRangeIsTheSmallestAndLargestValueOfASquare) {
     for (const Size size : kSizes) {
         for (const int radius : {0, 1, 2, 5}) {
             const auto in = randomField(size, 50);
@@ -93,7 +93,6 @@ TEST(LocalRange, IsTheSmallestAndLargestValueOfTheSquare) {
     }
 }
 
-// Scratch memory must not keep values of the larger picture.
 TEST(LocalRange, CanBeReusedForAnotherSize) {
     LocalRange range;
     localRange(randomField({40, 30}, 100), {40, 30}, 2, range);

@@ -13,13 +13,12 @@ CameraModel barrelCamera() {
     return {{322, 241}, 250, 252, 163, 119, {-0.2, 0.05, 0.001, -0.001, 0}};
 }
 
-/// A panel in front of a slanted wall.
 Scene slantedStep() {
     const Eigen::Vector3d normal = Eigen::Vector3d(0.5, 0.2, 1).normalized();
     return {{{normal, 3}, {{0, 0, 1}, 2, {-0.35, -0.4}, {0.45, 0.3}}}, 28, 100};
 }
 
-/// s of the cells of a frame at `T_frame_world`. The still is at the world's origin; the scene is
+/// s of the cells of a frame at `T_frame_world`. The still is at the world's origin. The scene is
 /// given in the still's frame.
 std::vector<float> truth(const EpipolarLens& cells, const RigidTransform& T_frame_world,
                          const Scene& scene) {
@@ -38,8 +37,8 @@ RigidTransform scaled(RigidTransform T, double factor) {
     return T;
 }
 
-/// Share of the cells whose predicted s is wrong by more than 0.7 %, the change from one cell to
-/// the next on the wall. Three cells at each border do not count, because new parts of the scene
+/// Share of the cells whose predicted s has an error above 0.7 %, the change between neighbouring
+/// cells on the wall. Three cells at each border are left out, because new parts of the scene
 /// appear there.
 double missed(std::span<const float> predicted, const std::vector<float>& expected, Size cells,
               double unit = 1) {
@@ -61,7 +60,7 @@ TEST(FieldPrediction, InverseDepthsMoveToTheNextFrameAccordingToThePoses) {
     const auto predicted = prediction.in(after.inverse(), 1);
     const auto expected = truth(cells, after, slantedStep());
     ASSERT_EQ(predicted.size(), expected.size());
-    // Only cells at the panel's edges may be missed.
+    // The prediction may be wrong only at the panel's edges.
     EXPECT_LT(missed(predicted, expected, cells.size()), 0.03);
     EXPECT_GT(missed(truth(cells, before, slantedStep()), expected, cells.size()), 0.2)
         << "the test needs a motion that changes the field";
@@ -82,14 +81,14 @@ TEST(FieldPrediction, EveryFrameHasItsOwnUnitOfLength) {
 }
 
 TEST(FieldPrediction, TheNearestSurfaceOccludesOthers) {
-    // All cells are at infinity except one. That cell lands on a far cell and replaces it.
+    // All cells but one are at infinity. The near cell lands on a far cell and replaces it.
     const EpipolarLens cells(barrelCamera(), 2);
     const int width = cells.size().width, middle = 30 * width + 40;
     std::vector<float> kept(static_cast<std::size_t>(width) * cells.size().height, 0.0F);
     kept[middle] = 0.5F;
     FieldPrediction prediction(barrelCamera());
     prediction.keep(kept, {}, 1);
-    // The motion moves the cell two cells to the right: f = 62 cells, at a depth of two units.
+    // The motion moves the near cell two cells to the right: f = 62 cells, depth two units.
     const auto predicted = prediction.in(motion({0, 0, 0}, {-2 * 2 / 62.0, 0, 0}), 1);
     ASSERT_FALSE(predicted.empty());
     EXPECT_FLOAT_EQ(predicted[middle + 2], 0.5F);

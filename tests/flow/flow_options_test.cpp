@@ -47,7 +47,6 @@ TEST(FlowOptions, ValuesOutOfRangeAreRefused) {
         EXPECT_THROW(validate(EpipolarOptions{.longestParallax = share}), std::invalid_argument);
 }
 
-/// Errors on a wall with a parallax of 38 px, a fifth of the picture's width.
 test::FlowErrors errorsWith(const EpipolarOptions& options) {
     const CameraModel camera{{200, 150}, 190, 190, 99.5, 74.5, {}};
     const test::View view{
@@ -74,7 +73,7 @@ TEST(EpipolarOptions, HalfTheResolutionFindsAWallToAboutAPixel) {
         EXPECT_LT(errorsWith({.levels = levels, .finest = 1}).bad, 0.02) << levels;
 }
 
-TEST(EpipolarOptions, ChangesBetweenFramesActAsInitialOptions) {
+TEST(EpipolarOptions, OptionsChangedBetweenFramesActLikeInitialOptions) {
     const CameraModel camera{{200, 150}, 190, 190, 99.5, 74.5, {}};
     const test::View view{
         camera, {{{{0, 0, 1}, 2}}, 30, 100}, test::motion({0, 0, 0}, {-0.4, 0, 0})};

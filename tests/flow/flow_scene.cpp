@@ -16,7 +16,6 @@ double latticeValue(int x, int y, int z) {
     return (h ^ (h >> 15)) / 2147483648.0 - 1;
 }
 
-/// Interpolates random values that are given at integers; in [-1, 1].
 double valueNoise(const Eigen::Vector3d& p) {
     const Eigen::Vector3d low = p.array().floor();
     const Eigen::Vector3d f = p - low;

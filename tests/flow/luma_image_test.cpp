@@ -33,7 +33,6 @@ int clampedAt(const LumaImage& picture, int x, int y) {
         std::clamp(y, 0, picture.size.height - 1))[std::clamp(x, 0, picture.size.width - 1)];
 }
 
-/// A picture with slopes, steps along both axes, a slanted edge, and a textured part.
 double greyScene(int x, int y) {
     double grey = 40 + 0.2 * x + 0.1 * y;
     if (x > 90) grey += 60;
@@ -113,7 +112,7 @@ TEST(LumaOf, GreyPicturesLoseTheirPadding) {
         EXPECT_TRUE(std::equal(luma.row(y), luma.row(y) + 17, padded.row(y)));
 }
 
-TEST(Halve, IsTheMeanOfFourWithTheBorderRepeated) {
+TEST(Halve, APixelIsTheMeanOfFourPixelsWithTheBorderRepeated) {
     for (const Size size : {Size{1, 1}, Size{2, 2}, Size{1, 6}, Size{7, 1}, Size{3, 3}, Size{8, 5},
                             Size{5, 8}, Size{61, 45}}) {
         const LumaImage fine = randomPicture(size, 8);
@@ -141,7 +140,7 @@ TEST(Halve, KeepsBlackAndWhite) {
     }
 }
 
-TEST(Smooth, IsTheSeparableMaskWithTheBorderRepeated) {
+TEST(Smooth, AppliesTheSeparableMaskWithTheBorderRepeated) {
     for (const float side : {0.0F, 0.1F, 0.25F, 1.0F / 3}) {
         for (const Size size : {Size{1, 1}, Size{1, 5}, Size{6, 1}, Size{13, 9}}) {
             const LumaImage in = randomPicture(size, 12);
@@ -164,7 +163,7 @@ TEST(Smooth, IsTheSeparableMaskWithTheBorderRepeated) {
     }
 }
 
-TEST(Smooth, ZeroSideWeightsCopyAndUniformPicturesStayUniform) {
+TEST(Smooth, WithoutSideWeightsThePictureIsCopiedAndUniformPicturesStayUniform) {
     const LumaImage in = randomPicture({21, 17}, 14);
     LumaImage out;
     smooth(in, 0, out);
@@ -197,7 +196,7 @@ TEST(NoiseOf, IsNearZeroWithoutNoise) {
     EXPECT_EQ(noiseOf(pictureOf({64, 64}, [](int, int y) { return y == 29 ? 20 : 220; })), 0);
 }
 
-TEST(NoiseOf, PicturesSmallerThanABlockHaveNoNoise) {
+TEST(NoiseOf, TheNoiseOfPicturesSmallerThanABlockIsZero) {
     EXPECT_EQ(noiseOf(randomPicture({1, 1}, 1)), 0);
     EXPECT_EQ(noiseOf(randomPicture({9, 200}, 1)), 0);
     EXPECT_GT(noiseOf(randomPicture({10, 10}, 1)), 0);

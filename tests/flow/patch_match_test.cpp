@@ -17,8 +17,6 @@ LumaImage drawn(Size size, const std::function<double(double, double)>& grey) {
     return out;
 }
 
-// Waves with periods of 7 to 13 pixels in three directions: smooth, and not repeated within a
-// window.
 double waves(double x, double y) {
     return 120 + 30 * std::sin(0.71 * x + 0.2 * y) + 30 * std::sin(-0.3 * x + 0.63 * y) +
            30 * std::sin(0.35 * x + 0.41 * y + 1);
@@ -34,7 +32,7 @@ std::optional<Eigen::Vector2d> placed(const PatchMatcher& matcher, PatchPlace pl
     return found ? matcher.polish(place, *found) : std::nullopt;
 }
 
-TEST(TexturedPlaces, PlacesAreChosenWhereThePictureHasTexture) {
+TEST(TexturedPlaces, PatchesAreChosenWhereThePictureHasTexture) {
     const LumaImage picture =
         drawn({160, 120}, [](double x, double y) { return x < 80 ? waves(x, y) : 90; });
     const auto places = texturedPlaces(picture, 0);
@@ -58,7 +56,7 @@ TEST(TexturedPlaces, NeitherNoiseNorEdgesAreTexture) {
     EXPECT_TRUE(texturedPlaces(edges, 0).empty());
 }
 
-TEST(TexturedPlaces, TinyPicturesHaveOnlyPlacesInside) {
+TEST(TexturedPlaces, PatchesOfTinyPicturesAreInsideThePicture) {
     for (int w = 1; w <= 24; ++w)
         for (int h = 1; h <= 24; ++h)
             for (const PatchPlace& p : texturedPlaces(drawn({w, h}, waves), 0)) {
@@ -68,7 +66,7 @@ TEST(TexturedPlaces, TinyPicturesHaveOnlyPlacesInside) {
             }
 }
 
-TEST(PatchMatcher, FindsShiftsBetweenPixelsWhateverTheGain) {
+TEST(PatchMatcher, FindsShiftsByFractionsOfPixelsAtAnyGain) {
     const LumaImage from = drawn({60, 50}, waves);
     for (const auto& [gain, offset] : {std::pair(1.0, 0.0), {0.5, 60.0}, {0.8, -15.0}}) {
         for (const Eigen::Vector2d& d :
@@ -97,7 +95,7 @@ TEST(PatchMatcher, AmbiguousMatchesAreRefused) {
     EXPECT_TRUE(matcher.find(place, {place.middle(), {1, 0}, 2, 2}));
 }
 
-TEST(PatchMatcher, MissingPatchesAreRefused) {
+TEST(PatchMatcher, PatchesInUniformOrUnseenPicturesAreRefused) {
     const LumaImage from = drawn({60, 50}, waves);
     const auto seen = allSeen(from);
     const PatchPlace place{25, 21};

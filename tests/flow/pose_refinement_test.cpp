@@ -1,4 +1,3 @@
-// Tests the search with an inexact pose, on rendered scenes of known depth.
 #include "pipeline/epipolar/epipolar_search.h"
 #include "tests/flow/flow_scene.h"
 
@@ -36,8 +35,6 @@ Matrix6 covarianceOf(double degrees, double shift) {
     return diagonal.asDiagonal();
 }
 
-/// Median distance of the true points from the epipolar lines of a pose [px]. Without parallax:
-/// distance from the points that the pose predicts.
 double missOf(const RigidTransform& pose, const View& view) {
     const CameraModel& camera = view.camera;
     std::vector<double> out;
@@ -60,14 +57,12 @@ double missOf(const RigidTransform& pose, const View& view) {
     return out[out.size() / 2];
 }
 
-/// A view with its rendered pictures.
 struct Shots {
     View view;
     LumaImage video, still;
     Shots(const View& v) : view(v), video(v.video()), still(v.still()) {}
 };
 
-/// A search with a pose that has the error `error`.
 EpipolarSearch searched(const Shots& shots, const RigidTransform& error,
                         const Matrix6& covariance) {
     EpipolarSearch search = test::searchWith(shots.view.camera, 2);
@@ -77,7 +72,6 @@ EpipolarSearch searched(const Shots& shots, const RigidTransform& error,
     return search;
 }
 
-/// Share of the pixels whose inverse depth is wrong by more than one pixel of displacement.
 double depthErrorOf(const EpipolarSearch& search, const View& view) {
     const Size size = view.camera.size;
     int bad = 0, all = 0;
@@ -102,7 +96,7 @@ std::vector<View> views() {
             {pagePlain(), panelScene(), motion({0, 0, 0}, {0.02, 0.01, 0.4})}};
 }
 
-// At this focal length 2 px are half a degree.
+// At this focal length, 2 px are half a degree.
 TEST(PoseRefinement, CorrectsEpipolarLinesToAQuarterPixel) {
     for (const View& view : views()) {
         const Shots shots(view);
@@ -134,7 +128,7 @@ TEST(PoseRefinement, KeepsAGoodPose) {
     }
 }
 
-TEST(PoseRefinement, AnUncertainPoseIsSearchedFartherAway) {
+TEST(PoseRefinement, AnUncertainPoseIsSearchedInALargerRange) {
     const View view{pagePlain(), panelScene(), motion({3, -4, 5}, {0, 0, 0})};
     const RigidTransform error = motion({1.5, -1, 0.3}, {0, 0, 0});
     EXPECT_LT(missOf(searched(view, error, covarianceOf(1, 0)).pose(), view), 0.1);
@@ -150,15 +144,15 @@ TEST(PoseRefinement, PureRotationIsRefinedWithoutASearch) {
     EXPECT_LT(missOf(search.pose(), view), 0.1);
 }
 
-// A panel in front of a wall moves by itself, across the epipolar lines. Nearly half of the patches
-// are on it.
+// A panel in front of a wall moves by itself, across the epipolar lines. It contains nearly half of
+// the patches.
 TEST(PoseRefinement, MovingObjectsDoNotDisturbThePose) {
     View view{pagePlain(), panelScene(), motion({0, 0, 0}, {-0.2, 0, 0})};
     view.scene.surfaces[1].least = {-0.75, -0.75};
     view.scene.surfaces[1].greatest = {0.65, 0.35};
     const LumaImage video = view.video();
-    // The texture is a function of the point; so the panel is rendered from another pose instead of
-    // being moved.
+    // The texture is a function of the point. So the panel is not moved but rendered from another
+    // pose.
     const RigidTransform lifted = view.T_still_video * motion({0, 0, 0}, {0, 0.06, 0});
     LumaImage still = view.still();
     const Scene moving{{view.scene.surfaces[1]}, 28, 100};
@@ -179,7 +173,7 @@ TEST(PoseRefinement, MovingObjectsDoNotDisturbThePose) {
     }
 }
 
-TEST(PoseRefinement, PicturesThatShowNothingKeepThePrior) {
+TEST(PoseRefinement, UniformPicturesLeaveThePriorPoseUnchanged) {
     const CameraModel camera = pagePlain();
     const LumaImage scene = panelScene().render(camera, {});
     std::vector<LumaImage> pictures;
@@ -234,7 +228,7 @@ TEST(PoseRefinement, IsInvariantToTheUnitOfLength) {
     EXPECT_LT((search.pose().translation / 1000 - metres.pose().translation).norm(), 1e-4);
 }
 
-TEST(PoseRefinement, IsTheSameWithAnyNumberOfThreads) {
+TEST(PoseRefinement, TheResultDoesNotDependOnTheNumberOfThreads) {
     const View view = views()[2];
     const RigidTransform prior = view.T_still_video * motion({0.3, 0.1, -0.3}, {0, 0, 0});
     const LumaImage video = view.video(), still = view.still();
@@ -250,9 +244,7 @@ TEST(PoseRefinement, IsTheSameWithAnyNumberOfThreads) {
     }
 }
 
-// If there are too few patches for a refinement, the search also looks beside its lines.
-TEST(PoseRefinement, WithoutPatchesTheSearchIsWidenedAcrossTheLines) {
-    // A small panel without a background.
+TEST(PoseRefinement, WithTooFewPatchesTheSearchAlsoLooksBesideEpipolarLines) {
     const Shots shots({pagePlain(),
                        {{{{0.3, 0, 1}, 2, {-0.1, -0.1}, {0.15, 0.1}}}, 60, 100},
                        motion({0, 0, 0}, {0.2, 0, 0})});

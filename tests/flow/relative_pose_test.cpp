@@ -26,7 +26,7 @@ struct Case {
     Eigen::Vector3d translation{0.2, 0.02, 0.01};
     Vector6 motion = Vector6::Zero();
     double noise = 0.2;  // noise of a match [px]
-    double wrong = 0;    // share of outliers
+    double wrong = 0;
     int count = 250;
 
     [[nodiscard]] std::vector<RayMatch> matches() const {
@@ -116,7 +116,7 @@ TEST(RelativePose, PureRotationIsRefinedFromBothComponentsOfMatches) {
     EXPECT_LT(left.head<3>().norm(), 0.01 * kDegree);
 }
 
-TEST(RelativePose, KeepsAPriorThatIsGoodEnough) {
+TEST(RelativePose, AGoodPriorPoseIsKept) {
     for (const double noise : {1e-6, 0.3, 0.8}) {
         const Case c{.noise = noise};
         const auto out = refineRelativePose(c.matches(), {c.translation, kUsualCovariance}, kFocal);
@@ -126,7 +126,7 @@ TEST(RelativePose, KeepsAPriorThatIsGoodEnough) {
     }
 }
 
-TEST(RelativePose, KeepsThePriorIfMatchesAreFewOrDisagree) {
+TEST(RelativePose, ThePriorPoseIsKeptIfMatchesAreFewOrDisagree) {
     Case c{.motion = motionOf({0.2, 0, 0}, {0, 0, 0})};
     const PosePrior prior{c.translation, kUsualCovariance};
     for (const int count : {0, 1, 5, 12}) {
@@ -173,7 +173,7 @@ TEST(RelativePose, NonFiniteInputIsRefused) {
     EXPECT_FALSE(refineRelativePose(matches, {c.translation, -kUsualCovariance}, kFocal).accepted);
 }
 
-TEST(RelativePose, SpreadOfAMatchIncludesUncertainRotationAndTranslation) {
+TEST(RelativePose, SpreadOfAMatchIncludesTheUncertaintyOfRotationAndTranslation) {
     const Matrix6 turn = priorCovariance(0.01, 0), shift = priorCovariance(0, 0.02);
     const RayMatch far{{0, 0}, {0, 0}}, near{{0, 0}, {0.1, 0}};
     const Eigen::Vector3d t(0.2, 0, 0);

@@ -9,7 +9,6 @@
 namespace mfar {
 namespace {
 
-/// Input of the matcher and of its oracle. Costs are ordered by pixel, then by label.
 struct Problem {
     LumaImage guide;
     int vectors = 1;
@@ -23,7 +22,6 @@ struct Problem {
     }
 };
 
-/// Random costs and guide, with random windows up to `reach` labels away from zero.
 Problem randomProblem(Size size, int vectors, int reach, unsigned seed, int greatest = 24) {
     std::mt19937 random(seed);
     const auto upTo = [&](int n) { return std::uniform_int_distribution<int>(0, n)(random); };
@@ -32,8 +30,7 @@ Problem randomProblem(Size size, int vectors, int reach, unsigned seed, int grea
     for (std::uint8_t& v : p.guide.pixels)
         v = static_cast<std::uint8_t>(upTo(3) == 0 ? upTo(255) : 100 + upTo(10));
     for (std::size_t i = 0; i < p.guide.pixels.size(); ++i) {
-        // Windows move rarely, as those from a coarser level do. When they move, it is by up to the
-        // whole reach.
+        // As in the search, windows move rarely. A window moves by up to the whole reach.
         const int moved = upTo(2 * reach) - reach;
         p.base.push_back(static_cast<std::int16_t>(i > 0 && upTo(2) > 0 ? p.base.back() : moved));
         for (int k = 0; k < p.labels(); ++k)
@@ -62,8 +59,8 @@ std::vector<float> solve(const Problem& p, int threads) {
     return solve(p, matcher, workers);
 }
 
-/// Adds the path costs L in direction (dx, dy) to `sums`. For pixel p, label k and the pixel q
-/// before p: L(p, k) = C(p, k) + min(L(q, k), L(q, k +- 1) + step, jump) - min L(p, .), normalised
+/// Adds the path costs L in direction (dx, dy) to `sums`. For pixel p, label k and the previous
+/// pixel q: L(p, k) = C(p, k) + min(L(q, k), L(q, k +- 1) + step, jump) - min L(p, .), normalised
 /// so that min L(q, .) = 0. A label has the same number k in the windows of p and q.
 void addPath(const Problem& p, int dx, int dy, std::vector<int>& sums) {
     const auto [w, h] = p.guide.size;
@@ -129,7 +126,7 @@ void expectTwin(const Problem& p) {
     }
 }
 
-// Paths run along the axes only. For these, the row-by-row order of addPath() is right.
+// Paths run along the axes only, for which the row-by-row order of addPath() is right.
 TEST(SemiGlobal, MatchesTheOracleInOneWindow) {
     for (unsigned seed = 1; seed <= 4; ++seed)
         for (const Size size : {Size{1, 1}, Size{1, 9}, Size{11, 1}, Size{2, 3}, Size{37, 29}})
@@ -148,8 +145,8 @@ TEST(SemiGlobal, MatchesTheOracleWithSeveralVectors) {
             expectTwin(randomProblem({33, 19}, vectors, reach, 10 + vectors));
 }
 
-// Sums of path costs are largest if each cost is either zero or the maximum, and penalties are at
-// their upper limits.
+// Sums of path costs are largest if each cost is zero or the maximum and penalties are at their
+// upper limits.
 TEST(SemiGlobal, SumsOfPathCostsFitIntoBytes) {
     for (unsigned seed = 1; seed <= 3; ++seed) {
         Problem p = randomProblem({40, 40}, 1, 30, seed);
@@ -171,8 +168,8 @@ TEST(SemiGlobal, ALabelThatIsCheapestEverywhereWinsEverywhere) {
     }
 }
 
-// The surface rises by one label every second pixel. Only paths that account for the shift of the
-// windows can follow it.
+// The surface rises by one label every second pixel. Only paths that use the shift of the windows
+// can follow it.
 TEST(SemiGlobal, FollowsASlopeThroughMovingWindows) {
     Problem p = randomProblem({60, 24}, 1, 0, 3);
     p.smoothness = {12, 60, 255};
@@ -181,7 +178,6 @@ TEST(SemiGlobal, FollowsASlopeThroughMovingWindows) {
             const std::size_t i = p.pixel(x, y);
             const int truth = x / 2;
             p.base[i] = static_cast<std::int16_t>(truth - 3 - (x / 7 + y / 5) % 8);
-            // Every third pixel has equal costs for all labels.
             for (int k = 0; k < 16; ++k)
                 p.costs[i * 16 + k] = (x + y) % 3 == 0 || p.base[i] + k == truth ? 4 : 20;
         }
@@ -195,7 +191,7 @@ TEST(SemiGlobal, FollowsASlopeThroughMovingWindows) {
     }
 }
 
-// Costs rise as |k - truth|. The vertex of a parabola would be biased towards whole labels.
+// Costs rise as |k - truth|. A parabola's vertex would be biased towards whole labels.
 TEST(SemiGlobal, SubLabelPartIsTheVertexOfTwoLines) {
     for (const int quarter : {-2, -1, 0, 1, 2}) {
         Problem p = randomProblem({1, 1}, 1, 0, 3);
@@ -205,14 +201,13 @@ TEST(SemiGlobal, SubLabelPartIsTheVertexOfTwoLines) {
     }
 }
 
-TEST(SemiGlobal, IsTheSameWithAnyNumberOfThreads) {
+TEST(SemiGlobal, TheResultDoesNotDependOnTheNumberOfThreads) {
     const Problem p = randomProblem({150, 70}, 2, 20, 77);
     const auto one = solve(p, 1);
     for (int threads = 2; threads <= 4; ++threads)
         EXPECT_EQ(solve(p, threads), one);
 }
 
-// Scratch memory must not keep values of the larger problem.
 TEST(SemiGlobal, CanBeReusedForSmallerProblems) {
     Workers workers(2);
     SemiGlobal matcher(40UL * 30 * 3);

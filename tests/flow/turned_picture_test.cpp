@@ -11,8 +11,6 @@ namespace {
 
 constexpr double kBeyond = 0.8;
 
-// The lens model folds back shortly beyond its corners: rays 61 degrees off the axis are projected
-// to the centre again.
 CameraModel folding() {
     return {{161, 119}, 150, 150, 80, 59, {-0.3, 0, 0, 0, 0}};
 }
@@ -21,7 +19,6 @@ Eigen::Matrix3d turn(double x, double y, double z) {
     return test::motion({x, y, z}, {0, 0, 0}).rotation.toRotationMatrix();
 }
 
-/// A smooth function, so that values between pixels are known.
 double grey(double x, double y) {
     return 128 + 50 * std::sin(0.11 * x) + 50 * std::cos(0.13 * y + 0.02 * x);
 }
@@ -49,8 +46,8 @@ Canvas turned(const CameraModel& camera, const Eigen::Matrix3d& rotation) {
     return out;
 }
 
-/// The position in the picture that shows a pixel of the rotated camera; far outside if that point
-/// is not visible.
+/// The position in the picture that shows a pixel of the rotated camera; far outside if the picture
+/// does not show it.
 Eigen::Vector2d source(const CameraModel& camera, const Eigen::Matrix3d& rotation,
                        const Eigen::Vector2d& pixel) {
     constexpr double kNowhere = -1e6;
@@ -59,7 +56,7 @@ Eigen::Vector2d source(const CameraModel& camera, const Eigen::Matrix3d& rotatio
     const Eigen::Vector3d p = rotation * ray.homogeneous();
     if (!(p.z() > 0)) return {kNowhere, kNowhere};
     const Eigen::Vector2d at = camera.project(p.hnormalized());
-    // The lens model also projects rays from far outside back into the picture; those do not count.
+    // The lens model also projects rays from far outside back into the picture. These are excluded.
     const bool real = (camera.unproject(at) - p.hnormalized()).norm() < 1e-3;
     return real ? at : Eigen::Vector2d(kNowhere, kNowhere);
 }
@@ -73,7 +70,7 @@ struct Agreement {
     double worst = 0;  // largest difference [grey levels]
 };
 
-// Within two pixels of the picture's border, a pixel may count as seen or as unseen.
+// Pixels within two pixels of the picture's border may count as seen or as unseen.
 Agreement compare(const CameraModel& camera, const Eigen::Matrix3d& rotation,
                   const Canvas& canvas) {
     Agreement out;
@@ -95,8 +92,8 @@ Agreement compare(const CameraModel& camera, const Eigen::Matrix3d& rotation,
     return out;
 }
 
-/// Number of pixels in the camera's own frame, and up to `beyond` around it, that show the picture
-/// but lie outside the canvas.
+/// Number of pixels outside the canvas that show the picture. Counts pixels in the camera's own
+/// frame and up to `beyond` around it.
 int leftOff(const CameraModel& camera, const Eigen::Matrix3d& rotation, const Canvas& canvas) {
     const int reach = static_cast<int>(kBeyond * camera.size.width) - 1;
     const auto [ox, oy] = canvas.placed.origin();
@@ -127,7 +124,7 @@ TEST(TurnedPicture, WithoutRotationThePictureIsUnchanged) {
     }
 }
 
-TEST(TurnedPicture, MatchesDirectProjection) {
+TEST(TurnedPicture, TheRotatedPictureMatchesDirectProjection) {
     for (const CameraModel& camera : {test::oddPlain(), test::oddBarrel(), folding()}) {
         for (const Eigen::Matrix3d& rotation :
              {turn(0, 0, 0), turn(3, -4, 2), turn(-12, 8, 20), turn(0, 0, 90), turn(0, 0, 180),
@@ -136,8 +133,6 @@ TEST(TurnedPicture, MatchesDirectProjection) {
             ASSERT_GT(canvas.placed.size().width, 0);
             const Agreement found = compare(camera, rotation, canvas);
             EXPECT_GT(found.shown, 500);
-            // Near a fold, interpolation between two points of the grid is not linear, and cells
-            // across the fold show nothing.
             const bool folds = camera.distortion[1] == 0 && camera.distortion[0] < 0;
             EXPECT_LT(found.worst, folds ? 15 : 3) << rotation;
             EXPECT_LE(found.missing, folds ? found.shown / 12 : 0) << rotation;
@@ -147,10 +142,8 @@ TEST(TurnedPicture, MatchesDirectProjection) {
     }
 }
 
-TEST(TurnedPicture, CanvasLiesWhereTheCameraTurnedTo) {
+TEST(TurnedPicture, TheCanvasIsOnTheSideToWhichTheCameraRotated) {
     const CameraModel camera = test::oddPlain();
-    // In the new orientation the rays come from the right of the picture; so the picture is on the
-    // left.
     const Canvas left = turned(camera, turn(0, 38, 0));
     EXPECT_LT(left.placed.origin().x, -camera.size.width / 4);
     EXPECT_LT(left.placed.origin().x + left.placed.size().width, camera.size.width);

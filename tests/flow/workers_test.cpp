@@ -53,7 +53,6 @@ TEST(Workers, PartsAreConsecutiveAndNoShorterThanTheGrain) {
                 for (const auto& [first, last] : parts) {
                     ASSERT_EQ(first, next);
                     ASSERT_GT(last, first);
-                    // The last part may be smaller.
                     ASSERT_TRUE(last == end || last - first >= grain);
                     next = last;
                 }
@@ -70,9 +69,9 @@ TEST(Workers, AnEmptyLoopCallsNothing) {
     EXPECT_EQ(partsOf(workers, 1, 1).size(), 1U);
 }
 
-// If a part of an earlier loop were left over or run twice, the sum of the next loop would be
-// wrong.
-TEST(Workers, ConsecutiveLoopsDoNotMix) {
+// A part that is left over from an earlier loop, or run twice, would change the sum of the next
+// loop.
+TEST(Workers, ConsecutiveLoopsDoNotAffectEachOther) {
     for (int threads = 1; threads <= 4; ++threads) {
         Workers workers(threads);
         for (int loop = 1; loop <= 3000; ++loop) {
@@ -87,7 +86,7 @@ TEST(Workers, ConsecutiveLoopsDoNotMix) {
     }
 }
 
-// Without a lock, the caller must see what the body of the loop wrote. ThreadSanitizer checks this.
+// The caller must see what the loop's body wrote, without a lock. ThreadSanitizer checks this.
 TEST(Workers, ResultsAreVisibleToTheCaller) {
     Workers workers(4);
     std::vector<int> values(500);
@@ -105,7 +104,6 @@ TEST(Workers, OtherThreadsShareTheWork) {
     std::mutex mutex;
     std::set<std::thread::id> seen;
     std::atomic<bool> both = false;
-    // The part of the first thread ends only after the second thread has begun one.
     workers.forRange(2, 1, [&](int, int) {
         {
             const std::scoped_lock lock(mutex);

@@ -1,4 +1,4 @@
-// Fuzzes calibrations in all formats: a folder, each file on its own, and two files together.
+// Fuzzes calibrations in all formats: as a folder, as single files, and as pairs of files.
 #include "base/calibration/camera_info.h"
 #include "base/calibration/rig_files.h"
 #include "tests/fuzz/file_bundle.h"
@@ -10,7 +10,6 @@ namespace {
 
 using namespace mfar;
 
-/// Every accepted calibration must have these properties.
 void requireSound(const CameraModel& camera) {
     test::requireThat(camera.size.width > 0 && camera.size.height > 0,
                       "an accepted camera has no picture size");

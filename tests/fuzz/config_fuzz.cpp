@@ -1,4 +1,3 @@
-// Fuzzes the configuration. Files that it refers to do not exist.
 #include "daemon/config.h"
 #include "tests/fuzz/target.h"
 

@@ -1,4 +1,3 @@
-// Fuzzes requests to the control socket.
 #include "daemon/control.h"
 #include "tests/fuzz/target.h"
 

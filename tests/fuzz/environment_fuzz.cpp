@@ -1,4 +1,3 @@
-// Fuzzes environment pictures: Radiance, PNG and JPEG.
 #include "pipeline/models/environment_map.h"
 #include "pipeline/models/gltf_model.h"
 #include "tests/fuzz/target.h"

@@ -23,7 +23,6 @@ fs::path newFolder() {
     return name;
 }
 
-/// Position of the mark that begins the next file.
 std::size_t nextMark(std::string_view text, std::size_t from) {
     for (std::size_t at = text.find(kMark, from); at != text.npos; at = text.find(kMark, at + 1))
         if (at == 0 || text[at - 1] == '\n') return at;

@@ -9,9 +9,9 @@
 namespace mfar::test {
 
 /// A folder of files, made from one input. A file begins with a line "#@ NAME", followed by its
-/// bytes. The file ends before the newline that precedes the next such line, or at the end of the
-/// input. Only files whose names are in `known` are written. The folder is in memory if the machine
-/// has a file system for that. The destructor removes the folder.
+/// bytes. It ends before the newline that precedes the next such line, or at the end of the input.
+/// Only files with names in `known` are written. The folder is in memory if possible. The
+/// destructor removes it.
 class FileBundle {
 public:
     FileBundle(const std::uint8_t* data, std::size_t size, const std::vector<std::string>& known);
@@ -20,7 +20,6 @@ public:
     ~FileBundle();
 
     [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
-    /// The files in the order of the input.
     [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
 
 private:

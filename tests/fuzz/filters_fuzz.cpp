@@ -1,7 +1,6 @@
-// Fuzzes the state of the learned filters. An input edits a valid file: two bytes select a place
-// (in 64ths of the file, plus an offset); the third is the number of bytes that follow and replace
-// bytes of the file. Then the checksum is corrected, because otherwise no input would get past its
-// check.
+// Fuzzes the state of the learned filters. An input edits a valid file. Two bytes select a position
+// (in 64ths of the file, plus an offset). The third byte is the number of new bytes that follow.
+// Then the checksum is corrected, because otherwise every input would be refused.
 #include "pipeline/enlarge/enlarger_learner.h"
 #include "pipeline/enlarge/filter_bank.h"
 #include "pipeline/enlarge/stored_numbers.h"

@@ -1,4 +1,4 @@
-# Part of `./run`, whose functions it needs: fuzz().
+# Part of `./run`, which provides the functions that this script uses.
 
 fuzzPackages() {
     cat <<'EOF'
@@ -16,7 +16,7 @@ EOF
 
 fuzzTargets() { sed -n 's/^ *mfar_fuzz_target(\([a-z0-9]*\).*/\1/p' tests/fuzz/CMakeLists.txt | sort -u; }
 
-# fuzzRoom TARGET: prints a regular expression for the source files whose coverage counts.
+# fuzzRoom TARGET: prints a regular expression for the source files whose coverage is measured.
 fuzzRoom() {
     case $1 in
     calibration) echo 'base/calibration/' ;;
@@ -36,7 +36,6 @@ fuzzRoom() {
     esac
 }
 
-# Prints the folder of a target's inputs that earlier runs found, in the cache of slow results.
 fuzzFolder() {
     local folder
     folder=$(cacheFolder)/fuzz/$1
@@ -44,7 +43,7 @@ fuzzFolder() {
     echo "$folder"
 }
 
-# fuzzOne PRESET TARGET SECONDS: runs a target. Keeps an input that fails and prints its path.
+# fuzzOne PRESET TARGET SECONDS: runs a target. Keeps a failing input and prints its path.
 fuzzOne() {
     local build=.build/$1 target=$2 seconds=$3 seeds=tests/fuzz/corpus/$2 found
     local dictionary=tests/fuzz/$2.dict
@@ -70,7 +69,6 @@ fuzzOne() {
     ' "$build/$target.log"
 }
 
-# Prints the share of lines of its sources that the inputs of a target reach.
 fuzzCoverage() {
     local target=$1 program=.build/fuzz-coverage/tests/fuzz/mfar-fuzz-$1 data=.build/fuzz-coverage/$1
     LLVM_PROFILE_FILE=$data.profraw "$program" "tests/fuzz/corpus/$target" "$(fuzzFolder "$target")" >/dev/null
@@ -83,8 +81,8 @@ fuzzCoverage() {
         awk '/^TOTAL/ { print $10 " of " $8 " lines, " $7 " of " $5 " functions" }'
 }
 
-# Builds the libraries that decode pictures and read YAML, with coverage and sanitizers, and creates
-# the link by which the preset finds them. CMake remembers where the link pointed.
+# Builds the libraries that decode pictures and read YAML, with coverage and sanitizers. Creates the
+# link by which the preset finds them. CMake remembers where the link pointed.
 instrumentLibraries() {
     local made link=.build/instrumented
     ensurePackages fuzzLibraryPackages
@@ -95,8 +93,8 @@ instrumentLibraries() {
     ln -sfn "$made" "$link"
 }
 
-# fuzz [TARGET...] [--minutes N] [--coverage] [--instrument-libraries]: runs all targets if none is
-# given; N is 1 by default.
+# fuzz [TARGET...] [--minutes N] [--coverage] [--instrument-libraries]: runs the given targets, by
+# default all, for N minutes, by default 1.
 fuzz() {
     local preset=fuzz seconds=60 coverage='' targets=() running=0 status=0 target ticker rounds
     while [[ $# -gt 0 ]]; do

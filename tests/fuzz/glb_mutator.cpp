@@ -1,5 +1,3 @@
-// Mutates models. Afterwards it usually corrects the lengths in the header of a .glb, so that the
-// mutation reaches the code behind the header's checks.
 #include "tests/fuzz/mutator.h"
 
 #include <algorithm>
@@ -8,8 +6,8 @@
 
 namespace {
 
-/// Writes the correct lengths of a .glb, of its JSON chunk (which ends at the BIN chunk) and of its
-/// BIN chunk.
+/// Corrects the lengths of a .glb, of its JSON chunk (which ends at the BIN chunk) and of its BIN
+/// chunk.
 void mendHeader(std::vector<std::uint8_t>& file) {
     constexpr std::size_t kJson = 20;
     if (file.size() < kJson + 8 || std::memcmp(file.data(), "glTF", 4) != 0) return;
@@ -20,7 +18,7 @@ void mendHeader(std::vector<std::uint8_t>& file) {
     constexpr std::string_view kBin("BIN\0", 4);
     const auto bin = std::search(file.begin() + kJson, file.end(), kBin.begin(), kBin.end());
     if (bin == file.end()) return;
-    // Spaces at the end of the JSON text align the chunks.
+    // Spaces at the end of the JSON text align the next chunk.
     auto chunk = static_cast<std::size_t>(bin - file.begin()) - 4;
     file.insert(file.begin() + static_cast<std::ptrdiff_t>(chunk), (4 - chunk % 4) % 4, ' ');
     chunk = (chunk + 3) / 4 * 4;

@@ -1,11 +1,10 @@
-// Fuzzes models in one file. Every accepted model must satisfy scene.h.
 #include "pipeline/models/gltf_model.h"
 #include "tests/fuzz/sound_model.h"
 #include "tests/fuzz/target.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace mfar;
-    ModelLimits limits;  // small, so that a huge count is refused at once
+    ModelLimits limits;  // small, so that a huge count is refused early
     limits.bytes = 1U << 20U;
     limits.vertices = limits.triangles = 10'000;
     limits.elements = 1'000;

@@ -1,4 +1,3 @@
-// Fuzzes PNG and JPEG in memory, as in recordings, textures and environments.
 #include "hal/image_codec.h"
 #include "tests/fuzz/target.h"
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Builds the libraries that decode pictures and read YAML for fuzzing, in Debian's versions, with
-# coverage and both sanitizers. Prints the folder in which they are installed. Results are kept;
-# building takes about three minutes. Usage: libraries.sh CACHE
+# Builds the libraries that decode pictures and read YAML, in Debian's versions, with coverage and
+# sanitizers. Prints the folder in which they are installed. Keeps the results, because building
+# takes about three minutes. Usage: libraries.sh CACHE
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 # shellcheck source=toolchains/debian.sh
@@ -16,12 +16,12 @@ sources=(zlib libpng1.6 libjpeg-turbo yaml-cpp)
 # shellcheck disable=SC2016 # dpkg-query expands
 versions=$(dpkg-query -W -f '${Version} ' zlib1g-dev libpng-dev libturbojpeg0-dev libyaml-cpp-dev)
 
-# The same options as in the preset "fuzz", but without -fsanitize=function: C libraries call
-# functions through pointers of other types.
+# The options of the preset "fuzz" without -fsanitize=function, because C libraries call functions
+# through pointers of other types.
 sanitizers=-fsanitize=fuzzer-no-link,address,undefined
 flags="-O1 -g1 -fno-omit-frame-pointer -fno-sanitize-recover=all $sanitizers -fno-sanitize=function"
 
-# tryFetching FOLDER FILE...: unpacks package sources, with Debian's patches, in a new folder.
+# tryFetching FOLDER FILE...: unpacks package sources with Debian's patches into a new folder.
 tryFetching() {
     local folder=$1 file options
     shift
@@ -35,8 +35,8 @@ tryFetching() {
         (cd "$folder" && apt-get -qq "${options[@]}" source "${sources[@]}")
 }
 
-# fetch FOLDER: downloads the sources into a new folder; without those of security updates if the
-# mirror lacks them.
+# fetch FOLDER: downloads the sources into a new folder. Omits security updates if the mirror lacks
+# their sources.
 fetch() {
     local folder=$1 files
     mapfile -t files < <(debianSources)
@@ -49,7 +49,6 @@ fetch() {
     fi
 }
 
-# buildOne SOURCE PREFIX OPTION...: builds with CMake and installs in PREFIX.
 buildOne() {
     local source=$1 prefix=$2
     shift 2
@@ -65,11 +64,11 @@ buildOne() {
 buildAll() {
     local folder=$1 prefix=$2
     fetch "$folder"
-    # Debian's package lacks files that zlib's CMake project needs.
+    # Uses configure, because Debian's package lacks files that zlib's CMake project needs.
     (cd "$folder"/zlib-*/ && CC=clang-19 CFLAGS=$flags ./configure --static --prefix="$prefix" &&
         make install)
     buildOne "$folder"/libpng1.6-*/ "$prefix" -DPNG_SHARED=OFF -DPNG_TESTS=OFF -DPNG_EXECUTABLES=OFF
-    # libjpeg-turbo is built without its SIMD code, which is assembly that no sanitizer can check.
+    # Builds libjpeg-turbo without its SIMD code, which is assembly that sanitizers cannot check.
     buildOne "$folder"/libjpeg-turbo-*/ "$prefix" -DENABLE_SHARED=OFF -DWITH_SIMD=OFF
     buildOne "$folder"/yaml-cpp-*/ "$prefix" -DYAML_CPP_BUILD_TESTS=OFF -DYAML_CPP_BUILD_TOOLS=OFF
 }
@@ -85,13 +84,12 @@ if [[ ! -d $built ]]; then
         tail -n 20 "$built.log" >&2
         die "the libraries cannot be built, see $built.log"
     }
-    # Files of pkg-config and CMake contain the folder's path.
+    # Files of pkg-config and CMake contain the path of the folder, which changes now.
     grep -rlIZ "$built.part/prefix" "$built.part/prefix/lib" | xargs -0 sed -i "s|$built.part/prefix|$built|g"
     rm -rf "$built.part/source" "$built.log"
     mv "$built.part/prefix" "$built"
     rmdir "$built.part"
 fi
 touch "$built"
-# Removes the results of earlier versions.
 find "$cache" -maxdepth 1 -name 'instrumented-*' ! -name "${built##*/}" -mtime +14 -exec rm -rf {} +
 echo "$built"

@@ -1,4 +1,3 @@
-// Fuzzes the note about the trigger line, see taken_line.h.
 #include "daemon/exit_code.h"
 #include "daemon/taken_line.h"
 #include "tests/fuzz/file_bundle.h"

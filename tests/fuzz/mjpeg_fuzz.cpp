@@ -1,4 +1,3 @@
-// Fuzzes pictures of a camera that delivers JPEG.
 #include "base/image_layout.h"
 #include "hal/device/jpeg_decoder.h"
 #include "tests/fuzz/target.h"

@@ -10,9 +10,9 @@ extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, st
 
 namespace mfar::test {
 
-/// Implements LLVMFuzzerCustomMutator(). Runs libFuzzer's own mutation. Then `mend` corrects a
-/// length or a checksum whose check would refuse the input early; one time in ten, `mend` is
-/// skipped.
+/// Implements LLVMFuzzerCustomMutator(): runs libFuzzer's own mutation and then `mend`. `mend`
+/// corrects a length or a checksum whose check would refuse the input early. One time in ten,
+/// `mend` is skipped.
 template <class Mend>
 std::size_t mutated(std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed,
                     const Mend& mend) {

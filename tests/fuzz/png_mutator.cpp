@@ -1,4 +1,3 @@
-// Mutates pictures. Corrects the checksums of a PNG's chunks.
 #include "tests/fuzz/mutator.h"
 
 #include <zlib.h>
@@ -12,7 +11,7 @@ std::uint32_t bigEndian(const std::uint8_t* p) {
 
 void mendChecksums(std::vector<std::uint8_t>& file) {
     constexpr std::size_t kSignature = 8,
-                          kAround = 12;  // kAround: bytes of a chunk except its data
+                          kAround = 12;  // kAround: bytes of a chunk without its data
     if (file.size() < kSignature || file[1] != 'P' || file[2] != 'N' || file[3] != 'G') return;
     for (std::size_t at = kSignature; at + kAround <= file.size();) {
         const std::size_t length = bigEndian(&file[at]);

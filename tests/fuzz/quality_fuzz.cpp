@@ -1,4 +1,3 @@
-// Fuzzes tables of quality levels, as mfar-bench writes them.
 #include "daemon/config.h"
 #include "daemon/quality_table.h"
 #include "tests/fuzz/target.h"

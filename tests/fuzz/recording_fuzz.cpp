@@ -1,4 +1,3 @@
-// Fuzzes recordings: lists, calibrations, poses, and the first pictures and ground truths.
 #include "hal/virtual/image_files.h"
 #include "hal/virtual/recording.h"
 #include "tests/fuzz/file_bundle.h"

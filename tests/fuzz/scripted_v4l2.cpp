@@ -45,7 +45,7 @@ int soundControl(v4l2_query_ext_ctrl& control) {
 }  // namespace
 
 int ScriptedV4l2::open(const char* /*path*/) {
-    return eventfd(1, EFD_CLOEXEC | EFD_NONBLOCK);  // always readable: a picture has arrived
+    return eventfd(1, EFD_CLOEXEC | EFD_NONBLOCK);  // always readable, as if a picture has arrived
 }
 
 std::uint8_t ScriptedV4l2::next() {

@@ -9,10 +9,10 @@
 
 namespace mfar::test {
 
-/// A driver whose answers are bytes of a script, within the kernel's limits for drivers. It returns
-/// an error or fills the structure of a call. It neither changes the caller's pointers nor returns
-/// descriptors that are not new. The first byte of each call selects the answer: 0 to 7 are errors;
-/// 8 to 127 are the answer of a correct camera; for larger values the script fills the structure.
+/// A driver whose answers are bytes of a script, within the kernel's rules for drivers. It returns
+/// an error or fills the structure of a call. It does not change the caller's pointers, and it
+/// returns only new descriptors. The first byte of each call selects the answer: 0 to 7 are errors;
+/// 8 to 127 are answers of a correct camera; for larger values the script fills the structure.
 /// After the end of the script all answers are correct.
 class ScriptedV4l2 final : public V4l2Api {
 public:

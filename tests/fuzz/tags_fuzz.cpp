@@ -1,4 +1,3 @@
-// Fuzzes tag maps in both formats.
 #include "pipeline/track/tag_map.h"
 #include "tests/fuzz/target.h"
 

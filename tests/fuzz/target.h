@@ -17,7 +17,6 @@ namespace mfar::test {
     return {reinterpret_cast<const char*>(data), size};
 }
 
-/// Checks a property of a result.
 inline void requireThat(bool holds, const char* what) {
     if (!holds) throw std::logic_error(what);
 }

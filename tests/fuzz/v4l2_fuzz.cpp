@@ -1,4 +1,4 @@
-// Fuzzes a driver with arbitrary answers. The input is the script of its answers.
+// Fuzzes a driver with arbitrary answers. The input is the script of the answers.
 #include "base/image_layout.h"
 #include "hal/device/camera_v4l2.h"
 #include "tests/fuzz/scripted_v4l2.h"
@@ -22,7 +22,6 @@ void run(test::ScriptedV4l2& driver) {
         if (auto frame = camera.next(std::chrono::milliseconds(0))) {
             requireSound(frame->view(), "a camera's picture");
             const ImageView view = frame->view();
-            // Every byte of the picture must be readable.
             const std::uint8_t last = view.data[view.stride * (view.size.height - 1U)];
             static_cast<void>(last);
             held.push_back(std::move(*frame));

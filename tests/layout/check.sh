@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Checks the direction of includes, the places of third-party headers, the length of files and the
-# names at the top level. Usage: check.sh [ROOT]. Prints one line per fault. Exit status 1: there
-# are faults.
+# Checks the direction of includes, where third-party headers are included, the length of files and
+# the names at the top level. Usage: check.sh [ROOT]. Prints one line per fault. Exit status 1:
+# there are faults.
 set -euo pipefail
 cd "${1:-$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../..}"
 
@@ -9,8 +9,7 @@ rooms=(base daemon hal pipeline gles_shaders tests systemd toolchains)
 topLevel=' CMakeLists.txt CMakePresets.json README.md LICENSE CHANGELOG.md CONTRIBUTING.md CITATION.cff
   run .clang-format .clang-tidy .ci .gitignore base daemon hal pipeline gles_shaders tests systemd
   toolchains docs '
-# Top-level names that are not part of the tree: version control, build and output folders,
-# recordings.
+# Top-level names outside version control: its own folder, build and output folders, recordings.
 ignored=' .git .build out shared '
 maxLines=400
 
@@ -42,8 +41,8 @@ allowedFrom() {
     esac
 }
 
-# `home`: regular expression for the only places that may include a third-party header; empty: any
-# place.
+# `home`: regular expression for the only folders that may include a third-party header. Empty: any
+# folder.
 homeOf() {
     home=''
     case $1 in

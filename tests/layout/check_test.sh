@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# check.sh must accept a valid tree and report each fault that is planted into it.
+# check.sh must accept a valid tree and report each fault that this test adds to it.
 set -euo pipefail
 check=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/check.sh
 work=$(mktemp -d)
@@ -33,8 +33,7 @@ soundTree() {
     put tests/all.cpp '#include "daemon/app.h"' '#include "hal/virtual/player.h"'
 }
 
-# expectFault MESSAGE FILE LINE...: plants the file into a valid tree and expects a report with
-# MESSAGE.
+# expectFault MESSAGE FILE LINE...: adds the file to a valid tree. check.sh must report MESSAGE.
 expectFault() {
     local message=$1 said
     soundTree

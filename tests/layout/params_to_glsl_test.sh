@@ -1,5 +1,4 @@
 #!/usr/bin/env bash
-# Checks how gles_shaders/params_to_glsl.cmake converts headers, and which headers it refuses.
 set -euo pipefail
 top=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../..
 work=$(mktemp -d)
@@ -68,8 +67,8 @@ END
 translate || fail "a valid header is refused"
 diff wanted.glsl out.glsl || fail "the translation differs from wanted.glsl"
 
-# refused LINE REASON TEXT: a header with the text, which starts at line 3, must be refused at LINE
-# for the reason.
+# refused LINE REASON TEXT: a header with TEXT, which starts at line 3, must be refused with REASON
+# at LINE.
 refused() {
     printf '#pragma once\n#include "shared.h"\n%s\n' "$3" >case.h
     if translate; then fail "the invalid header is accepted: $3"; fi

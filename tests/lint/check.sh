@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# clang-tidy with the plugin must find what is planted in planted.h and planted.cpp, and nothing
-# else in them. Usage: check.sh PLUGIN. Prints the difference. Exit status 1: there is one.
+# clang-tidy with the plugin must find exactly the faults in planted.h and planted.cpp. Usage:
+# check.sh PLUGIN. Prints the difference. Exit status 1: there is a difference.
 set -euo pipefail
 plugin=$(readlink -f "$1")
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.."
 
-# Prints each fault as FILE:LINE CHECK. The name of the check stands at the end of the line.
+# Prints each fault as FILE:LINE CHECK. The check's name is at the end of the line.
 planted() {
     sed -nE 's|^(.*):([0-9]+):.*// ([a-z]+-[a-z-]+)$|\1:\2 \3|p' < <(grep -n '' tests/lint/planted.*)
 }

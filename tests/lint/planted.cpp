@@ -19,7 +19,7 @@ int firstPositive(const std::vector<std::string>& texts, int number) {
 
 }  // namespace
 
-// The fault is in a lambda that only the standard library calls.
+// The standard library calls this lambda, which contains the fault.
 double sumOfHalves(const std::vector<int>& values) {
     double sum = 0;
     std::for_each(values.begin(), values.end(), [&sum](int value) {

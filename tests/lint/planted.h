@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-// Faults that clang-tidy must find. Behind each stands the name of the check that finds it.
+// Faults that clang-tidy must find. The comment behind each fault names the check that finds it.
 namespace mfar::planted {
 
 #define MFAR_TWICE(x) (x * 2)  // bugprone-macro-parentheses

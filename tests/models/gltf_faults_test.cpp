@@ -34,7 +34,6 @@ std::string faultOf(const GltfMaker& maker, const ModelLimits& limits = {}) {
     return faultOf([&] { (void)parseGltf(maker.glb(), "test.glb", {}, limits); });
 }
 
-/// The error message after one change to a valid model.
 std::string faultAfter(const std::function<void(json&)>& change) {
     GltfMaker maker = richModel();
     change(maker.root);
@@ -61,7 +60,6 @@ TEST(GltfFaults, BytesThatAreNotAModelAreRefused) {
     std::vector<std::uint8_t> glb = oneTriangle().glb();
     glb[4] = 1;
     EXPECT_THAT(faultOfBytes(glb), HasSubstr("version 1"));
-    // A file that is cut off at any byte must give one clear error.
     glb = richModel().glb();
     for (std::size_t size = 0; size < glb.size(); size += 7)
         EXPECT_THAT(faultOfBytes({glb.begin(), glb.begin() + static_cast<std::ptrdiff_t>(size)}),
@@ -185,7 +183,7 @@ TEST(GltfFaults, InvalidNodesAreRefused) {
     EXPECT_THAT(faultOf(maker), HasSubstr("nested more than 64 levels deep"));
 }
 
-// Each level of the tree contains the next level twice; so there are 2^40 instances.
+// Each level of the tree contains the next level twice. So there are 2^40 instances.
 TEST(GltfFaults, EveryInstanceOfANodeIsCounted) {
     GltfMaker maker = oneTriangle();
     for (int i = 0; i < 40; ++i)
@@ -244,7 +242,6 @@ TEST(GltfFaults, ModelsBeyondTheLimitsAreRefused) {
     limits = {};
     limits.elements = 3;
     EXPECT_THAT(faultOf(richModel(), limits), saysAt("accessors", "4 entries; at most 3"));
-    // Two instances of a triangle.
     GltfMaker maker = oneTriangle();
     maker.root["scenes"][0]["nodes"] = {0, 0};
     limits = {};

@@ -11,23 +11,22 @@
 
 namespace mfar::test {
 
-/// Builds a glTF document. It is valid unless `root` is changed by hand.
+/// Builds a glTF document. It is valid unless the caller changes `root`.
 class GltfMaker {
 public:
     GltfMaker();
 
-    /// These functions add an accessor with its own bufferView and return its number.
+    /// Functions that add an accessor with its own bufferView and return the accessor's index.
     int floats(const std::vector<float>& values, int components);
     int shorts(const std::vector<std::uint16_t>& values);
-    /// Adds an image in a bufferView and a texture of it. Returns the number of the texture.
+    /// Adds an image in a bufferView and a texture of this image. Returns the texture's index.
     int texture(const std::vector<std::uint8_t>& file, const std::string& mime);
-    /// Adds a mesh of one primitive in a node of the scene. Returns the primitive.
+    /// Adds a mesh of one primitive, and a node of the scene with this mesh. Returns the primitive.
     nlohmann::json& mesh(int positions, int indices = -1);
     int view(const void* bytes, std::size_t count);
 
-    /// The document as one .glb file.
     [[nodiscard]] std::vector<std::uint8_t> glb() const;
-    /// The JSON text alone. Its buffer is the file "data.bin", which has these bytes.
+    /// The JSON text alone. Its buffer is the file "data.bin" with the bytes bin().
     [[nodiscard]] std::string gltf() const;
     [[nodiscard]] const std::vector<std::uint8_t>& bin() const { return bin_; }
 
@@ -37,12 +36,10 @@ private:
     std::vector<std::uint8_t> bin_;
 };
 
-/// One triangle (0,0,0), (1,0,0), (0,1,0).
 [[nodiscard]] GltfMaker oneTriangle();
 /// A textured quad with normals and all material fields, in a small hierarchy.
 [[nodiscard]] GltfMaker richModel();
 
-/// A PNG of RGBA texels.
 [[nodiscard]] std::vector<std::uint8_t>
 rgbaPng(Size size, const std::vector<std::array<std::uint8_t, 4>>& texels);
 

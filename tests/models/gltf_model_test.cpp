@@ -44,7 +44,7 @@ TEST(GltfModel, MaterialIsRead) {
     EXPECT_EQ(m.normalScale, 0.5F);
     EXPECT_EQ(m.alphaCutoff, 0.25F);
     EXPECT_TRUE(m.doubleSided);
-    // One image is used as colour and as data; so it gives two textures.
+    // The same image is used as colour and as data. So it gives two textures.
     ASSERT_EQ(model.textures.size(), 2U);
     EXPECT_EQ(m.baseColourTexture, m.emissionTexture);
     EXPECT_EQ(m.normalTexture, m.metallicRoughnessTexture);
@@ -89,7 +89,7 @@ TEST(GltfModel, MirroredNodesKeepTheirFrontFaces) {
     expectNear(mesh.normals[a].cross(t) * mesh.tangents[a].w(), {0, 0, 1});
 }
 
-TEST(GltfModel, NormalsFollowUnequalScales) {
+TEST(GltfModel, NormalsAreCorrectAfterUnequalScaling) {
     GltfMaker maker = richModel();
     maker.root["nodes"][1].erase("scale");
     // The columns of a matrix with shear: x stays, y leans towards z, z is stretched.
@@ -105,7 +105,7 @@ TEST(GltfModel, NormalsFollowUnequalScales) {
 TEST(GltfModel, RotationsTurnInTheRightDirection) {
     GltfMaker maker = oneTriangle();
     const double half = std::sqrt(0.5);
-    maker.root["nodes"][0]["rotation"] = {0, 0, half, half};  // 90 degrees about glTF's z
+    maker.root["nodes"][0]["rotation"] = {0, 0, half, half};
     const Mesh mesh = modelOf(maker).meshes.at(0);
     expectNear(mesh.positions[1], {0, 0, 1});
     expectNear(mesh.positions[2], {-1, 0, 0});
@@ -143,7 +143,7 @@ TEST(GltfModel, SparseElementsAreReplaced) {
 
 TEST(GltfModel, InterleavedAndNormalizedElementsAreRead) {
     GltfMaker maker = richModel();
-    // Four elements of two shorts. Four unrelated bytes follow each element.
+    // Four elements of two shorts, with four unrelated bytes after each element.
     const std::array<std::uint16_t, 16> uvs = {0,     65535, 9, 9, 65535, 65535, 9, 9,
                                                65535, 0,     9, 9, 0,     0,     9, 9};
     const int view = maker.view(uvs.data(), sizeof uvs - 4);
@@ -160,7 +160,7 @@ TEST(GltfModel, InterleavedAndNormalizedElementsAreRead) {
     EXPECT_EQ(mesh.uvs[3], Eigen::Vector2f(0, 0));
 }
 
-// Example of the specification: the lower left quarter of the picture, rotated.
+// Example from the specification: the lower left quarter of the picture, rotated.
 TEST(GltfModel, TextureTransformIsApplied) {
     GltfMaker maker = richModel();
     nlohmann::json& m = maker.root["materials"][0];
@@ -193,7 +193,7 @@ TEST(GltfModel, AlphaBlendingBecomesAMask) {
     EXPECT_EQ(modelOf(maker).materials.at(0).alphaCutoff, 0);
 }
 
-TEST(GltfModel, AMeshCanBeInstancedTwice) {
+TEST(GltfModel, TwoNodesMayUseTheSameMesh) {
     GltfMaker maker = oneTriangle();
     maker.root["nodes"].push_back({{"mesh", 0}, {"translation", {5, 0, 0}}});
     maker.root["scenes"][0]["nodes"].push_back(1);

@@ -22,7 +22,6 @@ std::uint8_t encoded(float linear) {
     return static_cast<std::uint8_t>(std::lround(255 * s));
 }
 
-/// The picture that a camera at this pose takes of `light`, which comes from all directions.
 std::vector<std::uint8_t> seenFrom(const RigidTransform& T_world_camera, const Radiance& light) {
     std::vector<std::uint8_t> out;
     for (int y = 0; y < kSmall.height; ++y) {
@@ -38,7 +37,6 @@ std::vector<std::uint8_t> seenFrom(const RigidTransform& T_world_camera, const R
     return out;
 }
 
-/// Gives an estimator frames that are 33 ms apart.
 class Watcher {
 public:
     explicit Watcher(const LightEstimatorOptions& options = {}) : estimator(options) {}
@@ -65,7 +63,6 @@ RigidTransform lookingDown() {
     return lookingAlong({0.2, 0.5, -1});
 }
 
-/// Directions in all of space, evenly spaced.
 std::vector<RigidTransform> allAround() {
     std::vector<RigidTransform> out;
     constexpr int kViews = 80;
@@ -113,7 +110,7 @@ TEST(LightEstimate, LightIsFoundOnceAllDirectionsWereSeen) {
         const Eigen::Vector3f truth = smoothLight(d);
         EXPECT_LT((radianceOf(estimate.radiance, d) - truth).norm(), 0.1F * 0.35F * 1.73F);
     }
-    // Light from a single direction would have a directionality of 1; this light has 0.8 / 3.
+    // Light from a single direction has a directionality of 1; this light has 0.8 / 3.
     EXPECT_NEAR(estimate.directionality, 0.8 / 3, 0.03);
 }
 
@@ -233,9 +230,8 @@ TEST(LightEstimate, EveryFormatGivesTheSameLight) {
     EXPECT_LT((estimateOfFrame(view) - wanted).norm(), 1e-5F);
 }
 
-TEST(Lighting, EnvironmentIsNeverNegativeAndSunHasTheLightOfASingleLamp) {
+TEST(Lighting, TheEnvironmentIsNeverNegativeAndASingleLampBecomesTheSun) {
     LightEstimate estimate;
-    // A single lamp straight above.
     estimate.radiance = harmonicsAt({0, 0, 1}) * Eigen::RowVector3f(3, 3, 3);
     estimate.mainDirection = {0, 0, 1};
     estimate.directionality = 1;

@@ -12,7 +12,6 @@ using namespace std::chrono_literals;
 
 const CameraModel kWideLens{{64, 48}, 56, 56, 31.5, 23.5, {}};
 
-/// Gives the follower a frame of one grey level.
 std::optional<Lighting> followed(LightFollower& light, std::chrono::milliseconds at) {
     const std::vector<std::uint8_t> pixels(4UL * 64 * 48, 180);
     return light.follow({pixels.data(), {64, 48}, 256, PixelFormat::Rgba8}, kWideLens, {},

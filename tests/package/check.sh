@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs, upgrades, removes and purges the Debian package in a minimal Debian. Needs root,
-# mmdebstrap and a package mirror; takes about two minutes. Usage: check.sh PACKAGE
+# Installs, upgrades, removes and purges the Debian package in a minimal Debian. Takes about two
+# minutes. Needs root, mmdebstrap and a package mirror. Usage: check.sh PACKAGE
 set -euo pipefail
 deb=$(readlink -f "$1")
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
@@ -15,7 +15,7 @@ failures=0
 
 step() { printf '%s\n' "$*"; }
 
-# holds DESCRIPTION COMMAND...: the command must succeed.
+# holds DESCRIPTION COMMAND...: reports a fault with the description if the command fails.
 holds() {
     local what=$1
     shift
@@ -35,7 +35,6 @@ apt() {
     holds "apt-get $1 prints no warning or error" isNot grep -iE 'warning|error|fail' "$work/apt"
 }
 
-# Makes the same package with a higher version and another default configuration.
 makeSuccessor() {
     dpkg-deb -R "$deb" "$work/next"
     sed -i 's/^Version: .*/&+next/' "$work/next/DEBIAN/control"
@@ -47,7 +46,7 @@ makeSuccessor() {
 
 field() { dpkg-deb --field "$deb" "$1" | tr ',' '\n' | awk '{ print $1 }'; }
 
-# draws EXIT-CODE: mfard must end with this code after one picture.
+# draws EXIT-CODE: runs mfard for one picture and expects this exit code.
 draws() {
     local code=0
     inside mfard --source synthetic:flat --display none --frames 1 || code=$?

@@ -1,11 +1,11 @@
 #!/bin/bash
-# SIGTERM and SIGINT must end mfard within one second, whatever it waits for. The limits allow half
-# a second more, for the scheduler.
+# SIGTERM and SIGINT must end mfard within one second, whatever it waits for. The limits are half a
+# second longer, because of the scheduler.
 . "$(dirname "$0")/lib.sh"
 
 limit=1500
-# True as soon as mfard handles SIGHUP, SIGINT and SIGTERM itself. It then blocks them, which the
-# mask of blocked signals shows.
+# True if mfard handles SIGHUP, SIGINT and SIGTERM itself. It then blocks them, which the mask of
+# blocked signals shows.
 signals_watched() { grep -q '^SigBlk:.*4003$' "/proc/$pid/status"; }
 record run 3 --source synthetic:flat,rest
 mkfifo pipe
@@ -47,8 +47,8 @@ sleep 1
 kill -TERM "$pid"
 ends_with 0 $limit
 
-# True if all threads of mfard sleep in each of five checks. A thread that only lacks processor time
-# does not sleep.
+# True if all threads of mfard sleep in each of five checks. A thread that only waits for a
+# processor does not sleep.
 at_rest() {
     for _ in 1 2 3 4 5; do
         if cat /proc/"$pid"/task/*/stat | grep -q ') [RD] '; then return 1; fi
@@ -56,7 +56,7 @@ at_rest() {
     done
 }
 
-# The reader takes the first bytes of a picture. The pipe holds a hundredth of the rest; so mfard
+# The reader takes the first bytes of a picture. The pipe can hold a hundredth of the rest. So mfard
 # soon blocks.
 start_blocked() {
     exec 3>&- # no process has the pipe open any more, so the pipe is empty again
@@ -68,9 +68,9 @@ start_blocked() {
 }
 
 echo "SIGTERM while the reader of the display pipe no longer reads"
-# mfard's threads have half a second to give up writing. After that, mfard ends without them. On a
-# machine without free processor time, even an end without them is accepted; but in at least one of
-# a few tries the threads must give up in time.
+# mfard's threads have half a second to stop writing. After that, mfard ends without them. On a busy
+# machine, an end without them is accepted, but the threads must stop in time in at least one of a
+# few tries.
 for _ in $(seq "$patience"); do
     start_blocked
     kill -TERM "$pid"
@@ -94,7 +94,7 @@ echo "SIGTERM during the first milliseconds"
 start --source synthetic:flat
 sleep 0.02
 kill -TERM "$pid"
-# Until mfard handles signals itself, a signal ends it directly, which is accepted.
+# A signal may end mfard directly before mfard handles signals itself.
 code=0
 wait "$pid" || code=$?
 [ "$code" = 0 ] || [ "$code" = 143 ] || fail "mfard ended with exit code $code instead of 0 or 143"

@@ -1,6 +1,6 @@
 #!/bin/bash
-# An invalid configuration must be refused, with the place of every fault. No device or file may be
-# touched.
+# mfard must refuse an invalid configuration and print the position of every fault. It must not open
+# any device or other file.
 . "$(dirname "$0")/lib.sh"
 
 cat >mfard.toml <<'END'

@@ -1,6 +1,6 @@
 #!/bin/bash
-# SIGHUP makes mfard read its configuration again. An invalid configuration must be refused; mfard
-# then keeps the old one.
+# On SIGHUP, mfard must read its configuration again. It must refuse an invalid configuration and
+# keep the old one.
 . "$(dirname "$0")/lib.sh"
 
 lines() { [ "$(grep -Ec "$1" err)" -ge "$2" ]; }
@@ -18,7 +18,7 @@ sed -i 's/best/off/; s/rest"/pan"/' mfard.toml
 kill -HUP "$pid"
 until_true lines 'mfard.toml: read again; these settings change only after a restart: source$' 1
 
-echo "a number that no double can represent is refused with its place"
+echo "a number that no double can represent is refused with its line and column"
 cp mfard.toml good.toml
 printf '[trigger]\nmin_interval_s = 9007199254740993\n' >>mfard.toml
 kill -HUP "$pid"
@@ -28,7 +28,7 @@ rm mfard.toml
 kill -HUP "$pid"
 until_true lines 'mfard.toml: cannot be read' 1
 
-echo "mfard does not wait for a pipe in the configuration's place"
+echo "mfard refuses a pipe as the configuration file and does not wait for it"
 mkfifo mfard.toml
 kill -HUP "$pid"
 until_true lines 'mfard.toml: cannot be read: it is not a regular file' 1
@@ -41,7 +41,7 @@ kill -TERM "$pid"
 ends_with 0 1500
 summary_has mode '"off"'
 
-echo "without a configuration file, SIGHUP reads nothing again"
+echo "without --config, SIGHUP reads nothing and mfard says so"
 start --source synthetic:flat
 until_true started
 kill -HUP "$pid"

@@ -1,11 +1,11 @@
 #!/bin/bash
-# A broken recording must give one clear error with its place, and no picture.
+# A broken recording must give one error with its file and line, and no picture.
 . "$(dirname "$0")/lib.sh"
 
 record run 3 --source synthetic:flat,rest
 
-# broken EXIT-CODE PATTERN: the recording "bad" must end the run with this exit code and a message
-# that matches.
+# broken EXIT-CODE PATTERN: a run of the recording "bad" must end with this code and a matching
+# message.
 broken() {
     rm -rf shown
     run "$1" --recording bad --display png:shown
@@ -26,6 +26,6 @@ broken 65 'bad/cam1/sensor\.yaml'
 cp -r run bad && rm "bad/cam0/data/$(tail -n 1 run/cam0/data.csv | cut -d, -f2)"
 broken 65 'bad/cam0/data\.csv:4: '
 
-# The header of this picture is valid; only decoding can find the fault.
+# The header of this picture is valid. Only decoding can find the fault.
 cp -r run bad && truncate -s 2000 "bad/cam0/data/$(tail -n 1 run/cam0/data.csv | cut -d, -f2)"
 broken 65 'bad/cam0/data/[0-9]+\.png'

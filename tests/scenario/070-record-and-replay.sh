@@ -1,6 +1,5 @@
 #!/bin/bash
-# A recording of a live run must replay that run: the same frames, the same still, the same
-# pictures.
+# A recording of a live run must replay with the same frames, the same still and the same pictures.
 . "$(dirname "$0")/lib.sh"
 
 record run 8 --source synthetic:office --display png:live --summary summary.json
@@ -11,13 +10,13 @@ summary_has frames 8
 [ "$(grep -vc '^#' run/cam0/data.csv)" = 8 ] || fail "the recording has not 8 frames"
 [ "$(grep -vc '^#' run/cam1/data.csv)" = 1 ] || fail "the recording has not exactly one still"
 
-# The still was taken before the frame that first used it; so the replay may use it a few frames
-# earlier. Before the exposure of the still, and at the end, both runs must have the same state.
+# The replay may use the still a few frames earlier, because the still was taken before the live run
+# first used it. Both runs must have the same state before the still's exposure and at the end.
 first=$(ls live | sort -n | head -n 1)
 cmp "live/$first" "again/$first" ||
     fail "the first picture of the replay differs from that of the live run"
 
-# The live run may have dropped frames; the recording has all of them with their poses.
+# The live run may have dropped frames. The recording must have all frames with their poses.
 echo "the scene's tags and the poses from them are recorded, too"
 [ "$(grep -c '^id = ' run/tags.toml)" -ge 3 ] ||
     fail "tags.toml of the recording has fewer than 3 tags"

@@ -1,6 +1,6 @@
 #!/bin/bash
-# The tags of the scene must give every frame and still a pose, and flow must be searched along
-# epipolar lines.
+# The tags of the scene must give every frame and still a pose. Flow must be searched along epipolar
+# lines.
 . "$(dirname "$0")/lib.sh"
 
 run 0 --source synthetic:office --pace consumer --frames 8 --summary summary.json
@@ -20,7 +20,7 @@ summary_has asked 0
 summary_has epipolar_frames 0
 summary_has used 1
 
-echo "an invalid or missing tag map is refused with its place, also by --check-config"
+echo "an invalid or missing tag map is refused with its file, also by --check-config"
 printf '[pose]\ntags = "map.toml"\n' >mfard.toml
 for check in "" --check-config; do
     run 66 --config mfard.toml $check

@@ -1,6 +1,6 @@
 #!/bin/bash
-# Recorded poses must replace the tags. A recording without poses must be refused if poses are
-# required.
+# mfard must use recorded poses instead of tags. It must refuse a recording without poses if poses
+# are required.
 . "$(dirname "$0")/lib.sh"
 
 "$sim" --scene office --path pan --seconds 0.2 --stills 5 --no-truth \
@@ -21,7 +21,7 @@ run 0 --recording run --summary summary.json
 says err 'poses from a map of [0-9]+ tags; '
 summary_has measured "$frames"
 
-echo "an invalid tags.toml is refused with its place"
+echo "an invalid tags.toml is refused with its file"
 sed -i 's/^size = .*/size = 0/' run/tags.toml
 run 65 --recording run
 says err 'run/tags.toml:[0-9]+: size must be a positive length'

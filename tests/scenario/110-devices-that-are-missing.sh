@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Without its cameras mfard must run, report in the picture and in the log what is missing, and keep
-# looking for it. A service must stay alive without them.
+# Without its cameras mfard must run and keep looking for them. Picture and log must report what is
+# missing. A service must stay alive.
 . "$(dirname "$0")/lib.sh"
 
 cat >mfard.toml <<'END'
@@ -25,14 +25,14 @@ says err 'still camera: .*no such card'
 summary_has frames 0
 summary_has faults 1
 
-# The trigger line is also missing; so releasing it must fail with a reason.
+# The trigger line is also missing. So releasing it must fail with a reason.
 run 69 --config mfard.toml --release-trigger
 says err 'no such chip'
 sed -i '/trigger/,$d' mfard.toml
 run 0 --config mfard.toml --release-trigger
 
-# A calibration that is missing or has other picture sizes is an error. mfard does not wait for it
-# to disappear, unlike with missing devices.
+# A missing calibration, or one of other picture sizes, is an error. Unlike missing devices, mfard
+# does not wait for it.
 sed -i '1a [cameras]\ncalibration = "lenses"' mfard.toml
 run 66 --config mfard.toml
 says err 'lenses'

@@ -1,6 +1,6 @@
 #!/bin/bash
-# On request, mfard checks the values that every pass writes. Super-resolution, depth, path tracing
-# and warping of a hand-held view must not write an invalid value.
+# With validation, mfard checks the values that every pass writes. Super-resolution, depth, path
+# tracing and warping of a hand-held view must write no invalid value.
 . "$(dirname "$0")/lib.sh"
 
 "$sim" --scene office --path handheld --seconds 0.2 --stills 5 --no-truth \

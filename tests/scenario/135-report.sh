@@ -1,9 +1,8 @@
 #!/usr/bin/env bash
-# mfard --report writes one page with the numbers of the summary and with pictures, however the run
+# mfard --report must write one page with the summary's numbers and with pictures, however the run
 # ends.
 . "$(dirname "$0")/lib.sh"
 
-# has_report PATTERN...: checks that the page is complete and that each pattern is in it.
 has_report() {
     local pattern
     for pattern in '^<!DOCTYPE html>' '^</html>$' "$@"; do says run.html "$pattern"; done

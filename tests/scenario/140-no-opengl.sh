@@ -1,13 +1,12 @@
 #!/usr/bin/env bash
-# On a machine without EGL or without GLES, the SIMD engine must make the pictures, and mfard must
-# report why. Options that need GL must fail with code 69 (missing device) and name the packages to
-# install.
+# Without EGL or GLES, the SIMD engine must draw the pictures and mfard must report why. Options
+# that need GL must fail with code 69 (missing device) and name the packages to install.
 . "$(dirname "$0")/lib.sh"
 
 record take 3 --source synthetic:flat --display none
 run 0 --recording take --frames 2 --engine simd --display png:with
 
-# The dynamic linker loads the first file with a library's name. It fails if that is no library.
+# The dynamic linker loads the first file with a library's name. It fails because the file is empty.
 mkdir hidden
 for library in libEGL.so.1 libGLESv2.so.2; do
     : >"hidden/$library"

@@ -1,18 +1,18 @@
 #!/usr/bin/env bash
-# On a machine without OpenGL ES, path-traced objects must be shown as on any other machine.
-# Previews need OpenGL ES: mfard must report that and show the pictures without objects.
+# Without OpenGL ES, mfard must show path-traced objects as usual. Previews need OpenGL ES. So mfard
+# must report this and show pictures without objects.
 . "$(dirname "$0")/lib.sh"
 
 "$sim" --scene office --path handheld --seconds 1.5 --stills 3 --no-truth \
     --out run >/dev/null || fail "mfar-sim made no recording"
 
-# The dynamic linker loads the first file with a library's name. It fails if that is no library.
+# The dynamic linker loads the first file with a library's name. It fails because the file is empty.
 mkdir hidden
 : >hidden/libEGL.so.1
 : >hidden/libGLESv2.so.2
 export LD_LIBRARY_PATH=$PWD/hidden${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
 
-# last NAME [ARGUMENT...]: saves the last picture of the recording. NAME.raw holds its pixels.
+# last NAME [ARGUMENT...]: saves the last picture of the recording. NAME.raw contains its pixels.
 last() {
     local name=$1
     shift
@@ -21,11 +21,9 @@ last() {
     tail -c $((2304 * 1728 * 3 / 2)) "$name.y4m" >"$name.raw"
     rm "$name.y4m"
 }
-# Number of bytes that differ from the picture without objects.
 differing() { { cmp -l plain.raw "$1.raw" || true; } | wc -l; }
 
 last plain
-# An object in front of everything on the desk.
 cat >preview.toml <<'END'
 [virtual]
 rendering = "preview"
@@ -34,7 +32,7 @@ shape = "box"
 size = [0.1, 0.1, 0.1]
 position = [0.0, 0.0, 0.06]
 END
-# Few pixels and samples, so that there is a picture soon, even on a slow machine.
+# Few pixels and samples give a picture soon, even on a slow machine.
 sed 's/"preview"/"path-traced"\nresolution = 0.1\nsamples = 1\nbudget_ms = 60/' preview.toml >traced.toml
 
 last preview --config preview.toml

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Two V4L2 cameras, which a library simulates, fail in many ways. The video must continue as long as
-# its own camera works; picture, status and summary must report the fault.
+# Two simulated V4L2 cameras fail in many ways. The video must continue while the video camera
+# works. Picture, status and summary must report the fault.
 . "$(dirname "$0")/lib.sh"
 
 ctl="$(dirname "$sim")/mfarctl"
 pretended=$3
 pretended_cameras
 
-# says_of CAMERA FAULT...: sets the faults that the pretended camera has from now on.
+# says_of CAMERA FAULT...: sets the faults that the simulated camera has from now on.
 says_of() {
     local camera=$1
     shift
@@ -15,7 +15,6 @@ says_of() {
     mv cameras/.new "cameras/$camera"
 }
 
-# begin: starts mfard with the two cameras and waits for pictures.
 begin() {
     rm -f summary.json
     export LD_PRELOAD=$pretended MFAR_PRETENDED_V4L2=$work/cameras
@@ -29,14 +28,12 @@ stop_now() {
 }
 status() { timeout -s KILL 30 "$ctl" --socket control status >answer 2>err.ctl; }
 stats() { timeout -s KILL 30 "$ctl" --socket control stats >stats.json 2>err.ctl; }
-# shows_pictures COUNT: true after at least this many pictures since the start.
 shows_pictures() { status && [ "$(awk '$1 == "frames" {print $2}' answer)" -ge "$1" ] 2>/dev/null; }
 goes_on() {
     status || fail "mfard does not answer mfarctl status"
     until_true shows_pictures $(($(awk '$1 == "frames" {print $2}' answer) + 20))
 }
 fault_is() { status && grep -Eq "^fault +$1" answer; }
-# counts CAMERA KEY: prints a value of the camera in stats.json.
 counts() {
     awk -v camera="\"$1\": {" -v key="\"$2\":" \
         '/"cameras": {/ {in_cameras = 1} in_cameras && index($0, camera) {here = 1}
@@ -45,7 +42,7 @@ counts() {
 at_least() { stats && [ "$(counts "$1" "$2")" -ge "$3" ] 2>/dev/null; }
 warned() { grep -q -- "$1" err; }
 
-echo "the still driver hangs: the video goes on, and the still camera is named"
+echo "the still driver hangs: the video continues, and status names the still camera"
 begin
 until_true fault_is null
 says_of video91 hang
@@ -94,7 +91,7 @@ until_true at_least video bad_times 10
 goes_on
 says_of video90
 
-echo "missing frame numbers are counted exactly; frame numbers that begin anew are no gap"
+echo "missing frame numbers are counted exactly; numbers that restart at 0 do not count as missing"
 stats
 before=$(counts video missed)
 says_of video90 skip 12
@@ -103,7 +100,7 @@ says_of video90 restart
 goes_on
 stats
 [ "$(counts video missed)" = $((before + 12)) ] ||
-    fail "mfard counts $(counts video missed) missed frames; expected: 12 more than the $before before"
+    fail "mfard counts $(counts video missed) missed frames; expected: 12 more than the earlier $before"
 stop_now 1500
 
 echo "a camera with half its configured rate is reported, but its frames do not count as missed"
@@ -115,7 +112,7 @@ stats
     fail "$(counts video missed) missed frames of a camera with half its rate; limit: 3"
 stop_now 1500
 
-echo "a driver with few buffers is used"
+echo "a driver that grants few buffers can be used"
 for buffers in 1 3; do
     says_of video90 buffers $buffers
     says_of video91 buffers $buffers
@@ -126,7 +123,7 @@ for buffers in 1 3; do
     stop_now 1500
 done
 
-echo "a camera is absent at boot: the other camera runs and is not blamed"
+echo "a camera is absent at boot: the other camera runs, and status reports no fault of it"
 for absent in video still; do
     device=video90
     [ $absent = video ] || device=video91

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The reader of the display's pipe stalls. With a live source the pictures must continue, and status
-# must report the reader. A recording must wait for the reader and report that. When the reader
-# closes the pipe, mfard must end.
+# The reader of the display's pipe stalls. With a live source the pictures must continue and the
+# status must report the reader. With a recording, mfard must wait for the reader and report it.
+# mfard must end when the reader closes the pipe.
 . "$(dirname "$0")/lib.sh"
 
 ctl="$(dirname "$sim")/mfarctl"
@@ -11,7 +11,7 @@ frames() { status | sed -n 's/^frames  *//p'; }
 mkfifo pipe
 record run 3 --source synthetic:flat,rest
 
-echo "live"
+echo "with live cameras, pictures continue although the reader accepts no data"
 printf '[superres]\nmode = "off"\n[trigger]\nmode = "off"\n' >mfard.toml
 exec 3<>pipe
 start --config mfard.toml --source synthetic:flat,rest --display y4m:pipe --control control \

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# A driver never returns. Then mfard must stop notifying the watchdog; status, log and service
-# manager must get the name of the thread that hangs. While a missing camera is being reopened,
-# mfard must notify the watchdog. A preloaded library simulates the cameras; a program that writes
-# down the messages simulates the service manager. Usage: 220-driver-that-hangs.sh MFARD MFAR-SIM
+# A call to a driver never returns. mfard must stop notifying the watchdog. Status, log and service
+# manager must get the name of the hanging thread. While a missing camera is reopened, mfard must
+# notify the watchdog. A preloaded library simulates the cameras. A program that writes down the
+# messages simulates the service manager. Usage: 220-driver-that-hangs.sh MFARD MFAR-SIM
 # PRETENDED.so NOTIFY-LISTENER
 . "$(dirname "$0")/lib.sh"
 
@@ -19,12 +19,11 @@ meals() { grep -c '^WATCHDOG=1$' heard || true; }
 fed() { [ "$(meals)" -gt $((before + $1)) ]; }
 status() { timeout 10 "$ctl" --socket control status; }
 status_says() { status | grep -Eq -- "$1"; }
-# True if the watchdog is notified three times from now on.
 is_fed() {
     before=$(meals)
     until_true fed 2
 }
-# True if the watchdog is not notified for four seconds. Normally a notification comes every second.
+# True if the watchdog is not notified for four seconds. Usually it is notified every second.
 is_hungry() {
     before=$(meals)
     sleep 4
@@ -41,7 +40,7 @@ start_hangable() {
     until_true frames
 }
 
-echo "the video driver hangs: status and messages name the thread; the watchdog starves"
+echo "the video driver hangs: status and messages name the thread; mfard stops notifying the watchdog"
 start_hangable
 is_fed
 echo hang >cameras/video90

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# As a service, mfard must send messages with fields to the journal: kind, camera, count. If there
-# is no journal, or if it does not accept messages, they must go to standard error. Usage:
+# As a service, mfard must send messages with fields to the journal: kind, camera, count. They must
+# go to standard error if there is no journal or if it refuses them. Usage:
 # 230-fields-for-the-journal.sh MFARD MFAR-SIM JOURNAL.so NOTIFY-LISTENER
 ids=$(realpath "$(dirname "$0")/../../daemon/message_ids.h")
 . "$(dirname "$0")/lib.sh"
@@ -12,8 +12,8 @@ id() { sed -n "s/^constexpr std::string_view $1 = \"\(.*\)\";/\1/p" "$ids"; }
 "$listener" socket heard &
 pids+=($!)
 until_true test -S socket
-# True if one message in the file `heard` has both fields. An empty line ends each message. A text
-# of several lines is preceded by its length.
+# True if one message in the file `heard` has both fields. Messages end with an empty line. The
+# length of a text precedes a text of several lines.
 heard() {
     tr '\0' ' ' <heard |
         awk -v RS= -v a="$1" -v b="$2" '$0 ~ a && $0 ~ b {found = 1} END {exit !found}'

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# A GPU that is lost or hangs must be reported and set up again, while control and cameras continue.
-# After three losses within a minute, the CPU must draw instead, and the picture must say so. A
-# driver that does not return must be reported, and a run with a time limit must still end. Usage:
+# mfard must report a GPU that is lost or hangs, and set it up again. Control and cameras must
+# continue. After three losses within a minute, the CPU must draw and the picture must say so. mfard
+# must report a driver that does not return, and a run with a time limit must still end. Usage:
 # 240-gpu-that-fails.sh MFARD MFAR-SIM PRETENDED.so FAULTY-GL-FOLDER
 . "$(dirname "$0")/lib.sh"
 
@@ -11,7 +11,6 @@ ctl="$(dirname "$sim")/mfarctl"
 control() { timeout 10 "$ctl" --socket control "$@"; }
 status_says() { control status | grep -Eq -- "$1"; }
 frames() { [ "$(control status | sed -n 's/^frames  *//p')" -gt "$1" ] 2>/dev/null; }
-# gpu_says WORD...: sets the faults that the GPU has from now on.
 gpu_says() {
     echo "$1" >gl.new
     mv gl.new gl

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# mfard is killed at random moments, again and again, also during a trigger pulse. Each start must
-# show its first picture within five seconds and replace the control socket of the dead process. The
-# hook that systemd runs after a crash must release the trigger line. Every recording must be
-# readable. Usage: 260-killed-at-random.sh MFARD MFAR-SIM PRETENDED.so [TIMES]
+# mfard is killed at random moments, also during a trigger pulse. Each start must show its first
+# picture within five seconds and replace the control socket of the dead process. The hook that
+# systemd runs after a crash must release the trigger line. Every recording must be readable. Usage:
+# 260-killed-at-random.sh MFARD MFAR-SIM PRETENDED.so [TIMES]
 . "$(dirname "$0")/lib.sh"
 
 pretended=$3
@@ -39,7 +39,7 @@ for round in $(seq "$times"); do
     begin
     sleep 0.$((RANDOM % 3))$((RANDOM % 10))
     # Every second process is killed after its first picture; every fourth while it records, during
-    # a pulse.
+    # a trigger pulse.
     if [ $((round % 2)) = 0 ]; then
         until_true shows_pictures
         took=$(($(milliseconds) - begun))

@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
-# The disk that holds recordings, state and a log file is really full: it is a small file system of
-# its own. mfard must start, continue, and report what it could not write; everything that was
-# written must be readable. Usage: 270-full-var.sh MFARD MFAR-SIM PRETENDED.so. Exit status 77: no
-# file system can be mounted.
+# The disk for recordings, state and a log file is full: a small file system of its own. mfard must
+# start, continue, and report what it could not write. Everything that it wrote must be readable.
+# Usage: 270-full-var.sh MFARD MFAR-SIM PRETENDED.so. Exit status 77: no file system can be mounted.
 if [ -z "${MFAR_MOUNTS:-}" ]; then
     for how in "--mount" "--mount --map-root-user"; do
         # shellcheck disable=SC2086 # $how is a list of options
@@ -28,7 +27,7 @@ goes_on() {
 trap 'umount --lazy "$work/var"; clean_up' EXIT
 mkdir var
 mount -t tmpfs -o size=6m none var
-# mfard works in this folder, as the service does. Its messages are kept elsewhere.
+# mfard works in this folder, as the service does. Its messages go to another folder.
 printf '#!/bin/sh\ncd "%s/var" && exec "%s" "$@"\n' "$work" "$mfard" >mfard
 chmod +x mfard
 mfard=$work/mfard

@@ -1,10 +1,9 @@
 #!/usr/bin/env bash
-# The power is cut while mfard records on a real file system. All writes to its disk are logged, and
-# disks are built as cuts at random moments would leave them. Each disk must be mountable and hold
-# everything that was synchronised before the cut. Every picture in the recording's list must be
-# readable. Usage:
-# 280-power-is-cut.sh MFARD MFAR-SIM PRETENDED.so [CUTS]. Exit status 77: root, loop devices,
-# qemu-storage-daemon or FUSE are missing.
+# The power is cut while mfard records on a real file system. All writes to its disk are logged.
+# Disks are built as cuts at random moments would leave them. Each disk must be mountable and
+# contain everything that was synchronised before the cut. Every picture in the recording's list
+# must be readable. Usage: 280-power-is-cut.sh MFARD MFAR-SIM PRETENDED.so [CUTS]. Exit status 77:
+# root, loop devices, qemu-storage-daemon or FUSE are missing.
 for needed in qemu-storage-daemon mkfs.ext4 losetup python3; do
     command -v $needed >/dev/null || { echo "$needed is not installed" && exit 77; }
 done
@@ -35,7 +34,7 @@ pids+=($!)
 exported() { [ -s shown ]; }
 until_true exported
 loop=$(losetup --find --show shown)
-# With the default, ext4 would write all data every five seconds, even if mfard did not synchronise.
+# By default, ext4 writes all data every five seconds, even if mfard does not synchronise.
 mount -t ext4 -o commit=300 "$loop" disk
 
 export STATE_DIRECTORY=$PWD/state
@@ -48,8 +47,8 @@ has_grown() { [ "$(named)" -gt "$rows" ]; }
 rows=0
 for _ in 1 2 3 4; do
     until_true has_grown
-    # The previous rows are safe, because the file names are synchronised before further pictures
-    # are written.
+    # The previous rows are safe, because mfard synchronises the file names before it writes further
+    # pictures.
     echo "$(stat --format %s log) $rows" >>marks
     rows=$(named)
 done
@@ -64,8 +63,8 @@ for cut in $(seq "$cuts"); do
     mount -t ext4 -o loop cut.img after || fail "cut $cut: the file system cannot be mounted"
     film=$(ls -d after/films/* 2>/dev/null || true)
     rows=0
-    # The list's file may be longer than the data that was written. Its end then holds other bytes,
-    # which do not look like rows.
+    # The list's file may be longer than the written data. Its end then has other bytes, which do
+    # not look like rows.
     if [ -n "$film" ]; then rows=$(grep -acE '^[0-9]+,[0-9]+\.png$' "$film/cam0/data.csv" || true); fi
     [ "$rows" -ge "$safe" ] ||
         fail "cut $cut: the list has $rows pictures, but $safe were synchronised before the cut"

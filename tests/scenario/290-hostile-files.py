@@ -258,8 +258,7 @@ def while_it_runs():
         wait_for(lambda: 'display ' in said(), 'mfard does not start')
         for name, text in CONFIGURATIONS.items():
             before = answers()
-            # The text is written to another file, which is then renamed. Otherwise mfard could read
-            # a partly written file.
+            # Renames a complete file. Otherwise mfard could read a partly written one.
             Path('next.toml').write_text(text() + '\n' + sound.split('\n', 2)[2])
             os.replace('next.toml', config)
             process.send_signal(signal.SIGHUP)

@@ -1,7 +1,7 @@
-# Common functions of the scenarios. A scenario is run as "NNN-name.sh MFARD MFAR-SIM LIBRARY", with
-# the paths of the two programs and of the library built from tests/device/pretended_v4l2.cpp. It
-# runs the real program in a folder of its own. MFAR_PATIENCE (default 1) multiplies all time
-# limits, for sanitizers and slow machines.
+# Common functions of the scenarios. Usage of a scenario: NNN-name.sh MFARD MFAR-SIM LIBRARY, with
+# the paths of two programs and of the library built from tests/device/pretended_v4l2.cpp. Each
+# scenario works in its own folder. MFAR_PATIENCE (default 1) multiplies all time limits, for
+# sanitizers and slow machines.
 
 set -eu -o pipefail
 
@@ -13,8 +13,7 @@ cd "$work"
 pids=()
 
 # ThreadSanitizer does not understand TBB, which runs OpenCV's loops. On a single CPU, TBB uses one
-# thread. Races of other threads are still found, because ThreadSanitizer checks order, not
-# simultaneity.
+# thread. ThreadSanitizer still finds races of other threads, because it checks order.
 if [ -n "${MFAR_ONE_CPU:-}" ]; then
     first=$(sed -n 's/^Cpus_allowed_list:[[:space:]]*\([0-9]*\).*/\1/p' /proc/self/status)
     taskset -pc "$first" $$ >/dev/null
@@ -39,8 +38,7 @@ milliseconds() {
     echo $((now / 1000))
 }
 
-# run EXIT-CODE ARGUMENT...: runs mfard, which must end with this code. Its messages go to the file
-# err.
+# run EXIT-CODE ARGUMENT...: runs mfard, which must end with this code. Its messages go to `err`.
 run() {
     local expected=$1 code=0
     shift
@@ -48,17 +46,15 @@ run() {
     [ "$code" = "$expected" ] || fail "mfard $* ended with exit code $code instead of $expected"
 }
 
-# start ARGUMENT...: starts mfard in the background and sets $pid to its process id.
+# start ARGUMENT...: starts mfard in the background. Sets $pid to its process id.
 start() {
-    # Empties the file before the start, because messages of the previous process could be taken for
-    # those of the new one.
+    # Empties the file before the start, because it may contain messages of the previous process.
     : >err
     "$mfard" "$@" >out 2>err &
     pid=$!
     pids+=("$pid")
 }
 
-# until_true COMMAND...: waits until the command succeeds.
 until_true() {
     local end=$(($(milliseconds) + 30000 * patience))
     until "$@"; do
@@ -67,24 +63,22 @@ until_true() {
     done
 }
 
-# True after the start line with renderer, sensors and display: then devices are open and frames
-# arrive.
+# True after mfard has printed its start line: the devices are open and frames arrive.
 started() { grep -q 'display ' err; }
 
-# Checks the output of Vulkan's validation layer, which is written to standard output.
+# Checks the output of Vulkan's validation layer, which goes to standard output.
 no_complaint() {
     if [ -f out ] && grep -aE 'Validation (Error|Warning|Performance)' out >&2; then
         fail "Vulkan's validation layer reports errors"
     fi
 }
 
-# ends_with EXIT-CODE LIMIT-MS: mfard in the background must end with this code within this time
-# from now.
+# ends_with EXIT-CODE LIMIT-MS: mfard in the background must end with this code within this time.
 ends_with() {
     local begin code=0 took
     begin=$(milliseconds)
-    # Only looks at the process table, so that a hanging mfard fails this check and does not run
-    # into the time limit of the test.
+    # Reads only the process table. So a hanging mfard fails this check before the test's time
+    # limit.
     while kill -0 "$pid" 2>/dev/null && [ $(($(milliseconds) - begin)) -lt 30000 ]; do
         sleep 0.02
     done
@@ -98,7 +92,7 @@ ends_with() {
         fail "mfard took $took ms to end; the limit is $2 ms times MFAR_PATIENCE ($patience)"
 }
 
-# two_cameras [TOML]: writes a configuration with two V4L2 cameras and these lines.
+# two_cameras [TOML]: writes a configuration of two V4L2 cameras, with the given lines.
 two_cameras() {
     cat >mfard.toml <<END
 source = "cameras"
@@ -121,21 +115,18 @@ ${1:-}
 END
 }
 
-# pretended_cameras [TOML]: like two_cameras, but the cameras are simulated. Their faults are in the
-# files cameras/video90 and cameras/video91.
+# pretended_cameras [TOML]: like two_cameras, with simulated cameras. The files cameras/video90 and
+# cameras/video91 select their faults.
 pretended_cameras() {
     mkdir cameras
     touch cameras/video90 cameras/video91
     two_cameras "$@"
 }
 
-# says FILE PATTERN: a line of the file must match the pattern.
 says() { grep -Eq -- "$2" "$1" || fail "$1 has no line that matches: $2"; }
 
-# summary_has KEY VALUE: checks a number or word in summary.json, whose keys are unique.
 summary_has() { says summary.json "\"$1\": $2,?\$"; }
 
-# record FOLDER FRAMES [ARGUMENT...]: makes a small recording of the synthetic board.
 record() {
     local dir=$1 frames=$2
     shift 2

@@ -1,4 +1,4 @@
-// A simulated service manager. It writes the messages that a service sends to $NOTIFY_SOCKET into a
+// A simulated service manager. Writes the messages that a service sends to $NOTIFY_SOCKET into a
 // file, one per line. Usage: notify-listener SOCKET FILE
 
 #include <sys/socket.h>

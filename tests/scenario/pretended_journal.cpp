@@ -1,4 +1,4 @@
-// A library for LD_PRELOAD. It redirects messages for the systemd journal to the socket
+// A library for LD_PRELOAD that redirects messages for the systemd journal to the socket
 // MFAR_PRETENDED_JOURNAL.
 
 #include <sys/socket.h>
@@ -11,7 +11,6 @@
 
 namespace {
 
-/// Replaces the address of the journal. Leaves other addresses unchanged.
 class Address {
 public:
     Address(const void* wanted, socklen_t bytes) : to_(wanted), bytes_(bytes) {

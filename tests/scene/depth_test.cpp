@@ -1,4 +1,3 @@
-// Depth of synthetic scenes during typical camera motion, compared with the truth.
 #include "hal/gl_context.h"
 #include "tests/measure/eval/picture.h"
 #include "tests/measure/eval/scene_objects.h"
@@ -19,12 +18,11 @@ namespace {
 using namespace eval;
 using synthetic::Path;
 
-constexpr int kSettling = 12;  // number of frames until depth has settled
+constexpr int kSettling = 12;  // number of frames after which depth has settled
 constexpr double kMostError = 0.015, kLeastKnown = 0.85;
-/// Largest median change of depth per frame, as a share, that is no jump. A match with the still
-/// has an error of 4.5 % of the inverse depth here. In equilibrium the filter gives a match a
-/// weight of 1/12, which gives a median change of 0.26 % per frame. The limit is three times as
-/// large.
+/// Limit of the median change of depth per frame, as a share of the depth. Here, a match with the
+/// still has an error of 4.5 % of the inverse depth, and in equilibrium its weight is 1/12. This
+/// gives a median change of 0.26 % per frame. The limit is three times as large.
 constexpr double kMostChange = 0.0075;
 
 /// A scene with a virtual object. Depth is measured in the whole picture.
@@ -47,7 +45,7 @@ struct Watched {
     Pipeline pipeline;
 };
 
-/// `poseError`: error of the camera's position, as a share of the distance; it causes an equal
+/// `poseError`: error of the camera's position, as a share of the distance. It causes an equal
 /// error of depth.
 void expectGood(const DepthState& state, int frame, double poseError = 0) {
     SCOPED_TRACE(frame);
@@ -62,7 +60,6 @@ class DepthScenario : public testing::Test {
 protected:
     void SetUp() override { context_->makeCurrent(); }
 
-    /// Runs along the path, with one still at the start of the path.
     static void follow(Watched& w, int frames) {
         for (int frame = 0; frame < frames; ++frame) {
             const SceneRun::Shots shots = w.run.next();
@@ -102,7 +99,6 @@ TEST_F(DepthScenario, DepthStaysAccurateWhileTheCameraComesNearer) {
     follow(w, 28);
 }
 
-/// The video frame with grey paper over all tags.
 cv::Mat covered(const ImageView& view, const SyntheticBoard& board, Timestamp time) {
     cv::Mat out = cv::Mat(view.size.height, view.size.width,
                           view.format == PixelFormat::Gray8 ? CV_8UC1 : CV_8UC4,
@@ -130,7 +126,7 @@ double errorOf(const Pose& pose, const SyntheticBoard& board) {
     return (pose.T_world_video.translation - truth).norm() / (object - truth).norm();
 }
 
-// The tags are lost for a second. At first the pose is predicted, then it is unknown.
+// The tags are lost for a second. The pose is predicted at first, then unknown.
 TEST_F(DepthScenario, DepthStaysAccurateWhileTheTagsAreLostAndFoundAgain) {
     constexpr int kLost = kSettling + 4, kFound = kLost + 15, kEnd = kFound + 8;
     Watched w(synthetic::Scene::Office, Path::Handheld, 15, PoseSource::None);

@@ -11,8 +11,8 @@
 namespace mfar::test {
 namespace {
 
-constexpr int kStep = 3;       // distance of the measured pixels [px]
-constexpr double kFar = 1000;  // depth of the background [m]
+constexpr int kStep = 3;  // distance of the measured pixels [px]
+constexpr double kFar = 1000;
 
 double medianOf(std::vector<double>& values) {
     if (values.empty()) return 0;
@@ -23,7 +23,6 @@ double medianOf(std::vector<double>& values) {
 
 }  // namespace
 
-// True 1/z of the pixels that are measured; 0 elsewhere.
 cv::Mat DepthWatch::trueDepth(Timestamp time) const {
     const CameraModel& video = board_.rig().video;
     const RigidTransform pose = board_.pose(time).T_world_video;
@@ -42,8 +41,8 @@ cv::Mat DepthWatch::trueDepth(Timestamp time) const {
     return out;
 }
 
-// Returns rho / true rho in the previous frame, of the measured pixel that is nearest to the
-// point's position there.
+// Returns rho / true rho in the previous frame, for the measured pixel nearest to the point's
+// position in that frame.
 double DepthWatch::ratioBefore(int x, int y, double rho, const RigidTransform& pose) const {
     const CameraModel& video = board_.rig().video;
     const Eigen::Vector3d p =

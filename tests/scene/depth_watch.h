@@ -9,14 +9,14 @@
 
 namespace mfar::test {
 
-/// Accuracy of the depth of a frame within the silhouette of an object. Values are medians over
-/// every third pixel of every third row.
+/// Accuracy of the depth of a frame within an object's silhouette. Values are medians over every
+/// third pixel of every third row.
 struct DepthState {
-    double absrel = 0;        ///< |z - true z| / true z of known pixels; NaN: no pixel is known
-    double completeness = 0;  ///< share of the pixels with known depth
-    double sigma = 0;         ///< sigma of rho that the pipeline reports, as a share of rho
-    /// Change of rho / true rho since the previous frame, at the same point of the scene. Only
-    /// points whose depth is known in both frames count; 0 if there are none.
+    double absrel = 0;  ///< |z - true z| / true z where z is known; NaN: nowhere
+    double completeness = 0;
+    double sigma = 0;  ///< standard deviation of rho that the pipeline reports, as a share of rho
+    /// Change of rho / true rho since the previous frame, at the same points of the scene. Counts
+    /// points with known depth in both frames; 0 if there are none.
     double change = 0;
 };
 
@@ -27,7 +27,6 @@ public:
     DepthWatch(const SyntheticBoard& board, const VirtualObject& object)
         : board_(board), object_(object) {}
 
-    /// `time`: time at which the frame was taken.
     [[nodiscard]] DepthState look(const Pipeline& pipeline, Timestamp time);
 
 private:

@@ -1,5 +1,3 @@
-// The depth of the real scene must be measured only where it may decide whether a virtual object is
-// visible.
 #include "hal/gl_context.h"
 #include "tests/measure/eval/scene_run.h"
 
@@ -25,8 +23,8 @@ protected:
         pipeline_.emplace(scene_->rig(), PipelineOptions{});
     }
 
-    /// Places a sphere of 10 cm in front of the camera's first position, at this share of the way
-    /// to the desk.
+    /// Places a sphere of 10 cm in front of the camera's first position, at the share `share` of
+    /// the distance to the desk.
     void placeSphere(double share) {
         VirtualObject sphere;
         sphere.shape = VirtualShape::Sphere;
@@ -46,7 +44,7 @@ protected:
         return out;
     }
 
-    static constexpr double kDesk = 0.8;  // distance to the desk [m]
+    static constexpr double kDesk = 0.8;
 
 private:
     std::unique_ptr<GlContext> context_ = createGlContext();

@@ -1,4 +1,3 @@
-// Virtual objects behind real objects of the synthetic scenes, compared with the truth.
 #include "hal/gl_context.h"
 #include "tests/measure/eval/metrics/occlusion_score.h"
 #include "tests/measure/eval/scene_objects.h"
@@ -18,10 +17,10 @@ namespace {
 using namespace eval;
 using synthetic::Path;
 
-constexpr int kUnscored = 8;  // frames that are not scored
+constexpr int kUnscored = 8;
 
-/// Limits for each scene. On the shelf, matching windows make thin objects look wider, by more than
-/// the snapping to edges of the picture corrects.
+/// Limits for each scene. On the shelf, matching windows widen thin objects by more than the
+/// snapping to edges corrects.
 struct Case {
     synthetic::Scene scene;
     double leastOverlap, mostBoundary;  // intersection over union; boundary distance [px]
@@ -75,8 +74,7 @@ TEST_P(Occlusion, RealObjectsOccludeAVirtualOneUpToTheirEdges) {
 
 class Rest : public Occlusion {};
 
-/// Intersection over union of the visible part of the object in a pipeline's output and the true
-/// one.
+/// Intersection over union of the truly visible part of the object and that in a pipeline's output.
 double overlapOf(const Pipeline& pipeline, const VirtualTruth& truth) {
     return occlusionScore(
                shownAtVideo(shownObjects(pipeline), {truth.visible.cols, truth.visible.rows}),
@@ -84,7 +82,7 @@ double overlapOf(const Pipeline& pipeline, const VirtualTruth& truth) {
         .overlap;
 }
 
-TEST_P(Rest, OneStillSufficesForOcclusion) {
+TEST_P(Rest, OneStillIsEnoughForOcclusion) {
     SceneRun scene = sceneOn(Path::Rest);
     Pipeline pipeline(scene.rig(), {});
     pipeline.setObjects({object_});

@@ -7,12 +7,12 @@
 
 namespace mfar::test {
 
-/// A still and a later frame of a scene, as the board's sensors take them, with exact poses.
+/// A still and a later frame of a scene from the board's sensors, with exact poses.
 struct SceneShots {
     SceneShots(synthetic::Scene scene, synthetic::Path path, int framesLater);
 
-    /// For every tile of 16x16 pixels: true if, for at least a quarter of it, the motion against
-    /// the still differs by a pixel or more from the motion that the camera causes.
+    /// For each tile, true if a quarter of its pixels or more move by themselves: their motion
+    /// since the still differs by at least a pixel from that caused by the camera.
     [[nodiscard]] std::vector<bool> movingTiles() const;
 
     std::unique_ptr<SyntheticBoard> board;

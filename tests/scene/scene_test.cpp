@@ -12,7 +12,6 @@ namespace {
 
 using synthetic::Path;
 
-/// Peak signal-to-noise ratio of the pipeline's output in the tiles that are set in `in` [dB].
 double psnr(const Pipeline& pipeline, const StoredImage& truth, const std::vector<bool>& in) {
     const auto out = pipeline.readImage();
     const Size size = pipeline.outputSize();
@@ -36,7 +35,6 @@ class SceneTest : public testing::Test {
 protected:
     void SetUp() override { context_->makeCurrent(); }
 
-    /// A pipeline that has run the frame, with the exact poses.
     static Pipeline ran(const SceneShots& s, SuperResMode mode) {
         Pipeline pipeline(s.board->rig(), {.mode = mode, .output = {}});
         pipeline.setStill(s.still.view(), s.still.time(), s.board->pose(s.still.time()));
@@ -48,7 +46,7 @@ private:
     std::unique_ptr<GlContext> context_ = createGlContext();
 };
 
-TEST_F(SceneTest, MovingObjectsAreSearchedInBothDimensionsAndNotSmeared) {
+TEST_F(SceneTest, MovingObjectsAreMatchedInBothDimensions) {
     const SceneShots s(synthetic::Scene::Moving, Path::Handheld, 8);
     const auto moving = s.movingTiles();
     const Pipeline detail = ran(s, SuperResMode::Detail), off = ran(s, SuperResMode::Off);
@@ -69,11 +67,11 @@ TEST_F(SceneTest, MovingObjectsAreSearchedInBothDimensionsAndNotSmeared) {
     EXPECT_GT(psnr(detail, truth, moving), psnr(off, truth, moving));
 }
 
-/// Tests with two camera paths. On one, the epipole lies in the picture; on the other, all parallax
-/// comes from the distance between the sensors.
+/// Tests with two camera paths. On one, the epipole is in the picture. On the other, only the
+/// distance between the sensors causes parallax.
 class Motion : public SceneTest, public testing::WithParamInterface<Path> {};
 
-TEST_P(Motion, MovingCamerasGetDetail) {
+TEST_P(Motion, DetailIsAddedWhileTheCameraMoves) {
     const SceneShots s(synthetic::Scene::Outdoor, GetParam(), 8);
     const std::vector<bool> all(s.movingTiles().size(), true);
     const Pipeline detail = ran(s, SuperResMode::Detail), off = ran(s, SuperResMode::Off);

@@ -7,14 +7,14 @@
 
 namespace mfar::test {
 
-/// A camera at rest. It gives the same view again and again, each time with different noise.
+/// A camera at rest. It gives the same view with different noise each time.
 class StoppedCamera {
 public:
-    /// `last`: the frame of the board at which the camera stops. All later pictures have the noise
-    /// of this frame, shifted by some pixels; so it is as strong as the board's everywhere.
+    /// `last`: the frame at which the board's camera stops. All later pictures have the noise of
+    /// this frame, shifted by some pixels. So the noise is as strong as the board's everywhere.
     StoppedCamera(SyntheticBoard& board, const Frame& last);
 
-    /// The next picture. It is valid until the next call.
+    /// Returns the next picture, which is valid until the next call.
     [[nodiscard]] ImageView next();
 
 private:

@@ -6,7 +6,7 @@
 namespace mfar::stress {
 namespace {
 
-constexpr double kTrial = 60;  // largest time for a case until it reaches the pass [s]
+constexpr double kTrial = 60;  // longest time to try a case until it reaches the pass [s]
 
 }  // namespace
 

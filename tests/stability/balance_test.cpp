@@ -9,7 +9,6 @@ namespace {
 
 constexpr long kEnough = 1000;
 
-/// The first two cases that have pictures of the product's size.
 std::vector<Case> twoCases() {
     std::vector<Case> out;
     for (const Case& one : allCases())

@@ -10,13 +10,13 @@
 #include <vector>
 
 /// Each case makes a random hostile input (extreme or invalid values) from its seed, runs one part
-/// of the pipeline on it and checks the results. No number may be NaN or infinite, and all must lie
-/// in their stated ranges. Where the truth is known, the error is checked. Some cases scale the
-/// world, mirror the pictures or exchange the views; results may change only as expected.
+/// of the pipeline and checks the results. No number may be NaN, infinite or outside its stated
+/// range. Where the truth is known, the error is checked. Some cases scale the world, mirror the
+/// pictures or exchange the views. Then the results may change only as expected.
 namespace mfar::stress {
 
-/// Sizes of the pictures. Tests: small ones; Mixed: small ones and ones of the product's size;
-/// Product: only the product's size.
+/// Sizes of the pictures. Tests: small. Mixed: small or of the product's size. Product: of the
+/// product's size.
 enum class Scale { Tests, Mixed, Product };
 
 struct Context {
@@ -25,7 +25,8 @@ struct Context {
     GlWatch& gl;
     Scale scale = Scale::Tests;
 
-    /// A size for the video. hostile.size(least, most) chooses small sizes at random.
+    /// A size for the video. The scale decides between the product's size and hostile.size(least,
+    /// most).
     [[nodiscard]] Size size(int least, int most);
 };
 
@@ -41,7 +42,6 @@ struct Case {
 
 [[nodiscard]] std::vector<Case> allCases();
 
-// Each file of cases has one of these functions.
 [[nodiscard]] std::vector<Case> flowCases();
 [[nodiscard]] std::vector<Case> triangulationCases();
 [[nodiscard]] std::vector<Case> pipelineCases();
@@ -62,7 +62,7 @@ struct Case {
 }
 #endif
 
-/// Runs a case. An exception counts as a fault. Returns the faults; each names the case and the
+/// Runs a case. An exception counts as a fault. Returns the faults, each with the names of case and
 /// seed.
 [[nodiscard]] std::vector<std::string> run(const Case& one, std::uint64_t seed, Checks& checks,
                                            GlWatch& gl, Scale scale);

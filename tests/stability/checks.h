@@ -6,29 +6,26 @@
 
 namespace mfar::stress {
 
-/// The faults that the cases of a run found, and how much data each pass processed.
+/// The faults that the cases found, and the amount of data that each pass processed.
 class Checks {
 public:
-    /// Records `what` as a fault if `holds` is false. Only the first few faults of a case are kept.
+    /// Records the fault `what` if `holds` is false. Keeps only the first few faults of a case.
     void require(bool holds, const std::string& what) {
         if (!holds) fail(what);
     }
-    /// Records a fault "`what` is `value`, not in ..." if the value is outside [low, high] or NaN.
+    /// Records the fault "`what` is `value`, not in ..." if the value is outside [low, high] or
+    /// NaN.
     void within(double value, double low, double high, const char* what) {
         if (!(value >= low && value <= high)) failRange(value, low, high, what);
     }
     void fail(const std::string& what);
 
-    /// Adds the number of pixels that a pass processed.
     void through(const std::string& pass, long pixels) { pixels_[pass] += pixels; }
-    /// Adds the number of inputs (tags, matches, points) of a part that does not process pictures.
+    /// Adds a number of inputs (tags, matches, points) to a part that does not process pictures.
     void tried(const std::string& part, long inputs) { inputs_[part] += inputs; }
 
-    /// Number of pixels that each pass processed.
     [[nodiscard]] const std::map<std::string, long>& pixels() const { return pixels_; }
-    /// Number of inputs of each part that does not process pictures.
     [[nodiscard]] const std::map<std::string, long>& inputs() const { return inputs_; }
-    /// Returns the faults that were recorded since the last call.
     [[nodiscard]] std::vector<std::string> take();
 
 private:

@@ -1,5 +1,3 @@
-// Cases for the depth of the real scene on the host: the filter over time, the stage with its
-// keyframes, and edges.
 #include "pipeline/depth/depth_filter.h"
 #include "pipeline/depth/depth_stage.h"
 #include "pipeline/depth/edge_snap.h"
@@ -30,7 +28,7 @@ InverseDepthField fieldOf(Context& c, Size size, double unit, double spoilt) {
     return out;
 }
 
-/// Known values must be finite and not negative, and their variances valid.
+/// Known values must be finite and not negative, with valid variances.
 void checkField(Context& c, const InverseDepthField& field) {
     for (std::size_t i = 0; i < field.inverseDepth.size(); ++i) {
         c.checks.within(field.inverseDepth[i], 0, 3.4e38, "filtered inverse depth");
@@ -56,7 +54,7 @@ void hostileFilter(Context& c) {
     }
 }
 
-// The depth that is carried over to a moved camera must agree with geometry, in any unit of length.
+// The depth of a moved camera must agree with geometry, in any unit of length.
 void carriedDepth(Context& c) {
     const Size size{c.hostile.integer(20, 90), c.hostile.integer(20, 70)};
     CameraModel camera = c.hostile.camera(size);
@@ -70,7 +68,7 @@ void carriedDepth(Context& c) {
     filter.predict({}, 0.03);
     filter.fuse(plane, {0, 0, size.width, size.height});
     RigidTransform ahead;
-    // The camera moves far enough that the filter carries the field over at once.
+    // The camera moves so far that the filter moves the field at once.
     const double way = c.hostile.real(0.15, 0.4) * c.hostile.pick({-1, 1});
     ahead.translation = unit * Eigen::Vector3d(way, 0, way);
     filter.predict(ahead, 0.03);

@@ -1,5 +1,5 @@
 // Runs both engines on the same hostile input. Each step reads the output of the previous GLES
-// step. Otherwise a single different decision of a search would make all later steps differ.
+// step, because otherwise one different decision of a search would make all later steps differ.
 #include "pipeline/engine/engine.h"
 #include "pipeline/plan/work_plan.h"
 #include "tests/stability/cases.h"
@@ -31,7 +31,7 @@ Sensors hostileSensors(Context& c) {
     Sensors out{hostileRig(c), {}, {}};
     out.video = c.hostile.picture(out.rig.video.size);
     out.still = c.hostile.picture(out.rig.still.size);
-    // Limits the contrast, so that sharpening and enlarging do not overshoot: the GPU clamps values
+    // Limits the contrast, so that sharpening and enlarging do not overshoot. The GPU clamps values
     // between passes.
     for (TestPicture* picture : {&out.video, &out.still})
         for (std::uint8_t& byte : picture->bytes)
@@ -39,7 +39,6 @@ Sensors hostileSensors(Context& c) {
     return out;
 }
 
-/// A frame and its work plan.
 struct Shot {
     RgbPlanes planes;
     TileWork work;
@@ -69,7 +68,6 @@ int channelDifference(std::uint32_t a, std::uint32_t b) {
     return most;
 }
 
-/// Number of pixels of a pyramid level whose difference is larger than rounding.
 long differingPixels(const LumaPyramid& a, const LumaPyramid& b, const LumaLevel& level) {
     const std::uint32_t* words[] = {a.words.host()[0], b.words.host()[0]};
     const auto pixel = [&](int which, int x, int y) {
@@ -84,7 +82,7 @@ long differingPixels(const LumaPyramid& a, const LumaPyramid& b, const LumaLevel
     return count;
 }
 
-// Where a strong lens folds back on itself, rounding decides which of two branches a ray takes.
+// Where a strong lens folds back, rounding decides which of two branches a ray takes.
 constexpr double kFolded = 0.1;
 
 void comparePyramids(Context& c, const LumaPyramid& gles, const LumaPyramid& simd) {
@@ -128,8 +126,8 @@ void compareWeights(Context& c, const CellWeights& gles, const CellWeights& simd
 }
 
 // Share of pixels that may differ in mode blend. Unlike mode detail, blending trusts cells with
-// different patches if their forward and backward flow agree. Between two such cells the position
-// in the still may jump by many pixels, and the GPU's bilinear filter has only 8 bits there.
+// different patches if forward and backward flow agree. Between two such cells the position in the
+// still may jump by many pixels, for which the GPU's bilinear filter has only 8 bits.
 constexpr double kJumps = 0.05;
 constexpr int kRounding = 5;  // error of three GPU passes with 8 bits each [grey levels]
 

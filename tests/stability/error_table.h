@@ -10,12 +10,12 @@ namespace mfar::stress {
 class ErrorTable {
 public:
     /// `what`: the pass and the quantity. `unit`: unit of the errors. `least`: smallest value whose
-    /// unit in the last place is used; smaller values, such as pixels near 0, use that of `least`.
+    /// unit in the last place is used. Smaller values, such as pixels near 0, use that of `least`.
     ErrorTable(std::string what, std::string unit, double least = 0)
         : what_(std::move(what)), unit_(std::move(unit)), least_(least) {}
 
-    /// `error`: in the table's unit. `got`, `wanted`: values from which the error in units in the
-    /// last place (ulps) of single precision is computed.
+    /// `error`: in the table's unit. `got`, `wanted`: values for the error in units in the last
+    /// place (ulps) of single precision.
     void add(double error, double got, double wanted);
     void add(double error) { errors_.push_back(error); }
 

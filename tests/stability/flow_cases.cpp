@@ -1,4 +1,3 @@
-// Cases for the two-dimensional flow and its pyramids on GL.
 #include "pipeline/pipeline.h"
 #include "tests/stability/cases.h"
 
@@ -13,7 +12,6 @@ struct FlowSummary {
     double median = 0, most = 0;
 };
 
-/// Deviation of a flow from a constant shift. The border of the picture does not count.
 FlowSummary errorOf(const std::vector<float>& flow, Size size, const Eigen::Vector2d& shift) {
     constexpr int kBorder = 24;
     std::vector<double> errors;
@@ -63,8 +61,8 @@ TestPicture mirrored(const TestPicture& p) {
     return out;
 }
 
-// A shift within the reach of the search and of sub-pixel steps must be found, also with exchanged
-// and with mirrored pictures.
+// A shift within the reach of the search and of sub-pixel steps must be found, also in exchanged
+// and in mirrored pictures.
 void shiftedPicture(Context& c) {
     const Size size = c.size(101, 180);
     const Waves waves(static_cast<unsigned>(c.hostile.integer(1, 1 << 30)), 6, 60, 35);

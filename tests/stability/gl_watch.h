@@ -11,8 +11,7 @@
 namespace mfar::stress {
 
 /// Checks all GL passes: their outputs (gpu::Validation), the bytes behind their buffers, and every
-/// index into a buffer, a texture or an image (watched_shaders.h). The constructor creates the GL
-/// context.
+/// index into a buffer, a texture or an image (watched_shaders.h). Creates the GL context.
 class GlWatch {
 public:
     GlWatch();
@@ -20,9 +19,8 @@ public:
     GlWatch(const GlWatch&) = delete;
     GlWatch& operator=(const GlWatch&) = delete;
 
-    /// Call this after each frame. Counts `pixels` for each pass that ran since the last call, or
-    /// the number of pixels that the pass wrote if that is larger. Reports the faults of these
-    /// passes.
+    /// To be called after each frame. For each pass since the last call, counts `pixels`, or the
+    /// number of pixels that it wrote if that is larger. Reports faults of these passes.
     void frame(Checks& checks, long pixels);
 
 private:

@@ -28,14 +28,13 @@ std::array<T, 4> cubicWeights(T t) {
     return {w0, w1, one - w0 - w1 - w3, w3};
 }
 
-/// Colours are in [0, 1].
 template <class T>
 T weighed(const std::array<T, 4>& w, const std::array<double, 4>& v) {
     return w[0] * T(v[0]) + w[1] * T(v[1]) + w[2] * T(v[2]) + w[3] * T(v[3]);
 }
 
-/// Position between two video pixels, 0 to 1, for column x of the output: the fraction of
-/// x scale - 0.5.
+/// Position of output column x between two video pixels, from 0 to 1: the fraction of
+/// x * scale - 0.5.
 template <class T>
 T fractionAt(double x, double scale) {
     const T p = T(x) * T(scale) - T(0.5);
@@ -55,7 +54,6 @@ T meanOf16(const std::array<double, 16>& v) {
     return sum / T(16);
 }
 
-/// Projects a ray through a lens, as in camera.glsl; computes one coordinate.
 template <class T>
 T projected(const CameraModel& c, double x, double y) {
     const T u(x), v(y), r2 = u * u + v * v;

@@ -10,7 +10,7 @@ namespace {
 
 using Limits = std::numeric_limits<float>;
 
-constexpr int kPatterns = 9;  // number of patterns of greyAt(); picture() also has plane waves
+constexpr int kPatterns = 9;
 
 }  // namespace
 

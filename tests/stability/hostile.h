@@ -13,12 +13,12 @@
 
 namespace mfar::stress {
 
-/// Draws hostile inputs. Each input depends on the seed alone.
+/// Draws hostile inputs. They depend only on the seed.
 class Hostile {
 public:
     explicit Hostile(std::uint64_t seed) : random_(seed) {}
 
-    [[nodiscard]] int integer(int low, int high);  ///< both limits included
+    [[nodiscard]] int integer(int low, int high);  ///< `low` and `high` are included
     [[nodiscard]] double real(double low, double high);
     [[nodiscard]] double logarithmic(double low, double high);
     [[nodiscard]] bool chance(double probability) { return real(0, 1) < probability; }
@@ -27,33 +27,30 @@ public:
         return of.begin()[integer(0, static_cast<int>(of.size()) - 1)];
     }
 
-    /// Sizes such as 1x1, 1xN, primes, and near multiples of the tile; each side is at most about
-    /// `most`.
+    /// Sizes such as 1x1, 1xN, primes, and near multiples of the tile size. Each side is at most
+    /// about `most`.
     [[nodiscard]] Size size(int least, int most);
-    /// NaN, infinities, the largest and smallest floats, denormals, and zeros.
+    /// Returns NaN, an infinity, the largest or smallest float, a denormal, or a zero.
     [[nodiscard]] double bad();
     /// Like bad(), but without NaN and infinities.
     [[nodiscard]] double extreme();
 
-    /// A picture of one of these patterns: constant, saturated, a checkerboard, columns at the
-    /// Nyquist frequency, an impulse, noise, a picture with extreme gain, a ramp, or like a
-    /// photograph.
+    /// A picture of a random pattern: constant, saturated, a checkerboard, columns at the Nyquist
+    /// frequency, an impulse, noise, extreme gain, a ramp, or like a photograph.
     [[nodiscard]] TestPicture picture(Size size, PixelFormat format = PixelFormat::Rgba8);
     [[nodiscard]] LumaImage luma(Size size);
 
-    /// A lens for a picture of this size: from undistorted to strong barrel or pincushion
+    /// A lens for a picture of this size, from undistorted to strong barrel or pincushion
     /// distortion, or with an off-centre principal point.
     [[nodiscard]] CameraModel camera(Size size);
     [[nodiscard]] Eigen::Vector3d direction();
-    /// A rotation by any angle, about any axis.
     [[nodiscard]] Eigen::Quaterniond turn();
-    /// A motion with small or large rotation. The translation has a length from zero to a thousand
-    /// units and leads sideways, forwards or backwards. The epipole may lie in the picture, at its
+    /// A motion with small or large rotation. The translation has a length of zero to a thousand
+    /// units and leads sideways, forwards or backwards. The epipole may be in the picture, at its
     /// border or near it.
     [[nodiscard]] RigidTransform motion(double unit = 1);
-    /// A small motion, like that of a hand-held camera.
     [[nodiscard]] RigidTransform gentle(double unit = 1);
-    /// `T` with one number made invalid, or with an invalid rotation.
+    /// Returns `T` with one invalid number or with an invalid rotation.
     [[nodiscard]] RigidTransform spoilt(RigidTransform T);
     [[nodiscard]] Matrix6 covariance();
 

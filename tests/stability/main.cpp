@@ -72,10 +72,8 @@ void print(const Tally& tally) {
     fmt::print("{} cases of {} seeds, {} failures\n", tally.cases, tally.seeds, tally.failures);
 }
 
-/// Runs the cases, one seed after the other.
 class Run {
 public:
-    /// `job`: index of this process.
     Run(const Options& options, int job)
         : options_(options), isFirst_(job == 0), cases_(chosen(options)), balance_(cases_) {}
 
@@ -88,7 +86,7 @@ private:
     [[nodiscard]] bool stops() const { return options_.run.stops(failures_); }
     void runCase(const Case& one, std::uint64_t seed, Scale scale);
     void fillUp(std::uint64_t seed, double until);
-    /// Only the first process shows its progress: all processes end at the same time.
+    /// Only the first process shows its progress, because all processes end at the same time.
     void showProgress(const char* part);
 
     Options options_;
@@ -118,8 +116,8 @@ void Run::runCase(const Case& one, std::uint64_t seed, Scale scale) {
                    scale == Scale::Product ? " --full" : "");
 }
 
-// Runs cases that balance_ chooses until `until` [minutes]. Each run gets its own seed, because the
-// same case may be chosen again.
+// Runs cases that balance_ chooses, until `until` [minutes]. Each run has its own seed, because a
+// case may be chosen again.
 void Run::fillUp(std::uint64_t seed, double until) {
     constexpr std::uint64_t kFarOff = 1000000007;
     while (!stops() && minutes() < until) {
@@ -150,7 +148,7 @@ Tally Run::drawSeeds(std::uint64_t first) {
             runCase(one, seed, scale);
             if (stops()) break;
         }
-        // Then runs cases at the product's size, for three times as long as the seed took.
+        // Runs cases at the product's size, for three times as long as the seed took.
         if (scale == Scale::Mixed && !repeats)
             fillUp(seed, std::min(4 * minutes() - 3 * start, options_.run.minutes));
         ++seeds_;

@@ -50,7 +50,7 @@ TEST(Mended, InvalidMeasurementsAreIgnored) {
     }
 }
 
-TEST(Mended, AnInvalidPoseForgetsTheDepth) {
+TEST(Mended, AfterAnInvalidPoseDepthIsForgotten) {
     for (const double bad : {double(kNan), double(kInf), 0.0}) {
         DepthFilter filter(smallCamera(), oneWorker());
         filter.predict({}, 0.03);
@@ -65,7 +65,7 @@ TEST(Mended, AnInvalidPoseForgetsTheDepth) {
     }
 }
 
-TEST(Mended, AnInvalidTimeAddsNoVariance) {
+TEST(Mended, AnInvalidTimeDoesNotIncreaseTheVariance) {
     DepthFilter filter(smallCamera(), oneWorker());
     filter.predict({}, 0.03);
     filter.fuse(fieldOf({8, 6}, 0.5F, 0.01F), {0, 0, 8, 6});
@@ -88,7 +88,7 @@ TEST(Mended, InvalidDepthStaysUnknownAtEdges) {
     }
 }
 
-// The only ray is the optical axis, so the rim of the lens has radius zero.
+// The only ray is the optical axis. So the rim of the lens has radius zero.
 TEST(Mended, EpipolarLensAcceptsAPictureOfOnePixel) {
     const EpipolarLens lens(smallCamera({1, 1}), 0);
     const auto p = lens.project(0, 0);
@@ -96,7 +96,7 @@ TEST(Mended, EpipolarLensAcceptsAPictureOfOnePixel) {
     EXPECT_EQ(p.y, 0);
 }
 
-// The cells form only one column or one row.
+// There is only one column or one row of cells.
 TEST(Mended, EpipolarFlowAcceptsPicturesOneOrTwoPixelsWide) {
     for (const Size size : {Size{1, 1}, Size{1, 40}, Size{40, 1}, Size{2, 3}}) {
         EpipolarFlow flow({smallCamera(size), smallCamera(size), {}}, oneWorker());
@@ -127,7 +127,7 @@ TEST(Mended, ANonFinitePredictionIsSearchedFromInfinity) {
     EXPECT_EQ(searched(kInf), searched(1e30F));
 }
 
-TEST(Mended, SearchSurvivesAnInvalidCovariance) {
+TEST(Mended, TheSearchAcceptsAnInvalidCovariance) {
     const CameraModel camera = smallCamera({64, 48});
     const TestPicture picture = randomPicture({64, 48}, 1);
     LumaImage luma;
@@ -150,7 +150,7 @@ TEST(Mended, PosesWithAnInvalidCovarianceAreRejected) {
     pose.covariance.setIdentity();
     pose.T_world_video.rotation.coeffs().setZero();
     EXPECT_EQ(filter.update(pose, 1), PoseFilter::Outcome::Rejected);
-    // A quaternion whose norm is slightly off is accepted, and normalised.
+    // A quaternion whose norm is slightly off must be accepted and normalised.
     pose.T_world_video.rotation.coeffs() << 0, 0, 0, 1.001;
     EXPECT_EQ(filter.update(pose, 1), PoseFilter::Outcome::Started);
     ASSERT_TRUE(filter.predict(pose.time));

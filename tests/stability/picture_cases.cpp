@@ -1,4 +1,3 @@
-// Cases for passes over pictures: formats, pyramids, the plan of changes, enlargement, weights.
 #include "base/image_layout.h"
 #include "pipeline/engine/params/weigh.h"
 #include "pipeline/gles/picture_texture.h"
@@ -21,7 +20,7 @@ namespace mfar::stress {
 namespace {
 
 // Largest error of a colour that is converted from a video format. Bilinear look-ups have weights
-// of 8 bits, and the errors of both chroma channels add up.
+// of 8 bits, and errors of both chroma channels add up.
 constexpr double kFormatError = 2.7;  // [grey levels]
 
 void pictureFormats(Context& c) {
@@ -53,7 +52,7 @@ void pictureFormats(Context& c) {
         }
 }
 
-// Values are rounded twice; so they may differ by one grey level.
+// Values are rounded twice. So they may differ by one grey level.
 void lumaPyramids(Context& c) {
     const Size size = c.size(1, 120);
     const TestPicture a = c.hostile.picture(size), b = c.hostile.picture(size);
@@ -71,7 +70,6 @@ void lumaPyramids(Context& c) {
     c.gl.frame(c.checks, pixelsOf(size));
 }
 
-/// Another picture, or one that differs from `before` in one pixel, in a few pixels, or nowhere.
 TestPicture changed(Context& c, const TestPicture& before) {
     const Size size = before.size;
     if (c.hostile.chance(0.3)) return c.hostile.picture(size);
@@ -125,8 +123,8 @@ void changePlan(Context& c) {
     c.gl.frame(c.checks, pixelsOf(size));
 }
 
-// Without a still the output must be the enlarged video. Its columns are enlarged first and rounded
-// to 8 bits.
+// Without a still the output must be the enlarged video. Columns are enlarged first and rounded to
+// 8 bits.
 void enlargement(Context& c) {
     const Size video = c.size(1, 60);
     const Size output{video.width * c.hostile.integer(1, 4) + c.hostile.integer(0, 3),

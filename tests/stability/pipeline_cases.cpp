@@ -1,4 +1,3 @@
-// Cases for the whole pipeline, with hostile poses, stills and objects.
 #include "pipeline/pipeline.h"
 #include "tests/stability/cases.h"
 
@@ -19,16 +18,18 @@ std::optional<Pose> poseFor(Context& c, double unit) {
     return pose;
 }
 
-/// One engine for all steps, or a mixture in which fields are transferred between host and GPU.
+/// One engine for all steps, or different engines. Then buffers are transferred between host and
+/// GPU.
 EngineChoice enginesFor(Context& c) {
     const auto kind = [&] { return c.hostile.pick({EngineKind::Gles, EngineKind::Simd}); };
     if (c.hostile.chance(0.6)) return EngineChoice::all(kind());
     return {kind(), kind(), kind(), kind(), kind(), kind()};
 }
 
-constexpr int kMostOutput = 4096;  // largest side of the output picture [px]
+constexpr int kMostOutput = 4096;
 
-/// An object in front of, around or behind the camera, or across the camera's plane; tiny or huge.
+/// An object in front of, around or behind the camera, or across the camera's plane. It may be tiny
+/// or huge.
 VirtualObject objectFor(Context& c, double unit) {
     VirtualObject o;
     o.shape = c.hostile.pick({VirtualShape::Box, VirtualShape::Sphere, VirtualShape::Quad});
@@ -75,8 +76,8 @@ void frames(Context& c) {
     options.engines = enginesFor(c);
     if (c.scale == Scale::Product)
         options.output = c.hostile.pick({rig.still.size, Size{1440, 1080}, Size{1067, 800}});
-    // A still that is narrower than the video has no full size. The full size of a very wide still
-    // may be larger than a texture can be.
+    // If the still is narrower than the video, there is no full size. The full size of a very wide
+    // still may exceed the largest texture.
     const Size full = Pipeline::fullSize(rig);
     if (c.scale == Scale::Mixed || rig.still.size.width < rig.video.size.width ||
         std::max(full.width, full.height) > kMostOutput)
@@ -90,7 +91,7 @@ void frames(Context& c) {
         pipeline.setObjects(objects);
     }
     Timestamp time{};
-    // At the product's size more frames are run, because creating a pipeline takes as long as
+    // More frames are run at the product's size, because creating a pipeline takes as long as
     // several frames.
     const int count = c.scale == Scale::Product ? 12 : 5;
     for (int frame = 0; frame < count; ++frame) {
@@ -103,7 +104,6 @@ void frames(Context& c) {
     }
 }
 
-/// Median deviation of a flow from a constant shift [px].
 double shiftError(const std::vector<float>& flow, const Eigen::Vector2d& shift) {
     std::vector<double> errors;
     for (std::size_t i = 0; i < flow.size(); i += 2)
@@ -112,7 +112,7 @@ double shiftError(const std::vector<float>& flow, const Eigen::Vector2d& shift) 
     return errors.empty() ? 1e9 : errors[errors.size() / 2];
 }
 
-// The still's detail must be added to the picture although the view has shifted since the still.
+// The picture must have the still's detail although the view has shifted since the still.
 void knownTruth(Context& c) {
     const Size video = c.scale == Scale::Mixed && c.hostile.chance(0.1)
                            ? Size{640, 480}

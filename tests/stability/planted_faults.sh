@@ -13,8 +13,8 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 missed=0 found=0
 
-# expectFound PROGRAM DESCRIPTION CASES [ARGUMENT...]: runs the cases with a planted fault, which
-# they must find.
+# expectFound PROGRAM DESCRIPTION CASES [ARGUMENT...]: runs the cases with a planted fault. Reports
+# the fault as missed if none of them fails.
 expectFound() {
     local run=$1 what=$2 cases=$3 said status=0
     shift 3
@@ -36,10 +36,10 @@ inShaders() {
     done < <("$program" --list-planted)
 }
 
-# compile SOURCE OBJECT: compiles the source with the changed copies (of itself or of a header)
-# instead of the originals. The copies lie in $scratch under the same relative paths, because a
-# kernel includes itself once per instruction set. Uses the compiler command of the source's unity
-# file, or the source's own command if there is no such file.
+# compile SOURCE OBJECT: compiles the source with the changed copies of itself or of a header. The
+# copies are in $scratch under the same relative paths, because a kernel includes itself once per
+# instruction set. Uses the compiler command of the source's unity file, or, without a unity file,
+# the source's own command.
 compile() {
     local source=$1 object=$2 unit command
     unit=$(grep -lsF "/$source\"" "$build"/pipeline/CMakeFiles/*/Unity/*.cxx \
@@ -53,7 +53,7 @@ compile() {
 }
 
 # inHost SOURCE FROM TO DESCRIPTION CASES [INCLUDER]: plants a fault by replacing FROM by TO in a
-# host source. If SOURCE is a header, INCLUDER is the source that includes it.
+# host source. If SOURCE is a header, INCLUDER is a source that includes it.
 inHost() {
     local source=$1 from=$2 to=$3 what=$4 cases=$5 unit=${6:-$1} link
     if [[ $(grep -cF -- "$from" "$source") != 1 ]]; then
@@ -78,9 +78,9 @@ inHost() {
 
 hostFaults() {
     inHost pipeline/depth/depth_filter.cpp 'if (InverseDepthField::isSound(measured.inverseDepth[i], measured.variance[i]))' \
-        '' 'removed guard against measurements that are none' depth-filter
+        '' 'missing check for invalid measurements' depth-filter
     inHost pipeline/depth/edge_snap.cpp 'const bool sound = InverseDepthField::isSound(in.inverseDepth[i], in.variance[i]);' \
-        'const bool sound = true;' 'removed guard against depth that is none' edges
+        'const bool sound = true;' 'missing check for invalid depth' edges
     inHost pipeline/epipolar/epipolar_search.cpp 'return label > -kBeyond ? std::min(label, longest) : static_cast<float>(-kBeyond);' \
         'return label;' 'missing clamp of a prediction' search
     inHost pipeline/epipolar/relative_pose.cpp 'out.error = ray - seen;' 'out.error = seen - ray;' \
@@ -90,30 +90,29 @@ hostFaults() {
     inHost pipeline/plan/tile_measure.cpp \
         'std::memcpy(to + inside, out.now[c][y] + inside, kTileSize - inside);' '' \
         'a difference beyond the border' plan
-    inHost pipeline/plan/tile_choice.cpp 'if (tile.changed) return;' '' 'changed tiles taken for noise' plan
+    inHost pipeline/plan/tile_choice.cpp 'if (tile.changed) return;' '' 'changed tiles counted as noise' plan
     inHost pipeline/track/pose_filter.cpp 'if (!usable) {' 'if (false) {' \
-        'removed guard against poses that are none' pose-filter
+        'missing check for invalid poses' pose-filter
     inHost pipeline/track/tag_pose.cpp 'tag.T_world_tag * T_camera_tag.inverse();' \
-        'tag.T_world_tag * T_camera_tag;' 'an inverse left out' tag-exact
+        'tag.T_world_tag * T_camera_tag;' 'missing inverse of a pose' tag-exact
     inHost pipeline/composite/silhouette.cpp 'tile.farthest = std::max(tile.farthest, farthest);' \
-        'tile.farthest = farthest;' 'a range that forgets' silhouette
+        'tile.farthest = farthest;' 'a depth range of the last pixel only' silhouette
     local triangulation=tests/measure/triangulation/triangulation.cpp
     inHost $triangulation 'd = s.e.squaredNorm() - s.b.z() * along;' \
         'd = s.e.squaredNorm() + s.b.z() * along;' 'wrong sign' triangulation-usual
     inHost $triangulation 'along > kNoAngle ? crossOf(s.e, s.u) / along : s.u.norm()' \
-        'crossOf(s.e, s.u) / along' 'removed guard where there is no epipolar line' triangulation
+        'crossOf(s.e, s.u) / along' 'missing check for pixels without an epipolar line' triangulation
     inHost $triangulation 'rho > 0 && rho < kLargestRho && distance <= mostDistance_;' \
-        'distance <= mostDistance_;' 'removed guard' triangulation
+        'distance <= mostDistance_;' 'missing range check' triangulation
 }
 
-# Faults in kernels of the SIMD engine.
 kernelFaults() {
     local simd=pipeline/simd
     inHost $simd/luma_kernels.cpp 'hn::Set(d, params::kLumaGreen)' 'hn::Set(d, 0.614F)' 'wrong weight of green' engines
     inHost $simd/still_footprint.cpp 'return std::clamp(i, 0, p.width - 1);' 'return std::clamp(i + 1, 0, p.width - 1);' \
-        'a column off' engines
+        'pixel of the next column' engines
     inHost $simd/still_kernels.cpp 'const auto share = hn::Set(d, neighboursShare);' \
-        'const auto share = hn::Set(d, std::int16_t(0 * neighboursShare));' 'neighbours left out' engines
+        'const auto share = hn::Set(d, std::int16_t(0 * neighboursShare));' 'missing neighbours' engines
     inHost $simd/still_look_up.cpp 'hn::Lt(error, Const(params::kTwoWayAlpha))' \
         'hn::Lt(error, Const(1e9F))' \
         'missing guard: confidence below zero' engines,pipeline
@@ -127,7 +126,7 @@ kernelFaults() {
     inHost $simd/patch_search.cpp 'hn::NegMulAdd(hn::Add(gain, gain), covariance, energy)' \
         'hn::MulAdd(hn::Add(gain, gain), covariance, energy)' 'wrong sign in a cost' pipeline-truth
     inHost $simd/field_rows.cpp 'return hn::Max(low, middle);' 'return hn::Min(low, middle);' \
-        'another value for the median' filters
+        'wrong value instead of the median' filters
     inHost $simd/luma_filters.cpp 'hn::ShiftRight<2>(hn::Add(sum, hn::Set(d, 2)))' 'hn::ShiftRight<1>(hn::Add(sum, hn::Set(d, 2)))' \
         'wrong divisor of a mean' luma
     inHost $simd/path_windows-inl.h 'from + std::clamp(shift, -labels - 1, labels + 1)' 'from + shift' \
@@ -137,33 +136,32 @@ kernelFaults() {
     rowFaults
 }
 
-# Faults in SIMD kernels of the epipolar search, of depth, of tiles and of rotated pictures.
 rowFaults() {
     local simd=pipeline/simd
     inHost $simd/label_costs.cpp 'hn::IfNegativeThenElse(seen, hn::Set(d, kUnseenCost), count)' 'count' \
-        'missing guard against pixels without census' label-costs
+        'missing check for pixels without census' label-costs
     inHost $simd/label_costs.cpp 'for (const float side : {-1.0F, 1.0F}) {' 'for (const float side : {1.0F}) {' \
-        'one side of the line left out' label-costs
+        'missing pixels on one side of the line' label-costs
     inHost $simd/label_lines.cpp 'hn::Sub(own.foot, left.foot)' 'hn::Sub(left.foot, own.foot)' \
         'wrong sign of a slope' label-places
     inHost $simd/label_lines.cpp 'hn::Or(hn::Eq(rise, hn::Zero(d)), hn::Eq(rise, hn::Set(d, Valley::kUnknown)))' \
-        'hn::Eq(rise, hn::Zero(d))' 'missing guard against rises outside the window' label-places
+        'hn::Eq(rise, hn::Zero(d))' 'missing check for rises outside the window' label-places
     inHost $simd/depth_rows.cpp 'const auto moved = hn::Mul(inverseDepth, inverse);' 'const auto moved = inverseDepth;' \
-        'depth not carried' depth-carried
+        'depth does not follow the camera' depth-carried
     inHost $simd/depth_rows.cpp 'hn::Ge(hn::Add(s, set(rule.slack)), first)' 'hn::Ge(s, s)' \
-        'missing test of what is in front' measured-row
+        'missing check for nearer surfaces' measured-row
     inHost $simd/depth_rows.cpp 'const auto depth = hn::NegMulAdd(s, tz, one);' \
         'const auto depth = hn::MulAdd(s, tz, one);' 'wrong sign of a depth' measured-row
     inHost $simd/depth_rows.cpp 'storePixels(d, at, hn::Gt(z, least), size.width, landing + i);' \
         'storePixels(d, at, hn::Gt(z, least), size.width + 1, landing + i);' 'a wrong pitch' landed-row
     inHost $simd/tile_rows.cpp 'Const(kMeanToDeviation / 64)' 'Const(kMeanToDeviation / 60)' 'wrong divisor of noise' plan
-    inHost $simd/tile_rows.cpp '1 << (kCells * row + column)' '1 << (kCells * column + row)' 'rows for columns' plan
+    inHost $simd/tile_rows.cpp '1 << (kCells * row + column)' '1 << (kCells * column + row)' 'rows and columns exchanged' plan
     inHost $simd/turned_rows.cpp 'hn::MulAdd(fy, hn::Sub(low, top), top)' 'hn::MulAdd(fx, hn::Sub(low, top), top)' \
-        'columns for rows' turned-row
+        'columns instead of rows' turned-row
     inHost $simd/turned_rows.cpp 'const auto skipped = hn::ShiftLeft<3>(hn::Sub(offset, from));' \
         'const auto skipped = hn::Zero(dInt_);' 'a wrong byte at the end of the picture' turned-row
     inHost $simd/turned_rows.cpp 'hn::Gt(pz, set(kLeastDepth))' 'hn::Eq(pz, pz)' \
-        'missing guard: what is behind the camera is shown' turned-points
+        'missing check for points behind the camera' turned-points
 }
 
 if [[ $which == all || $which == shaders ]]; then inShaders; fi

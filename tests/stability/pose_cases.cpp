@@ -1,4 +1,3 @@
-// Cases for the camera's pose from tags, the pose filter, and the lens.
 #include "pipeline/composite/lens_projection.h"
 #include "pipeline/track/pose_estimator.h"
 #include "pipeline/track/tracker.h"
@@ -14,7 +13,7 @@
 namespace mfar::stress {
 namespace {
 
-/// A camera at this distance from a tag at the world's origin; the tag is tilted by up to 70
+/// A camera at this distance from a tag at the world's origin. The tag is tilted by up to 70
 /// degrees.
 RigidTransform before(Context& c, double distance) {
     const Eigen::AngleAxisd tilt(
@@ -146,7 +145,7 @@ void hostileTracker(Context& c) {
     }
 }
 
-// Unprojecting and then projecting a pixel must give the pixel. Rays outside of the lens model's
+// Unprojecting and then projecting a pixel must give the same pixel. Rays outside the lens model's
 // valid range (beyond the rim) must not fall into the picture.
 void lenses(Context& c) {
     const CameraModel camera = c.hostile.camera(c.hostile.size(1, 2000));
@@ -156,7 +155,7 @@ void lenses(Context& c) {
                                     c.hostile.real(0, camera.size.height - 1));
         const Eigen::Vector2d ray = camera.unproject(pixel);
         c.checks.require(ray.allFinite(), "a ray that is not finite");
-        // Where the lens model folds over before the picture's corner, unproject() returns the
+        // Where the lens model folds over inside the picture's corner, unproject() returns the
         // nearest ray instead.
         if (camera.projectJacobian(ray).determinant() > 0.1 * camera.fx * camera.fy)
             c.checks.within((camera.project(ray) - pixel).norm(), 0, 1e-6,

@@ -58,7 +58,7 @@ twin::TwoViews productViews() {
             {Eigen::Quaterniond(turn), {-0.12, 0.03, 0.02}}};
 }
 
-// Expresses the error of a depth as the error of the flow that would cause it.
+// Expresses an error of depth as the error of flow that would cause it.
 void triangulation(TriangulationMethod method, const char* what) {
     const twin::TwoViews views = productViews();
     std::vector<float> flow;
@@ -116,7 +116,6 @@ std::vector<float> assessedStillPixels(const StereoRig& rig) {
     return displacement.readRgba32F();
 }
 
-// The look-up applies both lenses and the rotation between them.
 void stillPixels() {
     const StereoRig rig = bentRig({640, 480}, {2304, 1728});
     const Size cells = cellsOf(rig.video.size);

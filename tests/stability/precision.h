@@ -2,8 +2,8 @@
 
 namespace mfar::stress {
 
-/// Prints the error of each geometric pass in single precision against double precision. Then calls
-/// printHalfPrecision().
+/// Prints the error of each geometric pass in single precision, compared with double precision.
+/// Then calls printHalfPrecision().
 void printPrecision();
 
 }  // namespace mfar::stress

@@ -22,7 +22,7 @@ namespace {
 
 struct Process {
     pid_t id = 0;
-    int results = -1;  // read end of the process's pipe
+    int results = -1;
 };
 
 std::string written(const Tally& tally) {
@@ -112,7 +112,8 @@ Tally inProcesses(int count, bool keepGoing, const std::function<Tally(int)>& wo
             std::ranges::find_if(running, [id](const Process& p) { return p.id == id; });
         if (process == running.end()) continue;
         const bool sound = ended(*process, status);
-        // A process can always write its output: it is smaller than the capacity of a pipe.
+        // A process can write all its output without waiting, because the output is smaller than a
+        // pipe's capacity.
         add(readAll(process->results), sum);
         close(process->results);
         running.erase(process);

@@ -6,17 +6,16 @@
 
 namespace mfar::stress {
 
-/// The counts of a run.
 struct Tally {
-    std::map<std::string, long> pixels;  ///< pixels of each pass
+    std::map<std::string, long> pixels;
     std::map<std::string, long> inputs;  ///< inputs of each part that does not process pictures
     long cases = 0, seeds = 0, failures = 0;
 };
 
-/// Calls `work` with 0, 1, ... in `count` processes and adds up their results. A process that
-/// crashes counts as a failure and is reported. After a failure the other processes are ended,
-/// unless `keepGoing` is true. Must be called before any thread or graphics context is created.
-/// Throws std::runtime_error.
+/// Calls `work` with 0, 1, ... in `count` processes and adds up the results. A crash of a process
+/// is a failure and is reported. After a failure the other processes are ended, unless `keepGoing`
+/// is true. Must be called before any thread or graphics context is created. Throws
+/// std::runtime_error.
 [[nodiscard]] Tally inProcesses(int count, bool keepGoing, const std::function<Tally(int)>& work);
 
 }  // namespace mfar::stress

@@ -1,6 +1,3 @@
-// Cases for the row kernels of the epipolar search and of depth. On hostile pictures, lenses and
-// values they are compared with their definitions in double precision, except where rounding
-// decides.
 #include "pipeline/epipolar/epipolar_lens.h"
 #include "pipeline/simd/census_rows.h"
 #include "pipeline/simd/depth_rows.h"
@@ -54,8 +51,8 @@ void turnedPoints(Context& c) {
         const auto p = test::turned(lens.turn, {raysX[i], raysY[i], 1});
         const double radius = std::hypot(p.x, p.y) / p.z;
         const bool isShown = p.z > 0.05 && radius < rim;
-        // Skips results within a tenth of a percent of the rim, and rays so long that floats
-        // overflow.
+        // Skips results within a tenth of a percent of the rim, and rays that are so long that
+        // floats overflow.
         if (std::abs(radius / rim - 1) < 1e-3 || std::abs(p.z - 0.05) < 1e-3) continue;
         if (!isShown) {
             c.checks.within(x[i], -1e7, -1e5, "column of a ray that the source does not show");
@@ -69,11 +66,10 @@ void turnedPoints(Context& c) {
     c.checks.through("turnedPoints", static_cast<long>(count));
 }
 
-// Tests rows of a rotated picture that cross the source picture and end beyond it on every side.
 void turnedRow(Context& c) {
     Size size = c.size(2, 60);
     size = {std::max(size.width, 2), std::max(size.height, 2)};
-    // The rows have no padding; so no byte behind the last pixel may be read.
+    // The rows have no padding. So no byte behind the last pixel may be read.
     const LumaImage picture = c.hostile.luma(size);
     const std::size_t width = lengthOf(c), cells = width / simd::kTurnedCell + 2;
     const double right = size.width + 2, bottom = size.height + 2;
@@ -104,22 +100,22 @@ void turnedRow(Context& c) {
         const double wanted =
             std::lerp(std::lerp(p[0], p[1], sx - ix),
                       std::lerp(p[size.width], p[size.width + 1], sx - ix), sy - iy);
-        // Tolerance: the result is rounded, and pixels up to a thousandth beyond the last column
-        // and row are read.
+        // Tolerance: the result is rounded. Pixels up to a thousandth beyond the last column and
+        // row are read.
         c.checks.within(grey[i] - wanted, -1.1, 1.1, "error of a turned pixel [grey levels]");
     }
     c.checks.through("turnedRow", static_cast<long>(width));
 }
 
 /// Epipolar lines of a lens without distortion. The candidates (labels) of a pixel are whole pixels
-/// apart along a row or a column, in either direction. So the costs of a pixel, and its foot on the
-/// line, are known without following the line.
+/// apart along a row or a column, in either direction. So the costs of a pixel are known without
+/// following the line. Its foot, the nearest point of the line, is also known.
 struct WholeLabels {
     simd::LabelLines lines{};
     Row raysX, raysY;
     std::vector<std::array<int, 2>> pixels;  ///< for each pixel, the pixel nearest to its label 0
-    std::vector<double> feet;  ///< distance from label 0 to the foot of `pixels` [labels]
-    std::array<int, 2> way{};  ///< step per label [px]
+    std::vector<double> feet;                ///< position of each pixel's foot [labels]
+    std::array<int, 2> way{};                ///< step per label [px]
 
     WholeLabels(Context& c, std::size_t count, Size canvas) {
         const double focal = c.hostile.integer(60, 120);
@@ -156,8 +152,8 @@ Valley valleyOf(Context& c) {
     return out;
 }
 
-/// Position of the minimum that two straight lines of opposite slope form. The lines lead through
-/// the costs of a label and its two neighbours.
+/// Position of the minimum of two lines with opposite slopes through the costs of a label and its
+/// two neighbours.
 double bottomOf(const Valley& v) {
     const int left = v.rise[1], right = v.rise[2], most = std::max(left, right);
     if (most == 0 || most == Valley::kUnknown) return 0;
@@ -182,7 +178,6 @@ void labelPlaces(Context& c) {
     c.checks.through("labelPlaces", static_cast<long>(count));
 }
 
-/// The matching costs of the pixels of a picture.
 struct CensusCosts {
     Size size;
     std::vector<std::uint32_t> census;

@@ -1,4 +1,3 @@
-// Cases for scaling a picture to a screen, from one pixel to several times the screen's size.
 #include "hal/device/display_scaler.h"
 #include "tests/oracle/area_mean.h"
 #include "tests/stability/cases.h"
@@ -12,10 +11,9 @@ namespace mfar::stress {
 namespace {
 
 // Largest error of a pixel that the GPU scales. A linear sampler has at least 8 bits between two
-// pixels and truncates in both directions; rounding adds half a grey level.
+// pixels and truncates in both directions. Rounding adds half a grey level.
 constexpr double kSampling = 2.5;  // [grey levels]
 
-/// A size of 0.2 to 4 times the screen's, separately in each direction.
 Size sizeFor(Context& c, Size screen) {
     const auto side = [&](int pixels) {
         const double times = c.hostile.pick({1.0, c.hostile.real(0.2, 1), c.hostile.real(1, 4)});
@@ -46,7 +44,7 @@ void onTheHost(Context& c, const TestPicture& picture, Size screen, const Screen
         }
 }
 
-// Each screen pixel must be the mean of the area that it covers. Outside the picture the screen
+// Each screen pixel must be the mean of the area that it covers. The screen outside the picture
 // must be black.
 void screens(Context& c) {
     const Size screen = c.size(1, 120), size = sizeFor(c, screen);

@@ -1,4 +1,3 @@
-// Cases for the epipolar search on the host and for the parts around it.
 #include "pipeline/epipolar/epipolar_flow.h"
 #include "pipeline/epipolar/field_filters.h"
 #include "pipeline/epipolar/relative_pose.h"
@@ -71,7 +70,6 @@ void hostileSearch(Context& c) {
     }
 }
 
-/// Median distance between the result and the true scene [px].
 double medianErrorOf(const test::View& view) {
     EpipolarSearch search({view.camera, view.camera, {}}, workers());
     search.setStill(test::viewOf(view.still()));
@@ -79,7 +77,7 @@ double medianErrorOf(const test::View& view) {
     return test::errorsOf(search, view).median;
 }
 
-// The search must find a plane, in any unit of length, also with exchanged views.
+// The search must find a plane, in any unit of length and also with exchanged views.
 void planeSearch(Context& c) {
     const Size size{c.hostile.integer(100, 160), c.hostile.integer(90, 130)};
     CameraModel camera = c.hostile.camera(size);
@@ -105,7 +103,6 @@ void planeSearch(Context& c) {
     if (!back.run(still, view.T_still_video.inverse()))
         c.checks.fail("the search with exchanged views does not run");
     checkSearch(c, back);
-    // The plane in the frame of the still camera.
     const Eigen::Vector3d normal = view.T_still_video.rotation * Eigen::Vector3d::UnitZ();
     const double distance = 2 + normal.dot(view.T_still_video.translation);
     const test::View turned{camera, {{{normal, distance}}, 18, 100}, view.T_still_video.inverse()};
@@ -179,8 +176,7 @@ void hostileRefinement(Context& c) {
     c.checks.tried("refineRelativePose", static_cast<long>(matches.size()));
 }
 
-// From matches without errors, the refinement must find the rotation that is missing in the prior
-// pose.
+// The refinement must find the rotation that the prior pose lacks, from matches without errors.
 void exactRefinement(Context& c) {
     const Eigen::Vector3d translation = 0.2 * c.hostile.direction();
     const Eigen::Quaterniond turn(

@@ -1,4 +1,4 @@
-// Runs a few seeds of every case, and tests that do not depend on a seed.
+// A few seeds of every case, and tests without seeds.
 #include "pipeline/depth/depth_filter.h"
 #include "tests/stability/cases.h"
 
@@ -24,7 +24,7 @@ std::ostream& operator<<(std::ostream& out, const Group& group) {
 
 class HostileInput : public testing::TestWithParam<Group> {};
 
-TEST_P(HostileInput, HostileInputBreaksNoInvariant) {
+TEST_P(HostileInput, RandomHostileInputBreaksNoInvariant) {
     if (GetParam().cases().empty()) GTEST_SKIP() << "not built";
     GlWatch gl;
     Checks checks;
@@ -68,7 +68,6 @@ TEST(HostileInput, InputDependsOnTheSeedAlone) {
     EXPECT_NE(one.integer(0, 1 << 30), other.integer(0, 1 << 30));
 }
 
-// The recursion of the depth filter in double precision.
 struct DoubleFilter {
     double inverseDepth, variance;
     void fuse(double measured, double error, double leastShare) {

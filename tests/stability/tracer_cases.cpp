@@ -1,4 +1,3 @@
-// Cases for the path tracer on degenerate scenes.
 #include "pipeline/render/film.h"
 #include "pipeline/render/path_tracer.h"
 #include "tests/render/render_scenes.h"
@@ -88,7 +87,6 @@ std::shared_ptr<Scene> sceneOf(Context& c) {
     return out;
 }
 
-/// Adds an object that has one number that is not finite.
 void spoilScene(Context& c, Scene& scene) {
     auto mesh = std::make_shared<Model>(render_scenes::modelOf(meshOf(c, 1), materialOf(c)));
     mesh->meshes[0].positions[0][c.hostile.integer(0, 2)] = std::nanf("");
@@ -138,7 +136,7 @@ void hostileTracer(Context& c) {
     checkFilm(c, film, view);
     c.checks.through("PathTracer", kSamples * pixelsOf(camera.size));
     if (c.scale == Scale::Product) return;
-    // Every pixel must be the same if the work is divided into other calls.
+    // Every pixel must be the same if the work is divided differently.
     Film other(camera.size);
     std::vector<std::uint32_t> pixels = render_scenes::allPixels(camera.size);
     const auto half = pixels.begin() + static_cast<std::ptrdiff_t>(pixels.size() / 2);

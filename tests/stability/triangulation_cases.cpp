@@ -1,5 +1,3 @@
-// Cases for depth from flow by both methods: compared with double precision, scaled, mirrored, and
-// with exchanged views.
 #include "tests/measure/triangulation/triangulation.h"
 #include "tests/oracle/triangulation.h"
 #include "tests/stability/cases.h"
@@ -52,7 +50,6 @@ void hostileTriangulation(Context& c) {
     triangulate(c, views, flow, options);
 }
 
-/// Two realistic views, and the flow of a surface of varying inverse depth.
 struct SurfaceScene {
     twin::TwoViews views;
     std::vector<float> flow;
@@ -89,15 +86,13 @@ SurfaceScene usualScene(Context& c, double unit) {
     return out;
 }
 
-/// Largest allowed error of inverse depth: the one that an error of 2e-6 in normalised rays causes,
-/// which is a thousandth of a pixel.
+/// Limit of the error of inverse depth. An error of 2e-6 in normalised rays, a thousandth of a
+/// pixel, causes this error.
 double bound(const twin::TwoViews& views, const twin::FlowDepth& truth, double flowSigma) {
     const double focal = std::sqrt(views.b.fx * views.b.fy);
     return truth.sigma * 2e-6 * focal / flowSigma + 2e-6 * std::abs(truth.inverseDepth);
 }
 
-/// True if depth can be determined at this pixel: the point is in front of both cameras, both see
-/// it, and it has parallax.
 bool isTold(const twin::TwoViews& views, const Vector2d& pixel, const Vector2d& flow,
             const twin::FlowDepth& truth) {
     const Vector2d q = pixel + flow, end(views.b.size.width - 1, views.b.size.height - 1);
@@ -181,7 +176,7 @@ void mirroredTriangulation(Context& c) {
         for (int x = 0; x < size.width; ++x) {
             const std::size_t row = static_cast<std::size_t>(y) * size.width;
             const std::size_t i = row + x, j = row + size.width - 1 - x;
-            // The pictures are mirrored about their centres; they may differ in width.
+            // The pictures are mirrored about their centres. They may differ in width.
             const double across = s.views.b.size.width - size.width;
             mirror.flow[2 * i] = static_cast<float>(across - s.flow[2 * j]);
             mirror.flow[2 * i + 1] = s.flow[2 * j + 1];
@@ -200,7 +195,7 @@ void mirroredTriangulation(Context& c) {
     }
 }
 
-// A point must have the same position whether a is the first view or b.
+// A point must have the same position if a and b are exchanged.
 void exchangedTriangulation(Context& c) {
     const SurfaceScene s = usualScene(c, 1);
     const twin::TwoViews back{s.views.b, s.views.a, s.views.T_b_a.inverse()};

@@ -83,7 +83,7 @@ TEST_F(ValidationTest, ValuesOutOfTheStatedRangeAreFaults) {
     }
 }
 
-// Parameters for a picture of 16x8 pixels, whose rows have eight words.
+// Parameters for a picture of 16x8 pixels with eight words per row.
 constexpr params::LumaFromVideo kLuma{.target = {0, 8, 16, 8}, .smoothing = 0.25F};
 constexpr std::size_t kLumaBytes = std::size_t{4} * 8 * 8;
 
@@ -140,7 +140,7 @@ TEST(StatedRanges, RangesAreReadFromTheShadersText) {
     EXPECT_TRUE(gpu::statedRanges("// Range: other 0..1\n", "out").empty());
 }
 
-// Every output that a shader writes as floats of 32 or 16 bits must have a stated range.
+// Every shader output of 32-bit or 16-bit floats must have a stated range.
 TEST(StatedRanges, EveryFloatImageAndBufferHasARange) {
     for (const shaders::Source& shader : shaders::all()) {
         const std::string text(shader.text);

@@ -1,4 +1,3 @@
-// Cases for the preview of virtual objects and their occlusion.
 #include "pipeline/composite/preview_renderer.h"
 #include "pipeline/composite/silhouette.h"
 #include "pipeline/gles/layer_composite.h"
@@ -85,7 +84,7 @@ void compositing(Context& c) {
         for (int x = 0; x < output.width; ++x) {
             const std::size_t i = static_cast<std::size_t>(y) * output.width + x;
             const double wanted = scene.visibility(x, y, layer.z[i], options);
-            // The tolerance is wider for a steeper transition, which shows the difference between
+            // The tolerance is wider for a steep transition, which shows the difference between
             // single and double precision.
             const double slack = options.softness >= 1 ? 0.012 : 1;
             c.checks.within(seen[4 * i] / 255.0 - wanted, -slack, slack, "error of visibility");
@@ -112,7 +111,7 @@ VirtualObject objectOf(Context& c) {
     return o;
 }
 
-/// True if the object is entirely in front of the camera and has a valid size. Only then are its
+/// True if the object has a valid size and is entirely in front of the camera. Only then are its
 /// pixels compared with rays.
 bool isCast(const VirtualObject& o) {
     const bool sound = isFinite(o.T_world_object) && o.size.allFinite() &&

@@ -1,5 +1,3 @@
-// Cases for the warp of the virtual layer: invalid pictures, and poses far from those of the
-// pictures.
 #include "pipeline/gles/edge_refiner.h"
 #include "tests/stability/cases.h"
 #include "tests/warp/warp_support.h"
@@ -13,7 +11,7 @@
 namespace mfar::stress {
 namespace {
 
-constexpr double kDistance = 0.6;  // distance of the camera from the scene [m]
+constexpr double kDistance = 0.6;
 
 test::CastScene ballsOf(Context& c) {
     test::CastScene out;
@@ -74,7 +72,6 @@ void checkLayer(Context& c, const LayerPicture& layer) {
         }
 }
 
-/// Renders one frame. A request for pixels is answered.
 void showFrame(Context& c, Warp& warp, const test::CastScene& balls, const RigidTransform& pose,
                double spoilt) {
     checkLayer(c, warp.run(pose));
@@ -112,13 +109,13 @@ void hostileWarp(Context& c) {
         if (c.hostile.chance(0.1)) warp.dropTracedPicture();
     }
     if (c.hostile.chance(0.5)) return;
-    const RigidTransform rest = from * c.hostile.gentle(0.3);  // edges are sharpened only at rest
+    // edges are sharpened only if the camera rests
+    const RigidTransform rest = from * c.hostile.gentle(0.3);
     for (int frame = 0; frame < 12; ++frame)
         showFrame(c, warp, balls, rest, spoilt);
 }
 
-// An older picture that is warped to a new pose must show the scene's points at their new
-// positions.
+// An older picture, warped to a new pose, must show points of the scene at their new positions.
 void knownWarp(Context& c) {
     test::CastScene balls = test::twoBalls();
     balls.contrast = 0.5;
@@ -155,8 +152,8 @@ gpu::Texture textureOf(Size size, const Pixels& pixels) {
     return out;
 }
 
-/// Oracle of warp_edges.comp: the largest difference of a colour channel in the 3x3 neighbourhood,
-/// as one of kLevels equal steps.
+/// Oracle of warp_edges.comp: the largest difference of a colour channel in 3x3 pixels, as one of
+/// kLevels equal steps.
 int contrastAt(const Pixels& pixels, Size size, const PixelRect& where, int x, int y) {
     int most = 0;
     for (std::size_t c = 0; c < 3; ++c) {
@@ -172,8 +169,8 @@ int contrastAt(const Pixels& pixels, Size size, const PixelRect& where, int x, i
     return std::min(most * EdgeRefiner::kLevels / 255, EdgeRefiner::kLevels - 1);
 }
 
-/// The highest contrast levels whose pixels together are at most `share` of the objects' pixels; at
-/// least the highest level.
+/// The highest contrast levels whose pixels together are at most `share` of the objects' pixels,
+/// but at least one level.
 std::vector<std::uint32_t> edgesOf(const Pixels& colour, const Pixels& state, Size size,
                                    const PixelRect& where, double share) {
     std::array<std::vector<std::uint32_t>, EdgeRefiner::kLevels> byLevel;
@@ -201,7 +198,6 @@ PixelRect partOf(Context& c, Size size) {
     return {x, y, c.hostile.integer(x + 1, size.width), c.hostile.integer(y + 1, size.height)};
 }
 
-/// Colours for most of the listed pixels, and for some pixels that are not listed.
 HoleAnswer answerOf(Context& c, const std::vector<std::uint32_t>& listed, Size size) {
     HoleAnswer out;
     for (const std::uint32_t pixel : listed)
@@ -218,7 +214,7 @@ HoleAnswer answerOf(Context& c, const std::vector<std::uint32_t>& listed, Size s
     return out;
 }
 
-// Edges must also be found in arbitrary pictures, which no rendered surface gives.
+// Edges must be found in random pictures, not only in pictures of surfaces.
 void edges(Context& c) {
     const Size size = c.size(1, 90);
     const double share = c.hostile.pick({0.01, 0.15, 1.0});

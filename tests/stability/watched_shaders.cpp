@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-// The embedded shader texts. The generated source is included with its namespace renamed.
+// The embedded shader texts. The generated source is included with another namespace.
 namespace mfar::embedded_shaders {
 struct Source {
     std::string_view name, text;
@@ -45,20 +45,19 @@ bool isName(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
 
-/// An array of a storage block. `length` is a GLSL expression for its length, which does not
-/// include the guard bytes behind the buffer.
+/// An array of a storage block. `length`: GLSL expression for its length without the guard bytes
+/// behind the buffer.
 struct StorageArray {
     std::string name, length;
 };
 
 std::string guardOf(std::string_view type) {
-    constexpr int kGuardBytes = 256;  // as in gpu::Validation
+    constexpr int kGuardBytes = 256;  // same number as in gpu::Validation
     int components = type.back() - '0';
     if (!(components >= 2 && components <= 4)) components = 1;
     return std::to_string(kGuardBytes / (4 * components));
 }
 
-/// Adds the arrays of one block. `block`: the text between its braces.
 void addArrays(std::string_view block, std::vector<StorageArray>& out) {
     for (auto open = block.find('['); open != std::string_view::npos;
          open = block.find('[', open + 1)) {
@@ -80,7 +79,7 @@ void addArrays(std::string_view block, std::vector<StorageArray>& out) {
     }
 }
 
-/// Wraps every index of these arrays in watchIndex(), also indices inside indices.
+/// Wraps every index of these arrays in watchIndex(), also indices within indices.
 std::string withIndices(std::string_view text, const std::vector<StorageArray>& arrays) {
     std::string out;
     for (std::size_t i = 0; i < text.size();) {
@@ -153,7 +152,8 @@ std::string watched(std::string_view text, std::size_t index) {
     constexpr std::string_view kBuffer = " buffer ";
     for (auto at = text.find(kBuffer); at != std::string_view::npos;
          at = text.find(kBuffer, at + 1)) {
-        // " buffer " may also occur in a comment. The line of a block begins with its layout.
+        // " buffer " may also occur in a comment. The line of a storage block begins with its
+        // layout.
         const auto line = text.rfind('\n', at) + 1;
         if (text.substr(line, 6) != "layout") continue;
         const auto open = text.find('{', at), close = text.find('}', at);

@@ -5,8 +5,8 @@
 namespace mfar {
 namespace {
 
-/// A reference still. `shows`: share of the tiles that it showed; `moved`: displacement of all
-/// cells since the first frame [px]; `weight`: weight of all cells in the last frame.
+/// A reference still. `shows`: share of tiles that it showed. `moved`: displacement of all cells
+/// since the first frame [px]. `weight`: weight of all cells in the last frame.
 struct Known {
     explicit Known(double shows, float moved = 0, float weight = 1) {
         cells.assign(12, {3 + moved, 2, weight, 1});
@@ -25,7 +25,7 @@ struct Known {
     Reference reference;
 };
 
-TEST(Reference, MovedIsTheMeanDisplacementOfMatchedCells) {
+TEST(Reference, MotionSinceTheStillIsTheMeanDisplacementOfMatchedCells) {
     EXPECT_EQ(Known(1).reference.moved(), 0);
     EXPECT_NEAR(Known(1, -5).reference.moved(), 5, 1e-6);
     Known half(1, 8);
@@ -51,13 +51,13 @@ TEST(KeepsOlder, DoesNotKeepAMissingStill) {
     EXPECT_FALSE(keepsOlder(none, Known(0.1).reference));
 }
 
-TEST(KeepsOlder, KeepsTheOlderIfTheNewestStillIsFromTheSamePlaceAsTheNewOne) {
+TEST(KeepsOlder, KeepsTheOlderStillIfTheViewHardlyMovedSinceTheNewestStill) {
     const Known older(0.1);
     EXPECT_TRUE(keepsOlder(older.reference, Known(0.9, 1).reference));
     EXPECT_FALSE(keepsOlder(older.reference, Known(0.9, 20).reference));
 }
 
-TEST(KeepsOlder, KeepsTheOlderIfItShowsMoreThanTheNewest) {
+TEST(KeepsOlder, KeepsTheOlderStillIfItShowsMoreThanTheNewest) {
     const Known older(0.6);
     EXPECT_TRUE(keepsOlder(older.reference, Known(0.5, 20).reference));
     EXPECT_FALSE(keepsOlder(older.reference, Known(0.7, 20).reference));

@@ -13,8 +13,8 @@ using twin::Grey;
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr Size kVideo{256, 192}, kStill{1024, 768};
-const PixelRect kHidden{0, 0, 400, 768};  // left part of the still [px]
-constexpr int kRoom = 24;                 // width of a zone around borders that is not scored [px]
+const PixelRect kHidden{0, 0, 400, 768};
+constexpr int kRoom = 24;  // width of the zone around borders that is not scored [px]
 
 StereoRig simpleRig() {
     StereoRig rig;
@@ -23,7 +23,6 @@ StereoRig simpleRig() {
     return rig;
 }
 
-/// Replaces the left part of a picture by another scene.
 Grey hidden(const Grey& scene) {
     const Grey front = sharpDiscs(77);
     return twin::greyOf(
@@ -34,7 +33,7 @@ Bytes bytesOf(const Grey& picture) {
     return {picture.values.begin(), picture.values.end()};
 }
 
-/// A scene, a still that shows all of it, and a still that lacks its left part.
+/// Base of tests with a scene, a still that shows all of it, and a still that lacks its left part.
 class SecondStillTest : public GlTest {
 protected:
     static Pipeline made(double share, const EngineChoice& engines) {
@@ -51,7 +50,6 @@ protected:
         pipeline.run({video_.data(), kVideo, std::size_t(kVideo.width), PixelFormat::Gray8}, {});
         return pipeline.readStats();
     }
-    /// Mean squared error inside or outside the part in which the newest still shows another scene.
     double error(const Pipeline& pipeline, bool inHidden) const {
         const Bytes picture = pipeline.readImage();
         double sum = 0, count = 0;
@@ -71,7 +69,6 @@ protected:
                 video_ = bytesOf(videoOf(scene_, {}));
 };
 
-/// Engines to test: each engine alone, and each drawing with the match of the other.
 struct Engines {
     const char* name;
     EngineChoice choice;
@@ -95,7 +92,6 @@ INSTANTIATE_TEST_SUITE_P(Engines, SecondStillOfEngines,
                                          Engines{"drawn_by_simd", drawnBy(EngineKind::Simd)}),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
-/// Tests that do not depend on the engine.
 class SecondStill : public SecondStillTest {
 protected:
     static Pipeline made(double share) {
@@ -172,7 +168,7 @@ TEST_P(SecondStillOfEngines, IsDroppedTogetherWithTheNewestStill) {
     run(pipeline);
     pipeline.dropStill();
     EXPECT_FALSE(run(pipeline).usedStill);
-    for (int frame = 0; frame < 3; ++frame)  // until both pipelines have measured the same noise
+    for (int frame = 0; frame < 3; ++frame)  // until both have measured the same noise
         run(fresh);
     setStill(pipeline, part_);
     setStill(fresh, part_);
@@ -219,7 +215,7 @@ TEST_F(SecondStillTest, AllEnginesGiveTheSamePicture) {
     }
 }
 
-TEST_F(SecondStill, ADifferentExposureDoesNoHarm) {
+TEST_F(SecondStill, ADifferentExposureDoesNotIncreaseTheError) {
     const Bytes dark = bytesOf(twin::greyOf(
         kStill, [&](int x, int y) { return 255 * 0.7 * std::pow(scene_.at(x, y) / 255, 1.3); }));
     Pipeline one = made(0), two = made(1);
@@ -233,7 +229,7 @@ TEST_F(SecondStill, ADifferentExposureDoesNoHarm) {
     EXPECT_LT(error(two, false), 1.02 * error(one, false));
 }
 
-TEST_F(SecondStill, ADifferentSceneDoesNoHarm) {
+TEST_F(SecondStill, ADifferentSceneDoesNotIncreaseTheError) {
     const Bytes other = bytesOf(sharpDiscs(5));
     Pipeline one = made(0), two = made(1);
     for (Pipeline* pipeline : {&one, &two}) {

@@ -9,7 +9,7 @@ namespace {
 
 constexpr Size kTiles{5, 4}, kCells{20, 16};
 
-/// A picture of twenty tiles. The newest still shows all tiles; tests then mark some as not shown.
+/// A picture of twenty tiles, all shown by the newest still. Tests then mark some as not shown.
 class SecondTilesTest : public testing::Test {
 protected:
     SecondTilesTest()

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Checks the files of the service: systemd must accept them, the service must expose little, and
+# Checks the files of the service. systemd must accept them, the service must expose little, and
 # mfard must accept the configuration. Usage: check.sh UNIT MFARD SOURCE-FOLDER. Exit status 77:
 # skipped.
 set -euo pipefail
@@ -25,9 +25,8 @@ said=$(systemd-analyze verify --man=no "$work/mfard.service" 2>&1) ||
     fault "systemd-analyze verify of mfard.service ended with exit code $?"
 [[ -z $said ]] || fault "systemd-analyze verify of mfard.service reports: $said"
 
-# The optional drop-in that reboots after repeated failures. systemd must accept it. The number of
-# starts that it counts must be possible within its interval, although mfard waits before each
-# start.
+# systemd must accept the optional drop-in that reboots after repeated failures. Although mfard
+# waits before each start, the number of starts that it counts must be possible within its interval.
 reboot=$(dirname "$unit")/reboot.conf
 install -D -m 644 "$reboot" "$work/mfard.service.d/reboot.conf"
 said=$(systemd-analyze verify --man=no "$work/mfard.service" 2>&1) ||
@@ -38,7 +37,7 @@ minutes=$(sed -n 's/^StartLimitIntervalSec=\([0-9]*\)min$/\1/p' "$reboot")
 starts=$(sed -n 's/^StartLimitBurst=//p' "$reboot")
 wait=$(sed -n 's/^constexpr std::chrono::seconds kLongestWait{\([0-9]*\)};$/\1/p' \
     "$sources/../daemon/restart_pause.cpp")
-# Between two starts, a hanging service uses the timeouts of the watchdog and of the start.
+# A hanging service uses the timeouts of watchdog and start between two starts.
 ((60 * minutes > starts * (wait + 20))) ||
     fault "reboot.conf can never count $starts starts within $minutes min"
 rm -r "$work/mfard.service.d"
@@ -62,21 +61,21 @@ for group in video render gpio; do
         fault "sysusers.conf does not add the user mfar to the group $group"
 done
 
-# The exit code for a configuration error in daemon/exit_code.h must not cause a restart.
+# The exit code for a configuration error, see daemon/exit_code.h, must not cause a restart.
 grep -q '^RestartPreventExitStatus=.*\<78\>' "$unit" || fault "exit code 78 would cause a restart"
 
-# Debian 12 has systemd 252, which ignores settings that it does not know.
+# Debian 12 has systemd 252, which ignores unknown settings.
 grep -Eq '^(RestartSteps|RestartMaxDelaySec|RestartMode)=' "$unit" &&
     fault "the unit has a key that needs systemd 254"
-# The time budgets of the threads assume this limit.
+# The time budgets of the threads assume this watchdog time.
 limit=$(sed -n "s/^constexpr milliseconds kWatchdog{\([0-9]*\)'000};$/\1/p" \
     "$sources/../daemon/budgets.h")
 grep -qx "WatchdogSec=$limit" "$unit" || fault "WatchdogSec is not the $limit s of budgets.h"
-# mfard must wait before every start that follows an exit code that causes a restart.
+# mfard must wait before every start after an exit code that causes a restart.
 grep -qx 'RestartPreventExitStatus=64 65 66 78' "$unit" ||
     fault "RestartPreventExitStatus differs from the codes of isRestarted()"
 
-# The resources of the service must be limited. Its hook must not have more rights than the service.
+# The service's resources must be limited. Its hook must have no more rights than the service.
 for key in MemoryMax OOMPolicy TasksMax LimitNOFILE; do
     grep -q "^$key=" "$unit" || fault "the unit has no $key="
 done
@@ -84,7 +83,7 @@ grep -Eq '^ExecStopPost=-?[^+!:@]' "$unit" ||
     fault "ExecStopPost= of the service runs outside its sandbox"
 grep -q '^ExecStopPost=.*--config' "$unit" && fault "ExecStopPost= reads the configuration"
 
-# is-trigger-chip must accept only the GPIO chip of the configured line, by each of its names.
+# is-trigger-chip must accept only the GPIO chip of the configured line, by any of its names.
 isChip() {
     printf '%s\n' "$2" >"$work/trigger.toml"
     "$sources/is-trigger-chip" "$1" "$work/sys/chip/$1" "$work/trigger.toml"

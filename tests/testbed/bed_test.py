@@ -49,14 +49,14 @@ class FakeLink:
 
 
 class Pictures(unittest.TestCase):
-    def test_number_is_in_the_picture(self):
+    def test_a_pattern_shows_its_number(self):
         for number in (0, 1, 0x80000001, 0xdeadbeef):
             self.assertEqual(read_number(number_rows(number, 640), 640), number)
         picture = Pattern(*SIZE)(1.5, 77)
         self.assertEqual(len(picture), FRAME)
         self.assertEqual(read_number(picture, SIZE[0]), 77)
 
-    def test_films_of_one_span_stay_together(self):
+    def test_films_of_the_same_length_repeat_in_step(self):
         with tempfile.TemporaryDirectory() as folder:
             for name, times in (('a', (0, 0.1, 0.2, 0.3)), ('b', (0, 0.3))):
                 Path(folder, name + '.nv12').write_bytes(
@@ -69,7 +69,7 @@ class Pictures(unittest.TestCase):
             a.held = True
             self.assertEqual([a(t, 1)[0] for t in (0, 0.11, 0.29)], [0, 0, 0])
 
-    def test_numbered_film_keeps_the_picture_below(self):
+    def test_a_numbered_film_is_unchanged_below_the_number(self):
         with tempfile.TemporaryDirectory() as folder:
             Path(folder, 'a.nv12').write_bytes(bytes([9]) * FRAME)
             Path(folder, 'a.times').write_text('0\n')
@@ -78,7 +78,7 @@ class Pictures(unittest.TestCase):
             self.assertEqual(picture[NUMBER_ROWS * SIZE[0]:],
                              bytes([9]) * (FRAME - NUMBER_ROWS * SIZE[0]))
 
-    def test_incomplete_film_is_refused(self):
+    def test_a_film_of_incomplete_pictures_is_refused(self):
         with tempfile.TemporaryDirectory() as folder:
             Path(folder, 'a.nv12').write_bytes(bytes(FRAME + 1))
             Path(folder, 'a.times').write_text('0\n')
@@ -87,7 +87,7 @@ class Pictures(unittest.TestCase):
 
 
 class Descriptors(unittest.TestCase):
-    def test_lengths_add_up(self):
+    def test_the_lengths_of_all_descriptors_add_up_to_the_total(self):
         configuration = uvc.UvcDescription('name', 'serial', 640, 480, 30).configuration
         self.assertEqual(struct.unpack_from('<H', configuration, 2)[0], len(configuration))
         offset = 0
@@ -105,7 +105,7 @@ class Cameras(unittest.TestCase):
     def numbers(self, payloads):
         return [read_number(p[uvc.HEADER:], SIZE[0]) for p in payloads]
 
-    def test_one_picture_for_each_pulse(self):
+    def test_a_camera_sends_one_picture_per_pulse(self):
         self.link.begin()
         for _ in range(3):
             self.camera.pulse()
@@ -115,14 +115,14 @@ class Cameras(unittest.TestCase):
         flags = [p[1] for p in payloads]
         self.assertEqual(flags, [0x8f, 0x8e, 0x8f])  # the end of each picture changes the parity
 
-    def test_pulse_without_stream_is_lost(self):
+    def test_a_pulse_before_the_stream_starts_is_lost(self):
         self.camera.pulse()
         self.link.begin()
         self.camera.pulse()
         self.assertEqual(self.numbers(self.link.wait_for(1)), [2])
         self.assertEqual(self.camera.ignored_pulses, 1)
 
-    def test_faults_come_in_turn_and_end(self):
+    def test_each_fault_affects_one_picture_in_the_given_order(self):
         self.link.begin()
         for kind in ('missing', 'torn', 'long', 'error'):
             self.camera.fault(kind)
@@ -139,7 +139,7 @@ class Cameras(unittest.TestCase):
         with self.assertRaises(ValueError):
             Fault('lost')
 
-    def test_end_of_the_stream_drops_what_was_due(self):
+    def test_a_pulse_after_the_end_of_the_stream_is_lost(self):
         self.link.begin()
         self.camera.control(0x02, 1, 0, 0x81, b'')
         self.camera.pulse()

@@ -14,12 +14,12 @@
 
 // Makes films of a recording for the cameras of the test bed. Each sensor gets two files: its
 // pictures in NV12 (BT.601, limited range), one after the other; and their times [s], one per line,
-// counted from the first video frame.
+// since the first video frame.
 
 namespace mfar {
 namespace {
 
-/// Writes a picture in NV12. Interleaves the planes U and V, which OpenCV gives separately.
+/// Writes a picture in NV12: interleaves the planes U and V, which OpenCV gives separately.
 void writeNv12(std::ofstream& out, const StoredImage& image) {
     cv::Mat rgba(image.size.height, image.size.width, CV_8UC4,
                  const_cast<std::uint8_t*>(image.pixels.data()));

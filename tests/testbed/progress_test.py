@@ -50,7 +50,7 @@ class PythonProgress(unittest.TestCase):
         progress.clear()
         self.assertEqual(out.getvalue(), ' 20 %  scenario; 10 s\n 40 %  scenario; 20 s\n')
 
-    def test_nothing_to_do(self):
+    def test_without_work_there_is_no_error(self):
         Progress(Output(True)).show(0, 0, 'nothing')
 
 

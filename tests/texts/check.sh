@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Texts that are printed from tables must agree with the tables, and the programs that read them
+# Texts that are printed from tables must agree with the tables. The programs that read these texts
 # must accept them. Usage: check.sh MFAR-TEXTS SOURCE-FOLDER. To write the texts again: cmake
 # --build .build/host --target texts
 set -euo pipefail
@@ -21,12 +21,11 @@ while IFS= read -r file; do
         fault "$file differs from what mfar-texts prints; run: cmake --build .build/host --target texts"
 done < <(cd "$work/tree" && find . -type f -printf '%P\n')
 
-# The example on the page must equal the source that is compiled.
+# The page's example must equal the source that is compiled.
 diff -u <(sed -n '/^```cpp$/,/^```$/{//!p}' "$sources/docs/flow-method.md") \
     "$sources/tests/measure/eval/shift_flow.cpp" ||
         fault "the example in docs/flow-method.md differs from tests/measure/eval/shift_flow.cpp"
 
-# Links on the pages must lead to files.
 while IFS=: read -r page link; do
     target=${link#*](}
     target=${target%)}
@@ -34,8 +33,8 @@ while IFS=: read -r page link; do
         fault "$page links to $target, which does not exist"
 done < <(grep -Eo '\]\([^):]+\)' "$sources"/*.md "$sources"/docs/*.md)
 
-# Messages for which the README gives a remedy must be messages of the programs; "..." stands for
-# text that varies.
+# Messages with a remedy in the README must be messages of the programs. "..." stands for varying
+# text.
 find "$sources/hal" "$sources/daemon" -name '*.cpp' -exec cat {} + |
     perl -0pe 's/(?<!\\)"\s*\n\s*"//g; s/\\"/"/g' >"$work/messages"
 while IFS= read -r message; do
@@ -46,7 +45,6 @@ while IFS= read -r message; do
 done < <(sed -n '/^## Troubleshooting/,/^## /p' "$sources/README.md" | sed -n 's/^| \(`.*`\) | .*/\1/p' |
     grep -Eo '`[^`]+`' | tr -d '`')
 
-# completes PREVIOUS BEGINNING: prints the completions that bash offers.
 completes() {
     # shellcheck source=/dev/null
     (. "$work/tree/systemd/mfard.bash-completion" && COMP_WORDS=(mfard "$1" "$2") COMP_CWORD=2 &&
@@ -59,7 +57,6 @@ completes() {
 [[ $(completes --config "$work/tree/do") == "$work/tree/docs " ]] ||
     fault "bash does not complete a file name after --config"
 
-# Each installed program has a manual page, which the package installs.
 while IFS= read -r program; do
     [[ -s $work/tree/docs/man/$program.1 ]] || fault "$program has no manual page"
     grep -q "[( ]$program[ )]" "$sources/systemd/CMakeLists.txt" ||

@@ -10,7 +10,6 @@
 namespace mfar::test {
 namespace {
 
-/// Returns "--help" for "-h,--help".
 std::string longName(const ArgumentText& argument) {
     return argument.names.substr(argument.names.rfind(',') + 1);
 }

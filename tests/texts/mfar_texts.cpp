@@ -1,4 +1,4 @@
-// Writes the texts that are printed from tables into a source tree, or into a folder in order to
+// Writes the texts that are printed from tables into a source tree, or into another folder to
 // compare them. Usage: mfar-texts FOLDER
 #include "daemon/option_text.h"
 #include "tests/texts/pages.h"

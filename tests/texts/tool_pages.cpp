@@ -11,7 +11,7 @@
 namespace mfar::test {
 namespace {
 
-/// Texts of a manual page that the parser does not have.
+/// Texts of a manual page that the parser lacks.
 struct Tool {
     const char* about;
     const char* source;
@@ -21,7 +21,6 @@ struct Tool {
 
 constexpr const char* kParser = "wrong command line";
 
-/// Returns the arguments of a command for the synopsis, e.g. " [--screen] FILE".
 std::string synopsis(const CLI::App& app) {
     std::string options, positional;
     for (const ArgumentText& argument : argumentTexts(app)) {
@@ -35,8 +34,8 @@ std::string synopsis(const CLI::App& app) {
     return options + positional;
 }
 
-/// Returns entries of all arguments, and of all commands with their arguments. `path`: the names of
-/// the commands that contain those of `app`.
+/// Returns entries for all arguments and for all commands with their arguments. `path`: names of
+/// the commands that contain `app`'s commands.
 std::string arguments(const CLI::App& app, const std::string& path) {
     std::string out;
     for (const ArgumentText& argument : argumentTexts(app))

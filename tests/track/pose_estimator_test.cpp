@@ -17,7 +17,6 @@ Timestamp momentOf(int i) {
     return Timestamp::fromSeconds(1 + i / 30.);
 }
 
-/// A hand-held camera in front of a tag. Each coordinate is a sum of slow and fast sines.
 RigidTransform hand(int i, double tiltDeg, double offsetDeg) {
     const double t = i / 30.;
     const auto sway = [&](double phase) {
@@ -46,11 +45,11 @@ private:
     double unit_;
 };
 
-/// Counts of a run. `turns`: how often the error of the pose changes by more than a limit from one
-/// frame to the next.
+/// Counts of a run. `turns`: number of frames at which the error of the pose changes by more than a
+/// limit.
 struct Followed {
     int turns = 0, flips = 0, lost = 0;
-    double worst = 0;  ///< largest rotation error [rad]
+    double worst = 0;
 };
 
 Followed follow(double tiltDeg, double offsetDeg, double sigma, int frames) {
@@ -76,7 +75,7 @@ Followed follow(double tiltDeg, double offsetDeg, double sigma, int frames) {
     return out;
 }
 
-TEST(PoseEstimator, NoFlipsInAThousandFramesNearFrontoParallel) {
+TEST(PoseEstimator, ThePoseDoesNotFlipInAThousandFramesThatNearlyFaceTheTag) {
     for (const double offset : {0., 2., 5.})
         for (const double sigma : {0.05, 0.1, 0.15}) {
             const Followed run = follow(3, offset, sigma, 1000);
@@ -87,7 +86,7 @@ TEST(PoseEstimator, NoFlipsInAThousandFramesNearFrontoParallel) {
         }
 }
 
-TEST(PoseEstimator, FollowsATagThatIsSeenObliquely) {
+TEST(PoseEstimator, ThePoseIsStableWhileATagIsSeenObliquely) {
     const Followed run = follow(5, 35, 0.1, 300);
     EXPECT_EQ(run.turns, 0);
     EXPECT_EQ(run.flips, 0);
@@ -165,7 +164,7 @@ TEST(PoseEstimator, PosesArePredictedInShortGapsButNotInLongOnes) {
     EXPECT_FALSE(estimator.update({}, camera, momentOf(60)));
 }
 
-TEST(PoseEstimator, AStillGivesTheVideoCamerasPose) {
+TEST(PoseEstimator, TagsInAStillGiveThePoseOfTheVideoCamera) {
     const CameraModel still = testCamera().scaledTo({2304, 1728});
     const RigidTransform T_still_video{
         Eigen::Quaterniond(Eigen::AngleAxisd(0.02, Eigen::Vector3d::UnitY())), {-0.014, 0, 0}};

@@ -114,8 +114,8 @@ TEST(PoseFilter, SmoothsNoiseWithAConsistentCovariance) {
         ++count;
     }
     EXPECT_LT(filtered, 0.5 * raw);
-    // The filter allows for acceleration, which this path does not have. So its covariance may be
-    // too large, but never too small.
+    // The filter allows for acceleration, which this path lacks. So its covariance may be too large
+    // but never too small.
     EXPECT_LT(normalised / count, 7);
     EXPECT_GT(normalised / count, 0.5);
 }

@@ -32,7 +32,7 @@ TagDetector detectorFor(std::vector<TagFamily> families, double decimation) {
     return TagDetector(options);
 }
 
-TEST(TagFamilies, AgreeWithTheLibrary) {
+TEST(TagFamilies, TagFamiliesAgreeWithLibapriltag) {
     for (const TagFamilyInfo& family : kTagFamilies) {
         const TagPicture last = drawTag({family.family, family.count - 1});
         EXPECT_EQ(last.size - 2 * last.corner, family.cells) << family.name;
@@ -65,7 +65,7 @@ TEST(TagDetector, FindsEveryFamilyWithItsCornersInOrder) {
 }
 
 // The picture has linear sensor values, so that gamma does not move edges. Only a wrong convention
-// of pixel centres could shift the corners on average.
+// of pixel centres can then shift the corners on average.
 TEST(TagDetector, PixelCentresAreAtIntegers) {
     const CameraModel camera = testCamera();
     for (const double decimation : {1., 1.5, 2., 3.}) {
@@ -107,7 +107,7 @@ TEST(CornerRefiner, MeasuresCornersToAFewHundredthsOfAPixel) {
     }
 }
 
-TEST(CornerRefiner, KeepsCornersInUniformPictures) {
+TEST(CornerRefiner, CornersInUniformPicturesStayUnchanged) {
     const CameraModel camera = testCamera();
     TagDetection made;
     made.corners = {{{100, 140}, {140, 140}, {140, 100}, {100, 100}}};
@@ -118,7 +118,7 @@ TEST(CornerRefiner, KeepsCornersInUniformPictures) {
         EXPECT_EQ(detection.corners, made.corners);
     }
     for (Eigen::Vector2d& corner : made.corners)
-        corner.array() -= 139.5;  // beyond the picture's edge
+        corner.array() -= 139.5;  // a corner beyond the picture's edge
     TagDetection detection = made;
     CornerRefiner().refine(GrayPicture(camera.size, 90).view(), camera, detection);
     EXPECT_EQ(detection.corners, made.corners);
@@ -161,7 +161,7 @@ TEST(TagDetector, RegionsAreClippedToThePictureAndCanBeEmpty) {
         EXPECT_TRUE(detector.detect(picture.view(), region).empty());
 }
 
-TEST(TagDetector, BlackWhiteAndTinyPicturesHoldNoTag) {
+TEST(TagDetector, NoTagIsFoundInBlackWhiteAndTinyPictures) {
     for (const double blur : {0., 0.8})
         for (const double decimation : {1., 2.}) {
             DetectorOptions options;

@@ -41,7 +41,6 @@ std::string replaced(std::string text, const std::string& from, const std::strin
     return text.replace(at, from.size(), to);
 }
 
-/// The error message for an invalid text.
 template <class F>
 std::string refusal(const F& read) {
     try {
@@ -101,7 +100,7 @@ TEST(TagMap, ReadsAnAprilTagRosBundleAndTurnsItsTagFrame) {
     ASSERT_EQ(map.tags().size(), 2U);
     const MappedTag* tag = map.find({TagFamily::Tag36h11, 2});
     ASSERT_NE(tag, nullptr);
-    // The bottom left corner is at (-, +) if y points down (mfar), and at (-, -) if y points up
+    // The bottom left corner is at (-, +) if y points down (mfar) and at (-, -) if y points up
     // (apriltag_ros).
     const Eigen::Vector3d corner = tag->T_world_tag * Eigen::Vector3d(-0.025, 0.025, 0);
     EXPECT_TRUE(corner.isApprox(Eigen::Vector3d(0.1 - 0.025, 0.2 - 0.025, 0)));
@@ -157,7 +156,7 @@ TEST(TagMap, AnEndlessTextIsRefusedBeforeItIsParsed) {
               "t.yaml:1: the file is nested more than 16 levels deep");
 }
 
-TEST(TagMap, TooLargeIntegersAreReportedWithTheirPlace) {
+TEST(TagMap, TooLargeIntegersAreReportedWithFileAndLine) {
     for (const char* key : {"size", "position", "orientation"}) {
         std::string text = "[[tags]]\nfamily = \"tag36h11\"\nid = 1\nsize = 1\n"
                            "position = [0, 0, 0]\norientation = [1, 0, 0, 0]\n";
@@ -168,7 +167,7 @@ TEST(TagMap, TooLargeIntegersAreReportedWithTheirPlace) {
     }
 }
 
-TEST(TagMap, FilesAreReadByTheirEnding) {
+TEST(TagMap, TheEndingOfAFileNameSelectsItsFormat) {
     const test::TempFolder folder;
     test::writeFile(folder / "tags.toml", kGood);
     test::writeFile(folder / "tags.yaml", kBundle);

@@ -18,7 +18,6 @@ TagObservation observe(const CameraModel& camera, const RigidTransform& T_world_
     return {tag.size, tag.T_world_tag, cornersOf(camera, T_world_camera, tag)};
 }
 
-/// Adds normally distributed noise to corners [px].
 class Noise {
 public:
     explicit Noise(double sigma) : noise_(0, sigma) {}
@@ -42,7 +41,6 @@ RigidTransform randomView(std::mt19937& random) {
 
 const PlacedTag kTag{{TagFamily::Tag36h11, 0}, 0.08, {}};
 
-/// 2 x 2 tags in one plane, as on a printed page.
 std::vector<PlacedTag> page() {
     std::vector<PlacedTag> out;
     for (int i = 0; i < 4; ++i) {
@@ -108,8 +106,8 @@ TEST(TagPose, CovarianceMatchesTheErrors) {
         mean += error / kRuns;
         distance += error.dot(poses->best.covariance.ldlt().solve(error)) / kRuns;
     }
-    // The expected value is six, for six degrees of freedom; its standard error is 0.08. The
-    // variance must not be underestimated.
+    // The expected value is six, for six degrees of freedom. Its standard error is 0.08. The
+    // variance must not be too small.
     EXPECT_GT(distance, 4.5);
     EXPECT_LT(distance, 6.4);
     EXPECT_LT(mean.head<3>().norm(), 0.05 * kDegree);
@@ -151,7 +149,7 @@ TEST(TagPose, SeveralTagsDetermineTheEdgeShift) {
         }
         const auto many = solveTagPose(seen, camera), one = solveTagPose({seen.data(), 1}, camera);
         ASSERT_TRUE(many && one);
-        // The prior makes the estimate slightly smaller.
+        // The prior of the edge shift makes the estimate slightly smaller.
         EXPECT_NEAR(many->best.edgeShift, shift, 0.1 * std::abs(shift) + 1e-6);
         const auto error = [&](const CameraPoses& poses) {
             return (poses.best.T_world_camera.translation - truth.translation).norm();
@@ -227,7 +225,7 @@ TEST(TagPose, UnusableTagsGiveNoPose) {
     EXPECT_FALSE(solveTagPose({}, camera).has_value());
 }
 
-// No four points may give NaN, even if they do not look like a tag.
+// Four points must not give NaN, even if they do not look like a tag.
 TEST(TagPose, AnyFourCornersGiveAFinitePoseOrNone) {
     std::mt19937 random(9);
     std::uniform_real_distribution<double> x(-20, 660), y(-20, 500);

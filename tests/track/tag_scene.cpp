@@ -7,11 +7,11 @@
 namespace mfar::test {
 namespace {
 
-constexpr int kRays = 4;  // rays per pixel in each direction
+constexpr int kRays = 4;
 
 struct Drawn {
     RigidTransform T_tag_camera;
-    double cell;  ///< side of a cell of the tag [m]
+    double cell;  ///< side of one cell of the tag [m]
     TagPicture picture;
     PixelRect box;
 };
@@ -40,7 +40,6 @@ Drawn prepare(const CameraModel& camera, const RigidTransform& T_world_camera,
     return out;
 }
 
-/// What a ray hits. 1: white paper; 0: black paper; empty: nothing of the tag.
 std::optional<int> paperAt(const Drawn& tag, const Eigen::Vector2d& ray) {
     const Eigen::Vector3d direction = tag.T_tag_camera.rotation * ray.homogeneous();
     const Eigen::Vector3d& from = tag.T_tag_camera.translation;

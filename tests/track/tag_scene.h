@@ -17,7 +17,7 @@ inline constexpr double kDegree = std::numbers::pi / 180;
 
 struct PlacedTag {
     TagKey tag;
-    double size = 0.1;  ///< edge length between detected corners [m]
+    double size = 0.1;  ///< edge length between the detected corners [m]
     RigidTransform T_world_tag;
 };
 
@@ -34,14 +34,14 @@ struct GrayPicture {
 };
 
 struct SensorLook {
-    double gamma = 2.2;   ///< grey = 255 light^(1 / gamma)
-    double noise = 0;     ///< standard deviation [grey levels]
-    unsigned seed = 1;    ///< seed of the noise
-    double dark = 0.03;   ///< brightness of black paper
-    double bright = 0.8;  ///< brightness of white paper
+    double gamma = 2.2;  ///< grey = 255 light^(1 / gamma)
+    double noise = 0;    ///< standard deviation [grey levels]
+    unsigned seed = 1;
+    double dark = 0.03;
+    double bright = 0.8;
 };
 
-/// Renders tags with their white borders on a grey ground, through the lens, with 4 x 4 rays per
+/// Renders tags with their white borders on a grey ground, through the lens, with 4x4 rays per
 /// pixel.
 [[nodiscard]] GrayPicture renderTags(const CameraModel& camera,
                                      const RigidTransform& T_world_camera,
@@ -52,14 +52,12 @@ struct SensorLook {
 [[nodiscard]] std::array<Eigen::Vector2d, 4>
 cornersOf(const CameraModel& camera, const RigidTransform& T_world_camera, const PlacedTag& tag);
 
-/// A camera of 640x480 with the distortion of an inexpensive lens.
 [[nodiscard]] CameraModel testCamera();
 
-/// Pose of a camera at `distance` in front of the world's origin. It looks at the origin along +z.
-/// Then it is rotated about the origin by pitch (about x) and yaw (about y), and rolled [rad].
+/// Pose of a camera at `distance` in front of the world's origin. It looks at the origin along +z,
+/// is rotated about the origin by pitch (about x) and yaw (about y), and is then rolled [rad].
 [[nodiscard]] RigidTransform cameraAt(double distance, double pitch, double yaw, double roll = 0);
 
-/// Angle between two rotations [rad].
 [[nodiscard]] double angleBetween(const RigidTransform& a, const RigidTransform& b);
 
 }  // namespace mfar::test

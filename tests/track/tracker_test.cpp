@@ -31,7 +31,6 @@ TagMap mapOf(const std::vector<PlacedTag>& tags) {
     return TagMap(out);
 }
 
-/// The camera moves slowly past the tags.
 RigidTransform view(int i) {
     return cameraAt(0.6, 0.3 + 0.004 * i, 0.2 - 0.006 * i, 0.01 * i);
 }
@@ -51,7 +50,7 @@ Tracker trackerFor(const TagMap& map, int fullSearchInterval = 5) {
     return {kRig, options};
 }
 
-TEST(Tracker, FollowsTheCameraMostlyInRegions) {
+TEST(Tracker, FollowsTheCameraAndSearchesMostFramesInRegionsOnly) {
     Tracker tracker = trackerFor(mapOf(world()));
     for (int i = 0; i < 11; ++i) {
         const auto pose = tracker.track(picture(i).view(), frameTime(i));
@@ -66,7 +65,7 @@ TEST(Tracker, FollowsTheCameraMostlyInRegions) {
     }
     const TrackStats stats = tracker.stats();
     EXPECT_EQ(stats.frames, 11);
-    EXPECT_EQ(stats.fullSearches, 3);  // the first two frames, then every fifth
+    EXPECT_EQ(stats.fullSearches, 3);  // the first two frames and every fifth
     EXPECT_EQ(stats.roiSearches, 8);
     EXPECT_EQ(stats.flips, 0);
     EXPECT_GT(stats.worstMs, 0);
@@ -143,7 +142,7 @@ TEST(Tracker, PoseOfAStillComesFromTheStillItself) {
         EXPECT_LT(angleBetween(pose->T_world_video, view(i)), 0.2 * kDegree);
         EXPECT_LT((pose->T_world_video.translation - view(i).translation).norm(), 0.002);
     };
-    check(3);  // without a prediction the whole still is searched
+    check(3);  // a still without a prediction is searched completely
     for (int i = 0; i < 3; ++i)
         ASSERT_TRUE(tracker.track(picture(i).view(), frameTime(i)));
     check(3);
@@ -205,13 +204,13 @@ TEST(Tracker, WrongSizesAndOptionsAreRefused) {
     EXPECT_THROW(Tracker(kRig, options), std::invalid_argument);
 }
 
-TEST(SearchRegions, RegionsContainOnlyTheVisibleTags) {
+TEST(SearchRegions, RegionsToSearchContainOnlyTheVisibleTags) {
     std::vector<PlacedTag> tags = world();
     const Eigen::Quaterniond back(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitY()));
-    tags.push_back({{TagFamily::Tag36h11, 20}, 0.07, {back, {0, 0, 0}}});  // seen from behind
-    tags.push_back({{TagFamily::Tag36h11, 21}, 0.07, {{1, 0, 0, 0}, {3, 0, 0}}});   // outside
-    tags.push_back({{TagFamily::Tag36h11, 22}, 0.07, {{1, 0, 0, 0}, {0, 0, -3}}});  // behind
-    tags.push_back({{TagFamily::Tag36h11, 23}, 0.005, {{1, 0, 0, 0}, {0, 0, 1}}});  // too small
+    tags.push_back({{TagFamily::Tag36h11, 20}, 0.07, {back, {0, 0, 0}}});
+    tags.push_back({{TagFamily::Tag36h11, 21}, 0.07, {{1, 0, 0, 0}, {3, 0, 0}}});
+    tags.push_back({{TagFamily::Tag36h11, 22}, 0.07, {{1, 0, 0, 0}, {0, 0, -3}}});
+    tags.push_back({{TagFamily::Tag36h11, 23}, 0.005, {{1, 0, 0, 0}, {0, 0, 1}}});
     const Matrix6 sure = Matrix6::Identity() * 1e-8;
     const auto regions = searchRegions(mapOf(tags), kRig.video, view(0), sure);
     ASSERT_EQ(regions.size(), 2U);

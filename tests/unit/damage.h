@@ -8,7 +8,7 @@
 namespace mfar::test {
 
 /// Returns `text` after one to four random edits. An edit replaces or inserts a character, or
-/// removes up to seven. The new characters have a meaning in YAML and CSV, or are not valid UTF-8.
+/// removes up to seven. New characters have a meaning in YAML and CSV, or are invalid UTF-8.
 inline std::string damaged(std::string text, std::mt19937& random) {
     constexpr std::string_view kLetters = "0123456789.,-+eE#:[]{}&*!|>'\"%@\n\r\t \xff\x80"
                                           "anif/";

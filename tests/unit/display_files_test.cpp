@@ -35,7 +35,6 @@ std::string refusal(const std::string& spec, double rateHz = 30) {
 
 class FileDisplays : public testing::Test {
 protected:
-    /// Shows a picture as the pipeline does: as a texture.
     void show(Display& display, const StoredImage& picture, Timestamp time) {
         gpu::Texture texture(picture.size, gpu::TexelFormat::Rgba8);
         texture.upload(PlaneView{picture.view().data, picture.view().stride});
@@ -46,10 +45,10 @@ protected:
     TempFolder folder_;
 };
 
-TEST_F(FileDisplays, PngHoldsTheShownPixelsWithTheTopRowFirst) {
+TEST_F(FileDisplays, PngContainsTheShownPixelsWithTheTopRowFirst) {
     StoredImage picture = plain({6, 4}, 50);
-    picture.pixels[0] = 201;                    // red, top left
-    picture.pixels[(3 * 6 + 5) * 4 + 2] = 202;  // blue, bottom right
+    picture.pixels[0] = 201;
+    picture.pixels[(3 * 6 + 5) * 4 + 2] = 202;
     for (std::size_t i = 3; i < picture.pixels.size(); i += 4)
         picture.pixels[i] = 255;
     const auto display = openFileDisplay("png:" + (folder_ / "out/frames").string(), 30);
@@ -59,7 +58,7 @@ TEST_F(FileDisplays, PngHoldsTheShownPixelsWithTheTopRowFirst) {
 }
 
 TEST_F(FileDisplays, HostRowsAreWrittenLikeATexture) {
-    AlignedRows<std::uint32_t> rows({7, 5});  // rows with padding
+    AlignedRows<std::uint32_t> rows({7, 5});
     StoredImage picture = plain({7, 5}, 0);
     for (int y = 0; y < 5; ++y)
         for (int x = 0; x < 7; ++x) {
@@ -92,7 +91,7 @@ TEST_F(FileDisplays, EveryPictureIsWrittenEvenIfThereAreFewBuffers) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 25);
 }
 
-TEST_F(FileDisplays, ShowingKeepsTheGlBindings) {
+TEST_F(FileDisplays, ShowingAPictureDoesNotChangeGlBindings) {
     const gpu::Texture target({8, 8}, gpu::TexelFormat::Rgba8);
     const gpu::Framebuffer framebuffer(target);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer.id());
@@ -129,12 +128,12 @@ TEST_F(FileDisplays, Y4mHasTheRightHeaderSizeAndLuma) {
     const std::string second = bytes.substr(header.size() + 6 + picture);
     EXPECT_EQ(first.substr(0, 6), "FRAME\n");
     EXPECT_EQ(second.substr(0, 6), "FRAME\n");
-    EXPECT_EQ(first.substr(6, 35), std::string(35, '\xeb'));   // white is 235
-    EXPECT_EQ(second.substr(6, 35), std::string(35, '\x10'));  // black is 16
+    EXPECT_EQ(first.substr(6, 35), std::string(35, '\xeb'));
+    EXPECT_EQ(second.substr(6, 35), std::string(35, '\x10'));
     EXPECT_EQ(first.substr(41), std::string(24, '\x80'));
 }
 
-TEST_F(FileDisplays, Y4mRefusesAnotherSizeInTheMiddle) {
+TEST_F(FileDisplays, Y4mRefusesAPictureOfAnotherSize) {
     const auto display = openFileDisplay("y4m:" + (folder_ / "a.y4m").string(), 30);
     show(*display, plain({8, 8}, 1), {1});
     EXPECT_THROW(show(*display, plain({8, 10}, 1), {2}), std::runtime_error);
@@ -199,7 +198,6 @@ TEST_F(FileDisplays, CancelEndsTheWaitForAStalledReader) {
     close(reader);
 }
 
-/// Tests of a pipe. The test is its reader and reads only some pictures.
 struct PipeDisplays : FileDisplays {
     PipeDisplays() {
         mkfifo(pipe.c_str(), 0600);
@@ -208,8 +206,7 @@ struct PipeDisplays : FileDisplays {
     ~PipeDisplays() override {
         if (reader >= 0) close(reader);
     }
-    /// Reads until `count` pictures have arrived. Returns the luma of the first pixel of the last
-    /// picture.
+    /// Reads `count` pictures. Returns the luma of the first pixel of the last one.
     int readPictures(std::size_t count) const {
         const std::size_t header = y4mHeader(kSize, 30).size();
         const std::size_t picture = 6 + 640 * 480 * 3 / 2;
@@ -234,7 +231,7 @@ struct PipeDisplays : FileDisplays {
         return condition();
     }
 
-    static constexpr Size kSize{640, 480};  // more than a pipe can hold
+    static constexpr Size kSize{640, 480};
     fs::path pipe = folder_ / "pipe";
     int reader = -1;
 };
@@ -248,7 +245,7 @@ TEST_F(PipeDisplays, LivePicturesDoNotWaitForAStalledReader) {
               "y4m:" + pipe.string() + ": the reader of the pipe accepts no data");
     for (int i = 1; i <= 50; ++i)
         show(*display, plain(kSize, static_cast<std::uint8_t>(5 * i)), {i});
-    // One picture is being written, and one waits in each buffer.
+    // One picture is being written. Each buffer contains a waiting one.
     EXPECT_EQ(display->leftOut(), 47U);
     const int last = readPictures(4);
     EXPECT_NEAR(last, 16 + 219 * 250 / 255., 1) << "the newest picture is written";
@@ -346,7 +343,7 @@ TEST(OpenFileDisplay, ErrorsAreReported) {
               "y4m: the frame rate must be from 0.001 to 1000000 Hz, not 0 Hz");
 }
 
-TEST(Y4mHeader, GivesCommonRatesAsTheirFractions) {
+TEST(Y4mHeader, CommonRatesAreWrittenAsFractions) {
     const auto rate = [](double hz) {
         const std::string header = y4mHeader({2, 2}, hz);
         const std::size_t at = header.find('F');

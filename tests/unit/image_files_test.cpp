@@ -46,7 +46,7 @@ TEST(ImageFiles, ALargeProgressiveJpegIsRefusedAtItsHeader) {
     std::string bytes = test::readFile(MFAR_PROGRESSIVE_JPEG);
     const std::size_t frame = bytes.find("\xff\xc2");
     ASSERT_NE(frame, bytes.npos);
-    bytes.replace(frame + 5, 4, std::string("\x20\x00\x20\x00", 4));  // 8192x8192
+    bytes.replace(frame + 5, 4, std::string("\x20\x00\x20\x00", 4));
     test::writeFile(folder / "a.jpg", bytes);
     const std::string error = errorOf([&] { static_cast<void>(loadImage(folder / "a.jpg")); });
     EXPECT_NE(error.find("a progressive JPEG may have at most"), error.npos) << error;

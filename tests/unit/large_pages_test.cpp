@@ -9,7 +9,7 @@
 namespace mfar {
 namespace {
 
-TEST(LargePages, ContentAndNeighboursStayAsTheyAre) {
+TEST(LargePages, TheMemoryAndItsNeighboursKeepTheirContent) {
     std::vector<std::uint8_t> memory(5U << 20U, 7);
     for (const std::size_t bytes : {std::size_t{0}, std::size_t{1}, memory.size() - 3}) {
         preferLargePages(memory.data() + 1, bytes);

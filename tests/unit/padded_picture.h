@@ -12,8 +12,8 @@ inline constexpr PixelFormat kEveryFormat[]{PixelFormat::Gray8, PixelFormat::Rgb
                                             PixelFormat::Bgra8, PixelFormat::Yuyv,
                                             PixelFormat::Nv12,  PixelFormat::Yuv420};
 
-/// A picture of random bytes, laid out as a driver may do it: every plane has its own memory and
-/// padded rows, and the padding differs between planes.
+/// A picture of random bytes with a driver's memory layout: every plane has its own memory and
+/// padded rows. The padding differs between planes.
 class PaddedPicture {
 public:
     PaddedPicture(PixelFormat format, Size size, unsigned seed, std::size_t padding = 8) {

@@ -1,7 +1,6 @@
-// A recording must be readable after a power cut at any moment. The recorder's system calls are
-// logged: the linker's option --wrap redirects them. From the log, the test builds possible states
-// of the disk: data that was written before the last synchronisation is on the disk, and any part
-// of later data.
+// A recording must be readable after a power cut at any moment. The linker's option --wrap
+// redirects the recorder's system calls, which are logged. From the log, the test builds possible
+// states of the disk: all data written before the last synchronisation, and any part of later data.
 #include "base/whole_file.h"
 #include "hal/virtual/image_files.h"
 #include "hal/virtual/recorder.h"
@@ -34,13 +33,12 @@ struct Written {
 struct Renamed {
     std::string from, to;
 };
-struct Synced {};  ///< the whole file system was synchronised
+struct Synced {};  ///< the whole file system is synchronised
 struct SyncedFile {
     std::string file;
 };
 using Operation = std::variant<Written, Renamed, Synced, SyncedFile>;
 
-/// Log of the operations on files below a folder, in their order.
 class Journal {
 public:
     void begin(const fs::path& folder) {
@@ -58,7 +56,7 @@ public:
         files_.erase(fd);
         if (fd >= 0 && isOurs(file)) files_[fd] = file;
     }
-    /// Does an operation with `call`, which adds it to the log. The lock is held meanwhile, so that
+    /// Does an operation with `call`, which adds it to the log. Holds the lock meanwhile, so that
     /// the log has the order of the operations.
     template <class Call>
     auto note(const Call& call) {
@@ -153,8 +151,8 @@ StereoRig smallRig() {
     return rig;
 }
 
-/// Records 12 pictures, 4 stills and 12 poses. The recorder's thread synchronises as often as it
-/// can. Returns the log.
+/// Records 12 pictures, 4 stills and 12 poses. The recorder's thread synchronises as often as
+/// possible. Returns the log.
 std::vector<Operation> record(const fs::path& folder) {
     journal().begin(folder);
     Recorder recorder(folder, smallRig(), 30, {.syncEvery = {}});
@@ -166,7 +164,6 @@ std::vector<Operation> record(const fs::path& folder) {
         }
         EXPECT_TRUE(recorder.pose({{1000 * i}, smallRig().T_still_video}));
         if (i == 6) recorder.addFile("tags.toml", "family = \"tag36h11\"\n");
-        // Makes sure that there are some synchronisations, even on a slow machine.
         if (i % 4 == 1) recorder.finish();
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
@@ -174,8 +171,8 @@ std::vector<Operation> record(const fs::path& folder) {
     return journal().end();
 }
 
-/// A possible state on disk of a file that was growing from `safe` to `now`: either with a part of
-/// the new bytes, or with the new length but without the bytes.
+/// A possible state on disk of a file that was growing from `safe` to `now`: with a part of the new
+/// bytes, or with the new length but without the new bytes.
 std::string part(const std::string& safe, const std::string& now, std::mt19937& random) {
     if (!now.starts_with(safe)) return random() % 2 == 0 ? safe : now;
     const std::size_t more = random() % (now.size() - safe.size() + 1);
@@ -184,11 +181,10 @@ std::string part(const std::string& safe, const std::string& now, std::mt19937& 
     return out;
 }
 
-/// A possible state of the disk if the power is cut after this number of operations.
 Files afterCut(const std::vector<Operation>& operations, std::size_t count, std::mt19937& random) {
     Files safe, now;
     std::set<std::string>
-        safeBytes;  // files whose content is on the disk, but maybe not their names
+        safeBytes;  // files whose content is on the disk, but possibly without their names
     for (std::size_t i = 0; i < count; ++i) {
         const Operation& operation = operations[i];
         if (const auto* written = std::get_if<Written>(&operation)) {
@@ -208,7 +204,8 @@ Files afterCut(const std::vector<Operation>& operations, std::size_t count, std:
     for (const auto& [file, bytes] : now) {
         const auto before = safe.find(file);
         if (before != safe.end() && before->second == bytes) continue;
-        if (before == safe.end() && random() % 2 == 0) continue;  // not even its name was written
+        // the name may be missing on the disk
+        if (before == safe.end() && random() % 2 == 0) continue;
         disk[file] = safeBytes.contains(file)
                          ? bytes
                          : part(before == safe.end() ? "" : before->second, bytes, random);
@@ -216,7 +213,7 @@ Files afterCut(const std::vector<Operation>& operations, std::size_t count, std:
     return disk;
 }
 
-/// Number of rows of a list that were synchronised by the first `count` operations.
+/// Number of rows of a list that the first `count` operations synchronised.
 std::size_t safeRows(const std::vector<Operation>& operations, std::size_t count,
                      const std::string& list) {
     std::size_t rows = 0, safe = 0;
@@ -226,11 +223,10 @@ std::size_t safeRows(const std::vector<Operation>& operations, std::size_t count
             rows += static_cast<std::size_t>(std::ranges::count(written->bytes, '\n'));
         if (std::holds_alternative<Synced>(operations[i])) safe = rows;
     }
-    return safe > 0 ? safe - 1 : 0;  // without the heading
+    return safe > 0 ? safe - 1 : 0;  // without the line of headings
 }
 
-/// For each addition to a list, the number of synchronisations between it and the next addition or
-/// the end.
+/// For each addition to a list, the number of synchronisations before the next addition or the end.
 std::vector<int> syncsAfterRows(const std::vector<Operation>& operations, const std::string& list) {
     std::vector<int> out;
     for (const Operation& operation : operations) {
@@ -253,8 +249,8 @@ void expectWhole(const std::vector<RecordedImage>& images, Size size) {
 
 class PowerCut : public testing::Test {
 protected:
-    /// Reads the recording that is left if the power is cut after the first `count` operations.
-    /// Empty if no picture was synchronised.
+    /// Reads the recording that is left after the first `count` operations and a power cut. Empty
+    /// if no picture was synchronised.
     std::optional<Recording> leftAfter(std::size_t count) {
         fs::remove_all(cut_.path() / "run");
         for (const char* folder : {"cam0/data", "cam1/data"})
@@ -266,8 +262,7 @@ protected:
         return loadRecording(cut_.path() / "run");
     }
 
-    // Uses a file system in memory if there is one, because the folders are created a thousand
-    // times.
+    // Uses a file system in memory if possible, because the folders are created a thousand times.
     const int inMemory_ = fs::is_directory("/dev/shm") ? setenv("TMPDIR", "/dev/shm", 1) : 0;
     test::TempFolder whole_, cut_;
     const std::vector<Operation> operations_ = record(whole_.path());
@@ -297,7 +292,7 @@ TEST_F(PowerCut, SynchronisedDataReadsBackAfterACutAtAnyMoment) {
 TEST_F(PowerCut, RowsAreSynchronisedBeforeTheNextPictures) {
     std::vector<int> syncs = syncsAfterRows(operations_, (whole_ / "cam0/data.csv").string());
     ASSERT_GT(syncs.size(), 2U);
-    ++syncs.back();  // the end counts as a synchronisation: no pictures follow
+    ++syncs.back();  // The end counts as a synchronisation, because no pictures follow.
     EXPECT_THAT(syncs, testing::Each(testing::Ge(2)));
 }
 

@@ -17,7 +17,6 @@ using testing::EndsWith;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// Collects what a Progress writes.
 class Output {
 public:
     Output() : file_(open_memstream(&text_, &size_)) {}

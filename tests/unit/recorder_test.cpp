@@ -132,7 +132,6 @@ TEST(Recorder, PaddedRowsAreRecordedWithoutThePadding) {
             ASSERT_EQ(read.pixels[(y * width + x) * 4], y);
 }
 
-/// Ids of the threads of this process.
 std::set<fs::path> threads() {
     std::set<fs::path> out;
     for (const auto& entry : fs::directory_iterator("/proc/self/task"))
@@ -144,7 +143,7 @@ TEST(Recorder, IfTheDiskHangsPicturesAreDroppedAndCountedWithoutDelayingTheCalle
     const TempFolder folder;
     const std::set<fs::path> before = threads();
     Recorder recorder(folder.path(), smallRig(), 30, {.videoBuffers = 4, .poses = 3});
-    // A pipe without a reader replaces the thread's first file. So open() blocks, as on a dead
+    // A pipe without a reader replaces the thread's first file. So open() blocks, as on a hanging
     // disk.
     std::vector<fs::path> pipes;
     for (const fs::path& thread : threads())

@@ -15,8 +15,8 @@ using test::writeSmallRecording;
 
 constexpr std::int64_t kMs = 1'000'000;
 
-/// The pictures that one thread gets if it asks both cameras in turn, as text: "V" (video) or "S"
-/// (still), the time [ms], "=", the grey level.
+/// Fetches pictures from both cameras in turn in one thread. Returns them as text: "V" (video) or
+/// "S" (still), the time [ms], "=", the grey level.
 std::string played(RecordingPlayer& player, std::size_t limit = 1000) {
     std::string seen;
     for (std::size_t n = 0; n < limit && !(player.video().ended() && player.stills().ended());) {
@@ -37,7 +37,7 @@ void startBoth(RecordingPlayer& player) {
     player.stills().start();
 }
 
-TEST(RecordingPlayer, ConsumerPaceGivesAllPicturesInTheOrderOfTimeInEveryRun) {
+TEST(RecordingPlayer, AtConsumerPaceAllPicturesComeInTheOrderOfTimeInEveryRun) {
     const TempFolder folder;
     writeSmallRecording(folder.path(), {0, 33 * kMs, 66 * kMs, 100 * kMs},
                         {33 * kMs, 50 * kMs, 51 * kMs, 52 * kMs, 200 * kMs});
@@ -48,7 +48,7 @@ TEST(RecordingPlayer, ConsumerPaceGivesAllPicturesInTheOrderOfTimeInEveryRun) {
     }
 }
 
-TEST(RecordingPlayer, ConsumerPaceHoldsAStillBackUntilTheVideoHasCome) {
+TEST(RecordingPlayer, AtConsumerPaceAStillWaitsForTheVideoFramesBeforeIt) {
     const TempFolder folder;
     writeSmallRecording(folder.path(), {0, 33 * kMs}, {20 * kMs});
     RecordingPlayer player(loadRecording(folder.path()), {.pace = Pace::Consumer});
@@ -60,7 +60,7 @@ TEST(RecordingPlayer, ConsumerPaceHoldsAStillBackUntilTheVideoHasCome) {
     EXPECT_FALSE(player.video().ended());
 }
 
-TEST(RecordingPlayer, ConsumerPaceGivesAllStillsUpToTheLastDeliveredVideoFrame) {
+TEST(RecordingPlayer, AtConsumerPaceAllStillsUpToTheLastDeliveredVideoFrameAreAvailable) {
     const TempFolder folder;
     writeSmallRecording(folder.path(), {0, 33 * kMs, 66 * kMs},
                         {5 * kMs, 33 * kMs, 40 * kMs, 90 * kMs});
@@ -86,7 +86,7 @@ TEST(RecordingPlayer, ConsumerPaceGivesAllStillsUpToTheLastDeliveredVideoFrame) 
     }
 }
 
-TEST(RecordingPlayer, ConsumerPaceWaitsOnlyForBuffersThatTheConsumerHolds) {
+TEST(RecordingPlayer, AtConsumerPaceThePlayerWaitsOnlyForBuffersThatTheConsumerHolds) {
     const TempFolder folder;
     writeSmallRecording(folder.path(), {0, 33 * kMs, 66 * kMs}, {});
     RecordingPlayer player(loadRecording(folder.path()),
@@ -100,7 +100,7 @@ TEST(RecordingPlayer, ConsumerPaceWaitsOnlyForBuffersThatTheConsumerHolds) {
     EXPECT_EQ(player.video().next(seconds(10))->time().ns, 66 * kMs);
 }
 
-TEST(RecordingPlayer, RealtimeNeverGivesAPictureBeforeItsTime) {
+TEST(RecordingPlayer, InRealTimeNoPictureIsDeliveredBeforeItsTime) {
     const TempFolder folder;
     writeSmallRecording(folder.path(), {5000 * kMs, 5040 * kMs, 5080 * kMs}, {5060 * kMs});
     RecordingPlayer player(loadRecording(folder.path()), {.pace = Pace::Realtime});
@@ -115,7 +115,7 @@ TEST(RecordingPlayer, RealtimeNeverGivesAPictureBeforeItsTime) {
     EXPECT_EQ(player.stills().next(seconds(10))->time().ns, 5060 * kMs);
 }
 
-TEST(RecordingPlayer, RealtimeTimesOutBeforeThePictureIsDue) {
+TEST(RecordingPlayer, InRealTimeNextTimesOutBeforeThePictureIsDue) {
     const TempFolder folder;
     writeSmallRecording(folder.path(), {0, 600'000 * kMs}, {});
     RecordingPlayer player(loadRecording(folder.path()), {.pace = Pace::Realtime});
@@ -125,7 +125,7 @@ TEST(RecordingPlayer, RealtimeTimesOutBeforeThePictureIsDue) {
     EXPECT_FALSE(player.video().ended());
 }
 
-TEST(RecordingPlayer, RealtimeSkipsLatePicturesAndCountsThem) {
+TEST(RecordingPlayer, InRealTimeLatePicturesAreSkippedAndCounted) {
     const TempFolder folder;
     std::vector<std::int64_t> times;
     for (int i = 0; i < 20; ++i)
@@ -161,19 +161,19 @@ TEST(RecordingPlayer, StopWakesAWaitingThread) {
     EXPECT_THROW(player.video().start(), std::runtime_error);
 }
 
-TEST(RecordingPlayer, LoopContinuesWithRisingTimesThatMapBackToTheFiles) {
+TEST(RecordingPlayer, ALoopHasIncreasingTimesThatStillIdentifyTheFiles) {
     const TempFolder folder;
     writeSmallRecording(folder.path(), {1000 * kMs, 1500 * kMs}, {1200 * kMs});
     RecordingPlayer player(loadRecording(folder.path()), {.pace = Pace::Consumer, .loop = true});
     startBoth(player);
-    // One loop lasts 500 ms plus 1/30 s.
+    // A loop lasts 500 ms plus 1/30 s.
     EXPECT_EQ(played(player, 7), "V1000=0 S1200=0 V1500=10 V1533=0 S1733=0 V2033=10 V2066=0 ");
     EXPECT_FALSE(player.video().ended());
     EXPECT_EQ(player.recordedTime({1'200 * kMs}).ns, 1200 * kMs);
     EXPECT_EQ(player.recordedTime({1'733'333'333}).ns, 1200 * kMs);
 }
 
-TEST(RecordingPlayer, AnUndecodablePictureThrowsOnceAndPlayingGoesOn) {
+TEST(RecordingPlayer, ADamagedPictureIsReportedOnceAndPlayingContinues) {
     const TempFolder folder;
     writeSmallRecording(folder.path(), {0, 33 * kMs, 66 * kMs}, {});
     const auto file = folder / "cam0/data/33000000.png";
@@ -206,7 +206,7 @@ TEST(RecordingPlayer, FramesOutliveThePlayer) {
     EXPECT_EQ(frame->view().data[0], 10);
 }
 
-TEST(RecordingPlayer, TriggerOnlyCountsPulses) {
+TEST(RecordingPlayer, TheTriggerOfARecordingOnlyCountsPulses) {
     const TempFolder folder;
     writeSmallRecording(folder.path(), {0, 33 * kMs}, {});
     RecordingPlayer player(loadRecording(folder.path()), {.pace = Pace::Consumer});

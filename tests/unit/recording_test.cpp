@@ -27,7 +27,7 @@ std::string faultOf(const fs::path& root) {
     return "no fault found";
 }
 
-/// One change that makes a valid recording invalid, and the required beginning and content of the
+/// A change that makes a valid recording invalid, and the required beginning and content of the
 /// error message.
 struct Fault {
     const char* name;
@@ -183,7 +183,7 @@ const Fault kFaults[] = {
      "cam0/data.csv: ", "has a line of more than 4096 characters"},
 };
 
-// One test covers all faults, because a process for each would take a minute.
+// One test covers all faults, because a process for each would take a minute in all.
 TEST(Recording, EveryFaultIsRefusedWithFileAndLine) {
     for (const Fault& fault : kFaults) {
         SCOPED_TRACE(fault.name);
@@ -220,7 +220,7 @@ TEST(Recording, RecordingHasTheContentOfItsFiles) {
     EXPECT_EQ(r.rig.video.distortion, (std::array<double, 5>{0.1, -0.02, 0.001, 0.002, 0}));
 }
 
-TEST(Recording, StillSensorToTheRightSeesThePointFurtherLeft) {
+TEST(Recording, AStillSensorToTheRightShowsAPointFurtherLeft) {
     const TempFolder folder;
     test::writeSmallRecording(folder.path());
     const Recording r = loadRecording(folder.path());
@@ -231,8 +231,7 @@ TEST(Recording, StillSensorToTheRightSeesThePointFurtherLeft) {
 TEST(Recording, PosesDescribeTheVideoCameraNotTheBody) {
     const TempFolder folder;
     test::writeSmallRecording(folder.path());
-    // A quarter turn about z and an offset, so that the frame of the video camera is not that of
-    // the body.
+    // A quarter turn about z and an offset give the video camera another frame than the body.
     replaceInFile(folder / kVideoYaml, "[1.0, 0.0, 0.0, 0,", "[0.0, -1.0, 0.0, 0.5,");
     replaceInFile(folder / kVideoYaml, "0.0, 1.0, 0.0, 0.0,", "1.0, 0.0, 0.0, 0.0,");
     const Recording r = loadRecording(folder.path());

@@ -13,14 +13,14 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// A simulated device that can be plugged and unplugged. It may outlive its cameras. Thread-safe.
+/// A simulated device that can be unplugged. It may outlive its cameras. Thread-safe.
 struct Socket {
     std::atomic<bool> plugged{true};
     std::atomic<bool> sends{true};
     std::atomic<int> asked{0}, open{0}, opened{0};
-    std::atomic<bool> opens{true};    ///< false: opening it hangs
-    std::atomic<bool> closes{true};   ///< false: closing it hangs
-    std::atomic<bool> answers{true};  ///< false: getting a picture or stopping hangs
+    std::atomic<bool> opens{true};    ///< false: opening the device hangs
+    std::atomic<bool> closes{true};   ///< false: closing the device hangs
+    std::atomic<bool> answers{true};  ///< false: getting a picture and stopping hang
     Size size{4, 2};
 };
 
@@ -86,7 +86,7 @@ ReopeningCamera cameraOn(Socket& socket, const ReopeningOptions& options = quick
             options};
 }
 
-/// Requests frames until `done` returns true. Returns false after five seconds.
+/// Fetches frames until `done` returns true. Returns false after five seconds.
 bool drivenUntil(ReopeningCamera& camera, const std::function<bool(bool frame)>& done) {
     const Timestamp end = Timestamp::now() + std::chrono::seconds(5);
     while (Timestamp::now() < end)
@@ -177,7 +177,7 @@ TEST(ReopeningCamera, ASlowlyClosingDeviceDelaysNoThread) {
 TEST(ReopeningCamera, AHangingDriverIsReportedAndStopDoesNotWaitForIt) {
     Socket socket;
     ReopeningOptions options = quick();
-    options.silent = milliseconds(0);  // a triggered camera: silence alone is not a fault
+    options.silent = milliseconds(0);  // silence is no fault of a triggered camera
     ReopeningCamera camera = cameraOn(socket, options);
     camera.start();
     ASSERT_TRUE(drivenUntil(camera, [](bool frame) { return frame; }));
@@ -206,8 +206,8 @@ TEST(ReopeningCamera, AHangingDriverIsReportedAndStopDoesNotWaitForIt) {
     socket.answers = true;
 }
 
-/// What the watchdog reports about a camera's opening thread after some time. The thread's time
-/// budget is 10 s.
+/// The watchdog's report about a camera's opening thread after some time. The thread's time budget
+/// is 10 s.
 struct WatchedOpener {
     [[nodiscard]] std::vector<std::string> lateAfter(std::chrono::seconds time) {
         passed = passed.load() + time.count();

@@ -13,11 +13,10 @@
 namespace mfar::test {
 
 struct Outcome {
-    int status = -1;   ///< exit status; -1: a signal ended the program
-    std::string text;  ///< standard output and error
+    int status = -1;  ///< exit status; -1: a signal ended the program
+    std::string text;
 };
 
-/// Runs a shell command. Its output is kept in log.txt in `folder`.
 inline Outcome execute(const TempFolder& folder, const std::string& command) {
     const std::filesystem::path log = folder / "log.txt";
     const int raw = std::system(fmt::format("{} >'{}' 2>&1", command, log.string()).c_str());

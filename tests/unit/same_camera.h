@@ -6,7 +6,6 @@
 
 namespace mfar::test {
 
-/// Expects that all numbers of both cameras are bit-identical.
 inline void expectSame(const CameraModel& a, const CameraModel& b) {
     EXPECT_EQ(a.size, b.size);
     EXPECT_EQ(a.fx, b.fx);

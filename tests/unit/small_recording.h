@@ -12,8 +12,7 @@
 
 namespace mfar::test {
 
-/// A picture in which every byte is `level`, so that it can be recognised after any lossless round
-/// trip.
+/// A picture of equal bytes `level`, which can be recognised after lossless compression.
 inline StoredImage plain(Size size, std::uint8_t level, PixelFormat format = PixelFormat::Rgba8) {
     StoredImage image{size, format, {}};
     image.pixels.assign(static_cast<std::size_t>(size.width) * size.height * bytesPerPixel(format),
@@ -25,7 +24,7 @@ constexpr Size kSmallVideo{16, 12};
 constexpr Size kSmallStill{32, 24};
 
 inline std::string smallSensorYaml(Size size, double rateHz, double x) {
-    // Tests rely on these line numbers: 2 T_BS, 5 data of T_BS, 9 rate_hz, 10 resolution, 12
+    // Tests use these line numbers: 2 T_BS, 5 data of T_BS, 9 rate_hz, 10 resolution, 12
     // intrinsics.
     return fmt::format("sensor_type: camera\n"
                        "T_BS:\n"
@@ -58,8 +57,8 @@ inline void writeCamera(const std::filesystem::path& folder, const std::string& 
 }
 
 /// Writes a valid recording. Picture i of a camera has the grey level 10 i. The still sensor is
-/// 0.014 m to the right of the video sensor. The body is at (1, 2, 3) at 1 s, and at (2, 2, 3),
-/// rotated by 90 degrees about z, at 2 s.
+/// 0.014 m to the right of the video sensor. The body is at (1, 2, 3) at 1 s. At 2 s it is at (2,
+/// 2, 3), rotated by 90 degrees about z.
 inline void writeSmallRecording(const std::filesystem::path& root,
                                 const std::vector<std::int64_t>& video = {1'000'000'000,
                                                                           1'500'000'000,

@@ -55,13 +55,12 @@ TEST(StillMatcher, StillWithoutAPulseIsNeverUsed) {
     EXPECT_EQ(matcher.counters().matched, 1U);
 }
 
-TEST(StillMatcher, LatencyIsTheMedianOfTheFirstTwentyStills) {
+TEST(StillMatcher, TheLearnedLatencyIsTheMedianOfTheFirstTwentyStills) {
     StillMatcherOptions options;
     options.guess = 20ms;
     StillMatcher matcher(options);
     EXPECT_EQ(matcher.constant(), nanoseconds(20ms));
-    // The latencies are 30 ms + 0.00 to 0.19 ms in mixed order, except one still that is 60 ms
-    // later.
+    // The latencies are 30.00 to 30.19 ms in mixed order. One still is 60 ms later.
     for (int i = 0; i < 20; ++i) {
         EXPECT_FALSE(matcher.learned()) << i;
         const Timestamp pulse = kStart + i * 1s;
@@ -70,8 +69,8 @@ TEST(StillMatcher, LatencyIsTheMedianOfTheFirstTwentyStills) {
         EXPECT_TRUE(matcher.stillArrived(pulse + off)) << i;
     }
     EXPECT_TRUE(matcher.learned());
-    // Pulse 4 has no latency of 30.08 ms. So the middle two of the 20 latencies are 30.10 and
-    // 30.11 ms.
+    // Pulse 4 has no latency of 30.08 ms. So the middle two of the 20 latencies are 30.10 and 30.11
+    // ms.
     EXPECT_EQ(matcher.constant(), nanoseconds(30ms + 105us));
     matcher.pulseFired(kStart + 100s);
     EXPECT_FALSE(matcher.stillArrived(kStart + 100s + 31106us))
@@ -232,8 +231,7 @@ TEST(StillMatcher, ManyPulsesWithoutStillsAreAllLost) {
     EXPECT_EQ(matcher.counters().lost, 1000U);
 }
 
-/// A simulated camera and trigger that have every kind of fault. Knows the true pulse of each
-/// still.
+/// A simulated camera and trigger with every kind of fault. It knows the true pulse of each still.
 class Chaos {
 public:
     explicit Chaos(unsigned seed) : random_(seed) {
@@ -284,8 +282,7 @@ private:
         expose(now_, clean);
     }
 
-    /// Delivers all stills that arrive until this time, and checks for lost pulses between the
-    /// deliveries.
+    /// Delivers all stills that arrive until this time. Checks for lost pulses between deliveries.
     void deliver(StillMatcher& matcher, Timestamp until) {
         const Timestamp end = until;
         for (Timestamp t = lastPoll_ + 5ms; t <= end; t = t + 5ms) {
@@ -297,7 +294,7 @@ private:
             }
             const StillMatcher::Due due = matcher.poll(t);
             lost_ += due.lost;
-            // Pulses closer than 60 ms to each other are not tested here.
+            // Excludes pulses closer than 60 ms to each other.
             if (due.repeat && t - now_ > 60ms && end - t > 60ms) {
                 now_ = t;
                 fire(matcher, Pulse::Repetition, false);
@@ -315,7 +312,7 @@ private:
             return;
         }
         EXPECT_TRUE(given_.insert(match->pulse.ns).second) << "a pulse got two stills";
-        // A still that the camera sends twice counts as one still.
+        // A still that the camera sends twice counts as one.
         const std::int64_t off = (still.exposed - match->pulse).count() - constant_.count();
         EXPECT_LE(std::abs(off), 450'000) << "a still that belongs to no pulse was used";
         EXPECT_EQ(match->pulse, still.pulse.value_or(match->pulse)) << "swapped";
@@ -349,7 +346,7 @@ private:
     std::uint64_t arrived_ = 0;
 };
 
-TEST(StillMatcher, NoFaultSwapsStillsOrMakesTheCountOfPulsesWrong) {
+TEST(StillMatcher, UnderRandomFaultsStillsKeepTheirPulsesAndCountsStayRight) {
     for (unsigned seed = 0; seed < 200; ++seed) {
         SCOPED_TRACE(seed);
         Chaos(seed).run();

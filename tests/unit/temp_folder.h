@@ -10,7 +10,6 @@
 
 namespace mfar::test {
 
-/// A new folder. It is removed at the end with everything in it.
 class TempFolder {
 public:
     TempFolder() {
@@ -43,8 +42,8 @@ inline std::string readFile(const std::filesystem::path& file) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Replaces the first occurrence of a text. Throws if the text does not occur, so that a test
-/// cannot pass by accident.
+/// Replaces the first occurrence of a text. Throws if there is none, so that a test cannot pass by
+/// accident.
 inline void replaceInFile(const std::filesystem::path& file, std::string_view from,
                           std::string_view to) {
     std::string text = readFile(file);

@@ -17,20 +17,19 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 using namespace std::chrono_literals;
 
-/// A sensor and its trigger line. The test decides which pulses expose a still.
 struct Sensor {
     std::mutex mutex;
     std::condition_variable changed;
     std::deque<Frame> ready;
     std::vector<Timestamp> pulses;
     int loans = 0;
-    int busy = 0;   ///< number of coming pulses that the trigger will refuse
-    int blind = 0;  ///< number of coming pulses that will not expose a still
+    int busy = 0;   ///< number of next pulses that the trigger refuses
+    int blind = 0;  ///< number of next pulses that expose no still
     bool stopped = false;
-    int rests = 0;      ///< number of requests to set the line inactive
+    int rests = 0;
     bool high = false;  ///< level of the line after a pulse
     nanoseconds exposure{0};
-    nanoseconds delay{300us};  ///< time from the pulse's edge to the start of the exposure
+    nanoseconds delay{300us};  ///< time from the pulse to the start of the exposure
 
     void expose(Timestamp start) {
         ++loans;
@@ -112,7 +111,7 @@ struct TriggeredStills : testing::Test {
     Sensor sensor;
 };
 
-TEST_F(TriggeredStills, ReportsTheCamerasInfoWithoutARate) {
+TEST_F(TriggeredStills, ReportsThePropertiesOfTheCameraWithoutARate) {
     const auto camera = open();
     EXPECT_EQ(camera->info().name, "fake");
     EXPECT_EQ(camera->info().size, (Size{2304, 1728}));
@@ -135,7 +134,7 @@ TEST_F(TriggeredStills, StillHasTheTimeOfItsPulse) {
     EXPECT_EQ(camera->counters().matched, 30U);
 }
 
-TEST_F(TriggeredStills, PulseGivesTheExposureIfTheCameraDoesNotReportIt) {
+TEST_F(TriggeredStills, IfTheCameraReportsNoExposureTheConfiguredExposureIsUsed) {
     TriggeredStillOptions options;
     options.exposure = 6ms;
     const auto camera = open(options);

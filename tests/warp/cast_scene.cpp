@@ -11,7 +11,7 @@ using Eigen::Vector3d;
 using Rgba = Eigen::Vector4d;
 
 struct Ray {
-    Vector3d from, along;  // `along` has z = 1 in the camera's frame; so t is the depth z
+    Vector3d from, along;  // `along` has z = 1 in the camera's frame. So t is the depth z.
 };
 struct Met {
     double z;

@@ -10,9 +10,8 @@
 
 namespace mfar::test {
 
-/// Spheres above the plane z = 0. Their colour is a function of the point alone, and each casts a
-/// soft disc as its shadow. So casting rays computes the exact picture of any view. World frame: z
-/// points up.
+/// Spheres above the plane z = 0; z points up. Their colour is a function of the point. Each casts
+/// a soft disc as its shadow. So casting rays gives the exact picture of any view.
 struct CastScene {
     struct Ball {
         Eigen::Vector3d centre;
@@ -20,23 +19,21 @@ struct CastScene {
     };
     std::vector<Ball> balls;
     bool shadows = true;
-    double contrast = 1;  ///< contrast of the pattern on the spheres
+    double contrast = 1;
 
     /// The scene as triangles, with `segments` segments around each sphere.
     [[nodiscard]] mfar::Scene scene(int segments = 192) const;
     /// Casts `grid`^2 rays per pixel for its colour, and one through its centre for depth and id.
     [[nodiscard]] RenderedPicture cast(const RenderView& view, int grid = 1) const;
-    /// Casts rays only for these pixels; all others are empty.
+    /// Casts rays only for these pixels. All others are empty.
     [[nodiscard]] RenderedPicture castPixels(const RenderView& view, int grid,
                                              std::span<const std::uint32_t> pixels) const;
 };
 
-/// A large ball with a small ball in front of it, and their shadows.
 [[nodiscard]] CastScene twoBalls();
-/// An off-centre lens with some distortion.
 [[nodiscard]] CameraModel bentCamera(Size size);
-/// Pose of a camera at the azimuth `degrees` around the centre of the scene. It looks at the centre
-/// from `distance` [m] and `upDegrees` above the plane.
+/// Pose of a camera at the azimuth `degrees` around the scene's centre. It looks at the centre from
+/// `distance` [m] and `upDegrees` above the plane.
 [[nodiscard]] RigidTransform orbit(double degrees, double distance = 0.6, double upDegrees = 30);
 
 }  // namespace mfar::test

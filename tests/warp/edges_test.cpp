@@ -10,7 +10,7 @@ using test::CastScene;
 using WarpEdgesGl = GlTest;
 
 constexpr Size kEdgeLayer{200, 150};
-constexpr int kLongEnough = 12;  // number of frames until all pixels are requested and faded in
+constexpr int kLongEnough = 12;
 
 struct Resting {
     explicit Resting(const WarpOptions& options)
@@ -23,7 +23,7 @@ struct Resting {
         return test::bytesOf(
             test::settled(warp, scene, test::orbit(degrees), 2 * kLongEnough).colour);
     }
-    /// Returns the first request for edges. Answers all other requests.
+    /// Answers requests until one is for edges. Returns that request.
     std::optional<HoleRequest> edgesAt(double degrees) {
         for (int i = 0; i < kLongEnough; ++i) {
             warp.run(test::orbit(degrees));

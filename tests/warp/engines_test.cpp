@@ -10,7 +10,6 @@ using WarpEngines = GlTest;
 
 constexpr Size kBoth{241, 183};
 
-/// The layer of one engine at `degrees` from the traced picture.
 struct OfEngine {
     OfEngine(EngineKind kind, double degrees, const WarpOptions& options)
         : engine(test::warpEngine(kind)), warp(test::bentCamera(kBoth), kBoth, *engine, options) {

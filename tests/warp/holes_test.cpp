@@ -50,7 +50,7 @@ TEST_F(WarpHolesGl, HolesOfTheTracedPictureAreRequested) {
         hidden +=
             before.id[i] != now.id[pixel] || std::abs(before.depth[i] - q.z()) > 0.003 ? 1 : 0;
     }
-    // The other requested pixels are at the limb of a ball, where rounding decides.
+    // The other requested pixels are at the edge of a ball, where rounding decides.
     EXPECT_GT(surfaces, 100);
     EXPECT_GT(hidden, 0.8 * surfaces);
 }
@@ -117,9 +117,7 @@ TEST_F(WarpHolesGl, ModesThatDoNotRenderHolesRequestNone) {
     }
 }
 
-// The large ball occludes the small one. When a little of the small ball appears, it must be opaque
-// at once.
-TEST_F(WarpHolesGl, AppearingObjectsAreFilledAtOnce) {
+TEST_F(WarpHolesGl, PixelsOfAppearingObjectsAreFilledAtOnce) {
     const CastScene scene = test::twoBalls();
     const auto engine = test::warpEngine();
     Warp warp(test::bentCamera(kHoleLayer), kHoleLayer, *engine,

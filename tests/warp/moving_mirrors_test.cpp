@@ -15,7 +15,7 @@ namespace mfar::simd {
 namespace {
 
 constexpr Size kPicture{21, 40};
-constexpr float kTwice = 2;  // light in the table of rough lobes / in the table of sharp lobes
+constexpr float kTwice = 2;  // light of rough lobes / light of sharp lobes
 
 CameraModel camera() {
     return {kPicture, 30, 30, 9.5, 18.5, {-0.1, 0.02, 0, 0, 0}};
@@ -41,7 +41,6 @@ MirrorLight smoothLight() {
     return out;
 }
 
-/// The surfaces in the pixels of a picture: random points whose normals face the camera.
 struct Surfaces {
     std::vector<Eigen::Vector3f> points, normals;
     std::vector<float> roughness;
@@ -97,7 +96,6 @@ Eigen::Vector3f specularOf(const LightWords& words) {
     return {rgb[0], rgb[1], rgb[2]};
 }
 
-/// The inputs of the mirrors step for a picture, with the rays of the picture's camera.
 struct Mirrors {
     AlignedRows<float> rayX{kPicture}, rayY{kPicture};
     MovingMirrors mirrors;
@@ -121,10 +119,10 @@ void expectNear(const Eigen::Vector3f& a, const Eigen::Vector3f& b, std::size_t 
         << "pixel " << i << ": " << a.transpose() << ", not " << b.transpose();
 }
 
-TEST(MovingMirrors, AfterACameraMotionTheyReflectTheSkyAsSeenFromTheNewPosition) {
+TEST(MovingMirrors, AfterACameraMotionMirrorsReflectTheSkyAsSeenFromTheNewPosition) {
     Surfaces s(smoothLight());
     const Eigen::Vector3d eye = s.traced.T_world_camera.translation;
-    // The pixels see in turn the whole sky, half of it, and the sky with other light.
+    // Every third pixel sees the whole sky, the next half of it, the next a sky with other light.
     const auto shown = [&](std::size_t i, const Eigen::Vector3f& sky) -> Eigen::Vector3f {
         if (i % 3 == 0) return sky;
         return i % 3 == 1 ? Eigen::Vector3f(0.5F * sky)
@@ -143,7 +141,7 @@ TEST(MovingMirrors, AfterACameraMotionTheyReflectTheSkyAsSeenFromTheNewPosition)
     }
 }
 
-TEST(MovingMirrors, FromTheTracedPicturesPositionMirrorsShowItsLight) {
+TEST(MovingMirrors, AtThePositionOfTheTracedPictureMirrorsShowItsLight) {
     Surfaces s(smoothLight());
     const Eigen::Vector3d eye = s.traced.T_world_camera.translation;
     for (std::size_t i = 0; i < s.points.size(); ++i)
@@ -186,7 +184,7 @@ TEST(MovingMirrors, HighlightsOfTheSunMove) {
     const auto shown = moving.mirrors.lightFor(other);
     int bright = 0;
     for (std::size_t i = 0; i < s.points.size(); ++i) {
-        // One byte stores the roughness, which is too coarse for the sharpest lobes.
+        // The roughness is stored in one byte, which is too coarse for the sharpest lobes.
         if (s.normals[i].dot(s.seenFrom(other, i)) < 0.05F || s.roughness[i] < 0.3F) continue;
         const Eigen::Vector3f truth = all(other, i);
         bright += truth.norm() > 1.3F * s.skyFor(other, i).norm() ? 1 : 0;

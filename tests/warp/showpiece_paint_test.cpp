@@ -14,10 +14,10 @@ namespace mfar::simd {
 namespace {
 
 constexpr Size kView{320, 240};
-constexpr int kAcross = 8;  // rays per pixel in each direction
+constexpr int kAcross = 8;
 
 struct Truth {
-    Eigen::Vector3d diffuse = Eigen::Vector3d::Zero(), facing = Eigen::Vector3d::Zero();  // linear
+    Eigen::Vector3d diffuse = Eigen::Vector3d::Zero(), facing = Eigen::Vector3d::Zero();
     int hits = 0;
 };
 
@@ -42,7 +42,7 @@ Truth truthAt(const TracedScene& scene, const CameraModel& camera, const RigidTr
     return out;
 }
 
-TEST(ShowpiecePaint, MatchesTracedRays) {
+TEST(ShowpiecePaint, PaintOfTheShowpieceMatchesTracedRays) {
     const CameraModel camera = test::bentCamera(kView);
     const RigidTransform pose = test::orbit(20, 0.25, 25);
     auto scene = std::make_shared<Scene>();
@@ -76,7 +76,7 @@ TEST(ShowpiecePaint, MatchesTracedRays) {
     }
     const auto psnr = [&](double sum) { return 10 * std::log10(255.0 * 255 * pixels / sum); };
     EXPECT_GT(pixels, 12000);
-    // For rays, colour and metallic share are interpolated separately and then multiplied; for
+    // For rays, colour and metallic share are interpolated separately and then multiplied. For
     // paint, their product is interpolated. So the means over a texel differ at the border of the
     // gilding. With texels a third as wide, the PSNR is 34.7 dB.
     EXPECT_GT(psnr(diffuse), 30.5);

@@ -18,7 +18,7 @@ CameraModel seeing() {
     return {kSeen, 50, 50, 29.5, 19.5, {}};
 }
 
-/// A square of 0.4 m about (x, 0, 1). It faces a camera at the origin.
+/// A square of 0.4 m about (x, 0, 1) that faces a camera at the origin.
 SceneObject squareAt(double x, const Material& material) {
     auto model = std::make_shared<Model>();
     Mesh mesh;
@@ -35,7 +35,6 @@ SceneObject turnedRound(SceneObject object) {
     return object;
 }
 
-/// For each object, the number of pixels of the texture `surface` that show it.
 std::array<int, 256> pixelsOfEach(const gpu::Texture& surface) {
     const Size size = surface.size();
     std::vector<std::array<std::uint32_t, 4>> texels(static_cast<std::size_t>(size.width) *

@@ -27,7 +27,7 @@ float areaOf(const SurfaceMesh& mesh) {
     return sum;
 }
 
-TEST(SurfaceMesh, LongEdgesAreDividedAtTheSamePointsInBothTriangles) {
+TEST(SurfaceMesh, LongEdgesAreDividedAtTheSamePointsInBothAdjacentTriangles) {
     const std::vector<Vector3f> corners{{0, 0, 0}, {3, 0, 0}, {3, 1, 0.5F}, {0.3F, 1, 0}};
     const std::vector<std::array<std::uint32_t, 3>> two{{0, 1, 2}, {0, 2, 3}};
     const SurfaceMesh mesh = surfaceMesh(corners, {}, two, 0.4F);
@@ -40,8 +40,8 @@ TEST(SurfaceMesh, LongEdgesAreDividedAtTheSamePointsInBothTriangles) {
             if (to < from) std::swap(from, to);
             ++edges[{from, to}];
         }
-    // Length of the outline, that is, of all edges of one triangle only. Inner edges belong to two
-    // triangles; so a longer outline shows that an edge is torn.
+    // Length of the outline: of all edges that belong to one triangle only. A torn inner edge makes
+    // the outline longer.
     double outline = 0;
     for (const auto& [edge, triangles] : edges) {
         EXPECT_LE(triangles, 2);
@@ -91,8 +91,8 @@ TEST(SurfaceMesh, SimplifiedMeshStaysCloseToASmoothSurface) {
     EXPECT_EQ(simplified(whole, 80000).triangles.size(), whole.triangles.size());
 }
 
-// The mesh is a pipe, around which the texture coordinate u runs from 0 to 1.
-TEST(SurfaceMesh, SimplifiedMeshKeepsBothSidesOfASeamApart) {
+// The mesh is a pipe. The texture coordinate u runs from 0 to 1 around it.
+TEST(SurfaceMesh, ASimplifiedMeshKeepsBothTextureCoordinatesAtASeam) {
     std::vector<Vector3f> corners;
     std::vector<Eigen::Vector2f> uvs;
     std::vector<std::array<std::uint32_t, 3>> triangles;

@@ -19,7 +19,7 @@ namespace mfar::simd {
 namespace {
 
 constexpr Size kPainted{60, 40};
-constexpr int kRays = 8;  // rays per pixel in each direction
+constexpr int kRays = 8;
 
 CameraModel paintCamera() {
     return {kPainted, 50, 50, 29.5, 19.5, {}};
@@ -106,7 +106,7 @@ Words paintOf(const Scene& scene, int threads = 1) {
     return paintOf(raster);
 }
 
-/// Paint of a surface: diffuse colour (3), then reflectance along the normal (3).
+/// Paint of a surface: diffuse colour (3 values), then reflectance along the normal (3 values).
 using Six = Eigen::Matrix<double, 6, 1>;
 
 Six bytesOf(const PaintWords& words) {
@@ -118,7 +118,6 @@ Six bytesOf(const PaintWords& words) {
     return out;
 }
 
-/// Linear paint of the first surface that a ray from the origin meets.
 std::optional<Six> met(const Scene& scene, const Eigen::Vector3d& along) {
     double nearest = 1e9;
     std::optional<Six> out;
@@ -163,7 +162,6 @@ struct Errors {
     double worst = 0;
 };
 
-/// Errors over the pixels that the scene covers [grey levels].
 Errors errorsOf(const Words& words, const Scene& scene) {
     Errors out;
     for (int y = 0; y < kPainted.height; ++y)
@@ -227,8 +225,8 @@ TEST(SurfacePaint, ABallIsPaintedWithFactorsAndTexturesOfTwoSizes) {
     EXPECT_LT(errors.mean, 3.6);
 }
 
-// Tolerance: textures store roots of linear values in bytes; half a step is 0.75 grey levels in
-// dark areas.
+// Tolerance: textures store square roots of linear values in bytes. Half a step is 0.75 grey levels
+// in dark areas.
 TEST(SurfacePaint, PlainColoursAreExactUpToTwoRoundings) {
     for (const bool hasTexture : {false, true})
         for (int level = 0; level < 256; ++level) {
@@ -289,7 +287,7 @@ TEST(SurfacePaint, TheObjectThatCoversMostQuartersOfAPixelIsPainted) {
     }
 }
 
-TEST(SurfacePaint, SurfaceBehindAlphaHolesIsPainted) {
+TEST(SurfacePaint, ASurfaceBehindTransparentTexelsIsPainted) {
     Material masked = textured(), red;
     masked.alphaCutoff = 0.5F;
     masked.metallic = 0;
@@ -312,7 +310,7 @@ TEST(SurfacePaint, SurfaceBehindAlphaHolesIsPainted) {
     EXPECT_EQ(at(34, 24), 0x0000FF00U);
 }
 
-// Two objects, and two triangles of one model, coincide, so that the order of drawing could matter.
+// Two objects and two triangles of one model coincide, so that the order of drawing could matter.
 TEST(SurfacePaint, PaintDependsNeitherOnThreadsNorOnWhereRowsAreSplit) {
     const std::vector<SurfaceTexture> textures{noise({64, 64}, 5), noise({16, 16}, 6)};
     auto twice = modelOf(ball(0.15F, 64), textured(0), textures);

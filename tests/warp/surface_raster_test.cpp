@@ -21,8 +21,7 @@ CameraModel straight() {
     return {kLayer, 50, 50, 29.5, 19.5, {}};
 }
 
-/// A square of 0.4 m about the origin that faces -z. It is cut into many triangles of irregular
-/// shape.
+/// A square of 0.4 m about the origin that faces -z, cut into many irregular triangles.
 Mesh shards(int side, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> shift(-0.4F, 0.4F);
@@ -54,7 +53,6 @@ Scene sceneOf(const Mesh& mesh, const Material& material, const RigidTransform& 
     return scene;
 }
 
-/// Words of the whole grid, row by row.
 std::vector<std::uint32_t> drawn(const Scene& scene, const RigidTransform& camera = {},
                                  int threads = 1) {
     SurfaceRaster raster(straight(), std::make_shared<Workers>(threads));
@@ -71,8 +69,8 @@ float depthOf(std::uint32_t word) {
     return std::bit_cast<float>(word & 0xFFFFFF00U);
 }
 
-// At a distance of 1 m, the square covers 40 pixels of the grid in each direction, beginning at
-// 39.99 and 19.99.
+// At a distance of 1 m, the square covers 40 pixels of the grid in each direction, from 39.99 and
+// 19.99 on.
 TEST(SurfaceRaster, CoversASurfaceWithoutGapsAndNotBeyondItsOutline) {
     for (unsigned seed = 0; seed < 20; ++seed) {
         const auto words = drawn(
@@ -130,7 +128,7 @@ TEST(SurfaceRaster, TrianglesBehindTheCameraAreClipped) {
         }
 }
 
-TEST(SurfaceRaster, AlphaMasksHaveHoles) {
+TEST(SurfaceRaster, TransparentTexelsOfAMaskAreNotDrawn) {
     auto model = std::make_shared<Model>();
     model->meshes.push_back(shards(5, 3));
     Material masked;
@@ -154,7 +152,7 @@ TEST(SurfaceRaster, AlphaMasksHaveHoles) {
         EXPECT_EQ(words[static_cast<std::size_t>(y) * 120 + x] != 0, shown) << x << " " << y;
 }
 
-TEST(SurfaceRaster, ObjectsCoverTheShadowCatcherWithAnyNumberOfThreads) {
+TEST(SurfaceRaster, ObjectsCoverANearerShadowCatcherWithAnyNumberOfThreads) {
     Scene scene = sceneOf(shards(40, 5), {}, {Eigen::Quaterniond::Identity(), {0, 0, 1}});
     // The shadow catcher is bent, so that it is drawn. It is nearer than the square.
     scene.catcher.positions = {{-1, -1, 0.5F}, {1, -1, 0.5F}, {1, 1, 0.6F}, {-1, 1, 0.5F}};

@@ -16,7 +16,6 @@ using WarpThreadsGl = GlTest;
 
 constexpr const char* kHashFile = "MFAR_WARP_HASH_OUT";
 
-/// FNV-1a hash.
 template <class T>
 std::uint64_t hashed(std::uint64_t hash, const std::vector<T>& values) {
     const auto* bytes = reinterpret_cast<const unsigned char*>(values.data());
@@ -25,7 +24,6 @@ std::uint64_t hashed(std::uint64_t hash, const std::vector<T>& values) {
     return hash;
 }
 
-/// Hash of the pictures at several poses, with holes filled and rendered.
 std::uint64_t hashOfWarps(int threads) {
     std::uint64_t hash = 14695981039346656037U;
     const Size size{320, 240};

@@ -9,7 +9,7 @@
 namespace mfar {
 namespace {
 
-/// A picture of 5x4 pixels. Object 1 covers the left three columns, in front of the shadow catcher.
+/// A picture of 5x4 pixels. Object 1 covers the left three columns in front of the shadow catcher.
 RenderedPicture smallPicture() {
     RenderedPicture p;
     p.camera = {{5, 4}, 5, 5, 2, 1.5, {}};

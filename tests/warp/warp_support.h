@@ -26,7 +26,6 @@ inline double psnrInside(const std::vector<std::uint8_t>& rgba, const RenderedPi
     return 10 * std::log10(255.0 * 255 * static_cast<double>(values) / sum);
 }
 
-/// Answers a request by casting rays.
 inline HoleAnswer answered(const CastScene& scene, const HoleRequest& request, int grid = 2) {
     const RenderedPicture picture = scene.castPixels(request.view, grid, request.pixels);
     HoleAnswer out;
@@ -42,14 +41,13 @@ inline HoleAnswer answered(const CastScene& scene, const HoleRequest& request, i
     return out;
 }
 
-/// Answers a request with white pixels.
 inline HoleAnswer answeredInWhite(const CastScene& scene, const HoleRequest& request) {
     HoleAnswer out = answered(scene, request);
     std::ranges::fill(out.colour, std::array<std::uint8_t, 4>{255, 255, 255, 255});
     return out;
 }
 
-/// Mean of green over these pixels in the next frame, whose camera is at this pose.
+/// Mean green of these pixels in the next frame, whose camera is at this pose.
 inline double meanGreen(Warp& warp, const RigidTransform& pose,
                         const std::vector<std::uint32_t>& pixels) {
     const auto rgba = bytesOf(warp.run(pose).colour);
@@ -59,7 +57,7 @@ inline double meanGreen(Warp& warp, const RigidTransform& pose,
     return sum / static_cast<double>(pixels.size());
 }
 
-/// Renders until the holes of this pose are rendered and fully shown, or until there are none.
+/// Renders frames until this pose has no holes, or until they are rendered and fully shown.
 inline const LayerPicture& settled(Warp& warp, const CastScene& scene, const RigidTransform& pose,
                                    int frames = 12) {
     for (int i = 0; i < frames; ++i) {

@@ -33,7 +33,7 @@ struct Shown {
     Warp warp;
 };
 
-TEST_F(WarpGl, AtItsOwnPoseTheTracedPictureIsShownUnchanged) {
+TEST_F(WarpGl, AtThePoseOfTheTracedPictureItIsShownUnchanged) {
     Shown s;
     RigidTransform pose = test::orbit(0);
     pose.translation.x() += 2e-5;  // moves pixels by 0.01 px
@@ -67,14 +67,15 @@ TEST_F(WarpGl, AfterSmallRotationsTheLayerIsAsSharpAsInterpolationAllows) {
 TEST_F(WarpGl, PsnrRisesFromOpenHolesToFilledHolesToRenderedHoles) {
     std::array<double, 4> psnr{};
     for (int i = 0; i < 4; ++i) {
-        // One ball is far in front of the other.
         Shown s({.filling = static_cast<HoleFilling>(i)},
                 {{{{0, 0, 0.1}, 0.09}, {{0.04, -0.25, 0.14}, 0.045}}, true, 1.5});
         psnr[i] = s.psnrAt(15);
     }
-    EXPECT_GT(psnr[1], psnr[0] + 1) << "push-pull over none";
-    EXPECT_GT(psnr[2], psnr[1] + 1) << "re-rendered over push-pull";
-    EXPECT_NEAR(psnr[3], psnr[2], 0.3) << "both, once the rendered pixels have arrived";
+    EXPECT_GT(psnr[1], psnr[0] + 1) << "filled holes must be nearer to the truth than open holes";
+    EXPECT_GT(psnr[2], psnr[1] + 1)
+        << "rendered holes must be nearer to the truth than filled holes";
+    EXPECT_NEAR(psnr[3], psnr[2], 0.3)
+        << "with filling and rendering, rendered pixels must replace the filled ones";
 }
 
 TEST_F(WarpGl, NothingIsShownOutsideSilhouetteAndShadow) {
@@ -93,7 +94,7 @@ TEST_F(WarpGl, NothingIsShownOutsideSilhouetteAndShadow) {
     EXPECT_LT(coverage / pixels, 4) << "mean error of coverage [grey levels]";
 }
 
-TEST_F(WarpGl, DepthMatchesTheCurrentPose) {
+TEST_F(WarpGl, DepthOfTheLayerIsThatOfTheCurrentPose) {
     Shown s;
     const RenderedPicture truth = s.scene.cast(s.view(8));
     const auto z = test::valuesOf(s.warp.run(test::orbit(8)).depth);
@@ -106,7 +107,7 @@ TEST_F(WarpGl, DepthMatchesTheCurrentPose) {
                 truth.id[i - kLayer.width] != id || truth.id[i + kLayer.width] != id)
                 continue;
             if (id == kCatcherId && truth.colour[i][3] < 8) continue;
-            // At the limb of a ball, its facets are slightly nearer to the centre than the ball's
+            // At the edge of a ball, its facets are slightly nearer to the centre than the true
             // surface.
             const float lift = id == kCatcherId ? kShadowLift * truth.depth[i] : 0;
             ASSERT_NEAR(z[i], truth.depth[i] - lift, 0.01) << x << " " << y;
@@ -122,10 +123,10 @@ TEST_F(WarpGl, HugeMotionAndOddPosesAreHarmless) {
     broken.translation.y() = kNan;
     EXPECT_TRUE(s.warp.run(broken).bounds.empty());
     RigidTransform away = test::orbit(0);
-    away.rotation = away.rotation * Eigen::Quaterniond(0, 0, 1, 0);  // looks the other way
+    away.rotation = away.rotation * Eigen::Quaterniond(0, 0, 1, 0);  // the camera looks away
     EXPECT_TRUE(s.warp.run(away).bounds.empty());
-    // Tries distances inside a ball, on its surface, in the plane and far away, and cameras upside
-    // down and turned by 90 degrees.
+    // Distances inside a ball, on its surface, in the plane and far away. Cameras upside down and
+    // turned by 90 degrees.
     for (const double distance : {0.001, 0.05, 0.09, 0.1001, 0.14, 50.0, 1e5})
         for (const double degrees : {0.0, 90.0, 180.0}) {
             const LayerPicture& layer = s.warp.run(test::orbit(degrees, distance, 1));
@@ -196,7 +197,7 @@ TEST_F(WarpGl, MeshesOfManyTrianglesAreSimplifiedAndLookTheSame) {
     const CastScene scene{{{{0, 0, 0.1}, 0.09}}, true, 1};
     const auto engine = test::warpEngine();
     Warp warp(test::bentCamera(kLayer), kLayer, *engine, {.filling = HoleFilling::PushPull});
-    warp.setScene(scene.scene(720));  // a scene of half a million triangles
+    warp.setScene(scene.scene(720));
     const RenderView from{warp.camera(), test::orbit(0)}, to{warp.camera(), test::orbit(2)};
     warp.setTracedPicture(tracedPicture(scene.cast(from, 3)));
     EXPECT_GT(psnrInside(test::bytesOf(warp.run(to.T_world_camera).colour), scene.cast(to, 3)), 34);

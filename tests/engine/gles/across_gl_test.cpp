@@ -11,8 +11,8 @@ namespace {
 
 using AcrossGl = GlTest;
 
-// Share of the bytes that may differ by more than one grey level, and the largest difference
-// allowed. The renderers round alike, but may add in another order.
+// Limits of the share of bytes that differ by more than one grey level, and of the largest
+// difference. The renderers round in the same way but may add in another order.
 constexpr double kDifferentShare = 1e-4;
 constexpr int kLargest = 4;
 
@@ -32,7 +32,7 @@ std::vector<std::uint8_t> pipelinePictures() {
 
 /// CTest runs this test twice. With the first GL it writes the file MFAR_PICTURES_OUT, with the
 /// second it reads the file MFAR_PICTURES_IN.
-TEST_F(AcrossGl, BothRenderersDrawTheSamePictures) {
+TEST_F(AcrossGl, TwoGlRenderersDrawTheSamePictures) {
     const char* out = std::getenv("MFAR_PICTURES_OUT");
     const char* in = std::getenv("MFAR_PICTURES_IN");
     if (out == nullptr && in == nullptr)

@@ -19,7 +19,7 @@ constexpr double kAlpha = params::kTwoWayAlpha;
 constexpr double kRelative = 1e-3, kAbsolute = 2;
 constexpr double kPixel = 0.01;  // tolerance of unprojection in single precision [still px]
 
-/// Flow vectors in both directions, row by row. The pixels of the backward flow are `scale` video
+/// Flow vectors in both directions, row by row. A pixel of the backward flow is `scale` video
 /// pixels wide.
 struct Fields {
     std::vector<std::array<float, 4>> forward, backward;
@@ -96,7 +96,7 @@ twin::Cells cellsOf(const std::vector<std::array<float, 4>>& field, Size cells) 
 
 class AssessFields : public GlTest, public testing::WithParamInterface<int> {};
 
-TEST_P(AssessFields, StatisticsLookUpsAndConfidenceMatchTheOracle) {
+TEST_P(AssessFields, StatisticsLookUpsAndConfidenceOfFlowMatchTheOracle) {
     const StereoRig rig = bentRig(kVideo, kStill);
     const Waves waves(1, 6, 60, 40);
     const LevelPair pair(waves.shoot(kVideo, {}), waves.shoot(kVideo, {.shift = {-3, 2}}));
@@ -134,7 +134,7 @@ TEST_P(AssessFields, StatisticsLookUpsAndConfidenceMatchTheOracle) {
 
 INSTANTIATE_TEST_SUITE_P(BackwardScales, AssessFields, testing::Values(1, 2));
 
-TEST_F(Assess, AgreeingFieldsAreFullyConfident) {
+TEST_F(Assess, IfForwardAndBackwardFlowAgreeConfidenceIsOne) {
     const StereoRig rig = plainRig(kVideo, kStill);
     const TestPicture p = randomPicture(kVideo, 1);
     const Assessed got = assess(LevelPair(p, p), rig, constantFields({2, 1}, {-2, -1}));
@@ -145,7 +145,7 @@ TEST_F(Assess, AgreeingFieldsAreFullyConfident) {
     }
 }
 
-TEST_F(Assess, DisagreementBeyondAlphaAndLookUpsOutsideHaveNoConfidence) {
+TEST_F(Assess, IfForwardAndBackwardFlowDisagreeOrLeaveThePictureConfidenceIsZero) {
     const StereoRig rig = plainRig(kVideo, kStill);
     const TestPicture p = randomPicture(kVideo, 1);
     const LevelPair pair(p, p);

@@ -35,7 +35,6 @@ struct Shader {
     std::string name, text, defines;
 };
 
-/// A program of one or two shaders. It is deleted at the end of the scope.
 class LinkedProgram {
 public:
     explicit LinkedProgram(const std::vector<Shader>& shaders) : id_(glCreateProgram()) {
@@ -54,7 +53,6 @@ public:
     ~LinkedProgram() { glDeleteProgram(id_); }
 
     [[nodiscard]] GLuint id() const { return id_; }
-    /// Message of the compiler or the linker; empty on success.
     [[nodiscard]] const std::string& log() const { return log_; }
 
 private:
@@ -96,8 +94,8 @@ constexpr std::array kImageFormats{
     ImageFormat{"rgba32f", gpu::TexelFormat::Rgba32F},
 };
 
-/// A one-pixel image for each image binding of the shader. Without images a driver may abort or
-/// hang while it generates the final code.
+/// Creates a one-pixel image for each image binding of the shader. Without images a driver may
+/// abort or hang while it generates the final code.
 std::vector<gpu::Texture> boundImages(const std::string& text) {
     static const std::regex declared("layout\\(([^)]*)\\)[^;]*\\b[iu]?image2D\\b");
     static const std::regex binding("binding = ([0-9]+)");
@@ -154,8 +152,8 @@ private:
     gpu::Framebuffer target_;
 };
 
-/// Draws with a fragment or vertex shader and the first partner that links with it. Returns the
-/// message if the shader does not compile or link.
+/// Draws with a fragment or vertex shader and the first shader of the other kind that links with
+/// it. Returns the message if the shader does not compile or link.
 std::string drawn(const Shader& shader, Use& use) {
     const bool vertex = shader.name.ends_with(".vert");
     std::string log = "no shader of the other stage links with it";
@@ -188,13 +186,11 @@ bool compiles(const Shader& shader, Use& use) {
     return log.empty();
 }
 
-/// Adds every variant that the shader's text declares.
 void addVariants(std::string_view name, const std::string& text, std::vector<Shader>& out) {
     for (const std::string& defines : shaderVariants(text))
         out.push_back({std::string(name), text, defines});
 }
 
-/// Returns the shaders in `files`; all shaders of the program if there are no files.
 std::vector<Shader> wanted(const std::vector<std::string>& files) {
     std::vector<Shader> out;
     for (const std::string& path : files) {

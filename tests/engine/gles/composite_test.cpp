@@ -8,7 +8,6 @@ namespace {
 
 using CompositeTest = GlTest;
 
-/// True if the GPU draws when a layer with these bounds is composited.
 bool drawsWithin(const PixelRect& bounds) {
     constexpr Size kCoarse{53, 37}, kFine{191, 133};
     const gpu::Texture colour = uploaded(TestPicture(kFine, PixelFormat::Rgba8, 255));
@@ -23,7 +22,7 @@ bool drawsWithin(const PixelRect& bounds) {
         [&] { composite.run({&colour, &depth, bounds}, real, video, picture, target); });
 }
 
-TEST_F(CompositeTest, EmptyBoundsDrawNothing) {
+TEST_F(CompositeTest, LayersWithEmptyBoundsDrawNothing) {
     for (const PixelRect& b : {PixelRect{}, PixelRect{9, 9, 9, 20}, PixelRect{-20, 0, -1, 30},
                                PixelRect{191, 0, 300, 30}, PixelRect{50, 50, 20, 60}})
         EXPECT_FALSE(drawsWithin(b));

@@ -15,8 +15,8 @@ using gpu::TexelFormat;
 constexpr Size kSmallVideo{53, 37};  // 4x3 tiles, 14x10 cells
 constexpr Size kOutput{191, 133};
 constexpr Size kSmallStill{200, 140};
-// Tolerances [grey levels]: of a result that is rounded once (kOnce), and of a result from columns
-// that were rounded to 8 bits before (kTwice).
+// Tolerances [grey levels]. kOnce: for a result that is rounded once. kTwice: for a result from
+// columns that were rounded to 8 bits.
 constexpr double kOnce = 0.51, kTwice = 0.51 * (1 + twin::kCubicGain);
 // Tolerance: kTwice plus a bilinear look-up with weights of 8 bits and positions in half precision.
 constexpr double kLookUp = kTwice + 1.2;
@@ -36,8 +36,7 @@ gpu::Texture cellTexture(std::array<float, 4> value, TexelFormat format) {
     return floatTexture({14, 10}, format, values, Filter::Linear);
 }
 
-/// An image of weights, in bytes: half the detail's weight, confidence, share of the signal,
-/// unexplained share.
+/// Weights as bytes. Red: half of the detail's weight; blue: share of the signal in the video.
 gpu::Texture weights(std::uint8_t half, std::uint8_t signal) {
     TestPicture p({14, 10});
     for (std::size_t i = 0; i < p.bytes.size(); i += 4) {
@@ -68,7 +67,7 @@ TEST_F(Draw, SharpeningMatchesTheOracle) {
     }
 }
 
-TEST_F(Draw, SharpeningKeepsAConstantPicture) {
+TEST_F(Draw, SharpeningLeavesAConstantPictureUnchanged) {
     TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);
     params.sharpening = 1;
     for (const std::uint8_t level : {0, 1, 100, 254, 255}) {
@@ -88,7 +87,7 @@ gpu::Texture columnsOf(const TestPicture& p, const TileParams& params) {
                  {kSmallVideo.width, kOutput.height});
 }
 
-TEST_F(Draw, UpscalingMatchesTheOracle) {
+TEST_F(Draw, EnlargementMatchesTheOracle) {
     const TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);
     for (const TestPicture& p : {randomPicture(kSmallVideo, 2), checkerboard(kSmallVideo),
                                  Waves(1, 5, 40, 40).shoot(kSmallVideo, {})}) {
@@ -107,7 +106,7 @@ TEST_F(Draw, UpscalingMatchesTheOracle) {
     }
 }
 
-TEST_F(Draw, UpscalingIsOpenCvsBicubic) {
+TEST_F(Draw, EnlargementEqualsOpenCvsBicubic) {
     const TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);
     TestPicture p = Waves(1, 6, 40, 30).shoot(kSmallVideo, {});
     const gpu::Texture out =
@@ -121,7 +120,6 @@ TEST_F(Draw, UpscalingIsOpenCvsBicubic) {
     EXPECT_LE(cv::norm(mine, peer, cv::NORM_INF), 1);
 }
 
-/// A still that every pixel looks up with the same offset [still px].
 struct LookUp {
     double x, y;
     double weight, confidence;
@@ -138,7 +136,7 @@ gpu::Texture lookUpTexture(const LookUp& l) {
                        TexelFormat::Rgba16F);
 }
 
-/// The video in R G B. Alpha holds the value of the still, averaged over the video pixel.
+/// The video in R G B. Alpha is the still, averaged over the video pixel.
 gpu::Texture withStill(const TestPicture& video, const gpu::Texture& still, const LookUp& l) {
     return drawn("superres_sharpen.frag", tileParams(kSmallVideo, kSmallStill, kOutput),
                  {gpu::sampler(0, uploaded(video)), gpu::sampler(1, weights(0, 255)),
@@ -146,7 +144,6 @@ gpu::Texture withStill(const TestPicture& video, const gpu::Texture& still, cons
                  kSmallVideo);
 }
 
-/// Mean of the still over each video pixel.
 twin::Grey seen(const twin::Grey& still, const LookUp& l) {
     return twin::seen(kSmallVideo, [&](double x, double y) {
         return still.bilinear(x * kSmallStill.width / kSmallVideo.width + l.x - 0.5,
@@ -157,7 +154,7 @@ twin::Grey seen(const twin::Grey& still, const LookUp& l) {
 const std::vector<LookUp> kLookUps{
     {0, 0, 0, 1}, {0, 0, 1, 1}, {3.25, -5.5, 0.5, 1}, {-7.75, 2, 2.25, 0}, {-400, 900, 1, 0}};
 
-TEST_F(Draw, VideoAlphaIsTheStillAveragedOverThePixel) {
+TEST_F(Draw, AlphaOfAVideoPixelIsTheMeanOfTheStillOverThePixel) {
     const TestPicture video = Waves(2, 6, 40, 20).shoot(kSmallVideo, {});
     const TestPicture still =
         Waves(3, 8, 60, 20).shoot(kSmallStill, {.format = PixelFormat::Gray8});
@@ -169,7 +166,7 @@ TEST_F(Draw, VideoAlphaIsTheStillAveragedOverThePixel) {
     }
 }
 
-TEST_F(Draw, DetailIsAddedByItsWeight) {
+TEST_F(Draw, DetailIsAddedInProportionToItsWeight) {
     const TestPicture video = Waves(2, 6, 40, 20).shoot(kSmallVideo, {});
     const TestPicture still =
         Waves(3, 8, 40, 20).shoot(kSmallStill, {.format = PixelFormat::Gray8});
@@ -189,8 +186,8 @@ TEST_F(Draw, DetailIsAddedByItsWeight) {
         const twin::Grey wanted = twin::greyOf(kOutput, [&](int x, int y) {
             return up.at(x, y) + l.weight * (stillAt(s, x, y, l) - low.at(x, y));
         });
-        // Tolerance: the mean is rounded, enlarged along columns and rounded again; the look-up
-        // adds its error, see kLookUp.
+        // Tolerance: the mean is rounded, enlarged along columns and rounded again. kLookUp
+        // contains the error of the look-up.
         EXPECT_LE(worst(channelOf(out, 0), wanted), kTwice + l.weight * (kTwice + 1.2)) << l.x;
     }
 }
@@ -216,7 +213,6 @@ TEST_F(Draw, ModeBlendMixesVideoAndStillByConfidence) {
     }
 }
 
-/// Draws all tiles with tile_rect.vert, instead of one triangle over the whole target.
 gpu::Texture drawnByTiles(const char* shader, const char* defines, const TileParams& params,
                           gpu::Bindings bindings) {
     const std::uint32_t tiles = 4 * 3;
@@ -242,7 +238,7 @@ TEST_F(Draw, TilesCoverThePictureWithoutSeams) {
         drawn("composite_upscale.frag", params, {gpu::sampler(0, columns)}, kOutput).readRgba8());
 }
 
-TEST_F(Draw, TilesOfConstantWeightMatchThoseOfAWeightField) {
+TEST_F(Draw, TilesOfConstantWeightEqualTilesWithAnImageOfWeights) {
     const TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);
     const gpu::Texture columns = columnsOf(Waves(2, 6, 40, 20).shoot(kSmallVideo, {}), params);
     const gpu::Texture still =

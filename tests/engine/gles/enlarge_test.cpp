@@ -14,7 +14,6 @@ using twin::Grey;
 
 const std::vector<Size> kSizes{{1, 1}, {3, 5}, {16, 9}, {33, 12}, {97, 41}};
 
-/// Grey edges of several angles and contrasts, overlaid with texture.
 TestPicture texturedPicture(Size size, unsigned seed) {
     std::mt19937 random(seed);
     TestPicture out(size);
@@ -39,13 +38,11 @@ FilterBank randomBank(int most, unsigned seed) {
     return FilterBank(unique);
 }
 
-/// An empty list of tiles, which the pass does not use.
 struct NoTiles {
     gpu::Buffer commands{16}, tiles{4};
     [[nodiscard]] gpu::InstanceList list() const { return {commands, 0, tiles}; }
 };
 
-/// Reads four integers per texel.
 std::vector<std::array<GLint, 4>> integersOf(const gpu::Texture& texture) {
     const auto [width, height] = texture.size();
     std::vector<std::array<GLint, 4>> out(static_cast<std::size_t>(width) * height);
@@ -55,8 +52,7 @@ std::vector<std::array<GLint, 4>> integersOf(const gpu::Texture& texture) {
     return out;
 }
 
-/// The residual on the grid of sub-pixels [grey levels]. The result has four times the video's
-/// size, so that its rows and columns are those of the grid.
+/// The residual on the grid of sub-pixels [grey levels]. This grid has four times the video's size.
 Grey residualOf(const TestPicture& picture, const FilterBank& bank, const TileWork& work) {
     const Size video = picture.size;
     const Size output{enlarge::kGrid * video.width, enlarge::kGrid * video.height};
@@ -74,8 +70,8 @@ Grey residualOf(const TestPicture& picture, const FilterBank& bank, const TileWo
     });
 }
 
-/// Number of compared pixels. A pixel near the border between two classes is not compared, because
-/// single precision decides its class.
+/// Number of compared pixels. Pixels near the border between two classes are left out, because
+/// single precision decides their class.
 struct Compared {
     int pixels = 0, all = 0;
 };
@@ -88,8 +84,8 @@ void expectResidual(const Grey& residual, const Grey& luma, int x, int y, const 
     if (!(gradient.margin > 1e-3 && curvature.margin > 1e-3)) return;
     ++compared.pixels;
     for (int phase = 0; phase < enlarge::kPhases; ++phase)
-        // Tolerance [grey levels]: the residual's limit, a quarter of the range of the pixels
-        // around, is rounded to whole eighths of a grey level; filter weights have eleven bits.
+        // Tolerance [grey levels]: the residual's limit is rounded to whole eighths of a grey
+        // level, and filter weights have eleven bits.
         ASSERT_NEAR(residual.at(4 * x + phase % 4, 4 * y + phase / 4),
                     twin::residualAt(luma, x, y, phase, gradient.number, curvature.number, bank),
                     0.32)
@@ -97,7 +93,6 @@ void expectResidual(const Grey& residual, const Grey& luma, int x, int y, const 
 }
 
 TEST_F(Enlarge, ResidualMatchesTheOracleForEqualClasses) {
-    // Tries small filter weights, and weights so large that the residual reaches its limits.
     for (const int most : {500, 8000}) {
         const FilterBank bank = randomBank(most, 11);
         Compared compared;
@@ -113,7 +108,7 @@ TEST_F(Enlarge, ResidualMatchesTheOracleForEqualClasses) {
     }
 }
 
-TEST_F(Enlarge, WavesOfEveryAngleAndStrengthMatchTheOracle) {
+TEST_F(Enlarge, ResidualOfWavesOfEveryAngleAndContrastMatchesTheOracle) {
     const FilterBank bank = randomBank(2000, 13);
     const Size size{40, 40};
     std::vector<bool> met(enlarge::GradientClasses::kCount);

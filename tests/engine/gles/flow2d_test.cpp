@@ -18,7 +18,7 @@ struct Errors {
     Vector2d bias{0, 0};
 };
 
-/// Errors against a constant flow. Only pixels count that are, like their targets, at least
+/// Errors relative to a constant flow. Counts pixels that are, like their targets, at least
 /// `border` px inside the picture.
 Errors errorsOf(const std::vector<float>& flow, Size size, const Vector2d& truth, int border) {
     Errors e;
@@ -41,7 +41,6 @@ Errors errorsOf(const std::vector<float>& flow, Size size, const Vector2d& truth
     return e;
 }
 
-/// Errors of the flow between a pattern and the same pattern moved by `truth`.
 Errors shiftErrors(const Waves& waves, Size size, const Vector2d& truth, int border,
                    double gain = 1, double offset = 0) {
     const TestPicture a = waves.shoot(size, {});
@@ -49,7 +48,7 @@ Errors shiftErrors(const Waves& waves, Size size, const Vector2d& truth, int bor
     return errorsOf(flowBetween(a.view(), b.view()), size, truth, border);
 }
 
-TEST_F(Flow, ShiftsAreRecovered) {
+TEST_F(Flow, ShiftsAreFound) {
     const Waves waves(1, 8, 80, 35);
     for (const Vector2d& shift :
          std::vector<Vector2d>{Vector2d(0, 0), Vector2d(1, 0), Vector2d(-3, 2), Vector2d(7, -5),
@@ -60,18 +59,18 @@ TEST_F(Flow, ShiftsAreRecovered) {
     }
 }
 
-TEST_F(Flow, LargeMotionIsRecovered) {
+TEST_F(Flow, LargeMotionIsFound) {
     const Errors e = shiftErrors(Waves(2, 8, 200, 35), {640, 480}, {60, -12}, 24);
     EXPECT_LT(e.mean, 0.1);
 }
 
-TEST_F(Flow, TinyMotionIsRecovered) {
+TEST_F(Flow, TinyMotionIsFound) {
     const Errors e = shiftErrors(Waves(3, 8, 80, 35), kSmall, {0.1, -0.1}, 12);
     EXPECT_LT(e.bias.norm(), 0.02);
     EXPECT_LT(e.mean, 0.05);
 }
 
-TEST_F(Flow, GainAndOffsetMakeNoDifference) {
+TEST_F(Flow, FlowDoesNotDependOnGainAndOffset) {
     const Errors e = shiftErrors(Waves(4, 8, 80, 30), kSmall, {2.4, -1.7}, 12, 0.7, 40);
     EXPECT_LT(e.mean, 0.05);
     EXPECT_LT(e.worst, 0.3);
@@ -96,7 +95,7 @@ TEST_F(Flow, UnrelatedPicturesGiveBoundedFlow) {
         }
 }
 
-TEST_F(Flow, OddSizesAndGreyPicturesWork) {
+TEST_F(Flow, FlowIsFoundInGreyPicturesOfOddSize) {
     for (const Size size : {Size{101, 59}, Size{16, 16}, Size{67, 53}}) {
         const Waves waves(5, 8, 60, 35);
         const TestPicture a = waves.shoot(size, {.format = PixelFormat::Gray8});

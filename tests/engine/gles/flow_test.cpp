@@ -21,7 +21,6 @@ constexpr int kArea = 16 * 12;
 
 using Cell = std::array<float, 4>;  // flow (x, y), cost, texture
 
-/// Parameters for refining the flow from the second picture to the first.
 params::RefineFlow refineParams(const LevelPair& pair, int steps) {
     return {.from = pair.pyramids.video()[0],
             .to = pair.pyramids.still()[0],
@@ -72,7 +71,7 @@ std::vector<Cell> search(const LevelPair& pair, const std::vector<Cell>& prior, 
     return cells.read<Cell>(kArea);
 }
 
-TEST_F(FlowPasses, CostAndTextureMatchTheOracle) {
+TEST_F(FlowPasses, MatchingCostAndTextureMatchTheOracle) {
     const LevelPair pair(Waves(1, 5, 40, 40).shoot(kSize, {}), randomPicture(kSize, 3));
     const auto a = pair.first(), b = pair.second();
     const auto prior = randomField(4, 9);
@@ -106,7 +105,7 @@ TEST_F(FlowPasses, OneGaussNewtonStepMatchesTheOracle) {
     EXPECT_GT(taken, kArea / 2);
 }
 
-TEST_F(FlowPasses, PropagationTakesTheBestOfTheNeighbours) {
+TEST_F(FlowPasses, ACellTakesTheBestVectorOfItsNeighbours) {
     const Waves waves(3, 6, 60, 40);
     const LevelPair pair(waves.shoot(kSize, {}), waves.shoot(kSize, {.shift = {4, 2}}));
     const auto a = pair.first(), b = pair.second();
@@ -137,7 +136,6 @@ TEST_F(FlowPasses, PropagationTakesTheBestOfTheNeighbours) {
     EXPECT_GT(moved, kArea / 4);
 }
 
-/// Runs flow_align.comp with `steps` Gauss-Newton steps from the vectors `in`.
 std::vector<Cell> align(const LevelPair& pair, const std::vector<Cell>& in, int steps) {
     gpu::Buffer cells(2 * kArea * sizeof(Cell));
     cells.write(std::span(in), kArea * sizeof(Cell));
@@ -149,10 +147,9 @@ std::vector<Cell> align(const LevelPair& pair, const std::vector<Cell>& in, int 
     return cells.read<Cell>(kArea);
 }
 
-TEST_F(FlowPasses, BentPatchesMatchTheOracle) {
+TEST_F(FlowPasses, CostsOfBentPatchesMatchTheOracle) {
     const LevelPair pair(Waves(1, 5, 40, 40).shoot(kSize, {}), randomPicture(kSize, 3));
     const auto a = pair.first(), b = pair.second();
-    // A plane, and a fold at which the slopes change their sign.
     const Vector2d dx(0.1137, -0.0613), dy(0.0419, 0.1931);
     std::vector<Cell> in(kArea);
     for (int i = 0; i < kArea; ++i) {
@@ -163,8 +160,8 @@ TEST_F(FlowPasses, BentPatchesMatchTheOracle) {
     const auto out = align(pair, in, 0);
     for (int i = 0; i < kArea; ++i) {
         const int x = i % 16, y = i / 16;
-        // Beyond the border the field is repeated; so one of the two slopes there is zero, and zero
-        // is used.
+        // Beyond the border the field is repeated. So one of the two slopes there is zero, and the
+        // step must use zero.
         const Vector2d alongX =
             x < 1 || x > 14 ? Vector2d(0, 0) : dx * (x == 1 || x == 14 ? 0.5 : 1);
         Vector2d alongY = y < 6 ? dy : Vector2d(-dy);
@@ -178,7 +175,7 @@ TEST_F(FlowPasses, BentPatchesMatchTheOracle) {
 }
 
 // A surface seen from a different angle: stretched by 15 % along x.
-TEST_F(FlowPasses, BentPatchesAlignWhereShiftedOnesCannot) {
+TEST_F(FlowPasses, BentPatchesMatchASlantedSurfaceWhereShiftedPatchesCannot) {
     const Waves waves(4, 5, 40, 40);
     constexpr double kStretch = 1 / 1.15;
     const LevelPair pair(waves.shoot(kSize, {}),
@@ -225,7 +222,7 @@ std::vector<Cell> filtered(const std::vector<Cell>& in, int planeFits = 2) {
     return cells.read<Cell>(kArea);
 }
 
-TEST_F(FlowPasses, CleanUpMatchesTheOracle) {
+TEST_F(FlowPasses, FilteredFlowMatchesTheOracle) {
     // Flow fields of different noise: from nearly a plane to unrelated vectors.
     for (const float reach : {0.2F, 0.7F, 5.0F}) {
         auto in = randomField(8, reach);
@@ -248,7 +245,7 @@ TEST_F(FlowPasses, CleanUpMatchesTheOracle) {
     }
 }
 
-TEST_F(FlowPasses, CleanUpKeepsPlanesAndTheStepBetweenThem) {
+TEST_F(FlowPasses, FilteringOfFlowKeepsPlanesAndTheStepBetweenThem) {
     std::vector<Cell> in(kArea);
     for (int i = 0; i < kArea; ++i) {
         const int column = i % 16, row = i / 16;
@@ -259,7 +256,7 @@ TEST_F(FlowPasses, CleanUpKeepsPlanesAndTheStepBetweenThem) {
     const auto out = filtered(in);
     for (int i = 0; i < kArea; ++i) {
         const int x = i % 16, y = i / 16;
-        if (x < 2 || x > 13 || y < 2 || y > 9) continue;  // outside, the border is repeated
+        if (x < 2 || x > 13 || y < 2 || y > 9) continue;  // affected by the border
         EXPECT_NEAR(out[i][0], in[i][0], 5e-3) << "cell " << i;
         EXPECT_NEAR(out[i][1], in[i][1], 5e-3) << "cell " << i;
     }

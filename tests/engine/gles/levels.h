@@ -9,8 +9,7 @@
 
 namespace mfar {
 
-/// Reads back all pixels of one level of a pyramid. Checks that the margin of the level repeats the
-/// border.
+/// Reads all pixels of one pyramid level. Checks that the level's margin repeats the border.
 inline twin::Grey readLevel(const LumaPyramids& pyramids, const LumaLevel& level) {
     const auto words = pyramids.words().read<std::uint32_t>(
         static_cast<std::size_t>(level.pitch) * level.height, 4UL * level.offset);
@@ -28,7 +27,6 @@ inline twin::Grey readLevel(const LumaPyramids& pyramids, const LumaLevel& level
     return out;
 }
 
-/// The luma pyramids of two pictures of equal size.
 struct LevelPair {
     LevelPair(const TestPicture& a, const TestPicture& b) : tiles(a.size), pyramids(a.size) {
         pyramids.buildVideo(uploaded(a));
@@ -41,7 +39,7 @@ struct LevelPair {
         return readLevel(pyramids, pyramids.still()[level]);
     }
 
-    TileBuffer tiles;  // all tiles are changed and matched
+    TileBuffer tiles;
     LumaPyramids pyramids;
 };
 

@@ -22,7 +22,7 @@ using PictureTexture = GlTest;
 constexpr Size kEvenSize{54, 38};
 // Tolerance: rounding to 8 bits.
 constexpr double kConverted = 0.501;
-// Tolerance: a bilinear filter with weights of 8 bits may err by one grey level in each chroma
+// Tolerance: a bilinear filter with weights of 8 bits errs by up to one grey level in each chroma
 // channel.
 constexpr double kChroma = kConverted + 2.2;
 
@@ -67,7 +67,7 @@ TEST_F(PictureTexture, RowsMayHaveAnyNumberOfBytes) {
     }
 }
 
-// Constant chroma needs no filter; so the tolerance for chroma cannot hide an error.
+// Constant chroma needs no filter. So the tolerance for chroma cannot hide an error of luma.
 TEST_F(PictureTexture, LumaIsExact) {
     for (const PixelFormat format : {PixelFormat::Yuyv, PixelFormat::Nv12, PixelFormat::Yuv420}) {
         PaddedPicture source(format, kEvenSize, 4);
@@ -94,7 +94,7 @@ TEST_F(PictureTexture, FormatAndSizeMayChangeFromPictureToPicture) {
         }
 }
 
-TEST_F(PictureTexture, EachUploadReplacesThePicture) {
+TEST_F(PictureTexture, AnUploadReplacesTheWholePicture) {
     gpu::PictureTexture picture;
     GLuint id = 0;
     for (unsigned seed = 1; seed < 4; ++seed) {
@@ -107,7 +107,7 @@ TEST_F(PictureTexture, EachUploadReplacesThePicture) {
     }
 }
 
-/// Behaves like a driver that imports memory, but copies the memory.
+/// Acts like a driver that imports memory, but copies the memory.
 class FakeImporter final : public PlaneImporter {
 public:
     unsigned import(const SharedPlane& plane) override {
@@ -134,14 +134,14 @@ public:
         EXPECT_EQ(alive.erase(texture), 1U);
     }
 
-    std::vector<const std::uint8_t*> memory;  ///< indexed by descriptor
+    std::vector<const std::uint8_t*> memory;  ///< index: file descriptor
     std::set<unsigned> alive;
     int imports = 0;
     bool refuses = false;
 };
 
-/// A picture whose planes are only in the importer's memory. The memory that the CPU can read holds
-/// another picture.
+/// A picture whose planes are only in the importer's memory. The memory that the CPU can read
+/// contains another picture.
 struct SharedPicture {
     SharedPicture(PixelFormat format, FakeImporter& importer, std::uint64_t id)
         : real(format, kEvenSize, 4), other(format, kEvenSize, 4), view(real.view()),

@@ -5,18 +5,16 @@
 
 namespace mfar {
 
-/// A pattern with finer detail than the video resolves, seen by two cameras without distortion. The
-/// pattern's unit is a video pixel. The still's pixels are 3.6 times finer.
+/// A pattern with finer detail than the video resolves, seen by two cameras without distortion. Its
+/// unit is a video pixel. The still's pixels are 3.6 times finer.
 struct PipelineCase {
     explicit PipelineCase(Size video = {160, 120})
         : rig(plainRig(video, {video.width * 18 / 5, video.height * 18 / 5})) {}
 
-    /// The video frame after a motion by `shift`. Each pixel is the mean of its area.
     [[nodiscard]] TestPicture video(const Eigen::Vector2d& shift = {0, 0}) const {
         return waves.shoot(rig.video.size, {.shift = shift});
     }
     [[nodiscard]] TestPicture still() const { return fine(rig.still.size, {0, 0}); }
-    /// The view of video() at another resolution.
     [[nodiscard]] TestPicture fine(Size size, const Eigen::Vector2d& shift) const {
         const double step = static_cast<double>(rig.video.size.width) / size.width;
         return waves.shoot(size, {.step = step, .shift = shift, .footprint = step});

@@ -10,7 +10,6 @@ namespace {
 using PipelineFormats = GlTest;
 using test::PaddedPicture;
 
-/// Writes the grey picture in another format. Its levels become luma; chroma is neutral.
 void paint(const TestPicture& grey, YuvRange range, PaddedPicture& out) {
     const ImageView view = out.view();
     const int step = bytesPerPixel(view.format);
@@ -28,7 +27,7 @@ void paint(const TestPicture& grey, YuvRange range, PaddedPicture& out) {
         std::fill(out.plane(i).begin(), out.plane(i).end(), std::uint8_t{128});
 }
 
-TEST_F(PipelineFormats, EveryFormatGivesThePictureOfGreyFrames) {
+TEST_F(PipelineFormats, FramesOfEveryFormatGiveThePictureOfGreyFrames) {
     const PipelineCase c;
     const TestPicture video = c.waves.shoot(c.rig.video.size, {.format = PixelFormat::Gray8});
     const TestPicture still =

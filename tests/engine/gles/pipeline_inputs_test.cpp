@@ -26,7 +26,7 @@ TEST_F(PipelineInputs, FramesOfAnotherSizeAreRefused) {
         EXPECT_THROW(p.run(TestPicture(wrong).view(), {}), std::invalid_argument);
     EXPECT_THROW(p.run({}, {}), std::invalid_argument);
     EXPECT_THROW(p.setStill(c.video().view(), {}), std::invalid_argument);
-    p.run(c.video().view(), {});  // after the refused input, the pipeline must still work
+    p.run(c.video().view(), {});
 }
 
 TEST_F(PipelineInputs, OptionsOutOfRangeAreRefused) {
@@ -39,7 +39,7 @@ TEST_F(PipelineInputs, OptionsOutOfRangeAreRefused) {
 }
 
 // A shift of 9 px can only be found at the coarsest pyramid level.
-TEST_F(PipelineInputs, FlowUsesTheConfiguredLevels) {
+TEST_F(PipelineInputs, FlowUsesTheConfiguredPyramidLevels) {
     const PipelineCase c;
     const auto errorWith = [&](int levels) {
         PipelineOptions options;
@@ -66,7 +66,7 @@ TEST_F(PipelineInputs, AStillMuchNarrowerThanTheVideoGivesAnOutputOfOneRow) {
     EXPECT_EQ(p.readImage().size(), 4U);
 }
 
-TEST_F(PipelineInputs, OddSizesWork) {
+TEST_F(PipelineInputs, OddSizesOfPicturesAreProcessed) {
     for (const Size size : {Size{641, 479}, Size{648, 432}, Size{100, 60}, Size{61, 45}}) {
         const PipelineCase c(size);
         Pipeline p(c.rig, {});
@@ -82,7 +82,7 @@ TEST_F(PipelineInputs, OddSizesWork) {
     }
 }
 
-TEST_F(PipelineInputs, GreyFramesGiveThePictureOfColouredOnes) {
+TEST_F(PipelineInputs, GreyFramesGiveThePictureOfColouredFrames) {
     const PipelineCase c;
     const auto run = [&](PixelFormat format) {
         Pipeline p(c.rig, {});
@@ -136,7 +136,6 @@ TEST_F(PipelineInputs, FlatPicturesStayFlat) {
     }
 }
 
-/// Counts the driver's messages of high severity while the object exists.
 class HighMessages {
 public:
     explicit HighMessages(const GlContext& gl)
@@ -181,7 +180,7 @@ private:
     std::vector<std::string> messages_;
 };
 
-TEST_F(PipelineInputs, TheDriverHasNoSevereMessages) {
+TEST_F(PipelineInputs, TheGpuDriverReportsNoSevereMessage) {
     HighMessages high(context());
     if (!high.available()) GTEST_SKIP() << "the GL context lacks the extension KHR_debug";
     const PipelineCase c({100, 60});

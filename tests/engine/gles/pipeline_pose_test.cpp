@@ -100,8 +100,7 @@ TEST_F(PipelinePose, AnIdenticalFrameIsNotSearched) {
     p.run(c.video({2, 0}).view(), {}, poseAt({0.02, 0, 0}));
     const auto image = p.readImage();
     const auto flow = p.readFlow();
-    // The pose changes but the picture does not. No tile changed; so nothing may be searched with
-    // this pose.
+    // The pose changes but the picture does not. Nothing may be searched, because no tile changed.
     p.run(c.video({2, 0}).view(), {}, poseAt({0.3, 0.2, 0}, {0, 5, 0}));
     EXPECT_EQ(p.readStats().changed, 0);
     EXPECT_EQ(p.readStats().searched2d, 0);

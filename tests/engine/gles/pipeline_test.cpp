@@ -9,7 +9,7 @@ namespace {
 
 using PipelineTest = GlTest;
 
-const Eigen::Vector2d kShift{2.3, -1.4};  // shift between video and still [video px]
+const Eigen::Vector2d kShift{2.3, -1.4};
 
 int unchangedTiles(const Pipeline& p) {
     return p.readStats().tiles[static_cast<std::size_t>(TileClass::Unchanged)];
@@ -18,7 +18,7 @@ int tileCount(const Pipeline& p) {
     return static_cast<int>(p.readTileClasses().size());
 }
 
-TEST_F(PipelineTest, WithoutAStillTheVideoIsUpscaled) {
+TEST_F(PipelineTest, WithoutAStillTheVideoIsEnlarged) {
     const PipelineCase c;
     Pipeline p(c.rig, {});
     p.setQuality({.learned = false});
@@ -76,7 +76,7 @@ TEST_F(PipelineTest, AStillBringsThePictureCloserToTheTruth) {
     expectGainByAStill(false);
 }
 
-TEST_F(PipelineTest, AStillBringsThePictureCloserThanFiltersDo) {
+TEST_F(PipelineTest, AStillBringsThePictureCloserToTheTruthThanFiltersDo) {
     expectGainByAStill(true);
 }
 
@@ -113,7 +113,7 @@ TEST_F(PipelineTest, AnUnrelatedStillAddsNothing) {
     EXPECT_LT(p.readStats().explained, 0.3);
 }
 
-TEST_F(PipelineTest, AnIdenticalFrameCostsNothingAndChangesNothing) {
+TEST_F(PipelineTest, AnIdenticalFrameNeedsNoWorkAndChangesNothing) {
     const PipelineCase c;
     Pipeline p(c.rig, {});
     p.setStill(c.still().view(), {});

@@ -1,5 +1,3 @@
-// Tests which errors remain while a scene changes slowly or rests, with different kinds of sensor
-// noise.
 #include "pipeline/plan/work_plan.h"
 #include "tests/engine/gl_test.h"
 #include "tests/engine/pictures.h"
@@ -13,11 +11,11 @@ namespace {
 
 using PlanDrift = GlTest;
 
-constexpr Size kDriftVideo{317, 235};  // the last tiles are cut off
+constexpr Size kDriftVideo{317, 235};
 constexpr std::size_t kDriftPixels = std::size_t{317} * 235;
 
 using Rgb = std::array<float, 3>;  // a colour [grey levels]
-using Light = std::vector<Rgb>;    // one colour per pixel
+using Light = std::vector<Rgb>;
 using DriftScene = std::function<Rgb(int x, int y, int frame)>;
 
 Light lightOf(const DriftScene& scene, int frame) {
@@ -29,8 +27,8 @@ Light lightOf(const DriftScene& scene, int frame) {
     return out;
 }
 
-/// Gaussian random numbers from a long table, which is read from any position. Drawing new numbers
-/// would take most of a test's time.
+/// Gaussian random numbers from a long table, because drawing new numbers would take most of the
+/// test's time.
 float gaussian(std::size_t at) {
     static const std::vector<float> table = [] {
         std::mt19937 random(3);
@@ -43,7 +41,7 @@ float gaussian(std::size_t at) {
 }
 
 /// Noise of a sensor, which grows with brightness. The share `shared` of its variance is common to
-/// each 2x2 pixels, as after the processing in a camera.
+/// each 2x2 pixels. Processing in a camera has this effect.
 struct NoisySensor {
     double sigma = 1, shared = 0;
     std::mt19937 random{3};
@@ -71,12 +69,11 @@ struct NoisySensor {
 };
 
 struct DriftOutcome {
-    double stale = 0;    ///< mean square error of tiles that were not drawn, noise subtracted
-    double changed = 0;  ///< share of the tiles that were drawn
+    double stale = 0;  ///< mean square error of tiles that were not drawn, minus the noise
+    double changed = 0;
 };
 
-/// Runs frames and draws the tiles that the plan marks. The result counts only the frames after
-/// `settled`.
+/// Runs frames and draws the tiles that the plan marks. Counts only the frames after `settled`.
 DriftOutcome watch(const DriftScene& scene, NoisySensor sensor, int settled, int frames) {
     WorkPlan plan(kDriftVideo);
     Light drawnLight = lightOf(scene, 0), light = drawnLight;
@@ -109,7 +106,6 @@ Rgb grey(double level) {
     return {g, g, g};
 }
 
-/// A smooth hill and a slope. The camera moves to the right.
 DriftScene slopes(double contrast, double pixelsPerFrame) {
     return [=](int x, int y, int frame) {
         const double u = (x + pixelsPerFrame * frame) / 90, v = y / 70.0;
@@ -117,7 +113,6 @@ DriftScene slopes(double contrast, double pixelsPerFrame) {
     };
 }
 
-/// The light becomes brighter; with `redAlone`, only the red channel does.
 DriftScene brightening(double perFrame, bool redAlone) {
     return [=](int x, int y, int frame) {
         const auto gain = static_cast<float>(1 + perFrame * frame / 100);
@@ -128,8 +123,8 @@ DriftScene brightening(double perFrame, bool redAlone) {
     };
 }
 
-// The limit of the error of stale tiles is 3 % of the noise's variance. (If noise is the picture's
-// only error, a loss of 0.1 dB is 2.3 %.)
+// The limit for stale tiles is 3 % of the noise's variance. (If noise is the picture's only error,
+// a loss of 0.1 dB is 2.3 %.)
 TEST_F(PlanDrift, SlowChangesLeaveNoStaleTiles) {
     const std::vector<std::pair<const char*, DriftScene>> scenes{
         {"slow", slopes(25, 0.05)},
@@ -143,8 +138,8 @@ TEST_F(PlanDrift, SlowChangesLeaveNoStaleTiles) {
                 << name << ", noise " << sigma;
 }
 
-// A change of colour at constant luma is not seen by the sum over many tiles. Each tile's own test
-// must detect it.
+// The sum over many tiles does not contain a change of colour at constant luma. The test of each
+// single tile must detect it.
 TEST_F(PlanDrift, ChangesOfColourOnlyAreRedrawnBeforeTheyAreVisible) {
     for (const double sigma : {0.5, 2.0})
         EXPECT_LT(watch(brightening(0.3, true), {sigma}, 4, 12).stale,
@@ -157,8 +152,8 @@ TEST_F(PlanDrift, NoiseOfAStaticSceneRedrawsNothing) {
         EXPECT_LT(watch(slopes(60, 0), {sigma}, 20, 24).changed, 0.0005) << "noise " << sigma;
 }
 
-// Noise that was smoothed in the camera redraws tiles until the plan has learned the noise.
-TEST_F(PlanDrift, SmoothedNoiseRedrawsNothingOnceItIsLearned) {
+// Noise that the camera smoothed redraws tiles until the plan has learned the noise.
+TEST_F(PlanDrift, NoiseThatTheCameraSmoothedRedrawsNothingOnceItIsLearned) {
     EXPECT_LT(watch(slopes(60, 0), {1.5, 0.25}, 80, 16).changed, 0.0005);
 }
 

@@ -11,13 +11,13 @@ namespace {
 using Plan = GlTest;
 
 constexpr Size kSize{100, 60};  // 7x4 tiles, the last ones cut off
-// Thresholds of a frame whose noise was not measured; 0.29 grey levels are assumed.
+// Thresholds of a frame with unknown noise, for which 0.29 grey levels are assumed.
 constexpr double kMeanThreshold = 1.58, kAbsoluteThreshold = 2.37;
 
 struct TileState {
     std::uint32_t changed, matched;
     double noise, structure;
-    std::array<double, 3> energy;  // see twin::TileChange::energy
+    std::array<double, 3> energy;
 };
 
 std::vector<TileState> tilesOf(const WorkPlan& plan) {
@@ -35,12 +35,11 @@ std::vector<TileState> tilesOf(const WorkPlan& plan) {
     return out;
 }
 
-/// Returns `base` with some grey levels changed in the first `tiles` tiles.
 TestPicture changedIn(TestPicture base, int tiles, int by) {
     TestPicture out = base;
     for (int t = 0; t < tiles; ++t)
         for (int i = 0; i < 64; ++i) {
-            // Positions away from borders to other tiles, but also at the border of the picture.
+            // Positions away from the neighbouring tiles, but also at the border of the picture.
             const int x = t % 7 == 6 ? 96 + i % 4 : 16 * (t % 7) + 4 + i % 8;
             std::uint8_t* pixel = out.at(x, 16 * (t / 7) + 4 + i / 8);
             pixel[1] = static_cast<std::uint8_t>(base.at(x, 16 * (t / 7) + 4 + i / 8)[1] ^ by);
@@ -48,11 +47,11 @@ TestPicture changedIn(TestPicture base, int tiles, int by) {
     return out;
 }
 
-TEST_F(Plan, TileFlagsAndNoiseMatchTheOracle) {
+TEST_F(Plan, ChangedTilesAndMeasuredNoiseMatchTheOracle) {
     const TestPicture drawn = Waves(1, 6, 60, 30).shoot(kSize, {});
     TestPicture now = drawn;
     std::mt19937 random(7);
-    for (int tile = 0; tile < 28; ++tile)  // changes in one channel, from hardly any to large ones
+    for (int tile = 0; tile < 28; ++tile)
         for (int i = 0; i < 256; ++i) {
             const int x = 16 * (tile % 7) + i % 16, y = 16 * (tile / 7) + i / 16;
             if (x < kSize.width && y < kSize.height)
@@ -85,7 +84,7 @@ TEST_F(Plan, TileFlagsAndNoiseMatchTheOracle) {
     EXPECT_LE(changed, 26);
 }
 
-TEST_F(Plan, TilesUnderVirtualObjectsAreRedrawnOnceAnyOtherTileChanges) {
+TEST_F(Plan, IfAnyOtherTileChangesTilesUnderVirtualObjectsAreRedrawn) {
     const TestPicture base = Waves(1, 6, 60, 30).shoot(kSize, {});
     const TestPicture oneTile = changedIn(base, 1, 64);
     WorkPlan plan(kSize);
@@ -112,9 +111,9 @@ TEST_F(Plan, TilesUnderVirtualObjectsAreRedrawnOnceAnyOtherTileChanges) {
     EXPECT_EQ(plan.work().changed, 28) << "a tile must not be counted twice";
 }
 
-TEST_F(Plan, TilesUnderVirtualObjectsAreRedrawnTogetherOnceOneChanges) {
+TEST_F(Plan, IfOneTileUnderVirtualObjectsChangesAllOfThemAreRedrawn) {
     const TestPicture base = Waves(1, 6, 60, 30).shoot(kSize, {});
-    const TestPicture oneTile = changedIn(base, 1, 64);  // only the first tile changes
+    const TestPicture oneTile = changedIn(base, 1, 64);
     WorkPlan plan(kSize);
     plan.drawnOver({2, 0, 4, 2}, WorkPlan::Redraw::WithThem);
     plan.update(planesOf(oneTile), planesOf(base), false);
@@ -129,7 +128,7 @@ TEST_F(Plan, TilesUnderVirtualObjectsAreRedrawnTogetherOnceOneChanges) {
     EXPECT_TRUE(plan.redraws());
 }
 
-TEST_F(Plan, NoiseOfAKnownGaussianIsFound) {
+TEST_F(Plan, GaussianNoiseIsMeasured) {
     for (const double sigma : {1.0, 2.0, 3.0}) {
         WorkPlan plan({320, 240});
         for (unsigned i = 0; i < 24; ++i) {
@@ -141,8 +140,8 @@ TEST_F(Plan, NoiseOfAKnownGaussianIsFound) {
     }
 }
 
-// Enlarging a tile reads two pixels beyond it.
-TEST_F(Plan, AChangeAtATileBorderMarksTheNeighbour) {
+// Enlarging a tile reads two pixels beyond its border.
+TEST_F(Plan, AChangeAtTheBorderOfATileMarksTheNeighbouringTile) {
     const TestPicture base = Waves(1, 6, 60, 30).shoot(kSize, {});
     struct Case {
         int x, y;
@@ -186,7 +185,7 @@ TEST_F(Plan, AForcedFrameMarksEveryTileChanged) {
     EXPECT_EQ(plan.work().matched, 28);
 }
 
-TEST_F(Plan, TheBufferHoldsEveryTilesFlags) {
+TEST_F(Plan, TheGpuBufferContainsTheFlagsOfEveryTile) {
     TileWork work = TileWork::everything({3, 2});
     work.flags[4] = {1, 0};
     work.flags[5] = {0, 1};
@@ -201,7 +200,7 @@ TEST_F(Plan, TheBufferHoldsEveryTilesFlags) {
 
 TEST_F(Plan, ManyChangedTilesAreDrawnAsAWholeFrame) {
     const TestPicture base = Waves(2, 20, 100, 20).shoot(kSize, {});
-    const int last = 12;  // 0.45 of the 28 tiles are 12.6
+    const int last = 12;
     for (const int tiles : {1, last, last + 1, 28}) {
         WorkPlan plan(kSize);
         plan.update(planesOf(changedIn(base, tiles, 64)), planesOf(base), false);
@@ -215,7 +214,7 @@ TEST_F(Plan, ManyChangedTilesAreDrawnAsAWholeFrame) {
     }
 }
 
-/// A slope with noise, and columns of dots two tiles apart. Each given contrast has one column.
+/// A noisy slope and columns of dots two tiles apart. Each contrast in `contrasts` has one column.
 TestPicture dotted(Size size, const std::vector<int>& contrasts) {
     TestPicture out(size);
     for (int y = 0; y < size.height; ++y)
@@ -234,7 +233,7 @@ TestPicture dotted(Size size, const std::vector<int>& contrasts) {
     return out;
 }
 
-/// Columns of tiles in which all tiles are matched. Returns {-1} if a column has matched and
+/// Returns the columns of tiles in which all tiles are matched; {-1} if a column has matched and
 /// unmatched tiles.
 std::vector<int> matchedColumns(const WorkPlan& plan) {
     const auto tiles = tilesOf(plan);
@@ -253,7 +252,7 @@ std::vector<int> matchedColumns(const WorkPlan& plan) {
 }
 
 TEST_F(Plan, TilesWithStructureAndTheirNeighboursAreMatched) {
-    const Size size{256, 96};  // 16 columns
+    const Size size{256, 96};
     const TestPicture picture = dotted(size, {20, 60, 0, 40});
     WorkPlan plan(size);
     const auto update = [&] {
@@ -276,7 +275,7 @@ TEST_F(Plan, TilesWithStructureAndTheirNeighboursAreMatched) {
 }
 
 TEST_F(Plan, NoiseDoesNotSwitchTheDetailOfTilesOnAndOff) {
-    const Size size{512, 256};  // 32x16 tiles
+    const Size size{512, 256};
     TestPicture quiet(size, PixelFormat::Rgba8, 90);
     std::mt19937 random(5);
     for (int tile = 0; tile < 512; ++tile) {
@@ -313,7 +312,7 @@ TEST_F(Plan, ChangedTilesWithoutStructureAreNotMatched) {
         for (int i = 0; i < 20; ++i)
             plan.update(planesOf(drawn), planesOf(drawn), false);
         TestPicture now = drawn;
-        for (int i = 0; i < 256; ++i)  // changes one tile uniformly
+        for (int i = 0; i < 256; ++i)
             now.at((inStructure ? 16 : 192) + i % 16, 32 + i / 16)[1] += 9;
         plan.update(planesOf(now), planesOf(drawn), false);
         EXPECT_EQ(plan.work().changed, 9)
@@ -322,13 +321,12 @@ TEST_F(Plan, ChangedTilesWithoutStructureAreNotMatched) {
     }
 }
 
-/// Plans a picture that changed completely. The noise is already known.
 void planWhole(WorkPlan& plan, const TestPicture& picture) {
     for (int i = 0; i < 20; ++i)
         plan.update(planesOf(picture), planesOf(picture), true);
 }
 
-// The structured tiles are far apart; so a rectangle around them would contain mostly tiles without
+// The structured tiles are far apart. A rectangle around them would mostly contain tiles without
 // structure.
 TEST_F(Plan, AWholeFrameWithLittleStructureIsEnlarged) {
     const Size size{512, 96};

@@ -15,7 +15,6 @@ using Preview = GlTest;
 constexpr Size kVideo{160, 120};
 constexpr Size kOutput{576, 432};
 
-/// A lens with strong, off-centre barrel distortion, at the video's resolution.
 CameraModel lens() {
     CameraModel c = plainRig(kVideo, kVideo).video;
     c.cx += 3.4;
@@ -64,8 +63,8 @@ twin::DepthPicture depthOf(const VirtualLayer& layer) {
     return out;
 }
 
-/// Silhouettes must agree within a pixel. Depth must be as exact as the triangles; next to a
-/// silhouette the tolerance is wider, because a pixel may show what its neighbour should show.
+/// Silhouettes must agree within a pixel. Depth must be as exact as the triangles. The tolerance is
+/// wider beside a silhouette, where a pixel may show what its neighbour should show.
 void expectAlike(const twin::DepthPicture& drawn, const twin::DepthPicture& truth,
                  double exactness = 1e-3) {
     ASSERT_EQ(drawn.size, truth.size);
@@ -84,14 +83,14 @@ void expectAlike(const twin::DepthPicture& drawn, const twin::DepthPicture& trut
     EXPECT_GT(covered, 2000);
 }
 
-TEST_F(Preview, ShapesAreDrawnWhereTheLensShowsThem) {
+TEST_F(Preview, ShapesAreDrawnThroughTheLensAtTheRightPixels) {
     PreviewRenderer renderer(lens(), kOutput);
     for (const VirtualObject& o : inWorld(objects()))
         expectAlike(depthOf(renderer.render(std::array{o}, kPose)),
                     twin::rayCast({o}, kPose, lens().scaledTo(kOutput), LensProjection::kNear));
 }
 
-TEST_F(Preview, NearerObjectHidesFartherInAnyOrder) {
+TEST_F(Preview, ANearerObjectHidesAFartherInAnyOrderOfDrawing) {
     PreviewRenderer renderer(lens(), kOutput);
     std::vector<VirtualObject> all = inWorld(objects());
     const auto truth = twin::rayCast(all, kPose, lens().scaledTo(kOutput), LensProjection::kNear);
@@ -100,8 +99,8 @@ TEST_F(Preview, NearerObjectHidesFartherInAnyOrder) {
     expectAlike(depthOf(renderer.render(all, kPose)), truth);
 }
 
-TEST_F(Preview, SurfacesAroundAndBehindTheCameraDoNotSmear) {
-    // The model of this lens folds over outside the picture's corners.
+TEST_F(Preview, SurfacesAroundAndBehindTheCameraAreDrawnCorrectly) {
+    // The model of this lens folds over beyond the picture's corners.
     CameraModel folding = plainRig(kVideo, kVideo).video;
     folding.fx = folding.fy = 130;
     folding.distortion = {-0.17, 0, 0, 0, 0};
@@ -158,11 +157,11 @@ std::array<int, 2> slackOf(const VirtualLayer& layer) {
     return {least, most};
 }
 
-TEST_F(Preview, BoundsEncloseCoveredPixelsTightly) {
+TEST_F(Preview, TheLayersBoundsEncloseCoveredPixelsTightly) {
     PreviewRenderer renderer(lens(), kOutput);
     struct Case {
         Eigen::Vector2d shift;
-        int most;  // largest slack: the size of cells that the picture's border cuts off [px]
+        int most;  // size of cells that the picture's border cuts off [px]
     };
     for (const Case& c :
          {Case{{0, 0}, 3}, Case{{-0.7, 0.1}, 16}, Case{{0.7, -0.5}, 16}, Case{{0.1, 0.6}, 16}}) {
@@ -178,7 +177,7 @@ TEST_F(Preview, BoundsEncloseCoveredPixelsTightly) {
     }
 }
 
-TEST_F(Preview, EarlierFramesLeaveNothingBehind) {
+TEST_F(Preview, NothingOfEarlierFramesIsVisible) {
     PreviewRenderer renderer(lens(), kOutput), fresh(lens(), kOutput);
     const std::vector<VirtualObject> all = inWorld(objects());
     renderer.render(all, kPose);
@@ -191,7 +190,7 @@ TEST_F(Preview, EarlierFramesLeaveNothingBehind) {
     EXPECT_EQ(std::count(empty.begin(), empty.end(), 0), static_cast<long>(empty.size()));
 }
 
-/// Colour of a plain quad in front of the camera. `angle`: between its normal and the light.
+/// Colour of a plain quad in front of the camera. `angle`: between the quad's normal and the light.
 int litQuad(double angle, double ambient) {
     PreviewRenderer renderer(
         lens(), kOutput,
@@ -214,7 +213,7 @@ TEST_F(Preview, LightFollowsLambertsLawPlusAmbient) {
         }
 }
 
-TEST_F(Preview, CheckerboardSquaresAlternateOverASide) {
+TEST_F(Preview, ColoursAlternateBetweenTheSquaresOfACheckerboard) {
     const CameraModel flat = plainRig(kVideo, kVideo).video;
     PreviewRenderer renderer(flat, kOutput, {.ambient = 1});
     VirtualObject o = object(VirtualShape::Quad, {0.6, 0.6, 0}, {});

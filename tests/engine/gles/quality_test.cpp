@@ -1,4 +1,3 @@
-// Tests settings that change between frames, and work that is not skipped.
 #include "tests/engine/gl_test.h"
 #include "tests/engine/gles/pipeline_case.h"
 #include "tests/oracle/upscale.h"
@@ -34,7 +33,6 @@ PipelineOptions madeWith(const Quality& quality) {
     return out;
 }
 
-/// The picture of the second frame after a still.
 Image pictureOf(Pipeline& p, const PipelineCase& c, bool withPoses) {
     const auto pose = [&](double x) { return withPoses ? std::optional(posed(x)) : std::nullopt; };
     p.setStill(c.still().view(), {}, pose(0));
@@ -43,7 +41,7 @@ Image pictureOf(Pipeline& p, const PipelineCase& c, bool withPoses) {
     return p.readImage();
 }
 
-TEST_F(QualityTest, WithoutTheStillAFrameMayBeEnlargedLinearly) {
+TEST_F(QualityTest, IfTheStillIsNotUsedAFrameMayBeEnlargedLinearly) {
     const PipelineCase c;
     Pipeline p(c.rig, {}), cubic(c.rig, {}), detail(c.rig, {});
     p.setQuality({.mode = SuperResMode::Off, .cubic = false});
@@ -62,7 +60,6 @@ TEST_F(QualityTest, WithoutTheStillAFrameMayBeEnlargedLinearly) {
             c.rig.video.size, [&](int x, int y) { return static_cast<double>(frame.at(x, y)[0]); });
         const twin::Grey wanted = twin::enlarged(red, p.outputSize(), true);
         for (std::size_t i = 0; i < wanted.values.size(); ++i)
-            // Tolerance: columns are rounded to 8 bits.
             ASSERT_NEAR(image[4 * i], wanted.values[i], 1.02) << i;
     }
     Pipeline usual(c.rig, {});
@@ -70,7 +67,7 @@ TEST_F(QualityTest, WithoutTheStillAFrameMayBeEnlargedLinearly) {
         << "the option must have no effect on a frame with a still";
 }
 
-// Only the two lowest rows of a tile change.
+// Only the two lowest rows of a tile change, which the tile below reads.
 TEST_F(QualityTest, NeighboursAffectedByAChangeAreRedrawn) {
     const PipelineCase c;
     Pipeline p(c.rig, {}), whole(c.rig, {});
@@ -88,8 +85,8 @@ TEST_F(QualityTest, NeighboursAffectedByAChangeAreRedrawn) {
     EXPECT_TRUE(p.readImage() == whole.readImage());
 }
 
-// All pipelines have processed the same frames before; so they know the same noise.
-TEST_F(QualityTest, SettingsChangedBetweenFramesActAsIfSetAtTheStart) {
+// All pipelines have processed the same frames before, so that they know the same noise.
+TEST_F(QualityTest, SettingsChangedBetweenFramesGiveThePictureOfInitialSettings) {
     const PipelineCase c;
     for (const bool withPoses : {false, true}) {
         Pipeline made(c.rig, madeWith(quick())), usual(c.rig, {}), changed(c.rig, {});
@@ -170,7 +167,7 @@ int mostDifference(const Image& a, const Image& b) {
     return out;
 }
 
-TEST_F(QualityTest, WithoutSkippedWorkThePictureIsTheSame) {
+TEST_F(QualityTest, ThePictureIsTheSameIfNoWorkIsSkipped) {
     const PipelineCase c;
     Pipeline usual(c.rig, {});
     const Image wanted = pictureOf(usual, c, false);
@@ -183,7 +180,6 @@ TEST_F(QualityTest, WithoutSkippedWorkThePictureIsTheSame) {
     }
 }
 
-/// Makes the picture uniformly grey, except for a patch in the middle.
 TestPicture evenButForAPatch(TestPicture picture, int grey) {
     const Size size = picture.view().size;
     for (int y = 0; y < size.height; ++y)
@@ -194,8 +190,7 @@ TestPicture evenButForAPatch(TestPicture picture, int grey) {
     return picture;
 }
 
-// The patch is searched along epipolar lines and drawn with detail.
-TEST_F(QualityTest, APatchWithDetailIsDrawnAsWellAsAWholePicture) {
+TEST_F(QualityTest, APartWithDetailEqualsThatOfAWholePicture) {
     const PipelineCase c;
     const auto frame = [&](double shift) {
         return evenButForAPatch(c.video({shift, 0}), 90 + static_cast<int>(4 * shift));
@@ -220,7 +215,6 @@ TEST_F(QualityTest, APatchWithDetailIsDrawnAsWellAsAWholePicture) {
     }
 }
 
-/// Classes of the tiles that are drawn after a small change in one corner.
 std::vector<TileClass> classesAfterAChange(const SkipOptions& skips) {
     const PipelineCase c;
     PipelineOptions options;

@@ -11,7 +11,7 @@
 namespace mfar {
 namespace {
 
-constexpr Size kCutSize{54, 38};  // 4x3 tiles, the last ones cut off
+constexpr Size kCutSize{54, 38};
 
 double worstAgainstTwin(const ImageView& view) {
     RgbPlanes planes(view.size);
@@ -49,7 +49,7 @@ TEST(RgbPlanes, TheSmallestPicturesOfEveryFormatAreConverted) {
     EXPECT_EQ(worstAgainstTwin(pixel.view()), 0);
 }
 
-TEST(RgbPlanes, CopiesOneTileAndNothingElse) {
+TEST(RgbPlanes, OnlyTheGivenTileIsCopied) {
     RgbPlanes from(kCutSize), to(kCutSize);
     from.take(test::PaddedPicture(PixelFormat::Rgba8, kCutSize, 5).view());
     to.take(test::PaddedPicture(PixelFormat::Rgba8, kCutSize, 6).view());

@@ -4,7 +4,6 @@
 
 namespace mfar {
 
-/// True if `work` draws at least one pixel.
 template <class F>
 bool drewAnything(F&& work) {
     GLuint query = 0;

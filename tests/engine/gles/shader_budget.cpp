@@ -53,7 +53,6 @@ void checkVariantsAreNamed(std::string_view text, const std::string& code, Fault
     }
 }
 
-/// A linked program. It is deleted at the end of the scope.
 class LinkedShader {
 public:
     LinkedShader(std::string_view name, std::string_view text, std::string_view defines) {

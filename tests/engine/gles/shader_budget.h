@@ -6,8 +6,8 @@
 
 namespace mfar {
 
-/// Limits that every OpenGL ES 3.1 driver guarantees (the portable floor). The software renderer
-/// accepts far more; so tests check each shader against these numbers.
+/// Limits that every OpenGL ES 3.1 driver guarantees (the portable floor). Tests check each shader
+/// against them, because the software renderer accepts far more.
 struct ShaderBudget {
     static constexpr int kStorageBlocks = 4;  ///< number of blocks, and highest binding + 1
     static constexpr int kImages = 4;         ///< number of images, and highest binding + 1
@@ -26,9 +26,9 @@ struct ShaderBudget {
 /// value".
 [[nodiscard]] std::vector<std::string> shaderTextFaults(std::string_view text);
 
-/// Faults of the linked shader: whether it compiles alone, storage blocks, images, bindings, group
-/// size, shared memory. `name` ends with .comp, .frag or .vert. `defines` as in gpu::Program. Needs
-/// a current GL context.
+/// Faults of the linked shader: its storage blocks, images, bindings, group size and shared memory,
+/// or that it does not compile alone. `name` ends with .comp, .frag or .vert. `defines` as in
+/// gpu::Program. Needs a current GL context.
 [[nodiscard]] std::vector<std::string>
 shaderProgramFaults(std::string_view name, std::string_view text, std::string_view defines);
 

@@ -27,7 +27,6 @@ bool isShader(const fs::path& path) {
     return endings.contains(path.extension().string());
 }
 
-/// Expects that one of the faults contains `words`.
 void expectFault(const std::vector<std::string>& faults, const std::string& words) {
     for (const std::string& fault : faults)
         if (fault.find(words) != std::string::npos) return;

@@ -12,7 +12,6 @@ namespace {
 
 using StillReducerTest = GlTest;
 
-// Reduces one row or one column, in double precision.
 std::vector<double> reduced(const std::vector<double>& line, int to) {
     const int from = static_cast<int>(line.size());
     const double scale = static_cast<double>(from) / to;
@@ -106,7 +105,6 @@ TEST_F(StillReducerTest, ASmallOutputIsAsGoodAsAReducedLargeOutput) {
     const auto truth = c.fine(half, shift).bytes;
     EXPECT_EQ(small.outputSize(), half);
     EXPECT_GT(psnr(small.readImage(), truth), psnr(halved(large.readImage(), full), truth) - 0.2);
-    // Matching must not depend on the size of the output.
     EXPECT_EQ(small.readFlow(), large.readFlow());
 }
 

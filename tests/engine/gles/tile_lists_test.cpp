@@ -21,7 +21,7 @@ constexpr Size kTiles{19, 15};
 constexpr int kLevels = 4;
 constexpr int kCount = kCells.width * kCells.height;
 
-/// Fields in the format of refine()'s output: flow, cost and texture, followed by the two-way
+/// Fields in the format of refine()'s output: flow, cost and texture of each cell, then the two-way
 /// errors.
 std::vector<Cell> randomFields(unsigned seed) {
     std::mt19937 random(seed);
@@ -42,7 +42,6 @@ gpu::Buffer stored(const std::vector<Cell>& fields) {
     return cells;
 }
 
-/// Tiles with at least three cells that have texture, match badly and are visible in the still.
 std::vector<bool> twinFlags(const std::vector<Cell>& fields) {
     std::vector<int> cells(kTiles.width * kTiles.height);
     for (int y = 0; y < kCells.height; ++y)
@@ -57,7 +56,6 @@ std::vector<bool> twinFlags(const std::vector<Cell>& fields) {
     return out;
 }
 
-/// Also flags the tiles that have at least two flagged neighbours.
 std::vector<bool> twinClosed(const std::vector<bool>& flags) {
     const auto at = [&](int x, int y) {
         const bool within = x >= 0 && y >= 0 && x < kTiles.width && y < kTiles.height;
@@ -71,8 +69,8 @@ std::vector<bool> twinClosed(const std::vector<bool>& flags) {
     return out;
 }
 
-/// Groups (y * 65536 + x) of the next coarser level that the groups of a level read: their own
-/// group and its neighbours.
+/// Returns the groups (y * 65536 + x) of the next coarser level that the given groups read: those
+/// at the same position and their neighbours.
 std::set<std::uint32_t> twinAbove(const std::set<std::uint32_t>& groups, Size level) {
     std::set<std::uint32_t> out;
     for (const std::uint32_t g : groups)
@@ -97,7 +95,7 @@ std::set<std::uint32_t> listed(const TileLists& lists, int level) {
     return out;
 }
 
-TEST_F(TileListsGl, FlagsAndListsMatchTheOracles) {
+TEST_F(TileListsGl, TileFlagsAndListsMatchTheOracles) {
     TileBuffer tiles(kVideoSize);
     TileLists lists(kCells, kLevels);
     const auto fields = randomFields(1);
@@ -116,7 +114,7 @@ TEST_F(TileListsGl, CoarserLevelsContainAllGroupsThatFinerOnesRead) {
     TileBuffer tiles(kVideoSize);
     TileLists lists(kCells, kLevels);
     std::vector<Cell> fields(2UL * kCount, Cell{0, 0, 0, 1e4F});
-    for (const int tile : {0, 60, 200})  // these tiles are far apart
+    for (const int tile : {0, 60, 200})
         for (int i = 0; i < 3; ++i)
             fields[4 * (tile / kTiles.width) * kCells.width + 4 * (tile % kTiles.width) + i][2] = 1;
     const gpu::Buffer cells = stored(fields);
@@ -151,9 +149,8 @@ TEST_F(TileListsGl, WithoutMatchedTilesNothingIsListed) {
     EXPECT_EQ(lists.count(), 0);
 }
 
-/// A scene at rest with a square that moves in the second picture.
 struct MovedSquare {
-    static constexpr int kFirst = 96, kEnd = 192;  // first and last pixel; six tiles
+    static constexpr int kFirst = 96, kEnd = 192;  // first and last pixel, six tiles apart
     static constexpr int kBy = 14;
 
     MovedSquare() {
@@ -174,7 +171,6 @@ struct MovedSquare {
     TestPicture now, then;
 };
 
-/// Result of refine() for a field without motion.
 class Refined {
 public:
     Refined(const TestPicture& now, const TestPicture& then) : pyramids_(now.size), flow(now.size) {

@@ -9,7 +9,6 @@ namespace mfar {
 
 using TileParams = params::DrawTiles;
 
-/// Cells, scales and look-up steps for cameras without distortion; no sharpening.
 inline TileParams tileParams(Size video, Size still, Size output) {
     TileParams p{};
     p.videoWidth = video.width;
@@ -25,7 +24,6 @@ inline TileParams tileParams(Size video, Size still, Size output) {
     return p;
 }
 
-/// Draws a fragment shader over a whole RGBA8 target and returns the target.
 inline gpu::Texture drawn(const char* shader, const TileParams& params, gpu::Bindings bindings,
                           Size size) {
     gpu::Texture out(size, gpu::TexelFormat::Rgba8);

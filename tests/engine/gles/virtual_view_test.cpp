@@ -12,7 +12,6 @@ constexpr Size kSeen{320, 240};
 const CameraModel kAbove{kSeen, 300, 300, 159.5, 119.5, {}};
 constexpr double kTable = 0.5;  // distance from the camera to the table [m]
 
-/// An object that hovers 4 cm above the table and casts its shadow onto it.
 std::shared_ptr<const Scene> hovering() {
     auto model = std::make_shared<Model>();
     model->materials.resize(1);
@@ -36,7 +35,7 @@ InverseDepthField tableField(double share) {
     return field;
 }
 
-/// The areas in which a camera above the table needs real depth, frame by frame.
+/// Tests in which areas a camera above the table needs real depth, frame by frame.
 class ShadowDepthGl : public GlTest {
 protected:
     void SetUp() override {

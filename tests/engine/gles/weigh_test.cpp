@@ -15,8 +15,6 @@ constexpr Size kWhole{25, 15};
 constexpr Size kHalf{13, 8};
 constexpr double kSigma = 1.5;
 
-/// Covariance, variances and confidence, from flat to strong contrast and from equal to unrelated
-/// pictures.
 twin::Cells randomStatistics(Size size, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> unit(0, 1);
@@ -58,8 +56,8 @@ Weighed weigh(const twin::Cells& displacement, const twin::Cells& statistics,
 }
 
 TEST_F(Weigh, WeightsMatchTheOracle) {
-    // The flow is uniform on the left and changes along x on the right. At the bottom it is
-    // slightly discontinuous.
+    // The flow is uniform on the left and changes along x on the right. It is slightly
+    // discontinuous at the bottom.
     twin::Cells displacement{kWhole, {}};
     for (int y = 0; y < kWhole.height; ++y)
         for (int x = 0; x < kWhole.width; ++x)
@@ -101,9 +99,9 @@ twin::Cells constantCells(Size size, std::array<float, 4> value) {
     return out;
 }
 
-// The squared correlation of video and still is a half. Where the flow is uniform, that is enough
-// for the full weight; where the flow changes, it leaves a quarter of the weight.
-TEST_F(Weigh, ABentFlowLowersTheWeightOfAnImperfectMatch) {
+// The squared correlation of video and still is a half. Uniform flow then has the full weight;
+// changing flow has a quarter of the weight.
+TEST_F(Weigh, ChangingFlowLowersTheWeightOfAnImperfectMatch) {
     const twin::Cells half = constantCells(kHalf, {0, 0, 0, 0});
     const twin::Cells matched = constantCells(kWhole, {7.07e4F, 1e5F, 1e5F, 1});
     twin::Cells bent{kWhole, {}};
@@ -114,9 +112,9 @@ TEST_F(Weigh, ABentFlowLowersTheWeightOfAnImperfectMatch) {
     EXPECT_LT(weigh(bent, matched, half, 0.3).field.at(5, 5)[2], 0.4 * even);
 }
 
-// Between two cells that look up different places, look-ups are wrong. Rotations and zooms change
-// the flow smoothly and keep their weight.
-TEST_F(Weigh, ADiscontinuousFlowHasNoWeight) {
+// Look-ups are wrong between two cells whose flow differs abruptly. Rotations and zooms change the
+// flow smoothly and keep their weight.
+TEST_F(Weigh, DiscontinuousFlowHasNoWeight) {
     const twin::Cells half = constantCells(kHalf, {1e5F, 1e5F, 1e5F, 0});
     const twin::Cells alike = constantCells(kWhole, {1e5F, 1e5F, 1e5F, 1});
     const auto weightsWithJump = [&](float jump) {
@@ -137,7 +135,7 @@ TEST_F(Weigh, ADiscontinuousFlowHasNoWeight) {
     EXPECT_GT(even.at(5, 5)[2], 0.9);
 }
 
-TEST_F(Weigh, EqualTextureHasFullWeightAndUnrelatedNone) {
+TEST_F(Weigh, EqualTextureHasFullWeightAndUnrelatedTextureNone) {
     const twin::Cells half = constantCells(kHalf, {1e5F, 1e5F, 1e5F, 0});
     const twin::Cells alike = constantCells(kWhole, {1e5F, 1e5F, 1e5F, 1});
     for (const float v : {weigh(alike, alike, half, 0.3).field.at(5, 5)[2]})
@@ -186,7 +184,6 @@ Classified classify(const twin::Cells& field, const std::vector<std::uint32_t>& 
             lists.read<std::uint32_t>(4UL * kTileCount)};
 }
 
-/// A field with affine tiles, discontinuous tiles and tiles without weight, side by side.
 twin::Cells mixedField() {
     twin::Cells out{kWhole, {}};
     std::mt19937 random(5);
@@ -203,7 +200,7 @@ twin::Cells mixedField() {
 }
 
 /// A header (whole frame, changed tiles), then `changed` and `matched` of each tile. Every third
-/// tile is unchanged, every fifth is not matched.
+/// tile is unchanged; every fifth is not matched.
 std::vector<std::uint32_t> changes(std::uint32_t whole) {
     std::vector<std::uint32_t> out{whole, 0};
     for (unsigned i = 0; i < kTileCount; ++i)
@@ -211,13 +208,11 @@ std::vector<std::uint32_t> changes(std::uint32_t whole) {
     return out;
 }
 
-/// Wanted class of a changed tile of mixedField().
 unsigned classIn(const twin::Cells& field, int tile) {
     if (tile % 5 == 0) return 1;
     return twin::tileClass(field, tile % kClassified.width, tile / kClassified.width);
 }
 
-/// Returns `tiles` and all their neighbours.
 std::set<std::uint32_t> withNeighbours(const std::set<std::uint32_t>& tiles) {
     std::set<std::uint32_t> out;
     for (const std::uint32_t tile : tiles)
@@ -276,7 +271,7 @@ TEST_F(Classify, TileClassesCountsAndListsMatchTheOracle) {
     expectLists(classify(field, changes(0), true, 0), wanted);
 }
 
-TEST_F(Classify, ForAWholeFrameNoTilesAreListed) {
+TEST_F(Classify, IfTheWholeFrameIsDrawnNoTilesAreListed) {
     const Classified got = classify(mixedField(), changes(1), true);
     EXPECT_EQ(got.draws.counts[0], 0U);
     for (const auto& command : got.draws.commands)
@@ -300,7 +295,7 @@ TEST_F(Classify, TilesWithDetailAreListedIfTheWholeFrameIsEnlarged) {
     }
 }
 
-TEST_F(Classify, WithoutAStillChangedTilesAreUpscaledAndUnexplained) {
+TEST_F(Classify, WithoutAStillChangedTilesAreEnlargedAndCountAsTilesWithoutAMatch) {
     const Classified got = classify(mixedField(), changes(0), false);
     EXPECT_EQ(got.draws.counts[0], 10U);
     EXPECT_EQ(got.draws.counts[1], 18U);

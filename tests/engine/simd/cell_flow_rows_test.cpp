@@ -43,7 +43,7 @@ struct Cells {
     }
 };
 
-TEST(CellFlow, EndsWhereTheStillShowsThePoint) {
+TEST(CellFlow, FlowOfACellEndsWhereTheStillShowsItsPoint) {
     for (const std::size_t count : test::kLengths) {
         const Cells cells(count);
         const auto flow = cells.flow(cells.s);
@@ -63,7 +63,7 @@ TEST(CellFlow, EndsWhereTheStillShowsThePoint) {
 
 TEST(CellFlow, PointsBehindTheCameraAndNanHaveNoFlow) {
     Cells cells(20);
-    cells.ends.motion.turn = {1, 0, 0, 0, 1, 0, 0, 0, -1};  // all points are behind the camera
+    cells.ends.motion.turn = {1, 0, 0, 0, 1, 0, 0, 0, -1};
     for (const auto& v : cells.flow(cells.s))
         EXPECT_GT(v[0], 9000);
     cells = Cells(20);
@@ -72,7 +72,7 @@ TEST(CellFlow, PointsBehindTheCameraAndNanHaveNoFlow) {
 }
 
 // The flow of other depths must lead back to these depths.
-TEST(AlignCells, FollowsTheFlowAlongTheLine) {
+TEST(AlignCells, InverseDepthOfCellsFollowsTheirFlowAlongTheEpipolarLine) {
     for (const std::size_t count : test::kLengths) {
         const Cells cells(count);
         Row wanted = cells.s, found = cells.s;
@@ -88,7 +88,7 @@ TEST(AlignCells, FollowsTheFlowAlongTheLine) {
     }
 }
 
-TEST(CellLandings, FlowLandsInTheNearestCell) {
+TEST(CellLandings, FlowEndsInTheNearestCell) {
     const Size cells{37, 20};
     const Row x = test::randomValues<float>(37, -60, 60, 1),
               y = test::randomValues<float>(37, -60, 60, 2);
@@ -104,7 +104,7 @@ TEST(CellLandings, FlowLandsInTheNearestCell) {
     }
 }
 
-TEST(CellsHidden, OccludedCellsLieBehindOthersAtTheSamePixel) {
+TEST(CellsHidden, CellsBehindANearerCellAtTheSamePixelAreOccluded) {
     for (const std::size_t count : test::kLengths) {
         const auto landing = test::randomValues<std::int32_t>(count, -1, 4.9, 1);
         const Row nearest = test::randomValues<float>(5, 0, 1, 2),

@@ -22,7 +22,7 @@ int pixelOf(const test::Ray& p, bool valid) {
     return inside ? static_cast<int>(y) * kPicture.width + static_cast<int>(x) : -1;
 }
 
-TEST(LandRow, FindsThePixelOfTheOtherPicture) {
+TEST(LandRow, FindsThePixelOfAPointInTheSecondPicture) {
     const Lens lens = test::barrel();
     const Motion motion{test::smallTurn(), {0.4F, -0.2F, 0.3F}};
     for (const std::size_t count : test::kLengths) {
@@ -96,7 +96,7 @@ TEST(MoveRow, MovesPointsAndTheirVariance) {
     }
 }
 
-TEST(MeasureRow, OnlyVisiblePointsThatMoveWithTheirDepthAreMeasured) {
+TEST(MeasureRow, OnlyVisiblePointsGetDepthAndVariance) {
     const MeasureRule rule{{0.3F, 0.1F, 0.5F}, 0.05F, 0.05F, 0.003F, 2};
     for (const std::size_t count : test::kLengths) {
         const Row raysX = test::randomValues<float>(count, -0.6, 0.6, 1);
@@ -125,7 +125,7 @@ TEST(MeasureRow, OnlyVisiblePointsThatMoveWithTheirDepthAreMeasured) {
     }
 }
 
-TEST(TakeCells, InterpolatesBilinearlyWhereCellsAgreeWithThePixel) {
+TEST(TakeCells, DepthOfCellsIsInterpolatedWhereCellsAgreeWithThePixel) {
     for (const Size cells : {Size{1, 1}, Size{1, 3}, Size{10, 6}}) {
         const Row field = test::randomValues<float>(
             static_cast<std::size_t>(cells.width) * cells.height, 0, 1, 1);

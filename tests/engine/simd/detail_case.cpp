@@ -7,7 +7,6 @@
 namespace mfar::simd {
 namespace {
 
-/// A pattern with edges, fine detail and smooth parts [grey levels], at a position in video pixels.
 double pattern(double x, double y, int channel) {
     const double waves = std::sin(0.19 * x + 0.07 * y) + std::sin(0.11 * y - 0.05 * x) +
                          0.7 * std::sin(1.3 * x) * std::sin(1.1 * y);

@@ -7,10 +7,9 @@
 
 namespace mfar::simd {
 
-/// Input of the detail step that resembles a real frame. It has textured pictures, the smooth flow
-/// of a scene at several distances with a curved border, varying weights, and areas without weight.
+/// Input of the detail step that resembles a real frame: textured pictures, the smooth flow of a
+/// scene at several distances with a curved border, varying weights, and areas without weight.
 struct DetailCase {
-    /// `changedShare`: share of the tiles that changed, spread over the picture; 1: a whole frame.
     DetailCase(Size video, Size still, double changedShare = 1);
 
     [[nodiscard]] ImageView stillView(PixelFormat format = PixelFormat::Rgba8) const;
@@ -27,8 +26,6 @@ struct DetailCase {
     std::vector<TrustCell> trust;
 };
 
-/// Two cameras without distortion at the same place. The still shows the video's view at another
-/// resolution.
 [[nodiscard]] StereoRig idealRig(Size video, Size still);
 
 }  // namespace mfar::simd

@@ -5,14 +5,14 @@
 namespace mfar::simd {
 namespace {
 
-// Tolerance [grey levels]: luma is rounded to 1/8 grey level, and the limits of the learned
-// residual are a quarter of a difference of such values.
+// Tolerance [grey levels]: luma is rounded to 1/8 grey level. The residual's limits are a quarter
+// of a difference of two such values.
 constexpr double kLearnedError = 1.3;
 
-TEST(DetailStepLearned, LearnedFramesMatchTheOracleWithAndWithoutAStill) {
+TEST(DetailStepLearned, FramesEnlargedByFiltersMatchTheOracleWithAndWithoutAStill) {
     for (const auto& [video, stillSize, output] : kSizes)
         for (const bool usesStill : {true, false}) {
-            if (output.width > 1000) continue;  // skipped: slow for this small video
+            if (output.width > 1000) continue;  // large outputs take too long
             const DetailCase frame(video, stillSize);
             const DetailOptions options{SuperResMode::Detail, true, false, true, &evenBank()};
             const Drawn drawn(frame, output, options, usesStill);
@@ -33,9 +33,9 @@ TEST(DetailStepLearned, LearnedFramesMatchTheOracleWithAndWithoutAStill) {
         }
 }
 
-TEST(DetailStepLearned, GuidedFramesMatchTheOracle) {
+TEST(DetailStepLearned, FramesWithGuidanceMatchTheOracle) {
     for (const auto& [video, stillSize, output] : kSizes) {
-        if (output.width > 1000) continue;  // skipped: slow for this small video
+        if (output.width > 1000) continue;
         const DetailCase frame(video, stillSize);
         const DetailOptions options{SuperResMode::Detail, true, false, true, &guidedBank()};
         const Drawn drawn(frame, output, options),
@@ -71,8 +71,8 @@ TEST(DetailStepLearned, TilesWithoutStructureAreNotEnlargedByFilters) {
         }
 }
 
-// The weight is at least one in all cells but one, the left neighbour of a tile: the tiles around
-// this cell need the filters, the others do not.
+// The weight is at least one in all cells but one, the left neighbour of a tile. Only the tiles
+// around this cell need the filters.
 TEST(DetailStepLearned, TilesWhoseWeightsAreAllOneMatchTheOracle) {
     const Size output{576, 432};
     DetailCase frame({160, 120}, {400, 300});
@@ -93,7 +93,7 @@ TEST(DetailStepLearned, TilesWhoseWeightsAreAllOneMatchTheOracle) {
                 << x << " " << y;
 }
 
-TEST(DetailStepLearned, OtherModesDoNotUseTheFilters) {
+TEST(DetailStepLearned, OnlyModeDetailUsesTheFilters) {
     const Size output{191, 133};
     const DetailCase frame({53, 37}, {200, 140});
     for (const SuperResMode mode : {SuperResMode::Off, SuperResMode::Blend}) {

@@ -9,15 +9,13 @@
 #include <memory>
 #include <vector>
 
-/// Frames drawn by the detail step (Drawn), and the pictures that the oracle expects (Wanted).
 namespace mfar::simd {
 
 using twin::Grey;
 
-inline constexpr std::uint32_t kBefore = 0x12345678;  // content of the output before the frame
+inline constexpr std::uint32_t kBefore = 0x12345678;
 inline constexpr DetailOptions kDetail{SuperResMode::Detail, true, true, true};
 
-/// A frame drawn over pixels of the value kBefore.
 struct Drawn {
     Drawn(const DetailCase& frame, Size output, const DetailOptions& options, bool usesStill = true,
           int threads = 2)
@@ -38,7 +36,6 @@ struct Drawn {
     TileSummary summary;
 };
 
-/// The picture that a frame should have.
 class Wanted {
 public:
     Wanted(const DetailCase& frame, Size output, const DetailOptions& options, bool usesStill)
@@ -69,12 +66,11 @@ public:
     [[nodiscard]] double enlarged(int x, int y, int c) const {
         return std::clamp(video_[c].at(x, y), 0.0, 255.0);
     }
-    /// The video blended with a channel of the still, by confidence.
     [[nodiscard]] double blended(int x, int y, int c, const Grey& still) const {
         return std::lerp(enlarged(x, y, c), there(x, y, still), lookUpAt(x, y, 3));
     }
-    /// From this call on, the mean that is subtracted from the still is computed over the still
-    /// itself, as in the shaders. By default, it is computed over the warped still.
+    /// Afterwards, withStill() subtracts the mean of the still itself, as the shaders do. Before,
+    /// it subtracts the mean of the warped still.
     void seeStill() {
         ofWarped_ = false;
         detail_ = {};
@@ -108,16 +104,15 @@ private:
         return lookUp_[channel].bilinear((x + 0.5) * video.width / output_.width / 4 - 0.5,
                                          (y + 0.5) * video.height / output_.height / 4 - 0.5);
     }
-    /// The value of the still at the position that an output position looks up.
     [[nodiscard]] double there(double x, double y, const Grey& still) const {
         const double px = (x + 0.5) * still.size.width / output_.width + lookUpAt(x, y, 0) - 0.5,
                      py = (y + 0.5) * still.size.height / output_.height + lookUpAt(x, y, 1) - 0.5;
         return still.bilinear(std::clamp(px, -1.0, double(still.size.width)),
                               std::clamp(py, -1.0, double(still.size.height)));
     }
-    /// Subtracts from `seen` the still's detail that guidance adds, and adds the video's detail
-    /// that guidance removes. Detail is the difference of a pixel from the mean of the 5x5 pixels
-    /// around it, as far as their cells have a weight.
+    /// Subtracts the still's detail that guidance adds from `seen`, and adds the video's detail
+    /// that guidance removes. Detail is the difference of a pixel from the mean of those 5x5 pixels
+    /// around it whose cells have a weight.
     [[nodiscard]] Grey guided(const Grey& seen) const {
         const Guidance guidance =
             options_.learned != nullptr ? options_.learned->guidance() : Guidance{};
@@ -191,13 +186,12 @@ inline const std::vector<Sizes> kSizes{
     {{16, 16}, {70, 65}, {57, 58}},       {{64, 48}, {200, 150}, {64, 48}},
     {{100, 60}, {90, 54}, {61, 37}},      {{35, 18}, {64, 33}, {1300, 700}}};
 
-/// The column of tiles of an output column, or the row of tiles of an output row.
 inline int tileAt(int pixel, int video, int output) {
     return static_cast<int>((pixel + 0.5) * video / output) / kTileSize;
 }
 
-/// All classes have the same filter, so that rounding cannot choose another one. Classes mirror
-/// their filters; so the filter is symmetric.
+/// All classes have the same filter, so that the class that rounding chooses does not matter. The
+/// filter is symmetric, because classes mirror it.
 inline std::vector<FilterBank::Filter> evenFilters() {
     FilterBank::Filter filter;
     for (int tap = 0; tap < enlarge::kTaps; ++tap)
@@ -214,7 +208,6 @@ inline const FilterBank& evenBank() {
     static const FilterBank bank(evenFilters());
     return bank;
 }
-/// The filters of evenBank(), with guidance.
 inline const FilterBank& guidedBank() {
     static const FilterBank bank(evenFilters(), {0.7F, 0.5F});
     return bank;

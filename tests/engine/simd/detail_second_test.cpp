@@ -9,10 +9,10 @@ namespace mfar::simd {
 namespace {
 
 constexpr Size kVideo{160, 120}, kStill{400, 300}, kOutput{576, 432};
-constexpr int kFrom = 20, kTo = 32;  // a range of columns of cells
+constexpr int kFrom = 20, kTo = 32;
 
-/// A frame with two stills. The second still is inverted and has look-ups of its own. In some
-/// columns of cells its weight exceeds that of the first still by `more`; elsewhere it is 0.
+/// A frame with two stills. The second still is inverted and has its own look-ups. Its weight
+/// exceeds that of the first still by `more` in some columns of cells; it is 0 elsewhere.
 struct TwoStills {
     explicit TwoStills(float more, double changedShare = 1)
         : frame(kVideo, kStill, changedShare), other(kVideo, kStill, changedShare) {
@@ -123,19 +123,19 @@ TEST(DetailStepSecond, ChangedTilesMatchAWholeFrame) {
         }
 }
 
-TEST(DetailStepSecond, ATileExplainedByTheSecondStillCountsAsExplained) {
+TEST(DetailStepSecond, ATileThatMatchesTheSecondStillCountsAsMatched) {
     TwoStills stills(0.6F);
     for (TrustCell& cell : stills.frame.trust)
         cell.unexplained = 1;
     const DrawnWithBoth both(stills);
     EXPECT_EQ(both.summary.unexplained, 10 * 8 - 3 * 8)
-        << "the second still must explain three columns of tiles";
+        << "three columns of tiles must match the second still";
     for (TrustCell& cell : stills.other.trust)
         cell.unexplained = 1;
     EXPECT_EQ(DrawnWithBoth(stills).summary.unexplained, 10 * 8);
 }
 
-TEST(DetailStepSecond, OtherModesDoNotShowTheSecondStill) {
+TEST(DetailStepSecond, OnlyModeDetailShowsTheSecondStill) {
     const TwoStills stills(0.6F);
     for (const SuperResMode mode : {SuperResMode::Off, SuperResMode::Blend}) {
         const DrawnWithBoth both(stills, mode);

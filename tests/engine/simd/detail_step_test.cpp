@@ -41,7 +41,7 @@ TEST(DetailStep, WithoutAStillTheVideoIsEnlargedCubiclyOrLinearly) {
         }
 }
 
-TEST(DetailStep, BlendMixesTheStillByItsConfidence) {
+TEST(DetailStep, ModeBlendMixesVideoAndStillByConfidence) {
     for (const auto& [video, stillSize, output] : kSizes) {
         const DetailCase frame(video, stillSize);
         const DetailOptions options{SuperResMode::Blend, true, true, true};
@@ -93,7 +93,6 @@ TEST(DetailStep, UnchangedFramesDrawNothing) {
     EXPECT_EQ(drawn.summary.tiles[0], 12);
 }
 
-/// Expects detail in some tiles, and the sharpened, enlarged video in all others.
 void expectDetailIn(const DetailCase& frame, const Drawn& drawn, Size output,
                     const std::function<bool(int, int)>& inTile) {
     Wanted wanted(frame, output, kDetail, true);
@@ -122,7 +121,7 @@ TEST(DetailStep, DetailOfAWholeFrameStaysInTheGivenRectangle) {
     });
 }
 
-TEST(DetailStep, WholeEnlargedFramesHaveDetailOnlyInMatchedTiles) {
+TEST(DetailStep, IfTheWholeFrameIsEnlargedOnlyMatchedTilesHaveDetail) {
     const Size output{576, 432};
     DetailCase frame({160, 120}, {400, 300});
     frame.work.draw = TileWork::Draw::WholeEnlarged;
@@ -202,7 +201,7 @@ TEST(DetailStep, TilesWithoutWeightAreOnlyEnlarged) {
     EXPECT_LE(worst, 2);
 }
 
-TEST(DetailStep, UnexplainedTilesAreRememberedUntilTheyAreDrawn) {
+TEST(DetailStep, TilesWithoutAMatchStayCountedUntilTheyAreDrawn) {
     DetailCase frame({64, 48}, {200, 150});
     const auto workers = std::make_shared<Workers>(2);
     StillPreparation still(frame.rig, {200, 150}, workers);

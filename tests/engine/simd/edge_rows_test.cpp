@@ -9,13 +9,13 @@
 namespace mfar::simd {
 namespace {
 
-TEST(OpenRow, PixelsAreOpenAtEdgesAndWhereDepthIsUnknown) {
+TEST(OpenRow, DepthIsDecidedAgainAtEdgesAndWhereItIsUnknown) {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     for (const std::size_t width : test::kLengths) {
         std::vector<float> low(3 * width, 1), high(3 * width, 1), rho(width, 1), variance(width);
         for (std::size_t x = 0; x < width; ++x) {
             variance[x] = x % 5 == 4 ? kInfinity : 0.0001F;  // sigma = 0.01
-            if (x % 5 == 1) low[2 * width + x] = 0.5F;       // an edge in the last row
+            if (x % 5 == 1) low[2 * width + x] = 0.5F;
             // below the limits of 8 % and three sigmas
             if (x % 5 == 2) high[x] = 1.1F;
             if (x % 5 == 3) high[x] = 1.13F;  // above the limits
@@ -30,7 +30,7 @@ TEST(OpenRow, PixelsAreOpenAtEdgesAndWhereDepthIsUnknown) {
 }
 
 struct Scene {
-    Size size{61, 47};  // number of voters in each direction
+    Size size{61, 47};
     AlignedRows<float> inverseDepth{size}, variance{size}, red{size}, green{size}, blue{size};
 
     explicit Scene(double invalidShare) {
@@ -49,7 +49,7 @@ struct Scene {
     }
 };
 
-/// Oracle of votePixels(), in double precision. `margin`: how far the input is from another
+/// Oracle of votePixels(), in double precision. `margin`: distance of the input from another
 /// decision.
 OpenPixel decide(const Scene& scene, const VoteRule& rule, const PixelRect& where, int y,
                  OpenPixel pixel, double& margin) {
@@ -88,7 +88,7 @@ OpenPixel decide(const Scene& scene, const VoteRule& rule, const PixelRect& wher
     return pixel;
 }
 
-TEST(VotePixels, PixelsGetTheSurfaceOfSimilarColour) {
+TEST(VotePixels, PixelsGetTheDepthOfTheSurfaceOfSimilarColour) {
     const VoteRule rule{10, 12, 0.75F};
     for (const double invalid : {0.0, 0.5, 0.98, 1.0}) {
         const Scene scene(invalid);

@@ -29,7 +29,7 @@ TEST(FieldRows, MedianIsTheMiddleOfNineValues) {
     }
 }
 
-TEST(FieldRows, RangesCoverValidValuesOnly) {
+TEST(FieldRows, RangesContainOnlyValidValues) {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     for (const std::size_t width : {1UL, 5UL, 40UL, 255UL, 256UL, 300UL, 700UL}) {
         for (const int radius : {0, 2, 4, kMostRange}) {
@@ -57,7 +57,7 @@ TEST(FieldRows, RangesCoverValidValuesOnly) {
     }
 }
 
-TEST(FieldRows, RangesAcrossRowsMatchRangesAlongColumns) {
+TEST(FieldRows, RangesAcrossRowsEqualRangesAlongColumns) {
     constexpr std::size_t kWidth = 21, kPitch = 30;
     const Row low = test::randomValues<float>(kPitch * 5, -9, 0, 6);
     const Row high = test::randomValues<float>(kPitch * 5, 0, 9, 7);

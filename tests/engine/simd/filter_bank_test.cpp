@@ -17,7 +17,6 @@ std::vector<FilterBank::Filter> numberedFilters() {
     return out;
 }
 
-/// The message with which these bytes are refused. Empty if they are accepted.
 std::string faultOf(std::span<const std::uint8_t> bytes) {
     try {
         (void)readFilters(bytes, "some.filters");
@@ -27,7 +26,7 @@ std::string faultOf(std::span<const std::uint8_t> bytes) {
     return "";
 }
 
-TEST(FilterBank, TapsCoverEachNeighbourOnce) {
+TEST(FilterBank, EachFilterHasOneWeightPerNeighbour) {
     std::set<std::pair<int, int>> seen;
     for (int i = 0; i < kTaps; ++i) {
         const Offset at = kTapAt[i];
@@ -44,7 +43,8 @@ TEST(FilterBank, MirroringMapsAllGradientBinsOntoOneQuadrant) {
         for (int bin = 0; bin < bins; ++bin) {
             const Symmetry same = Symmetry::of(bin, bins);
             const double angle = ((bin + 0.5) / bins - 0.5) * 3.14159265358979;
-            // Mirrors a direction in the centre of the bin as the bin's pixels are mirrored.
+            // Mirrors a direction in the centre of the bin in the same way as the pixels of the
+            // bin.
             double x = std::cos(angle), y = std::sin(angle);
             if (same.mirrors) y = -y;
             if (same.transposes) std::swap(x, y);
@@ -81,7 +81,7 @@ TEST(FilterBank, DamagedFiltersAreRefusedAndTheMessageSaysWhy) {
     }
 }
 
-TEST(FilterBank, WeightsThatSumsCouldNotHoldAreRefused) {
+TEST(FilterBank, WeightsWhoseSumsWouldOverflowAreRefused) {
     auto filters = numberedFilters();
     filters[3].fill(32767);
     EXPECT_THROW(FilterBank{filters}, FilterBankError);

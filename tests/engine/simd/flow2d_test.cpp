@@ -15,7 +15,6 @@ using Eigen::Vector2d;
 using Cell = std::array<float, 4>;
 constexpr Size kSmall{160, 120};
 
-/// Computes the flow between two pictures.
 class Pair {
 public:
     Pair(const FlowPicture& a, const FlowPicture& b, const Flow2dOptions& options = {})
@@ -44,8 +43,8 @@ struct Errors {
     Vector2d bias{0, 0};
 };
 
-/// Errors against a constant flow [px of the field's level]. Only cells count that are at least
-/// `border` cells inside the picture.
+/// Errors relative to a constant flow [px of the field's level]. Counts cells at least `border`
+/// cells inside the picture.
 Errors errorsOf(Rows<const FlowCell> field, const Vector2d& truth, int border) {
     Errors e;
     int n = 0;
@@ -62,7 +61,7 @@ Errors errorsOf(Rows<const FlowCell> field, const Vector2d& truth, int border) {
     return e;
 }
 
-TEST(Flow2d, ShiftsAreRecoveredBothWays) {
+TEST(Flow2d, ShiftsAreFoundInBothDirections) {
     for (const Vector2d& shift :
          std::vector<Vector2d>{Vector2d(0, 0), Vector2d(1, 0), Vector2d(-3, 2), Vector2d(7, -5),
                                Vector2d(0.5, 0.25), Vector2d(-1.3, 0.7), Vector2d(4.6, 3.1)}) {
@@ -77,7 +76,7 @@ TEST(Flow2d, ShiftsAreRecoveredBothWays) {
     }
 }
 
-TEST(Flow2d, LargeMotionIsRecovered) {
+TEST(Flow2d, LargeMotionIsFound) {
     Pair pair(wavesMoved({640, 480}, {0, 0}), wavesMoved({640, 480}, {60, -12}));
     pair.run();
     EXPECT_LT(errorsOf(pair.flow.forward(), {60, -12}, 18).mean, 0.1);
@@ -89,7 +88,7 @@ TEST(Flow2d, TinyMotionHasNoBias) {
     EXPECT_LT(errorsOf(pair.flow.forward(), {0.1, -0.1}, 3).bias.norm(), 0.02);
 }
 
-TEST(Flow2d, GainAndOffsetMakeNoDifference) {
+TEST(Flow2d, FlowDoesNotDependOnGainAndOffset) {
     Pair pair(wavesMoved(kSmall, {0, 0}), wavesMoved(kSmall, {2.4, -1.7}, 0.7, 40));
     pair.run();
     const Errors e = errorsOf(pair.flow.forward(), {2.4, -1.7}, 4);
@@ -139,7 +138,7 @@ TEST(Flow2d, NoiseGivesBoundedFlowAtAnySize) {
     }
 }
 
-TEST(Flow2d, EveryNumberOfPyramidLevelsAndPropagationRoundsWorks) {
+TEST(Flow2d, FlowIsFoundWithAnyNumberOfPyramidLevelsAndPropagationRounds) {
     for (const int levels : {1, 2, 3, 6})
         for (const int rounds : {0, 1, 3}) {
             Flow2dOptions options;
@@ -156,7 +155,7 @@ TEST(Flow2d, EveryNumberOfPyramidLevelsAndPropagationRoundsWorks) {
     EXPECT_THROW(Flow2d(kSmall, options, twoWorkers()), std::invalid_argument);
 }
 
-TEST(Flow2d, WithoutMatchedTilesTheFlowStays) {
+TEST(Flow2d, WithoutMatchedTilesTheFlowIsUnchanged) {
     Pair pair(wavesMoved(kSmall, {0, 0}), wavesMoved(kSmall, {3, 1}));
     pair.work.matched = 0;
     pair.run();
@@ -164,7 +163,6 @@ TEST(Flow2d, WithoutMatchedTilesTheFlowStays) {
         EXPECT_EQ(pair.flow.forward()[7][x].x, 0);
 }
 
-/// Two thirds of the tiles of a picture, in groups and alone.
 TileWork someWork(Size video) {
     TileWork work = wholeWork(video);
     work.draw = TileWork::Draw::Tiles;
@@ -193,7 +191,7 @@ TEST(Flow2d, SkippedTilesDoNotAffectOthers) {
                 ASSERT_EQ(wanted.x, got.x) << x << ", " << y;
                 ASSERT_EQ(wanted.y, got.y) << x << ", " << y;
                 ASSERT_EQ(wanted.cost, got.cost) << x << ", " << y;
-                // At the end of the vector, both fields have the same backward flow.
+                // Both flows have the same backward vectors around the end of the forward vector.
                 const auto at = [&](int cell, float by, int cells) {
                     const auto end = static_cast<int>(std::floor((4.0F * cell + 2 + by) / 8));
                     return std::clamp(end, 0, cells - 1);
@@ -235,7 +233,6 @@ TEST(Flow2d, TilesThatDidNotChangeKeepTheirVectors) {
     EXPECT_LT(errorsOf(pair.flow.forward(), {3, 1}, 3).worst, 0.3);
 }
 
-/// Seeds scattered around a constant flow.
 std::vector<Cell> seedsAround(const Vector2d& flow, double noise) {
     std::mt19937 random(3);
     std::normal_distribution<double> off(0, noise);
@@ -246,7 +243,7 @@ std::vector<Cell> seedsAround(const Vector2d& flow, double noise) {
     return out;
 }
 
-TEST(Flow2d, RefinementAlignsTheSeeds) {
+TEST(Flow2d, RefinementImprovesTheGivenVectors) {
     Pair pair(wavesMoved(kSmall, {0, 0}), wavesMoved(kSmall, {4.3, -2.2}));
     pair.refine(seedsAround({4.3, -2.2}, 0.3), std::vector<Cell>(1200));
     EXPECT_TRUE(pair.flow.errorsGiven());
@@ -259,7 +256,7 @@ TEST(Flow2d, RefinementAlignsTheSeeds) {
     EXPECT_FALSE(pair.flow.errorsGiven());
 }
 
-TEST(Flow2d, WithoutMatchedTilesNoTwoWayErrorsAreGiven) {
+TEST(Flow2d, WithoutMatchedTilesThereAreNoTwoWayErrors) {
     Pair pair(wavesMoved(kSmall, {0, 0}), wavesMoved(kSmall, {1, 0}));
     pair.refine(seedsAround({1, 0}, 0.1), std::vector<Cell>(1200));
     pair.work.matched = 0;
@@ -270,7 +267,7 @@ TEST(Flow2d, WithoutMatchedTilesNoTwoWayErrorsAreGiven) {
     EXPECT_TRUE(pair.flow.errorsGiven());
 }
 
-TEST(Flow2d, InvalidSeedsAreIgnored) {
+TEST(Flow2d, InvalidGivenVectorsAreIgnored) {
     Pair pair(wavesMoved(kSmall, {0, 0}), wavesMoved(kSmall, {1, 1}));
     std::vector<Cell> seeds = seedsAround({1, 1}, 0.1);
     constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -283,7 +280,7 @@ TEST(Flow2d, InvalidSeedsAreIgnored) {
     expectBounded(pair.flow.forward(), 200);
 }
 
-TEST(Flow2d, MovingObjectsAreSearched) {
+TEST(Flow2d, FlowOfMovingObjectsIsSearched) {
     constexpr Size kVideo{320, 240};
     constexpr int kFirst = 96, kEnd = 176, kBy = 12;
     const FlowPicture now = wavesMoved(kVideo, {0, 0});

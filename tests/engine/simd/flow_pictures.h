@@ -19,7 +19,6 @@
 
 namespace mfar::simd {
 
-/// A luma picture that owns its pixels.
 struct FlowPicture {
     explicit FlowPicture(Size s, std::uint8_t fill = 0)
         : size(s), pixels(static_cast<std::size_t>(s.width) * s.height, fill) {}
@@ -34,8 +33,8 @@ struct FlowPicture {
     std::vector<std::uint8_t> pixels;
 };
 
-/// A sum of plane waves of 6 to 80 px, known at every position. Content that is at x without a
-/// shift appears at x + `shift`. `stretch`: factor along x, from the left border.
+/// A sum of plane waves of 6 to 80 px. Content that is at x without a shift appears at x + `shift`.
+/// `stretch`: factor along x, from the left border.
 inline FlowPicture wavesMoved(Size size, Eigen::Vector2d shift, double gain = 1, double offset = 0,
                               unsigned seed = 1, double stretch = 1) {
     constexpr int kWaves = 24;
@@ -102,7 +101,6 @@ inline TileWork wholeWork(Size video) {
     return work;
 }
 
-/// Two cameras without distortion at the same place.
 inline StereoRig rigOf(Size video, Size still) {
     CameraModel v;
     v.size = video;

@@ -10,7 +10,7 @@
 
 namespace mfar::test {
 
-/// Lengths that fill vectors exactly, and lengths that do not.
+/// Lengths that are multiples of the vector length, and others.
 inline constexpr std::array<std::size_t, 8> kLengths{1, 2, 3, 7, 16, 33, 64, 131};
 
 template <class T>
@@ -39,7 +39,6 @@ inline Ray project(const simd::Lens& lens, double x, double y) {
             lens.fy * (y * radial + 2 * lens.p2 * x * y + lens.p1 * (q + 2 * y * y)) + lens.cy};
 }
 
-/// A rotation by 0.1 rad about two axes, row by row.
 inline std::array<float, 9> smallTurn() {
     const double c = std::cos(0.1), s = std::sin(0.1);
     const auto f = [](double v) { return static_cast<float>(v); };

@@ -14,7 +14,6 @@ using test::Ray;
 
 constexpr Size kCanvas{90, 70};
 
-/// A row of pixels whose segments lie inside the canvas, across its border, or outside.
 struct Problem {
     LabelLines lines{test::barrel(), 0.8F, 0.3F, -0.2F, 8, 8, 0.012F};
     std::vector<float> raysX, raysY;
@@ -31,7 +30,6 @@ struct Problem {
             still[i] = kNoCensus;
     }
     [[nodiscard]] LabelRow row() const { return {raysX.data(), raysY.data(), raysX.size()}; }
-    /// Position of a label in the canvas.
     [[nodiscard]] Ray pointOf(std::size_t x, double label) const {
         const double s = lines.perLabel * label;
         const Ray p = test::project(lines.lens, raysX[x] + s * (lines.tx - raysX[x] * lines.tz),
@@ -53,9 +51,9 @@ struct Problem {
     }
 };
 
-// A cost is the difference to the nearest pixel on the straight line from the first label of a
-// vector to its last.
-TEST(LabelCosts, CostsAreThoseOfTheNearestPixels) {
+// The cost is the difference to the pixel that is nearest to the straight line from the first to
+// the last label of a vector.
+TEST(LabelCosts, CostsOfLabelsAreThoseOfTheNearestPixels) {
     for (const std::size_t width : {1UL, 5UL, 64UL, 150UL}) {
         for (const int vectors : {1, 3}) {
             for (const bool slack : {false, true}) {
@@ -90,7 +88,6 @@ TEST(LabelCosts, CostsAreThoseOfTheNearestPixels) {
     }
 }
 
-/// Label with its fraction, computed by its definition in double precision.
 double placeOf(const Problem& p, std::size_t x, const Valley& valley) {
     const Ray here = p.pointOf(x, valley.label), next = p.pointOf(x, valley.label + 1);
     const double wayX = next.x - here.x, wayY = next.y - here.y, square = wayX * wayX + wayY * wayY;
@@ -114,7 +111,7 @@ double placeOf(const Problem& p, std::size_t x, const Valley& valley) {
             rise[side] = valley.rise[k < 0 ? k + 2 : k + 1];
         }
     if (rise[0] == Valley::kUnknown || rise[1] == Valley::kUnknown) return own.label;
-    // Vertex of two lines that fall and rise with the same slope, that of the steeper side.
+    // Vertex of two lines, one falling and one rising, with the slope of the steeper side.
     const double left = rise[0] / (own.label - foot[0]), right = rise[1] / (foot[1] - own.label);
     if (!(std::max(left, right) > 0)) return own.label;
     return right > left ? 0.5 * (foot[0] + own.label + rise[0] / right)
@@ -130,7 +127,7 @@ bool isNearBorder(const Problem& p, std::size_t x, int label) {
     return false;
 }
 
-TEST(LabelPlaces, FractionsAreMeasuredBetweenLinePointsNearestToThePixels) {
+TEST(LabelPlaces, FractionsOfLabelsAreMeasuredBetweenTheLinePointsNearestToPixels) {
     for (const std::size_t width : {1UL, 16UL, 37UL, 200UL}) {
         const Problem p(width, 20);
         const auto rises = test::randomValues<std::uint8_t>(4 * width, 0, 60, 9);

@@ -16,7 +16,7 @@ Bytes bytes(std::size_t count, unsigned seed) {
     return test::randomValues<std::uint8_t>(count, 0, 255.9, seed);
 }
 
-TEST(LumaFilters, HalvedRowsAreRoundedMeansOfFourPixels) {
+TEST(LumaFilters, HalvedRowsAreMeansOfFourPixels) {
     for (const std::size_t width : kLengths) {
         const Bytes a = bytes(2 * width, 1), b = bytes(2 * width, 2);
         Bytes out(width + 1, 99);
@@ -27,7 +27,7 @@ TEST(LumaFilters, HalvedRowsAreRoundedMeansOfFourPixels) {
     }
 }
 
-TEST(LumaFilters, ThinnedRowsHaveEverySecondByte) {
+TEST(LumaFilters, ThinnedRowsContainEverySecondByte) {
     for (const std::size_t width : kLengths) {
         const Bytes in = bytes(2 * width - 1, 3);
         Bytes out(width + 1, 99);
@@ -61,7 +61,7 @@ TEST(LumaFilters, NoiseColumnsAreResponsesToTheNoiseMask) {
     constexpr Size kSize{140, 18};
     for (const bool extreme : {false, true}) {
         Bytes picture = bytes(140UL * 18, 7);
-        if (extreme)  // the largest possible sums
+        if (extreme)
             for (std::size_t i = 0; i < picture.size(); ++i)
                 picture[i] = (i % 140 + i / 140) % 2 == 0 ? 0 : 255;
         std::vector<std::uint16_t> sums(138);

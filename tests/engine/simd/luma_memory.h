@@ -11,10 +11,11 @@
 
 namespace mfar::test {
 
-/// The luma pyramids of video and still. Their margins are filled as the passes fill them.
+/// The luma pyramids of video and still, with the same margins as those of the passes.
 class LumaMemory {
 public:
-    /// `video(x, y)`, `still(x, y)`: grey levels of the finest levels. The constructor rounds them.
+    /// `video(x, y)`, `still(x, y)`: grey levels of the finest pyramid levels; the constructor
+    /// rounds them.
     template <class Video, class Still>
     LumaMemory(Size size, Video video, Still still) {
         std::int32_t count = 0;

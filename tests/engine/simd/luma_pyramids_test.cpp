@@ -21,7 +21,6 @@ public:
     [[nodiscard]] int held(int x, int y) const {
         return at(std::clamp(x, 0, level_.width - 1), std::clamp(y, 0, level_.height - 1));
     }
-    /// Checks that the margins repeat the border.
     void checkMargins() const {
         for (int y = 0; y < level_.height; ++y)
             for (int x = -8; x < 4 * level_.pitch - 8; ++x)
@@ -67,7 +66,7 @@ TEST(LumaPyramids, LumaOfColoursFollowsRec601) {
             ASSERT_EQ(level.at(x, y), std::lround(0.299 * 200 + 0.587 * 100 + 0.114 * 30));
 }
 
-TEST(LumaPyramids, PyramidOfAVideoFrameIsThatOfItsLuma) {
+TEST(LumaPyramids, ThePyramidOfAVideoFrameEqualsThatOfItsLuma) {
     const FlowPicture picture = noiseOf({101, 59}, 3);
     LumaPyramids fromPlanes(picture.size, twoWorkers()), fromLuma(picture.size, twoWorkers());
     fromPlanes.buildVideo(planesOf(picture));
@@ -109,7 +108,7 @@ StereoRig bentRigOf(Size video, Size still) {
     return rig;
 }
 
-TEST(LumaPyramids, StillsAreResampledToTheVideosGeometry) {
+TEST(LumaPyramids, StillsAreResampledToPixelsOfTheVideo) {
     // With the largest still, a video pixel's footprint does not fit into the kernel's window.
     for (const Size size : {Size{345, 259}, Size{96, 72}, Size{1000, 750}}) {
         const FlowPicture still = wavesMoved(size, {0, 0});
@@ -128,7 +127,7 @@ TEST(LumaPyramids, StillsAreResampledToTheVideosGeometry) {
     }
 }
 
-TEST(LumaPyramids, RaysThatPointAwayGiveTheBorder) {
+TEST(LumaPyramids, RaysBehindTheStillCameraGetTheValueOfTheBorder) {
     const Size video{64, 48};
     StereoRig rig = rigOf(video, video);
     rig.T_still_video.rotation = Eigen::AngleAxisd(3, Eigen::Vector3d::UnitY());

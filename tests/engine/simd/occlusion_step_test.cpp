@@ -18,7 +18,6 @@ constexpr Size kCoarse{53, 37};
 constexpr Size kFine{191, 133};
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// Smooth waves that look the same at any size.
 TestPicture wavyPicture(Size size) {
     TestPicture out(size, PixelFormat::Rgba8, 255);
     for (int y = 0; y < size.height; ++y)
@@ -39,7 +38,6 @@ struct Layer {
     PixelRect bounds{0, 0, 1000, 1000};
 };
 
-/// Draws a frame with a layer. Keeps the results.
 class Occlusion {
 public:
     Occlusion(Size video, Size output) : video_(video), output_(output) {}

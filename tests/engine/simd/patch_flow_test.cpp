@@ -12,10 +12,9 @@ using Eigen::Vector2d;
 
 // Tolerance of costs: pixels are compared in units of 1/32 grey level.
 constexpr double kTolerance = 2e-3;
-constexpr Size kSize{61, 45};  // the picture cuts off the last cells
+constexpr Size kSize{61, 45};
 constexpr Size kCells{16, 12};
 
-/// A picture in the memory layout that the kernels read.
 class Level {
 public:
     explicit Level(const FlowPicture& p)
@@ -47,7 +46,6 @@ std::vector<float> randomVectors(unsigned seed, float reach) {
     return out;
 }
 
-/// Searches with `steps` Gauss-Newton steps. `vectors` are the only candidates.
 FlowField searched(const Level& a, const Level& b, const std::vector<float>& vectors, int steps) {
     FlowField out(kCells), coarser({8, 6});
     SearchStep step;
@@ -78,7 +76,7 @@ void expectCostsOf(const FlowPicture& first, const FlowPicture& second) {
         }
 }
 
-TEST(PatchFlow, CostAndTextureMatchTheOracle) {
+TEST(PatchFlow, MatchingCostAndTextureMatchTheOracle) {
     expectCostsOf(wavesMoved(kSize, {0, 0}), noiseOf(kSize, 3));
     expectCostsOf(noiseOf(kSize, 5), wavesMoved(kSize, {0, 0}));
     FlowPicture chess(kSize);  // gives the largest possible sums
@@ -112,7 +110,7 @@ TEST(PatchFlow, OneGaussNewtonStepMatchesTheOracle) {
     EXPECT_GT(taken, kCells.width * kCells.height / 2);
 }
 
-TEST(PatchFlow, TheCoarsestLevelFindsWholePixels) {
+TEST(PatchFlow, AtTheCoarsestLevelTheSearchFindsWholePixels) {
     const FlowPicture first = wavesMoved(kSize, {0, 0}), second = wavesMoved(kSize, {-7, 5});
     const Level a(first), b(second);
     FlowField out(kCells);
@@ -131,7 +129,7 @@ TEST(PatchFlow, TheCoarsestLevelFindsWholePixels) {
         }
 }
 
-TEST(PatchFlow, PropagationTakesTheBestOfTheNeighbours) {
+TEST(PatchFlow, ACellTakesTheBestVectorOfItsNeighbours) {
     const FlowPicture first = wavesMoved(kSize, {0, 0}), second = wavesMoved(kSize, {4, 2});
     const Level a(first), b(second);
     const twin::Grey greyA = greyOf(first), greyB = greyOf(second);
@@ -165,7 +163,7 @@ TEST(PatchFlow, PropagationTakesTheBestOfTheNeighbours) {
 }
 
 /// Checks the costs of seed vectors that change by dx and dy per pixel. `span`: see
-/// compareBentPatch(). Cells at the border do not count.
+/// compareBentPatch(). Cells at the border are left out.
 void expectBentCosts(const Vector2d& dx, const Vector2d& dy, int span) {
     const FlowPicture first = wavesMoved(kSize, {0, 0}), second = noiseOf(kSize, 3);
     const Level a(first), b(second);
@@ -190,12 +188,12 @@ void expectBentCosts(const Vector2d& dx, const Vector2d& dy, int span) {
         }
 }
 
-TEST(PatchFlow, BentPatchesMatchTheOracle) {
+TEST(PatchFlow, CostsOfBentPatchesMatchTheOracle) {
     expectBentCosts({0.0637, -0.0613}, {0.0419, 0.1931}, 8);
     expectBentCosts({0.1837, -0.0613}, {0.0419, 0.1931}, 4);
 }
 
-TEST(PatchFlow, CleanUpKeepsPlanesAndTheStepBetweenThem) {
+TEST(PatchFlow, FilteringOfFlowKeepsPlanesAndTheStepBetweenThem) {
     FlowField in(kCells);
     AlignedRows<float> known(FlowField::withMargins(kCells));
     const FlowPlanes field = in.planes();
@@ -211,7 +209,7 @@ TEST(PatchFlow, CleanUpKeepsPlanesAndTheStepBetweenThem) {
         prepareCleanUpRow(field, FlowField::first(known), y);
     std::vector<float> out(4UL * kCells.width * kCells.height);
     const CleanUpStep step{field, FlowField::first(known), out.data(), 2};
-    for (int y = 2; y < kCells.height - 2; ++y)  // outside, the border is repeated
+    for (int y = 2; y < kCells.height - 2; ++y)  // without cells that the border affects
         cleanUpCells(step, y, 2, kCells.width - 2);
     for (int y = 2; y < kCells.height - 2; ++y)
         for (int x = 2; x < kCells.width - 2; ++x) {
@@ -221,7 +219,7 @@ TEST(PatchFlow, CleanUpKeepsPlanesAndTheStepBetweenThem) {
         }
 }
 
-TEST(PatchFlow, CleanUpRemovesALoneOutlier) {
+TEST(PatchFlow, FilteringOfFlowRemovesALoneOutlier) {
     FlowField in(kCells);
     AlignedRows<float> known(FlowField::withMargins(kCells));
     const FlowPlanes field = in.planes();

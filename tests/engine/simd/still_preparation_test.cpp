@@ -37,7 +37,6 @@ struct Still {
     StillPreparation preparation;
 };
 
-/// An RGBA picture with random texture.
 struct TestPicture {
     explicit TestPicture(Size size, int smooth = 2)
         : bytes(mixedBytes(4UL * size.width * size.height, 7, smooth)),
@@ -71,7 +70,7 @@ TEST(StillPreparation, StillFinerThanTheOutputIsReducedFirst) {
     EXPECT_EQ(s.preparation.luma().size, still);
 }
 
-TEST(StillPreparation, PairsHoldEachPixelAndTheOneBelow) {
+TEST(StillPreparation, PairsContainAPixelAndThePixelBelow) {
     for (const auto& [output, neighbours] : {std::pair{Size{131, 97}, 0.08}, {Size{50, 37}, 0.0}}) {
         Still s({40, 30}, {131, 97}, output);
         const TestPicture picture({131, 97});
@@ -108,8 +107,8 @@ TEST(StillPreparation, ConstantStillStaysConstant) {
     }
 }
 
-/// Luma of a Y U V picture, computed through R G B, not clamped. Chroma is interpolated between the
-/// pixels that share it.
+/// Luma of a Y U V picture, computed from R G B without clamping. Chroma is interpolated between
+/// the pixels that share it.
 Grey lumaOfYuv(const ImageView& p) {
     const YuvToRgb rows = yuvToRgb(p.matrix, p.range);
     const bool packed = p.format == PixelFormat::Yuyv, pairs = p.format == PixelFormat::Nv12;
@@ -181,7 +180,7 @@ TEST(StillPreparation, PictureKeepsColoursAndOutlivesItsSource) {
                 ASSERT_EQ(got[y][x] >> (8 * c) & 255, c < 3 ? bytes[4 * (y * 91 + x) + c] : 255);
 }
 
-TEST(StillPreparation, PictureThatIsNotKeptIsGrey) {
+TEST(StillPreparation, IfColoursAreNotKeptThePictureIsGrey) {
     Still s({40, 25}, {90, 60}, {90, 60});
     s.preparation.set(TestPicture({90, 60}).view, false);
     const Rows<const std::uint32_t> got = s.preparation.picture();

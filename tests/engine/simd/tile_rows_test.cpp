@@ -13,7 +13,6 @@
 namespace mfar {
 namespace {
 
-/// The scene of both tests: waves, edges and noise.
 TestPicture tilePicture(Size size, unsigned seed, double sigma) {
     TestPicture out(size, PixelFormat::Rgba8, 255);
     std::mt19937 random(seed);
@@ -56,7 +55,7 @@ bool same(const std::vector<TileMeasure>& a, const std::vector<TileMeasure>& b) 
 
 class TileRows : public testing::TestWithParam<Size> {};
 
-TEST_P(TileRows, EveryTileMatchesTheOracle) {
+TEST_P(TileRows, MeasuresOfEveryTileMatchTheOracle) {
     const Size size = GetParam();
     for (const double sigma : {0.0, 1.0, 3.0}) {
         const TestPicture now = tilePicture(size, 1, sigma), drawn = tilePicture(size, 2, sigma);

@@ -32,12 +32,10 @@ TEST(TurnedPoints, PointsAreProjectionsOfRotatedRays) {
     }
 }
 
-// Tries the smallest picture, odd sizes, and a map that leaves the picture on every side.
-TEST(TurnedRow, RowIsBilinearInsideAndUnseenOutside) {
+TEST(TurnedRow, ARotatedPictureIsBilinearInsideAndUnseenOutside) {
     for (const Size size : {Size{2, 2}, Size{3, 2}, Size{40, 31}}) {
         for (const int width : {1, 8, 23, 80}) {
             const std::ptrdiff_t pitch = size.width + 3;
-            // The memory ends behind the last pixel.
             const auto bytes = static_cast<std::size_t>((size.height - 1) * pitch + size.width);
             const auto picture = test::randomValues<std::uint8_t>(bytes, 0, 255.9, 3);
             const std::size_t cells = width / kTurnedCell + 2;

@@ -16,7 +16,7 @@ namespace {
 constexpr Size kStill{311, 90};
 constexpr int kPixels = 300;
 
-/// Makes a still of noise: if warpRow() reads a wrong pixel, the result almost always differs.
+/// A still of noise: if warpRow() reads a wrong pixel, the result almost always differs.
 AlignedRows<std::uint16_t> noisePairs() {
     AlignedRows<std::uint16_t> out({kStill.width + 64, kStill.height});
     std::mt19937 random(3);
@@ -45,8 +45,8 @@ double luma(const AlignedRows<std::uint16_t>& still, const Place& place) {
     return std::lerp(mixed(still[row][column]), mixed(still[row][column + 1]), x - column);
 }
 
-/// Expects that warpRow() returns the still's luma at the positions of `placeOf`. The fractions of
-/// their y must be multiples of 1/256, because warpRow() rounds them to these.
+/// Expects that warpRow() returns the still's luma at the positions of `placeOf`. Their y must be
+/// multiples of 1/256, to which warpRow() rounds y.
 void expectPixelsOf(const std::string& name, const PlaceOf& placeOf) {
     const AlignedRows<std::uint16_t> still = noisePairs();
     AlignedRows<float> places({kPixels + 64, 2});
@@ -64,7 +64,7 @@ void expectPixelsOf(const std::string& name, const PlaceOf& placeOf) {
         ASSERT_NEAR(out[0][i], 32 * luma(still, placeOf(i)), 1) << name << ": pixel " << i;
 }
 
-TEST(WarpRow, InterpolatesTheStillAtRegularAndIrregularPositions) {
+TEST(WarpRow, TheStillIsInterpolatedAtRegularAndIrregularPositions) {
     expectPixelsOf("all positions in one row of the still",
                    [](int i) { return Place{i + 0.25, 7.5}; });
     expectPixelsOf("y changes slowly", [](int i) { return Place{i + 0.75, 3.25 + i / 16.0}; });

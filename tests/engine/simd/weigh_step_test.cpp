@@ -22,13 +22,11 @@ constexpr float kNoFlow = std::numeric_limits<float>::quiet_NaN();
 constexpr float kEndless = std::numeric_limits<float>::infinity();
 
 double wavy(double x, double y) {
-    // Contrast grows from flat on the left to strong on the right.
     const double contrast = std::min(0.02 * x * x, 50.0);
     return 128 +
            contrast * (std::sin(0.9 * x + 0.2 * y) * std::cos(0.7 * y) + 0.4 * std::sin(1.7 * x));
 }
 
-/// A small frame with all inputs that its weights need.
 struct WeighCase {
     WeighCase(Size video, Size still, bool distort, int backwardLevel)
         : rig(test::twoLenses(video, still, distort)),
@@ -74,7 +72,6 @@ struct WeighCase {
     WeighStep step;
 };
 
-/// Oracle of the weights, in double precision, cell by cell.
 class WeighOracle {
 public:
     WeighOracle(const WeighCase& c, bool givenErrors) : case_(c), givenErrors_(givenErrors) {
@@ -163,9 +160,9 @@ void expectOracle(const WeighCase& c, bool givenErrors) {
             const TrustCell& trust = c.step.trust()[y][x];
             EXPECT_EQ(w.x, c.forward[y][x].x);
             EXPECT_EQ(w.y, c.forward[y][x].y);
-            // Tolerance: at low contrast a weight grows with the fifth power of the covariance, to
-            // which the rounding of pixels to 1/64 grey level adds up to 0.1 %. Weights below the
-            // smallest one are set to zero.
+            // Tolerance: at low contrast a weight grows with the fifth power of the covariance. The
+            // rounding of pixels to 1/64 grey level adds up to 0.1 % to the covariance. Weights
+            // below the smallest are set to zero.
             EXPECT_NEAR(w.weight, t.weight,
                         w.weight == 0 || t.weight == 0 ? 1.001 * params::kSmallestWeight
                                                        : 2e-3 * t.weight + 1e-4);
@@ -191,7 +188,7 @@ struct Shape {
 
 class WeighShapes : public testing::TestWithParam<Shape> {};
 
-TEST_P(WeighShapes, EveryCellMatchesTheOracle) {
+TEST_P(WeighShapes, WeightsOfEveryCellMatchTheOracle) {
     const Shape& s = GetParam();
     WeighCase c(s.video, s.still, s.distort, s.backwardLevel);
     for (const bool givenErrors : {false, true}) {
@@ -257,8 +254,8 @@ TEST(WeighStep, WithoutChangedTilesNothingIsComputed) {
     EXPECT_TRUE(same(c.step.weighed(), before));
 }
 
-// Low contrast is weighed with the gain at half resolution. This gain must stay unchanged where no
-// changed tile is matched, even if the flow moved.
+// Patches of low contrast are weighed with the gain at half resolution. This gain must not change
+// where no changed tile is matched, even if the flow changes.
 TEST(WeighStep, TheGainStaysWhereNoChangedTileIsMatched) {
     WeighCase kept = plainCase(), renewed = plainCase(), first = plainCase();
     kept.run();
@@ -312,7 +309,7 @@ TEST(WeighStep, FlowThatIsNotFiniteHasNoWeightAndHurtsOnlyItsNeighbours) {
     }
 }
 
-TEST(WeighStep, ErrorsThatAreNotNumbersGiveNoConfidence) {
+TEST(WeighStep, TwoWayErrorsThatAreNanGiveNoConfidence) {
     WeighCase c = plainCase();
     c.errors[4][4] = {kNoFlow};
     c.errors[4][5] = {kEndless};

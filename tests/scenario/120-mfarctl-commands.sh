@@ -3,8 +3,8 @@
 . "$(dirname "$0")/lib.sh"
 
 ctl="$(dirname "$sim")/mfarctl"
-# refused EXIT-CODE ARGUMENT...: mfarctl must end with this code. Its output goes to `answer` and
-# err.ctl.
+# refused EXIT-CODE ARGUMENT...: runs mfarctl, which must end with this code. Its output goes to
+# `answer` and err.ctl.
 refused() {
     local code=$1 got=0
     shift
@@ -40,7 +40,7 @@ file=$(od -An -tx1 -N8 picture.png | tr -d ' ')
 refused 1 snapshot --screen x.png
 says err.ctl 'there is no screen'
 
-echo "mfarctl trigger requests a still that nothing else requests"
+echo "mfarctl trigger requests a still although nothing else does"
 asks stats
 says answer '"triggered": 0'
 asks trigger

@@ -1,23 +1,21 @@
 #!/bin/bash
-# A virtual object must keep its place in the world of the tags, be hidden by nearer real objects,
-# and change when the configuration changes while mfard runs.
+# A virtual object must keep its position relative to the tags, be hidden by nearer real objects,
+# and change with the configuration while mfard runs.
 . "$(dirname "$0")/lib.sh"
 
 "$sim" --scene office --path handheld --seconds 0.3 --stills 3 --no-truth \
     --out run >/dev/null || fail "mfar-sim made no recording"
 
-# last NAME [ARGUMENT...]: saves the last picture of the recording. NAME.raw holds its pixels.
+# last NAME [ARGUMENT...]: saves the last picture of the recording. NAME.raw contains its pixels.
 last() {
     local name=$1
     shift
     run 0 --recording run --display "y4m:$name.y4m" --summary summary.json "$@"
     tail -c $((2304 * 1728 * 3 / 2)) "$name.y4m" >"$name.raw"
 }
-# Number of bytes that differ from the picture without objects.
 differing() { { cmp -l plain.raw "$1.raw" || true; } | wc -l; }
 
 last plain
-# One object in front of everything on the desk, one far behind the wall.
 cat >near.toml <<'END'
 [virtual]
 rendering = "preview"
@@ -33,7 +31,7 @@ last far --config far.toml
 near=$(differing near) far=$(differing far)
 echo "$near bytes differ with the object in front, $far with the one behind"
 [ "$near" -gt 50000 ] || fail "the object in front of the wall is not shown"
-# Cells of unknown depth do not hide anything; so specks remain at the edges of objects.
+# Cells of unknown depth hide nothing. So specks of the object remain at the edges of real objects.
 [ "$far" -lt $((near / 50)) ] || fail "the wall does not hide the object behind it"
 
 echo "without a tag map, an object on a tag is shown once this tag is the origin of the world"
@@ -66,7 +64,7 @@ kill -TERM "$pid"
 ends_with 0 1500
 says summary.json '"depth_tiles": [1-9]'
 
-echo "an invalid object is refused with its place"
+echo "an invalid object is refused with its line and column"
 echo 'size = [0, 1, 1]' >>near.toml
 sed -i '/^size = \[0.1/d' near.toml
 run 78 --recording run --config near.toml

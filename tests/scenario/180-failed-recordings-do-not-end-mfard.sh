@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Every start must record into a new folder. If a recording cannot be written, it ends, but mfard
-# continues.
+# Every start must record into a new folder. If mfard cannot write a recording, the recording must
+# end and mfard must continue.
 . "$(dirname "$0")/lib.sh"
 
 ctl="$(dirname "$sim")/mfarctl"
@@ -12,8 +12,7 @@ goes_on() {
     more() { [ "$(frames)" -gt $((shown + 5)) ]; }
     until_true more
 }
-# A still would reach a recording's size limit before the recording has a frame that can be
-# replayed.
+# A still would reach the size limit before the recording has a complete frame.
 quiet='source = "synthetic:flat,rest"
 [superres]
 mode = "off"
