@@ -8,11 +8,9 @@
 namespace mfar {
 namespace {
 
-constexpr double kEvenLight = 1e-3;  // relative rounding error of the mean of a uniform picture
+constexpr double kEvenLight = 1e-3;
 constexpr float kTurn = 2 * std::numbers::pi_v<float>;
 
-/// Writes the cumulative distribution of the weights, from 0 to 1, to `shares`. Returns the sum of
-/// the weights.
 double accumulate(std::span<const double> weights, float* shares) {
     double sum = 0;
     for (const double w : weights)
@@ -26,8 +24,6 @@ double accumulate(std::span<const double> weights, float* shares) {
     return sum;
 }
 
-/// Where a number lies in a cumulative distribution: index of its interval, and relative position
-/// in this interval, in [0, 1).
 struct Drawn {
     int index;
     float rest;
@@ -57,8 +53,8 @@ EnvironmentLight::EnvironmentLight(std::shared_ptr<const Environment> environmen
             std::cos(kTurn / 2 * static_cast<float>(row) / static_cast<float>(size_.height)));
     rows_.resize(static_cast<std::size_t>(size_.height) + 1);
     texels_.resize((width + 1) * static_cast<std::size_t>(size_.height));
-    // Brightness of each texel of the interpolated picture. Interpolation spreads the light of a
-    // texel over half of each neighbouring texel.
+    // Interpolation spreads the light of a texel over half of each neighbouring texel. The picture
+    // is sampled by the brightness after interpolation.
     std::vector<double> brightnesses;
     double sum = 0;
     for (int row = 0; row < size_.height; ++row)
@@ -68,7 +64,6 @@ EnvironmentLight::EnvironmentLight(std::shared_ptr<const Environment> environmen
         }
     const double mean = sum / (2.0 * size_.width);
     dark_ = !(sum > 0);
-    // sample() returns only directions whose light exceeds the mean; see EnvironmentLight.
     for (double& b : brightnesses)
         b = std::max(0.0, b - (1 + kEvenLight) * mean);
     std::vector<double> rowWeights;

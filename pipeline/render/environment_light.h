@@ -11,25 +11,21 @@ namespace mfar {
 /// Light from an environment picture, interpolated between texels.
 /// The probability density of a sampled direction is constant on each texel (Pharr, Jakob,
 /// Humphreys, Physically Based Rendering, 12.5). It is proportional to the excess of the texel's
-/// luminance over the mean luminance of all directions. Light up to the mean is found better by
-/// sampling the surface's reflection (MIS compensation, Karlik et al. 2019). A uniform picture is
-/// not sampled at all.
+/// luminance over the mean luminance of all directions. Sampling the surface's reflection finds
+/// weaker light better (MIS compensation, Karlik et al. 2019). A uniform picture is not sampled.
 class EnvironmentLight {
 public:
-    /// If `environment` is null, this light is dark.
     explicit EnvironmentLight(std::shared_ptr<const Environment> environment);
 
     [[nodiscard]] bool dark() const { return dark_; }
-    /// Whether sample() may be called. Dark and uniform pictures are not sampled.
+    /// True if sample() may be called. It is false for dark and for uniform pictures.
     [[nodiscard]] bool sampled() const { return sampled_; }
     [[nodiscard]] LightSample sample(const Eigen::Vector2f& u) const;
-    /// `direction` must have unit length.
     [[nodiscard]] Eigen::Vector3f radiance(const Eigen::Vector3f& direction) const;
     [[nodiscard]] float density(const Eigen::Vector3f& direction) const;
 
 private:
-    /// Position of a direction in the picture [texels]. The outer corner of the first texel is at
-    /// (0, 0).
+    /// Converts a direction to a position in the picture [texels]. (0, 0) is the picture's corner.
     [[nodiscard]] Eigen::Vector2f place(const Eigen::Vector3f& direction) const;
     [[nodiscard]] Eigen::Vector3f interpolated(const Eigen::Vector2f& at) const;
     [[nodiscard]] float density(int column, int row) const;
@@ -38,11 +34,12 @@ private:
 
     std::shared_ptr<const Environment> environment_;
     Size size_;
-    // World z of the unit directions on each row's upper edge. The last entry is for the last row's
-    // lower edge.
+    // World z of the unit directions on each row's upper edge. The last entry belongs to the lower
+    // edge of the last row.
     std::vector<float> tops_;
     std::vector<float> rows_;    // cumulative probability of the rows, from 0 to 1
-    std::vector<float> texels_;  // for each row: cumulative probability of texels, width + 1 values
+    std::vector<float> texels_;  // cumulative probability of each row's texels: width + 1 values
+                                 // per row
     bool dark_ = true, sampled_ = false;
 };
 

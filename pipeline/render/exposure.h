@@ -12,7 +12,6 @@ struct Exposure {
     bool operator==(const Exposure&) const = default;
 };
 
-/// Converts radiance to sRGB-encoded display values in [0, 1].
 [[nodiscard]] Eigen::Vector3f displayed(const Eigen::Vector3f& radiance, const Exposure& exposure);
 
 }  // namespace mfar

@@ -12,17 +12,16 @@ namespace mfar {
 namespace {
 
 constexpr float kFullSphere = 4 * std::numbers::pi_v<float>;
-// Intervals per side of the finest pyramid level; 0.45 degrees each at the poles.
+// Intervals per side of the finest pyramid level. At the poles, an interval is 0.45 degrees.
 constexpr int kFinest = 256;
-constexpr int kCoarsest = 8;  // intervals per side of the coarsest pyramid level
+constexpr int kCoarsest = 8;
 constexpr int kDiffuseEdge = 16;
-// Intervals per side of the pyramid level from which the irradiance is summed.
+// Intervals per side of the pyramid level from which irradiance is computed.
 constexpr int kIntegrated = 32;
-constexpr int kSamples = 64;  // samples per reflection lobe
+constexpr int kSamples = 64;
 
-/// Roughness and resolution of a table of mirrored light. If a reflection lobe is sharper than that
-/// of the first table, its light is interpolated between the first table and the environment
-/// itself.
+/// Roughness and resolution of a table of mirrored light. Sharper reflections than the first
+/// table's interpolate between this table and the unfiltered environment.
 struct MirrorLevel {
     float roughness;
     int edge;
@@ -34,16 +33,14 @@ float signOf(float x) {
     return x < 0 ? -1.0F : 1.0F;
 }
 
-/// Weight of texel i in a sum over all directions, along one axis. It is 1/2 on the border, because
-/// each direction on the border has two texels.
+/// Weight of texel i along one axis in a sum over all directions. It is 1/2 on the border, because
+/// each direction there has two texels.
 float partOfBorder(int i, int edge) {
     return i == 0 || i == edge - 1 ? 0.5F : 1.0F;
 }
 
-/// Solid angle [sr] of the texel at `direction` in a table.
 float solidAngle(const Eigen::Vector3f& direction, int edge) {
     const float step = 2.0F / static_cast<float>(edge - 1);
-    // 1 / (distance of the octahedron's surface in this direction)
     const float norm1 = direction.lpNorm<1>();
     return step * step * norm1 * norm1 * norm1;
 }
@@ -54,7 +51,6 @@ DirectionTable::DirectionTable(int edge)
     : edge_(edge), values_(static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge),
                            Eigen::Vector3f::Zero()) {}
 
-// The outermost texels lie exactly on the square's border, where the octahedral map repeats itself.
 Eigen::Vector3f DirectionTable::direction(int column, int row) const {
     const float scale = 2.0F / static_cast<float>(edge_ - 1);
     const float x = scale * static_cast<float>(column) - 1;
@@ -100,8 +96,7 @@ FarLight::FarLight(const EnvironmentLight& environment, const Lighting& lighting
     Pyramid light = pyramid();
     makeDiffuse(light);
     if (hasGround_) {
-        // The ground does not light itself, because no part of the ground is above the ground's
-        // horizon.
+        // The ground does not light itself, because no part of it is above its own horizon.
         ground_ = sunlit + catcher.albedo.cwiseProduct(diffuse_({0, 0, 1}));
         light = pyramid();
         makeDiffuse(light);
@@ -124,7 +119,6 @@ FarLight::Pyramid FarLight::pyramid() const {
     while (out.back().edge() > kCoarsest + 1) {
         const DirectionTable& fine = out.back();
         DirectionTable coarse((fine.edge() - 1) / 2 + 1);
-        // Downsamples with a tent filter of 3x3 texels, mirrored at the border.
         const int last = fine.edge() - 1;
         const auto inside = [last](int i) { return i < 0 ? -i : (i > last ? 2 * last - i : i); };
         for (int row = 0; row < coarse.edge(); ++row)
@@ -166,9 +160,9 @@ void FarLight::makeDiffuse(const Pyramid& light) {
 
 void FarLight::makeMirrored(const Pyramid& light) {
     struct LobeSample {
-        Eigen::Vector3f direction;  // in a frame whose z is the lobe's axis
+        Eigen::Vector3f direction;
         float weight;
-        std::size_t level;  // pyramid level whose texels have about the sample's solid angle
+        std::size_t level;  // pyramid level with texels of about the sample's solid angle
     };
     for (const MirrorLevel& level : kMirrorLevels) {
         const Ggx ggx(alphaOf(level.roughness));
@@ -231,8 +225,6 @@ Eigen::Vector3f FarLight::mirrored(const Eigen::Vector3f& direction, float rough
     const auto i = static_cast<std::size_t>(
         std::min<std::ptrdiff_t>(above - kMirrorLevels.begin(), kMirrorLevels.size() - 1));
     if (i == 0) {
-        // Interpolates between a perfect mirror and the first table of mirrored light. The table's
-        // share is proportional to the width of the reflection lobe.
         const float share =
             alphaOf(std::max(roughness, 0.0F)) / alphaOf(kMirrorLevels.front().roughness);
         const Eigen::Vector3f sharp = radiance(direction, environment_.radiance(direction));

@@ -16,7 +16,6 @@ namespace {
 
 using sampling::kTileEdge;
 
-/// Number of each pixel of a tile (row-major) in the sampling order.
 constexpr auto kRanks = [] {
     std::array<std::uint8_t, sampling::kTilePixels> out{};
     for (int y = 0; y < kTileEdge; ++y)
@@ -27,8 +26,8 @@ constexpr auto kRanks = [] {
 }();
 
 constexpr float kGreyLevels = 255;
-constexpr float kEnough = 16;  // samples that suffice to conclude that the light is unchanged
-// Contrast [grey levels] assumed between an object and the unknown background: half the range.
+constexpr float kEnough = 16;  // number of samples after which light counts as unchanged.
+// Assumed contrast [grey levels] between an object and the unknown background: half the range.
 constexpr float kEdgeContrast = 0.5F * kGreyLevels;
 
 bool isLight(const Eigen::Vector3f& rgb) {
@@ -39,8 +38,6 @@ void keepNearest(FirstHit& kept, const FirstHit& hit) {
     if (kept.id == 0 || hit.depth < kept.depth) kept = hit;
 }
 
-/// Variance of the mean of n samples, computed from the sum of the samples and the sum of their
-/// squares.
 double varianceOfMean(double sum, double squares, double n) {
     if (n < 2) return 0;
     return std::max(0.0, squares - sum * sum / n) / (n * (n - 1));
@@ -51,8 +48,7 @@ Number squared(Number value) {
     return value * value;
 }
 
-/// Standard deviation of the mean of `count` samples, computed from the mean of the samples and the
-/// mean of their squared luminances.
+/// `mean` is the mean of `count` samples, `square` the mean of their squared luminances.
 float deviationOf(const Eigen::Vector3f& mean, float square, float count) {
     if (count < 2) return 0;
     return std::sqrt(std::max(0.0F, square - squared(luminanceOf(mean))) / (count - 1));
@@ -89,12 +85,11 @@ namespace {
 const Eigen::Vector3f kNoFar{1, 1, 1};
 constexpr double kTrustedCentre = 8, kManyHits = 16;
 
-/// Weights of a sample's diffuse and specular light: the shares that the paint reflects.
 struct PaintWeights {
     double diffuse, specular;
 };
 PaintWeights weightsOf(const Paint& paint) {
-    constexpr double kLeast = 1e-3;  // keeps the weights of black paint above 0
+    constexpr double kLeast = 1e-3;
     return {kLeast + luminanceOf<float>(paint.diffuse),
             kLeast + luminanceOf<float>(paint.specular())};
 }
@@ -164,7 +159,7 @@ void Film::add(std::size_t pixel, const FilmSample& sample) {
     ++p.objectHits;
     p.radiance += sample.radiance.cast<double>();
     p.radianceSquares += squared(luminanceOf<double>(sample.radiance.cast<double>()));
-    // Light of two objects at an edge must not be mixed, because it is shown on one of them.
+    // At an edge, only the object at the pixel's centre gets light.
     if (hasObjectAtCentre(p) && sample.hit.id != p.seen.hit.id) return;
     ++p.object.hits;
     const auto [diffuse, specular] = weightsOf(sample.paint);
@@ -176,7 +171,6 @@ void Film::add(std::size_t pixel, const FilmSample& sample) {
     p.albedoOffset += sample.paint.albedo.offset;
 }
 
-// Whether all samples so far hit the same surface.
 bool Film::isWhole(const Pixel& p) {
     const std::uint32_t n = p.taken - p.lost;
     if (p.seen.hit.id == 0) return n > 0 && (p.objectHits == n || p.catcher.hits == n);
@@ -226,7 +220,7 @@ SurfaceLight Film::farOf(const Pixel& p) {
                              ((sum.far + weight * centre.cast<double>()) / all).cast<float>())
                        : centre;
     };
-    // The centre's far light has no noise. While there are few samples, it gets a larger weight.
+    // The centre's far light has no noise. It gets a larger weight while there are few samples.
     const double fewer = std::max(0.0, 1 - p.object.hits / kManyHits);
     const double trust = 1 + kTrustedCentre * fewer;
     auto [diffuse, specular] = weightsOf(p.seen.paint);
@@ -262,8 +256,7 @@ float Film::error(std::size_t pixel, const Exposure& exposure) const {
     return static_cast<float>(std::sqrt(variance + edge / (n * std::sqrt(n))));
 }
 
-// The diffuse and the specular light of an object come from the same paths, so their errors are
-// added.
+// Diffuse and specular light of an object come from the same paths, so their errors are added.
 float Film::errorOfKnown(const Pixel& p, const Exposure& exposure) {
     if (p.seen.hit.id == kCatcherId) {
         const KnownLight known = knownOf(p.catcher, p.carried);
@@ -314,7 +307,7 @@ void Film::remember(std::size_t pixel, const LightPixel& light) {
     Pixel& p = begun(pixel);
     if (p.taken > 0 || p.carried.firstCount > 0) return;
     const Eigen::Vector3f first = light.first.matrix(), second = light.second.matrix();
-    // If the filter found no change in the neighbourhood, this pixel is treated as unchanged.
+    // The filter found no change in the neighbourhood, so this pixel is called unchanged.
     const bool untouched = light.id == kCatcherId && first.isZero(0);
     p.carried = {first,
                  second,
@@ -326,9 +319,9 @@ void Film::remember(std::size_t pixel, const LightPixel& light) {
 }
 
 LightPixel Film::light(std::size_t pixel, const Exposure& exposure) const {
-    // With fewer samples the variance is reported as unknown.
+    // The variance of fewer samples is reported as unknown.
     constexpr float kFew = 4;
-    // Noise up to this limit [grey levels] is invisible.
+    // Noise up to this limit is invisible [grey levels].
     constexpr float kUnseen = 0.3F;
     const Pixel& p = at(pixel);
     LightPixel out;
@@ -351,7 +344,6 @@ LightPixel Film::light(std::size_t pixel, const Exposure& exposure) const {
     out.normal = p.seen.normal.array();
     out.depth = hit.depth;
     out.id = hit.id;
-    // The filter leaves pixels with little noise unchanged, for example unchanged real surfaces.
     out.kept = std::min(known.firstCount, known.secondCount) >= kEnough &&
                error(pixel, exposure) < kUnseen;
     return out;

@@ -16,150 +16,141 @@
 
 namespace mfar {
 
-/// The first surface on a ray. Depth [m] is measured along the camera's optical axis; depth is 0 if
-/// id is 0.
+/// The first surface on a ray. `depth` is measured along the optical axis [m]; it is 0 if `id` is
+/// 0.
 struct FirstHit {
     float depth = 0;
     std::uint8_t id = 0;  ///< SceneObject's number or kCatcherId; 0: no surface was hit
 };
 
-/// The surface seen through a pixel's centre.
 struct SeenSurface {
     FirstHit hit;
-    Eigen::Vector3f normal{0, 0, 0};  ///< in the world, unit length, on the camera's side
+    Eigen::Vector3f normal{0, 0, 0};  ///< world frame, unit length, on the camera's side
     Paint paint{};
     float roughness = 1;
-    /// Light on the surface that is known without a ray (FarLight and sun), above 0. Sampled light
-    /// is stored as a multiple of this light.
+    /// Light on the surface computed without a ray (from FarLight and sun), above 0. Sampled light
+    /// is stored as a multiple of it.
     SurfaceLight far{{1, 1, 1}, {1, 1, 1}};
 };
 
-/// Result of one sample of a pixel.
 struct FilmSample {
     FirstHit hit;
-    Eigen::Vector3f radiance{0, 0, 0};       ///< of the hit object, or of the catcher with objects
-    Eigen::Vector3f without{0, 0, 0};        ///< of the catcher without objects
-    SurfaceLight light{};                    ///< light on the object, if an object was hit
-    SurfaceLight far{{1, 1, 1}, {1, 1, 1}};  ///< see SeenSurface::far
+    Eigen::Vector3f radiance{0, 0, 0};  ///< radiance of the object, or of the catcher with
+                                        ///< objects
+    Eigen::Vector3f without{0, 0, 0};   ///< radiance of the catcher without objects
+    SurfaceLight light{};               ///< light on the hit object
+    SurfaceLight far{{1, 1, 1}, {1, 1, 1}};
     Paint paint{};
 };
 
-/// Light of a surface, averaged over samples. For an object, `first` is diffuse light and `second`
-/// is specular light. For the shadow catcher, `first` is the change caused by the objects and
-/// `second` is the light without objects.
+/// Light of a surface, averaged over samples. For an object, `first` is diffuse and `second` is
+/// specular light. For the shadow catcher, `first` is the change caused by objects and `second` is
+/// the light without objects.
 struct KnownLight {
     Eigen::Vector3f first{0, 0, 0}, second{0, 0, 0};
-    float firstSquare = 0, secondSquare = 0;  ///< means of squared luminances
-    float firstCount = 0, secondCount = 0;    ///< numbers of samples; 0: the light is unknown
+    float firstSquare = 0, secondSquare = 0;
+    float firstCount = 0, secondCount = 0;  ///< numbers of samples; 0: unknown light
 };
 
-/// Sums of the samples of one view for each pixel. Pixels are numbered row-major. The kernel
-/// provides the memory of a pixel when it is first used, so that unused parts of the picture cost
-/// neither time nor memory. Threads may process different pixels at the same time.
+/// Sums of the samples of each pixel of one view. Pixels are numbered row-major. The kernel
+/// provides a pixel's memory at first use, so unused parts cost neither time nor memory. Threads
+/// may process different pixels at the same time.
 class Film {
 public:
     explicit Film(Size size);
 
     [[nodiscard]] Size size() const { return size_; }
-    /// Clears all pixels. Never frees memory.
+    /// Clears all pixels, but keeps the memory.
     void begin() { ++picture_; }
     void clear(std::size_t pixel) { begun(pixel) = Pixel{}; }
 
-    /// Number of samples taken so far, including dropped samples. This is also the number of the
-    /// next sample.
+    /// Number of samples so far, including dropped ones; also the index of the next sample.
     [[nodiscard]] std::uint32_t samples(std::size_t pixel) const { return at(pixel).taken; }
-    /// Number of samples, over all pixels, that were dropped because they were negative or not
-    /// finite.
+    /// Number of samples of all pixels that were dropped because they were negative or not finite.
     [[nodiscard]] std::uint64_t dropped() const;
 
     void add(std::size_t pixel, const FilmSample& sample);
-    /// Mean radiance of each kind of surface that the samples of a pixel hit, and the share of
-    /// samples that hit each kind.
+    /// Mean radiance of the objects and of the catcher that a pixel's samples hit, and their shares
+    /// of the samples.
     struct Means {
         Eigen::Vector3f object{0, 0, 0};
-        Eigen::Vector3f with{0, 0, 0}, without{0, 0, 0};  ///< catcher with and without objects
+        Eigen::Vector3f with{0, 0, 0}, without{0, 0, 0};
         float objectShare = 0, catcherShare = 0;
     };
     [[nodiscard]] Means means(std::size_t pixel) const;
 
-    /// Sets the surface seen through the pixel's centre.
     void setCentre(std::size_t pixel, const SeenSurface& surface);
-    /// Whether setCentre() was called for this pixel.
     [[nodiscard]] bool isSeen(std::size_t pixel) const { return at(pixel).isSeen; }
     [[nodiscard]] const SeenSurface& centre(std::size_t pixel) const { return at(pixel).seen; }
-    /// How the object at the pixel's centre mirrors light; zero if there is no object.
     [[nodiscard]] GlossWords gloss(std::size_t pixel) const;
-    /// Adds light from an earlier picture to the surface at the pixel's centre. The weight of this
-    /// light is its number of samples.
+    /// Stores an earlier picture's light of the surface at the pixel's centre. Its weight is its
+    /// number of samples.
     void carry(std::size_t pixel, const KnownLight& light) { begun(pixel).carried = light; }
-    /// Sampled and carried light of the surface at the pixel's centre. Samples of other surfaces do
-    /// not count.
+    /// Returns sampled and carried light of the surface at the pixel's centre. Samples of other
+    /// surfaces are ignored.
     [[nodiscard]] KnownLight known(std::size_t pixel) const;
 
-    /// Whether the pixel shows only the real surface, and neither sampled nor carried light shows a
-    /// change.
+    /// True if the pixel shows only the real surface, with unchanged light.
     [[nodiscard]] bool isUntouched(std::size_t pixel) const;
 
-    /// Estimated standard error of the displayed value [grey levels of 255]. It is infinite before
-    /// there are two samples, traced or carried. The estimate assumes independent samples; the
-    /// errors of a low-discrepancy sequence are smaller. For the coverage at an edge it assumes
-    /// jittered samples, whose error is proportional to n^-3/4 (Mitchell 1996).
+    /// Estimated standard error of the displayed value [grey levels of 255]. It is infinite with
+    /// fewer than two samples, traced or carried. The estimate assumes independent samples; the
+    /// errors of a low-discrepancy sequence are smaller. At an edge, the error of the coverage is
+    /// proportional to n^-3/4, as for jittered samples (Mitchell 1996).
     [[nodiscard]] float error(std::size_t pixel, const Exposure& exposure = {}) const;
 
     /// One pixel of the picture. Shadow and bounced light multiply the real surface's value by the
-    /// ratio of modelled light with objects to modelled light without objects (differential
-    /// rendering, Debevec 1998). The darkest channel determines a black layer of coverage 1 -
-    /// ratio^(1/2.2). The excess of the other channels is added as colour.
+    /// ratio of modelled light with objects to light without objects (differential rendering,
+    /// Debevec 1998). The darkest channel gives a black layer of coverage 1 - ratio^(1/2.2). The
+    /// excess of the other channels is added as colour.
     struct Resolved {
         std::array<std::uint8_t, 4> colour{};
         FirstHit hit;
-        LightWords light{};  ///< light on the object, if the pixel shows an object
+        LightWords light{};  ///< light on the object; unused for the catcher
     };
     [[nodiscard]] Resolved resolved(std::size_t pixel, const Exposure& exposure) const;
-    /// The light of a pixel as input of a NoiseFilter. resolvedFrom() makes the pixel from the
-    /// filter's output.
+    /// Returns a pixel's light as input of a NoiseFilter. resolvedFrom() converts the filter's
+    /// output to a pixel.
     [[nodiscard]] LightPixel light(std::size_t pixel, const Exposure& exposure) const;
-    /// Stores filtered light as carried light if the pixel has neither samples nor carried light.
+    /// Stores filtered light as carried light in a pixel that has neither samples nor carried
+    /// light.
     void remember(std::size_t pixel, const LightPixel& light);
-    /// `layered`: the pixel shows only the surface of `light`, also at edges.
+    /// If `layered` is true, the pixel shows only the surface of `light`, also at edges.
     [[nodiscard]] Resolved resolvedFrom(const LightPixel& light, std::size_t pixel,
                                         const Exposure& exposure, bool layered = false) const;
 
 private:
-    // The sums have double precision. In single precision the sums of a million samples would be
-    // wrong by a percent, and the variances would be useless.
-    /// Sum of one of the two parts of a pixel's light. Each sample is weighted with its paint,
-    /// because the reflected light is computed as mean light times mean paint.
+    // The sums need double precision. In single precision, sums of a million samples would be wrong
+    // by a percent, and variances would be useless.
     struct LightSum {
         Eigen::Vector3d light{0, 0, 0}, far{0, 0, 0};
         double weights = 0;
         double squares = 0;  // sum of squared luminances of light / far, unweighted
 
         void add(double weight, const Eigen::Vector3f& light, const Eigen::Vector3f& far);
-        /// Returns light / far, channel by channel.
         [[nodiscard]] Eigen::Vector3f relative() const;
     };
     struct LightSums {
-        LightSum first, second;  // the two parts, as in KnownLight
+        LightSum first, second;
         std::uint32_t hits = 0;
     };
     struct Pixel {
-        /// `object` holds samples of the object at the pixel's centre if there is one, else of all
-        /// objects.
+        /// `object` counts samples of the object at the pixel's centre. If no object is there, it
+        /// counts samples of all objects.
         LightSums object, catcher;
-        std::uint32_t objectHits = 0;                                 // samples that hit any object
-        Eigen::Vector3d radiance{0, 0, 0};                            // sum over object samples
-        double radianceSquares = 0;                                   // sum of squared luminances
-        Eigen::Vector3f diffusePaint{0, 0, 0}, facingPaint{0, 0, 0};  // sums over object samples
+        std::uint32_t objectHits = 0;  // samples that hit any object
+        Eigen::Vector3d radiance{0, 0, 0};
+        double radianceSquares = 0;
+        Eigen::Vector3f diffusePaint{0, 0, 0}, facingPaint{0, 0, 0};
         float albedoScale = 0, albedoOffset = 0;
         std::uint32_t taken = 0, lost = 0;
-        SeenSurface seen;  // surface at the pixel's centre
+        SeenSurface seen;
         bool isSeen = false;
         FirstHit nearest, nearestCatcher;
-        KnownLight carried;  // light from an earlier picture, at the centre
+        KnownLight carried;
     };
     struct Shown {
-        Eigen::Vector3f colour{0, 0, 0};  // premultiplied, [0, 1]
+        Eigen::Vector3f colour{0, 0, 0};
         float coverage = 0;
     };
 
@@ -170,24 +161,20 @@ private:
     }
     [[nodiscard]] static KnownLight knownOf(const LightSums& sums, const KnownLight& carried);
     [[nodiscard]] static Paint paintOf(const Pixel& p);
-    /// Far light on the object: mean over the object's samples and the pixel's centre.
+    /// Returns the mean far light over the object's samples and the pixel's centre.
     [[nodiscard]] static SurfaceLight farOf(const Pixel& p);
-    /// An object's light divided by far light. Returns 1 for unknown light, so that the far light
-    /// itself is shown.
     [[nodiscard]] static SurfaceLight relativeOf(const KnownLight& light);
     [[nodiscard]] static float errorOfKnown(const Pixel& p, const Exposure& exposure);
-    /// The result is empty if the pixel has no object and no change of light, as in most pixels.
     [[nodiscard]] static Shown shown(const Pixel& p, const Exposure& exposure);
     [[nodiscard]] static Shown shown(const Means& m, const Exposure& exposure);
     [[nodiscard]] static Resolved resolved(const Pixel& p, const Shown& shown);
     [[nodiscard]] static FirstHit firstHit(const Pixel& p, bool changed);
-    /// Returns an empty pixel if the stored values belong to an earlier picture.
     [[nodiscard]] const Pixel& at(std::size_t pixel) const {
         const std::size_t place = placeOf(pixel);
         return pictureOf_.data()[place] == picture_ ? pixels_[place] : kNothing;
     }
-    /// Place in memory. Pixels of a tile lie together in sampling order, so that a sparsely sampled
-    /// tile uses few pages.
+    /// Returns the index in memory. Pixels of a tile lie together in sampling order, so that a
+    /// sparsely sampled tile uses few pages.
     [[nodiscard]] std::size_t placeOf(std::size_t pixel) const;
     [[nodiscard]] Pixel& begun(std::size_t pixel);
 
@@ -201,9 +188,8 @@ private:
     Size size_;
     std::size_t tilesAcross_ = 0;
     std::uint32_t picture_ = 1;
-    ZeroedArray<std::uint32_t>
-        pictureOf_;  // for each place, the picture to which its pixel belongs
-    std::unique_ptr<Pixel[], FreePixels> pixels_;  // begun() constructs them
+    ZeroedArray<std::uint32_t> pictureOf_;
+    std::unique_ptr<Pixel[], FreePixels> pixels_;
 };
 
 }  // namespace mfar

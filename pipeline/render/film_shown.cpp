@@ -1,4 +1,3 @@
-// The part of Film that makes pictures from the samples.
 #include "pipeline/render/film.h"
 #include "pipeline/render/luminance.h"
 
@@ -44,7 +43,6 @@ FirstHit Film::firstHit(const Pixel& p, bool changed) {
     if (!changed) return {};
     const bool objects = p.objectHits > 0;
     if (p.seen.hit.id != 0 && p.seen.hit.id != kCatcherId) return p.seen.hit;
-    // A shadow catcher whose light the objects do not change is not shown.
     const bool catches = p.catcher.first.squares > 0 || p.carried.firstSquare > 0;
     if (p.seen.hit.id == kCatcherId && (catches || !objects)) return p.seen.hit;
     if (catches && !objects) return p.nearestCatcher;

@@ -6,8 +6,8 @@
 namespace mfar {
 namespace {
 
-constexpr int kCell = 4;     // distance of the table's nodes [px]
-constexpr int kOutside = 1;  // distance of the table's first node from the first pixel [px]
+constexpr int kCell = 4;  // distance between nodes of the table [px]
+constexpr int kOutside = 1;
 constexpr int kLongestSide = 16384;
 
 int nodesFor(int pixels) {

@@ -8,19 +8,19 @@
 
 namespace mfar {
 
-/// A fast approximation of CameraModel::unproject(). It interpolates in a table with a node every
-/// few pixels. The error inside the picture is below 0.05 px if the lens model is one-to-one there
-/// (0.01 px at a field of view of 60 degrees).
+/// A fast approximation of CameraModel::unproject(). It interpolates in a table. The error inside
+/// the picture is below 0.05 px if the lens model is one-to-one there (0.01 px at a field of view
+/// of 60 degrees).
 class LensRays {
 public:
     explicit LensRays(const CameraModel& camera);
 
     [[nodiscard]] const CameraModel& camera() const { return camera_; }
-    /// Normalised ray (x/z, y/z) of a point [px]. The point may be up to a pixel outside the
-    /// picture.
+    /// Normalised ray (x/z, y/z) of the pixel position (x, y). The position may be up to 1 px
+    /// outside the picture.
     [[nodiscard]] Eigen::Vector2f at(float x, float y) const;
-    /// The smallest rectangle of whole table cells that contains all pixels whose ray is in the box
-    /// from `least` to `most`.
+    /// Returns a rectangle that contains all pixels with rays between `least` and `most`. It
+    /// consists of whole table cells.
     [[nodiscard]] PixelRect pixelsIn(const Eigen::Vector2f& least,
                                      const Eigen::Vector2f& most) const;
 
@@ -35,9 +35,8 @@ private:
     std::vector<Eigen::Vector2f> nodes_;
 };
 
-/// Whether the two cameras have the same ray for every pixel.
 [[nodiscard]] bool sameLens(const CameraModel& a, const CameraModel& b);
-/// Whether all numbers are finite, the focal lengths are above 0, and the size is 1 to 16384 pixels
+/// True if all numbers are finite, the focal lengths are above 0, and the size is 1 to 16384 pixels
 /// per side.
 [[nodiscard]] bool isSound(const CameraModel& camera);
 

@@ -9,15 +9,14 @@
 namespace mfar {
 namespace {
 
-constexpr float kNearest = 1e-3F;  // [m] nearer points are ignored
-// A neighbouring pixel shows the surface of the point if the pixel's own point is close to the
-// surface's tangent plane and its normal is similar. kOffPlane is the largest distance from the
-// plane, relative to depth. kSameBend is the least cosine between the normals.
+constexpr float kNearest = 1e-3F;
+// Limits for a pixel that shows the same surface as the point. kOffPlane is the largest distance of
+// the pixel's surface point from the tangent plane, relative to depth. kSameBend is the least
+// cosine between the normals.
 constexpr float kOffPlane = 0.01F, kSameBend = 0.9F;
-constexpr float kLeastWeight = 0.1F;  // least sum of the interpolation weights of pixels that show
-                                      // the surface
-// The weight of a specular lobe of width alpha falls to 1/e when the eye has moved by the angle
-// kLobeTurn * alpha, seen from the surface point: the reflection turns by twice that angle.
+constexpr float kLeastWeight = 0.1F;
+// The weight of a specular lobe of width alpha falls to 1/e when the eye moves by the angle
+// kLobeTurn * alpha around the point. The reflection turns by twice that angle.
 constexpr float kLobeTurn = 0.5F;
 
 void addShare(KnownLight& sum, float share, const KnownLight& light) {
@@ -45,7 +44,6 @@ bool LightHistory::isSame(std::size_t pixel, const Eigen::Vector2f& ray, const S
     return std::abs(seen.normal.dot(other - point)) < kOffPlane * there.hit.depth;
 }
 
-// Interpolates between the pixels whose columns and rows are multiples of `step`.
 KnownLight LightHistory::between(const Eigen::Vector2d& pixel, int step, const SeenSurface& seen,
                                  const Eigen::Vector3f& point) const {
     const Size size = camera_.size;
@@ -93,7 +91,7 @@ KnownLight LightHistory::at(const SeenSurface& seen, const Eigen::Vector3f& poin
     if (!(pixel.x() > -1 && pixel.y() > -1 && pixel.x() < size.width && pixel.y() < size.height))
         return {};
     KnownLight out;
-    // Where only a quarter of the pixels was sampled, the nearest samples are two pixels apart.
+    // Where only a quarter of the catcher's pixels was sampled, the samples are two pixels apart.
     if (seen.hit.id == kCatcherId && isSparseAt(pixel)) out = between(pixel, 2, seen, point);
     if (!(out.firstCount > 0)) out = between(pixel, 1, seen, point);
     out.firstCount = std::min(out.firstCount, mostSamples_);

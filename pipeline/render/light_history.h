@@ -10,18 +10,19 @@
 
 namespace mfar {
 
-/// Finds light that an earlier picture measured on surfaces that are also visible in another view.
-/// Threads may call it at the same time. The film must not change meanwhile and must outlive this
-/// object.
+/// Finds light that an earlier picture measured on the surfaces of a new view. Threads may call it
+/// at the same time. The film must not change meanwhile and must outlive this object.
 class LightHistory {
 public:
-    /// `mostSamples` is the upper limit of a point's weight [samples]. `lens` belongs to `view`.
+    /// `mostSamples` limits the weight of the light at a point [samples]. `lens` must belong to
+    /// `view`.
     LightHistory(const Film& film, const RenderView& view, std::shared_ptr<const LensRays> lens,
                  float mostSamples);
 
-    /// Light of the surface at `point` (in the world) seen from `eye`, interpolated between the
-    /// pixels of the earlier picture that show the same surface. The weight of specular light falls
-    /// with the angle between the two directions of view. Empty if no pixel shows the surface.
+    /// Returns the light of the surface at `point` (world frame), seen from `eye`. It interpolates
+    /// between those pixels of the earlier picture that show this surface. The weight of specular
+    /// light falls with the angle between the two viewing directions. Empty if no pixel shows the
+    /// surface.
     [[nodiscard]] KnownLight at(const SeenSurface& seen, const Eigen::Vector3f& point,
                                 const Eigen::Vector3f& eye) const;
 
@@ -35,7 +36,7 @@ private:
     const Film& film_;
     CameraModel camera_;
     std::shared_ptr<const LensRays> lens_;
-    Eigen::Matrix3f rotation_;  // from camera to world
+    Eigen::Matrix3f rotation_;
     Eigen::Vector3f eye_;
     float mostSamples_;
 };

@@ -4,15 +4,14 @@
 
 namespace mfar {
 
-/// A direction towards a distant light.
 struct LightSample {
-    Eigen::Vector3f direction{0, 0, 1};  ///< in the world, unit length
+    Eigen::Vector3f direction{0, 0, 1};  ///< world frame, unit length
     Eigen::Vector3f radiance{0, 0, 0};
-    float density = 0;  ///< probability density of `direction` [1/sr]; 0: no light was found
+    float density = 0;  ///< probability density of `direction` [1/sr]; 0 if no light was found
 };
 
-/// Rotation whose columns x, y, z are an orthonormal frame with z = `normal` (Duff et al. 2017).
-/// `normal` must have unit length.
+/// Returns a rotation whose third column is `normal` (Duff et al. 2017). `normal` must have unit
+/// length.
 [[nodiscard]] inline Eigen::Matrix3f frameAround(const Eigen::Vector3f& normal) {
     const float sign = normal.z() < 0 ? -1.0F : 1.0F;
     const float a = -1 / (sign + normal.z()), b = normal.x() * normal.y() * a;

@@ -4,7 +4,6 @@
 
 namespace mfar {
 
-/// Luminance of a linear sRGB colour.
 template <typename Number>
 [[nodiscard]] Number luminanceOf(const Eigen::Vector3<Number>& rgb) {
     return rgb.dot(Eigen::Vector3d(0.2126, 0.7152, 0.0722).cast<Number>());

@@ -15,8 +15,8 @@ constexpr float kLeastAlpha = 1e-3F;
 constexpr int kAngles = 32, kRoughnesses = 32;
 constexpr std::uint32_t kAlbedoSamples = 256;
 
-/// Tables of the specular albedo over roughness and sqrt(mu). The square root puts more nodes where
-/// the albedo changes fast.
+/// Tables over roughness and sqrt(mu). The square root puts more nodes where the albedo changes
+/// fast.
 struct AlbedoTables {
     std::array<std::array<SpecularAlbedo, kAngles>, kRoughnesses> at;
     std::array<SpecularAlbedo, kRoughnesses> mean;
@@ -53,7 +53,7 @@ AlbedoTables::AlbedoTables() {
             const float root = static_cast<float>(a) / (kAngles - 1);
             const float mu = std::max(root * root, 1e-4F);
             at[r][a] = albedoBySampling(roughness, mu);
-            // Trapezoidal rule over root = sqrt(mu): 2 mu dmu = 4 root^3 droot.
+            // Trapezoidal rule over root = sqrt(mu), because 2 mu dmu = 4 root^3 droot.
             const float weight = root * root * root * (a + 1 == kAngles ? 0.5F : 1.0F);
             sum.scale += weight * at[r][a].scale;
             sum.offset += weight * at[r][a].offset;
@@ -68,8 +68,6 @@ const AlbedoTables& albedoTables() {
     return tables;
 }
 
-/// Position of a value from [0, 1] in a table: the node before it, and the distance from that node
-/// as a share of the distance between nodes.
 struct Place {
     std::size_t index;
     float rest;
@@ -88,8 +86,7 @@ SpecularAlbedo between(const SpecularAlbedo& a, const SpecularAlbedo& b, float s
 }  // namespace
 
 float Ggx::density(const Eigen::Vector3f& h) const {
-    // The sum x^2 + y^2 is used, because 1 - z^2 would lose its digits at the peak of a narrow
-    // lobe.
+    // x^2 + y^2 is more exact than 1 - z^2, which loses its digits at the peak of a narrow lobe.
     const float slope = (h.x() * h.x() + h.y() * h.y()) / alpha2_ + h.z() * h.z();
     return 1 / (kPi * alpha2_ * slope * slope);
 }

@@ -4,8 +4,8 @@
 
 namespace mfar {
 
-/// Isotropic GGX (Trowbridge-Reitz) microfacets of width alpha in (0, 1] with Smith's
-/// height-correlated masking (Heitz 2014). Directions have unit length, with z along the surface
+/// Isotropic GGX (Trowbridge-Reitz) microfacets of width alpha in (0, 1], with Smith's
+/// height-correlated masking (Heitz 2014). Directions have unit length, and z is the surface
 /// normal.
 class Ggx {
 public:
@@ -13,17 +13,16 @@ public:
 
     /// Density D(h) of microfacet normals [1/sr].
     [[nodiscard]] float density(const Eigen::Vector3f& h) const;
-    /// Visibility term G2 / (4 cos_o cos_i).
     [[nodiscard]] float visibility(float cosO, float cosI) const;
-    /// Masking term G1: the share of microfacets that is visible from a direction. mu > 0 is the
-    /// cosine of the direction's angle from the normal.
+    /// Share of microfacets visible from a direction. `mu` > 0 is the direction's cosine to the
+    /// normal.
     [[nodiscard]] float masking(float mu) const;
-    /// Samples a microfacet normal among those visible from `wo`; wo.z > 0 (Dupuy and Benyoub
+    /// Samples one of the microfacet normals visible from `wo`, where wo.z > 0 (Dupuy and Benyoub
     /// 2023).
     [[nodiscard]] Eigen::Vector3f sampleNormal(const Eigen::Vector3f& wo,
                                                const Eigen::Vector2f& u) const;
-    /// Probability density [1/sr] of the direction into which `h`, a normal from sampleNormal(),
-    /// reflects `wo`.
+    /// Probability density [1/sr] of the direction of `wo` reflected at `h`. `h` must come from
+    /// sampleNormal().
     [[nodiscard]] float reflectedDensity(const Eigen::Vector3f& wo,
                                          const Eigen::Vector3f& h) const {
         return masking(wo.z()) * density(h) / (4 * wo.z());
@@ -33,21 +32,20 @@ private:
     float alpha_, alpha2_;
 };
 
-/// Share of light that GGX of one roughness reflects after a single bounce. It is f0 * scale +
-/// offset for Schlick's Fresnel term with reflectance f0 at normal incidence (Karis 2013).
+/// Share of light that GGX reflects after one bounce. It is f0 * scale + offset for Schlick's
+/// Fresnel term with reflectance f0 at normal incidence (Karis 2013).
 struct SpecularAlbedo {
     float scale = 1, offset = 0;
 
-    /// Share for a Fresnel term of 1.
     [[nodiscard]] float full() const { return scale + offset; }
 };
 
-/// GGX's alpha for a perceptual roughness in [0, 1]. It is slightly above 0 even for a mirror.
+/// Returns GGX's alpha for a perceptual roughness in [0, 1]. The result is slightly above 0 even
+/// for a mirror.
 [[nodiscard]] float alphaOf(float roughness);
 
-/// specularAlbedo() is the reflected share of light for one direction; mu is the cosine of the
-/// direction's angle from the normal. meanSpecularAlbedo() is the cosine-weighted mean of this
-/// share over all directions. Both functions read tables that the first call computes; the error is
+/// Reflected share of light for a direction with cosine `mu` to the normal, and the cosine-weighted
+/// mean over all directions. Both functions read tables that the first call computes. The error is
 /// below 0.01.
 [[nodiscard]] SpecularAlbedo specularAlbedo(float roughness, float mu);
 [[nodiscard]] SpecularAlbedo meanSpecularAlbedo(float roughness);

@@ -9,33 +9,32 @@
 namespace mfar {
 namespace {
 
-constexpr std::array<float, 2> kSpline = {0.5F, 0.25F};  // centre and one side of the B1 spline
-// Radius of the kernel [steps]. A radius of two, as in the paper, takes twice the time and is not
-// better (measured at 1 to 64 samples).
+constexpr std::array<float, 2> kSpline = {0.5F, 0.25F};
+// Radius of the kernel [steps]. The paper's radius of two takes twice the time and is not better
+// (measured at 1 to 64 samples).
 constexpr int kReach = 1;
 // An unknown variance is estimated from neighbours kSpreadStep pixels apart, up to kSpreadReach
-// steps away. If one pixel in 16 is sampled, the nearest samples are four pixels apart. kSurely
-// neighbours suffice for an estimate.
+// steps away. Sparse sampling covers one pixel in 16, so samples are 4 pixels apart. With fewer
+// than kSurely neighbours, the estimate is raised.
 constexpr int kSpreadReach = 2, kSpreadStep = 4;
 constexpr float kSurely = 4;
-// Differences above this many standard errors of the two pixels are not noise.
+// A difference of more than this many standard errors is not noise.
 constexpr float kTolerance = 2.5F;
 constexpr float kLeastVariance = 1e-7F;  // (a tenth of a grey level)^2 at white
-// Upper limit of the relative change of depth per pixel on a surface that is not seen edge-on.
+// Upper limit of the relative change of depth per pixel on one surface.
 constexpr float kDepthSlope = 0.01F;
 
 float luminanceOf(const Eigen::Array3f& rgb) {
     return 0.2126F * rgb.x() + 0.7152F * rgb.y() + 0.0722F * rgb.z();
 }
 
-/// Eighth power of the cosine between two normals: 1/2 at 24 degrees.
+/// Returns the eighth power of the cosine between two normals: 1/2 at 24 degrees.
 float bendWeight(const Eigen::Array3f& a, const Eigen::Array3f& b) {
     const float cosine = std::max(0.0F, (a * b).sum());
     const float second = cosine * cosine, fourth = second * second;
     return fourth * fourth;
 }
 
-/// A weighted mean of one of the two parts of the light.
 class LightMean {
 public:
     LightMean(const Eigen::Array3f& centre, float variance, float count)
@@ -69,7 +68,6 @@ private:
     float variances_ = 0, weights_ = 0;
 };
 
-/// Mean and variance of a luminance.
 struct Spread {
     float sum = 0, squares = 0, count = 0;
 
@@ -80,9 +78,9 @@ struct Spread {
         squares += y * y;
         ++count;
     }
-    /// Variance of a pixel's light, estimated from these values. It includes the pixel's own
+    /// Estimates the variance of a pixel's light from the added values. It includes the pixel's own
     /// distance from the mean, because the pixel may hold a rare bright sample. With fewer than
-    /// kSurely values the variance is at least the square of their mean.
+    /// kSurely values, the square of the mean is added.
     [[nodiscard]] float varianceOf(const Eigen::Array3f& light) const {
         if (!(count > 0)) return 0;
         const float mean = sum / count, off = luminanceOf(light) - mean;
@@ -144,7 +142,6 @@ void NoiseFilter::forNeighbours(std::span<const LightPixel> pixels, int x, int y
     }
 }
 
-// Estimates an unknown variance from the differences between the neighbours.
 void NoiseFilter::spreadVariance(int x, int y) {
     const std::size_t i = static_cast<std::size_t>(y) * size_.width + x;
     const LightPixel& pixel = pixels_[i];
@@ -163,7 +160,7 @@ void NoiseFilter::spreadVariance(int x, int y) {
         variances_[i].second = found(second, pixel.second, pixel.secondCount);
 }
 
-// Averages the variance over the neighbours, because estimates from few samples vary strongly.
+// Estimates from few samples vary strongly, so neighbours are averaged.
 void NoiseFilter::meanVariance(int x, int y) {
     LightPixel& pixel = pixels_[static_cast<std::size_t>(y) * size_.width + x];
     if (pixel.id == 0) return;

@@ -9,18 +9,17 @@
 
 namespace mfar {
 
-/// Lower limit of the divisor when specular light is divided by its paint. A metal may have a
-/// channel that reflects nothing, from which the light on the metal cannot be computed.
+/// Lower limit of the divisor when specular light is divided by its paint. A metal may reflect
+/// nothing in one colour channel.
 inline constexpr float kLeastPaint = 0.01F;
 
-/// The linear colours, in [0, 1], with which a surface multiplies light, as in glTF's
+/// Linear colours in [0, 1] by which a surface multiplies light. They follow glTF's
 /// metallic-roughness material.
 struct Paint {
-    Eigen::Vector3f diffuse{0, 0, 0};  ///< colour for diffuse light
-    Eigen::Vector3f facing{0, 0, 0};   ///< reflectance along the normal, for specular light
-    SpecularAlbedo albedo{};           ///< for specular light towards the eye
+    Eigen::Vector3f diffuse{0, 0, 0};
+    Eigen::Vector3f facing{0, 0, 0};  ///< specular reflectance at normal incidence
+    SpecularAlbedo albedo{};          ///< for specular light towards the eye
 
-    /// Paint for specular light.
     [[nodiscard]] Eigen::Vector3f specular() const {
         return (albedo.scale * facing).array() + albedo.offset;
     }
@@ -34,24 +33,22 @@ struct Paint {
             albedo};
 }
 
-/// Light that a surface sends to the eye, divided by the surface's paint.
 struct SurfaceLight {
-    Eigen::Vector3f diffuse{0, 0, 0};   ///< radiance of the surface if it were white
-    Eigen::Vector3f specular{0, 0, 0};  ///< radiance if it reflected all light
+    Eigen::Vector3f diffuse{0, 0, 0};   ///< radiance if the surface were white
+    Eigen::Vector3f specular{0, 0, 0};  ///< radiance if the surface reflected all light
 
     [[nodiscard]] Eigen::Vector3f on(const Paint& paint) const {
         return paint.diffuse.cwiseProduct(diffuse) + paint.specular().cwiseProduct(specular);
     }
 };
 
-/// Product of each colour channel. It is used for light that is stored as a multiple of other
-/// light.
+/// Light can be stored as a multiple of other light. This function multiplies both.
 [[nodiscard]] inline SurfaceLight product(const SurfaceLight& a, const SurfaceLight& b) {
     return {a.diffuse.cwiseProduct(b.diffuse), a.specular.cwiseProduct(b.specular)};
 }
 
-/// Packs the light of a surface, multiplied by `exposure`. The reader of the words knows only
-/// Paint::diffuse and Paint::facing. So the words also contain the paint's albedo towards the eye.
+/// Packs the light of a surface, multiplied by `exposure`. The reader has only Paint::diffuse and
+/// Paint::facing, so the words also contain the albedo.
 [[nodiscard]] inline LightWords packed(const SurfaceLight& light, const Paint& paint,
                                        float exposure) {
     const float full = paint.albedo.full();
@@ -63,7 +60,7 @@ struct SurfaceLight {
 }
 
 /// Splits `radiance` into diffuse and specular light, both divided by the paint. `white` is the
-/// diffuse light, already divided by the paint.
+/// diffuse light without paint.
 [[nodiscard]] inline SurfaceLight lightOf(const Eigen::Vector3f& radiance,
                                           const Eigen::Vector3f& white, const Paint& paint) {
     const Eigen::Vector3f rest = radiance - paint.diffuse.cwiseProduct(white);

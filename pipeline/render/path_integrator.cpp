@@ -8,40 +8,36 @@
 namespace mfar {
 namespace {
 
-// Numbers of the random pairs that each vertex of a path uses.
 constexpr std::uint32_t kSunPair = 0, kEnvironmentPair = 1, kScatterPair = 2, kRoulettePair = 3;
 constexpr std::uint32_t kPairsOfVertex = 4;
-constexpr std::uint32_t kPairsOfPath = kPairsOfVertex * 64;  // for the longest path: 64 vertices
-// A path that carries at least this share of the light always survives. Ending such paths would add
-// noise that no sampler makes up for.
+constexpr std::uint32_t kPairsOfPath = kPairsOfVertex * 64;
+// A path that carries at least this share of the light always survives. Ending it would add noise
+// that no sampler makes up for.
 constexpr float kSurvives = 0.25F;
 
 /// Balance heuristic for one sample from each of two densities (Veach 1997, equation 9.8). The
-/// environment's compensated density was derived for this heuristic.
+/// environment's density requires this heuristic.
 float balanceWeight(float taken, float other) {
     return taken / (taken + other);
 }
 
-/// Power heuristic (Veach 1997, equation 9.13), used for the sun. Samples of a broad lobe hit the
-/// sun rarely, and would then be very bright.
+/// Power heuristic (Veach 1997, equation 9.13) for the sun. A broad lobe's samples rarely hit the
+/// sun; with the balance heuristic these few would be very bright.
 float powerWeight(float taken, float other) {
     const float ratio = other / taken;
     return 1 / (1 + ratio * ratio);
 }
 
-// Lower limits of far light: relative to the mean light, and absolute for a dark scene.
 constexpr float kLeastFarShare = 0.05F, kLeastFar = 1e-6F;
-// Up to this angular radius [rad], the sun's light is computed without a ray: as light from one
-// direction, reflected by a lobe that is widened by the sun's size.
+// Largest angular radius [rad] of a sun whose light is computed without a ray.
 constexpr float kWidestKnownSun = 0.05F;
 
 }  // namespace
 
-/// The surfaces that rays can hit: all surfaces, or only the shadow catcher.
 struct PathIntegrator::World {
     const TracedScene& scene;
     bool objects;
-    bool touched = false;  // whether a ray hit an object
+    bool touched = false;
 
     bool blocked(const Ray& ray) {
         if (objects && !scene.objects().empty() && scene.objects().blocked(ray)) {
@@ -65,7 +61,6 @@ struct PathIntegrator::World {
     }
 };
 
-/// A point at which light is scattered.
 struct PathIntegrator::Vertex {
     const SurfacePoint& point;
     Eigen::Matrix3f frame;
@@ -74,16 +69,14 @@ struct PathIntegrator::Vertex {
     Vertex(const SurfacePoint& p, const Eigen::Vector3f& wo)
         : point(p), frame(frameAround(p.shading)), scatter(p.look, frame.transpose() * wo) {}
 
-    /// Whether the triangle itself faces this direction; the shading normal may differ.
+    /// True if the triangle faces `direction`. The shading normal may face another side.
     [[nodiscard]] bool faces(const Eigen::Vector3f& direction) const {
         return point.geometric.dot(direction) > 0;
     }
 };
 
-/// Product of the reflectances along the path: the share of light at the path's end that reaches
-/// the eye.
 struct PathIntegrator::Carried {
-    Eigen::Vector3f all{1, 1, 1}, white{0, 0, 0};  // white is 0 before the first bounce
+    Eigen::Vector3f all{1, 1, 1}, white{0, 0, 0};
 
     void scatter(const ScatterSample& sample, bool first) {
         all = all.cwiseProduct(sample.weight);
@@ -92,7 +85,6 @@ struct PathIntegrator::Carried {
         else
             white = white.cwiseProduct(sample.weight);
     }
-    /// Russian roulette. If it returns false, the path ends.
     bool survives(float random) {
         const float chance = std::min(1.0F, all.maxCoeff() / kSurvives);
         if (!(random < chance)) return false;
@@ -192,8 +184,8 @@ PathIntegrator::Sent PathIntegrator::knownSun(const Vertex& vertex, const Eigen:
     if (sun_.dark()) return {};
     const SurfacePoint& point = vertex.point;
     const Eigen::Vector3f towards = vertex.frame.transpose() * sun_.towards();
-    // A lobe sharper than the sun's disc would show the shape of the disc. The roughness is raised
-    // until the lobe is about as wide as the disc.
+    // A lobe sharper than the sun's disc would show the shape of the disc. The roughness is
+    // therefore raised until the lobe is about as wide as the disc.
     SurfaceLook look = point.look;
     look.roughness = std::max(look.roughness, std::sqrt(sun_.angularRadius()));
     const ScatterValue f =
@@ -227,7 +219,7 @@ PathIntegrator::Parts PathIntegrator::walk(SurfacePoint point, Eigen::Vector3f w
     for (int depth = 1;; ++depth, pair += kPairsOfVertex) {
         const bool first = depth == 1, last = depth == options_.maxDepth;
         const Lobes here = first ? lobes : Lobes::Both;
-        // Emission that the first surface mirrors counts as its direct light.
+        // Emission mirrored by the first surface counts as direct light.
         if (!first || lobes != Lobes::Mirrored) add(out.rest, point.emission, depth - 1);
         const Vertex vertex(point, wo);
         const Arrived lit = direct(vertex, here, sampler, pair, world);
@@ -246,8 +238,8 @@ PathIntegrator::Parts PathIntegrator::walk(SurfacePoint point, Eigen::Vector3f w
             return out;
         const Ray ray = point.leaving(direction);
         std::optional<SurfacePoint> next;
-        // For the last surface, the ray only finds out whether the lights in the sampled direction
-        // are visible. This is the other half of the multiple importance sampling.
+        // At the last surface, the ray only tests if the lights in the sampled direction are
+        // visible. That completes the multiple importance sampling.
         const bool free = last ? !world.blocked(ray) : !(next = world.next(ray));
         if (free)
             add(first ? out.direct.light : out.rest, escaped(direction, scattered.density).light,
@@ -258,9 +250,9 @@ PathIntegrator::Parts PathIntegrator::walk(SurfacePoint point, Eigen::Vector3f w
     }
 }
 
-// Replaces the sampled unblocked light by known light, scaled by the share that the objects do not
-// block (Heitz et al. 2018). The result has no noise where nothing blocks the light. Known light
-// has an error of a few percent, so its weight falls after the first samples.
+// Replaces the sampled unblocked light by known light, scaled by the share that objects do not
+// block (Heitz et al. 2018). Where nothing blocks light, the result has no noise. Known light has
+// an error of a few percent, so its weight falls after 16 samples.
 PathIntegrator::Sent PathIntegrator::sum(const Parts& parts, std::uint32_t number) {
     constexpr std::uint32_t kTrusted = 16;
     const Arrived& direct = parts.direct;

@@ -10,35 +10,33 @@
 
 namespace mfar {
 
-/// Number of random pairs that a sample uses before its path begins: one, for the position in the
-/// pixel.
+/// Number of random pairs that a sample uses before its path begins.
 inline constexpr std::uint32_t kCameraPairs = 1;
 
-/// Computes the light that a path returns from the first surface that it hits.
+/// Computes the light that returns along a path from the first surface that the path hits.
 class PathIntegrator {
 public:
     /// Both arguments must outlive the integrator.
     PathIntegrator(const TracedScene& scene, const PathTracerOptions& options);
 
-    /// Radiance that a point of an object sends towards the camera, the point's paint, and the
-    /// light on the point. `direction` is the direction of the ray that hit the point, of any
-    /// length.
+    /// Radiance from a point of an object towards the camera, the point's paint, and the light on
+    /// the point.
     struct OfObject {
         Eigen::Vector3f radiance;
-        SurfaceLight light, far;  ///< `far` is the result of far()
+        SurfaceLight light, far;
         Paint paint;
     };
     [[nodiscard]] OfObject ofObject(const RayHit& hit, const Eigen::Vector3f& direction,
                                     const PixelSampler& sampler) const;
 
     /// Light that a point of an object would receive if nothing blocked it; always above 0.
+    /// `direction` is the ray's direction; it may have any length.
     [[nodiscard]] SurfaceLight far(const SurfacePoint& point,
                                    const Eigen::Vector3f& direction) const;
 
-    /// The distant light that the surfaces of pictures mirror.
     [[nodiscard]] MirrorLight mirrorLight() const;
 
-    /// Radiance of the shadow catcher with and without the objects, computed from the same random
+    /// Radiance of the shadow catcher with objects and without them, computed from the same random
     /// numbers. Both are bit-identical if the path did not hit an object.
     struct OfCatcher {
         Eigen::Vector3f with, without;
@@ -50,8 +48,8 @@ private:
     struct World;
     struct Vertex;
     struct Carried;
-    /// Radiance that leaves the first point of a path, and its diffuse part divided by the point's
-    /// paint.
+    /// Radiance that leaves the first point of a path. `white` is its diffuse part divided by the
+    /// point's paint.
     struct Sent {
         Eigen::Vector3f radiance{0, 0, 0}, white{0, 0, 0};
 
@@ -61,47 +59,42 @@ private:
             return *this;
         }
     };
-    /// Light that arrives directly from the lights. `light` is the light that no object blocks.
-    /// `unblocked` is the light of the known lights as it would be without objects. A wide sun is
-    /// not a known light.
+    /// Light that comes directly from the lights. `unblocked` is the same light without objects in
+    /// its way, and without a sun wider than kWidestKnownSun.
     struct Arrived {
         Sent light, unblocked;
     };
-    /// The parts of the light that some lobes of the first surface send to the eye.
     struct Parts {
-        Arrived direct;  ///< light that comes directly from the lights
-        Sent known;      ///< mean of direct.unblocked, approximated without a ray
-        Sent rest;       ///< light that comes via other surfaces
+        Arrived direct;
+        Sent known;  ///< approximation of direct.unblocked without a ray
+        Sent rest;
     };
-    /// Light that `point` sends towards `wo` through these lobes.
     [[nodiscard]] Parts walk(SurfacePoint point, Eigen::Vector3f wo, Lobes lobes,
                              const PixelSampler& sampler, World& world) const;
-    /// Sums the parts for sample `number` of a pixel.
+    /// `number` is the index of the sample in its pixel.
     [[nodiscard]] static Sent sum(const Parts& parts, std::uint32_t number);
     [[nodiscard]] Arrived direct(const Vertex& vertex, Lobes lobes, const PixelSampler& sampler,
                                  std::uint32_t pair, World& world) const;
-    /// Weight of a sample in multiple importance sampling. `taken` is the density of the strategy
-    /// that drew the sample, `other` that of the other strategy.
+    /// Weight in multiple importance sampling. `taken` is the density of the strategy that drew the
+    /// sample, `other` the other strategy's density.
     using Weight = float (*)(float taken, float other);
-    /// `far` is FarLight's radiance in the sample's direction.
     [[nodiscard]] static Arrived lit(const Vertex& vertex, Lobes lobes, const LightSample& light,
                                      const Eigen::Vector3f& far, Weight weight, World& world);
-    /// Light from a direction in which a ray hits no surface. `light` is the true light, and `far`
-    /// is FarLight's radiance.
+    /// Light from a direction in which a ray hits no surface. `far` is FarLight's approximation of
+    /// `light`.
     struct Escaped {
         Eigen::Vector3f light{0, 0, 0}, far{0, 0, 0};
     };
-    /// Direct light as it would be without objects, computed without a ray.
+    /// Approximates direct light without objects, without a ray.
     [[nodiscard]] Sent known(const Vertex& vertex, const Eigen::Vector3f& wo, Lobes lobes,
                              bool withSun) const;
     [[nodiscard]] Sent knownSky(const Vertex& vertex, const Eigen::Vector3f& wo, Lobes lobes) const;
-    /// Computed as for a narrow sun: the wider the sun, the larger the error.
+    /// Assumes a narrow sun. The error grows with the sun's width.
     [[nodiscard]] Sent knownSun(const Vertex& vertex, const Eigen::Vector3f& wo, Lobes lobes) const;
     [[nodiscard]] Escaped escaped(const Eigen::Vector3f& direction, float density) const;
-    /// Factor (at most 1) that limits `light` to the firefly clamp. Light is limited if it comes
-    /// from the second surface of the path or later ones; `depth` is the number of the surface.
+    /// Returns the factor (at most 1) that limits `light` to the firefly clamp. It is 1 for light
+    /// on the first surface (`depth` 1).
     [[nodiscard]] float kept(const Eigen::Vector3f& light, int depth) const;
-    /// `light` multiplied with the carried reflectances and limited by kept().
     [[nodiscard]] Sent sent(const Carried& carried, const Eigen::Vector3f& light, int depth) const;
 
     const TracedScene& scene_;
@@ -110,7 +103,7 @@ private:
     bool sunIsKnown_;
     EnvironmentLight environment_;
     FarLight far_;
-    float leastFar_;  // above 0, because light is divided by far light
+    float leastFar_;
 };
 
 }  // namespace mfar

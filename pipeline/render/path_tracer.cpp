@@ -18,10 +18,11 @@
 namespace mfar {
 namespace {
 
-constexpr std::size_t kBatch = 64;  // rays that Embree traces in one call
-constexpr float kLeastMean = 0.1F;  // a shorter mean of normals has no reliable direction
+constexpr std::size_t kBatch = 64;
+constexpr float kLeastMean = 0.1F;
 
-/// A sample of a pixel, or the ray through the pixel's centre that is traced before the samples.
+/// A sample of a pixel, or the ray through the pixel's centre. This ray is traced before the
+/// samples.
 struct CameraSample {
     std::uint32_t pixel = 0, number = 0;
     bool centre = false;
@@ -55,7 +56,6 @@ struct PathTracer::Parts {
         : options(o), scene(std::move(sound), o.buildThreads), integrator(scene, options),
           mirrors(std::make_shared<const MirrorLight>(integrator.mirrorLight())) {}
 
-    /// Ray table of the lens. It is kept until the camera changes.
     [[nodiscard]] std::shared_ptr<const LensRays> lensOf(const CameraModel& camera) const {
         const std::scoped_lock lock(lensMutex);
         if (!lens || !sameLens(lens->camera(), camera))
@@ -71,7 +71,6 @@ struct PathTracer::Parts {
     mutable std::shared_ptr<const LensRays> lens;
 };
 
-/// Camera samples of one view that are traced together.
 class PathTracer::Batch {
 public:
     Batch(const Parts& parts, const RenderView& view, Film& film, const LightHistory* history)
@@ -102,7 +101,7 @@ private:
                 parts_.options.independentSamples};
     }
 
-    /// The direction has z = 1 in the camera's frame, so that a distance along the ray equals the
+    /// The direction has z = 1 in the camera's frame, so that a distance along the ray is the
     /// depth.
     [[nodiscard]] Ray rayOf(const CameraSample& sample) const {
         Eigen::Vector2f at{sample.pixel % width_, sample.pixel / width_};
@@ -138,12 +137,11 @@ private:
         film_.add(sample.pixel, out);
     }
 
-    /// Stores what the ray through a pixel's centre hit.
     void look(std::uint32_t pixel, const Ray& ray, const RayHit& object, const RayHit& real) {
         const TracedScene& scene = parts_.scene;
         SeenSurface seen;
         if (object.found())
-            // A first picture must be ready soon: lookAgain() smooths it later.
+            // The first picture must be ready soon, so lookAgain() smooths it later.
             seen = surfaceOf(pixel, ray, object, history_ != nullptr);
         else if (real.found())
             seen = {{real.t, kCatcherId}, scene.catcherPoint(real, ray.direction).shading, {}, 1};
@@ -152,7 +150,6 @@ private:
             film_.carry(pixel, history_->at(seen, eye_ + seen.hit.depth * ray.direction, eye_));
     }
 
-    /// Smooths the surface that look() stored for a pixel of a first picture.
     void lookAgain(std::uint32_t pixel) {
         const std::uint8_t id = film_.centre(pixel).hit.id;
         if (id == 0 || id == kCatcherId) return;
@@ -174,9 +171,9 @@ private:
                 parts_.integrator.far(point, ray.direction)};
     }
 
-    /// Replaces the normal by the mean of the normals in the pixel's quarters, and widens the
-    /// mirrored lobe by their spread (Toksvig 2005). On a fine relief, the light for a single
-    /// normal would be noise.
+    /// Replaces the normal by the mean of the normals in the pixel's quarters. Raises the roughness
+    /// with their spread (Toksvig 2005). On a fine relief, the light for a single normal would be
+    /// noise.
     void smooth(std::uint32_t pixel, std::uint8_t id, SurfacePoint& point) const {
         const TracedScene& scene = parts_.scene;
         Eigen::Vector3f sum = point.shading;
@@ -200,8 +197,7 @@ private:
         const float length = sum.norm();
         if (!(length > kLeastMean * count)) return;
         point.shading = sum / length;
-        // The factor count / (count - 1) makes up for the small number of normals, whose spread is
-        // too small on average.
+        // The spread of so few normals is too small on average. count / (count - 1) corrects it.
         const float spread = count > 1 ? (1 - length / count) * count / (count - 1) : 0;
         const float alpha = alphaOf(point.look.roughness);
         point.look.roughness = std::min(1.0F, std::sqrt(std::sqrt(alpha * alpha + 2 * spread)));
@@ -225,7 +221,7 @@ PathTracer::PathTracer(std::shared_ptr<const Scene> scene, const PathTracerOptio
     validate(options);
     if (!scene) throw std::invalid_argument("the scene is missing");
     validate(*scene);
-    // The first use makes tables, which takes as long as a picture's first samples.
+    // Computes tables now. It takes as long as the first samples of a picture.
     static_cast<void>(meanSpecularAlbedo(1));
     parts_ = std::make_unique<const Parts>(std::move(scene), options);
 }

@@ -35,8 +35,7 @@ void PictureResolver::begin(const Film& film, const RenderView& view, const Pixe
     rowsOut_ = 0;
 }
 
-// The last stage also clears the pixels outside the traced part, because the memory of `out_` still
-// holds an earlier picture.
+// The last stage also clears pixels outside `traced_`, where `out_` still holds an earlier picture.
 int PictureResolver::rowsBegin() const {
     return stage_ == kLastStage ? 0 : traced_.y0;
 }
@@ -126,8 +125,7 @@ Film::Resolved PictureResolver::filtered(int x, int y) {
     return out;
 }
 
-// Mean of the real surface's pixels with even column and even row next to (x, y). Empty if none of
-// them was traced.
+// Returns the mean of the catcher's pixels next to (x, y) with even column and even row.
 LightPixel PictureResolver::between(int x, int y) const {
     LightPixel out;
     float count = 0, perDepth = 0;

@@ -14,7 +14,6 @@
 namespace mfar {
 namespace {
 
-// These functions have different signatures in Embree 3 and 4.
 #if MFAR_EMBREE_MAJOR >= 4
 void intersectOne(RTCScene scene, RTCRayHit& query) {
     rtcIntersect1(scene, &query);
@@ -60,9 +59,9 @@ void occludedOne(RTCScene scene, RTCRay& query) {
 }
 #endif
 
-// A hit counts as on an edge if one of its barycentric weights is below this limit. Rounding errors
-// of a hit grow with the distance from the ray's origin. They reach this weight in a triangle that
-// is as wide as a thousandth of the distance.
+// A hit is on an edge if one of its barycentric weights is below this limit. Rounding errors grow
+// with the distance of the hit. They reach this weight in a triangle as wide as a thousandth of the
+// distance.
 constexpr float kEdge = 4e-3F;
 
 RTCRay embreeRay(const Ray& ray) {
@@ -104,9 +103,9 @@ RayHit laneHit(const Packet& query, std::size_t i) {
             query.hit.v[i]};
 }
 
-/// Whether the hit is on a triangle's edge. There the adjacent triangle may be hit at the same
-/// distance, and the triangle that is tested first wins. A packet and a single ray may test the
-/// triangles in different order.
+/// True if the hit is on a triangle's edge. The adjacent triangle may be hit at the same distance,
+/// and the triangle tested first wins. A packet and a single ray may test triangles in different
+/// order.
 bool onEdge(const RayHit& hit) {
     return hit.found() && !(std::min({hit.u, hit.v, 1 - hit.u - hit.v}) > kEdge);
 }
@@ -127,7 +126,6 @@ void intersectInPackets(RTCScene scene, std::span<const Ray> rays, std::span<Ray
     }
 }
 
-/// Number of rays in the widest packet that the processor handles as a whole.
 std::size_t packetWidthOf(RTCDevice device) {
     if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0) return 16;
     return rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) != 0 ? 8 : 4;
@@ -169,7 +167,7 @@ RayScene::RayScene(int buildThreads) {
     scene_.reset(rtcNewScene(device_.get()));
     check(device_.get(), "creating a scene");
     packetWidth_ = packetWidthOf(device_.get());
-    // Without this flag, rays slip through between triangles that share an edge.
+    // Without this flag, rays may pass between triangles that share an edge.
     rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
 }
 
@@ -177,7 +175,7 @@ std::uint32_t RayScene::add(std::span<const Eigen::Vector3f> positions,
                             std::span<const std::array<std::uint32_t, 3>> triangles,
                             const HoleTest& holes) {
     RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    // Embree allocates the vertices, because Embree reads past the end of the last vertex.
+    // Embree reads past the end of the last vertex, so it must allocate the vertices itself.
     auto* vertices = static_cast<float*>(
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                 3 * sizeof(float), positions.size()));

@@ -15,7 +15,7 @@ struct RTCSceneTy;
 
 namespace mfar {
 
-/// The points origin + t * direction with least <= t <= most. The direction may have any length.
+/// The points origin + t * direction with least <= t <= most. `direction` may have any length.
 struct Ray {
     Eigen::Vector3f origin, direction;
     float least = 0, most = std::numeric_limits<float>::infinity();
@@ -25,42 +25,39 @@ struct RayHit {
     static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
     float t = std::numeric_limits<float>::infinity();
-    /// Number of the mesh, as returned by RayScene::add(), and of the triangle in the mesh.
+    /// `mesh` is RayScene::add()'s result. `triangle` is an index in this mesh.
     std::uint32_t mesh = kNone, triangle = 0;
-    float u = 0, v = 0;  ///< weights of the triangle's second and third corners
+    float u = 0, v = 0;  ///< weights of the second and third corners
 
     [[nodiscard]] bool found() const { return mesh != kNone; }
 };
 
-/// Decides whether a point of a triangle is a hole. Any thread may call it.
+/// Returns true for a point of a triangle that rays pass through. Any thread may call it.
 struct HoleTest {
     bool (*isHole)(const void* context, std::uint32_t triangle, float u, float v) = nullptr;
     const void* context = nullptr;  ///< argument of isHole(); must outlive the RayScene
 };
 
-/// Triangle meshes in a common coordinate frame, in which Embree finds the hits of rays. After
-/// commit(), several threads may call const functions at the same time.
+/// Triangle meshes in a common coordinate frame, in which Embree finds ray hits. After commit(),
+/// several threads may call const functions at the same time.
 class RayScene {
 public:
     /// Throws std::runtime_error if Embree is unavailable. `buildThreads` must be at least 1.
     explicit RayScene(int buildThreads = 1);
 
-    /// Copies the mesh and returns the mesh's number. Coordinates must be finite and indices in
-    /// range.
+    /// Copies the mesh and returns its index. Coordinates must be finite and indices in range.
     std::uint32_t add(std::span<const Eigen::Vector3f> positions,
                       std::span<const std::array<std::uint32_t, 3>> triangles,
                       const HoleTest& holes = {});
-    /// Builds the search structure over all meshes. Throws std::runtime_error if this fails.
     void commit();
 
     [[nodiscard]] bool empty() const { return meshes_ == 0; }
-    /// Bounding box of all triangles; empty if the scene is empty.
     [[nodiscard]] const Eigen::AlignedBox3f& box() const { return box_; }
 
     [[nodiscard]] RayHit first(const Ray& ray) const;
     [[nodiscard]] bool blocked(const Ray& ray) const;
-    /// Gives results that are bit-identical to first() for each ray. It is fast for coherent
-    /// (similar) rays. `hits` must be as long as `rays`.
+    /// Returns the same hits as first() for each ray, bit for bit. It is fast for similar rays.
+    /// `hits` must be as long as `rays`.
     void firstOfEach(std::span<const Ray> rays, std::span<RayHit> hits) const;
 
 private:

@@ -4,9 +4,8 @@
 
 namespace mfar {
 
-/// The camera and its pose for one picture of the scene.
 struct RenderView {
-    CameraModel camera;  ///< includes the lens; size at least 1x1
+    CameraModel camera;
     RigidTransform T_world_camera;
 };
 

@@ -12,33 +12,33 @@
 
 namespace mfar {
 
-/// id of a pixel that shows the shadow catcher: a real surface whose light virtual objects change.
 inline constexpr std::uint8_t kCatcherId = 255;
 
 /// A finished picture of the virtual layer. Each array is row-major and has camera.size pixels.
 struct RenderedPicture {
-    CameraModel camera;  ///< of the video sensor with its lens, scaled to this picture's size
+    CameraModel camera;  ///< the video camera with its lens, scaled to this picture's size
     RigidTransform T_world_camera;
     /// Display values (sRGB), premultiplied by coverage. The last byte is the coverage. A shadow is
     /// black with partial coverage.
     std::vector<std::array<std::uint8_t, 4>> colour;
-    /// z [m] along the camera's optical axis of the first surface on the ray through the pixel's
-    /// centre. If that ray hits nothing, z of the nearest surface that a sample hit; 0: no surface.
+    /// z [m] along the optical axis of the first surface at the pixel's centre. If no surface is
+    /// there, z of the nearest surface that a sample hit. 0: no surface.
     std::vector<float> depth;
     std::vector<std::uint8_t> id;  ///< surface at `depth`: SceneObject's number, kCatcherId, or 0
-    /// Light on the object in each pixel, without the object's paint. Empty if the renderer does
-    /// not provide it.
+                                   ///< for none
+    /// Light on each pixel's object without the object's paint. Empty if the renderer does not
+    /// provide it.
     std::vector<LightWords> light;
-    /// How the object in each pixel mirrors distant light, which is `mirrors` times `exposure`.
+    /// How each pixel's object mirrors distant light. That light is `mirrors` times `exposure`.
     /// Empty if the renderer does not provide it.
     std::vector<GlossWords> gloss;
     std::shared_ptr<const MirrorLight> mirrors;
     float exposure = 1;
-    /// Whether each pixel shows only the surface at its centre, without the mixture at edges. Such
-    /// a picture must be warped.
+    /// True if each pixel shows only the surface at its centre, unmixed at edges. Such a picture
+    /// must be warped before display.
     bool layered = false;
-    std::shared_ptr<const Scene> scene;  ///< the scene in this picture; may be null
-    double samples = 0;                  ///< samples per pixel, averaged over the pixels with an id
+    std::shared_ptr<const Scene> scene;
+    double samples = 0;  ///< mean number of samples per pixel with an id
 };
 
 }  // namespace mfar

@@ -35,15 +35,15 @@ namespace mfar {
     return x ^ (x * 0x53A22864U);
 }
 
-/// Position of sample `index` after an Owen scramble of the indices. Aligned blocks of 2^k indices
-/// stay together.
+/// Returns the position of sample `index` after an Owen scramble of the indices. Aligned blocks of
+/// 2^k indices stay together.
 [[nodiscard]] constexpr std::uint32_t shuffledIndex(std::uint32_t index, std::uint32_t seed) {
     return reversedBits(scrambledReversed(reversedBits(index), seed));
 }
 
-/// Point number `index` of the two-dimensional Sobol sequence. Each coordinate is a 32-bit fraction
-/// with its bits in reversed order. The generator matrix of the second dimension is Pascal's
-/// triangle modulo 2, applied in five steps (Ahmed 2024).
+/// Returns point `index` of the two-dimensional Sobol sequence. Each coordinate is a 32-bit
+/// fraction in reversed bit order. The second dimension's generator matrix is Pascal's triangle
+/// modulo 2, applied in five steps (Ahmed 2024).
 [[nodiscard]] constexpr std::array<std::uint32_t, 2> sobolReversed(std::uint32_t index) {
     std::uint32_t y = index;
     y ^= (y & 0xAAAAAAAAU) >> 1;
@@ -54,20 +54,18 @@ namespace mfar {
     return {index, y};
 }
 
-/// The random numbers of one sample of a pixel. They are pairs of a (0, 2)-sequence in base 2. Each
-/// pair is Owen-scrambled and shuffled separately (padding, Kollig and Keller 2002; Burley 2020,
-/// section 5). The numbers depend only on the seed, the pixel, the sample and the number of the
-/// pair.
+/// Random number pairs of one sample of a pixel, from a (0, 2)-sequence in base 2. Each pair is
+/// Owen-scrambled and shuffled separately (padding, Kollig and Keller 2002; Burley 2020, section
+/// 5). Equal seed, pixel, sample and dimension give equal numbers.
 class PixelSampler {
 public:
-    /// If `independent` is true, the pairs are independent uniform numbers instead.
+    /// If `independent` is true, the pairs are independent uniform numbers.
     PixelSampler(std::uint32_t seed, std::uint32_t pixel, std::uint32_t sample, bool independent)
         : seed_(mixedBits(pixel ^ mixedBits(seed + 0x9E3779B9U))), sample_(sample),
           independent_(independent) {}
 
-    /// Number of the sample in its pixel, from 0.
     [[nodiscard]] std::uint32_t number() const { return sample_; }
-    /// The sample's pair of random numbers with this number, in [0, 1)^2.
+    /// Returns the pair with index `dimension`, in [0, 1)^2.
     [[nodiscard]] Eigen::Vector2f pair(std::uint32_t dimension) const {
         const std::uint32_t seed = mixedBits(seed_ + dimension * 0x9E3779B9U);
         if (independent_) {
@@ -81,7 +79,6 @@ public:
     }
 
 private:
-    /// The result is always less than 1: 24 bits fit a float exactly.
     static float unit(std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24F; }
 
     std::uint32_t seed_, sample_;

@@ -15,7 +15,7 @@ SunLight::SunLight(const std::optional<Sun>& sun) {
     irradiance_ = sun->irradiance;
     radiance_ = sun->irradiance / (kPi * sine * sine);
     chord2_ = 4 * half * half;
-    density_ = 1 / (kPi * chord2_);  // 1 / solid angle of a spherical cap
+    density_ = 1 / (kPi * chord2_);
 }
 
 LightSample SunLight::sample(const Eigen::Vector2f& u) const {

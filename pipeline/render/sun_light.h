@@ -11,19 +11,16 @@ namespace mfar {
 /// The sun as a disc of constant radiance, sampled uniformly in solid angle.
 class SunLight {
 public:
-    /// The light is dark if `sun` is empty.
     explicit SunLight(const std::optional<Sun>& sun);
 
     [[nodiscard]] bool dark() const { return density_ == 0; }
     [[nodiscard]] Eigen::Vector3f towards() const { return frame_.col(2); }
-    /// Irradiance on a surface that faces the sun.
     [[nodiscard]] const Eigen::Vector3f& irradiance() const { return irradiance_; }
     /// Angular radius of the disc [rad].
     [[nodiscard]] float angularRadius() const { return std::sqrt(chord2_); }
     [[nodiscard]] LightSample sample(const Eigen::Vector2f& u) const;
-    /// radiance() is the sun's radiance from `direction`. density() is the probability density
-    /// [1/sr] with which sample() returns `direction`. Both are 0 outside the disc. `direction`
-    /// must have unit length.
+    /// Returns the sun's radiance from `direction`, or 0 outside the disc. `direction` must have
+    /// unit length.
     [[nodiscard]] Eigen::Vector3f radiance(const Eigen::Vector3f& direction) const;
     [[nodiscard]] float density(const Eigen::Vector3f& direction) const;
 

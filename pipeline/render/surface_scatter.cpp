@@ -10,8 +10,8 @@ namespace mfar {
 namespace {
 
 constexpr float kInversePi = std::numbers::inv_pi_v<float>;
-constexpr float kMostSpecular = 0.98F;  // upper limit of the share of samples for the mirrored lobe
-constexpr float kLeastPassed = 1e-4F;   // lower limit of shares of light that are divisors
+constexpr float kMostSpecular = 0.98F;
+constexpr float kLeastPassed = 1e-4F;
 constexpr float kLeastCosine = 1e-5F;
 
 float fifthPower(float x) {
@@ -19,10 +19,9 @@ float fifthPower(float x) {
     return x2 * x2 * x;
 }
 
-/// Light that hits several microfacets: the share of it that finally leaves the surface (Kulla and
-/// Conty 2017).
+/// Returns the share of multiply reflected light that leaves the surface (Kulla and Conty 2017).
 float manyfoldShare(float f0, const SpecularAlbedo& mean) {
-    const float fresnel = f0 + (1 - f0) / 21;  // mean of Schlick's Fresnel term
+    const float fresnel = f0 + (1 - f0) / 21;
     return fresnel * fresnel * mean.full() / (1 - fresnel * std::max(1 - mean.full(), 0.0F));
 }
 
@@ -55,8 +54,8 @@ SurfaceScatter::SurfaceScatter(const SurfaceLook& look, const Eigen::Vector3f& w
     const float specular = reflectance_.mirrored.mean();
     const float wide = manyfold.mean() * passedOut_.manyfold +
                        (1 - metallic) * look.baseColour.mean() * passedOut_.diffuse;
-    // A mirrored lobe that is hardly higher than the broad ones gets no samples of its own. It
-    // would get only few, and a few samples are not evenly distributed.
+    // A mirrored lobe hardly higher than the broad lobes gets almost no samples of its own. A few
+    // samples would be unevenly distributed.
     const float height = fresnel(wo_.z()).mean() / (4 * alphaOf(roughness_) * alphaOf(roughness_));
     specularShare_ =
         std::min(specular / (specular + wide) * std::min(1.0F, height / wide), kMostSpecular);

@@ -20,8 +20,6 @@ Eigen::Vector4f linearTexel(const SurfaceTexture& texture, int column, int row) 
     return {decoded[t[0]], decoded[t[1]], decoded[t[2]], static_cast<float>(t[3]) / kTexelSteps};
 }
 
-/// The two texels around a texture coordinate, which repeats with period 1, and the weight of the
-/// second texel.
 struct TexelPair {
     int first, second;
     float share;

@@ -8,17 +8,17 @@
 namespace mfar {
 namespace {
 
-// A ray starts at a distance from the surface, so that it does not hit the surface itself. Relative
-// to the largest coordinate, this distance is kStartOffset, about 30 units in the last place. It is
-// at least kLeastOffset [m].
+// Distance of a ray's start from its surface, so that the ray does not hit the same surface.
+// kStartOffset is relative to the largest coordinate: about 30 units in the last place.
+// kLeastOffset [m] is the lower limit.
 constexpr float kStartOffset = 0x1p-18F;
 constexpr float kLeastOffset = 1e-7F;
-// After a hit on a back face, the search continues behind the hit, at the hit's distance times
-// (1 + kStepOver).
+// After a hit on an invisible back face, the search continues behind the hit, at the hit's distance
+// times (1 + kStepOver).
 constexpr float kStepOver = 1e-6F;
-constexpr int kMostBackFaces = 64;  // largest number of back faces that one camera ray may pass
-// Lower limit of the cosine between shading normal and viewing direction. Interpolated and mapped
-// normals that point away from the viewer are turned up to this limit.
+constexpr int kMostBackFaces = 64;
+// Lower limit of the cosine between shading normal and viewing direction. Normals that point away
+// from the viewer are turned up to this limit.
 constexpr float kLeastShown = 1e-3F;
 
 template <typename T>
@@ -28,7 +28,7 @@ T interpolated(const std::vector<T>& values, const std::array<std::uint32_t, 3>&
            values[corners[2]] * hit.v;
 }
 
-/// Normal of a triangle; its length is twice the triangle's area.
+/// The result's length is twice the triangle's area.
 Eigen::Vector3f crossed(const std::vector<Eigen::Vector3f>& positions,
                         const std::array<std::uint32_t, 3>& corners) {
     const Eigen::Vector3f& a = positions[corners[0]];
@@ -37,7 +37,7 @@ Eigen::Vector3f crossed(const std::vector<Eigen::Vector3f>& positions,
 
 Eigen::Vector3f unitOr(const Eigen::Vector3f& v, const Eigen::Vector3f& otherwise) {
     float n = v.norm();
-    if (!(n > 1e-15F && n < 1e15F)) n = v.stableNorm();  // the squares may have overflowed
+    if (!(n > 1e-15F && n < 1e15F)) n = v.stableNorm();
     return n > 0 && std::isfinite(n) ? Eigen::Vector3f(v / n) : otherwise;
 }
 
@@ -130,7 +130,6 @@ void TracedScene::setLook(const TracedMesh& mesh, const RayHit& hit, SurfacePoin
     }
     if (const SurfaceTexture* t = mesh.texture(m.emissionTexture))
         point.emission = point.emission.cwiseProduct(lookUp(*t, uv).head<3>());
-    // Colours above 1 are clamped, because no surface reflects more light than it receives.
     point.look.baseColour = point.look.baseColour.cwiseMin(1.0F);
 }
 
@@ -147,7 +146,6 @@ Eigen::Vector3f TracedScene::mapped(const TracedMesh& mesh, const RayHit& hit,
         tangent = mesh.R_world_object * t.head<3>();
         sign = t.w() < 0 ? -1.0F : 1.0F;
     } else {
-        // The tangent is the direction in which u grows on the triangle.
         const Eigen::Vector2f a = mesh.mesh->uvs[corners[0]];
         const Eigen::Vector2f b = mesh.mesh->uvs[corners[1]] - a,
                               c = mesh.mesh->uvs[corners[2]] - a;
@@ -156,8 +154,7 @@ Eigen::Vector3f TracedScene::mapped(const TracedMesh& mesh, const RayHit& hit,
         tangent =
             (mesh.positions[corners[1]] - p) * c.y() - (mesh.positions[corners[2]] - p) * b.y();
         if (area < 0) tangent = -tangent;
-        // In a normal map, a larger green value means a normal that points up in the texture. The
-        // texture coordinate v decreases in this direction.
+        // Green points up in a normal map, but the texture coordinate v points down.
         sign = area < 0 ? 1.0F : -1.0F;
     }
     tangent = unitOr(tangent - normal * normal.dot(tangent), Eigen::Vector3f::Zero());
@@ -180,7 +177,7 @@ Eigen::Vector3f TracedScene::shadingNormal(const TracedMesh& mesh, const RayHit&
 }
 
 bool TracedScene::isEven(const RayHit& hit, float width) const {
-    constexpr float kTurn = 0.1F;  // largest turn of the normal over `width` [rad]
+    constexpr float kTurn = 0.1F;
     const TracedMesh& mesh = *meshes_[hit.mesh];
     if (mesh.texture(mesh.material().normalTexture) != nullptr) return false;
     if (mesh.mesh->normals.empty()) return true;

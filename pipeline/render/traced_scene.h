@@ -10,24 +10,23 @@
 
 namespace mfar {
 
-/// A point of a surface seen from one side. Normals have unit length and point to the viewer's
-/// side.
+/// A point of a surface, seen from one side. Normals have unit length and point to the viewer.
 struct SurfacePoint {
-    Eigen::Vector3f position{0, 0, 0};  ///< in the world
+    Eigen::Vector3f position{0, 0, 0};
     Eigen::Vector3f geometric{0, 0, 1};
     Eigen::Vector3f shading{0, 0, 1};
     SurfaceLook look;
     Eigen::Vector3f emission{0, 0, 0};
 
-    /// Paint as seen along `direction`, which may have any length.
+    /// `direction` is the viewing direction; it may have any length.
     [[nodiscard]] Paint paint(const Eigen::Vector3f& direction) const;
-    /// Ray from the point in `direction`. It starts off the surface, so that rounding errors cannot
-    /// cause a hit of the same surface.
+    /// Returns a ray from the point in `direction`. It starts off the surface, so that rounding
+    /// errors cannot make it hit this surface.
     [[nodiscard]] Ray leaving(const Eigen::Vector3f& direction) const;
 };
 
-/// A scene in world coordinates, with a structure in which rays search for hits. The scene must be
-/// valid (see scene_check.h). Its models stay alive as long as this object.
+/// A scene in world coordinates, with a search structure for ray hits. The scene must be valid (see
+/// scene_check.h).
 class TracedScene {
 public:
     /// Throws std::runtime_error if the search structure cannot be built.
@@ -39,18 +38,17 @@ public:
     [[nodiscard]] const RayScene& objects() const { return objects_; }
     [[nodiscard]] const RayScene& catcher() const { return catcher_; }
 
-    /// The ray's first hit on a surface that is visible from the hit side. Single-sided surfaces
-    /// are invisible from behind. `hit` is the ray's first hit on any surface.
+    /// Returns the ray's first hit on a surface that is visible from the side of the hit.
+    /// Single-sided surfaces are invisible from behind. `hit` must be the ray's first hit on any
+    /// surface.
     [[nodiscard]] RayHit shown(const Ray& ray, RayHit hit) const;
     [[nodiscard]] std::uint8_t idOf(const RayHit& hit) const { return meshes_[hit.mesh]->id; }
 
-    /// Whether the surface's normal turns by at most 0.1 rad over a distance of `width` [m] on the
-    /// triangle that was hit.
+    /// True if the normal turns by at most 0.1 rad per `width` [m] on the hit triangle.
     [[nodiscard]] bool isEven(const RayHit& hit, float width) const;
-    /// The surface at a hit. `direction` is the direction of the ray, of any length.
     [[nodiscard]] SurfacePoint objectPoint(const RayHit& hit,
                                            const Eigen::Vector3f& direction) const;
-    /// The same without look and emission, which take most of the time.
+    /// Leaves out look and emission, which take most of objectPoint()'s time.
     [[nodiscard]] SurfacePoint bareObjectPoint(const RayHit& hit,
                                                const Eigen::Vector3f& direction) const;
     [[nodiscard]] SurfacePoint catcherPoint(const RayHit& hit,
@@ -61,7 +59,7 @@ private:
         const Mesh* mesh = nullptr;
         const Model* model = nullptr;
         std::uint8_t id = 0;
-        std::vector<Eigen::Vector3f> positions;  // in the world
+        std::vector<Eigen::Vector3f> positions;
         Eigen::Matrix3f R_world_object = Eigen::Matrix3f::Identity();
 
         [[nodiscard]] const Material& material() const {
@@ -84,7 +82,7 @@ private:
                                   const Eigen::Vector3f& normal);
 
     std::shared_ptr<const Scene> scene_;
-    // Pointers, because the meshes' addresses must not change: HoleTest::context refers to them.
+    // The meshes' addresses must not change, because HoleTest::context points to them.
     std::vector<std::unique_ptr<const TracedMesh>> meshes_;
     RayScene objects_, catcher_;
 };

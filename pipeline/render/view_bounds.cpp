@@ -6,7 +6,7 @@
 namespace mfar {
 namespace {
 
-// Distance [m] of the near plane from the camera. Parts of a box behind this plane are cut off.
+// Distance [m] of the near plane from the camera. Parts of a box nearer than this are cut off.
 constexpr double kNearest = 1e-4;
 
 struct RayRange {

@@ -7,8 +7,8 @@
 
 namespace mfar {
 
-/// Rectangle around the pixels that see a point of a box in the world. It may be larger than
-/// necessary. Points behind the camera are not visible. `rays` must belong to `view`.
+/// Returns a rectangle that contains all pixels that see a point of the world-frame `box`. The
+/// rectangle may be larger than necessary. `rays` must belong to `view`.
 [[nodiscard]] PixelRect pixelsOfBox(const Eigen::AlignedBox3f& box, const RenderView& view,
                                     const LensRays& rays);
 
