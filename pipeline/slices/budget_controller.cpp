@@ -8,19 +8,19 @@
 namespace mfar {
 namespace {
 
-// Number of samples in the first portion, while the time per sample is unknown. It is small enough
+// Number of samples in the first portion, before the time per sample is known. It is small enough
 // for any scene.
 constexpr std::int64_t kFirstSamples = 64;
-// Smallest number of samples in a portion; fewer are not worth a call. If this portion exceeds the
-// budget, the next frame repays the excess.
+// Fewer samples are not worth a call. If this portion exceeds the budget, the next frame repays the
+// excess.
 constexpr std::int64_t kLeastSamples = 16;
 constexpr double kPortionsPerFrame = 16;
-// Upper limit of the unused time that is carried over to the next frame, as a share of the budget.
-// Time remains unused if the threads get too little processor time.
+// Upper limit of unused time carried over to the next frame, as a share of the budget. Time remains
+// unused if the threads get too little processor time.
 constexpr double kMostSaved = 0.08;
-// Converting a picture may take the budget of several frames. The excess is a debt of at most
-// kMostDebt budgets. Each frame repays the share kRepaid of the budget, or of the debt if the debt
-// is larger than the budget, so that a large debt does not last.
+// Converting a picture may exceed the budget of a frame. The excess becomes a debt of at most
+// kMostDebt budgets. Each frame repays the share kRepaid of the budget, or of the debt if that is
+// larger.
 constexpr double kMostDebt = 10, kRepaid = 0.08;
 
 double valid(double ms) {
@@ -60,7 +60,6 @@ BudgetGrant BudgetController::grant() {
     BudgetGrant out{kFirstSamples, 0};
     if (msPerSample_ > 0) {
         const double ms = std::min(left, portionMs());
-        // The limit prevents an integer overflow if samples are very cheap.
         out.samples = static_cast<std::int64_t>(std::min(ms / msPerSample_, 1e9));
         out.samples = std::max(out.samples, kLeastSamples);
     }

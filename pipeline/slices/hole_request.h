@@ -11,20 +11,20 @@
 
 namespace mfar {
 
-/// Pixels to render individually, because older pictures do not show them or show them blurred.
+/// Request to render single pixels. Older pictures do not show these pixels, or show them blurred.
 struct HoleRequest {
     RenderView view;
     std::vector<std::uint32_t> pixels;  ///< row-major indices, in any order
-    int samples = 4;                    ///< samples per pixel
-    std::uint64_t scene = 0;            ///< number chosen by the caller, copied to the answer
-    bool edges = false;                 ///< true: older pictures show these pixels blurred
-    /// Scene of the picture that has the holes. The request is dropped if pictures of another scene
-    /// have replaced that picture. Null: the scene of the newest pictures.
+    int samples = 4;
+    std::uint64_t scene = 0;  ///< chosen by the caller, copied to the answer
+    bool edges = false;       ///< true: older pictures show these pixels blurred
+    /// Scene of the picture that lacks the pixels. If pictures of another scene have replaced it,
+    /// the request is dropped. Null: the scene of the newest pictures.
     std::shared_ptr<const Scene> source{};
 };
 
-/// The answer to a HoleRequest. Colours, depths, ids and light have one value for each entry of
-/// `pixels`, defined as in RenderedPicture.
+/// Answer to a HoleRequest. Each vector has one value per entry of `pixels`, as defined in
+/// RenderedPicture.
 struct HoleAnswer {
     RenderView view;
     std::vector<std::uint32_t> pixels;  ///< in ascending order
@@ -32,9 +32,9 @@ struct HoleAnswer {
     std::vector<float> depth;
     std::vector<std::uint8_t> id;
     std::vector<LightWords> light;
-    int samples = 0;          ///< samples per pixel
-    std::uint64_t scene = 0;  ///< copied from the request
-    bool edges = false;       ///< copied from the request
+    int samples = 0;
+    std::uint64_t scene = 0;
+    bool edges = false;
 };
 
 }  // namespace mfar

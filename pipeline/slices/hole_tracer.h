@@ -11,24 +11,25 @@
 namespace mfar {
 
 /// Divides hole requests into portions to trace, one request after the other. Only one thread at a
-/// time may call it. While prepare() or answer() runs, no other function may be called.
+/// time may call it. No other function may run during prepare() or answer().
 class HoleTracer {
 public:
     static constexpr int kMostSamples = 256;
 
-    /// `mostPixels`: largest number of pixels of a request. Further pixels are dropped.
+    /// Pixels of a request beyond `mostPixels` are dropped.
     explicit HoleTracer(std::size_t mostPixels) : mostPixels_(mostPixels) {}
 
     [[nodiscard]] bool idle() const { return stage_ == Stage::Idle; }
-    /// Takes a request; only allowed while idle(). `request` gets the memory of an older request.
+    /// Takes a request; requires idle(). `request` gets the memory of an older request.
     void take(HoleRequest& request);
     [[nodiscard]] bool taken() const { return stage_ == Stage::Taken; }
-    /// Sorts the pixels. Drops duplicates and pixels outside the picture. Drops all pixels if the
-    /// view is invalid.
+    /// Sorts the pixels and drops duplicates and pixels outside the picture. Drops all pixels if
+    /// the view is invalid.
     void prepare();
 
-    /// Pixels to trace now, with request().samples samples each. In total, these are at most
-    /// `mostSamples` samples, but at least one pixel. Empty if all pixels were handed out.
+    /// Returns pixels to trace now, with request().samples samples each. They have at most
+    /// `mostSamples` samples in total, but there is at least one pixel. Empty if all pixels were
+    /// returned before.
     [[nodiscard]] std::span<const std::uint32_t> next(std::int64_t mostSamples);
     void done(std::span<const std::uint32_t> pixels) { done_ += pixels.size(); }
     [[nodiscard]] bool tracing() const {
@@ -41,7 +42,6 @@ public:
 
     [[nodiscard]] const HoleRequest& request() const { return request_; }
     [[nodiscard]] Film& film() { return *film_; }
-    /// Number of pixels answered since the start.
     [[nodiscard]] std::uint64_t answered() const { return answered_; }
 
 private:
@@ -51,7 +51,7 @@ private:
     Stage stage_ = Stage::Idle;
     HoleRequest request_;
     std::size_t handed_ = 0, done_ = 0;
-    std::optional<Film> film_;  // has the size of the requested view
+    std::optional<Film> film_;
     std::uint64_t answered_ = 0;
 };
 

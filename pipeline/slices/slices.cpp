@@ -12,12 +12,10 @@ namespace {
 
 using sampling::evenlySpread, sampling::mortonCode, sampling::kTileEdge, sampling::kTilePixels;
 
-// Turns in Slicing::Time. Turn kLook traces a ray through each pixel's centre. The turns between
-// kLook and kFirstFull take the first samples of some pixels. From turn kFirstFull on, all pixels
-// are sampled.
+// Turns in Slicing::Time. Turn kLook traces a ray through each pixel's centre. The turns before
+// kFirstFull sample only some pixels. From turn kFirstFull on, all pixels are sampled.
 constexpr int kLook = 1, kFirstFull = 4;
 
-/// Collects every other bit of the lower 16 bits; the inverse of sampling::spread().
 int gathered(std::uint32_t v) {
     v &= 0x55555555;
     v = (v | v >> 1) & 0x33333333;
@@ -25,7 +23,6 @@ int gathered(std::uint32_t v) {
     return static_cast<int>((v | v >> 4) & 0x000000ff);
 }
 
-/// Number of a pixel in its tile's sampling order. `width` is the picture's width.
 std::uint32_t rankOf(std::uint32_t pixel, int width) {
     const auto x = static_cast<int>(pixel) % width, y = static_cast<int>(pixel) / width;
     return sampling::rankOf(x % kTileEdge, y % kTileEdge);
@@ -71,7 +68,7 @@ void Slices::addTile(const PixelRect& pixels, Density density) {
     Tile tile;
     tile.first = static_cast<std::uint32_t>(pixels_.size());
     const int left = pixels.x0 - pixels.x0 % kTileEdge, top = pixels.y0 - pixels.y0 % kTileEdge;
-    // The first quarter of the ranks are the pixels with even column and even row.
+    // The first quarter of the ranks contains the pixels with even column and even row.
     const std::uint32_t ranks = density == Density::Full ? kTilePixels : kTilePixels / 4;
     for (std::uint32_t rank = 0; rank < ranks; ++rank) {
         const std::uint32_t code = evenlySpread(rank);
@@ -102,8 +99,7 @@ void Slices::beginTurn() {
     for (Tile& tile : tiles_) {
         if (tile.active == 0) continue;
         tile.most = mostOfTurn(tile);
-        // The tile has no pixels for this sparse turn: none was active or all were handed out
-        // before.
+        // The tile has no active pixel for this sparse turn.
         if (tile.handed >= tile.most) --ofTurn_;
     }
     if (ofTurn_ == 0) samples_ = samplesOfTurn();
@@ -173,8 +169,8 @@ void Slices::endRound(Tile& tile, const PixelStates& states) {
     } else if (tile.handed < tile.active) {
         if (adapts && turn_ + 1 == kFirstFull && isUntouched(tile, states)) {
             kept = 0;
-            // dropActive() counts all samples of the tile as not needed. Those that were handed out
-            // are subtracted here, because they were traced.
+            // dropActive() counts all samples of the tile as not needed. Those already traced are
+            // subtracted here.
             settled_ -= tile.handed * static_cast<std::uint64_t>(step(tile));
         }
     } else {
@@ -186,7 +182,7 @@ void Slices::endRound(Tile& tile, const PixelStates& states) {
             kept = keepNoisy(tile, states);
     }
     dropActive(tile, kept);
-    // In Slicing::Spatial a tile continues independently of the others.
+    // In Slicing::Spatial, tiles do not wait for each other.
     if (!time && tile.active > 0) {
         tile.most = tile.active;
         return;
@@ -210,7 +206,8 @@ bool Slices::isUntouched(const Tile& tile, const PixelStates& states) const {
 }
 
 std::uint32_t Slices::keepNoisy(Tile& tile, const PixelStates& states) {
-    // Length of a tile's row with one more pixel on each side. The additional pixels are not noisy.
+    // Each row of the tile has one more pixel on both sides. The additional pixels count as not
+    // noisy.
     constexpr int kRow = kTileEdge + 2;
     std::array<bool, kRow * kRow> noisy{};
     const auto placeOf = [&](std::uint32_t pixel) {

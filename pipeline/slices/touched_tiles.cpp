@@ -6,7 +6,7 @@
 namespace mfar {
 namespace {
 
-constexpr int kEdge = 8;  // edge of a tile [px]
+constexpr int kEdge = 8;  // [px]
 
 }  // namespace
 

@@ -6,19 +6,19 @@
 
 namespace mfar {
 
-/// The tiles of 8x8 pixels in which a picture shows an object or changed light.
+/// Tiles of 8x8 pixels in which a picture shows an object or changed light.
 class TouchedTiles {
 public:
-    /// Discards the picture. isFarFrom() is false until the next set().
+    /// isFarFrom() is false until the next set().
     void clear() { tiles_.clear(); }
     void set(const RenderedPicture& picture);
 
-    /// Whether neither the pixel's tile nor an adjacent tile shows an object or changed light.
-    /// False if this is unknown.
+    /// True if the pixel's tile and all adjacent tiles are known to show no object and no changed
+    /// light.
     [[nodiscard]] bool isFarFrom(const Eigen::Vector2d& pixel) const;
 
 private:
-    Size size_;  // size in tiles
+    Size size_;  // number of tiles
     std::vector<bool> tiles_;
 };
 

@@ -6,25 +6,24 @@
 namespace mfar {
 namespace {
 
-// With TracedPolicy::soon, a moving camera gets a new picture at this share of the limits. The
-// new picture inherits the light of the previous one.
+// With TracedPolicy::soon, a moving camera gets a new picture at this share of the limits. The new
+// picture reuses the light of the shown picture.
 constexpr double kSoon = 0.75;
-// The next picture is discarded if the camera returns to within this share of the change that
-// started the picture.
+// The next picture is discarded if the view change falls below this share of the change that
+// started it.
 constexpr double kBack = 0.5;
-// If the view has changed by this multiple of the limits, a noisy new picture is better than the
-// shown picture.
+// From this multiple of the limits on, a noisy new picture is better than the shown picture.
 constexpr double kHopeless = 3;
-// Refining the shown picture is worth a new conversion if the number of samples has grown by this
-// factor, because the error is then halved.
+// The shown picture is converted again when its number of samples has grown by this factor. That
+// halves the error.
 constexpr int kSamplesRatio = 4;
-// The camera rests if it moves by less than kRestPixels in kRestLooks calls of look(). The picture
-// of a camera at rest should not be warped: if the shown picture is off by more than
-// kElsewherePixels, a new picture is begun.
+// The camera rests if it moves by less than kRestPixels in kRestLooks calls of look(). At rest, the
+// picture should not be warped. If the shown picture is off by more than kElsewherePixels, a new
+// picture begins.
 constexpr double kRestPixels = 0.1, kElsewherePixels = 0.2;
 constexpr int kRestLooks = 10;
-// Upper limits of the weight [samples] of an earlier picture's light. The second limit is used if
-// the lighting has changed; it is low, so that new samples soon outweigh the old light.
+// Upper limits of the weight [samples] of an earlier picture's light. The second limit applies
+// after a change of lighting. It is low, so that new samples soon outweigh the old light.
 constexpr float kMostCarried = 64, kMostCarriedElsewhere = 4;
 constexpr int kLookTurn = 1;
 
@@ -34,8 +33,7 @@ TracedStep nextStep(std::optional<double> sinceShown, std::optional<double> sinc
                     double renewed) {
     if (!sinceNext)
         return sinceShown && *sinceShown < renewed ? TracedStep::Refine : TracedStep::Start;
-    // The first picture is always finished, even if the camera moves away: it is better than no
-    // picture.
+    // The first picture is finished even if the camera moves away.
     if (!sinceShown) return TracedStep::Continue;
     if (*sinceShown < kBack * renewed) return TracedStep::Drop;
     return *sinceNext >= 1 && *sinceNext > *sinceShown ? TracedStep::Start : TracedStep::Continue;
@@ -44,9 +42,8 @@ TracedStep nextStep(std::optional<double> sinceShown, std::optional<double> sinc
 TracedPictures::TracedPictures(const SliceOptions& slices, const TracedPolicy& policy)
     : slices_(slices), policy_(policy), pictures_{Picture(slices), Picture(slices)} {}
 
-// The change of the view since a picture's view. Empty if the picture is out of date, because the
-// objects or the lighting changed. For a picture in progress a change of the lighting is ignored:
-// if the lighting changed all the time, no picture would ever be finished.
+// Returns the change of the view since a picture's view. Empty if objects or lighting have changed.
+// A picture in progress ignores changes of the lighting; else it might never be finished.
 std::optional<double> TracedPictures::changeSince(const Picture& picture) const {
     const bool isShown = &picture == &pictures_[shown_];
     if (!picture.scene || picture.scene->objects != scene_->objects ||
@@ -77,8 +74,8 @@ TracedStep TracedPictures::chosenStep() const {
     const TracedStep step =
         nextStep(sinceShown, hasBegun ? changeSince(pictures_[1 - shown_]) : std::nullopt,
                  policy_.soon ? kSoon : 1);
-    // If the shown picture still serves but has few samples, a new picture could not inherit light
-    // from it.
+    // While the shown picture still serves, it gets samples first. Without samples, a new picture
+    // could not reuse its light.
     const bool serves = sinceShown && *sinceShown < 1;
     if (step == TracedStep::Start && !hasBegun && serves && shown.slices.samples() == 0)
         return TracedStep::Refine;
@@ -103,7 +100,7 @@ void TracedPictures::look(const RenderView& now, const RenderView& predicted, Ti
     }
 }
 
-// Away from objects the light on the real surface is smooth. While the camera moves, samples in a
+// Far from objects, the light on real surfaces is smooth. While the camera moves, samples in a
 // quarter of the pixels suffice there.
 Slices::Density TracedPictures::densityOf(const PixelRect& tile, const Picture& picture,
                                           const PixelRect& objects) const {
@@ -114,7 +111,6 @@ Slices::Density TracedPictures::densityOf(const PixelRect& tile, const Picture& 
     return picture.rests || !policy_.filter ? Slices::Density::Full : Slices::Density::Quarter;
 }
 
-// Whether the shown picture shows neither objects nor changed light around this tile.
 bool TracedPictures::showsNothing(const PixelRect& tile, const RenderView& view) const {
     const Eigen::Vector2f middle(0.5F * static_cast<float>(tile.x0 + tile.x1 - 1),
                                  0.5F * static_cast<float>(tile.y0 + tile.y1 - 1));
@@ -169,8 +165,7 @@ void TracedPictures::trace(const Portion& portion) {
                                  *picture.film, picture.history ? &*picture.history : nullptr);
 }
 
-// While the camera rests, only samples of the pixel itself count, because carried light lacks edges
-// and textures.
+// At rest, only the pixel's own samples count, because carried light lacks edges and textures.
 PixelState TracedPictures::Picture::state(std::uint32_t pixel, const Exposure& exposure) const {
     const KnownLight known = rests ? KnownLight{} : film->known(pixel);
     return {film->error(pixel, exposure),
@@ -192,7 +187,6 @@ int TracedPictures::leastSamples(const Picture& picture) const {
     if (!shown.scene || shown.scene->objects != picture.scene->objects ||
         viewChange(shown.view, now_, scene_->balls, policy_.limits) >= kHopeless)
         return 1;
-    // While the camera rests, the new picture must have at least as many samples as the shown one.
     return nextRests_ ? std::max(policy_.samplesToReplace, shown.shownSamples)
                       : policy_.samplesToReplace;
 }
@@ -200,15 +194,14 @@ int TracedPictures::leastSamples(const Picture& picture) const {
 bool TracedPictures::toShow() const {
     const Picture& picture = pictures_[working()];
     if (toBegin_ || !picture.scene || !picture.slices.turnComplete()) return false;
-    // The picture that will be replaced must not have outstanding portions.
     if (pictures_[1 - working()].portions > 0) return false;
     if (picture.slices.finished()) return !picture.counted;
     if (isSparse(picture)) return picture.slices.turns() > std::max(picture.shownTurns, kLookTurn);
     return picture.slices.samples() >= leastSamples(picture);
 }
 
-// While the camera moves, a picture with few samples and filtered light is better than a picture of
-// another view or no picture.
+// While the camera moves, a picture with few samples and filtered light is better than none or one
+// from another view.
 bool TracedPictures::isSparse(const Picture& picture) const {
     if (picture.rests || !policy_.filter || picture.slices.samples() > 0) return false;
     const Picture& shown = pictures_[shown_];

@@ -21,7 +21,7 @@ TracedRenderer::~TracedRenderer() {
 }
 
 void TracedRenderer::wakeOne() {
-    // One wake-up suffices: a thread that wakes up wakes the others if there is work for them.
+    // The woken thread wakes the others if there is work for them.
     ++mail_.wakes;
     mail_.wakes.notify_one();
 }

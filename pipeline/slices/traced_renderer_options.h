@@ -19,32 +19,34 @@ struct TracedRendererOptions {
     Exposure exposure;
     TracedPolicy policy;
     PredictionLimits prediction;
-    /// A new scene with the same objects is ignored if lightChange() from the old one is smaller.
+    /// A new scene with the same objects is ignored if lightChange() to the old scene is below this
+    /// limit.
     double lightChange = 0.1;
-    double budgetMs = 4;  ///< processor time [ms] of all threads between two calls of update()
-    int threads = 2;      ///< number of threads, [1, 64]
-    /// While a traced picture is incomplete, tracing holes takes at most this share of the
-    /// processor time, [0, 1].
+    double budgetMs = 4;  ///< processor time of all threads per call of update() [ms]
+    int threads = 2;      ///< in [1, 64]
+    /// Upper limit of hole requests' share of the processor time while a traced picture is
+    /// incomplete, [0, 1].
     double holeShare = 0.5;
-    std::size_t mostHolePixels = 20000;  ///< largest number of pixels in a hole request
+    std::size_t mostHolePixels = 20000;  ///< pixels per hole request
     bool operator==(const TracedRendererOptions&) const = default;
 };
 
 struct RenderCounters {
-    Timestamp frame;              ///< time of the newest frame
-    std::uint64_t samples = 0;    ///< samples traced since the start
+    Timestamp frame;
+    std::uint64_t samples = 0;
     double samplesPerSecond = 0;  ///< mean over at least one second of frame times
-    double msPerSample = 0;       ///< processor time per sample
-    double cpuMs = 0;             ///< processor time that belongs to the budget, since the start
+    double msPerSample = 0;
+    double cpuMs = 0;  ///< processor time in the budget, since the start
     BudgetKept budget;
-    /// Number of finished pictures: each pixel has a small error or all its samples.
+    /// Number of pictures in which each pixel has a small error or all its samples.
     std::uint64_t pictures = 0;
-    std::uint64_t shown = 0;       ///< published pictures, even if the reader did not fetch them
-    std::uint64_t holePixels = 0;  ///< number of pixels that were rendered for hole requests
-    double progress = 1;           ///< share of the picture in progress that is done, [0, 1]
-    std::optional<Timestamp> shownSince;  ///< when the shown picture's view was chosen
-    bool idle = true;                     ///< there is no work left while the camera rests
-    bool lowPriority = true;              ///< all threads were allowed to lower their priority
+    std::uint64_t shown = 0;  ///< number of published pictures, fetched or not
+    std::uint64_t holePixels = 0;
+    double progress = 1;                  ///< progress of the picture in progress, [0, 1]
+    std::optional<Timestamp> shownSince;  ///< time for which the shown picture's view was chosen
+    bool idle = true;                     ///< true if no work is left while the camera rests
+    bool lowPriority = true;              ///< true if the system let all threads lower their
+                                          ///< priority
 };
 
 }  // namespace mfar

@@ -12,15 +12,12 @@
 namespace mfar {
 namespace {
 
-// Upper limit of viewChange() from the present view to the predicted view. It is less than 1,
-// because a picture of the predicted view must serve the present view, too.
+// Upper limit of viewChange() from the present to the predicted view. It is below 1, because the
+// picture must also serve the present view.
 constexpr double kPredictedChange = 0.9;
-// After a job that lasted several frames, the time budgets of at most this number of frames are
-// granted.
+// A job may last several frames. At most this number of frame budgets is granted after it.
 constexpr std::uint64_t kMostMissed = 16;
 constexpr double kRateSeconds = 1;
-// Number of pixels in the first portion of converting a film to a picture, while the time per pixel
-// is unknown.
 constexpr std::int64_t kFirstResolved = 2048;
 
 double secondsBetween(Timestamp a, Timestamp b) {
@@ -54,7 +51,7 @@ void TracedWorkers::work() {
     std::unique_lock lock(mutex_);
     counters_.lowPriority = counters_.lowPriority && lowered;
     while (!mail_.stop) {
-        // `wakes` is read before the mail. So a message that arrives later ends the wait below.
+        // `wakes` must be read before the mail, so that a later message ends the wait below.
         const std::uint32_t wakes = mail_.wakes;
         readMail();
         Job job = chosenJob();
@@ -87,8 +84,8 @@ void TracedWorkers::readMail() {
     if (mail_.ticks.fetch()) takeTick();
 }
 
-// Takes a hole request, or drops it if the scene of its picture was replaced. The next picture will
-// cause a new request.
+// Drops the request if the scene of its picture was replaced. The next picture will cause a new
+// request.
 void TracedWorkers::takeHoles(HoleRequest& request) {
     const std::shared_ptr<const Scene> source = std::exchange(request.source, nullptr);
     const std::shared_ptr<const PictureScene>& scene =
@@ -327,7 +324,7 @@ void TracedWorkers::publishCounters() {
     counters_.frame = tick_.time;
     counters_.msPerSample = budget_.msPerSample();
     counters_.budget = budget_.kept();
-    // A new scene or view must be looked at first, because it may need work.
+    // A new scene or view may need work that look() has not found yet.
     counters_.idle = !hasWork() && !toLook_;
     if (!holesExclusive_) counters_.holePixels = holes_.answered();
     if (!exclusive_) {

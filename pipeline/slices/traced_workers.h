@@ -15,14 +15,12 @@
 
 namespace mfar {
 
-/// Message that a frame has begun.
 struct RenderTick {
-    std::optional<RenderView> view;  ///< the camera's last valid view
+    std::optional<RenderView> view;
     Timestamp time;
     std::uint64_t number = 0;
 };
 
-/// Messages between the thread that handles frames and the workers.
 struct RenderMail {
     TripleBuffer<RenderTick> ticks;
     TripleBuffer<std::shared_ptr<const Scene>> scenes;
@@ -31,31 +29,29 @@ struct RenderMail {
     TripleBuffer<RenderedPicture> pictures;
     TripleBuffer<RenderCounters> counters;
     TripleBuffer<std::string> errors;
-    std::atomic<std::uint32_t> wakes{0};  ///< incremented with each message to the workers
+    std::atomic<std::uint32_t> wakes{0};  ///< number of messages to the workers
     std::atomic<bool> stop{false};
 };
 
-/// State and work of the threads that belong to a TracedRenderer.
 class TracedWorkers {
 public:
     /// Throws std::invalid_argument if an option is out of range. `mail` must outlive this object.
     TracedWorkers(const TracedRendererOptions& options, RenderMail& mail);
 
-    /// Main function of a thread. It returns when mail.stop is set.
+    /// Runs in each thread until mail.stop is set.
     void work();
 
-    /// Whether frame `number` has begun and `threads` threads sleep, because the budget is used up
-    /// or nothing is left to do. Takes a lock.
+    /// True if frame `number` has begun and `threads` threads sleep. Takes a lock.
     [[nodiscard]] bool rest(std::uint64_t number, int threads) const;
 
 private:
     struct Job {
         enum class Kind : unsigned char {
             None,
-            Build,  // only one Build job runs at a time
-            Begin,  // only one Begin job runs at a time, and not while a picture is resolved
+            Build,  // only one at a time
+            Begin,  // only one at a time, and not while a picture is being resolved
             Resolve,
-            PrepareHoles,  // only one PrepareHoles or AnswerHoles job runs at a time
+            PrepareHoles,  // only one PrepareHoles or AnswerHoles job at a time
             AnswerHoles,
             Trace,
             TraceHoles,
@@ -65,17 +61,17 @@ private:
         TracedPictures::Portion portion;
         PictureResolver::Portion rows;
         std::span<const std::uint32_t> holes;
-        int holeSamples = 0;  // samples per pixel of `holes`
+        int holeSamples = 0;
         std::shared_ptr<const Scene> source, previousSource;
-        // Of a Build job: the previous scene until the job is done, then the new one (null if the
-        // previous scene stays in use).
+        // Build job: first the previous scene, then the new scene. Null then means that the
+        // previous scene stays in use.
         std::shared_ptr<const PictureScene> scene;
         std::string error;
 
         [[nodiscard]] std::int64_t samples() const;
     };
 
-    // The functions from here to wakeOthers() are called with mutex_ locked.
+    // The functions from here to wakeOthers() require a locked mutex_.
     void readMail();
     void takeHoles(HoleRequest& request);
     void takeTick();
@@ -91,7 +87,7 @@ private:
     [[nodiscard]] bool hasWork() const { return toBuild_ || building_ || tracing(); }
     void publishCounters();
     void wakeOthers();
-    // perform() and build() are called with mutex_ unlocked.
+    // perform() and build() require an unlocked mutex_.
     void perform(Job& job);
     void build(Job& job) const;
 
@@ -106,17 +102,17 @@ private:
     RenderTick tick_;
     std::shared_ptr<const Scene> toBuild_, source_;
     std::shared_ptr<const PictureScene> scene_, shownScene_, holeScene_;
-    bool building_ = false;   // a Build job is running
-    bool exclusive_ = false;  // a Begin job is running or a picture is being resolved
+    bool building_ = false;
+    bool exclusive_ = false;  // true while a Begin job runs or a picture is being resolved
     bool resolves_ = false;
-    std::array<double, PictureResolver::kStages> resolveMs_{};  // time of each stage [ms per pixel]
-    bool holesExclusive_ = false;  // a PrepareHoles or AnswerHoles job is running
+    std::array<double, PictureResolver::kStages> resolveMs_{};  // [ms per pixel]
+    bool holesExclusive_ = false;  // true while a PrepareHoles or AnswerHoles job runs
     bool toLook_ = false, workAtBegin_ = false;
     double tickSeconds_ = 1.0 / 30;
-    double holeMs_ = 0;  // processor time spent on holes in the current frame [ms]
+    double holeMs_ = 0;  // [ms] of the current frame
     int asleep_ = 0;
     RenderCounters counters_;
-    std::uint64_t samplesThen_ = 0;  // counters_.samples at the time rateTime_
+    std::uint64_t samplesThen_ = 0;  // value of counters_.samples at rateTime_
     Timestamp rateTime_;
 };
 

@@ -17,8 +17,8 @@ double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-/// Two cones around the optical axis: the largest one inside the field of view, and the smallest
-/// one that contains it.
+/// Two cones around the optical axis. `inner` is the largest one inside the field of view, `outer`
+/// the smallest one around it.
 struct ViewCones {
     double inner = std::numbers::pi, outer = 0;  // half angles [rad]
 
@@ -34,9 +34,8 @@ struct ViewCones {
     }
 };
 
-/// Direction and size of a ball as seen by a camera.
 struct BallSight {
-    Eigen::Vector3d towards;  // in the camera's frame [m]
+    Eigen::Vector3d towards;  // camera frame [m]
     double fromAxis = 0, halfAngle = 0;
 
     BallSight(const RenderView& view, const ObjectBall& ball)
@@ -54,7 +53,7 @@ struct BallSight {
 };
 
 /// Coefficients of the light in spherical harmonics of degree 0 and 1, without constant factors.
-/// The rows are the mean and the x, y and z components; the columns are the colour channels.
+/// Row 0 is the mean, rows 1 to 3 are the x, y and z components. The columns are colour channels.
 using LightMoments = Eigen::Matrix<double, 4, 3>;
 
 LightMoments momentsOf(const Environment& environment) {
@@ -65,8 +64,7 @@ LightMoments momentsOf(const Environment& environment) {
         const double solidAngle = std::sin(polar) * 2 * std::numbers::pi * std::numbers::pi /
                                   (static_cast<double>(width) * height);
         for (int column = 0; column < width; ++column) {
-            // Azimuth in the world: column 0 is at -x, and the column at three quarters of the
-            // width is at +y.
+            // In the world frame, column 0 is at -x, and the column at 3/4 of the width is at +y.
             const double around = 2 * std::numbers::pi * (column + 0.5) / width - std::numbers::pi;
             const Eigen::Vector4d basis{1, std::sin(polar) * std::cos(around),
                                         std::sin(polar) * std::sin(around), std::cos(polar)};

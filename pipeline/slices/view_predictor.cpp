@@ -8,8 +8,8 @@
 namespace mfar {
 namespace {
 
-// Time [s] over which the velocity is measured. It is long enough to average out the noise of poses
-// from tags, and short enough for the motion of a hand.
+// Time over which the velocity is measured [s]. It averages out the noise of poses from tags, but
+// follows the motion of a hand.
 constexpr double kWindow = 0.1;
 constexpr double kLongestGap = 0.5;
 

@@ -10,25 +10,24 @@ namespace mfar {
 
 struct PredictionLimits {
     double seconds = 0.5;  ///< longest prediction time; 0: no prediction
-    /// Upper limit of the angle [degrees] by which the camera is predicted to rotate. The angle by
-    /// which its position moves, as seen from the objects, has the same limit.
+    /// Upper limit of the predicted rotation of the camera [degrees]. It also limits the angle by
+    /// which the camera moves as seen from the objects.
     double turnDegrees = 4;
     bool operator==(const PredictionLimits&) const = default;
 };
 
-/// Predicts the pose of a camera that keeps its angular and linear velocity, both measured in the
-/// camera's own frame over the last tenth of a second. One thread at a time may call it. It
+/// Predicts the pose of a camera with constant angular and linear velocity. They are measured in
+/// the camera's frame over the last tenth of a second. One thread at a time may call this class. It
 /// allocates no memory.
 class ViewPredictor {
 public:
-    /// Throws std::invalid_argument if a limit is negative or not finite.
     explicit ViewPredictor(const PredictionLimits& limits = {});
 
-    /// Adds the pose at `time`. If `time` is not later than the last time, or more than half a
-    /// second later, the measurement restarts.
+    /// Adds the pose at `time`. The measurement restarts if `time` is not later than the last time,
+    /// or more than half a second later.
     void add(const RigidTransform& T_world_camera, Timestamp time);
 
-    /// Predicted pose `seconds` after the last pose, as far as the limits allow. `distance` is the
+    /// Predicts the pose `seconds` after the last pose, within the limits. `distance` is the
     /// distance from the camera to the objects [m]. Returns the identity before the first pose.
     [[nodiscard]] RigidTransform predict(double seconds, double distance) const;
 
@@ -41,7 +40,7 @@ private:
     [[nodiscard]] Vector6 rate() const;
 
     const PredictionLimits limits_;
-    std::array<Entry, 16> entries_{};  // ring buffer
+    std::array<Entry, 16> entries_{};
     std::size_t added_ = 0;
 };
 
