@@ -47,7 +47,6 @@ void RerenderedPictures::add(const HoleAnswer& answer,
         surfaces_[i].tolerance = toleranceAt(
             surfaces_, layer_, static_cast<int>(i % static_cast<unsigned>(layer_.width)),
             static_cast<int>(i / static_cast<unsigned>(layer_.width)));
-    // The rows of the slot's previous picture are included, so that they are cleared.
     const PixelRect rows = around(bounds, picture.bounds);
     store(rowsOf(picture.slot, rows.y0, rows.y1));
     for (const std::uint32_t i : pixels) {

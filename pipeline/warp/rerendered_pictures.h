@@ -10,41 +10,39 @@
 
 namespace mfar {
 
-/// Keeps the last kPictures re-rendered pictures. A re-rendered picture consists of the pixels of
-/// one HoleAnswer: they were traced individually, for the camera pose of the answer, and have
-/// depths. Colours are looked up in it as in the traced picture. A new re-rendered picture replaces
-/// the oldest.
+/// The last kPictures re-rendered pictures. Each consists of the pixels of one HoleAnswer, which
+/// were traced for its camera pose. The warp looks up colours in them as in the traced picture. A
+/// new picture replaces the oldest.
 class RerenderedPictures {
 public:
     static constexpr int kPictures = 4;
 
-    /// `fadeFrames`: number of frames until a picture is fully visible; 0: it is fully visible at
-    /// once.
+    /// A new picture fades in over `fadeFrames` frames; 0: it is fully visible at once.
     RerenderedPictures(Size layer, int fadeFrames);
 
-    /// Whole rows [firstRow, lastRow) of the picture in `slot`. add() passes them to its `store`,
-    /// which must copy them, and keep the copy until other rows replace them.
+    /// Rows [firstRow, lastRow) of the picture with storage index `slot`. The receiver must keep a
+    /// copy until other rows replace them.
     struct StoredRows {
         int slot, firstRow, lastRow;
-        std::span<const std::array<std::uint8_t, 4>> colours;  ///< RGBA8
+        std::span<const std::array<std::uint8_t, 4>> colours;
         std::span<const LightWords> lights;  ///< light on objects; empty if only colours are known
         std::span<const WarpSurface> surfaces;
     };
     /// Adds an answer as the newest picture. The answer must have at least one pixel, and all
-    /// pixels must be in the layer. Passes all rows that change in the picture's slot to `store`. A
-    /// slot of which nothing was stored yet counts as empty.
+    /// pixels must be in the layer. Passes all changed rows to `store`. Storage that was never
+    /// written counts as empty.
     void add(const HoleAnswer& answer, const std::function<void(const StoredRows&)>& store);
     void clear();
-    /// Must be called once per displayed frame. Increases the share of each picture that still
-    /// fades in.
+    /// Increases the share of each picture that still fades in. Must be called once per displayed
+    /// frame.
     void age();
 
-    /// Pose of a picture, and its share in the displayed colour. If the share is 0, the slot has no
-    /// picture.
+    /// A picture's pose, and its share of the displayed colour. There is no picture if the share is
+    /// 0.
     struct Picture {
-        int slot = 0;  ///< slot that stores the pixels
+        int slot = 0;
         RigidTransform T_world_camera;
-        PixelRect bounds;  ///< bounds of the stored pixels; valid even if the share is 0
+        PixelRect bounds;  ///< bounds of the stored pixels, also if `share` is 0
         double share = 0;
     };
     [[nodiscard]] const std::array<Picture, kPictures>& pictures() const { return pictures_; }
@@ -54,10 +52,10 @@ private:
 
     Size layer_;
     int fadeFrames_;
-    std::array<Picture, kPictures> pictures_;  // newest first
+    std::array<Picture, kPictures> pictures_;
     std::vector<std::array<std::uint8_t, 4>> colours_;
-    std::vector<LightWords> lights_;     // empty until add() gets an answer with light
-    std::vector<WarpSurface> surfaces_;  // between two calls of add(), all pixels are unknown
+    std::vector<LightWords> lights_;  // empty until add() gets an answer with light
+    std::vector<WarpSurface> surfaces_;
 };
 
 }  // namespace mfar

@@ -12,21 +12,17 @@
 namespace mfar {
 namespace {
 
-// If the lens distorts the picture, triangle edges are cut into pieces. A piece of a model is not
-// longer than the model's diagonal divided by kModelPieces. A piece of the shadow catcher is not
-// longer than the catcher's diagonal divided by kCatcherPieces; it has more pieces, because only a
-// small part of it may be visible. At 640 px the straight pieces then differ from the curves of the
-// distorted picture by less than a third of a pixel.
+// If the lens distorts the picture, triangle edges are cut into pieces. These are the numbers of
+// pieces along the diagonal of a model and of the shadow catcher. At 640 px, the straight pieces
+// then differ from the distorted curves by less than a third of a pixel.
 constexpr float kModelPieces = 16, kCatcherPieces = 32;
-// A software renderer needs 0.2 us per triangle. If a scene has n > kMostTriangles triangles, its
-// models are simplified: each mesh keeps at most (its triangles) * kMostTriangles / n +
-// kLeastTriangles triangles.
+// A software renderer needs 0.2 us per triangle. If a scene has n > kMostTriangles triangles, each
+// mesh keeps at most (its triangles) * kMostTriangles / n + kLeastTriangles of them.
 constexpr double kMostTriangles = 20000;
 constexpr std::size_t kLeastTriangles = 2000;
-constexpr int kEdgePoints = 8;    // intervals between the projected points of a box's edge
-constexpr int kBoundsMargin = 2;  // [px], added to the bounds on each side
-constexpr double kFlat =
-    1e-4;  // [m]: largest distance of a planar catcher's corners from its plane
+constexpr int kEdgePoints = 8;
+constexpr int kBoundsMargin = 2;
+constexpr double kFlat = 1e-4;  // largest distance of a planar catcher's corners from its plane [m]
 
 bool isDistorted(const CameraModel& camera) {
     return std::ranges::any_of(camera.distortion, [](double k) { return k != 0; });
@@ -49,8 +45,8 @@ float diagonalOf(std::span<const Eigen::Vector3f> positions) {
     return box.isEmpty() ? 0 : box.diagonal().norm();
 }
 
-/// Plane n . point = w through all corners of the triangles. Zero if the corners are not in one
-/// plane or there are no triangles.
+/// Returns (n, w) of the plane n . point = w through all corners. Zero if the catcher is empty or
+/// not planar.
 Eigen::Vector4d planeOf(const ShadowCatcher& catcher) {
     Eigen::Vector4d plane = Eigen::Vector4d::Zero();
     std::vector<Eigen::Vector3d> corners;
@@ -126,7 +122,6 @@ SilhouetteModels::shapeOf(const std::shared_ptr<const Model>& model) const {
         };
         const SurfaceTexture* baseColour = texture(material.baseColourTexture);
         const bool masked = material.alphaCutoff > 0 && baseColour != nullptr;
-        // A mesh without a mask is invisible if the alpha of its colour factor is below the cutoff.
         if (!masked && cutoff > 1) continue;
         SurfaceMesh surface = surfaceMesh(mesh.positions, mesh.uvs, mesh.triangles,
                                           bent ? diagonal / kModelPieces : 0);
@@ -137,8 +132,8 @@ SilhouetteModels::shapeOf(const std::shared_ptr<const Model>& model) const {
                     kLeastTriangles);
         if (surface.triangles.empty()) continue;
         shape->box.extend(boxOf(surface));
-        // Simplified surfaces are drawn on both sides, because a simplified triangle may be turned
-        // away from the viewer where the surface is not.
+        // Both sides are drawn, because a simplified triangle may face away from the viewer where
+        // the surface does not.
         shape->parts.push_back({std::move(surface), masked ? baseColour : nullptr, cutoff,
                                 material.doubleSided || share_ < 1, &material, baseColour,
                                 texture(material.metallicRoughnessTexture)});

@@ -41,9 +41,8 @@ SurfaceMesh soundPart(std::span<const Eigen::Vector3f> positions,
     return mesh;
 }
 
-/// Cuts triangles until no edge is longer than `longest`. The longest edge of a triangle is cut
-/// first, which gives well-shaped triangles. Returns false if there would be more than `most`
-/// triangles.
+/// Cuts triangles until no edge is longer than `longest`. Cutting the longest edge first gives
+/// well-shaped triangles. Returns false if there would be more than `most` triangles.
 bool cut(SurfaceMesh& mesh, float longest, std::size_t most) {
     for (std::size_t i = 0; i < mesh.triangles.size();) {
         const Triangle t = mesh.triangles[i];
@@ -68,12 +67,12 @@ bool cut(SurfaceMesh& mesh, float longest, std::size_t most) {
 }
 
 struct Cell {
-    std::array<float, 3> position{};  // sum of the positions of the cell's vertices
+    std::array<float, 3> position{};
     float count = 0;
 };
 
-/// Groups of vertices that are connected by edges within a grid cell. Each group gets a texture
-/// coordinate of its own, so that the two sides of a texture seam stay separate.
+/// Groups of vertices that are connected by edges within a grid cell. Each group gets its own
+/// texture coordinate, so that the two sides of a texture seam stay separate.
 class Groups {
 public:
     explicit Groups(std::size_t vertices) : parents_(vertices) {
@@ -90,7 +89,6 @@ private:
     std::vector<std::uint32_t> parents_;
 };
 
-/// The grid cells that contain vertices, and the index of each vertex's cell.
 struct Cells {
     std::vector<Cell> cells;
     std::vector<std::uint32_t> of;
@@ -120,7 +118,7 @@ Cells cellsOf(const SurfaceMesh& mesh, const Eigen::AlignedBox3f& box, int cells
 struct UvSum {
     std::array<float, 2> uv{};
     float count = 0;
-    std::uint32_t vertex = kNoVertex;  // index in the output mesh
+    std::uint32_t vertex = kNoVertex;
     static constexpr std::uint32_t kNoVertex = 0xFFFFFFFF;
 };
 
@@ -173,8 +171,7 @@ SurfaceMesh simplified(SurfaceMesh mesh, std::size_t mostTriangles) {
     if (mesh.triangles.size() <= mostTriangles) return mesh;
     const Eigen::AlignedBox3f box = cornersBox(mesh);
     if (!(box.sizes().maxCoeff() > 0)) return {};
-    // Vertices that no triangle uses may have any position, even one that is not finite. They are
-    // moved to a corner of the box.
+    // Vertices without a triangle may not be finite, so they are moved to a corner of the box.
     for (SurfaceVertex& v : mesh.vertices)
         if (!box.contains(positionOf(v))) std::copy_n(box.min().data(), 3, v.position);
     for (int cells = 256; cells > 1; cells = cells * 3 / 4) {

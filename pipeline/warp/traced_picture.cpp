@@ -16,13 +16,13 @@ namespace {
 using Rgba = std::array<std::uint8_t, 4>;
 
 constexpr int kMostSide = 16384;
-constexpr int kTracedTile = 16;  // edge of a tile [px]
-// An object pixel with at least this alpha counts as fully covered; a few missing samples are not
-// visible.
+constexpr int kTracedTile = 16;
+// Object pixels with at least this alpha count as fully covered. A few missing samples are
+// invisible.
 constexpr int kWhole = 250;
-// Tolerances relative to z. Two hits on one smooth surface differ by at most kDepthShare * z +
-// kSlopes * (steps of z to neighbouring pixels), and by at most kMostShare * z. A step is
-// kUnknownSlope * z if there is no neighbour on the surface.
+// Tolerances relative to z. Two hits on a smooth surface differ by at most kDepthShare * z +
+// kSlopes * (steps of z to neighbouring pixels), and by at most kMostShare * z. Without a neighbour
+// on the surface, a step is kUnknownSlope * z.
 constexpr float kDepthShare = 0.002F, kSlopes = 1.5F, kUnknownSlope = 0.01F, kMostShare = 0.05F;
 
 void requireFiniteCamera(const CameraModel& c, const RigidTransform& T) {
@@ -38,7 +38,6 @@ void requireFiniteCamera(const CameraModel& c, const RigidTransform& T) {
             "finite, or a focal length that is not above 0");
 }
 
-/// Gives access to a traced picture by pixel coordinates. Pixels outside the picture are empty.
 class PictureGrid {
 public:
     explicit PictureGrid(TracedPicture& traced) : r_(traced), size_(traced.camera.size) {}
@@ -58,7 +57,7 @@ public:
         const int own = id(x, y);
         return own != 0 && own != kCatcherId;
     }
-    /// Whether the pixel's colour comes only from the pixel's own surface.
+    /// True if the pixel's colour comes only from its own surface.
     [[nodiscard]] bool isPlain(int x, int y) const {
         const int own = id(x, y);
         if (own == 0) return true;
@@ -77,14 +76,14 @@ private:
     Size size_;
 };
 
-/// Sets the pixel's colour and light to the mean of those adjacent pixels on the same surface that
-/// are plain (see PictureGrid::isPlain()). Returns false if there are none.
+/// Sets a pixel's colour and light to the mean of adjacent pixels on the same surface with an
+/// unmixed colour (isPlain()). Returns false if there are none.
 bool takeFromNeighbours(const PictureGrid& grid, std::span<const LightWords> light,
                         TracedPicture& r, int x, int y) {
     const int own = grid.id(x, y);
     std::array<int, 4> sum{};
     UnpackedLight sumOfLight;
-    GlossWords gloss;  // of one neighbour, because directions in octahedral form have no mean
+    GlossWords gloss;  // from one neighbour: octahedral directions have no mean
     int count = 0;
     for (int j = -1; j <= 1; ++j)
         for (int i = -1; i <= 1; ++i) {
@@ -112,8 +111,8 @@ bool takeFromNeighbours(const PictureGrid& grid, std::span<const LightWords> lig
     return true;
 }
 
-/// The smaller of the two steps of z to the neighbours along one axis. Only neighbours on the same
-/// surface count; without them, the result is kUnknownSlope * z.
+/// Returns the smaller of the two steps of z to the neighbours along one axis. Only neighbours on
+/// the same surface count. Without them, the result is kUnknownSlope * z.
 float slopeAlong(std::span<const WarpSurface> surface, Size size, int x, int y, int dx, int dy) {
     const auto at = [&](int i, int j) -> const WarpSurface& {
         return surface[static_cast<std::size_t>(j) * static_cast<std::size_t>(size.width) +
@@ -133,7 +132,7 @@ float slopeAlong(std::span<const WarpSurface> surface, Size size, int x, int y, 
     return least;
 }
 
-// Same format as in warp_surface.glsl.
+// The format must be that of warp_surface.glsl.
 std::uint32_t packedSurface(const WarpSurface& s) {
     if (!(s.known > 0)) return kUnknownId;
     if (s.id == 0) return 0;
@@ -189,7 +188,6 @@ void requireAllPixels(const RenderedPicture& picture, std::size_t count) {
                                     "pixel or for none");
 }
 
-/// Returns the picture with depths and surfaces. Pixels without a surface are empty.
 TracedPicture withSurfaces(const RenderedPicture& picture) {
     const std::size_t count = picture.id.size();
     TracedPicture r{picture.camera,

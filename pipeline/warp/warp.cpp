@@ -10,9 +10,9 @@
 namespace mfar {
 namespace {
 
-// After this many frames without motion, the camera counts as resting.
+// The camera rests after this number of frames without motion.
 constexpr int kRestFrames = 5;
-// Smaller motions [px] count as none, because equal poses may differ by rounding errors.
+// Motions below this limit count as none [px]. Equal poses may differ by rounding errors.
 constexpr double kSamePose = 1e-3;
 
 WarpOptions validated(const WarpOptions& options) {
@@ -26,11 +26,10 @@ unsigned orderOf(std::uint32_t pixel, unsigned width) {
     return (d & 1) << 3 | (x & 1) << 2 | (d & 2) | (x & 2) >> 1;
 }
 
-/// Keeps at most `most` pixels, evenly spread. Sorts them in ascending order.
+/// Keeps at most `most` pixels, evenly spread. Sorts them only if it removes some.
 void thinOut(std::vector<std::uint32_t>& pixels, std::size_t most, unsigned width) {
     if (pixels.size() <= most) return;
     std::ranges::sort(pixels, {}, [&](std::uint32_t p) { return std::pair(orderOf(p, width), p); });
-    // Only some pixels of the last rank are kept. They are spread evenly, too.
     std::size_t whole = most;
     while (whole > 0 && orderOf(pixels[whole - 1], width) == orderOf(pixels[most], width))
         --whole;
@@ -62,7 +61,7 @@ void Warp::setTracedPicture(TracedPicture traced) {
     step_->setTracedPicture(*traced_);
 }
 
-// The re-rendered pictures are kept, because they belong to the scene and not to a traced picture.
+// Keeps re-rendered pictures, because they belong to the scene.
 void Warp::dropTracedPicture() {
     traced_.reset();
     lastRequest_ = {};
@@ -138,8 +137,7 @@ std::optional<HoleRequest> Warp::request(std::vector<std::uint32_t> pixels, bool
     return out;
 }
 
-/// Whether all points of the traced picture move by less than leastMotion from one pose to the
-/// other.
+/// True if no point of the traced picture moves by leastMotion [px] or more.
 bool Warp::isUnmoved(const RigidTransform& from, const RigidTransform& to) const {
     const RigidTransform T = from.inverse() * to;
     float nearest = kFarthestSurface;
@@ -150,8 +148,8 @@ bool Warp::isUnmoved(const RigidTransform& from, const RigidTransform& to) const
            std::max(options_.leastMotion, kSamePose);
 }
 
-// Removes pixels that are still holes although they were already rendered for this view. Rendering
-// them again would not fill them.
+// Removes pixels that were already rendered for this view, but are still missing. Rendering them
+// again would not help.
 void Warp::dropRefused(std::vector<std::uint32_t>& pixels) const {
     if (!isUnmoved(lastRequest_.view.T_world_camera, listPose_)) return;
     std::erase_if(pixels, [&](std::uint32_t p) {

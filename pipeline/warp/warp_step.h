@@ -11,63 +11,59 @@
 
 namespace mfar {
 
-/// The pixels of a warped frame that the traced picture does not show.
 struct WarpHoles {
-    std::vector<std::uint32_t> open;  ///< pixels that no picture shows; row-major, ascending
-    int cracks = 0;                   ///< number of pixels in cracks; they are not listed
+    std::vector<std::uint32_t> open;  ///< row-major indices of pixels that no picture shows,
+                                      ///< ascending
+    int cracks = 0;                   ///< number of pixels in cracks; they are not in `open`
     int fading = 0;                   ///< number of pixels whose re-rendered pictures still fade in
 };
 
-/// Processes the pixels of a warp. Each engine implements it, and Warp decides when it runs. The
-/// picture depends only on the inputs and not on the number of threads.
+/// Processes the pixels of a warp. Each engine implements it; Warp decides when it runs. The result
+/// does not depend on the number of threads.
 class WarpStep {
 public:
     virtual ~WarpStep() = default;
 
-    /// Sets the models. Discards all re-rendered pictures, because they belong to another scene.
     virtual void setScene(const Scene& scene) = 0;
-    /// Bounds of all models [layer px]. If a model crosses the near plane, the bounds are the whole
-    /// layer.
+    /// Bounds of all models [layer px]. They are the whole layer if a model crosses the near plane.
     [[nodiscard]] virtual PixelRect bounds(const RigidTransform& T_world_camera) const = 0;
 
     /// Must be called before run(). `traced` must stay valid until the next call.
     virtual void setTracedPicture(const TracedPicture& traced) = 0;
-    /// If true, run() takes only the light of objects from the pictures and looks up the objects'
-    /// paint in their textures. If false, run() takes colours from the pictures.
+    /// True if run() uses only the light of objects from the pictures, and finds paint in the
+    /// objects' textures. False if run() uses the pictures' colours.
     [[nodiscard]] virtual bool takesLight() const = 0;
-    /// The traced picture as it was rendered.
     [[nodiscard]] virtual LayerPicture& traced() = 0;
 
     struct Frame {
         RigidTransform T_world_camera;
-        PixelRect bounds;   ///< layer pixels, not empty
-        bool lists = true;  ///< whether the caller will read this frame's holes
+        PixelRect bounds;   ///< [layer px], not empty
+        bool lists = true;  ///< true if takeHoles() will be called for this frame
     };
     /// The result is valid until the next run().
     [[nodiscard]] virtual LayerPicture& run(const Frame& frame) = 0;
 
-    /// The holes of the last frame that was run with Frame::lists. Empty until that frame is
+    /// Returns the missing pixels of the last frame with Frame::lists. Empty until that frame is
     /// finished. Never waits.
     [[nodiscard]] virtual std::optional<WarpHoles> takeHoles() = 0;
     [[nodiscard]] virtual bool holesPending() const = 0;
     virtual void dropHoles() = 0;
-    /// Adds individually rendered pixels; they are visible from the next run() on. `answer` must be
-    /// valid and not empty.
+    /// Adds individually rendered pixels, visible from the next run() on. `answer` must be valid
+    /// and not empty.
     virtual void addRerendered(const HoleAnswer& answer) = 0;
 
-    /// Lists the edge pixels of the last run()'s picture. These are the pixels with the most
-    /// contrast, which the look-up blurred. Discards the previous list and its answer.
+    /// Lists the edge pixels of the last run(): those with the most contrast, which the warp
+    /// blurred. Discards the previous list and its answer.
     virtual void listEdges() = 0;
     /// Row-major indices of the listed pixels, ascending. Empty until the list is known. Never
     /// waits.
     [[nodiscard]] virtual std::optional<std::vector<std::uint32_t>> takeEdges() = 0;
-    /// Replaces the colours of listed pixels. The share of the new colours grows with each run() at
-    /// the same pose.
+    /// Replaces the colours of listed pixels. Their share grows with each run() at the same pose.
     virtual void answerEdges(const HoleAnswer& answer) = 0;
     virtual void dropEdges() = 0;
 
-    /// State of each pixel as RGBA8, for tests. R: number of the surface whose colour is missing.
-    /// G: share of the pixel that this surface covers. B: 255 if no picture shows this surface. A:
+    /// State of each pixel as RGBA8, for tests. R: number of the surface without a known colour. G:
+    /// share of the pixel that this surface covers. B: 255 if no picture shows this surface. A:
     /// number of the surface that fills the whole pixel.
     [[nodiscard]] virtual const Field<std::uint32_t>& state() const = 0;
 };
