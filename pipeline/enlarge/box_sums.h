@@ -8,11 +8,9 @@
 
 namespace mfar::enlarge {
 
-/// Sums of a value over squares of pixels. Reading a sum takes the same time for squares of every
-/// size.
+/// Sums of a value over squares of pixels. Reading a sum takes the same time for all sizes.
 class BoxSums {
 public:
-    /// `valueAt(x, y)`: the value of a pixel.
     template <class ValueAt>
     BoxSums(Size size, const ValueAt& valueAt)
         : size_(size), sums_(static_cast<std::size_t>(size.width + 1) * (size.height + 1)) {
@@ -24,8 +22,8 @@ public:
             }
         }
     }
-    /// Returns the sum over the square that reaches `reach` pixels from (x, y) to each side. Pixels
-    /// outside the picture are omitted.
+    /// Returns the sum over the square within `reach` pixels of (x, y). Pixels outside the picture
+    /// are omitted.
     [[nodiscard]] double around(int x, int y, int reach) const {
         const int x0 = std::max(x - reach, 0), x1 = std::min(x + reach + 1, size_.width),
                   y0 = std::max(y - reach, 0), y1 = std::min(y + reach + 1, size_.height);

@@ -7,53 +7,48 @@
 #include <cstdint>
 #include <vector>
 
-// Least-squares fit of the filters of the learned enlarger. The sums over the pixels of each class
-// are computed in double precision and in a fixed order, so that the same pixels give exactly the
-// same filters.
+// Least-squares fit of the learned enlarger's filters. The sums over each class's pixels are
+// computed in double precision and in a fixed order, so that equal pixels give equal filters.
 
 namespace mfar::enlarge {
 
 /// Differences between a pixel's neighbours and the pixel [grey levels], in the order of kTapAt.
 using Taps = Eigen::Matrix<double, kTaps, 1>;
-/// True picture minus the enlargement by Keys' cubic, at the sub-pixels of a pixel, row-major [grey
-/// levels].
+/// True picture minus Keys' cubic enlargement at a pixel's sub-pixels, row-major [grey levels].
 using Phases = Eigen::Matrix<double, kPhases, 1>;
 /// Weights of a class's filter. Unlike those of FilterBank::Filter, they are not halved.
 using ClassWeights = Eigen::Matrix<double, kTaps, kPhases>;
 
-/// The stored filter that a class uses, and the symmetry that maps the class's pixels onto the
-/// filter's own class. Only classes that no symmetry maps onto each other have stored filters.
+/// The stored filter of a class, and the symmetry that maps the class's pixels onto this filter.
+/// Classes that a symmetry maps onto each other share one stored filter.
 struct UniqueClass {
-    int number;  ///< index among the classes with stored filters, [0, kUnique)
+    int number;  ///< index of the stored filter, [0, kUnique)
     Symmetry same;
 };
-/// `number`: index of a class, as simd::classRow() computes it.
+/// `number` must come from simd::classRow().
 [[nodiscard]] UniqueClass uniqueByGradient(int number);
 [[nodiscard]] UniqueClass uniqueByCurvature(int number);
 
 [[nodiscard]] FilterBank::Filter roundedFilter(const ClassWeights& weights);
 [[nodiscard]] ClassWeights weightsOf(const FilterBank::Filter& filter);
 
-/// Normal equations of the least-squares fit for one class.
 struct ClassSums {
     Eigen::Matrix<double, kTaps, kTaps> taps = Eigen::Matrix<double, kTaps, kTaps>::Zero();
     ClassWeights products = ClassWeights::Zero();
-    double squares = 0;  ///< sum of the squared targets
+    double squares = 0;
     double pixels = 0;
 
     void add(const Taps& steps, const Phases& target);
     void add(const ClassSums& other);
-    /// Multiplies all sums by the factor `share`.
     void fade(double share);
-    /// Returns these sums plus the sums over the same pictures rotated by 180 degrees. The rotation
-    /// does not change the class of any pixel.
+    /// Adds the sums over the same pictures rotated by 180 degrees. This rotation changes no
+    /// pixel's class.
     [[nodiscard]] ClassSums turnedToo() const;
-    /// Returns the sum of the squared errors of a filter with these weights, over the pixels of the
-    /// sums.
+    /// Returns the sum of squared errors of a filter with these weights.
     [[nodiscard]] double errorOf(const ClassWeights& weights) const;
 };
 
-/// Normal equations of all classes. Pixels are collected and added in groups, which is faster.
+/// Normal equations of all classes. Pixels are added in groups, which is faster.
 class SumsOfClasses {
 public:
     SumsOfClasses();
@@ -73,8 +68,7 @@ private:
     };
     void finish(int unique) const;
 
-    // These members are mutable, because operator[] first adds the pixels of an incomplete group to
-    // the sums.
+    // Mutable, because operator[] first adds an incomplete group of pixels.
     mutable std::vector<ClassSums> sums_;
     mutable std::vector<Group> groups_;
 };

@@ -1,5 +1,5 @@
-# cmake -DIN=prior.filters -DOUT=file.cpp -P embed.cmake
-# Writes the bytes of prior.filters as an array into a C++ source file.
+# Usage: cmake -DIN=prior.filters -DOUT=file.cpp -P embed.cmake. Writes the bytes of prior.filters
+# as an array into a C++ source file.
 cmake_minimum_required(VERSION 3.25)
 
 file(READ "${IN}" hex HEX)

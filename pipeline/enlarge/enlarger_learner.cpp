@@ -13,30 +13,25 @@ namespace {
 
 using namespace enlarge;
 
-// Smallest number of pixels of a class in a Part. With fewer pixels in Part::Learn or Part::Choose,
-// the class gets no learned filter; with fewer pixels in Part::Check, its filter is not checked
-// alone.
+// Smallest number of a class's pixels in a Part. With fewer pixels in Part::Learn or Part::Choose,
+// the class gets no learned filter. With fewer in Part::Check, its filter is not checked alone.
 constexpr double kLeastPixels = 400;
-// With every new still, the sums over all older stills are multiplied by this factor.
+// A new still multiplies the sums of all older stills by this factor.
 constexpr double kForgetting = 0.95;
-// The shipped filter counts as much as this number of pixels of the class.
+// The shipped filter has the weight of this number of pixels.
 constexpr double kPriorPixels = 300;
 constexpr double kRidge = 20;  // added to the diagonal of the normal equations [grey levels^2]
-// Smallest share of the picture's pixels that must be trusted. If the share is smaller, matching
-// has failed.
+// With a smaller share of trusted pixels, matching has failed.
 constexpr double kLeastTrusted = 0.05;
-// Smallest TrustedPairs::sharpness() of a still that filters are learned from.
+// Lower limit of TrustedPairs::sharpness() of a still to learn from.
 constexpr double kLeastSharpness = 1.03;
-// A tile is new if the mean of one of its blocks of 4x4 pixels has changed by more than this [grey
-// levels].
+// A tile is new if the mean of one of its 4x4-pixel blocks changed by more than this [grey levels].
 constexpr int kNewFrom = 4;
-constexpr double kLeastNew = 0.1;  // smallest share of new tiles in a picture to learn from
-// A new filter is used if its error is less than this factor times the error of the filter that it
-// would replace.
+constexpr double kLeastNew = 0.1;
+// A new filter is used if its error is below this factor times the error of the filter it replaces.
 constexpr double kWorthwhile = 0.998;
 
-constexpr int kBlock = 4;  // width and height of the blocks that are compared to find new tiles
-                           // [px]
+constexpr int kBlock = 4;  // block size [px]
 
 std::size_t tileOfBlock(int x, int y, Size tiles) {
     return static_cast<std::size_t>(y * kBlock / kTileSize) * tiles.width + x * kBlock / kTileSize;
@@ -50,8 +45,8 @@ EnlargerLearner::EnlargerLearner() : learned_(kUnique, false) {
     putInPlace(prior_, learned_);
 }
 
-/// The position of a tile alone determines its Part. If parts changed with each still, filters
-/// would be checked on pixels that they were learned from while the camera is at rest.
+/// The part depends only on the tile's position. Otherwise, a camera at rest would check filters on
+/// pixels from which they were learned.
 EnlargerLearner::Part EnlargerLearner::partOf(int column, int row) {
     const int number = (column + 2 * row) % 5;
     return number == 0 ? Part::Check : number == 2 ? Part::Choose : Part::Learn;
@@ -174,8 +169,6 @@ EnlargerLearner::StillSums EnlargerLearner::sumsOf(const MatchedPictures& pictur
 ClassWeights EnlargerLearner::solved(int unique) const {
     const ClassSums sums = sums_[unique].turnedToo();
     const ClassWeights& prior = prior_[static_cast<std::size_t>(unique)];
-    // Adds the prior to the diagonal only, as if the differences to a pixel's neighbours were
-    // independent of each other.
     const Taps pull =
         (sums.taps.diagonal().array() * (kPriorPixels / sums_[unique].pixels) + kRidge).matrix();
     auto taps = sums.taps;
@@ -225,7 +218,8 @@ bool EnlargerLearner::putInPlace(const std::vector<ClassWeights>& weights,
         inPlace_ = std::make_shared<const FilterBank>(filters, guidance_.guidance(),
                                                       fineMatch_.fineMatch());
     } catch (const FilterBankError&) {
-        return false;  // the weights are too large for the SIMD code: the old filters stay in use
+        return false;  // the SIMD code cannot use such large weights, so the old filters stay in
+                       // use
     }
     current_ = weights;
     learned_ = learned;

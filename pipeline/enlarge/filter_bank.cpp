@@ -21,8 +21,6 @@ constexpr std::size_t kHeaderSize = kMagicSize + 4 * kHeader.size();
 constexpr std::size_t kWeightBytes = std::size_t{2} * kUnique * kFilterSize;
 constexpr std::size_t kStoredSize = kHeaderSize + kWeightBytes + 4;
 
-/// Returns the filters of all classes, derived from the stored filters of one quadrant of the
-/// angle; see Symmetry.
 AlignedRows<std::int16_t> expanded(std::span<const FilterBank::Filter> unique, int bins,
                                    int kinds) {
     AlignedRows<std::int16_t> out({kFilterSize, bins * kinds});
@@ -40,8 +38,8 @@ AlignedRows<std::int16_t> expanded(std::span<const FilterBank::Filter> unique, i
     return out;
 }
 
-/// Largest sum of the absolute weights of a phase. A larger sum could overflow the 32-bit sums of
-/// the SIMD code.
+/// Upper limit of the sum of a phase's absolute weights. A larger sum could overflow the SIMD
+/// code's 32-bit sums.
 constexpr int kMostWeight = 16 * kWeightScale;
 
 bool fits(const FilterBank::Filter& filter) {
@@ -54,8 +52,8 @@ bool fits(const FilterBank::Filter& filter) {
     return true;
 }
 
-/// Keys' cubic with a = -0.75 along one axis: for each of the four sub-pixels, the weights of the
-/// five pixels at offsets -2 to 2.
+/// Returns the weights of Keys' cubic (a = -0.75) along one axis: for each of four sub-pixels, the
+/// weights of the pixels at offsets -2 to 2.
 std::array<std::array<double, 5>, kGrid> cubicWeights() {
     std::array<std::array<double, 5>, kGrid> out{};
     for (int phase = 0; phase < kGrid; ++phase) {

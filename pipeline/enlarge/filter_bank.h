@@ -12,17 +12,15 @@
 
 namespace mfar {
 
-/// Thrown if stored filters cannot be used. The message names the filters and the reason.
 class FilterBankError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// How strongly a trusted still replaces the finest detail of the video; see params::kGuideReach.
-/// If both factors are 0, there is no guidance. The factors are similar if both sensors have the
-/// same exposure.
+/// Strength with which a still's finest detail replaces the video's; see params::kGuideReach. Zero
+/// factors mean no guidance. The factors are similar if both sensors have the same exposure.
 struct Guidance {
-    float still = 0;  ///< share of the still's detail that is added, [0, 1]
-    float video = 0;  ///< share of the video's detail that is removed, [0, kMost]
+    float still = 0;  ///< added share of the still's detail, [0, 1]
+    float video = 0;  ///< removed share of the video's detail, [0, kMost]
 
     static constexpr float kMost = 2;
     [[nodiscard]] bool any() const { return still > 0 || video > 0; }
@@ -32,12 +30,12 @@ struct Guidance {
     bool operator==(const Guidance&) const = default;
 };
 
-/// How much of the video's finest detail a correctly matched still usually leaves unexplained. The
-/// unexplained variance is noise + share * (variance of the finest detail); see params::kFineRoom.
-/// If noise is 0, the usual unexplained variance is not known.
+/// Usual error of a correctly matched still: the variance of the video's finest detail that the
+/// still does not predict. It is noise + share * (variance of the finest detail); see
+/// params::kFineRoom. It is unknown if noise is 0.
 struct FineMatch {
     float noise = 0;  ///< part that does not depend on the detail [grey levels^2], [0, kMostNoise]
-    float share = 0;  ///< unexplained share of the detail's variance, [0, 1]
+    float share = 0;  ///< share of the variance of the finest detail, [0, 1]
 
     static constexpr float kMostNoise = 4096;
     [[nodiscard]] bool isKnown() const { return noise > 0; }
@@ -47,34 +45,33 @@ struct FineMatch {
     bool operator==(const FineMatch&) const = default;
 };
 
-/// The filters of the learned enlarger, one per class (see filter_layout.h), with the Guidance and
-/// the FineMatch that were learned from the same sensors. Immutable.
+/// Filters of the learned enlarger, one per class (see filter_layout.h), with the Guidance and
+/// FineMatch learned from the same sensors. Immutable.
 class FilterBank {
 public:
-    /// Weights of the filter of a class. The weights are halved, because the residuals of both
-    /// classes of a pixel are added. A halved weight of one is stored as 16384.
+    /// Weights of a class's filter. They are halved, because the residuals of a pixel's two classes
+    /// are added. A halved weight of one is stored as 16384.
     using Filter = std::array<std::int16_t, enlarge::kFilterSize>;
 
-    /// `unique`: kUnique filters, those of the gradient classes first. Throws FilterBankError.
+    /// `unique` must contain kUnique filters, gradient classes first. Throws FilterBankError.
     explicit FilterBank(std::span<const Filter> unique, const Guidance& guidance = {},
                         const FineMatch& fineMatch = {});
-    /// The shipped filters. They were learned by mfar-train-enlarger and are part of the program.
+    /// The shipped filters, which are part of the program. They were learned by
+    /// mfar-train-enlarger.
     [[nodiscard]] static const FilterBank& prior();
 
-    /// A number that differs for every bank, so that code that keeps a copy can see whether it is
-    /// up to date.
+    /// Differs for every bank, so that a copy of the filters can tell if it is up to date.
     [[nodiscard]] std::uint64_t number() const { return number_; }
-    /// The filters of the gradient classes and of the curvature classes, one row per class.
     [[nodiscard]] Rows<const std::int16_t> gradient() const { return gradient_.rows(); }
     [[nodiscard]] Rows<const std::int16_t> curvature() const { return curvature_.rows(); }
-    /// The guidance. It is zero for the shipped filters, because it depends on the noise and
-    /// sharpness of both sensors.
+    /// Zero for the shipped filters, because it depends on the noise and sharpness of both
+    /// sensors.
     [[nodiscard]] const Guidance& guidance() const { return guidance_; }
-    /// The FineMatch. It is unknown for the shipped filters, because it depends on the noise and
-    /// sharpness of both sensors.
+    /// Unknown for the shipped filters, because it depends on the noise and sharpness of both
+    /// sensors.
     [[nodiscard]] const FineMatch& fineMatch() const { return fineMatch_; }
     /// Keys' cubic minus the pixel itself, as a filter with the same taps and sub-pixels. Its
-    /// weights are not halved; a weight of one is stored as 16384.
+    /// weights are not halved. A weight of one is stored as 16384.
     [[nodiscard]] const std::int16_t* cubic() const { return cubic_[0]; }
 
 private:
@@ -84,12 +81,12 @@ private:
     AlignedRows<std::int16_t> gradient_, curvature_, cubic_;
 };
 
-/// Returns the filters in their stored form: "mfarfilt", then little-endian 32-bit numbers
-/// (version, number of gradient filters, number of curvature filters, taps, phases), then the
-/// weights, 16 bits each, then the FNV-1a checksum of all of this.
+/// Returns the filters in their stored form: "mfarfilt", little-endian 32-bit numbers (version,
+/// number of gradient filters, number of curvature filters, taps, phases), 16-bit weights, then the
+/// FNV-1a checksum of all bytes before it.
 [[nodiscard]] std::vector<std::uint8_t> storedFilters(std::span<const FilterBank::Filter> unique);
-/// Reads filters from their stored form. `name`: the name of the filters in error messages. Throws
-/// FilterBankError if the data is incomplete.
+/// Reads filters from their stored form. Error messages contain `name`. Throws FilterBankError if
+/// the data is damaged.
 [[nodiscard]] std::vector<FilterBank::Filter> readFilters(std::span<const std::uint8_t> bytes,
                                                           const std::string& name);
 

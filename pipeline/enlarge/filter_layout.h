@@ -7,16 +7,16 @@
 #include <cstdint>
 
 /// Definitions shared by the learned enlarger, its trainer and its tests. The method follows RAISR
-/// (Romano, Isidoro, Milanfar, 2017). Luma is enlarged to a grid of 4x4 sub-pixels per pixel, as
-/// the sum of Keys' cubic and a residual. The residual is a weighted sum of the differences between
-/// 24 neighbours and the pixel. The weights depend on the pixel's class. Each pixel has two
-/// classes, one by its gradient and one by its curvature; the mean of both residuals is used.
+/// (Romano, Isidoro, Milanfar, 2017). Luma is enlarged to 4x4 sub-pixels per pixel, as the sum of
+/// Keys' cubic and a residual. The residual is a weighted sum of the differences between 24
+/// neighbours and the pixel. The weights depend on the pixel's class. Each pixel has two classes,
+/// one by gradient and one by curvature, and the mean of both residuals is used.
 namespace mfar::enlarge {
 
 using params::kGrid, params::kPairs, params::kLumaScale, params::kResidualScale;
 inline constexpr int kPhases = kGrid * kGrid, kTaps = 2 * kPairs;
 /// Number of weights of a filter. They are stored as [pair of taps][phase, row-major][tap of the
-/// pair], where a phase is a sub-pixel of the pixel.
+/// pair]. A phase is a sub-pixel of the pixel.
 inline constexpr int kFilterSize = kTaps * kPhases;
 [[nodiscard]] constexpr int filterIndex(int tap, int phase) {
     return (tap / 2 * kPhases + phase) * 2 + tap % 2;
@@ -26,9 +26,8 @@ struct Offset {
     int x, y;
     bool operator==(const Offset&) const = default;
 };
-/// Positions of the taps relative to the pixel [px]. Two successive taps are a pair. The taps of a
-/// pair are horizontal neighbours, except in the last two pairs, where they are vertical
-/// neighbours.
+/// Positions of the taps relative to the pixel [px]. Two successive taps are a pair of horizontal
+/// neighbours. The last two pairs are vertical neighbours.
 inline constexpr std::array<Offset, kTaps> kTapAt{
     {{-2, -2}, {-1, -2}, {0, -2}, {1, -2}, {-2, -1}, {-1, -1}, {0, -1}, {1, -1},
      {-2, 1},  {-1, 1},  {0, 1},  {1, 1},  {-2, 2},  {-1, 2},  {0, 2},  {1, 2},
@@ -39,13 +38,13 @@ inline constexpr std::array<Offset, kTaps> kTapAt{
     return -1;
 }
 
-inline constexpr int kWeightScale = 16384;  ///< a weight of one is stored as this number
+inline constexpr int kWeightScale = 16384;
 
-/// Classes of pixels by the structure tensor, which sums the products of the gradient's components
-/// over 5x5 pixels. Angle: that of the tensor's main axis. Strength: s1, the square root of the
-/// larger eigenvalue [grey levels per px]. Coherence: (s1 - s2) / (s1 + s2), where s2 is the square
-/// root of the smaller eigenvalue. Each of these three values is divided into bins. Index of a
-/// class: (angle bin * number of strength bins + strength bin) * number of coherence bins +
+/// Classes of pixels by the structure tensor, which sums the products of gradient components over
+/// 5x5 pixels. The class has three values, each divided into bins. Angle: direction of the tensor's
+/// main axis. Strength: s1, the square root of the larger eigenvalue [grey levels per px].
+/// Coherence: (s1 - s2) / (s1 + s2), where s2 is the square root of the smaller eigenvalue.
+/// Class index: (angle bin * number of strength bins + strength bin) * number of coherence bins +
 /// coherence bin.
 struct GradientClasses {
     static constexpr int kAngles = params::kGradientAngles;
@@ -53,15 +52,15 @@ struct GradientClasses {
                                                         params::kStrongFrom};
     static constexpr std::array<float, 2> kCoherenceFrom{params::kPartlyCoherentFrom,
                                                          params::kCoherentFrom};
-    static constexpr int kKinds = params::kGradientKinds;  ///< number of classes per bin of the
-                                                           ///< angle
+    static constexpr int kKinds = params::kGradientKinds;  ///< classes per angle bin
     static_assert(kKinds == (kStrengthFrom.size() + 1) * (kCoherenceFrom.size() + 1));
     static constexpr int kCount = kAngles * kKinds;
 };
-/// Classes of pixels by the Hessian, the matrix of the second derivatives: angle of its main axis,
-/// Laplacian, and difference of its eigenvalues [grey levels per px^2]. Each of these three values
-/// is divided into bins. Index of a class: (angle bin * number of Laplacian bins + Laplacian bin) *
-/// number of difference bins + difference bin.
+/// Classes of pixels by the Hessian, the matrix of second derivatives. The class has three values,
+/// each divided into bins: angle of the main axis, Laplacian, and difference of the eigenvalues
+/// [grey levels per px^2].
+/// Class index: (angle bin * number of Laplacian bins + Laplacian bin) * number of difference bins
+/// + difference bin.
 struct CurvatureClasses {
     static constexpr int kAngles = params::kCurvatureAngles;
     static constexpr std::array<float, 6> kLaplacianFrom{
@@ -74,23 +73,21 @@ struct CurvatureClasses {
     static constexpr int kCount = kAngles * kKinds;
 };
 
-/// Maps the bin of an angle to a bin whose filters are stored. Angles in [-pi/2, pi/2) are divided
-/// into equal bins. Mirroring the picture and exchanging x and y maps one quadrant of twice the
-/// angle onto the other three, so only the filters of one quadrant are stored.
+/// Maps an angle bin to a bin with stored filters. The bins divide [-pi/2, pi/2) equally. Mirroring
+/// the picture and exchanging x and y maps one quadrant of twice the angle onto the other three.
+/// Therefore only the filters of one quadrant are stored.
 struct Symmetry {
     int unique;                ///< bin with the stored filter, in [0, bins / 4)
     bool mirrors, transposes;  ///< first mirror the picture upside down, then exchange x and y
 
     [[nodiscard]] static constexpr Symmetry of(int bin, int bins) {
-        const bool lower = bin < bins / 2;  // the sine of twice the angle is negative
+        const bool lower = bin < bins / 2;
         const int inHalf = bin % (bins / 2);
-        const bool left = lower == (inHalf < bins / 4);  // the cosine of twice the angle is
-                                                         // negative
+        const bool left = lower == (inHalf < bins / 4);
         const bool ascends = lower == left;
         return {ascends ? inHalf : bins / 2 - 1 - inHalf, lower, left};
     }
-    /// Position of `v` after the mapping. The mapping keeps the position (last / 2, last / 2) in
-    /// place.
+    /// Maps the position `v`. The position (last / 2, last / 2) stays unchanged.
     [[nodiscard]] constexpr Offset map(Offset v, int last = 0) const {
         const Offset mirrored{v.x, mirrors ? last - v.y : v.y};
         return transposes ? Offset{mirrored.y, mirrored.x} : mirrored;
@@ -103,14 +100,12 @@ struct Symmetry {
         return at.y * kGrid + at.x;
     }
 };
-/// Number of stored filters: for the gradient classes, for the curvature classes, and in total.
 inline constexpr int kUniqueGradient = GradientClasses::kCount / 4;
 inline constexpr int kUniqueCurvature = CurvatureClasses::kCount / 4;
 inline constexpr int kUnique = kUniqueGradient + kUniqueCurvature;
 
-/// The residual is limited so that its sum with Keys' cubic stays within the range of the
-/// surrounding 5x5 pixels, extended at both ends by its width shifted right by this number of bits:
-/// a quarter.
+/// Limit of the enlarged value: the range of the surrounding 5x5 pixels, extended at both ends by
+/// its width shifted right by this number of bits (a quarter).
 inline constexpr int kOvershootShift = 2;
 static_assert(params::kOvershoot * (1 << kOvershootShift) == 1);
 

@@ -15,18 +15,17 @@ constexpr double kMostStills = 8;
 // A cell has structure if the variance of its finest detail exceeds this factor times the noise.
 constexpr double kStructureOverNoise = 4;
 
-/// Variances of the finest detail of a cell in video and still, and their covariance (`both`) [grey
+/// Variances of a cell's finest detail in video and still, and their covariance (`both`) [grey
 /// levels^2].
 struct Sums {
     double video = 0, both = 0, still = 0;
 };
 
-/// Samples the still at positions of the video, as simd::FineCheck does.
+/// Samples the still at video positions, as simd::FineCheck does.
 class Sampler {
 public:
     explicit Sampler(const MatchedPictures& pictures) : in_(pictures) {}
 
-    /// Mean of 2x2 samples of the still within a video pixel.
     [[nodiscard]] double pixel(int x, int y) const {
         double sum = 0;
         for (const double dy : {-0.25, 0.25})
@@ -97,9 +96,8 @@ double quantile(std::vector<double>& values, double share) {
     return *at;
 }
 
-/// Two variances for each cell that may, together with all its neighbours, be learned from.
-/// `video`: variance of the video's finest detail. `rest`: the part of this variance that the still
-/// leaves unexplained.
+/// Two variances per cell to learn from. `video` is the variance of the video's finest detail.
+/// `rest` is the part of it that the still does not predict.
 struct Unexplained {
     std::vector<double> video, rest;
 };

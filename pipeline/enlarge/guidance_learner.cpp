@@ -13,25 +13,25 @@
 namespace mfar::enlarge {
 namespace {
 
-constexpr double kForgetting = 0.95;  // with every new pair, the sums over older pairs are
-                                      // multiplied by this
+constexpr double kForgetting = 0.95;  // A new pair of stills multiplies the sums over older pairs
+                                      // by this factor.
 // Zero guidance is the prior. It counts as much as this number of pixels.
 constexpr double kPriorPixels = 2000;
-constexpr double kLeastPixels = 0.02;  // smallest share of the picture's pixels to learn from
+constexpr double kLeastPixels = 0.02;
 // Guidance is used if it removes at least this share of the squared error.
 constexpr double kWorthwhile = 0.005;
-// New factors that differ from those in use by less than this are ignored: pictures would change
+// New factors within this distance of those in use are ignored, because they would change pictures
 // without a gain.
 constexpr float kSame = 0.01F;
-// Smallest determinant of the normal equations, divided by the product of their diagonal. If it is
-// smaller, the two factors cannot be told apart.
+// Lower limit of the normal equations' determinant, divided by the product of their diagonal. Below
+// it, the two factors cannot be separated.
 constexpr double kLeastDeterminant = 1e-9;
-constexpr double kMostPairs = 1e15;  // up to this count, a double represents every count exactly
-// Pixels whose luma in the video is outside these limits [1/8 grey level] may be saturated.
+constexpr double kMostPairs = 1e15;  // limit of counts that a double represents exactly
+// Pixels with a video luma outside these limits may be saturated [1/8 grey level].
 constexpr int kDarkest = 2 * kLumaScale, kBrightest = 253 * kLumaScale;
 
-/// Computes what each source (still, video, learned filters) adds to the cubic enlargement when a
-/// frame is drawn, at the sub-pixels of one pixel at a time.
+/// Computes what still, video and learned filters each add to a frame's cubic enlargement, at one
+/// pixel's sub-pixels.
 class DrawnFrame {
 public:
     DrawnFrame(const MatchedPictures& pictures, const FilterBank& filters,
@@ -55,14 +55,12 @@ public:
         compare();
     }
 
-    /// True if all inputs of the pixel's detail are known.
     [[nodiscard]] bool knows(int x, int y) const {
         for (const int dy : {-2, 2})
             for (const int dx : {-2, 2})
                 if (!isKnown(x + dx, y + dy)) return false;
         return true;
     }
-    /// Prepares the calls of addedTo() for row y.
     void begin(int y) {
         std::array<const std::int16_t*, 7> rows{};
         for (int k = 0; k < 7; ++k)
@@ -80,8 +78,8 @@ public:
             width, {residual_[0], residual_[1], residual_[2], residual_[3]});
     }
     struct Added {
-        Phases unguided;      ///< what is added to the cubic enlargement without guidance
-        Phases still, video;  ///< what each factor of Guidance adds if the factor is one
+        Phases unguided;      ///< added to the cubic enlargement without guidance
+        Phases still, video;  ///< added for each factor of Guidance, if it is one
     };
     void addedTo(int x, int y, Added& out) const {
         const Phases low = cubicOf(x, y, [&](int i, int j) { return still_.mean(i, j); });
@@ -103,8 +101,7 @@ private:
     [[nodiscard]] std::size_t at(int x, int y) const {
         return static_cast<std::size_t>(y) * in_.video.width + x;
     }
-    /// Stores each value minus the local mean of the values of known pixels; see
-    /// params::kGuideReach.
+    /// Stores each value minus the local mean over known pixels; see params::kGuideReach.
     template <class Value>
     void beyondMean(const BoxSums& counts, std::vector<float>& out, const Value& value) const {
         const BoxSums sums(in_.video,
@@ -135,7 +132,6 @@ private:
     AlignedRows<std::int16_t> range_, residual_;
 };
 
-/// The sums in the order in which they are stored.
 constexpr std::array kSums{&FactorSums::still2,       &FactorSums::video2,
                            &FactorSums::missing2,     &FactorSums::stillVideo,
                            &FactorSums::stillMissing, &FactorSums::videoMissing,
@@ -166,8 +162,6 @@ double FactorSums::gainOf(const Guidance& of) const {
 
 Guidance FactorSums::best(double prior) const {
     if (!(still2 > 0 && video2 > 0 && pixels > 0)) return {};
-    // Sum of squares of that part of the still's detail that no multiple of the video's detail
-    // explains.
     const double apart = std::max(still2 - stillVideo * stillVideo / video2, 0.0);
     const double pull = apart * prior / pixels;
     const double a2 = still2 + pull, b2 = video2 + pull;
@@ -175,8 +169,8 @@ Guidance FactorSums::best(double prior) const {
     if (!(determinant > kLeastDeterminant * a2 * b2)) return {};
     const auto stillFor = [&](double video) { return (stillMissing - video * stillVideo) / a2; };
     const auto videoFor = [&](double still) { return (videoMissing - still * stillVideo) / b2; };
-    // The optimum without limits. If it is out of range, the best point on the border of the
-    // allowed range is computed instead.
+    // Optimum without limits. If it is out of range, the best point on the border of the range is
+    // used.
     const double free = (stillMissing * b2 - videoMissing * stillVideo) / determinant;
     double still = std::clamp(free, 0.0, 1.0);
     const double video = std::clamp(videoFor(still), 0.0, double(Guidance::kMost));
@@ -197,7 +191,7 @@ bool GuidanceLearner::add(const TrustedPairs& truth, const MatchedPictures& olde
             if (!truth.trusts(x, y) || !frame.knows(x, y) || isSaturated(older, x, y)) continue;
             frame.addedTo(x, y, added);
             const Phases missing = truth.target(x, y) - added.unguided;
-            // Every third tile is held out, the same tiles in every picture.
+            // Every third tile is held out, in every picture the same tiles.
             FactorSums& to = (x / kTileSize + y / kTileSize) % 3 == 0 ? held : learn;
             to.add({added.still.squaredNorm(), added.video.squaredNorm(), missing.squaredNorm(),
                     added.still.dot(added.video), added.still.dot(missing),
@@ -205,8 +199,9 @@ bool GuidanceLearner::add(const TrustedPairs& truth, const MatchedPictures& olde
         }
     }
     const double sum = learn.still2 + learn.video2 + learn.missing2 + held.still2 + held.video2 +
-                       held.missing2;  // the other sums of products are not larger, so they are
-                                       // finite, too
+                       // The other sums of products are not larger than this sum, so they are
+                       // finite, too.
+                       held.missing2;
     if (stop.stop_requested() || !std::isfinite(sum)) return false;
     if (!(learn.pixels >= kLeastPixels * width * height && held.pixels > 0)) return false;
     ++pairs_;

@@ -6,19 +6,16 @@
 
 namespace mfar {
 
-/// Counts and results of EnlargerLearner so far.
+/// Counts and results of EnlargerLearner. Gains are measured in held-out tiles.
 struct LearnerCounts {
     std::uint64_t stills = 0, repeated = 0, refused = 0;
-    int classes = 0;            ///< number of classes with a learned filter in use, out of
-                                ///< enlarge::kUnique
-    double gainDb = 0;          ///< gain of the filters in use over Keys' cubic, in held-out tiles
-                                ///< [dB]
-    double priorDb = 0;         ///< gain of the shipped filters over Keys' cubic, in held-out tiles
-                                ///< [dB]
-    std::uint64_t pairs = 0;    ///< number of pairs of stills that guidance was learned from
-    Guidance guidance{};        ///< FilterBank::guidance()
-    double guidanceGainDb = 0;  ///< gain of guidance over no guidance, in held-out tiles [dB]
-    FineMatch fineMatch{};      ///< FilterBank::fineMatch()
+    int classes = 0;          ///< classes with a learned filter, of enlarge::kUnique
+    double gainDb = 0;        ///< gain of the filters in use over Keys' cubic [dB]
+    double priorDb = 0;       ///< gain of the shipped filters over Keys' cubic [dB]
+    std::uint64_t pairs = 0;  ///< pairs of stills from which guidance was learned
+    Guidance guidance{};
+    double guidanceGainDb = 0;  ///< gain of guidance over no guidance [dB]
+    FineMatch fineMatch{};
 };
 
 }  // namespace mfar

@@ -1,5 +1,3 @@
-// Stores and restores the state of EnlargerLearner between runs.
-
 #include "pipeline/enlarge/enlarger_learner.h"
 #include "pipeline/enlarge/stored_numbers.h"
 
@@ -16,8 +14,8 @@ using namespace enlarge;
 constexpr char kMagic[] = "mfarlern";
 constexpr std::size_t kMagicSize = 8;
 constexpr std::array<std::uint64_t, 4> kHeader{4, kUnique, kTaps, kPhases};
-// Older versions of the format that can still be read: without guidance; with one factor of
-// guidance (ten numbers); with two factors, but without FineMatch.
+// Older readable versions of the format: without guidance; with one factor of guidance (ten
+// numbers); with two factors, but without FineMatch.
 constexpr std::uint64_t kWithoutGuidance = 1, kOneFactor = 2, kTwoFactors = 3;
 constexpr int kOneFactorNumbers = 10;
 constexpr std::size_t kChecksumSize = 4;
@@ -74,7 +72,6 @@ public:
     }
     [[nodiscard]] std::uint64_t version() const { return version_; }
     std::uint64_t number() { return getNumber(take(8), 8); }
-    /// Reads a double. Refuses the file if the number is not finite.
     double real() {
         const auto out = std::bit_cast<double>(number());
         if (!std::isfinite(out)) refuse("has numbers that are not finite");
@@ -169,7 +166,7 @@ EnlargerLearner EnlargerLearner::restored(std::span<const std::uint8_t> bytes,
         out.sums_.edit(i) = in.sums();
         out.held_.edit(i) = in.sums();
     }
-    if (in.version() == kOneFactor)  // these numbers are skipped, and guidance is learned again
+    if (in.version() == kOneFactor)  // Skips the numbers; guidance is learned again.
         for (int i = 0; i < kOneFactorNumbers; ++i)
             (void)in.real();
     if (in.version() >= kTwoFactors &&

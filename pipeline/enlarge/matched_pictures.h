@@ -9,33 +9,32 @@
 
 namespace mfar {
 
-/// A copy of a video frame and of the still that was matched to it, for learning. take() allocates
-/// memory only if sizes change.
+/// A copy of a video frame and its matched still, for learning. take() allocates memory only if
+/// sizes change.
 struct MatchedPictures {
-    static constexpr int kMargin = 64;  ///< columns of `luma` on each side of the picture
+    static constexpr int kMargin = 64;  ///< columns of `luma` at each side of the picture
 
     Size video;
-    AlignedRows<std::int16_t> luma;       ///< luma of the video, with replicated border [1/8 grey
-                                          ///< level]
-    AlignedRows<std::uint8_t> still;      ///< luma of the whole still
+    AlignedRows<std::int16_t> luma;  ///< video luma with replicated border [1/8 grey level]
+    AlignedRows<std::uint8_t> still;
     AlignedRows<LookUpCell> lookUps;      ///< one entry per cell of 4x4 video pixels
     double scaleX = 1, scaleY = 1;        ///< look-up px per video px
     double stillPerX = 1, stillPerY = 1;  ///< px of `still` per look-up px
 
-    /// The picture whose pixels ("look-up px") are the unit of the look-ups: the still, possibly
-    /// reduced.
+    /// The picture whose pixels ("look-up px") are the unit of look-ups: the still, or a reduced
+    /// still.
     struct LookedUp {
         Size size;
-        double scaleX, scaleY;  ///< look-up px per video px
+        double scaleX, scaleY;
     };
     void take(const RgbPlanes& video, Rows<const std::uint8_t> still,
               Rows<const LookUpCell> lookUps, const LookedUp& lookedUp);
-    /// Returns row y of `luma`, starting at the picture's first pixel. Beyond the picture's border,
-    /// the border row is returned.
+    /// Returns row y of `luma` from the picture's first pixel on. Rows outside the picture are the
+    /// border row.
     [[nodiscard]] const std::int16_t* row(int y) const;
 };
 
-/// True if a cell is matched so well that filters may be learned from it.
+/// True if a cell is matched well enough to learn filters from it.
 [[nodiscard]] inline bool mayTeach(const LookUpCell& cell) {
     constexpr float kLeastWeight = 0.25F, kLeastConfidence = 0.8F;
     return std::isfinite(cell.x) && std::isfinite(cell.y) && cell.weight >= kLeastWeight &&

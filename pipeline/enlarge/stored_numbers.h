@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-/// Reads and writes the little-endian numbers of stored filters, and computes their checksum.
 namespace mfar::enlarge {
 
 inline void putNumber(std::vector<std::uint8_t>& out, std::uint64_t value, int bytes) {

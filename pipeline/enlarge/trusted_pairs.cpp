@@ -12,23 +12,20 @@
 namespace mfar::enlarge {
 namespace {
 
-constexpr int kBorder = 8;  // width of the unused border of the picture [video px]
+constexpr int kBorder = 8;  // unused border of the picture [video px]
 // A pixel is trusted if the mean squared difference between video and still around it is at most
-// the noise plus this factor times the video's variance there. With a factor of 0.1, the learned
-// filters gain 0.07 dB less on photographs, because pixels with inexact look-ups, which blur the
-// still, are trusted as well.
+// the noise plus this factor times the video's variance there. A factor of 0.1 costs 0.07 dB on
+// photographs, because it also trusts inexact look-ups, which blur the still.
 constexpr double kMostDifference = 0.03;
-constexpr double kLeastNoise = 1;  // smallest variance that is assumed for the noise [grey
-                                   // levels^2]
-constexpr int kTrustReach = 3;     // differences are averaged over 7x7 pixels
+constexpr double kLeastNoise = 1;  // lower limit of the noise variance [grey levels^2]
+constexpr int kTrustReach = 3;     // differences are means over 7x7 pixels
 constexpr int kMeanReach = 8;
 constexpr double kMostShift = 0.5;  // largest correction of a look-up along each axis [video px]
-constexpr double kStructure = 36;   // smallest variance of a pixel with structure [grey levels^2]
+constexpr double kStructure = 36;   // least variance of a pixel with structure [grey levels^2]
 
-/// Returns the largest mean squared difference between video and still that noise alone explains:
-/// 1.5 times the 20 % quantile of `differences`, which are means over 7x7 pixels. At this quantile,
-/// noise is the only cause of the difference. Without the factor 1.5, a pixel's noise would decide
-/// whether the pixel is trusted.
+/// Returns the mean squared difference between video and still that noise alone can cause: 1.5
+/// times the 20 % quantile of `differences`, which are means over 7x7 pixels. At this quantile,
+/// noise is the only cause. The factor 1.5 keeps a pixel's noise from deciding if it is trusted.
 double noiseOf(std::vector<double>& differences) {
     if (differences.empty()) return kLeastNoise;
     const auto fifth = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 5);
@@ -71,8 +68,8 @@ double TrustedPairs::videoAt(int x, int y) const {
     return in_.row(y)[x] / double(kLumaScale);
 }
 
-/// Fits the video's grey level as a function of the still's grey level. The levels are divided into
-/// 16 ranges; the function interpolates linearly between the means of the ranges.
+/// Fits the video's grey level as a function of the still's. The function connects the means of 16
+/// ranges of levels.
 void TrustedPairs::fitTone() {
     constexpr int kRanges = 16;
     struct Range {
@@ -115,9 +112,8 @@ float TrustedPairs::toneOf(float value) const {
     return tone_[level] + (value - static_cast<float>(level)) * (tone_[level + 1] - tone_[level]);
 }
 
-/// The sensors have different point spread functions, which are uniform over the picture. Fits a
-/// symmetric kernel of 5x5 pixels that makes the still as blurred as the video, so that only wrong
-/// matches appear as differences.
+/// The sensors have different point spread functions. Fits a symmetric 5x5 kernel that blurs the
+/// still like the video, so that only wrong matches appear as differences.
 void TrustedPairs::fitBlur() {
     constexpr int kReach = 2, kWeights = 6;
     using Weights = Eigen::Matrix<double, kWeights, 1>;
@@ -160,8 +156,6 @@ void TrustedPairs::fitBlur() {
             if (isKnown(x, y)) seen_[at(x, y)] += static_cast<float>(weights.dot(around(x, y)));
 }
 
-/// Computes the difference between the means of video and still over larger areas around each
-/// pixel.
 void TrustedPairs::fitMean() {
     const auto isKnown = [&](int x, int y) { return known_[y / kCell][x / kCell] != 0; };
     const BoxSums counts(video_, [&](int x, int y) { return isKnown(x, y) ? 1.0 : 0.0; });
@@ -176,8 +170,7 @@ void TrustedPairs::fitMean() {
         }
 }
 
-/// Returns, for each cell, the sums over its pixels from which shift() estimates the error of its
-/// look-up.
+/// Returns, per cell, the sums from which shift() estimates the error of the cell's look-up.
 std::vector<TrustedPairs::ShiftSums> TrustedPairs::shiftSums() const {
     const auto isKnown = [&](int x, int y) { return known_[y / kCell][x / kCell] != 0; };
     std::vector<ShiftSums> out(static_cast<std::size_t>(cells_.width) * cells_.height);
@@ -195,8 +188,8 @@ std::vector<TrustedPairs::ShiftSums> TrustedPairs::shiftSums() const {
     return out;
 }
 
-/// Corrects the look-ups by a fraction of a pixel, so that still and video are aligned: one
-/// Lucas-Kanade step over the 12x12 pixels in and around each cell.
+/// Corrects look-ups by a fraction of a pixel: one Lucas-Kanade step over the 12x12 pixels in and
+/// around each cell.
 void TrustedPairs::shift() {
     const std::vector<ShiftSums> sums = shiftSums();
     for (int y = 0; y < cells_.height; ++y)
@@ -206,7 +199,7 @@ void TrustedPairs::shift() {
             for (int j = std::max(y - 1, 0); j <= std::min(y + 1, cells_.height - 1); ++j)
                 for (int i = std::max(x - 1, 0); i <= std::min(x + 1, cells_.width - 1); ++i)
                     s.add(sums[static_cast<std::size_t>(j) * cells_.width + i]);
-            constexpr double kDamping = 400;  // contribution of the noise to s.xx and s.yy [grey
+            constexpr double kDamping = 400;  // contribution of noise to s.xx and s.yy [grey
                                               // levels^2 / px^2]
             const double a = s.xx + kDamping, b = s.yy + kDamping, det = a * b - s.xy * s.xy;
             const double dx = (s.xe * b - s.ye * s.xy) / det, dy = (s.ye * a - s.xe * s.xy) / det;

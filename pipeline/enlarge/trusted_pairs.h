@@ -11,30 +11,30 @@
 
 namespace mfar::enlarge {
 
-/// The still, sampled at the sub-pixels of a video frame that it was matched to, with the
-/// brightness that the video's sensor would give it. The still is warped by the look-ups, whose
-/// sub-pixel errors are corrected first. Its tone curve, and its mean over larger areas, are fitted
-/// to the video, so that different gain and gamma of the sensors leave no offset. The differences
-/// in blur and noise remain, because the filters shall learn them.
+/// A matched still, sampled at the sub-pixels of a video frame, with the brightness of the video.
+/// The still is warped by the look-ups, after a correction of their sub-pixel errors. Its tone
+/// curve and its mean over larger areas are fitted to the video, so that gain and gamma of the
+/// sensors leave no offset. Differences in blur and noise remain, because the filters must learn
+/// them.
 class TrustedPairs {
 public:
-    /// If `stop` is requested, the constructor returns soon and no pixel is trusted.
+    /// After a request of `stop`, the constructor returns soon and no pixel is trusted.
     explicit TrustedPairs(const MatchedPictures& pictures, std::stop_token stop = {});
 
     [[nodiscard]] Size size() const { return video_; }
-    /// True if still and video agree around a pixel, except for noise and blur.
+    /// True if still and video agree around the pixel, except for noise and blur.
     [[nodiscard]] bool trusts(int x, int y) const { return trusted_[y][x] != 0; }
     /// Returns the still minus the video enlarged by Keys' cubic, at the pixel's sub-pixels [grey
     /// levels].
     [[nodiscard]] Phases target(int x, int y) const;
     [[nodiscard]] double trustedShare() const { return trustedShare_; }
-    /// Variance of the still among the sub-pixels of a pixel, divided by that of the video enlarged
-    /// by Keys' cubic; over the trusted pixels with structure. If it is at most one, the still is
-    /// no sharper than the video.
+    /// Variance of the still among a pixel's sub-pixels, divided by the variance of the video
+    /// enlarged by Keys' cubic. It is measured over trusted pixels with structure. The still is no
+    /// sharper than the video if the result is at most one.
     [[nodiscard]] double sharpness() const { return sharpness_; }
 
 private:
-    /// Sums of products of the still's gradient (x, y) and the difference e of the pictures.
+    /// Sums of products of the still's gradient (x, y) and the pictures' difference e.
     struct ShiftSums {
         double xx = 0, xy = 0, yy = 0, xe = 0, ye = 0;
         void add(const ShiftSums& other) {
@@ -45,7 +45,6 @@ private:
             ye += other.ye;
         }
     };
-    /// A picture with one value per video pixel.
     using Plane = std::vector<float>;
 
     [[nodiscard]] std::size_t at(int x, int y) const {
@@ -68,12 +67,12 @@ private:
     std::stop_token stop_;
     Size video_, cells_;
     AlignedRows<LookUpCell> lookUps_;
-    AlignedRows<std::uint8_t> known_;    // per cell: 1 if mayTeach() is true
-    AlignedRows<std::uint8_t> trusted_;  // per pixel: 1 if trusted
+    AlignedRows<std::uint8_t> known_;
+    AlignedRows<std::uint8_t> trusted_;
     WarpedGrid still_;
-    Plane seen_;               // mean of the still over each pixel, with tone and blur of the video
+    Plane seen_;               // mean of the still over each pixel, with the video's tone and blur
     Plane mean_;               // video minus seen_, averaged over a larger area
-    std::vector<float> tone_;  // grey level of the video for each grey level of the still
+    std::vector<float> tone_;  // video grey level for each still grey level
     double trustedShare_ = 0, sharpness_ = 0;
 };
 

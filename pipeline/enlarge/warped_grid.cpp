@@ -9,8 +9,6 @@
 namespace mfar::enlarge {
 namespace {
 
-/// Weights of the Catmull-Rom cubic for the four samples at -1, 0, 1 and 2, at position t in [0,
-/// 1).
 std::array<float, 4> catmullRom(float t) {
     const float t2 = t * t, t3 = t2 * t;
     return {0.5F * (-t3 + 2 * t2 - t), 0.5F * (3 * t3 - 5 * t2 + 2), 0.5F * (-3 * t3 + 4 * t2 + t),
@@ -34,7 +32,7 @@ float sample(const AlignedRows<std::uint8_t>& picture, float x, float y) {
 }
 
 /// The two cells between which a position is interpolated along one axis, and the weight t of the
-/// second. `at`: the position [video px].
+/// second. The position `at` is in video px.
 struct BetweenCells {
     BetweenCells(double at, int count) {
         const double cell = std::clamp((at - 1.5) / kCell, 0.0, count - 1.0);
@@ -46,8 +44,6 @@ struct BetweenCells {
     float t;
 };
 
-/// Returns the member `part` of the look-ups, interpolated at the position (px, py) in the video
-/// [px].
 float between(const AlignedRows<LookUpCell>& cells, float LookUpCell::* part, double px,
               double py) {
     const BetweenCells u(px, cells.size().width), v(py, cells.size().height);
@@ -67,7 +63,6 @@ WarpedGrid::WarpedGrid(Size video)
 
 void WarpedGrid::warp(const MatchedPictures& pictures, const AlignedRows<LookUpCell>& lookUps,
                       const AlignedRows<std::uint8_t>& known, const std::stop_token& stop) {
-    // If the still has several pixels per sub-pixel, the mean of several samples is used.
     const int samples =
         std::max(1, static_cast<int>(std::lround(pictures.scaleX * pictures.stillPerX / kGrid)));
     const int perPixel = kGrid * samples;

@@ -10,15 +10,14 @@
 
 namespace mfar::enlarge {
 
-/// A still that is warped to the sub-pixels of a video frame, and its mean over each pixel [grey
-/// levels].
+/// A still warped to the sub-pixels of a video frame, and its mean over each pixel [grey levels].
 class WarpedGrid {
 public:
     explicit WarpedGrid(Size video);
 
-    /// Samples the still of `pictures` at the look-ups of all pixels in known cells; other pixels
-    /// keep their values. `known`: 1 for cells with a valid look-up. If `stop` is requested, the
-    /// call returns soon.
+    /// Samples the still at the look-ups of all pixels in known cells. Other pixels keep their
+    /// values. `known` is 1 for cells with a valid look-up. After a request of `stop`, the call
+    /// returns soon.
     void warp(const MatchedPictures& pictures, const AlignedRows<LookUpCell>& lookUps,
               const AlignedRows<std::uint8_t>& known, const std::stop_token& stop);
 
@@ -38,13 +37,11 @@ private:
     std::vector<float> mean_;
 };
 
-/// Returns the member `part` of the look-ups at the sub-pixels of a pixel. It is interpolated
-/// bilinearly between cells, as when detail is drawn.
+/// Returns the member `part` of the look-ups at a pixel's sub-pixels. It is interpolated bilinearly
+/// between cells, as for drawing.
 [[nodiscard]] Phases betweenCells(const AlignedRows<LookUpCell>& cells, float LookUpCell::* part,
                                   int x, int y);
 
-/// Returns the enlargement by Keys' cubic at the sub-pixels of a pixel. `valueAt(x, y)`: the value
-/// of a pixel.
 template <class ValueAt>
 [[nodiscard]] Phases cubicOf(int x, int y, const ValueAt& valueAt) {
     const std::int16_t* cubic = FilterBank::prior().cubic();
