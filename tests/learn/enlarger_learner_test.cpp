@@ -9,7 +9,7 @@ namespace {
 
 using Outcome = EnlargerLearner::Outcome;
 
-constexpr unsigned kFresh = 1000;  // seed of the picture that tests learned filters
+constexpr unsigned kFresh = 1000;
 
 SensorPair seeded(SensorPair pair, unsigned seed) {
     pair.seed = seed;
@@ -119,7 +119,7 @@ TEST(EnlargerLearner, BadStillsNeverGiveFiltersWorseThanTheCubic) {
 }
 
 TEST(EnlargerLearner, ClassesWithFewPixelsKeepTheShippedFilters) {
-    // Edges of one direction only, so that the classes of all other directions stay empty.
+    // All edges have the same direction. Classes of other directions stay empty.
     const auto stripes = [](int phase) {
         return twin::greyOf({1024, 768}, [phase](int x, int) {
             return 60.0 + 120 * ((x + 7 * phase) / 37 % 2) + 8 * ((x / 37) % 5);
@@ -135,7 +135,7 @@ TEST(EnlargerLearner, ClassesWithFewPixelsKeepTheShippedFilters) {
                           learner.filters()->gradient()[row] + enlarge::kFilterSize,
                           FilterBank::prior().gradient()[row]);
     };
-    const int diagonal = G::kAngles / 4;  // the bins of angles begin at -pi/2
+    const int diagonal = G::kAngles / 4;  // angle bins begin at -pi/2
     for (int kind = 0; kind < G::kKinds; ++kind)
         EXPECT_TRUE(same(diagonal * G::kKinds + kind)) << kind;
     EXPECT_FALSE(sameFilters(*learner.filters(), FilterBank::prior()));

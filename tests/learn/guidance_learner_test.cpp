@@ -9,8 +9,8 @@
 namespace mfar::enlarge {
 namespace {
 
-/// The two matches from which guidance is learned. `truth`: a noisy video of discs and a sharp new
-/// still. `older`: the same video and the noisy older still with which it was drawn.
+/// The two matches from which guidance is learned. `truth` is a noisy video of discs with a sharp
+/// new still. `older` is the same video with the noisy older still with which it was drawn.
 struct Stills {
     Stills(double videoNoise, double olderNoise, unsigned seed, SensorPair how = {}) {
         const twin::Grey sharp = sharpDiscs(seed);
@@ -51,8 +51,8 @@ TEST(GuidanceLearner, FindsTheBestWeightsForNoisyVideoAndStill) {
 }
 
 TEST(GuidanceLearner, FindsTheGuidanceForEachExposure) {
-    // `weight` scales the detail of the still to the exposure of the video.
-    for (const double gain : {0.5, 0.8}) {  // with a larger gain the still would saturate
+    // `weight` converts the still's detail to the video's exposure.
+    for (const double gain : {0.5, 0.8}) {
         GuidanceLearner learner;
         for (unsigned i = 1; i <= 3; ++i) {
             const Stills of(4, 0, i, {.gain = gain, .weight = 1 / gain});

@@ -110,10 +110,10 @@ TEST(LearnerState, GuidanceOutOfRangeIsRefusedThoughTheChecksumIsRight) {
     auto bytes = learned().stored("a, b");
     bytes.resize(bytes.size() - 4);
     auto guidance = bytes;
-    guidance[bytes.size() - kFineMatchSize - kGuidanceSize + 15] ^= 0x40;  // a guidance far above 1
+    guidance[bytes.size() - kFineMatchSize - kGuidanceSize + 15] ^= 0x40;
     enlarge::putNumber(guidance, enlarge::fnv1a(guidance), 4);
     EXPECT_THAT(faultOf(guidance), HasSubstr("guidance that are out of range"));
-    bytes[bytes.size() - 1] ^= 0x40;  // byte of the share in FineMatch
+    bytes[bytes.size() - 1] ^= 0x40;
     enlarge::putNumber(bytes, enlarge::fnv1a(bytes), 4);
     EXPECT_THAT(faultOf(bytes), HasSubstr("fine_share that are out of range"));
 }

@@ -60,7 +60,6 @@ protected:
                      {});
         return pipeline.readImage();
     }
-    /// True if both pipelines draw the same picture.
     bool alike() { return picture(pipeline_) == picture(other_); }
 
     bool current_;

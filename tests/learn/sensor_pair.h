@@ -6,26 +6,28 @@
 
 namespace mfar {
 
-/// Model of two sensors that see the same scene, and of the errors of their match.
 struct SensorPair {
-    int videoBlur = 0;           ///< how often the video is blurred by (1 2 1)/4 along both axes
-    double videoNoise = 0;       ///< standard deviation [grey levels]
-    double stillNoise = 0;       ///< standard deviation [grey levels]
+    /// Blur of the video: number of passes of (1 2 1)/4 along both axes.
+    int videoBlur = 0;
+    /// Standard deviations of the noise [grey levels].
+    double videoNoise = 0;
+    double stillNoise = 0;
     double gain = 1, gamma = 1;  ///< exposure and tone curve of the still
-    int stillBlur = 0;           ///< how often the still is blurred by (1 2 1)/4 along both axes
-    double shift = 0;            ///< error of all positions in the still [video px]
+    /// Blur of the still: number of passes of (1 2 1)/4 along both axes.
+    int stillBlur = 0;
+    double shift = 0;  ///< error of all positions in the still [video px]
     double weight = 1, confidence = 1;
     unsigned seed = 1;
 };
 
-/// Random discs, which have edges of all directions. The picture has four times the video's size.
+/// Random discs, with edges in all directions. The picture has four times the size of the video.
 [[nodiscard]] twin::Grey sharpDiscs(unsigned seed, Size video = {256, 192});
-/// The video frame that its sensor takes of the picture `sharp`, in whole grey levels.
+/// Returns the frame that the video sensor takes of `sharp`, in whole grey levels.
 [[nodiscard]] twin::Grey videoOf(const twin::Grey& sharp, const SensorPair& pair);
-/// Calls matched() of the listener with the video frame of `sharp` and with the still `still`.
+/// Calls listener.matched() with the video frame of `sharp` and with `still`.
 void showTo(MatchListener& listener, const twin::Grey& sharp, const twin::Grey& still,
             const SensorPair& pair);
-/// Calls replaced() of the listener, as the pipeline does for a still that is about to be replaced.
+/// Calls listener.replaced(), as the pipeline does before it replaces a still.
 void showReplacedTo(MatchListener& listener, const twin::Grey& sharp, const twin::Grey& still,
                     const SensorPair& pair);
 [[nodiscard]] MatchedPictures matchedPictures(const twin::Grey& sharp, const twin::Grey& still,
@@ -35,8 +37,8 @@ void showReplacedTo(MatchListener& listener, const twin::Grey& sharp, const twin
     return matchedPictures(sharp, sharp, pair);
 }
 
-/// Mean squared error of a video that is enlarged with these filters [grey levels^2]; null: with
-/// Keys' cubic.
+/// Mean squared error of a video enlarged with these filters [grey levels^2]. Null: with Keys'
+/// cubic.
 [[nodiscard]] double enlargingError(const twin::Grey& sharp, const SensorPair& pair,
                                     const FilterBank* bank);
 

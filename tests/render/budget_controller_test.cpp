@@ -13,13 +13,12 @@
 namespace mfar {
 namespace {
 
-constexpr double kBudget = 4;  // processor time per frame [ms]
+constexpr double kBudget = 4;  // [ms] of processor time per frame
 
-/// Cost of a sample in a frame [ms].
 using CostTrace = std::function<double(int frame)>;
 
-/// Time that a tracer with endless work uses in each frame. Its portions have at most `tile`
-/// samples.
+/// Runs a tracer with endless work and returns the time used in each frame. A portion has at most
+/// `tile` samples.
 std::vector<double> usedIn(BudgetController& budget, int frames, int tile, const CostTrace& cost) {
     std::vector<double> used;
     for (int frame = 0; frame < frames; ++frame) {
@@ -40,7 +39,8 @@ double meanShare(const std::vector<double>& used) {
     return sum / (kBudget * static_cast<double>(used.size()));
 }
 
-/// Number of frames whose time differs from the budget by more than `share` of the budget.
+/// Returns the number of frames whose used time differs from the budget by more than `share` of the
+/// budget.
 int framesOff(const std::vector<double>& used, double share) {
     return static_cast<int>(std::ranges::count_if(
         used, [&](double ms) { return !(std::abs(ms / kBudget - 1) <= share); }));
@@ -121,7 +121,7 @@ TEST(BudgetController, OutstandingGrantsAreReserved) {
     }
     EXPECT_NEAR(reserved, kBudget, 0.02 * kBudget);
     for (const BudgetGrant& grant : out)
-        budget.spent(grant, 0, 0);  // the work used no samples and no time
+        budget.spent(grant, 0, 0);
     EXPECT_GT(budget.grant().samples, 0);
     EXPECT_EQ(budget.used(), 0);
 }
@@ -175,7 +175,7 @@ TEST(BudgetController, FramesWithoutProcessorTimeAreNotCounted) {
     for (int i = 0; i < 50; ++i) {
         budget.beginFrame(true);
         const BudgetGrant grant = budget.grant();
-        budget.spent(grant, grant.samples, grant.reservedMs);  // no more work follows
+        budget.spent(grant, grant.samples, grant.reservedMs);
     }
     budget.beginFrame(true);
     EXPECT_EQ(budget.kept().frames, 10);

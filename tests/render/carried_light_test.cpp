@@ -12,8 +12,8 @@ namespace {
 
 using namespace traced_pictures;
 
-/// Root mean square error of the objects' colours within their silhouettes [grey levels], against a
-/// picture that was sampled without filter and history.
+/// Root mean square error of the colours inside the objects' silhouettes [grey levels]. The
+/// reference picture is sampled without filter and history.
 double errorOf(const RenderedPicture& picture, double azimuth) {
     Driver exact({Slicing::Time, 256, 16, 0, 16});
     exact.look(azimuth);
@@ -40,8 +40,8 @@ TEST(CarriedLight, FirstPictureNeedsOneSamplePerSixteenPixels) {
     EXPECT_GT(driver.shown.size(), 4U);
     const RenderedPicture &first = driver.shown.front(), &last = driver.shown.back();
     for (std::size_t i = 0; i < first.id.size(); ++i) {
-        // The id of the first picture is that of the object at the pixel's centre. Later samples
-        // may also hit a neighbouring object.
+        // The first picture has the id of the object at the pixel's centre. Later samples may also
+        // hit a neighbouring object.
         if (first.id[i] == 0 || first.id[i] == kCatcherId || last.id[i] == kCatcherId) continue;
         ASSERT_EQ(first.id[i], last.id[i]) << "object pixels do not change";
     }
@@ -101,7 +101,7 @@ TEST(CarriedLight, LightCarriedFromOldLightingIsSoonOutweighed) {
 TEST(CarriedLight, SurfacesThatNothingChangesAreTracedOnce) {
     Driver driver({Slicing::Time, 2, 1, 0, 2}, kProduct);
     driver.size = {192, 144};
-    // A black ball in the sun. It casts a shadow and does not change other light.
+    // The black ball casts a shadow, but reflects no light.
     const auto sunlit = std::make_shared<Scene>(*render_scenes::stillLife());
     sunlit->lighting.environment = nullptr;
     sunlit->objects.resize(1);
@@ -133,7 +133,7 @@ TEST(CarriedLight, AtRestEachPixelHasItsOwnSamples) {
     EXPECT_TRUE(driver.pictures.settled());
 }
 
-// Light cannot be carried over at silhouettes.
+// Silhouettes have no reusable light.
 TEST(CarriedLight, AtRestSilhouettesAreAsSmoothAsWithoutHistory) {
     Driver driver({Slicing::Time, 64, 2, 1, 16}, kProduct), exact({Slicing::Time, 256, 16, 0, 16});
     driver.look(20);

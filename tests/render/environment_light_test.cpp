@@ -32,9 +32,9 @@ TEST(EnvironmentLight, FollowsTheDocumentedOrientation) {
     auto picture = std::make_shared<Environment>();
     picture->size = {8, 4};
     picture->radiance.assign(32, {0, 0, 0});
-    picture->radiance[0 * 8 + 2] = {1, 0, 0};  // first row: directions near +z (up)
-    picture->radiance[1 * 8 + 5] = {0, 1, 0};  // second row: from +x to +y
-    picture->radiance[2 * 8 + 0] = {0, 0, 1};  // below the horizon, just after -x towards -y
+    picture->radiance[0 * 8 + 2] = {1, 0, 0};  // near +z (up)
+    picture->radiance[1 * 8 + 5] = {0, 1, 0};  // from +x to +y
+    picture->radiance[2 * 8 + 0] = {0, 0, 1};  // below the horizon, from -x towards -y
     const EnvironmentLight light(picture);
     const auto at = [&](float u, float v) {
         const float theta = v * static_cast<float>(M_PI);
@@ -47,7 +47,7 @@ TEST(EnvironmentLight, FollowsTheDocumentedOrientation) {
     EXPECT_NEAR(at(0.5F / 8, 2.5F / 4).z(), 1, 1e-3F);
     EXPECT_GT(light.radiance(Eigen::Vector3f(1, 1, 0.3F).normalized()).y(), 0.3F);
     EXPECT_GT(light.radiance(Eigen::Vector3f(-1, -0.4F, -0.4F).normalized()).z(), 0.3F);
-    // Interpolation must wrap around at the left and right borders of the picture.
+    // The picture is interpolated across its left and right borders.
     EXPECT_NEAR(at(0, 2.5F / 4).z(), 0.5F, 1e-3F);
 }
 
@@ -64,7 +64,7 @@ TEST(EnvironmentLight, SamplesHaveTheDensityAndRadianceOfTheirDirection) {
         EXPECT_NEAR(s.direction.norm(), 1, 1e-5F);
         EXPECT_NEAR((light.radiance(s.direction) - s.radiance).norm(), 0,
                     0.02F * s.radiance.norm());
-        // Rounding may move a sample across the edge of a texel.
+        // Rounding may move a sample into the next texel.
         same += std::abs(light.density(s.direction) - s.density) < 1e-3F * s.density;
     }
     EXPECT_GE(same, 508);
@@ -74,7 +74,6 @@ TEST(EnvironmentLight, SamplesAndUniformDirectionsTogetherGiveTheIntegral) {
     const EnvironmentLight light(unevenLight());
     const Eigen::Vector3f expected =
         overSphere([&](const Eigen::Vector3f& d) { return light.radiance(d); });
-    // Combines one sample of each strategy by the balance heuristic.
     constexpr float kEven = 1 / (4 * static_cast<float>(M_PI));
     Eigen::Vector3f sum{0, 0, 0};
     for (std::uint32_t i = 0; i < 4096; ++i) {

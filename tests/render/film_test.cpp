@@ -11,7 +11,6 @@ namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-/// A sample of a white matt object.
 FilmSample objectSample(float radiance, float depth = 1, std::uint8_t id = 1) {
     const Eigen::Vector3f grey = Eigen::Vector3f::Constant(radiance);
     FilmSample out{{depth, id}, grey, {0, 0, 0}};
@@ -58,7 +57,7 @@ TEST(Film, ObjectPixelIsThePremultipliedMeanOfItsSamples) {
     EXPECT_EQ(picture.colour[0][0], expected);
     EXPECT_EQ(picture.colour[0][3], 128);
     EXPECT_EQ(picture.id[0], 7);
-    // The depth is that of the nearest sample, because the ray through the centre hits nothing.
+    // The nearest sample gives the depth, because the ray through the centre hits nothing.
     EXPECT_EQ(picture.depth[0], 1.2F);
     EXPECT_EQ(picture.samples, 4);
 }
@@ -146,7 +145,7 @@ TEST(Film, NonFiniteSamplesAreDroppedAndCounted) {
     EXPECT_EQ(picture.colour[0][3], 255);
 }
 
-// The pixel's centre shows an object that no sample has hit, so that its light is unknown.
+// The object at the pixel's centre was hit by no sample, so its light is unknown.
 TEST(Film, UnknownLightIsShownUnshaded) {
     SeenSurface seen{{1, 3}};
     seen.paint.diffuse = {0.5F, 0.5F, 0.5F};
@@ -178,7 +177,7 @@ TEST(Film, LightAtAnEdgeIsThatOfTheSurfaceAtTheCentre) {
         const LightPixel light = film.light(0, {});
         EXPECT_EQ(light.id, centre);
         EXPECT_NEAR(light.first[0], expected, 1e-4F) << int{centre};
-        // The means for display mix all objects.
+        // means() mixes all objects.
         EXPECT_NEAR(film.means(0).object[0], 0.5F, 1e-4F);
         EXPECT_NEAR(film.means(0).objectShare, 2.0F / 3, 1e-4F);
     }
@@ -201,7 +200,7 @@ TEST(Film, ALayeredPictureDoesNotMixSurfacesAtEdges) {
 }
 
 TEST(Film, PixelsKeepTheirOwnPlaces) {
-    Film film({19, 11});  // the last tiles are incomplete
+    Film film({19, 11});  // not a multiple of the tile size
     const auto count = static_cast<std::uint32_t>(19 * 11);
     for (std::uint32_t i = 0; i < count; ++i)
         film.setCentre(i, {{static_cast<float>(i + 1), 1}});
@@ -220,7 +219,7 @@ TEST(Film, ErrorIsTheStandardErrorInGreyLevels) {
     // The error is 0.1 / sqrt(64), times the slope of the sRGB encoding at 0.5.
     const float slope = (srgbEncoded(0.501F) - srgbEncoded(0.499F)) / 0.002F;
     EXPECT_NEAR(film.error(0), 255 * slope * 0.1F / 8, 0.05F);
-    // Half the light, shown with twice the exposure, gives the same picture.
+    // Half the light at twice the exposure gives the same picture.
     Film dim({1, 1});
     for (int i = 0; i < 64; ++i)
         dim.add(0, objectSample(i % 2 == 0 ? 0.2F : 0.3F));

@@ -19,7 +19,6 @@ double overHemisphere(F f) {
     double sum = 0;
     for (int i = 0; i < kThetas; ++i)
         for (int j = 0; j < Phis; ++j) {
-            // Steps are finer near the pole and the rim.
             const double s = (i + 0.5) / kThetas;
             const double z = s * s * (3 - 2 * s), dz = 6 * s * (1 - s) / kThetas;
             const double phi = 2 * M_PI * (j + 0.5) / Phis, r = std::sqrt(1 - z * z);
@@ -45,8 +44,7 @@ TEST(Microfacet, VisibleNormalsIntegrateToOne) {
 TEST(Microfacet, MaskingTermIsTheVisibleShareOfTheNormals) {
     const Ggx ggx(0.5F);
     const Eigen::Vector3f wo = viewAt(0.4F);
-    // The projected area of the visible normals equals that of the surface (Heitz 2014, equation
-    // 14).
+    // The visible normals have the same projected area as the surface (Heitz 2014, equation 14).
     const double projected = overHemisphere([&](const Eigen::Vector3f& h) {
         return ggx.masking(0.4F) * ggx.density(h) * std::max(0.0F, wo.dot(h));
     });

@@ -46,7 +46,7 @@ double errorOf(const Pixels& pixels, Value value) {
     return std::sqrt(squares / static_cast<double>(2 * pixels.size()));
 }
 
-/// Runs the rows of each stage in several portions, the last rows first.
+/// Runs each stage in several portions, the last rows first.
 Pixels filtered(Size size, const Pixels& pixels) {
     NoiseFilter filter;
     filter.begin(size, {0, 0, size.width, size.height});
@@ -90,8 +90,8 @@ TEST(NoiseFilter, KeepsDifferencesAboveNoise) {
     EXPECT_GT(errorOf(known, flat), 0.95 * kSigma);
 }
 
-// A step of two standard errors in a picture without noise. Only ids, depths or normals, which
-// `mark` sets, can distinguish the step from noise.
+// A step of two standard errors. Only ids, depths or normals, set by `mark`, can show that it is
+// not noise.
 template <class Mark>
 double errorAtStep(Mark mark) {
     Pixels pixels = noisyPicture(step, 0);
@@ -125,7 +125,7 @@ TEST(NoiseFilter, KeepsPixelsWithoutNoise) {
             << i;
 }
 
-// The first part of the light is known in one pixel of 16, the second part in one of 64.
+// One pixel in 16 has the first part of the light, one in 64 the second part.
 TEST(NoiseFilter, FillsPixelsWithoutSamples) {
     Pixels pixels = noisyPicture(flat, 0);
     for (int y = 0; y < kNoisySize.height; ++y)
@@ -147,7 +147,7 @@ TEST(NoiseFilter, FillsPixelsWithoutSamples) {
         ASSERT_TRUE(p.firstCount > 0 && p.secondCount > 0);
 }
 
-// If neighbours differ by more than noise in one part of the light, the other part must still be
+// One part of the light differs between neighbours by more than noise. The other part must still be
 // filtered.
 TEST(NoiseFilter, FiltersBothLightPartsSeparately) {
     Pixels pixels = noisyPicture(flat);

@@ -25,8 +25,8 @@ std::shared_ptr<Scene> oddScene(Mesh mesh) {
     return out;
 }
 
-/// Traces the scene and expects finite numbers. Returns how many pixels see an object or its
-/// shadow.
+/// Traces the scene and expects finite results. Returns the number of pixels that show an object or
+/// its shadow.
 int tracedSoundly(const std::shared_ptr<const Scene>& scene, const RenderView& view) {
     const PathTracer tracer(scene);
     const Film film = traced(tracer, view, 4);
@@ -98,7 +98,6 @@ TEST(OddScenes, ACameraInsideAnObjectSeesItsInside) {
     auto scene = oddScene(sphere({0, 0, 0}, 5, 16));
     EXPECT_EQ(tracedSoundly(scene, kOddView), 32 * 24);
     EXPECT_EQ(PathTracer(scene).bounds(kOddView), (PixelRect{0, 0, 32, 24}));
-    // From inside, the front of a single-sided surface is not visible.
     auto single = std::make_shared<Scene>();
     single->objects.push_back(objectOf(modelOf(sphere({0, 0, 0}, 5, 16), {})));
     single->lighting = allLight();

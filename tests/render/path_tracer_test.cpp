@@ -28,7 +28,6 @@ std::shared_ptr<Scene> sceneOf(Mesh mesh, const Material& material) {
     return out;
 }
 
-/// Mean radiance of the object over all pixels that show nothing but the object.
 Eigen::Vector3f meanRadiance(const Film& film) {
     Eigen::Vector3f sum{0, 0, 0};
     int pixels = 0;
@@ -41,7 +40,6 @@ Eigen::Vector3f meanRadiance(const Film& film) {
     return sum / static_cast<float>(pixels);
 }
 
-/// A horizontal square of 2x2 m. Its texture is repeated 32 times along each side.
 Mesh flatSquare() {
     Mesh mesh;
     mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
@@ -52,10 +50,10 @@ Mesh flatSquare() {
     return mesh;
 }
 
-// The relief is a normal map; a pixel is about three of its bumps wide.
+// A pixel covers about three bumps of the normal map.
 TEST(PathTracer, AFineReliefIsSeenAsAWiderLobeAboutItsMeanNormal) {
-    // The lobe's width is found by the ray through the pixel's centre if there is an earlier
-    // picture, and otherwise by the first sample.
+    // With an earlier picture, the ray through the pixel's centre measures the relief. Otherwise,
+    // the first sample does.
     const auto seen = [](bool bumpy, bool hasHistory, int samples) {
         Material material = materialOf({0.9F, 0.9F, 0.9F}, 1, 0.2F);
         Model model = modelOf(flatSquare(), material);
@@ -102,8 +100,8 @@ TEST(PathTracer, AWhiteSphereInUniformLightIsInvisible) {
 }
 
 TEST(PathTracer, ABowlReflectsNoMoreLightThanItReceives) {
-    // Light is reflected many times inside. All of it must leave, apart from what the limit of path
-    // length cuts off.
+    // Light is reflected many times inside. All of it must leave, except for paths beyond the
+    // length limit.
     Mesh bowl = sphere({0, 0, 0}, 1, 32);
     std::erase_if(bowl.triangles, [&](const auto& t) {
         return bowl.positions[t[0]].z() > 0.3F || bowl.positions[t[1]].z() > 0.3F;
@@ -137,7 +135,7 @@ TEST(PathTracer, RussianRouletteDoesNotChangeTheMeanRadiance) {
     EXPECT_NEAR(a, b, 0.006F);
 }
 
-/// Radiance of a horizontal surface in the direction wo under the lights of a scene, by quadrature.
+/// Radiance of a horizontal surface towards `wo`, by quadrature over the scene's lights.
 Eigen::Vector3f byQuadrature(const Lighting& lighting, const SurfaceLook& look,
                              const Eigen::Vector3f& wo) {
     const SurfaceScatter scatter(look, wo);
@@ -185,8 +183,8 @@ TEST(PathTracer, SunlightOnAMattSurfaceIsIrradianceTimesCosine) {
 }
 
 TEST(PathTracer, AMirrorShowsTheSunWithItsRadiance) {
-    // The sun's disc fills the lobe of the reflection. Only the weighted sum of both sampling
-    // strategies gives its radiance.
+    // The sun's disc fills the reflection lobe. Only the weighted sum of both sampling strategies
+    // gives its radiance.
     auto scene = sceneOf(square(1, 0), materialOf({1, 1, 1}, 1, 0.1F));
     scene->lighting.sun = Sun{Eigen::Vector3f(0, 1, 1).normalized(), {2, 2, 2}, 0.4F};
     const RenderView view = lookingAt({0, -3, 3}, {0, 0, 0}, {4, 4}, 2000);
@@ -202,7 +200,8 @@ TEST(PathTracer, EmissiveSurfacesAreVisibleAndGiveLight) {
     const RenderView view = lookingAt({0, -4, 0}, {0, 0, 0}, {8, 8}, 20);
     const Eigen::Vector3f seen = meanRadiance(traced(PathTracer(scene), view, 4));
     EXPECT_NEAR((seen - lamp.emission).norm(), 0, 1e-5F);
-    // Ground below a sphere of radius r = 1 at height h = 2 adds radiance * albedo * (r / h)^2.
+    // A sphere of radius r = 1 at height h = 2 adds radiance * albedo * (r / h)^2 to the ground
+    // below.
     scene->catcher = ground(20, 0.5F);
     for (Eigen::Vector3f& p : scene->catcher.positions)
         p.z() = -2;
@@ -241,7 +240,7 @@ TEST(PathTracer, TexturesAlphaMasksAndSidesAreRespected) {
 }
 
 TEST(PathTracer, ANormalMapChangesWhichLightIsBright) {
-    // All normals are tilted towards +u, which is +x; so light from +x must become brighter.
+    // All normals are tilted towards +u, which is +x.
     SurfaceTexture map{{1, 1}, false, {{218, 128, 218, 255}}};
     Material leaning = materialOf({1, 1, 1}, 0, 1);
     leaning.normalTexture = 0;

@@ -28,12 +28,12 @@ prepared(const std::shared_ptr<const Scene>& scene, std::uint64_t objects, std::
     return prepared(render_scenes::stillLife(), objects, light);
 }
 
-/// Policies for tests. kPlain: without noise filter and light history, every pixel is sampled;
-/// kProduct: with both, as in the product.
+/// Policies for tests. kPlain has no noise filter and no history, and samples every pixel. kProduct
+/// has both, as the daemon.
 inline constexpr TracedPolicy kPlain{{4, 0.2}, 8, false, false};
 inline constexpr TracedPolicy kProduct{{4, 0.2}, 8, true, true};
 
-/// Runs the steps of a renderer's threads one by one. Keeps the picture that is shown.
+/// Runs the steps of a renderer's threads one by one and keeps each shown picture.
 class Driver {
 public:
     explicit Driver(const SliceOptions& slices, const TracedPolicy& policy = kPlain)
@@ -45,7 +45,6 @@ public:
         const RenderView view = render_scenes::viewFrom(size, azimuth);
         pictures.look(view, view, {});
     }
-    /// Runs the next step. Returns false if there was nothing to do.
     bool step() {
         if (pictures.toBegin()) {
             pictures.begin();
@@ -76,7 +75,6 @@ public:
         while (shown.size() < pictures)
             ASSERT_TRUE(step());
     }
-    /// True if the shown picture was made for this view.
     [[nodiscard]] bool shows(double azimuth) const {
         const RigidTransform there = render_scenes::viewFrom(kTracedSize, azimuth).T_world_camera;
         return !shown.empty() && shown.back().T_world_camera.translation == there.translation;

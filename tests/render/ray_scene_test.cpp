@@ -24,7 +24,7 @@ TEST(RayScene, FindsTheNearestSurface) {
     const RayScene scene = sphereOnSquare();
     const RayHit ball = scene.first({{0, -4, 0.01F}, {0, 2, 0}});
     EXPECT_EQ(ball.mesh, 0U);
-    EXPECT_NEAR(ball.t, 1.5F, 0.01F);  // in units of the length of the ray's direction
+    EXPECT_NEAR(ball.t, 1.5F, 0.01F);  // `t` is in units of the direction's length
     const RayHit floor = scene.first({{2, 2, 5}, {0, 0, -1}});
     EXPECT_EQ(floor.mesh, 1U);
     EXPECT_NEAR(floor.t, 6, 1e-5F);
@@ -34,7 +34,8 @@ TEST(RayScene, FindsTheNearestSurface) {
     EXPECT_FALSE(scene.blocked({{2, 2, 5}, {0, 0, -1}, 6.1F}));
 }
 
-/// A fan of rays. Every third ray meets an edge or a corner, where it hits two triangles at once.
+/// A fan of rays. Every third ray hits an edge or a corner, and therefore several triangles at
+/// once.
 std::vector<Ray> fan(std::size_t count, std::mt19937& random) {
     const Mesh ball = sphere({0, 0, 0}, 1, 32);
     std::uniform_real_distribution<float> slope(-0.4F, 0.4F);
@@ -75,7 +76,7 @@ TEST(RayScene, PacketsMatchSingleRaysExactly) {
 TEST(RayScene, HolesLetRaysThrough) {
     RayScene scene;
     const Mesh upper = square(1, 1), lower = square(1, 0);
-    // Makes holes of all triangles but the first, and of the first except near its first corner.
+    // Rays pass through all triangles except one corner of the first.
     const HoleTest holes{[](const void*, std::uint32_t triangle, float u, float v) {
                              return triangle != 0 || u + v > 0.5F;
                          },

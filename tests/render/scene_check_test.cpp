@@ -14,7 +14,6 @@ using namespace render_scenes;
 
 constexpr float kNotANumber = std::numeric_limits<float>::quiet_NaN();
 
-/// Expects that a valid scene becomes invalid by the change.
 void expectUnsound(const std::function<void(Scene&, Model&)>& change) {
     Scene scene;
     Model model = modelOf(sphere({0, 0, 0}, 1, 4), {});

@@ -20,7 +20,7 @@ std::shared_ptr<Scene> sphereOverGround(float radius, float height) {
     return out;
 }
 
-/// Traces one pixel that sees the ground at a point. The camera is so low that it looks below the
+/// Traces one pixel that sees `point` on the ground. The camera is low enough to look below the
 /// sphere.
 Film::Means groundAt(const PathTracer& tracer, const Eigen::Vector3d& point, int samples) {
     const RenderView view = lookingAt(point + Eigen::Vector3d(0, -0.4, 0.25), point, {1, 1}, 1e4);
@@ -36,18 +36,16 @@ TEST(ShadowCatcher, ASphereHidesItsShareOfAnEvenSky) {
     const Film::Means under = groundAt(tracer, {0, 0, 0}, 2048);
     EXPECT_EQ(under.catcherShare, 1);
     EXPECT_NEAR(under.without.x(), 0.5F, 0.005F);
-    // The sphere blocks the share (r / h)^2 of the irradiance, which is its form factor for a small
-    // patch.
+    // The form factor of the sphere for a small patch is (r / h)^2. This share of the irradiance is
+    // blocked.
     EXPECT_NEAR(under.with.x() / under.without.x(), 1 - 0.25F, 0.01F);
-    // Beside the sphere, this share is multiplied by the cosine of the direction towards its
-    // centre.
+    // The direction's cosine multiplies the share at points beside the sphere.
     const Film::Means aside = groundAt(tracer, {2, 0, 0}, 2048);
     EXPECT_NEAR(aside.with.x() / aside.without.x(), 1 - std::sqrt(0.5F) / 8, 0.01F);
 }
 
 TEST(ShadowCatcher, TheSunsPenumbraIsTheCoveredShareOfItsDisc) {
-    // The edge of a large roof covers half of the sun's disc for the point whose line to the sun's
-    // centre meets the edge.
+    // The edge of a large roof covers half of the sun's disc, as seen from this point.
     auto scene = std::make_shared<Scene>();
     Mesh roof = square(5, 1);
     for (Eigen::Vector3f& p : roof.positions)
@@ -68,7 +66,7 @@ TEST(ShadowCatcher, TheSunsPenumbraIsTheCoveredShareOfItsDisc) {
     EXPECT_NEAR(ratio(0), 0.5, 0.01);
     EXPECT_NEAR(ratio(-1.1 * r), 1, 1e-6);
     EXPECT_NEAR(ratio(1.1 * r), 0, 1e-6);
-    // The area of a circular segment that begins half a radius from the centre.
+    // Area of a circular segment that begins half a radius from the centre.
     const double part = (std::acos(0.5) - 0.5 * std::sqrt(0.75)) / std::numbers::pi;
     EXPECT_NEAR(ratio(0.5 * r), part, 0.01);
 }
@@ -98,7 +96,6 @@ TEST(ShadowCatcher, ContactIsDarkAndShadowFades) {
     const PathTracer tracer(scene);
     float before = 0, contact = 1;
     for (const double x : {0.05, 0.2, 0.5, 1.0, 3.0}) {
-        // Looks along the ground from a place at which the sphere does not block the view.
         const RenderView view = lookingAt({x, -3, 0.02}, {x, 0, 0}, {1, 1}, 1e5);
         const Film::Means m = traced(tracer, view, 256).means(0);
         ASSERT_EQ(m.catcherShare, 1) << x;
@@ -120,13 +117,11 @@ TEST(ShadowCatcher, ColourBouncesBetweenObjectAndGroundInBothDirections) {
     scene->catcher.albedo = {0.1F, 0.1F, 0.9F};
     scene->lighting.sun = Sun{Eigen::Vector3f(-1, 0, 1).normalized(), {3, 3, 3}, 0.02F};
     const PathTracer tracer(scene);
-    // In front of the sunny side the ground gets its own light, plus some red light from the
-    // sphere.
+    // Red light from the sphere is added to the ground's own light.
     const Film::Means lit = groundAt(tracer, {-0.9, 0, 0}, 512);
     const Eigen::Vector3f gain = lit.with.cwiseQuotient(lit.without);
     EXPECT_GT(gain.x(), 1.03F);
     EXPECT_LT(gain.z(), gain.x() - 0.02F);
-    // The ground also gives blue light to the underside of a white sphere.
     Material white = red;
     white.baseColour = {0.9F, 0.9F, 0.9F, 1};
     scene->objects[0] = objectOf(modelOf(sphere({0, 0, 0.8F}, 0.5F, 32), white));

@@ -22,8 +22,7 @@ using Pixels = std::vector<std::uint32_t>;
 constexpr Size kPicture{37, 29};
 constexpr PixelRect kBounds{3, 5, 30, 28};
 
-/// A picture in which the error of a pixel is the pixel's own noise divided by the root of its
-/// number of samples.
+/// The error of a pixel is its own noise divided by the root of its number of samples.
 class NoisyPicture {
 public:
     explicit NoisyPicture(std::function<float(std::uint32_t)> noise) : noise_(std::move(noise)) {}
@@ -45,14 +44,13 @@ private:
     std::map<std::uint32_t, int> samples_;
 };
 
-/// Noise that is random from pixel to pixel and increases towards the bottom.
 float hashedNoise(std::uint32_t pixel) {
     const int row = static_cast<int>(pixel) / kPicture.width;
     return 0.02F * static_cast<float>(row) * static_cast<float>(pixel * 2654435761U >> 28);
 }
 
-/// Traces until no portion is handed out. Up to `workers` portions of at most `most` samples are
-/// outstanding at a time; they are finished in random order.
+/// Traces until no portion is left. Up to `workers` portions of at most `most` samples are traced
+/// at a time and finished in random order.
 void traceAll(Slices& slices, NoisyPicture& picture, std::size_t workers, std::int64_t most) {
     std::mt19937 random(7);
     std::vector<Slice> out;
@@ -135,8 +133,8 @@ TEST(Slices, NoPixelIsInTwoOutstandingPortions) {
     }
 }
 
-// The first turn traces a ray through the centre of every pixel, without a sample. The first
-// samples follow in three turns, the next ones in one turn each.
+// The first turn traces a ray through every pixel's centre. Three turns take the first samples, one
+// of 16, one of 4 and all pixels.
 TEST(Slices, AfterEachTurnOfTimeSlicesAllPixelsHaveEqualSamples) {
     Slices slices({Slicing::Time, 8, 3, 0, 2});
     slices.begin({0, 0, 32, 24}, {32, 24});
@@ -165,7 +163,6 @@ TEST(Slices, AfterEachTurnOfTimeSlicesAllPixelsHaveEqualSamples) {
     EXPECT_EQ(sampled, (std::vector<int>{0, 48, 192, 768, 768, 768}));
 }
 
-// One pixel of each block of 4x4 is sampled first, then one of each 2x2.
 TEST(Slices, TheFirstSamplesAreSpreadEvenly) {
     Slices slices({Slicing::Time, 2, 1, 0, 2});
     slices.begin({0, 0, 32, 24}, {32, 24});
@@ -191,7 +188,7 @@ TEST(Slices, PixelsWithLittleNoiseAfterTheSparseSamplesGetNoMore) {
     Slices slices({Slicing::Time, 16, 4, 1, 8});
     slices.begin({0, 0, 32, 24}, {32, 24});
     NoisyPicture picture([](std::uint32_t) { return 1e6F; });
-    // In the left half, light is already known from an earlier picture.
+    // In the left half, an earlier picture already gave the light.
     while (true) {
         const Slice slice = slices.next(50);
         if (slice.pixels.empty()) break;
@@ -280,8 +277,7 @@ TEST(Slices, TilesFollowTheMortonCurve) {
 }
 
 TEST(Slices, OnlyNoisyPixelsGetAllSamples) {
-    // Only one pixel in the middle of a tile is noisy. This pixel and its neighbours must get more
-    // samples.
+    // Only one pixel in the middle of a tile is noisy. It and its neighbours must get more samples.
     const std::uint32_t noisy = 12 * 32 + 12;
     NoisyPicture picture([&](std::uint32_t pixel) { return pixel == noisy ? 1e6F : 0.1F; });
     Slices slices({Slicing::Time, 64, 4, 1, 8});

@@ -8,7 +8,7 @@
 namespace mfar {
 namespace {
 
-/// Second dimension of Sobol's sequence from its direction numbers, the rows of Pascal's triangle.
+/// The direction numbers are the rows of Pascal's triangle.
 std::uint32_t secondCoordinate(std::uint32_t index) {
     std::uint32_t out = 0, direction = 0x80000000U;
     for (; index != 0; index >>= 1, direction ^= direction >> 1)
@@ -34,8 +34,7 @@ TEST(Sobol, ShuffleKeepsAlignedBlocks) {
     }
 }
 
-/// True if each of the boxes of 2^-a by 2^-b holds exactly one of the samples from `first` to
-/// before first + 2^(a + b).
+/// True if each box of 2^-a by 2^-b contains exactly one of 2^(a + b) samples from `first` on.
 bool eachBoxHasOne(std::uint32_t pixel, std::uint32_t dimension, std::uint32_t first, int a,
                    int b) {
     std::set<std::pair<int, int>> boxes;
@@ -58,8 +57,8 @@ TEST(Sobol, EveryElementaryIntervalOfEveryBlockHoldsOneSample) {
                             << pixel << ' ' << dimension << ' ' << a << ' ' << bits - a;
 }
 
-/// Root mean square, over pixels, of the error of the mean of f(u) over n samples. The integral is
-/// known.
+/// Root mean square, over pixels, of the error of the mean of f(u) over n samples. The integral of
+/// f is known.
 template <typename F>
 double errorOf(F f, double integral, std::uint32_t n, bool independent) {
     double squares = 0;
@@ -79,7 +78,7 @@ TEST(Sobol, ErrorsOfSmoothIntegralsAreFarBelowThoseOfRandomNumbers) {
     const double ours = errorOf(product, integral, 64, false);
     const double chance = errorOf(product, integral, 64, true);
     EXPECT_LT(ours * 15, chance);
-    // Random numbers have this error: the standard deviation of the product, divided by 8.
+    // Independent samples have this error: the standard deviation of the product, divided by 8.
     EXPECT_NEAR(chance, 0.666 / 8, 0.01);
 }
 
@@ -87,7 +86,7 @@ TEST(Sobol, TheErrorOfADiscsAreaFallsFasterThanWithRandomNumbers) {
     const auto disc = [](const Eigen::Vector2f& u) { return u.squaredNorm() < 1 ? 1.0 : 0.0; };
     const double few = errorOf(disc, M_PI / 4, 16, false);
     const double many = errorOf(disc, M_PI / 4, 1024, false);
-    // An error of n^-3/4 would fall by a factor of 22.6, that of random numbers by 8.
+    // An error of n^-3/4 falls by a factor of 22.6, the error of random numbers by 8.
     EXPECT_GT(few / many, 14);
 }
 

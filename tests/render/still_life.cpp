@@ -17,14 +17,13 @@ Material materialOf(const Eigen::Vector3f& colour, float metallic, float roughne
     return out;
 }
 
-/// A box about its origin with edges of these lengths.
 Mesh box(const Eigen::Vector3f& edges) {
     Mesh out;
     for (int axis = 0; axis < 3; ++axis)
         for (const float side : {-0.5F, 0.5F}) {
             Eigen::Vector3f n = Eigen::Vector3f::Zero(), u = n, v = n;
             n[axis] = side;
-            u[(axis + 1) % 3] = side;  // with the sign of `side`, so that all faces point outwards
+            u[(axis + 1) % 3] = side;  // the sign of `side` makes all faces point outwards
             v[(axis + 2) % 3] = 0.5F;
             const auto first = static_cast<std::uint32_t>(out.positions.size());
             for (const auto& [along, across] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {

@@ -7,12 +7,12 @@
 
 namespace mfar::render_scenes {
 
-/// Rough and shiny balls and boxes within 0.2 m of the origin, on a plane that catches their
-/// shadows, with a sun and unevenLight().
+/// Rough and shiny balls and boxes within 0.2 m of the origin. They stand on a shadow catcher, with
+/// a sun and unevenLight().
 [[nodiscard]] std::shared_ptr<const Scene> stillLife();
 
-/// A camera that looks at the origin from a distance [m]. `azimuth`: about the world's z, from +x
-/// [degrees]; `elevation`: above the plane [degrees].
+/// A camera that looks at the origin. `azimuth` is the angle about the world's z axis from +x
+/// [degrees], `elevation` the angle above the plane [degrees].
 [[nodiscard]] RenderView viewFrom(Size size, double azimuth, double elevation = 35,
                                   double distance = 0.9);
 

@@ -24,7 +24,7 @@ std::vector<SurfaceLook> looks(const Eigen::Vector3f& colour) {
     return out;
 }
 
-/// Reflected light if light of radiance 1 comes from all directions.
+/// Returns the reflected light if radiance 1 arrives from all directions.
 Eigen::Vector3f furnace(const SurfaceLook& look, float mu) {
     const SurfaceScatter scatter(look, directionAt(mu, 0.4F));
     Eigen::Vector3f sum{0, 0, 0};
@@ -60,7 +60,7 @@ TEST(SurfaceScatter, IsReciprocal) {
     }
 }
 
-/// Share of the samples, and integral of the density, in cells of equal size in cosine and azimuth.
+/// Share of the samples, and integral of the density, in cells of equal solid angle.
 struct Cells {
     static constexpr int kSide = 8, kFine = 48;
     std::array<double, kSide * kSide> sampled{}, expected{};
@@ -90,7 +90,9 @@ struct Cells {
 TEST(SurfaceScatter, SamplesFollowTheirDensity) {
     for (const SurfaceLook& look : looks({0.8F, 0.5F, 0.3F}))
         for (const float mu : {0.2F, 0.9F}) {
-            if (look.roughness < 0.3F && !look.matt) continue;  // finer than the quadrature
+            if (look.roughness < 0.3F && !look.matt)
+                continue;  // the lobe is too sharp for the
+                           // quadrature
             const Cells cells(look, mu);
             for (std::size_t i = 0; i < cells.sampled.size(); ++i)
                 EXPECT_NEAR(cells.sampled[i], cells.expected[i], 0.004)

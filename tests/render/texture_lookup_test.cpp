@@ -23,7 +23,7 @@ TEST(TextureLookup, TexelCentresGiveTheTexelsValues) {
 TEST(TextureLookup, InterpolatesTexelsAndRepeatsTheTexture) {
     const SurfaceTexture texture = twoByTwo(false);
     EXPECT_NEAR(lookUp(texture, {0.5F, 0.25F}).x(), 0.5F, 1e-6F);
-    EXPECT_NEAR(lookUp(texture, {0, 0.25F}).x(), 0.5F, 1e-6F);  // between last and first column
+    EXPECT_NEAR(lookUp(texture, {0, 0.25F}).x(), 0.5F, 1e-6F);
     EXPECT_TRUE(lookUp(texture, {-7.25F, 12.25F}).isApprox(lookUp(texture, {0.75F, 0.25F})));
     EXPECT_TRUE(lookUp(texture, {1e30F, -1e30F}).allFinite());
 }

@@ -21,19 +21,19 @@ TEST(NextStep, StepDependsOnHowFarTheViewChanged) {
         TracedStep step;
     };
     for (const auto& [sinceShown, sinceNext, step] : std::vector<Case>{
-             {{}, {}, Start},         // there is no picture yet
-             {{}, 9.0, Continue},     // the first picture is continued wherever the camera is
-             {0.2, {}, Refine},       // the picture is new
-             {0.3, {}, Start},        // the next picture takes over its light
-             {kInfinite, {}, Start},  // the picture shown cannot serve at all
-             {1.1, 0.9, Continue},    // the camera is still on its way to the next picture's view
-             {0.6, 2.0,
-              Start},  // the camera is still on its way, but the shown picture can serve meanwhile
-             {0.1, 0.7, Drop},      // the camera came back to the shown picture's view
-             {0.2, 0.7, Continue},  // the camera came back, but not quite
-             {2.0, 1.5, Continue},  // the camera moves too fast, but the next picture is nearer
-                                    // than the shown one
-             {1.5, 2.0, Start},     // the camera took another way than predicted
+             {{}, {}, Start},      // no picture exists
+             {{}, 9.0, Continue},  // no shown picture, so the next picture is finished in any
+                                   // case
+             {0.2, {}, Refine},
+             {0.3, {}, Start},        // the next picture can reuse the light
+             {kInfinite, {}, Start},  // the shown picture is useless from this view
+             {1.1, 0.9, Continue},    // the camera approaches the next picture's view
+             {0.6, 2.0, Start},       // the shown picture serves meanwhile
+             {0.1, 0.7, Drop},        // the camera came back to the shown picture's view
+             {0.2, 0.7, Continue},    // the camera came back only in part
+             // The camera moves fast, but the next picture's view is nearer than the shown one's.
+             {2.0, 1.5, Continue},
+             {1.5, 2.0, Start},  // the camera moves in another direction than predicted
          }) {
         EXPECT_EQ(nextStep(sinceShown, sinceNext, 0.25), step)
             << sinceShown.value_or(-1) << ' ' << sinceNext.value_or(-1);
@@ -68,7 +68,7 @@ TEST(TracedPictures, AfterAMotionAPictureOfTheRestingViewIsStarted) {
     driver.look(20);
     driver.settle();
     const std::size_t before = driver.shown.size();
-    for (int i = 0; i < 30; ++i) {  // the camera still moves, and the picture can serve
+    for (int i = 0; i < 30; ++i) {
         driver.look(i % 2 == 0 ? 20.8 : 19.2);
         EXPECT_FALSE(driver.step()) << i;
     }
@@ -133,7 +133,7 @@ TEST(TracedPictures, ACameraThatReturnsGetsItsEarlierPictureWhichIsRefined) {
     driver.look(20);
     driver.untilShown(3);
     driver.look(26);
-    ASSERT_TRUE(driver.step());  // the picture is begun
+    ASSERT_TRUE(driver.step());
     ASSERT_TRUE(driver.step());
     driver.look(20.2);
     driver.settle();

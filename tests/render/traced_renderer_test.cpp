@@ -32,7 +32,7 @@ TracedRendererOptions quick() {
     return out;
 }
 
-/// A loop of frames without other work, with the times of 30 frames per second.
+/// A loop of frames without other work, at the times of 30 frames per second.
 class Frames {
 public:
     explicit Frames(const TracedRendererOptions& options) : renderer(options) {}
@@ -66,7 +66,6 @@ public:
             return renderer.counters().pictures >= pictures && renderer.counters().idle;
         });
     }
-    /// Runs until the picture of a resting camera is shown.
     bool rest(const RenderView& view) {
         if (!finish(view)) return false;
         for (int i = 0; i < 15; ++i) {
@@ -86,7 +85,6 @@ RenderView shownView(TracedRenderer& renderer) {
     return {renderer.newest()->camera, renderer.newest()->T_world_camera};
 }
 
-/// Angle between two views about the origin.
 double degreesBetween(const RenderView& a, const RenderView& b) {
     const Eigen::Vector3d &from = a.T_world_camera.translation, &to = b.T_world_camera.translation;
     return std::atan2(from.cross(to).norm(), from.dot(to)) * 180 / std::numbers::pi;
@@ -123,7 +121,7 @@ TEST(TracedRenderer, GivesTheSamePictureForBothSlicingMethodsAndAnyThreadCount) 
 TEST(TracedRenderer, IsIdleOnceConvergedAndUnmoved) {
     TracedRendererOptions options = quick();
     options.slices.samples = 4096;
-    options.slices.threshold = 1e6;  // every pixel is finished once its error is trusted
+    options.slices.threshold = 1e6;  // every pixel is finished when its error counts as reliable
     Frames frames(options);
     EXPECT_TRUE(frames.renderer.counters().idle);
     frames.renderer.setScene(render_scenes::stillLife());
@@ -179,17 +177,17 @@ TEST(TracedRenderer, SleepsWhenTheFramesBudgetIsUsedUp) {
     Frames frames(options);
     frames.renderer.setScene(render_scenes::stillLife());
     const RenderView view = render_scenes::viewFrom(kRenderSize, 20);
-    // On a busy machine, frames may use less time than their budget, but never more.
+    // Frames of a busy machine may use less than their budget, but never more.
     int shown = 0;
     ASSERT_TRUE(frames.until(
         view, [&] { return ++shown > 300 && frames.renderer.counters().budget.mean > 0; }));
     EXPECT_LE(frames.renderer.counters().budget.mean, 1.1);
     const double used = frames.renderer.counters().cpuMs;
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
-    frames.frame(view);  // counters() describes the time before this frame
+    frames.frame(view);  // counters() belongs to the time before this frame
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    // The limit is the budget of 20 frames, because the counters do not include the last frames
-    // yet. Threads that did not sleep would use the budget of hundreds of frames.
+    // The limit is the budget of 20 frames, because the counters lag by some frames. Threads that
+    // did not sleep would use the budget of hundreds of frames.
     EXPECT_LE(frames.renderer.counters().cpuMs - used, 20 * options.budgetMs);
 }
 

@@ -23,7 +23,7 @@ TEST(TripleBuffer, TheReaderGetsTheNewestValue) {
 
 TEST(TripleBuffer, TheReadersValueStaysAndMemoryIsReused) {
     TripleBuffer<std::vector<int>> buffer;
-    for (int i = 0; i < 3; ++i) {  // allocates the memory of all three slots
+    for (int i = 0; i < 3; ++i) {  // allocates memory
         buffer.back().assign(100, i);
         buffer.publish();
         buffer.fetch();

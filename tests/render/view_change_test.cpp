@@ -16,7 +16,6 @@ constexpr Size kSize{64, 48};
 const ViewLimits kLimits{4, 0.2};
 const std::vector<ObjectBall> kBall{{{0, 0, 0}, 0.1}};
 
-/// Rotates the camera on the spot, to its right.
 RenderView turned(RenderView view, double degrees) {
     const Eigen::AngleAxisd turn(degrees * std::numbers::pi / 180, Eigen::Vector3d::UnitY());
     view.T_world_camera.rotation = view.T_world_camera.rotation * turn;
@@ -28,7 +27,7 @@ double change(const RenderView& from, const RenderView& to) {
 }
 
 TEST(ViewChange, IsTheAngleAboutTheObjectInUnitsOfTheLimit) {
-    // If the camera is at the object's height, the azimuth equals the angle.
+    // At the object's height, the azimuth is the angle about the object.
     const RenderView from = viewFrom(kSize, 20, 0);
     EXPECT_NEAR(change(from, from), 0, 1e-12);
     EXPECT_NEAR(change(from, viewFrom(kSize, 22, 0)), 0.5, 1e-9);

@@ -19,7 +19,6 @@ double angle(const RigidTransform& a, const RigidTransform& b) {
     return a.rotation.angularDistance(b.rotation);
 }
 
-/// Pose on a circle about the origin, moving at `speed` degrees per second.
 RigidTransform onCircle(double seconds, double speed) {
     return render_scenes::viewFrom({64, 48}, speed * seconds).T_world_camera;
 }
@@ -41,7 +40,7 @@ TEST(ViewPredictor, UsesTheMotionOfTheLastTenthOfASecond) {
     ViewPredictor predictor(kNoLimits);
     for (int i = 0; i <= 15; ++i)
         predictor.add(onCircle(i / 30.0, 20), Timestamp::fromSeconds(i / 30.0));
-    for (int i = 16; i <= 20; ++i)  // the camera is at rest from now on
+    for (int i = 16; i <= 20; ++i)
         predictor.add(onCircle(0.5, 20), Timestamp::fromSeconds(i / 30.0));
     expectNear(predictor.predict(1, kFar), onCircle(0.5, 20), 1e-9, 1e-9);
 }
