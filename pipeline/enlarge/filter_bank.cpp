@@ -82,8 +82,11 @@ FilterBank::FilterBank(std::span<const Filter> unique, const Guidance& guidance,
     if (unique.size() != kUnique)
         throw FilterBankError("found filters for " + std::to_string(unique.size()) +
                               " classes; expected " + std::to_string(kUnique));
-    if (!guidance.isValid()) throw FilterBankError("the factors of the guidance are out of range");
-    if (!fineMatch.isValid()) throw FilterBankError("fine_noise or fine_share is out of range");
+    if (!guidance.isValid())
+        throw FilterBankError(
+            "the guidance factors must be from 0 to 1 (still) and from 0 to 2 (video)");
+    if (!fineMatch.isValid())
+        throw FilterBankError("fine_noise must be from 0 to 4096, and fine_share from 0 to 1");
     for (std::size_t i = 0; i < unique.size(); ++i)
         if (!fits(unique[i]))
             throw FilterBankError("the filter weights of class " + std::to_string(i) +
@@ -125,16 +128,16 @@ std::vector<FilterBank::Filter> readFilters(std::span<const std::uint8_t> bytes,
         refuse("is not a filter file of mfar");
     const std::uint64_t version = getNumber(bytes.data() + kMagicSize, 4);
     if (version != kHeader[0])
-        refuse("has version " + std::to_string(version) + "; expected " +
+        refuse("has format version " + std::to_string(version) + "; expected " +
                std::to_string(kHeader[0]));
     for (std::size_t i = 1; i < kHeader.size(); ++i)
         if (getNumber(bytes.data() + kMagicSize + 4 * i, 4) != kHeader[i])
-            refuse("has filters of other classes or sizes than this program uses");
+            refuse("has other filter classes or sizes than this version of mfar");
     if (bytes.size() != kStoredSize)
         refuse("has " + std::to_string(bytes.size()) + " bytes; expected " +
                std::to_string(kStoredSize));
     if (getNumber(bytes.data() + kStoredSize - 4, 4) != fnv1a(bytes.first(kStoredSize - 4)))
-        refuse("has a wrong checksum");
+        refuse("is damaged: the checksum is wrong");
     std::vector<FilterBank::Filter> out(kUnique);
     const std::uint8_t* from = bytes.data() + kHeaderSize;
     for (FilterBank::Filter& filter : out)

@@ -62,7 +62,7 @@ public:
         at_ = kMagicSize;
         version_ = bytes_.size() >= at_ + 8 ? getNumber(&bytes_[at_], 8) : kHeader[0];
         if (version_ < kWithoutGuidance || version_ > kHeader[0])
-            refuse("has a version that this program does not support");
+            refuse("has a format version that this version of mfar does not support");
         bytes_ = bytes.first(bytes.size() - kChecksumSize);
         if (getNumber(bytes.data() + bytes_.size(), kChecksumSize) != fnv1a(bytes_))
             refuse("is damaged: the checksum is wrong");
@@ -86,7 +86,8 @@ public:
     }
     std::string text() {
         const std::uint64_t size = number();
-        if (size > kMostKeySize) refuse("names its pair of sensors with more than 4096 characters");
+        if (size > kMostKeySize)
+            refuse("has a name of more than 4096 characters for its pair of sensors");
         const std::uint8_t* from = take(size);
         return {from, from + size};
     }
@@ -153,7 +154,7 @@ EnlargerLearner EnlargerLearner::restored(std::span<const std::uint8_t> bytes,
     Reader in(bytes, name);
     for (const std::uint64_t value : {in.version(), kHeader[1], kHeader[2], kHeader[3]})
         if (in.number() != value)
-            in.refuse("has filters of other classes or sizes than this program uses");
+            in.refuse("has other filter classes or sizes than this version of mfar");
     if (in.text() != key) in.refuse("was learned from another pair of sensors");
     EnlargerLearner out;
     for (std::uint64_t* value : {&out.counts_.stills, &out.counts_.repeated, &out.counts_.refused})
@@ -171,7 +172,7 @@ EnlargerLearner EnlargerLearner::restored(std::span<const std::uint8_t> bytes,
             (void)in.real();
     if (in.version() >= kTwoFactors &&
         !out.guidance_.restore(in.reals<GuidanceLearner::kNumbers>()))
-        in.refuse("has values of the guidance that are out of range");
+        in.refuse("has guidance factors that are out of range");
     if (in.version() == kHeader[0] &&
         !out.fineMatch_.restore(in.reals<FineMatchLearner::kNumbers>()))
         in.refuse("has values of fine_noise or fine_share that are out of range");
@@ -179,7 +180,7 @@ EnlargerLearner EnlargerLearner::restored(std::span<const std::uint8_t> bytes,
     if (!out.putInPlace(weights, learned)) in.refuse("has filter weights that are too large");
     out.measure();
     if (!std::isfinite(out.counts_.gainDb) || !std::isfinite(out.counts_.priorDb))
-        in.refuse("has sums of the least-squares fit that are too large");
+        in.refuse("has least-squares sums that are too large");
     return out;
 }
 

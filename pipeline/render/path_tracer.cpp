@@ -41,14 +41,16 @@ Eigen::Vector2f filtered(PixelFilter filter, const Eigen::Vector2f& u) {
 }  // namespace
 
 void validate(const PathTracerOptions& o) {
-    const auto require = [](bool sound, const char* name) {
-        if (!sound) throw std::invalid_argument(std::string(name) + " is out of range");
+    const auto require = [](bool sound, const char* rule) {
+        if (!sound) throw std::invalid_argument(std::string("path tracer: ") + rule);
     };
-    require(o.maxDepth >= 1 && o.maxDepth <= 64, "maxDepth");
-    require(o.rouletteDepth >= 1, "rouletteDepth");
-    require(std::isfinite(o.fireflyClamp) && o.fireflyClamp >= 0, "fireflyClamp");
-    require(std::isfinite(o.shadowReach) && o.shadowReach >= 1, "shadowReach");
-    require(o.buildThreads >= 1 && o.buildThreads <= 64, "buildThreads");
+    require(o.maxDepth >= 1 && o.maxDepth <= 64, "maxDepth must be from 1 to 64");
+    require(o.rouletteDepth >= 1, "rouletteDepth must be at least 1");
+    require(std::isfinite(o.fireflyClamp) && o.fireflyClamp >= 0,
+            "fireflyClamp must be finite and not negative");
+    require(std::isfinite(o.shadowReach) && o.shadowReach >= 1,
+            "shadowReach must be finite and at least 1");
+    require(o.buildThreads >= 1 && o.buildThreads <= 64, "buildThreads must be from 1 to 64");
 }
 
 struct PathTracer::Parts {
@@ -219,7 +221,7 @@ private:
 
 PathTracer::PathTracer(std::shared_ptr<const Scene> scene, const PathTracerOptions& options) {
     validate(options);
-    if (!scene) throw std::invalid_argument("the scene is missing");
+    if (!scene) throw std::invalid_argument("path tracer: there is no scene");
     validate(*scene);
     // Computes tables now. It takes as long as the first samples of a picture.
     static_cast<void>(meanSpecularAlbedo(1));
@@ -231,9 +233,12 @@ PathTracer::~PathTracer() = default;
 namespace {
 
 void requireSound(const RenderView& view) {
-    if (!isSound(view.camera)) throw std::invalid_argument("view: the camera is invalid");
+    if (!isSound(view.camera))
+        throw std::invalid_argument("view: the camera must have finite parameters, focal lengths "
+                                    "above 0 and sides of 1 to 16384 pixels");
     if (!isFinite(view.T_world_camera) || !(view.T_world_camera.rotation.norm() > 0))
-        throw std::invalid_argument("view: the pose is invalid");
+        throw std::invalid_argument(
+            "view: the camera pose must be finite, and its rotation must not be zero");
 }
 
 }  // namespace
@@ -242,11 +247,11 @@ void PathTracer::trace(const RenderView& view, std::span<const std::uint32_t> pi
                        Film& film, const LightHistory* history) const {
     requireSound(view);
     if (!(film.size() == view.camera.size))
-        throw std::invalid_argument("film: its size differs from the view's size");
+        throw std::invalid_argument("film: its size differs from the size of the view's camera");
     const auto count = static_cast<std::uint32_t>(film.size().width) *
                        static_cast<std::uint32_t>(film.size().height);
     if (!std::ranges::all_of(pixels, [count](std::uint32_t p) { return p < count; }))
-        throw std::invalid_argument("film: a pixel lies outside of the film");
+        throw std::invalid_argument("film: a pixel to trace is outside the film");
     Batch batch(*parts_, view, film, history);
     for (const std::uint32_t pixel : pixels) {
         const std::uint32_t taken = film.samples(pixel);

@@ -32,7 +32,7 @@ double valid(double ms) {
 BudgetController::BudgetController(double msPerFrame) : budget_(msPerFrame), balance_(msPerFrame) {
     if (!(std::isfinite(msPerFrame) && msPerFrame > 0))
         throw std::invalid_argument(
-            "the path tracer's time budget per frame must be finite and above 0 ms");
+            "path tracer: the time budget per frame must be finite and above 0 ms");
 }
 
 void BudgetController::beginFrame(bool workWaits) {

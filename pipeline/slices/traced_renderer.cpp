@@ -9,7 +9,7 @@ namespace mfar {
 
 TracedRenderer::TracedRenderer(const TracedRendererOptions& options) : workers_(options, mail_) {
     if (options.threads < 1 || options.threads > 64)
-        throw std::invalid_argument("the path tracer's number of threads is not in [1, 64]");
+        throw std::invalid_argument("path tracer: the number of threads must be from 1 to 64");
     for (int i = 0; i < options.threads; ++i)
         threads_.emplace_back([this] { workers_.work(); });
 }

@@ -33,9 +33,10 @@ TracedRendererOptions checked(const TracedRendererOptions& o) {
             "path tracer: turnDegrees and zoom must be above 0, lightChange must not be negative, "
             "and samplesToReplace must be at least 1");
     if (!(o.holeShare >= 0 && o.holeShare <= 1))
-        throw std::invalid_argument("path tracer: holeShare is not in [0, 1]");
+        throw std::invalid_argument("path tracer: holeShare must be from 0 to 1");
     if (!positive(o.exposure.scale))
-        throw std::invalid_argument("path tracer: the scale of the exposure must be above 0");
+        throw std::invalid_argument(
+            "path tracer: the scale of the exposure must be finite and above 0");
     return o;
 }
 

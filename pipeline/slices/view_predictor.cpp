@@ -19,7 +19,7 @@ ViewPredictor::ViewPredictor(const PredictionLimits& limits) : limits_(limits) {
     if (!(limits.seconds >= 0 && limits.turnDegrees >= 0) || !std::isfinite(limits.seconds) ||
         !std::isfinite(limits.turnDegrees))
         throw std::invalid_argument(
-            "the limits of the view prediction must be finite and not negative");
+            "path tracer: the limits of the view prediction must be finite and not negative");
 }
 
 const ViewPredictor::Entry& ViewPredictor::back(std::size_t steps) const {

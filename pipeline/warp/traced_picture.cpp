@@ -30,7 +30,7 @@ void requireFiniteCamera(const CameraModel& c, const RigidTransform& T) {
     if (c.size.width < 1 || c.size.height < 1 || c.size.width > kMostSide ||
         c.size.height > kMostSide)
         throw std::invalid_argument(
-            "width and height of a rendered picture must be from 1 to 16384 pixels");
+            "the width and height of a rendered picture must be from 1 to 16384 pixels");
     if (!(c.fx > 0) || !(c.fy > 0) || !finite(c.fx) || !finite(c.fy) || !finite(c.cx) ||
         !finite(c.cy) || !std::ranges::all_of(c.distortion, finite) || !isFinite(T))
         throw std::invalid_argument(

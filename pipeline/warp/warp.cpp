@@ -167,7 +167,7 @@ void Warp::answer(const HoleAnswer& answer) {
         throw std::invalid_argument("a hole answer must have a colour, a depth and an id for each "
                                     "pixel, and a light for each pixel or for none");
     if (std::ranges::any_of(pixels, [&](std::uint32_t p) { return p >= count; }))
-        throw std::invalid_argument("a pixel that was traced to fill a hole is outside the layer");
+        throw std::invalid_argument("a pixel of a hole answer is outside the layer");
     if (!isFinite(answer.view.T_world_camera))
         throw std::invalid_argument("the camera pose of a hole answer is not finite");
     if (answer.scene != scene_) return;

@@ -63,7 +63,8 @@ TEST(LearnerState, DamagedStatesAreRefused) {
     }
     auto damaged = whole;
     damaged[8] = 9;
-    EXPECT_EQ(faultOf(damaged), "state: has a version that this program does not support");
+    EXPECT_EQ(faultOf(damaged),
+              "state: has a format version that this version of mfar does not support");
 }
 
 TEST(LearnerState, NonFiniteNumbersAreRefusedThoughTheChecksumIsRight) {
@@ -112,7 +113,7 @@ TEST(LearnerState, GuidanceOutOfRangeIsRefusedThoughTheChecksumIsRight) {
     auto guidance = bytes;
     guidance[bytes.size() - kFineMatchSize - kGuidanceSize + 15] ^= 0x40;
     enlarge::putNumber(guidance, enlarge::fnv1a(guidance), 4);
-    EXPECT_THAT(faultOf(guidance), HasSubstr("guidance that are out of range"));
+    EXPECT_THAT(faultOf(guidance), HasSubstr("guidance factors that are out of range"));
     bytes[bytes.size() - 1] ^= 0x40;
     enlarge::putNumber(bytes, enlarge::fnv1a(bytes), 4);
     EXPECT_THAT(faultOf(bytes), HasSubstr("fine_share that are out of range"));

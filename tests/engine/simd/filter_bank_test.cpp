@@ -67,17 +67,17 @@ TEST(FilterBank, DamagedFiltersAreRefusedAndTheMessageSaysWhy) {
     EXPECT_EQ(faultOf(damaged), "some.filters: is not a filter file of mfar");
     damaged = whole;
     damaged[8] = 9;
-    EXPECT_EQ(faultOf(damaged), "some.filters: has version 9; expected 1");
+    EXPECT_EQ(faultOf(damaged), "some.filters: has format version 9; expected 1");
     damaged = whole;
     damaged[12] ^= 1;
-    EXPECT_NE(faultOf(damaged).find("other classes"), std::string::npos);
+    EXPECT_NE(faultOf(damaged).find("other filter classes"), std::string::npos);
     EXPECT_NE(faultOf(std::span(whole).first(whole.size() - 1)).find("bytes; expected"),
               std::string::npos);
     EXPECT_NE(faultOf(std::span(whole).first(10)).find("not a filter file"), std::string::npos);
     for (const std::size_t at : {std::size_t{28}, whole.size() / 2, whole.size() - 1}) {
         damaged = whole;
         damaged[at] ^= 64;
-        EXPECT_EQ(faultOf(damaged), "some.filters: has a wrong checksum") << at;
+        EXPECT_EQ(faultOf(damaged), "some.filters: is damaged: the checksum is wrong") << at;
     }
 }
 
