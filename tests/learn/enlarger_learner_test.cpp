@@ -43,7 +43,7 @@ bool sameFilters(const FilterBank& a, const FilterBank& b) {
     return true;
 }
 
-TEST(EnlargerLearner, BeginsWithTheShippedFilters) {
+TEST(EnlargerLearner, FirstFiltersAreTheShippedFilters) {
     const EnlargerLearner learner;
     EXPECT_TRUE(sameFilters(*learner.filters(), FilterBank::prior()));
     EXPECT_EQ(learner.counts().classes, 0);
@@ -76,7 +76,7 @@ TEST(EnlargerLearner, ExposureAndGammaOfTheStillAreNotLearned) {
     EXPECT_LT(other, 1.05 * same);
 }
 
-TEST(EnlargerLearner, LookUpErrorsOfAFractionOfAPixelAreCorrected) {
+TEST(EnlargerLearner, SubPixelLookUpErrorsAreCorrected) {
     const SensorPair pair{.videoBlur = 1};
     SensorPair off = pair;
     off.shift = 0.2;
@@ -158,7 +158,7 @@ TEST(EnlargerLearner, TheSamePicturesGiveTheSameFilters) {
     EXPECT_NE(learned(pair, 3).stored("x"), learned(pair, 2).stored("x"));
 }
 
-TEST(EnlargerLearner, StoppingDiscardsTheStillThatIsBeingLearned) {
+TEST(EnlargerLearner, StopRequestDiscardsTheCurrentStill) {
     std::stop_source stop;
     stop.request_stop();
     EnlargerLearner learner;

@@ -16,7 +16,7 @@ FineMatch learned(const SensorPair& pair, unsigned stills = 2) {
     return out.fineMatch();
 }
 
-TEST(FineMatchLearner, StartsWithoutAFineMatch) {
+TEST(FineMatchLearner, FineMatchIsUnknownBeforeTheFirstStill) {
     EXPECT_FALSE(FineMatchLearner().fineMatch().isKnown());
     EXPECT_FALSE(FilterBank::prior().fineMatch().isKnown());
 }
@@ -33,13 +33,13 @@ TEST(FineMatchLearner, FindsTheNoiseOfTheVideo) {
     }
 }
 
-TEST(FineMatchLearner, WrongPositionsInTheStillRaiseTheUnexplainedShare) {
+TEST(FineMatchLearner, LookUpErrorsRaiseTheLearnedShare) {
     const float right = learned({.videoNoise = 1}).share,
                 off = learned({.videoNoise = 1, .shift = 0.3}).share;
     EXPECT_GT(off, right + 0.02);
 }
 
-TEST(FineMatchLearner, AWronglyMatchedPartOfThePictureHasLittleInfluence) {
+TEST(FineMatchLearner, WronglyMatchedPartOfThePictureHasLittleInfluence) {
     FineMatchLearner learner;
     MatchedPictures pictures = matchedPictures(sharpDiscs(1), {.videoNoise = 1});
     for (int y = 0; y < pictures.lookUps.size().height / 4; ++y)

@@ -32,7 +32,7 @@ GuidanceLearner learned(double videoNoise, double olderNoise, unsigned stills = 
     return out;
 }
 
-TEST(GuidanceLearner, StartsWithoutGuidance) {
+TEST(GuidanceLearner, GuidanceIsZeroBeforeTheFirstStill) {
     EXPECT_FALSE(GuidanceLearner().guidance().any());
     EXPECT_FALSE(FilterBank::prior().guidance().any());
     EXPECT_EQ(GuidanceLearner().gainDb(), 0);
@@ -50,7 +50,7 @@ TEST(GuidanceLearner, FindsTheBestWeightsForNoisyVideoAndStill) {
     }
 }
 
-TEST(GuidanceLearner, FindsTheGuidanceForEachExposure) {
+TEST(GuidanceLearner, LearnedFactorsFitTheExposureOfTheStill) {
     // `weight` converts the still's detail to the video's exposure.
     for (const double gain : {0.5, 0.8}) {
         GuidanceLearner learner;
@@ -111,7 +111,7 @@ TEST(GuidanceLearner, UnusablePicturesAreIgnored) {
     EXPECT_EQ(learner.stored(), before);
 }
 
-TEST(GuidanceLearner, AFewNanPositionsInTheStillChangeLittle) {
+TEST(GuidanceLearner, FewInfiniteLookUpsHaveLittleInfluence) {
     GuidanceLearner learner;
     for (unsigned i = 1; i <= 3; ++i) {
         Stills of(4, 8, i);

@@ -67,7 +67,7 @@ TEST(LearnerState, DamagedStatesAreRefused) {
               "state: has a format version that this version of mfar does not support");
 }
 
-TEST(LearnerState, NonFiniteNumbersAreRefusedThoughTheChecksumIsRight) {
+TEST(LearnerState, NonFiniteNumbersAreRefusedDespiteAValidChecksum) {
     auto bytes = learned().stored("a, b");
     bytes.resize(bytes.size() - 4);
     for (std::size_t i = bytes.size() - 8; i < bytes.size(); ++i)
@@ -96,7 +96,7 @@ TEST(LearnerState, StatesOfVersionsOneAndTwoAreReadWithoutGuidance) {
     }
 }
 
-TEST(LearnerState, AStateOfVersionThreeIsReadWithGuidanceButWithoutFineMatch) {
+TEST(LearnerState, StateOfVersionThreeIsReadWithGuidanceButWithoutFineMatch) {
     const EnlargerLearner now = learned();
     auto bytes = now.stored("a, b");
     bytes.resize(bytes.size() - 4 - kFineMatchSize);
@@ -107,7 +107,7 @@ TEST(LearnerState, AStateOfVersionThreeIsReadWithGuidanceButWithoutFineMatch) {
     EXPECT_FALSE(then.filters()->fineMatch().isKnown());
 }
 
-TEST(LearnerState, GuidanceOutOfRangeIsRefusedThoughTheChecksumIsRight) {
+TEST(LearnerState, GuidanceOutOfRangeIsRefusedDespiteAValidChecksum) {
     auto bytes = learned().stored("a, b");
     bytes.resize(bytes.size() - 4);
     auto guidance = bytes;
@@ -119,7 +119,7 @@ TEST(LearnerState, GuidanceOutOfRangeIsRefusedThoughTheChecksumIsRight) {
     EXPECT_THAT(faultOf(bytes), HasSubstr("fine_share that are out of range"));
 }
 
-TEST(LearnerState, AWrongLengthIsRefusedThoughTheChecksumIsRight) {
+TEST(LearnerState, WrongLengthIsRefusedDespiteAValidChecksum) {
     auto bytes = EnlargerLearner().stored("a, b");
     bytes.resize(bytes.size() - 4);
     auto longer = bytes;

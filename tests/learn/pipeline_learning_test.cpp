@@ -95,7 +95,7 @@ TEST_P(PipelineLearning, EachMatchedStillIsReportedOnce) {
     EXPECT_EQ(heard.times, 2);
 }
 
-TEST_P(PipelineLearning, AReplacedStillIsReportedWithTheLastPicture) {
+TEST_P(PipelineLearning, ReplacedStillIsReportedWithTheLastFrame) {
     Heard heard;
     pipeline_.setMatchListener(&heard);
     setStill(pipeline_);
@@ -116,7 +116,7 @@ TEST_P(PipelineLearning, AReplacedStillIsReportedWithTheLastPicture) {
     EXPECT_EQ(heard.replacements, 1);
 }
 
-TEST_P(PipelineLearning, NewFiltersTakeEffectWithTheNextStillOrAtOnceWithoutOne) {
+TEST_P(PipelineLearning, NewFiltersTakeEffectAtTheNextStillOrAtOnceWithoutAStill) {
     const auto none = std::make_shared<const FilterBank>(
         std::vector<FilterBank::Filter>(enlarge::kUnique, FilterBank::Filter{}));
     pipeline_.setFilters(none);

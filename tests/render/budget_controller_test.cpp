@@ -46,14 +46,14 @@ int framesOff(const std::vector<double>& used, double share) {
         used, [&](double ms) { return !(std::abs(ms / kBudget - 1) <= share); }));
 }
 
-TEST(BudgetController, WithASteadyCostEveryFrameUsesItsBudget) {
+TEST(BudgetController, EveryFrameUsesItsBudgetIfTheCostIsConstant) {
     BudgetController budget(kBudget);
     const std::vector<double> used = usedIn(budget, 300, 1000, [](int) { return 0.003; });
     EXPECT_NEAR(meanShare(used), 1, 0.001);
     EXPECT_EQ(framesOff(used, 0.02), 0);
 }
 
-TEST(BudgetController, WithNoisyAndSteppingCostFramesStayWithinATenthOfTheBudget) {
+TEST(BudgetController, FramesKeepTheBudgetWithinTenPercentIfTheCostVaries) {
     for (const unsigned seed : {1U, 2U, 3U}) {
         std::mt19937 random(seed);
         std::lognormal_distribution<double> noise(0, 0.4);
@@ -89,7 +89,7 @@ TEST(BudgetController, OutliersChangeNeitherTheEstimatedCostNorTheMeanTime) {
     EXPECT_NEAR(meanShare(used), 1, 0.02) << "the time of an outlier is saved in later frames";
 }
 
-TEST(BudgetController, FollowsAStepOfTheCostWithinOneFrame) {
+TEST(BudgetController, AdaptsToAJumpOfTheCostInThreeFrames) {
     BudgetController budget(kBudget);
     const std::vector<double> used =
         usedIn(budget, 60, 1000, [](int frame) { return frame < 30 ? 0.001 : 0.008; });
@@ -100,7 +100,7 @@ TEST(BudgetController, FollowsAStepOfTheCostWithinOneFrame) {
     EXPECT_LT(used[30] + used[31] + used[32], 3.2 * kBudget);
 }
 
-TEST(BudgetController, AGrantIsASmallPartOfTheFramesBudget) {
+TEST(BudgetController, GrantIsASmallPartOfTheFramesBudget) {
     BudgetController budget(kBudget);
     (void)usedIn(budget, 2, 1000, [](int) { return 0.001; });
     budget.beginFrame(true);
@@ -126,7 +126,7 @@ TEST(BudgetController, OutstandingGrantsAreReserved) {
     EXPECT_EQ(budget.used(), 0);
 }
 
-TEST(BudgetController, IdleFramesSaveNoBudgetForLaterFrames) {
+TEST(BudgetController, UnusedTimeOfIdleFramesIsNotCarriedOver) {
     BudgetController budget(kBudget);
     (void)usedIn(budget, 10, 1000, [](int) { return 0.001; });
     for (int i = 0; i < 100; ++i)
@@ -136,7 +136,7 @@ TEST(BudgetController, IdleFramesSaveNoBudgetForLaterFrames) {
     EXPECT_EQ(budget.kept().frames, 9) << "idle frames do not count";
 }
 
-TEST(BudgetController, TimeOfPictureConversionsIsSavedInSmallPartsLater) {
+TEST(BudgetController, LaterFramesRepayAPictureConversionInSmallParts) {
     BudgetController budget(kBudget);
     const auto cheap = [](int) { return 0.001; };
     (void)usedIn(budget, 2, 1000, cheap);
@@ -169,7 +169,7 @@ TEST(BudgetController, IdleFramesRepayOverusedTime) {
     EXPECT_NEAR(usedIn(budget, 1, 1000, [](int) { return 0.001; })[0], kBudget, 0.05 * kBudget);
 }
 
-TEST(BudgetController, FramesWithoutProcessorTimeAreNotCounted) {
+TEST(BudgetController, FramesWithTooLittleProcessorTimeAreNotCounted) {
     BudgetController budget(kBudget);
     (void)usedIn(budget, 10, 1000, [](int) { return 0.001; });
     for (int i = 0; i < 50; ++i) {
@@ -182,7 +182,7 @@ TEST(BudgetController, FramesWithoutProcessorTimeAreNotCounted) {
     EXPECT_LE(budget.kept().deviation, 0.02);
 }
 
-TEST(BudgetController, MeanCoversAllFramesWithWaitingWork) {
+TEST(BudgetController, MeanUsedTimeCountsAllFramesWithWaitingWork) {
     BudgetController budget(kBudget);
     EXPECT_EQ(budget.kept().mean, 0);
     budget.beginFrame(true);

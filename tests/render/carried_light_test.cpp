@@ -52,7 +52,7 @@ TEST(CarriedLight, FirstPictureNeedsOneSamplePerSixteenPixels) {
     EXPECT_GT(errorOf(first, 20), errorOf(last, 20));
 }
 
-TEST(CarriedLight, ANextPictureTakesOverTheLightOfTheOneBefore) {
+TEST(CarriedLight, NextPictureReusesTheLightOfThePreviousPicture) {
     Driver fresh(kThirtyTwo, kProduct), going(kThirtyTwo, kProduct);
     fresh.look(26);
     fresh.untilShown(1);
@@ -66,7 +66,7 @@ TEST(CarriedLight, ANextPictureTakesOverTheLightOfTheOneBefore) {
     EXPECT_LT(errorOf(going.shown.back(), 26), 0.7 * errorOf(fresh.shown.back(), 26));
 }
 
-TEST(CarriedLight, ANewPictureIsShownOnceItHasEnoughSamples) {
+TEST(CarriedLight, NewPictureIsShownWhenItHasEnoughSamples) {
     TracedPolicy policy = kProduct;
     policy.soon = false;
     Driver driver(kThirtyTwo, policy);
@@ -80,7 +80,7 @@ TEST(CarriedLight, ANewPictureIsShownOnceItHasEnoughSamples) {
     EXPECT_GT(driver.shown.back().samples, 4) << "8 on objects, 2 on other surfaces";
 }
 
-TEST(CarriedLight, LightCarriedFromOldLightingIsSoonOutweighed) {
+TEST(CarriedLight, NewSamplesSoonOutweighLightOfAnOldLighting) {
     Driver driver(kThirtyTwo, kProduct);
     const auto dark = std::make_shared<Scene>(*render_scenes::stillLife());
     dark->lighting.sun->irradiance *= 0.2F;
@@ -98,7 +98,7 @@ TEST(CarriedLight, LightCarriedFromOldLightingIsSoonOutweighed) {
     EXPECT_LT(errorOf(driver.shown.back(), 20), errorOf(fresh.shown.back(), 20) + 2);
 }
 
-TEST(CarriedLight, SurfacesThatNothingChangesAreTracedOnce) {
+TEST(CarriedLight, SurfacesWithUnchangedLightAreTracedOnce) {
     Driver driver({Slicing::Time, 2, 1, 0, 2}, kProduct);
     driver.size = {192, 144};
     // The black ball casts a shadow, but reflects no light.
@@ -121,7 +121,7 @@ TEST(CarriedLight, SurfacesThatNothingChangesAreTracedOnce) {
     EXPECT_GE(driver.pictures.pixels(), all) << "new light may change all surfaces";
 }
 
-TEST(CarriedLight, AtRestEachPixelHasItsOwnSamples) {
+TEST(CarriedLight, CameraAtRestGetsOwnSamplesInEachPixel) {
     Driver driver(kThirtyTwo, kProduct);
     driver.look(20);
     driver.settle();
@@ -134,7 +134,7 @@ TEST(CarriedLight, AtRestEachPixelHasItsOwnSamples) {
 }
 
 // Silhouettes have no reusable light.
-TEST(CarriedLight, AtRestSilhouettesAreAsSmoothAsWithoutHistory) {
+TEST(CarriedLight, CameraAtRestSeesSmoothSilhouettes) {
     Driver driver({Slicing::Time, 64, 2, 1, 16}, kProduct), exact({Slicing::Time, 256, 16, 0, 16});
     driver.look(20);
     driver.settle();

@@ -98,7 +98,7 @@ TEST(EnvironmentLight, MissingEnvironmentIsDark) {
     EXPECT_EQ(EnvironmentLight(render_scenes::evenLight(0)).density({0, 0, 1}), 0);
 }
 
-TEST(EnvironmentLight, UniformLightIsNotSampledByDirection) {
+TEST(EnvironmentLight, UniformEnvironmentIsNotSampled) {
     auto picture = std::make_shared<Environment>();
     picture->size = {1, 1};
     picture->radiance = {{2, 2, 2}};

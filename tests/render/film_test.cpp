@@ -33,7 +33,7 @@ RenderedPicture pictureOf(const Film& film, const Exposure& exposure = {}) {
 
 using Rgba = std::array<std::uint8_t, 4>;
 
-TEST(Film, AnEmptyFilmGivesTransparentPixels) {
+TEST(Film, EmptyFilmGivesTransparentPixels) {
     const Film film({3, 2});
     const RenderedPicture picture = pictureOf(film);
     ASSERT_EQ(picture.colour.size(), 6U);
@@ -62,7 +62,7 @@ TEST(Film, ObjectPixelIsThePremultipliedMeanOfItsSamples) {
     EXPECT_EQ(picture.samples, 4);
 }
 
-TEST(Film, AMillionSamplesKeepDoublePrecision) {
+TEST(Film, MeanAndErrorOfAMillionSamplesAreExact) {
     Film film({2, 1});
     double sum = 0, squares = 0;
     constexpr int kSamples = 1000000;
@@ -81,7 +81,7 @@ TEST(Film, AMillionSamplesKeepDoublePrecision) {
     EXPECT_NEAR(film.error(0) / (slope * deviation), 1, 1e-3);
 }
 
-TEST(Film, DepthIsThatOfThePixelsCentre) {
+TEST(Film, DepthBelongsToThePixelsCentre) {
     Film film({1, 1});
     film.setCentre(0, {{1.5F, 2}});
     film.add(0, objectSample(0.1F, 1.0F, 1));
@@ -118,7 +118,7 @@ TEST(Film, BouncedLightOnADarkSurfaceIsVisible) {
               (Rgba{static_cast<std::uint8_t>(std::lround(255 * srgbEncoded(0.3F))), 0, 0, 0}));
 }
 
-TEST(Film, AnUnchangedShadowCatcherIsTransparent) {
+TEST(Film, UnchangedShadowCatcherIsTransparent) {
     Film film({1, 1});
     film.setCentre(0, {{2, kCatcherId}});
     film.add(0, catcherSample({0.37F, 0.2F, 0.11F}, {0.37F, 0.2F, 0.11F}));
@@ -146,7 +146,7 @@ TEST(Film, NonFiniteSamplesAreDroppedAndCounted) {
 }
 
 // The object at the pixel's centre was hit by no sample, so its light is unknown.
-TEST(Film, UnknownLightIsShownUnshaded) {
+TEST(Film, ObjectWithUnknownLightIsShownUnshaded) {
     SeenSurface seen{{1, 3}};
     seen.paint.diffuse = {0.5F, 0.5F, 0.5F};
     seen.far.diffuse = {0.4F, 0.4F, 0.4F};
@@ -162,7 +162,7 @@ TEST(Film, UnknownLightIsShownUnshaded) {
     EXPECT_NEAR(film.resolvedFrom(unknown, 0, {}).colour[0], 255 * srgbEncoded(0.2F), 1);
 }
 
-TEST(Film, LightAtAnEdgeIsThatOfTheSurfaceAtTheCentre) {
+TEST(Film, EdgePixelStoresTheLightOfTheSurfaceAtItsCentre) {
     const FilmSample shadow = catcherSample({0.1F, 0.1F, 0.1F}, {0.4F, 0.4F, 0.4F});
     for (const std::uint8_t centre : {std::uint8_t{1}, std::uint8_t{2}, kCatcherId}) {
         Film film({1, 1});
@@ -183,7 +183,7 @@ TEST(Film, LightAtAnEdgeIsThatOfTheSurfaceAtTheCentre) {
     }
 }
 
-TEST(Film, ALayeredPictureDoesNotMixSurfacesAtEdges) {
+TEST(Film, LayeredPictureDoesNotMixSurfacesAtEdges) {
     SeenSurface seen{{1, 1}};
     seen.paint.diffuse = {1, 1, 1};
     Film film({1, 1});
@@ -199,7 +199,7 @@ TEST(Film, ALayeredPictureDoesNotMixSurfacesAtEdges) {
     EXPECT_EQ(mixed.light, layered.light);
 }
 
-TEST(Film, PixelsKeepTheirOwnPlaces) {
+TEST(Film, EachPixelHasItsOwnMemory) {
     Film film({19, 11});  // not a multiple of the tile size
     const auto count = static_cast<std::uint32_t>(19 * 11);
     for (std::uint32_t i = 0; i < count; ++i)
@@ -210,7 +210,7 @@ TEST(Film, PixelsKeepTheirOwnPlaces) {
     EXPECT_EQ(moved.centre(count - 1).hit.depth, static_cast<float>(count));
 }
 
-TEST(Film, ErrorIsTheStandardErrorInGreyLevels) {
+TEST(Film, ErrorIsTheStandardErrorOfTheDisplayedGreyLevel) {
     Film film({1, 1});
     film.add(0, objectSample(0.4F));
     EXPECT_TRUE(std::isinf(film.error(0)));
@@ -236,7 +236,7 @@ TEST(Film, UniformLightHasZeroError) {
     EXPECT_EQ(film.error(1), 0);
 }
 
-TEST(Film, ErrorOfAnEdgeFallsWithItsSamples) {
+TEST(Film, ErrorOfAnEdgePixelFallsWithItsSamples) {
     const auto edge = [](int samples) {
         Film film({1, 1});
         for (int i = 0; i < samples; ++i)

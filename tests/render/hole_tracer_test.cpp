@@ -77,7 +77,7 @@ TEST(HoleTracer, EachPixelInsideThePictureIsTracedOnce) {
     EXPECT_EQ(answer.pixels, (PixelList{3, 7, 900, 48 * 36 - 1}));
 }
 
-TEST(HoleTracer, RequestsBeyondTheLimitsAreReducedToThem) {
+TEST(HoleTracer, TooLargeRequestsAreReducedToTheLimits) {
     const PathTracer tracer(render_scenes::stillLife());
     HoleTracer holes(5);
     EXPECT_EQ(answered(holes, tracer, requestFor({1, 2, 3, 4, 5, 6, 7}, 1), 10).pixels.size(), 5U);

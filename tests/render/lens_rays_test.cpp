@@ -12,7 +12,7 @@ CameraModel wideLens() {
     return {{321, 243}, 200, 205, 163.2, 118.7, {-0.28, 0.07, 0.001, -0.0007, 0}};
 }
 
-TEST(LensRays, MatchUnprojectWithinATwentiethOfAPixel) {
+TEST(LensRays, MatchUnprojectWithin0Point05Pixels) {
     for (const CameraModel& camera :
          {wideLens(), CameraModel{{7, 5}, 6, 6, 3, 2, {}}, CameraModel{{1, 1}, 1, 1, 0, 0, {}}}) {
         const LensRays rays(camera);
@@ -28,7 +28,7 @@ TEST(LensRays, MatchUnprojectWithinATwentiethOfAPixel) {
     }
 }
 
-TEST(LensRays, CellsContainEveryPixelOfABox) {
+TEST(LensRays, PixelsInContainsAllPixelsWithRaysInTheBox) {
     const CameraModel camera = wideLens();
     const LensRays rays(camera);
     const Eigen::Vector2f least{-0.3F, 0.1F}, most{0.05F, 0.2F};
@@ -46,7 +46,7 @@ TEST(LensRays, CellsContainEveryPixelOfABox) {
     EXPECT_LT((found.x1 - found.x0) * (found.y1 - found.y0), 3 * inside);
 }
 
-TEST(ViewBounds, ABoxBehindTheCameraHasEmptyBounds) {
+TEST(ViewBounds, BoxBehindTheCameraHasEmptyBounds) {
     const RenderView view{wideLens(), {}};
     const LensRays rays(view.camera);
     EXPECT_TRUE(
@@ -54,7 +54,7 @@ TEST(ViewBounds, ABoxBehindTheCameraHasEmptyBounds) {
     EXPECT_TRUE(pixelsOfBox({}, view, rays).empty());
 }
 
-TEST(ViewBounds, ABoxAroundTheCameraCoversThePicture) {
+TEST(ViewBounds, BoxAroundTheCameraCoversThePicture) {
     const RenderView view{wideLens(), {}};
     const LensRays rays(view.camera);
     EXPECT_EQ(pixelsOfBox({Eigen::Vector3f(-1, -1, -1), Eigen::Vector3f(1, 1, 1)}, view, rays),

@@ -66,7 +66,7 @@ TEST(Microfacet, SampledNormalsFollowTheirDensity) {
     }
 }
 
-TEST(Microfacet, AlbedoTableHoldsTheIntegral) {
+TEST(Microfacet, AlbedoTableMatchesTheIntegral) {
     for (const float roughness : {0.35F, 0.62F, 1.0F})
         for (const float mu : {0.08F, 0.33F, 0.9F}) {
             const Ggx ggx(alphaOf(roughness));

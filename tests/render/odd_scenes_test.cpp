@@ -56,7 +56,7 @@ TEST(OddScenes, EmptyScenesAreTransparent) {
     EXPECT_EQ(tracedSoundly(bare, kOddView), 0);
 }
 
-TEST(OddScenes, TrianglesWithoutAreaAreHarmless) {
+TEST(OddScenes, TrianglesWithoutAreaGiveFiniteColours) {
     Mesh mesh = sphere({0, 0, 0.5F}, 0.5F, 12);
     mesh.triangles.push_back({3, 3, 3});
     mesh.triangles.push_back({3, 4, 3});
@@ -70,7 +70,7 @@ TEST(OddScenes, TrianglesWithoutAreaAreHarmless) {
     EXPECT_EQ(tracedSoundly(oddScene(flat), kOddView), 0);
 }
 
-TEST(OddScenes, SliversAndExtremeSizesAreHarmless) {
+TEST(OddScenes, ThinHugeAndTinyTrianglesGiveFiniteColours) {
     Mesh sliver;
     sliver.positions = {{-1, 0, 0.3F}, {1, 1e-7F, 0.3F}, {1, 0, 0.3F}};
     sliver.triangles = {{0, 1, 2}};
@@ -81,20 +81,20 @@ TEST(OddScenes, SliversAndExtremeSizesAreHarmless) {
     EXPECT_GE(tracedSoundly(oddScene(tiny), kOddView), 0);
 }
 
-TEST(OddScenes, ASingleTriangleIsSeen) {
+TEST(OddScenes, SingleTriangleIsVisible) {
     Mesh one;
     one.positions = {{-1, 0, 0}, {1, 0, 0}, {0, 0, 1.5F}};
     one.triangles = {{0, 1, 2}};
     EXPECT_GT(tracedSoundly(oddScene(one), kOddView), 20);
 }
 
-TEST(OddScenes, HalfAMillionTrianglesAreSeen) {
+TEST(OddScenes, HalfAMillionTrianglesAreVisible) {
     const Mesh mesh = sphere({0, 0, 0.5F}, 0.5F, 354);
     ASSERT_GT(mesh.triangles.size(), 500000U);
     EXPECT_GT(tracedSoundly(oddScene(mesh), kOddView), 50);
 }
 
-TEST(OddScenes, ACameraInsideAnObjectSeesItsInside) {
+TEST(OddScenes, CameraInsideAnObjectSeesItsInside) {
     auto scene = oddScene(sphere({0, 0, 0}, 5, 16));
     EXPECT_EQ(tracedSoundly(scene, kOddView), 32 * 24);
     EXPECT_EQ(PathTracer(scene).bounds(kOddView), (PixelRect{0, 0, 32, 24}));
@@ -104,14 +104,14 @@ TEST(OddScenes, ACameraInsideAnObjectSeesItsInside) {
     EXPECT_EQ(tracedSoundly(single, kOddView), 0);
 }
 
-TEST(OddScenes, ACameraOnASurfaceIsHarmless) {
+TEST(OddScenes, CameraOnASurfaceGivesFiniteColours) {
     const RenderView onGround = lookingAt({0, -1, 0}, {0, 0, 0}, {32, 24}, 30);
     EXPECT_GT(tracedSoundly(oddScene(sphere({0, 0, 0.5F}, 0.5F, 16)), onGround), 20);
     const RenderView onSphere = lookingAt({0, -0.5, 0.5}, {0, 0, 0.5}, {32, 24}, 30);
     EXPECT_GE(tracedSoundly(oddScene(sphere({0, 0, 0.5F}, 0.5F, 16)), onSphere), 0);
 }
 
-TEST(OddScenes, ObjectsBehindTheCameraAreNotSeen) {
+TEST(OddScenes, ObjectsBehindTheCameraAreInvisible) {
     const RenderView away = lookingAt({0, -3, 1}, {0, -6, 1}, {32, 24}, 30);
     auto scene = oddScene(sphere({0, 0, 0.5F}, 0.5F, 16));
     scene->catcher = {};

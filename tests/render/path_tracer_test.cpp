@@ -51,7 +51,7 @@ Mesh flatSquare() {
 }
 
 // A pixel covers about three bumps of the normal map.
-TEST(PathTracer, AFineReliefIsSeenAsAWiderLobeAboutItsMeanNormal) {
+TEST(PathTracer, FineNormalMapRaisesTheRoughnessAboutTheMeanNormal) {
     // With an earlier picture, the ray through the pixel's centre measures the relief. Otherwise,
     // the first sample does.
     const auto seen = [](bool bumpy, bool hasHistory, int samples) {
@@ -86,7 +86,7 @@ TEST(PathTracer, AFineReliefIsSeenAsAWiderLobeAboutItsMeanNormal) {
     }
 }
 
-TEST(PathTracer, AWhiteSphereInUniformLightIsInvisible) {
+TEST(PathTracer, WhiteSphereInUniformLightIsInvisible) {
     for (const float metallic : {0.0F, 1.0F})
         for (const float roughness : {0.2F, 0.6F, 1.0F}) {
             auto scene =
@@ -99,7 +99,7 @@ TEST(PathTracer, AWhiteSphereInUniformLightIsInvisible) {
         }
 }
 
-TEST(PathTracer, ABowlReflectsNoMoreLightThanItReceives) {
+TEST(PathTracer, BowlReflectsNoMoreLightThanItReceives) {
     // Light is reflected many times inside. All of it must leave, except for paths beyond the
     // length limit.
     Mesh bowl = sphere({0, 0, 0}, 1, 32);
@@ -182,7 +182,7 @@ TEST(PathTracer, SunlightOnAMattSurfaceIsIrradianceTimesCosine) {
     }
 }
 
-TEST(PathTracer, AMirrorShowsTheSunWithItsRadiance) {
+TEST(PathTracer, MirrorShowsTheSunWithItsRadiance) {
     // The sun's disc fills the reflection lobe. Only the weighted sum of both sampling strategies
     // gives its radiance.
     auto scene = sceneOf(square(1, 0), materialOf({1, 1, 1}, 1, 0.1F));
@@ -211,7 +211,7 @@ TEST(PathTracer, EmissiveSurfacesAreVisibleAndGiveLight) {
     EXPECT_EQ(film.means(5).without.x(), 0);
 }
 
-TEST(PathTracer, TexturesAlphaMasksAndSidesAreRespected) {
+TEST(PathTracer, TexturesAlphaMasksAndSingleSidesAffectThePicture) {
     auto texture = SurfaceTexture{{2, 1}, false, {{255, 0, 0, 255}, {0, 255, 0, 0}}};
     Material masked = materialOf({1, 1, 1}, 0, 1);
     masked.baseColourTexture = 0;
@@ -239,7 +239,7 @@ TEST(PathTracer, TexturesAlphaMasksAndSidesAreRespected) {
     EXPECT_GT(resolved(traced(PathTracer(scene), under, 2), under).samples, 0);
 }
 
-TEST(PathTracer, ANormalMapChangesWhichLightIsBright) {
+TEST(PathTracer, NormalMapBrightensLightFromTheSideToWhichItTilts) {
     // All normals are tilted towards +u, which is +x.
     SurfaceTexture map{{1, 1}, false, {{218, 128, 218, 255}}};
     Material leaning = materialOf({1, 1, 1}, 0, 1);
@@ -261,7 +261,7 @@ TEST(PathTracer, ANormalMapChangesWhichLightIsBright) {
     EXPECT_NEAR(brightness(1, given), brightness(-1, given), 0.01F);
 }
 
-TEST(PathTracer, DepthIsAlongTheCamerasAxis) {
+TEST(PathTracer, DepthIsMeasuredAlongTheOpticalAxis) {
     auto scene = sceneOf(square(2, 0), materialOf({1, 1, 1}, 0, 1));
     RenderView view = lookingAt({0, 0, 3}, {0, 0, 0}, {32, 24}, 40);
     view.camera.distortion = {-0.1, 0.01, 0.001, 0, 0};

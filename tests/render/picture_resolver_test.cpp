@@ -28,7 +28,7 @@ void expectSame(const RenderedPicture& a, const RenderedPicture& b) {
     EXPECT_NEAR(a.samples, b.samples, 1e-9);
 }
 
-TEST_P(PictureResolving, PortionsInAnyOrderMakeThePicture) {
+TEST_P(PictureResolving, OrderOfPortionsDoesNotChangeThePicture) {
     RenderedPicture whole, parts;
     resolve(film, view, {}, whole, GetParam());
     // Values of an earlier picture, which must be overwritten.

@@ -53,7 +53,7 @@ std::vector<Ray> fan(std::size_t count, std::mt19937& random) {
     return out;
 }
 
-TEST(RayScene, PacketsMatchSingleRaysExactly) {
+TEST(RayScene, RayPacketsGiveTheHitsOfSingleRays) {
     const RayScene scene = sphereOnSquare();
     std::mt19937 random(5);
     int different = 0, found = 0;
@@ -73,7 +73,7 @@ TEST(RayScene, PacketsMatchSingleRaysExactly) {
     EXPECT_GT(found, 5000);
 }
 
-TEST(RayScene, HolesLetRaysThrough) {
+TEST(RayScene, RaysPassThroughTransparentPoints) {
     RayScene scene;
     const Mesh upper = square(1, 1), lower = square(1, 0);
     // Rays pass through all triangles except one corner of the first.
@@ -94,7 +94,7 @@ TEST(RayScene, HolesLetRaysThrough) {
     EXPECT_FALSE(scene.blocked({rays[1].origin, rays[1].direction, 0, 2.5F}));
 }
 
-TEST(RayScene, AnEmptySceneHasNoHits) {
+TEST(RayScene, EmptySceneHasNoHits) {
     RayScene scene;
     scene.commit();
     EXPECT_TRUE(scene.empty());

@@ -27,7 +27,7 @@ void expectUnsound(const std::function<void(Scene&, Model&)>& change) {
     EXPECT_THROW(validate(scene), std::invalid_argument);
 }
 
-TEST(SceneCheck, ValidScenesHaveNoFaults) {
+TEST(SceneCheck, ValidScenesAreAccepted) {
     EXPECT_NO_THROW(validate(Scene{}));
     Scene scene;
     scene.objects.push_back(objectOf(modelOf(square(1, 0), {})));

@@ -27,7 +27,7 @@ Film::Means groundAt(const PathTracer& tracer, const Eigen::Vector3d& point, int
     return traced(tracer, view, samples).means(0);
 }
 
-TEST(ShadowCatcher, ASphereHidesItsShareOfAnEvenSky) {
+TEST(ShadowCatcher, SphereBlocksItsFormFactorOfAUniformSky) {
     auto scene = sphereOverGround(1, 2);
     scene->lighting.environment = evenLight(1);
     PathTracerOptions directly;
@@ -44,7 +44,7 @@ TEST(ShadowCatcher, ASphereHidesItsShareOfAnEvenSky) {
     EXPECT_NEAR(aside.with.x() / aside.without.x(), 1 - std::sqrt(0.5F) / 8, 0.01F);
 }
 
-TEST(ShadowCatcher, TheSunsPenumbraIsTheCoveredShareOfItsDisc) {
+TEST(ShadowCatcher, PenumbraIsTheCoveredShareOfTheSunsDisc) {
     // The edge of a large roof covers half of the sun's disc, as seen from this point.
     auto scene = std::make_shared<Scene>();
     Mesh roof = square(5, 1);
@@ -71,7 +71,7 @@ TEST(ShadowCatcher, TheSunsPenumbraIsTheCoveredShareOfItsDisc) {
     EXPECT_NEAR(ratio(0.5 * r), part, 0.01);
 }
 
-TEST(ShadowCatcher, PixelsWithoutInfluenceAreExactlyUnchanged) {
+TEST(ShadowCatcher, PixelsThatObjectsDoNotAffectAreUnchanged) {
     auto scene = sphereOverGround(0.1F, 0.1F);
     scene->lighting.sun = Sun{Eigen::Vector3f(0.3F, 0.2F, 1).normalized(), {2, 2, 2}, 0.02F};
     const RenderView view = lookingAt({0, -3, 2}, {0, 0.1, 0}, {64, 48}, 120);
@@ -90,7 +90,7 @@ TEST(ShadowCatcher, PixelsWithoutInfluenceAreExactlyUnchanged) {
     EXPECT_GT(nothing, 2500);
 }
 
-TEST(ShadowCatcher, ContactIsDarkAndShadowFades) {
+TEST(ShadowCatcher, ShadowIsDarkAtTheContactAndFadesWithDistance) {
     auto scene = sphereOverGround(0.5F, 0.5F);
     scene->lighting.environment = evenLight(1);
     const PathTracer tracer(scene);

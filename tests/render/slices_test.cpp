@@ -110,7 +110,7 @@ TEST(Slices, SamplePositionsDoNotDependOnSlicingOrThreads) {
         }
 }
 
-TEST(Slices, NoPixelIsInTwoOutstandingPortions) {
+TEST(Slices, NoPixelIsInTwoUnfinishedPortions) {
     for (const Slicing slicing : {Slicing::Time, Slicing::Spatial}) {
         Slices slices({slicing, 16, 4, 0, 2});
         slices.begin(kBounds, kPicture);
@@ -135,7 +135,7 @@ TEST(Slices, NoPixelIsInTwoOutstandingPortions) {
 
 // The first turn traces a ray through every pixel's centre. Three turns take the first samples, one
 // of 16, one of 4 and all pixels.
-TEST(Slices, AfterEachTurnOfTimeSlicesAllPixelsHaveEqualSamples) {
+TEST(Slices, AllPixelsHaveEqualSamplesAfterEachTurnOfTimeSlices) {
     Slices slices({Slicing::Time, 8, 3, 0, 2});
     slices.begin({0, 0, 32, 24}, {32, 24});
     NoisyPicture picture([](std::uint32_t) { return 1.0F; });
@@ -163,7 +163,7 @@ TEST(Slices, AfterEachTurnOfTimeSlicesAllPixelsHaveEqualSamples) {
     EXPECT_EQ(sampled, (std::vector<int>{0, 48, 192, 768, 768, 768}));
 }
 
-TEST(Slices, TheFirstSamplesAreSpreadEvenly) {
+TEST(Slices, FirstSamplesAreEvenlySpread) {
     Slices slices({Slicing::Time, 2, 1, 0, 2});
     slices.begin({0, 0, 32, 24}, {32, 24});
     NoisyPicture picture([](std::uint32_t) { return 1.0F; });
@@ -293,7 +293,7 @@ TEST(Slices, OnlyNoisyPixelsGetAllSamples) {
     EXPECT_EQ(many, 9);
 }
 
-TEST(Slices, APixelWhoseErrorIsNanIsSampledOn) {
+TEST(Slices, PixelWithANanErrorGetsMoreSamples) {
     Slices slices({Slicing::Spatial, 32, 4, 1, 4});
     slices.begin({0, 0, 8, 8}, {8, 8});
     const auto states = [](std::uint32_t) {
@@ -316,7 +316,7 @@ TEST(Slices, EmptyBoundsAreFinishedAtOnce) {
     }
 }
 
-TEST(Slices, ANewPictureForgetsTheLastOne) {
+TEST(Slices, NewPictureStartsWithoutThePreviousState) {
     Slices slices({Slicing::Spatial, 4, 2, 0, 2});
     slices.begin(kBounds, kPicture);
     const Slice slice = slices.next(10);

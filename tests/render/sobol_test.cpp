@@ -82,7 +82,7 @@ TEST(Sobol, ErrorsOfSmoothIntegralsAreFarBelowThoseOfRandomNumbers) {
     EXPECT_NEAR(chance, 0.666 / 8, 0.01);
 }
 
-TEST(Sobol, TheErrorOfADiscsAreaFallsFasterThanWithRandomNumbers) {
+TEST(Sobol, ErrorOfADiscsAreaFallsFasterThanWithRandomNumbers) {
     const auto disc = [](const Eigen::Vector2f& u) { return u.squaredNorm() < 1 ? 1.0 : 0.0; };
     const double few = errorOf(disc, M_PI / 4, 16, false);
     const double many = errorOf(disc, M_PI / 4, 1024, false);

@@ -12,7 +12,7 @@ Sun sunOf(float radius) {
     return {Eigen::Vector3f(0.2F, -0.5F, 0.6F).normalized(), {3, 2, 1}, radius};
 }
 
-TEST(SunLight, GivesItsIrradianceOnASurfaceThatFacesIt) {
+TEST(SunLight, SamplesSumToTheIrradianceOfAFacingSurface) {
     for (const float radius : {0.00465F, 0.1F, 0.8F}) {
         const Sun sun = sunOf(radius);
         const SunLight light(sun);
@@ -25,7 +25,7 @@ TEST(SunLight, GivesItsIrradianceOnASurfaceThatFacesIt) {
     }
 }
 
-TEST(SunLight, SamplesAreInTheDiscWithItsDensity) {
+TEST(SunLight, SamplesLieInTheDiscWithItsDensity) {
     for (const float radius : {0.001F, 0.3F}) {
         const Sun sun = sunOf(radius);
         const SunLight light(sun);

@@ -34,7 +34,7 @@ Eigen::Vector3f furnace(const SurfaceLook& look, float mu) {
     return sum / kSamples;
 }
 
-TEST(SurfaceScatter, AWhiteSurfaceReflectsAllLight) {
+TEST(SurfaceScatter, WhiteSurfaceReflectsAllLight) {
     for (const SurfaceLook& look : looks({1, 1, 1}))
         for (const float mu : {0.1F, 0.4F, 0.7F, 1.0F})
             EXPECT_NEAR(furnace(look, mu).mean(), 1, 0.02)
@@ -100,7 +100,7 @@ TEST(SurfaceScatter, SamplesFollowTheirDensity) {
         }
 }
 
-TEST(SurfaceScatter, TheWeightOfASampleIsReflectanceOverDensity) {
+TEST(SurfaceScatter, WeightOfASampleIsReflectanceDividedByDensity) {
     const SurfaceScatter scatter({{0.9F, 0.7F, 0.2F}, 0.7F, 0.4F, false}, directionAt(0.5F, 1));
     for (std::uint32_t i = 0; i < 64; ++i) {
         const ScatterSample s = scatter.sample(PixelSampler(5, 1, i, false).pair(3));
@@ -111,7 +111,7 @@ TEST(SurfaceScatter, TheWeightOfASampleIsReflectanceOverDensity) {
     }
 }
 
-TEST(SurfaceScatter, MirrorsAndGrazingViewsStayFinite) {
+TEST(SurfaceScatter, MirrorsAndGrazingViewsGiveFiniteLight) {
     for (const float roughness : {0.0F, 1.0F})
         for (const float mu : {0.0F, 1e-6F, 1.0F}) {
             const SurfaceScatter scatter({{1, 1, 1}, 1, roughness, false}, directionAt(mu, 0));

@@ -14,7 +14,7 @@ using namespace traced_pictures;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-TEST(NextStep, StepDependsOnHowFarTheViewChanged) {
+TEST(NextStep, StepDependsOnTheChangesOfTheView) {
     using enum TracedStep;
     struct Case {
         std::optional<double> sinceShown, sinceNext;
@@ -40,7 +40,7 @@ TEST(NextStep, StepDependsOnHowFarTheViewChanged) {
     }
 }
 
-TEST(NextStep, AHigherLimitOfChangeStartsTheNextPictureLater) {
+TEST(NextStep, HigherLimitOfChangeStartsTheNextPictureLater) {
     using enum TracedStep;
     EXPECT_EQ(nextStep(0.9, {}, 1), Refine);
     EXPECT_EQ(nextStep(1.0, {}, 1), Start);
@@ -48,7 +48,7 @@ TEST(NextStep, AHigherLimitOfChangeStartsTheNextPictureLater) {
     EXPECT_EQ(nextStep(0.6, 0.7, 1), Continue);
 }
 
-TEST(TracedPictures, AtRestThePictureIsRefined) {
+TEST(TracedPictures, PictureIsRefinedWhileTheCameraRests) {
     Driver driver(kThirtyTwo);
     EXPECT_FALSE(driver.step()) << "without a view there is no work";
     driver.look(20);
@@ -63,7 +63,7 @@ TEST(TracedPictures, AtRestThePictureIsRefined) {
     EXPECT_FALSE(driver.step()) << "the picture suffices for this view";
 }
 
-TEST(TracedPictures, AfterAMotionAPictureOfTheRestingViewIsStarted) {
+TEST(TracedPictures, CameraThatComesToRestGetsAPictureOfItsView) {
     Driver driver(kThirtyTwo);
     driver.look(20);
     driver.settle();
@@ -84,7 +84,7 @@ TEST(TracedPictures, AfterAMotionAPictureOfTheRestingViewIsStarted) {
     EXPECT_FALSE(driver.step());
 }
 
-TEST(TracedPictures, APictureIsFinishedThoughTheLightKeepsChanging) {
+TEST(TracedPictures, PictureIsFinishedWhileTheLightKeepsChanging) {
     Driver driver(kThirtyTwo);
     driver.look(20);
     driver.settle();
@@ -109,7 +109,7 @@ TEST(TracedPictures, SpatialSlicesAreShownWhenTheyAreFinished) {
     EXPECT_EQ(driver.shown[0].samples, 32);
 }
 
-TEST(TracedPictures, APictureOfAnotherViewIsShownOnceItHasEnoughSamples) {
+TEST(TracedPictures, PictureOfANewViewIsShownWhenItHasEnoughSamples) {
     Driver driver(kThirtyTwo);
     driver.look(20);
     driver.settle();
@@ -119,7 +119,7 @@ TEST(TracedPictures, APictureOfAnotherViewIsShownOnceItHasEnoughSamples) {
     EXPECT_TRUE(driver.shows(26));
 }
 
-TEST(TracedPictures, AVeryOldPictureIsReplacedAtOnce) {
+TEST(TracedPictures, PictureOfAVeryDifferentViewIsReplacedAtOnce) {
     Driver driver(kThirtyTwo);
     driver.look(20);
     driver.settle();
@@ -128,7 +128,7 @@ TEST(TracedPictures, AVeryOldPictureIsReplacedAtOnce) {
     EXPECT_EQ(driver.shown[4].samples, 1);
 }
 
-TEST(TracedPictures, ACameraThatReturnsGetsItsEarlierPictureWhichIsRefined) {
+TEST(TracedPictures, ReturningCameraGetsItsEarlierPictureRefined) {
     Driver driver(kThirtyTwo);
     driver.look(20);
     driver.untilShown(3);
@@ -156,7 +156,7 @@ TEST(TracedPictures, MovingCamerasGetPicturesOfPredictedViews) {
     EXPECT_TRUE(driver.shows(33));
 }
 
-TEST(TracedPictures, AReversingCameraIsFollowed) {
+TEST(TracedPictures, ReversingCameraDiscardsThePredictedPicture) {
     Driver driver(kThirtyTwo);
     driver.look(20);
     driver.settle();
@@ -199,7 +199,7 @@ TEST(TracedPictures, WaitsForPortionsOfTheReplacedPicture) {
     EXPECT_TRUE(driver.pictures.toBegin());
 }
 
-TEST(TracedPictures, AnEmptyViewShowsNothing) {
+TEST(TracedPictures, ViewWithoutObjectsGivesAnEmptyPicture) {
     Driver driver(kThirtyTwo);
     RenderView away = render_scenes::viewFrom(kTracedSize, 20);
     away.T_world_camera.translation.z() += 100;

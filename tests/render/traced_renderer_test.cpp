@@ -118,7 +118,7 @@ TEST(TracedRenderer, GivesTheSamePictureForBothSlicingMethodsAndAnyThreadCount) 
         }
 }
 
-TEST(TracedRenderer, IsIdleOnceConvergedAndUnmoved) {
+TEST(TracedRenderer, IsIdleWhenThePictureIsFinishedAndTheCameraRests) {
     TracedRendererOptions options = quick();
     options.slices.samples = 4096;
     options.slices.threshold = 1e6;  // every pixel is finished when its error counts as reliable
@@ -156,7 +156,7 @@ TEST(TracedRenderer, IsNotIdleBeforeTheFirstPictureIsFinished) {
     }
 }
 
-TEST(TracedRenderer, AtRestThePictureNeverGetsNoisier) {
+TEST(TracedRenderer, CameraAtRestNeverGetsANoisierPicture) {
     Frames frames(quick());
     frames.renderer.setScene(render_scenes::stillLife());
     double samples = 0;
@@ -210,7 +210,7 @@ TEST(TracedRenderer, StopInterruptsItsWork) {
         }
 }
 
-TEST(TracedRenderer, FollowsACameraThatTurnsFarEnough) {
+TEST(TracedRenderer, CameraMotionBeyondTheLimitStartsANewPicture) {
     Frames frames(quick());
     frames.renderer.setScene(render_scenes::stillLife());
     const RenderView first = render_scenes::viewFrom(kRenderSize, 20),
@@ -247,7 +247,7 @@ TEST(TracedRenderer, MakesTheNextPictureForAPredictedView) {
     EXPECT_GT(std::atan2(at.y(), at.x()) * 180 / std::numbers::pi, azimuths[chosen] + 0.2);
 }
 
-TEST(TracedRenderer, AnswersHolesOfTheNewestRequest) {
+TEST(TracedRenderer, AnswersTheNewestHoleRequest) {
     Frames frames(quick());
     const auto scene = render_scenes::stillLife();
     frames.renderer.setScene(scene);
@@ -277,7 +277,7 @@ TEST(TracedRenderer, AnswersHolesOfTheNewestRequest) {
     EXPECT_EQ(frames.renderer.takeHoles(), nullptr) << "once";
 }
 
-TEST(TracedRenderer, HolesDoNotKeepATracedPictureFromBeingFinished) {
+TEST(TracedRenderer, HoleRequestsDoNotPreventAFinishedPicture) {
     TracedRendererOptions options = quick();
     options.budgetMs = 2;
     Frames frames(options);
@@ -296,7 +296,7 @@ TEST(TracedRenderer, HolesDoNotKeepATracedPictureFromBeingFinished) {
     }));
 }
 
-TEST(TracedRenderer, AnInvalidSceneIsReportedAndTheOldOneStays) {
+TEST(TracedRenderer, InvalidSceneIsReportedAndTheOldSceneStays) {
     Frames frames(quick());
     const RenderView view = render_scenes::viewFrom(kRenderSize, 20);
     frames.renderer.setScene(render_scenes::stillLife());
@@ -335,7 +335,7 @@ TEST(TracedRenderer, NewObjectsOrLightStartAPictureButSmallChangesDoNot) {
     EXPECT_TRUE(frames.finish(view, 3));
 }
 
-TEST(TracedRenderer, NoSceneShowsNothing) {
+TEST(TracedRenderer, WithoutASceneThePictureIsEmpty) {
     Frames frames(quick());
     const RenderView view = render_scenes::viewFrom(kRenderSize, 20);
     frames.renderer.setScene(render_scenes::stillLife());

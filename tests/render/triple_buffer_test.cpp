@@ -8,7 +8,7 @@
 namespace mfar {
 namespace {
 
-TEST(TripleBuffer, TheReaderGetsTheNewestValue) {
+TEST(TripleBuffer, ReaderGetsTheNewestValue) {
     TripleBuffer<int> buffer;
     EXPECT_FALSE(buffer.fetch());
     for (const int value : {1, 2, 3}) {
@@ -21,7 +21,7 @@ TEST(TripleBuffer, TheReaderGetsTheNewestValue) {
     EXPECT_EQ(buffer.front(), 3);
 }
 
-TEST(TripleBuffer, TheReadersValueStaysAndMemoryIsReused) {
+TEST(TripleBuffer, ValueOfTheReaderStaysAndMemoryIsReused) {
     TripleBuffer<std::vector<int>> buffer;
     for (int i = 0; i < 3; ++i) {  // allocates memory
         buffer.back().assign(100, i);

@@ -26,7 +26,7 @@ double change(const RenderView& from, const RenderView& to) {
     return viewChange(from, to, kBall, kLimits);
 }
 
-TEST(ViewChange, IsTheAngleAboutTheObjectInUnitsOfTheLimit) {
+TEST(ViewChange, IsTheAngleAboutTheObjectRelativeToTheLimit) {
     // At the object's height, the azimuth is the angle about the object.
     const RenderView from = viewFrom(kSize, 20, 0);
     EXPECT_NEAR(change(from, from), 0, 1e-12);
@@ -35,13 +35,13 @@ TEST(ViewChange, IsTheAngleAboutTheObjectInUnitsOfTheLimit) {
     EXPECT_NEAR(change(from, viewFrom(kSize, 20, 4)), 1, 1e-9);
 }
 
-TEST(ViewChange, IsTheRatioOfDistancesInUnitsOfTheLimit) {
+TEST(ViewChange, IsTheChangeOfDistanceRelativeToTheLimit) {
     const RenderView near = viewFrom(kSize, 20, 30, 1), far = viewFrom(kSize, 20, 30, 1.3);
     EXPECT_NEAR(change(near, far), 1.5, 1e-9);
     EXPECT_NEAR(change(far, near), 1.5, 1e-9);
 }
 
-TEST(ViewChange, RotationOnTheSpotIsIgnoredForWhollyVisibleObjects) {
+TEST(ViewChange, PureRotationIsIgnoredForWhollyVisibleObjects) {
     const RenderView from = viewFrom(kSize, 20);
     EXPECT_NEAR(change(from, turned(from, 8)), 0, 1e-9);
     const RenderView cut = turned(from, 24);  // the object crosses the picture's border
@@ -49,13 +49,13 @@ TEST(ViewChange, RotationOnTheSpotIsIgnoredForWhollyVisibleObjects) {
     EXPECT_NEAR(change(cut, turned(cut, -8)), 2, 0.01);
 }
 
-TEST(ViewChange, HiddenObjectsAreIgnoredButAppearingOnesForceAChange) {
+TEST(ViewChange, ObjectsThatAppearForceAChangeAndHiddenObjectsDoNot) {
     const RenderView from = viewFrom(kSize, 20), away = turned(viewFrom(kSize, 60), 180);
     EXPECT_EQ(change(from, away), 0);
     EXPECT_TRUE(std::isinf(change(away, from)));
 }
 
-TEST(ViewChange, AnotherLensOrSizeIsAnotherView) {
+TEST(ViewChange, OtherLensOrSizeIsAnInfiniteChange) {
     const RenderView from = viewFrom(kSize, 20);
     RenderView other = from;
     other.camera.distortion[0] = 0.01;

@@ -28,7 +28,7 @@ void expectNear(const RigidTransform& a, const RigidTransform& b, double metres,
     EXPECT_LT(angle(a, b), radians);
 }
 
-TEST(ViewPredictor, AConstantRateInTheCamerasFrameIsPredictedExactly) {
+TEST(ViewPredictor, ConstantVelocityInTheCameraFrameIsPredictedExactly) {
     ViewPredictor predictor(kNoLimits);
     for (int i = 0; i <= 30; ++i)
         predictor.add(onCircle(i / 30.0, 20), Timestamp::fromSeconds(i / 30.0));
@@ -58,14 +58,14 @@ TEST(ViewPredictor, PredictionStaysWithinItsLimits) {
     EXPECT_GT(way, 0.09 * 5 * kDegree);
 }
 
-TEST(ViewPredictor, ACameraAtRestOrSeenOnceIsPredictedToStay) {
+TEST(ViewPredictor, CameraAtRestOrWithOnePoseIsPredictedToStay) {
     ViewPredictor predictor;
     expectNear(predictor.predict(1, 1), {}, 1e-12, 1e-12);
     predictor.add(onCircle(1, 20), Timestamp::fromSeconds(1));
     expectNear(predictor.predict(1, 1), onCircle(1, 20), 1e-9, 1e-9);
 }
 
-TEST(ViewPredictor, AGapOrAStepBackInTimeRestartsThePrediction) {
+TEST(ViewPredictor, GapOrStepBackInTimeRestartsThePrediction) {
     for (const double jump : {1.0, -1.0, 0.0}) {
         ViewPredictor predictor;
         predictor.add(onCircle(0, 20), Timestamp::fromSeconds(5));
