@@ -218,8 +218,7 @@ bool EnlargerLearner::putInPlace(const std::vector<ClassWeights>& weights,
         inPlace_ = std::make_shared<const FilterBank>(filters, guidance_.guidance(),
                                                       fineMatch_.fineMatch());
     } catch (const FilterBankError&) {
-        return false;  // the SIMD code cannot use such large weights, so the old filters stay in
-                       // use
+        return false;  // the weights are too large for the SIMD code
     }
     current_ = weights;
     learned_ = learned;

@@ -90,8 +90,8 @@ private:
     enlarge::GuidanceLearner guidance_;
     enlarge::FineMatchLearner fineMatch_;
     std::shared_ptr<const FilterBank> inPlace_;
-    // Means over 4x4 video pixels: of the last picture with which each tile was used for learning,
-    // and of the last picture given to findNew().
+    // Means over 4x4 video pixels. `shown_` has, for each tile, the last picture used for learning.
+    // `means_` has the last picture given to findNew().
     std::vector<std::uint8_t> shown_, means_;
     Size shownSize_{};
     std::vector<std::uint8_t> isNew_;

@@ -13,8 +13,8 @@
 namespace mfar::enlarge {
 namespace {
 
-constexpr double kForgetting = 0.95;  // A new pair of stills multiplies the sums over older pairs
-                                      // by this factor.
+// A new pair of stills multiplies the sums over older pairs by this factor.
+constexpr double kForgetting = 0.95;
 // Zero guidance is the prior. It counts as much as this number of pixels.
 constexpr double kPriorPixels = 2000;
 constexpr double kLeastPixels = 0.02;
@@ -78,8 +78,8 @@ public:
             width, {residual_[0], residual_[1], residual_[2], residual_[3]});
     }
     struct Added {
-        Phases unguided;      ///< added to the cubic enlargement without guidance
-        Phases still, video;  ///< added for each factor of Guidance, if it is one
+        Phases unguided;      ///< addition to the cubic enlargement without guidance
+        Phases still, video;  ///< addition by each factor of Guidance if the factor is 1
     };
     void addedTo(int x, int y, Added& out) const {
         const Phases low = cubicOf(x, y, [&](int i, int j) { return still_.mean(i, j); });
@@ -198,10 +198,9 @@ bool GuidanceLearner::add(const TrustedPairs& truth, const MatchedPictures& olde
                     added.video.dot(missing), 1});
         }
     }
-    const double sum = learn.still2 + learn.video2 + learn.missing2 + held.still2 + held.video2 +
-                       // The other sums of products are not larger than this sum, so they are
-                       // finite, too.
-                       held.missing2;
+    // The other sums of products are not larger than this sum, so they are finite, too.
+    const double sum =
+        learn.still2 + learn.video2 + learn.missing2 + held.still2 + held.video2 + held.missing2;
     if (stop.stop_requested() || !std::isfinite(sum)) return false;
     if (!(learn.pixels >= kLeastPixels * width * height && held.pixels > 0)) return false;
     ++pairs_;

@@ -8,11 +8,11 @@
 
 namespace mfar {
 
-/// Light from an environment picture, interpolated between texels.
-/// The probability density of a sampled direction is constant on each texel (Pharr, Jakob,
-/// Humphreys, Physically Based Rendering, 12.5). It is proportional to the excess of the texel's
-/// luminance over the mean luminance of all directions. Sampling the surface's reflection finds
-/// weaker light better (MIS compensation, Karlik et al. 2019). A uniform picture is not sampled.
+/// Light from an environment picture, interpolated between texels. The probability density of a
+/// sampled direction is constant on each texel (Pharr, Jakob, Humphreys, Physically Based
+/// Rendering, 12.5). It is proportional to the excess of the texel's luminance over the mean
+/// luminance of all directions. Weaker light is found better by sampling the surface's reflection
+/// (MIS compensation, Karlik et al. 2019). A uniform picture is not sampled.
 class EnvironmentLight {
 public:
     explicit EnvironmentLight(std::shared_ptr<const Environment> environment);
@@ -38,8 +38,7 @@ private:
     // edge of the last row.
     std::vector<float> tops_;
     std::vector<float> rows_;    // cumulative probability of the rows, from 0 to 1
-    std::vector<float> texels_;  // cumulative probability of each row's texels: width + 1 values
-                                 // per row
+    std::vector<float> texels_;  // the same in each row: width + 1 values per row
     bool dark_ = true, sampled_ = false;
 };
 

@@ -20,8 +20,8 @@ constexpr int kDiffuseEdge = 16;
 constexpr int kIntegrated = 32;
 constexpr int kSamples = 64;
 
-/// Roughness and resolution of a table of mirrored light. Sharper reflections than the first
-/// table's interpolate between this table and the unfiltered environment.
+/// Roughness and resolution of a table of mirrored light. Light of sharper reflections is
+/// interpolated between the first table and the unfiltered environment.
 struct MirrorLevel {
     float roughness;
     int edge;

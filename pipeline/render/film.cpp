@@ -26,7 +26,7 @@ constexpr auto kRanks = [] {
 }();
 
 constexpr float kGreyLevels = 255;
-constexpr float kEnough = 16;  // number of samples after which light counts as unchanged.
+constexpr float kEnough = 16;  // number of samples after which light counts as unchanged
 // Assumed contrast [grey levels] between an object and the unknown background: half the range.
 constexpr float kEdgeContrast = 0.5F * kGreyLevels;
 
@@ -159,7 +159,7 @@ void Film::add(std::size_t pixel, const FilmSample& sample) {
     ++p.objectHits;
     p.radiance += sample.radiance.cast<double>();
     p.radianceSquares += squared(luminanceOf<double>(sample.radiance.cast<double>()));
-    // At an edge, only the object at the pixel's centre gets light.
+    // Light of other objects is ignored at an edge. It would be shown on the object at the centre.
     if (hasObjectAtCentre(p) && sample.hit.id != p.seen.hit.id) return;
     ++p.object.hits;
     const auto [diffuse, specular] = weightsOf(sample.paint);

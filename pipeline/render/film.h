@@ -70,8 +70,7 @@ public:
     [[nodiscard]] std::uint64_t dropped() const;
 
     void add(std::size_t pixel, const FilmSample& sample);
-    /// Mean radiance of the objects and of the catcher that a pixel's samples hit, and their shares
-    /// of the samples.
+    /// Mean radiance of each surface type that a pixel's samples hit, and its share of the samples.
     struct Means {
         Eigen::Vector3f object{0, 0, 0};
         Eigen::Vector3f with{0, 0, 0}, without{0, 0, 0};

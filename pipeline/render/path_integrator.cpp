@@ -21,8 +21,8 @@ float balanceWeight(float taken, float other) {
     return taken / (taken + other);
 }
 
-/// Power heuristic (Veach 1997, equation 9.13) for the sun. A broad lobe's samples rarely hit the
-/// sun; with the balance heuristic these few would be very bright.
+/// Power heuristic (Veach 1997, equation 9.13) for the sun. Samples of a broad lobe rarely hit the
+/// sun. With the balance heuristic, these few samples would be very bright.
 float powerWeight(float taken, float other) {
     const float ratio = other / taken;
     return 1 / (1 + ratio * ratio);

@@ -223,7 +223,7 @@ PathTracer::PathTracer(std::shared_ptr<const Scene> scene, const PathTracerOptio
     validate(options);
     if (!scene) throw std::invalid_argument("path tracer: there is no scene");
     validate(*scene);
-    // Computes tables now. It takes as long as the first samples of a picture.
+    // Computes the tables now, because that takes as long as the first samples of a picture.
     static_cast<void>(meanSpecularAlbedo(1));
     parts_ = std::make_unique<const Parts>(std::move(scene), options);
 }

@@ -24,13 +24,12 @@ struct RenderedPicture {
     /// z [m] along the optical axis of the first surface at the pixel's centre. If no surface is
     /// there, z of the nearest surface that a sample hit. 0: no surface.
     std::vector<float> depth;
-    std::vector<std::uint8_t> id;  ///< surface at `depth`: SceneObject's number, kCatcherId, or 0
-                                   ///< for none
+    std::vector<std::uint8_t> id;  ///< SceneObject's number or kCatcherId; 0: no surface
     /// Light on each pixel's object without the object's paint. Empty if the renderer does not
     /// provide it.
     std::vector<LightWords> light;
-    /// How each pixel's object mirrors distant light. That light is `mirrors` times `exposure`.
-    /// Empty if the renderer does not provide it.
+    /// Reflection of distant light by each pixel's object. The distant light is `mirrors` times
+    /// `exposure`. Empty if the renderer does not provide it.
     std::vector<GlossWords> gloss;
     std::shared_ptr<const MirrorLight> mirrors;
     float exposure = 1;

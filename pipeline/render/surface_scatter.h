@@ -58,8 +58,8 @@ private:
     /// Shares of light that the first reflection leaves for the broad lobes. `mu` is the
     /// direction's cosine to the normal.
     struct Passed {
-        float diffuse = 1;   ///< enters a dielectric
-        float manyfold = 0;  ///< hits another microfacet
+        float diffuse = 1;   ///< share that enters a dielectric
+        float manyfold = 0;  ///< share that hits another microfacet
     };
     [[nodiscard]] Passed passed(float mu) const;
     [[nodiscard]] Eigen::Vector3f fresnel(float cosH) const;

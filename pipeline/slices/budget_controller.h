@@ -63,8 +63,7 @@ private:
 
     const double budget_;
     double balance_, reserved_ = 0, used_ = 0;
-    double debt_ = 0;  // [ms] to be repaid by later frames; not part of
-                       // balance_
+    double debt_ = 0;  // [ms] that later frames repay; not part of balance_
     bool usedUp_ = false;
     double msPerSample_ = 0;
     std::array<double, kCosts> costs_{};

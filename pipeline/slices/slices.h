@@ -32,8 +32,8 @@ struct SliceOptions {
     bool operator==(const SliceOptions&) const = default;
 };
 
-/// A portion of work: `samples` more samples for each pixel. If `samples` is 0, only a ray through
-/// the centre of each pixel. `pixels` is valid until done().
+/// A portion of work: `samples` more samples for each pixel. If `samples` is 0, each pixel gets
+/// only a ray through its centre. `pixels` is valid until done().
 struct Slice {
     std::span<const std::uint32_t> pixels;
     int samples = 0;

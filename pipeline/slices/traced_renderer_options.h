@@ -36,17 +36,16 @@ struct RenderCounters {
     std::uint64_t samples = 0;
     double samplesPerSecond = 0;  ///< mean over at least one second of frame times
     double msPerSample = 0;
-    double cpuMs = 0;  ///< processor time in the budget, since the start
+    double cpuMs = 0;  ///< processor time that counts in the budget, since the start
     BudgetKept budget;
     /// Number of pictures in which each pixel has a small error or all its samples.
     std::uint64_t pictures = 0;
     std::uint64_t shown = 0;  ///< number of published pictures, fetched or not
     std::uint64_t holePixels = 0;
-    double progress = 1;                  ///< progress of the picture in progress, [0, 1]
-    std::optional<Timestamp> shownSince;  ///< time for which the shown picture's view was chosen
+    double progress = 1;                  ///< done share of the picture in progress, [0, 1]
+    std::optional<Timestamp> shownSince;  ///< time at which the shown picture's view was chosen
     bool idle = true;                     ///< true if no work is left while the camera rests
-    bool lowPriority = true;              ///< true if the system let all threads lower their
-                                          ///< priority
+    bool lowPriority = true;              ///< true if all threads could lower their priority
 };
 
 }  // namespace mfar

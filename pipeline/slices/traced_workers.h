@@ -63,8 +63,8 @@ private:
         std::span<const std::uint32_t> holes;
         int holeSamples = 0;
         std::shared_ptr<const Scene> source, previousSource;
-        // Build job: first the previous scene, then the new scene. Null then means that the
-        // previous scene stays in use.
+        // Of a Build job: the previous scene before the job, and the new scene after it. A null
+        // result keeps the previous scene.
         std::shared_ptr<const PictureScene> scene;
         std::string error;
 

@@ -12,9 +12,9 @@
 namespace mfar {
 namespace {
 
-// If the lens distorts the picture, triangle edges are cut into pieces. These are the numbers of
-// pieces along the diagonal of a model and of the shadow catcher. At 640 px, the straight pieces
-// then differ from the distorted curves by less than a third of a pixel.
+// If the lens distorts the picture, triangle edges are cut into pieces. A piece is at most as long
+// as the diagonal of the model or shadow catcher, divided by these numbers. At 640 px, straight
+// pieces then differ from the distorted curves by less than a third of a pixel.
 constexpr float kModelPieces = 16, kCatcherPieces = 32;
 // A software renderer needs 0.2 us per triangle. If a scene has n > kMostTriangles triangles, each
 // mesh keeps at most (its triangles) * kMostTriangles / n + kLeastTriangles of them.

@@ -38,8 +38,8 @@ struct TracedPicture {
     std::vector<std::array<std::uint8_t, 4>> colour;
     /// Light on each pixel's object, for look-ups. Empty if only colours are known.
     std::vector<LightWords> light;
-    /// How each pixel's object mirrors distant light. That light is `mirrors` times `exposure`.
-    /// Empty if unknown.
+    /// Reflection of distant light by each pixel's object. The distant light is `mirrors` times
+    /// `exposure`. Empty if unknown.
     std::vector<GlossWords> gloss;
     std::shared_ptr<const MirrorLight> mirrors;
     float exposure = 1;

@@ -7,8 +7,8 @@ namespace mfar {
 enum class HoleFilling {
     None,      ///< leave the pixels empty
     PushPull,  ///< interpolate the pixels from their surroundings
-    Rerender,  ///< render the pixels individually and leave them empty until then
-    Both,      ///< render the pixels individually and interpolate them until then
+    Rerender,  ///< render the pixels individually; they stay empty until then
+    Both,      ///< render the pixels individually; they are interpolated until then
 };
 
 struct WarpOptions {

@@ -12,8 +12,7 @@
 namespace mfar {
 
 struct WarpHoles {
-    std::vector<std::uint32_t> open;  ///< row-major indices of pixels that no picture shows,
-                                      ///< ascending
+    std::vector<std::uint32_t> open;  ///< pixels that no picture shows, ascending
     int cracks = 0;                   ///< number of pixels in cracks; they are not in `open`
     int fading = 0;                   ///< number of pixels whose re-rendered pictures still fade in
 };
