@@ -26,7 +26,7 @@ constexpr float kSame = 0.01F;
 // Lower limit of the normal equations' determinant, divided by the product of their diagonal. Below
 // it, the two factors cannot be separated.
 constexpr double kLeastDeterminant = 1e-9;
-constexpr double kMostPairs = 1e15;  // limit of counts that a double represents exactly
+constexpr double kMostPairs = 1e15;  // a double represents counts below this exactly
 // Pixels with a video luma outside these limits may be saturated [1/8 grey level].
 constexpr int kDarkest = 2 * kLumaScale, kBrightest = 253 * kLumaScale;
 
@@ -79,7 +79,7 @@ public:
     }
     struct Added {
         Phases unguided;      ///< addition to the cubic enlargement without guidance
-        Phases still, video;  ///< addition by each factor of Guidance if the factor is 1
+        Phases still, video;  ///< change by each factor of Guidance if the factor is 1
     };
     void addedTo(int x, int y, Added& out) const {
         const Phases low = cubicOf(x, y, [&](int i, int j) { return still_.mean(i, j); });

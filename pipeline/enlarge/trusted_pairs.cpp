@@ -18,7 +18,7 @@ constexpr int kBorder = 8;  // unused border of the picture [video px]
 // photographs, because it also trusts inexact look-ups, which blur the still.
 constexpr double kMostDifference = 0.03;
 constexpr double kLeastNoise = 1;  // lower limit of the noise variance [grey levels^2]
-constexpr int kTrustReach = 3;     // differences are means over 7x7 pixels
+constexpr int kTrustReach = 3;     // trust() averages over 7x7 pixels
 constexpr int kMeanReach = 8;
 constexpr double kMostShift = 0.5;  // largest correction of a look-up along each axis [video px]
 constexpr double kStructure = 36;   // least variance of a pixel with structure [grey levels^2]

@@ -38,7 +38,7 @@ private:
     // edge of the last row.
     std::vector<float> tops_;
     std::vector<float> rows_;    // cumulative probability of the rows, from 0 to 1
-    std::vector<float> texels_;  // the same in each row: width + 1 values per row
+    std::vector<float> texels_;  // cumulative probability in each row (width + 1 values)
     bool dark_ = true, sampled_ = false;
 };
 

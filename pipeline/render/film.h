@@ -137,7 +137,7 @@ private:
         /// `object` counts samples of the object at the pixel's centre. If no object is there, it
         /// counts samples of all objects.
         LightSums object, catcher;
-        std::uint32_t objectHits = 0;  // samples that hit any object
+        std::uint32_t objectHits = 0;  // number of samples that hit any object
         Eigen::Vector3d radiance{0, 0, 0};
         double radianceSquares = 0;
         Eigen::Vector3f diffusePaint{0, 0, 0}, facingPaint{0, 0, 0};

@@ -18,7 +18,7 @@ inline constexpr float kLeastPaint = 0.01F;
 struct Paint {
     Eigen::Vector3f diffuse{0, 0, 0};
     Eigen::Vector3f facing{0, 0, 0};  ///< specular reflectance at normal incidence
-    SpecularAlbedo albedo{};          ///< for specular light towards the eye
+    SpecularAlbedo albedo{};          ///< albedo of specular reflection towards the eye
 
     [[nodiscard]] Eigen::Vector3f specular() const {
         return (albedo.scale * facing).array() + albedo.offset;

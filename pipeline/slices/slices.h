@@ -129,7 +129,7 @@ private:
     int samples_ = 0, turn_ = 0;
     /// Numbers of tiles that need more samples, in total and in this turn.
     std::size_t unfinished_ = 0, ofTurn_ = 0;
-    /// Numbers of samples that were traced and that are not needed.
+    /// Numbers of traced samples and of samples that are not needed.
     std::uint64_t traced_ = 0, settled_ = 0;
 };
 

@@ -16,10 +16,10 @@ namespace mfar {
 
 /// The next action for the shown and the next traced picture.
 enum class TracedStep : unsigned char {
-    Refine,    ///< more samples for the shown picture
-    Continue,  ///< more samples for the next picture
-    Start,     ///< new next picture; an unfinished one is discarded
-    Drop,      ///< no next picture, because the shown picture serves again
+    Refine,    ///< trace more samples of the shown picture
+    Continue,  ///< trace more samples of the next picture
+    Start,     ///< begin a next picture, and discard an unfinished one
+    Drop,      ///< discard the next picture, because the shown picture serves again
 };
 
 /// `sinceShown` and `sinceNext` are viewChange() since the views of the shown and the next picture.

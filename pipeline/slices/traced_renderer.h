@@ -63,7 +63,8 @@ private:
     std::optional<RenderView> view_;
     std::uint64_t updates_ = 0;
     bool hasPicture_ = false;
-    std::vector<std::jthread> threads_;  // The threads use the members above.
+    // Must stay the last member, because the threads use the others.
+    std::vector<std::jthread> threads_;
 };
 
 }  // namespace mfar

@@ -325,7 +325,7 @@ void TracedWorkers::publishCounters() {
     counters_.frame = tick_.time;
     counters_.msPerSample = budget_.msPerSample();
     counters_.budget = budget_.kept();
-    // A new scene or view may need work that look() has not found yet.
+    // While toLook_ is set, a new scene or view may still need work.
     counters_.idle = !hasWork() && !toLook_;
     if (!holesExclusive_) counters_.holePixels = holes_.answered();
     if (!exclusive_) {

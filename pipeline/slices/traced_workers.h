@@ -48,10 +48,10 @@ private:
     struct Job {
         enum class Kind : unsigned char {
             None,
-            Build,  // only one at a time
-            Begin,  // only one at a time, and not while a picture is being resolved
+            Build,  // only one Build job runs at a time
+            Begin,  // only one Begin job runs at a time, and not while a picture is resolved
             Resolve,
-            PrepareHoles,  // only one PrepareHoles or AnswerHoles job at a time
+            PrepareHoles,  // only one PrepareHoles or AnswerHoles job runs at a time
             AnswerHoles,
             Trace,
             TraceHoles,
@@ -109,7 +109,7 @@ private:
     bool holesExclusive_ = false;  // true while a PrepareHoles or AnswerHoles job runs
     bool toLook_ = false, workAtBegin_ = false;
     double tickSeconds_ = 1.0 / 30;
-    double holeMs_ = 0;  // [ms] of the current frame
+    double holeMs_ = 0;  // time for hole requests in the current frame [ms]
     int asleep_ = 0;
     RenderCounters counters_;
     std::uint64_t samplesThen_ = 0;  // value of counters_.samples at rateTime_

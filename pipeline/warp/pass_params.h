@@ -82,9 +82,9 @@ struct alignas(16) FillHoles {
 struct alignas(16) RefineEdges {
     PixelBounds bounds;
     std::int32_t width;
-    std::int32_t shown;          ///< edge pixels with a rendered colour
-    std::int32_t leastContrast;  ///< least contrast level of a listed pixel
-    std::int32_t mostListed;     ///< most pixels to list
+    std::int32_t shown;          ///< number of edge pixels with a rendered colour
+    std::int32_t leastContrast;  ///< lower limit of the contrast level of listed pixels
+    std::int32_t mostListed;     ///< upper limit of the number of listed pixels
     float renderedShare;
     float listedShare;  ///< upper limit of (listed pixels / object pixels)
 };

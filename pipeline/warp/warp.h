@@ -82,8 +82,7 @@ private:
     std::uint64_t scene_ = 0;
     bool asked_ = false;
     HoleRequest lastRequest_;
-    RigidTransform listPose_;                 // pose of the frame whose missing pixels are being
-                                              // listed
+    RigidTransform listPose_;                 // pose of the frame whose missing pixels are listed
     std::optional<RigidTransform> warpedTo_;  // pose of the displayed frame; empty: not warped
     int restFrames_ = 0;
     WarpCounters counters_;

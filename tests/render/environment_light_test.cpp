@@ -33,7 +33,7 @@ TEST(EnvironmentLight, FollowsTheDocumentedOrientation) {
     picture->size = {8, 4};
     picture->radiance.assign(32, {0, 0, 0});
     picture->radiance[0 * 8 + 2] = {1, 0, 0};  // near +z (up)
-    picture->radiance[1 * 8 + 5] = {0, 1, 0};  // from +x to +y
+    picture->radiance[1 * 8 + 5] = {0, 1, 0};  // between +x and +y
     picture->radiance[2 * 8 + 0] = {0, 0, 1};  // below the horizon, from -x towards -y
     const EnvironmentLight light(picture);
     const auto at = [&](float u, float v) {
