@@ -212,8 +212,8 @@ std::optional<Timestamp> CameraV4l2::timeOf(const V4l2Filled& filled) {
     return out;
 }
 
-// Returns the manual exposure, or 0 if it is not set. V4L2's unit is 100 us. Drivers use different
-// names for these controls.
+// Returns the manual exposure, or 0 if the exposure is automatic or unknown. V4L2's unit is 100 us.
+// Drivers use different names for the controls of the exposure.
 nanoseconds CameraV4l2::manualExposure() const {
     constexpr std::int64_t kMost = 100'000;
     for (const char* automatic : {"auto_exposure", "exposure_auto"})
