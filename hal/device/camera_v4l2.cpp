@@ -26,7 +26,8 @@ using std::chrono::steady_clock;
 constexpr nanoseconds kAhead = std::chrono::milliseconds(50), kOldest = std::chrono::seconds(10);
 constexpr std::chrono::milliseconds kTroublePause{5};
 
-/// With fewer buffers than this, the driver may have no free buffer while pictures are in use.
+/// If the driver has fewer buffers, pictures are copied. Otherwise it would have no free buffer
+/// while users hold pictures.
 constexpr int kEnoughBuffers = 4;
 
 class Loan {

@@ -184,8 +184,8 @@ std::optional<Frame> SyntheticStudio::nextVideo(std::chrono::milliseconds timeou
 }
 
 // With Pace::Consumer, the clock stops at the end of the video. Then a still is delivered before
-// the end of its latency, but only to a caller that may wait. For a caller that only polls, the
-// result would depend on the renderer's speed.
+// the end of its latency, but only to a caller that may wait. If callers that only poll got it,
+// too, their result would depend on the renderer's speed.
 bool SyntheticStudio::stillReady(bool mayWait) const {
     if (stills_.empty() || !stills_.front().frame) return false;
     return now() >= stills_.front().available ||
