@@ -15,8 +15,8 @@
 namespace mfar {
 
 enum class ThreadRole {
-    Vital,   ///< the picture or the output needs this thread: the process must be restarted
-    Helper,  ///< e.g. a writer of files: the picture continues, and the fault is reported
+    Vital,   ///< no picture or output without this thread; if it hangs, the process must restart
+    Helper,  ///< e.g. a writer of files; if it hangs, pictures continue and a fault is reported
 };
 
 /// The heartbeats of all threads (see Heartbeat), which one thread checks. Thread-safe.

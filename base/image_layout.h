@@ -37,7 +37,7 @@ struct PlaneSize {
 void requireSound(const ImageView& picture, std::string_view what);
 
 /// Returns a Gray8 view of a valid picture's luma plane, without a copy. Returns nothing if the
-/// format has no separate luma plane. Limited luma stays full luma * 219/255 + 16. Census, patch
+/// format has no separate luma plane. The values keep the picture's range (YuvRange): census, patch
 /// cost and tag detection work with both ranges.
 [[nodiscard]] std::optional<ImageView> lumaPlane(const ImageView& picture);
 

@@ -52,7 +52,7 @@ struct MirrorLight {
     std::vector<Table> tables;  ///< sorted by roughness; the first table has roughness 0
     std::vector<std::uint32_t> texels;
     std::array<float, 3> towardsSun{0, 0, 1}, sunIrradiance{};  ///< irradiance 0: there is no sun
-    /// Smallest width of a lobe that mirrors the sun: the sun's radius [rad].
+    /// Smallest width of a lobe that mirrors the sun: the sun's angular radius [rad].
     float leastSunAlpha = 0;
     float least = 0;  ///< small light that is added, so that mirrored light is never 0
 };

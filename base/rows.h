@@ -57,7 +57,8 @@ private:
     static std::ptrdiff_t pitchFor(int width) {
         const std::size_t bytes = static_cast<std::size_t>(width) * sizeof(T) + kPadding;
         const std::size_t lines = (bytes + kAlignment - 1) / kAlignment;
-        // Only row 0 is aligned if the size of a cache line is not a multiple of sizeof(T).
+        // The pitch is a whole number of elements. If kAlignment is not a multiple of sizeof(T),
+        // only row 0 is sure to begin on a cache line.
         return static_cast<std::ptrdiff_t>((lines * kAlignment + sizeof(T) - 1) / sizeof(T));
     }
 

@@ -5,9 +5,9 @@
 namespace mfar {
 namespace {
 
-/// The coefficients of V = I + a [w] + b [w]^2, where w has the norm t [rad] and [w] is skew(w). If
-/// t is below 1e-4 rad, they are computed with series, whose error is less than a double's
-/// rounding.
+/// The coefficients of V = I + a [w] + b [w]^2, where [w] is skew(w). V times the translation of a
+/// twist is the translation of its exponential(). The rotation w has the norm t [rad]. For t below
+/// 1e-4, series are used; their error is less than a double's rounding.
 struct VCoefficients {
     double a, b;
 };

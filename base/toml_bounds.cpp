@@ -23,7 +23,8 @@ public:
             if (dots_ > kDeepestToml)
                 return here(fmt::format("a key has more than {} parts", kDeepestToml));
             if (depth_ > kDeepestToml)
-                return here(fmt::format("brackets are nested deeper than {}", kDeepestToml));
+                return here(
+                    fmt::format("brackets are nested more than {} levels deep", kDeepestToml));
             if (values_ > kMostTomlValues)
                 return here(fmt::format("the file has more than {} values", kMostTomlValues));
         }

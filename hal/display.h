@@ -39,8 +39,8 @@ public:
     /// Waits until all pictures are on the screen or written. Throws like show().
     virtual void finish() = 0;
     /// Returns the picture that the last show() sent to the screen, scaled to the screen's size.
-    /// Returns nothing without a screen. Waits for the GPU. Pixels in host memory that show() got
-    /// must still be valid.
+    /// Returns nothing without a screen. Waits for the GPU. If show() got a picture in host memory,
+    /// its pixels must still be valid.
     [[nodiscard]] virtual std::optional<ScreenPicture> lastShown() const { return std::nullopt; }
     [[nodiscard]] virtual std::optional<Size> screenSize() { return std::nullopt; }
     /// Returns the reason why pictures are not shown or not written, or nothing if there is no

@@ -11,8 +11,8 @@ constexpr std::size_t kNeeded = 8;
 /// If an interval between two frames is longer than this number of frame periods, the camera was
 /// stopped. Then no drops are counted.
 constexpr double kMostMissing = 1000;
-/// The driver's frame numbers have restarted if they skip more than kMostNumbers numbers, or
-/// kDoubtful times as many as the frame times suggest.
+/// If the driver's frame numbers skip more than kMostNumbers numbers, or more than about kDoubtful
+/// times as many as the frame times suggest, the numbers count as restarted.
 constexpr std::uint32_t kMostNumbers = 10000;
 constexpr int kDoubtful = 8;
 

@@ -15,8 +15,8 @@ namespace mfar {
 /// frame period is the mean of the recent intervals near their median.
 class FrameDrops {
 public:
-    /// Adds a frame and returns the number of frames missing before it. Counting from times needs
-    /// eight intervals; until then it returns 0.
+    /// Adds a frame and returns the number of frames missing before it. Without usable frame
+    /// numbers, returns 0 until eight intervals between frames are known.
     int add(Timestamp time, std::optional<std::uint32_t> number = std::nullopt);
     /// Adds a frame whose time must not be used, because the frame is broken or was triggered.
     /// Returns the number of frames missing before it.

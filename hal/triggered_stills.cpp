@@ -71,7 +71,7 @@ void TriggeredStillCamera::repeatLost() {
     try {
         matcher_.pulseFired(trigger_->fire(), StillMatcher::Pulse::Repetition);
     } catch (const TriggerBusy&) {
-        // A later call repeats the lost pulse.
+        // The next call of repeatLost() tries to repeat the lost pulse again.
     }
 }
 

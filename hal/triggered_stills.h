@@ -17,8 +17,8 @@ namespace mfar {
 
 struct TriggeredStillOptions {
     StillMatcherOptions matching;
-    /// Exposure of stills if the camera does not report it. 0: unknown. If the sensor exposes
-    /// during the pulse, it is the length of the pulse.
+    /// Exposure of stills if the camera does not report it. 0: unknown. For a sensor that exposes
+    /// as long as the pulse lasts, set it to the length of the pulse.
     std::chrono::nanoseconds exposure{0};
 };
 
@@ -26,9 +26,8 @@ struct TriggeredStillOptions {
 /// of their times. If a still does not arrive, its pulse is repeated once. fire() and counters()
 /// are thread-safe.
 ///
-/// A still's time is the time of its pulse + the learned delay + half the
-/// exposure. The delay is a median over twenty pulses, which removes the jitter of the camera's
-/// timestamps.
+/// A still's time is the time of its pulse + the learned delay + half the exposure. The delay is a
+/// median over twenty pulses, which removes the jitter of the camera's timestamps.
 class TriggeredStillCamera final : public Camera, public Trigger {
 public:
     TriggeredStillCamera(std::unique_ptr<Camera> camera, std::unique_ptr<Trigger> trigger,

@@ -18,14 +18,15 @@ struct Range {
 
 /// 16384 px is the size limit of textures.
 inline constexpr Range kSide{"width and height", "px", 1, 16384};
-/// These limits are horizontal fields of view of 169 degrees and of half a degree.
+/// The limits correspond to horizontal fields of view of 169 degrees and of half a degree.
 inline constexpr Range kFocal{"focal length", "picture widths", 0.05, 100};
 inline constexpr Range kPrincipal{"principal point", "picture widths and heights", -1, 2};
 inline constexpr Range kCoefficient{"distortion coefficient", "1", -1000, 1000};
-/// For comparison: a lens with barrel distortion and a field of view of 150 degrees has a ratio of
+/// For comparison: a lens with barrel distortion and a field of view of 150 degrees has the factor
 /// 0.35.
-inline constexpr Range kCorner{"radius of a corner with distortion to that without", "1", 0.25,
-                               1.5};
+inline constexpr Range kCorner{
+    "factor by which distortion changes the distance of a corner from the principal point", "1",
+    0.25, 1.5};
 inline constexpr Range kBaseline{"distance of the sensors", "m", 0, 2};
 inline constexpr Range kTimeOffset{"time offset of the stills", "s", -10, 10};
 /// Rate 0 is accepted as well. It means that the sensor takes pictures on trigger only.

@@ -108,14 +108,15 @@ std::string rigText(const RigCalibration& c) {
     std::string rows;
     for (int i = 0; i < 3; ++i)
         rows += fmt::format("  - [{}, {}, {}, {}]\n", r(i, 0), r(i, 1), r(i, 2), t(i));
-    return fmt::format("# The pose of the video and still sensor relative to each other.\n"
-                       "video: video.yaml  # ROS camera_info, beside this file\n"
-                       "still: still.yaml\n"
-                       "# Video camera coordinates -> still camera coordinates, metres.\n"
-                       "T_still_video:\n{}  - [0.0, 0.0, 0.0, 1.0]\n"
-                       "# Seconds to add to the time of a still to get the video's clock.\n"
-                       "still_time_offset: {}\n",
-                       rows, c.stillTimeOffset);
+    return fmt::format(
+        "# The pose of the video and still sensor relative to each other.\n"
+        "video: video.yaml  # ROS camera_info, beside this file\n"
+        "still: still.yaml\n"
+        "# Video camera coordinates -> still camera coordinates, metres.\n"
+        "T_still_video:\n{}  - [0.0, 0.0, 0.0, 1.0]\n"
+        "# Seconds. A still's time plus this offset is its time on the video's clock.\n"
+        "still_time_offset: {}\n",
+        rows, c.stillTimeOffset);
 }
 
 }  // namespace

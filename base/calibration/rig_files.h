@@ -13,7 +13,8 @@ namespace mfar {
 /// The calibration of the video camera and the still camera.
 struct RigCalibration {
     StereoRig rig;
-    double stillTimeOffset = 0;  ///< [s]; still's time + offset = same time on the video's clock
+    /// Offset [s]. The time of a still plus this offset is its time on the video's clock.
+    double stillTimeOffset = 0;
 };
 
 /// The picture sizes that the sensors deliver. A calibration for another size is refused. If a size

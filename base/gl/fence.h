@@ -7,8 +7,8 @@
 
 namespace mfar::gpu {
 
-/// Longest wait for the GPU. A longer wait means that the GPU hangs, because the kernel resets a
-/// busy GPU earlier.
+/// Longest wait for the GPU. The kernel normally resets a blocked GPU sooner. So a GPU that does
+/// not finish in this time hangs.
 inline constexpr std::chrono::milliseconds kLongestGpuWait{500};
 
 /// Marks a point in the stream of GL commands. Move-only.

@@ -29,9 +29,9 @@ struct ValidationFault {
 
 /// While a Validation object exists, all outputs of its thread's passes are read back and checked.
 /// Every Buffer that is created in that time is followed by guard bytes (NaN as floats), which must
-/// not change. This makes a pass ten times as slow. A pass without a Validation only tests one
-/// pointer. The passes' GL context must be current; its state is restored. A thread has at most one
-/// Validation.
+/// not change. Validation makes a pass ten times as slow. Without a Validation object, a pass only
+/// tests one pointer. The passes' GL context must be current; its state is restored. A thread has
+/// at most one Validation.
 ///
 ///     gpu::Validation validation;     // before the Pipeline is made
 ///     ... frames ...

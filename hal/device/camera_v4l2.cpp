@@ -26,7 +26,8 @@ using std::chrono::steady_clock;
 constexpr nanoseconds kAhead = std::chrono::milliseconds(50), kOldest = std::chrono::seconds(10);
 constexpr std::chrono::milliseconds kTroublePause{5};
 
-/// With fewer buffers than this, the driver may have no free buffer while pictures are in use.
+/// If the driver has fewer buffers, pictures are copied. Otherwise it would have no free buffer
+/// while users hold pictures.
 constexpr int kEnoughBuffers = 4;
 
 class Loan {
@@ -212,8 +213,8 @@ std::optional<Timestamp> CameraV4l2::timeOf(const V4l2Filled& filled) {
     return out;
 }
 
-// Returns the manual exposure, or 0 if it is not set. V4L2's unit is 100 us. Drivers use different
-// names for these controls.
+// Returns the manual exposure, or 0 if the exposure is automatic or unknown. V4L2's unit is 100 us.
+// Drivers use different names for the controls of the exposure.
 nanoseconds CameraV4l2::manualExposure() const {
     constexpr std::int64_t kMost = 100'000;
     for (const char* automatic : {"auto_exposure", "exposure_auto"})

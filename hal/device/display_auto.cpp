@@ -97,8 +97,8 @@ Screen* ScreenDisplay::look(bool changed) {
         if (presence != Screen::Presence::Absent) holder = &screen;
         if (presence == Screen::Presence::Ready) ready = &screen;
     };
-    // A device without a connected monitor is held open until a monitor is connected. Later devices
-    // in the list are not checked, because nobody would notice pictures there.
+    // A device without a connected monitor is held open until a monitor is connected. The later
+    // devices in the list are not used meanwhile, because nobody would see their pictures.
     for (const auto& screen : screens_)
         if (holder == nullptr && screen.get() != failed_) ask(*screen);
     if (holder == nullptr && failed_ != nullptr) ask(*failed_);

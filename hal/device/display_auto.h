@@ -27,7 +27,8 @@ public:
 
     /// `screens` are in order of preference; `scaler` draws the pictures of all of them. `changed`
     /// returns true if a device was added, removed or changed since its last call. If it always
-    /// returns false, only changes of a screen's mode are missed.
+    /// returns false, two events are missed while a screen works: a change of the modes that its
+    /// monitor offers, and a more preferred screen that appears.
     ScreenDisplay(std::unique_ptr<ScreenScaler> scaler,
                   std::vector<std::unique_ptr<Screen>> screens, Clock clock, Events changed);
     ScreenDisplay(const ScreenDisplay&) = delete;

@@ -44,7 +44,8 @@ std::string nameOf(const drmModeConnector& connector) {
 
 std::string cardFault(const std::string& path) {
     if (errno == EACCES)
-        return path + ": no permission, the user must be in group video (and render for the GPU)";
+        return path +
+               ": no permission, the user must be in group video, for the GPU also in render";
     return path + ": " + std::strerror(errno);
 }
 

@@ -29,8 +29,8 @@ namespace mfar {
                                                         const std::optional<ModeWish>& wish);
 [[nodiscard]] bool fulfils(const drmModeModeInfo& mode, const ModeWish& wish);
 
-/// Waits until the picture of the last commit is on the screen. That commit must have got the
-/// address of `pending` as user data; its event sets `pending` to false. Returns false after
+/// Waits until the picture of the last commit is on the screen. The address of `pending` must be
+/// the user data of that commit, whose event then sets `pending` to false. Returns false after
 /// `limit` or if the device is lost.
 [[nodiscard]] bool waitForFlip(int fd, bool& pending, std::chrono::milliseconds limit);
 

@@ -13,8 +13,8 @@
 namespace mfar {
 
 /// The validated layout of a framebuffer device's memory. All rows of all pages lie inside it.
-/// `visible` and `page0` are offsets [bytes] of the first visible pixel: now, and after panning to
-/// the top.
+/// `visible` is the offset [bytes] of the first visible pixel. `page0` is its offset after panning
+/// to the top.
 struct FbGeometry {
     Size size;
     PixelLayout layout;
@@ -32,10 +32,10 @@ struct FbGeometry {
                                          const fb_fix_screeninfo& fix);
 
 /// A Linux framebuffer device, /dev/fbN. The GPU scales pictures that are textures; the CPU scales
-/// pictures on the host. The CPU copies the result to the screen: into the hidden page if the
-/// driver can pan, and after the vertical blank if the driver reports it. close() restores the
-/// screen's previous content. A console's text cursor stays visible, because hiding it needs
-/// privileges; the kernel option vt.global_cursor_default=0 hides it.
+/// pictures on the host. The CPU then copies the result to the screen's memory. If the driver can
+/// pan, the copy goes to the hidden page. If the driver reports the vertical blank, the copy starts
+/// after it. close() restores the screen's previous content. A console's text cursor stays visible,
+/// because hiding it needs privileges; the kernel option vt.global_cursor_default=0 hides it.
 class FbdevScreen final : public Screen {
 public:
     /// `path`: e.g. "/dev/fb0"; empty: the first usable device. `scaler` must outlive this object.

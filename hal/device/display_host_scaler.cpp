@@ -14,8 +14,8 @@ constexpr int kFixedOne = 65535;
 // its remaining strips.
 constexpr int kStripsPerThread = 2;
 
-// Computes sum += pixel * weight in 8.8 fixed point. SIMD units have one instruction for the upper
-// 16 bits of a 16-bit product.
+// Computes sum += pixel * weight in 8.8 fixed point. It uses only the upper 16 bits of a product of
+// two 16-bit numbers, because SIMD units compute these with one instruction.
 void addRow(const std::uint8_t* __restrict pixels, std::uint16_t weight,
             std::uint16_t* __restrict sum, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {

@@ -34,8 +34,8 @@ private:
         Axis() = default;
         Axis(int from, int to);
         std::vector<Footprint> footprints;
-        /// Weights of all footprints, one after the other. The weights of one footprint add up to
-        /// 1, or to 65535 as integers.
+        /// Weights of all footprints, one after the other. Those of one footprint add up to 1 in
+        /// `weights` and to 65535 in `fixed`.
         std::vector<float> weights;
         std::vector<std::uint16_t> fixed;
     };

@@ -32,8 +32,8 @@ Function findIn(void* library, const char* name) {
 void loadGlLibraries(const GlLibraryNames& names) {
     void* egl = opened(names.egl);
     void* gles = opened(names.gles);
-    // Other missing EGL functions are accepted, because old versions lack some that are never
-    // called.
+    // Of the EGL functions, only eglGetProcAddress must exist. Old versions lack some of the
+    // others, but those are never called.
     gl_libraries::connectEgl([egl](const char* name) { return findIn(egl, name); });
     if (findIn(egl, "eglGetProcAddress") == nullptr)
         throw std::runtime_error(names.egl + " has no eglGetProcAddress" + kAdvice);

@@ -69,8 +69,8 @@ std::optional<ControlValue> several(const ControlId& id, std::string_view text) 
     return ControlValue(libcamera::Span<const T>(values.get(), count));
 }
 
-/// Returns true if the value is in the camera's range, or if the range is an array or has another
-/// type.
+/// Returns false if the value is outside the camera's range. A bound of the range is ignored if it
+/// is an array or has another type than the value.
 template <typename T>
 bool isWithin(const ControlInfo& info, T value) {
     const auto type = libcamera::details::control_type<T>::value;

@@ -73,7 +73,7 @@ struct Chosen {
 };
 
 /// Returns a valid configuration of exactly the wanted size, in the most preferred format that
-/// works. If no format works, returns nothing if `mode` is set, and throws otherwise.
+/// works. Otherwise, returns nothing if a sensor mode is given, and throws if none is given.
 std::optional<Chosen> choose(libcamera::Camera& camera, const LibcameraOptions& options,
                              const std::optional<SensorMode>& mode) {
     Chosen chosen{generate(camera, options), {}};
@@ -114,8 +114,8 @@ unsigned bitDepth(const std::string& format) {
     return depth;
 }
 
-/// Returns the sensor modes that are at least as large as `size`, smallest first. Empty if
-/// libcamera does not let its caller choose the mode.
+/// Returns the sensor modes that are at least as large as `size`, smallest first. Returns none if
+/// this version of libcamera does not let its caller choose the mode.
 std::vector<SensorMode> sensorModes(libcamera::Camera& camera, Size size) {
     std::vector<SensorMode> modes;
     if constexpr (!libcamera_compat::hasSensorConfiguration()) return modes;
@@ -129,8 +129,8 @@ std::vector<SensorMode> sensorModes(libcamera::Camera& camera, Size size) {
                 mode.height >= static_cast<unsigned>(size.height))
                 modes.push_back({mode, depth});
     }
-    // Among modes of equal size, the one with the greatest bit depth comes first. A greater bit
-    // depth makes the mode slower.
+    // Among modes of equal size, greater bit depths come first. They make a mode slower, so the
+    // caller may have to use a later mode in order to reach the frame rate.
     std::ranges::sort(modes, {}, [](const SensorMode& mode) {
         return std::pair(std::uint64_t{mode.size.width} * mode.size.height, 64 - mode.bitDepth);
     });

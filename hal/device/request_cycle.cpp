@@ -138,7 +138,8 @@ void RequestCycle::planRestart() {
     earlyEnds_ = now - begun_ < limits_.early ? earlyEnds_ + 1 : 0;
     if (earlyEnds_ >= limits_.most)
         return loseLocked(fmt::format(
-            "{} returned its requests without a picture {} times in a row", name_, earlyEnds_));
+            "{} stopped by itself {} times in a row, each time within {} ms of its start", name_,
+            earlyEnds_, limits_.early.count()));
     restartAt_ = now;
     if (earlyEnds_ > 1) restartAt_ = now + limits_.firstPause * (1 << (earlyEnds_ - 2));
 }

@@ -36,7 +36,9 @@ void decode(const fs::path& file, std::size_t most, const TargetOf& targetOf) {
         decodeImage(bytes, [&](Size size) {
             if (size.width < 1 || size.height < 1 || size.width > kMaxImageSide ||
                 size.height > kMaxImageSide)
-                throw std::runtime_error(fmt::format("{}x{} pixels", size.width, size.height));
+                throw std::runtime_error(
+                    fmt::format("size {}x{} is invalid: width and height must be from 1 to {}",
+                                size.width, size.height, kMaxImageSide));
             return targetOf(size);
         });
     } catch (const ImageFileError&) {

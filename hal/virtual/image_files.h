@@ -88,8 +88,8 @@ private:
     }
 };
 
-/// Reads a Middlebury .flo file. A vector with a component that is not finite or greater than 1e9
-/// is unknown and becomes (NaN, NaN). Throws ImageFileError.
+/// Reads a Middlebury .flo file. A vector is unknown if one component is NaN or has an absolute
+/// value above 1e9; it becomes (NaN, NaN). Throws ImageFileError.
 [[nodiscard]] FlowImage loadFlo(const std::filesystem::path& file);
 void saveFlo(const std::filesystem::path& file, const FlowImage& image);
 

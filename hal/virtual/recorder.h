@@ -24,9 +24,8 @@ struct RecorderOptions {
     std::uint64_t leastFreeBytes = 64U << 20;
     std::uint64_t mostBytes = 0;  ///< largest size of a recording [bytes]; 0: no limit
     WatchedThread writer{};
-    /// Interval between synchronisations of the disk, which protect the recording from a power cut.
-    /// The first picture or pose starts the first synchronisation; the next one after the interval
-    /// starts the next synchronisation.
+    /// Least interval between synchronisations of the disk, which protect the recording from a
+    /// power cut. A picture or pose starts one if there was none in this time before.
     std::chrono::milliseconds syncEvery{1000};
 };
 

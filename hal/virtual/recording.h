@@ -31,7 +31,7 @@ struct Recording {
     std::filesystem::path root;
     StereoRig rig;
     double videoRateHz = 0;
-    /// Video (never empty), stills and poses are sorted by time. Their times differ.
+    /// Video (never empty), stills and poses are sorted by time. No list contains a time twice.
     std::vector<RecordedImage> video;
     std::vector<RecordedImage> stills;
     std::vector<Pose> poses;

@@ -64,8 +64,8 @@ private:
 /// frame that video().next() returned. This suits a thread that requests a frame and then the
 /// stills up to it.
 ///
-/// With Pace::Consumer, the timeout of next() includes only waits while the consumer holds all
-/// buffers, not waits for the decoder.
+/// With Pace::Consumer, the timeout of next() applies only while the consumer holds all buffers.
+/// next() waits for the decoder without a limit.
 class RecordingPlayer {
 public:
     RecordingPlayer(Recording recording, const PlayerOptions& options);

@@ -27,7 +27,8 @@ struct SyntheticOptions {
     /// Number of buffers for pictures that are in use or ready.
     int videoBuffers = 8;
     int stillBuffers = 4;
-    /// Delays from a trigger pulse to the start of the exposure and to the delivery of the still.
+    /// stillDelay is the time from a trigger pulse to the start of the exposure, stillLatency the
+    /// time from the pulse to the delivery of the still.
     std::chrono::nanoseconds stillDelay = std::chrono::milliseconds(1);
     std::chrono::nanoseconds stillExposure = std::chrono::milliseconds(8);
     std::chrono::nanoseconds stillLatency = std::chrono::milliseconds(60);
@@ -46,13 +47,13 @@ class SyntheticStudio;
 /// Pace::Consumer: a frame is delivered as soon as it is requested; none is skipped. The same
 /// options and pulses give the same bytes. The current time is the time of the last frame that
 /// video().next() returned, or epoch() before the first frame. A pulse is fired at the current
-/// time. Its still can be requested as soon as a frame that is at least stillLatency later was
-/// returned. After the end of the video, next() with a timeout above zero returns the remaining
-/// stills. The timeout of video().next() includes only waits while the consumer holds all buffers,
-/// not waits for the renderer.
+/// time. Its still is available when the current time is at least stillLatency after the pulse.
+/// After the end of the video, next() with a timeout above zero returns the remaining stills. The
+/// timeout of video().next() applies only while the consumer holds all buffers. The call waits for
+/// the renderer without a limit.
 ///
-/// As with a real sensor, a pulse is lost during the previous exposure, while stillBuffers - 1
-/// stills are pending, and while the still camera is not started.
+/// A pulse is lost, as with a real sensor, in three cases. The previous exposure has not ended. Or
+/// stillBuffers - 1 stills are pending. Or the still camera is not started.
 ///
 /// The program must link a createGlContext(); the board's thread has its own GL context. The
 /// cameras and the trigger live as long as the board; frames may outlive it. All functions are

@@ -16,7 +16,7 @@ public:
 
     int material(const Material& m);
     /// Adds a material whose texture fills a face of this size exactly once. It suits the +x, -y
-    /// and +z faces of a box.
+    /// and +z faces of a box; on the opposite faces, the texture is mirrored.
     int sheet(Layer layer, double width, double height, const Eigen::Vector3d& tint,
               double gloss = 0);
     /// Adds a material whose texture repeats `perMetre` times per metre.

@@ -34,7 +34,8 @@ constexpr double kPlate = kLayerCells * kCell;
 const V kMiddle{0, 0.3, 0.46};
 constexpr double kThickness = 0.01;
 
-/// Column 0 and row 0 contain the outermost black squares.
+/// Returns true if a cell inside the rim is white. The cell in column 0 and row 0 belongs to the
+/// black square at the top left.
 bool isWhite(int column, int row) {
     const int right = column % kPitch - kGapCells, down = row % kPitch - kGapCells;
     if (right < 0 || down < 0) return !(right < 0 && down < 0);

@@ -25,8 +25,8 @@ struct SurfacePoint {
     Eigen::Vector3d position, normal;  ///< in the primitive's frame [m]
 };
 
-/// Returns the point of a primitive's face with the face coordinates (s, t) in [-1, 1]^2. It is the
-/// inverse of the shader's function chart().
+/// Returns the point of a primitive's face with the face coordinates (s, t) in [-1, 1]^2. chart()
+/// in synthetic_tables.glsl computes these coordinates from a point.
 SurfacePoint surfacePoint(const Primitive& p, int axis, double sign, double s, double t) {
     Eigen::Vector3d unit, normal;
     if (p.shape == Shape::Cylinder && axis < 2) {

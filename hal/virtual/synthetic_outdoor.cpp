@@ -68,8 +68,8 @@ World makeOutdoor(std::uint64_t seed) {
     const int grass = b.tiled(Layer::Foliage, 1.3, {1.15, 1.1, 1.0}, 0.5);
     b.box({0, 30, -0.1}, {140, 70, 0.2}, 0, grass).lightTexels = 112;
     b.box({0.9, 14, 0.01}, {2.6, 36, 0.04}, 0.04, gravel).lightTexels = 96;
-    // The texture repeats four times along the width. Otherwise the distant trees would be too
-    // coarse to have detail that only the still resolves.
+    // The texture repeats four times along the width, so that the distant trees have detail that
+    // only the still resolves. A single texture would be too coarse for that.
     const int sky = b.sheet(Layer::Forest, 24, 44, {1.0, 1.0, 1.0});
     b.box({0, 58, 14}, {96, 0.5, 44}, 0, sky);
 

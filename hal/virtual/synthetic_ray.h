@@ -19,8 +19,8 @@ class Snapshot {
 public:
     Snapshot(const World& world, double t);
 
-    /// Returns the nearest hit with a distance in (0, limit), or nothing. In the overloads below,
-    /// `among` limits the search to these solids; their indices are in ascending order.
+    /// Returns the nearest hit with a distance in (0, limit), or nothing. The overloads with
+    /// `among` test only the solids with these indices, which must be in ascending order.
     [[nodiscard]] std::optional<Hit> cast(const Ray& ray, double limit) const;
     [[nodiscard]] bool blocked(const Ray& ray, double limit, int except) const;
     [[nodiscard]] std::optional<Hit> cast(const Ray& ray, double limit,

@@ -21,7 +21,7 @@ Four four(const Eigen::Vector3d& v, double w) {
             static_cast<float>(w)};
 }
 
-// These structures have the layout of those in synthetic_tables.glsl.
+// SolidEntry and SurfaceEntry have the memory layout of Solid and Surface in synthetic_tables.glsl.
 struct SolidEntry {
     std::array<Four, 3> rows;
 };
@@ -78,8 +78,8 @@ SensorView::SensorView(WorldGl& world, const CameraModel& camera, const SensorLo
 }
 
 void SensorView::findTiles() {
-    // Margin around a tile [px], for rays inside a pixel and for lens distortion between the
-    // sampled points.
+    // Margin around a tile [px]. A pixel's rays lie up to half a pixel from its centre, and lens
+    // distortion bends the tile's edges between the sampled points.
     constexpr double kMargin = 2;
     constexpr int kSamples = 4;
     for (int ty = 0; ty < tilesY_; ++ty) {

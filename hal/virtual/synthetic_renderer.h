@@ -51,8 +51,8 @@ private:
 };
 
 /// Renders the pictures of one sensor, in the GL context of the WorldGl. A picture is rendered in
-/// steps of at most the pixels of a video frame, so that other work need not wait for a large
-/// picture.
+/// steps, so that other work need not wait for a large picture. A step renders at most as many
+/// pixels as a video frame has.
 class SensorView {
 public:
     SensorView(WorldGl& world, const CameraModel& camera, const SensorLook& look);

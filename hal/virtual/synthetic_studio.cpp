@@ -161,8 +161,8 @@ std::optional<Frame> SyntheticStudio::nextVideo(std::chrono::milliseconds timeou
     std::unique_lock lock(mutex_);
     const auto ready = [&] {
         if (video_.empty()) return false;
-        // All stills that are available at a frame's time must be complete before it is delivered,
-        // so that every run gives the same result.
+        // With Pace::Consumer, a frame is delivered only after all stills that are available at its
+        // time are complete, so that every run gives the same result.
         const Timestamp time = video_.front().time();
         return options_.pace == Pace::Realtime || std::ranges::all_of(stills_, [&](const Still& s) {
                    return s.frame || s.available > time;
@@ -183,9 +183,9 @@ std::optional<Frame> SyntheticStudio::nextVideo(std::chrono::milliseconds timeou
     return frame;
 }
 
-// After the end of the video, a still is delivered without waiting for the rest of its latency, but
-// only to a caller that may wait. Otherwise the result of a caller that only polls would depend on
-// the renderer's speed.
+// With Pace::Consumer, the clock stops at the end of the video. Then a still is delivered before
+// the end of its latency, but only to a caller that may wait. If callers that only poll got it,
+// too, their result would depend on the renderer's speed.
 bool SyntheticStudio::stillReady(bool mayWait) const {
     if (stills_.empty() || !stills_.front().frame) return false;
     return now() >= stills_.front().available ||

@@ -101,7 +101,8 @@ cv::Mat1f noise(std::uint64_t seed, int cellsX, int cellsY) {
             grid(y, x) = static_cast<float>(hashUnit(hash(seed, x, y)));
     cv::Mat1f padded;
     cv::copyMakeBorder(grid, padded, kPad, kPad, kPad, kPad, cv::BORDER_WRAP);
-    // cv::resize() is not used, because kLayerSize need not be a multiple of the number of cells.
+    // cv::resize() would also enlarge the padding. The padding could not be cut off exactly,
+    // because kLayerSize need not be a multiple of the number of cells.
     const double sx = 1. * cellsX / kLayerSize, sy = 1. * cellsY / kLayerSize;
     const cv::Matx23d toGrid{sx, 0, kPad + 0.5 * sx - 0.5, 0, sy, kPad + 0.5 * sy - 0.5};
     cv::Mat1f out;

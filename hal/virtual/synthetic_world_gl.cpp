@@ -12,7 +12,7 @@ namespace {
 constexpr int kLevels = 11;  // number of mipmap levels, from 1024 down to 1 texel
 static_assert(1 << (kLevels - 1) == kLayerSize);
 
-/// This structure has the same layout as MaterialEntry in synthetic_tables.glsl.
+/// Has the same memory layout as Material in synthetic_tables.glsl.
 struct MaterialEntry {
     std::array<float, 4> mapping, tint, look;
 };

@@ -184,8 +184,8 @@ TEST(Config, AnEndlessTextIsRefusedBeforeItIsParsed) {
     EXPECT_THAT(configFaults("a = ['''x'''', {" + dots + " = 1}]\n"), HasSubstr("32 parts"));
     EXPECT_EQ(configFaults("# " + dots + "\nrecording = \"" + dots + "\"\n"), "");
     EXPECT_EQ(configFaults("a = " + std::string(50'000, '[')),
-              "test.toml:1:37: brackets are nested deeper than 32");
-    EXPECT_THAT(configFaults("a = " + std::string(50'000, '{')), HasSubstr("deeper than 32"));
+              "test.toml:1:37: brackets are nested more than 32 levels deep");
+    EXPECT_THAT(configFaults("a = " + std::string(50'000, '{')), HasSubstr("more than 32 levels"));
     std::string list = "a = [0";
     for (int i = 0; i < 100'000; ++i)
         list += ",0";

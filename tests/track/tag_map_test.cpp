@@ -151,7 +151,7 @@ TEST(TagMap, AnEndlessTextIsRefusedBeforeItIsParsed) {
               "t.toml:1: a key has more than 32 parts");
     const std::string open(50'000, '[');
     EXPECT_EQ(refusal([&] { (void)tagMapFromToml("a = " + open, "t.toml"); }),
-              "t.toml:1: brackets are nested deeper than 32");
+              "t.toml:1: brackets are nested more than 32 levels deep");
     EXPECT_EQ(refusal([&] { (void)tagMapFromRosYaml("a: " + open, "t.yaml"); }),
               "t.yaml:1: the file is nested more than 16 levels deep");
 }
