@@ -16,7 +16,8 @@ namespace {
 constexpr int kLeastVideoViews = 12, kLeastStillViews = 6, kLeastPairs = 5;
 // Largest standard deviation of a clock offset that counts as known [s].
 constexpr double kMaxOffsetDeviation = 0.002;
-// Smallest motion of a moving still over three frame intervals [video px].
+// The target counts as moving during a still if its image moves by at least this distance over the
+// three frame intervals around the still [video px].
 constexpr double kLeastMotion = 1;
 constexpr int kLeastMoving = 3;
 constexpr double kMaxFocalDeviation = 0.005;
