@@ -249,8 +249,8 @@ void Flow2d::refine(const Luma& luma, const TileWork& work, Cells forward, Cells
     errorsGiven_ = true;
     searched_.clear();
     if (work.matched == 0) return;
-    // [tiles] The choice of the searched tiles depends on their neighbours. The clean-up reads
-    // vectors of neighbouring tiles that a search may have changed.
+    // Number of tiles around each needed tile whose vectors are needed, too. The choice of searched
+    // tiles depends on neighbouring tiles, and the clean-up reads their vectors.
     constexpr int kMargin = 2;
     chooseTiles(work, !work.drawsWhole(), kMargin);
     const FlowPlanes field = forwards_.stages[0].areas[0].planes();

@@ -36,8 +36,9 @@ public:
         const std::vector<LumaLevel>& still;
         std::span<const std::uint32_t> words;
     };
-    /// Computes the flow in both directions, unless no changed tile is matched. `usePrior`: the
-    /// last frame's flow is a candidate for every cell; must be false after a new still.
+    /// Computes the flow in both directions. Keeps the last flow if no changed tile is matched.
+    /// `usePrior`: the last frame's flow is a candidate for every cell; must be false after a new
+    /// still.
     void run(const Luma& luma, const TileWork& work, bool usePrior);
 
     /// Computes the forward field from `forward`, one vector per cell with an error of a fraction

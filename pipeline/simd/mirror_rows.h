@@ -45,8 +45,8 @@ struct MirrorParts {
 /// Splits the specular light that the traced picture's camera sees into its parts.
 void splitMirrored(const MirrorRow& row, const MirrorInput& input, const LightWords* light,
                    MirrorParts* out);
-/// Computes from `parts` the specular light that another eye sees. The veil of `light` stays
-/// unchanged.
+/// Computes from `parts` the specular light that another eye sees. The veil of `light` (the share
+/// of specular light that paint does not change) stays unchanged.
 void joinMirrored(const MirrorRow& row, const MirrorInput& input, const MirrorParts* parts,
                   LightWords* light);
 

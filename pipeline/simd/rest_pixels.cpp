@@ -214,8 +214,8 @@ RestPixel RestPixels::at(const Asked& asked) const {
     }
     const bool missed = objectKnown < 1, hole = missed || catcherKnown < 1;
     const bool nowhere = objectKnown == 0 || catcherKnown == 0;
-    // If an edge were rendered individually, it would show a mixture of surfaces. So it takes its
-    // colour from its neighbours, which are rendered.
+    // A rendered edge pixel would show a mixture of surfaces, not the missing surface alone. So an
+    // edge pixel takes the missing colour from its neighbours, which are rendered.
     const bool edge = (missed ? covered : below) < 1;
     if (covered > 0)
         out.depth = object.z;
