@@ -121,8 +121,7 @@ struct FinishedPicture {
     std::optional<Timestamp> since{};
 };
 
-/// Measures the rate of pictures over the last second. at() can be called at any time without a
-/// change of later results.
+/// Measures the rate of pictures over the last second.
 class PictureRate {
 public:
     void add(Timestamp shown);
