@@ -39,8 +39,8 @@ HWY_INLINE Points<V> endOf(D d, const FlowEnds& ends, V rx, V ry, V s) {
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Points<V> loadVectors(D d, const CellVector* from) {
-    // Points is not used here, because its default constructor would not be compiled for this
-    // instruction set.
+    // A variable of type Points is not used here, because its default constructor would not be
+    // compiled for this instruction set.
     V x, y, c, e;
     hn::LoadInterleaved4(d, from->data(), x, y, c, e);
     return {x, y};

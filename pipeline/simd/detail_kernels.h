@@ -40,8 +40,8 @@ void warpRow(const StillPairs& still, const LookUpRows& lookUp, int begin, int e
 /// has kGuideReach more values on both sides.
 struct GuideRows {
     static constexpr int kRows = 2 * params::kGuideReach + 1;
-    /// differences: still minus video, each multiplied by its factor in Guidance. trusted: 1. Both
-    /// are 0 where the still is not trusted.
+    /// differences: still minus video, each multiplied by its factor in Guidance. trusted: 1 where
+    /// the still is trusted. Where it is not, both are 0.
     std::array<const float*, kRows> differences;
     std::array<const float*, kRows> trusted;
 };

@@ -94,8 +94,8 @@ RestPixels::RestPixels(const ViewLookUp::Input& input, const TracedPicture& trac
     : plain_(plain), layerLens_(pointLensOf(layer)),
       traced_{traced.surface, traced.colour, lights, traced.camera.size,
               plain.toTraced, &plain_.lens,  1} {
-    // The re-rendered pictures are ordered by slot, because known() shows the first one of those
-    // with equal shares.
+    // Sorts the re-rendered pictures by slot, because their order matters: if several have equal
+    // shares, known() uses the first.
     std::array<const RerenderedPictures::Picture*, RerenderedPictures::kPictures> bySlot{};
     for (const RerenderedPictures::Picture& rerendered : input.rerendered.pictures())
         bySlot[static_cast<std::size_t>(rerendered.slot)] = &rerendered;

@@ -40,8 +40,8 @@ public:
     [[nodiscard]] float weight(int tap, int x) const { return weights_[tap][x]; }
     /// Returns the taps of row y, for a table that is used for columns and has at most four taps.
     [[nodiscard]] const ColumnTaps& column(int y) const { return columns_[y]; }
-    /// The table for resampleRow(). Sources must have at least taps() entries; missing entries must
-    /// be zero.
+    /// The table for resampleRow(). Sources must have at least taps() entries; a shorter source
+    /// must be padded with zeros.
     [[nodiscard]] TapTable table() const {
         return {first_[0], weights_[0], weights_.pitch(), taps()};
     }
