@@ -128,7 +128,8 @@ ExitCode App::finish(std::future<std::string>& end) {
         if (*one)
             (*one)->said.set_exception(
                 std::make_exception_ptr(std::runtime_error("mfard is ending")));
-    control_.reset();  // waits for the last answers; the lines above have ended all waits for them
+    // ControlSocket's destructor waits for pending answers. The lines above made these fail.
+    control_.reset();
     onReady();
     const Counted counted = stats_.count();
     const Health last = health(counted);

@@ -23,8 +23,8 @@ enum class HealthState {
 
 struct Health {
     HealthState state = HealthState::Ok;
-    std::string cause{};                  ///< the cause, without times; empty in state Ok
-    double sinceS = 0;                    ///< duration of the state with this cause [s]
+    std::string cause{};  ///< empty in state Ok; names no times, so causes can be compared
+    double sinceS = 0;    ///< duration of the state with this cause [s]
     std::optional<double> pictureAgeS{};  ///< age of the last picture [s]; not set: there is none
     std::string thread{};
     bool isDevice = false;  ///< true: the cause is a device that is being reopened

@@ -148,8 +148,8 @@ private:
     }
 
     bool leaveOut(const RigBundle& bundle) {
-        // These poses come from the video alone. In RigBundle, a still changes the video poses
-        // around it, because it is more precise, and so hides its own error.
+        // The poses of track_ come from the video alone. In RigBundle, a still would move the video
+        // poses around it, because a still is more precise, and so hide its own error.
         const auto shift = static_cast<std::int64_t>(std::llround(bundle.offset() * 1e9));
         std::vector<double> errors;
         for (const Member& m : stillMembers_) {
