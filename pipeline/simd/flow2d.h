@@ -30,7 +30,8 @@ public:
     /// changed() in flow_options.h. Throws std::invalid_argument if an option is out of range.
     void setOptions(const Flow2dOptions& options) { options_ = changed(options_, options); }
 
-    /// Pyramids of the video's size. `words` contains their pixels, in the layout of luma_layout.h.
+    /// Luma pyramids of video and still, both of the video's size. `words` contains their pixels,
+    /// in the layout of luma_layout.h.
     struct Luma {
         const std::vector<LumaLevel>& video;
         const std::vector<LumaLevel>& still;

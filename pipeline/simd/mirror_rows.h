@@ -41,7 +41,7 @@ struct MirrorParts {
 };
 
 // splitMirrored() and joinMirrored() skip pixels without gloss. The arrays of surfaces, gloss, rays
-// and parts must have 7 more entries than the row has pixels. These are read but not written.
+// and parts must have 7 more entries than the row has pixels. These 7 entries are never written.
 /// Splits the specular light that the traced picture's camera sees into its parts.
 void splitMirrored(const MirrorRow& row, const MirrorInput& input, const LightWords* light,
                    MirrorParts* out);

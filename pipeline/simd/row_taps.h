@@ -47,7 +47,7 @@ public:
     }
 
 private:
-    /// Adds a sample, given the index in the source, which may be beyond its ends, and the weight.
+    /// Adds a sample. Arguments: its index in the source (may be beyond the ends), and its weight.
     using Add = std::function<void(int, double)>;
     RowTaps(int from, int to, const std::function<void(int, const Add&)>& sample);
 
