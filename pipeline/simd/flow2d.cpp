@@ -109,7 +109,7 @@ void Flow2d::chooseBackward() {
             };
             ends_.at(tileAt(x, cell.x, ends_.size.width), tileAt(y, cell.y, ends_.size.height)) = 1;
         }
-    constexpr int kMargin = 3;  // [tiles] of 2x2 cells of the backward field
+    constexpr int kMargin = 3;  // [tiles]; a tile has 2x2 cells of the backward field
     widen(ends_, kMargin, between_, endsAround_);
 }
 
