@@ -87,7 +87,8 @@ ExitCode App::run() {
         }
         return finish(end);
     } catch (const std::exception& error) {
-        // glThread's destructor waits for the thread, so the thread must be stopped.
+        // glThread's destructor waits for the end of its thread. So the thread gets a request to
+        // stop first.
         input_.request_stop();
         cancel_.request_stop();
         if (isReading()) {
@@ -256,8 +257,8 @@ Health App::health(const Counted& counted) {
     return health_.judge(seen);
 }
 
-// The watchdog is fed only between start and stop of the service, because systemd limits start and
-// stop by other timeouts.
+// During the start, systemd uses TimeoutStartSec= instead of the watchdog. During a shutdown, the
+// watchdog is always fed, because TimeoutStopSec= limits the shutdown.
 void App::feedWatchdog(const Health& health) {
     if (!running_ || !service_.watchdogPeriod()) return;
     if (isProven_ && !std::exchange(patienceEnded_, true)) service_.watchdogPatience(1);
@@ -266,7 +267,7 @@ void App::feedWatchdog(const Health& health) {
 
 void App::logHealth(const Health& health) {
     if (health.state == told_.state && health.cause == told_.cause) return;
-    // During a shutdown, threads and pictures stop as well. That is not a fault.
+    // During a shutdown, no new pictures are expected, so this state is not a fault.
     if (stopReason_ && health.state == HealthState::Stalled) return;
     if (health.state != HealthState::Ok)
         log_.warning(sentence(health), health.cause, subjectOf(health));

@@ -128,7 +128,8 @@ ExitCode App::finish(std::future<std::string>& end) {
         if (*one)
             (*one)->said.set_exception(
                 std::make_exception_ptr(std::runtime_error("mfard is ending")));
-    control_.reset();  // its destructor waits for answers, which the lines above have ended
+    // ControlSocket's destructor waits for pending answers. The lines above made these fail.
+    control_.reset();
     onReady();
     const Counted counted = stats_.count();
     const Health last = health(counted);
@@ -155,7 +156,8 @@ ExitCode App::finish(std::future<std::string>& end) {
         }
         (void)writeResults(fmt::format("error: {}", error.what()), exitCode(error));
         if (!stopSignal_) throw;
-        // mfard is not restarted after a signal, so it does not pause before this exit.
+        // Returns instead of throwing: main() would pause before a restart by systemd, but after a
+        // signal systemd does not restart mfard.
         log_.error(error.what());
         return exitCode(error);
     }

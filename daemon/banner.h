@@ -16,9 +16,9 @@ class Banner {
 public:
     explicit Banner(Size size) : size_(size) {}
 
-    /// Returns a copy of the picture with the text at its lower edge. The copy is a texture if the
-    /// picture is one, otherwise it is on the host. For an empty picture, the text is on black, on
-    /// the host. The copy is valid until the next call.
+    /// Returns a copy of the picture with the text at its lower edge. The copy is a texture if
+    /// `picture` is a texture, otherwise it is in host memory. If `picture` is empty, the
+    /// background is black. The copy is valid until the next call.
     [[nodiscard]] Picture over(const Picture& picture, const std::string& text);
 
 private:

@@ -35,8 +35,8 @@ constexpr milliseconds kReload{60'000};
 /// Answer thread: answering one request of mfarctl. Its waits for other threads and for the client
 /// have shorter limits.
 constexpr milliseconds kAnswer{20'000};
-/// Longest time in which a disk, or the reader of the display's pipe, accepts one picture. After
-/// that, the display reports a fault.
+/// Longest time that one picture waits for the disk, or for the reader of the display's pipe. A
+/// longer wait is reported as a fault of the display.
 constexpr milliseconds kTaken{2000};
 /// Writer thread: writing one picture to a file or pipe. A still of 12 megapixels takes 2 s on a
 /// small board.

@@ -32,7 +32,7 @@ struct CameraState {
 enum class CameraKind {
     Stored,  ///< a recording, which drops no frames: no checks
     Live,    ///< frames may be dropped: missing frames are counted
-    Sensor,  ///< Live, with noise: its rate and repeated pictures are checked, too
+    Sensor,  ///< like Live, but pictures have noise: rate and repeated pictures are checked, too
 };
 
 /// Checks the frames of one camera: the frame rate, repeated pictures, and missing frames if the

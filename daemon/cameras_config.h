@@ -41,7 +41,8 @@ struct TriggerLineConfig {
     std::string loopback;  ///< input wired to the trigger line, to measure its timing; empty: none
     double delayMs = 0;    ///< first estimate of the time from trigger pulse to exposure
     double jitterMs = 1;   ///< largest error of the still camera's timestamps
-    double arrivalMs = 500;  ///< a still that arrives later than this after its exposure is lost
+    /// A still that arrives more than this time after its exposure counts as lost.
+    double arrivalMs = 500;
     bool operator==(const TriggerLineConfig&) const = default;
 };
 

@@ -19,8 +19,8 @@
 
 namespace mfar {
 
-/// A video frame with the newest still that was exposed before it, unless an earlier frame got that
-/// still.
+/// A video frame. `still` is the newest still that was exposed before the frame; it is not set if
+/// an earlier frame already has this still.
 struct CapturedFrame {
     Frame video;
     std::optional<CapturedStill> still;

@@ -140,8 +140,8 @@ bool ControlSocket::waitFor(std::vector<Client>& clients) {
     waiting.push_back({clients.size() < kMostClients ? listening_.get() : -1, POLLIN, 0});
     int timeout = -1;
     for (const Client& client : clients) {
-        // No more data is read from a client whose request is complete. It waits for a free answer
-        // thread.
+        // No more data is read from a client whose request is complete. The request waits for a
+        // free answer thread.
         waiting.push_back({client.isComplete ? -1 : client.fd.get(), POLLIN, 0});
         if (client.isComplete) continue;
         const int left = millisecondsTo(client.end);

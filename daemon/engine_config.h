@@ -30,7 +30,7 @@ struct EngineConfig {
 
 void readEngine(TomlReader& file, EngineConfig& engine);
 
-/// Returns `decided`, with the configured engine for each step that has one.
+/// Returns `decided`, changed for those steps whose engine is set in the configuration.
 [[nodiscard]] EngineChoice withWishes(const EngineConfig& engine, EngineChoice decided);
 
 /// Returns "simd" or "gles" if all steps run on that engine, otherwise "still gles, flow simd,

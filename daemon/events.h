@@ -28,7 +28,7 @@ public:
     /// Waits for the next event. Signals are reported before all other events.
     [[nodiscard]] Event wait();
     void tickEvery(std::chrono::duration<double> period);
-    /// Sets the time of one Deadline event. An earlier deadline is replaced.
+    /// Requests one Deadline event after this time. Replaces the previous request.
     void deadlineIn(std::chrono::duration<double> time);
     /// Causes a Wake event. Thread-safe.
     void wake();

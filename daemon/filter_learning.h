@@ -86,7 +86,8 @@ private:
     std::optional<RgbPlanes> olderVideo_;
     bool hasOlder_ = false;    // true: `older_` is the still before the one in `pictures_`
     bool olderTaken_ = false;  // picture thread only; true: `older_` was set since the last still
-    MatchedPictures truth_;    // used by thread_ only, like matcher_
+    // `older_`'s frame, matched with the new still. Used by thread_ only, like matcher_.
+    MatchedPictures truth_;
     std::unique_ptr<FrameMatcher> matcher_;
 
     mutable std::mutex mutex_;

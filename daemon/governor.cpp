@@ -13,8 +13,8 @@ namespace {
 constexpr double kRoom = 0.85;
 constexpr double kDownRoom = 0.95;
 // A faster level is chosen when more than kMostLate of the last kLateWindow counted frames are
-// late. Frames with a new still are not counted, but only one in kStillEvery frames may be such a
-// late frame. Together, at most one frame in twenty is late.
+// late. Frames with a new still are not counted. If frames with a new still are late, only one in
+// kStillEvery frames gets a new still. So at most one frame in twenty is late.
 constexpr std::size_t kMostLate = 1;
 constexpr std::uint64_t kLateWindow = 40;
 constexpr std::uint64_t kSettle = 8;  // counted frames before a change to a better level

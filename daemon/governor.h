@@ -47,8 +47,8 @@ public:
     /// Must be called for every frame. Frames whose time is negative or not finite are ignored.
     void add(const Frame& frame);
 
-    /// Returns false if the level uses no still, or if frames that are late because of a new still
-    /// would be too frequent.
+    /// Returns false if the level uses no still. Also returns false if the last frame with a new
+    /// still was late and is so recent that another one would make too many frames late.
     [[nodiscard]] bool mayTakeStill() const;
 
     [[nodiscard]] double deadlineMs() const { return deadline_; }
@@ -75,7 +75,7 @@ private:
     double deadline_;
     std::size_t level_ = 0;
     Choice next_;
-    std::optional<Pending> pending_;        // the previous frame, while it is unknown if it changed
+    std::optional<Pending> pending_;  // the previous frame; the next add() reports if it changed
     std::array<double, kWindow> ratios_{};  // measured time / table time, ring buffer
     std::size_t ratioCount_ = 0;
     std::uint64_t frame_ = 0;            // number of counted frames

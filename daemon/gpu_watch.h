@@ -28,8 +28,8 @@ public:
     [[nodiscard]] bool isReady();
     /// Throws GpuLost if the pictures drawn so far may be wrong.
     void requireSound() const;
-    /// Must be called after a picture's GL commands and before the display's. Throws GpuLost if the
-    /// commands failed.
+    /// Must be called after a picture's GL commands and before the display's GL commands. Throws
+    /// GpuLost if the picture's commands failed.
     void drawn();
     /// If a lost GPU caused `error`, returns the reason of the loss. All objects on the GPU must
     /// then be created again. Otherwise returns nothing.

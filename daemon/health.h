@@ -23,8 +23,8 @@ enum class HealthState {
 
 struct Health {
     HealthState state = HealthState::Ok;
-    std::string cause{};                  ///< the cause, without times; empty in state Ok
-    double sinceS = 0;                    ///< duration of the state with this cause [s]
+    std::string cause{};  ///< empty in state Ok; names no times, so causes can be compared
+    double sinceS = 0;    ///< duration of the state with this cause [s]
     std::optional<double> pictureAgeS{};  ///< age of the last picture [s]; not set: there is none
     std::string thread{};
     bool isDevice = false;  ///< true: the cause is a device that is being reopened
@@ -46,7 +46,7 @@ struct Observed {
     std::optional<std::string> fault{};
     std::optional<std::string> gpu{};
     std::optional<std::string> display{};  ///< reason why not all pictures are shown or written
-    std::optional<Timestamp> repeats{};  ///< start of the video camera's repetition of one picture
+    std::optional<Timestamp> repeats{};    ///< since then, the video camera repeats one picture
     std::optional<Timestamp> lastPicture{};
     std::optional<Timestamp> lastBanner{};  ///< time when a banner with the fault was last shown
     std::optional<Timestamp> started{};     ///< time from which pictures could be made
@@ -54,8 +54,8 @@ struct Observed {
     int patience = 1;
 };
 
-/// Judges the health, and remembers when the state began to have its cause. Only one thread may use
-/// it.
+/// Judges the health, and measures how long state and cause have been the same. Only one thread may
+/// use it.
 ///
 /// A hanging thread is more important than any other fault, because only a restart helps. A banner
 /// counts as a new picture only while mfard reopens a device and no thread hangs. A device whose

@@ -12,7 +12,7 @@ class TomlReader;
 
 /// Section [limits] of the configuration: the memory that the daemon may use for its input.
 struct LimitsConfig {
-    double memoryMb = 0;  ///< memory budget; 0: three quarters of machineMemory(), at most 4096
+    double memoryMb = 0;  ///< memory budget [MiB]; 0: 3/4 of machineMemory(), at most 4096
 
     bool operator==(const LimitsConfig&) const = default;
     [[nodiscard]] std::uint64_t memoryBytes() const;

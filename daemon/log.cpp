@@ -96,8 +96,8 @@ void Log::say(const RepeatLimit::Message& message) {
     put(out + status_);
 }
 
-// Returns true if a message can be written now. After a message was dropped, later messages do not
-// wait for the output.
+// Waits until the output accepts bytes. Returns false if it does not do so in time. After a dropped
+// message, returns at once, so that only one message waits.
 bool Log::isWritable() {
     pollfd out{fd_, POLLOUT, 0};
     const int patience = dropped_ == 0 ? kPatienceMs : 0;

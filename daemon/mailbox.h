@@ -11,9 +11,9 @@ namespace mfar {
 
 /// Behaviour of a mailbox whose sender is faster than its receiver.
 enum class HandOver {
-    /// For live sources: a newer item replaces the waiting one and is counted as a drop.
+    /// For live sources: a newer item replaces the stored item, which counts as a drop.
     NewestWins,
-    /// The sender waits until the receiver has taken the item and waits for the next one. So no
+    /// The sender waits until the receiver has taken the item and requests the next one. So no
     /// item is lost, and a run can be repeated exactly (recordings at the pace "consumer").
     Lossless,
 };
@@ -47,7 +47,8 @@ public:
         return older ? Put::Replaced : Put::Stored;
     }
 
-    /// Waits for an item and returns it. Returns nothing if the mailbox is over().
+    /// Waits for an item and returns it. Returns nothing if the mailbox is closed, or if it is
+    /// empty after finish().
     [[nodiscard]] std::optional<T> take() {
         return take([&](std::unique_lock<std::mutex>& lock) {
             stored_.wait(lock, [&] { return closed_ || finished_ || slot_; });

@@ -31,7 +31,7 @@ struct Option {
     OptionRange range{};
     int count = 1;
     std::string_view argument{};  ///< the command line option of mfard that overrides the key
-    bool isAbsent = false;  ///< true: the key is absent by default, which has a meaning of its own
+    bool isAbsent = false;  ///< true: absent by default; `meaning` says what an absent key means
 };
 
 struct OptionSection {

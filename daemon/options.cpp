@@ -122,7 +122,7 @@ CommandLine parseCommandLine(int argc, const char* const* argv) {
     if (parser.printConfig) line.print = defaultConfigText();
     line.options = parser.options;
     const Words& words = parser.words;
-    // This condition is false for NaN.
+    // `seconds` may be NaN. Then both comparisons are false, and NaN is refused.
     const double seconds = line.options.seconds.value_or(1);
     if (!(seconds > 0 && seconds <= 1e7))
         throw Failure(ExitCode::Usage, "--seconds must be more than 0 and at most 1e7");

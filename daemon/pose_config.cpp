@@ -79,9 +79,9 @@ TrackerOptions trackerOptions(const PoseConfig& pose, TagMap map, double rateHz)
     out.fullSearchInterval = pose.fullSearchInterval;
     PoseFilterOptions& filter = out.pose.filter;
     filter.bridgeFrames = pose.bridgeFrames;
-    // The tracker limits a prediction both by frames and by time. The time limit must be the longer
-    // one, so that the number of frames decides. It is half a frame longer, because a still may be
-    // older than the frame.
+    // The tracker ends predictions after a number of frames or after a time. The time must be the
+    // longer one, so that the number of frames decides. Half a frame is added for the poses of
+    // stills, which may be older than the frame.
     if (rateHz > 0) {
         const std::chrono::duration<double> frames((pose.bridgeFrames + 0.5) / rateHz);
         filter.bridge =

@@ -18,8 +18,8 @@ double seconds(clockid_t clock) {
 }
 
 // Returns the time since the process started. Field 22 of /proc/self/stat is the start time, in
-// clock ticks since boot, see proc(5). Field 2, the program's name, may contain spaces and ends
-// with a bracket.
+// clock ticks since boot, see proc(5). Field 2 is the program's name in brackets. It may contain
+// spaces, so fields are counted from the closing bracket on.
 double secondsSinceStart() {
     constexpr int kStartTime = 22;
     std::ifstream file("/proc/self/stat");

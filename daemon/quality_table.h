@@ -29,8 +29,8 @@ struct QualityLevel {
 
 [[nodiscard]] std::string toToml(std::span<const QualityLevel> levels);
 
-/// Replaces each mode that is better than `best` by `best`. Of levels that become equal, only the
-/// fastest is kept.
+/// Changes the mode of each level to `best` if it is better than `best`. Of levels that become
+/// equal, only the fastest is kept.
 [[nodiscard]] std::vector<QualityLevel> limitedTo(std::span<const QualityLevel> levels,
                                                   SuperResMode best);
 

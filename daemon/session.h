@@ -159,8 +159,9 @@ private:
     StillPolicy policy_;
     std::optional<CapturedStill> newestStill_;
     // Copies of the still in use, of the pipeline's second still, and of the still in use before.
-    // They are needed after a loss of the GPU and for the report. The memory of formerStill_ is
-    // reused. Not set if no step runs on GLES and no report is written.
+    // They are needed after a loss of the GPU and for the report. Not set if no step runs on GLES
+    // and no report is written. formerStill_ may become the second still; otherwise its memory is
+    // reused for the next still.
     std::optional<UsedStill> usedStill_, secondStill_, formerStill_;
     TriggerReports triggerReports_;
     std::vector<QualityLevel> levels_;

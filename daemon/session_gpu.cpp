@@ -34,8 +34,8 @@ void Session::makeDrawingAnew(std::string why) {
         drawing_.reset();
         display_->releaseGl();
         gl_ = {};
-        // Returns free pages of the heap to the system. glibc would keep them, although almost the
-        // whole heap is free now (45 of 157 MB were measured).
+        // Returns free memory of the heap to the system: 45 of 157 MB in a measurement. glibc
+        // would keep it.
         malloc_trim(0);
         if (isLast) {
             config_.engine = {.use = EngineWish::Simd};

@@ -69,20 +69,20 @@ struct Counted {
     Drops drops;
     StillCounts stills;
     std::array<CameraState, 2> cameras{};
-    StillCounters matching;  ///< of stills to pulses; zero without a trigger line
+    StillCounters matching;  ///< how stills match trigger pulses; all 0 without a trigger line
     PoseCounts poses;
     QualityCounts quality;
     std::uint64_t epipolarFrames = 0;
-    /// Epipolar frames that were searched near the previous result.
+    /// Frames that were matched along epipolar lines, but only near the last frame's matches.
     std::uint64_t predictedFrames = 0;
-    /// Epipolar frames whose pose was refined from the pictures.
+    /// Frames matched along epipolar lines whose pose was refined from the pictures.
     std::uint64_t refinedFrames = 0;
-    double meanEpipolarError = 0;  ///< over the frames with enough patches [video px]
+    double meanEpipolarError = 0;  ///< mean over the frames with enough patches [video px]
     std::uint64_t depthTiles = 0;  ///< tiles with measured depth, summed over all frames
-    /// Tiles without measured depth, because they are behind the objects.
+    /// Tiles whose depth was not measured, because the real surface lies behind the objects.
     std::uint64_t depthTilesSkipped = 0;
     std::uint64_t keyframeSearches = 0;
-    std::uint64_t tilesSearched2d = 0;  ///< tiles without a reliable match along epipolar lines
+    std::uint64_t tilesSearched2d = 0;  ///< tiles that had no reliable match on epipolar lines
     /// Frames with virtual objects in view, and those in which all objects were hidden.
     std::uint64_t objectFrames = 0;
     std::uint64_t hiddenFrames = 0;
@@ -101,7 +101,7 @@ struct Counted {
     std::optional<std::string> gpuFault{};
     std::uint64_t gpuFailures = 0;
     std::optional<Rendering> rendering{};  ///< set if it has changed since the start
-    ValidationCounts validation{};         ///< zero without validation
+    ValidationCounts validation{};         ///< all 0 if shader outputs are not validated
     std::optional<ProcessUse> atFirstPicture;
     std::optional<LearningCounts> learning{};
     std::filesystem::path recording;
@@ -121,8 +121,7 @@ struct FinishedPicture {
     std::optional<Timestamp> since{};
 };
 
-/// Measures the rate of pictures over the last second. at() can be called at any time without a
-/// change of later results.
+/// Measures the rate of pictures over the last second.
 class PictureRate {
 public:
     void add(Timestamp shown);

@@ -21,7 +21,7 @@ struct TriggerConfig {
     double explainedBelow = 0.6;
     double maxAgeS = 10;        ///< mode demand: an older still is replaced while the scene moves
     double minIntervalS = 0.3;  ///< mode demand: shortest time between two triggers
-    double timeoutS = 3;        ///< a still that does not arrive within this time is lost
+    double timeoutS = 3;        ///< a still that arrives later than this counts as lost
 
     bool operator==(const TriggerConfig&) const = default;
 };

@@ -22,7 +22,7 @@ Target targetOf(const CalibrateArguments& a) {
 }
 
 /// Searches for the target in all pictures. On a terminal, redraws the map of the found corners
-/// after each picture. Otherwise prints it once at the end.
+/// after every fifth picture. Otherwise prints it once at the end.
 SensorViews look(const std::vector<RecordedImage>& pictures, Size size, const Target& target,
                  const char* name) {
     const bool terminal = isatty(STDOUT_FILENO) == 1;
@@ -31,7 +31,7 @@ SensorViews look(const std::vector<RecordedImage>& pictures, Size size, const Ta
         const bool last = now.done == now.of;
         if (!last && (!terminal || now.done % 5 != 0)) return;
         const std::string title =
-            fmt::format("{}: {} of {} pictures, {} show the target, {:.0f} % covered   ", name,
+            fmt::format("{}: {} of {} pictures searched, target in {}, {:.0f} % covered   ", name,
                         now.done, now.of, now.found, 100 * now.coverage.share());
         if (terminal && !shown.empty()) fmt::print("\x1b[{}A", Coverage::kRows + 3);
         shown = mapText(now.coverage, title);

@@ -3,7 +3,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/cell_flow_rows.cpp"
 #include <hwy/foreach_target.h>
-// Must come after foreach_target.h: compiled once per instruction set.
+// Must come after foreach_target.h, because this header is compiled once per instruction set.
 #include "pipeline/simd/depth_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -39,8 +39,8 @@ HWY_INLINE Points<V> endOf(D d, const FlowEnds& ends, V rx, V ry, V s) {
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Points<V> loadVectors(D d, const CellVector* from) {
-    // Points is not used here, because its default constructor would not be compiled for this
-    // instruction set.
+    // A variable of type Points is not used here, because its default constructor would not be
+    // compiled for this instruction set.
     V x, y, c, e;
     hn::LoadInterleaved4(d, from->data(), x, y, c, e);
     return {x, y};

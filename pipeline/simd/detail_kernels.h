@@ -40,8 +40,8 @@ void warpRow(const StillPairs& still, const LookUpRows& lookUp, int begin, int e
 /// has kGuideReach more values on both sides.
 struct GuideRows {
     static constexpr int kRows = 2 * params::kGuideReach + 1;
-    /// differences: still minus video, each multiplied by its factor in Guidance. trusted: 1. Both
-    /// are 0 where the still is not trusted.
+    /// differences: still minus video, each multiplied by its factor in Guidance. trusted: 1 where
+    /// the still is trusted. Where it is not, both are 0.
     std::array<const float*, kRows> differences;
     std::array<const float*, kRows> trusted;
 };
@@ -62,9 +62,9 @@ struct WarpedRow {
 
 /// Writes the still's detail, which the video cannot show, times its weight LookUpRows::share. Adds
 /// `learned`, the residual of the learned filters, times 1 - weight (0 for weights above 1); null:
-/// no residual. All values are in 1/32 grey level. Another method lost 0.3 to 0.7 dB on synthetic
-/// scenes: it added the whole residual everywhere and subtracted the residual of the still. The
-/// residual also sharpens the sensors' differences in blur and noise.
+/// no residual. All values are in 1/32 grey level. If the whole residual is added everywhere and
+/// the still's residual subtracted, 0.3 to 0.7 dB are lost on synthetic scenes: differences in blur
+/// and noise between the sensors are then sharpened, too.
 void detailRow(const WarpedRow& warped, const LookUpRows& lookUp, const std::int16_t* learned,
                int begin, int end, std::int16_t* to);
 

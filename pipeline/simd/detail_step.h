@@ -63,8 +63,8 @@ public:
     /// `stillRig`: see StillPreparation::rig(). `output`: size of the whole enlarged video.
     DetailStep(const StereoRig& stillRig, Size output, std::shared_ptr<Workers> workers);
 
-    /// Draws the tiles that `work` marks as drawn into `out`, an RGBA8 picture (R in the lowest
-    /// byte, alpha 255) of the output's size. Other tiles keep their pixels.
+    /// Draws the tiles for which TileWork::draws() is true. `out` is an RGBA8 picture (R in the
+    /// lowest byte, alpha 255) of the output's size. Other tiles keep their pixels.
     TileSummary draw(const DetailInput& in, const DetailOptions& options, Rows<std::uint32_t> out);
     [[nodiscard]] const std::vector<TileClass>& classes() const { return classes_.classes(); }
 

@@ -11,8 +11,8 @@ namespace mfar::simd {
 
 /// openRow() writes 1 at pixels that are invalid or near an edge of inverse depth, else 0. A pixel
 /// is near an edge if the largest minus the smallest inverse depth around it exceeds `jump` times
-/// the largest plus `sigmas` standard deviations. `low`, `high`: smallest and largest values within
-/// some columns (from rangeAlongRow()). `rows` rows of them, which are `pitch` apart, are combined.
+/// the largest plus `sigmas` standard deviations. `low`, `high`: results of rangeAlongRow() for
+/// `rows` consecutive rows, which are `pitch` entries apart.
 struct EdgeRule {
     float jump, sigmas;
 };

@@ -24,12 +24,13 @@ public:
     /// ViewLookUp. Discards the previous list and its rendered colours.
     void list(Rows<const std::uint32_t> colour, Rows<const std::uint32_t> state,
               const PixelRect& where);
-    /// Returns the row-major indices of the listed pixels, ascending, but each list only once.
+    /// Returns the row-major indices of the listed pixels, ascending. Returns nothing if the list
+    /// was already taken.
     std::optional<std::vector<std::uint32_t>> take();
     /// Stores the rendered colours of pixels that take() returned; ignores other pixels.
     void answer(const HoleAnswer& answer);
-    /// Blends the rendered colours into `colour`, a picture with the pose of the list. Their weight
-    /// rises from frame to frame.
+    /// Blends the rendered colours into `colour`, which must show the same view as the listed
+    /// picture. Their weight rises from frame to frame.
     void show(Rows<std::uint32_t> colour);
     void drop();
 

@@ -109,7 +109,7 @@ void Flow2d::chooseBackward() {
             };
             ends_.at(tileAt(x, cell.x, ends_.size.width), tileAt(y, cell.y, ends_.size.height)) = 1;
         }
-    constexpr int kMargin = 3;  // [tiles] of 2x2 cells of the backward field
+    constexpr int kMargin = 3;  // [tiles]; a tile has 2x2 cells of the backward field
     widen(ends_, kMargin, between_, endsAround_);
 }
 
@@ -249,8 +249,8 @@ void Flow2d::refine(const Luma& luma, const TileWork& work, Cells forward, Cells
     errorsGiven_ = true;
     searched_.clear();
     if (work.matched == 0) return;
-    // [tiles] The choice of the searched tiles depends on their neighbours. The clean-up reads
-    // vectors of neighbouring tiles that a search may have changed.
+    // Number of tiles around each needed tile whose vectors are needed, too. The choice of searched
+    // tiles depends on neighbouring tiles, and the clean-up reads their vectors.
     constexpr int kMargin = 2;
     chooseTiles(work, !work.drawsWhole(), kMargin);
     const FlowPlanes field = forwards_.stages[0].areas[0].planes();

@@ -30,14 +30,16 @@ public:
     /// changed() in flow_options.h. Throws std::invalid_argument if an option is out of range.
     void setOptions(const Flow2dOptions& options) { options_ = changed(options_, options); }
 
-    /// Pyramids of the video's size. `words` contains their pixels, in the layout of luma_layout.h.
+    /// Luma pyramids of video and still, both of the video's size. `words` contains their pixels,
+    /// in the layout of luma_layout.h.
     struct Luma {
         const std::vector<LumaLevel>& video;
         const std::vector<LumaLevel>& still;
         std::span<const std::uint32_t> words;
     };
-    /// Computes the flow in both directions, unless no changed tile is matched. `usePrior`: the
-    /// last frame's flow is a candidate for every cell; must be false after a new still.
+    /// Computes the flow in both directions. Keeps the last flow if no changed tile is matched.
+    /// `usePrior`: the last frame's flow is a candidate for every cell; must be false after a new
+    /// still.
     void run(const Luma& luma, const TileWork& work, bool usePrior);
 
     /// Computes the forward field from `forward`, one vector per cell with an error of a fraction

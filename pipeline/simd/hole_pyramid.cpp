@@ -229,8 +229,9 @@ bool isCrack(const HolePyramid::Layer& layer, int x, int y, std::uint32_t id) {
 
 }  // namespace
 
-/// Fills a hole with colours of its own object or, if none is known, of all surrounding objects.
-/// Otherwise, an object that has just appeared from behind others would look transparent.
+/// Fills a hole with colours of its own object. If none is known, because the object has just
+/// appeared from behind others, uses the colours of all surrounding objects. Without a colour, the
+/// object would look transparent.
 void HolePyramid::fillHole(const Layer& layer, Hole& hole, bool pushPull) const {
     const int x = static_cast<int>(hole.pixel) % width_, y = static_cast<int>(hole.pixel) / width_;
     const std::uint32_t state = layer.state[y][x], id = state & 255U;

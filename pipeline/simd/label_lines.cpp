@@ -3,7 +3,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/label_lines.cpp"
 #include <hwy/foreach_target.h>
-// Must come after foreach_target.h: compiled once per instruction set.
+// Must come after foreach_target.h, because this header is compiled once per instruction set.
 #include "pipeline/simd/label_lines-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -81,8 +81,9 @@ struct NearestPixels {
     }
 };
 
-/// Returns the cost minima of the valleys, counted in labels from the best label. Labels with the
-/// same nearest pixel count as one, at the point of the epipolar line that is nearest to the pixel.
+/// Returns the cost minimum of each valley, as an offset from the best label [labels]. Labels with
+/// the same nearest pixel count as one label. It lies at the point of the epipolar line that is
+/// nearest to this pixel.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V bottoms(D d, const Valleys<D>& valleys, const NearestPixels<D>& pixels) {
     const auto own = pixels.at(0);

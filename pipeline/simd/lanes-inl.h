@@ -18,8 +18,8 @@ namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// Calls body(tag, i) for vectors that cover `count` values. The last vector may overlap the
-/// previous one, so the body must not change its input. Fewer values than a vector has are
-/// processed one by one.
+/// previous one, so the body must not change its input. If a vector has more lanes than there are
+/// values, the values are processed one by one.
 template <class D, class Body>
 HWY_INLINE void forLanes(D d, std::size_t count, const Body& body) {
     const std::size_t lanes = hn::Lanes(d);

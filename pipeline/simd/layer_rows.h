@@ -10,7 +10,7 @@ inline constexpr int kLayerSpare = 64;
 struct LayerColumns {
     const std::int32_t *left, *right;  ///< the layer's columns on either side of each output pixel,
                                        ///< ascending
-    const std::uint32_t* share;        ///< weight of the right column, as twiceInAWord()
+    const std::uint32_t* share;        ///< weight of the right column, see twiceInAWord()
     int origin, last;                  ///< columns of the first and last entry of the row's loaded
                                        ///< part
 };

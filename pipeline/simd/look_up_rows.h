@@ -28,8 +28,8 @@ public:
     /// LookUpRows::share is the confidence instead of the weight.
     void begin(Rows<const LookUpCell> field, const LookUpTaps& taps, bool confident, int begin,
                int end);
-    /// Returns a row of the output. It is valid until row() needs a row of cells that is at least
-    /// four rows away from this one's.
+    /// Returns a row of the output, which is computed from two rows of cells. The result is valid
+    /// as long as later calls use rows of cells that are less than four rows away.
     [[nodiscard]] LookUpRows row(int y);
 
 private:

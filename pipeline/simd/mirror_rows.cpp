@@ -6,7 +6,7 @@
 #define HWY_TARGET_INCLUDE "pipeline/simd/mirror_rows.cpp"
 
 #include <hwy/foreach_target.h>
-// Must come after foreach_target.h: compiled once per instruction set.
+// Must come after foreach_target.h, because this header is compiled once per instruction set.
 #include "pipeline/simd/point_lens-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -58,7 +58,8 @@ HWY_INLINE VU Packed(const V3& light) {
     const DU du;
     const DI di;
     const V most = hn::Min(hn::Max(light.x, hn::Max(light.y, light.z)), F(kMostLight));
-    // The factor raises the exponent where rounding up would need a ninth bit.
+    // Without the factor, a value just below a power of two would be rounded up to nine bits. With
+    // it, such a value gets the next larger exponent.
     const VU bits = hn::BitCast(du, hn::Mul(most, F(1.003F)));
     const VI above = hn::Sub(hn::BitCast(di, hn::ShiftRight<23>(bits)), hn::Set(di, 126));
     const VI exponent = hn::Max(above, hn::Set(di, -kLightBias));

@@ -41,12 +41,12 @@ struct MirrorParts {
 };
 
 // splitMirrored() and joinMirrored() skip pixels without gloss. The arrays of surfaces, gloss, rays
-// and parts must have 7 more entries than the row has pixels. These are read but not written.
+// and parts must have 7 more entries than the row has pixels. These 7 entries are never written.
 /// Splits the specular light that the traced picture's camera sees into its parts.
 void splitMirrored(const MirrorRow& row, const MirrorInput& input, const LightWords* light,
                    MirrorParts* out);
-/// Computes from `parts` the specular light that another eye sees. The veil of `light` stays
-/// unchanged.
+/// Computes from `parts` the specular light that another eye sees. The veil of `light` (the share
+/// of specular light that paint does not change) stays unchanged.
 void joinMirrored(const MirrorRow& row, const MirrorInput& input, const MirrorParts* parts,
                   LightWords* light);
 

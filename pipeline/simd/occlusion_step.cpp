@@ -16,7 +16,7 @@ Size withMargin(Size video) {
 }
 
 /// Returns the weights of the four samples around a pixel. `share`: distance of the pixel from the
-/// second sample, in distances between samples.
+/// second sample; 1 is the distance between two samples.
 std::array<float, 4> distanceWeights(float share) {
     std::array<float, 4> out{};
     for (int i = 0; i < 4; ++i) {

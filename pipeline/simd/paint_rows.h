@@ -22,7 +22,7 @@ struct PaintTriangle {
     RasterPlane perZ, u, v;  ///< 1 / z, u / z and v / z on the grid; set only for triangles
                              ///< that are drawn
     std::uint32_t size = 0;
-    std::uint32_t levels = 0;    ///< index of the largest level; top byte: number of other levels
+    std::uint32_t levels = 0;    ///< index of the largest level; top byte: number of smaller levels
     std::uint32_t material = 0;  ///< triangles with equal numbers are painted in the same way
     std::uint32_t unused[4] = {};
 };

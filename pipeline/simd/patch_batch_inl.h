@@ -41,7 +41,7 @@ struct Batch {
     int count = 0;
     int column[kBatch], row[kBatch];
     Patch patch[kBatch];
-    Each mean, variance;  // of the patch's pixels; variance: sum of (pixel - mean)^2
+    Each mean, variance;  // mean of the patch's pixels, and sum of (pixel - mean)^2
     Each2 sumG, sumAG;    // sums of the gradients, and of (pixel - mean) times gradient
     Each inverseXx, inverseXy, inverseYy;
 

@@ -8,8 +8,8 @@
 
 namespace mfar::simd {
 
-/// One pyramid level as the flow kernels read it. Bytes of a row's border are repeated 8 times to
-/// the left and at least 8 times to the right.
+/// One pyramid level as the flow kernels read it. Each row's first pixel is repeated 8 times to the
+/// left, its last pixel at least 8 times to the right.
 struct PatchPicture {
     const std::uint8_t* pixels = nullptr;
     std::ptrdiff_t pitch = 0;
@@ -29,7 +29,7 @@ inline constexpr int kFieldMargin = 16;
 /// A flow field of another frame or step, whose vectors are candidates at every pyramid level.
 struct PriorField {
     const float *x = nullptr, *y = nullptr;
-    std::ptrdiff_t step = 1, pitch = 0;  ///< elements from cell to cell, from row to row
+    std::ptrdiff_t step = 1, pitch = 0;  ///< distances between cells and between rows [elements]
     float scale = 1;                     ///< pixels of the searched level per field pixel
     /// Columns and rows of this field per column and row of cells of the searched pyramid level.
     float columnsPerCell = 1, rowsPerCell = 1;

@@ -278,7 +278,7 @@ HWY_INLINE void addUpRows(const Patch& patch, const PatchRows& rows, std::int16_
         for (int r = 0; r < kPatch; ++r) {
             const auto below = between(rows[r + 1] + c);
             const auto v = hn::Add(above, hn::MulFixedPoint15(hn::Sub(below, above), down));
-            columns = hn::Add(columns, v);  // at most 8 * 4096
+            columns = hn::Add(columns, v);  // |v| <= 4096, so eight rows fit into 16 bits
             products.add(patch, kPatch * r + c, v);
             above = below;
         }

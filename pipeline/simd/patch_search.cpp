@@ -131,8 +131,8 @@ HWY_INLINE void searchWholeRow(const Batch& batch, int cell, const PatchPicture&
     }
 }
 
-/// Compares the patch at a square of displacements; the best one becomes the cell's trial. Zero
-/// comes first, so it wins if the patch has no texture.
+/// Compares the patch at a square of displacements; the best one becomes the cell's trial.
+/// Displacement zero is compared first, so it wins if the patch has no texture.
 void searchWhole(Batch& batch, int cell, const PatchPicture& to, int radius) {
     WholeSums sums{};
     WholeBest best{batch.best.x.of[cell], batch.best.y.of[cell], batch.cost.of[cell]};

@@ -33,7 +33,7 @@ struct PathVolume {
     const std::uint8_t* jumps;  ///< penalty for larger label differences; 256 entries, indexed by
                                 ///< the difference of `guide` between the pixels
     const std::uint8_t* costs;  ///< matching costs, kLabels * vectors per pixel
-    std::uint8_t* sums;         ///< sums of path costs over the directions, one for each cost
+    std::uint8_t* sums;         ///< for each entry of `costs`: sum of the four paths' costs
 };
 
 /// Numbers of rows and columns that are processed together. Threads should split the work at

@@ -94,8 +94,8 @@ RestPixels::RestPixels(const ViewLookUp::Input& input, const TracedPicture& trac
     : plain_(plain), layerLens_(pointLensOf(layer)),
       traced_{traced.surface, traced.colour, lights, traced.camera.size,
               plain.toTraced, &plain_.lens,  1} {
-    // The re-rendered pictures are ordered by slot, because known() shows the first one of those
-    // with equal shares.
+    // Sorts the re-rendered pictures by slot, because their order matters: if several have equal
+    // shares, known() uses the first.
     std::array<const RerenderedPictures::Picture*, RerenderedPictures::kPictures> bySlot{};
     for (const RerenderedPictures::Picture& rerendered : input.rerendered.pictures())
         bySlot[static_cast<std::size_t>(rerendered.slot)] = &rerendered;
@@ -214,8 +214,8 @@ RestPixel RestPixels::at(const Asked& asked) const {
     }
     const bool missed = objectKnown < 1, hole = missed || catcherKnown < 1;
     const bool nowhere = objectKnown == 0 || catcherKnown == 0;
-    // If an edge were rendered individually, it would show a mixture of surfaces. So it takes its
-    // colour from its neighbours, which are rendered.
+    // A rendered edge pixel would show a mixture of surfaces, not the missing surface alone. So an
+    // edge pixel takes the missing colour from its neighbours, which are rendered.
     const bool edge = (missed ? covered : below) < 1;
     if (covered > 0)
         out.depth = object.z;

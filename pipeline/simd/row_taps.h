@@ -40,14 +40,14 @@ public:
     [[nodiscard]] float weight(int tap, int x) const { return weights_[tap][x]; }
     /// Returns the taps of row y, for a table that is used for columns and has at most four taps.
     [[nodiscard]] const ColumnTaps& column(int y) const { return columns_[y]; }
-    /// The table for resampleRow(). Sources must have at least taps() entries; missing entries must
-    /// be zero.
+    /// The table for resampleRow(). Sources must have at least taps() entries; a shorter source
+    /// must be padded with zeros.
     [[nodiscard]] TapTable table() const {
         return {first_[0], weights_[0], weights_.pitch(), taps()};
     }
 
 private:
-    /// Adds a sample, given the index in the source, which may be beyond its ends, and the weight.
+    /// Adds a sample. Arguments: its index in the source (may be beyond the ends), and its weight.
     using Add = std::function<void(int, double)>;
     RowTaps(int from, int to, const std::function<void(int, const Add&)>& sample);
 

@@ -129,7 +129,7 @@ private:
     AlignedRows<std::uint32_t> picture_;
     AlignedRows<float> depth_;
     std::optional<WarpHoles> listed_;
-    PixelRect drawn_;  // lookUp_'s pictures are empty outside
+    PixelRect drawn_;  // outside this rectangle, lookUp_'s pictures are empty
     Field<std::uint32_t> state_;
     LayerPicture warped_, rendered_;
 };

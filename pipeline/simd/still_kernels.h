@@ -6,8 +6,8 @@
 
 namespace mfar::simd {
 
-// Functions for rows of a still. Written rows, and 16-bit and luma rows that are read, may be
-// accessed up to 64 bytes beyond their end.
+// Functions for rows of a still. Rows that are written need 64 bytes of padding, and so do luma
+// rows and 16-bit rows that are read.
 
 /// Computes luma from Y, which is a plane, or byte pairs with Y first. Luma is gain [1/16384] times
 /// Y plus `offset` plus `chroma` [both 1/32 grey level], clamped to [0, 255]. Null `chroma`: 0.

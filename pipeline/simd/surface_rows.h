@@ -89,7 +89,7 @@ struct RasterName {
 /// A band of rows of the drawn part of the grid.
 struct RasterBand {
     Rows<std::uint32_t> words;
-    Rows<std::uint32_t> indices;  ///< valid where there is a word
+    Rows<std::uint32_t> indices;  ///< valid where a triangle was drawn into `words`
     PixelRect where;
 };
 void drawTriangles(std::span<const RasterTriangle> triangles, const RasterBand& band);

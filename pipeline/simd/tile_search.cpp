@@ -83,8 +83,8 @@ void TileSearch::find(const FlowPlanes& field, std::span<const ErrorCell> errors
         const bool within = x >= 0 && y >= 0 && x < size.width && y < size.height;
         return within ? int{unexplained_.at(x, y)} : 0;
     };
-    // A tile with two flagged neighbours is also flagged, because moving objects have parts without
-    // texture.
+    // A tile with two flagged neighbours is also flagged: it may be a part of a moving object
+    // without texture, in which a wrong match is not noticed.
     for (int y = 0; y < size.height; ++y)
         for (int x = 0; x < size.width; ++x) {
             const int beside =
@@ -93,8 +93,8 @@ void TileSearch::find(const FlowPlanes& field, std::span<const ErrorCell> errors
         }
     for (std::size_t level = 0; level < groups_.size(); ++level) {
         const int side = 1 << level;
-        // [tiles] The search of a group reads neighbouring groups of the coarser pyramid level.
-        // Their search reads their own neighbours in turn.
+        // Margin around the flagged tiles [tiles]. The search of a group reads neighbouring groups
+        // of the coarser pyramid level, so the margin grows from level to level.
         const int margin = 2 * side - 2;
         for (int y = 0; y < divideUp(size.height, side); ++y)
             for (int x = 0; x < divideUp(size.width, side); ++x)

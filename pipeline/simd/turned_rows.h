@@ -28,8 +28,8 @@ struct TurnedCells {
     const float *x, *y, *nextX, *nextY;
 };
 
-/// Draws a row of a picture that lies `v` grid cells below the first row of the grid, [0, 1). The
-/// source is sampled at each pixel's point, which is interpolated in the grid (both bilinear).
+/// Draws a row of a picture that lies `v` grid cells below the first row of the grid, [0, 1). Each
+/// pixel's point is interpolated bilinearly in the grid, the source bilinearly at this point.
 /// `seen` is 1 where the source has a pixel, else 0. The source must have at least two columns and
 /// two rows.
 void turnedRow(const Rows<const std::uint8_t>& source, const TurnedCells& cells, float v,

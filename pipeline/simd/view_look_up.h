@@ -34,7 +34,7 @@ public:
     struct Picture {
         std::vector<Rgba> colours;
         std::vector<LightWords> lights;     // empty if only colours are known
-        std::vector<WarpSurface> surfaces;  // empty, as `colours`, until a pixel is stored
+        std::vector<WarpSurface> surfaces;  // like `colours`, empty until a pixel is stored
     };
     explicit RerenderedStore(Size layer) : layer_(layer) {}
     void store(const RerenderedPictures::StoredRows& rows);

@@ -23,7 +23,7 @@ struct VisibilityParams {
 struct DecideRow {
     int count;
     const float* z;                 ///< z of the virtual layer [m]
-    const float *greatest, *least;  ///< see rangeOfSamples(), for each pixel
+    const float *greatest, *least;  ///< for each pixel, see rangeOfSamples()
     std::uint8_t* visibility;       ///< 0, 255 or kOpen; written up to 16 pixels beyond the last
                                     ///< pixel
     float* inverse;                 ///< inverse depth of the layer [1/m]; written as far as

@@ -42,9 +42,9 @@ public:
     /// Null workers: all work runs in the caller's thread.
     WeighStep(const StereoRig& stillRig, std::shared_ptr<Workers> workers);
 
-    /// Weighs every cell, unless no tile has changed. If no changed tile is matched, the gain of
-    /// the last frame is kept. Cells of unmatched tiles get no weight of their own. The results
-    /// have one entry per cell and are valid until the next run.
+    /// Weighs every cell. If no tile has changed, keeps the last results. If no changed tile is
+    /// matched, keeps the last frame's photometric gain. Cells of unmatched tiles get no weight of
+    /// their own. The results have one entry per cell and are valid until the next run.
     void run(const WeighInput& in);
 
     /// Multiplies the weight of each cell by its share. `shares` has one entry per cell.

@@ -10,7 +10,8 @@ namespace mfar::calibration {
 
 struct Progress {
     const Coverage& coverage;
-    /// Numbers of pictures that were searched, of all pictures, and of those with the target.
+    /// Numbers of pictures. done: searched so far. of: to be searched in total. found: those
+    /// searched so far that show the target.
     int done = 0, of = 0, found = 0;
 };
 

@@ -16,7 +16,8 @@ namespace {
 constexpr int kLeastVideoViews = 12, kLeastStillViews = 6, kLeastPairs = 5;
 // Largest standard deviation of a clock offset that counts as known [s].
 constexpr double kMaxOffsetDeviation = 0.002;
-// Smallest motion of a moving still over three frame intervals [video px].
+// The target counts as moving during a still if its image moves by at least this distance over the
+// three frame intervals around the still [video px].
 constexpr double kLeastMotion = 1;
 constexpr int kLeastMoving = 3;
 constexpr double kMaxFocalDeviation = 0.005;
@@ -147,8 +148,8 @@ private:
     }
 
     bool leaveOut(const RigBundle& bundle) {
-        // These poses come from the video alone. In RigBundle, a still changes the video poses
-        // around it, because it is more precise, and so hides its own error.
+        // The poses of track_ come from the video alone. In RigBundle, a still would move the video
+        // poses around it, because a still is more precise, and so hide its own error.
         const auto shift = static_cast<std::int64_t>(std::llround(bundle.offset() * 1e9));
         std::vector<double> errors;
         for (const Member& m : stillMembers_) {
