@@ -72,8 +72,8 @@ constexpr std::size_t kOfGpu = 3;
 /// Two overlapping faults of this length end before the watchdog stops mfard.
 constexpr Ns kLongestOfGpu = 3300 * kMs;
 
-/// Upper limit of clock readings from the start to READY without waiting. Each takes half a
-/// microsecond.
+/// Longest time from the start to READY if mfard does not wait [ns on the simulated clock]. Each
+/// reading advances this clock by half a microsecond.
 constexpr std::uint64_t kStartTime = 40'000;
 
 /// Draws a kind of fault. Kinds that can stop pictures are three times as likely.

@@ -168,7 +168,7 @@ TEST_P(SecondStillOfEngines, IsDroppedTogetherWithTheNewestStill) {
     run(pipeline);
     pipeline.dropStill();
     EXPECT_FALSE(run(pipeline).usedStill);
-    for (int frame = 0; frame < 3; ++frame)  // until both have measured the same noise
+    for (int frame = 0; frame < 3; ++frame)  // until both pipelines have measured the same noise
         run(fresh);
     setStill(pipeline, part_);
     setStill(fresh, part_);
