@@ -85,7 +85,7 @@ TEST_F(Plan, ChangedTilesAndMeasuredNoiseMatchTheOracle) {
     EXPECT_LE(changed, 26);
 }
 
-TEST_F(Plan, IfAnyOtherTileChangesTilesUnderVirtualObjectsAreRedrawn) {
+TEST_F(Plan, TilesUnderVirtualObjectsAreRedrawnIfAnyOtherTileChanges) {
     const TestPicture base = Waves(1, 6, 60, 30).shoot(kSize, {});
     const TestPicture oneTile = changedIn(base, 1, 64);
     WorkPlan plan(kSize);
@@ -112,7 +112,7 @@ TEST_F(Plan, IfAnyOtherTileChangesTilesUnderVirtualObjectsAreRedrawn) {
     EXPECT_EQ(plan.work().changed, 28) << "a tile must not be counted twice";
 }
 
-TEST_F(Plan, IfOneTileUnderVirtualObjectsChangesAllOfThemAreRedrawn) {
+TEST_F(Plan, AllTilesUnderVirtualObjectsAreRedrawnIfOneOfThemChanges) {
     const TestPicture base = Waves(1, 6, 60, 30).shoot(kSize, {});
     const TestPicture oneTile = changedIn(base, 1, 64);
     WorkPlan plan(kSize);
