@@ -123,13 +123,13 @@ void Judge::begins(const Fault& fault) {
     if (calm_[VideoDevice].active > before) hangs_.reset();
     if (fault.kind->where == Where::Video && fault.kind->effect == Effect::HangsDriver && wasSound)
         hangs_ = now();
-    note(std::string(fault.kind->name) + " begins");
+    note("fault begins: " + std::string(fault.kind->name));
 }
 
 void Judge::ends(const Fault& fault) {
     change(fault, -1);
     if (calm_[VideoDevice].active == 0) hangs_.reset();
-    note(std::string(fault.kind->name) + " ends");
+    note("fault ends: " + std::string(fault.kind->name));
 }
 
 void Judge::shows(Ns taken) {
