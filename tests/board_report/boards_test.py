@@ -136,8 +136,8 @@ class CpuModel(unittest.TestCase):
     def test_blocks_do_not_depend_on_where_the_emulator_cuts_them(self):
         texts = {0x10: ('mov x0, x1', 0), 0x14: ('add x0, x0, #1', 0), 0x18: ('add x1, x1, #1', 0),
                  0x1c: ('b.ne target', 0x14), 0x20: ('ret', 0)}
-        # The emulator counts the first iteration of a loop together with the code before it. It
-        # counts later iterations as two blocks, as where a page of memory ends.
+        # Here the emulator has counted the loop's first iteration together with the code before it.
+        # It has counted later iterations as two blocks, as if a page of memory ended between them.
         counts = cpu_model.Counts('0 16 4 1\n4 8 2 9\nc 4 1 9\n10 4 1 1\n')
         blocks = cpu_model.basic_blocks(counts, 0x10, texts)
         self.assertEqual(blocks, [([0x10], 1), ([0x14, 0x18, 0x1c], 10), ([0x20], 1)])

@@ -9,11 +9,11 @@ namespace mfar::test {
 struct Motion {
     double tilt = 0.5;       ///< greatest tilt [rad]
     double distance = 0.25;  ///< largest relative change of the distance to the target
-    double aside = 0.12;     ///< greatest sideways motion of the board [m]
+    double aside = 0.12;     ///< greatest sideways motion of the target [m]
     double offset = 0;       ///< time of the video minus time of a still [s]
     double seconds = 12;
     double stillsHz = 2;
-    bool rests = false;  ///< the board rests at stills and moves between them
+    bool rests = false;  ///< the target rests at stills and moves between them
     double noise = 0.1;  ///< standard deviation of corner coordinates [px]
     std::uint64_t seed = 1;
 };

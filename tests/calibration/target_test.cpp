@@ -152,8 +152,8 @@ Scene photographOfGrid(const Target& grid, int printTurn, int border, double tur
     constexpr int kCell = 20;
     const int tagCells = 6 + 2 * border;
     const cv::Mat1b paper = printedGrid(grid, kCell, printTurn, border);
-    // The first corner is a cell of white rim and a row of squares away from the paper's lower
-    // left.
+    // The paper begins with a white rim of one cell and a row of black squares. So the first corner
+    // of a tag has this distance from the paper's left and lower edges.
     const double first = (1 + tagCells * grid.spacing) * kCell;
     return photograph(paper, kCell * tagCells / 0.08, {first, paper.rows - first}, true, turn);
 }

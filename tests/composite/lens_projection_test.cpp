@@ -11,7 +11,8 @@ CameraModel barrel() {
     return {{160, 120}, 150, 152, 82.5, 57.1, {-0.31, 0.08, 0.002, -0.0015, 0.004}};
 }
 
-// A lens whose distortion folds back shortly outside the corners of the picture.
+// A lens model that is valid only a little beyond the picture's corners. It would project rays from
+// farther outside back into the picture.
 CameraModel folding() {
     return {{160, 120}, 110, 110, 80, 59, {-0.17, 0, 0, 0, 0}};
 }

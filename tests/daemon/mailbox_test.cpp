@@ -109,7 +109,7 @@ TEST(Mailbox, TimedWaitDistinguishesTimeoutFromEnd) {
     EXPECT_TRUE(box.over());
 }
 
-TEST(Mailbox, FinishStillDeliversTheLastItem) {
+TEST(Mailbox, TheLastItemIsDeliveredAfterFinish) {
     Mailbox<int> box(HandOver::NewestWins);
     box.put(5);
     box.finish();

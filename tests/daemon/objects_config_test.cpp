@@ -149,7 +149,8 @@ TEST(ObjectsConfig, ObjectsAreAnchoredToTheirTag) {
     EXPECT_LT((placedShapes({object}, map)[0].T_world_object.translation - T.translation).norm(),
               1e-12);
     object.tag->id = 6;
-    EXPECT_FALSE(worldPlace(object, map)) << "a tag that is not in the map gives no place";
+    EXPECT_FALSE(worldPlace(object, map))
+        << "an object on a tag that is not in the map has no pose";
     EXPECT_TRUE(placedShapes({object}, map).empty());
 }
 

@@ -232,7 +232,7 @@ TEST(StillPolicy, InModeOffThePolicyNeverFires) {
     EXPECT_EQ(board.run(30, kMovingUnexplained), 0);
 }
 
-TEST(StillPolicy, InModeOffTheTriggerFiresAgainForALostRequestedStill) {
+TEST(StillPolicy, InModeOffALostStillIsRequestedOnceMore) {
     TriggerConfig config;
     config.mode = TriggerMode::Off;
     Simulation board(config);

@@ -10,8 +10,8 @@ namespace mfar::demo {
 
 [[nodiscard]] std::string_view name(TileClass tileClass);
 
-/// Enlarged video, result and truth side by side. Below each, the region is magnified in which the
-/// enlarged video lacks most detail.
+/// Enlarged video, result and truth side by side. Below each picture, a magnified part: the region
+/// in which the enlarged video lacks most detail.
 [[nodiscard]] cv::Mat comparisonPicture(const Shown& shown);
 
 [[nodiscard]] cv::Mat confidencePicture(const Shown& shown);

@@ -63,8 +63,8 @@ void printTable(const OcclusionQuality& q) {
     row(fmt::format("means over {} frames", q.frames), "", "mfar");
     row("median error of depth [%]", "", fmt::format("{:.2f}", 100 * q.absrel));
     row("pixels with known depth [%]", "", fmt::format("{:.1f}", 100 * q.completeness));
-    row("shown and true visible object, IoU", "", fmt::format("{:.3f}", q.overlap));
-    row("error of its outline [video px]", "", fmt::format("{:.2f}", q.boundary));
+    row("IoU of visible object and truth", "", fmt::format("{:.3f}", q.overlap));
+    row("error of visible outline [px]", "", fmt::format("{:.2f}", q.boundary));
 }
 
 auto shownBy(const mfar::ProgressPart& part) {

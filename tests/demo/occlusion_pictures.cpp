@@ -104,7 +104,7 @@ cv::Mat depthPicture(const OcclusionRun& run) {
 
 cv::Mat occlusionPicture(const OcclusionRun& run) {
     const std::array<Column, 3> columns{
-        Column{"Object over everything", run.last.overlaid},
+        Column{"Object drawn over everything", run.last.overlaid},
         Column{fmt::format("mfar: IoU {:.3f}, boundary {:.2f} px", run.quality.overlap,
                            run.quality.boundary),
                run.last.composite},

@@ -8,8 +8,8 @@ namespace mfar::demo {
 
 [[nodiscard]] cv::Mat depthPicture(const OcclusionRun& run);
 
-/// The virtual object drawn over everything, the result, and the truth. Below each, the region in
-/// which most of the object is hidden is magnified.
+/// The virtual object drawn over everything, the result, and the truth. Below each picture, a
+/// magnified part, in which much of the object is hidden and much is visible.
 [[nodiscard]] cv::Mat occlusionPicture(const OcclusionRun& run);
 
 }  // namespace mfar::demo

@@ -18,8 +18,8 @@ namespace mfar::demo {
 namespace {
 
 constexpr std::chrono::milliseconds kFrameInterval{33};
-// The path tracer makes a picture of the exact view only after the camera rested for some frames.
-// To give it time, the last frame is repeated at most kMostRestFrames times.
+// The path tracer renders the exact view only after the camera has rested for some frames. So the
+// last frame is repeated until this picture is finished, at most kMostRestFrames times.
 constexpr int kLeastLooks = 15, kMostRestFrames = 20000;
 
 bool isSettled(const TracedLayerCounters& counters) {
@@ -106,7 +106,7 @@ VirtualRun runVirtual(const Recording& recording, const Config& config,
         throw std::runtime_error(recording.root.string() +
                                  ": no virtual object is in view in the last frame");
     Timestamp seen = show.counters().render.frame;
-    int looks = 0;  // frames that the path tracer's threads have used; they may skip some
+    int looks = 0;  // number of frames that the path tracer has used; it may skip some
     for (int i = 0; i < kMostRestFrames && !(looks > kLeastLooks && isSettled(show.counters()));
          ++i) {
         show.again();

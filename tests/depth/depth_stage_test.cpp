@@ -134,7 +134,8 @@ TEST(DepthStage, DepthIsMeasuredOnlyInRequestedTiles) {
     walk.goSideways(10, 0.01);
     expectGood(walk.errors());
     const InverseDepthField& field = walk.stage().field();
-    // In each frame, measured values may move by up to four pixels.
+    // Depth that was measured in `where` moves on with the scene, by at most four pixels in each of
+    // the ten frames.
     const PixelRect reached = widened(where, 40, field.size);
     for (int y = 0; y < field.size.height; ++y) {
         for (int x = 0; x < field.size.width; ++x) {

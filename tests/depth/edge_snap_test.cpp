@@ -105,8 +105,8 @@ TEST(EdgeSnap, SurfacesAreDistinguishedByColourInEveryFormat) {
     }
 }
 
-// Values are rounded and each pair of pixels has equal chroma. So both pictures have the same
-// colours.
+// The RGB picture is computed from the YUV picture, whose pairs of pixels share their chroma. So
+// the colours differ only by rounding.
 TEST(EdgeSnap, AYuvPictureAndTheEqualRgbPictureGiveTheSameDepth) {
     for (const PixelFormat format : {PixelFormat::Yuyv, PixelFormat::Nv12, PixelFormat::Yuv420}) {
         test::PaddedPicture painted(format, kPicture, 6);

@@ -169,7 +169,8 @@ TEST_F(AutoDisplay, ReturnsToAScreenThatWasLostForAMoment) {
     EXPECT_EQ(display_->name(), "no screen yet (kms missing; fbdev missing)");
 }
 
-// The flips of this screen do not complete. This is noticed at every third picture.
+// Each time that it is opened, this screen shows two pictures and fails at the third, like a screen
+// whose flips do not complete.
 TEST_F(AutoDisplay, ARepeatedlyLostScreenStaysReported) {
     kms_.presence = Presence::Ready;
     run(kSecond);

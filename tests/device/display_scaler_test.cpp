@@ -86,8 +86,8 @@ TEST_F(DisplayScaler, EveryPixelIsTheMeanOfItsFootprint) {
                 for (std::size_t k = 0; k < 3; ++k)
                     worst = std::max(worst, std::abs(got[k] - mean[k]));
             }
-        // Tolerance: a linear sampler interpolates with at least 8 bits and truncates along x and
-        // y. Rounding adds half a grey level.
+        // Tolerance: a GPU interpolates between two pixels with at least 8 bits. This loses up to
+        // one grey level along x and one along y. Rounding adds half a grey level.
         EXPECT_LE(worst, 2.5) << from.width << "x" << from.height;
     }
 }

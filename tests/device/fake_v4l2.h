@@ -31,7 +31,7 @@ struct FakeControl {
     std::int64_t minimum, maximum, step, value;
     std::vector<std::string> menu{};
     std::uint32_t flags = 0;
-    int refusals = 0;  ///< number of attempts to set the control that fail first
+    int refusals = 0;  ///< number of first attempts to set the control that fail
     int error = EBUSY;
 };
 

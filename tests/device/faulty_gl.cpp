@@ -63,8 +63,8 @@ std::uintptr_t nothing() {
 Function workingOr(const char* name);
 Function lostOr(const char* name);
 
-/// Only the lost context has this buffer. Addresses cannot identify the lost context, because a new
-/// context may get the same address.
+/// Name of a buffer that lose() creates. The current context is the lost one if it has this buffer.
+/// An address would not identify the lost context, because a new context may get the same address.
 GLuint mark = 0;
 
 void lose() {

@@ -10,7 +10,8 @@
 namespace mfar::faulty {
 namespace {
 
-// Only tests set this, because recorded moments would make mfard's memory grow.
+// True once a test has called mfarFaultyGlLoseAt(). Without a test, no moments are recorded,
+// because the list would grow while mfard runs.
 bool isAsked = false;
 std::string loseAt;  // name of the moment at which the context is lost; empty: none
 std::vector<std::string> moments;
@@ -32,8 +33,8 @@ void sourceOf(unsigned shader, const char* text) {
         if (one.text == text) shaders[shader] = one.name;
 }
 
-// A program that draws has two shaders. The fragment shader is attached last and gives the program
-// its name.
+// For a program that draws, this is called twice: for its vertex shader, then for its fragment
+// shader. So the program has the fragment shader's name.
 void attached(unsigned program, unsigned shader) {
     programs[program] = shaders[shader];
 }

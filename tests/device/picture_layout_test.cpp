@@ -43,7 +43,7 @@ TEST_F(PictureLayoutTest, SeparatePlanesKeepTheirLayout) {
     EXPECT_EQ(at(yuv.chroma[1].data), 9'000U);
 }
 
-TEST_F(PictureLayoutTest, ColoursAndPackedFormatsPassThrough) {
+TEST_F(PictureLayoutTest, APackedPictureKeepsItsFormatMatrixAndRange) {
     const PlaneBytes all{memory_.data(), memory_.size()};
     const ImageView view =
         layOut({{64, 48}, PixelFormat::Yuyv, 128, YuvMatrix::Bt709, YuvRange::Full}, {&all, 1});

@@ -8,7 +8,7 @@
 //   hang-close    closing does not return
 //   slow MS       opening takes this time
 //   gone          unplugged: open descriptors fail, nothing can be opened
-//   unplug N      devices opened with another N are lost
+//   unplug N      a new N means unplugged and plugged in again: devices opened before are lost
 //   refuse N      the first N settings of its control "gain" after opening are refused
 //   eio           taking a picture fails until the camera is opened again
 //   silent        no further pictures

@@ -23,8 +23,8 @@ using std::chrono::milliseconds;
 constexpr std::uint32_t kSeeds = 200;
 constexpr int kSteps = 200;
 constexpr milliseconds kEarly{500};
-/// Pauses before the device is requested again. Index: number of consecutive requests that ended
-/// early. After the last entry the device counts as lost.
+/// Pauses before the camera is restarted. Index: number of consecutive starts after which all
+/// requests were cancelled within kEarly. After the last entry the camera counts as lost.
 constexpr std::array<milliseconds, 5> kPauses = {milliseconds(0), milliseconds(0), milliseconds(50),
                                                  milliseconds(100), milliseconds(200)};
 

@@ -163,7 +163,7 @@ TEST(RequestCycle, PausesBeforeRestartsGrowUntilTheDeviceCountsAsLost) {
     EXPECT_THROW((void)camera.cycle.next(kPatience), DeviceLost);
 }
 
-TEST(RequestCycle, RequestsReturnedAfterTheEndDoNotCountAsAnotherEnd) {
+TEST(RequestCycle, ASecondCancellationBeforeTheRestartIsNotCounted) {
     constexpr RestartLimits kLimits{
         .early = milliseconds(60'000), .firstPause = milliseconds(0), .most = 2};
     FakeDriver camera(kLimits);

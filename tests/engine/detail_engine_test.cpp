@@ -23,7 +23,8 @@ INSTANTIATE_TEST_SUITE_P(Engines, DetailEngineTest,
                                     std::string(nameOf(tested.param.still));
                          });
 
-/// Reduces the contrast: the overshoot of sharpening must stay in the range to which shaders clamp.
+/// Reduces the contrast, so that no value leaves a byte's range when sharpening overshoots: shaders
+/// would clamp it, but the oracle does not.
 DetailCase withRoom(DetailCase frame) {
     for (std::vector<std::uint8_t>* pixels : {&frame.videoPixels, &frame.stillPixels})
         for (std::uint8_t& byte : *pixels)
@@ -146,8 +147,8 @@ void expectPicture(Rows<const std::uint32_t> drawn, F&& of, double most) {
                     << drawn.size.width << ": " << x << " " << y << " " << c;
 }
 
-// Tolerance [grey levels]: luma is rounded to 1/8 grey level. The residual's limits are a quarter
-// of a difference of two such values.
+// Tolerance [grey levels]: luma is rounded to 1/8 grey level. The limits of the residual are a
+// quarter of the difference between two luma values.
 constexpr double kLearnedError = 1.3;
 
 TEST_P(DetailEngineTest, FramesEnlargedByFiltersMatchTheOracleWithAndWithoutAStill) {

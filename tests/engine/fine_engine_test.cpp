@@ -146,11 +146,11 @@ protected:
     }
 };
 
-TEST_F(FineEngines, HostWeightsOfTheFineCheckMatchTheOracle) {
+TEST_F(FineEngines, TheCheckOfFinestDetailMatchesTheOracleOnTheHost) {
     expectTheOracles(onHost);
 }
 
-TEST_F(FineEngines, GpuWeightsOfTheFineCheckMatchTheOracle) {
+TEST_F(FineEngines, TheCheckOfFinestDetailMatchesTheOracleOnTheGpu) {
     expectTheOracles(onGpu);
 }
 

@@ -1,5 +1,6 @@
-// Replaces functions that wait or read the time, see Scheduler. The calling thread has the turn.
-// Locks are those of the C library; a thread tries them until they are free.
+// Replaces functions of the C library that wait or read the time. The new versions wait in the
+// Scheduler and read its simulated clock. Locks remain those of the C library. A thread that finds
+// a lock taken waits in the Scheduler and tries again.
 
 #include "tests/faults/real_calls.h"
 #include "tests/faults/scheduler.h"

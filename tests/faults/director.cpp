@@ -77,7 +77,7 @@ std::vector<Step> stepsOf(const Episode& episode) {
     return steps;
 }
 
-void request(nlohmann::json what) {  // NOLINT(performance-unnecessary-value-param): of a thread
+void request(nlohmann::json what) {  // NOLINT(performance-unnecessary-value-param)
     try {
         static_cast<void>(ask(Board::kSocket, what));
     } catch (const std::exception& error) {
@@ -103,7 +103,7 @@ void apply(const Step& step) {
         // which another fault may block.
         if (ofDisk)
             std::thread([] {
-                sleepFor(300 * kMs);  // a recording that the fault delayed starts now
+                sleepFor(300 * kMs);  // until a recording that the fault delayed has started
                 request({{"command", "record"}, {"stop", true}});
             }).detach();
         Judge::get().ends(*step.fault);
@@ -155,7 +155,8 @@ void checkInQuiet() {
     }
 }
 
-/// True once the first thread has its own signal mask again. Before, it has that of begin().
+/// True after begin() has restored the first thread's signal mask. Before, that thread blocks all
+/// signals for begin(), not for mfard.
 std::atomic<bool> hasItsMask = false;
 
 /// True if the first thread blocks SIGTERM. If not, SIGTERM ends the process at once.
@@ -269,7 +270,8 @@ void direct() {
 __attribute__((constructor)) void begin() {
     Judge::get();
     Board::get().setUp(plan());
-    // Signals are blocked here, because only mfard's own threads may handle them.
+    // The threads that start here inherit this mask, because only mfard's own threads may handle
+    // signals.
     sigset_t all, before;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);

@@ -115,21 +115,21 @@ void Judge::change(const Fault& fault, int by) {
 }
 
 void Judge::begins(const Fault& fault) {
-    // Opening a device may hang far longer than reading. So a hanging driver is timed only if the
-    // camera worked before. Then mfard has it open.
+    // mfard may wait far longer for opening a device than for reading from it. So a hang is timed
+    // only if the camera worked before: then mfard has the device open and hangs while it reads.
     const bool wasSound = calm_[VideoDevice].lasts(kBack, now());
     const int before = calm_[VideoDevice].active;
     change(fault, 1);
     if (calm_[VideoDevice].active > before) hangs_.reset();
     if (fault.kind->where == Where::Video && fault.kind->effect == Effect::HangsDriver && wasSound)
         hangs_ = now();
-    note(std::string(fault.kind->name) + " begins");
+    note("fault begins: " + std::string(fault.kind->name));
 }
 
 void Judge::ends(const Fault& fault) {
     change(fault, -1);
     if (calm_[VideoDevice].active == 0) hangs_.reset();
-    note(std::string(fault.kind->name) + " ends");
+    note("fault ends: " + std::string(fault.kind->name));
 }
 
 void Judge::shows(Ns taken) {
@@ -147,8 +147,9 @@ Ns Judge::missing(Ns at) const {
     return device.active > 0 ? std::min(age(at), at - device.since) : 0;
 }
 
-/// Time for which the GPU has finished no picture because of a fault. It is 0 during the first
-/// pictures, which may take longer, without a camera, and after mfard stopped using the GPU.
+/// Time for which the GPU has finished no picture because of a fault. It is 0 if this is not the
+/// GPU's fault: while the camera fails, during the first pictures (which may take longer), and
+/// after mfard stopped using the GPU.
 Ns Judge::unfinished(Watched gpu, Ns at) const {
     if (calm_[gpu].active == 0 || calm_[Video].active > 0) return 0;
     if (frames_ < kProvenFrames || isGpuGivenUp_) return 0;
@@ -170,8 +171,8 @@ void Judge::judgeState(const ordered_json& said, Ns asked) {
     isGpuGivenUp_ = isGpuGivenUp_ || cause.find("the CPU draws") != cause.npos;
     const std::string fault = textOf(said, "fault");
     const bool isFine = state == "ok" && fault.empty();
-    // A pipe without a reader still takes some pictures. The next picture may wait for the time
-    // budget of the writing thread.
+    // If the screen's reader stalls, the pipe still takes some pictures. Then the writing thread
+    // waits. Status reports it only after the time budget of this thread.
     const Ns stalled = asked - std::max(calm_[Screen].since, calm_[Video].since);
     // mfard recognises a repeated picture only after several pictures.
     const bool repeats = calm_[Video].active > calm_[VideoDevice].active;

@@ -24,7 +24,7 @@ public:
 
     void begins(const Fault& fault);
     void ends(const Fault& fault);
-    /// The screen shows a picture that was exposed at `taken`.
+    /// To be called when the screen shows a picture that was exposed at `taken`.
     void shows(Ns taken);
 
     void serviceHears(std::string_view text);

@@ -17,7 +17,7 @@ struct TrialOptions {
 };
 
 struct TrialResult {
-    /// The judge's report without sizes of memory, which do not only depend on the program.
+    /// The judge's report without sizes of memory, because these differ even between equal runs.
     std::string course;
     std::string failure;  ///< description for the user; empty if mfard violated no rule
     std::map<std::string, long> counts;

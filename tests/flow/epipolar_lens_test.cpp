@@ -15,7 +15,8 @@ CameraModel pincushion() {
     return {{161, 119}, 150, 150, 80, 59, {0.15, 0.03, 0, 0, 0.01}};
 }
 
-// A lens model that folds back shortly beyond the picture's corners.
+// A lens model that is valid only a little beyond the picture's corners. It would project rays from
+// farther outside back into the picture.
 CameraModel fisheye() {
     return {{161, 119}, 110, 110, 80, 59, {-0.17, 0, 0, 0, 0}};
 }

@@ -105,7 +105,7 @@ TEST(EpipolarSearchOdd, TinyAndOddSizesGiveValidFields) {
     }
 }
 
-TEST(EpipolarSearchOdd, SmallPicturesAreStillMatched) {
+TEST(EpipolarSearchOdd, SmallPicturesAreMatched) {
     const CameraModel camera = cameraOf({61, 45});
     const View view{camera, {{{{0, 0, 1}, 2}}, 9, 100}, motion({0, 0, 0}, {0.2, 0, 0})};
     EpipolarSearch search = test::searchWith(camera, 2);

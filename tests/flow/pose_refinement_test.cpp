@@ -151,8 +151,8 @@ TEST(PoseRefinement, MovingObjectsDoNotDisturbThePose) {
     view.scene.surfaces[1].least = {-0.75, -0.75};
     view.scene.surfaces[1].greatest = {0.65, 0.35};
     const LumaImage video = view.video();
-    // The texture is a function of the point. So the panel is not moved but rendered from another
-    // pose.
+    // A surface that is moved in the scene would get another texture, which depends on the
+    // position. So the still's panel is rendered from a moved camera instead.
     const RigidTransform lifted = view.T_still_video * motion({0, 0, 0}, {0, 0.06, 0});
     LumaImage still = view.still();
     const Scene moving{{view.scene.surfaces[1]}, 28, 100};

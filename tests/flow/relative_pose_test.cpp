@@ -20,8 +20,8 @@ Matrix6 priorCovariance(double turn, double shift) {
     return diagonal.asDiagonal();
 }
 
-/// Matches between two views of random points. The prior pose has the error `motion`, in the
-/// orientation of the still's rays.
+/// Matches between two views of random points. The true motion takes a point p to
+/// exp(`motion`) p + `translation`. The prior pose has only the translation.
 struct Case {
     Eigen::Vector3d translation{0.2, 0.02, 0.01};
     Vector6 motion = Vector6::Zero();

@@ -78,7 +78,8 @@ if [[ ! -d $built ]]; then
     printf 'Making %s, about three minutes\n' "$built" >&2
     rm -rf "$built.part"
     mkdir -p "$built.part"
-    # Runs in the background, because "||" would let it continue after a fault.
+    # In "buildAll || ...", bash would ignore `set -e` inside buildAll and continue after a fault.
+    # Therefore buildAll runs in the background.
     buildAll "$built.part/source" "$built.part/prefix" >"$built.log" 2>&1 &
     wait $! || {
         tail -n 20 "$built.log" >&2

@@ -96,4 +96,4 @@ refused 3 'kQuarter is not a constant of type int' 'inline constexpr int kX = kQ
 refused 3 'kMissing is not a constant of type float' 'inline constexpr float kX = kMissing;'
 refused 3 'the name is defined twice' 'inline constexpr float kQuarter = 0.5F;'
 refused 3 'the header ends within a statement' 'inline constexpr float kX ='
-echo "sound headers are translated, others refused"
+echo "valid headers are translated, invalid ones refused"

@@ -63,7 +63,8 @@ TEST(GltfModel, HierarchyIsApplied) {
     expectNear(mesh.normals[0], {0, -1, 0});
 }
 
-// The picture stands upright: u points along +x, and up in the picture is up in the world.
+// The picture stands upright on the quad with u along +x. So tangents point along +x, bitangents
+// along +z (up).
 TEST(GltfModel, MissingTangentsAreComputed) {
     const Mesh mesh = modelOf(richModel()).meshes.at(0);
     ASSERT_EQ(mesh.tangents.size(), 4U);

@@ -21,7 +21,7 @@ ends_with 0 6000
 says err 'warning: video camera: '
 says err 'still camera: .*no such card'
 [ "$(find frames -name '*.png' | wc -l)" -ge 5 ] ||
-    fail "mfard showed fewer than 5 pictures with the message"
+    fail "mfard showed fewer than 5 pictures while the cameras were missing"
 summary_has frames 0
 summary_has faults 1
 

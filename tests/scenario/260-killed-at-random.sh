@@ -58,7 +58,7 @@ for round in $(seq "$times"); do
     unset LD_PRELOAD
     if is_active; then fail "round $round: the trigger line is still active"; fi
 done
-[ $active -ge $((times / 10)) ] || fail "only $active kills happened during a trigger pulse"
+[ $active -ge $((times / 10)) ] || fail "only $active of $times kills happened during a trigger pulse; expected: a tenth or more"
 begin
 until_true shows_pictures
 kill -TERM "$pid"
@@ -71,4 +71,5 @@ for film in films/*; do
     readable=$((readable + 1))
 done
 echo "$times kills, $active of them during a trigger pulse; $readable readable recordings with pictures"
-[ $readable -ge $((times / 4)) ] || fail "only $readable recordings are readable and have pictures"
+[ $readable -ge $((times / 4)) ] ||
+    fail "only $readable recordings have pictures; expected: $((times / 4)) or more"

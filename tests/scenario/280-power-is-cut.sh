@@ -76,4 +76,5 @@ for cut in $(seq "$cuts"); do
     umount after
 done
 echo "$cuts cuts; $readable readable recordings with pictures"
-[ $readable -ge $((cuts / 2)) ] || fail "only $readable recordings are readable and have pictures"
+[ $readable -ge $((cuts / 2)) ] ||
+    fail "only $readable recordings have pictures; expected: $((cuts / 2)) or more"

@@ -77,8 +77,8 @@ no_complaint() {
 ends_with() {
     local begin code=0 took
     begin=$(milliseconds)
-    # Reads only the process table. So a hanging mfard fails this check before the test's time
-    # limit.
+    # Polls the process table instead of waiting for the process. So this check fails after 30 s if
+    # mfard hangs.
     while kill -0 "$pid" 2>/dev/null && [ $(($(milliseconds) - begin)) -lt 30000 ]; do
         sleep 0.02
     done

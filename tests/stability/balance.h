@@ -13,8 +13,8 @@ namespace mfar::stress {
 
 /// Chooses the next case at the product's picture size, so that all passes process about equal
 /// numbers of pixels. For the pass with the fewest pixels, it chooses the case with the most pixels
-/// per second of this pass. If only small pictures have reached a pass, it tries the case that did
-/// so for a limited time.
+/// per second of this pass. If only small pictures have reached a pass, it runs the case that
+/// reached it at the product's size, for a limited time.
 class Balance {
 public:
     explicit Balance(const std::vector<Case>& cases);

@@ -68,7 +68,8 @@ void carriedDepth(Context& c) {
     filter.predict({}, 0.03);
     filter.fuse(plane, {0, 0, size.width, size.height});
     RigidTransform ahead;
-    // The camera moves so far that the filter moves the field at once.
+    // The filter adds up small motions before it moves its depths. This motion is long enough to
+    // move them at once.
     const double way = c.hostile.real(0.15, 0.4) * c.hostile.pick({-1, 1});
     ahead.translation = unit * Eigen::Vector3d(way, 0, way);
     filter.predict(ahead, 0.03);

@@ -31,8 +31,8 @@ Sensors hostileSensors(Context& c) {
     Sensors out{hostileRig(c), {}, {}};
     out.video = c.hostile.picture(out.rig.video.size);
     out.still = c.hostile.picture(out.rig.still.size);
-    // Limits the contrast, so that sharpening and enlarging do not overshoot. The GPU clamps values
-    // between passes.
+    // Limits the contrast, so that no value leaves a byte's range when sharpening and enlarging
+    // overshoot. Between passes the GPU would clamp it, the CPU would not.
     for (TestPicture* picture : {&out.video, &out.still})
         for (std::uint8_t& byte : picture->bytes)
             byte = static_cast<std::uint8_t>(96 + byte / 4);
@@ -82,7 +82,8 @@ long differingPixels(const LumaPyramid& a, const LumaPyramid& b, const LumaLevel
     return count;
 }
 
-// Where a strong lens folds back, rounding decides which of two branches a ray takes.
+// Share of the still pyramid's pixels that may differ. At the limit of a strong lens model's valid
+// range, rounding decides whether a ray is inside this range.
 constexpr double kFolded = 0.1;
 
 void comparePyramids(Context& c, const LumaPyramid& gles, const LumaPyramid& simd) {

@@ -155,8 +155,8 @@ void lenses(Context& c) {
                                     c.hostile.real(0, camera.size.height - 1));
         const Eigen::Vector2d ray = camera.unproject(pixel);
         c.checks.require(ray.allFinite(), "a ray that is not finite");
-        // Where the lens model folds over inside the picture's corner, unproject() returns the
-        // nearest ray instead.
+        // In corners of the picture that are beyond the lens model's valid range, unproject()
+        // returns a ray at the limit of this range. These corners are skipped.
         if (camera.projectJacobian(ray).determinant() > 0.1 * camera.fx * camera.fy)
             c.checks.within((camera.project(ray) - pixel).norm(), 0, 1e-6,
                             "shift of an unprojected and projected pixel [px]");

@@ -109,7 +109,7 @@ void turnedRow(Context& c) {
 
 /// Epipolar lines of a lens without distortion. The candidates (labels) of a pixel are whole pixels
 /// apart along a row or a column, in either direction. So the costs of a pixel are known without
-/// following the line. Its foot, the nearest point of the line, is also known.
+/// following the line. The pixel's foot is also known: the point of the line nearest to the pixel.
 struct WholeLabels {
     simd::LabelLines lines{};
     Row raysX, raysY;

@@ -10,8 +10,8 @@
 namespace mfar::stress {
 namespace {
 
-// Largest error of a pixel that the GPU scales. A linear sampler has at least 8 bits between two
-// pixels and truncates in both directions. Rounding adds half a grey level.
+// Largest error of a pixel that the GPU scales. A GPU interpolates between two pixels with at least
+// 8 bits: this loses up to one grey level along x and one along y. Rounding adds half a grey level.
 constexpr double kSampling = 2.5;  // [grey levels]
 
 Size sizeFor(Context& c, Size screen) {

@@ -92,8 +92,9 @@ void planeSearch(Context& c) {
     RigidTransform scaled = view.T_still_video;
     const double unit = c.hostile.pick({0x1p-20, 0x1p-10, 0x1p10});
     scaled.translation *= unit;
-    c.checks.require(metres.run(video, view.T_still_video) == other.run(video, scaled),
-                     "the search in a scaled world runs or fails unlike the original");
+    c.checks.require(
+        metres.run(video, view.T_still_video) == other.run(video, scaled),
+        "the search runs in the original world but not in a scaled one, or the reverse");
     checkSearch(c, metres);
     for (std::size_t i = 0; i < metres.inverseDepth().size(); ++i)
         c.checks.within(metres.inverseDepth()[i] - other.inverseDepth()[i] * unit, -1e-5, 1e-5,

@@ -13,7 +13,8 @@ namespace mfar::stress {
 inline constexpr unsigned kWatchBinding = 15;  ///< binding of the counters
 inline constexpr std::size_t kMostWatched = 128;
 
-/// Name of the shader whose invalid indices are counted in element `index` of that buffer.
+/// Name of the shader whose invalid indices are counted in element `index` of the buffer
+/// kWatchBinding.
 [[nodiscard]] std::string watchedName(std::size_t index);
 
 /// Returns the shader `text` with checks of its indices. Invalid indices are counted in element

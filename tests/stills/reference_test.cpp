@@ -31,7 +31,8 @@ TEST(Reference, MotionSinceTheStillIsTheMeanDisplacementOfMatchedCells) {
     Known half(1, 8);
     half.reference.first[0].x = 11;
     half.cells[1].weight = 0;
-    EXPECT_NEAR(half.reference.moved(), 80.0 / 11, 1e-5) << "one of eleven has not moved";
+    EXPECT_NEAR(half.reference.moved(), 80.0 / 11, 1e-5)
+        << "one of the eleven matched cells has not moved";
     EXPECT_GT(Known(1, 0, 0).reference.moved(), 1e6) << "no cell is matched any more";
     half.reference.first.clear();
     EXPECT_EQ(half.reference.moved(), 0) << "no frame was matched";

@@ -108,7 +108,7 @@ TEST_P(SecondStillOfEngines, ShowsPartsThatTheNewestStillLacks) {
         setStill(*pipeline, part_);
         stats = run(*pipeline);
     }
-    EXPECT_GT(stats.matchedSecond, 30) << "of 72 tiles that are hidden";
+    EXPECT_GT(stats.matchedSecond, 30) << "the newest still lacks 72 tiles";
     EXPECT_GT(stats.showSecond, 30);
     EXPECT_GT(stats.explained, one.readStats().explained + 0.1);
     EXPECT_LT(error(two, true), 0.5 * error(one, true));
@@ -118,14 +118,16 @@ TEST_P(SecondStillOfEngines, ShowsPartsThatTheNewestStillLacks) {
 TEST_P(SecondStillOfEngines, IsNotMatchedWhereTheNewestStillShowsAll) {
     Pipeline pipeline = made(1);
     setStill(pipeline, whole_);
-    EXPECT_EQ(run(pipeline).matchedSecond, 0) << "there is one still";
+    EXPECT_EQ(run(pipeline).matchedSecond, 0) << "there is no second still yet";
     setStill(pipeline, whole_);
     for (int frame = 0; frame < 3; ++frame)
-        EXPECT_LE(run(pipeline).matchedSecond, 2) << "at the picture's border";
+        EXPECT_LE(run(pipeline).matchedSecond, 2)
+            << "only tiles at the picture's border may be matched";
     pipeline.setMeasure(true);
     pipeline.run({video_.data(), kVideo, std::size_t(kVideo.width), PixelFormat::Gray8}, {});
     for (const StageTime& stage : pipeline.stageTimes())
-        EXPECT_STRNE(stage.stage, "second still") << "nothing has changed";
+        EXPECT_STRNE(stage.stage, "second still")
+            << "an unchanged frame must not be matched with the second still";
 }
 
 TEST_F(SecondStill, IsMatchedInNoMoreTilesThanItsConfiguredShare) {
@@ -133,11 +135,11 @@ TEST_F(SecondStill, IsMatchedInNoMoreTilesThanItsConfiguredShare) {
     setStill(pipeline, whole_);
     run(pipeline);
     setStill(pipeline, part_);
-    EXPECT_EQ(run(pipeline).matchedSecond, 10) << "of 192";
+    EXPECT_EQ(run(pipeline).matchedSecond, 10) << "5 % of 192 tiles";
     pipeline.setQuality({.secondShare = 0});
     EXPECT_EQ(run(pipeline).matchedSecond, 0);
     pipeline.setQuality({.secondShare = 0.1});
-    EXPECT_EQ(run(pipeline).matchedSecond, 20) << "the second still was kept";
+    EXPECT_EQ(run(pipeline).matchedSecond, 20) << "a share of 0 must not drop the second still";
     setStill(pipeline, whole_);
     pipeline.setQuality({.secondShare = 0});
     setStill(pipeline, part_);
@@ -168,7 +170,7 @@ TEST_P(SecondStillOfEngines, IsDroppedTogetherWithTheNewestStill) {
     run(pipeline);
     pipeline.dropStill();
     EXPECT_FALSE(run(pipeline).usedStill);
-    for (int frame = 0; frame < 3; ++frame)  // until both have measured the same noise
+    for (int frame = 0; frame < 3; ++frame)  // until both pipelines have measured the same noise
         run(fresh);
     setStill(pipeline, part_);
     setStill(fresh, part_);

@@ -25,8 +25,8 @@ said=$(systemd-analyze verify --man=no "$work/mfard.service" 2>&1) ||
     fault "systemd-analyze verify of mfard.service ended with exit code $?"
 [[ -z $said ]] || fault "systemd-analyze verify of mfard.service reports: $said"
 
-# systemd must accept the optional drop-in that reboots after repeated failures. Although mfard
-# waits before each start, the number of starts that it counts must be possible within its interval.
+# systemd must accept the optional drop-in that reboots after repeated failures. mfard waits before
+# each start. So the interval must be long enough for the number of starts that causes a reboot.
 reboot=$(dirname "$unit")/reboot.conf
 install -D -m 644 "$reboot" "$work/mfard.service.d/reboot.conf"
 said=$(systemd-analyze verify --man=no "$work/mfard.service" 2>&1) ||
@@ -37,7 +37,8 @@ minutes=$(sed -n 's/^StartLimitIntervalSec=\([0-9]*\)min$/\1/p' "$reboot")
 starts=$(sed -n 's/^StartLimitBurst=//p' "$reboot")
 wait=$(sed -n 's/^constexpr std::chrono::seconds kLongestWait{\([0-9]*\)};$/\1/p' \
     "$sources/../daemon/restart_pause.cpp")
-# A hanging service uses the timeouts of watchdog and start between two starts.
+# If mfard hangs, the time between two starts is its longest wait plus 20 s: the watchdog's and the
+# start's timeouts.
 ((60 * minutes > starts * (wait + 20))) ||
     fault "reboot.conf can never count $starts starts within $minutes min"
 rm -r "$work/mfard.service.d"
@@ -71,7 +72,8 @@ grep -Eq '^(RestartSteps|RestartMaxDelaySec|RestartMode)=' "$unit" &&
 limit=$(sed -n "s/^constexpr milliseconds kWatchdog{\([0-9]*\)'000};$/\1/p" \
     "$sources/../daemon/budgets.h")
 grep -qx "WatchdogSec=$limit" "$unit" || fault "WatchdogSec is not the $limit s of budgets.h"
-# mfard must wait before every start after an exit code that causes a restart.
+# After these exit codes systemd does not restart mfard. isRestarted() must exclude the same codes,
+# because mfard waits before it ends only if it will be restarted.
 grep -qx 'RestartPreventExitStatus=64 65 66 78' "$unit" ||
     fault "RestartPreventExitStatus differs from the codes of isRestarted()"
 

@@ -162,7 +162,7 @@ TEST(TagPose, SeveralTagsDetermineTheEdgeShift) {
     }
 }
 
-TEST(TagPose, OutwardVectorsMoveEveryEdgeByOnePixel) {
+TEST(TagPose, CornersMovedByTheirOutwardVectorsMoveEveryEdgeByOnePixel) {
     const CameraModel camera = testCamera();
     const auto corners = cornersOf(camera, cameraAt(0.5, 0.6, 0.2, 0.4), kTag);
     const auto outwards = outwardsOf(corners);

@@ -39,7 +39,7 @@ TEST_F(WarpHolesGl, HolesOfTheTracedPictureAreRequested) {
     const RenderedPicture before = s.scene.cast({s.warp.camera(), test::orbit(0)});
     int hidden = 0, surfaces = 0;
     for (const std::uint32_t pixel : request->pixels) {
-        if (now.id[pixel] == 0) continue;  // pixels beside the shadow have no depth
+        if (now.id[pixel] == 0) continue;  // an empty pixel beside the shadow has no depth
         ++surfaces;
         const Eigen::Vector2d at(pixel % kHoleLayer.width, pixel / kHoleLayer.width);
         const Eigen::Vector3d p = now.depth[pixel] * s.warp.camera().unproject(at).homogeneous();

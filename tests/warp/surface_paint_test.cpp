@@ -320,7 +320,7 @@ TEST(SurfacePaint, PaintDependsNeitherOnThreadsNorOnWhereRowsAreSplit) {
     Scene scene = sceneOf({{twice, placed(0.8, {0, 0, 0.5}), 1},
                            {twice, placed(0.8, {0.05, 0, 0.5}), 0.9F},
                            {twice, placed(0.8, {0, 0, 0.5}), 1}});
-    // The shadow catcher is bent, so that it is drawn. It has no paint.
+    // A planar shadow catcher would not be drawn. So this one is bent. It has no paint.
     scene.catcher.positions = {{-1, -1, 0.4F}, {1, -1, 0.4F}, {1, 1, 0.5F}, {-1, 1, 0.4F}};
     scene.catcher.triangles = {{0, 1, 2}, {0, 2, 3}};
     const Words one = paintOf(scene);

@@ -69,8 +69,8 @@ float depthOf(std::uint32_t word) {
     return std::bit_cast<float>(word & 0xFFFFFF00U);
 }
 
-// At a distance of 1 m, the square covers 40 pixels of the grid in each direction, from 39.99 and
-// 19.99 on.
+// At a distance of 1 m, the square covers 40x40 pixels of the grid. Its first corner is at (39.99,
+// 19.99).
 TEST(SurfaceRaster, CoversASurfaceWithoutGapsAndNotBeyondItsOutline) {
     for (unsigned seed = 0; seed < 20; ++seed) {
         const auto words = drawn(
@@ -154,7 +154,8 @@ TEST(SurfaceRaster, TransparentTexelsOfAMaskAreNotDrawn) {
 
 TEST(SurfaceRaster, ObjectsCoverANearerShadowCatcherWithAnyNumberOfThreads) {
     Scene scene = sceneOf(shards(40, 5), {}, {Eigen::Quaterniond::Identity(), {0, 0, 1}});
-    // The shadow catcher is bent, so that it is drawn. It is nearer than the square.
+    // A planar shadow catcher would not be drawn. So this one is bent. It is nearer than the
+    // square.
     scene.catcher.positions = {{-1, -1, 0.5F}, {1, -1, 0.5F}, {1, 1, 0.6F}, {-1, 1, 0.5F}};
     scene.catcher.triangles = {{0, 1, 2}, {0, 2, 3}};
     const auto one = drawn(scene);

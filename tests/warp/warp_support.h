@@ -57,7 +57,8 @@ inline double meanGreen(Warp& warp, const RigidTransform& pose,
     return sum / static_cast<double>(pixels.size());
 }
 
-/// Renders frames until this pose has no holes, or until they are rendered and fully shown.
+/// Runs `frames` frames at this pose and answers all requests for holes. By then, the answers are
+/// fully shown.
 inline const LayerPicture& settled(Warp& warp, const CastScene& scene, const RigidTransform& pose,
                                    int frames = 12) {
     for (int i = 0; i < frames; ++i) {

@@ -186,8 +186,8 @@ TEST_F(Draw, DetailIsAddedInProportionToItsWeight) {
         const twin::Grey wanted = twin::greyOf(kOutput, [&](int x, int y) {
             return up.at(x, y) + l.weight * (stillAt(s, x, y, l) - low.at(x, y));
         });
-        // Tolerance: the mean is rounded, enlarged along columns and rounded again. kLookUp
-        // contains the error of the look-up.
+        // Tolerance: the mean is rounded, enlarged along columns and rounded again. The error of
+        // the look-up is 1.2, as in kLookUp.
         EXPECT_LE(worst(channelOf(out, 0), wanted), kTwice + l.weight * (kTwice + 1.2)) << l.x;
     }
 }

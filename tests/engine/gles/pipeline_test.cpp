@@ -22,7 +22,8 @@ TEST_F(PipelineTest, WithoutAStillTheVideoIsEnlarged) {
     const PipelineCase c;
     Pipeline p(c.rig, {});
     p.setQuality({.learned = false});
-    // The contrast is low, because the shaders clamp enlarged columns to a byte's range.
+    // Low contrast, so that no value leaves a byte's range after the columns are enlarged: the
+    // shaders would clamp it there, but the oracle does not.
     const TestPicture video = Waves(1, 1.2, 60, 25, 96).shoot(c.rig.video.size, {});
     const FrameResult& r = p.run(video.view(), {});
     EXPECT_FALSE(r.stats.usedStill);

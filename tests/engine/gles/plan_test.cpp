@@ -39,7 +39,8 @@ TestPicture changedIn(TestPicture base, int tiles, int by) {
     TestPicture out = base;
     for (int t = 0; t < tiles; ++t)
         for (int i = 0; i < 64; ++i) {
-            // Positions away from the neighbouring tiles, but also at the border of the picture.
+            // Pixels at least four pixels inside the tile. The last column of tiles is only four
+            // pixels wide: there, all columns of pixels change.
             const int x = t % 7 == 6 ? 96 + i % 4 : 16 * (t % 7) + 4 + i % 8;
             std::uint8_t* pixel = out.at(x, 16 * (t / 7) + 4 + i / 8);
             pixel[1] = static_cast<std::uint8_t>(base.at(x, 16 * (t / 7) + 4 + i / 8)[1] ^ by);
@@ -84,7 +85,7 @@ TEST_F(Plan, ChangedTilesAndMeasuredNoiseMatchTheOracle) {
     EXPECT_LE(changed, 26);
 }
 
-TEST_F(Plan, IfAnyOtherTileChangesTilesUnderVirtualObjectsAreRedrawn) {
+TEST_F(Plan, TilesUnderVirtualObjectsAreRedrawnIfAnyOtherTileChanges) {
     const TestPicture base = Waves(1, 6, 60, 30).shoot(kSize, {});
     const TestPicture oneTile = changedIn(base, 1, 64);
     WorkPlan plan(kSize);
@@ -111,7 +112,7 @@ TEST_F(Plan, IfAnyOtherTileChangesTilesUnderVirtualObjectsAreRedrawn) {
     EXPECT_EQ(plan.work().changed, 28) << "a tile must not be counted twice";
 }
 
-TEST_F(Plan, IfOneTileUnderVirtualObjectsChangesAllOfThemAreRedrawn) {
+TEST_F(Plan, AllTilesUnderVirtualObjectsAreRedrawnIfOneOfThemChanges) {
     const TestPicture base = Waves(1, 6, 60, 30).shoot(kSize, {});
     const TestPicture oneTile = changedIn(base, 1, 64);
     WorkPlan plan(kSize);

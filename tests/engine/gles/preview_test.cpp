@@ -100,13 +100,14 @@ TEST_F(Preview, ANearerObjectHidesAFartherInAnyOrderOfDrawing) {
 }
 
 TEST_F(Preview, SurfacesAroundAndBehindTheCameraAreDrawnCorrectly) {
-    // The model of this lens folds over beyond the picture's corners.
+    // The model of this lens projects rays from far beyond the picture's corners back into the
+    // picture.
     CameraModel folding = plainRig(kVideo, kVideo).video;
     folding.fx = folding.fy = 130;
     folding.distortion = {-0.17, 0, 0, 0, 0};
-    // Surfaces: a wall beside the camera, a wall at 5 mm, and a floor that begins behind the
-    // camera. Their cells are up to a quarter of their distance wide; the lens bends such cells by
-    // a few percent.
+    // The surfaces are a wall beside the camera, a wall at 5 mm, and a floor that begins behind the
+    // camera. The tolerance is 5 %: they are drawn in flat cells as wide as a quarter of their
+    // distance, which the lens would bend by a few percent.
     for (const CameraModel& camera : {lens(), folding}) {
         PreviewRenderer renderer(camera, kOutput);
         for (const VirtualObject& o : inWorld({
@@ -161,7 +162,7 @@ TEST_F(Preview, TheLayersBoundsEncloseCoveredPixelsTightly) {
     PreviewRenderer renderer(lens(), kOutput);
     struct Case {
         Eigen::Vector2d shift;
-        int most;  // size of cells that the picture's border cuts off [px]
+        int most;  // limit [px]: a cell of the mesh, if the picture's border cuts it
     };
     for (const Case& c :
          {Case{{0, 0}, 3}, Case{{-0.7, 0.1}, 16}, Case{{0.7, -0.5}, 16}, Case{{0.1, 0.6}, 16}}) {

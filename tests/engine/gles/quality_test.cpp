@@ -190,7 +190,7 @@ TestPicture evenButForAPatch(TestPicture picture, int grey) {
     return picture;
 }
 
-TEST_F(QualityTest, APartWithDetailEqualsThatOfAWholePicture) {
+TEST_F(QualityTest, TileListsDoNotLowerTheQualityOfAPictureWithLittleDetail) {
     const PipelineCase c;
     const auto frame = [&](double shift) {
         return evenButForAPatch(c.video({shift, 0}), 90 + static_cast<int>(4 * shift));

@@ -9,8 +9,8 @@ namespace mfar {
 /// Limits that every OpenGL ES 3.1 driver guarantees (the portable floor). Tests check each shader
 /// against them, because the software renderer accepts far more.
 struct ShaderBudget {
-    static constexpr int kStorageBlocks = 4;  ///< number of blocks, and highest binding + 1
-    static constexpr int kImages = 4;         ///< number of images, and highest binding + 1
+    static constexpr int kStorageBlocks = 4;  ///< number of blocks; each binding must be below it
+    static constexpr int kImages = 4;         ///< number of images; each binding must be below it
     static constexpr int kInvocations = 128;  ///< invocations of a work group
     static constexpr int kSharedBytes = 16 * 1024;
     static constexpr int kFileLines = 150;
@@ -22,8 +22,8 @@ struct ShaderBudget {
                                                         std::string_view text);
 
 /// Faults of a text with resolved includes: precision, forbidden words, image access, unresolved
-/// #include, and macros that are tested but not declared by a line "// Variant: #define NAME
-/// value".
+/// #include, and undeclared macros. The text must declare each macro that an #if tests by a line
+/// "// Variant: #define NAME value".
 [[nodiscard]] std::vector<std::string> shaderTextFaults(std::string_view text);
 
 /// Faults of the linked shader: its storage blocks, images, bindings, group size and shared memory,

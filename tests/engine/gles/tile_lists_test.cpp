@@ -150,7 +150,7 @@ TEST_F(TileListsGl, WithoutMatchedTilesNothingIsListed) {
 }
 
 struct MovedSquare {
-    static constexpr int kFirst = 96, kEnd = 192;  // first and last pixel, six tiles apart
+    static constexpr int kFirst = 96, kEnd = 192;  // first pixel, and the first behind the square
     static constexpr int kBy = 14;
 
     MovedSquare() {
@@ -223,7 +223,7 @@ TEST_F(TileListsGl, WithoutMotionNothingIsSearched) {
     EXPECT_EQ(r.flow.searched().read(), std::vector<bool>(kTiles.width * kTiles.height));
 }
 
-TEST_F(TileListsGl, ErrorsOfUnrelatedTilesFollowTheMatchingCost) {
+TEST_F(TileListsGl, WithoutAMatchTwoWayErrorsFollowFromTheMatchingCost) {
     const Refined r(randomPicture(kVideoSize, 1), randomPicture(kVideoSize, 2));
     EXPECT_EQ(r.flow.searched().count(), kTiles.width * kTiles.height);
     const auto vectors = r.vectors(), errors = r.errors();

@@ -295,7 +295,7 @@ TEST_F(Classify, TilesWithDetailAreListedIfTheWholeFrameIsEnlarged) {
     }
 }
 
-TEST_F(Classify, WithoutAStillChangedTilesAreEnlargedAndCountAsTilesWithoutAMatch) {
+TEST_F(Classify, AllChangedTilesAreEnlargedAndCountAsUnmatchedIfThereIsNoStill) {
     const Classified got = classify(mixedField(), changes(0), false);
     EXPECT_EQ(got.draws.counts[0], 10U);
     EXPECT_EQ(got.draws.counts[1], 18U);

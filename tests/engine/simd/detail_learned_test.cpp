@@ -5,8 +5,8 @@
 namespace mfar::simd {
 namespace {
 
-// Tolerance [grey levels]: luma is rounded to 1/8 grey level. The residual's limits are a quarter
-// of a difference of two such values.
+// Tolerance [grey levels]: luma is rounded to 1/8 grey level. The limits of the residual are a
+// quarter of the difference between two luma values.
 constexpr double kLearnedError = 1.3;
 
 TEST(DetailStepLearned, FramesEnlargedByFiltersMatchTheOracleWithAndWithoutAStill) {

@@ -16,9 +16,9 @@ TEST(OpenRow, DepthIsDecidedAgainAtEdgesAndWhereItIsUnknown) {
         for (std::size_t x = 0; x < width; ++x) {
             variance[x] = x % 5 == 4 ? kInfinity : 0.0001F;  // sigma = 0.01
             if (x % 5 == 1) low[2 * width + x] = 0.5F;
-            // below the limits of 8 % and three sigmas
+            // below the limit, which is 8 % plus three sigmas
             if (x % 5 == 2) high[x] = 1.1F;
-            if (x % 5 == 3) high[x] = 1.13F;  // above the limits
+            if (x % 5 == 3) high[x] = 1.13F;  // above the limit
         }
         std::vector<std::uint8_t> open(width + 1, 99);
         openRow(low.data(), high.data(), static_cast<std::ptrdiff_t>(width), 3, rho.data(),
@@ -49,8 +49,8 @@ struct Scene {
     }
 };
 
-/// Oracle of votePixels(), in double precision. `margin`: distance of the input from another
-/// decision.
+/// Oracle of votePixels(), in double precision. `margin`: smallest change of a weight that would
+/// give another decision.
 OpenPixel decide(const Scene& scene, const VoteRule& rule, const PixelRect& where, int y,
                  OpenPixel pixel, double& margin) {
     const auto votes = [&](int i, int j) {

@@ -43,8 +43,7 @@ TEST(FilterBank, MirroringMapsAllGradientBinsOntoOneQuadrant) {
         for (int bin = 0; bin < bins; ++bin) {
             const Symmetry same = Symmetry::of(bin, bins);
             const double angle = ((bin + 0.5) / bins - 0.5) * 3.14159265358979;
-            // Mirrors a direction in the centre of the bin in the same way as the pixels of the
-            // bin.
+            // The direction in the centre of the bin. It is mirrored like the pixels of the bin.
             double x = std::cos(angle), y = std::sin(angle);
             if (same.mirrors) y = -y;
             if (same.transposes) std::swap(x, y);

@@ -272,7 +272,7 @@ TEST(WeighStep, TheGainStaysWhereNoChangedTileIsMatched) {
     EXPECT_FALSE(same(kept.step.weighed(), copied(renewed.step.weighed())));
 }
 
-TEST(WeighStep, FlowThatIsNotFiniteHasNoWeightAndHurtsOnlyItsNeighbours) {
+TEST(WeighStep, FlowThatIsNotFiniteHasNoWeightAndAffectsOnlyItsNeighbours) {
     const WeighCase clean = [] {
         WeighCase c = plainCase();
         c.run();
