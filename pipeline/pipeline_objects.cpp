@@ -143,7 +143,7 @@ void Pipeline::State::measureDepth(const VideoFrame& frame, const Pose& pose,
     lap("depth");
 }
 
-// Things that move are in tiles with flow off the epipolar lines.
+// Forgets the depth of moving things. They are in tiles whose flow is off the epipolar lines.
 void Pipeline::State::forgetMoving(const DepthMatches& matches) {
     const Size tiles = plan.tileCount();
     for (int t = 0; t < tiles.width * tiles.height; ++t) {

@@ -4,9 +4,8 @@
 
 namespace mfar {
 
-/// Off: the video is enlarged by bicubic interpolation. Blend is the paper's method: the warped
-/// still is blended in by confidence. Detail: the still's fine detail is added where the video
-/// confirms it.
+/// Off: the video is only enlarged. Blend is the paper's method: the warped still is blended in by
+/// confidence. Detail: the still's fine detail is added where the video confirms it.
 enum class SuperResMode {
     Off,
     Blend,
@@ -25,7 +24,8 @@ struct Quality {
     /// True: frames with known poses are matched along epipolar lines. False: all frames are
     /// matched in both dimensions.
     bool alongLines = true;
-    /// Only the options that changed() in flow_options.h accepts have an effect.
+    /// Options of the searches. Flow2dOptions::levels, EpipolarOptions::levels and longestParallax
+    /// are ignored here; the values given at construction stay.
     Flow2dOptions flow2d{};
     EpipolarOptions epipolar{};
     /// Largest share of a frame's tiles that are matched with the still, (0, 1]. Beyond it, the

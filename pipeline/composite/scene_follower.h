@@ -11,9 +11,9 @@
 namespace mfar {
 
 /// Rule for measuring the shadow catcher. A measured surface replaces the plane after `settling`
-/// frames, if the depth of the share `leastKnown` of the pixels around the objects is known. It is
-/// measured again after `leastInterval` [s] if the camera has moved around the objects by the angle
-/// `turn` [rad].
+/// frames, if the depth is known at a share of at least `leastKnown` of the pixels around the
+/// objects. The surface is measured again if at least `leastInterval` [s] have passed and the
+/// camera has moved around the objects by the angle `turn` [rad].
 struct CatcherRule {
     int settling = 12;
     double leastKnown = 0.7;

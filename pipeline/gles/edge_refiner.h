@@ -20,8 +20,8 @@ class EdgeRefiner {
 public:
     static constexpr int kLevels = params::kContrastLevels;
 
-    /// See WarpOptions for the arguments. Lists at most `most` pixels, or more if all of them have
-    /// the highest contrast level. Uses at most `most` pixels of an answer.
+    /// See WarpOptions for the arguments. Lists at most `most` pixels, unless more than `most` have
+    /// the highest contrast level: these are all listed. Uses at most `most` pixels of an answer.
     EdgeRefiner(Size layer, double share, int most, int fadeFrames);
 
     /// Discards the previous list and answer. Starts to list pixels in `where` from the results of

@@ -11,8 +11,9 @@ namespace mfar {
 /// Measurements that decide whether a tile differs from the video with which it was last drawn.
 struct TileMeasure {
     /// True if the tile certainly changed: the mean difference or the mean absolute difference of a
-    /// cell exceeds the noise, or mean and slopes of the tile's difference do. The colour channel
-    /// with the largest difference counts. markDrifted() also sets `changed`.
+    /// cell exceeds the noise, or the mean and slopes of the difference over the whole tile exceed
+    /// it. The colour channel with the largest difference counts. markDrifted() also sets
+    /// `changed`.
     bool changed = false;
     /// One bit for each cell, row-major: 1 if the cell's own differences exceed the thresholds of
     /// ChangeBounds.

@@ -25,15 +25,16 @@ constexpr double kListedShare = 0.27;
 // It is summed over 16 means.
 constexpr double kStructure = 13 + 16 * 4 * 0.44;
 constexpr double kRoundingVariance = 1.0 / 12;  // variance of 8-bit rounding [grey levels^2]
-// Fractions of the difference to a measured value by which the grain estimate changes per frame.
-// kGrainFalls applies to lower values; the others to higher values, while the picture is at rest or
-// moves.
+// The grain estimate moves in each frame by one of these fractions of its difference to the
+// measured value. kGrainFalls applies if the measured value is lower. If it is higher, kGrainAtRest
+// applies to a picture at rest and kGrainMoving to a moving one.
 constexpr double kGrainFalls = 0.2, kGrainAtRest = 0.05, kGrainMoving = 1.0 / 256;
 // The picture counts as at rest if more than this share of the tiles is unchanged. Noise may mark
 // some tiles as changed.
 constexpr double kRestingShare = 0.75;
 constexpr double kMaxGrain = 8;
-// Largest grain that is accepted from one frame. Without noise, the divisor is almost 0.
+// Largest grain that is accepted from one frame. The grain is a ratio, and without noise its
+// divisor is almost 0.
 constexpr double kMostRatio = 64;
 constexpr int kNoiseBins = 64;  // number of bins of 1/16 grey level
 
