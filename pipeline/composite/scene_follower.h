@@ -31,7 +31,7 @@ public:
     /// the scene that must be shown.
     std::shared_ptr<const Scene> set(Scene scene);
 
-    /// Returns the scene with the changed light. It must be shown.
+    /// Changes the light. Returns the scene with the new light, which must be shown.
     std::shared_ptr<const Scene> relight(Lighting lighting);
 
     /// Must be called after each frame. `field` is the depth of the real scene, measured in the

@@ -13,8 +13,8 @@ namespace {
 // needs it there.
 constexpr int kMargin = 8;
 // Largest number of consecutive frames in which depth is not measured because the real surface is
-// known to lie behind the objects. After them, depth is measured again, because something may have
-// moved in front of the objects.
+// known to lie behind the objects. Then depth is measured again, because something may have moved
+// in front of the objects.
 constexpr int kMostRelied = 8;
 // If the objects move in the picture by at most this [px], they count as unmoved: the error of a
 // pose from tags moves them as far.

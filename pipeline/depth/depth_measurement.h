@@ -20,7 +20,7 @@ class DepthMeasurement {
 public:
     DepthMeasurement(const CameraModel& video, std::shared_ptr<Workers> workers)
         : DepthMeasurement(video, EpipolarLens(video, 0), std::move(workers)) {}
-    /// Uses `lens` instead of a new EpipolarLens. It must contain the rays of all pixels of
+    /// Uses `lens` instead of a new EpipolarLens. `lens` must contain the rays of all pixels of
     /// `video`.
     DepthMeasurement(const CameraModel& video, EpipolarLens lens, std::shared_ptr<Workers> workers);
 

@@ -188,7 +188,8 @@ std::vector<PatchPlace> texturedPlaces(const LumaImage& picture, double noise) {
     if (field.width < 2 || field.height < 2) return out;
     const int right = field.width - 1, bottom = field.height - 1;
     const int cell = std::max(2, static_cast<int>(std::sqrt(1.0 * right * bottom / kPlaces)));
-    // Twice the contribution of noise to the squared central differences, plus that of rounding.
+    // Sum of the squared central differences that noise alone causes, times two, plus the sum that
+    // rounding causes.
     const double least = kPixels * (4 * noise * noise + 8);
     for (int j0 = 0; j0 < bottom; j0 += cell) {
         for (int i0 = 0; i0 < right; i0 += cell) {

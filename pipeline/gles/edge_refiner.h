@@ -33,7 +33,7 @@ public:
     /// Sets the rendered colours of pixels that poll() returned. Other pixels are ignored.
     void answer(const HoleAnswer& answer);
     /// Blends the colours of answer() over the listed pixels in `colour`, which must be warped to
-    /// the pose of the list. Their weight grows with each frame.
+    /// the pose of the list. The weight of the colours grows with each frame.
     void show(const gpu::Texture& colour);
     /// Must be called when the camera has moved or the scene has changed.
     void drop();

@@ -77,8 +77,8 @@ float floatAt(const std::uint8_t* p, int componentType, bool normalized) {
     }
 }
 
-/// Returns `wanted`, which has the type and number of the elements, with the bytes and the stride
-/// added. If `stride` is 0, the elements are tightly packed.
+/// `wanted` has the type and number of the elements. Returns it with the bytes and the stride
+/// filled in. If `stride` is 0, the elements are tightly packed.
 ElementView elementsIn(const GltfDocument& document, int bufferView, std::uint64_t offset,
                        std::size_t stride, ElementView wanted, std::string_view place) {
     const std::size_t one = bytesOf(wanted.componentType) * wanted.components;
