@@ -156,8 +156,9 @@ void replaceSparse(const GltfDocument& document, const Accessor& accessor, int c
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t index = unsignedAt(indices.at(i), indices.componentType);
         if (index >= accessor.count)
-            document.refuse(place, fmt::format("the sparse index {} is not below the count of {}",
-                                               index, accessor.count));
+            document.refuse(place,
+                            fmt::format("sparse index {} is out of range; there are {} elements",
+                                        index, accessor.count));
         copyFloats(values, accessor.normalized, i, &out[std::size_t{index} * components]);
     }
 }
