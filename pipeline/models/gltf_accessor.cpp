@@ -99,8 +99,8 @@ ElementView elementsIn(const GltfDocument& document, int bufferView, std::uint64
     return wanted;
 }
 
-/// Throws if the elements do not have `components` components, or if there is none or more than
-/// `most`.
+/// Throws if the elements do not have `components` components, or if there are no elements or more
+/// than `most`.
 const Accessor& checkedAccessor(const GltfDocument& document, int index, int components,
                                 std::size_t most, std::string_view place) {
     const Accessor& accessor = document.at(document.gltf.accessors, index, place);
