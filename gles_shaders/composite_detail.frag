@@ -2,8 +2,8 @@
 // where up() enlarges to the output's size.
 // LEARNED: also adds the learned enlarger's residual times max(1 - weight, 0). Where the weight is
 // large, the still is the better source of detail.
-// SECOND: draws with LEARNED from the second still, over the picture with the first still. The
-// opacity rises with the weight of the second still minus that of the first.
+// SECOND (includes LEARNED): draws the second still's detail over the picture that already shows
+// the first still's. The opacity rises with the second still's weight minus the first still's.
 // Variant: #define PLAIN_TILE
 // Variant: #define LEARNED
 // Variant: #define SECOND

@@ -1,6 +1,6 @@
-// Draws output pixels without detail of the still: the video, enlarged by Keys' cubic. LINEAR:
-// enlarged by linear interpolation instead. LEARNED: Keys' cubic plus the learned enlarger's
-// residual.
+// Draws output pixels without detail of the still: the video, enlarged by Keys' cubic.
+// LINEAR: enlarges by linear interpolation instead. LEARNED: adds the learned enlarger's residual
+// to Keys' cubic.
 // Variant: #define LINEAR
 // Variant: #define LEARNED
 #include "tile_params.glsl"

@@ -3,8 +3,8 @@
 // pipeline/enlarge/filter_layout.h. Needs pipeline/engine/params/enlarge.h.
 
 // Returns the bin of an angle; see Symmetry in pipeline/enlarge/filter_layout.h. `cosine` and
-// `sine` are those of twice the angle, times any common factor. `inQuadrant` is the bin of their
-// absolute values.
+// `sine` are those of twice the angle; both may be scaled by the same factor. `inQuadrant` is the
+// bin for |cosine| and |sine|.
 int angleBin(float cosine, float sine, int inQuadrant, int bins) {
     bool left = cosine < 0.0, lower = sine < 0.0;
     int bin = left != lower ? bins / 2 - 1 - inQuadrant : inQuadrant;

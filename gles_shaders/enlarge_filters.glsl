@@ -1,7 +1,7 @@
 // Filters of the learned enlarger. Needs cubic.glsl.
-// The texture has one row per class. A row has four texels for each pair of taps, one for each row
-// of sub-pixels. A texel has four channels, one for each sub-pixel of that row. A channel has the
-// weights of both taps as half floats.
+// The texture has one row per class. For each pair of taps, the row has four texels, one for each
+// row of the pixel's 4x4 sub-pixels. A texel has four channels, one for each sub-pixel in that row.
+// A channel has the weights of both taps as half floats.
 layout(binding = 1) uniform usampler2D filters;
 
 // Half floats represent differences of luma exactly, because these have at most eleven bits. They

@@ -42,8 +42,8 @@ vec2 slopeAt(ivec2 cell, ivec2 step) {
     return clamp(mix(vec2(0.0), least / 8.0, greaterThan(before * after, vec2(0.0))), -kSteepestFlow, kSteepestFlow);
 }
 
-// Reads two words (eight pixels) of row y, beginning with word number `wx` of the row including its
-// margin. Removes the first `shift` bits, that is, shift / 8 pixels.
+// Reads two words (eight pixels) of row y. `wx` is the number of the first word, counted from the
+// beginning of the row's margin. The first `shift` bits (shift / 8 pixels) are left out.
 uvec2 fetchShort(LumaLevel l, int wx, int y, uint shift) {
     int at = l.offset + clamp(y, 0, l.height - 1) * l.pitch + wx;
     uvec2 w = uvec2(luma[at], luma[at + 1]);
@@ -113,8 +113,8 @@ void main() {
     prepareSteps(known, cell);
     vec2 u = flowAt(cell), best = u;
     float cost = 1e9;
-    // On vector processors, an early exit costs more than repeated evaluations. Once the cost stops
-    // falling, the same position is evaluated again.
+    // Once the cost no longer falls, the remaining iterations evaluate the same position again. On
+    // vector processors, this is cheaper than leaving the loop.
     for (int k = 0; k <= params.steps; ++k) {
         Match m = compareBent(lb, cell, u, dx, dy);
         bool better = m.cost < cost;

@@ -79,8 +79,8 @@ void main() {
     }
     vec2 v[9];
     for (int i = 0; i < 9; ++i) v[i] = cellIn(cell + ivec2(i % 3 - 1, i / 3 - 1)).xy;
-    // Finds the median of 3x3 values. After sorting each column, it is the median of the largest
-    // minimum, the median of the middle values and the smallest maximum.
+    // Finds the median of 3x3 values. After sorting each column, the median is that of three
+    // values: the largest minimum, the median of the middle values, and the smallest maximum.
     for (int c = 0; c < 3; ++c) {
         order(v[c], v[c + 3]);
         order(v[c + 3], v[c + 6]);

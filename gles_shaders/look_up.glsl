@@ -7,8 +7,8 @@ in vec4 plainLookUp;
 layout(binding = 2) uniform sampler2D lookupField;
 #endif
 
-// Returns the offset (x, y) [still px] of superres_weigh.comp, the weight of the detail, and the
-// confidence (eq. 2). `uv` becomes the position in the still, in texture coordinates.
+// Returns a look-up as superres_weigh.comp defines it: offset (x, y) [still px], weight of the
+// detail, and confidence (eq. 2). `uv` becomes the position in the still, in texture coordinates.
 vec4 lookUp(out vec2 uv) {
 #ifdef PLAIN_TILE
     vec4 l = plainLookUp;

@@ -8,9 +8,9 @@
 // pixel from the mean (x, y), inverse Hessian (xx, xy, yy). The last five floats belong to
 // patch_refine.glsl.
 // No GPU has enough registers for the template and a comparison. Indexing by variables makes the
-// compiler keep the array in memory; on Mali, this needs more than 64 words. Loops over the rows
-// have a length that the compiler does not know, here and in the files that include this file. So
-// it does not unroll them and keeps only one row in registers.
+// compiler keep the array in memory; Mali's compiler does so only for more than 64 words. Here and
+// in the files that include this file, the compiler does not know the length of loops over the
+// rows. So it does not unroll the loops and keeps only one row in registers.
 uint templateWords[72];
 
 // Sums over the pixels of a patch: of b, of b^2, of b times the template's pixel, and of b times

@@ -1,8 +1,9 @@
 #include "camera.glsl"
 #include "pipeline/engine/params/luma.h"
 
-// Returns the position in the still [px] of a video pixel at infinity, which does not depend on
-// parallax. It is far outside the still if the pixel's ray points away from the still's picture.
+// Returns the position in the still [px] of an infinitely distant point that the video shows at
+// `videoPixel`. It does not depend on the distance between the cameras. The result is far outside
+// the still if the pixel's ray points away from the still's picture.
 vec2 stillPixel(Rig r, vec2 videoPixel) {
     vec3 p = vec3(unprojectPixel(r.video, videoPixel), 1.0);
     vec3 s;

@@ -15,8 +15,9 @@ layout(location = 0) out vec4 raised;
 // spectrum of natural pictures (f^-2 to f^-3). A smaller weight is better, because it amplifies
 // less where matches are slightly off. Measured for 0.08: +0.5 dB on synthetic scenes, -0.1 dB on
 // photographs, and half of the missing sharpness (LPC-SI) is recovered.
-// The detail of a reduced still is not amplified, because its highest frequencies are not weak. (On
-// a photograph reduced from 2304 to 1067 pixels across, this gains 2.5 dB.)
+// The detail of a reduced still is not amplified, because its highest frequencies are strong
+// enough. (On a photograph reduced from 2304 to 1067 pixels across, leaving out the amplification
+// gains 2.5 dB.)
 vec3 stillAt(ivec2 p) {
     return texelFetch(still, clamp(p, ivec2(0), textureSize(still, 0) - 1), 0).rgb;
 }

@@ -1,7 +1,7 @@
-// Sharpens the video where the still does not supply detail. This compensates the high frequencies
-// that are lost because a sensor pixel has an area and because the enlargement by Keys' cubic
-// blurs. The filter is the sum of a horizontal and a vertical filter, plus the products of their
-// taps at a distance of one pixel.
+// Sharpens the video where the still does not supply detail. This restores high frequencies that
+// the area of a sensor pixel and the enlargement by Keys' cubic weaken. The filter is the sum of a
+// horizontal and a vertical filter, plus a diagonal part: the products of their taps at a distance
+// of one pixel.
 // In: video, weights, look-ups, luma of the still with amplified finest detail.
 // Out: sharpened video, to be enlarged; alpha: mean luma of the still over the pixel, which
 // composite_detail.frag subtracts.

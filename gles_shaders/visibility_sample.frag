@@ -13,8 +13,9 @@ layout(binding = 2) uniform sampler2D videoPicture;
 layout(binding = 3) uniform sampler2D picture;
 layout(location = 0) out float visibility;
 
-// Returns the visibility of a virtual surface behind one sample of the real depth: 1 if the real
-// depth is unknown.
+// Returns the share [0, 1] of a virtual surface that one sample of the real depth leaves visible.
+// `inverse` is the inverse depth of the surface [1/m]. The result is 1 if the real depth is
+// unknown.
 float visibleOver(vec2 real, float inverse) {
     if (!known(real)) return 1.0;
     float sigma = max(length(vec2(real.y, params.virtualSigma * inverse)), 1e-9);

@@ -14,7 +14,7 @@
 layout(binding = 0) uniform usampler2D silhouette;
 layout(binding = 1) uniform sampler2D rays;
 layout(binding = 2) uniform sampler2D colours;
-layout(binding = 3) uniform usampler2D surfaces;  // packed by packSurface(); 254: unknown surface
+layout(binding = 3) uniform usampler2D surfaces;  // packed by packSurface(); number 254: unknown
 layout(location = 0) out vec4 colour;
 layout(location = 1) out float depth;
 layout(location = 2) out vec4 state;

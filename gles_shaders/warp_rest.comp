@@ -3,9 +3,9 @@
 // is composed of an object and, below it, the shadow catcher.
 // In: list[] of warp_rest_list.comp. Out: colour, z and state of the pixels; holes[];
 // holeCommands[].
-// State: number of the surface with unknown colour; share of the pixel with unknown colour; 1 if
-// this surface fills the pixel and no picture shows it; number of the surface that fills the whole
-// pixel with a known colour.
+// State, four components: number of the surface with unknown colour; share of the pixel with
+// unknown colour; 1 if this surface fills the pixel and no picture shows it; number of the surface
+// that fills the whole pixel with a known colour.
 // holes[] = pixels without a known colour: pixel index, colour so far (RGBA8). Bit 31 of the index:
 // the third component of the state is 1. Bit 30: the pixel is at an edge.
 // holeCommands[0] = number of groups of 64 entries of holes[] (x), number of entries (w).
@@ -64,11 +64,12 @@ float lookUp(sampler2D from, sampler2D shown, ivec2 size, int firstRow, vec3 at,
     return weights > kLeastLookUpWeight ? weights : 0.0;
 }
 
-// Returns the known share of the colour of surface `id` at `point`, [0, 1], and the colour in
-// `found`.
+// Looks up the colour of surface `id` at `point` in all pictures and returns it in `found`. Returns
+// the share of the colour that is known, [0, 1].
 float known(vec3 point, float id, out vec4 found) {
     if (lookUp(colours, surfaces, tracedSize(), 0, inView(0, point), id, found) > 0.0) return 1.0;
-    // Share of the re-rendered picture that has faded in most. Others do not reduce it.
+    // Re-rendered pictures fade in: their shares grow from 0 to 1. Of those that show the point,
+    // the one with the largest share determines the colour.
     float share_ = 0.0;
     for (int i = 0; i < params.rerendered; ++i) {
         vec4 own;
@@ -78,8 +79,8 @@ float known(vec3 point, float id, out vec4 found) {
         found = own;
     }
     if (share_ > 0.0) return share_;
-    // Outside the traced picture, the shadow catcher's colour is unknown. It is not reported as
-    // missing, and the catcher stays transparent.
+    // Outside the traced picture, the shadow catcher's colour is unknown. It nevertheless counts as
+    // known and transparent, so that it is not listed as missing.
     found = vec4(0.0);
     return id == float(kCatcher) && !(inView(0, point).z > 0.0) ? 1.0 : 0.0;
 }
@@ -111,8 +112,8 @@ void main() {
     if (below > 0.0) shown += below * catcherKnown * ofCatcher;
     bool missed = objectKnown < 1.0, hole = missed || catcherKnown < 1.0;
     bool nowhere = objectKnown == 0.0 || catcherKnown == 0.0;
-    // At an edge, a pixel without a known colour is filled from its neighbours. Rendering it
-    // individually would give the colour of a mixture of surfaces.
+    // A pixel at an edge without a known colour is not rendered individually, because that would
+    // give a mixture of the surfaces at the edge. It is filled from its neighbours instead.
     bool edge = (missed ? covered : below) < 1.0;
     float z = covered > 0.0 ? object.z : shown.a > 0.0 || hole ? (1.0 - kShadowLift) * catcher.z : 0.0;
     float plain = hole ? 0.0 : covered == 1.0 ? float(id) : below == 1.0 ? float(kCatcher) : 0.0;

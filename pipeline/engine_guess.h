@@ -15,9 +15,9 @@ inline constexpr double kHopelessFrame = 2;
 /// most promising first. Either one engine runs all steps, or one engine runs matching (pyramid,
 /// flow, weigh) and the other drawing (still, detail, occlusion).
 ///
-/// Excludes those that take longer than kHopelessFrame times the fastest, according to the
-/// predictions of `./run board-report` for this GPU. They may be wrong by a factor of two. `driver`
-/// is GlContext::description().
+/// `./run board-report` has predicted the times for some GPUs. An assignment is left out if its
+/// predicted time exceeds kHopelessFrame times that of the fastest. (Predictions may be wrong by a
+/// factor of two.) `driver` is GlContext::description().
 [[nodiscard]] std::vector<EngineChoice> promisingEngines(std::string_view driver);
 
 }  // namespace mfar

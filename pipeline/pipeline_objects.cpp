@@ -91,8 +91,8 @@ PixelRect Pipeline::State::placeObjects(const std::optional<Pose>& pose, Timesta
         where = objects->place(pose ? std::optional(pose->T_world_video) : std::nullopt, time,
                                depth->stage.field());
         // If detail and occlusion run on different engines, there are two copies of the picture.
-        // When the detail step draws a tile, it replaces the other copy, and the objects in that
-        // copy are lost.
+        // When the detail step draws a tile, its copy replaces that of the occlusion step, and the
+        // objects in the replaced copy are lost.
         const bool apart = options.engines.detail != options.engines.occlusion;
         const WorkPlan::Redraw redrawn = objects->redraw();
         plan.drawnOver(objects->staleTiles(), apart && redrawn == WorkPlan::Redraw::WithThem
@@ -143,7 +143,7 @@ void Pipeline::State::measureDepth(const VideoFrame& frame, const Pose& pose,
     lap("depth");
 }
 
-// Things that move are in tiles with flow off the epipolar lines.
+// Forgets the depth of moving things. They are in tiles whose flow is off the epipolar lines.
 void Pipeline::State::forgetMoving(const DepthMatches& matches) {
     const Size tiles = plan.tileCount();
     for (int t = 0; t < tiles.width * tiles.height; ++t) {

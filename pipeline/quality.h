@@ -4,9 +4,8 @@
 
 namespace mfar {
 
-/// Off: the video is enlarged by bicubic interpolation. Blend is the paper's method: the warped
-/// still is blended in by confidence. Detail: the still's fine detail is added where the video
-/// confirms it.
+/// Off: the video is only enlarged. Blend is the paper's method: the warped still is blended in by
+/// confidence. Detail: the still's fine detail is added where the video confirms it.
 enum class SuperResMode {
     Off,
     Blend,
@@ -25,11 +24,12 @@ struct Quality {
     /// True: frames with known poses are matched along epipolar lines. False: all frames are
     /// matched in both dimensions.
     bool alongLines = true;
-    /// Only the options that changed() in flow_options.h accepts have an effect.
+    /// Options of the searches. Flow2dOptions::levels, EpipolarOptions::levels and longestParallax
+    /// are ignored here; the values given at construction stay.
     Flow2dOptions flow2d{};
     EpipolarOptions epipolar{};
-    /// Largest share of a frame's tiles that are matched with the still, (0, 1]. Beyond it, the
-    /// tiles with the least structure are only enlarged. It has no effect in mode Blend.
+    /// Largest share of a frame's tiles that are matched with the still, (0, 1]. If more tiles have
+    /// structure, those with the least are only enlarged. It has no effect in mode Blend.
     double detailShare = 1;
     /// Largest share of a frame's tiles that are matched with a second, older still because the
     /// newest does not show them, [0, 1]. 0: there is no second still. A second still is used only

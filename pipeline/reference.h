@@ -19,7 +19,8 @@ struct Reference {
     Timestamp time{};
     const FlowCells* lastFlow = nullptr;
     const CellWeights* lastWeights = nullptr;
-    /// Share of the tiles matched with this still that it showed, averaged over recent frames.
+    /// Number of tiles that this still showed, divided by the number of tiles that were matched
+    /// with it. Averaged over recent frames.
     double shows = 1;
     /// Cells of the first frame that was matched with the still, or empty.
     std::vector<WeighedCell> first{};

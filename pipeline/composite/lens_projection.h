@@ -5,9 +5,10 @@
 namespace mfar {
 
 /// A camera's projection that is defined for all points in space, so that projected triangles can
-/// be clipped. For rays inside a certain radius, the rim, it equals CameraModel::project. Beyond
-/// the rim, the lens model may fold points back into the picture; here, the distance of the pixel
-/// grows linearly with the ray instead. lens_projection.glsl implements the same projection.
+/// be clipped. For rays inside a certain radius (the rim), it equals CameraModel::project. Beyond
+/// the rim, the lens model may fold points back into the picture. There, the pixel's distance from
+/// the centre therefore grows linearly with the ray's radius. lens_projection.glsl implements the
+/// same projection.
 struct LensProjection {
     static constexpr double kNear = 0.01;  ///< z of the near plane [m]
 

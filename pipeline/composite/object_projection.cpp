@@ -13,8 +13,8 @@ bool isPlausible(const Eigen::Vector3d& metres) {
     return (metres.array().abs() < kFarthest).all();
 }
 
-/// Returns the intersection of the line through a and b with the near plane. Points are given as (w
-/// u, w v, w).
+/// Returns the intersection of the line through a and b with the near plane. Points are given as
+/// (w u, w v, w).
 Eigen::Vector3d nearCut(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     constexpr double kNear = LensProjection::kNear;
     Eigen::Vector3d cut = a + (b - a) * ((kNear - a.z()) / (b.z() - a.z()));

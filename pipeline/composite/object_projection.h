@@ -17,10 +17,11 @@ struct SurfaceExtent {
     double nearest = std::numeric_limits<double>::max();
     double farthest = 0;
 
-    /// Includes a point beyond the near plane, given as (w u, w v, w), see LensProjection.
+    /// Extends the bounds to a point beyond the near plane, given as (w u, w v, w), see
+    /// LensProjection.
     void extend(const Eigen::Vector3d& point);
-    /// Includes the part of the line from a to b beyond the near plane. Both ends are given as (w
-    /// u, w v, w).
+    /// Extends the bounds to the part of the line from a to b that is beyond the near plane. Both
+    /// ends are given as (w u, w v, w).
     void extendBySegment(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 };
 

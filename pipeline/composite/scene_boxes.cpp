@@ -18,7 +18,8 @@ constexpr int kEdgePieces = 4;
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// Bounds the triangles of each cell by a box. A triangle belongs to the cell with its centre.
+/// Divides a bounding box into cells and computes a smaller box for each cell: the bounds of all
+/// triangles whose centre is in this cell.
 class CellBoxes {
 public:
     explicit CellBoxes(const Eigen::AlignedBox3d& all) : all_(all) {}

@@ -11,9 +11,9 @@
 namespace mfar {
 
 /// Rule for measuring the shadow catcher. A measured surface replaces the plane after `settling`
-/// frames, if the depth of the share `leastKnown` of the pixels around the objects is known. It is
-/// measured again after `leastInterval` [s] if the camera has moved around the objects by the angle
-/// `turn` [rad].
+/// frames, if the depth is known at a share of at least `leastKnown` of the pixels around the
+/// objects. The surface is measured again if at least `leastInterval` [s] have passed and the
+/// camera has moved around the objects by the angle `turn` [rad].
 struct CatcherRule {
     int settling = 12;
     double leastKnown = 0.7;
@@ -31,7 +31,7 @@ public:
     /// the scene that must be shown.
     std::shared_ptr<const Scene> set(Scene scene);
 
-    /// Returns the scene with the changed light. It must be shown.
+    /// Changes the light. Returns the scene with the new light, which must be shown.
     std::shared_ptr<const Scene> relight(Lighting lighting);
 
     /// Must be called after each frame. `field` is the depth of the real scene, measured in the

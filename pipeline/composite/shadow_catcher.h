@@ -15,8 +15,9 @@ namespace mfar {
 /// box's diagonal.
 inline constexpr double kShadowReach = 1;
 
-/// Returns the part of the tag map's plane (z = 0 in the world) in and around the objects' bounding
-/// box. Empty if all objects are below the plane or more than kShadowReach radii above it.
+/// Returns the part of the tag map's plane (z = 0 in the world) below and around the objects'
+/// bounding box. Empty if all objects are below the plane, or farther above it than their shadows
+/// are expected (kShadowReach).
 [[nodiscard]] ShadowCatcher planeCatcher(const Eigen::AlignedBox3d& objects);
 
 /// Returns the measured surface of the real scene around the objects. Its vertices are video pixels

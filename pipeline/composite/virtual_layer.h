@@ -7,7 +7,7 @@
 namespace mfar {
 
 /// A picture of only the virtual objects, as the video camera sees them. The textures belong to the
-/// object that drew them and are valid until it draws again.
+/// renderer that drew them and are valid until it draws again.
 struct VirtualLayer {
     /// RGBA8, premultiplied by coverage. Has Filter::Linear if its size differs from the output's.
     const gpu::Texture* colour = nullptr;

@@ -13,14 +13,14 @@ namespace {
 // needs it there.
 constexpr int kMargin = 8;
 // Largest number of consecutive frames in which depth is not measured because the real surface is
-// known to lie behind the objects. After them, depth is measured again, because something may have
-// moved in front of the objects.
+// known to lie behind the objects. Then depth is measured again, because something may have moved
+// in front of the objects.
 constexpr int kMostRelied = 8;
-// Motions of the objects in the picture up to this limit [px] do not count, because poses from tags
-// are not more accurate.
+// If the objects move in the picture by at most this [px], they count as unmoved: the error of a
+// pose from tags moves them as far.
 constexpr double kLeastMotion = 0.3;
-// Largest number of pixels with unknown depth in a tile whose objects count as hidden. With more
-// such pixels, specks of the objects would be visible.
+// The objects in a tile count as hidden only if at most this number of the tile's pixels have
+// unknown depth. Unknown depth hides nothing, so more such pixels would show specks of the objects.
 constexpr int kMostGaps = 4;
 // Depth is measured in a tile if more than this number of its pixels have unknown depth.
 constexpr int kMostUnknown = kTileSize * kTileSize / 4;
@@ -153,8 +153,8 @@ bool VirtualView::mayHideShadow(const PixelRect& tile, float nearest,
     });
 }
 
-// Only the tile's own pixels are tested, because `nearest` includes the virtual surfaces around the
-// tile.
+// Testing the tile's own pixels suffices, because `nearest` is the smallest z of the virtual
+// surfaces in and around the tile.
 bool VirtualView::isHidden(const PixelRect& tile, float nearest,
                            const InverseDepthField& known) const {
     const TileBounds most{.findings = 0, .unknown = kMostGaps};

@@ -45,9 +45,10 @@ public:
     [[nodiscard]] const PixelRect& region() const { return region_; }
     /// True if the real scene completely hides all placed objects. Shadows are ignored.
     [[nodiscard]] bool isHidden() const { return hidden_; }
-    /// Returns the changes of the video after which the objects must be drawn again. Objects that
-    /// were changed, appeared or disappeared are always drawn. After a motion of the camera, any
-    /// change counts, otherwise only changes near the objects.
+    /// Returns how much of the video must change until the objects are drawn again. Always: they
+    /// are drawn in any case, because objects changed, appeared or disappeared (or
+    /// SkipOptions::objectsAtRest is off). WithOthers: the camera has moved, and a change anywhere
+    /// suffices. WithThem: only a change near the objects counts.
     [[nodiscard]] WorkPlan::Redraw redraw() const;
     /// Tiles of the video that must be drawn again before draw().
     [[nodiscard]] PixelRect staleTiles() const;

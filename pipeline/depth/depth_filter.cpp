@@ -11,7 +11,8 @@
 namespace mfar {
 namespace {
 
-// A point is dropped if a camera motion makes its depth smaller than this fraction.
+// A point is dropped if a camera motion reduces its depth to less than this fraction of the old
+// depth.
 constexpr float kNearestShare = 0.05F;
 // Relative standard deviation that each second of camera motion adds to inverse depth.
 constexpr double kDrift = 0.02;
@@ -21,8 +22,8 @@ constexpr double kMostMoving = 0.2;
 // Points are moved only after a motion of the picture by at least this [px], because each move
 // rounds them to pixels.
 constexpr float kLeastMotion = 0.25F;
-// Smallest fused variance, as a fraction of the variance of one measurement. Measurements with the
-// same still are not independent.
+// Smallest fused variance, as a fraction of the variance of one measurement. Averaging cannot
+// reduce it further, because measurements with the same still share errors.
 constexpr float kLeastShare = 0.09F;
 // Largest squared difference of two values that agree, divided by the sum of their variances.
 constexpr float kGate = 9;

@@ -22,7 +22,7 @@ class DepthFilter {
 public:
     DepthFilter(const CameraModel& video, std::shared_ptr<Workers> workers)
         : DepthFilter(video, EpipolarLens(video, 0), std::move(workers)) {}
-    /// Uses `lens` instead of a new EpipolarLens. It must contain the rays of all pixels of
+    /// Uses `lens` instead of a new EpipolarLens. `lens` must contain the rays of all pixels of
     /// `video`.
     DepthFilter(const CameraModel& video, EpipolarLens lens, std::shared_ptr<Workers> workers);
 

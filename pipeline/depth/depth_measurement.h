@@ -20,16 +20,16 @@ class DepthMeasurement {
 public:
     DepthMeasurement(const CameraModel& video, std::shared_ptr<Workers> workers)
         : DepthMeasurement(video, EpipolarLens(video, 0), std::move(workers)) {}
-    /// Uses `lens` instead of a new EpipolarLens. It must contain the rays of all pixels of
+    /// Uses `lens` instead of a new EpipolarLens. `lens` must contain the rays of all pixels of
     /// `video`.
     DepthMeasurement(const CameraModel& video, EpipolarLens lens, std::shared_ptr<Workers> workers);
 
     /// Measures the pixels of `where`, which must lie in the search's area. The other picture is
-    /// the still or a keyframe, in the video's geometry. Pixels whose points the other picture does
-    /// not show become unknown. They lie outside of it or behind other points (z-test).
-    /// `R_other_video` rotates rays of the video camera into coordinates of the other camera.
-    /// `unit` is the search's unit of length [m]. `cells` contains a finer s for every cell, used
-    /// where it agrees with the pixel's own s. It may be empty.
+    /// the still or a keyframe, in the video's geometry. Pixels become unknown if their points are
+    /// outside the other picture or behind other points there (z-test). `R_other_video` rotates
+    /// rays of the video camera into coordinates of the other camera. `unit` is the search's unit
+    /// of length [m]. `cells` contains a finer s for every cell, used where it agrees with the
+    /// pixel's own s. It may be empty.
     void run(const EpipolarSearch& search, const Eigen::Matrix3f& R_other_video, double unit,
              std::span<const float> cells, const PixelRect& where, InverseDepthField& out);
 

@@ -21,7 +21,8 @@ struct KeyframeOptions {
     /// Smallest parallax between keyframe and frame for KeyframeRule::Angle [rad], (0, 1].
     double angle = 0.035;
     double leastAngle = 0.005;  ///< smallest parallax for measuring depth [rad], (0, 1]
-    /// Smallest share of a part of the picture that its keyframe must show, [0, 1].
+    /// A keyframe is used for a part of the picture only if it shows at least this share of the
+    /// part, [0, 1].
     double leastOverlap = 0.6;
 };
 

@@ -174,7 +174,7 @@ DepthStage::Summary DepthStage::summaryOf(const PixelRect& where, const Pose& po
         }
     }
     // As long as no depth is known, the distance to the world's origin is used, because a tag is
-    // there.
+    // usually near the origin.
     out.inverseDepth = 1 / std::max(pose.T_world_video.translation.norm(), kNearest);
     if (samples_.empty()) return out;
     out.inverseDepth = medianOf(samples_);

@@ -32,8 +32,8 @@ public:
     };
 
     void forget();
-    /// Must be called when the still changes. Otherwise, depth is not measured before the view
-    /// changes.
+    /// Must be called when the still changes. Otherwise, depth is measured with the new still only
+    /// after the camera has moved.
     void renew() { measuredPose_.reset(); }
     /// Moves the known depth to the pose of this frame and measures depth inside `where`, which may
     /// be empty. `still` is empty if the frame was not matched along epipolar lines.

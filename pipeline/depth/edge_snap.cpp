@@ -11,7 +11,8 @@
 namespace mfar {
 namespace {
 
-// Width of the band on each side of a depth edge in which colours decide [px].
+// On each side of a depth edge, the depths in a band of this width [px] are replaced: similar
+// colours decide which depth a pixel gets.
 constexpr int kBand = 4;
 // Pixels within this radius vote on the depth of a pixel [px].
 constexpr int kVoteRadius = 10;

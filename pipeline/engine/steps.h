@@ -99,7 +99,7 @@ public:
     /// Searches the flow from video to still (forward) and back. With `usePrior`, the flow of the
     /// last frame is a candidate for every cell.
     virtual const FlowCells& run(const LumaPyramid& luma, const TileWork& work, bool usePrior) = 0;
-    /// Refines `vectors`, the flow of each cell with an error of less than a pixel. The first
+    /// Refines `vectors`, the flow of all cells. It must be exact to within a pixel. The first
     /// number of each entry of `errors` is the vector's two-way error [px]. Tiles in which the
     /// vectors prove to be wrong are searched in both dimensions.
     virtual const FlowCells& refine(const LumaPyramid& luma, const TileWork& work, Cells vectors,

@@ -12,9 +12,9 @@ using simd::kCensusBits, simd::kNoCensus;
 
 /// Computes the census transform of a picture over 5x5 pixels, for rows [first, last) of `out`.
 /// Each bit of a pixel's census is set if one neighbour is darker than the pixel. A rising tone
-/// curve does not change it. Pixels outside the picture repeat its border. Pixels with 0 in `seen`
-/// are invalid and get kNoCensus. If `seen` is null, all pixels are valid. Source: Zabih and
-/// Woodfill, ECCV 1994.
+/// curve of the picture does not change the census. Pixels outside the picture repeat its border.
+/// Pixels with 0 in `seen` are invalid and get kNoCensus. If `seen` is null, all pixels are valid.
+/// Source: Zabih and Woodfill, ECCV 1994.
 void census(const LumaImage& picture, int first, int last, std::vector<std::uint32_t>& out,
             const std::uint8_t* seen = nullptr);
 

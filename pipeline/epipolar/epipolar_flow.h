@@ -46,8 +46,8 @@ public:
     /// Returns for every cell the s whose flow along the epipolar line is closest to `flow`, for
     /// example to forward() after it was refined in both dimensions.
     [[nodiscard]] const std::vector<float>& inverseDepthOf(const Cells& flow);
-    /// Returns the flow at every video pixel, x and y interleaved. It leads far outside the picture
-    /// where the still camera cannot see the pixel.
+    /// Returns the flow at every video pixel, x and y interleaved. Where the still camera cannot
+    /// see the pixel, the flow ends far outside the picture.
     [[nodiscard]] std::vector<float> flow() const;
     /// Returns the distance of a flow vector's end from the pixel's epipolar line [px]. Without
     /// parallax, the line is a point.
@@ -91,7 +91,8 @@ private:
     Rows<const std::uint8_t> frame_;
     Cells forward_, hidden_;
     std::vector<float> predicted_;
-    // nearness_, aligned_: s of each video cell. nearest_: largest s that lands on each still cell.
+    // nearness_, aligned_: s of each video cell. nearest_: for each cell of the still, the largest
+    // s of the video cells that land on it.
     std::vector<float> nearness_, aligned_, nearest_;
     std::vector<std::int32_t> landing_;
     // Rays through the middle of each cell's four central pixels.

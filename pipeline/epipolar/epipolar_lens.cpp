@@ -3,8 +3,8 @@
 namespace mfar {
 namespace {
 
-// Largest radius of a valid ray, as a multiple of the radius of the picture's corners. It is
-// smaller if the lens model folds rays back before.
+// Largest radius of a valid ray, as a multiple of the radius of the picture's corners. If the lens
+// model folds rays back at a smaller radius, that radius is the limit instead.
 constexpr double kBeyondPicture = 2;
 
 }  // namespace

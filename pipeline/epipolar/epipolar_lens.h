@@ -14,8 +14,8 @@ namespace mfar {
 [[nodiscard]] double cornerRadius(const CameraModel& camera);
 
 /// Returns the largest radius of rays up to which the radial distortion does not fold rays back.
-/// The search starts at `picture`, the radius of the picture's corners, and ends at `beyond` times
-/// that radius.
+/// `picture` is the radius of the picture's corners. The result is between `picture` and `beyond`
+/// times `picture`.
 [[nodiscard]] double rimOf(const CameraModel& camera, double picture, double beyond);
 
 /// The rays of a camera's pixels at one pyramid level, and the motion of their points under a
@@ -28,7 +28,8 @@ namespace mfar {
 /// in the first view is s / (1 - s t.z). Source: Hartley and Zisserman, 9.5.
 class EpipolarLens {
 public:
-    /// `camera` is that of the finest level. `level` is the number of halvings, each rounded up.
+    /// `camera` is that of the finest level. Its picture is halved `level` times; each time, width
+    /// and height are rounded up.
     EpipolarLens(const CameraModel& camera, int level);
 
     /// Makes this the lens of the rectangle `pixels` in the picture of `whole`.

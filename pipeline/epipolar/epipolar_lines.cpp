@@ -5,7 +5,8 @@
 namespace mfar {
 namespace {
 
-// Lines with a smaller error [px of the pyramid level] are searched alone, see normalError().
+// Matches are expected within normalError() of their epipolar lines. If that is at most this
+// distance [px of the pyramid level], only the line itself is searched, and no pixels beside it.
 constexpr double kNoSlack = 0.5;
 
 simd::LabelRow rowOf(const EpipolarLens& lens, int y) {

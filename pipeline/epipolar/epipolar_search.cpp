@@ -185,8 +185,9 @@ int EpipolarSearch::finestLevel() const {
     return std::min(options_.finest, static_cast<int>(levels_.size()) - 1);
 }
 
-// Gives each pixel the s of its pixel of finestLevel(). Half size suffices for the flow of cells,
-// because the four middle pixels of a cell lie in four different pixels of half size.
+// Gives each full-size pixel the s of the pixel of finestLevel() that contains it. Half size
+// suffices for the flow of cells, because the four middle pixels of a cell lie in four different
+// pixels of half size.
 void EpipolarSearch::readInverseDepth() {
     const int finest = finestLevel();
     const Level& level = levels_[finest];

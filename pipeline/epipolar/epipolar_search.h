@@ -18,8 +18,8 @@
 
 namespace mfar {
 
-/// Returns the still camera, scaled down to about as many pixels per ray as the video camera. It is
-/// never scaled up.
+/// Returns the still camera, scaled down to the focal length [px] of the video camera. It is never
+/// scaled up.
 [[nodiscard]] CameraModel atScaleOf(const StereoRig& rig);
 
 /// Matches every pixel of a video frame with a still of known relative pose. Searches along each

@@ -23,8 +23,8 @@ public:
     void forget() { kept_.clear(); }
 
     /// Returns the predicted s [1/unit] of every cell of a frame with the relative pose
-    /// `T_still_frame`. Empty if no frame is stored, or if it does not show the same part of the
-    /// scene. Valid until the next call.
+    /// `T_still_frame`. Empty if no frame is stored, or if the stored frame does not show the same
+    /// part of the scene. Valid until the next call.
     [[nodiscard]] std::span<const float> in(const RigidTransform& T_still_frame, double unit);
 
 private:

@@ -188,7 +188,8 @@ std::vector<PatchPlace> texturedPlaces(const LumaImage& picture, double noise) {
     if (field.width < 2 || field.height < 2) return out;
     const int right = field.width - 1, bottom = field.height - 1;
     const int cell = std::max(2, static_cast<int>(std::sqrt(1.0 * right * bottom / kPlaces)));
-    // Twice the contribution of noise to the squared central differences, plus that of rounding.
+    // Sum of the squared central differences that noise alone causes, times two, plus the sum that
+    // rounding causes.
     const double least = kPixels * (4 * noise * noise + 8);
     for (int j0 = 0; j0 < bottom; j0 += cell) {
         for (int i0 = 0; i0 < right; i0 += cell) {
@@ -208,8 +209,8 @@ std::vector<PatchPlace> texturedPlaces(const LumaImage& picture, double noise) {
     return out;
 }
 
-// True if all pixels of the patch at (x, y) are valid, with one more for bilinear samples. Testing
-// the corners suffices, because the valid area is nearly convex.
+// True if all pixels of the patch at (x, y) are valid, and one more row and column, which bilinear
+// samples need. Testing the corners suffices, because the valid area is nearly convex.
 bool PatchMatcher::shows(int x, int y) const {
     const int w = to_.size.width;
     if (x < 0 || y < 0 || x + kPatch >= w || y + kPatch >= to_.size.height) return false;

@@ -21,10 +21,10 @@ struct PatchPlace {
     }
 };
 
-/// Divides the picture into 300 to 700 equal parts (fewer if it is small) and returns the patch
-/// with the most texture in each: its structure tensor has the largest smaller eigenvalue. Parts in
-/// which noise alone could cause this eigenvalue are skipped. `noise` is the standard deviation of
-/// a pixel's noise [grey levels]. Source: Shi and Tomasi, CVPR 1994.
+/// Divides the picture into 300 to 700 equal parts (fewer if it is small) and returns the most
+/// textured patch of each part: the smaller eigenvalue of its structure tensor is the largest in
+/// the part. Parts in which noise alone could cause this eigenvalue are skipped. `noise` is the
+/// standard deviation of a pixel's noise [grey levels]. Source: Shi and Tomasi, CVPR 1994.
 [[nodiscard]] std::vector<PatchPlace> texturedPlaces(const LumaImage& picture, double noise);
 
 /// Positions at which a patch is searched: from `middle`, up to alongSteps pixels along the

@@ -80,8 +80,8 @@ private:
         out.middle = expected - originOf(half_);
         const Eigen::Vector2d across(-out.along.y(), out.along.x());
         out.acrossSteps = stepsFor(across.dot(spread * across));
-        // A very short search along the line may be shorter than the error of the prior pose in
-        // this direction, and then covers this error instead.
+        // If the error of s is at most one step long, the error of the prior pose along the line
+        // may be larger. Then the search covers this error instead.
         if (out.alongSteps <= 1) out.alongSteps = stepsFor(out.along.dot(spread * out.along));
         return out;
     }

@@ -89,7 +89,8 @@ public:
         Vector6 scale = Vector6::Ones();
         scale.tail<3>().setConstant(1 / unit_);
         Matrix6 covariance = scale.asDiagonal() * prior.covariance * scale.asDiagonal();
-        // Exact unknowns of the prior get a standard deviation of a millionth.
+        // Unknowns with a variance of zero in the prior get a standard deviation of a millionth, so
+        // that the covariance can be inverted.
         covariance.diagonal().array() += 1e-12;
         const Eigen::LLT<Matrix6> factors(covariance);
         usable_ = covariance.allFinite() && prior.translation.allFinite() &&

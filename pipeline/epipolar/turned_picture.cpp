@@ -15,8 +15,8 @@ static_assert(TurnedPicture::kAlign == simd::kTurnedCell);
 constexpr double kBeside = 0.2;
 constexpr int kSidePoints = 16;
 
-// Largest radius of a valid ray, as a multiple of the radius of the picture's corners. It is
-// smaller if the lens model folds rays back before.
+// Largest radius of a valid ray, as a multiple of the radius of the picture's corners. If the lens
+// model folds rays back at a smaller radius, that radius is the limit instead.
 constexpr double kFarthestRay = 4;
 
 double rimOf(const CameraModel& camera) {

@@ -160,7 +160,8 @@ PixelRect DetailPainter::outputOf(const PixelRect& tiles) const {
 void DetailPainter::draw(const gpu::Texture& video, const Matched* matched, const TileBuffer& tiles,
                          const DetailOptions& options) {
     const TileWork& work = tiles.work();
-    // After two frames without a change, both draws_ hold the counters of such a frame.
+    // draws_ stores the counters of two frames. After two frames without a change, both have the
+    // values of such a frame, and classifying again would not change them.
     restingFrames_ = work.changed == 0 ? restingFrames_ + 1 : 0;
     if (restingFrames_ <= 2) classify(matched, tiles, options);
     // Returns before any draw, because even an empty draw would compile its shader.

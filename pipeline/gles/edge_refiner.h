@@ -20,8 +20,8 @@ class EdgeRefiner {
 public:
     static constexpr int kLevels = params::kContrastLevels;
 
-    /// See WarpOptions for the arguments. Lists at most `most` pixels, or more if all of them have
-    /// the highest contrast level. Uses at most `most` pixels of an answer.
+    /// See WarpOptions for the arguments. Lists at most `most` pixels, unless more than `most` have
+    /// the highest contrast level: these are all listed. Uses at most `most` pixels of an answer.
     EdgeRefiner(Size layer, double share, int most, int fadeFrames);
 
     /// Discards the previous list and answer. Starts to list pixels in `where` from the results of
@@ -33,7 +33,7 @@ public:
     /// Sets the rendered colours of pixels that poll() returned. Other pixels are ignored.
     void answer(const HoleAnswer& answer);
     /// Blends the colours of answer() over the listed pixels in `colour`, which must be warped to
-    /// the pose of the list. Their weight grows with each frame.
+    /// the pose of the list. The weight of the colours grows with each frame.
     void show(const gpu::Texture& colour);
     /// Must be called when the camera has moved or the scene has changed.
     void drop();

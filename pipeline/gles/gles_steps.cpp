@@ -29,7 +29,9 @@ public:
     explicit StillLumaCopy(const gpu::PictureTexture& picture) : picture_(picture) {}
 
     [[nodiscard]] const gpu::Texture& texture() const { return picture_.texture(); }
-    void upload(const void*, std::ptrdiff_t) override { assert(!"a still's luma comes from here"); }
+    void upload(const void*, std::ptrdiff_t) override {
+        assert(!"a still's luma is never uploaded");
+    }
     void download(void* data, std::ptrdiff_t pitch) override {
         const std::vector<std::uint8_t> rgba = texture().readRgba8();
         const auto [width, height] = texture().size();

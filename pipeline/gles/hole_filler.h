@@ -39,8 +39,8 @@ public:
     /// reading back an older list.
     void fill(const gpu::Texture& colour, const gpu::Texture& state, bool wantList);
 
-    /// Returns the listed pixels of the last frame with `wantList` after the GPU has finished that
-    /// frame, until then empty. Never waits.
+    /// Returns the listed pixels of the last frame with `wantList`. Empty until the GPU has
+    /// finished that frame. Never waits.
     std::optional<WarpHoles> poll();
     [[nodiscard]] bool isPending() const { return fence_.has_value(); }
     void drop() { fence_.reset(); }

@@ -60,7 +60,8 @@ LearnedEnlarger::LearnedEnlarger(Size video, Size output)
                             "#define AROUND\n#define LEARNED\n"),
       second_("tile_rect.vert", "composite_detail.frag", "#define SECOND\n") {}
 
-// Shaders unpack half floats in one instruction. A weight near one keeps 11 of its 14 bits.
+// Uploads the filters as half floats, because shaders unpack two of them in one instruction. A
+// weight near one then keeps 11 of its 14 bits.
 void LearnedEnlarger::takeFilters(const FilterBank& filters) {
     if (number_ == filters.number()) return;
     std::vector<std::uint32_t> words;

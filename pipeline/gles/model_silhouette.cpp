@@ -44,8 +44,8 @@ public:
     }
 };
 
-/// Sets GL's depth range while it exists. With a nearer range, all objects are drawn in front of
-/// the shadow catcher.
+/// Sets GL's depth range while it exists. The objects get a nearer range than the shadow catcher,
+/// so that all objects are drawn in front of it.
 class DepthRange {
 public:
     DepthRange(float nearest, float farthest) { glDepthRangef(nearest, farthest); }

@@ -77,8 +77,8 @@ float floatAt(const std::uint8_t* p, int componentType, bool normalized) {
     }
 }
 
-/// Returns `wanted`, which has the type and number of the elements, with the bytes and the stride
-/// added. If `stride` is 0, the elements are tightly packed.
+/// `wanted` has the type and number of the elements. Returns it with the bytes and the stride
+/// filled in. If `stride` is 0, the elements are tightly packed.
 ElementView elementsIn(const GltfDocument& document, int bufferView, std::uint64_t offset,
                        std::size_t stride, ElementView wanted, std::string_view place) {
     const std::size_t one = bytesOf(wanted.componentType) * wanted.components;
@@ -99,8 +99,8 @@ ElementView elementsIn(const GltfDocument& document, int bufferView, std::uint64
     return wanted;
 }
 
-/// Throws if the elements do not have `components` components, or if there is none or more than
-/// `most`.
+/// Throws if the elements do not have `components` components, or if there are no elements or more
+/// than `most`.
 const Accessor& checkedAccessor(const GltfDocument& document, int index, int components,
                                 std::size_t most, std::string_view place) {
     const Accessor& accessor = document.at(document.gltf.accessors, index, place);
@@ -156,8 +156,9 @@ void replaceSparse(const GltfDocument& document, const Accessor& accessor, int c
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t index = unsignedAt(indices.at(i), indices.componentType);
         if (index >= accessor.count)
-            document.refuse(place, fmt::format("the sparse index {} is not below the count of {}",
-                                               index, accessor.count));
+            document.refuse(place,
+                            fmt::format("sparse index {} is out of range; there are {} elements",
+                                        index, accessor.count));
         copyFloats(values, accessor.normalized, i, &out[std::size_t{index} * components]);
     }
 }

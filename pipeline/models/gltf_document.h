@@ -26,8 +26,8 @@ struct GltfDocument {
     template <class T>
     [[nodiscard]] const T& at(const std::vector<T>& list, int index, std::string_view place) const {
         if (index < 0 || static_cast<std::size_t>(index) >= list.size())
-            refuse(place, "index " + std::to_string(index) + " is not below the count of " +
-                              std::to_string(list.size()));
+            refuse(place, "index " + std::to_string(index) + " is out of range; there are " +
+                              std::to_string(list.size()) + " entries");
         return list[static_cast<std::size_t>(index)];
     }
     [[nodiscard]] std::span<const std::uint8_t> view(int bufferView, std::string_view place) const;

@@ -96,7 +96,8 @@ void checkViews(const json& views, const json& buffers) {
     }
 }
 
-/// tinygltf's releases treat negative offsets of sparse accessors differently.
+/// Refuses a negative byteOffset of sparse accessors, because not all releases of tinygltf treat it
+/// in the same way.
 void checkSparse(const json& accessors) {
     for (std::size_t i = 0; i < accessors.size(); ++i) {
         const auto sparse = accessors[i].find("sparse");

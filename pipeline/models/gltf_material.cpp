@@ -18,7 +18,7 @@ float rangedFactor(const GltfDocument& document, double value, float least, floa
                    const std::string& place) {
     constexpr double kRounding = 1e-3;
     if (!(value >= least - kRounding && value <= most + kRounding))
-        document.refuse(place, fmt::format("{} is not from {} to {}", value, least, most));
+        document.refuse(place, fmt::format("must be from {} to {}, not {}", least, most, value));
     return std::clamp(static_cast<float>(value), least, most);
 }
 

@@ -27,8 +27,8 @@ class GltfMaterials {
 public:
     explicit GltfMaterials(const GltfDocument& document) : document_(document) {}
 
-    /// Returns the number in this object and the texture mapping of the document's material
-    /// `material` (-1: the default material).
+    /// `material` is an index in the document, or -1 for the default material. Returns the
+    /// material's number in this object, and its texture mapping.
     std::pair<int, TextureMapping> use(int material);
 
     [[nodiscard]] const Material& operator[](int number) const { return materials_[number]; }

@@ -65,7 +65,7 @@ std::vector<Triangle> readTriangles(const GltfDocument& document, const Primitiv
         for (const std::uint32_t index : indices)
             if (index >= vertices)
                 document.refuse(place,
-                                fmt::format("index {} is not below the number of vertices, {}",
+                                fmt::format("index {} is out of range; there are {} vertices",
                                             index, vertices));
     } else {
         indices.resize(vertices);
@@ -73,7 +73,7 @@ std::vector<Triangle> readTriangles(const GltfDocument& document, const Primitiv
     }
     const bool whole = source.primitive.mode != TINYGLTF_MODE_TRIANGLES || indices.size() % 3 == 0;
     if (!whole)
-        document.refuse(place, fmt::format("{} indices are not a multiple of 3, as triangles need",
+        document.refuse(place, fmt::format("triangles need a multiple of 3 indices, but found {}",
                                            indices.size()));
     return trianglesOf(source.primitive.mode, indices);
 }

@@ -19,8 +19,8 @@ struct PrimitiveSource {
 [[nodiscard]] std::optional<Mesh> readPrimitive(const GltfDocument& document,
                                                 const PrimitiveSource& source);
 
-/// Returns the mesh, transformed by `T_model_mesh`. If it mirrors, the corners of triangles are
-/// reordered.
+/// Returns the mesh, transformed by `T_model_mesh`. If the transform mirrors, the corners of each
+/// triangle are reordered, so that its front stays the front.
 [[nodiscard]] Mesh transformed(const Mesh& mesh, const Eigen::Affine3d& T_model_mesh);
 
 }  // namespace mfar

@@ -19,9 +19,10 @@ constexpr Size kMap{32, 16};
 
 constexpr float kY0 = 0.282095F, kY1 = 0.488603F;
 
-/// Weights of the prior for the nine coefficients, of degrees 0, 1 and 2. Each is the quotient of
-/// two variances: that of the seen light about a sum of nine harmonics (assumed: objects of about
-/// 0.25 sr with half or twice the brightness), and that of the coefficient between scenes (assumed:
+/// Returns the weights of the prior for the nine coefficients, of degrees 0, 1 and 2. Each weight
+/// is the variance A divided by the variance B.
+/// A: variance of the seen light about a sum of nine harmonics (assumed: objects of about 0.25 sr
+/// with half or twice the brightness). B: variance of the coefficient between scenes (assumed:
 /// standard deviations of 3, 1.5 and 0.7 times the mean light for the three degrees).
 Eigen::Vector<double, 9> priorInformation() {
     Eigen::Vector<double, 9> out;
@@ -29,8 +30,8 @@ Eigen::Vector<double, 9> priorInformation() {
     return out;
 }
 
-/// Returns the coefficients of the prior: a surface with the radiance `mean` below, and the light
-/// from above that gives a surface of this albedo this radiance.
+/// Returns the coefficients of the prior. The lower half of all directions has the radiance `mean`.
+/// The light from above is so bright that a surface of this albedo has the radiance `mean`.
 Eigen::Matrix<double, 9, 3> priorLight(const Eigen::Vector3d& mean, double albedo) {
     constexpr double kPi = std::numbers::pi;
     Eigen::Matrix<double, 9, 3> out = Eigen::Matrix<double, 9, 3>::Zero();

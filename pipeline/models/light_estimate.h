@@ -63,7 +63,7 @@ private:
 };
 
 /// Converts the estimate to a scene's lighting. If much more light comes from one direction above
-/// the horizon than from others, it becomes a sun with soft shadows. The rest becomes an
+/// the horizon than from others, a part of it becomes a sun with soft shadows. The rest becomes an
 /// environment of low resolution.
 [[nodiscard]] Lighting lightingOf(const LightEstimate& estimate);
 

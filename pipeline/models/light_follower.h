@@ -11,8 +11,8 @@ public:
     /// If `sun` is set, it replaces the estimated sun.
     explicit LightFollower(const std::optional<Sun>& sun) : sun_(sun) {}
 
-    /// Must be called for each frame. Uses at most two frames a second and returns the new light
-    /// after these.
+    /// Must be called for each frame. Adds at most two frames a second to the estimate. Returns the
+    /// new light after each frame that it adds, otherwise nothing.
     std::optional<Lighting> follow(const ImageView& frame, const CameraModel& camera,
                                    const RigidTransform& T_world_camera, Timestamp time);
 

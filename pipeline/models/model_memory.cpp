@@ -7,7 +7,7 @@ namespace {
 
 // Reading a model needs memory for files, JSON, textures and meshes. Each may use a quarter.
 constexpr std::size_t kParts = 4;
-// A JSON value is first in the tree of nlohmann::json, then in that of tinygltf.
+// Memory for a JSON value, first in the tree of nlohmann::json and then in that of tinygltf.
 constexpr std::size_t kBytesPerJsonValue = 500;
 constexpr std::size_t kBytesPerTexel = 4;
 constexpr std::size_t kBytesPerVertex =

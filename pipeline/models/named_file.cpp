@@ -32,13 +32,13 @@ fs::path fileInFolder(const fs::path& folder, const std::string& name) {
     const fs::path path(name);
     const bool up = std::find(path.begin(), path.end(), fs::path("..")) != path.end();
     if (name.empty() || name.find('\0') != std::string::npos || path.is_absolute() || up)
-        throw std::runtime_error("must name a file in the model's folder");
+        throw std::runtime_error("must be a file in the model's folder");
     std::error_code error;
     const fs::path top = fs::canonical(folder, error);
     const fs::path file = error ? fs::path() : fs::canonical(top / path, error);
     if (error) throw std::runtime_error("is missing");
     if (std::mismatch(top.begin(), top.end(), file.begin(), file.end()).first != top.end())
-        throw std::runtime_error("must name a file in the model's folder");
+        throw std::runtime_error("must be a file in the model's folder");
     return file;
 }
 

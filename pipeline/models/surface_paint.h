@@ -21,7 +21,7 @@ struct PaintedArea {
 
 /// Paints textures for base colour, metallic-roughness and normals, adds them to the model and
 /// makes the material refer to them. `look` returns the look of each point. The relief continues
-/// across the borders in u but not in v.
+/// across the left and right borders, but not across the upper and lower ones.
 void paint(Model& model, Material& material, const PaintedArea& area,
            const std::function<PaintedPoint(float u, float v)>& look);
 

@@ -49,8 +49,8 @@ SecondTiles::SecondTiles(Size tiles) : work_(TileWork::everything(tiles)) {
     candidates_.reserve(count);
     showed_.resize(count);
     rest_.resize(count);
-    // The whole frame counts as drawn, because each frame matches other tiles with the second
-    // still.
+    // TileWork must say that the whole frame is drawn, because each frame matches other tiles with
+    // the second still.
     work_.draw = TileWork::Draw::WholeEnlarged;
 }
 

@@ -8,12 +8,12 @@ namespace mfar {
 namespace {
 
 constexpr int kTileBlock = 8;
-// kSpread: standard deviation of a tile's sum of squares, divided by its mean. A difference is
-// significant if it exceeds kSignificant standard deviations.
+// kSpread: standard deviation of the sum of squares in a tile, as a fraction of the mean of such
+// sums. A difference is significant if it exceeds kSignificant standard deviations.
 constexpr double kSpread = 0.27;
 constexpr double kSignificant = 5;
-// Smaller drifts, as a fraction of the noise, are not detected, because the error of rounding to 8
-// bits is not white noise.
+// Drifts below this fraction of the noise are not detected: the error of rounding to 8 bits is not
+// white noise, and can look like such a drift.
 constexpr double kLeast = 0.03;
 
 constexpr int kStructureBins = 84;  // a bin is a quarter of an octave

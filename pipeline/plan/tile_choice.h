@@ -27,8 +27,8 @@ struct TileEnergy {
 /// the sums over the tiles that were not marked before the call.
 TileEnergy markDrifted(std::span<TileMeasure> tiles, int columns, double grain, bool all);
 
-/// Marks a tile as changed if an adjacent tile certainly changed in a cell at the common border,
-/// because enlarging a tile reads two pixels beyond it.
+/// Marks a tile as changed if an adjacent tile certainly changed in a cell at their common border:
+/// enlarging a tile reads two pixels of the adjacent tile.
 void markBeside(std::span<TileMeasure> tiles, int columns);
 
 /// Chooses the tiles that are matched with the still: tiles whose structure exceeds the noise, and

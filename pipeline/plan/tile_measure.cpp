@@ -10,8 +10,9 @@
 namespace mfar {
 namespace {
 
-/// Reads a row of tiles from both pictures. Pixels outside the picture are made equal in both,
-/// because differences of repeated border pixels would look like a change.
+/// Reads a row of tiles from both pictures. Pixels outside the picture repeat the border pixels,
+/// and a repeated difference would look like a change. So these pixels are made equal in both
+/// pictures.
 class TileRow {
 public:
     TileRow(const RgbPlanes& now, const RgbPlanes& drawn, int row)

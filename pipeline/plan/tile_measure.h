@@ -11,8 +11,9 @@ namespace mfar {
 /// Measurements that decide whether a tile differs from the video with which it was last drawn.
 struct TileMeasure {
     /// True if the tile certainly changed: the mean difference or the mean absolute difference of a
-    /// cell exceeds the noise, or mean and slopes of the tile's difference do. The colour channel
-    /// with the largest difference counts. markDrifted() also sets `changed`.
+    /// cell exceeds the noise, or the mean and slopes of the difference over the whole tile exceed
+    /// it. The colour channel with the largest difference counts. markDrifted() also sets
+    /// `changed`.
     bool changed = false;
     /// One bit for each cell, row-major: 1 if the cell's own differences exceed the thresholds of
     /// ChangeBounds.
@@ -22,10 +23,10 @@ struct TileMeasure {
     /// fitted to 8x8 pixels is subtracted, because a plane cannot be matched. The result is the sum
     /// of squares, averaged over 9 positions in the tile.
     float structure = 0;
-    /// Mean squares of the difference between both lumas. `pixels`: twist of pixels; `means`: means
-    /// over 2x2 pixels; `bends`: twist of these means. They are scaled so that white noise gives
-    /// the same value in each. The twist of 2x2 values, (a - b - c + d) / 2, does not depend on
-    /// slopes (after Immerkaer, Fast noise variance estimation, 1996).
+    /// Mean squares of three values of the difference between both lumas, scaled so that white
+    /// noise makes them equal. The twist of 2x2 values is (a - b - c + d) / 2; slopes do not change
+    /// it (after Immerkaer, Fast noise variance estimation, 1996). `pixels`: twist of pixels.
+    /// `means`: mean of 2x2 pixels. `bends`: twist of such means.
     float pixels = 0, means = 0, bends = 0;
 };
 

@@ -15,8 +15,9 @@ constexpr double kMaxNoise = 4.0;
 // The whole frame is drawn at once if at least this share of the tiles changed, because drawing
 // tile by tile costs 2.2 times as much per area (measured with llvmpipe).
 constexpr double kWholeShare = 0.45;
-// Applies if the whole frame is drawn at once. Detail is drawn tile by tile if at most this share
-// of the tiles in detailTiles has structure. Enlarging costs 0.4 times as much as drawing detail.
+// A frame that is enlarged as a whole gets its detail tile by tile if at most this share of the
+// tiles in detailTiles has structure. Otherwise, detail is drawn in all tiles of the rectangle at
+// once. Enlarging costs 0.4 times as much as drawing detail.
 constexpr double kListedShare = 0.27;
 // Smallest structure of a matched tile, as a multiple of the noise variance of a 2x2 mean. Noise
 // alone gives 13 (16 means minus three degrees of freedom of the plane). The second term is the
@@ -25,15 +26,16 @@ constexpr double kListedShare = 0.27;
 // It is summed over 16 means.
 constexpr double kStructure = 13 + 16 * 4 * 0.44;
 constexpr double kRoundingVariance = 1.0 / 12;  // variance of 8-bit rounding [grey levels^2]
-// Fractions of the difference to a measured value by which the grain estimate changes per frame.
-// kGrainFalls applies to lower values; the others to higher values, while the picture is at rest or
-// moves.
+// The grain estimate moves in each frame by one of these fractions of its difference to the
+// measured value. kGrainFalls applies if the measured value is lower. If it is higher, kGrainAtRest
+// applies to a picture at rest and kGrainMoving to a moving one.
 constexpr double kGrainFalls = 0.2, kGrainAtRest = 0.05, kGrainMoving = 1.0 / 256;
 // The picture counts as at rest if more than this share of the tiles is unchanged. Noise may mark
 // some tiles as changed.
 constexpr double kRestingShare = 0.75;
 constexpr double kMaxGrain = 8;
-// Largest grain that is accepted from one frame. Without noise, the divisor is almost 0.
+// Largest grain that is accepted from one frame. The grain is a ratio, and without noise its
+// divisor is almost 0.
 constexpr double kMostRatio = 64;
 constexpr int kNoiseBins = 64;  // number of bins of 1/16 grey level
 

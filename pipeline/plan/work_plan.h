@@ -19,10 +19,10 @@ namespace mfar {
 /// comparison.
 ///
 /// A tile is drawn again when noise does not explain the difference. In addition, the differences
-/// are summed over the unchanged tiles of each block of 8x8 tiles and of the whole picture; their
-/// tiles are drawn again if the sum exceeds the noise. The accumulated mean squared error stays
-/// below 3 % of the noise's variance, however slowly the scene changes. While nothing moves,
-/// nothing is drawn.
+/// are summed over the unchanged tiles of each block of 8x8 tiles, and of the whole picture. If a
+/// sum exceeds the noise, the whole block or picture is drawn again. The accumulated mean squared
+/// error stays below 3 % of the noise's variance, however slowly the scene changes. While nothing
+/// moves, nothing is drawn.
 class WorkPlan {
 public:
     /// `workers` compare the tiles. Null: the caller's thread does.

@@ -10,8 +10,8 @@ namespace {
 // between the still's pixels, so a value of 1 would lose the finest detail. (Measured on
 // photographs: 1.4 gains 0.2 to 0.9 dB over 1, and 1.8 is no better.)
 constexpr double kFiner = 1.4;
-// A still is reduced only by factors below this. At larger factors, resampling would blur more than
-// it reduces aliasing.
+// A still is reduced only if its width and its height both shrink to less than this fraction.
+// Otherwise, the blur by resampling would be worse than the aliasing that it prevents.
 constexpr double kWorthReducing = 0.9;
 
 }  // namespace

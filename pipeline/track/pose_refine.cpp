@@ -82,8 +82,8 @@ std::array<Eigen::Vector2d, 4> outwardsOf(const std::array<Eigen::Vector2d, 4>& 
     for (int k = 0; k < 4; ++k) {
         const Eigen::Vector2d a = outwardNormal(corners[k] - corners[(k + 3) % 4]);
         const Eigen::Vector2d b = outwardNormal(corners[(k + 1) % 4] - corners[k]);
-        // If both edges move outwards by 1 px, the corner moves to their new intersection. A corner
-        // that is too flat for a stable intersection does not move.
+        // If both edges at a corner move outwards by 1 px, the corner moves to their new
+        // intersection. A corner that is too flat for a stable intersection does not move.
         const double flat = 1 + a.dot(b);
         out[k] = flat > 0.1 ? Eigen::Vector2d((a + b) / flat) : Eigen::Vector2d::Zero();
     }

@@ -45,9 +45,9 @@ inline constexpr double kNoEdgeShift = 1e12;
 /// the pose.
 ///
 /// Blur, gamma and the printer's ink move the edges of all tags in a picture slightly out or in.
-/// With one tag, this edge shift cannot be distinguished from another distance of the tag. With
-/// several tags, the edge shift is estimated. `shiftWeight` is the weight of its square, relative
-/// to a corner's weight.
+/// With one tag, this edge shift looks the same as a change of the tag's distance. With several
+/// tags, the edge shift is estimated. `shiftWeight` is the weight of its square, relative to a
+/// corner's weight.
 [[nodiscard]] std::optional<RefinedPose> refinePose(std::span<const CornerSet> sets,
                                                     const RigidTransform& start,
                                                     const CameraModel& camera,

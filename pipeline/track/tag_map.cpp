@@ -5,6 +5,7 @@
 #include "pipeline/track/tag_map_faults.h"
 
 #include <cmath>
+#include <string>
 
 namespace mfar {
 namespace {
@@ -28,7 +29,8 @@ TagMap::TagMap(const std::vector<MappedTag>& tags) {
             throw std::invalid_argument(
                 "tag map: the size of each tag must be positive, and its pose finite");
         if (!tags_.emplace(one.tag, one).second)
-            throw std::invalid_argument("tag map: a tag occurs twice");
+            throw std::invalid_argument("tag map: tag " + std::to_string(one.tag.id) +
+                                        " occurs twice");
     }
 }
 

@@ -59,9 +59,9 @@ struct TagPoseOptions {
 };
 
 /// Computes the pose of the camera from the corners of one or more tags. First, both planar
-/// solutions (IPPE) of each tag are computed. The solution of one of the largest tags that fits all
-/// tags best is selected. Then tags that contradict it are ignored, and the reprojection error in
-/// distorted pixels is minimised by Levenberg-Marquardt.
+/// solutions (IPPE) of each tag are computed. Among the solutions of the largest tags, the one that
+/// fits all tags best is selected. Then tags that contradict it are ignored, and the reprojection
+/// error in distorted pixels is minimised by Levenberg-Marquardt.
 ///
 /// Returns nothing if no tag is usable. A tag is unusable if a corner is NaN, infinite or outside
 /// the picture, or if the quad is tiny, not convex, seen at a grazing angle or seen from behind.

@@ -31,9 +31,9 @@ inline constexpr std::uint32_t kUnexplainedCells = 8U;
 inline constexpr float kCubicSlope = -0.75F;
 
 /// Taps of the sharpening filter at distances of one and two pixels. The filter inverts the blur by
-/// Keys' cubic and by the area of a sensor pixel. The exact inverse is 1.207, -0.141, 0.044,
-/// -0.008, ...; kSharpenFar also replaces all farther taps, so that the centre tap and the sum of
-/// all taps (one) stay the same.
+/// Keys' cubic and by the area of a sensor pixel. The exact inverse has the taps 1.207, -0.141,
+/// 0.044, -0.008, ... kSharpenFar stands for all taps from the third on. It is chosen so that the
+/// centre tap is exact and the sum of all taps is one.
 inline constexpr float kSharpenNear = -0.14123F;
 inline constexpr float kSharpenFar = 0.0385F;
 
@@ -41,13 +41,13 @@ inline constexpr float kSharpenFar = 0.0385F;
 /// samples. (A width of 1.08 is as good on photographs, but worse for reduced stills.)
 inline constexpr float kSeen = 1.0F;
 
-/// The guidance is computed from a weighted difference of still and video minus its local mean,
-/// which contains the difference in exposure. The mean is that of the trusted pixels within this
-/// distance along each axis [video px]. A distance of 1 gained 0.08 to 0.1 dB less on synthetic
-/// scenes.
+/// The guidance is the weighted difference of still and video, minus the local mean of this
+/// difference. The mean is subtracted, because it contains the difference in exposure. It is
+/// computed over the trusted pixels within this distance along each axis [video px]. A distance of
+/// 1 gained 0.08 to 0.1 dB less on synthetic scenes.
 inline constexpr int kGuideReach = 2;
-/// The still is also reduced to the video's resolution in this margin around a tile [video px].
-/// Drawing the detail of the tile needs less.
+/// The still is reduced to the video's resolution in a tile and in this margin around it [video
+/// px]. Drawing the tile's detail reads only a part of the margin.
 inline constexpr int kTileAround = 8;
 
 struct alignas(16) ClassifyTiles {

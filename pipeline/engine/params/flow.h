@@ -21,8 +21,9 @@ inline constexpr int kPropagateSteps = 2;
 /// Number of Gauss-Newton steps from a flow vector whose error is less than a pixel. Four steps are
 /// not more accurate.
 inline constexpr int kAlignSteps = 2;
-/// Finest pyramid level of the backward field. The backward field only verifies the forward field,
-/// so this level suffices: an error of 0.1 px at it is only a tenth of alpha in eq. 2 of the paper.
+/// The backward field is computed down to this pyramid level and no finer. It only verifies the
+/// forward field. A typical error of 0.1 px at this level is 0.2 video px, a tenth of the two-way
+/// error at which the confidence becomes zero (alpha in eq. 2 of the paper).
 inline constexpr int kBackwardFinest = 1;
 inline constexpr int kBackwardPropagations = 1;
 
@@ -31,8 +32,8 @@ inline constexpr int kBackwardPropagations = 1;
 inline constexpr float kTexturePerVariance = 8.0F * kPatchPixels;
 inline constexpr float kUnexplainedCost = 0.4F;
 /// Cells with at least this two-way error [px] are outside the still and are not searched. Occluded
-/// cells have a smaller error and are searched: the z-test that finds occlusions uses depths from
-/// epipolar lines, which are wrong for moving objects.
+/// cells have a smaller error and are searched, because a cell of a moving object may only seem
+/// occluded: the z-test uses depths from epipolar lines, which are wrong for moving objects.
 inline constexpr float kNotShown = 100.0F;
 /// A tile is searched in both dimensions if at least this number of its 16 cells has no reliable
 /// match.
@@ -59,7 +60,7 @@ inline constexpr int kCleanUpRadius = 2;
 /// known yet.
 inline constexpr float kFirstPlaneReach = 1.2F;
 inline constexpr float kPlaneReach = 0.5F;
-/// Texture of a patch (see FlowCell) that halves the weight of its cell [grey levels^2].
+/// A cell has half of its full weight if its patch has this texture (see FlowCell) [grey levels^2].
 inline constexpr float kHalfTrusted = 2000.0F;
 inline constexpr float kLeastPlaneWeight = 1e-4F;
 /// Damping of a plane's slopes, which a single neighbour does not determine. Added to the diagonal
@@ -99,7 +100,8 @@ struct alignas(16) FilterFlow {
     std::int32_t columns, rows;
     std::int32_t target, source;
     std::int32_t planeFits;
-    /// 1: each workgroup processes one tile, and only matched tiles are filtered. 0: all cells are.
+    /// 1: each workgroup processes one tile, and only matched tiles are filtered. 0: all cells are
+    /// filtered.
     std::int32_t byTile;
 };
 

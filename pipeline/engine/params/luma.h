@@ -30,8 +30,8 @@ inline constexpr float kLumaSmoothing = 0.18F;
 /// per video pixel.
 inline constexpr int kFootprintTaps = 4;
 
-/// A ray of depth 1 is rotated into still camera coordinates. With a smaller depth than this, it
-/// points away from the still's picture.
+/// A ray of depth 1 is rotated into still camera coordinates. If its depth is then smaller than
+/// this limit, it points away from the still's picture.
 inline constexpr float kLeastTurnedDepth = 0.05F;
 /// Position in the still [px] that stands for a ray that points away.
 inline constexpr float kFarOutside = -1e6F;
@@ -40,7 +40,7 @@ inline constexpr float kFarOutside = -1e6F;
 inline constexpr int kUndistortSteps = 12;
 
 /// Both lenses and the rotation R_still_video between the cameras. They determine where the still
-/// shows a video pixel at infinity.
+/// shows an infinitely distant point that is seen at a video pixel.
 struct alignas(16) Rig {
     Lens video, still;
     Row3 rotation[3];
