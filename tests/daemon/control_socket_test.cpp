@@ -262,7 +262,7 @@ TEST_F(ControlSocketTest, ClientReportsErrors) {
         return ControlAnswer{R"({"ok": true, "bytes": 1000})", {1, 2, 3}};
     });
     EXPECT_THAT([&] { std::ignore = ask(folder / "lying", {{"command", "snapshot"}}); },
-                ThrowsMessage<NotReachable>(HasSubstr("ends too early")));
+                ThrowsMessage<NotReachable>(HasSubstr("before its answer was complete")));
 }
 
 }  // namespace
