@@ -98,7 +98,8 @@ def check_host(args, model, plugin):
     clock = measured['clockGhz'] * 1e3
     predicted = {step: million * 1e3 / clock for step, million in cycles['cycles']['host'].items()}
     # The measured time of the step weigh includes the comparison of the finest detail. The
-    # prediction counts its row kernels in the step detail. So both steps are compared together.
+    # prediction counts this comparison's row kernels in the step detail. So the sum of weigh and
+    # detail is compared.
     times = {step: one['least'] for step, one in measured.items() if isinstance(one, dict)}
     for table in (predicted, times):
         table['weigh and detail'] = table.pop('weigh', 0) + table.pop('detail', 0)

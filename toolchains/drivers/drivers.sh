@@ -15,9 +15,9 @@ complaints() {
 }
 
 # testDriver DRIVER [CTEST-OPTION...]: runs the tests with the label "driver" on this Mesa driver.
-# These tests draw with GL, and their display does not read pixels into a buffer. For such reads,
-# Mesa 22.3 draws into a framebuffer without attachments. Then zink does not call
-# vkCmdSetColorBlendEnableEXT, and the validation layer reports an error.
+# All of them draw with GL, but none has a display that reads pixels into a buffer. For such a read,
+# Mesa 22.3 draws into a framebuffer without attachments. There, zink does not call
+# vkCmdSetColorBlendEnableEXT, which the validation layer would report as an error.
 testDriver() {
     local driver=$1 icd log=.build/host/Testing/Temporary/LastTest.log label=driver said
     shift

@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 // faster one is left out, because it hardly saves time.
 constexpr double kLeastStep = 1.05;
 
-/// Quality levels from fast to accurate: our points that no other of our points dominates.
+/// Quality levels from fast to accurate: the product's points that no other of its points
+/// dominates.
 std::vector<QualityLevel> levelsOf(const ParetoStage& superres) {
     std::vector<ParetoPoint> ours;
     for (const ParetoPoint& p : superres.points)

@@ -33,8 +33,8 @@ struct Options {
     bool time = false, avx2 = false;
 };
 
-/// Filters with guidance and fine match, so that a frame does the same work as with learned
-/// filters.
+/// The shipped filters, with values for Guidance and FineMatch, which otherwise only learning adds.
+/// So a frame does the same work as with learned filters.
 std::shared_ptr<const FilterBank> learnedFilters() {
     return std::make_shared<FilterBank>(readFilters(enlarge::priorFilters(), "prior"),
                                         Guidance{0.5F, 0.5F}, FineMatch{4.0F, 0.1F});

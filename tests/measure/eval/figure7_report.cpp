@@ -24,7 +24,7 @@ Report figure7Report(const std::vector<Figure7Scene>& scenes, const PictureMetri
         for (std::size_t f = 0; f < scene.frames.size(); ++f)
             for (std::size_t m = 0; m < scene.scores.size(); ++m) {
                 const PictureScores& s = scene.scores[m][f];
-                // The truth's PSNR is infinite.
+                // The truth (method 0) has an infinite PSNR, which is left out.
                 const auto decibels = m == 0 ? std::nullopt : s.psnr;
                 report.add(scene.name, scene.frames[f], figure7Methods()[m].name,
                            followedBy({decibels, s.hdrVdpQ, s.lpcSi}, furtherValues(s, metrics)));
