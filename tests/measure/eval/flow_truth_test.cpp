@@ -67,7 +67,7 @@ TEST(FlowTruth, FlowIsZeroAtInfinityAndUnknownWithoutDepth) {
 
 /// A panel at 1 m covers columns 30 to 49 of a wall at 2 m. The still camera is 0.1 m to the right
 /// of the video camera.
-TEST(FlowTruth, FlowIsUnknownAtPixelsOccludedOrOutsideInTheStill) {
+TEST(FlowTruth, FlowOfPointsThatTheStillDoesNotShowIsUnknown) {
     StereoRig rig;
     rig.video = {{80, 60}, 100, 100, 39.5, 29.5, {}};
     rig.still = rig.video.scaledTo({240, 180});
