@@ -27,7 +27,7 @@ mesaPackages() {
 makeRoot() {
     local suite=$1 root=$2 mirror
     mirror=$(debianMirror)
-    [[ -n $mirror ]] || die "no source of Debian packages is configured"
+    [[ -n $mirror ]] || die "no Debian server is listed in /etc/apt/sources.list(.d)"
     # shellcheck disable=SC2046 # the package names are a list of words
     mmdebstrap --quiet --mode=root --variant=apt --aptopt='APT::Install-Recommends "false"' \
         --include="$(mesaPackages "$suite" | xargs | tr ' ' ,)" "$suite" "$root" \

@@ -36,7 +36,8 @@ def compile_all(model, folders, program, files=()):
         PROGRESS.show(done, len(model['gpus']), f'compiling for {gpu["name"]}')
         if gpu['mesa'] not in folders:
             PROGRESS.clear()
-            print(f'skipped: {gpu["name"]}: the Mesa drivers of Debian {gpu["mesa"]} are not built')
+            print(f'skipped: {gpu["name"]}: the Mesa drivers of Debian {gpu["mesa"]} are missing; ./run board-report '
+                  'builds them')
             continue
         out[kind] = drivers.compile_shaders(folders[gpu['mesa']], gpu, program, files)
     PROGRESS.clear()

@@ -170,7 +170,7 @@ int run(int argc, char** argv) {
     app.add_option("--width", o.width, "width of the output [px]")->check(CLI::Range(64, 8192));
     app.add_flag("--time", o.time, "time each stage instead of counting its work");
     app.add_flag("--avx2", o.avx2,
-                 "use no instruction set newer than AVX2, the newest of the emulator");
+                 "use no instruction set newer than AVX2, the newest that the emulator has");
     CLI11_PARSE(app, argc, argv);
     if (o.avx2) hwy::DisableTargets(HWY_AVX2 - 1);
     std::unique_ptr<GlContext> context;

@@ -42,9 +42,9 @@ std::string figure7Summary(const std::vector<Figure7Scene>& scenes) {
         const auto sharpness = [&](std::size_t method) {
             return scene.mean(method, [](const PictureScores& s) { return *s.lpcSi; });
         };
-        out += fmt::format("{}: HDR-VDP-2 Q {:.2f}, {:+.2f} over the paper's method, {:+.2f} over "
-                           "its blending on mfar's flow, {:+.2f} over bilinear; LPC-SI {:.4f}, "
-                           "{:+.4f} from the truth\n",
+        out += fmt::format("{}: HDR-VDP-2 Q {:.2f} ({:+.2f} over the paper's method, {:+.2f} over "
+                           "the paper's blending on mfar's flow, {:+.2f} over bilinear); LPC-SI "
+                           "{:.4f} ({:+.4f} from the truth's)\n",
                            scene.name, q(1), q(1) - q(3), q(1) - q(2), q(1) - q(5), sharpness(1),
                            sharpness(1) - sharpness(0));
     }
