@@ -187,7 +187,7 @@ class Predictions(unittest.TestCase):
 
     def test_error_table_compares_predicted_and_measured_times(self):
         self.assertEqual(predict.error_table({'flow': 2.0, 'x': 1.0}, {'flow': 3.0}),
-                         [('flow', 2.0, 3.0, 1.5), ('all of these', 2.0, 3.0, 1.5)])
+                         [('flow', 2.0, 3.0, 1.5), ('sum of these steps', 2.0, 3.0, 1.5)])
 
     def test_every_shader_of_a_frame_has_a_step(self):
         for name, step in (('luma_down.comp', 'pyramid'), ('superres_gain.comp', 'weigh'),

@@ -62,18 +62,18 @@ depth=$(perSecond "$(median 'depth, whole picture')")
     cat <<END
 # The paper's claims on this machine
 
-Theirs: GTX 680. Here: $(grep -m1 '^model name' /proc/cpuinfo | sed 's/.*: //' || uname -m), $(nproc) processors; $(sed -n 1p "$out/times.txt").
-Times vary by some percent from run to run; qualities repeat on the same engine.
+The paper's machine: GTX 680. This machine: $(grep -m1 '^model name' /proc/cpuinfo | sed 's/.*: //' || uname -m), $(nproc) processors; $(sed -n 1p "$out/times.txt").
+Times vary by some percent from run to run. Quality figures are the same in each run on the same engine.
 $note
 
-| claim | theirs | here | their method on OpenCV, here |
+| claim | in the paper | on this machine | the paper's method with OpenCV, on this machine |
 |---|---|---|---|
 | super-resolution, 640x480 to 2304x1728, camera moves, no poses | 7 frames/s | $moving | $paper |
 | the same, hand-held with poses | - | $handheld | - |
 | depth of the whole picture | 12 frames/s | $depth | - |
 | quality and sharpness (Figure 7) | close to ground truth | [below](#figure-7) | below |
-| slicing, warp and holes (Figure 5) | pictures | [below](#figure-5-slicing) | - |
-| virtual objects while the camera moves | good in any case | [below](#virtual-objects-in-motion) | - |
+| slicing, warp and holes (Figure 5) | only pictures, no numbers | [below](#figure-5-slicing) | - |
+| virtual objects while the camera moves | "good in any case", no numbers | [below](#virtual-objects-in-motion) | - |
 END
     section "Times" times
     section "Figure 7" figure7 figure7.svg

@@ -29,7 +29,7 @@ std::array<double, 3> areaMean(Size size, Colour colour, std::array<double, 2> l
     return sum;
 }
 
-/// Oracle of display_scale.frag: a picture of this size is scaled to the rectangle `to` of the
+/// Oracle of display_scale.frag, which scales a picture of size `size` to the rectangle `to` of the
 /// screen. Returns the colour of pixel (x, y) of the rectangle.
 template <class Colour>
 std::array<double, 3> scaledPixel(Size size, Colour colour, const ScreenRect& to, int x, int y) {

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-/// Oracles of measureTiles(), markDrifted() and markBeside().
+/// Oracles of measureTiles(), markDrifted() and markBeside(), which find the tiles that changed.
 namespace mfar::twin {
 
 struct TileChange {
@@ -21,8 +21,9 @@ struct TileChange {
     /// Sum of the squared mean and the squared slopes of the difference, divided by their variance.
     /// Maximum over the channels.
     double moments = 0;
-    /// Mean squares of three measures of the luma's difference: twist of pixels, 2x2 means, twist
-    /// of 2x2 means. For white noise, each equals the variance of a pixel.
+    /// Mean squares of three measures of the luma's difference: twist() of pixels, scaled 2x2
+    /// means, and scaled twist() of 2x2 means. For white noise, each equals the variance of a
+    /// pixel.
     std::array<double, 3> energy{};
     /// Squared residuals of a plane that is fitted to the luma's 2x2 means in 8x8 pixels. Their
     /// sum, averaged over nine such windows.
@@ -169,8 +170,8 @@ struct ChangeBounds {
     }
 };
 
-/// Sums the differences of tiles without a sure change. The tiles changed if beyondNoise() is above
-/// 0.
+/// Sums the differences of tiles that have not surely changed. All of them count as changed if
+/// beyondNoise() is above 0.
 class Drift {
 public:
     void add(const TileChange& t) {

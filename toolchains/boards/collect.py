@@ -10,8 +10,8 @@ import cpu_model
 
 CASES = ('moving', 'rest')
 TIMED = 20  # number of timed frames
-# Numbers of frames of two runs. Their difference is one frame without work that is done only once.
-# At rest, frames become typical only after a few frames.
+# For each case, the numbers of frames of two runs. The difference of the two runs' counts is the work of one
+# frame, without the work at the program's start. At rest, frames are typical only after the first few.
 FRAMES = {'moving': (2, 3), 'rest': (5, 6)}
 
 

@@ -46,7 +46,7 @@ def unit_cycles(shader, trips, gpu):
     fetches = shader.executed('texture', trips) * gpu['lanes'] / gpu['texture']
     accesses = shader.executed('memory', trips) * gpu['lanes'] / gpu['memory']
     units = {'arithmetic': (executed_instructions(shader, trips) * gpu['issue'], 1)}
-    if gpu['driver'] == 'v3d':  # one unit does both
+    if gpu['driver'] == 'v3d':  # one unit does texture look-ups and memory accesses
         units['texture, memory'] = fetches + accesses, slice_
     else:
         units['texture'], units['memory'] = (fetches, slice_), (accesses, slice_)

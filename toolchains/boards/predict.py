@@ -75,5 +75,5 @@ def winners(cpu, gpu):
 def error_table(predicted, measured):
     """Returns for each step in both tables: (step, predicted [ms], measured [ms], measured / predicted)."""
     rows = [(step, predicted[step], measured[step]) for step in predicted if step in measured]
-    rows.append(('all of these', sum(r[1] for r in rows), sum(r[2] for r in rows)))
+    rows.append(('sum of these steps', sum(r[1] for r in rows), sum(r[2] for r in rows)))
     return [(step, p, m, m / p if p else float('nan')) for step, p, m in rows]

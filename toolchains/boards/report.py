@@ -36,7 +36,8 @@ def compile_all(model, folders, program, files=()):
         PROGRESS.show(done, len(model['gpus']), f'compiling for {gpu["name"]}')
         if gpu['mesa'] not in folders:
             PROGRESS.clear()
-            print(f'skipped: {gpu["name"]}: the Mesa drivers of Debian {gpu["mesa"]} are not built')
+            print(f'skipped: {gpu["name"]}: the Mesa drivers of Debian {gpu["mesa"]} are missing; ./run board-report '
+                  'builds them')
             continue
         out[kind] = drivers.compile_shaders(folders[gpu['mesa']], gpu, program, files)
     PROGRESS.clear()
@@ -98,7 +99,8 @@ def check_host(args, model, plugin):
     clock = measured['clockGhz'] * 1e3
     predicted = {step: million * 1e3 / clock for step, million in cycles['cycles']['host'].items()}
     # The measured time of the step weigh includes the comparison of the finest detail. The
-    # prediction counts its row kernels in the step detail. So both steps are compared together.
+    # prediction counts this comparison's row kernels in the step detail. So the sum of weigh and
+    # detail is compared.
     times = {step: one['least'] for step, one in measured.items() if isinstance(one, dict)}
     for table in (predicted, times):
         table['weigh and detail'] = table.pop('weigh', 0) + table.pop('detail', 0)

@@ -108,7 +108,7 @@ def instructions_table(results):
     steps = predict.STEPS
     rows = [[case, *(f'{one.get(step, 0):.1f}' for step in steps), f'{sum(one.values()):.0f}']
             for case, one in results['instructions'].items()]
-    return table(['million of aarch64', *steps, 'frame'], rows)
+    return table(['million instructions of aarch64', *steps, 'frame'], rows)
 
 
 def spills_table(model, compiled):

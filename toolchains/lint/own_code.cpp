@@ -17,7 +17,8 @@ public:
         finder->addMatcher(clang::ast_matchers::translationUnitDecl(), this);
     }
 
-    // The scope is read after the translation unit itself, the first declaration, has been visited.
+    // Runs when clang visits the translation unit, before the declarations in it. So the scope that
+    // is set here applies to all these declarations.
     void check(const clang::ast_matchers::MatchFinder::MatchResult& found) override {
         std::vector<clang::Decl*> own;
         for (clang::Decl* declaration : found.Context->getTranslationUnitDecl()->decls()) {

@@ -38,8 +38,8 @@ unlinted() {
     } | sort -u
 }
 
-# tidyPlugin PLUGIN: builds the plugin that limits clang-tidy to the project's own code, which takes
-# a third of the time. -fno-rtti, because LLVM is built without RTTI.
+# tidyPlugin PLUGIN: builds the plugin that limits clang-tidy to the project's own code. With it,
+# clang-tidy takes a third of the time. -fno-rtti, because LLVM is built without RTTI.
 tidyPlugin() {
     local plugin=$1 source=toolchains/lint/own_code.cpp
     [[ $plugin -nt $source ]] ||

@@ -55,7 +55,7 @@ class Shell:
         """Runs a command line and waits for its end. Throws GuestError after `limit` seconds."""
         self._count += 1
         mark = b'\n\x01%d ' % self._count
-        # With eval, the mark is printed even if the command has a syntax error.
+        # With eval, printf runs even if the command has a syntax error.
         quoted = command.replace("'", "'\\''")
         self._connection.sendall(f"eval '{quoted}' </dev/null; "
                                  f"printf '\\n\\001{self._count} %d\\n' $?\n".encode())

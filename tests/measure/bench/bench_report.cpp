@@ -72,8 +72,9 @@ nlohmann::json json(const RenderFigures& render) {
 std::string toTable(const RenderFigures& render) {
     std::string out;
     for (const RayRates& r : render.rates)
-        out += fmt::format("rays [million/s], {:>6} triangles: plain Embree {:.2f}, mfar's camera "
-                           "rays {:.2f} = {:.0f} % of it; mfar's whole samples {:.2f}\n",
+        out += fmt::format("one thread, {:>6} triangles [million/s]: rays of plain Embree {:.2f}, "
+                           "camera rays of mfar {:.2f} ({:.0f} % of Embree's), paths of mfar "
+                           "{:.2f}\n",
                            r.triangles, r.bare, r.ours, 100 * r.ours / r.bare, r.samples);
     for (const SamplingError& e : render.errors)
         out += fmt::format("RMSE of radiance at 16 samples per pixel, {:<30} mfar {:.5f}, "

@@ -29,7 +29,7 @@ std::string curvesCsv(const Curves& curves) {
 
 void writeCurves(const Curves& curves, const fs::path& folder) {
     std::error_code error;
-    fs::create_directories(folder, error);  // a failure is reported when a file is opened
+    fs::create_directories(folder, error);  // if this fails, opening the files below fails too
     eval::writeText(folder / "curves.csv", curvesCsv(curves));
     eval::writeText(folder / "curves.svg", curvesSvg(curves));
 }

@@ -57,7 +57,7 @@ TEST(CurvesSvg, LeavesOutInvalidPoints) {
     EXPECT_EQ(svg.find("inf"), std::string::npos);
 }
 
-TEST(WriteCurves, AFailedWriteNamesTheFile) {
+TEST(WriteCurves, TheErrorNamesTheFileThatCannotBeWritten) {
     const mfar::test::TempFolder folder;
     mfar::test::writeFile(folder / "file", "");
     try {

@@ -47,7 +47,7 @@ CurvePoint measure(const CurveSample& sample, PipelineOptions options, bool alon
     const cv::Mat frame = eval::toRgba(sample.frame.picture);
     const cv::Mat still = eval::toRgba(sample.still.picture);
     const auto run = [&] {
-        // Setting the still again keeps a run from starting with the previous result.
+        // Setting the still again discards the previous result, so every run starts without one.
         pipeline.setStill(eval::viewOf(still), sample.still.time,
                           alongLines ? sample.still.pose : std::nullopt);
         pipeline.run(eval::viewOf(frame), sample.frame.time,

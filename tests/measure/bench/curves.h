@@ -24,7 +24,7 @@ struct Curve {
     std::vector<CurvePoint> points;
 };
 
-/// One of OpenCV's flow algorithms, computed in one direction, on the same samples.
+/// One of OpenCV's flow algorithms, computed in one direction. It gets the samples of the curves.
 struct CurvePeer {
     std::string name;
     CurvePoint point;

@@ -29,8 +29,8 @@ struct GovernorRequest {
     ProgressPart progress{};
 };
 
-/// Runs all scenes at one deadline after the other. Each deadline has its own governor, which
-/// starts with the table `levels`. Needs a current GL context.
+/// For each deadline, runs all scenes one after the other. Each deadline has its own governor,
+/// which starts with the table `levels`. Needs a current GL context.
 [[nodiscard]] std::vector<GovernedRun> measureGovernor(const GovernorRequest& request,
                                                        const std::vector<QualityLevel>& levels);
 

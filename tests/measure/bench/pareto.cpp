@@ -37,15 +37,15 @@ std::string summaryOf(const ParetoStage& stage) {
         } else if (const auto by = dominatingPeers(stage, p); by.empty()) {
             free += line + "\n";
         } else {
-            dominated += fmt::format("{}  by {}\n", line, fmt::join(by, ", "));
+            dominated += fmt::format("{}  dominated by {}\n", line, fmt::join(by, ", "));
         }
     }
     const auto part = [](const char* title, const std::string& lines) {
         return fmt::format(" {}\n{}", title, lines.empty() ? "  none\n" : lines);
     };
     return fmt::format("{} ({}; {})\n", stage.name, stage.measure, stage.samples) +
-           part("no peer dominates:", free) + part("a peer dominates:", dominated) +
-           part("peers:", peers);
+           part("settings of mfar that no peer dominates:", free) +
+           part("settings of mfar that a peer dominates:", dominated) + part("peers:", peers);
 }
 
 }  // namespace

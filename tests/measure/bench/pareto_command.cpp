@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 // faster one is left out, because it hardly saves time.
 constexpr double kLeastStep = 1.05;
 
-/// Quality levels from fast to accurate: our points that no other of our points dominates.
+/// Quality levels from fast to accurate: the product's points that no other of its points
+/// dominates.
 std::vector<QualityLevel> levelsOf(const ParetoStage& superres) {
     std::vector<ParetoPoint> ours;
     for (const ParetoPoint& p : superres.points)
@@ -68,7 +69,7 @@ ParetoCommand::ParetoCommand(CLI::App& app)
     command_
         ->add_option("--clock", run_.clock,
                      "clock of the measurement: wall, or processor (processor time divided by the "
-                     "number of cores), for a machine that other programs use as well")
+                     "number of cores; use it if other programs run at the same time)")
         ->transform(CLI::CheckedTransformer(clocks));
     command_->add_option("--csv", csv_, "file to write all points into");
     command_->add_option("--svg", svg_, "file to write a plot with the Pareto fronts into");

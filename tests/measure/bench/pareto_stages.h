@@ -32,7 +32,8 @@ struct ParetoRun {
     }
 };
 
-/// Run time and bad-1 of the flow of single frames after a new still. Methods: every setting of
+/// Run time and bad-1 (share of pixels with an error above 1 px) of the flow of single frames.
+/// Each frame is the first one after a new still. Methods: every setting of
 /// flowKnobs(), combinations of settings, and OpenCV's flow algorithms. With poses, samples without
 /// poses are skipped. If none remains, the stage is empty.
 [[nodiscard]] ParetoStage flowStage(const std::vector<CurveSample>& samples, bool withPoses,
@@ -50,8 +51,9 @@ depthSamplesOf(const std::vector<std::filesystem::path>& folders, std::size_t mo
 /// One frame of each synthetic scene, as in syntheticCurveSamples().
 [[nodiscard]] std::vector<DepthSample> syntheticDepthSamples(Size video, std::size_t most = 2);
 
-/// Run time and bad-1 of the depth of single frames. Peers: OpenCV's stereo matchers, and
-/// triangulation of the flow of OpenCV's flow algorithms.
+/// Run time and bad-1 of the depth of single frames. bad-1 is the share of pixels whose disparity
+/// is wrong by more than 1 px. Peers: OpenCV's stereo matchers, and OpenCV's flow algorithms, whose
+/// flow is triangulated.
 [[nodiscard]] ParetoStage depthStage(const std::vector<DepthSample>& samples, const ParetoRun& run);
 
 struct SequenceSample {
@@ -74,9 +76,9 @@ struct SequenceSample {
 /// inpainting, and tracing the picture again. Throws EvalError if the path tracer is not built.
 [[nodiscard]] ParetoStage warpStage(bool quick);
 
-/// Run time and error of a path-traced picture after some samples per pixel. It is traced in time
-/// slices, in spatial slices, or as a whole. Throws EvalError if the path tracer is not built.
-/// Needs no GL context.
+/// Run time and error of a path-traced picture after 1, 2, 4, ... samples per pixel. It is traced
+/// in time slices, in spatial slices, or as a whole. Throws EvalError if the path tracer is not
+/// built. Needs no GL context.
 [[nodiscard]] ParetoStage slicingStage(bool quick);
 
 struct QualitySetting {

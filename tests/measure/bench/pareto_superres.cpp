@@ -41,7 +41,7 @@ double errorOf(const cv::Mat& bgr, const cv::Mat& truth) {
 struct SequenceWay {
     std::function<void()> begin;
     std::function<void(std::size_t)> run;
-    /// Returns the picture of frame i, which ran last, CV_8UC3.
+    /// Returns the result for frame i, CV_8UC3. The last call of `run` must have been run(i).
     std::function<cv::Mat(std::size_t)> picture;
 };
 

@@ -80,8 +80,8 @@ class PipelinePool {
 public:
     explicit PipelinePool(const StereoRig& rig) : rig_(rig) {}
 
-    /// Returns a pipeline that uses `options` from its next run on. Options that are neither in
-    /// Quality nor compared here must be equal in all calls.
+    /// Returns a pipeline that uses `options` from its next run on. Calls may differ only in
+    /// options of Quality and in the options from which `fits` is computed below.
     Pipeline& with(const PipelineOptions& options) {
         for (auto& [made, pipeline] : made_) {
             const bool fits = made.flow2d.levels == options.flow2d.levels &&

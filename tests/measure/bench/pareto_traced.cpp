@@ -54,7 +54,7 @@ ParetoStage warpStage(bool quick) {
         ++sum.scenes;
     }
     sums.at(kInpainting).ms += sums.at("none").ms;
-    ParetoStage out{"warp and filling of its holes",
+    ParetoStage out{"warp, with the holes filled",
                     "RMSE inside the silhouette [grey levels]",
                     fmt::format("{}, turned by 10 degrees, {}x{}, wall clock",
                                 fmt::join(request.scenes, " and "), request.size.width,
@@ -71,7 +71,7 @@ ParetoStage warpStage(bool quick) {
 
 ParetoStage slicingStage(bool quick) {
     eval::SlicingRequest request;
-    request.frames = 8;  // few, because only the first two columns of the report are used
+    request.frames = 8;  // few, because time and error, which are used below, do not depend on it
     if (quick) {
         request.size = {48, 36};
         request.samples = 8;

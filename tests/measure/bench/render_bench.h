@@ -14,8 +14,8 @@ struct RayRates {
     double samples = 0;         ///< [million samples/s]
 };
 
-/// RMS error of a picture's radiance at 16 samples per pixel, of the product and of independent
-/// random samples.
+/// RMS error of a picture's radiance at 16 samples per pixel. `ours`: with the product's samples.
+/// `independent`: with independent random samples.
 struct SamplingError {
     std::string scene;
     double ours = 0, independent = 0;

@@ -28,7 +28,7 @@ SkipCommand::SkipCommand(CLI::App& app)
     command_
         ->add_option("--clock", request_.clock,
                      "clock of the measurement: wall, or processor (processor time divided by the "
-                     "number of cores), for a machine that other programs use as well")
+                     "number of cores; use it if other programs run at the same time)")
         ->transform(CLI::CheckedTransformer(clocks));
     command_->add_option("--csv", csv_, "file to write all results into");
     command_->add_option("--svg", svg_, "file to write a plot into");

@@ -33,8 +33,8 @@ struct Options {
     bool time = false, avx2 = false;
 };
 
-/// Filters with guidance and fine match, so that a frame does the same work as with learned
-/// filters.
+/// The shipped filters, with values for Guidance and FineMatch, which otherwise only learning adds.
+/// So a frame does the same work as with learned filters.
 std::shared_ptr<const FilterBank> learnedFilters() {
     return std::make_shared<FilterBank>(readFilters(enlarge::priorFilters(), "prior"),
                                         Guidance{0.5F, 0.5F}, FineMatch{4.0F, 0.1F});
@@ -170,7 +170,7 @@ int run(int argc, char** argv) {
     app.add_option("--width", o.width, "width of the output [px]")->check(CLI::Range(64, 8192));
     app.add_flag("--time", o.time, "time each stage instead of counting its work");
     app.add_flag("--avx2", o.avx2,
-                 "use no instruction set newer than AVX2, the newest of the emulator");
+                 "use no instruction set newer than AVX2, the newest that the emulator has");
     CLI11_PARSE(app, argc, argv);
     if (o.avx2) hwy::DisableTargets(HWY_AVX2 - 1);
     std::unique_ptr<GlContext> context;

@@ -19,7 +19,7 @@ struct ShaderText {
 std::map<GLuint, ShaderText> shaderTexts;
 std::map<GLuint, std::vector<ShaderText>> programShaders;
 
-/// Finds name and defines of a shader in its text, which gpu::shaderPreamble() begins.
+/// Finds name and defines of a shader in its text. The text begins with gpu::shaderPreamble().
 ShaderText textOf(const std::string& whole) {
     ShaderText out;
     const std::size_t head = whole.find('\n') + 1, end = whole.find("precision highp float;");

@@ -9,7 +9,7 @@
 
 namespace mfar::boards {
 
-/// One draw or dispatch. Each byte is counted once.
+/// One draw or dispatch. A byte that is accessed several times counts once.
 struct PassWork {
     std::string shader;  ///< name of the compute or fragment shader, as in gles_shaders/
     std::string defines;

@@ -72,7 +72,7 @@ private:
             out += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2\" fill=\"#fff\" "
                                "stroke=\"#222\" stroke-width=\"0.8\"/>\n",
                                x + kBar / 2, y(panel_.value(frame)));
-        // High bars have their number at the foot, below all dots.
+        // A bar of enough height has its number inside, at the foot. Other bars have it above.
         const bool inside = zero - end > 18;
         out += svg::text(x + kBar / 2, inside ? zero - 6 : std::min(zero, end) - 6, "middle",
                          fmt::format("{:.{}f}", mean, mean > 99.9 ? 0 : panel_.decimals), 10,

@@ -24,7 +24,7 @@ Report figure7Report(const std::vector<Figure7Scene>& scenes, const PictureMetri
         for (std::size_t f = 0; f < scene.frames.size(); ++f)
             for (std::size_t m = 0; m < scene.scores.size(); ++m) {
                 const PictureScores& s = scene.scores[m][f];
-                // The truth's PSNR is infinite.
+                // The truth (method 0) has an infinite PSNR, which is left out.
                 const auto decibels = m == 0 ? std::nullopt : s.psnr;
                 report.add(scene.name, scene.frames[f], figure7Methods()[m].name,
                            followedBy({decibels, s.hdrVdpQ, s.lpcSi}, furtherValues(s, metrics)));
@@ -42,9 +42,9 @@ std::string figure7Summary(const std::vector<Figure7Scene>& scenes) {
         const auto sharpness = [&](std::size_t method) {
             return scene.mean(method, [](const PictureScores& s) { return *s.lpcSi; });
         };
-        out += fmt::format("{}: HDR-VDP-2 Q {:.2f}, {:+.2f} over the paper's method, {:+.2f} over "
-                           "its blending on mfar's flow, {:+.2f} over bilinear; LPC-SI {:.4f}, "
-                           "{:+.4f} from the truth\n",
+        out += fmt::format("{}: HDR-VDP-2 Q {:.2f} ({:+.2f} over the paper's method, {:+.2f} over "
+                           "the paper's blending on mfar's flow, {:+.2f} over bilinear); LPC-SI "
+                           "{:.4f} ({:+.4f} from the truth's)\n",
                            scene.name, q(1), q(1) - q(3), q(1) - q(2), q(1) - q(5), sharpness(1),
                            sharpness(1) - sharpness(0));
     }

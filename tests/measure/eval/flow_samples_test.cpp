@@ -22,7 +22,7 @@ void writeFlow(const std::filesystem::path& file, cv::Size size = {24, 16}) {
     ASSERT_TRUE(cv::writeOpticalFlow(file.string(), cv::Mat(size, CV_32FC2, cv::Scalar(1, -2))));
 }
 
-TEST(FlowSamples, AFlowFileLeadsFromTheFrameOfItsNumberToTheNextFrame) {
+TEST(FlowSamples, AFlowFileBelongsToTheFrameOfItsNumberAndTheNextFrame) {
     const TempFolder folder;
     for (const char* name : {"frame07.png", "frame10.png", "frame12.png"})
         writePicture(folder / name);
@@ -150,7 +150,7 @@ TEST(FlowSamples, FlowFromDepthContainsTheParallaxOfRigAndMotion) {
     EXPECT_THROW((void)loadTruth(set, set.samples.at(0)), EvalError);
 }
 
-TEST(FlowSamples, FlowFilesOfUnknownTimesAreRefused) {
+TEST(FlowSamples, FlowFilesNamedForTimesWithoutPicturesAreRefused) {
     const TempFolder folder;
     writeRecording(folder / "r");
     for (const char* name : {"100_175.flo", "100.flo", "100_.flo", "_150.flo", "-100_150.flo",

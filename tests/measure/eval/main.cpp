@@ -165,7 +165,7 @@ CLI::App* addSuperRes(CLI::App& app, Options& o) {
     addPoseSource(*sub, o.superres.poses);
     addDisturbances(*sub, o);
     sub->add_option("--degrade-video", o.degradeVideo,
-                    "degrade the video in the same way, but with blur in video px");
+                    "degrade the video like --degrade the still, but with blur in video px");
     addPictureMetrics(*sub, o.superres.metrics);
     sub->add_option(
            "--alpha", o.superres.alpha,

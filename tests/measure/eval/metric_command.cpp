@@ -30,8 +30,8 @@ CLI::App* addMetricCommand(CLI::App& app, MetricRequest& request, std::string& c
     CLI::App* sub = app.add_subcommand("metric", "compare two pictures of the same size");
     sub->footer(std::string("Values are those of luma (Rec. 601) of the whole pictures. ") +
                 kPictureMetricsHelp);
-    sub->add_option("test", request.test, "PNG or JPEG file")->required();
-    sub->add_option("reference", request.reference, "PNG or JPEG file")->required();
+    sub->add_option("test", request.test, "picture to score, PNG or JPEG")->required();
+    sub->add_option("reference", request.reference, "true picture, PNG or JPEG")->required();
     addPictureMetrics(*sub, request.metrics);
     sub->add_flag("--colour", request.colour,
                   "compute hdrvdp from colours on an sRGB display (LCD with fluorescent light) "

@@ -14,8 +14,8 @@ constexpr const char* kOcclusionHelp =
     "mean distance of the object's boundary from the true one [video px]; flicker (only for\n"
     "path rest): share of all pixels of the object, occluded ones included, that are shown in\n"
     "only one of two consecutive frames, at the output's resolution; depth_ms, composite_ms:\n"
-    "times of these two stages, each waited for. A frame in which nothing changed needs\n"
-    "neither stage.\n"
+    "time until the stage depth or composite is finished. A frame in which nothing changed\n"
+    "needs neither stage.\n"
     "The first 8 frames are not scored; the still is requested in the first of them.";
 
 /// Checks a factor of the noise. CLI::Range would accept NaN.

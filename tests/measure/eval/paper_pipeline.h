@@ -33,7 +33,7 @@ public:
 private:
     StereoRig rig_;
     PaperOptions options_;
-    /// Still pixels that show the video pixels and the output pixels.
+    /// Position in the still of each video pixel and of each output pixel.
     cv::Mat videoMap_, outputMap_;
     cv::Ptr<cv::DISOpticalFlow> dis_;
     cv::Mat still_, stillGrey_, grey_, forward_, backward_, confidence_;

@@ -72,7 +72,7 @@ TEST(PlotSvg, LeavesOutInvalidPoints) {
     EXPECT_EQ(svg.find("inf"), std::string::npos);
 }
 
-TEST(WriteText, AFailedWriteNamesTheFile) {
+TEST(WriteText, TheErrorNamesTheFileThatCannotBeWritten) {
     const mfar::test::TempFolder folder;
     writeText(folder / "plot.svg", "<svg/>");
     EXPECT_EQ(mfar::test::readFile(folder / "plot.svg"), "<svg/>");

@@ -31,8 +31,8 @@ void KnownPoses::track() {
     auto still = recording_.stills.begin();
     for (const RecordedImage& image : recording_.video) {
         put(video_, tracker.track(loadImage(image.file).view(), image.time));
-        // A still's pose has two planar solutions. The tracker chooses by its motion, so frames up
-        // to the still's time are processed first.
+        // A still's pose has two planar solutions. The tracker chooses one by the camera's motion
+        // in the video, so frames up to the still's time are processed first.
         for (; still != recording_.stills.end() && still->time <= image.time; ++still)
             put(still_, tracker.trackStill(loadImage(still->file).view(), still->time));
     }

@@ -18,8 +18,8 @@ namespace mfar::eval {
 /// pictures.
 class SceneRun {
 public:
-    /// The board runs at the pace of its consumer. The program must be linked with
-    /// createGlContext().
+    /// The board runs at the pace of its consumer. The program must be linked with a library that
+    /// defines createGlContext().
     SceneRun(SyntheticOptions options, PoseSource poses);
 
     /// The next frame and the still that came before it, if any. A still's pose comes from the

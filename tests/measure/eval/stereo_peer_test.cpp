@@ -96,7 +96,7 @@ TEST(Rectification, PutsEveryPointOnTheSameRowAndNearerPointsFartherLeft) {
                 EXPECT_LT(place.y(), views->size().height);
                 const Vector3d point = motion * (depth * camera.unproject({x, y}).homogeneous());
                 const Eigen::Vector2d seen = camera.project(point.head<2>() / point.z());
-                // With one of the disparities, the rectified point must fall on the point in the
+                // For one disparity d, toSecond() must return the position of the point in the
                 // second view.
                 double best = 1e9;
                 for (double d = 0; d < 40; d += 0.01)

@@ -18,7 +18,7 @@ namespace mfar::eval {
 
 /// True if the still at time `still` shows the same view as the video frame at time `frame`: their
 /// relative pose is below 1e-6 (radians, metres). At equal times the rig gives this pose, otherwise
-/// recorded poses do. Without recorded poses, views of different times differ.
+/// recorded poses do. Without recorded poses, views at different times count as different.
 [[nodiscard]] bool showsOwnView(const Recording& recording, Timestamp still, Timestamp frame);
 
 }  // namespace mfar::eval

@@ -36,11 +36,11 @@ void StillLearning::report(const char* program) const {
     fmt::print(
         stderr,
         "{}: learned from {} stills ({} refused, {} showed nothing new); {} of {} classes have a "
-        "learned filter; on held-out pixels it is {:.2f} dB better than bicubic, the shipped "
-        "filters {:.2f} dB; guidance: {:.2f} of the still's finest detail added, {:.2f} of the "
-        "video's removed, learned from {} pairs of stills, gain on held-out pixels {:.2f} dB; a "
-        "matched still leaves {:.2f} grey levels^2 + {:.3f} of the variance of the video's finest "
-        "detail unexplained\n",
+        "learned filter; gain over bicubic on pixels that were kept for the check: learned filters "
+        "{:.2f} dB, shipped filters {:.2f} dB; guidance: {:.2f} of the still's finest detail "
+        "added, {:.2f} of the video's removed, learned from {} pairs of stills, gain on pixels of "
+        "the check {:.2f} dB; variance of the video's finest detail that a matched still leaves "
+        "unexplained: {:.2f} grey levels^2 + {:.3f} of the variance\n",
         program, counts.stills, counts.refused, counts.repeated, counts.classes, enlarge::kUnique,
         counts.gainDb, counts.priorDb, counts.guidance.still, counts.guidance.video, counts.pairs,
         counts.guidanceGainDb, counts.fineMatch.noise, counts.fineMatch.share);

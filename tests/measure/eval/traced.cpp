@@ -36,7 +36,7 @@ constexpr double kFill = 0.5;     // largest side of the objects' bounding box /
 constexpr auto kPatience = std::chrono::seconds(20);
 constexpr std::uint64_t kWorldSeed = 1;
 
-/// A scene and a camera path of the synthetic board around it. The board's target becomes the
+/// A scene, and a camera path of the synthetic board around it. The path's target becomes the
 /// centre of the objects. Distances are scaled so that the objects fill half the picture's height.
 class Course {
 public:
@@ -153,8 +153,8 @@ cv::Mat motionTo(const RenderedPicture& before, const RenderedPicture& now) {
     return out;
 }
 
-/// Flicker of the errors of objects' pixels between consecutive frames. Empty if no object pixel is
-/// in both.
+/// Flicker of the errors of objects' pixels between consecutive frames. Empty if no point of the
+/// objects is in both frames.
 std::optional<double> flickerOf(const Picture& before, const RenderedPicture& truthBefore,
                                 const Picture& now, const RenderedPicture& truth) {
     const Size size = truth.camera.size;

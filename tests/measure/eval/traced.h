@@ -36,9 +36,9 @@ struct TracedRequest {
 ///
 /// Columns: psnr of pixels where the truth shows an object [dB]; shadow_psnr where it shows a
 /// change of the real surface [dB]; flicker of the objects' luma [grey levels], see
-/// metrics/flicker.h; pictures, the number shown so far; warp_ms; with `hdrVdp`, hdrvdp_q of the
-/// whole frame on the display HdrVdpDisplay{}. The GLES engine needs a current context. Throws
-/// EvalError.
+/// metrics/flicker.h; pictures, the number of traced pictures shown so far; warp_ms; with `hdrVdp`,
+/// hdrvdp_q of the whole frame on the display HdrVdpDisplay{}. The GLES engine needs a current
+/// context. Throws EvalError.
 [[nodiscard]] Report evaluateTraced(const TracedRequest& request);
 
 }  // namespace mfar::eval

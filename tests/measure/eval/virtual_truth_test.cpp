@@ -31,7 +31,7 @@ TEST(VirtualTruth, ARotatedBoxIsFirstHitAtItsEdge) {
     box.T_world_object.rotation = Eigen::AngleAxisd(std::numbers::pi / 4, Eigen::Vector3d::UnitY());
     EXPECT_NEAR(surfaceDepth(box, {}, {0, 0}), 2 - 0.1 * std::numbers::sqrt2, 1e-12);
     EXPECT_EQ(surfaceDepth(box, {}, {0, 0.1}), 0);
-    // The ray is parallel to the upper and lower sides, and outside them.
+    // The ray is parallel to the box's upper and lower sides, and passes outside the box.
     box.T_world_object.translation.y() = 0.2;
     EXPECT_EQ(surfaceDepth(box, {}, {0, 0}), 0);
 }

@@ -27,9 +27,10 @@ struct WarpRequest {
 /// GL context. Throws EvalError.
 ///
 /// Columns: psnr_db inside the objects' silhouette; hole_share: pixels without a rendered sample,
-/// as a share of the silhouette's; reray_share: rays for individually rendered pixels over rays of
-/// a full picture (referenceSamples for all pixels in the tracer's bounds); reray_of_objects: the
-/// same rays over those of the silhouette's pixels; ms of the complete warp, or of the peer.
+/// divided by the silhouette's pixels; reray_share: rays for individually rendered pixels, divided
+/// by the rays of a full picture (referenceSamples for all pixels in the tracer's bounds);
+/// reray_of_objects: the same rays, divided by those of the silhouette's pixels; ms: time of the
+/// complete warp, or of the peer.
 [[nodiscard]] Report evaluateWarp(const WarpRequest& request);
 
 [[nodiscard]] std::string warpSvg(const WarpRequest& request, const Report& report);

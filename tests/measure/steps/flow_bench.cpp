@@ -47,7 +47,7 @@ void measureRefine(Flow2d& flow, LumaPyramids& pyramids, const TileWork& work, i
             seed[i] = {static_cast<float>(x * (stretch - 1) + 6.1), -2.3F, 0, 0};
         }
         char what[32];
-        std::snprintf(what, sizeof what, "refine, stretched by %.2f", stretch);
+        std::snprintf(what, sizeof what, "refine, flow stretched by %.2f", stretch);
         row(what, leastMs(runs, [&] { flow.refine(luma, work, seed, errors); }));
         std::printf("  searched tiles: %d\n", flow.searchedCount());
     }

@@ -16,10 +16,12 @@ using namespace mfar::train;
 
 constexpr const char* kHelp =
     "Learns the filters that the product ships (pipeline/enlarge/prior.filters) from the sharp\n"
-    "pictures of recordings (truth/highres, as mfar-sim writes them): each is reduced to the\n"
-    "video's size by the mean over a pixel's area, without noise, with noise of sigma 0.7 and\n"
-    "1.5, and slightly blurred. Every fourth picture is held out: a class gets no filter if its\n"
-    "filter is not better than the bicubic one there. The same recordings give the same file.\n";
+    "pictures of recordings (truth/highres, as mfar-sim writes them). From each sharp picture,\n"
+    "four video pictures are made, whose pixels are means over their areas. The first has no\n"
+    "noise, the second noise of sigma 0.7 (grey levels), the third noise of sigma 1.5, and the\n"
+    "fourth noise of sigma 0.7 and a slight blur. Every fourth sharp picture only serves to\n"
+    "check the filters: a class whose filter is not better than bicubic enlargement in these\n"
+    "pictures gets no filter. The same recordings give the same file.\n";
 
 constexpr double kRidge = 20;
 constexpr int kHeldOutOf = 4;
@@ -59,9 +61,9 @@ void learn(const Options& options) {
         return 10 * std::log10(outcome.cubicError[by] / outcome.error[by]);
     };
     fmt::print(
-        "learned from {} pictures; {} of {} classes have a filter; on held-out pictures they "
-        "are better than bicubic by {:.2f} dB (classes by gradient) and {:.2f} dB (classes "
-        "by curvature)\n",
+        "read {} pictures; {} of {} classes have a filter; on the pictures that were kept for the "
+        "check, the filters are better than bicubic by {:.2f} dB (classes by gradient) and "
+        "{:.2f} dB (classes by curvature)\n",
         pictures, outcome.used, enlarge::kUnique, gain(0), gain(1));
     const FilterBank checked(outcome.filters);
     const std::vector<std::uint8_t> bytes = storedFilters(outcome.filters);

@@ -14,9 +14,9 @@ using Eigen::Vector2f;
 using Eigen::Vector3f;
 
 constexpr double kShortest = 1e-9;     // shorter baselines count as zero [m]
-constexpr double kLongestLine = 1e30;  // clamp that keeps single precision finite [m]
+constexpr double kLongestLine = 1e30;  // limit of lengths, so that float stays finite [m]
 constexpr float kLargestRho = 1e6F;    // larger inverse depths are rejected [1/m]
-constexpr float kNearPlane = 0.05F;    // smallest z of b's ray (x, y, 1) in a's orientation
+constexpr float kNearPlane = 0.05F;    // smallest z of b's ray (x, y, 1), rotated into a's frame
 constexpr float kNoAngle = 1e-9F;  // rays at a smaller angle count as parallel [normalised units]
 
 std::size_t pixelsOf(Size size) {
@@ -43,8 +43,8 @@ std::vector<SplitVector> raysOf(const CameraModel& camera) {
 /// Motion from view a to view b, in the frame of a.
 struct Motion {
     Eigen::Matrix3f turnHead = Eigen::Matrix3f::Zero(), turnTail = turnHead;  // R_a_b - I
-    Vector3f baselineHead{0, 0, 0}, baselineTail{0, 0, 0};  // baseline of length 1
-    float length = 1;                                       // of the baseline [m]
+    Vector3f baselineHead{0, 0, 0}, baselineTail{0, 0, 0};  // baseline scaled to length 1
+    float length = 1;                                       // true length of the baseline [m]
 
     Motion() = default;
     /// A zero baseline gives zero parallax everywhere, so all depths are unknown.
@@ -70,7 +70,7 @@ struct Motion {
 /// Parallax of a pixel in normalised coordinates of view a, after the rotation is removed. For a
 /// baseline of length 1, u = rho e / (1 + rho b.z).
 struct Parallax {
-    Vector2f ray;  // of the pixel in view a
+    Vector2f ray;  // ray of the pixel in view a
     Vector2f u;    // flow that remains after the rotation is removed
     Vector2f e;    // direction of the epipolar line: b.xy - ray b.z
     Vector3f b;    // unit baseline, or zero
@@ -126,7 +126,8 @@ public:
     }
 
 private:
-    /// rho = (u . e) / (|e|^2 - b_z (u . e)), from u = rho e / (1 + rho b_z), whose sign it has.
+    /// Solves u = rho e / (1 + rho b_z): rho = (u . e) / (|e|^2 - b_z (u . e)). rho has the sign of
+    /// u . e.
     [[nodiscard]] static float fromFlow(const Parallax& s) {
         const float along = s.u.dot(s.e), d = s.e.squaredNorm() - s.b.z() * along;
         return d > 0 ? along / d : 0;

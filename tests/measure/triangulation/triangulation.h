@@ -32,7 +32,7 @@ struct TriangulatedPoint {
     /// component of the baseline across the ray vanishes. kUnknownSigma is its upper limit and its
     /// value for an unknown depth.
     float sigma = 0;
-    /// Flow normal to the epipolar line [px of view b without its distortion, oriented as a].
+    /// Flow normal to the epipolar line [px of an undistorted view b that is oriented as view a].
     /// Positive: clockwise from the direction in which nearer points move. Without an epipolar
     /// line: length of all flow that remains after the rotation is removed. Zero for invalid flow.
     float residual = 0;

@@ -76,7 +76,7 @@ TEST(TriangulationOdd, InvalidPosesGiveUnknownDepth) {
         }
 }
 
-TEST(TriangulationOdd, AnyFlowUnderAnyPoseGivesUsableNumbers) {
+TEST(TriangulationOdd, AnyFlowAndAnyPoseGiveFiniteResults) {
     std::mt19937 random(4);
     std::uniform_real_distribution<double> any(-1, 1);
     int known = 0;

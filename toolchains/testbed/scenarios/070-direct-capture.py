@@ -6,7 +6,8 @@ def run(bed):
     try:
         device = bed.run("v4l2-ctl --list-devices | sed -n '/vivid/,/^$/p' | "
                          "sed -n 's/^\\t\\(.dev.video[0-9]*\\)$/\\1/p' | head -n 1")
-        # By default, vivid's timestamps are the ends of the frames, which lie in the future.
+        # timestamp_source=1: a frame's timestamp is the start of its exposure. By default it is the frame's end,
+        # which with vivid lies in the future.
         said = bed.run(f'/share/v4l2-probe {device} 640x480 30 --format YUYV --rate 30 '
                        'timestamp_source=1 Brightness=200', 120)
         assert bed.run(f'v4l2-ctl -d {device} -C brightness') == 'brightness: 200', said

@@ -32,7 +32,7 @@ def lose_stills(bed):
     bed.fresh_service(bed.devices + CONFIG)
     bed.wait_for_pictures(1)
     counted(bed, fired=1, matched=1, lost=0)
-    bed.wait_for_pictures(8)  # some of them use that still
+    bed.wait_for_pictures(8)  # so that pictures with the first still have been shown
     for good in range(2, GOOD + 1):
         ask(bed)
         counted(bed, fired=good, matched=good, lost=0)
@@ -43,8 +43,8 @@ def lose_stills(bed):
 
     bed.still.fault('late', 3)
     ask(bed)
-    # A USB picture gets its arrival time. When the late still arrives, the still of the repeated
-    # pulse has already been matched.
+    # mfard repeats the pulse because the still is late. The second pulse's still arrives first and is matched. The
+    # late still then stays unmatched, because a USB picture's time is that of its arrival.
     return counted(bed, fired=GOOD + 4, matched=GOOD + 2, lost=2, repeated=2, unmatched=1)
 
 

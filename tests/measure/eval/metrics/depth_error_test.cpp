@@ -14,7 +14,7 @@ cv::Mat everywhere(const cv::Mat& like) {
     return {like.size(), CV_8U, cv::Scalar(255)};
 }
 
-TEST(DepthError, CountsWrongAndKnownPixels) {
+TEST(DepthError, MeasuresErrorAndSharesOfWrongAndOfKnownPixels) {
     const cv::Mat truth = (cv::Mat_<float>(1, 6) << 0.5F, 0.5F, 0.5F, 0.5F, kNan, 0);
     const cv::Mat rho = (cv::Mat_<float>(1, 6) << 0.5F, 0.4F, 0.48F, 0, 1, 1);
     const DepthError error = depthError(rho, truth, 20, everywhere(truth));

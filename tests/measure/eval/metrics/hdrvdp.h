@@ -29,7 +29,8 @@ struct HdrVdpBand {
     cv::Size size;
     double frequency = 0;  ///< spatial frequency of the band [cycles/degree]
     double weight = 0;     ///< weight in the quality score of release 2.2.2
-    double error = 0;      ///< root of the summed squares of D where the pictures differ, per pixel
+    /// Root of the sum of D^2 where the pictures differ, divided by the number of pixels.
+    double error = 0;
     double sumAbsolute = 0;
     double meanReference = 0, meanTest = 0;  ///< mean absolute band value of each picture
     double meanSensitivity = 0, meanSelfMask = 0, meanMasking = 0;

@@ -24,7 +24,7 @@ cv::Mat softened(const cv::Mat& picture, double sigma) {
     return out;
 }
 
-TEST(LpcSi, IndexFallsWithBlurInBothVersions) {
+TEST(LpcSi, IndexFallsWithBlurForBothFilterRatios) {
     cv::Mat edge(80, 96, CV_64F, cv::Scalar(50));
     edge.colRange(41, 96) = 200;
     for (const double ratio : {kLpcRelease, kLpcVariant}) {
@@ -40,7 +40,7 @@ TEST(LpcSi, ConstantPicturesAreNotSharp) {
     EXPECT_NEAR(lpcSi(cv::Mat(40, 50, CV_64F, cv::Scalar(128))), 0, 1e-9);
 }
 
-TEST(LpcTiles, DistinguishOneSharpPatchFromASharpPicture) {
+TEST(LpcTiles, OneSharpPatchDoesNotRaiseTheMedianOfTheTiles) {
     const cv::Mat sharp = shapes({320, 256});
     cv::Mat patched = softened(sharp, 3);
     const double soft = lpcSi(patched);

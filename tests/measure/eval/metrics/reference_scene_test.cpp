@@ -26,7 +26,7 @@ TEST(ReferenceScene, SceneMatchesTheReferencePictures) {
     EXPECT_EQ(differenceFrom("blur2", blurred(scene, 2)), 0);
 }
 
-TEST(FullSize, QualityAndSharpnessMatchTheTable) {
+TEST(FullSize, QualityAndSharpnessMatchTheReferenceTable) {
     const auto table = referenceTable("fullsize_2304x1728.csv");
     if (table.empty()) GTEST_SKIP() << referenceFolder().string() << " is not there";
     const cv::Mat scene = referenceScene(8);

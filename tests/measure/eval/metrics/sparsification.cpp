@@ -66,7 +66,8 @@ Sparsification sparsification(std::span<const float> error, std::span<const floa
     out.byError = curveOf(sumsInOrder(error, error, false));
     const double best = areaUnder(out.byError);
     out.ause = areaUnder(out.byConfidence) - best;
-    out.ausePerRandom = out.ause / (1 - best);  // a random order leaves the mean unchanged
+    // A random order leaves the mean error unchanged, so the area under its curve is 1.
+    out.ausePerRandom = out.ause / (1 - best);
     return out;
 }
 

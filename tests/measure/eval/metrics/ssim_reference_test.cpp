@@ -8,7 +8,7 @@ namespace mfar::eval {
 namespace {
 
 /// An independent program computed the table from the published formulas.
-TEST(SsimReference, PsnrSsimAndMsSsimAgreeWithTheTable) {
+TEST(SsimReference, PsnrSsimAndMsSsimMatchTheReferenceTable) {
     const auto table = test::referenceTable("psnr_ssim.csv");
     if (table.empty()) GTEST_SKIP() << test::referenceFolder().string() << " is not there";
     for (const auto& row : table) {

@@ -93,7 +93,7 @@ cv::Mat diagonalEdges() {
 constexpr int kBlock = 8;
 using Samples = Eigen::Array<double, kBlock, 1>;
 
-/// Weighted sums at x, x + 1, ... of padded rows, of which `row` is the first.
+/// Weighted sums at the columns x, x + 1, ... `row` is the first padded row that the taps cover.
 Samples correlatedBlock(const cv::Mat& padded, const cv::Mat& taps, int row, int x) {
     Samples sum = Samples::Zero();
     for (int j = 0; j < taps.rows; ++j) {
