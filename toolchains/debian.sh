@@ -81,7 +81,7 @@ extractPackages() {
         mapfile -t sources < <(sourcesWithoutSecurity "$work")
         tryExtracting "$architecture" "$root" "$packages" "${sources[@]}" >>"$work/log" 2>&1 || {
             tail -n 20 "$work/log" >&2
-            die "the $architecture packages could not be extracted; see the messages above"
+            die "the $architecture packages could not be extracted"
         }
     fi
     rm -r "$work"

@@ -27,7 +27,7 @@ mesaPackages() {
 makeRoot() {
     local suite=$1 root=$2 mirror
     mirror=$(debianMirror)
-    [[ -n $mirror ]] || die "no Debian server is listed in /etc/apt/sources.list(.d)"
+    [[ -n $mirror ]] || die "no source of Debian packages is configured"
     # shellcheck disable=SC2046 # the package names are a list of words
     mmdebstrap --quiet --mode=root --variant=apt --aptopt='APT::Install-Recommends "false"' \
         --include="$(mesaPackages "$suite" | xargs | tr ' ' ,)" "$suite" "$root" \
@@ -37,9 +37,9 @@ makeRoot() {
         mkdir /mesa && tar xf mesa_*.orig.tar.*z -C /mesa --strip-components=1'
 }
 
-# amend ROOT: makes two changes in drm-shim's replacement of the V3D kernel driver. First, it then
-# reports support of compute shaders, which OpenGL ES 3.1 requires and which it lacks in Mesa 22.3.
-# Second, it reports V3D 7.1 with three slices if V3D_GPU_ID is set (to 71), otherwise V3D 4.2.
+# amend ROOT: changes drm-shim's replacement of the V3D kernel driver in two ways. In Mesa 22.3, it
+# does not report support of compute shaders, without which there is no OpenGL ES 3.1. And it knows
+# only V3D 4.2; now it becomes V3D 7.1 with three slices if V3D_GPU_ID is set (to 71).
 amend() {
     local file=$1/mesa/src/broadcom/drm-shim/v3d_noop.c
     if ! grep -q PARAM_SUPPORTS_CSD "$file"; then

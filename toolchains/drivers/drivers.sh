@@ -15,9 +15,9 @@ complaints() {
 }
 
 # testDriver DRIVER [CTEST-OPTION...]: runs the tests with the label "driver" on this Mesa driver.
-# All of them draw with GL, but none has a display that reads pixels into a buffer. For such a read,
-# Mesa 22.3 draws into a framebuffer without attachments. There, zink does not call
-# vkCmdSetColorBlendEnableEXT, which the validation layer would report as an error.
+# These tests draw with GL, and their display does not read pixels into a buffer. For such reads,
+# Mesa 22.3 draws into a framebuffer without attachments, and zink then does not call
+# vkCmdSetColorBlendEnableEXT, which the validation layer reports as an error.
 testDriver() {
     local driver=$1 icd log=.build/host/Testing/Temporary/LastTest.log label=driver said
     shift
@@ -29,7 +29,7 @@ testDriver() {
     case $driver in
     zink)
         icd=$(find /usr/share/vulkan/icd.d -name 'lvp_icd.*' | head -n 1)
-        [[ -n $icd ]] || die "no lavapipe driver in /usr/share/vulkan/icd.d; install mesa-vulkan-drivers"
+        [[ -n $icd ]] || die "the driver lavapipe is missing in /usr/share/vulkan/icd.d"
         export VK_ICD_FILENAMES=$icd VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation
         export VK_LAYER_SETTINGS_PATH=$PWD/toolchains/drivers
         ;;
@@ -40,7 +40,7 @@ testDriver() {
         --timeout 120 --label-regex "^$label\$" "$@"
     [[ $driver == zink ]] || return 0
     grep -q 'createinstance-status-message' "$log" ||
-        die "Vulkan's validation layer (Debian: vulkan-validationlayers) was not active, see $log"
+        die "Vulkan's validation layer was not active, see $log"
     said=$(complaints "$log") || return 0
     say "Vulkan's validation layer reports:"
     say "$said"
