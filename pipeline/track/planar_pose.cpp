@@ -35,8 +35,17 @@ std::optional<Matrix3d> homography(const std::array<Vector2d, 4>& rays) {
 }
 
 Matrix3d towards(const Vector2d& p) {
-    return Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), p.homogeneous())
+    // The angle is below 90 degrees, so w is at least sqrt(0.5).
+    const Vector3d direction = p.homogeneous().normalized();
+    const double w = std::sqrt((1 + direction.z()) / 2);
+    return Eigen::Quaterniond(w, -direction.y() / (2 * w), direction.x() / (2 * w), 0)
         .toRotationMatrix();
+}
+
+double largestSingularValue(const Matrix2d& A) {
+    return (std::hypot(A(0, 0) + A(1, 1), A(0, 1) - A(1, 0)) +
+            std::hypot(A(0, 0) - A(1, 1), A(0, 1) + A(1, 0))) /
+           2;
 }
 
 /// Returns the least-squares translation t for u (r3 . X + tz) = r1 . X + tx and v (r3 . X + tz) =
@@ -75,7 +84,7 @@ std::optional<std::array<RigidTransform, 2>> planarPoses(const std::array<Vector
     Matrix2d B = V.topLeftCorner<2, 2>() - p * V.bottomLeftCorner<1, 2>();
     if (!(std::abs(B.determinant()) > 1e-12)) return std::nullopt;
     const Matrix2d A = B.inverse() * J;
-    const double gamma = Eigen::JacobiSVD<Matrix2d>(A).singularValues()(0);
+    const double gamma = largestSingularValue(A);
     if (!(gamma > 1e-12)) return std::nullopt;
     const Matrix2d r = A / gamma;
     const double b0 = std::sqrt(std::max(0., 1 - r.col(0).squaredNorm()));
