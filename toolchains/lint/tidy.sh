@@ -1,19 +1,10 @@
 # Functions that run clang-tidy on all files that have changed since clang-tidy last passed. `run`
 # reads this file in the project's folder.
 
-# Writes the compile commands for clang-tidy, which checks a file once for each of its commands. So
-# the second build of the SIMD kernels, for Highway's scalar target, is left out.
-tidyCommands() {
-    mkdir -p .build/host/lint
-    awk -v RS='}' -v ORS='' \
-        '/mfar_simd_scalar\.dir/ { next } { print separator $0; separator = "}" }' \
-        .build/host/compile_commands.json >.build/host/lint/compile_commands.json
-}
-
 # Prints all files to check: the build's unity files, so that a header of several sources is checked
 # once. Generated sources are left out.
 everything() {
-    sed -n 's|^ *"file": "\(.*\)",\?$|\1|p' .build/host/lint/compile_commands.json |
+    sed -n 's|^ *"file": "\(.*\)",\?$|\1|p' .build/host/compile_commands.json |
         sort -u |
         { xargs grep -sL '^#include "[^"]*/\.build/' || true; } | # -s: some do not exist yet
         grep . # fails for an empty list
@@ -55,7 +46,7 @@ tidyFile() {
         sources=$(sed -n 's|^#include "\(.*\)"$|\1|p' "$file")
         sources=${sources//"$PWD/"/}
     fi
-    said=$(clang-tidy-19 -p .build/host/lint --load .build/host/own_code.so --quiet \
+    said=$(clang-tidy-19 -p .build/host --load .build/host/own_code.so --quiet \
         --extra-arg=-DHWY_COMPILE_ONLY_STATIC --extra-arg=-Wno-unknown-warning-option "$file" 2>/dev/null) || status=1
     # shellcheck disable=SC2086 # $sources is a list of words
     printf '  %s\n' $sources
@@ -65,7 +56,6 @@ tidyFile() {
 
 tidy() {
     local stamp=.build/host/.linted plugin=.build/host/own_code.so begun files
-    tidyCommands
     files=$(unlinted "$stamp") || return
     [[ -n $files ]] || return 0
     tidyPlugin "$plugin" || return

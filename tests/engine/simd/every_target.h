@@ -15,8 +15,8 @@ void onEveryTarget(const Body& body) {
         hwy::GetChosenTarget().Update(target);
         body();
     }
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    hwy::SetSupportedTargetsForTest(all);
+    hwy::GetChosenTarget().Update(all);
 }
 
 }  // namespace mfar::test
